@@ -1,0 +1,62 @@
+// topple: static analysis and demolition from the command line. Exit status: 0 done, 1 failure, 2 bad input, 3 the model is
+// not stable.
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+
+#include "command.h"
+#include "topple/structure/error.h"
+
+namespace topple::app {
+
+std::vector<Command>& commands() {
+  static std::vector<Command> list;
+  return list;
+}
+
+namespace {
+
+int report(const char* what, Status status) {
+  std::fprintf(stderr, "topple: %s\n", what);
+  return status;
+}
+
+int run(int argc, char** argv) {
+  CLI::App app{"Topple analyses buildings statically and demolishes them.", "topple"};
+  app.set_version_flag("--version", TOPPLE_VERSION);
+  app.require_subcommand(1);
+  auto list = commands();
+  std::sort(list.begin(), list.end(), [](const Command& a, const Command& b) { return a.name < b.name; });
+  std::vector<std::pair<CLI::App*, std::function<int()>>> chosen;
+  for (const Command& command : list) {
+    CLI::App* sub = app.add_subcommand(command.name, command.purpose);
+    chosen.emplace_back(sub, command.declare(*sub));
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& asked) {  // --help, --version
+    return app.exit(asked);
+  } catch (const CLI::ParseError& error) {
+    return report(error.what(), bad_input);
+  }
+  for (auto& [sub, action] : chosen)
+    if (sub->parsed()) return action();
+  return bad_input;
+}
+
+}  // namespace
+}  // namespace topple::app
+
+int main(int argc, char** argv) {
+  using namespace topple::app;
+  try {
+    return run(argc, argv);
+  } catch (const topple::structure::InputError& error) {
+    return report(error.what(), bad_input);
+  } catch (const topple::structure::UnstableModel& error) {
+    return report(error.what(), unstable);
+  } catch (const std::exception& error) {
+    return report(error.what(), failure);
+  }
+}

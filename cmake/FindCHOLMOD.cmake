@@ -1,0 +1,12 @@
+# CHOLMOD (SuiteSparse) with the BLAS it runs on: target CHOLMOD::CHOLMOD.
+find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse)
+find_library(CHOLMOD_LIBRARY cholmod)
+find_library(CHOLMOD_CONFIG_LIBRARY suitesparseconfig)
+find_library(CHOLMOD_BLAS_LIBRARY NAMES openblas)
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(CHOLMOD REQUIRED_VARS CHOLMOD_LIBRARY CHOLMOD_INCLUDE_DIR CHOLMOD_BLAS_LIBRARY)
+if(CHOLMOD_FOUND AND NOT TARGET CHOLMOD::CHOLMOD)
+  add_library(CHOLMOD::CHOLMOD INTERFACE IMPORTED)
+  target_include_directories(CHOLMOD::CHOLMOD SYSTEM INTERFACE "${CHOLMOD_INCLUDE_DIR}")
+  target_link_libraries(CHOLMOD::CHOLMOD INTERFACE "${CHOLMOD_LIBRARY}" "${CHOLMOD_CONFIG_LIBRARY}" "${CHOLMOD_BLAS_LIBRARY}")
+endif()

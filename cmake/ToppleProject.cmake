@@ -1,0 +1,55 @@
+# Settings that every target of Topple shares, and the function that makes a library of one folder.
+
+include(GNUInstallDirs)
+
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+endif()
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+find_program(TOPPLE_CCACHE ccache)
+if(TOPPLE_CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${TOPPLE_CCACHE}")
+endif()
+
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(Threads REQUIRED)
+find_package(PkgConfig REQUIRED)
+
+# What the compiler is told for our own code. No contraction: a fused multiply-add would give other bits on
+# another processor or at another optimisation level, and replays must not depend on either.
+add_library(topple_options INTERFACE)
+target_compile_options(topple_options INTERFACE -Wall -Wextra -Wshadow -Wnon-virtual-dtor -ffp-contract=off)
+if(TOPPLE_SANITIZE)
+  add_compile_options(-fsanitize=${TOPPLE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${TOPPLE_SANITIZE})
+endif()
+
+# topple_library(NAME [PUBLIC_LINK ...] [PRIVATE_LINK ...])
+# The folder's .cpp files (and those of its sub-folders) become topple_NAME, alias topple::NAME. Public headers lie in
+# include/topple/NAME and are all that other targets see; private ones lie beside their .cpp.
+function(topple_library name)
+  cmake_parse_arguments(ARG "" "" "PUBLIC_LINK;PRIVATE_LINK" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
+  if(NOT sources)
+    file(WRITE "${CMAKE_CURRENT_BINARY_DIR}/empty.cpp" "")
+    set(sources "${CMAKE_CURRENT_BINARY_DIR}/empty.cpp")
+  endif()
+  add_library(topple_${name} STATIC ${sources})
+  add_library(topple::${name} ALIAS topple_${name})
+  set_target_properties(topple_${name} PROPERTIES EXPORT_NAME ${name})
+  target_include_directories(topple_${name}
+    PUBLIC "$<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>"
+           "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>"
+    PRIVATE "${CMAKE_CURRENT_SOURCE_DIR}")
+  target_compile_features(topple_${name} PUBLIC cxx_std_20)
+  target_link_libraries(topple_${name}
+    PUBLIC Eigen3::Eigen ${ARG_PUBLIC_LINK}
+    PRIVATE $<BUILD_INTERFACE:topple_options> ${ARG_PRIVATE_LINK})
+  install(TARGETS topple_${name} EXPORT topple ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+  install(DIRECTORY include/ DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
+endfunction()

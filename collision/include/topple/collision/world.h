@@ -1,0 +1,153 @@
+#pragma once
+// Rigid debris as the structure sees it: bodies, standing parts as obstacles, contacts, sweeps, hinges. An interface, with
+// Bullet in double precision as its one real implementation, so that a game can put its own engine here and a test a
+// recording one. SI units, global z up.
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace topple::collision {
+
+using Vec3 = Eigen::Vector3d;
+using Mat3 = Eigen::Matrix3d;
+
+struct Pose {
+  Vec3 position = Vec3::Zero();
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+  [[nodiscard]] Vec3 operator*(const Vec3& local) const { return position + orientation * local; }
+};
+
+/// Handles live as long as the thing they name and are never used again in one world.
+struct BodyId {
+  std::int64_t value = -1;
+  auto operator<=>(const BodyId&) const = default;
+};
+struct ObstacleId {
+  std::int64_t value = -1;
+  auto operator<=>(const ObstacleId&) const = default;
+};
+struct HingeId {
+  std::int64_t value = -1;
+  auto operator<=>(const HingeId&) const = default;
+};
+
+/// One convex piece of a shape, in the frame of the body.
+struct ConvexPart {
+  enum class Kind { box, sphere, hull };
+  Kind kind = Kind::box;
+  Pose pose;                           ///< of the part in the body (box and sphere: its centre)
+  Vec3 half_extents = Vec3::Zero();    ///< box; sphere: x is the radius
+  std::vector<Vec3> points;            ///< hull: vertices
+  std::int64_t tag = -1;               ///< given back in contacts: which part of the body was touched
+};
+
+struct BodyDescription {
+  std::vector<ConvexPart> parts;
+  double mass = 0;                         ///< above zero
+  Mat3 inertia = Mat3::Zero();             ///< about the centre of mass, body axes; need not be diagonal
+  Pose pose;                               ///< of the centre of mass; parts are relative to it
+  Vec3 velocity = Vec3::Zero();            ///< of the centre of mass
+  Vec3 angular_velocity = Vec3::Zero();    ///< global axes
+  double friction = 0.6, restitution = 0.1;
+};
+
+/// A part of what stands: it does not move in the world, whatever pushes it.
+struct ObstacleDescription {
+  std::vector<ConvexPart> parts;
+  Pose pose;
+  double friction = 0.6, restitution = 0.1;
+};
+
+/// What a body touches.
+struct Touched {
+  enum class Kind { body, obstacle, ground };
+  Kind kind = Kind::ground;
+  BodyId body;
+  ObstacleId obstacle;
+  std::int64_t part_tag = -1;  ///< ConvexPart::tag of the touched part
+};
+
+/// A contact found by sweep() (about to happen) or left by step() (it happened).
+struct Contact {
+  BodyId body;
+  std::int64_t part_tag = -1;
+  Touched other;
+  Vec3 point = Vec3::Zero();
+  Vec3 normal = Vec3::Zero();    ///< unit, from the body into what it touches
+  double approach_speed = 0;     ///< relative speed along the normal, positive when closing
+  double time = 0;               ///< sweep: time of impact from now; step: 0
+  Vec3 impulse = Vec3::Zero();   ///< step: what the body did to the other during the last step, N s
+  bool persistent = false;       ///< it was there in the step before as well
+};
+
+struct BodyState {
+  Pose pose;
+  Vec3 velocity = Vec3::Zero();
+  Vec3 angular_velocity = Vec3::Zero();
+  bool asleep = false;
+};
+
+struct RayHit {
+  Touched what;
+  Vec3 point = Vec3::Zero();
+  Vec3 normal = Vec3::Zero();  ///< against the ray
+  double distance = 0;
+};
+
+/// A hinge or ball joint between a body and the standing structure (fixed in space) or another body.
+struct HingeDescription {
+  BodyId body;
+  std::optional<BodyId> other;      ///< none: fixed in space
+  Vec3 point = Vec3::Zero();        ///< global, now
+  std::array<bool, 6> held{true, true, true, true, true, true};  ///< components x y z rx ry rz in `axes`
+  Mat3 axes = Mat3::Identity();     ///< rows: joint axes in global components, now
+};
+
+class World {
+ public:
+  virtual ~World() = default;
+
+  virtual void set_gravity(const Vec3& gravity) = 0;
+  /// A half space below z = height.
+  virtual void set_ground(double height, double friction, double restitution) = 0;
+
+  virtual BodyId add_body(const BodyDescription& description) = 0;
+  virtual void remove_body(BodyId body) = 0;
+  virtual ObstacleId add_obstacle(const ObstacleDescription& description) = 0;
+  virtual void remove_obstacle(ObstacleId obstacle) = 0;
+  virtual void move_obstacle(ObstacleId obstacle, const Pose& pose) = 0;
+  virtual HingeId add_hinge(const HingeDescription& description) = 0;
+  virtual void remove_hinge(HingeId hinge) = 0;
+  /// Force and moment (joint axes, mean of the last step) that the body exerts on what holds it.
+  [[nodiscard]] virtual Eigen::Matrix<double, 6, 1> hinge_force(HingeId hinge) const = 0;
+
+  [[nodiscard]] virtual BodyState state(BodyId body) const = 0;
+  virtual void set_state(BodyId body, const BodyState& state) = 0;
+  virtual void apply_impulse(BodyId body, const Vec3& impulse, const Vec3& point) = 0;
+  /// Contacts between this body and that other are ignored until separated (a body going through what it broke).
+  virtual void wake(BodyId body) = 0;
+  /// Live bodies in order of id.
+  [[nodiscard]] virtual std::span<const BodyId> bodies() const = 0;
+  [[nodiscard]] virtual std::size_t awake_count() const = 0;
+
+  /// Contacts that awake bodies will newly make with obstacles, ground or bodies within dt on their ballistic paths, in
+  /// order of time, then of body id. Nothing moves.
+  [[nodiscard]] virtual std::vector<Contact> sweep(double dt) = 0;
+  /// Integrates awake bodies by dt (one internal step, semi-implicit Euler).
+  virtual void step(double dt) = 0;
+  /// Contacts of the last step with their impulses, in a fixed order.
+  [[nodiscard]] virtual std::span<const Contact> contacts() const = 0;
+  [[nodiscard]] virtual std::optional<RayHit> ray_cast(const Vec3& from, const Vec3& to) const = 0;
+  /// Obstacles whose bounds meet the box.
+  [[nodiscard]] virtual std::vector<ObstacleId> obstacles_in(const Vec3& low, const Vec3& high) const = 0;
+};
+
+/// The real one: Bullet, double precision, deterministic order. Throws std::runtime_error when the Bullet library that was
+/// linked is not the one whose headers were compiled (single precision).
+[[nodiscard]] std::unique_ptr<World> make_bullet_world();
+
+}  // namespace topple::collision

@@ -1,0 +1,94 @@
+#pragma once
+// A standing segment's analysis that takes changes and answers at the cost of the change. The ladder: nothing changed,
+// nothing computed; loads changed, triangular solves only; few joints, an exact low-rank (Woodbury) correction over the
+// standing factor; more, a new factor. The choice is by operation counts with constants that ship.
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "topple/solver/frame_model.h"
+#include "topple/solver/static_analysis.h"
+
+namespace topple::solver {
+
+/// Counters of what was done and what was not.
+struct ReanalysisCounters {
+  std::uint64_t solves = 0;            ///< answers computed (any rung but 0)
+  std::uint64_t unchanged = 0;         ///< answers given without computing
+  std::uint64_t load_solves = 0;       ///< only loads had changed
+  std::uint64_t low_rank = 0;          ///< answered by a low-rank correction
+  std::uint64_t refactorisations = 0;  ///< new numeric factor on the same ordering
+  std::uint64_t orderings = 0;
+};
+
+struct ReanalysisAnswer {
+  bool stable = true;
+  /// When not stable: the motion; displacements are then those of the last stable answer.
+  Mechanism mechanism;
+  bool nearly_unstable = false;
+  SolveQuality quality;
+};
+
+class Reanalysis {
+ public:
+  /// Takes the model (all joints as in `beams[i].end_stiffness`); factorises on the first solve(). Nodes that nothing
+  /// holds may be given; see drop_nodes().
+  explicit Reanalysis(FrameModel model, const AnalysisOptions& options = {});
+  ~Reanalysis();
+  Reanalysis(Reanalysis&&) noexcept;
+  Reanalysis& operator=(Reanalysis&&) noexcept;
+
+  // Changes: recorded, and take effect together in the next solve(). Each may be undone by setting the old value.
+  /// Vec6::Zero() breaks the joint: the beam's whole load then hangs on its other end.
+  void set_end_stiffness(int beam, int end, const Vec6& stiffness);
+  /// The beam is no longer there (stiffness and its loads).
+  void remove_beam(int beam);
+  void restore_beam(int beam);
+  void remove_shell(int shell);
+  void restore_shell(int shell);
+  /// Factor on the beam's E and G.
+  void set_beam_stiffness_factor(int beam, double factor);
+  /// Replaces the stiffness of the support at its index in FrameModel::supports (0: taken away).
+  void set_support_stiffness(int support, const Vec6& stiffness);
+  /// These nodes, and all beams and shells that reach them, belong to the segment no longer: no stiffness, no loads,
+  /// zero displacement. What still stands keeps its factor.
+  void drop_nodes(std::span<const int> nodes);
+  /// Loads: the values replace what was there. Changing loads never touches the factor.
+  void set_node_load(int node, const Vec6& load);
+  void set_beam_loads(int beam, std::vector<BeamLoad> loads);
+
+  /// Brings the answer up to date. A mechanism is an answer (stable == false), not an exception.
+  [[nodiscard]] const ReanalysisAnswer& solve();
+
+  // The current answer.
+  [[nodiscard]] const std::vector<Vec6>& displacements() const;
+  [[nodiscard]] Vec12 beam_end_forces(int beam) const;  ///< local, as in StaticSolution
+  [[nodiscard]] std::array<Vec6, 4> shell_corner_forces(int shell) const;
+  [[nodiscard]] Vec6 reaction(int support) const;
+  [[nodiscard]] double strain_energy() const;  ///< 1/2 f.u of what stands (with the loads as they are)
+
+  /// Response of the structure as it stands (last solve()) to an extra load set alone, all other loads zero; beam loads
+  /// included exactly. Used for compliances under contacts and for the direction of impact forces. One solve each.
+  struct Response {
+    std::vector<Vec6> displacements;
+    std::vector<Vec12> beam_end_forces;
+  };
+  [[nodiscard]] Response respond(const LoadSet& loads) const;
+  /// Displacement of a point of a beam (local coordinate along it) under the given state: exact, from the end
+  /// displacements and the beam's own flexibility under `own` (the loads on that beam that belong to the state).
+  [[nodiscard]] Vec3 point_displacement(int beam, double distance, const std::vector<Vec6>& node_displacements,
+                                        std::span<const BeamLoad> own) const;
+
+  [[nodiscard]] const ReanalysisCounters& counters() const;
+  [[nodiscard]] const FrameModel& model() const;
+  /// Predicted operations of the last solve(), for budgets.
+  [[nodiscard]] double last_operations() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace topple::solver

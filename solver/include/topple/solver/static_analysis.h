@@ -1,0 +1,80 @@
+#pragma once
+// Linear static analysis of a frame model: one factorisation, any number of right-hand sides.
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "topple/solver/frame_model.h"
+
+namespace topple::solver {
+
+/// A structure that can move without strain (or nearly so): which nodes, how.
+struct Mechanism {
+  std::vector<int> nodes;    ///< nodes that move, most first
+  std::vector<Vec6> motion;  ///< for every node of the model, scaled to a largest translation of 1 (or rotation, if none)
+};
+
+/// Thrown when the model is not stable. what() names node indices and freedoms; callers with names use `mechanism`.
+class Instability : public std::runtime_error {
+ public:
+  Instability(const std::string& message, Mechanism motion) : std::runtime_error(message), mechanism(std::move(motion)) {}
+  Mechanism mechanism;
+};
+
+enum class Factorisation { automatic, simplicial, supernodal };
+
+struct AnalysisOptions {
+  Factorisation factorisation = Factorisation::automatic;
+  int threads = 1;
+  /// Relative size of a scaled pivot (or reciprocal condition) below which a model is unstable, and the band above it
+  /// that warns.
+  double singular_limit = 1e-13, warning_limit = 1e-10;
+};
+
+/// How far to trust an answer.
+struct SolveQuality {
+  double backward_error = 0;  ///< componentwise (Oettli-Prager), after refinement
+  double condition = 0;       ///< estimate for the scaled matrix
+  double error_bound = 0;     ///< on the relative forward error of the displacements
+  int refinements = 0;
+};
+
+struct StaticSolution {
+  std::vector<Vec6> displacements;     ///< per node, global
+  std::vector<Vec6> reactions;         ///< per entry of FrameModel::supports: what the support does to the structure
+  std::vector<Vec12> beam_end_forces;  ///< per beam: what the nodes' hubs do to the beam at its ends, local, first then second
+  std::vector<std::array<Vec6, 4>> shell_corner_forces;  ///< per shell: what the nodes do to it, global
+  SolveQuality quality;
+};
+
+struct AnalysisStatistics {
+  std::size_t freedoms = 0, matrix_entries = 0, factor_entries = 0;
+  double factor_operations = 0;
+  std::string factorisation, ordering;
+  double assemble_seconds = 0, order_seconds = 0, factor_seconds = 0, solve_seconds = 0;
+  bool nearly_unstable = false;  ///< inside the warning band
+  double digits_left = 16;
+};
+
+/// Orders, assembles and factorises on construction (throws Instability); solve() costs triangular solves only.
+class StaticAnalysis {
+ public:
+  explicit StaticAnalysis(FrameModel model, const AnalysisOptions& options = {});
+  ~StaticAnalysis();
+  StaticAnalysis(StaticAnalysis&&) noexcept;
+  StaticAnalysis& operator=(StaticAnalysis&&) noexcept;
+
+  /// Solves all right-hand sides together.
+  [[nodiscard]] std::vector<StaticSolution> solve(std::span<const LoadSet> loads);
+  [[nodiscard]] const FrameModel& model() const;
+  [[nodiscard]] const AnalysisStatistics& statistics() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace topple::solver

@@ -1,0 +1,71 @@
+#pragma once
+// Static analysis of a building: what `topple analyse` does, as a library call.
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "topple/solver/static_analysis.h"
+#include "topple/structure/building.h"
+#include "topple/structure/joint_check.h"
+
+namespace topple::structure {
+
+struct AnalysisRequest {
+  std::vector<CombinationId> combinations;  ///< empty: all
+  int stations = 0;
+  solver::AnalysisOptions solver;
+};
+
+/// [value, distance from the first end]
+struct Extreme {
+  double value = 0, at = 0;
+};
+/// Internal forces and deflections along a member, in the order axial, shear_y, shear_z, torsion, moment_y, moment_z,
+/// deflection_y, deflection_z.
+inline constexpr std::array<const char*, 8> diagram_names{"axial",    "shear_y",  "shear_z",      "torsion",
+                                                          "moment_y", "moment_z", "deflection_y", "deflection_z"};
+struct MemberResult {
+  solver::Vec12 end_forces = solver::Vec12::Zero();
+  std::array<Extreme, 8> min, max;
+  std::vector<std::array<double, 8>> stations;
+  bool active = true;
+};
+struct PanelResult {
+  std::array<double, 3> membrane{}, moments{};
+  std::array<double, 2> shears{};
+  std::array<Vec6, 4> corner_forces{};
+};
+struct StoreyResult {
+  double drift = 0;
+  std::array<double, 2> shear{};
+};
+struct CombinationResult {
+  CombinationId combination;
+  std::vector<Vec6> displacements;  ///< per node
+  std::vector<Vec6> reactions;      ///< per Building::supports
+  std::vector<MemberResult> members;
+  std::vector<PanelResult> panels;
+  std::vector<Utilisation> joints;  ///< per Building::joints; value 0 where it has no capacity
+  std::vector<StoreyResult> storeys;
+  Vec6 total_load = Vec6::Zero(), total_reaction = Vec6::Zero();  ///< about the model's centroid
+  double equilibrium_error = 0;
+  solver::SolveQuality quality;
+};
+struct AnalysisResult {
+  std::vector<CombinationResult> combinations;
+  solver::AnalysisStatistics statistics;
+  std::vector<std::string> warnings;
+};
+
+/// Throws UnstableModel, with names.
+[[nodiscard]] AnalysisResult analyse(const Building& building, const AnalysisRequest& request = {});
+
+/// results.json as the format has it, in the model's units, every number to its last bit.
+[[nodiscard]] std::string results_json(const Building& building, const AnalysisRequest& request,
+                                       const AnalysisResult& result, const std::map<std::string, double>& seconds);
+/// The summary a person reads.
+[[nodiscard]] std::string summary_text(const Building& building, const AnalysisResult& result,
+                                       const std::map<std::string, double>& seconds);
+
+}  // namespace topple::structure

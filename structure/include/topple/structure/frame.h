@@ -1,0 +1,63 @@
+#pragma once
+// From the building to the solver's arrays: the frame model, the loads of a combination kept apart by the part that brings
+// them, and what panels hand to the members along their edges.
+#include <array>
+#include <vector>
+
+#include "topple/solver/frame_model.h"
+#include "topple/structure/building.h"
+
+namespace topple::structure {
+
+/// Node i of the building is node i of the frame, member i is beam i, support i is support i. Panels of model `membrane`
+/// become shells without bending while all four edge joints hold: `shell_of_panel` gives their index, or -1.
+struct Frame {
+  solver::FrameModel model;
+  std::vector<int> shell_of_panel;
+};
+[[nodiscard]] Frame make_frame(const Building& building);
+
+/// What acts on a panel as a whole in one combination.
+struct PanelAction {
+  Vec3 body_force = Vec3::Zero();  ///< self weight: force per area of panel, global
+  double pressure = 0;             ///< per area, against the normal
+  double strain = 0;               ///< alpha dT
+};
+
+/// One combination's loads, factors included, by the part that carries them.
+struct PartLoads {
+  std::vector<std::vector<solver::BeamLoad>> members;  ///< per member: self weight and member loads, local axes
+  std::vector<PanelAction> panels;                     ///< per panel
+  std::vector<Vec6> nodes;                             ///< per node, global
+  std::vector<solver::Settlement> settlements;
+};
+[[nodiscard]] PartLoads part_loads(const Building& building, CombinationId combination);
+
+/// Members along each edge of each panel: the member between its two nodes, or the collinear ones between them in order;
+/// empty where an edge has none. Built once.
+class EdgeMembers {
+ public:
+  explicit EdgeMembers(const Building& building);
+  [[nodiscard]] const std::vector<MemberId>& of(PanelId panel, int edge) const {
+    return members_[static_cast<std::size_t>(4 * panel.index + edge)];
+  }
+
+ private:
+  std::vector<std::vector<MemberId>> members_;
+};
+
+/// What a membrane or cladding panel hands on, given which of its edge joints hold and which members still stand
+/// (`member_stands` empty: all). Force and moments are those of the panel's action, exactly.
+struct HandOver {
+  std::vector<solver::BeamLoad> beams;
+  std::vector<solver::NodeLoad> nodes;
+  std::array<Vec3, 4> edge_force;  ///< resultant over each edge, global (the demand of the edge joints)
+};
+[[nodiscard]] HandOver hand_over(const Building& building, const EdgeMembers& edges, PanelId panel, 
+                                 const PanelAction& action, const std::array<bool, 4>& edge_holds,
+                                 const std::vector<bool>& member_stands = {});
+
+/// The whole combination as one right-hand side of `make_frame(building).model`, everything standing.
+[[nodiscard]] solver::LoadSet load_set(const Building& building, const PartLoads& loads);
+
+}  // namespace topple::structure

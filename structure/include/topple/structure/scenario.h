@@ -1,0 +1,78 @@
+#pragma once
+// What happens to a building: combination, rules of failure, tools at their times. SI, as the scenario format has it
+// (docs/scenario-format.md).
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "topple/structure/building.h"
+
+namespace topple::structure {
+
+enum class BracingRule { buckling, classic, none };
+enum class MechanismRule { hinge, detach };
+
+struct FailureRules {
+  BracingRule bracing = BracingRule::classic;
+  MechanismRule mechanism = MechanismRule::detach;
+  double generations_per_second = 240;
+  bool second_order = false;
+  double sudden = 2.0;  ///< dynamic factor of a sudden loss; 1 is off
+};
+struct ImpactRules {
+  double restitution = 0.1;
+  bool structure_mass = true;
+};
+struct DebrisRules {
+  double friction = 0.6, restitution = 0.1;
+  int limit = 2000;                 ///< bodies
+  double smallest_volume = 0.002;   ///< m3
+};
+
+struct Projectile {
+  Vec3 from = Vec3::Zero(), velocity = Vec3::Zero();
+  double mass = 500, radius = 0.4;
+};
+struct CutTool {
+  std::vector<JointId> joints;
+};
+struct RemoveTool {
+  std::vector<MemberId> members;
+  std::vector<PanelId> panels;
+  std::vector<NodeId> supports;
+};
+struct ChargeTool {
+  Vec3 centre = Vec3::Zero();
+  double radius = 0;
+  double strength_at_centre = 0, strength_at_radius = 1;
+};
+struct GravityTool {
+  Vec3 gravity = Vec3::Zero();
+};
+struct LoadTool {
+  std::vector<NodeLoad> nodes;
+};
+/// Each event's tool; alternatives are added as tools are built.
+using Tool = std::variant<Projectile, CutTool, RemoveTool, ChargeTool, GravityTool, LoadTool>;
+
+struct Event {
+  double at = 0;
+  Tool tool;
+};
+
+struct Scenario {
+  std::string title, file, model;
+  std::optional<CombinationId> combination;  ///< set by the reader
+  double step = 1.0 / 60.0, duration = 60;
+  bool until_rest = true;
+  std::uint64_t seed = 1;
+  std::optional<double> ground;  ///< height; none: the lowest support
+  FailureRules failure;
+  ImpactRules impact;
+  DebrisRules debris;
+  std::optional<double> operations_budget;
+  std::vector<Event> events;  ///< in order of time
+};
+
+}  // namespace topple::structure

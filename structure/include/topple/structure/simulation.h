@@ -1,0 +1,125 @@
+#pragma once
+// The interactive demolition of a building: what a host (command line, viewer, game) embeds. One step senses, loads,
+// breaks, releases, moves and books; what does not change costs nothing.
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "topple/collision/world.h"
+#include "topple/structure/building.h"
+#include "topple/structure/scenario.h"
+#include "topple/structure/standing_frame.h"
+
+namespace topple::structure {
+
+/// A line of events.jsonl.
+struct SimulationEvent {
+  enum class Kind { tool, impact, joint_yielded, joint_broke, panel_fractured, mechanism, detached, split, at_rest, limited, done };
+  double time = 0;
+  std::int64_t step = 0;
+  Kind kind = Kind::tool;
+  std::string name;                 ///< of the joint, member, panel or tool
+  JointBreak joint;                 ///< joint_broke
+  // detached, split
+  std::vector<MemberId> members;
+  std::vector<PanelId> panels;
+  double mass = 0;
+  // impact
+  collision::BodyId body, other_body;
+  double peak_force = 0, speed_in = 0, speed_out = 0;
+  Vec3 position = Vec3::Zero();
+};
+
+enum class Stage { sense, load, break_, release, move, book };
+inline constexpr std::array<const char*, 6> stage_names{"sense", "load", "break", "release", "move", "book"};
+
+/// Energies in J, each measured on its own; see the design of the ledger in docs/.
+struct Ledger {
+  double gravity_work = 0, work_put_in = 0, elastic = 0, freed_by_breaks = 0, dissipated_in_joints = 0;
+  double kinetic_translation = 0, kinetic_rotation = 0, lost_in_impacts = 0, lost_in_contacts = 0, removed = 0;
+  double momentum_error = 0;
+  [[nodiscard]] double residual() const;
+};
+
+struct SimulationCounters {
+  std::uint64_t steps_idle = 0, solves = 0, low_rank = 0, refactorisations = 0, segmentations = 0;
+  std::uint64_t collision_steps = 0, contacts_ignored = 0;
+};
+
+/// A moving body: debris of the building, or a projectile.
+struct BodyView {
+  collision::BodyId id;
+  collision::Pose pose;             ///< of its centre of mass, now
+  Vec3 rest_centre = Vec3::Zero();  ///< where the centre of mass was in the undeformed building: a point p of a member moves
+                                    ///< to pose.position + pose.orientation * (p - rest_centre)
+  double mass = 0;
+  double radius = 0;                ///< above zero: a projectile (sphere)
+  bool asleep = false;
+  std::span<const MemberId> members;
+  std::span<const PanelId> panels;
+};
+
+struct SimulationOptions {
+  int threads = 1;
+  std::function<std::unique_ptr<collision::World>()> make_world;  ///< none: Bullet
+};
+
+class Simulation {
+ public:
+  /// Throws UnstableModel, and InputError for a part whose mass is not above zero.
+  Simulation(Building building, Scenario scenario, SimulationOptions options = {});
+  ~Simulation();
+  Simulation(Simulation&&) noexcept;
+  Simulation& operator=(Simulation&&) noexcept;
+
+  /// One step of Scenario::step.
+  void step();
+  /// True when the scenario's duration is over, or all is at rest and nothing is to come (`until_rest`).
+  [[nodiscard]] bool finished() const;
+  [[nodiscard]] double time() const;
+  [[nodiscard]] std::int64_t steps() const;
+  [[nodiscard]] bool at_rest() const;
+
+  /// A tool used now (by a person): acts in the next step.
+  void apply(const Tool& tool);
+  void on_event(std::function<void(const SimulationEvent&)> listener);
+  [[nodiscard]] std::span<const SimulationEvent> events() const;
+
+  // State, for drawing and queries.
+  [[nodiscard]] const Building& building() const;
+  [[nodiscard]] const Scenario& scenario() const;
+  [[nodiscard]] const StandingFrame& frame() const;
+  [[nodiscard]] std::span<const BodyView> bodies() const;
+  /// Body that a member (panel) is part of; value -1: it stands, -2: it is gone.
+  [[nodiscard]] collision::BodyId body_of(MemberId member) const;
+  [[nodiscard]] collision::BodyId body_of(PanelId panel) const;
+  /// Nearest thing along a ray: standing member or panel, body, ground.
+  struct RayHit {
+    MemberId member;
+    PanelId panel;
+    collision::BodyId body;
+    Vec3 point = Vec3::Zero();
+    double distance = 0;
+  };
+  [[nodiscard]] std::optional<RayHit> ray_cast(const Vec3& from, const Vec3& direction) const;
+
+  // Accounts.
+  [[nodiscard]] const Ledger& ledger() const;
+  [[nodiscard]] const SimulationCounters& counters() const;
+  /// Seconds of the last step by stage, and of these in the collision engine itself.
+  [[nodiscard]] const std::array<double, 6>& stage_seconds() const;
+  [[nodiscard]] double collision_engine_seconds() const;
+  /// Covers, as raw bits in order of name: broken joints, displacements of what stands, pose and velocity of each body.
+  [[nodiscard]] std::uint64_t hash() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace topple::structure

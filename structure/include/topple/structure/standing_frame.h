@@ -1,0 +1,123 @@
+#pragma once
+// All of a building that still stands: damage, statics, segmentation, failure. It knows nothing of moving bodies: what
+// loses the ground is handed out, what touches the frame comes in as point loads.
+//
+// One solver::Reanalysis serves each connected component that the building has at the start; joints that break change it
+// in place, and what detaches is dropped from it.
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "topple/structure/building.h"
+#include "topple/structure/joint_check.h"
+#include "topple/structure/scenario.h"
+
+namespace topple::structure {
+
+enum class BreakCause { impact, overload, buckling, bracing, tool };
+
+struct JointBreak {
+  JointId joint;
+  BreakCause cause = BreakCause::overload;
+  Sense sense = Sense::tension;
+  double demand = 0, capacity = 0;
+  int generation = 0;     ///< within the step
+  double energy = 0;      ///< elastic energy that the break sets free
+  Vec3 position = Vec3::Zero();
+};
+
+/// A connected part that lost its hold (or moves as a mechanism): it leaves the frame for good.
+struct Detached {
+  std::vector<MemberId> members;
+  std::vector<PanelId> panels;
+  std::vector<NodeId> nodes;
+  bool mechanism = false;
+};
+
+/// Where a force acts on the standing frame.
+struct ContactPlace {
+  MemberId member;          ///< valid: on a member ...
+  PanelId panel;            ///< ... or on a panel
+  Vec3 point = Vec3::Zero();
+};
+struct ContactLoad {
+  std::int64_t key = 0;     ///< chosen by the caller; a later load with the same key replaces it
+  ContactPlace place;
+  Vec3 force = Vec3::Zero();
+};
+
+struct FrameCounters {
+  std::uint64_t solves = 0, low_rank = 0, refactorisations = 0, segmentations = 0, unchanged = 0;
+  double operations = 0;
+};
+
+class StandingFrame {
+ public:
+  /// Solves the undamaged building under the combination's loads. Throws UnstableModel.
+  StandingFrame(const Building& building, CombinationId combination, const FailureRules& rules, int threads = 1);
+  ~StandingFrame();
+
+  // What stands.
+  [[nodiscard]] bool stands(MemberId member) const;
+  [[nodiscard]] bool stands(PanelId panel) const;
+  [[nodiscard]] bool stands(NodeId node) const;
+  [[nodiscard]] bool intact(JointId joint) const;
+  [[nodiscard]] const Vec6& displacement(NodeId node) const;
+  [[nodiscard]] Vec6 demand(JointId joint) const;
+  [[nodiscard]] Utilisation utilisation(JointId joint) const;
+  [[nodiscard]] double largest_utilisation_so_far(JointId joint) const;
+  /// Segment number of a standing member (segments are numbered from 0 in order of their least node).
+  [[nodiscard]] int segment(MemberId member) const;
+  [[nodiscard]] int standing_segments() const;
+  [[nodiscard]] double elastic_energy() const;
+  /// Downward load of a part in the combination over gravity, node loads apart.
+  [[nodiscard]] double mass(MemberId member) const;
+  [[nodiscard]] double mass(PanelId panel) const;
+  [[nodiscard]] double node_mass(NodeId node) const;
+  /// Mean downward displacement of the nodes at the greatest height.
+  [[nodiscard]] double roof_sag() const;
+
+  // Changes by tools and contacts: they take effect in the next generations.
+  void break_joint(JointId joint, BreakCause cause);
+  void remove(MemberId member);
+  void remove(PanelId panel);
+  void remove_support(NodeId node);
+  void set_strength_factor(JointId joint, double factor);  ///< on top of the capacity
+  void set_gravity(const Vec3& gravity);
+  void add_load(NodeId node, const Vec6& load);
+  void set_contact_load(const ContactLoad& load);
+  void remove_contact_load(std::int64_t key);
+
+  /// True when a load or joint changed and the answer is not yet settled.
+  [[nodiscard]] bool pending() const;
+  /// Brings the state up to date: solve, break what is over capacity (one generation after the other, at most
+  /// `generations` of them), sudden loss and bracing by the rules, mechanisms released. Returns what broke, in order;
+  /// pending() stays true when the limit cut it short.
+  std::vector<JointBreak> settle(int generations);
+  /// What has left since the last call, each connected part apart.
+  std::vector<Detached> take_detached();
+
+  // Impact support. All answers are for the structure as it stands now.
+  /// Response to a unit force at a place: how far the place gives way along it (compliance, m/N), the demand that it
+  /// adds to each joint (sparse: only joints that change), and the Rayleigh mass of the static shape.
+  struct UnitResponse {
+    double compliance = 0;
+    double rayleigh_mass = 0;
+    std::vector<std::pair<JointId, Vec6>> demands;
+  };
+  [[nodiscard]] UnitResponse respond(const ContactPlace& place, const Vec3& direction) const;
+  /// Breaks now, at an impact (uses up no generation): re-segments and solves; returns how far the unloaded contact place
+  /// moved along `direction` (the shift D of the impact law).
+  double break_in_impact(std::span<const JointBreak> breaks, const ContactPlace& place, const Vec3& direction);
+
+  [[nodiscard]] const FrameCounters& counters() const;
+  [[nodiscard]] const Building& building() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace topple::structure
