@@ -1,11 +1,12 @@
-// topple: static analysis and demolition from the command line. Exit status: 0 done, 1 failure, 2 bad input, 3 the model is
-// not stable.
+// topple: static analysis and demolition from the command line. Exit status: 0 done, 1 failure, 2 bad input, 3 the
+// model is not stable.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <iostream>
 
 #include "command.h"
+#include "topple/solver/blas_kernel.h"
 #include "topple/structure/error.h"
 
 namespace topple::app {
@@ -50,6 +51,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace topple::app;
+  topple::solver::restart_with_better_blas_kernel(argv);
   try {
     return run(argc, argv);
   } catch (const topple::structure::InputError& error) {

@@ -1,2 +1,9 @@
-#define CATCH_CONFIG_MAIN
+#define CATCH_CONFIG_RUNNER
 #include <catch2/catch.hpp>
+
+#include "topple/solver/blas_kernel.h"
+
+int main(int argc, char** argv) {
+  topple::solver::restart_with_better_blas_kernel(argv);
+  return Catch::Session().run(argc, argv);
+}

@@ -1,0 +1,24 @@
+#pragma once
+// Which kernels OpenBLAS runs, and how to get the right ones. OpenBLAS chooses them when it is loaded, by a table of
+// the processors known when it was made: on a later one it may fall back to kernels that are several times slower
+// (0.3.21 takes SSE3 kernels on Intel family 6 model 207: 14 instead of 50 GF/s a core). It reads OPENBLAS_CORETYPE
+// only while it is loaded, so the variable must stand before the program starts.
+#include <optional>
+#include <string>
+
+namespace topple::solver {
+
+/// Name of the kernels in use ("SkylakeX", "Haswell", "Prescott", ...).
+[[nodiscard]] std::string blas_kernel();
+
+/// The value of OPENBLAS_CORETYPE with which this processor should run, chosen by its instruction set from a shipped
+/// rule (never by timing: other kernels give other bits, and a replay must not depend on a clock). None when the
+/// kernels in use are already those, or when the user has set the variable.
+[[nodiscard]] std::optional<std::string> better_blas_kernel();
+
+/// Starts the program again, once, with OPENBLAS_CORETYPE set when that helps; else returns. For programs that own
+/// their main: call it first thing there. A library's host calls better_blas_kernel() and decides. Does nothing where
+/// programs cannot replace themselves.
+void restart_with_better_blas_kernel(char** argv);
+
+}  // namespace topple::solver
