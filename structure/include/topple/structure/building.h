@@ -181,6 +181,15 @@ struct MassSources {
   std::vector<std::pair<LoadCaseId, double>> loads;
 };
 
+/// Analyses that the file itself asks for (a Frame3DD file does so by its flags). Options of the caller come on top.
+struct RequestedAnalyses {
+  bool cubic_p_delta = false;
+  int modes = 0;
+  bool lumped_mass = false;
+  double frequency_shift = 0;               ///< of the eigenvalue (rad/s)^2, for structures that float
+  bool modes_of_last_combination = false;   ///< modes about the tangent stiffness of the last combination
+};
+
 struct Node {
   std::string name;
   Vec3 position = Vec3::Zero();
@@ -204,6 +213,7 @@ struct Building {
   MassSources masses;
   std::vector<LoadCase> cases;
   std::vector<Combination> combinations;
+  RequestedAnalyses requested;
   std::vector<std::string> warnings;
 
   [[nodiscard]] JointId joint(MemberId member, int end) const {

@@ -1,0 +1,15 @@
+#pragma once
+// Reader of Frame3DD input files (.3dd), version 2014: plain numbers in a fixed order, '#' starts a comment. No units
+// are declared, so the numbers stay in the file's own consistent units; nodes and elements keep their numbers as names;
+// load case n becomes the combination "case n". Format: Frame3DD user manual, H. P. Gavin, section "Input data format".
+#include <string>
+#include <string_view>
+
+#include "topple/structure/building.h"
+
+namespace topple::structure {
+
+/// Throws InputError with file, line, what was found and what is accepted.
+[[nodiscard]] Building parse_frame3dd(std::string_view text, const std::string& name);
+
+}  // namespace topple::structure
