@@ -2,8 +2,8 @@
 // All of a building that still stands: damage, statics, segmentation, failure. It knows nothing of moving bodies: what
 // loses the ground is handed out, what touches the frame comes in as point loads.
 //
-// One solver::Reanalysis serves each connected component that the building has at the start; joints that break change it
-// in place, and what detaches is dropped from it.
+// One solver::Reanalysis serves each connected component that the building has at the start; joints that break change
+// it in place, and what detaches is dropped from it.
 #include <memory>
 #include <optional>
 #include <span>
@@ -23,12 +23,15 @@ struct JointBreak {
   BreakCause cause = BreakCause::overload;
   Sense sense = Sense::tension;
   double demand = 0, capacity = 0;
-  int generation = 0;     ///< within the step
-  double energy = 0;      ///< elastic energy that the break sets free
+  int generation = 0;  ///< within the step
+  double energy = 0;   ///< elastic energy that the break sets free
   Vec3 position = Vec3::Zero();
 };
 
-/// A connected part that lost its hold (or moves as a mechanism): it leaves the frame for good.
+/// A connected part that lost its hold (or moves as a mechanism): it leaves the frame for good. Joints inside it that
+/// held stay intact(), so that a body made of it can break further along them; the displacements of its nodes stay what
+/// they were when it left. It may be a panel alone, or a hub alone (nodes only): a node whose members all left, with
+/// whatever node_mass() it has.
 struct Detached {
   std::vector<MemberId> members;
   std::vector<PanelId> panels;
@@ -38,19 +41,34 @@ struct Detached {
 
 /// Where a force acts on the standing frame.
 struct ContactPlace {
-  MemberId member;          ///< valid: on a member ...
-  PanelId panel;            ///< ... or on a panel
+  MemberId member;  ///< valid: on a member ...
+  PanelId panel;    ///< ... or on a panel
   Vec3 point = Vec3::Zero();
 };
 struct ContactLoad {
-  std::int64_t key = 0;     ///< chosen by the caller; a later load with the same key replaces it
+  std::int64_t key = 0;  ///< chosen by the caller; a later load with the same key replaces it
   ContactPlace place;
   Vec3 force = Vec3::Zero();
 };
 
 struct FrameCounters {
   std::uint64_t solves = 0, low_rank = 0, refactorisations = 0, segmentations = 0, unchanged = 0;
-  double operations = 0;
+  double operations = 0;                ///< predicted by the solver, for budgets
+  std::uint64_t vertices_searched = 0;  ///< nodes and members that segmentation looked at
+};
+
+/// Energies of the standing frame in J. The works are sums over the changes since construction; each is loads times
+/// displacements, the elastic energy comes from internal forces, and what a break frees from Clapeyron's theorem, so
+/// that
+///   elastic - elastic_at_start = gravity_work + other_work + contact_work - freed
+/// is a check and not a definition.
+struct FrameEnergy {
+  double elastic = 0, elastic_at_start = 0;
+  double gravity_work =
+      0;  ///< of all that counts as mass, through the frame's displacements; parts that left: up to then
+  double other_work = 0;    ///< of horizontal loads, moments and event loads
+  double contact_work = 0;  ///< of contact loads, which are laid on slowly
+  double freed = 0;         ///< by breaks, removals and suddenly changed loads: what the static path does not need
 };
 
 class StandingFrame {
@@ -65,13 +83,18 @@ class StandingFrame {
   [[nodiscard]] bool stands(NodeId node) const;
   [[nodiscard]] bool intact(JointId joint) const;
   [[nodiscard]] const Vec6& displacement(NodeId node) const;
+  /// Static demand in the joint's axes, as solved last; zero when the joint no longer holds.
   [[nodiscard]] Vec6 demand(JointId joint) const;
+  /// Of the static demand; zero value for a joint without capacity or one that no longer holds.
   [[nodiscard]] Utilisation utilisation(JointId joint) const;
+  /// Over all states that were checked, peaks of sudden losses included.
   [[nodiscard]] double largest_utilisation_so_far(JointId joint) const;
-  /// Segment number of a standing member (segments are numbered from 0 in order of their least node).
+  /// Segment number of a standing member (segments are numbered from 0 in order of their least node; lone hubs are
+  /// none). -1 when it does not stand.
   [[nodiscard]] int segment(MemberId member) const;
   [[nodiscard]] int standing_segments() const;
   [[nodiscard]] double elastic_energy() const;
+  [[nodiscard]] FrameEnergy energy() const;
   /// Downward load of a part in the combination over gravity, node loads apart.
   [[nodiscard]] double mass(MemberId member) const;
   [[nodiscard]] double mass(PanelId panel) const;
@@ -107,9 +130,12 @@ class StandingFrame {
     double rayleigh_mass = 0;
     std::vector<std::pair<JointId, Vec6>> demands;
   };
+  /// The place must stand. A place on a member is taken at the nearest point of its axis, on a panel at the nearest
+  /// point of its plane; a panel hands the force by the lever rule to two opposite edges along its shorter span.
   [[nodiscard]] UnitResponse respond(const ContactPlace& place, const Vec3& direction) const;
-  /// Breaks now, at an impact (uses up no generation): re-segments and solves; returns how far the unloaded contact place
-  /// moved along `direction` (the shift D of the impact law).
+  /// Breaks now, at an impact (uses up no generation): re-segments and solves; returns how far the unloaded contact
+  /// place moved along `direction` (the shift D of the impact law). Ask stands() of the place's part afterwards: when
+  /// it left, the shift is 0 and there is nothing left to push.
   double break_in_impact(std::span<const JointBreak> breaks, const ContactPlace& place, const Vec3& direction);
 
   [[nodiscard]] const FrameCounters& counters() const;
