@@ -1,0 +1,56 @@
+#include "en1993_class.h"
+
+#include <algorithm>
+
+namespace topple::structure {
+
+namespace {
+
+/// A plate's slenderness c/t and its limits for the classes 1 to 3, epsilon left out.
+struct Plate {
+  double slenderness = 0;
+  std::array<double, 3> limit{};
+};
+
+/// Table 5.2, sheet 1: an internal part in bending and compression, `compression` acting on it alone beside bending.
+Plate internal_part(double length, double thickness, double compression, double area_stress, double fy) {
+  const double alpha = std::clamp(0.5 * (1 + compression / (fy * thickness * length)), 0.5, 1.0);
+  const double psi = std::clamp(2 * area_stress / fy - 1, -1.0, 1.0);
+  return {length / thickness,
+          {396 / (13 * alpha - 1), 456 / (13 * alpha - 1), psi > -1 ? 42 / (0.67 + 0.33 * psi) : 124.0}};
+}
+
+int class_of(const Plate& plate, double epsilon) {
+  for (int k = 0; k < 3; ++k)
+    if (plate.slenderness <= plate.limit[static_cast<std::size_t>(k)] * epsilon) return k + 1;
+  return 4;
+}
+
+}  // namespace
+
+SectionClass classify_en1993(const SteelSection& steel, double compression) {
+  if (steel.kind == SteelSection::Kind::solid) return {1, steel.fy};
+  if (steel.kind == SteelSection::Kind::other) return {3, steel.fy};  // elastic: its parts are not known
+  const double epsilon = std::sqrt(235e6 / steel.fy);
+  if (steel.kind == SteelSection::Kind::pipe) {  // table 5.2, sheet 3: limits in epsilon squared
+    const double slenderness = steel.depth / steel.web;
+    const double e2 = epsilon * epsilon;
+    for (int k = 0; k < 3; ++k)
+      if (slenderness <= (50 + 20 * k) * e2) return {k + 1, steel.fy};
+    return {4, 235e6 * 90 / slenderness};
+  }
+  const bool box = steel.kind == SteelSection::Kind::box;
+  // Clear widths: between fillets (I), inside the corners (box: 3 t off the outside, as for hollow sections).
+  const double web_length = box ? steel.depth - 3 * steel.web : steel.depth - 2 * steel.flange - 2 * steel.fillet;
+  const Plate web =
+      internal_part(web_length, steel.web, compression / (box ? 2 : 1), compression / steel.area, steel.fy);
+  const Plate flange = box ? Plate{(steel.width - 3 * steel.web) / steel.web, {33, 38, 42}}
+                           : Plate{((steel.width - steel.web) / 2 - steel.fillet) / steel.flange, {9, 10, 14}};
+  const int number = std::max(class_of(web, epsilon), class_of(flange, epsilon));
+  if (number < 4) return {number, steel.fy};
+  const double reduction = std::min({1.0, std::pow(web.limit[2] * epsilon / web.slenderness, 2),
+                                     std::pow(flange.limit[2] * epsilon / flange.slenderness, 2)});
+  return {4, steel.fy * reduction};
+}
+
+}  // namespace topple::structure

@@ -1,0 +1,101 @@
+#include "steel_section.h"
+
+#include <algorithm>
+
+#include "topple/structure/error.h"
+
+namespace topple::structure {
+
+namespace {
+
+SteelSection::Kind kind_of(Section::Shape shape) {
+  switch (shape) {
+    case Section::Shape::I:
+      return SteelSection::Kind::I;
+    case Section::Shape::box:
+      return SteelSection::Kind::box;
+    case Section::Shape::pipe:
+      return SteelSection::Kind::pipe;
+    case Section::Shape::rectangle:
+    case Section::Shape::circle:
+      return SteelSection::Kind::solid;
+    default:
+      return SteelSection::Kind::other;
+  }
+}
+
+}  // namespace
+
+SteelSection steel_section(const Section& section, const Material& material) {
+  if (!material.yield_strength)
+    throw InputError("materials." + material.name +
+                     ".yield_strength: a design check needs it, accepted is a number above 0");
+  SteelSection steel;
+  steel.kind = kind_of(section.shape);
+  steel.rolled = section.shape == Section::Shape::I && (section.fillet > 0 || !section.catalogue.empty());
+  steel.fy = *material.yield_strength;
+  steel.E = material.youngs_modulus;
+  steel.G = material.shear_modulus;
+  steel.area = section.area;
+  steel.Iy = section.Iy;
+  steel.Iz = section.Iz;
+  steel.J = section.J;
+  steel.depth = section.depth;
+  steel.width = section.width > 0 ? section.width : section.depth;  // pipe, circle: the diameter
+  steel.fillet = section.fillet;
+  const bool walled = steel.kind == SteelSection::Kind::box || steel.kind == SteelSection::Kind::pipe;
+  steel.web = walled ? section.thickness : section.web;
+  steel.flange = walled ? section.thickness : section.flange;
+  if (!(steel.depth > 0) || !(steel.width > 0))
+    throw InputError("sections." + section.name +
+                     ".depth, width: a design check needs them, accepted are numbers above 0");
+  steel.elastic_y = 2 * steel.Iy / steel.depth;
+  steel.elastic_z = 2 * steel.Iz / steel.width;
+  steel.has_plastic = section.plastic_modulus_y && section.plastic_modulus_z;
+  steel.plastic_y = section.plastic_modulus_y.value_or(steel.elastic_y);
+  steel.plastic_z = section.plastic_modulus_z.value_or(steel.elastic_z);
+  if (steel.kind == SteelSection::Kind::I) steel.warping = steel.Iz * std::pow(steel.depth - steel.flange, 2) / 4;
+  steel.shear_y = section.plastic_shear_area_y.value_or(section.shear_area_y);
+  steel.shear_z = section.plastic_shear_area_z.value_or(section.shear_area_z);
+  steel.torsion = section.torsion_modulus.value_or(0);
+  return steel;
+}
+
+LargestForces largest_forces(std::span<const SectionForces> stations) {
+  LargestForces largest;
+  const auto raise = [](double& value, double found) { value = std::max(value, std::abs(found)); };
+  for (const SectionForces& at : stations) {
+    raise(at[0] > 0 ? largest.tension : largest.compression, at[0]);
+    raise(largest.shear_y, at[1]);
+    raise(largest.shear_z, at[2]);
+    raise(largest.torsion, at[3]);
+    raise(largest.moment_y, at[4]);
+    raise(largest.moment_z, at[5]);
+  }
+  return largest;
+}
+
+void ClauseList::add(const std::string& clause, double utilisation) {
+  const auto known = std::find_if(clauses_.begin(), clauses_.end(), [&](const auto& c) { return c.clause == clause; });
+  if (known == clauses_.end())
+    clauses_.push_back({clause, utilisation});
+  else
+    known->utilisation = std::max(known->utilisation, utilisation);
+}
+
+DesignResult ClauseList::result() const {
+  DesignResult result;
+  result.clauses = clauses_;
+  for (const DesignClause& clause : clauses_)
+    if (result.governing.empty() || clause.utilisation > result.utilisation) {
+      result.utilisation = clause.utilisation;
+      result.governing = clause.clause;
+    }
+  return result;
+}
+
+DesignResult check_member(DesignCode code, const DesignMember& member, std::span<const SectionForces> stations) {
+  return code == DesignCode::en1993 ? check_en1993(member, stations) : check_aisc360(member, stations);
+}
+
+}  // namespace topple::structure
