@@ -4,8 +4,36 @@ namespace topple::structure {
 
 namespace {
 
-/// True when `text` matches `pattern`, in which '*' stands for any run of characters.
-bool matches(std::string_view pattern, std::string_view text) {
+template <class Id>
+std::optional<Id> find(const std::map<std::string, Id>& names, const std::string& name) {
+  const auto found = names.find(name);
+  if (found == names.end()) return std::nullopt;
+  return found->second;
+}
+
+template <class Id>
+std::vector<Id> find_matching(const std::map<std::string, Id>& names, const std::string& pattern) {
+  if (pattern.find('*') == std::string::npos) {
+    const auto id = find(names, pattern);
+    return id ? std::vector<Id>{*id} : std::vector<Id>{};
+  }
+  std::vector<Id> found;
+  for (const auto& [name, id] : names)
+    if (matches_pattern(pattern, name)) found.push_back(id);
+  return found;
+}
+
+const char* group_of(MemberKind kind) {
+  switch (kind) {
+    case MemberKind::post: return "posts";
+    case MemberKind::beam: return "beams";
+    default: return "braces";
+  }
+}
+
+}  // namespace
+
+bool matches_pattern(std::string_view pattern, std::string_view text) {
   std::size_t p = 0, t = 0, star = std::string_view::npos, resume = 0;
   while (t < text.size()) {
     if (p < pattern.size() && pattern[p] == '*') {
@@ -24,35 +52,6 @@ bool matches(std::string_view pattern, std::string_view text) {
   while (p < pattern.size() && pattern[p] == '*') ++p;
   return p == pattern.size();
 }
-
-template <class Id>
-std::optional<Id> find(const std::map<std::string, Id>& names, const std::string& name) {
-  const auto found = names.find(name);
-  if (found == names.end()) return std::nullopt;
-  return found->second;
-}
-
-template <class Id>
-std::vector<Id> find_matching(const std::map<std::string, Id>& names, const std::string& pattern) {
-  if (pattern.find('*') == std::string::npos) {
-    const auto id = find(names, pattern);
-    return id ? std::vector<Id>{*id} : std::vector<Id>{};
-  }
-  std::vector<Id> found;
-  for (const auto& [name, id] : names)
-    if (matches(pattern, name)) found.push_back(id);
-  return found;
-}
-
-const char* group_of(MemberKind kind) {
-  switch (kind) {
-    case MemberKind::post: return "posts";
-    case MemberKind::beam: return "beams";
-    default: return "braces";
-  }
-}
-
-}  // namespace
 
 NameIndex::NameIndex(const Building& building) {
   for (std::size_t i = 0; i < building.nodes.size(); ++i) nodes_.emplace(building.nodes[i].name, NodeId(i));

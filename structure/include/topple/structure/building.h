@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -231,6 +232,9 @@ struct Building {
   const LoadCase& operator[](LoadCaseId id) const { return cases[static_cast<std::size_t>(id.index)]; }
   const Combination& operator[](CombinationId id) const { return combinations[static_cast<std::size_t>(id.index)]; }
 };
+
+/// True when `name` matches `pattern`, in which '*' stands for any run of characters.
+[[nodiscard]] bool matches_pattern(std::string_view pattern, std::string_view name);
 
 /// Looks names up; patterns may hold '*' for any run of characters. Built once for a building.
 class NameIndex {

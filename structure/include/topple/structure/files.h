@@ -10,15 +10,22 @@
 
 namespace topple::structure {
 
-/// A shipped model's name ("seed_building"), or a path (relative to `folder`). The shipped folder is found beside the
-/// executable's installed data, in the source tree while building, or in $TOPPLE_MODELS.
+/// What a model is read for: features that are not built yet are refused by their name, each for its own purposes.
+/// `inspect` takes in all that the format defines.
+enum class Purpose { analyse, demolish, inspect };
+/// Throws InputError for the first feature of the building that `purpose` cannot carry out yet.
+void refuse_unbuilt(const Building& building, Purpose purpose);
+
+/// A shipped model's name ("seed_building"), or a path (relative to `folder`). Shipped ones are found in $TOPPLE_MODELS, in
+/// the source tree while building, in the installed data; scenarios in the folder `scenarios` there. Throws InputError.
 [[nodiscard]] std::filesystem::path find_model(const std::string& name_or_path, const std::filesystem::path& folder = {});
 [[nodiscard]] std::filesystem::path find_scenario(const std::string& name_or_path);
 
-/// Reads a model of any known format by its ending.
-[[nodiscard]] Building read_model(const std::filesystem::path& file);
+/// Reads a model of any known format by its ending (.json, .3dd).
+[[nodiscard]] Building read_model(const std::filesystem::path& file, Purpose purpose = Purpose::analyse);
 /// The same from text, `name` standing for the file in messages.
-[[nodiscard]] Building parse_model(std::string_view text, const std::string& name);
+[[nodiscard]] Building parse_model(std::string_view text, const std::string& name,
+                                   Purpose purpose = Purpose::analyse);
 
 /// Reads a scenario and the model that it names.
 [[nodiscard]] std::pair<Building, Scenario> read_scenario(const std::filesystem::path& file);

@@ -1,0 +1,55 @@
+// Where shipped models and scenarios lie.
+#include <cstdlib>
+#include <set>
+#include <vector>
+
+#include "formats/json_document.h"
+#include "topple/structure/error.h"
+#include "topple/structure/files.h"
+
+namespace topple::structure {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// In order of preference. The source tree comes before the installed one, so that a build uses its own models.
+std::vector<fs::path> shipped_folders() {
+  std::vector<fs::path> folders;
+  if (const char* chosen = std::getenv("TOPPLE_MODELS"); chosen != nullptr && *chosen != '\0')
+    folders.emplace_back(chosen);
+  folders.emplace_back(TOPPLE_SOURCE_MODELS);
+  folders.emplace_back(TOPPLE_INSTALLED_MODELS);
+  return folders;
+}
+
+bool is_file(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored);
+}
+
+fs::path find(const std::string& name_or_path, const fs::path& folder, const char* kind, const fs::path& below) {
+  const fs::path path = folder / name_or_path;
+  if (is_file(path)) return path;
+  std::set<std::string> shipped;
+  for (const fs::path& place : shipped_folders()) {
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(place / below, ignored)) {
+      if (entry.path().extension() != ".json") continue;
+      if (entry.path().stem() == name_or_path) return entry.path();
+      shipped.insert(entry.path().stem().string());
+    }
+  }
+  throw InputError(name_or_path + ": there is no such " + kind + "; accepted: a path to a file, or a shipped one: " +
+                   formats::quoted_list({shipped.begin(), shipped.end()}));
+}
+
+}  // namespace
+
+fs::path find_model(const std::string& name_or_path, const fs::path& folder) {
+  return find(name_or_path, folder, "model", {});
+}
+
+fs::path find_scenario(const std::string& name_or_path) { return find(name_or_path, {}, "scenario", "scenarios"); }
+
+}  // namespace topple::structure

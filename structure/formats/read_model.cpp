@@ -1,0 +1,94 @@
+// A model from its file: the stages of reading in their order.
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <sstream>
+
+#include "formats/frame3dd.h"
+#include "formats/model_reader.h"
+#include "formats/unbuilt.h"
+#include "topple/structure/error.h"
+#include "topple/structure/files.h"
+
+namespace topple::structure {
+
+namespace {
+
+using formats::JsonDocument;
+using formats::JsonValue;
+
+Building read_document(const JsonDocument& document) {
+  using namespace formats;
+  const JsonValue root = document.root();
+  if (!root.is_object()) root.refuse("an object");
+  refuse_unbuilt_keys(root, UnbuiltPlace::model);
+  root.only({"topple", "title", "units", "gravity", "materials", "sections", "joints", "nodes", "members", "panels",
+             "supports", "diaphragms", "masses", "loads", "combinations", "building", "buildings"});
+  const JsonValue version = root.require("topple");
+  if (!version.is_number() || version.number() != 1) version.refuse("1, the version of the format");
+  ModelDraft draft;
+  draft.building.file = document.name();
+  if (const auto title = root.find("title")) draft.building.title = title->text();
+  read_units(root, draft);
+  read_materials(root, draft);
+  read_sections(root, draft);
+  read_joint_types(root, draft);
+  read_case_names(root, draft);
+  generate_buildings(root, draft);
+  read_nodes(root, draft);
+  read_members(root, draft);
+  read_panels(root, draft);
+  if (draft.building.members.empty() && draft.building.panels.empty())
+    root.fail("the model has no member and no panel; accepted: at least one");
+  draft.finish_joints();
+  read_supports(root, draft);
+  read_diaphragms(root, draft);
+  read_masses(root, draft);
+  read_loads(root, draft);
+  read_combinations(root, draft);
+  return std::move(draft.building);
+}
+
+std::string ending_of(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return ending;
+}
+
+std::string whole_text(const std::filesystem::path& file) {
+  constexpr std::uintmax_t largest = std::uintmax_t{1} << 28;
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(file, error);
+  if (error) throw InputError(file.string() + ": cannot be opened; accepted: a file that exists and can be read");
+  if (size > largest)
+    throw InputError(file.string() + ": " + std::to_string(size) + " bytes; accepted: at most " +
+                     std::to_string(largest));
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  if (!stream) throw InputError(file.string() + ": cannot be read; accepted: a file that exists and can be read");
+  return std::move(text).str();
+}
+
+}  // namespace
+
+Building parse_model(std::string_view text, const std::string& name, Purpose purpose) {
+  Building building = read_document(JsonDocument::from_text(text, name));
+  refuse_unbuilt(building, purpose);
+  return building;
+}
+
+Building read_model(const std::filesystem::path& file, Purpose purpose) {
+  const std::string ending = ending_of(file);
+  Building building;
+  if (ending == ".json")
+    building = read_document(JsonDocument::from_file(file));
+  else if (ending == ".3dd")
+    building = parse_frame3dd(whole_text(file), file.filename().string());
+  else
+    throw InputError(file.string() + ": a model of unknown format; accepted: a file that ends in .json or .3dd");
+  refuse_unbuilt(building, purpose);
+  return building;
+}
+
+}  // namespace topple::structure

@@ -1,0 +1,114 @@
+#include "formats/unbuilt.h"
+
+#include <algorithm>
+#include <array>
+
+#include "topple/structure/error.h"
+
+namespace topple::structure {
+
+namespace formats {
+
+namespace {
+
+struct UnbuiltKey {
+  UnbuiltPlace place;
+  std::string_view key;
+};
+constexpr std::array unbuilt_keys{
+    UnbuiltKey{UnbuiltPlace::model, "meshes"},        UnbuiltKey{UnbuiltPlace::material, "fracture"},
+    UnbuiltKey{UnbuiltPlace::panel, "fracture"},      UnbuiltKey{UnbuiltPlace::scenario, "fracture"},
+    UnbuiltKey{UnbuiltPlace::cut, "members"},         UnbuiltKey{UnbuiltPlace::event, "weaken"},
+    UnbuiltKey{UnbuiltPlace::event, "wrecking_ball"},
+};
+
+struct UnbuiltValue {
+  std::string_view key, value;
+  std::string_view accepted;
+};
+constexpr std::array unbuilt_values{
+    UnbuiltValue{"bracing", "buckling", "\"classic\", \"none\""},
+    UnbuiltValue{"mechanism", "hinge", "\"detach\""},
+};
+
+}  // namespace
+
+void refuse_unbuilt_keys(const JsonValue& object, UnbuiltPlace place) {
+  object.expect_object();
+  for (const UnbuiltKey& unbuilt : unbuilt_keys)
+    if (unbuilt.place == place)
+      if (const auto value = object.find(unbuilt.key))
+        value->fail("`" + std::string(unbuilt.key) + "` is not built yet; accepted: leave the key out");
+}
+
+void refuse_unbuilt_value(const JsonValue& value) {
+  for (const UnbuiltValue& unbuilt : unbuilt_values)
+    if (value.key() == unbuilt.key && value.is_text() && value.text() == unbuilt.value)
+      value.fail(in_quotes(unbuilt.value) + " is not built yet; accepted: " + std::string(unbuilt.accepted));
+}
+
+}  // namespace formats
+
+namespace {
+
+[[noreturn]] void refuse(const Building& building, const std::string& place, const std::string& what) {
+  throw InputError(building.file + ", " + place + ": " + what + " is not built yet; accepted: leave it out");
+}
+
+// Each function refuses one feature; a feature that is built for one purpose is left out of that purpose's list below.
+
+void refuse_shells(const Building& building) {
+  for (const Panel& panel : building.panels)
+    if (panel.model == PanelModel::shell) refuse(building, "panels." + panel.name + ".model", "\"shell\"");
+}
+void refuse_meshes_of_panels(const Building& building) {
+  for (const Panel& panel : building.panels)
+    if (panel.mesh != std::array<int, 2>{1, 1}) refuse(building, "panels." + panel.name + ".mesh", "`mesh`");
+}
+void refuse_openings(const Building& building) {
+  for (const Panel& panel : building.panels)
+    if (!panel.openings.empty()) refuse(building, "panels." + panel.name + ".openings", "`openings`");
+}
+void refuse_one_way_members(const Building& building) {
+  for (const Member& member : building.members)
+    if (member.axial != AxialAction::both)
+      refuse(building, "members." + member.name + ".axial",
+             member.axial == AxialAction::tension ? "\"tension\"" : "\"compression\"");
+}
+void refuse_ductility(const Building& building) {
+  for (const Joint& joint : building.joints)
+    for (const double rotation : joint.capacity.ductility)
+      if (rotation > 0) refuse(building, "joint " + joint.name, "`ductility`");
+}
+void refuse_edge_supports(const Building& building) {
+  for (const EdgeSupport& support : building.edge_supports)
+    refuse(building, "supports." + building[support.panel].name + ":" + std::to_string(support.edge + 1),
+           "a support of a panel's edge");
+}
+void refuse_diaphragms(const Building& building) {
+  for (const Diaphragm& diaphragm : building.diaphragms)
+    refuse(building, "diaphragms." + diaphragm.name, "a diaphragm");
+}
+
+}  // namespace
+
+void refuse_unbuilt(const Building& building, Purpose purpose) {
+  using Refusal = void (*)(const Building&);
+  static constexpr std::array<Refusal, 6> analyse{refuse_shells,          refuse_meshes_of_panels, refuse_openings,
+                                                  refuse_one_way_members, refuse_edge_supports,    refuse_diaphragms};
+  static constexpr std::array<Refusal, 7> demolish{
+      refuse_shells,    refuse_meshes_of_panels, refuse_openings,  refuse_one_way_members,
+      refuse_ductility, refuse_edge_supports,    refuse_diaphragms};
+  switch (purpose) {
+    case Purpose::analyse:
+      for (const Refusal refusal : analyse) refusal(building);
+      break;
+    case Purpose::demolish:
+      for (const Refusal refusal : demolish) refusal(building);
+      break;
+    case Purpose::inspect:
+      break;
+  }
+}
+
+}  // namespace topple::structure
