@@ -1,0 +1,28 @@
+// Bundles each page into one HTML file that needs no network: node build.mjs OUTPUT_DIRECTORY
+import { build } from 'esbuild';
+import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { dirname, join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+const here = dirname(fileURLToPath(import.meta.url));
+const output = process.argv[2];
+if (!output) {
+  console.error('build.mjs: name the output directory');
+  process.exit(2);
+}
+
+async function page(name) {
+  const folder = join(here, name);
+  const bundle = await build({
+    entryPoints: [join(folder, 'main.js')], bundle: true, minify: true, format: 'iife', write: false,
+    target: 'es2022', legalComments: 'inline', logLevel: 'warning',
+  });
+  // Functions as replacements: a string would have its "$" read as patterns.
+  const html = readFileSync(join(folder, 'page.html'), 'utf8')
+    .replace('/*STYLE*/', () => readFileSync(join(folder, 'style.css'), 'utf8'))
+    .replace('/*SCRIPT*/', () => bundle.outputFiles[0].text);
+  mkdirSync(output, { recursive: true });
+  writeFileSync(join(output, `${name}.html`), html);
+}
+
+await page('report');
