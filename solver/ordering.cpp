@@ -1,0 +1,75 @@
+#include "ordering.h"
+
+#include <metis.h>
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace topple::solver {
+
+namespace {
+
+/// Adjacency lists of an undirected graph in METIS's compressed form, each list sorted and without repetitions.
+struct Graph {
+  std::vector<idx_t> start, neighbour;
+};
+
+Graph make_graph(int node_count, std::span<const std::pair<int, int>> edges) {
+  if (2 * edges.size() > static_cast<std::size_t>(std::numeric_limits<idx_t>::max()))
+    throw std::runtime_error("ordering: the model has " + std::to_string(edges.size()) +
+                             " connections, more than METIS can index");
+  const auto count = static_cast<std::size_t>(node_count);
+  std::vector<idx_t> start(count + 1, 0);
+  for (const auto& [a, b] : edges)
+    if (a != b) {
+      ++start[static_cast<std::size_t>(a) + 1];
+      ++start[static_cast<std::size_t>(b) + 1];
+    }
+  for (std::size_t i = 0; i < count; ++i) start[i + 1] += start[i];
+  std::vector<idx_t> fill(start.begin(), start.end() - 1), all(static_cast<std::size_t>(start.back()));
+  for (const auto& [a, b] : edges)
+    if (a != b) {
+      all[static_cast<std::size_t>(fill[static_cast<std::size_t>(a)]++)] = b;
+      all[static_cast<std::size_t>(fill[static_cast<std::size_t>(b)]++)] = a;
+    }
+  Graph graph;
+  graph.start.reserve(count + 1);
+  graph.start.push_back(0);
+  graph.neighbour.reserve(all.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto first = all.begin() + start[i], last = all.begin() + start[i + 1];
+    std::sort(first, last);
+    graph.neighbour.insert(graph.neighbour.end(), first, std::unique(first, last));
+    graph.start.push_back(static_cast<idx_t>(graph.neighbour.size()));
+  }
+  return graph;
+}
+
+}  // namespace
+
+std::vector<int> order_nodes(int node_count, std::span<const std::pair<int, int>> edges,
+                             std::span<const int> freedoms) {
+  std::vector<int> order(static_cast<std::size_t>(node_count));
+  for (int i = 0; i < node_count; ++i) order[static_cast<std::size_t>(i)] = i;
+  Graph graph = make_graph(node_count, edges);
+  if (graph.neighbour.empty()) return order;  // METIS wants at least one edge; without any, every order is as good
+
+  idx_t count = node_count, options[METIS_NOPTIONS];
+  METIS_SetDefaultOptions(options);
+  options[METIS_OPTION_NUMBERING] = 0;
+  options[METIS_OPTION_SEED] = 1;  // the same order in every run
+  std::vector<idx_t> weight(freedoms.begin(), freedoms.end());
+  for (idx_t& w : weight) w = std::max<idx_t>(w, 1);
+  std::vector<idx_t> permutation(order.size()), inverse(order.size());
+  const int status = METIS_NodeND(&count, graph.start.data(), graph.neighbour.data(), weight.data(), options,
+                                  permutation.data(), inverse.data());
+  if (status == METIS_ERROR_MEMORY) throw std::runtime_error("ordering: METIS ran out of memory");
+  if (status != METIS_OK)
+    throw std::runtime_error("ordering: METIS refused the graph (status " + std::to_string(status) + ")");
+  std::copy(permutation.begin(), permutation.end(), order.begin());
+  return order;
+}
+
+}  // namespace topple::solver
