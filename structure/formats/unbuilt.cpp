@@ -23,12 +23,13 @@ constexpr std::array unbuilt_keys{
 };
 
 struct UnbuiltValue {
-  std::string_view key, value;
+  std::string_view key, value;  ///< value as JsonValue::found() tells it
   std::string_view accepted;
 };
 constexpr std::array unbuilt_values{
-    UnbuiltValue{"bracing", "buckling", "\"classic\", \"none\""},
-    UnbuiltValue{"mechanism", "hinge", "\"detach\""},
+    UnbuiltValue{"bracing", "\"buckling\"", "\"classic\", \"none\""},
+    UnbuiltValue{"mechanism", "\"hinge\"", "\"detach\""},
+    UnbuiltValue{"second_order", "true", "false"},
 };
 
 }  // namespace
@@ -43,8 +44,8 @@ void refuse_unbuilt_keys(const JsonValue& object, UnbuiltPlace place) {
 
 void refuse_unbuilt_value(const JsonValue& value) {
   for (const UnbuiltValue& unbuilt : unbuilt_values)
-    if (value.key() == unbuilt.key && value.is_text() && value.text() == unbuilt.value)
-      value.fail(in_quotes(unbuilt.value) + " is not built yet; accepted: " + std::string(unbuilt.accepted));
+    if (value.key() == unbuilt.key && value.found() == unbuilt.value)
+      value.fail(std::string(unbuilt.value) + " is not built yet; accepted: " + std::string(unbuilt.accepted));
 }
 
 }  // namespace formats

@@ -12,7 +12,7 @@ enum class UnbuiltPlace { model, material, panel, scenario, failure, cut, event 
 
 /// Throws at a key of this object whose meaning is not built.
 void refuse_unbuilt_keys(const JsonValue& object, UnbuiltPlace place);
-/// Throws when `value` is a text whose meaning is not built at this key ("bracing": "buckling").
+/// Throws when this value's meaning is not built at its key ("bracing": "buckling").
 void refuse_unbuilt_value(const JsonValue& value);
 
 }  // namespace topple::structure::formats

@@ -151,7 +151,8 @@ TEST_CASE("each case is a combination where none are given, and one without self
 }
 
 TEST_CASE("a model in other units is the same building") {
-  // One beam in mm, kN, t and in in, kip, lb, each number converted by hand from the SI text with exact unit definitions.
+  // One beam in mm, kN, t and in in, kip, lb, each number converted by hand from the SI text with exact unit
+  // definitions.
   const auto model = [](const std::string& units, double L, double F, double M) {
     const auto number = [](double v) {
       char text[40];
@@ -159,24 +160,26 @@ TEST_CASE("a model in other units is the same building") {
       return std::string(text);
     };
     return R"({"topple": 1, "units": )" + units + R"(, "gravity": )" + number(9.8 / L) +
-           R"(, "materials": {"m": {"youngs_modulus": )" + number(2e11 / (F / L / L)) + R"(, "poisson_ratio": 0.3, "density": )" +
-           number(7850 / (M / L / L / L)) + R"(, "yield_strength": )" + number(3e8 / (F / L / L)) +
+           R"(, "materials": {"m": {"youngs_modulus": )" + number(2e11 / (F / L / L)) +
+           R"(, "poisson_ratio": 0.3, "density": )" + number(7850 / (M / L / L / L)) + R"(, "yield_strength": )" +
+           number(3e8 / (F / L / L)) +
            R"(, "thermal_expansion": 1e-5}}, "sections": {"s": {"shape": "rectangle", "depth": )" + number(0.4 / L) +
            R"(, "width": )" + number(0.2 / L) + R"(}, "n": {"area": )" + number(0.01 / L / L) + R"(, "Iy": )" +
            number(1e-4 / L / L / L / L) + R"(, "Iz": 1, "J": 1, "torsion_modulus": )" + number(2e-5 / L / L / L) +
-           R"(}}, "joints": {"j": {"stiffness": {"x": )" + number(5e7 / (F / L)) + R"(, "ry": )" + number(4e7 / (F * L)) +
-           R"(}, "capacity": {"from": "section", "moment_z": )" + number(1e5 / (F * L)) +
+           R"(}}, "joints": {"j": {"stiffness": {"x": )" + number(5e7 / (F / L)) + R"(, "ry": )" +
+           number(4e7 / (F * L)) + R"(}, "capacity": {"from": "section", "moment_z": )" + number(1e5 / (F * L)) +
            R"(}}, "e": {"capacity_per_length": {"shear_z": )" + number(2e5 / (F / L)) +
-           R"(}}}, "nodes": {"a": [0,0,0], "b": [)" + number(6 / L) + R"(,0,0], "c": [)" + number(6 / L) + "," + number(6 / L) +
-           R"(,0], "d": [0,)" + number(6 / L) +
+           R"(}}}, "nodes": {"a": [0,0,0], "b": [)" + number(6 / L) + R"(,0,0], "c": [)" + number(6 / L) + "," +
+           number(6 / L) + R"(,0], "d": [0,)" + number(6 / L) +
            R"(,0]}, "members": {"ab": {"nodes": ["a", "b"], "section": "s", "material": "m", "joints": ["j", null]}},
-              "panels": {"p": {"nodes": ["a", "b", "c", "d"], "thickness": )" + number(0.2 / L) +
-           R"(, "material": "m", "joint": "e"}}, "supports": {"a": {"z": )" + number(3e7 / (F / L)) + R"(, "rx": )" +
-           number(3e7 / (F * L)) + R"(}}, "masses": {"nodes": {"b": [)" + number(100 / M) + "," + number(50 / (M * L * L)) +
-           R"(,0,0]}}, "loads": {"l": {"panels": {"p": {"pressure": )" + number(1500 / (F / L / L)) +
-           R"(}}, "nodes": {"b": {"y": )" + number(1e4 / F) + R"(, "rz": )" + number(2e4 / (F * L)) +
-           R"(}}, "settlements": {"a": {"z": )" + number(0.01 / L) + R"(, "rx": 0.001}}, "members": {"ab": [{"uniform": {"z": )" +
-           number(-8e3 / (F / L)) + R"(, "rx": )" + number(30 / F) + R"(}}, {"point": {"z": 0}, "at": )" + number(2.5 / L) +
+              "panels": {"p": {"nodes": ["a", "b", "c", "d"], "thickness": )" +
+           number(0.2 / L) + R"(, "material": "m", "joint": "e"}}, "supports": {"a": {"z": )" + number(3e7 / (F / L)) +
+           R"(, "rx": )" + number(3e7 / (F * L)) + R"(}}, "masses": {"nodes": {"b": [)" + number(100 / M) + "," +
+           number(50 / (M * L * L)) + R"(,0,0]}}, "loads": {"l": {"panels": {"p": {"pressure": )" +
+           number(1500 / (F / L / L)) + R"(}}, "nodes": {"b": {"y": )" + number(1e4 / F) + R"(, "rz": )" +
+           number(2e4 / (F * L)) + R"(}}, "settlements": {"a": {"z": )" + number(0.01 / L) +
+           R"(, "rx": 0.001}}, "members": {"ab": [{"uniform": {"z": )" + number(-8e3 / (F / L)) + R"(, "rx": )" +
+           number(30 / F) + R"(}}, {"point": {"z": 0}, "at": )" + number(2.5 / L) +
            R"(}, {"temperature": {"uniform": 20, "gradient_z": )" + number(15 * L) + R"(}}]}}}})";
   };
   const Building si = read(model(R"({})", 1, 1, 1));
@@ -202,7 +205,8 @@ TEST_CASE("a model in other units is the same building") {
     CHECK(*other.sections[1].torsion_modulus == same(2e-5));
     CHECK(other.joints[0].stiffness[0] == same(5e7));
     CHECK(other.joints[0].stiffness[4] == same(4e7));
-    for (std::size_t s = 0; s < 7; ++s) CHECK(other.joints[0].capacity.value[s] == same(si.joints[0].capacity.value[s]));
+    for (std::size_t s = 0; s < 7; ++s)
+      CHECK(other.joints[0].capacity.value[s] == same(si.joints[0].capacity.value[s]));
     CHECK(other.joints[0].capacity.value[6] == same(1e5));
     CHECK(other.joints[2].capacity.value[3] == same(2e5));
     CHECK(other.members[0].length == same(6));

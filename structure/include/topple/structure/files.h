@@ -32,7 +32,10 @@ void refuse_unbuilt(const Building& building, Purpose purpose);
 /// The same from text; the model is looked up from `folder`.
 [[nodiscard]] std::pair<Building, Scenario> parse_scenario(std::string_view text, const std::string& name,
                                                            const std::filesystem::path& folder);
-/// The scenario in which nothing happens to a model (for a viewer that is given a model).
+/// True when the file is a scenario (a JSON object that names a model), false when it is something else that can be read.
+[[nodiscard]] bool is_scenario(const std::filesystem::path& file);
+/// The scenario in which nothing happens to a model (for a viewer that is given a model): its combination "collapse", or
+/// its first.
 [[nodiscard]] Scenario idle_scenario(const Building& building);
 
 }  // namespace topple::structure

@@ -1,0 +1,298 @@
+// Scenarios: rules of failure, impact and debris, and tools at their times.
+#include <algorithm>
+#include <set>
+
+#include "formats/json_document.h"
+#include "formats/model_reader.h"
+#include "formats/unbuilt.h"
+#include "topple/structure/error.h"
+#include "topple/structure/files.h"
+
+namespace topple::structure {
+
+namespace formats {
+
+namespace {
+
+double from_zero_to_one(const JsonValue& value) {
+  const double number = value.number("a number from 0 to 1");
+  if (!(number >= 0 && number <= 1)) value.refuse("a number from 0 to 1");
+  return number;
+}
+
+/// Keeps the default where the key is absent.
+template <class Target, class Read>
+void take(const JsonValue& object, std::string_view key, Target& target, Read read) {
+  if (const auto value = object.find(key)) target = read(*value);
+}
+double positive(const JsonValue& value) { return value.positive(); }
+bool boolean(const JsonValue& value) { return value.boolean(); }
+
+class ScenarioReader {
+ public:
+  ScenarioReader(const JsonValue& root, const Building& building)
+      : root_(root), building_(building), names_(building) {}
+
+  Scenario read() {
+    scenario_.combination = read_combination();
+    take(root_, "title", scenario_.title, [](const JsonValue& v) { return std::string(v.text()); });
+    take(root_, "step", scenario_.step, positive);
+    take(root_, "duration", scenario_.duration, positive);
+    take(root_, "until_rest", scenario_.until_rest, boolean);
+    take(root_, "seed", scenario_.seed,
+         [](const JsonValue& v) { return static_cast<std::uint64_t>(v.whole(0, std::int64_t{1} << 53)); });
+    take(root_, "ground", scenario_.ground, [](const JsonValue& v) { return v.number(); });
+    if (const auto failure = root_.find("failure")) read_failure(*failure);
+    if (const auto impact = root_.find("impact")) read_impact(*impact);
+    if (const auto debris = root_.find("debris")) read_debris(*debris);
+    if (const auto budget = root_.find("budget")) {
+      budget->only({"operations"});
+      scenario_.operations_budget = budget->require("operations").positive();
+    }
+    if (const auto events = root_.find("events")) read_events(*events);
+    return std::move(scenario_);
+  }
+
+ private:
+  CombinationId read_combination() const {
+    const auto& combinations = building_.combinations;
+    std::vector<std::string_view> accepted;
+    for (const Combination& combination : combinations) accepted.push_back(combination.name);
+    const auto value = root_.find("combination");
+    if (!value) {
+      if (combinations.size() == 1) return CombinationId(0);
+      root_.fail("the key \"combination\" is missing and the model has several; accepted: " + quoted_list(accepted));
+    }
+    const std::string_view name = value->text("the name of a combination");
+    for (std::size_t i = 0; i < combinations.size(); ++i)
+      if (combinations[i].name == name) return CombinationId(i);
+    value->fail("there is no combination " + in_quotes(name) + "; accepted: " + quoted_list(accepted));
+  }
+
+  void read_failure(const JsonValue& failure) {
+    failure.only({"bracing", "mechanism", "generations_per_second", "second_order", "sudden"});
+    FailureRules& rules = scenario_.failure;
+    for (const JsonValue value : failure) refuse_unbuilt_value(value);
+    take(failure, "bracing", rules.bracing, [](const JsonValue& v) {
+      const std::string_view rule = v.text("\"buckling\", \"classic\" or \"none\"");
+      if (rule == "buckling") return BracingRule::buckling;
+      if (rule == "classic") return BracingRule::classic;
+      if (rule != "none") v.refuse("\"buckling\", \"classic\" or \"none\"");
+      return BracingRule::none;
+    });
+    take(failure, "mechanism", rules.mechanism, [](const JsonValue& v) {
+      const std::string_view rule = v.text("\"hinge\" or \"detach\"");
+      if (rule != "hinge" && rule != "detach") v.refuse("\"hinge\" or \"detach\"");
+      return rule == "hinge" ? MechanismRule::hinge : MechanismRule::detach;
+    });
+    take(failure, "generations_per_second", rules.generations_per_second, positive);
+    take(failure, "second_order", rules.second_order, boolean);
+    take(failure, "sudden", rules.sudden, [](const JsonValue& v) {
+      const double factor = v.number("a number of 1 or above");
+      if (!(factor >= 1)) v.refuse("a number of 1 or above");
+      return factor;
+    });
+  }
+
+  void read_impact(const JsonValue& impact) {
+    impact.only({"restitution", "structure_mass"});
+    take(impact, "restitution", scenario_.impact.restitution, from_zero_to_one);
+    take(impact, "structure_mass", scenario_.impact.structure_mass, boolean);
+  }
+
+  void read_debris(const JsonValue& debris) {
+    debris.only({"friction", "restitution", "limit", "smallest_volume"});
+    take(debris, "friction", scenario_.debris.friction, [](const JsonValue& v) { return v.not_negative(); });
+    take(debris, "restitution", scenario_.debris.restitution, from_zero_to_one);
+    take(debris, "limit", scenario_.debris.limit,
+         [](const JsonValue& v) { return static_cast<int>(v.whole(0, 1'000'000)); });
+    take(debris, "smallest_volume", scenario_.debris.smallest_volume,
+         [](const JsonValue& v) { return v.not_negative(); });
+  }
+
+  void read_events(const JsonValue& events) {
+    if (!events.is_array()) events.refuse("an array of events");
+    for (const JsonValue value : events) {
+      value.expect_object();
+      refuse_unbuilt_keys(value, UnbuiltPlace::event);
+      value.only({"at", "projectile", "cut", "remove", "charge", "gravity", "load"});
+      Event event;
+      event.at = value.require("at").not_negative();
+      if (value.size() != 2)
+        value.fail(
+            "found " + std::to_string(value.size() - 1) +
+            " tools; accepted: `at` and one of \"projectile\", \"cut\", \"remove\", \"charge\", \"gravity\", \"load\"");
+      for (const JsonValue tool : value)
+        if (tool.key() != "at") event.tool = read_tool(tool);
+      scenario_.events.push_back(std::move(event));
+    }
+    std::stable_sort(scenario_.events.begin(), scenario_.events.end(),
+                     [](const Event& a, const Event& b) { return a.at < b.at; });
+  }
+
+  Tool read_tool(const JsonValue& value) const {
+    const std::string_view key = value.key();
+    if (key == "gravity") return GravityTool{read_point(value, 1)};
+    value.expect_object();
+    if (key == "projectile") return read_projectile(value);
+    if (key == "cut") return read_cut(value);
+    if (key == "remove") return read_remove(value);
+    if (key == "charge") return read_charge(value);
+    value.only({"nodes"});
+    LoadTool load;
+    for (const JsonValue entry : value.require("nodes")) {
+      const auto node = names_.node(std::string(entry.key()));
+      if (!node) entry.fail("there is no node " + in_quotes(entry.key()) + "; accepted: a node of the model");
+      load.nodes.push_back({*node, read_components(entry, [](int) { return 1.0; })});
+    }
+    return load;
+  }
+
+  static Projectile read_projectile(const JsonValue& value) {
+    value.only({"from", "velocity", "mass", "radius"});
+    Projectile projectile;
+    projectile.from = read_point(value.require("from"), 1);
+    projectile.velocity = read_point(value.require("velocity"), 1);
+    take(value, "mass", projectile.mass, positive);
+    take(value, "radius", projectile.radius, positive);
+    return projectile;
+  }
+
+  CutTool read_cut(const JsonValue& value) const {
+    refuse_unbuilt_keys(value, UnbuiltPlace::cut);
+    value.only({"joints"});
+    CutTool cut;
+    read_list(value, "joints", "joint", cut.joints,
+              [&](const std::string& name) { return names_.joints_matching(name); });
+    if (cut.joints.empty()) value.fail("nothing to cut; accepted: \"joints\" with at least one name");
+    return cut;
+  }
+
+  RemoveTool read_remove(const JsonValue& value) const {
+    value.only({"members", "panels", "supports", "groups"});
+    RemoveTool remove;
+    read_list(value, "members", "member", remove.members,
+              [&](const std::string& name) { return names_.members_matching(name); });
+    read_list(value, "panels", "panel", remove.panels,
+              [&](const std::string& name) { return names_.panels_matching(name); });
+    read_list(value, "supports", "supported node", remove.supports,
+              [&](const std::string& name) { return supported_nodes(name); });
+    if (const auto groups = value.find("groups")) {
+      for (const std::string& name : read_names(*groups)) {
+        const NameIndex::Group* group = names_.group(name);
+        if (group == nullptr) groups->fail("there is no group " + in_quotes(name) + "; accepted: a group of the model");
+        remove.members.insert(remove.members.end(), group->members.begin(), group->members.end());
+        remove.panels.insert(remove.panels.end(), group->panels.begin(), group->panels.end());
+      }
+    }
+    sort_unique(remove.members);
+    sort_unique(remove.panels);
+    if (remove.members.empty() && remove.panels.empty() && remove.supports.empty())
+      value.fail(
+          "nothing to remove; accepted: \"members\", \"panels\", \"supports\", \"groups\" with at least one name");
+    return remove;
+  }
+
+  std::vector<NodeId> supported_nodes(const std::string& pattern) const {
+    std::vector<NodeId> found;
+    for (const NodeSupport& support : building_.supports)
+      if (matches_pattern(pattern, building_[support.node].name)) found.push_back(support.node);
+    return found;
+  }
+
+  static ChargeTool read_charge(const JsonValue& value) {
+    value.only({"centre", "radius", "strength"});
+    ChargeTool charge;
+    charge.centre = read_point(value.require("centre"), 1);
+    charge.radius = value.require("radius").positive();
+    if (const auto strength = value.find("strength")) {
+      strength->expect_array(2, 2);
+      auto number = strength->begin();
+      charge.strength_at_centre = (*number).not_negative();
+      ++number;
+      charge.strength_at_radius = (*number).not_negative();
+    }
+    return charge;
+  }
+
+  /// Names and patterns at a key as ids in order, each once; what matches nothing is refused.
+  template <class Id, class Match>
+  static void read_list(const JsonValue& object, const char* key, const char* kind, std::vector<Id>& ids, Match match) {
+    const auto list = object.find(key);
+    if (!list) return;
+    list->expect_array(0, ~std::size_t{0});
+    for (const JsonValue name : *list) {
+      const std::vector<Id> found = match(std::string(name.text("a name, or a pattern with *")));
+      if (found.empty())
+        name.fail(std::string("there is no ") + kind + " " + in_quotes(name.text()) +
+                  "; accepted: a name or pattern of the model");
+      ids.insert(ids.end(), found.begin(), found.end());
+    }
+    sort_unique(ids);
+  }
+  template <class Id>
+  static void sort_unique(std::vector<Id>& ids) {
+    std::sort(ids.begin(), ids.end());
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  }
+
+  JsonValue root_;
+  const Building& building_;
+  NameIndex names_;
+  Scenario scenario_;
+};
+
+std::pair<Building, Scenario> read_document(const JsonDocument& document, const std::filesystem::path& folder) {
+  const JsonValue root = document.root();
+  if (!root.is_object()) root.refuse("an object");
+  refuse_unbuilt_keys(root, UnbuiltPlace::scenario);
+  root.only({"topple", "title", "model", "combination", "step", "duration", "until_rest", "seed", "ground", "failure",
+             "impact", "debris", "budget", "events"});
+  const JsonValue version = root.require("topple");
+  if (!version.is_number() || version.number() != 1) version.refuse("1, the version of the format");
+  const JsonValue model = root.require("model");
+  const std::string name(model.text("a shipped model's name, or a path from the scenario's folder"));
+  std::filesystem::path file;
+  try {
+    file = find_model(name, folder);
+  } catch (const InputError& error) {
+    model.fail(error.what());
+  }
+  Building building = read_model(file, Purpose::demolish);
+  Scenario scenario = ScenarioReader(root, building).read();
+  scenario.file = document.name();
+  scenario.model = name;
+  return {std::move(building), std::move(scenario)};
+}
+
+}  // namespace
+
+}  // namespace formats
+
+std::pair<Building, Scenario> read_scenario(const std::filesystem::path& file) {
+  return formats::read_document(formats::JsonDocument::from_file(file), file.parent_path());
+}
+
+std::pair<Building, Scenario> parse_scenario(std::string_view text, const std::string& name,
+                                             const std::filesystem::path& folder) {
+  return formats::read_document(formats::JsonDocument::from_text(text, name), folder);
+}
+
+bool is_scenario(const std::filesystem::path& file) {
+  if (file.extension() != ".json") return false;
+  const auto document = formats::JsonDocument::from_file(file);
+  return document.root().is_object() && document.root().find("model").has_value();
+}
+
+Scenario idle_scenario(const Building& building) {
+  Scenario scenario;
+  scenario.title = building.title;
+  scenario.model = building.file;
+  // The one that a building is demolished under, where there is a choice.
+  scenario.combination = CombinationId(0);
+  for (std::size_t i = 0; i < building.combinations.size(); ++i)
+    if (building.combinations[i].name == "collapse") scenario.combination = CombinationId(i);
+  return scenario;
+}
+
+}  // namespace topple::structure

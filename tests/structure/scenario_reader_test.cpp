@@ -1,0 +1,137 @@
+// The scenario reader takes in every tool and rule that is built, and refuses the others by their name.
+#include <catch2/catch.hpp>
+
+#include "example_model.h"
+#include "topple/structure/error.h"
+#include "topple/structure/files.h"
+
+using namespace topple::structure;
+using topple::test::replaced;
+
+namespace {
+
+const std::string scenario_text = R"({
+  "topple": 1, "title": "Corner post hit", "model": "seed_building", "combination": "collapse",
+  "step": 0.01, "duration": 2000, "until_rest": false, "seed": 7, "ground": -0.5,
+  "failure": {"bracing": "none", "mechanism": "detach", "generations_per_second": 120, "second_order": false, "sudden": 1.5},
+  "impact": {"restitution": 0.2, "structure_mass": false},
+  "debris": {"friction": 0.5, "restitution": 0.3, "limit": 100, "smallest_volume": 0.01}, "budget": {"operations": 5e8},
+  "events": [
+    {"at": 4.0, "charge": {"centre": [0, 0, 1], "radius": 3, "strength": [0.25, 0.75]}},
+    {"at": 1.0, "projectile": {"from": [-20, 0, 2], "velocity": [60, 0, 0], "mass": 700, "radius": 0.3}},
+    {"at": 2.0, "cut": {"joints": ["BX-1-1-1:1", "BX-*-1-1:1"]}},
+    {"at": 3.0, "remove": {"members": ["P-1-2-1"], "panels": ["S-1-1-*"], "supports": ["N-1-1-0"], "groups": ["storey-2"]}},
+    {"at": 7.0, "gravity": [0, 0, -9.80665]},
+    {"at": 8.0, "load": {"nodes": {"N-1-1-6": {"x": 1e5}}}}
+  ]
+})";
+
+std::pair<Building, Scenario> read(const std::string& text) { return parse_scenario(text, "s.json", {}); }
+
+std::string error_of(const std::string& text) {
+  try {
+    (void)read(text);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+}  // namespace
+
+TEST_CASE("a scenario is read in full, its events in order of time") {
+  const auto [building, scenario] = read(scenario_text);
+  CHECK(scenario.title == "Corner post hit");
+  CHECK(building[*scenario.combination].name == "collapse");
+  CHECK(scenario.step == 0.01);
+  CHECK(scenario.duration == 2000);
+  CHECK_FALSE(scenario.until_rest);
+  CHECK(scenario.seed == 7);
+  CHECK(scenario.ground == -0.5);
+  CHECK(scenario.failure.bracing == BracingRule::none);
+  CHECK(scenario.failure.mechanism == MechanismRule::detach);
+  CHECK(scenario.failure.generations_per_second == 120);
+  CHECK(scenario.failure.sudden == 1.5);
+  CHECK(scenario.impact.restitution == 0.2);
+  CHECK_FALSE(scenario.impact.structure_mass);
+  CHECK(scenario.debris.limit == 100);
+  CHECK(scenario.operations_budget == 5e8);
+  REQUIRE(scenario.events.size() == 6);
+  CHECK(std::get<Projectile>(scenario.events[0].tool).mass == 700);
+  const auto& cut = std::get<CutTool>(scenario.events[1].tool);
+  REQUIRE(cut.joints.size() == 3);  // the pattern's three bays hold the name that stands beside it
+  CHECK(building[cut.joints[0]].name == "BX-1-1-1:1");
+  const auto& remove = std::get<RemoveTool>(scenario.events[2].tool);
+  CHECK(remove.members.size() == 1 + 20 + 31);     // the post, and storey 2: 20 posts, 15 + 16 beams
+  CHECK(remove.panels.size() == 6 + 12 + 14 - 1);  // S-1-1-2 is in both; storey 2 has 12 slabs and 14 walls
+  CHECK(building[remove.supports.at(0)].name == "N-1-1-0");
+  const auto& charge = std::get<ChargeTool>(scenario.events[3].tool);
+  CHECK(charge.strength_at_centre == 0.25);
+  CHECK(charge.strength_at_radius == 0.75);
+  CHECK(std::get<GravityTool>(scenario.events[4].tool).gravity[2] == -9.80665);
+  CHECK(std::get<LoadTool>(scenario.events[5].tool).nodes.at(0).load[0] == 1e5);
+}
+
+TEST_CASE("a scenario that says little takes the defaults") {
+  const auto [building, scenario] = read(R"({"topple": 1, "model": "tower", "combination": "service"})");
+  CHECK(scenario.step == 1.0 / 60.0);
+  CHECK(scenario.duration == 60);
+  CHECK(scenario.until_rest);
+  CHECK(scenario.seed == 1);
+  CHECK_FALSE(scenario.ground.has_value());
+  CHECK(scenario.failure.generations_per_second == 240);
+  CHECK(scenario.failure.sudden == 2);
+  CHECK(scenario.impact.structure_mass);
+  CHECK(scenario.debris.limit == 2000);
+  CHECK(scenario.events.empty());
+}
+
+TEST_CASE("the scenario reader names file, place, what it found and what is accepted") {
+  const auto error = [](const std::string& from, const std::string& to) {
+    return error_of(replaced(scenario_text, from, to));
+  };
+  const std::string unknown = error("\"seed_building\"", "\"seed_bilding\"");
+  CHECK(unknown.starts_with(
+      "s.json, line 2, model: seed_bilding: there is no such model; accepted: a path to a file, or a shipped one: \""));
+  CHECK(unknown.find("\"seed_building\"") != std::string::npos);
+  CHECK(error(", \"combination\": \"collapse\"", "") ==
+        "s.json, line 1: the key \"combination\" is missing and the model has several; accepted: \"service\", "
+        "\"collapse\"");
+  CHECK(error("\"sudden\": 1.5", "\"sudden\": 0.5") ==
+        "s.json, line 4, failure.sudden: found 0.5; accepted: a number of 1 or above");
+  CHECK(error("\"BX-1-1-1:1\"", "\"BX-1-1-1:3\"") ==
+        "s.json, line 10, events[2].cut.joints[0]: there is no joint \"BX-1-1-1:3\"; accepted: a name or pattern of "
+        "the model");
+  CHECK(error("{\"at\": 4.0, ", "{\"at\": 4.0, \"cut\": {\"joints\": [\"P-1-1-1:1\"]}, ").find("found 2 tools") !=
+        std::string::npos);
+  CHECK(error("\"limit\": 100", "\"limit\": 1.5") ==
+        "s.json, line 6, debris.limit: found 1.5; accepted: a whole number from 0 to 1000000");
+}
+
+TEST_CASE("what is not built yet is refused by its name") {
+  const auto error = [](const std::string& from, const std::string& to) {
+    return error_of(replaced(scenario_text, from, to));
+  };
+  CHECK(error("\"none\"", "\"buckling\"") ==
+        "s.json, line 4, failure.bracing: \"buckling\" is not built yet; accepted: \"classic\", \"none\"");
+  CHECK(error("\"detach\"", "\"hinge\"") ==
+        "s.json, line 4, failure.mechanism: \"hinge\" is not built yet; accepted: \"detach\"");
+  CHECK(error("\"second_order\": false", "\"second_order\": true") ==
+        "s.json, line 4, failure.second_order: true is not built yet; accepted: false");
+  CHECK(error("\"joints\": [", "\"members\": [], \"joints\": [") ==
+        "s.json, line 10, events[2].cut.members: `members` is not built yet; accepted: leave the key out");
+  CHECK(error("\"impact\"", "\"fracture\": {\"method\": \"voronoi\"}, \"impact\"") ==
+        "s.json, line 5, fracture: `fracture` is not built yet; accepted: leave the key out");
+  for (const std::string tool : {"weaken", "wrecking_ball"})
+    CHECK(error("\"gravity\"", "\"" + tool + "\"").find("`" + tool + "` is not built yet") != std::string::npos);
+}
+
+TEST_CASE("every shipped scenario is read") {
+  for (const std::string name : {"seed_idle", "seed_hit", "tower_hit", "tower_10x10x40_corner"}) {
+    CAPTURE(name);
+    const auto file = find_scenario(name);
+    CHECK(is_scenario(file));
+    CHECK_NOTHROW(read_scenario(file));
+  }
+  CHECK_FALSE(is_scenario(find_model("tower")));
+}
