@@ -15,6 +15,8 @@ namespace topple::solver {
 struct Mechanism {
   std::vector<int> nodes;    ///< nodes that move, most first
   std::vector<Vec6> motion;  ///< for every node of the model, scaled to a largest translation of 1 (or rotation, if none)
+  /// Beams that can move by themselves, released at both ends so far that no node has to move with them.
+  std::vector<int> beams;
 };
 
 /// Thrown when the model is not stable. what() names node indices and freedoms; callers with names use `mechanism`.
@@ -40,6 +42,7 @@ struct SolveQuality {
   double condition = 0;       ///< estimate for the scaled matrix
   double error_bound = 0;     ///< on the relative forward error of the displacements
   int refinements = 0;
+  bool converged = true;  ///< false: the backward error stayed above 1e-14 whatever the refinement
 };
 
 struct StaticSolution {
@@ -55,6 +58,7 @@ struct AnalysisStatistics {
   double factor_operations = 0;
   std::string factorisation, ordering;
   double assemble_seconds = 0, order_seconds = 0, factor_seconds = 0, solve_seconds = 0;
+  double condition_seconds = 0;  ///< for the estimate of the condition, apart from solve_seconds
   bool nearly_unstable = false;  ///< inside the warning band
   double digits_left = 16;
 };

@@ -1,0 +1,170 @@
+#include "topple/solver/beam_diagram.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "beam_end_springs.h"
+#include "beam_internal_forces.h"
+
+namespace topple::solver {
+namespace {
+
+using Polynomial = std::array<double, 6>;
+
+template <std::size_t N>
+Polynomial widen(const std::array<double, N>& p) {
+  Polynomial result{};
+  std::copy(p.begin(), p.end(), result.begin());
+  return result;
+}
+
+Polynomial derivative(const Polynomial& p) {
+  Polynomial d{};
+  for (std::size_t k = 1; k < p.size(); ++k) d[k - 1] = static_cast<double>(k) * p[k];
+  return d;
+}
+
+/// Bisection to the last bit on a bracket with a change of sign.
+double bisect(const Polynomial& p, double a, double b) {
+  const bool rising = polynomial(p, a) < 0;
+  for (int i = 0; i < 200; ++i) {
+    const double middle = a + (b - a) / 2;
+    if (middle <= a || middle >= b) break;
+    ((polynomial(p, middle) < 0) == rising ? a : b) = middle;
+  }
+  return a;
+}
+
+/// Where p changes sign within (0, length): between neighbouring roots of its derivative it is monotone.
+std::vector<double> sign_changes(const Polynomial& p, double length) {
+  if (std::all_of(p.begin() + 1, p.end(), [](double c) { return c == 0; })) return {};
+  std::vector<double> marks{0.0};
+  for (double root : sign_changes(derivative(p), length)) marks.push_back(root);
+  marks.push_back(length);
+  std::vector<double> roots;
+  for (std::size_t i = 0; i + 1 < marks.size(); ++i) {
+    if ((polynomial(p, marks[i]) < 0) != (polynomial(p, marks[i + 1]) < 0)) {
+      roots.push_back(bisect(p, marks[i], marks[i + 1]));
+    }
+  }
+  return roots;
+}
+
+}  // namespace
+
+struct BeamDiagram::State {
+  Beam beam;
+  Vec12 end_forces;
+  InternalForces forces;
+  std::vector<DeformedPiece> deformed;
+  Vec6 tip = Vec6::Zero();  ///< displacement of the second end when the first stays
+
+  [[nodiscard]] std::size_t piece_at(double distance) const {
+    std::size_t i = 0;
+    while (i + 1 < forces.pieces.size() && distance > forces.pieces[i + 1].start) ++i;
+    return i;
+  }
+  [[nodiscard]] Polynomial curve(std::size_t piece, Quantity quantity) const {
+    if (quantity < deflection_y) return widen(forces.pieces[piece].force[static_cast<std::size_t>(quantity)]);
+    const bool along_y = quantity == deflection_y;
+    Polynomial p = along_y ? deformed[piece].v : deformed[piece].w;
+    const double slope = tip(along_y ? 1 : 2) / beam.length;  // of the chord, seen from the first section
+    p[0] -= slope * forces.pieces[piece].start;
+    p[1] -= slope;
+    return p;
+  }
+  void rigid_motion(int translation, int rotation, double sense, const Vec12& hubs, double& offset,
+                    double& slope) const;
+};
+
+BeamDiagram::BeamDiagram(const Beam& beam, const Vec12& end_forces, std::span<const BeamLoad> loads,
+                         double stiffness_factor)
+    : state_(std::make_unique<State>()) {
+  state_->beam = beam;
+  state_->end_forces = end_forces;
+  state_->forces = internal_forces(beam.length, end_forces.head<6>(), loads);
+  state_->tip = integrate_deformation(beam, stiffness_factor, state_->forces, &state_->deformed);
+}
+BeamDiagram::~BeamDiagram() = default;
+BeamDiagram::BeamDiagram(BeamDiagram&&) noexcept = default;
+BeamDiagram& BeamDiagram::operator=(BeamDiagram&&) noexcept = default;
+
+double BeamDiagram::value(Quantity quantity, double distance) const {
+  const double x = std::clamp(distance, 0.0, state_->beam.length);
+  const std::size_t piece = state_->piece_at(x);
+  return polynomial(state_->curve(piece, quantity), x - state_->forces.pieces[piece].start);
+}
+
+std::array<double, 8> BeamDiagram::values(double distance) const {
+  std::array<double, 8> result{};
+  for (int q = 0; q < quantities; ++q) {
+    result[static_cast<std::size_t>(q)] = value(static_cast<Quantity>(q), distance);
+  }
+  return result;
+}
+
+BeamDiagram::Range BeamDiagram::extremes(Quantity quantity) const {
+  Range range;
+  bool first = true;
+  const auto consider = [&](double v, double at) {
+    if (first || v < range.least.value) range.least = {v, at};
+    if (first || v > range.greatest.value) range.greatest = {v, at};
+    first = false;
+  };
+  for (std::size_t i = 0; i < state_->forces.pieces.size(); ++i) {
+    const BeamPiece& piece = state_->forces.pieces[i];
+    const Polynomial p = state_->curve(i, quantity);
+    consider(p[0], piece.start);
+    for (double root : sign_changes(derivative(p), piece.length)) consider(polynomial(p, root), piece.start + root);
+    consider(polynomial(p, piece.length), piece.start + piece.length);
+  }
+  return range;
+}
+
+/// The rigid part of the motion in one plane, offset + slope x, from two components that are not released: the beam's
+/// own end is its hub less the stretch of the spring between them.
+void BeamDiagram::State::rigid_motion(int translation, int rotation, double sense, const Vec12& hubs, double& offset,
+                                      double& slope) const {
+  const auto held = [&](int f) { return beam.end_stiffness[static_cast<std::size_t>(f / 6)](f % 6) > 0; };
+  const auto end = [&](int f) {
+    return hubs(f) - spring_compliance(beam.end_stiffness[static_cast<std::size_t>(f / 6)](f % 6)) * end_forces(f);
+  };
+  const int v1 = translation, v2 = translation + 6, r1 = rotation, r2 = rotation + 6;
+  const double L = beam.length;
+  const auto slope_at = [&](int r) { return sense * (end(r) - (r == r2 ? tip(rotation) : 0)); };
+  const auto place_at = [&](int v) { return end(v) - (v == v2 ? tip(translation) : 0); };
+  if (held(v1) && held(v2)) {
+    offset = place_at(v1);
+    slope = (place_at(v2) - place_at(v1)) / L;
+  } else if ((held(v1) || held(v2)) && (held(r1) || held(r2))) {
+    slope = slope_at(held(r1) ? r1 : r2);
+    offset = held(v1) ? place_at(v1) : place_at(v2) - slope * L;
+  } else {
+    offset = hubs(v1);
+    slope = sense * hubs(r1);
+  }
+}
+
+Vec6 BeamDiagram::displacement(double distance, const Vec12& hubs) const {
+  const State& s = *state_;
+  const double x = std::clamp(distance, 0.0, s.beam.length);
+  const std::size_t i = s.piece_at(x);
+  const double t = x - s.forces.pieces[i].start;
+  const DeformedPiece& d = s.deformed[i];
+  const auto axial_start = [&](int f) {
+    const double k1 = s.beam.end_stiffness[0](f), k2 = s.beam.end_stiffness[1](f);
+    if (k1 > 0) return hubs(f) - spring_compliance(k1) * s.end_forces(f);
+    if (k2 > 0) return hubs(f + 6) - spring_compliance(k2) * s.end_forces(f + 6) - s.tip(f);
+    return hubs(f);
+  };
+  double v = 0, v_slope = 0, w = 0, w_slope = 0;
+  s.rigid_motion(1, 5, 1, hubs, v, v_slope);
+  s.rigid_motion(2, 4, -1, hubs, w, w_slope);
+  Vec6 result;
+  result << axial_start(0) + polynomial(d.u, t), v + v_slope * x + polynomial(d.v, t),
+      w + w_slope * x + polynomial(d.w, t), axial_start(3) + polynomial(d.theta_x, t),
+      -w_slope + polynomial(d.theta_y, t), v_slope + polynomial(d.theta_z, t);
+  return result;
+}
+
+}  // namespace topple::solver

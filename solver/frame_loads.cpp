@@ -1,0 +1,163 @@
+// Right-hand sides of a frame: loads on nodes and beams, imposed displacements.
+#include <Eigen/QR>
+#include <cmath>
+#include <stdexcept>
+
+#include "frame_system.h"
+
+namespace topple::solver {
+namespace {
+
+void check_index(int index, std::size_t count, const char* what) {
+  if (index < 0 || static_cast<std::size_t>(index) >= count) {
+    throw std::invalid_argument(std::string("load on ") + what + " " + std::to_string(index) +
+                                ", which does not exist");
+  }
+}
+
+/// The loads of each beam together.
+std::vector<std::vector<BeamLoad>> loads_by_beam(std::size_t beams, const std::vector<BeamLoad>& loads) {
+  std::vector<std::vector<BeamLoad>> result(beams);
+  for (const BeamLoad& load : loads) {
+    check_index(load.beam, beams, "beam");
+    result[static_cast<std::size_t>(load.beam)].push_back(load);
+  }
+  return result;
+}
+
+}  // namespace
+
+/// Displacements of held freedoms. A diaphragm's held freedoms follow from those of its nodes; what a rigid floor
+/// cannot follow is an std::invalid_argument.
+Eigen::VectorXd FrameSystem::held_displacements(std::span<const Settlement> settlements) const {
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(dofs_.held);
+  if (settlements.empty()) return result;
+  std::vector<Vec6> imposed(model.nodes.size(), Vec6::Zero());
+  for (const Settlement& s : settlements) {
+    check_index(s.node, model.nodes.size(), "node");
+    const auto n = static_cast<std::size_t>(s.node);
+    if (s.component < 0 || s.component > 5 || !std::isinf(support_[n](s.component))) {
+      throw std::invalid_argument("settlement of node " + std::to_string(s.node) + ": component " +
+                                  std::to_string(s.component) + " is not held by a support");
+    }
+    imposed[n](s.component) += s.value;
+    const bool shared = dofs_.diaphragm_of_node[n] >= 0 && (s.component < 2 || s.component == 5);
+    if (!shared) result(dofs_.number[n][static_cast<std::size_t>(s.component)] - dofs_.equations) += s.value;
+  }
+  for (std::size_t d = 0; d < model.diaphragms.size(); ++d) {
+    std::vector<Eigen::Vector4d> rows;  // coefficients of x, y, rz of the reference point, and the value
+    for (int node : model.diaphragms[d].nodes) {
+      const auto n = static_cast<std::size_t>(node);
+      if (std::isinf(support_[n](0))) rows.emplace_back(1, 0, -dofs_.arm[n][1], imposed[n](0));
+      if (std::isinf(support_[n](1))) rows.emplace_back(0, 1, dofs_.arm[n][0], imposed[n](1));
+      if (std::isinf(support_[n](5))) rows.emplace_back(0, 0, 1, imposed[n](5));
+    }
+    if (rows.empty()) continue;
+    Eigen::MatrixXd A(rows.size(), 3);
+    Eigen::VectorXd b(rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      A.row(static_cast<Eigen::Index>(i)) = rows[i].head<3>();
+      b(static_cast<Eigen::Index>(i)) = rows[i](3);
+    }
+    const Eigen::Vector3d motion = A.completeOrthogonalDecomposition().solve(b);
+    constexpr double consistent = 1e-9;
+    if ((A * motion - b).cwiseAbs().maxCoeff() > consistent * b.cwiseAbs().maxCoeff()) {
+      throw std::invalid_argument("settlements bend diaphragm " + std::to_string(d) + ", which is rigid in its plane");
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+      const int number = dofs_.diaphragm_number[d][c];
+      if (number >= dofs_.equations) result(number - dofs_.equations) = motion(static_cast<Eigen::Index>(c));
+    }
+  }
+  return result;
+}
+
+FixedEndForces FrameSystem::fixed_end_forces(int beam, std::span<const BeamLoad> loads) const {
+  const auto i = static_cast<std::size_t>(beam);
+  if (beam_stands[i] == 0) return {};
+  return CondensedBeam(model.beams[i], beam_factor[i]).fixed_end_forces(loads);
+}
+
+void FrameSystem::add_fixed_end(int index, const Vec12& fixed_end, Eigen::VectorXd& force) const {
+  const Beam& beam = model.beams[static_cast<std::size_t>(index)];
+  const Vec12 at_nodes = node_forces(beam, fixed_end);
+  dofs_.add_node_force(beam.node[0], -at_nodes.head<6>(), force.data());
+  dofs_.add_node_force(beam.node[1], -at_nodes.tail<6>(), force.data());
+}
+
+LoadVector FrameSystem::load_vector(const LoadSet& loads) const {
+  LoadVector result;
+  result.force = Eigen::VectorXd::Zero(dofs_.equations + dofs_.held);
+  if (!loads.nodes.empty()) result.node_load.assign(model.nodes.size(), Vec6::Zero());
+  for (const NodeLoad& load : loads.nodes) {
+    check_index(load.node, model.nodes.size(), "node");
+    const auto n = static_cast<std::size_t>(load.node);
+    if (node_stands[n] == 0) continue;
+    result.node_load[n] += load.load;
+    dofs_.add_node_force(load.node, load.load, result.force.data());
+  }
+  if (!loads.beams.empty()) {
+    result.beam_fixed_end.assign(model.beams.size(), Vec12::Zero());
+    const auto by_beam = loads_by_beam(model.beams.size(), loads.beams);
+    for (std::size_t i = 0; i < by_beam.size(); ++i) {
+      if (by_beam[i].empty() || beam_stands[i] == 0) continue;
+      const FixedEndForces fixed = fixed_end_forces(static_cast<int>(i), by_beam[i]);
+      if (fixed.unbalanced > 0) result.unbalanced_beams.push_back(static_cast<int>(i));
+      result.beam_fixed_end[i] = fixed.force;
+      add_fixed_end(static_cast<int>(i), fixed.force, result.force);
+    }
+  }
+  result.held_displacement = held_displacements(loads.settlements);
+  if (!(result.held_displacement.array() == 0).all()) {
+    for (std::size_t i = 0; i < model.beams.size(); ++i) {
+      const auto freedoms = scatter_.freedoms(i);
+      Vec12 u = Vec12::Zero();
+      for (std::size_t k = 0; k < 12; ++k) {
+        if (freedoms[k] >= dofs_.equations) {
+          u(static_cast<Eigen::Index>(k)) = result.held_displacement(freedoms[k] - dofs_.equations);
+        }
+      }
+      if ((u.array() == 0).all()) continue;
+      const Vec12 force = beam_stiffness(static_cast<int>(i)) * u;
+      for (std::size_t k = 0; k < 12; ++k) result.force(freedoms[k]) -= force(static_cast<Eigen::Index>(k));
+    }
+  }
+  if (!result.force.allFinite()) throw std::invalid_argument("a load is not finite");
+  return result;
+}
+
+std::optional<Defect> FrameSystem::unbalanced_load(const LoadVector& load) const {
+  Defect result;
+  result.motion.motion.assign(model.nodes.size(), Vec6::Zero());
+  if (!load.unbalanced_beams.empty()) {
+    result.motion.beams = load.unbalanced_beams;
+    result.message = "unstable: beam " + std::to_string(load.unbalanced_beams[0]) +
+                     " is loaded in a direction in which the releases at its ends let it move";
+    return result;
+  }
+  double largest = 0;
+  const auto moment_at = [&](std::size_t node) {
+    Vec3 m = Vec3::Zero();
+    for (std::size_t c = 3; c < 6; ++c) {
+      const int e = dofs_.number[node][c];
+      if (e < dofs_.equations) m(static_cast<Eigen::Index>(c) - 3) = load.force(e);
+    }
+    return m;
+  };
+  for (std::size_t node = 0; node < inert_.size(); ++node) largest = std::max(largest, moment_at(node).norm());
+  constexpr double rounding = 1e-10;  // of the largest moment on any node
+  for (std::size_t node = 0; node < inert_.size(); ++node) {
+    for (int k = 0; k < inert_[node].count; ++k) {
+      const Vec3 axis = inert_[node].directions.col(k);
+      if (std::abs(axis.dot(moment_at(node))) <= rounding * largest) continue;
+      result.motion.nodes.push_back(static_cast<int>(node));
+      result.motion.motion[node].tail<3>() = axis;
+    }
+  }
+  if (result.motion.nodes.empty()) return std::nullopt;
+  result.message =
+      "unstable: a moment acts on " + list_nodes(result.motion.nodes) + ", and nothing there resists turning";
+  return result;
+}
+
+}  // namespace topple::solver

@@ -1,0 +1,98 @@
+// From the solution of the equations back to nodes, beams and supports.
+#include <Eigen/QR>
+#include <cmath>
+
+#include "frame_system.h"
+
+namespace topple::solver {
+
+std::vector<Vec6> FrameSystem::node_displacements(const Eigen::VectorXd& displacement,
+                                                  const Eigen::VectorXd& held) const {
+  Eigen::VectorXd all(displacement.size() + held.size());
+  all << displacement, held;
+  std::vector<Vec6> result(model.nodes.size(), Vec6::Zero());
+  for (std::size_t n = 0; n < result.size(); ++n) {
+    if (node_stands[n] != 0) result[n] = dofs_.node_displacement(static_cast<int>(n), all.data());
+  }
+  return result;
+}
+
+Vec12 FrameSystem::end_forces(int index, const std::vector<Vec6>& displacements, const Vec12& fixed_end) const {
+  const auto i = static_cast<std::size_t>(index);
+  if (beam_stands[i] == 0) return Vec12::Zero();
+  const Beam& beam = model.beams[i];
+  const Vec12 hubs = hub_displacements(beam, displacements[static_cast<std::size_t>(beam.node[0])],
+                                       displacements[static_cast<std::size_t>(beam.node[1])]);
+  return beam_end_forces(CondensedBeam(beam, beam_factor[i]), beam.length, hubs, fixed_end);
+}
+
+/// Held components of a diaphragm's nodes share what the floor needs; where rigid supports of one rigid floor leave the
+/// shares undetermined, the least ones (sum of squares) are taken.
+void FrameSystem::add_diaphragm_reactions(const std::vector<Vec6>& residual, std::vector<Vec6>& held_reaction) const {
+  for (std::size_t d = 0; d < model.diaphragms.size(); ++d) {
+    Vec3 needed = Vec3::Zero();
+    std::vector<std::pair<std::size_t, int>> held;
+    for (int node : model.diaphragms[d].nodes) {
+      const auto n = static_cast<std::size_t>(node);
+      const Vec6& r = residual[n];
+      needed += Vec3(r(0), r(1), r(5) + dofs_.arm[n][0] * r(1) - dofs_.arm[n][1] * r(0));
+      for (int c : {0, 1, 5}) {
+        if (std::isinf(support_[n](c))) held.emplace_back(n, c);
+      }
+    }
+    if (held.empty()) continue;
+    Eigen::MatrixXd statics(3, held.size());
+    for (std::size_t k = 0; k < held.size(); ++k) {
+      const auto [n, c] = held[k];
+      const auto column = static_cast<Eigen::Index>(k);
+      if (c == 0) statics.col(column) << 1, 0, -dofs_.arm[n][1];
+      if (c == 1) statics.col(column) << 0, 1, dofs_.arm[n][0];
+      if (c == 5) statics.col(column) << 0, 0, 1;
+    }
+    const Eigen::VectorXd share = statics.completeOrthogonalDecomposition().solve(needed);
+    for (std::size_t k = 0; k < held.size(); ++k) {
+      held_reaction[held[k].first](held[k].second) = share(static_cast<Eigen::Index>(k));
+    }
+  }
+}
+
+std::vector<Vec6> FrameSystem::reactions(const std::vector<Vec6>& displacements,
+                                         const std::vector<Vec12>& beam_end_forces,
+                                         const std::vector<Vec6>& node_loads) const {
+  // What must act on each node beside its load for equilibrium with its elements.
+  std::vector<Vec6> residual(model.nodes.size(), Vec6::Zero());
+  for (std::size_t i = 0; i < model.beams.size(); ++i) {
+    if (beam_stands[i] == 0) continue;
+    const Vec12 force = node_forces(model.beams[i], beam_end_forces[i]);
+    residual[static_cast<std::size_t>(model.beams[i].node[0])] += force.head<6>();
+    residual[static_cast<std::size_t>(model.beams[i].node[1])] += force.tail<6>();
+  }
+  for (std::size_t n = 0; n < node_loads.size(); ++n) residual[n] -= node_loads[n];
+
+  std::vector<Vec6> springs(model.nodes.size(), Vec6::Zero());
+  std::vector<Vec6> result(model.supports.size(), Vec6::Zero());
+  for (std::size_t i = 0; i < model.supports.size(); ++i) {
+    const auto n = static_cast<std::size_t>(model.supports[i].node);
+    for (int c = 0; c < 6; ++c) {
+      const double k = model.supports[i].stiffness(c);
+      if (std::isinf(k) || k == 0) continue;
+      result[i](c) = -k * displacements[n](c);
+      springs[n](c) += result[i](c);
+    }
+  }
+  for (std::size_t n = 0; n < residual.size(); ++n) residual[n] -= springs[n];
+  std::vector<Vec6> held = residual;
+  add_diaphragm_reactions(residual, held);
+  std::vector<Vec6> taken(model.nodes.size(), Vec6::Zero());
+  for (std::size_t i = 0; i < model.supports.size(); ++i) {
+    const auto n = static_cast<std::size_t>(model.supports[i].node);
+    for (int c = 0; c < 6; ++c) {
+      if (!std::isinf(model.supports[i].stiffness(c)) || taken[n](c) != 0 || node_stands[n] == 0) continue;
+      result[i](c) += held[n](c);
+      taken[n](c) = 1;  // two rigid supports on one freedom: the first bears it
+    }
+  }
+  return result;
+}
+
+}  // namespace topple::solver

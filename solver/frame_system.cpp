@@ -1,0 +1,322 @@
+#include "frame_system.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "ordering.h"
+
+namespace topple::solver {
+namespace {
+
+FrameModel checked(FrameModel model) {
+  const int nodes = static_cast<int>(model.nodes.size());
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    if (!model.nodes[i].allFinite()) throw std::invalid_argument("node " + std::to_string(i) + " is not finite");
+  }
+  for (std::size_t i = 0; i < model.beams.size(); ++i) check_beam(model.beams[i], static_cast<int>(i), nodes);
+  if (!model.shells.empty()) throw std::invalid_argument("shell 0: shells are not supported");
+  return model;
+}
+
+ScatterMap make_scatter(const FrameModel& model, const DofMap& dofs) {
+  std::vector<int> freedoms;
+  std::vector<std::int64_t> start{0};
+  const auto add = [&](std::span<const int> nodes) {
+    for (int node : nodes) {
+      const auto& numbers = dofs.number[static_cast<std::size_t>(node)];
+      freedoms.insert(freedoms.end(), numbers.begin(), numbers.end());
+    }
+    start.push_back(static_cast<std::int64_t>(freedoms.size()));
+  };
+  for (const Beam& beam : model.beams) add(beam.node);
+  // A node without elements still couples with its diaphragm; in one element of its own it keeps its place.
+  for (const Diaphragm& diaphragm : model.diaphragms) {
+    for (int node : diaphragm.nodes) add(std::span(&node, 1));
+  }
+  return {dofs, std::move(freedoms), std::move(start)};
+}
+
+}  // namespace
+
+std::string list_nodes(std::span<const int> nodes) {
+  constexpr std::size_t shown = 5;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(nodes.size(), shown); ++i) {
+    text += (i > 0 ? ", node " : "node ") + std::to_string(nodes[i]);
+  }
+  if (nodes.size() > shown) text += " and " + std::to_string(nodes.size() - shown) + " more";
+  return text;
+}
+
+FrameSystem::FrameSystem(FrameModel given)
+    : model(checked(std::move(given))),
+      beam_factor(model.beams.size(), 1.0),
+      beam_stands(model.beams.size(), 1),
+      node_stands(model.nodes.size(), 1),
+      support_(support_stiffness(model)),
+      dofs_(model),
+      scatter_(make_scatter(model, dofs_)),
+      elements_of_node_(model.nodes.size()),
+      matrix_(scatter_.empty_matrix()),
+      scale_(static_cast<std::size_t>(dofs_.equations), 1.0),
+      inert_(model.nodes.size()) {
+  for (std::size_t i = 0; i < model.beams.size(); ++i) {
+    for (int node : model.beams[i].node)
+      elements_of_node_[static_cast<std::size_t>(node)].push_back(static_cast<int>(i));
+  }
+  int element = static_cast<int>(model.beams.size());
+  for (const Diaphragm& diaphragm : model.diaphragms) {
+    for (int node : diaphragm.nodes) elements_of_node_[static_cast<std::size_t>(node)].push_back(element++);
+  }
+}
+
+std::vector<int> FrameSystem::beams_of_node(int node) const {
+  std::vector<int> beams;
+  for (int element : elements_of_node_[static_cast<std::size_t>(node)]) {
+    if (static_cast<std::size_t>(element) < model.beams.size()) beams.push_back(element);
+  }
+  return beams;
+}
+
+std::vector<int> FrameSystem::elimination_order() const {
+  std::vector<int> active, index(static_cast<std::size_t>(dofs_.vertices()), -1), freedoms;
+  for (int v = 0; v < dofs_.vertices(); ++v) {
+    const auto n = static_cast<std::size_t>(v);
+    if (dofs_.first_equation[n + 1] == dofs_.first_equation[n]) continue;
+    index[n] = static_cast<int>(active.size());
+    active.push_back(v);
+    freedoms.push_back(dofs_.first_equation[n + 1] - dofs_.first_equation[n]);
+  }
+  std::vector<std::pair<int, int>> edges;
+  edges.reserve(scatter_.edges().size());
+  for (const auto& [v, w] : scatter_.edges()) {
+    edges.emplace_back(index[static_cast<std::size_t>(v)], index[static_cast<std::size_t>(w)]);
+  }
+  std::vector<int> order;
+  order.reserve(static_cast<std::size_t>(dofs_.equations));
+  for (int a : order_nodes(static_cast<int>(active.size()), edges, freedoms)) {
+    const auto v = static_cast<std::size_t>(active[static_cast<std::size_t>(a)]);
+    for (int e = dofs_.first_equation[v]; e < dofs_.first_equation[v + 1]; ++e) order.push_back(e);
+  }
+  return order;
+}
+
+Mat12 FrameSystem::beam_stiffness(int index) const {
+  const auto i = static_cast<std::size_t>(index);
+  if (beam_stands[i] == 0) return Mat12::Zero();
+  const Beam& beam = model.beams[i];
+  std::array<Mat3, 2> arm;
+  for (std::size_t end = 0; end < 2; ++end) {
+    arm[end] = arm_matrix(beam.offset[end]) + dofs_.diaphragm_arm(beam.node[end]);
+  }
+  return to_node_freedoms(beam.axes, CondensedBeam(beam, beam_factor[i]).stiffness(), arm);
+}
+
+void FrameSystem::add_element(std::size_t element, const std::vector<char>& wanted) {
+  if (element >= model.beams.size() || beam_stands[element] == 0) return;
+  const Mat12 K = beam_stiffness(static_cast<int>(element));
+  scatter_.add(element, K.data(), scale_, wanted, matrix_);
+}
+
+double& FrameSystem::entry(int equation, int other) {
+  return matrix_.value[static_cast<std::size_t>(scatter_.position(equation, other))];
+}
+
+void FrameSystem::add_support_springs(int node) {
+  const auto n = static_cast<std::size_t>(node);
+  Mat6 G = Mat6::Identity();
+  G.topRightCorner<3, 3>() = dofs_.diaphragm_arm(node);
+  Vec6 k = support_[n];
+  for (int c = 0; c < 6; ++c) k(c) = std::isinf(k(c)) ? 0 : k(c);
+  if ((k.array() == 0).all()) return;
+  const Mat6 K = G.transpose() * k.asDiagonal() * G;
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j <= i; ++j) {
+      const int row = dofs_.number[n][static_cast<std::size_t>(i)],
+                column = dofs_.number[n][static_cast<std::size_t>(j)];
+      if (K(i, j) == 0 || row >= dofs_.equations || column >= dofs_.equations) continue;
+      entry(row, column) += K(i, j) * scale_[static_cast<std::size_t>(row)] * scale_[static_cast<std::size_t>(column)];
+    }
+  }
+}
+
+/// A hub turned about an axis that no element resists strains nothing, bears nothing and belongs to nobody: a node of a
+/// truss. It is held at zero, in any direction in space; unbalanced_load() refuses a moment about it.
+void FrameSystem::hold_inert_rotations(int node) {
+  constexpr double inert_limit = 1e-13;  // of the largest rotational stiffness at the node: rounding of rotated zeros
+  const auto n = static_cast<std::size_t>(node);
+  inert_[n] = {};
+  std::array<int, 3> component{}, equation{};
+  std::size_t free = 0;
+  for (int c = 3; c < 6; ++c) {
+    const int e = dofs_.number[n][static_cast<std::size_t>(c)];
+    if (e >= dofs_.equations || (c == 5 && dofs_.diaphragm_of_node[n] >= 0)) continue;
+    component[free] = c - 3;
+    equation[free++] = e;
+  }
+  if (free == 0) return;
+  Mat3 block = Mat3::Zero();
+  for (std::size_t i = 0; i < free; ++i) {
+    for (std::size_t j = 0; j < free; ++j) {
+      block(component[i], component[j]) = entry(equation[i], equation[j]) /
+                                          scale_[static_cast<std::size_t>(equation[i])] /
+                                          scale_[static_cast<std::size_t>(equation[j])];
+    }
+  }
+  for (int c = 0; c < 3; ++c) {  // held components are not looked for
+    if (std::find(component.begin(), component.begin() + static_cast<std::ptrdiff_t>(free), c) ==
+        component.begin() + static_cast<std::ptrdiff_t>(free)) {
+      block(c, c) = std::numeric_limits<double>::infinity();
+    }
+  }
+  double largest = 0;
+  for (std::size_t i = 0; i < free; ++i) largest = std::max(largest, block(component[i], component[i]));
+  const double held = largest > 0 ? largest : 1 / std::pow(scale_[static_cast<std::size_t>(equation[0])], 2);
+  for (int c = 0; c < 3; ++c) {
+    if (std::isinf(block(c, c))) block(c, c) = held;
+  }
+  // A cheap test first: the determinant of a well-braced hub is far from zero.
+  if (largest > 0 && block.determinant() > 1e-9 * held * held * held) return;
+  const Eigen::SelfAdjointEigenSolver<Mat3> modes(block);
+  for (int m = 0; m < 3; ++m) {
+    if (modes.eigenvalues()(m) > inert_limit * held) continue;
+    const Vec3 d = modes.eigenvectors().col(m);
+    inert_[n].directions.col(inert_[n].count++) = d;
+    for (std::size_t i = 0; i < free; ++i) {
+      for (std::size_t j = 0; j <= i; ++j) {
+        entry(equation[i], equation[j]) += held * d(component[i]) * d(component[j]) *
+                                           scale_[static_cast<std::size_t>(equation[i])] *
+                                           scale_[static_cast<std::size_t>(equation[j])];
+      }
+    }
+  }
+}
+
+void FrameSystem::finish_node(int node) {
+  const auto n = static_cast<std::size_t>(node);
+  if (node_stands[n] == 0) {
+    for (int e = dofs_.first_equation[n]; e < dofs_.first_equation[n + 1]; ++e) entry(e, e) = 1;
+    inert_[n] = {};
+    return;
+  }
+  add_support_springs(node);
+  hold_inert_rotations(node);
+}
+
+/// A diaphragm whose nodes have all left is held.
+void FrameSystem::finish_diaphragms(const std::vector<char>& wanted) {
+  for (std::size_t d = 0; d < model.diaphragms.size(); ++d) {
+    const std::size_t v = model.nodes.size() + d;
+    if (!wanted.empty() && wanted[v] == 0) continue;
+    const auto& nodes = model.diaphragms[d].nodes;
+    if (std::any_of(nodes.begin(), nodes.end(), [&](int n) { return node_stands[static_cast<std::size_t>(n)] != 0; }))
+      continue;
+    for (int e = dofs_.first_equation[v]; e < dofs_.first_equation[v + 1]; ++e) entry(e, e) = 1;
+  }
+}
+
+void FrameSystem::set_scale() {
+  for (int e = 0; e < dofs_.equations; ++e) {
+    const double diagonal = entry(e, e);
+    scale_[static_cast<std::size_t>(e)] = diagonal > 0 ? std::exp2(-std::round(std::log2(diagonal) / 2)) : 1.0;
+  }
+  for (int column = 0; column < dofs_.equations; ++column) {
+    const auto c = static_cast<std::size_t>(column);
+    for (auto k = matrix_.start[c]; k < matrix_.start[c + 1]; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      matrix_.value[i] *= scale_[c] * scale_[static_cast<std::size_t>(matrix_.row[i])];
+    }
+  }
+}
+
+void FrameSystem::set_support(int support, const Vec6& stiffness) {
+  model.supports[static_cast<std::size_t>(support)].stiffness = stiffness;
+  support_ = support_stiffness(model);
+}
+
+void FrameSystem::assemble() {
+  std::fill(matrix_.value.begin(), matrix_.value.end(), 0.0);
+  std::fill(scale_.begin(), scale_.end(), 1.0);
+  for (std::size_t i = 0; i < model.beams.size(); ++i) add_element(i, {});
+  for (std::size_t node = 0; node < model.nodes.size(); ++node) finish_node(static_cast<int>(node));
+  finish_diaphragms({});
+  set_scale();
+}
+
+/// The vertices of these nodes; a diaphragm takes all of its nodes along.
+std::vector<char> FrameSystem::vertices_of(std::span<const int> nodes) const {
+  std::vector<char> wanted(static_cast<std::size_t>(dofs_.vertices()), 0);
+  for (int node : nodes) {
+    wanted[static_cast<std::size_t>(node)] = 1;
+    const int d = dofs_.diaphragm_of_node[static_cast<std::size_t>(node)];
+    if (d < 0) continue;
+    wanted[model.nodes.size() + static_cast<std::size_t>(d)] = 1;
+    for (int other : model.diaphragms[static_cast<std::size_t>(d)].nodes) wanted[static_cast<std::size_t>(other)] = 1;
+  }
+  return wanted;
+}
+
+// Entries are built again from zero, in the same order as in assemble(), and never subtracted from: what is released
+// leaves exact zeros, not rounding that would pass for stiffness.
+void FrameSystem::reassemble(std::span<const int> nodes) {
+  const std::vector<char> wanted = vertices_of(nodes);
+  std::vector<int> elements;
+  for (std::size_t node = 0; node < model.nodes.size(); ++node) {
+    if (wanted[node] == 0) continue;
+    elements.insert(elements.end(), elements_of_node_[node].begin(), elements_of_node_[node].end());
+    for (int e = dofs_.first_equation[node]; e < dofs_.first_equation[node + 1]; ++e) {
+      for (int f = dofs_.first_equation[node]; f <= e; ++f) entry(e, f) = 0;
+    }
+  }
+  std::sort(elements.begin(), elements.end());
+  elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
+  for (int element : elements) scatter_.clear(static_cast<std::size_t>(element), wanted, matrix_);
+  for (int element : elements) add_element(static_cast<std::size_t>(element), wanted);
+  for (std::size_t node = 0; node < model.nodes.size(); ++node) {
+    if (wanted[node] != 0) finish_node(static_cast<int>(node));
+  }
+  finish_diaphragms(wanted);
+}
+
+std::optional<Defect> FrameSystem::defect() const {
+  static const std::array<const char*, 6> names{"x", "y", "z", "rx", "ry", "rz"};
+  std::vector<int> isolated;
+  std::string components;
+  Defect result;
+  result.motion.motion.assign(model.nodes.size(), Vec6::Zero());
+  for (std::size_t node = 0; node < model.nodes.size(); ++node) {
+    if (node_stands[node] == 0) continue;
+    for (std::size_t c = 0; c < 6; ++c) {
+      const int e = dofs_.number[node][c];
+      if (e >= dofs_.equations) continue;
+      const double diagonal = matrix_.value[static_cast<std::size_t>(matrix_.start[static_cast<std::size_t>(e)])];
+      if (diagonal > 0) continue;
+      if (isolated.empty() || isolated.back() != static_cast<int>(node)) isolated.push_back(static_cast<int>(node));
+      if (isolated.size() == 1) components += std::string(components.empty() ? "" : ", ") + names[c];
+      result.motion.motion[node](static_cast<Eigen::Index>(c)) = 1;
+    }
+  }
+  if (!isolated.empty()) {
+    result.message = "unstable: nothing holds " + list_nodes(isolated) + " (node " + std::to_string(isolated[0]) +
+                     " in " + components + ")";
+    result.motion.nodes = isolated;
+    return result;
+  }
+  for (std::size_t i = 0; i < model.beams.size(); ++i) {
+    if (beam_stands[i] != 0 && CondensedBeam(model.beams[i], beam_factor[i]).loose()) {
+      result.motion.beams.push_back(static_cast<int>(i));
+    }
+  }
+  if (result.motion.beams.empty()) return std::nullopt;
+  result.message =
+      "unstable: beam " + std::to_string(result.motion.beams[0]) + " can move by itself: its ends are released too far";
+  if (result.motion.beams.size() > 1) {
+    result.message += " (and " + std::to_string(result.motion.beams.size() - 1) + " more beams)";
+  }
+  return result;
+}
+
+}  // namespace topple::solver

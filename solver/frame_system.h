@@ -1,0 +1,115 @@
+#pragma once
+// The equations of a frame model as it stands: assembly from what is there, right-hand sides, recovery of forces. What
+// is solved is the scaled matrix S K S, S a diagonal of powers of two that brings every diagonal entry near 1:
+// translations and rotations compare, and no digit is touched.
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "beam.h"
+#include "dof_map.h"
+#include "scatter_map.h"
+#include "topple/solver/frame_model.h"
+#include "topple/solver/static_analysis.h"
+
+namespace topple::solver {
+
+/// Why a model cannot stand, found without factorising.
+struct Defect {
+  std::string message;
+  Mechanism motion;
+};
+
+/// One right-hand side, not scaled, with what recovery needs again.
+struct LoadVector {
+  Eigen::VectorXd force;              ///< per equation, then per held freedom
+  Eigen::VectorXd held_displacement;  ///< per held freedom
+  std::vector<Vec12> beam_fixed_end;  ///< per beam, local axes; empty when no beam is loaded
+  std::vector<Vec6> node_load;        ///< per node, as given; empty when none
+  std::vector<int> unbalanced_beams;  ///< loaded in a motion that nothing resists
+};
+
+class FrameSystem {
+ public:
+  explicit FrameSystem(FrameModel model);
+  FrameSystem(const FrameSystem&) = delete;
+  FrameSystem& operator=(const FrameSystem&) = delete;
+
+  // What stands. After a change call reassemble() with the nodes that it touched; a support may only change between
+  // springs.
+  FrameModel model;
+  std::vector<double> beam_factor;  ///< on E and G
+  std::vector<char> beam_stands, node_stands;
+
+  [[nodiscard]] const DofMap& dofs() const { return dofs_; }
+  [[nodiscard]] const ScatterMap& scatter() const { return scatter_; }
+  [[nodiscard]] const SparseSymmetric& matrix() const { return matrix_; }
+  [[nodiscard]] std::span<const double> scale() const { return scale_; }
+
+  /// Beams that reach a node, standing or not, in order.
+  [[nodiscard]] std::vector<int> beams_of_node(int node) const;
+  /// Elimination order of the equations: nodes by nested dissection, the equations of a node together.
+  [[nodiscard]] std::vector<int> elimination_order() const;
+  /// Assembles everything and sets the scale.
+  void assemble();
+  /// Assembles anew every entry in the rows and columns of these nodes (and the diaphragms they belong to); the scale
+  /// stays.
+  void reassemble(std::span<const int> nodes);
+  /// Freedoms without any stiffness, beams that can move by themselves.
+  [[nodiscard]] std::optional<Defect> defect() const;
+
+  /// K of a beam in the 12 freedoms of its element (diaphragm arms included); zero where it does not stand.
+  [[nodiscard]] Mat12 beam_stiffness(int beam) const;
+
+  [[nodiscard]] LoadVector load_vector(const LoadSet& loads) const;
+  /// A moment on a hub that nothing keeps from turning, or a load on a loose part; empty when there is none.
+  [[nodiscard]] std::optional<Defect> unbalanced_load(const LoadVector& load) const;
+
+  [[nodiscard]] FixedEndForces fixed_end_forces(int beam, std::span<const BeamLoad> loads) const;
+  /// Adds the reverse of a beam's fixed-end forces to the right-hand side of the equations.
+  void add_fixed_end(int beam, const Vec12& fixed_end, Eigen::VectorXd& force) const;
+  /// A spring that takes the place of a support's; rigid components stay. Call reassemble() with its node.
+  void set_support(int support, const Vec6& stiffness);
+
+  /// Per node, from the displacements of the equations (not scaled) and those of held freedoms.
+  [[nodiscard]] std::vector<Vec6> node_displacements(const Eigen::VectorXd& displacement,
+                                                     const Eigen::VectorXd& held) const;
+  [[nodiscard]] Vec12 end_forces(int beam, const std::vector<Vec6>& displacements, const Vec12& fixed_end) const;
+  /// Per support: what it does to the structure.
+  [[nodiscard]] std::vector<Vec6> reactions(const std::vector<Vec6>& displacements,
+                                            const std::vector<Vec12>& beam_end_forces,
+                                            const std::vector<Vec6>& node_loads) const;
+
+ private:
+  void add_element(std::size_t element, const std::vector<char>& wanted);
+  [[nodiscard]] std::vector<char> vertices_of(std::span<const int> nodes) const;
+  void finish_node(int node);
+  void finish_diaphragms(const std::vector<char>& wanted);
+  void add_support_springs(int node);
+  void hold_inert_rotations(int node);
+  void set_scale();
+  [[nodiscard]] double& entry(int equation, int other);
+  void add_diaphragm_reactions(const std::vector<Vec6>& residual, std::vector<Vec6>& held_reaction) const;
+  [[nodiscard]] Eigen::VectorXd held_displacements(std::span<const Settlement> settlements) const;
+
+  std::vector<Vec6> support_;
+  DofMap dofs_;
+  ScatterMap scatter_;
+  std::vector<std::vector<int>> elements_of_node_;
+  SparseSymmetric matrix_;
+  std::vector<double> scale_;
+  /// Per node: directions in which its hub turns without straining anything (columns), held at zero.
+  struct InertHub {
+    int count = 0;
+    Mat3 directions = Mat3::Zero();
+  };
+  std::vector<InertHub> inert_;
+};
+
+/// "node 3, node 7 and 12 more".
+[[nodiscard]] std::string list_nodes(std::span<const int> nodes);
+
+}  // namespace topple::solver

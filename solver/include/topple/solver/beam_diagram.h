@@ -1,0 +1,48 @@
+#pragma once
+// Internal forces and deflections along one beam, exactly, from its end forces and the loads on it.
+#include <array>
+#include <memory>
+#include <span>
+
+#include "topple/solver/frame_model.h"
+
+namespace topple::solver {
+
+/// Internal forces are what the part beyond does to the part before, on the face that looks along +x: axial tension is
+/// positive, and the value at the first end is minus the end force there. Deflections are from the straight line
+/// between the beam's ends (behind any spring or release), along local y and z.
+class BeamDiagram {
+ public:
+  enum Quantity { axial, shear_y, shear_z, torsion, moment_y, moment_z, deflection_y, deflection_z };
+  static constexpr int quantities = 8;
+
+  /// `end_forces` as in StaticSolution; `loads` those on this beam; `stiffness_factor` multiplies E and G. Copies what
+  /// it needs. Throws std::invalid_argument for a load outside of the beam.
+  BeamDiagram(const Beam& beam, const Vec12& end_forces, std::span<const BeamLoad> loads, double stiffness_factor = 1);
+  ~BeamDiagram();
+  BeamDiagram(BeamDiagram&&) noexcept;
+  BeamDiagram& operator=(BeamDiagram&&) noexcept;
+
+  /// At a distance from the first end (held to 0 ... length). Where the quantity jumps, the value just before.
+  [[nodiscard]] double value(Quantity quantity, double distance) const;
+  [[nodiscard]] std::array<double, 8> values(double distance) const;
+
+  struct Extreme {
+    double value = 0, at = 0;
+  };
+  struct Range {
+    Extreme least, greatest;
+  };
+  /// Over the whole beam, both sides of every jump; the first place where several are equal.
+  [[nodiscard]] Range extremes(Quantity quantity) const;
+
+  /// Displacement and rotation of the section at a distance, local axes, given those of the hubs at the beam's ends
+  /// (local, after the arms). A beam loose between its ends is taken as if it moved with its first hub.
+  [[nodiscard]] Vec6 displacement(double distance, const Vec12& hub_displacements) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace topple::solver

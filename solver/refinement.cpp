@@ -1,0 +1,155 @@
+#include "refinement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace topple::solver {
+namespace {
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr int most_refinements = 12;
+/// A step that does not cut the error to this share of the last one is the last.
+constexpr double worthwhile = 0.5;
+}  // namespace
+
+double residual(const SparseSymmetric& K, const Eigen::Ref<const Eigen::VectorXd>& b,
+                const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::VectorXd& r) {
+  const auto n = static_cast<std::size_t>(K.size);
+  std::vector<long double> sum(n);
+  std::vector<double> size(n), row_sum(n, 0.0);
+  for (std::size_t i = 0; i < n; ++i) {
+    sum[i] = b(static_cast<Eigen::Index>(i));
+    size[i] = std::abs(b(static_cast<Eigen::Index>(i)));
+  }
+  for (std::size_t column = 0; column < n; ++column) {
+    const long double xc = x(static_cast<Eigen::Index>(column));
+    const double ac = std::abs(static_cast<double>(xc));
+    long double down = 0;
+    double down_size = 0, down_sum = 0;
+    for (auto k = K.start[column] + 1; k < K.start[column + 1]; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      const auto row = static_cast<std::size_t>(K.row[i]);
+      const double value = K.value[i], absolute = std::abs(value), xr = x(static_cast<Eigen::Index>(row));
+      sum[row] -= value * xc;
+      size[row] += absolute * ac;
+      row_sum[row] += absolute;
+      down += static_cast<long double>(value) * xr;
+      down_size += absolute * std::abs(xr);
+      down_sum += absolute;
+    }
+    const double diagonal = K.value[static_cast<std::size_t>(K.start[column])];
+    sum[column] -= down + diagonal * xc;
+    size[column] += down_size + std::abs(diagonal) * ac;
+    row_sum[column] += down_sum + std::abs(diagonal);
+  }
+  r.resize(K.size);
+  const double largest = n > 0 ? x.cwiseAbs().maxCoeff() : 0;
+  double worst = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    r(static_cast<Eigen::Index>(i)) = static_cast<double>(sum[i]);
+    double denominator = size[i];
+    // A row whose terms are themselves rounding of the others' is measured against the row's norm.
+    if (denominator <= static_cast<double>(n) * epsilon * row_sum[i] * largest) denominator += row_sum[i] * largest;
+    const double error = std::abs(static_cast<double>(sum[i]));
+    if (error > 0) worst = std::max(worst, error / denominator);
+  }
+  return std::isfinite(worst) ? worst : std::numeric_limits<double>::infinity();
+}
+
+RefinedSolution solve_refined(const SparseSymmetric& K, const LinearSolve& solve, const Eigen::MatrixXd& b) {
+  RefinedSolution result;
+  result.x = b;
+  solve(result.x);
+  const Eigen::Index columns = b.cols();
+  result.quality.resize(static_cast<std::size_t>(columns));
+  Eigen::MatrixXd r(b.rows(), columns);
+  Eigen::VectorXd column_residual;
+  std::vector<Eigen::Index> open;
+  for (Eigen::Index j = 0; j < columns; ++j) {
+    SolveQuality& quality = result.quality[static_cast<std::size_t>(j)];
+    quality.backward_error = residual(K, b.col(j), result.x.col(j), column_residual);
+    r.col(j) = column_residual;
+    if (quality.backward_error > backward_error_limit) open.push_back(j);
+  }
+  for (int step = 0; step < most_refinements && !open.empty(); ++step) {
+    Eigen::MatrixXd correction(b.rows(), static_cast<Eigen::Index>(open.size()));
+    for (std::size_t k = 0; k < open.size(); ++k) correction.col(static_cast<Eigen::Index>(k)) = r.col(open[k]);
+    solve(correction);
+    std::vector<Eigen::Index> still_open;
+    for (std::size_t k = 0; k < open.size(); ++k) {
+      const Eigen::Index j = open[k];
+      SolveQuality& quality = result.quality[static_cast<std::size_t>(j)];
+      const Eigen::VectorXd better = result.x.col(j) + correction.col(static_cast<Eigen::Index>(k));
+      const double error = residual(K, b.col(j), better, column_residual);
+      const bool improved = error < quality.backward_error, go_on = error <= worthwhile * quality.backward_error;
+      if (improved) {
+        result.x.col(j) = better;
+        r.col(j) = column_residual;
+        quality.backward_error = error;
+        ++quality.refinements;
+      }
+      if (go_on && quality.backward_error > backward_error_limit) still_open.push_back(j);
+    }
+    open = std::move(still_open);
+  }
+  for (SolveQuality& quality : result.quality) quality.converged = quality.backward_error <= backward_error_limit;
+  return result;
+}
+
+namespace {
+
+double norm1(const SparseSymmetric& K) {
+  std::vector<double> sum(static_cast<std::size_t>(K.size), 0.0);
+  for (std::size_t column = 0; column < sum.size(); ++column) {
+    for (auto k = K.start[column]; k < K.start[column + 1]; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      const auto row = static_cast<std::size_t>(K.row[i]);
+      sum[column] += std::abs(K.value[i]);
+      if (row != column) sum[row] += std::abs(K.value[i]);
+    }
+  }
+  return sum.empty() ? 0 : *std::max_element(sum.begin(), sum.end());
+}
+
+}  // namespace
+
+double estimate_condition(const SparseSymmetric& K, const LinearSolve& solve) {
+  const Eigen::Index n = K.size;
+  if (n == 0) return 1;
+  // Higham's algorithm 15.4 for one vector; the second column is its alternative estimate, solved along with the first.
+  Eigen::MatrixXd start(n, 2);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    start(i, 0) = 1 / static_cast<double>(n);
+    const double ramp = n > 1 ? 1 + static_cast<double>(i) / static_cast<double>(n - 1) : 1;
+    start(i, 1) = i % 2 == 0 ? ramp : -ramp;
+  }
+  solve(start);
+  double estimate = start.col(0).lpNorm<1>();
+  const double alternative = 2 * start.col(1).lpNorm<1>() / (3 * static_cast<double>(n));
+  Eigen::VectorXd y = start.col(0);
+  Eigen::Index last = -1;
+  constexpr int most_steps = 5;
+  for (int step = 0; step < most_steps; ++step) {
+    Eigen::MatrixXd z = y.unaryExpr([](double v) { return v < 0 ? -1.0 : 1.0; });
+    solve(z);
+    Eigen::Index best = 0;
+    z.col(0).cwiseAbs().maxCoeff(&best);
+    if (best == last) break;
+    last = best;
+    Eigen::MatrixXd x = Eigen::MatrixXd::Zero(n, 1);
+    x(best, 0) = 1;
+    solve(x);
+    const double grown = x.col(0).lpNorm<1>();
+    if (!(grown > estimate)) break;
+    estimate = grown;
+    y = x.col(0);
+  }
+  const double condition = std::max(estimate, alternative) * norm1(K);
+  return std::isfinite(condition) ? std::max(condition, 1.0) : std::numeric_limits<double>::infinity();
+}
+
+double forward_error_bound(double condition, double backward_error) {
+  return 2 * condition * std::max(backward_error, epsilon / 2);
+}
+
+}  // namespace topple::solver

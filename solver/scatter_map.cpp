@@ -1,0 +1,138 @@
+#include "scatter_map.h"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+namespace topple::solver {
+
+ScatterMap::ScatterMap(const DofMap& dofs, std::vector<int> freedoms, std::vector<std::int64_t> start)
+    : dofs_(dofs), freedoms_(std::move(freedoms)), start_(std::move(start)) {
+  build_pattern();
+  build_positions();
+}
+
+std::span<const int> ScatterMap::freedoms(std::size_t element) const {
+  return std::span(freedoms_).subspan(static_cast<std::size_t>(start_[element]),
+                                      static_cast<std::size_t>(start_[element + 1] - start_[element]));
+}
+
+void ScatterMap::build_pattern() {
+  std::vector<int> touched;
+  for (std::size_t element = 0; element + 1 < start_.size(); ++element) {
+    touched.clear();
+    for (int freedom : freedoms(element)) {
+      if (freedom < dofs_.equations) touched.push_back(dofs_.vertex_of_equation[static_cast<std::size_t>(freedom)]);
+    }
+    std::sort(touched.begin(), touched.end());
+    touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+    for (std::size_t i = 0; i < touched.size(); ++i) {
+      for (std::size_t j = i + 1; j < touched.size(); ++j) edges_.emplace_back(touched[i], touched[j]);
+    }
+  }
+  std::sort(edges_.begin(), edges_.end());
+  edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
+
+  pattern_.size = dofs_.equations;
+  pattern_.start.reserve(static_cast<std::size_t>(dofs_.equations) + 1);
+  pattern_.start.push_back(0);
+  edge_offset_.resize(edges_.size());
+  std::size_t edge = 0;
+  for (int v = 0; v < dofs_.vertices(); ++v) {
+    first_edge_.push_back(static_cast<std::int64_t>(edge));
+    const auto size = [&](int w) {
+      return dofs_.first_equation[static_cast<std::size_t>(w) + 1] - dofs_.first_equation[static_cast<std::size_t>(w)];
+    };
+    std::int32_t tail = 0;
+    for (; edge < edges_.size() && edges_[edge].first == v; ++edge) {
+      edge_offset_[edge] = tail;
+      tail += size(edges_[edge].second);
+    }
+    for (int k = 0; k < size(v); ++k) pattern_.start.push_back(pattern_.start.back() + size(v) - k + tail);
+  }
+  first_edge_.push_back(static_cast<std::int64_t>(edge));
+
+  pattern_.row.reserve(static_cast<std::size_t>(pattern_.start.back()));
+  for (int e = 0; e < dofs_.equations; ++e) {
+    const auto v = static_cast<std::size_t>(dofs_.vertex_of_equation[static_cast<std::size_t>(e)]);
+    for (int r = e; r < dofs_.first_equation[v + 1]; ++r) pattern_.row.push_back(r);
+    for (auto k = first_edge_[v]; k < first_edge_[v + 1]; ++k) {
+      const auto w = static_cast<std::size_t>(edges_[static_cast<std::size_t>(k)].second);
+      for (int r = dofs_.first_equation[w]; r < dofs_.first_equation[w + 1]; ++r) pattern_.row.push_back(r);
+    }
+  }
+  pattern_.value.assign(pattern_.row.size(), 0.0);
+}
+
+std::int64_t ScatterMap::position(int equation, int other) const {
+  const int column = std::min(equation, other), row = std::max(equation, other);
+  const int v = dofs_.vertex_of_equation[static_cast<std::size_t>(column)];
+  const int w = dofs_.vertex_of_equation[static_cast<std::size_t>(row)];
+  const std::int64_t start = pattern_.start[static_cast<std::size_t>(column)];
+  if (v == w) return start + row - column;
+  const auto begin = edges_.begin() + first_edge_[static_cast<std::size_t>(v)];
+  const auto end = edges_.begin() + first_edge_[static_cast<std::size_t>(v) + 1];
+  const auto edge = std::lower_bound(begin, end, std::pair(v, w));
+  if (edge == end || edge->second != w) throw std::logic_error("no element joins these equations");
+  return start + dofs_.first_equation[static_cast<std::size_t>(v) + 1] - column +
+         edge_offset_[static_cast<std::size_t>(edge - edges_.begin())] + row -
+         dofs_.first_equation[static_cast<std::size_t>(w)];
+}
+
+void ScatterMap::build_positions() {
+  position_start_.push_back(0);
+  for (std::size_t element = 0; element + 1 < start_.size(); ++element) {
+    const auto numbers = freedoms(element);
+    for (std::size_t j = 0; j < numbers.size(); ++j) {
+      for (std::size_t i = j; i < numbers.size(); ++i) {
+        const int row = numbers[i], column = numbers[j];
+        if (row >= dofs_.equations || column >= dofs_.equations) {
+          positions_.push_back(-1);
+        } else {
+          positions_.push_back(2 * position(row, column) + (i != j && row == column ? 1 : 0));
+        }
+      }
+    }
+    position_start_.push_back(static_cast<std::int64_t>(positions_.size()));
+  }
+}
+
+SparseSymmetric ScatterMap::empty_matrix() const { return pattern_; }
+
+bool ScatterMap::is_wanted(int equation, const std::vector<char>& wanted) const {
+  return wanted.empty() ||
+         wanted[static_cast<std::size_t>(dofs_.vertex_of_equation[static_cast<std::size_t>(equation)])] != 0;
+}
+
+void ScatterMap::add(std::size_t element, const double* k, std::span<const double> scale,
+                     const std::vector<char>& wanted, SparseSymmetric& matrix) const {
+  const auto numbers = freedoms(element);
+  const std::size_t n = numbers.size();
+  const std::int64_t* place = positions_.data() + position_start_[element];
+  for (std::size_t j = 0; j < n; ++j) {
+    if (numbers[j] >= dofs_.equations) {
+      place += n - j;
+      continue;
+    }
+    const double column_scale = scale[static_cast<std::size_t>(numbers[j])];
+    const bool column_wanted = is_wanted(numbers[j], wanted);
+    for (std::size_t i = j; i < n; ++i, ++place) {
+      if (*place < 0 || !(column_wanted || is_wanted(numbers[i], wanted))) continue;
+      const double value = k[j * n + i] * column_scale * scale[static_cast<std::size_t>(numbers[i])];
+      matrix.value[static_cast<std::size_t>(*place >> 1)] += (*place & 1) != 0 ? 2 * value : value;
+    }
+  }
+}
+
+void ScatterMap::clear(std::size_t element, const std::vector<char>& wanted, SparseSymmetric& matrix) const {
+  const auto numbers = freedoms(element);
+  const std::int64_t* place = positions_.data() + position_start_[element];
+  for (std::size_t j = 0; j < numbers.size(); ++j) {
+    for (std::size_t i = j; i < numbers.size(); ++i, ++place) {
+      if (*place < 0 || !(is_wanted(numbers[j], wanted) || is_wanted(numbers[i], wanted))) continue;
+      matrix.value[static_cast<std::size_t>(*place >> 1)] = 0;
+    }
+  }
+}
+
+}  // namespace topple::solver
