@@ -40,8 +40,9 @@ void normalise(Mechanism& mechanism, double length) {
   for (std::size_t n = 0; n < size.size(); ++n) {
     mechanism.motion[n] /= scale;
     const Vec6& u = mechanism.motion[n];
-    size[n] = std::max(u.head<3>().norm(), u.tail<3>().norm() * (turns_only ? 1.0 : length));
-    if (size[n] > moving_share) mechanism.nodes.push_back(static_cast<int>(n));
+    size[n] = turns_only ? u.tail<3>().norm() : u.head<3>().norm();
+    const bool turns = u.tail<3>().norm() * (turns_only ? 1.0 : length) > moving_share;
+    if (size[n] > moving_share || turns) mechanism.nodes.push_back(static_cast<int>(n));
   }
   std::stable_sort(mechanism.nodes.begin(), mechanism.nodes.end(),
                    [&](int a, int b) { return size[static_cast<std::size_t>(a)] > size[static_cast<std::size_t>(b)]; });
