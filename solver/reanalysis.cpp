@@ -145,9 +145,11 @@ void Reanalysis::State::apply_beams(std::vector<int>& touched) {
     const auto i = static_cast<std::size_t>(index);
     const BeamTarget& target = targets[i];
     Beam& beam = system->model.beams[i];
-    const bool on_standing_nodes = system->node_stands[static_cast<std::size_t>(beam.node[0])] != 0 &&
-                                   system->node_stands[static_cast<std::size_t>(beam.node[1])] != 0;
-    const char stands = !target.removed && on_standing_nodes ? 1 : 0;
+    // A beam with a broken end does not hang on the node there: it stands as a cantilever when that node has left.
+    const auto free_of_dropped = [&](std::size_t end) {
+      return system->node_stands[static_cast<std::size_t>(beam.node[end])] != 0 || target.end_stiffness[end].isZero(0);
+    };
+    const char stands = !target.removed && free_of_dropped(0) && free_of_dropped(1) ? 1 : 0;
     const bool stiffness_changed =
         stands != system->beam_stands[i] ||
         (stands != 0 && (beam.end_stiffness[0] != target.end_stiffness[0] ||
@@ -172,7 +174,10 @@ std::optional<Defect> Reanalysis::State::refactorise(const std::vector<int>& tou
     assembled = true;
   }
   if (auto defect = system->defect()) return defect;
-  if (system->dofs().equations == 0) return std::nullopt;
+  if (system->dofs().equations == 0) {  // everything is held: nothing to factorise, every answer is exact
+    factor_valid = true;
+    return std::nullopt;
+  }
   if (!factor) {
     factor = std::make_unique<Factor>(system->matrix(), system->elimination_order(), options.factorisation);
     ++counters.orderings;

@@ -133,9 +133,10 @@ class StandingFrame {
   /// The place must stand. A place on a member is taken at the nearest point of its axis, on a panel at the nearest
   /// point of its plane; a panel hands the force by the lever rule to two opposite edges along its shorter span.
   [[nodiscard]] UnitResponse respond(const ContactPlace& place, const Vec3& direction) const;
-  /// Breaks now, at an impact (uses up no generation): re-segments and solves; returns how far the unloaded contact
-  /// place moved along `direction` (the shift D of the impact law). Ask stands() of the place's part afterwards: when
-  /// it left, the shift is 0 and there is nothing left to push.
+  /// Breaks these joints now, at an impact (uses up no generation): re-segments and solves. What snaps with them
+  /// (bracing, mechanisms) is told by the next settle(). Returns how far the unloaded contact place moved along
+  /// `direction` (the shift D of the impact law). Ask stands() of the place's part afterwards: when it left, the shift
+  /// is 0 and there is nothing left to push.
   double break_in_impact(std::span<const JointBreak> breaks, const ContactPlace& place, const Vec3& direction);
 
   [[nodiscard]] const FrameCounters& counters() const;

@@ -1,0 +1,226 @@
+#include "frame_loads.h"
+
+#include <algorithm>
+
+#include "index_of.h"
+
+namespace topple::structure {
+
+namespace {
+
+/// Resultant force of one load on a member, its own axes.
+Vec3 resultant(const solver::BeamLoad& load) {
+  switch (load.kind) {
+    case solver::BeamLoad::Kind::distributed:
+      return (load.first + load.last).head<3>() * (0.5 * (load.to - load.from));
+    case solver::BeamLoad::Kind::point:
+      return load.first.head<3>();
+    default:
+      return Vec3::Zero();
+  }
+}
+
+void insert(std::vector<int>& sorted, int value) {
+  const auto place = std::lower_bound(sorted.begin(), sorted.end(), value);
+  if (place == sorted.end() || *place != value) sorted.insert(place, value);
+}
+
+template <class T>
+std::vector<T> sorted_unique(std::vector<T>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return std::exchange(values, {});
+}
+
+}  // namespace
+
+FrameLoads::FrameLoads(const Building& building, PartLoads loads, const PanelBearings& bearings)
+    : building_(building),
+      loads_(std::move(loads)),
+      bearings_(bearings),
+      gravity_(0, 0, -building.gravity),
+      handed_(building.panels.size()),
+      handing_members_(building.members.size()),
+      handing_nodes_(building.nodes.size()),
+      events_(building.nodes.size(), Vec6::Zero()) {
+  const double g = building.gravity;
+  for (std::size_t m = 0; m < building.members.size(); ++m) {
+    double down = 0;
+    for (const solver::BeamLoad& load : loads_.members[m])
+      down -= building.members[m].axes.col(2).dot(resultant(load));  // column 2: the global z in local axes
+    member_mass_.push_back(down / g);
+    changed_members_.push_back(MemberId(m));
+  }
+  for (std::size_t n = 0; n < building.nodes.size(); ++n) {
+    node_mass_.push_back(-loads_.nodes[n](2) / g);
+    changed_nodes_.push_back(NodeId(n));
+  }
+  for (std::size_t p = 0; p < building.panels.size(); ++p) {
+    hand_on_anew(PanelId(p));
+    double down = 0;
+    for (const Vec3& force : handed_[p].edge_force) down -= force.z();
+    panel_mass_.push_back(down / g);
+  }
+}
+
+void FrameLoads::hand_on_anew(PanelId panel) {
+  const std::size_t p = index_of(panel);
+  if (!bearings_.serves(panel)) {
+    handed_[p].edge_force.fill(Vec3::Zero());
+    return;
+  }
+  mark(handed_[p]);
+  if (bearings_.stands(panel)) {
+    handed_[p] = hand_over(building_, bearings_.edge_members(), panel, under_gravity(panel, loads_.panels[p]),
+                           bearings_.holds(panel), bearings_.member_stands());
+    for (const solver::BeamLoad& load : handed_[p].beams)
+      insert(handing_members_[static_cast<std::size_t>(load.beam)], static_cast<int>(p));
+    for (const solver::NodeLoad& load : handed_[p].nodes)
+      insert(handing_nodes_[static_cast<std::size_t>(load.node)], static_cast<int>(p));
+    mark(handed_[p]);
+  } else {
+    handed_[p] = {};
+    handed_[p].edge_force.fill(Vec3::Zero());
+  }
+}
+
+void FrameLoads::mark(const HandOver& handed) {
+  for (const solver::BeamLoad& load : handed.beams)
+    changed_members_.push_back(MemberId(static_cast<std::size_t>(load.beam)));
+  for (const solver::NodeLoad& load : handed.nodes)
+    changed_nodes_.push_back(NodeId(static_cast<std::size_t>(load.node)));
+}
+
+void FrameLoads::mark(const PlacedLoad& placed) {
+  for (const auto& [member, load] : placed.members) changed_members_.push_back(member);
+  for (const auto& [node, load] : placed.nodes) changed_nodes_.push_back(node);
+}
+
+void FrameLoads::set_gravity(const Vec3& gravity) {
+  if (gravity == gravity_) return;
+  gravity_ = gravity;
+  usual_gravity_ = gravity == Vec3(0, 0, -building_.gravity);
+  for (std::size_t m = 0; m < building_.members.size(); ++m) changed_members_.push_back(MemberId(m));
+  for (std::size_t n = 0; n < building_.nodes.size(); ++n) changed_nodes_.push_back(NodeId(n));
+  for (std::size_t p = 0; p < building_.panels.size(); ++p)
+    if (bearings_.stands(PanelId(p))) hand_on_anew(PanelId(p));
+}
+
+void FrameLoads::add_load(NodeId node, const Vec6& load) {
+  if (load.isZero(0)) return;
+  events_[index_of(node)] += load;
+  changed_nodes_.push_back(node);
+}
+
+bool FrameLoads::set_contact(std::int64_t key, PlacedLoad load) {
+  const auto same_load = [](const PlacedLoad& a, const PlacedLoad& b) {
+    const auto same_beam = [](const auto& x, const auto& y) {
+      return x.first == y.first && x.second.from == y.second.from && x.second.first == y.second.first;
+    };
+    return a.panel == b.panel && a.nodes == b.nodes &&
+           std::equal(a.members.begin(), a.members.end(), b.members.begin(), b.members.end(), same_beam);
+  };
+  PlacedLoad& own = contacts_[key];
+  if (same_load(own, load)) return false;
+  mark(own);
+  own = std::move(load);
+  mark(own);
+  return true;
+}
+
+bool FrameLoads::remove_contact(std::int64_t key) {
+  const auto found = contacts_.find(key);
+  if (found == contacts_.end()) return false;
+  mark(found->second);
+  contacts_.erase(found);
+  return true;
+}
+
+std::vector<std::int64_t> FrameLoads::contacts_on(MemberId member) const {
+  std::vector<std::int64_t> keys;
+  for (const auto& [key, load] : contacts_)
+    if (std::any_of(load.members.begin(), load.members.end(), [&](const auto& on) { return on.first == member; }))
+      keys.push_back(key);
+  return keys;
+}
+
+std::vector<std::int64_t> FrameLoads::contacts_on(PanelId panel) const {
+  std::vector<std::int64_t> keys;
+  for (const auto& [key, load] : contacts_)
+    if (load.panel == panel) keys.push_back(key);
+  return keys;
+}
+
+FrameLoads::Changed FrameLoads::take_changed() {
+  return {sorted_unique(changed_members_), sorted_unique(changed_nodes_)};
+}
+
+std::vector<solver::BeamLoad> FrameLoads::own_and_handed(MemberId member) const {
+  std::vector<solver::BeamLoad> all;
+  for (const solver::BeamLoad& load : loads_.members[index_of(member)]) all.push_back(under_gravity(member, load));
+  for (int panel : handing_members_[index_of(member)])
+    for (const solver::BeamLoad& load : handed_[static_cast<std::size_t>(panel)].beams)
+      if (load.beam == member.index) all.push_back(load);
+  return all;
+}
+
+std::vector<solver::BeamLoad> FrameLoads::on(MemberId member) const {
+  std::vector<solver::BeamLoad> all = own_and_handed(member);
+  for (const auto& [key, placed] : contacts_)
+    for (const auto& [bearing, load] : placed.members)
+      if (bearing == member) all.push_back(load);
+  return all;
+}
+
+Vec6 FrameLoads::own_and_handed(NodeId node) const {
+  Vec6 sum = under_gravity(loads_.nodes[index_of(node)]);
+  for (int panel : handing_nodes_[index_of(node)])
+    for (const solver::NodeLoad& load : handed_[static_cast<std::size_t>(panel)].nodes)
+      if (load.node == node.index) sum += load.load;
+  return sum;
+}
+
+Vec6 FrameLoads::on(NodeId node) const {
+  Vec6 sum = own_and_handed(node) + events_[index_of(node)];
+  for (const auto& [key, placed] : contacts_)
+    for (const auto& [bearing, load] : placed.nodes)
+      if (bearing == node) sum += load;
+  return sum;
+}
+
+Vec3 FrameLoads::edge_force(PanelId panel, int edge) const {
+  const auto e = static_cast<std::size_t>(edge);
+  Vec3 force = handed_[index_of(panel)].edge_force[e];
+  for (const auto& [key, placed] : contacts_)
+    if (placed.panel == panel) force += placed.edge_force[e];
+  return force;
+}
+
+/// What points down is weight and turns with gravity; everything else stays.
+solver::BeamLoad FrameLoads::under_gravity(MemberId member, solver::BeamLoad load) const {
+  if (usual_gravity_ || load.kind == solver::BeamLoad::Kind::temperature) return load;
+  const Mat3& axes = building_[member].axes;
+  for (Vec6* part : {&load.first, &load.last}) {
+    const double weight = -axes.col(2).dot(part->head<3>());
+    part->head<3>() += axes * (weight / building_.gravity * gravity_ + weight * Vec3::UnitZ());
+  }
+  return load;
+}
+
+Vec6 FrameLoads::under_gravity(const Vec6& load) const {
+  if (usual_gravity_) return load;
+  Vec6 turned = load;
+  turned.head<3>() += load(2) * (-gravity_ / building_.gravity - Vec3::UnitZ());
+  return turned;
+}
+
+PanelAction FrameLoads::under_gravity(PanelId panel, PanelAction action) const {
+  if (usual_gravity_) return action;
+  const Vec3 normal = building_[panel].axes.row(2);
+  const Vec3 force = action.body_force - action.pressure * normal;
+  action.pressure = 0;
+  action.body_force = force + force.z() * (-gravity_ / building_.gravity - Vec3::UnitZ());
+  return action;
+}
+
+}  // namespace topple::structure

@@ -1,0 +1,224 @@
+#include "frame_statics.h"
+
+#include <numeric>
+
+namespace topple::structure {
+
+namespace {
+
+/// Component number of each node: connected by members, membranes and diaphragms, numbered in order of the least node.
+std::vector<int> components_of(const Building& building, const Frame& frame) {
+  std::vector<std::size_t> parent(building.nodes.size());
+  std::iota(parent.begin(), parent.end(), std::size_t{0});
+  const auto find = [&](std::size_t v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  const auto join = [&](int a, int b) {
+    parent[find(static_cast<std::size_t>(a))] = find(static_cast<std::size_t>(b));
+  };
+  for (const solver::Beam& beam : frame.model.beams) join(beam.node[0], beam.node[1]);
+  for (const solver::Shell& shell : frame.model.shells)
+    for (std::size_t corner = 1; corner < 4; ++corner) join(shell.node[0], shell.node[corner]);
+  for (const solver::Diaphragm& diaphragm : frame.model.diaphragms)
+    for (int node : diaphragm.nodes) join(diaphragm.nodes.front(), node);
+  std::vector<int> number(parent.size(), -1), answer(parent.size());
+  int count = 0;
+  for (std::size_t n = 0; n < parent.size(); ++n) {
+    int& component = number[find(n)];
+    if (component < 0) component = count++;
+    answer[n] = component;
+  }
+  return answer;
+}
+
+}  // namespace
+
+FrameStatics::FrameStatics(const Building& building, int threads) {
+  const Frame frame = make_frame(building);
+  std::vector<solver::FrameModel> models = split(building, frame);
+  solver::AnalysisOptions options;
+  options.threads = threads;
+  for (std::size_t c = 0; c < models.size(); ++c)
+    components_[c].analysis = std::make_unique<solver::Reanalysis>(std::move(models[c]), options);
+}
+
+std::vector<solver::FrameModel> FrameStatics::split(const Building& building, const Frame& frame) {
+  const std::vector<int> number = components_of(building, frame);
+  std::vector<solver::FrameModel> models;
+  const auto local = [&](int node) { return node_place_[static_cast<std::size_t>(node)].local; };
+  const auto component = [&](int node) { return static_cast<std::size_t>(number[static_cast<std::size_t>(node)]); };
+  for (std::size_t n = 0; n < building.nodes.size(); ++n) {
+    const auto c = component(static_cast<int>(n));
+    if (c == models.size()) {
+      models.emplace_back();
+      components_.emplace_back();
+    }
+    node_place_.push_back({static_cast<int>(c), static_cast<int>(models[c].nodes.size())});
+    models[c].nodes.push_back(frame.model.nodes[n]);
+    components_[c].nodes.push_back(NodeId(n));
+  }
+  for (std::size_t m = 0; m < building.members.size(); ++m) {
+    solver::Beam beam = frame.model.beams[m];
+    const auto c = component(beam.node[0]);
+    beam.node = {local(beam.node[0]), local(beam.node[1])};
+    member_place_.push_back({static_cast<int>(c), static_cast<int>(models[c].beams.size())});
+    models[c].beams.push_back(beam);
+    components_[c].members.push_back(MemberId(m));
+  }
+  membrane_place_.resize(building.panels.size());
+  for (std::size_t p = 0; p < building.panels.size(); ++p) {
+    if (frame.shell_of_panel[p] < 0) continue;
+    solver::Shell shell = frame.model.shells[static_cast<std::size_t>(frame.shell_of_panel[p])];
+    const auto c = component(shell.node[0]);
+    for (int& node : shell.node) node = local(node);
+    membrane_place_[p] = {static_cast<int>(c), static_cast<int>(models[c].shells.size())};
+    models[c].shells.push_back(shell);
+    components_[c].membranes.push_back(PanelId(p));
+  }
+  for (solver::Support support : frame.model.supports) {
+    const auto c = component(support.node);
+    support_node_.push_back(NodeId(static_cast<std::size_t>(support.node)));
+    support.node = local(support.node);
+    support_place_.push_back({static_cast<int>(c), static_cast<int>(models[c].supports.size())});
+    models[c].supports.push_back(support);
+  }
+  for (solver::Diaphragm diaphragm : frame.model.diaphragms) {
+    const auto c = component(diaphragm.nodes.front());
+    for (int& node : diaphragm.nodes) node = local(node);
+    models[c].diaphragms.push_back(std::move(diaphragm));
+  }
+  return models;
+}
+
+solver::Reanalysis& FrameStatics::changing(const Place& place) {
+  Component& component = components_[static_cast<std::size_t>(place.component)];
+  component.changed = true;
+  return *component.analysis;
+}
+
+const solver::Reanalysis& FrameStatics::at(const Place& place) const { return *parts(place.component).analysis; }
+
+void FrameStatics::break_joint(MemberId member, int end) {
+  const Place& place = member_place_[index(member)];
+  changing(place).set_end_stiffness(place.local, end, Vec6::Zero());
+}
+
+void FrameStatics::remove(MemberId member) {
+  const Place& place = member_place_[index(member)];
+  changing(place).remove_beam(place.local);
+}
+
+void FrameStatics::remove_membrane(PanelId panel) {
+  const Place& place = membrane_place_[index(panel)];
+  if (place.component >= 0) changing(place).remove_shell(place.local);
+}
+
+void FrameStatics::remove_support(NodeId node) {
+  for (std::size_t s = 0; s < support_node_.size(); ++s)
+    if (support_node_[s] == node)
+      changing(support_place_[s]).set_support_stiffness(support_place_[s].local, Vec6::Zero());
+}
+
+void FrameStatics::drop(const std::vector<NodeId>& nodes) {
+  for (NodeId node : nodes) {
+    const Place& place = node_place_[index(node)];
+    const int local[] = {place.local};
+    changing(place).drop_nodes(local);
+  }
+}
+
+void FrameStatics::set_loads(MemberId member, std::vector<solver::BeamLoad> loads) {
+  const Place& place = member_place_[index(member)];
+  for (solver::BeamLoad& load : loads) load.beam = place.local;
+  changing(place).set_beam_loads(place.local, std::move(loads));
+}
+
+void FrameStatics::set_load(NodeId node, const Vec6& load) {
+  const Place& place = node_place_[index(node)];
+  changing(place).set_node_load(place.local, load);
+}
+
+std::optional<FrameMechanism> FrameStatics::solve(int number) {
+  Component& component = components_[static_cast<std::size_t>(number)];
+  const solver::ReanalysisAnswer& answer = component.analysis->solve();
+  operations_ += component.analysis->last_operations();
+  component.changed = false;
+  if (answer.stable) return std::nullopt;
+  component.changed = true;
+  FrameMechanism mechanism;
+  mechanism.motion.assign(node_place_.size(), Vec6::Zero());
+  for (int local : answer.mechanism.nodes) mechanism.nodes.push_back(component.nodes[static_cast<std::size_t>(local)]);
+  for (std::size_t i = 0; i < answer.mechanism.motion.size(); ++i)
+    mechanism.motion[index(component.nodes[i])] = answer.mechanism.motion[i];
+  return mechanism;
+}
+
+const Vec6& FrameStatics::displacement(NodeId node) const {
+  const Place& place = node_place_[index(node)];
+  return at(place).displacements()[static_cast<std::size_t>(place.local)];
+}
+
+solver::Vec12 FrameStatics::end_forces(MemberId member) const {
+  const Place& place = member_place_[index(member)];
+  return at(place).beam_end_forces(place.local);
+}
+
+std::array<Vec6, 4> FrameStatics::corner_forces(PanelId membrane) const {
+  const Place& place = membrane_place_[index(membrane)];
+  return at(place).shell_corner_forces(place.local);
+}
+
+Vec6 FrameStatics::reaction(std::size_t support) const {
+  return at(support_place_[support]).reaction(support_place_[support].local);
+}
+
+Vec3 FrameStatics::point_displacement(MemberId member, double distance,
+                                      const std::vector<solver::BeamLoad>& loads) const {
+  const Place& place = member_place_[index(member)];
+  return at(place).point_displacement(place.local, distance, at(place).displacements(), loads);
+}
+
+FrameStatics::Response FrameStatics::respond(int component, const ResponseLoads& loads) const {
+  solver::LoadSet set;
+  for (const auto& [node, load] : loads.nodes) set.nodes.push_back({node_place_[index(node)].local, load});
+  for (const auto& [member, load] : loads.members) {
+    set.beams.push_back(load);
+    set.beams.back().beam = member_place_[index(member)].local;
+  }
+  Response response;
+  response.statics_ = this;
+  response.component_ = component;
+  response.answer_ = parts(component).analysis->respond(set);
+  return response;
+}
+
+const Vec6& FrameStatics::Response::displacement(NodeId node) const {
+  return answer_.displacements[static_cast<std::size_t>(statics_->node_place_[index(node)].local)];
+}
+
+const solver::Vec12& FrameStatics::Response::end_forces(MemberId member) const {
+  return answer_.beam_end_forces[static_cast<std::size_t>(statics_->member_place_[index(member)].local)];
+}
+
+Vec3 FrameStatics::Response::point_displacement(MemberId member, double distance,
+                                                const std::vector<solver::BeamLoad>& loads) const {
+  const Place& place = statics_->member_place_[index(member)];
+  return statics_->at(place).point_displacement(place.local, distance, answer_.displacements, loads);
+}
+
+solver::ReanalysisCounters FrameStatics::counters() const {
+  solver::ReanalysisCounters sum;
+  for (const Component& component : components_) {
+    const solver::ReanalysisCounters& one = component.analysis->counters();
+    sum.solves += one.solves;
+    sum.unchanged += one.unchanged;
+    sum.load_solves += one.load_solves;
+    sum.low_rank += one.low_rank;
+    sum.refactorisations += one.refactorisations;
+    sum.orderings += one.orderings;
+  }
+  return sum;
+}
+
+}  // namespace topple::structure

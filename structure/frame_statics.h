@@ -1,0 +1,107 @@
+#pragma once
+// The solver behind a standing frame, in the building's own ids. Each connected component that the undamaged building
+// has (by members, membranes and diaphragms) is one solver::Reanalysis, so that a street of houses costs what was
+// touched.
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "topple/solver/reanalysis.h"
+#include "topple/structure/frame.h"
+
+namespace topple::structure {
+
+/// A motion without strain that the solver found, for every node of the building.
+struct FrameMechanism {
+  std::vector<NodeId> nodes;  ///< most first
+  std::vector<Vec6> motion;
+};
+
+class FrameStatics {
+ public:
+  FrameStatics(const Building& building, int threads);
+
+  // Changes; they take effect together in the next solve() of their component.
+  void break_joint(MemberId member, int end);
+  void remove(MemberId member);
+  void remove_membrane(PanelId panel);
+  void remove_support(NodeId node);
+  void drop(const std::vector<NodeId>& nodes);
+  /// Loads in the member's local axes; BeamLoad::beam is set here.
+  void set_loads(MemberId member, std::vector<solver::BeamLoad> loads);
+  void set_load(NodeId node, const Vec6& load);
+
+  [[nodiscard]] int components() const { return static_cast<int>(components_.size()); }
+  [[nodiscard]] int component(NodeId node) const { return node_place_[index(node)].component; }
+  [[nodiscard]] int component(MemberId member) const { return member_place_[index(member)].component; }
+  [[nodiscard]] bool changed(int component) const { return parts(component).changed; }
+  [[nodiscard]] const std::vector<MemberId>& members(int component) const { return parts(component).members; }
+  [[nodiscard]] const std::vector<NodeId>& nodes(int component) const { return parts(component).nodes; }
+  [[nodiscard]] const std::vector<PanelId>& membranes(int component) const { return parts(component).membranes; }
+
+  /// Brings one component up to date. A mechanism leaves the displacements as they were.
+  [[nodiscard]] std::optional<FrameMechanism> solve(int component);
+  /// Nothing of the component stands: there is nothing to solve.
+  void forget(int component) { components_[static_cast<std::size_t>(component)].changed = false; }
+
+  // The answer as solved last.
+  [[nodiscard]] const Vec6& displacement(NodeId node) const;
+  [[nodiscard]] solver::Vec12 end_forces(MemberId member) const;
+  [[nodiscard]] std::array<Vec6, 4> corner_forces(PanelId membrane) const;
+  /// Of the support at its index in Building::supports.
+  [[nodiscard]] Vec6 reaction(std::size_t support) const;
+  /// Displacement of a point of a member's axis at this distance from its first end, `loads` being those on it.
+  [[nodiscard]] Vec3 point_displacement(MemberId member, double distance,
+                                        const std::vector<solver::BeamLoad>& loads) const;
+
+  /// Response to loads on one component alone, in building ids.
+  class Response {
+   public:
+    [[nodiscard]] const Vec6& displacement(NodeId node) const;
+    [[nodiscard]] const solver::Vec12& end_forces(MemberId member) const;
+    [[nodiscard]] Vec3 point_displacement(MemberId member, double distance,
+                                          const std::vector<solver::BeamLoad>& loads) const;
+    [[nodiscard]] int component() const { return component_; }
+
+   private:
+    friend class FrameStatics;
+    const FrameStatics* statics_ = nullptr;
+    int component_ = 0;
+    solver::Reanalysis::Response answer_;
+  };
+  struct ResponseLoads {
+    std::vector<std::pair<MemberId, solver::BeamLoad>> members;
+    std::vector<std::pair<NodeId, Vec6>> nodes;
+  };
+  [[nodiscard]] Response respond(int component, const ResponseLoads& loads) const;
+
+  [[nodiscard]] solver::ReanalysisCounters counters() const;
+  [[nodiscard]] double operations() const { return operations_; }
+
+ private:
+  struct Place {
+    int component = -1, local = -1;
+  };
+  struct Component {
+    std::vector<NodeId> nodes;
+    std::vector<MemberId> members;
+    std::vector<PanelId> membranes;
+    std::unique_ptr<solver::Reanalysis> analysis;
+    bool changed = true;
+  };
+  template <class Tag>
+  static std::size_t index(Id<Tag> id) {
+    return static_cast<std::size_t>(id.index);
+  }
+  [[nodiscard]] const Component& parts(int component) const { return components_[static_cast<std::size_t>(component)]; }
+  solver::Reanalysis& changing(const Place& place);
+  [[nodiscard]] const solver::Reanalysis& at(const Place& place) const;
+  std::vector<solver::FrameModel> split(const Building& building, const Frame& frame);
+
+  std::vector<Place> node_place_, member_place_, membrane_place_, support_place_;
+  std::vector<NodeId> support_node_;
+  std::vector<Component> components_;
+  double operations_ = 0;
+};
+
+}  // namespace topple::structure

@@ -1,0 +1,70 @@
+#include "panel_demand.h"
+
+#include <Eigen/Geometry>
+
+#include "index_of.h"
+
+namespace topple::structure {
+
+namespace {
+
+/// Rows: outwards across the edge, along it, normal.
+Mat3 edge_axes(const Building& building, const Panel& panel, std::size_t edge) {
+  const Vec3 along =
+      (building[panel.nodes[(edge + 1) % 4]].position - building[panel.nodes[edge]].position).normalized();
+  const Vec3 normal = panel.axes.row(2);
+  Mat3 axes;
+  axes.row(0) = along.cross(normal).normalized();
+  axes.row(1) = along;
+  axes.row(2) = normal;
+  return axes;
+}
+
+double area(const Building& building, const Panel& panel) {
+  const auto corner = [&](std::size_t i) -> const Vec3& { return building[panel.nodes[i]].position; };
+  return 0.5 * (corner(2) - corner(0)).cross(corner(3) - corner(1)).norm();
+}
+
+}  // namespace
+
+Vec6 handed_edge_demand(const Building& building, const PanelBearings& bearings, PanelId panel, int edge,
+                        const Vec3& force) {
+  Vec6 demand = Vec6::Zero();
+  const double length = bearings.intact_length(panel, edge);
+  if (length > 0)
+    demand.head<3>() = -(edge_axes(building, building[panel], static_cast<std::size_t>(edge)) * force) / length;
+  return demand;
+}
+
+std::array<Vec6, 4> membrane_edge_demands(const Building& building, PanelId id,
+                                          const std::array<Vec6, 4>& corner_forces) {
+  const Panel& panel = building[id];
+  const Vec3 origin = building[panel.nodes[0]].position;
+  Mat3 virial = Mat3::Zero();
+  for (std::size_t corner = 0; corner < 4; ++corner)
+    virial += corner_forces[corner].head<3>() * (building[panel.nodes[corner]].position - origin).transpose();
+  const Mat3 stress = 0.5 * (virial + virial.transpose()) / area(building, panel);
+  std::array<Vec6, 4> demands;
+  for (std::size_t edge = 0; edge < 4; ++edge) {
+    const Mat3 axes = edge_axes(building, panel, edge);
+    const Vec3 traction = axes * (stress * axes.row(0).transpose());
+    demands[edge] << traction(0), traction(1), 0, 0, 0, 0;
+  }
+  return demands;
+}
+
+std::array<Vec6, 4> panel_edge_demands(const Building& building, const PanelBearings& bearings, const FrameLoads& loads,
+                                       PanelId panel, const std::optional<std::array<Vec6, 4>>& corner_forces) {
+  std::array<Vec6, 4> demands{Vec6::Zero(), Vec6::Zero(), Vec6::Zero(), Vec6::Zero()};
+  if (corner_forces) demands = membrane_edge_demands(building, panel, *corner_forces);
+  for (int edge = 0; edge < 4; ++edge) {
+    const auto e = static_cast<std::size_t>(edge);
+    if (bearings.holds(panel)[e])
+      demands[e] += handed_edge_demand(building, bearings, panel, edge, loads.edge_force(panel, edge));
+    else
+      demands[e].setZero();
+  }
+  return demands;
+}
+
+}  // namespace topple::structure

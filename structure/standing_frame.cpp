@@ -1,0 +1,277 @@
+#include "topple/structure/standing_frame.h"
+
+#include <algorithm>
+
+#include "index_of.h"
+#include "panel_demand.h"
+#include "placed_load.h"
+#include "standing_state.h"
+#include "topple/structure/error.h"
+#include "unstable_model.h"
+
+namespace topple::structure {
+
+StandingFrame::State::State(const Building& given, CombinationId combination, const FailureRules& failure, int threads)
+    : building(given),
+      rules(failure),
+      edges(given),
+      segments(given),
+      bearings(given, edges),
+      loads(given, part_loads(given, combination), bearings),
+      statics(given, threads),
+      joints(given, failure.sudden),
+      checked_joints(static_cast<std::size_t>(statics.components())),
+      component_panels(checked_joints.size()),
+      to_check(checked_joints.size(), 1),
+      solved_nodes(checked_joints.size(), 0),
+      node_solved(given.nodes.size(), 1),
+      in_mechanism(given.members.size(), 0) {
+  if (rules.bracing == BracingRule::classic) bracing.emplace(building);
+  for (std::size_t j = 0; j < building.joints.size(); ++j)
+    if (building.joints[j].capacity.breakable)
+      checked_joints[static_cast<std::size_t>(component(JointId(j)))].push_back(JointId(j));
+  for (std::size_t n = 0; n < building.nodes.size(); ++n)
+    ++solved_nodes[static_cast<std::size_t>(statics.component(NodeId(n)))];
+  for (std::size_t p = 0; p < building.panels.size(); ++p)
+    component_panels[static_cast<std::size_t>(statics.component(building.panels[p].nodes[0]))].push_back(PanelId(p));
+  if (const auto floating = segments.take_unanchored(); !floating.empty()) {
+    FrameMechanism mechanism;
+    mechanism.nodes = floating.front().nodes;
+    mechanism.motion.assign(building.nodes.size(), Vec6::Zero());
+    for (NodeId node : mechanism.nodes) mechanism.motion[index_of(node)](2) = -1;
+    throw UnstableModel(describe_mechanism(building, mechanism) + "; nothing connects them to a support");
+  }
+  write_loads();
+  for (int c = 0; c < statics.components(); ++c) {
+    if (const auto mechanism = statics.solve(c)) throw UnstableModel(describe_mechanism(building, *mechanism));
+    read_demands(c, true);
+  }
+  // Nothing broke to get here: this state is R0. Joints over capacity break in the first generation.
+  pending = !next_generation().empty();
+}
+
+bool StandingFrame::State::stands(PanelId panel) const {
+  return bearings.serves(panel) ? bearings.stands(panel) : segments.label(panel) >= 0;
+}
+
+bool StandingFrame::State::stands(const ContactPlace& place) const {
+  return place.member.valid() ? stands(place.member) : place.panel.valid() && stands(place.panel);
+}
+
+bool StandingFrame::State::holds(JointId joint) const {
+  const Joint& own = building[joint];
+  if (own.member.valid() || !bearings.serves(own.panel)) return segments.holds(joint);
+  return bearings.holds(own.panel)[static_cast<std::size_t>(own.end)];
+}
+
+int StandingFrame::State::component(JointId joint) const {
+  const Joint& own = building[joint];
+  return own.member.valid() ? statics.component(own.member) : statics.component(building[own.panel].nodes[0]);
+}
+
+int StandingFrame::State::label(JointId joint) const {
+  const Joint& own = building[joint];
+  if (own.member.valid()) return segments.label(own.member);
+  if (!bearings.serves(own.panel)) return segments.label(own.panel);
+  if (!bearings.stands(own.panel)) return -1;
+  const auto member = bearings.bearing_member(own.panel);
+  return member ? segments.label(*member) : segments.label(bearings.bearing_node(own.panel));
+}
+
+Vec6 StandingFrame::State::demand(JointId joint) const {
+  if (!holds(joint) || label(joint) < 0) return Vec6::Zero();
+  const Joint& own = building[joint];
+  if (own.capacity.breakable) return joints.demand(joint);
+  if (own.member.valid()) return member_joint_demand(statics.end_forces(own.member), own.end);
+  return edge_demands(own.panel)[static_cast<std::size_t>(own.end)];
+}
+
+const Vec6& StandingFrame::State::displacement(NodeId node) const {
+  const auto left = left_displacement.find(node);
+  return left == left_displacement.end() ? statics.displacement(node) : left->second;
+}
+
+std::array<Vec6, 4> StandingFrame::State::edge_demands(PanelId panel) const {
+  return panel_edge_demands(building, bearings, loads, panel,
+                            bearings.membrane(panel) ? std::optional(statics.corner_forces(panel)) : std::nullopt);
+}
+
+Vec3 StandingFrame::State::position(JointId joint) const {
+  const Joint& own = building[joint];
+  if (own.member.valid()) return on_axis(building, own.member, own.end == 0 ? 0 : building[own.member].length);
+  const auto& nodes = building[own.panel].nodes;
+  const auto edge = static_cast<std::size_t>(own.end);
+  return 0.5 * (building[nodes[edge]].position + building[nodes[(edge + 1) % 4]].position);
+}
+
+const std::vector<int>& StandingFrame::State::numbered_segments() const {
+  if (!segment_numbers.empty()) return segment_numbers;
+  std::vector<char> has_member(static_cast<std::size_t>(segments.labels()), 0);
+  for (std::size_t m = 0; m < building.members.size(); ++m)
+    if (const int label = segments.label(MemberId(m)); label >= 0) has_member[static_cast<std::size_t>(label)] = 1;
+  segment_numbers.assign(has_member.size() + 1, -1);  // the last entry counts
+  int count = 0;
+  for (std::size_t n = 0; n < building.nodes.size(); ++n) {
+    const int label = segments.label(NodeId(n));
+    if (label < 0 || !has_member[static_cast<std::size_t>(label)]) continue;
+    int& number = segment_numbers[static_cast<std::size_t>(label)];
+    if (number < 0) number = count++;
+  }
+  segment_numbers.back() = count;
+  return segment_numbers;
+}
+
+StandingFrame::StandingFrame(const Building& building, CombinationId combination, const FailureRules& rules,
+                             int threads)
+    : state_(std::make_unique<State>(building, combination, rules, threads)) {}
+StandingFrame::~StandingFrame() = default;
+
+bool StandingFrame::stands(MemberId member) const { return state_->stands(member); }
+bool StandingFrame::stands(PanelId panel) const { return state_->stands(panel); }
+bool StandingFrame::stands(NodeId node) const { return state_->stands(node); }
+bool StandingFrame::intact(JointId joint) const { return state_->holds(joint); }
+const Vec6& StandingFrame::displacement(NodeId node) const { return state_->displacement(node); }
+Vec6 StandingFrame::demand(JointId joint) const { return state_->demand(joint); }
+double StandingFrame::largest_utilisation_so_far(JointId joint) const { return state_->joints.largest(joint); }
+double StandingFrame::mass(MemberId member) const { return state_->loads.mass(member); }
+double StandingFrame::mass(PanelId panel) const { return state_->loads.mass(panel); }
+double StandingFrame::node_mass(NodeId node) const { return state_->loads.mass(node); }
+const Building& StandingFrame::building() const { return state_->building; }
+
+Utilisation StandingFrame::utilisation(JointId joint) const {
+  const bool counts = state_->building[joint].capacity.breakable && state_->holds(joint) && state_->label(joint) >= 0;
+  return counts ? state_->joints.utilisation(joint) : Utilisation{};
+}
+
+int StandingFrame::segment(MemberId member) const {
+  const int label = state_->segments.label(member);
+  return label < 0 ? -1 : state_->numbered_segments()[static_cast<std::size_t>(label)];
+}
+
+int StandingFrame::standing_segments() const { return state_->numbered_segments().back(); }
+
+double StandingFrame::roof_sag() const {
+  const std::vector<Node>& nodes = state_->building.nodes;
+  double top = -unlimited, low = unlimited;
+  for (const Node& node : nodes) {
+    top = std::max(top, node.position.z());
+    low = std::min(low, node.position.z());
+  }
+  const double same_height = 1e-9 * std::max(top - low, 1.0);
+  double sum = 0;
+  int count = 0;
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    if (nodes[n].position.z() < top - same_height || !state_->stands(NodeId(n))) continue;
+    sum -= state_->displacement(NodeId(n))(2);
+    ++count;
+  }
+  return count > 0 ? sum / count : 0;
+}
+
+void StandingFrame::break_joint(JointId joint, BreakCause cause) {
+  state_->queue.push_back(State::BreakJoint{joint, cause});
+  state_->pending = true;
+}
+void StandingFrame::remove(MemberId member) {
+  state_->queue.push_back(member);
+  state_->pending = true;
+}
+void StandingFrame::remove(PanelId panel) {
+  state_->queue.push_back(panel);
+  state_->pending = true;
+}
+void StandingFrame::remove_support(NodeId node) {
+  state_->queue.push_back(State::RemoveSupport{node});
+  state_->pending = true;
+}
+void StandingFrame::set_gravity(const Vec3& gravity) {
+  state_->queue.push_back(State::Gravity{gravity});
+  state_->pending = true;
+}
+void StandingFrame::add_load(NodeId node, const Vec6& load) {
+  state_->queue.push_back(State::EventLoad{node, load});
+  state_->pending = true;
+}
+
+void StandingFrame::set_strength_factor(JointId joint, double factor) {
+  State& state = *state_;
+  if (!state.building[joint].capacity.breakable || state.joints.strength(joint) == factor) return;
+  if (!(factor > 0)) return break_joint(joint, BreakCause::tool);
+  state.joints.set_strength(joint, factor);
+  state.to_check[static_cast<std::size_t>(state.component(joint))] = 1;
+  state.pending = true;
+}
+
+void StandingFrame::set_contact_load(const ContactLoad& load) {
+  State& state = *state_;
+  if (!state.stands(load.place)) return;
+  state.contacts[load.key] = load;
+  if (state.loads.set_contact(load.key, place_load(state.building, state.bearings, load.place, load.force)))
+    state.pending = true;
+}
+
+void StandingFrame::remove_contact_load(std::int64_t key) {
+  state_->contacts.erase(key);
+  if (state_->loads.remove_contact(key)) state_->pending = true;
+}
+
+bool StandingFrame::pending() const { return state_->pending; }
+
+std::vector<JointBreak> StandingFrame::settle(int generations) {
+  State& state = *state_;
+  if (!state.pending) {
+    ++state.idle_settles;
+    return {};
+  }
+  state.generation = 0;
+  state.lay_contacts();
+  for (const State::Change& change : std::exchange(state.queue, {})) state.apply(change);
+  state.bring_up_to_date();
+  state.pending = false;
+  for (std::vector<JointId> next; !(next = state.next_generation()).empty(); ++state.generation) {
+    if (state.generation >= generations) {
+      state.pending = true;
+      break;
+    }
+    state.break_joints(next, BreakCause::overload);
+    state.bring_up_to_date();
+  }
+  state.generation = 0;
+  return std::exchange(state.breaks, {});
+}
+
+std::vector<Detached> StandingFrame::take_detached() { return std::exchange(state_->detached, {}); }
+
+StandingFrame::UnitResponse StandingFrame::respond(const ContactPlace& place, const Vec3& direction) const {
+  return state_->respond(place, direction);
+}
+
+double StandingFrame::break_in_impact(std::span<const JointBreak> breaks, const ContactPlace& place,
+                                      const Vec3& direction) {
+  State& state = *state_;
+  state.lay_contacts();
+  const double before = state.displacement_along(place, direction);
+  std::vector<JointId> broken;
+  for (const JointBreak& one : breaks) broken.push_back(one.joint);
+  state.break_joints(broken, BreakCause::impact);
+  state.bring_up_to_date();
+  // The caller knows its own breaks; what they brought with them is told by the next settle().
+  std::erase_if(state.breaks, [](const JointBreak& one) { return one.cause == BreakCause::impact; });
+  state.pending = true;
+  return state.stands(place) ? state.displacement_along(place, direction) - before : 0.0;
+}
+
+const FrameCounters& StandingFrame::counters() const {
+  FrameCounters& counters = state_->counters;
+  const solver::ReanalysisCounters solved = state_->statics.counters();
+  counters.solves = solved.solves;
+  counters.low_rank = solved.low_rank;
+  counters.refactorisations = solved.refactorisations;
+  counters.unchanged = solved.unchanged + state_->idle_settles;
+  counters.segmentations = state_->segments.searches();
+  counters.vertices_searched = state_->segments.vertices_searched();
+  counters.operations = state_->statics.operations();
+  return counters;
+}
+
+}  // namespace topple::structure

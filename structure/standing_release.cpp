@@ -1,0 +1,87 @@
+// What hangs on nothing leaves a standing frame: parts without a support, members that can swing by themselves, posts
+// without bracing, and the part of a mechanism that moves.
+#include <algorithm>
+
+#include "index_of.h"
+#include "standing_state.h"
+
+namespace topple::structure {
+
+void StandingFrame::State::release() {
+  do {
+    take_unanchored();
+  } while (release_loose_members() || snap_unbraced());
+}
+
+void StandingFrame::State::take_unanchored() {
+  const std::vector<Segmentation::Part> parts = segments.take_unanchored();
+  if (parts.empty()) return;
+  std::vector<Detached> leaving(parts.size());
+  PanelBearings::Left left;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    leaving[p].members = parts[p].members;
+    leaving[p].nodes = parts[p].nodes;
+    leaving[p].panels = parts[p].panels;
+    for (MemberId member : parts[p].members) {
+      left.members.emplace_back(member, static_cast<int>(p));
+      leaving[p].mechanism = leaving[p].mechanism || in_mechanism[index_of(member)];
+      drop_contacts_on(member);
+      statics.remove(member);
+      to_check[static_cast<std::size_t>(statics.component(member))] = 1;
+    }
+    std::vector<NodeId> dropped;
+    for (NodeId node : parts[p].nodes) {
+      left.nodes.emplace_back(node, static_cast<int>(p));
+      left_displacement.emplace(node, statics.displacement(node));
+      if (!node_solved[index_of(node)]) continue;
+      node_solved[index_of(node)] = 0;
+      --solved_nodes[static_cast<std::size_t>(statics.component(node))];
+      dropped.push_back(node);
+    }
+    statics.drop(dropped);
+  }
+  take(bearings.leave(left), &leaving);
+  for (Detached& part : leaving) {
+    std::sort(part.panels.begin(), part.panels.end());
+    detached.push_back(std::move(part));
+  }
+}
+
+/// True when one was found: it is free now.
+bool StandingFrame::State::release_loose_members() {
+  std::sort(half_held.begin(), half_held.end());
+  half_held.erase(std::unique(half_held.begin(), half_held.end()), half_held.end());
+  bool found = false;
+  for (MemberId member : std::exchange(half_held, {})) {
+    if (!hangs_loose(building, segments, member)) continue;
+    in_mechanism[index_of(member)] = 1;
+    const JointId first = building.joint(member, 0), second = building.joint(member, 1);
+    break_joint(segments.holds(first) ? first : second, BreakCause::overload);
+    found = true;
+  }
+  return found;
+}
+
+bool StandingFrame::State::snap_unbraced() {
+  std::sort(unbraced.begin(), unbraced.end());
+  unbraced.erase(std::unique(unbraced.begin(), unbraced.end()), unbraced.end());
+  bool found = false;
+  for (JointId joint : std::exchange(unbraced, {})) {
+    if (!holds(joint) || label(joint) < 0) continue;
+    break_joint(joint, BreakCause::bracing);
+    found = true;
+  }
+  return found;
+}
+
+void StandingFrame::State::release_mechanism(const FrameMechanism& mechanism) {
+  const MovingPart part = find_moving_part(building, segments, mechanism);
+  for (MemberId member : part.members) in_mechanism[index_of(member)] = 1;
+  for (JointId joint : part.holds) break_joint(joint, BreakCause::overload);
+  for (NodeId node : part.nodes) {
+    segments.remove_support(node);
+    statics.remove_support(node);
+  }
+}
+
+}  // namespace topple::structure

@@ -1,0 +1,114 @@
+// Bringing a standing frame's statics up to date, and reading from it what its joints bear.
+#include <algorithm>
+
+#include "index_of.h"
+#include "placed_load.h"
+#include "standing_state.h"
+
+namespace topple::structure {
+
+/// Contact loads come on slowly: their change moves R0 as much as R, so that no sudden-loss factor acts on them.
+void StandingFrame::State::lay_contacts() {
+  if (!loads.changed()) return;
+  write_loads();
+  for (int c = 0; c < statics.components(); ++c) {
+    if (!statics.changed(c)) continue;
+    // Loads alone make no mechanism in a structure that was stable before.
+    if (statics.solve(c)) continue;
+    read_demands(c, true);
+    to_check[static_cast<std::size_t>(c)] = 1;
+  }
+}
+
+void StandingFrame::State::bring_up_to_date() {
+  segment_numbers.clear();
+  do {
+    release();
+    write_loads();
+  } while (solve_changed());
+}
+
+void StandingFrame::State::write_loads() {
+  const FrameLoads::Changed changed = loads.take_changed();
+  for (MemberId member : changed.members)
+    if (stands(member)) statics.set_loads(member, loads.on(member));
+  for (NodeId node : changed.nodes)
+    if (node_solved[index_of(node)]) statics.set_load(node, loads.on(node));
+}
+
+/// True when a mechanism was found and its moving part cut free: then it is to be released and solved again.
+bool StandingFrame::State::solve_changed() {
+  bool found = false;
+  for (int c = 0; c < statics.components(); ++c) {
+    if (!statics.changed(c)) continue;
+    if (solved_nodes[static_cast<std::size_t>(c)] == 0) {
+      statics.forget(c);
+      continue;
+    }
+    if (const auto mechanism = statics.solve(c)) {
+      release_mechanism(*mechanism);
+      found = true;
+      continue;
+    }
+    read_demands(c, false);
+    to_check[static_cast<std::size_t>(c)] = 1;
+  }
+  return found;
+}
+
+void StandingFrame::State::read_demands(int c, bool slow) {
+  const auto set = [&](JointId joint, const Vec6& demand) {
+    slow ? joints.set_slow_demand(joint, demand) : joints.set_demand(joint, demand);
+  };
+  MemberId member_read;
+  solver::Vec12 end_forces;
+  PanelId panel_read;
+  std::array<Vec6, 4> of_edges;
+  for (JointId joint : checked_joints[static_cast<std::size_t>(c)]) {
+    if (!holds(joint) || label(joint) < 0) continue;
+    const Joint& own = building[joint];
+    if (own.member.valid()) {
+      if (own.member != member_read) end_forces = statics.end_forces(own.member);
+      member_read = own.member;
+      set(joint, member_joint_demand(end_forces, own.end));
+    } else {
+      if (own.panel != panel_read) of_edges = edge_demands(own.panel);
+      panel_read = own.panel;
+      set(joint, of_edges[static_cast<std::size_t>(own.end)]);
+    }
+  }
+}
+
+/// The joints that break next: in each segment all that are over capacity and within `same_time` of its largest, in
+/// order of id. A segment without any has come to rest: R becomes R0.
+std::vector<JointId> StandingFrame::State::next_generation() {
+  constexpr double same_time = 1e-6;  // relative; symmetric joints differ by rounding only
+  std::vector<JointId> next;
+  std::vector<double> largest;
+  std::vector<std::pair<JointId, double>> over;
+  for (int c = 0; c < statics.components(); ++c) {
+    if (!to_check[static_cast<std::size_t>(c)]) continue;
+    largest.assign(static_cast<std::size_t>(segments.labels()), 0.0);
+    over.clear();
+    const std::vector<JointId>& all = checked_joints[static_cast<std::size_t>(c)];
+    for (JointId joint : all) {
+      const int segment = label(joint);
+      if (segment < 0 || !holds(joint)) continue;
+      const double used = joints.check(joint).value;
+      if (!(used > 1)) continue;
+      over.emplace_back(joint, used);
+      largest[static_cast<std::size_t>(segment)] = std::max(largest[static_cast<std::size_t>(segment)], used);
+    }
+    for (JointId joint : all) {
+      const int segment = label(joint);
+      if (segment >= 0 && largest[static_cast<std::size_t>(segment)] == 0) joints.accept(joint);
+    }
+    for (const auto& [joint, used] : over)
+      if (used >= (1 - same_time) * largest[static_cast<std::size_t>(label(joint))]) next.push_back(joint);
+    to_check[static_cast<std::size_t>(c)] = !over.empty();
+  }
+  std::sort(next.begin(), next.end());
+  return next;
+}
+
+}  // namespace topple::structure

@@ -1,0 +1,124 @@
+#pragma once
+// What a StandingFrame is made of, and its inner steps: damage goes to every part that must know (damage), what lost
+// its hold leaves (release), changed components are solved (solve), joints are checked (check).
+#include <map>
+#include <variant>
+
+#include "bracing.h"
+#include "frame_loads.h"
+#include "frame_statics.h"
+#include "joint_states.h"
+#include "moving_part.h"
+#include "segmentation.h"
+#include "topple/structure/standing_frame.h"
+
+namespace topple::structure {
+
+struct StandingFrame::State {
+  State(const Building& building, CombinationId combination, const FailureRules& rules, int threads);
+
+  // Changes that wait for the next settle().
+  struct BreakJoint {
+    JointId joint;
+    BreakCause cause;
+  };
+  struct RemoveSupport {
+    NodeId node;
+  };
+  struct EventLoad {
+    NodeId node;
+    Vec6 load;
+  };
+  struct Gravity {
+    Vec3 gravity;
+  };
+  using Change = std::variant<BreakJoint, MemberId, PanelId, RemoveSupport, EventLoad, Gravity>;
+
+  // Queries.
+  [[nodiscard]] bool stands(MemberId member) const { return segments.label(member) >= 0; }
+  [[nodiscard]] bool stands(PanelId panel) const;
+  [[nodiscard]] bool stands(NodeId node) const { return segments.label(node) >= 0; }
+  [[nodiscard]] bool stands(const ContactPlace& place) const;
+  [[nodiscard]] bool holds(JointId joint) const;
+  [[nodiscard]] int component(JointId joint) const;
+  [[nodiscard]] int label(JointId joint) const;
+  [[nodiscard]] Vec6 demand(JointId joint) const;
+  [[nodiscard]] Vec3 position(JointId joint) const;
+  /// Of a node that left: as it was then.
+  [[nodiscard]] const Vec6& displacement(NodeId node) const;
+  [[nodiscard]] std::array<Vec6, 4> edge_demands(PanelId panel) const;
+
+  /// Number of each label among the standing segments, in order of their least node.
+  const std::vector<int>& numbered_segments() const;
+
+  // Damage: tells every part; `breaks` gets what is listed as an event.
+  void apply(const Change& change);
+  void break_joint(JointId joint, BreakCause cause);
+  void break_joints(std::span<const JointId> together, BreakCause cause);
+  void tell(JointId joint, BreakCause cause);
+  void damage(JointId joint);
+  void lose_member_joint(JointId joint);
+  void take(const PanelBearings::Changes& changes, std::vector<Detached>* parts);
+  void remove(MemberId member);
+  void remove(PanelId panel);
+  void drop_contacts_on(MemberId member);
+  void drop_contacts_on(PanelId panel);
+  void place_contacts_again(PanelId panel);
+
+  // Release: what hangs on nothing leaves.
+  void release();
+  void take_unanchored();
+  bool release_loose_members();
+  bool snap_unbraced();
+  void release_mechanism(const FrameMechanism& mechanism);
+
+  // Solve.
+  void lay_contacts();
+  void bring_up_to_date();
+  void write_loads();
+  [[nodiscard]] bool solve_changed();
+  void read_demands(int component, bool slow);
+
+  // Check.
+  [[nodiscard]] std::vector<JointId> next_generation();
+
+  // Response.
+  [[nodiscard]] UnitResponse respond(const ContactPlace& place, const Vec3& direction) const;
+  [[nodiscard]] std::vector<std::pair<JointId, Vec6>> response_demands(int component, const PlacedLoad& placed,
+                                                                       const FrameStatics::Response& response) const;
+  [[nodiscard]] double rayleigh_mass(int component, const PlacedLoad& placed, const FrameStatics::Response& response,
+                                     double compliance) const;
+  [[nodiscard]] double displacement_along(const ContactPlace& place, const Vec3& direction) const;
+
+  const Building& building;
+  FailureRules rules;
+  EdgeMembers edges;
+  Segmentation segments;
+  PanelBearings bearings;
+  FrameLoads loads;
+  FrameStatics statics;
+  JointStates joints;
+  std::optional<ClassicBracing> bracing;
+
+  std::vector<std::vector<JointId>> checked_joints;    ///< per component: joints with a capacity
+  std::vector<std::vector<PanelId>> component_panels;  ///< per component
+  std::vector<char> to_check;                          ///< per component
+  std::vector<int> solved_nodes;                       ///< per component: nodes that the solver still holds
+  std::vector<char> node_solved;                       ///< per node
+
+  std::vector<Change> queue;
+  bool pending = false;
+  std::map<std::int64_t, ContactLoad> contacts;
+  std::map<NodeId, Vec6> left_displacement;
+  std::vector<char> in_mechanism;   ///< per member: it moves, and is about to leave
+  std::vector<MemberId> half_held;  ///< members that have just lost one end
+  std::vector<JointId> unbraced;
+  std::vector<Detached> detached;
+  std::vector<JointBreak> breaks;  ///< of the settle() or impact that runs
+  int generation = 0;
+  std::uint64_t idle_settles = 0;
+  mutable FrameCounters counters;
+  mutable std::vector<int> segment_numbers;  ///< per label, made when asked for; empty: to be made
+};
+
+}  // namespace topple::structure

@@ -1,0 +1,11 @@
+#pragma once
+#include <string>
+
+#include "frame_statics.h"
+
+namespace topple::structure {
+
+/// One line: which nodes move, how, and which members hang on them.
+[[nodiscard]] std::string describe_mechanism(const Building& building, const FrameMechanism& mechanism);
+
+}  // namespace topple::structure
