@@ -88,7 +88,10 @@ std::string plain_message(std::string message) {
   if (const auto colon = message.find(": "); message.starts_with("parse error at line") && colon != std::string::npos)
     message.erase(0, colon + 2);
   std::string printable;
-  for (const char c : message) printable += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  for (const char c : message) {  // the text read may hold any byte, broken UTF-8 included
+    const auto byte = static_cast<unsigned char>(c);
+    printable += byte < 0x20 ? ' ' : byte < 0x7f ? c : '?';
+  }
   if (printable.size() > 200) printable = printable.substr(0, 200) + "...";
   return printable;
 }

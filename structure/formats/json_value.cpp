@@ -8,7 +8,9 @@
 namespace topple::structure::formats {
 
 std::string in_quotes(std::string_view text) {
-  constexpr std::size_t longest = 60;
+  std::size_t longest = 60;
+  if (text.size() > longest)  // not in the middle of a UTF-8 character
+    while (longest > 0 && (static_cast<unsigned char>(text[longest]) & 0xc0) == 0x80) --longest;
   std::string result = "\"";
   for (const char c : text.substr(0, longest)) result += static_cast<unsigned char>(c) < 0x20 ? '?' : c;
   return result + (text.size() > longest ? "...\"" : "\"");
