@@ -107,23 +107,47 @@ LoadVector FrameSystem::load_vector(const LoadSet& loads) const {
       add_fixed_end(static_cast<int>(i), fixed.force, result.force);
     }
   }
+  if (!loads.shells.empty()) add_shell_loads(loads.shells, result);
   result.held_displacement = held_displacements(loads.settlements);
-  if (!(result.held_displacement.array() == 0).all()) {
-    for (std::size_t i = 0; i < model.beams.size(); ++i) {
-      const auto freedoms = scatter_.freedoms(i);
-      Vec12 u = Vec12::Zero();
-      for (std::size_t k = 0; k < 12; ++k) {
-        if (freedoms[k] >= dofs_.equations) {
-          u(static_cast<Eigen::Index>(k)) = result.held_displacement(freedoms[k] - dofs_.equations);
-        }
-      }
-      if ((u.array() == 0).all()) continue;
-      const Vec12 force = beam_stiffness(static_cast<int>(i)) * u;
-      for (std::size_t k = 0; k < 12; ++k) result.force(freedoms[k]) -= force(static_cast<Eigen::Index>(k));
-    }
-  }
+  if (!(result.held_displacement.array() == 0).all()) add_settlement_forces(result);
   if (!result.force.allFinite()) throw std::invalid_argument("a load is not finite");
   return result;
+}
+
+void FrameSystem::add_shell_loads(const std::vector<ShellLoad>& loads, LoadVector& result) const {
+  result.shell_fixed.assign(model.shells.size(), Vec24::Zero());
+  for (const ShellLoad& load : loads) {
+    check_index(load.shell, model.shells.size(), "shell");
+    const auto i = static_cast<std::size_t>(load.shell);
+    if (shell_stands[i] == 0) continue;
+    const Shell& shell = model.shells[i];
+    const Vec24 fixed = ShellElement(shell, corner_places(shell, model.nodes)).fixed_forces(load.traction, load.strain);
+    result.shell_fixed[i] += fixed;
+    for (int n = 0; n < 4; ++n) {
+      dofs_.add_node_force(shell.node[static_cast<std::size_t>(n)], -fixed.segment<6>(6 * n), result.force.data());
+    }
+  }
+}
+
+/// What elements with imposed displacements at their held freedoms do to the others.
+void FrameSystem::add_settlement_forces(LoadVector& result) const {
+  const std::size_t beams = model.beams.size();
+  for (std::size_t element = 0; element < beams + model.shells.size(); ++element) {
+    const auto freedoms = scatter_.freedoms(element);
+    Eigen::VectorXd u = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(freedoms.size()));
+    for (std::size_t k = 0; k < freedoms.size(); ++k) {
+      if (freedoms[k] < dofs_.equations) continue;
+      u(static_cast<Eigen::Index>(k)) = result.held_displacement(freedoms[k] - dofs_.equations);
+    }
+    if ((u.array() == 0).all()) continue;
+    Eigen::VectorXd force(u.size());
+    if (element < beams) {
+      force = beam_stiffness(static_cast<int>(element)) * u;
+    } else {
+      force = shell_stiffness(static_cast<int>(element - beams)) * u;
+    }
+    for (std::size_t k = 0; k < freedoms.size(); ++k) result.force(freedoms[k]) -= force(static_cast<Eigen::Index>(k));
+  }
 }
 
 std::optional<Defect> FrameSystem::unbalanced_load(const LoadVector& load) const {

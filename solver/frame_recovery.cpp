@@ -26,6 +26,25 @@ Vec12 FrameSystem::end_forces(int index, const std::vector<Vec6>& displacements,
   return beam_end_forces(CondensedBeam(beam, beam_factor[i]), beam.length, hubs, fixed_end);
 }
 
+std::array<Vec6, 4> FrameSystem::corner_forces(int index, const std::vector<Vec6>& displacements,
+                                               const Vec24& fixed) const {
+  const auto i = static_cast<std::size_t>(index);
+  std::array<Vec6, 4> result;
+  result.fill(Vec6::Zero());
+  if (shell_stands[i] == 0) return result;
+  const Shell& shell = model.shells[i];
+  // From the first corner's place: a rigid translation of the whole costs no digits.
+  Vec24 u;
+  const Vec3 origin = displacements[static_cast<std::size_t>(shell.node[0])].head<3>();
+  for (int n = 0; n < 4; ++n) {
+    u.segment<6>(6 * n) = displacements[static_cast<std::size_t>(shell.node[static_cast<std::size_t>(n)])];
+    u.segment<3>(6 * n) -= origin;
+  }
+  const Vec24 force = ShellElement(shell, corner_places(shell, model.nodes)).stiffness() * u + fixed;
+  for (int n = 0; n < 4; ++n) result[static_cast<std::size_t>(n)] = force.segment<6>(6 * n);
+  return result;
+}
+
 /// Held components of a diaphragm's nodes share what the floor needs; where rigid supports of one rigid floor leave the
 /// shares undetermined, the least ones (sum of squares) are taken.
 void FrameSystem::add_diaphragm_reactions(const std::vector<Vec6>& residual, std::vector<Vec6>& held_reaction) const {
@@ -58,6 +77,7 @@ void FrameSystem::add_diaphragm_reactions(const std::vector<Vec6>& residual, std
 
 std::vector<Vec6> FrameSystem::reactions(const std::vector<Vec6>& displacements,
                                          const std::vector<Vec12>& beam_end_forces,
+                                         const std::vector<std::array<Vec6, 4>>& shell_corner_forces,
                                          const std::vector<Vec6>& node_loads) const {
   // What must act on each node beside its load for equilibrium with its elements.
   std::vector<Vec6> residual(model.nodes.size(), Vec6::Zero());
@@ -66,6 +86,11 @@ std::vector<Vec6> FrameSystem::reactions(const std::vector<Vec6>& displacements,
     const Vec12 force = node_forces(model.beams[i], beam_end_forces[i]);
     residual[static_cast<std::size_t>(model.beams[i].node[0])] += force.head<6>();
     residual[static_cast<std::size_t>(model.beams[i].node[1])] += force.tail<6>();
+  }
+  for (std::size_t i = 0; i < model.shells.size(); ++i) {
+    for (std::size_t n = 0; n < 4; ++n) {
+      residual[static_cast<std::size_t>(model.shells[i].node[n])] += shell_corner_forces[i][n];
+    }
   }
   for (std::size_t n = 0; n < node_loads.size(); ++n) residual[n] -= node_loads[n];
 

@@ -17,7 +17,9 @@ FrameModel checked(FrameModel model) {
     if (!model.nodes[i].allFinite()) throw std::invalid_argument("node " + std::to_string(i) + " is not finite");
   }
   for (std::size_t i = 0; i < model.beams.size(); ++i) check_beam(model.beams[i], static_cast<int>(i), nodes);
-  if (!model.shells.empty()) throw std::invalid_argument("shell 0: shells are not supported");
+  for (std::size_t i = 0; i < model.shells.size(); ++i) {
+    check_shell(model.shells[i], static_cast<int>(i), model.nodes);
+  }
   return model;
 }
 
@@ -32,6 +34,7 @@ ScatterMap make_scatter(const FrameModel& model, const DofMap& dofs) {
     start.push_back(static_cast<std::int64_t>(freedoms.size()));
   };
   for (const Beam& beam : model.beams) add(beam.node);
+  for (const Shell& shell : model.shells) add(shell.node);
   // A node without elements still couples with its diaphragm; in one element of its own it keeps its place.
   for (const Diaphragm& diaphragm : model.diaphragms) {
     for (int node : diaphragm.nodes) add(std::span(&node, 1));
@@ -55,6 +58,7 @@ FrameSystem::FrameSystem(FrameModel given)
     : model(checked(std::move(given))),
       beam_factor(model.beams.size(), 1.0),
       beam_stands(model.beams.size(), 1),
+      shell_stands(model.shells.size(), 1),
       node_stands(model.nodes.size(), 1),
       support_(support_stiffness(model)),
       dofs_(model),
@@ -63,13 +67,15 @@ FrameSystem::FrameSystem(FrameModel given)
       matrix_(scatter_.empty_matrix()),
       scale_(static_cast<std::size_t>(dofs_.equations), 1.0),
       inert_(model.nodes.size()) {
-  for (std::size_t i = 0; i < model.beams.size(); ++i) {
-    for (int node : model.beams[i].node)
-      elements_of_node_[static_cast<std::size_t>(node)].push_back(static_cast<int>(i));
-  }
-  int element = static_cast<int>(model.beams.size());
+  int element = 0;
+  const auto belongs = [&](std::span<const int> nodes) {
+    for (int node : nodes) elements_of_node_[static_cast<std::size_t>(node)].push_back(element);
+    ++element;
+  };
+  for (const Beam& beam : model.beams) belongs(beam.node);
+  for (const Shell& shell : model.shells) belongs(shell.node);
   for (const Diaphragm& diaphragm : model.diaphragms) {
-    for (int node : diaphragm.nodes) elements_of_node_[static_cast<std::size_t>(node)].push_back(element++);
+    for (int node : diaphragm.nodes) belongs(std::span(&node, 1));
   }
 }
 
@@ -79,6 +85,16 @@ std::vector<int> FrameSystem::beams_of_node(int node) const {
     if (static_cast<std::size_t>(element) < model.beams.size()) beams.push_back(element);
   }
   return beams;
+}
+
+std::vector<int> FrameSystem::shells_of_node(int node) const {
+  std::vector<int> shells;
+  const std::size_t beams = model.beams.size();
+  for (int element : elements_of_node_[static_cast<std::size_t>(node)]) {
+    const auto e = static_cast<std::size_t>(element);
+    if (e >= beams && e < beams + model.shells.size()) shells.push_back(static_cast<int>(e - beams));
+  }
+  return shells;
 }
 
 std::vector<int> FrameSystem::elimination_order() const {
@@ -115,10 +131,31 @@ Mat12 FrameSystem::beam_stiffness(int index) const {
   return to_node_freedoms(beam.axes, CondensedBeam(beam, beam_factor[i]).stiffness(), arm);
 }
 
+Mat24 FrameSystem::shell_stiffness(int index) const {
+  const auto i = static_cast<std::size_t>(index);
+  if (shell_stands[i] == 0) return Mat24::Zero();
+  const Shell& shell = model.shells[i];
+  Mat24 K = ShellElement(shell, corner_places(shell, model.nodes)).stiffness();
+  for (int n = 0; n < 4; ++n) {
+    const int node = shell.node[static_cast<std::size_t>(n)];
+    if (dofs_.diaphragm_of_node[static_cast<std::size_t>(node)] < 0) continue;
+    const Mat3 C = dofs_.diaphragm_arm(node);
+    K.middleRows<3>(6 * n + 3) += C.transpose() * K.middleRows<3>(6 * n);
+    K.middleCols<3>(6 * n + 3) += K.middleCols<3>(6 * n) * C;
+  }
+  return K;
+}
+
 void FrameSystem::add_element(std::size_t element, const std::vector<char>& wanted) {
-  if (element >= model.beams.size() || beam_stands[element] == 0) return;
-  const Mat12 K = beam_stiffness(static_cast<int>(element));
-  scatter_.add(element, K.data(), scale_, wanted, matrix_);
+  const std::size_t beams = model.beams.size();
+  if (element < beams) {
+    if (beam_stands[element] == 0) return;
+    const Mat12 K = beam_stiffness(static_cast<int>(element));
+    scatter_.add(element, K.data(), scale_, wanted, matrix_);
+  } else if (element < beams + model.shells.size() && shell_stands[element - beams] != 0) {
+    const Mat24 K = shell_stiffness(static_cast<int>(element - beams));
+    scatter_.add(element, K.data(), scale_, wanted, matrix_);
+  }
 }
 
 double& FrameSystem::entry(int equation, int other) {
@@ -240,7 +277,7 @@ void FrameSystem::set_support(int support, const Vec6& stiffness) {
 void FrameSystem::assemble() {
   std::fill(matrix_.value.begin(), matrix_.value.end(), 0.0);
   std::fill(scale_.begin(), scale_.end(), 1.0);
-  for (std::size_t i = 0; i < model.beams.size(); ++i) add_element(i, {});
+  for (std::size_t i = 0; i < model.beams.size() + model.shells.size(); ++i) add_element(i, {});
   for (std::size_t node = 0; node < model.nodes.size(); ++node) finish_node(static_cast<int>(node));
   finish_diaphragms({});
   set_scale();

@@ -12,6 +12,7 @@
 #include "beam.h"
 #include "dof_map.h"
 #include "scatter_map.h"
+#include "shell.h"
 #include "topple/solver/frame_model.h"
 #include "topple/solver/static_analysis.h"
 
@@ -28,6 +29,7 @@ struct LoadVector {
   Eigen::VectorXd force;              ///< per equation, then per held freedom
   Eigen::VectorXd held_displacement;  ///< per held freedom
   std::vector<Vec12> beam_fixed_end;  ///< per beam, local axes; empty when no beam is loaded
+  std::vector<Vec24> shell_fixed;     ///< per shell, global; empty when no shell is loaded
   std::vector<Vec6> node_load;        ///< per node, as given; empty when none
   std::vector<int> unbalanced_beams;  ///< loaded in a motion that nothing resists
 };
@@ -42,7 +44,7 @@ class FrameSystem {
   // springs.
   FrameModel model;
   std::vector<double> beam_factor;  ///< on E and G
-  std::vector<char> beam_stands, node_stands;
+  std::vector<char> beam_stands, shell_stands, node_stands;
 
   [[nodiscard]] const DofMap& dofs() const { return dofs_; }
   [[nodiscard]] const ScatterMap& scatter() const { return scatter_; }
@@ -51,6 +53,7 @@ class FrameSystem {
 
   /// Beams that reach a node, standing or not, in order.
   [[nodiscard]] std::vector<int> beams_of_node(int node) const;
+  [[nodiscard]] std::vector<int> shells_of_node(int node) const;
   /// Elimination order of the equations: nodes by nested dissection, the equations of a node together.
   [[nodiscard]] std::vector<int> elimination_order() const;
   /// Assembles everything and sets the scale.
@@ -63,6 +66,8 @@ class FrameSystem {
 
   /// K of a beam in the 12 freedoms of its element (diaphragm arms included); zero where it does not stand.
   [[nodiscard]] Mat12 beam_stiffness(int beam) const;
+  /// The same for a shell, 24 freedoms.
+  [[nodiscard]] Mat24 shell_stiffness(int shell) const;
 
   [[nodiscard]] LoadVector load_vector(const LoadSet& loads) const;
   /// A moment on a hub that nothing keeps from turning, or a load on a loose part; empty when there is none.
@@ -78,9 +83,13 @@ class FrameSystem {
   [[nodiscard]] std::vector<Vec6> node_displacements(const Eigen::VectorXd& displacement,
                                                      const Eigen::VectorXd& held) const;
   [[nodiscard]] Vec12 end_forces(int beam, const std::vector<Vec6>& displacements, const Vec12& fixed_end) const;
+  /// Per corner: what the node does to the shell, global; `fixed` as in LoadVector.
+  [[nodiscard]] std::array<Vec6, 4> corner_forces(int shell, const std::vector<Vec6>& displacements,
+                                                  const Vec24& fixed) const;
   /// Per support: what it does to the structure.
   [[nodiscard]] std::vector<Vec6> reactions(const std::vector<Vec6>& displacements,
                                             const std::vector<Vec12>& beam_end_forces,
+                                            const std::vector<std::array<Vec6, 4>>& shell_corner_forces,
                                             const std::vector<Vec6>& node_loads) const;
 
  private:
@@ -91,6 +100,8 @@ class FrameSystem {
   void add_support_springs(int node);
   void hold_inert_rotations(int node);
   void set_scale();
+  void add_shell_loads(const std::vector<ShellLoad>& loads, LoadVector& result) const;
+  void add_settlement_forces(LoadVector& result) const;
   [[nodiscard]] double& entry(int equation, int other);
   void add_diaphragm_reactions(const std::vector<Vec6>& residual, std::vector<Vec6>& held_reaction) const;
   [[nodiscard]] Eigen::VectorXd held_displacements(std::span<const Settlement> settlements) const;

@@ -42,7 +42,8 @@ struct Reanalysis::State {
 
   // Targets, and which of them differ from what the system has.
   std::vector<BeamTarget> targets;
-  std::vector<int> changed_beams;
+  std::vector<int> changed_beams, changed_shells;
+  std::vector<char> shell_removed;
   std::vector<Vec6> node_loads;
   bool node_loads_changed = false;
   std::vector<int> dropped_nodes;
@@ -67,6 +68,7 @@ struct Reanalysis::State {
   void apply_supports(std::vector<int>& touched);
   void apply_dropped_nodes(std::vector<int>& touched);
   void apply_beams(std::vector<int>& touched);
+  void apply_shells(std::vector<int>& touched);
   void rebuild();
   [[nodiscard]] std::optional<Defect> refactorise(const std::vector<int>& touched);
   [[nodiscard]] LoadVector load_vector() const;
@@ -77,12 +79,15 @@ struct Reanalysis::State {
   }
   [[nodiscard]] Eigen::VectorXd solve_scaled(const Eigen::VectorXd& force, SolveQuality& quality) const;
   [[nodiscard]] std::size_t checked_beam(int beam) const;
+  [[nodiscard]] std::size_t checked_shell(int shell) const;
+  void set_shell_removed(int shell, bool removed);
 };
 
 Reanalysis::State::State(FrameModel model, const AnalysisOptions& given)
     : system(std::make_unique<FrameSystem>(std::move(model))), options(given) {
   const FrameModel& m = system->model;
   for (const Beam& beam : m.beams) targets.push_back({beam.end_stiffness, false, 1, {}});
+  shell_removed.assign(m.shells.size(), 0);
   node_loads.assign(m.nodes.size(), Vec6::Zero());
   displacements.assign(m.nodes.size(), Vec6::Zero());
   fixed_end.assign(m.beams.size(), Vec12::Zero());
@@ -96,11 +101,25 @@ std::size_t Reanalysis::State::checked_beam(int beam) const {
   return static_cast<std::size_t>(beam);
 }
 
+std::size_t Reanalysis::State::checked_shell(int shell) const {
+  if (shell < 0 || static_cast<std::size_t>(shell) >= shell_removed.size()) {
+    throw std::invalid_argument("shell " + std::to_string(shell) + " does not exist");
+  }
+  return static_cast<std::size_t>(shell);
+}
+
+void Reanalysis::State::set_shell_removed(int shell, bool removed) {
+  char& target = shell_removed[checked_shell(shell)];
+  if ((target != 0) == removed) return;
+  target = removed ? 1 : 0;
+  changed_shells.push_back(shell);
+}
+
 void Reanalysis::State::mark(int beam) { changed_beams.push_back(beam); }
 
 bool Reanalysis::State::pending() const {
-  return !answered || !changed_beams.empty() || node_loads_changed || !dropped_nodes.empty() ||
-         !changed_supports.empty();
+  return !answered || !changed_beams.empty() || !changed_shells.empty() || node_loads_changed ||
+         !dropped_nodes.empty() || !changed_supports.empty();
 }
 
 void Reanalysis::State::apply_supports(std::vector<int>& touched) {
@@ -121,6 +140,7 @@ void Reanalysis::State::rebuild() {
   auto fresh = std::make_unique<FrameSystem>(system->model);
   fresh->beam_factor = system->beam_factor;
   fresh->beam_stands = system->beam_stands;
+  fresh->shell_stands = system->shell_stands;
   fresh->node_stands = system->node_stands;
   system = std::move(fresh);
   factor.reset();
@@ -134,6 +154,7 @@ void Reanalysis::State::apply_dropped_nodes(std::vector<int>& touched) {
     stands = 0;
     touched.push_back(node);
     for (int beam : system->beams_of_node(node)) changed_beams.push_back(beam);
+    for (int shell : system->shells_of_node(node)) changed_shells.push_back(shell);
   }
   dropped_nodes.clear();
 }
@@ -163,6 +184,20 @@ void Reanalysis::State::apply_beams(std::vector<int>& touched) {
     unbalanced[i] = fixed.unbalanced > 0 ? 1 : 0;
   }
   changed_beams.clear();
+}
+
+void Reanalysis::State::apply_shells(std::vector<int>& touched) {
+  for (int index : changed_shells) {
+    const auto i = static_cast<std::size_t>(index);
+    const auto& nodes = system->model.shells[i].node;
+    const bool on_standing_nodes = std::all_of(
+        nodes.begin(), nodes.end(), [&](int n) { return system->node_stands[static_cast<std::size_t>(n)] != 0; });
+    const char stands = shell_removed[i] == 0 && on_standing_nodes ? 1 : 0;
+    if (stands == system->shell_stands[i]) continue;
+    system->shell_stands[i] = stands;
+    touched.insert(touched.end(), nodes.begin(), nodes.end());
+  }
+  changed_shells.clear();
 }
 
 std::optional<Defect> Reanalysis::State::refactorise(const std::vector<int>& touched) {
@@ -264,12 +299,8 @@ void Reanalysis::restore_beam(int beam) {
   state_->mark(beam);
 }
 
-void Reanalysis::remove_shell(int shell) {
-  throw std::invalid_argument("shell " + std::to_string(shell) + " does not exist");
-}
-void Reanalysis::restore_shell(int shell) {
-  throw std::invalid_argument("shell " + std::to_string(shell) + " does not exist");
-}
+void Reanalysis::remove_shell(int shell) { state_->set_shell_removed(shell, true); }
+void Reanalysis::restore_shell(int shell) { state_->set_shell_removed(shell, false); }
 
 void Reanalysis::set_beam_stiffness_factor(int beam, double factor) {
   if (!(factor > 0) || !std::isfinite(factor)) throw std::invalid_argument("a stiffness factor must be above 0");
@@ -326,6 +357,7 @@ const ReanalysisAnswer& Reanalysis::solve() {
   state.apply_supports(touched);
   state.apply_dropped_nodes(touched);
   state.apply_beams(touched);
+  state.apply_shells(touched);
   state.node_loads_changed = false;
   state.answered = true;
   const bool nearly_unstable = state.answer.nearly_unstable;  // a property of the factor, which may stay
@@ -358,7 +390,8 @@ Vec12 Reanalysis::beam_end_forces(int beam) const {
 }
 
 std::array<Vec6, 4> Reanalysis::shell_corner_forces(int shell) const {
-  throw std::invalid_argument("shell " + std::to_string(shell) + " does not exist");
+  (void)state_->checked_shell(shell);
+  return state_->system->corner_forces(shell, state_->displacements, Vec24::Zero());
 }
 
 Vec6 Reanalysis::reaction(int support) const {
@@ -370,7 +403,11 @@ Vec6 Reanalysis::reaction(int support) const {
     std::vector<Vec12> forces;
     forces.reserve(system.model.beams.size());
     for (std::size_t i = 0; i < system.model.beams.size(); ++i) forces.push_back(beam_end_forces(static_cast<int>(i)));
-    state_->reactions = system.reactions(state_->displacements, forces, state_->node_loads);
+    std::vector<std::array<Vec6, 4>> corners;
+    for (std::size_t i = 0; i < system.model.shells.size(); ++i) {
+      corners.push_back(shell_corner_forces(static_cast<int>(i)));
+    }
+    state_->reactions = system.reactions(state_->displacements, forces, corners, state_->node_loads);
   }
   return state_->reactions[static_cast<std::size_t>(support)];
 }
@@ -382,6 +419,12 @@ double Reanalysis::strain_energy() const {
     if (system.beam_stands[i] == 0) continue;
     energy += beam_strain_energy(system.model.beams[i], system.beam_factor[i], beam_end_forces(static_cast<int>(i)),
                                  state_->targets[i].loads);
+  }
+  for (std::size_t i = 0; i < system.model.shells.size(); ++i) {
+    const std::array<Vec6, 4> corners = shell_corner_forces(static_cast<int>(i));
+    for (std::size_t n = 0; n < 4; ++n) {
+      energy += corners[n].dot(state_->displacements[static_cast<std::size_t>(system.model.shells[i].node[n])]) / 2;
+    }
   }
   for (const Support& support : system.model.supports) {
     const Vec6& u = state_->displacements[static_cast<std::size_t>(support.node)];

@@ -81,8 +81,13 @@ void StaticAnalysis::State::estimate() {
   }
 }
 
-StaticAnalysis::StaticAnalysis(FrameModel model, const AnalysisOptions& options)
-    : state_(std::make_unique<State>(std::move(model), options)) {
+StaticAnalysis::StaticAnalysis(FrameModel model, const AnalysisOptions& options) {
+  double map_seconds = 0;  // numbering the freedoms and building the scatter map
+  {
+    const Stopwatch watch(map_seconds);
+    state_ = std::make_unique<State>(std::move(model), options);
+  }
+  state_->statistics.assemble_seconds = map_seconds;
   state_->assemble();
   require_stable(state_->system.defect());
   if (state_->system.dofs().equations == 0) return;
@@ -104,7 +109,12 @@ StaticSolution StaticAnalysis::State::recover(const LoadVector& load, const Eige
     const Vec12 fixed = load.beam_fixed_end.empty() ? Vec12::Zero() : load.beam_fixed_end[i];
     solution.beam_end_forces.push_back(system.end_forces(static_cast<int>(i), solution.displacements, fixed));
   }
-  solution.reactions = system.reactions(solution.displacements, solution.beam_end_forces, load.node_load);
+  for (std::size_t i = 0; i < system.model.shells.size(); ++i) {
+    const Vec24 fixed = load.shell_fixed.empty() ? Vec24::Zero() : load.shell_fixed[i];
+    solution.shell_corner_forces.push_back(system.corner_forces(static_cast<int>(i), solution.displacements, fixed));
+  }
+  solution.reactions =
+      system.reactions(solution.displacements, solution.beam_end_forces, solution.shell_corner_forces, load.node_load);
   return solution;
 }
 

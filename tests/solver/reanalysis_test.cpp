@@ -196,3 +196,37 @@ TEST_CASE("the response to one more load is that load's alone, and reciprocal") 
   const Vec6 sum = c.standing.displacements()[30] + a.displacements[30];
   CHECK((together.displacements[30] - sum).norm() < 1e-10 * sum.norm());
 }
+
+TEST_CASE("removed and restored panels change the answer as a fresh analysis says, and drop with their nodes") {
+  FrameModel model = tower(3, 2);
+  for (int first : {9, 10, 18}) {
+    Shell panel;
+    panel.node = {first, first + 1, first + 4, first + 3};
+    panel.youngs_modulus = 30e9;
+    panel.poisson_ratio = 0.2;
+    panel.thickness = 0.2;
+    model.shells.push_back(panel);
+  }
+  Reanalysis standing(model);
+  LoadSet loads;
+  loads.nodes = {{26, components(2e4, -1e4, -3e4, 0, 0, 0)}};
+  standing.set_node_load(26, loads.nodes[0].load);
+  const auto agrees = [&](const FrameModel& expected) {
+    REQUIRE(standing.solve().stable);
+    const StaticSolution fresh = solve_one(expected, loads);
+    const double size = fresh.displacements[26].norm();
+    for (std::size_t n = 0; n < expected.nodes.size(); ++n) {
+      CHECK((fresh.displacements[n] - standing.displacements()[n]).norm() < same_answer * size);
+    }
+    double work = standing.displacements()[26].dot(loads.nodes[0].load) / 2;
+    CHECK(standing.strain_energy() == Approx(work).epsilon(1e-9));
+  };
+  agrees(model);
+  standing.remove_shell(1);
+  FrameModel without = model;
+  without.shells.erase(without.shells.begin() + 1);
+  agrees(without);
+  CHECK(standing.shell_corner_forces(1)[0].norm() == 0);
+  standing.restore_shell(1);
+  agrees(model);
+}

@@ -1,6 +1,7 @@
 #pragma once
-// What the solver analyses: nodes, beam-columns, flat shells and supports as plain arrays. It knows no buildings: members,
-// joints, load cases and names are the business of the layer above. Units: any consistent set (Topple uses SI).
+// What the solver analyses: nodes, beam-columns, flat shells and supports as plain arrays. It knows no buildings:
+// members, joints, load cases and names are the business of the layer above. Units: any consistent set (Topple uses
+// SI).
 #include <array>
 #include <vector>
 
@@ -11,8 +12,8 @@ namespace topple::solver {
 /// Which axial forces a member can carry.
 enum class AxialAction { both, tension_only, compression_only };
 
-/// 3D Timoshenko beam-column between two nodes: 12 freedoms, rigid end arms, end releases and springs condensed exactly.
-/// With shear area 0 the beam is Euler-Bernoulli in that plane.
+/// 3D Timoshenko beam-column between two nodes: 12 freedoms, rigid end arms, end releases and springs condensed
+/// exactly. With shear area 0 the beam is Euler-Bernoulli in that plane.
 struct Beam {
   std::array<int, 2> node{-1, -1};
   /// Rigid arm from each node to the member's end, global axes.
@@ -65,12 +66,12 @@ struct BeamLoad {
   enum class Kind { distributed, point, temperature };
   int beam = -1;
   Kind kind = Kind::distributed;
-  double from = 0, to = 0;            ///< distributed: extent; point: `from` is the place
-  Vec6 first = Vec6::Zero();          ///< distributed: intensity at `from` (force, moment per length); point: the load
-  Vec6 last = Vec6::Zero();           ///< distributed: intensity at `to`, linear between
-  double strain = 0;                  ///< temperature: free axial strain alpha dT
-  double curvature_y = 0;             ///< temperature: alpha dT/dy, free curvature from a gradient along local y
-  double curvature_z = 0;             ///< temperature: alpha dT/dz
+  double from = 0, to = 0;    ///< distributed: extent; point: `from` is the place
+  Vec6 first = Vec6::Zero();  ///< distributed: intensity at `from` (force, moment per length); point: the load
+  Vec6 last = Vec6::Zero();   ///< distributed: intensity at `to`, linear between
+  double strain = 0;          ///< temperature: free axial strain alpha dT
+  double curvature_y = 0;     ///< temperature: alpha dT/dy, free curvature from a gradient along local y
+  double curvature_z = 0;     ///< temperature: alpha dT/dz
 };
 
 struct NodeLoad {

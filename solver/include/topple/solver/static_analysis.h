@@ -13,8 +13,9 @@ namespace topple::solver {
 
 /// A structure that can move without strain (or nearly so): which nodes, how.
 struct Mechanism {
-  std::vector<int> nodes;    ///< nodes that move, most first
-  std::vector<Vec6> motion;  ///< for every node of the model, scaled to a largest translation of 1 (or rotation, if none)
+  std::vector<int> nodes;  ///< nodes that move, most first
+  std::vector<Vec6>
+      motion;  ///< for every node of the model, scaled to a largest translation of 1 (or rotation, if none)
   /// Beams that can move by themselves, released at both ends so far that no node has to move with them.
   std::vector<int> beams;
 };
@@ -22,7 +23,8 @@ struct Mechanism {
 /// Thrown when the model is not stable. what() names node indices and freedoms; callers with names use `mechanism`.
 class Instability : public std::runtime_error {
  public:
-  Instability(const std::string& message, Mechanism motion) : std::runtime_error(message), mechanism(std::move(motion)) {}
+  Instability(const std::string& message, Mechanism motion)
+      : std::runtime_error(message), mechanism(std::move(motion)) {}
   Mechanism mechanism;
 };
 
@@ -46,9 +48,10 @@ struct SolveQuality {
 };
 
 struct StaticSolution {
-  std::vector<Vec6> displacements;     ///< per node, global
-  std::vector<Vec6> reactions;         ///< per entry of FrameModel::supports: what the support does to the structure
-  std::vector<Vec12> beam_end_forces;  ///< per beam: what the nodes' hubs do to the beam at its ends, local, first then second
+  std::vector<Vec6> displacements;  ///< per node, global
+  std::vector<Vec6> reactions;      ///< per entry of FrameModel::supports: what the support does to the structure
+  std::vector<Vec12>
+      beam_end_forces;  ///< per beam: what the nodes' hubs do to the beam at its ends, local, first then second
   std::vector<std::array<Vec6, 4>> shell_corner_forces;  ///< per shell: what the nodes do to it, global
   SolveQuality quality;
 };
