@@ -25,9 +25,12 @@ std::vector<Id> find_matching(const std::map<std::string, Id>& names, const std:
 
 const char* group_of(MemberKind kind) {
   switch (kind) {
-    case MemberKind::post: return "posts";
-    case MemberKind::beam: return "beams";
-    default: return "braces";
+    case MemberKind::post:
+      return "posts";
+    case MemberKind::beam:
+      return "beams";
+    default:
+      return "braces";
   }
 }
 
@@ -76,7 +79,9 @@ std::optional<MemberId> NameIndex::member(const std::string& name) const { retur
 std::optional<PanelId> NameIndex::panel(const std::string& name) const { return find(panels_, name); }
 std::optional<JointId> NameIndex::joint(const std::string& name) const { return find(joints_, name); }
 
-std::vector<NodeId> NameIndex::nodes_matching(const std::string& pattern) const { return find_matching(nodes_, pattern); }
+std::vector<NodeId> NameIndex::nodes_matching(const std::string& pattern) const {
+  return find_matching(nodes_, pattern);
+}
 std::vector<MemberId> NameIndex::members_matching(const std::string& pattern) const {
   return find_matching(members_, pattern);
 }

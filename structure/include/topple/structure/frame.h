@@ -1,6 +1,6 @@
 #pragma once
-// From the building to the solver's arrays: the frame model, the loads of a combination kept apart by the part that brings
-// them, and what panels hand to the members along their edges.
+// From the building to the solver's arrays: the frame model, the loads of a combination kept apart by the part that
+// brings them, and what panels hand to the members along their edges.
 #include <array>
 #include <vector>
 
@@ -9,8 +9,8 @@
 
 namespace topple::structure {
 
-/// Node i of the building is node i of the frame, member i is beam i, support i is support i. Panels of model `membrane`
-/// become shells without bending while all four edge joints hold: `shell_of_panel` gives their index, or -1.
+/// Node i of the building is node i of the frame, member i is beam i, support i is support i. Panels of model
+/// `membrane` become shells without bending while all four edge joints hold: `shell_of_panel` gives their index, or -1.
 struct Frame {
   solver::FrameModel model;
   std::vector<int> shell_of_panel;
@@ -33,8 +33,8 @@ struct PartLoads {
 };
 [[nodiscard]] PartLoads part_loads(const Building& building, CombinationId combination);
 
-/// Members along each edge of each panel: the member between its two nodes, or the collinear ones between them in order;
-/// empty where an edge has none. Built once.
+/// Members along each edge of each panel: the member between its two nodes, or the collinear ones between them in
+/// order; empty where an edge has none. Built once.
 class EdgeMembers {
  public:
   explicit EdgeMembers(const Building& building);
@@ -47,13 +47,14 @@ class EdgeMembers {
 };
 
 /// What a membrane or cladding panel hands on, given which of its edge joints hold and which members still stand
-/// (`member_stands` empty: all). Force and moments are those of the panel's action, exactly.
+/// (`member_stands` empty: all). The force is the panel's, exactly, and so are the moments, but for two-way spans in
+/// quadrilaterals that are not rectangles, where each part goes straight to its nearest edge.
 struct HandOver {
   std::vector<solver::BeamLoad> beams;
   std::vector<solver::NodeLoad> nodes;
   std::array<Vec3, 4> edge_force;  ///< resultant over each edge, global (the demand of the edge joints)
 };
-[[nodiscard]] HandOver hand_over(const Building& building, const EdgeMembers& edges, PanelId panel, 
+[[nodiscard]] HandOver hand_over(const Building& building, const EdgeMembers& edges, PanelId panel,
                                  const PanelAction& action, const std::array<bool, 4>& edge_holds,
                                  const std::vector<bool>& member_stands = {});
 
