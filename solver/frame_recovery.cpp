@@ -40,7 +40,7 @@ std::array<Vec6, 4> FrameSystem::corner_forces(int index, const std::vector<Vec6
     u.segment<6>(6 * n) = displacements[static_cast<std::size_t>(shell.node[static_cast<std::size_t>(n)])];
     u.segment<3>(6 * n) -= origin;
   }
-  const Vec24 force = ShellElement(shell, corner_places(shell, model.nodes)).stiffness() * u + fixed;
+  const Vec24 force = shell_node_stiffness(index) * u + fixed;
   for (int n = 0; n < 4; ++n) result[static_cast<std::size_t>(n)] = force.segment<6>(6 * n);
   return result;
 }

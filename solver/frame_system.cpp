@@ -131,11 +131,25 @@ Mat12 FrameSystem::beam_stiffness(int index) const {
   return to_node_freedoms(beam.axes, CondensedBeam(beam, beam_factor[i]).stiffness(), arm);
 }
 
+const Mat24& FrameSystem::shell_node_stiffness(int index) const {
+  const Shell& shell = model.shells[static_cast<std::size_t>(index)];
+  const std::array<Vec3, 4> corners = corner_places(shell, model.nodes);
+  const bool kept = kept_shell_.thickness == shell.thickness && kept_shell_.youngs_modulus == shell.youngs_modulus &&
+                    kept_shell_.poisson_ratio == shell.poisson_ratio && kept_shell_.bending == shell.bending &&
+                    kept_corners_ == corners;
+  if (!kept) {
+    kept_shell_ = shell;
+    kept_corners_ = corners;
+    kept_stiffness_ = ShellElement(shell, corners).stiffness();
+  }
+  return kept_stiffness_;
+}
+
 Mat24 FrameSystem::shell_stiffness(int index) const {
   const auto i = static_cast<std::size_t>(index);
   if (shell_stands[i] == 0) return Mat24::Zero();
   const Shell& shell = model.shells[i];
-  Mat24 K = ShellElement(shell, corner_places(shell, model.nodes)).stiffness();
+  Mat24 K = shell_node_stiffness(index);
   for (int n = 0; n < 4; ++n) {
     const int node = shell.node[static_cast<std::size_t>(n)];
     if (dofs_.diaphragm_of_node[static_cast<std::size_t>(node)] < 0) continue;

@@ -100,6 +100,8 @@ class FrameSystem {
   void add_support_springs(int node);
   void hold_inert_rotations(int node);
   void set_scale();
+  /// K of a shell in the global freedoms of its nodes. Floors repeat one panel: the last one is kept.
+  [[nodiscard]] const Mat24& shell_node_stiffness(int shell) const;
   void add_shell_loads(const std::vector<ShellLoad>& loads, LoadVector& result) const;
   void add_settlement_forces(LoadVector& result) const;
   [[nodiscard]] double& entry(int equation, int other);
@@ -118,6 +120,9 @@ class FrameSystem {
     Mat3 directions = Mat3::Zero();
   };
   std::vector<InertHub> inert_;
+  mutable Shell kept_shell_;
+  mutable std::array<Vec3, 4> kept_corners_{};
+  mutable Mat24 kept_stiffness_;
 };
 
 /// "node 3, node 7 and 12 more".

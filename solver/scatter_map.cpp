@@ -64,36 +64,59 @@ void ScatterMap::build_pattern() {
   pattern_.value.assign(pattern_.row.size(), 0.0);
 }
 
+std::int32_t ScatterMap::offset_of(int v, int w) const {
+  const auto begin = edges_.begin() + first_edge_[static_cast<std::size_t>(v)];
+  const auto end = edges_.begin() + first_edge_[static_cast<std::size_t>(v) + 1];
+  const auto edge = std::lower_bound(begin, end, std::pair(v, w));
+  if (edge == end || edge->second != w) throw std::logic_error("no element joins these equations");
+  return edge_offset_[static_cast<std::size_t>(edge - edges_.begin())];
+}
+
 std::int64_t ScatterMap::position(int equation, int other) const {
   const int column = std::min(equation, other), row = std::max(equation, other);
   const int v = dofs_.vertex_of_equation[static_cast<std::size_t>(column)];
   const int w = dofs_.vertex_of_equation[static_cast<std::size_t>(row)];
   const std::int64_t start = pattern_.start[static_cast<std::size_t>(column)];
   if (v == w) return start + row - column;
-  const auto begin = edges_.begin() + first_edge_[static_cast<std::size_t>(v)];
-  const auto end = edges_.begin() + first_edge_[static_cast<std::size_t>(v) + 1];
-  const auto edge = std::lower_bound(begin, end, std::pair(v, w));
-  if (edge == end || edge->second != w) throw std::logic_error("no element joins these equations");
-  return start + dofs_.first_equation[static_cast<std::size_t>(v) + 1] - column +
-         edge_offset_[static_cast<std::size_t>(edge - edges_.begin())] + row -
+  return start + dofs_.first_equation[static_cast<std::size_t>(v) + 1] - column + offset_of(v, w) + row -
          dofs_.first_equation[static_cast<std::size_t>(w)];
 }
 
 void ScatterMap::build_positions() {
+  const std::size_t elements = start_.size() - 1;
+  position_start_.reserve(elements + 1);
   position_start_.push_back(0);
-  for (std::size_t element = 0; element + 1 < start_.size(); ++element) {
+  for (std::size_t element = 0; element < elements; ++element) {
+    const auto n = start_[element + 1] - start_[element];
+    position_start_.push_back(position_start_.back() + n * (n + 1) / 2);
+  }
+  positions_.resize(static_cast<std::size_t>(position_start_.back()));
+  for (std::size_t element = 0; element < elements; ++element) {
     const auto numbers = freedoms(element);
+    std::int64_t* place = positions_.data() + position_start_[element];
     for (std::size_t j = 0; j < numbers.size(); ++j) {
-      for (std::size_t i = j; i < numbers.size(); ++i) {
-        const int row = numbers[i], column = numbers[j];
-        if (row >= dofs_.equations || column >= dofs_.equations) {
-          positions_.push_back(-1);
-        } else {
-          positions_.push_back(2 * position(row, column) + (i != j && row == column ? 1 : 0));
+      // Freedoms of a node follow each other: the neighbour is looked up once for all of them.
+      int last_v = -1, last_w = -1;
+      std::int32_t offset = 0;
+      for (std::size_t i = j; i < numbers.size(); ++i, ++place) {
+        *place = -1;
+        if (numbers[i] >= dofs_.equations || numbers[j] >= dofs_.equations) continue;
+        const int column = std::min(numbers[i], numbers[j]), row = std::max(numbers[i], numbers[j]);
+        const int v = dofs_.vertex_of_equation[static_cast<std::size_t>(column)];
+        const int w = dofs_.vertex_of_equation[static_cast<std::size_t>(row)];
+        if (v != w && (v != last_v || w != last_w)) {
+          offset = offset_of(v, w);
+          last_v = v;
+          last_w = w;
         }
+        std::int64_t at = pattern_.start[static_cast<std::size_t>(column)] + row - column;
+        if (v != w) {
+          at += dofs_.first_equation[static_cast<std::size_t>(v) + 1] + offset -
+                dofs_.first_equation[static_cast<std::size_t>(w)];
+        }
+        *place = 2 * at + (i != j && row == column ? 1 : 0);
       }
     }
-    position_start_.push_back(static_cast<std::int64_t>(positions_.size()));
   }
 }
 

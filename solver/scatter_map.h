@@ -34,6 +34,8 @@ class ScatterMap {
   void clear(std::size_t element, const std::vector<char>& wanted, SparseSymmetric& matrix) const;
 
  private:
+  /// Rows between the triangle of vertex v and the rows of its neighbour w > v.
+  [[nodiscard]] std::int32_t offset_of(int v, int w) const;
   [[nodiscard]] bool is_wanted(int equation, const std::vector<char>& wanted) const;
   void build_pattern();
   void build_positions();

@@ -58,7 +58,8 @@ void put(const Eigen::Matrix<double, 12, 12>& K, const std::array<int, 3>& compo
 
 std::array<Vec3, 4> corner_places(const Shell& shell, const std::vector<Vec3>& nodes) {
   std::array<Vec3, 4> p;
-  for (std::size_t i = 0; i < 4; ++i) p[i] = nodes[static_cast<std::size_t>(shell.node[i])];
+  const Vec3& origin = nodes[static_cast<std::size_t>(shell.node[0])];
+  for (std::size_t i = 0; i < 4; ++i) p[i] = nodes[static_cast<std::size_t>(shell.node[i])] - origin;
   return p;
 }
 
@@ -124,9 +125,20 @@ Mat24 ShellElement::stiffness() const {
   Mat24 local = Mat24::Zero();
   put(membrane_.stiffness(), membrane_components, local);
   if (bending_) put(plate_.stiffness(), plate_components, local);
-  Mat24 half, K;
-  for (int j = 0; j < 24; ++j) half.col(j) = to_global(local.col(j));
-  for (int i = 0; i < 24; ++i) K.col(i) = to_global(half.row(i).transpose());
+  Mat24 K;
+  for (int i = 0; i < 8; ++i) {
+    for (int j = i; j < 8; ++j) {
+      const Mat3 block = axes_.transpose() * (local.block<3, 3>(3 * i, 3 * j) * axes_);
+      K.block<3, 3>(3 * i, 3 * j) = block;
+      if (i != j) K.block<3, 3>(3 * j, 3 * i) = block.transpose();
+    }
+  }
+  for (int n = 0; n < 4; ++n) {
+    const Mat3& C = arm_[static_cast<std::size_t>(n)];
+    if ((C.array() == 0).all()) continue;
+    K.middleRows<3>(6 * n + 3) += C.transpose() * K.middleRows<3>(6 * n);
+    K.middleCols<3>(6 * n + 3) += K.middleCols<3>(6 * n) * C;
+  }
   return K;
 }
 

@@ -38,7 +38,7 @@ class ShellElement {
   ShellPlate plate_;
 };
 
-/// Nodes of a shell in place.
+/// Nodes of a shell, seen from the first: congruent shells are equal to the bit wherever they stand.
 [[nodiscard]] std::array<Vec3, 4> corner_places(const Shell& shell, const std::vector<Vec3>& nodes);
 
 }  // namespace topple::solver

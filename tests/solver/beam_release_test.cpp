@@ -1,4 +1,7 @@
 // Releases at both ends, in every combination that a broken joint leaves behind.
+#include "beam.h"
+
+#include <Eigen/QR>
 #include <catch2/catch.hpp>
 
 #include "frames.h"
@@ -98,4 +101,37 @@ TEST_CASE("a spring beside a released end is condensed with it") {
   // (P - R)/k + 5 P L3/48EI - R L3/3EI = 0.
   const double R = (P / k + 5 * P * L * L * L / (48 * EI)) / (1 / k + L * L * L / (3 * EI));
   CHECK(solve_one(model, loads).reactions[1](2) == Approx(R).epsilon(1e-12));
+}
+
+TEST_CASE("any mixture of springs and releases equals the springs built beside a rigid beam and eliminated") {
+  // Dense elimination by an orthogonal decomposition, which takes loose motions in its stride: all 4096 choices of
+  // released components are too many, so a fixed stride through them, the rest springs of sizes from soft to stiff.
+  FrameModel model = single_beam(L, fixed(), fixed());
+  Beam& b = model.beams[0];
+  const Mat12 whole = CondensedBeam(b).stiffness();
+  BeamLoad load = some_load();
+  load.from = 0.4;
+  load.last = components(-10, 50, 30, 2, -4, 1);
+  const Vec12 held = CondensedBeam(b).fixed_end_forces(std::span(&load, 1)).force;
+  int compared = 0;
+  for (int choice = 0; choice < 4096; choice += 37) {
+    Vec12 k;
+    for (int f = 0; f < 12; ++f) {
+      const double size = whole(f, f) * std::pow(10.0, (choice / 37 + 5 * f) % 7 - 3);
+      k(f) = (choice >> f & 1) != 0 ? 0 : size;
+      b.end_stiffness[static_cast<std::size_t>(f / 6)](f % 6) = k(f);
+    }
+    const CondensedBeam condensed(b);
+    if (condensed.loose() || condensed.absent()) continue;
+    const Mat12 springs = k.asDiagonal();
+    const Eigen::CompleteOrthogonalDecomposition<Mat12> inner(whole + springs);
+    const Mat12 expected = springs - springs * inner.solve(springs);
+    const Vec12 forces = springs * inner.solve(held);
+    // The dense elimination loses the digits between the stiffest and the softest spring, six decades and more.
+    CHECK((condensed.stiffness() - expected).norm() < 1e-8 * whole.norm());
+    const FixedEndForces fixed_end = condensed.fixed_end_forces(std::span(&load, 1));
+    if (fixed_end.unbalanced == 0) CHECK((fixed_end.force - forces).norm() < 1e-7 * held.norm());
+    ++compared;
+  }
+  CHECK(compared > 15);
 }
