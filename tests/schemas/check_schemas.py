@@ -1,0 +1,133 @@
+#!/usr/bin/env python3
+"""Holds the JSON Schemas against the examples in docs/, the shipped models and scenarios, mistakes that they must refuse, and
+what the programs write.
+
+usage: check_schemas.py SOURCE_DIR TOPPLE
+"""
+import copy
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+try:
+    import jsonschema
+except ImportError:
+    print("SKIPPED: python3-jsonschema is not installed")
+    sys.exit(0)
+
+source, topple = pathlib.Path(sys.argv[1]), sys.argv[2]
+failures = []
+checked = 0
+
+
+def schema(name):
+    return json.loads((source / "schemas" / f"{name}.schema.json").read_text())
+
+
+def faults(name, value):
+    return [f"{'/'.join(map(str, e.path))}: {e.message[:200]}" for e in
+            jsonschema.Draft202012Validator(schema(name)).iter_errors(value)]
+
+
+def expect_valid(name, value, what):
+    global checked
+    checked += 1
+    for fault in faults(name, value):
+        failures.append(f"{what} is not a valid {name}: {fault}")
+
+
+def expect_invalid(name, value, what):
+    global checked
+    checked += 1
+    if not faults(name, value):
+        failures.append(f"the schema of {name} lets through: {what}")
+
+
+def documented_examples():
+    """Each block of JSON in docs/ that stands below `<!-- schema: NAME -->`."""
+    for document in sorted((source / "docs").glob("*.md")):
+        for kind, text in re.findall(r"<!-- schema: (.*?) -->\n```json\n(.*?)```", document.read_text(), re.S):
+            yield document.name, kind, text
+
+
+def set_at(value, path, new):
+    changed = copy.deepcopy(value)
+    place = changed
+    for key in path[:-1]:
+        place = place[key]
+    if new is None:
+        del place[path[-1]]
+    else:
+        place[path[-1]] = new
+    return changed
+
+
+for name in ["model", "scenario", "results", "events", "summary", "panel", "actions"]:
+    jsonschema.Draft202012Validator.check_schema(schema(name))
+
+examples = {}
+for document, kind, text in documented_examples():
+    value = json.loads(text)
+    if kind == "model building":  # a fragment: it stands in a model
+        value, kind = {"topple": 1, **value}, "model"
+    else:
+        examples[kind] = value
+    expect_valid(kind, value, f"the example in {document}")
+for kind in ["model", "scenario", "results", "events", "summary", "panel", "actions"]:
+    if kind not in examples:
+        failures.append(f"docs/ shows no example of {kind}")
+
+for file in sorted((source / "models").glob("*.json")):
+    expect_valid("model", json.loads(file.read_text()), file.name)
+for file in sorted((source / "models" / "scenarios").glob("*.json")):
+    expect_valid("scenario", json.loads(file.read_text()), file.name)
+
+# Each mistake is refused by the schema and, where it is a model, by the reader as well.
+model_mistakes = [
+    (["topple"], 2), (["topple"], None), (["titel"], "x"), (["units", "length"], "yd"), (["gravity"], -1),
+    (["materials", "S355", "youngs_modulus"], None), (["materials", "S355", "density"], "7850"),
+    (["materials", "S355", "poisson_ratio"], 0.7), (["sections", "col", "web"], None), (["sections", "tube", "shape"], "I"),
+    (["sections", "w14", "depth"], 0.3), (["sections", "raw", "J"], 0), (["joints", "given", "strength"], 0),
+    (["joints", "given", "capacity", "bending"], 1), (["joints", "original", "capacity", "force"], [1, 2]),
+    (["joints", "original", "capacity", "from"], "section"), (["joints", "given", "capacity", "ratio"], 0.5),
+    (["joints", "ductile", "interaction"], "sum"), (["joints", "pin", "stiffness", "ry"], -1), (["nodes", "A0"], [0, 0]),
+    (["nodes", "A*"], [9, 9, 9]), (["members", "PA", "nodes"], ["A0", "A0"]), (["members", "PA", "section"], None),
+    (["members", "PA", "kind"], "column"), (["members", "PA", "joints"], ["given"]), (["panels", "S1", "thickness"], 0),
+    (["panels", "S1", "model"], "plate"), (["panels", "W1", "openings"], [[[0, 0], [1, 0]]]), (["supports", "A0"], "clamped"),
+    (["supports", "C0", "x"], False), (["loads", "live", "members", "BC", 2, "at"], None),
+    (["loads", "live", "members", "BC", 2, "frame"], "projected"), (["loads", "live", "members", "BC", 0, "uniform"], {"w": 1}),
+    (["combinations", "service"], {}),
+]
+scenario_mistakes = [
+    (["model"], None), (["step"], 0), (["failure", "bracing"], "strong"), (["failure", "sudden"], 0.5),
+    (["impact", "restitution"], 2), (["debris", "limit"], 1.5), (["events", 0, "at"], None),
+    (["events", 0, "gravity"], [0, 0, 0]), (["events", 0, "projectile", "mass"], 0), (["events", 3, "charge", "radius"], None),
+]
+with tempfile.TemporaryDirectory() as folder:
+    file = pathlib.Path(folder) / "model.json"
+
+    def reader_says(value):
+        file.write_text(json.dumps(value))
+        return subprocess.run([topple, "check", str(file)], capture_output=True, text=True)
+
+    if "model" in examples:
+        fine = reader_says(examples["model"])
+        if fine.returncode != 0:
+            failures.append(f"the documented model is refused: {fine.stderr}")
+        for path, new in model_mistakes:
+            wrong = set_at(examples["model"], path, new)
+            expect_invalid("model", wrong, f"{path} = {new}")
+            told = reader_says(wrong)
+            if told.returncode != 2 or told.stderr.count("\n") != 1:
+                failures.append(f"the reader lets through: {path} = {new}: {told.returncode} {told.stderr}")
+if "scenario" in examples:
+    for path, new in scenario_mistakes:
+        expect_invalid("scenario", set_at(examples["scenario"], path, new), f"{path} = {new}")
+
+for failure in failures:
+    print(failure)
+print(f"{checked} checks, {len(failures)} failures")
+sys.exit(1 if failures else 0)
