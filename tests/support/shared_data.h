@@ -4,6 +4,8 @@
 #include <iostream>
 #include <string>
 
+#include "test_paths.h"
+
 namespace topple::test {
 
 /// Path of a file of the reference data, e.g. "reference/opensees/A1_def_L1.json".
