@@ -95,11 +95,11 @@ void refuse_diaphragms(const Building& building) {
 
 void refuse_unbuilt(const Building& building, Purpose purpose) {
   using Refusal = void (*)(const Building&);
-  static constexpr std::array<Refusal, 6> analyse{refuse_shells,          refuse_meshes_of_panels, refuse_openings,
-                                                  refuse_one_way_members, refuse_edge_supports,    refuse_diaphragms};
-  static constexpr std::array<Refusal, 7> demolish{
-      refuse_shells,    refuse_meshes_of_panels, refuse_openings,  refuse_one_way_members,
-      refuse_ductility, refuse_edge_supports,    refuse_diaphragms};
+  static constexpr std::array<Refusal, 5> analyse{refuse_shells, refuse_meshes_of_panels, refuse_openings,
+                                                  refuse_one_way_members, refuse_edge_supports};
+  static constexpr std::array<Refusal, 7> demolish{refuse_shells,          refuse_meshes_of_panels, refuse_openings,
+                                                   refuse_one_way_members, refuse_edge_supports,    refuse_ductility,
+                                                   refuse_diaphragms};
   switch (purpose) {
     case Purpose::analyse:
       for (const Refusal refusal : analyse) refusal(building);

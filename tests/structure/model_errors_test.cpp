@@ -152,6 +152,33 @@ TEST_CASE("what is not built yet is refused by its name for the purpose that nee
         "m.json, line 2, meshes: `meshes` is not built yet; accepted: leave the key out");
   CHECK(error("\"density\": 7850", "\"fracture\": {}, \"density\": 7850") ==
         "m.json, line 7, materials.S355.fracture: `fracture` is not built yet; accepted: leave the key out");
+  const auto refusal = [](const std::string& from, const std::string& to, Purpose purpose) {
+    // Without what else is refused: the shell, the brace's one-way action, the diaphragm, ductility.
+    std::string text = replaced(example_model, "\"model\": \"shell\", \"mesh\": [4, 3],", "");
+    text = replaced(text, "\"openings\": [[[1.5, 0], [2.5, 0], [2.5, 2.1], [1.5, 2.1]]], ", "");
+    text = replaced(text, ", \"W1:1\": \"pinned\"", "");
+    text = replaced(text, ", \"axial\": \"tension\"", "");
+    text = replaced(text, "  \"diaphragms\": {\"level 1\": [\"A1\", \"B1\", \"C1\", \"D1\"]},\n", "");
+    text = replaced(text, "[\"ductile\", \"spring\"]", "[\"derived\", \"spring\"]");
+    return error_of(from.empty() ? text : replaced(text, from, to), purpose);
+  };
+  CHECK(refusal("", "", Purpose::analyse) == "no error");
+  CHECK(refusal("", "", Purpose::demolish) == "no error");
+  CHECK(refusal("\"model\": \"membrane\"", "\"model\": \"shell\"", Purpose::analyse) ==
+        "m.json, panels.S1.model: \"shell\" is not built yet; accepted: leave it out");
+  CHECK(refusal("\"model\": \"membrane\"", "\"mesh\": 2", Purpose::analyse) ==
+        "m.json, panels.S1.mesh: `mesh` is not built yet; accepted: leave it out");
+  CHECK(refusal("\"model\": \"membrane\"", "\"openings\": [[[1, 1], [2, 1], [2, 2]]]", Purpose::analyse) ==
+        "m.json, panels.S1.openings: `openings` is not built yet; accepted: leave it out");
+  CHECK(refusal("\"kind\": \"brace\"", "\"axial\": \"tension\"", Purpose::demolish) ==
+        "m.json, members.X1.axial: \"tension\" is not built yet; accepted: leave it out");
+  const std::string diaphragm = "\"diaphragms\": {\"roof\": [\"*1\"]}, \"masses\"";
+  CHECK(refusal("\"masses\"", diaphragm, Purpose::analyse) == "no error");
+  CHECK(refusal("\"masses\"", diaphragm, Purpose::demolish) ==
+        "m.json, diaphragms.roof: a diaphragm is not built yet; accepted: leave it out");
+  CHECK(refusal("[\"derived\", \"spring\"]", "[\"ductile\", \"spring\"]", Purpose::analyse) == "no error");
+  CHECK(refusal("[\"derived\", \"spring\"]", "[\"ductile\", \"spring\"]", Purpose::demolish) ==
+        "m.json, joint CD:1: `ductility` is not built yet; accepted: leave it out");
 }
 
 TEST_CASE("syntax errors are told by line and column") {
