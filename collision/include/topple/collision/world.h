@@ -4,6 +4,9 @@
 // recording one. SI units, global z up.
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
+#include <compare>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -52,7 +55,7 @@ struct BodyDescription {
   Pose pose;                               ///< of the centre of mass; parts are relative to it
   Vec3 velocity = Vec3::Zero();            ///< of the centre of mass
   Vec3 angular_velocity = Vec3::Zero();    ///< global axes
-  double friction = 0.6, restitution = 0.1;
+  double friction = 0.6, restitution = 0.1;  ///< a pair has the geometric mean of its two
 };
 
 /// A part of what stands: it does not move in the world, whatever pushes it.
@@ -76,16 +79,22 @@ struct Contact {
   BodyId body;
   std::int64_t part_tag = -1;
   Touched other;
-  Vec3 point = Vec3::Zero();
+  Vec3 point = Vec3::Zero();     ///< centre of the area of contact (sweep), of its impulses (step); global
   Vec3 normal = Vec3::Zero();    ///< unit, from the body into what it touches
-  double approach_speed = 0;     ///< relative speed along the normal, positive when closing
+  double approach_speed = 0;     ///< relative speed at the point along the normal, rotation included, positive when closing
   double time = 0;               ///< sweep: time of impact from now; step: 0
-  Vec3 impulse = Vec3::Zero();   ///< step: what the body did to the other during the last step, N s
+  Vec3 impulse = Vec3::Zero();   ///< step: what the body did to the other during the last step, friction included, N s
+  double work_lost = 0;          ///< step: energy that it took out of the bodies (velocities read at mid-step), J
   bool persistent = false;       ///< it was there in the step before as well
+  int corner_count = 0;          ///< corners of the area of contact, 1 to 4: a slab that falls flat has 4
+  std::array<Vec3, 4> corners{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
 };
 
+/// Velocities are those of semi-implicit Euler as they stand: v(k+1) = v(k) + g dt, x(k+1) = x(k) + v(k+1) dt. Read as
+/// speeds at mid-step they make free flight exact: a body that flies with v now enters with v - g dt/2, and one whose
+/// state says v flies with v + g dt/2. set_state() and state() pass them on unchanged; sweep(dt) reads them that way.
 struct BodyState {
-  Pose pose;
+  Pose pose;  ///< of the centre of mass
   Vec3 velocity = Vec3::Zero();
   Vec3 angular_velocity = Vec3::Zero();
   bool asleep = false;
@@ -98,7 +107,8 @@ struct RayHit {
   double distance = 0;
 };
 
-/// A hinge or ball joint between a body and the standing structure (fixed in space) or another body.
+/// A joint between a body and the standing structure (fixed in space) or another body, by the components that it holds.
+/// One or two free rotations leave the held ones no more than a right angle from where they began.
 struct HingeDescription {
   BodyId body;
   std::optional<BodyId> other;      ///< none: fixed in space
@@ -111,35 +121,48 @@ class World {
  public:
   virtual ~World() = default;
 
+  /// m/s2. Wakes every body.
   virtual void set_gravity(const Vec3& gravity) = 0;
-  /// A half space below z = height.
+  /// A half space below z = height; replaces the one before. Wakes every body.
   virtual void set_ground(double height, double friction, double restitution) = 0;
 
+  // Every function throws std::out_of_range for a handle that is not in the world, and std::invalid_argument, naming the
+  // part, for a description without mass, with an inertia that is not positive definite, or with a part of no volume.
+
   virtual BodyId add_body(const BodyDescription& description) = 0;
+  /// Its hinges go with it; what touched it wakes.
   virtual void remove_body(BodyId body) = 0;
   virtual ObstacleId add_obstacle(const ObstacleDescription& description) = 0;
+  /// Bodies that lay on it wake.
   virtual void remove_obstacle(ObstacleId obstacle) = 0;
+  /// Bodies that touched it wake.
   virtual void move_obstacle(ObstacleId obstacle, const Pose& pose) = 0;
   virtual HingeId add_hinge(const HingeDescription& description) = 0;
   virtual void remove_hinge(HingeId hinge) = 0;
-  /// Force and moment (joint axes, mean of the last step) that the body exerts on what holds it.
+  /// Force and moment about the point (joint axes, mean of the last step) that the body exerts on what holds it.
   [[nodiscard]] virtual Eigen::Matrix<double, 6, 1> hinge_force(HingeId hinge) const = 0;
 
   [[nodiscard]] virtual BodyState state(BodyId body) const = 0;
+  /// Wakes the body, unless the state says asleep.
   virtual void set_state(BodyId body, const BodyState& state) = 0;
+  /// N s at a global point. Wakes the body.
   virtual void apply_impulse(BodyId body, const Vec3& impulse, const Vec3& point) = 0;
-  /// Contacts between this body and that other are ignored until separated (a body going through what it broke).
   virtual void wake(BodyId body) = 0;
+  /// Contacts between this body and that other (body or obstacle) are left out of sweeps and steps until they have come
+  /// apart: a body that goes through what it broke, or is born inside what it was joined to.
+  virtual void ignore_until_separated(BodyId body, const Touched& other) = 0;
   /// Live bodies in order of id.
   [[nodiscard]] virtual std::span<const BodyId> bodies() const = 0;
   [[nodiscard]] virtual std::size_t awake_count() const = 0;
 
-  /// Contacts that awake bodies will newly make with obstacles, ground or bodies within dt on their ballistic paths, in
-  /// order of time, then of body id. Nothing moves.
+  /// Contacts that awake bodies make with obstacles, ground or bodies within dt on their ballistic paths, each as if the
+  /// others were not there, in order of time, then of body id. One for each pair of parts, the body with the lower id
+  /// first. Those that were there in the last step are flagged persistent. Nothing moves.
   [[nodiscard]] virtual std::vector<Contact> sweep(double dt) = 0;
-  /// Integrates awake bodies by dt (one internal step, semi-implicit Euler).
+  /// Integrates awake bodies by dt > 0 (one internal step, semi-implicit Euler; rotation keeps angular momentum).
   virtual void step(double dt) = 0;
-  /// Contacts of the last step with their impulses, in a fixed order.
+  /// Contacts of awake bodies in the last step, one for each pair of parts, in order of ids and tags. What a sleeping body
+  /// pressed with when it fell asleep, it presses with still.
   [[nodiscard]] virtual std::span<const Contact> contacts() const = 0;
   [[nodiscard]] virtual std::optional<RayHit> ray_cast(const Vec3& from, const Vec3& to) const = 0;
   /// Obstacles whose bounds meet the box.

@@ -1,0 +1,150 @@
+#pragma once
+// collision::World on Bullet. Its parts by file: bodies, obstacles and the step (bullet_world), contacts
+// (bullet_world_contacts), sweeps and rays (bullet_world_sweep), hinges (bullet_world_hinges).
+#include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
+#include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
+#include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
+#include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
+#include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h>
+#include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+
+#include <map>
+#include <set>
+
+#include "first_touch.h"
+#include "free_spin_world.h"
+#include "half_space_contacts.h"
+
+class btManifoldPoint;
+class btPersistentManifold;
+
+namespace topple::collision {
+
+/// A body turns in its principal axes inside, and is seen in the caller's.
+struct Body : Solid {
+  std::unique_ptr<btRigidBody> rigid;
+  btTransform principal = btTransform::getIdentity();  ///< principal axes in the caller's frame (a rotation)
+  bool turned = false;                                 ///< principal is not the identity
+  double inner_radius = 0;                             ///< sphere about the centre of mass inside one part; 0: none
+  double rolling_radius = 0;
+  int ignored = 0;  ///< pairs that it is in and that are ignored until separated
+  SolverVelocities velocities;
+  std::set<std::int64_t> hinges;
+};
+
+struct Obstacle : Solid {
+  std::unique_ptr<btCollisionObject> fixed;
+};
+
+struct Hinge {
+  std::unique_ptr<btTypedConstraint> constraint;
+  btJointFeedback feedback;
+  std::int64_t body = -1, other = -1;
+  btVector3 point_in_body{0, 0, 0};  ///< the joint's point in the body's Bullet frame
+  Mat3 axes_in_holder = Mat3::Identity();
+  Eigen::Matrix<double, 6, 1> force = Eigen::Matrix<double, 6, 1>::Zero();
+};
+
+/// Two solids by kind and id, lower first: bodies before obstacles before the ground.
+struct SolidPair {
+  std::int64_t body = -1;
+  Touched::Kind kind = Touched::Kind::ground;
+  std::int64_t other = -1;
+  auto operator<=>(const SolidPair&) const = default;
+};
+
+class BulletWorld final : public World {
+ public:
+  BulletWorld();
+  ~BulletWorld() override;
+  BulletWorld(const BulletWorld&) = delete;
+  BulletWorld& operator=(const BulletWorld&) = delete;
+
+  void set_gravity(const Vec3& gravity) override;
+  void set_ground(double height, double friction, double restitution) override;
+  BodyId add_body(const BodyDescription& description) override;
+  void remove_body(BodyId body) override;
+  ObstacleId add_obstacle(const ObstacleDescription& description) override;
+  void remove_obstacle(ObstacleId obstacle) override;
+  void move_obstacle(ObstacleId obstacle, const Pose& pose) override;
+  HingeId add_hinge(const HingeDescription& description) override;
+  void remove_hinge(HingeId hinge) override;
+  [[nodiscard]] Eigen::Matrix<double, 6, 1> hinge_force(HingeId hinge) const override;
+  [[nodiscard]] BodyState state(BodyId body) const override;
+  void set_state(BodyId body, const BodyState& state) override;
+  void apply_impulse(BodyId body, const Vec3& impulse, const Vec3& point) override;
+  void wake(BodyId body) override;
+  void ignore_until_separated(BodyId body, const Touched& other) override;
+  [[nodiscard]] std::span<const BodyId> bodies() const override { return order_; }
+  [[nodiscard]] std::size_t awake_count() const override;
+  [[nodiscard]] std::vector<Contact> sweep(double dt) override;
+  void step(double dt) override;
+  [[nodiscard]] std::span<const Contact> contacts() const override { return contacts_; }
+  [[nodiscard]] std::optional<RayHit> ray_cast(const Vec3& from, const Vec3& to) const override;
+  [[nodiscard]] std::vector<ObstacleId> obstacles_in(const Vec3& low, const Vec3& high) const override;
+
+ private:
+  struct Mover;  // an awake body during a sweep
+
+  [[nodiscard]] Body& body(std::int64_t id);
+  [[nodiscard]] const Body& body(std::int64_t id) const;
+  [[nodiscard]] Obstacle& obstacle(std::int64_t id);
+  [[nodiscard]] Hinge& hinge(std::int64_t id);
+  [[nodiscard]] const Hinge& hinge(std::int64_t id) const;
+  [[nodiscard]] const Solid& solid(const SolidPair& pair) const;
+  void remove_ground();
+  void wake_all();
+  void wake_touching(const btCollisionObject& object);
+  void set_continuous(Body& body);
+
+  void ignore(const SolidPair& pair, bool ignored);
+  void forget_ignored_of(Touched::Kind kind, std::int64_t id);
+  void release_separated();
+
+  void gather_contacts();
+  void resist_rolling();
+  void forget_contacts_of(Touched::Kind kind, std::int64_t id);
+  [[nodiscard]] bool is_awake(const Contact& contact) const;
+
+  [[nodiscard]] std::vector<Mover> movers(double dt) const;
+  void sweep_pair(const Mover& mover, const Solid& other, const Motion& other_motion, double dt,
+                  std::vector<Contact>& found) const;
+  void sweep_ground(const Mover& mover, double dt, std::vector<Contact>& found) const;
+  void sweep_standing(const Mover& mover, double dt, std::vector<Contact>& found) const;
+  void sweep_movers(const std::vector<Mover>& movers, double dt, std::vector<Contact>& found) const;
+
+  void read_hinge(Hinge& hinge) const;
+  std::unique_ptr<btTypedConstraint> make_constraint(const HingeDescription& description, Body& body,
+                                                     Body* other) const;
+
+  // Order of destruction: solids leave before the world, the world before what it stands on.
+  HalfSpaceContactsFactory polyhedron_first_{false}, plane_first_{true};
+  btDefaultCollisionConfiguration configuration_;
+  btCollisionDispatcher dispatcher_;
+  btDbvtBroadphase broadphase_;
+  btSequentialImpulseConstraintSolver solver_;
+  FreeSpinWorld world_;
+
+  std::map<std::int64_t, std::unique_ptr<Body>> bodies_;
+  std::map<std::int64_t, std::unique_ptr<Obstacle>> obstacles_;
+  std::map<std::int64_t, std::unique_ptr<Hinge>> hinges_;
+  std::vector<BodyId> order_;
+  std::int64_t next_body_ = 0, next_obstacle_ = 0, next_hinge_ = 0;
+
+  Solid ground_;
+  std::unique_ptr<btStaticPlaneShape> ground_shape_;
+  std::unique_ptr<btCollisionObject> ground_object_;
+  double ground_height_ = 0;
+
+  std::set<SolidPair> ignored_;
+  std::vector<Contact> touching_;  ///< of the last step, those of sleeping bodies too
+  std::vector<Contact> contacts_;  ///< those of awake bodies
+};
+
+/// Order of contacts of one world: by ids, then by tags.
+[[nodiscard]] bool before_by_parts(const Contact& a, const Contact& b);
+[[nodiscard]] bool same_parts(const Contact& a, const Contact& b);
+[[nodiscard]] Touched touched(const Solid& solid, std::int64_t tag);
+
+}  // namespace topple::collision

@@ -1,0 +1,35 @@
+#pragma once
+// Bullet's world with a rotation that keeps angular momentum, and a record of what the solver did to each body.
+#include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
+
+namespace topple::collision {
+
+/// Where the constraint solver saw a body, and its velocities at the step's beginning (before gravity) and after the
+/// solver. With velocities read at mid-step, minus J (before + after)/2 is exactly the energy that an impulse J takes
+/// out of a body whose gravity work is m g dx: the two halves of gravity's kick cancel.
+struct SolverVelocities {
+  btTransform pose = btTransform::getIdentity();
+  btVector3 linear_before{0, 0, 0}, angular_before{0, 0, 0};
+  btVector3 linear_after{0, 0, 0}, angular_after{0, 0, 0};
+};
+
+class FreeSpinWorld : public btDiscreteDynamicsWorld {
+ public:
+  using btDiscreteDynamicsWorld::btDiscreteDynamicsWorld;
+
+  /// Of a body in the last step; all zero for one that did not move in it. Owned by the caller through the user pointer
+  /// of the body: see Body in bullet_world.h.
+  using Record = SolverVelocities& (*)(btRigidBody&);
+  void record_with(Record record) { record_ = record; }
+
+ protected:
+  void predictUnconstraintMotion(btScalar time_step) override;
+  /// Turns each body by the angular velocity at mid-step, L = I w held constant (explicit midpoint rule: the momentum
+  /// is kept to rounding, the energy to second order). Bullet's own gyroscopic terms, which keep neither, are off.
+  void integrateTransforms(btScalar time_step) override;
+
+ private:
+  Record record_ = nullptr;
+};
+
+}  // namespace topple::collision

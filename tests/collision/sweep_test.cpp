@@ -1,0 +1,176 @@
+// Swept detection: what a body will touch before it gets there.
+#include <catch2/catch.hpp>
+
+#include "world_builder.h"
+
+using namespace collision_test;
+
+namespace {
+
+BodyId throw_body(World& world, BodyDescription body, const Vec3& velocity) {
+  body.velocity = entering(velocity);
+  return world.add_body(body);
+}
+
+}  // namespace
+
+TEST_CASE("a fast ball is found before a thin wall that one step would carry it through") {
+  const auto world = world_with_gravity();
+  const ObstacleId wall = world->add_obstacle(box_obstacle({0.075, 3, 3}, {5, 0, 2}, 77));
+  const double radius = 0.4, speed = 120;
+  const BodyId ball = throw_body(*world, ball_body(radius, 500, {4, 0, 2}), {speed, 0, 0});
+  const std::vector<Contact> contacts = world->sweep(kStep);
+  REQUIRE(contacts.size() == 1);
+  const Contact& hit = contacts[0];
+  CHECK(hit.body == ball);
+  CHECK(hit.other.kind == Touched::Kind::obstacle);
+  CHECK(hit.other.obstacle == wall);
+  CHECK(hit.other.part_tag == 77);
+  const double gap = 5 - 0.075 - radius - 4;
+  CHECK(hit.time == Approx(gap / speed).epsilon(1e-4));
+  CHECK(hit.approach_speed == Approx(speed).epsilon(1e-9));
+  CHECK(hit.normal.x() == Approx(1));
+  CHECK(hit.point.x() == Approx(4.925).margin(1e-4));
+  CHECK(hit.point.z() == Approx(2 - kGravity * hit.time * hit.time / 2).margin(1e-4));
+  CHECK_FALSE(hit.persistent);
+  // Nothing moved.
+  CHECK(world->state(ball).pose.position.x() == 4);
+}
+
+TEST_CASE("a falling ball meets the ground at the time and speed of the parabola") {
+  const auto world = world_with_ground();
+  const double drop = 0.05, down = 2;
+  throw_body(*world, ball_body(0.4, 10, {0, 0, 0.4 + drop}), {1, 0, -down});
+  const double time = (std::sqrt(down * down + 2 * kGravity * drop) - down) / kGravity;
+  REQUIRE(time > kStep);  // not in this step, but in two
+  CHECK(world->sweep(kStep).empty());
+  const auto later = make_bullet_world();
+  const double dt = 2 * kStep;
+  later->set_gravity({0, 0, -kGravity});
+  later->set_ground(0, 0.6, 0);
+  BodyDescription ball = ball_body(0.4, 10, {0, 0, 0.4 + drop});
+  ball.velocity = Vec3(1, 0, -down + kGravity * dt / 2);
+  later->add_body(ball);
+  const std::vector<Contact> contacts = later->sweep(dt);
+  REQUIRE(contacts.size() == 1);
+  CHECK(contacts[0].time == Approx(time).epsilon(1e-5));
+  CHECK(contacts[0].approach_speed == Approx(down + kGravity * time).epsilon(1e-6));
+  CHECK(contacts[0].point.x() == Approx(time).epsilon(1e-5));
+}
+
+TEST_CASE("a box turned by 45 degrees meets a wall with its edge, and its spin is part of the speed") {
+  const auto world = make_bullet_world();
+  world->add_obstacle(box_obstacle({0.5, 5, 5}, {0, 0, 0}));
+  const double half = 0.5, reach = half * std::sqrt(2.0), gap = 0.1, speed = 30, spin = 8;
+  BodyDescription box = box_body({half, half, 1}, 100, {-0.5 - gap - reach, 0, 0});
+  box.pose.orientation = Eigen::AngleAxisd(EIGEN_PI / 4, Vec3::UnitZ());
+  box.velocity = Vec3(speed, 0, 0);
+  box.angular_velocity = Vec3(0, 0, spin);
+  world->add_body(box);
+  const std::vector<Contact> contacts = world->sweep(kStep);
+  REQUIRE(contacts.size() == 1);
+  // The leading edge turns away from the wall's normal: it is where x = v t + r cos(w t) reaches the gap.
+  double time = gap / speed;
+  for (int i = 0; i < 50; ++i) time = (gap + reach - reach * std::cos(spin * time)) / speed;
+  // Edges are rounded by the skin of 2 mm: 0.4 x 2 mm of a gap of 100 mm.
+  CHECK(contacts[0].time == Approx(time).epsilon(0.01));
+  CHECK(contacts[0].approach_speed == Approx(speed - spin * reach * std::sin(spin * time)).epsilon(2e-3));
+  CHECK(contacts[0].normal.x() == Approx(1).margin(1e-6));
+  // An edge along z: its middle is where it touches, and its ends are the corners.
+  CHECK(std::abs(contacts[0].point.z()) < 1e-6);
+}
+
+TEST_CASE("a slab that falls flat on a table touches with four corners about its centre") {
+  const auto world = world_with_gravity();
+  world->add_obstacle(box_obstacle({5, 5, 0.5}, {0, 0, 0.5}));
+  throw_body(*world, box_body({3, 2, 0.1}, 2000, {0.5, 0.25, 1.15}), {0, 0, -8});
+  const std::vector<Contact> contacts = world->sweep(kStep);
+  REQUIRE(contacts.size() == 1);
+  CHECK(contacts[0].corner_count == 4);
+  CHECK((contacts[0].point - Vec3(0.5, 0.25, 1)).norm() < 0.005);
+  double spread = 0;
+  for (const Vec3& corner : contacts[0].corners) spread += (corner - Vec3(0.5, 0.25, 1)).head<2>().norm();
+  CHECK(spread / 4 == Approx(std::sqrt(13.0)).epsilon(0.01));
+}
+
+TEST_CASE("contacts come in order of time, then of body id, and two bodies meet by the lower id") {
+  const auto world = make_bullet_world();
+  world->add_obstacle(box_obstacle({0.1, 20, 20}, {3, 0, 0}));
+  const BodyId late = throw_body(*world, ball_body(0.2, 1, {0, 5, 0}), Vec3(200, 0, -kGravity * kStep / 2));
+  const BodyId left = throw_body(*world, ball_body(0.2, 1, {-1, 0, 0}), Vec3(50, 0, -kGravity * kStep / 2));
+  const BodyId right = throw_body(*world, ball_body(0.2, 1, {0, 0, 0}), Vec3(-50, 0, -kGravity * kStep / 2));
+  const BodyId twin = throw_body(*world, ball_body(0.2, 1, {0, -5, 0}), Vec3(200, 0, -kGravity * kStep / 2));
+  const std::vector<Contact> contacts = world->sweep(kStep);
+  REQUIRE(contacts.size() == 3);
+  CHECK(contacts[0].body == left);
+  CHECK(contacts[0].other.body == right);
+  CHECK(contacts[0].approach_speed == Approx(100));
+  CHECK(contacts[0].time == Approx(0.6 / 100).epsilon(1e-3));
+  CHECK(contacts[1].body == late);
+  CHECK(contacts[2].body == twin);
+  CHECK(contacts[1].time == contacts[2].time);
+}
+
+TEST_CASE("a body of several parts says which of them will touch which part of what stands") {
+  const auto world = make_bullet_world();
+  ObstacleDescription posts;
+  posts.parts = {box_part({0.1, 0.1, 1}, 501, {0, -2, 0}), box_part({0.1, 0.1, 1}, 502, {0, 2, 0})};
+  posts.pose.position = Vec3(5, 0, 0);
+  world->add_obstacle(posts);
+  BodyDescription bar = box_body({0.1, 3, 0.1}, 50, {4.5, 0, 0});
+  bar.parts = {box_part({0.1, 1.5, 0.1}, 11, {0, -1.5, 0}), box_part({0.1, 1.5, 0.1}, 12, {0, 1.5, 0})};
+  bar.velocity = Vec3(40, 0, 0);
+  bar.angular_velocity = Vec3(0, 0, -2);
+  world->add_body(bar);
+  const std::vector<Contact> contacts = world->sweep(kStep);
+  REQUIRE(contacts.size() == 2);
+  CHECK(contacts[0].part_tag == 12);  // this end is ahead
+  CHECK(contacts[0].other.part_tag == 502);
+  CHECK(contacts[1].part_tag == 11);
+  CHECK(contacts[1].other.part_tag == 501);
+  CHECK(contacts[0].approach_speed > 40);
+  CHECK(contacts[1].approach_speed < 40);
+}
+
+TEST_CASE("a contact that rests is told as persistent, one with the same speed that is new is not") {
+  const auto world = world_with_ground();
+  world->add_body(box_body({0.5, 0.5, 0.5}, 100, {0, 0, 0.5}));
+  run(*world, 10);
+  const BodyId fresh = world->add_body(box_body({0.5, 0.5, 0.5}, 100, {5, 0, 0.5}));
+  const std::vector<Contact> contacts = world->sweep(kStep);
+  REQUIRE(contacts.size() == 2);
+  for (const Contact& contact : contacts) {
+    CHECK(contact.persistent == (contact.body != fresh));
+    CHECK(contact.approach_speed < 2 * kGravity * kStep);
+  }
+}
+
+TEST_CASE("the step itself does not carry a fast ball through a wall, nor through a sleeping body") {
+  const auto world = make_bullet_world();
+  world->add_obstacle(box_obstacle({0.05, 3, 3}, {5, 0, 0}));
+  BodyDescription ball = ball_body(0.3, 500, {0, 0, 0});
+  ball.velocity = Vec3(150, 0, 0);
+  const BodyId id = world->add_body(ball);
+  run(*world, 10);
+  CHECK(world->state(id).pose.position.x() < 4.7);
+}
+
+TEST_CASE("thousands of obstacles come and go, and are found by box and by ray") {
+  const auto world = make_bullet_world();
+  std::vector<ObstacleId> ids;
+  for (int x = 0; x < 50; ++x) {
+    for (int y = 0; y < 50; ++y)
+      ids.push_back(world->add_obstacle(box_obstacle({0.2, 0.2, 1.5}, {4.0 * x, 4.0 * y, 1.5}, x * 100 + y)));
+  }
+  const std::vector<ObstacleId> found = world->obstacles_in({-1, -1, 0}, {5, 5, 1});
+  CHECK(found == std::vector<ObstacleId>{ids[0], ids[1], ids[50], ids[51]});
+  const std::optional<RayHit> hit = world->ray_cast({4, -10, 1}, {4, 100, 1});
+  REQUIRE(hit);
+  CHECK(hit->what.obstacle == ids[50]);
+  CHECK(hit->what.part_tag == 100);
+  CHECK(hit->distance == Approx(9.8).epsilon(1e-6));
+  CHECK(hit->normal.y() == Approx(-1));
+  for (std::size_t i = 0; i < ids.size(); i += 2) world->remove_obstacle(ids[i]);
+  CHECK(world->obstacles_in({-1, -1, 0}, {5, 5, 1}) == std::vector<ObstacleId>{ids[1], ids[51]});
+  CHECK_FALSE(world->ray_cast({-2, -10, 1}, {-2, 100, 1}));
+}
