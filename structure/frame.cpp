@@ -76,26 +76,4 @@ Frame make_frame(const Building& building) {
   return frame;
 }
 
-solver::LoadSet load_set(const Building& building, const PartLoads& loads) {
-  solver::LoadSet set;
-  for (const auto& list : loads.members) set.beams.insert(set.beams.end(), list.begin(), list.end());
-  for (std::size_t i = 0; i < loads.nodes.size(); ++i)
-    if (!loads.nodes[i].isZero(0)) set.nodes.push_back({static_cast<int>(i), loads.nodes[i]});
-  set.settlements = loads.settlements;
-  const EdgeMembers edges(building);
-  int membrane = 0;
-  for (std::size_t i = 0; i < building.panels.size(); ++i) {
-    const Panel& panel = building.panels[i];
-    if (panel.model == PanelModel::shell) continue;
-    const HandOver given = hand_over(building, edges, PanelId(i), loads.panels[i], {true, true, true, true});
-    set.beams.insert(set.beams.end(), given.beams.begin(), given.beams.end());
-    set.nodes.insert(set.nodes.end(), given.nodes.begin(), given.nodes.end());
-    if (panel.model == PanelModel::membrane) {
-      if (loads.panels[i].strain != 0) set.shells.push_back({membrane, Vec3::Zero(), loads.panels[i].strain});
-      ++membrane;
-    }
-  }
-  return set;
-}
-
 }  // namespace topple::structure

@@ -1,38 +1,65 @@
 #include "topple/structure/joint_check.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace topple::structure {
 
+namespace {
+
+struct Ratio {
+  double value = 0, demand = 0, capacity = unlimited;
+};
+
+Ratio ratio(double demand, double capacity) {
+  if (demand == 0) return {0, 0, capacity};
+  return {demand / capacity, demand, capacity};
+}
+
+std::array<Ratio, 7> ratios(const JointCapacity& capacity, const Vec6& demand, double strength) {
+  std::array<double, 7> d{std::max(0.0, demand(0)), std::max(0.0, -demand(0)), std::abs(demand(1)), std::abs(demand(2)),
+                          std::abs(demand(3)),      std::abs(demand(4)),       std::abs(demand(5))};
+  std::array<Ratio, 7> result;
+  for (std::size_t i = 0; i < 7; ++i)
+    result[i] = ratio(d[i], capacity.value[i] == unlimited ? unlimited : strength * capacity.value[i]);
+  return result;
+}
+
+constexpr bool is_normal_stress(Sense sense) {
+  return sense != Sense::shear_y && sense != Sense::shear_z && sense != Sense::torsion;
+}
+
+}  // namespace
+
 Vec6 member_joint_demand(const solver::Vec12& end_forces, int end) {
-  // What the part beyond does to the part before: at the first end that is the reaction to the hub's force.
-  return end == 0 ? Vec6(-end_forces.head<6>()) : Vec6(end_forces.tail<6>());
+  if (end == 1) return end_forces.tail<6>();
+  Vec6 demand = end_forces.head<6>();
+  demand(0) = -demand(0);
+  return demand;
 }
 
 Utilisation utilisation(const JointCapacity& capacity, const Vec6& demand, double strength) {
-  const std::array<double, 7> demands{std::max(demand[0], 0.0), std::max(-demand[0], 0.0), std::abs(demand[1]),
-                                      std::abs(demand[2]),      std::abs(demand[3]),       std::abs(demand[4]),
-                                      std::abs(demand[5])};
-  std::array<double, 7> ratio{};
-  Utilisation used;
-  used.capacity = unlimited;
-  for (std::size_t i = 0; i < 7; ++i) {
-    const double bound = capacity.value[i] * strength;
-    if (demands[i] == 0) continue;  // also where strength has fallen to nothing
-    ratio[i] = demands[i] / bound;  // 0 where the capacity is unlimited
-    if (ratio[i] > used.value) used = {ratio[i], static_cast<Sense>(i), demands[i], bound};
+  Utilisation worst;
+  if (!capacity.breakable) return worst;
+  const auto all = ratios(capacity, demand, strength);
+  // Of several equal ones the first in the order of the senses.
+  std::size_t governing = 0;
+  for (std::size_t i = 1; i < 7; ++i)
+    if (all[i].value > all[governing].value) governing = i;
+  double value = all[governing].value;
+  if (capacity.interaction == Interaction::sum) {
+    double sum = 0;
+    std::size_t largest = 0;
+    for (std::size_t i = 0; i < 7; ++i) {
+      if (!is_normal_stress(static_cast<Sense>(i))) continue;
+      sum += all[i].value;
+      if (all[i].value > all[largest].value) largest = i;
+    }
+    if (sum >= value) {
+      value = sum;
+      governing = largest;
+    }
   }
-  if (capacity.interaction == Interaction::max) return used;
-  // Normal force and both moments together; shear and torsion each alone.
-  constexpr auto of = [](Sense sense) { return static_cast<std::size_t>(sense); };
-  const double sum = ratio[of(Sense::tension)] + ratio[of(Sense::compression)] + ratio[of(Sense::moment_y)] +
-                     ratio[of(Sense::moment_z)];
-  if (sum <= used.value) return used;
-  Sense largest = Sense::tension;
-  for (const Sense sense : {Sense::compression, Sense::moment_y, Sense::moment_z})
-    if (ratio[of(sense)] > ratio[of(largest)]) largest = sense;
-  return {sum, largest, demands[of(largest)], capacity.value[of(largest)] * strength};
+  return {value, static_cast<Sense>(governing), all[governing].demand, all[governing].capacity};
 }
 
 }  // namespace topple::structure

@@ -1,177 +1,130 @@
+// What a membrane or cladding panel hands to the members along its edges.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
-#include "panel_plane.h"
-#include "topple/structure/frame.h"
+#include "edge_placement.h"
+#include "index_of.h"
+#include "panel_shares.h"
 
 namespace topple::structure {
 
 namespace {
 
-/// The edge of those that hold whose midpoint is lowest.
-int lowest_edge(const Building& building, const Panel& panel) {
-  const auto height = [&](std::size_t e) {
-    return building[panel.nodes[e]].position.z() + building[panel.nodes[(e + 1) % 4]].position.z();
-  };
-  std::size_t lowest = 0;
-  // A hair's breadth of difference is rounding: the first edge in order then counts.
-  const double hair = 1e-9 * (building[panel.nodes[0]].position - building[panel.nodes[2]].position).norm();
-  for (std::size_t e = 1; e < 4; ++e)
-    if (height(e) < height(lowest) - hair) lowest = e;
-  return static_cast<int>(lowest);
+constexpr double level = 1e-6;  // of the panel's size: heights that differ less are equal
+
+PanelOutline outline_of(const Building& building, const Panel& panel) {
+  PanelOutline outline;
+  const Vec3& origin = building[panel.nodes[0]].position;
+  for (std::size_t i = 0; i < 4; ++i)
+    outline.corner[i] = panel.axes.topRows<2>() * (building[panel.nodes[i]].position - origin);
+  outline.openings = panel.openings;
+  return outline;
 }
 
-/// Edges' forces of the whole panel by its span and by what holds.
-EdgeForces edge_forces(const Building& building, const Panel& panel, const PanelAction& action,
-                       const std::array<bool, 4>& holds) {
-  EdgeForces out;
-  const PanelPlane plane = panel_plane(building, panel);
-  const double across = action.body_force.dot(plane.normal) - action.pressure;
-  const Vec3 along = action.body_force - action.body_force.dot(plane.normal) * plane.normal;
-  if (!(holds[0] && holds[1] && holds[2] && holds[3])) {
-    // Load alone: everything goes between the opposite pair that is left.
-    for (const int first : {shorter_span(plane), 1 - shorter_span(plane)})
-      if (holds[static_cast<std::size_t>(first)] && holds[static_cast<std::size_t>(first + 2)]) {
-        one_way(plane, first, across * plane.normal + along, out);
-        return out;
-      }
-    return out;
-  }
-  if (across != 0) {
-    const Vec3 traction = across * plane.normal;
-    if (panel.span == Span::x)
-      one_way(plane, 1, traction, out);
-    else if (panel.span == Span::y)
-      one_way(plane, 0, traction, out);
-    else if (!panel.openings.empty())
-      one_way(plane, shorter_span(plane), traction, out);
-    else
-      two_way(plane, traction, out);
-  }
-  // What rounding leaves of a horizontal slab's weight in its plane is none.
-  if (along.norm() > 1e-14 * action.body_force.norm()) along_plane(plane, lowest_edge(building, panel), along, out);
-  return out;
+/// Which of the edges bear the panel: all four, or an opposite pair (0 and 2, or 1 and 3).
+struct Bearing {
+  bool all = false;
+  std::size_t pair = 0;
+};
+
+std::optional<Bearing> bearing_of(const std::array<bool, 4>& holds) {
+  const bool first = holds[0] && holds[2], second = holds[1] && holds[3];
+  if (first && second) return Bearing{true, 0};
+  if (first) return Bearing{false, 0};
+  if (second) return Bearing{false, 1};
+  return std::nullopt;
 }
 
-/// Puts one edge's forces on its members, or on its two nodes.
-class EdgeCarrier {
+Vec2 shorter_span(const PanelOutline& outline) {
+  const Vec2 first = outline.middle(2) - outline.middle(0), second = outline.middle(1) - outline.middle(3);
+  return second.norm() < first.norm() ? second : first;
+}
+
+/// Shares of what acts across the panel.
+EdgeShares shares_across(const PanelOutline& outline, Span span, const Bearing& bearing) {
+  if (!bearing.all) return pair_shares(outline, bearing.pair);
+  if (span == Span::x) return strip_shares(outline, Vec2::UnitX());
+  if (span == Span::y) return strip_shares(outline, Vec2::UnitY());
+  return outline.openings.empty() ? two_way_shares(outline) : strip_shares(outline, shorter_span(outline));
+}
+
+/// The bearing edge that lies lowest; none when they lie equally high as a pair or all together.
+std::optional<std::size_t> lowest_edge(const Building& building, const Panel& panel, const Bearing& bearing,
+                                       double size) {
+  std::array<double, 4> height{};
+  for (std::size_t i = 0; i < 4; ++i)
+    height[i] = 0.5 * (building[panel.nodes[i]].position.z() + building[panel.nodes[(i + 1) % 4]].position.z());
+  const auto counts = [&](std::size_t edge) { return bearing.all || edge % 2 == bearing.pair; };
+  std::size_t lowest = bearing.all ? 0 : bearing.pair;
+  for (std::size_t i = 0; i < 4; ++i)
+    if (counts(i) && height[i] < height[lowest] - level * size) lowest = i;
+  if (height[(lowest + 2) % 4] - height[lowest] <= level * size) return std::nullopt;
+  return lowest;
+}
+
+class Handing {
  public:
-  EdgeCarrier(const Building& building, NodeId a, NodeId b, const std::vector<MemberId>& members, HandOver& out)
-      : building_(building), a_(a), b_(b), members_(members), out_(out) {
-    start_ = building[a].position;
-    const Vec3 edge = building[b].position - start_;
-    length_ = edge.norm();
-    along_ = edge / length_;
+  Handing(const Building& building, const EdgeMembers& edges, PanelId panel, const std::vector<bool>& member_stands)
+      : building_(building), edges_(edges), panel_(panel), stands_(member_stands) {
+    result.edge_force.fill(Vec3::Zero());
   }
 
-  void put(const EdgeForce& force) {
-    if (members_.empty()) {
-      on_two_nodes(force);
-      return;
-    }
-    for (const MemberId id : members_) on_member(id, force);
+  void hand(const EdgeShares& shares, const PanelOutline& outline, const Vec3& force) {
+    for (std::size_t edge = 0; edge < 4; ++edge) hand(shares[edge], outline, edge, force);
   }
+
+  void hand(const std::vector<LineShare>& shares, const PanelOutline& outline, std::size_t edge, const Vec3& force) {
+    if (shares.empty()) return;
+    const EdgePlacement placement = placement_of(edge);
+    // A warped panel's edges are a little longer than their projections.
+    const double ratio = placement.length() / outline.length(edge);
+    for (const LineShare& share : shares) {
+      const EdgeLoad load{share.from * ratio, share.to * ratio, force * (share.first / ratio),
+                          force * (share.last / ratio)};
+      place(placement, edge, load);
+    }
+  }
+
+  /// In-plane load goes straight down to the lowest edge. What lies beyond its ends is spread evenly over it, and the
+  /// couple about the normal that is then missing comes back as a push and pull along the edge.
+  void hand_down(const PanelOutline& outline, std::size_t edge, const Vec3& force) {
+    const Mat3& axes = building_[panel_].axes;
+    const Vec2 up = axes.topRows<2>() * Vec3::UnitZ();
+    const VerticalShares shares = vertical_shares(outline, edge, up);
+    hand(shares.on_edge, outline, edge, force);
+    const EdgePlacement placement = placement_of(edge);
+    const double length = placement.length(), scale = outline.size() * outline.size();
+    constexpr double rounding = 1e-14;
+    if (std::abs(shares.area_beyond) > rounding * scale) {
+      const Vec3 even = force * (shares.area_beyond / length);
+      place(placement, edge, {0, length, even, even});
+    }
+    const Vec2 in_plane = axes.topRows<2>() * force, &m = shares.moment_missing;
+    const double couple = m.x() * in_plane.y() - m.y() * in_plane.x();
+    if (std::abs(couple) <= rounding * scale * outline.size() * in_plane.norm()) return;
+    const Vec2 along = outline.along(edge);
+    const Vec3 across = axes.transpose() * Vec3(-along.y(), along.x(), 0);
+    const Vec3 most = across * (6 * couple / (length * length));
+    place(placement, edge, {0, length, -most, most});
+  }
+
+  HandOver result;
 
  private:
-  [[nodiscard]] double place(NodeId node) const { return (building_[node].position - start_).dot(along_); }
-
-  static Vec3 at(const EdgeForce& force, double place) {
-    return force.first + (force.last - force.first) * ((place - force.from) / (force.to - force.from));
+  [[nodiscard]] EdgePlacement placement_of(std::size_t edge) const {
+    return {building_, edges_, panel_, static_cast<int>(edge), stands_};
   }
-  /// Resultant of the part within [low, high], and its place.
-  struct Resultant {
-    Vec3 force;
-    double place;
-  };
-  static Resultant resultant(const EdgeForce& force, double low, double high) {
-    if (force.from == force.to) return {force.first, force.from};
-    const Vec3 f = at(force, low), l = at(force, high);
-    const double width = high - low, sum = (f + l).norm();
-    // The direction is the same all along; signs may differ, so weigh by the component along it.
-    const Vec3 direction = f.norm() >= l.norm() ? f : l;
-    const double fd = f.dot(direction), ld = l.dot(direction);
-    const double lever = sum > 0 && fd + ld != 0 ? (fd + 2 * ld) / (3 * (fd + ld)) : 0.5;
-    return {(f + l) * (width / 2), low + width * lever};
-  }
-
-  void on_two_nodes(const EdgeForce& force) {
-    const Resultant r = resultant(force, force.from, force.to);
-    node_force(a_, r.force * (1 - r.place / length_), Vec3::Zero());
-    node_force(b_, r.force * (r.place / length_), Vec3::Zero());
-  }
-
-  void on_member(MemberId id, const EdgeForce& force) {
-    const Member& member = building_[id];
-    const double n0 = place(member.nodes[0]), n1 = place(member.nodes[1]);
-    const double u0 = n0 + member.offsets[0].dot(along_), u1 = n1 + member.offsets[1].dot(along_);
-    const double low = std::min(u0, u1), high = std::max(u0, u1);
-    on_beam(id, force, u0, u1);
-    // Over the rigid arms: the node takes it, with its moment.
-    const bool forward = n0 < n1;
-    over_arm(member.nodes[forward ? 0 : 1], force, std::min(n0, n1), low);
-    over_arm(member.nodes[forward ? 1 : 0], force, high, std::max(n0, n1));
-  }
-
-  void over_arm(NodeId node, const EdgeForce& force, double low, double high) {
-    const double from = std::max(low, force.from), to = std::min(high, force.to);
-    if (force.from == force.to ? !(force.from > low && force.from < high) : !(to > from)) return;
-    const Resultant r = resultant(force, from, to);
-    node_force(node, r.force, (start_ + along_ * r.place - building_[node].position).cross(r.force));
-  }
-
-  void on_beam(MemberId id, const EdgeForce& force, double u0, double u1) {
-    const Member& member = building_[id];
-    const double low = std::min(u0, u1), high = std::max(u0, u1);
-    const bool point = force.from == force.to;
-    const double from = std::max(low, force.from), to = std::min(high, force.to);
-    // A point on the border of two members belongs to the one that begins there.
-    if (point ? !(force.from >= low && (force.from < high || (high >= length_ && force.from <= high))) : !(to > from))
-      return;
-    const double stretch = member.length / (u1 - u0);
-    const auto distance = [&](double place) { return std::clamp((place - u0) * stretch, 0.0, member.length); };
-    solver::BeamLoad load;
-    load.beam = id.index;
-    load.kind = point ? solver::BeamLoad::Kind::point : solver::BeamLoad::Kind::distributed;
-    const bool forward = u1 > u0;
-    load.from = distance(forward ? from : to);
-    load.to = distance(forward ? to : from);
-    const double scale = point ? 1 : 1 / std::abs(stretch);
-    const Vec3 first = point ? force.first : at(force, forward ? from : to);
-    const Vec3 last = point ? force.first : at(force, forward ? to : from);
-    load.first = local(member, first * scale, arm(member, forward ? from : to, load.from));
-    load.last = local(member, last * scale, arm(member, forward ? to : from, load.to));
-    if (point) load.from = load.to = distance(force.from);
-    out_.beams.push_back(load);
-  }
-
-  /// From the member's axis to the edge, where the member lies beside it.
-  [[nodiscard]] Vec3 arm(const Member& member, double place, double distance) const {
-    const Vec3 axis_point =
-        building_[member.nodes[0]].position + member.offsets[0] + distance * member.axes.row(0).transpose();
-    const Vec3 away = start_ + along_ * place - axis_point;
-    return away.norm() > 1e-9 * length_ ? away : Vec3::Zero();
-  }
-
-  static Vec6 local(const Member& member, const Vec3& force, const Vec3& arm) {
-    Vec6 out;
-    out.head<3>() = member.axes * force;
-    out.tail<3>() = member.axes * arm.cross(force);
-    return out;
-  }
-
-  void node_force(NodeId node, const Vec3& force, const Vec3& moment) {
-    Vec6 load;
-    load << force, moment;
-    if (!load.isZero(0)) out_.nodes.push_back({node.index, load});
+  void place(const EdgePlacement& placement, std::size_t edge, const EdgeLoad& load) {
+    placement.place(load, result);
+    result.edge_force[edge] += load.resultant();
   }
 
   const Building& building_;
-  NodeId a_, b_;
-  const std::vector<MemberId>& members_;
-  HandOver& out_;
-  Vec3 start_, along_;
-  double length_ = 0;
+  const EdgeMembers& edges_;
+  PanelId panel_;
+  const std::vector<bool>& stands_;
 };
 
 }  // namespace
@@ -179,19 +132,22 @@ class EdgeCarrier {
 HandOver hand_over(const Building& building, const EdgeMembers& edges, PanelId id, const PanelAction& action,
                    const std::array<bool, 4>& edge_holds, const std::vector<bool>& member_stands) {
   const Panel& panel = building[id];
-  std::array<bool, 4> holds = edge_holds;
-  for (int e = 0; e < 4 && !member_stands.empty(); ++e)
-    for (const MemberId member : edges.of(id, e))
-      if (!member_stands[static_cast<std::size_t>(member.index)]) holds[static_cast<std::size_t>(e)] = false;
-  HandOver out;
-  out.edge_force.fill(Vec3::Zero());
-  for (const EdgeForce& force : edge_forces(building, panel, action, holds)) {
-    const auto e = static_cast<std::size_t>(force.edge);
-    out.edge_force[e] +=
-        force.from == force.to ? force.first : Vec3((force.first + force.last) * ((force.to - force.from) / 2));
-    EdgeCarrier(building, panel.nodes[e], panel.nodes[(e + 1) % 4], edges.of(id, force.edge), out).put(force);
-  }
-  return out;
+  Handing handing(building, edges, id, member_stands);
+  const std::optional<Bearing> bearing = bearing_of(edge_holds);
+  if (panel.model == PanelModel::shell || !bearing) return std::move(handing.result);
+  const Vec3 normal = panel.axes.row(2);
+  const Vec3 whole = action.body_force - action.pressure * normal;
+  if (whole.isZero(0)) return std::move(handing.result);
+  const PanelOutline outline = outline_of(building, panel);
+  const Vec3 across = whole.dot(normal) * normal;
+  Vec3 within = whole - across;
+  constexpr double rounding = 1e-14;
+  if (within.norm() <= rounding * whole.norm()) within.setZero();
+  const auto lowest = lowest_edge(building, panel, *bearing, outline.size());
+  const bool down = lowest && !within.isZero(0);
+  handing.hand(shares_across(outline, panel.span, *bearing), outline, down ? across : whole);
+  if (down) handing.hand_down(outline, *lowest, within);
+  return std::move(handing.result);
 }
 
 }  // namespace topple::structure

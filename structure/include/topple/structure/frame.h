@@ -31,6 +31,8 @@ struct PartLoads {
   std::vector<Vec6> nodes;                             ///< per node, global
   std::vector<solver::Settlement> settlements;
 };
+/// Loads in the frame `projected` count each component per length of the member seen along that global axis; moments
+/// always per length of member.
 [[nodiscard]] PartLoads part_loads(const Building& building, CombinationId combination);
 
 /// Members along each edge of each panel: the member between its two nodes, or the collinear ones between them in
@@ -47,18 +49,20 @@ class EdgeMembers {
 };
 
 /// What a membrane or cladding panel hands on, given which of its edge joints hold and which members still stand
-/// (`member_stands` empty: all). The force is the panel's, exactly, and so are the moments, but for two-way spans in
-/// quadrilaterals that are not rectangles, where each part goes straight to its nearest edge.
+/// (`member_stands` empty: all). Force and moments are those of the panel's action, exactly.
 struct HandOver {
   std::vector<solver::BeamLoad> beams;
   std::vector<solver::NodeLoad> nodes;
   std::array<Vec3, 4> edge_force;  ///< resultant over each edge, global (the demand of the edge joints)
 };
+/// Nothing is handed over when no opposite pair of edges holds (the panel leaves), nor by a shell.
 [[nodiscard]] HandOver hand_over(const Building& building, const EdgeMembers& edges, PanelId panel,
                                  const PanelAction& action, const std::array<bool, 4>& edge_holds,
                                  const std::vector<bool>& member_stands = {});
 
 /// The whole combination as one right-hand side of `make_frame(building).model`, everything standing.
+/// A settlement of a spring support becomes the push of that spring on its node.
+[[nodiscard]] solver::LoadSet load_set(const Building& building, const EdgeMembers& edges, const PartLoads& loads);
 [[nodiscard]] solver::LoadSet load_set(const Building& building, const PartLoads& loads);
 
 }  // namespace topple::structure
