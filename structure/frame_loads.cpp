@@ -136,28 +136,18 @@ bool FrameLoads::remove_contact(std::int64_t key) {
   return true;
 }
 
-std::vector<std::int64_t> FrameLoads::contacts_on(MemberId member) const {
-  std::vector<std::int64_t> keys;
-  for (const auto& [key, load] : contacts_)
-    if (std::any_of(load.members.begin(), load.members.end(), [&](const auto& on) { return on.first == member; }))
-      keys.push_back(key);
-  return keys;
-}
-
-std::vector<std::int64_t> FrameLoads::contacts_on(PanelId panel) const {
-  std::vector<std::int64_t> keys;
-  for (const auto& [key, load] : contacts_)
-    if (load.panel == panel) keys.push_back(key);
-  return keys;
-}
-
 FrameLoads::Changed FrameLoads::take_changed() {
   return {sorted_unique(changed_members_), sorted_unique(changed_nodes_)};
 }
 
-std::vector<solver::BeamLoad> FrameLoads::own_and_handed(MemberId member) const {
+std::vector<solver::BeamLoad> FrameLoads::own(MemberId member) const {
   std::vector<solver::BeamLoad> all;
   for (const solver::BeamLoad& load : loads_.members[index_of(member)]) all.push_back(under_gravity(member, load));
+  return all;
+}
+
+std::vector<solver::BeamLoad> FrameLoads::own_and_handed(MemberId member) const {
+  std::vector<solver::BeamLoad> all = own(member);
   for (int panel : handing_members_[index_of(member)])
     for (const solver::BeamLoad& load : handed_[static_cast<std::size_t>(panel)].beams)
       if (load.beam == member.index) all.push_back(load);
@@ -173,7 +163,7 @@ std::vector<solver::BeamLoad> FrameLoads::on(MemberId member) const {
 }
 
 Vec6 FrameLoads::own_and_handed(NodeId node) const {
-  Vec6 sum = under_gravity(loads_.nodes[index_of(node)]);
+  Vec6 sum = own(node);
   for (int panel : handing_nodes_[index_of(node)])
     for (const solver::NodeLoad& load : handed_[static_cast<std::size_t>(panel)].nodes)
       if (load.node == node.index) sum += load.load;

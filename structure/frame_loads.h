@@ -36,8 +36,6 @@ class FrameLoads {
   /// Returns false when nothing changes.
   bool set_contact(std::int64_t key, PlacedLoad load);
   bool remove_contact(std::int64_t key);
-  [[nodiscard]] std::vector<std::int64_t> contacts_on(MemberId member) const;
-  [[nodiscard]] std::vector<std::int64_t> contacts_on(PanelId panel) const;
 
   /// Members and nodes whose loads changed since the last call, in order of id.
   struct Changed {
@@ -54,6 +52,12 @@ class FrameLoads {
   /// The part of it that counts as mass or comes from the combination; the rest is contact and event loads.
   [[nodiscard]] std::vector<solver::BeamLoad> own_and_handed(MemberId member) const;
   [[nodiscard]] Vec6 own_and_handed(NodeId node) const;
+  /// What is the part's own: neither handed on by panels nor added by events or contacts.
+  [[nodiscard]] std::vector<solver::BeamLoad> own(MemberId member) const;
+  [[nodiscard]] Vec6 own(NodeId node) const {
+    return under_gravity(loads_.nodes[static_cast<std::size_t>(node.index)]);
+  }
+  [[nodiscard]] const HandOver& handed(PanelId panel) const { return handed_[static_cast<std::size_t>(panel.index)]; }
   [[nodiscard]] const Vec6& event_load(NodeId node) const { return events_[static_cast<std::size_t>(node.index)]; }
   [[nodiscard]] const std::map<std::int64_t, PlacedLoad>& contacts() const { return contacts_; }
   /// Force that a panel hands to one of its edges, contacts on it included, global axes.

@@ -6,7 +6,7 @@ namespace topple::structure {
 
 namespace {
 
-/// Component number of each node: connected by members, membranes and diaphragms, numbered in order of the least node.
+/// Component number of each node: connected by members, panels and diaphragms, numbered in order of the least node.
 std::vector<int> components_of(const Building& building, const Frame& frame) {
   std::vector<std::size_t> parent(building.nodes.size());
   std::iota(parent.begin(), parent.end(), std::size_t{0});
@@ -18,8 +18,9 @@ std::vector<int> components_of(const Building& building, const Frame& frame) {
     parent[find(static_cast<std::size_t>(a))] = find(static_cast<std::size_t>(b));
   };
   for (const solver::Beam& beam : frame.model.beams) join(beam.node[0], beam.node[1]);
-  for (const solver::Shell& shell : frame.model.shells)
-    for (std::size_t corner = 1; corner < 4; ++corner) join(shell.node[0], shell.node[corner]);
+  // Any panel: what lies on it goes to all of its edges.
+  for (const Panel& panel : building.panels)
+    for (std::size_t corner = 1; corner < 4; ++corner) join(panel.nodes[0].index, panel.nodes[corner].index);
   for (const solver::Diaphragm& diaphragm : frame.model.diaphragms)
     for (int node : diaphragm.nodes) join(diaphragm.nodes.front(), node);
   std::vector<int> number(parent.size(), -1), answer(parent.size());
@@ -37,6 +38,7 @@ std::vector<int> components_of(const Building& building, const Frame& frame) {
 FrameStatics::FrameStatics(const Building& building, int threads) {
   const Frame frame = make_frame(building);
   std::vector<solver::FrameModel> models = split(building, frame);
+  end_forces_.assign(building.members.size(), solver::Vec12::Zero());
   solver::AnalysisOptions options;
   options.threads = threads;
   for (std::size_t c = 0; c < models.size(); ++c)
@@ -139,12 +141,22 @@ void FrameStatics::set_load(NodeId node, const Vec6& load) {
   changing(place).set_node_load(place.local, load);
 }
 
+void FrameStatics::forget(int number) {
+  Component& component = components_[static_cast<std::size_t>(number)];
+  component.changed = false;
+  component.gone = true;
+}
+
 std::optional<FrameMechanism> FrameStatics::solve(int number) {
   Component& component = components_[static_cast<std::size_t>(number)];
   const solver::ReanalysisAnswer& answer = component.analysis->solve();
   operations_ += component.analysis->last_operations();
   component.changed = false;
-  if (answer.stable) return std::nullopt;
+  if (answer.stable) {
+    for (MemberId member : component.members)
+      end_forces_[index(member)] = component.analysis->beam_end_forces(member_place_[index(member)].local);
+    return std::nullopt;
+  }
   component.changed = true;
   FrameMechanism mechanism;
   mechanism.motion.assign(node_place_.size(), Vec6::Zero());
@@ -159,9 +171,16 @@ const Vec6& FrameStatics::displacement(NodeId node) const {
   return at(place).displacements()[static_cast<std::size_t>(place.local)];
 }
 
-solver::Vec12 FrameStatics::end_forces(MemberId member) const {
+const solver::Beam& FrameStatics::beam(MemberId member) const {
   const Place& place = member_place_[index(member)];
-  return at(place).beam_end_forces(place.local);
+  return at(place).model().beams[static_cast<std::size_t>(place.local)];
+}
+
+double FrameStatics::strain_energy() const {
+  double sum = 0;
+  for (const Component& component : components_)
+    if (!component.gone) sum += component.analysis->strain_energy();
+  return sum;
 }
 
 std::array<Vec6, 4> FrameStatics::corner_forces(PanelId membrane) const {

@@ -1,6 +1,6 @@
 #pragma once
 // The solver behind a standing frame, in the building's own ids. Each connected component that the undamaged building
-// has (by members, membranes and diaphragms) is one solver::Reanalysis, so that a street of houses costs what was
+// has (by members, panels and diaphragms) is one solver::Reanalysis, so that a street of houses costs what was
 // touched.
 #include <memory>
 #include <optional>
@@ -42,11 +42,14 @@ class FrameStatics {
   /// Brings one component up to date. A mechanism leaves the displacements as they were.
   [[nodiscard]] std::optional<FrameMechanism> solve(int component);
   /// Nothing of the component stands: there is nothing to solve.
-  void forget(int component) { components_[static_cast<std::size_t>(component)].changed = false; }
+  void forget(int component);
 
   // The answer as solved last.
   [[nodiscard]] const Vec6& displacement(NodeId node) const;
-  [[nodiscard]] solver::Vec12 end_forces(MemberId member) const;
+  /// They outlive a mechanism that solve() finds later.
+  [[nodiscard]] const solver::Vec12& end_forces(MemberId member) const { return end_forces_[index(member)]; }
+  [[nodiscard]] const solver::Beam& beam(MemberId member) const;
+  [[nodiscard]] double strain_energy() const;
   [[nodiscard]] std::array<Vec6, 4> corner_forces(PanelId membrane) const;
   /// Of the support at its index in Building::supports.
   [[nodiscard]] Vec6 reaction(std::size_t support) const;
@@ -87,7 +90,7 @@ class FrameStatics {
     std::vector<MemberId> members;
     std::vector<PanelId> membranes;
     std::unique_ptr<solver::Reanalysis> analysis;
-    bool changed = true;
+    bool changed = true, gone = false;
   };
   template <class Tag>
   static std::size_t index(Id<Tag> id) {
@@ -100,6 +103,7 @@ class FrameStatics {
 
   std::vector<Place> node_place_, member_place_, membrane_place_, support_place_;
   std::vector<NodeId> support_node_;
+  std::vector<solver::Vec12> end_forces_;
   std::vector<Component> components_;
   double operations_ = 0;
 };

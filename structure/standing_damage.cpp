@@ -18,11 +18,19 @@ void StandingFrame::State::apply(const Change& change) {
   std::visit(Overloaded{[&](const BreakJoint& one) { break_joint(one.joint, one.cause); },
                         [&](MemberId member) { remove(member); }, [&](PanelId panel) { remove(panel); },
                         [&](const RemoveSupport& one) {
+                          if (node_solved[index_of(one.node)]) account.lose_support(one.node);
                           segments.remove_support(one.node);
                           statics.remove_support(one.node);
                         },
-                        [&](const EventLoad& one) { loads.add_load(one.node, one.load); },
-                        [&](const Gravity& one) { loads.set_gravity(one.gravity); }},
+                        [&](const EventLoad& one) {
+                          account.add_load(one.node, one.load);
+                          loads.add_load(one.node, one.load);
+                        },
+                        [&](const Gravity& one) {
+                          const LoadWork before = account.load_work();
+                          loads.set_gravity(one.gravity);
+                          account.gravity_turned(before, one.gravity);
+                        }},
              change);
 }
 
@@ -36,8 +44,9 @@ void StandingFrame::State::break_joints(std::span<const JointId> together, Break
   std::vector<JointId> broken;
   for (JointId joint : together)
     if (holds(joint) && label(joint) >= 0) broken.push_back(joint);
+  const int first = static_cast<int>(breaks.size());
   for (JointId joint : broken) tell(joint, cause);
-  for (JointId joint : broken) damage(joint);
+  for (std::size_t i = 0; i < broken.size(); ++i) damage(broken[i], first + static_cast<int>(i));
 }
 
 void StandingFrame::State::tell(JointId joint, BreakCause cause) {
@@ -53,11 +62,11 @@ void StandingFrame::State::tell(JointId joint, BreakCause cause) {
   breaks.push_back(broken);
 }
 
-void StandingFrame::State::damage(JointId joint) {
+void StandingFrame::State::damage(JointId joint, int told) {
   const Joint& own = building[joint];
   if (own.member.valid()) {
     segments.break_joint(joint);
-    lose_member_joint(joint);
+    lose_member_joint(joint, told);
     return;
   }
   joints.lose(joint);
@@ -68,7 +77,8 @@ void StandingFrame::State::damage(JointId joint) {
 }
 
 /// Everything but segmentation, which knows already.
-void StandingFrame::State::lose_member_joint(JointId joint) {
+void StandingFrame::State::lose_member_joint(JointId joint, int told) {
+  account.lose_joint(joint, told);
   const Joint& own = building[joint];
   const NodeId node = building[own.member].nodes[static_cast<std::size_t>(own.end)];
   statics.break_joint(own.member, own.end);
@@ -83,16 +93,30 @@ void StandingFrame::State::lose_member_joint(JointId joint) {
   // A hub without members: a support that bears nothing, or about to leave. The solver has no stiffness for it.
   take(bearings.bare(node), nullptr);
   if (!node_solved[index_of(node)]) return;
+  account.drop(node);
+  drop_node(node);
+}
+
+void StandingFrame::State::drop_node(NodeId node) {
+  if (!node_solved[index_of(node)]) return;
   node_solved[index_of(node)] = 0;
   --solved_nodes[static_cast<std::size_t>(statics.component(node))];
   statics.drop({node});
 }
 
+void StandingFrame::State::hand_on_anew(PanelId panel) {
+  account.hand_on(panel);
+  loads.hand_on_anew(panel);
+}
+
 /// `parts`: those that leave in the same change, by their numbers.
 void StandingFrame::State::take(const PanelBearings::Changes& changes, std::vector<Detached>* parts) {
-  for (PanelId panel : changes.lost_membrane) statics.remove_membrane(panel);
+  for (PanelId panel : changes.lost_membrane) {
+    account.lose_membrane(panel);
+    statics.remove_membrane(panel);
+  }
   const auto settle_edges = [&](PanelId panel) {
-    loads.hand_on_anew(panel);
+    hand_on_anew(panel);
     for (int edge = 0; edge < 4; ++edge)
       if (!bearings.holds(panel)[static_cast<std::size_t>(edge)]) joints.lose(building.joint(panel, edge));
     to_check[static_cast<std::size_t>(statics.component(building[panel].nodes[0]))] = 1;
@@ -103,12 +127,12 @@ void StandingFrame::State::take(const PanelBearings::Changes& changes, std::vect
   }
   for (PanelId panel : changes.fell) {
     settle_edges(panel);
-    drop_contacts_on(panel);
+    drop_contacts(panel);
     detached.emplace_back().panels.push_back(panel);
   }
   for (const auto& [panel, part] : changes.carried_off) {
-    loads.hand_on_anew(panel);
-    drop_contacts_on(panel);
+    hand_on_anew(panel);
+    drop_contacts(panel);
     (*parts)[static_cast<std::size_t>(part)].panels.push_back(panel);
   }
 }
@@ -119,44 +143,49 @@ void StandingFrame::State::remove(MemberId member) {
     const JointId joint = building.joint(member, end);
     if (!segments.holds(joint)) continue;
     segments.break_joint(joint);
-    lose_member_joint(joint);
+    lose_member_joint(joint, -1);
   }
   segments.remove(member);
+  account.leave(member);
   statics.remove(member);
-  drop_contacts_on(member);
+  drop_contacts(member);
   take(bearings.leave({{{member, -1}}, {}}), nullptr);
 }
 
 void StandingFrame::State::remove(PanelId panel) {
   if (!stands(panel)) return;
-  drop_contacts_on(panel);
+  drop_contacts(panel);
   if (!bearings.serves(panel)) {
     segments.remove(panel);
     return;
   }
-  if (bearings.membrane(panel)) statics.remove_membrane(panel);
+  if (bearings.membrane(panel)) {
+    account.lose_membrane(panel);
+    statics.remove_membrane(panel);
+  }
   bearings.remove(panel);
-  loads.hand_on_anew(panel);
+  hand_on_anew(panel);
   for (int edge = 0; edge < 4; ++edge) joints.lose(building.joint(panel, edge));
   to_check[static_cast<std::size_t>(statics.component(building[panel].nodes[0]))] = 1;
 }
 
-void StandingFrame::State::drop_contacts_on(MemberId member) {
-  // A contact on a panel that also bears on this member is placed again when the panel's bearings change.
+/// A contact on a panel that also bears on a member that left is placed again when the panel's bearings change.
+template <class Gone>
+void StandingFrame::State::drop_contacts(const Gone& gone) {
   std::erase_if(contacts, [&](const auto& contact) {
-    if (contact.second.place.member != member) return false;
-    loads.remove_contact(contact.first);
+    const auto& [key, load] = contact;
+    if constexpr (std::is_same_v<Gone, MemberId>) {
+      if (load.place.member != gone) return false;
+    } else {
+      if (load.place.panel != gone) return false;
+    }
+    account.drop_contact(loads.contacts().at(key));
+    loads.remove_contact(key);
     return true;
   });
 }
-
-void StandingFrame::State::drop_contacts_on(PanelId panel) {
-  std::erase_if(contacts, [&](const auto& contact) {
-    if (contact.second.place.panel != panel) return false;
-    loads.remove_contact(contact.first);
-    return true;
-  });
-}
+template void StandingFrame::State::drop_contacts(const MemberId&);
+template void StandingFrame::State::drop_contacts(const PanelId&);
 
 void StandingFrame::State::place_contacts_again(PanelId panel) {
   for (const auto& [key, contact] : contacts)

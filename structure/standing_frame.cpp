@@ -20,11 +20,14 @@ StandingFrame::State::State(const Building& given, CombinationId combination, co
       loads(given, part_loads(given, combination), bearings),
       statics(given, threads),
       joints(given, failure.sudden),
+      node_solved(given.nodes.size(), 1),
+      applied(given.members.size()),
+      node_applied(given.nodes.size(), Vec6::Zero()),
+      account({given, segments, bearings, loads, statics, node_solved, applied}),
       checked_joints(static_cast<std::size_t>(statics.components())),
       component_panels(checked_joints.size()),
       to_check(checked_joints.size(), 1),
       solved_nodes(checked_joints.size(), 0),
-      node_solved(given.nodes.size(), 1),
       in_mechanism(given.members.size(), 0) {
   if (rules.bracing == BracingRule::classic) bracing.emplace(building);
   for (std::size_t j = 0; j < building.joints.size(); ++j)
@@ -46,6 +49,7 @@ StandingFrame::State::State(const Building& given, CombinationId combination, co
     if (const auto mechanism = statics.solve(c)) throw UnstableModel(describe_mechanism(building, *mechanism));
     read_demands(c, true);
   }
+  account.start();
   // Nothing broke to get here: this state is R0. Joints over capacity break in the first generation.
   pending = !next_generation().empty();
 }
@@ -133,6 +137,8 @@ bool StandingFrame::intact(JointId joint) const { return state_->holds(joint); }
 const Vec6& StandingFrame::displacement(NodeId node) const { return state_->displacement(node); }
 Vec6 StandingFrame::demand(JointId joint) const { return state_->demand(joint); }
 double StandingFrame::largest_utilisation_so_far(JointId joint) const { return state_->joints.largest(joint); }
+double StandingFrame::elastic_energy() const { return state_->statics.strain_energy(); }
+FrameEnergy StandingFrame::energy() const { return state_->account.energy(); }
 double StandingFrame::mass(MemberId member) const { return state_->loads.mass(member); }
 double StandingFrame::mass(PanelId panel) const { return state_->loads.mass(panel); }
 double StandingFrame::node_mass(NodeId node) const { return state_->loads.mass(node); }

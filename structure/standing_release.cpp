@@ -25,20 +25,17 @@ void StandingFrame::State::take_unanchored() {
     for (MemberId member : parts[p].members) {
       left.members.emplace_back(member, static_cast<int>(p));
       leaving[p].mechanism = leaving[p].mechanism || in_mechanism[index_of(member)];
-      drop_contacts_on(member);
+      drop_contacts(member);
+      account.leave(member);
       statics.remove(member);
       to_check[static_cast<std::size_t>(statics.component(member))] = 1;
     }
-    std::vector<NodeId> dropped;
     for (NodeId node : parts[p].nodes) {
       left.nodes.emplace_back(node, static_cast<int>(p));
       left_displacement.emplace(node, statics.displacement(node));
-      if (!node_solved[index_of(node)]) continue;
-      node_solved[index_of(node)] = 0;
-      --solved_nodes[static_cast<std::size_t>(statics.component(node))];
-      dropped.push_back(node);
+      if (node_solved[index_of(node)]) account.leave(node);
+      drop_node(node);
     }
-    statics.drop(dropped);
   }
   take(bearings.leave(left), &leaving);
   for (Detached& part : leaving) {
@@ -79,6 +76,7 @@ void StandingFrame::State::release_mechanism(const FrameMechanism& mechanism) {
   for (MemberId member : part.members) in_mechanism[index_of(member)] = 1;
   for (JointId joint : part.holds) break_joint(joint, BreakCause::overload);
   for (NodeId node : part.nodes) {
+    if (node_solved[index_of(node)]) account.lose_support(node);
     segments.remove_support(node);
     statics.remove_support(node);
   }

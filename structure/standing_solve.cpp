@@ -18,6 +18,7 @@ void StandingFrame::State::lay_contacts() {
     read_demands(c, true);
     to_check[static_cast<std::size_t>(c)] = 1;
   }
+  account.finish(true, breaks);
 }
 
 void StandingFrame::State::bring_up_to_date() {
@@ -26,14 +27,23 @@ void StandingFrame::State::bring_up_to_date() {
     release();
     write_loads();
   } while (solve_changed());
+  account.finish(false, breaks);
 }
 
 void StandingFrame::State::write_loads() {
   const FrameLoads::Changed changed = loads.take_changed();
-  for (MemberId member : changed.members)
-    if (stands(member)) statics.set_loads(member, loads.on(member));
-  for (NodeId node : changed.nodes)
-    if (node_solved[index_of(node)]) statics.set_load(node, loads.on(node));
+  for (MemberId member : changed.members) {
+    if (!stands(member)) continue;
+    account.write(member);
+    applied[index_of(member)] = loads.on(member);
+    statics.set_loads(member, applied[index_of(member)]);
+  }
+  for (NodeId node : changed.nodes) {
+    if (!node_solved[index_of(node)]) continue;
+    account.write(node, node_applied[index_of(node)]);
+    node_applied[index_of(node)] = loads.on(node);
+    statics.set_load(node, node_applied[index_of(node)]);
+  }
 }
 
 /// True when a mechanism was found and its moving part cut free: then it is to be released and solved again.

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "bracing.h"
+#include "energy_account.h"
 #include "frame_loads.h"
 #include "frame_statics.h"
 #include "joint_states.h"
@@ -56,13 +57,15 @@ struct StandingFrame::State {
   void break_joint(JointId joint, BreakCause cause);
   void break_joints(std::span<const JointId> together, BreakCause cause);
   void tell(JointId joint, BreakCause cause);
-  void damage(JointId joint);
-  void lose_member_joint(JointId joint);
+  void damage(JointId joint, int told);
+  void lose_member_joint(JointId joint, int told);
   void take(const PanelBearings::Changes& changes, std::vector<Detached>* parts);
   void remove(MemberId member);
   void remove(PanelId panel);
-  void drop_contacts_on(MemberId member);
-  void drop_contacts_on(PanelId panel);
+  template <class Gone>
+  void drop_contacts(const Gone& gone);
+  void drop_node(NodeId node);
+  void hand_on_anew(PanelId panel);
   void place_contacts_again(PanelId panel);
 
   // Release: what hangs on nothing leaves.
@@ -99,12 +102,15 @@ struct StandingFrame::State {
   FrameStatics statics;
   JointStates joints;
   std::optional<ClassicBracing> bracing;
+  std::vector<char> node_solved;                       ///< per node: the solver still holds it
+  std::vector<std::vector<solver::BeamLoad>> applied;  ///< per member: loads that the solver has
+  std::vector<Vec6> node_applied;                      ///< per node
+  EnergyAccount account;
 
   std::vector<std::vector<JointId>> checked_joints;    ///< per component: joints with a capacity
   std::vector<std::vector<PanelId>> component_panels;  ///< per component
   std::vector<char> to_check;                          ///< per component
   std::vector<int> solved_nodes;                       ///< per component: nodes that the solver still holds
-  std::vector<char> node_solved;                       ///< per node
 
   std::vector<Change> queue;
   bool pending = false;

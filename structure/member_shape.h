@@ -1,0 +1,52 @@
+#pragma once
+// One member's displaced shape and internal forces in one solved state, and what its loads do through it.
+#include <span>
+#include <vector>
+
+#include "topple/solver/beam_diagram.h"
+#include "topple/structure/building.h"
+
+namespace topple::structure {
+
+/// Work of loads, apart by whether they act along gravity (as weight does) or not.
+struct LoadWork {
+  double gravity = 0, other = 0;
+  [[nodiscard]] double sum() const { return gravity + other; }
+  LoadWork& operator+=(const LoadWork& more) {
+    gravity += more.gravity;
+    other += more.other;
+    return *this;
+  }
+};
+
+class MemberShape {
+ public:
+  /// `beam` as it is in this state; `hubs`: displacements of the nodes' hubs at the beam's ends, local axes.
+  MemberShape(const solver::Beam& beam, const solver::Vec12& end_forces, const solver::Vec12& hubs,
+              std::vector<solver::BeamLoad> loads);
+
+  [[nodiscard]] Vec6 hub(int end) const { return hubs_.segment<6>(6 * end); }
+  /// Of the member's own end, behind its spring or broken joint; local axes.
+  [[nodiscard]] Vec6 end(int end) const;
+  /// Local axes.
+  [[nodiscard]] Vec6 at(double distance) const { return diagram_.displacement(distance, hubs_); }
+
+  /// Loads times this shape, exactly for forces that vary linearly; `gravity` is its direction in local axes. Both the
+  /// state's own loads and `loads` may break the polynomials.
+  [[nodiscard]] LoadWork work(std::span<const solver::BeamLoad> loads, const Vec3& gravity) const;
+  /// Of the member and its end springs.
+  [[nodiscard]] double strain_energy() const;
+
+ private:
+  [[nodiscard]] std::vector<double> cuts(std::span<const solver::BeamLoad> loads) const;
+
+  solver::Beam beam_;
+  solver::Vec12 end_forces_, hubs_;
+  std::vector<solver::BeamLoad> loads_;
+  solver::BeamDiagram diagram_;
+};
+
+/// Work of a nodal load, `gravity` its direction in global axes.
+[[nodiscard]] LoadWork work(const Vec6& load, const Vec6& displacement, const Vec3& gravity);
+
+}  // namespace topple::structure
