@@ -1,0 +1,55 @@
+#pragma once
+// The instances' meshes and arrays on the graphics card.
+#include <cstddef>
+#include <vector>
+
+#include "renderer/gl_object.h"
+#include "renderer/instances.h"
+
+namespace topple::viewer {
+
+/// One mesh with its two arrays of instances, standing and moving; what stands is sent again only when it changed.
+class GpuBatch {
+ public:
+  struct Attribute {
+    GLint components;
+    GLenum type;  ///< GL_FLOAT, or GL_UNSIGNED_BYTE (normalised)
+    std::size_t offset;
+  };
+  GpuBatch(const Mesh& mesh, const std::vector<Attribute>& attributes, std::size_t stride);
+
+  template <class Instance>
+  void update(const InstanceBatch<Instance>& batch) {
+    const std::size_t moving = batch.instances.size() - batch.standing;
+    if (batch.revision != revision_) send(0, batch.instances.data(), batch.standing, sizeof(Instance));
+    revision_ = batch.revision;
+    if (moving + counts_[1] > 0) send(1, batch.instances.data() + batch.standing, moving, sizeof(Instance));
+  }
+  void draw() const;
+
+ private:
+  void send(std::size_t which, const void* data, std::size_t count, std::size_t size);
+  GlBuffer vertices_, indices_;
+  GlBuffer instances_[2];
+  GlVertexArray arrays_[2];
+  std::size_t counts_[2] = {0, 0};
+  GLsizei index_count_ = 0;
+  std::uint64_t revision_ = 0;
+};
+
+class GpuScene {
+ public:
+  explicit GpuScene(const SceneInstances& scene);
+  void update(const SceneInstances& scene);
+  void draw_members() const { draw(members_); }
+  void draw_panels(structure::PanelKind kind) const { draw(kind == structure::PanelKind::slab ? slabs_ : walls_); }
+  void draw_projectiles() const { draw(projectiles_); }
+
+ private:
+  static void draw(const std::vector<GpuBatch>& batches) {
+    for (const GpuBatch& batch : batches) batch.draw();
+  }
+  std::vector<GpuBatch> members_, slabs_, walls_, projectiles_;
+};
+
+}  // namespace topple::viewer

@@ -1,0 +1,111 @@
+#pragma once
+// From a building and a snapshot to the arrays that the graphics card draws: one array for each section and one for
+// each shape of panel, standing parts first, moving ones after them. Standing parts are worked out again only when the
+// structure's answer or the options change; moving ones for each picture.
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <memory>
+#include <vector>
+
+#include "renderer/camera.h"
+#include "renderer/mesh.h"
+#include "renderer/palette.h"
+#include "renderer/snapshot.h"
+#include "renderer/view_options.h"
+
+namespace topple::viewer {
+
+/// Positions are relative to SceneInstances::origin().
+struct MemberInstance {
+  glm::vec3 first_end;
+  glm::vec4 rotation;  ///< quaternion x, y, z, w: member axes to global
+  float length;
+  glm::vec3 displacement1, rotation1, displacement2, rotation2;  ///< of the two ends, global, scaled
+  Rgba base, end1, end2;
+};
+struct PanelInstance {
+  glm::vec3 corner[4];
+  float thickness;
+  Rgba base, edge[4];
+};
+struct RigidInstance {
+  glm::vec3 position;
+  glm::vec4 rotation;
+  glm::vec3 scale;
+  Rgba colour;
+};
+
+/// Instances that share a mesh. The first `standing` of them change rarely.
+template <class Instance>
+struct InstanceBatch {
+  Mesh mesh;
+  std::vector<Instance> instances;
+  std::size_t standing = 0;
+  std::uint64_t revision = 0;  ///< counts changes of the standing ones
+};
+
+class SceneInstances {
+ public:
+  explicit SceneInstances(const structure::Building& building);
+  void update(const Snapshot& snapshot, const ViewOptions& options);
+
+  [[nodiscard]] const std::vector<InstanceBatch<MemberInstance>>& members() const { return members_; }
+  /// Slabs and walls apart, for their opacities: [kind][shape].
+  [[nodiscard]] const std::vector<InstanceBatch<PanelInstance>>& panels(structure::PanelKind kind) const {
+    return kind == structure::PanelKind::slab ? slabs_ : walls_;
+  }
+  [[nodiscard]] const InstanceBatch<RigidInstance>& projectiles() const { return projectiles_; }
+
+  /// The centre of the undeformed building; single precision counts from here.
+  [[nodiscard]] const glm::dvec3& origin() const { return origin_; }
+  [[nodiscard]] const Bounds& bounds() const { return bounds_; }
+  /// The largest of the values that Scale::largest_in_view refers to.
+  [[nodiscard]] double largest() const { return largest_; }
+
+ private:
+  struct Part {
+    std::size_t batch = 0;
+    MemberInstance rest;
+  };
+  struct PanelPart {
+    std::size_t batch = 0;
+    PanelInstance rest;
+  };
+  void place_members();
+  void place_panels();
+  void rebuild_standing(const Snapshot& snapshot, const ViewOptions& options);
+  void append_moving(const Snapshot& snapshot);
+  void add_standing_member(std::size_t index, const Snapshot& snapshot, const ViewOptions& options);
+  void add_standing_panel(std::size_t index, const Snapshot& snapshot, const ViewOptions& options);
+  void colour_member(std::size_t index, const Snapshot& snapshot, const ViewOptions& options);
+  void colour_panel(std::size_t index, const Snapshot& snapshot, const ViewOptions& options);
+  [[nodiscard]] bool shown(const structure::Member& member, const PartSwitches& switches) const;
+  [[nodiscard]] std::vector<InstanceBatch<PanelInstance>>& batches(const structure::Panel& panel) {
+    return panel.kind == structure::PanelKind::slab ? slabs_ : walls_;
+  }
+
+  const structure::Building& building_;
+  Bounds bounds_;
+  glm::dvec3 origin_{0};
+  std::vector<Part> member_parts_;  ///< with their colours of now
+  std::vector<PanelPart> panel_parts_;
+  std::vector<InstanceBatch<MemberInstance>> members_;
+  std::vector<InstanceBatch<PanelInstance>> slabs_, walls_;
+  InstanceBatch<RigidInstance> projectiles_;
+  double largest_ = 0;
+  // What the standing instances were built for.
+  std::shared_ptr<const FrameAnswer> built_answer_;
+  std::shared_ptr<const Membership> built_membership_;
+  ViewOptions built_options_;
+  struct MovingPart {
+    std::size_t index;
+    int body;
+  };
+  std::vector<MovingPart> moving_members_, moving_panels_;
+};
+
+/// Box around all nodes.
+[[nodiscard]] Bounds bounds_of(const structure::Building& building);
+
+}  // namespace topple::viewer

@@ -1,0 +1,35 @@
+#pragma once
+// Triangle meshes that instances are drawn from. Every mesh is closed and outward oriented (counter-clockwise seen from
+// outside), with flat or smooth normals as the shape asks.
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "topple/structure/building.h"
+
+namespace topple::viewer {
+
+struct Vertex {
+  glm::vec3 position, normal;
+};
+struct Mesh {
+  std::vector<Vertex> vertices;
+  std::vector<std::uint32_t> indices;
+};
+
+/// A member of this section: x from 0 to 1 along the member in `segments` equal parts (so that it can be drawn bent), y
+/// and z in the model's length unit, local member axes. A section given by numbers becomes a box of its depth and
+/// width, or the square of its area.
+[[nodiscard]] Mesh section_mesh(const structure::Section& section, int segments);
+
+/// A panel with its openings: x, y in [0, 1] along the panel's first and fourth edge, z in [-1/2, 1/2] across its
+/// thickness.
+[[nodiscard]] Mesh panel_mesh(const structure::Building& building, const structure::Panel& panel);
+
+/// Radius 1, about the origin.
+[[nodiscard]] Mesh sphere_mesh(int rings);
+
+/// From (0, 0, 0) to (0, 0, 1), for arrows: a shaft and a head.
+[[nodiscard]] Mesh arrow_mesh(int sides);
+
+}  // namespace topple::viewer

@@ -1,0 +1,19 @@
+#pragma once
+// Lines and plain triangles drawn over the scene: diagrams, arrows, marks.
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "renderer/palette.h"
+
+namespace topple::viewer {
+
+struct OverlayVertex {
+  glm::vec3 position;  ///< relative to SceneInstances::origin()
+  Rgba colour;
+};
+struct Overlay {
+  std::vector<OverlayVertex> triangles, lines;  ///< by threes, by twos; hidden by what stands before them
+  std::vector<OverlayVertex> lines_on_top;      ///< never hidden
+};
+
+}  // namespace topple::viewer

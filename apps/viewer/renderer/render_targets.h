@@ -1,0 +1,49 @@
+#pragma once
+// What is drawn into: a multisampled picture in linear light, its resolved copy, the occlusion map, the finished
+// picture.
+#include <glm/vec2.hpp>
+
+#include "renderer/gl_object.h"
+
+namespace topple::viewer {
+
+/// A colour texture with, if asked for, a depth texture.
+struct Target {
+  GlFramebuffer framebuffer;
+  GlTexture colour, depth;
+};
+
+class RenderTargets {
+ public:
+  /// Makes all targets anew when the size changed. Throws std::runtime_error when the driver cannot.
+  void resize(glm::ivec2 size);
+  [[nodiscard]] glm::ivec2 size() const { return size_; }
+  [[nodiscard]] GLuint multisampled() const { return multisampled_.get(); }
+  [[nodiscard]] const Target& resolved() const { return resolved_; }
+  [[nodiscard]] const Target& occlusion() const { return occlusion_; }
+  [[nodiscard]] const Target& finished() const { return finished_; }
+  /// Copies the multisampled picture into the resolved one.
+  void resolve() const;
+
+ private:
+  glm::ivec2 size_{0};
+  GlFramebuffer multisampled_;
+  GlRenderbuffer multisampled_colour_, multisampled_depth_;
+  Target resolved_, occlusion_, finished_;
+};
+
+/// A depth texture seen from the sun, compared in hardware.
+class ShadowMap {
+ public:
+  explicit ShadowMap(int size);
+  [[nodiscard]] GLuint framebuffer() const { return framebuffer_.get(); }
+  [[nodiscard]] GLuint texture() const { return texture_.get(); }
+  [[nodiscard]] int size() const { return size_; }
+
+ private:
+  int size_;
+  GlTexture texture_;
+  GlFramebuffer framebuffer_;
+};
+
+}  // namespace topple::viewer

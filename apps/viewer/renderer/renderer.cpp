@@ -1,0 +1,294 @@
+#include "renderer/renderer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <stdexcept>
+
+#include "renderer/gpu_scene.h"
+#include "renderer/render_targets.h"
+#include "renderer/shaders.h"
+
+namespace topple::viewer {
+namespace {
+
+using structure::PanelKind;
+
+constexpr glm::vec3 to_sun{-0.34F, -0.56F, 0.75F};
+constexpr int shadow_size = 2048;
+/// Colours fade over this length from a joint, as a share of the building's radius, within these limits by storey size.
+constexpr float fade_share = 0.085F;
+/// Occlusion looks this far, as a share of the building's radius.
+constexpr float occlusion_share = 0.09F;
+
+/// 1, 2 or 5 times a power of ten next below.
+double round_spacing(double length) {
+  const double power = std::pow(10.0, std::floor(std::log10(length)));
+  const double lead = length / power;
+  return power * (lead >= 5 ? 5 : lead >= 2 ? 2 : 1);
+}
+
+/// The largest distance from the origin of anything drawn, no more than four building radii (what flies farther casts
+/// no shadow).
+float drawn_radius(const SceneInstances& scene) {
+  const auto own = static_cast<float>(std::max(scene.bounds().radius(), 1e-3));
+  float radius = own;
+  const auto reach = [&](const glm::vec3& p) { radius = std::max(radius, glm::length(p)); };
+  for (const auto& batch : scene.members())
+    for (std::size_t i = batch.standing; i < batch.instances.size(); ++i) reach(batch.instances[i].first_end);
+  for (const auto& instance : scene.projectiles().instances) reach(instance.position);
+  return std::min(radius * 1.1F, 4 * own);
+}
+
+glm::mat4 light_matrix(float radius) {
+  const glm::vec3 sun = glm::normalize(to_sun);
+  return glm::ortho(-radius, radius, -radius, radius, 0.0F, 4 * radius) *
+         glm::lookAt(sun * 2.0F * radius, glm::vec3(0), glm::vec3(0, 0, 1));
+}
+
+}  // namespace
+
+struct Renderer::State {
+  Programs programs;
+  GpuScene scene;
+  RenderTargets targets;
+  ShadowMap shadow{shadow_size};
+  GlBuffer block = make_buffer(), ground_vertices = make_buffer(), overlay_vertices = make_buffer();
+  GlVertexArray empty = make_vertex_array(), ground = make_vertex_array(), overlay = make_vertex_array();
+  double ground_height = 0;
+  PictureBlock picture{};
+
+  State(const SceneInstances& instances, double height) : scene(instances), ground_height(height) {
+    make_ground();
+    make_overlay();
+  }
+  void make_ground();
+  void make_overlay();
+  void fill_block(const SceneInstances& instances, const Camera& camera, const ViewOptions& options, glm::ivec2 size);
+  void send_block();
+  void draw_shadows();
+  void draw_scene(const SceneInstances& instances, const ViewOptions& options, const Overlay& lines);
+  void draw_panels(PanelKind kind, float opacity);
+  void blend_panels(PanelKind kind);
+  void draw_overlay(const Overlay& lines);
+  void draw_vertices(const std::vector<OverlayVertex>& vertices, GLenum kind);
+  void finish(const ViewOptions& options);
+};
+
+void Renderer::State::make_ground() {
+  const float corners[] = {-1, -1, 1, -1, -1, 1, 1, 1};
+  glBindVertexArray(ground.get());
+  glBindBuffer(GL_ARRAY_BUFFER, ground_vertices.get());
+  glBufferData(GL_ARRAY_BUFFER, sizeof corners, corners, GL_STATIC_DRAW);
+  glEnableVertexAttribArray(0);
+  glVertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, 0, nullptr);
+  glBindVertexArray(0);
+}
+
+void Renderer::State::make_overlay() {
+  glBindVertexArray(overlay.get());
+  glBindBuffer(GL_ARRAY_BUFFER, overlay_vertices.get());
+  glEnableVertexAttribArray(0);
+  glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(OverlayVertex), nullptr);
+  glEnableVertexAttribArray(1);
+  glVertexAttribPointer(1, 4, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(OverlayVertex),
+                        reinterpret_cast<const void*>(offsetof(OverlayVertex, colour)));
+  glBindVertexArray(0);
+}
+
+void Renderer::State::fill_block(const SceneInstances& instances, const Camera& camera, const ViewOptions& options,
+                                 glm::ivec2 size) {
+  const auto radius = static_cast<float>(std::max(instances.bounds().radius(), 1e-3));
+  const glm::vec3 eye(camera.eye - instances.origin());
+  const float away = glm::length(eye);
+  const float near = std::max(0.02F * radius * 0.1F, (away - 4 * radius) * 0.5F), far = away + 80 * radius;
+  const float reach = drawn_radius(instances);
+  picture.view_projection =
+      camera.projection(static_cast<double>(size.x) / size.y, near, far) * camera.view(instances.origin());
+  picture.inverse_view_projection = glm::inverse(picture.view_projection);
+  picture.light = light_matrix(reach);
+  picture.eye = glm::vec4(eye, static_cast<float>(ground_height - instances.origin().z));
+  picture.sun = glm::vec4(glm::normalize(to_sun), options.shadows ? 1.0F : 0.0F);
+  const auto spacing = options.grid ? static_cast<float>(round_spacing(radius / 4)) : 0.0F;
+  picture.sizes = glm::vec4(radius, spacing, 2 * reach / shadow_size, fade_share * radius);
+  picture.picture = glm::vec4(size, near, far);
+  const bool map = options.colouring == Colouring::utilisation || options.colouring == Colouring::component;
+  picture.mode = glm::vec4(map ? 1.0F : 0.0F, options.ambient_occlusion ? 1.0F : 0.0F, occlusion_share * radius, 0);
+  picture.opacity = glm::vec4(1);
+}
+
+void Renderer::State::send_block() {
+  glBindBuffer(GL_UNIFORM_BUFFER, block.get());
+  glBufferData(GL_UNIFORM_BUFFER, sizeof picture, &picture, GL_STREAM_DRAW);
+  glBindBufferBase(GL_UNIFORM_BUFFER, picture_binding, block.get());
+}
+
+void Renderer::State::draw_shadows() {
+  glBindFramebuffer(GL_FRAMEBUFFER, shadow.framebuffer());
+  glViewport(0, 0, shadow.size(), shadow.size());
+  glClear(GL_DEPTH_BUFFER_BIT);
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  glPolygonOffset(1.5F, 2.0F);
+  glUseProgram(programs.member_shadow.get());
+  scene.draw_members();
+  glUseProgram(programs.panel_shadow.get());
+  scene.draw_panels(PanelKind::slab);
+  scene.draw_panels(PanelKind::wall);
+  glUseProgram(programs.rigid_shadow.get());
+  scene.draw_projectiles();
+  glDisable(GL_POLYGON_OFFSET_FILL);
+}
+
+void Renderer::State::draw_panels(PanelKind kind, float opacity) {
+  if (opacity <= 0) return;
+  picture.opacity = glm::vec4(opacity);
+  send_block();
+  glUseProgram(programs.panel.get());
+  // A panel's face in the plane of a member's hides it.
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  glPolygonOffset(-1.0F, -4.0F);
+  if (opacity >= 1)
+    scene.draw_panels(kind);
+  else
+    blend_panels(kind);
+  glDisable(GL_POLYGON_OFFSET_FILL);
+}
+
+void Renderer::State::blend_panels(PanelKind kind) {
+  // The nearest surface alone is blended: first its depth, then its colour, so that no order has to be kept.
+  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  scene.draw_panels(kind);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glEnable(GL_BLEND);
+  scene.draw_panels(kind);
+  glDisable(GL_BLEND);
+}
+
+void Renderer::State::draw_vertices(const std::vector<OverlayVertex>& vertices, GLenum kind) {
+  if (vertices.empty()) return;
+  glBindBuffer(GL_ARRAY_BUFFER, overlay_vertices.get());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(OverlayVertex)), vertices.data(),
+               GL_STREAM_DRAW);
+  glDrawArrays(kind, 0, static_cast<GLsizei>(vertices.size()));
+}
+
+void Renderer::State::draw_overlay(const Overlay& lines) {
+  glUseProgram(programs.line.get());
+  glBindVertexArray(overlay.get());
+  glEnable(GL_BLEND);
+  glDisable(GL_CULL_FACE);
+  glDepthMask(GL_FALSE);
+  draw_vertices(lines.triangles, GL_TRIANGLES);
+  draw_vertices(lines.lines, GL_LINES);
+  glDisable(GL_DEPTH_TEST);
+  draw_vertices(lines.lines_on_top, GL_LINES);
+  glEnable(GL_DEPTH_TEST);
+  glDepthMask(GL_TRUE);
+  glEnable(GL_CULL_FACE);
+  glDisable(GL_BLEND);
+}
+
+void Renderer::State::draw_scene(const SceneInstances& instances, const ViewOptions& options, const Overlay& lines) {
+  (void)instances;
+  glBindFramebuffer(GL_FRAMEBUFFER, targets.multisampled());
+  glViewport(0, 0, targets.size().x, targets.size().y);
+  glActiveTexture(GL_TEXTURE0 + shadow_unit);
+  glBindTexture(GL_TEXTURE_2D, shadow.texture());
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  glUseProgram(programs.member.get());
+  scene.draw_members();
+  glUseProgram(programs.rigid.get());
+  scene.draw_projectiles();
+  if (options.slab_opacity >= 1) draw_panels(PanelKind::slab, 1);
+  if (options.wall_opacity >= 1) draw_panels(PanelKind::wall, 1);
+  glUseProgram(programs.ground.get());
+  glDisable(GL_CULL_FACE);
+  glBindVertexArray(ground.get());
+  glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  glUseProgram(programs.sky.get());
+  glBindVertexArray(empty.get());
+  glDepthFunc(GL_LEQUAL);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glEnable(GL_CULL_FACE);
+  if (options.slab_opacity < 1) draw_panels(PanelKind::slab, options.slab_opacity);
+  if (options.wall_opacity < 1) draw_panels(PanelKind::wall, options.wall_opacity);
+  draw_overlay(lines);
+}
+
+void Renderer::State::finish(const ViewOptions& options) {
+  targets.resolve();
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_CULL_FACE);
+  glBindVertexArray(empty.get());
+  const auto bind = [](GLint unit, const GlTexture& texture) {
+    glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+    glBindTexture(GL_TEXTURE_2D, texture.get());
+  };
+  bind(colour_unit, targets.resolved().colour);
+  bind(depth_unit, targets.resolved().depth);
+  bind(occlusion_unit, targets.occlusion().colour);
+  if (options.ambient_occlusion) {
+    glBindFramebuffer(GL_FRAMEBUFFER, targets.occlusion().framebuffer.get());
+    glViewport(0, 0, (targets.size().x + 1) / 2, (targets.size().y + 1) / 2);
+    glUseProgram(programs.occlusion.get());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, targets.finished().framebuffer.get());
+  glViewport(0, 0, targets.size().x, targets.size().y);
+  glUseProgram(programs.finish.get());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glBindVertexArray(0);
+  glUseProgram(0);
+  glActiveTexture(GL_TEXTURE0);
+}
+
+Renderer::Renderer(const SceneInstances& scene, double ground) {
+  if (epoxy_gl_version() < 33) throw std::runtime_error("OpenGL 3.3 is needed, this context has less");
+  state_ = std::make_unique<State>(scene, ground);
+}
+Renderer::~Renderer() = default;
+
+void Renderer::draw(const SceneInstances& scene, const Camera& camera, const ViewOptions& options, glm::ivec2 size,
+                    const Overlay& overlay) {
+  State& s = *state_;
+  s.targets.resize(size);
+  s.scene.update(scene);
+  s.fill_block(scene, camera, options, s.targets.size());
+  s.send_block();
+  glDisable(GL_SCISSOR_TEST);
+  glDisable(GL_BLEND);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LEQUAL);
+  glEnable(GL_CULL_FACE);
+  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  if (options.shadows) s.draw_shadows();
+  s.draw_scene(scene, options, overlay);
+  s.finish(options);
+}
+
+unsigned Renderer::framebuffer() const { return state_->targets.finished().framebuffer.get(); }
+glm::ivec2 Renderer::size() const { return state_->targets.size(); }
+
+Image Renderer::read() const {
+  Image image;
+  image.width = size().x;
+  image.height = size().y;
+  const std::size_t row = 4 * static_cast<std::size_t>(image.width);
+  std::vector<std::uint8_t> upside_down(row * static_cast<std::size_t>(image.height));
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer());
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE, upside_down.data());
+  image.pixels.resize(upside_down.size());
+  for (int y = 0; y < image.height; ++y)
+    std::copy_n(upside_down.begin() + static_cast<std::ptrdiff_t>(row) * y, row,
+                image.pixels.begin() + static_cast<std::ptrdiff_t>(row) * (image.height - 1 - y));
+  return image;
+}
+
+void Renderer::check_errors() {
+  if (const GLenum error = glGetError(); error != GL_NO_ERROR)
+    throw std::runtime_error("OpenGL reports error " + std::to_string(error));
+}
+
+}  // namespace topple::viewer

@@ -1,0 +1,404 @@
+#include "renderer/shaders.h"
+
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace topple::viewer {
+namespace {
+
+constexpr const char* picture_block = R"(#version 330 core
+layout(std140) uniform Picture {
+  mat4 view_projection, inverse_view_projection, light;
+  vec4 eye, sun, sizes, picture, mode, opacity;
+};
+vec3 linear(vec3 srgb) { return pow(srgb, vec3(2.2)); }
+vec3 turn(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
+const vec3 horizon = vec3(0.72, 0.84, 0.96), zenith = vec3(0.16, 0.37, 0.74), earth = vec3(0.42, 0.38, 0.33);
+)";
+
+/// Lighting of a surface: sun with soft shadow, and a sky brighter above than below.
+constexpr const char* lighting = R"(
+uniform sampler2DShadow shadow_map;
+float gradient_noise(vec2 p) { return fract(52.9829189 * fract(dot(p, vec2(0.06711056, 0.00583715)))); }
+float sunlight(vec3 point, vec3 normal) {
+  if (sun.w < 0.5) return 1.0;
+  float slope = 1.0 - max(0.0, dot(normal, sun.xyz));
+  vec4 clip = light * vec4(point + normal * sizes.z * (1.0 + 3.0 * slope), 1.0);
+  vec3 p = clip.xyz / clip.w * 0.5 + 0.5;
+  if (any(lessThan(p, vec3(0.0))) || any(greaterThan(p, vec3(1.0)))) return 1.0;
+  float texel = 1.0 / float(textureSize(shadow_map, 0).x);
+  float angle = 6.2831853 * gradient_noise(gl_FragCoord.xy), lit = 0.0;
+  for (int i = 0; i < 12; ++i) {  // Vogel's disk
+    float r = sqrt((float(i) + 0.5) / 12.0) * 2.2 * texel, a = angle + 2.3999632 * float(i);
+    lit += texture(shadow_map, vec3(p.xy + r * vec2(cos(a), sin(a)), p.z));
+  }
+  return lit / 12.0;
+}
+vec3 shade(vec3 albedo, vec3 normal, vec3 point, float gloss) {
+  vec3 to_eye = normalize(eye.xyz - point);
+  float facing = max(0.0, dot(normal, sun.xyz));
+  float lit = facing > 0.0 ? sunlight(point, normal) : 0.0;
+  vec3 sky = mix(earth * 0.55, zenith * 0.55 + horizon * 0.45, 0.5 + 0.5 * normal.z);
+  // Light that comes back from the ground and from the side away from the sun.
+  float fill = 0.12 * max(0.0, dot(normal, normalize(vec3(-sun.x, -sun.y, 0.25))));
+  vec3 half_way = normalize(sun.xyz + to_eye);
+  float shine = gloss * pow(max(0.0, dot(normal, half_way)), 48.0) * lit;
+  return albedo * (vec3(2.55, 2.38, 2.10) * facing * lit + 0.74 * sky + fill) + shine;
+}
+)";
+
+constexpr const char* member_vertex = R"(
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec3 first_end;
+layout(location = 3) in vec4 rotation;
+layout(location = 4) in float span;
+layout(location = 5) in vec3 displacement1;
+layout(location = 6) in vec3 rotation1;
+layout(location = 7) in vec3 displacement2;
+layout(location = 8) in vec3 rotation2;
+layout(location = 9) in vec4 base;
+layout(location = 10) in vec4 end1;
+layout(location = 11) in vec4 end2;
+out vec3 point, surface_normal;
+out vec3 plain;
+out vec4 colour1, colour2;
+out vec2 along;  // distances from the two ends
+// Axis bent as a cubic between the ends' displacements and rotations, section turned with it.
+void bend(float s, vec3 x, out vec3 axis_moves, out vec3 section_turns) {
+  float s2 = s * s, s3 = s2 * s;
+  vec3 slope1 = cross(rotation1, x), slope2 = cross(rotation2, x);
+  vec3 chord = displacement2 - displacement1;
+  vec3 across = chord - x * dot(chord, x);
+  vec3 stretch = x * dot(chord, x) * s;
+  axis_moves = displacement1 + stretch + (3.0 * s2 - 2.0 * s3) * across + span * ((s - 2.0 * s2 + s3) * slope1 + (s3 - s2) * slope2);
+  vec3 slope = (6.0 * s - 6.0 * s2) * across / span + (1.0 - 4.0 * s + 3.0 * s2) * slope1 + (3.0 * s2 - 2.0 * s) * slope2;
+  section_turns = cross(x, slope) + x * mix(dot(rotation1, x), dot(rotation2, x), s);
+}
+void main() {
+  vec3 x = turn(rotation, vec3(1, 0, 0)), moves, turns;
+  bend(position.x, x, moves, turns);
+  vec3 arm = turn(rotation, vec3(0, position.yz)), n = turn(rotation, normal);
+  // A turn by a vector, exact at any size so that a large scale does not swell the section.
+  float angle = length(turns);
+  if (angle > 1e-9) {
+    vec4 q = vec4(turns / angle * sin(angle / 2.0), cos(angle / 2.0));
+    arm = turn(q, arm);
+    n = turn(q, n);
+  }
+  point = first_end + x * position.x * span + moves + arm;
+  surface_normal = n;
+  plain = linear(base.rgb);
+  colour1 = vec4(linear(end1.rgb), end1.a);
+  colour2 = vec4(linear(end2.rgb), end2.a);
+  along = span * vec2(position.x, 1.0 - position.x);
+  gl_Position = TRANSFORM * vec4(point, 1.0);
+}
+)";
+
+constexpr const char* member_fragment = R"(
+in vec3 point, surface_normal;
+in vec3 plain;
+in vec4 colour1, colour2;
+in vec2 along;
+out vec4 result;
+float fade(float distance, float reach) { float t = clamp(1.0 - distance / reach, 0.0, 1.0); return t * t * (3.0 - 2.0 * t); }
+void main() {
+  float span = along.x + along.y, reach = min(sizes.w, 0.5 * span);
+  vec3 albedo;
+  if (mode.x > 0.5 && colour1.a + colour2.a > 0.0) {
+    albedo = mix(colour1.rgb, colour2.rgb, along.x / span);
+  } else {
+    albedo = mix(plain, colour1.rgb, colour1.a * fade(along.x, reach));
+    albedo = mix(albedo, colour2.rgb, colour2.a * fade(along.y, reach));
+  }
+  result = vec4(shade(albedo, normalize(surface_normal), point, 0.10), 1.0);
+}
+)";
+
+constexpr const char* panel_vertex = R"(
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec3 corner1;
+layout(location = 3) in vec3 corner2;
+layout(location = 4) in vec3 corner3;
+layout(location = 5) in vec3 corner4;
+layout(location = 6) in float thickness;
+layout(location = 7) in vec4 base;
+layout(location = 8) in vec4 edge1;
+layout(location = 9) in vec4 edge2;
+layout(location = 10) in vec4 edge3;
+layout(location = 11) in vec4 edge4;
+out vec3 point, surface_normal;
+out vec3 plain;
+out vec4 colours[4];
+out vec4 distances;
+vec4 tint(vec4 edge) { return vec4(linear(edge.rgb), edge.a); }
+void main() {
+  float s = position.x, t = position.y;
+  vec3 along_s = mix(corner2 - corner1, corner3 - corner4, t), along_t = mix(corner4 - corner1, corner3 - corner2, s);
+  vec3 across = normalize(cross(along_s, along_t));
+  point = mix(mix(corner1, corner2, s), mix(corner4, corner3, s), t) + across * position.z * thickness;
+  surface_normal = normal.x * along_s / dot(along_s, along_s) + normal.y * along_t / dot(along_t, along_t) + normal.z * across;
+  surface_normal = normalize(surface_normal);
+  plain = linear(base.rgb);
+  colours = vec4[4](tint(edge1), tint(edge2), tint(edge3), tint(edge4));
+  float width = length(along_s), height = length(along_t);
+  distances = vec4(t * height, (1.0 - s) * width, (1.0 - t) * height, s * width);
+  gl_Position = TRANSFORM * vec4(point, 1.0);
+}
+)";
+
+constexpr const char* panel_fragment = R"(
+in vec3 point, surface_normal;
+in vec3 plain;
+in vec4 colours[4];
+in vec4 distances;
+out vec4 result;
+void main() {
+  vec3 albedo = plain;
+  float reach = 0.6 * sizes.w;
+  for (int e = 0; e < 4; ++e) {
+    float t = clamp(1.0 - distances[e] / reach, 0.0, 1.0);
+    albedo = mix(albedo, colours[e].rgb, 0.85 * colours[e].a * t * t);
+  }
+  vec3 normal = normalize(surface_normal);
+  result = vec4(shade(albedo, normal, point, 0.0), opacity.x);
+}
+)";
+
+constexpr const char* rigid_vertex = R"(
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec3 place;
+layout(location = 3) in vec4 rotation;
+layout(location = 4) in vec3 scale;
+layout(location = 5) in vec4 colour;
+out vec3 point, surface_normal;
+out vec3 albedo;
+void main() {
+  point = place + turn(rotation, position * scale);
+  surface_normal = turn(rotation, normal / scale);
+  albedo = linear(colour.rgb);
+  gl_Position = TRANSFORM * vec4(point, 1.0);
+}
+)";
+
+constexpr const char* rigid_fragment = R"(
+in vec3 point, surface_normal;
+in vec3 albedo;
+out vec4 result;
+void main() { result = vec4(shade(albedo, normalize(surface_normal), point, 0.5), 1.0); }
+)";
+
+constexpr const char* depth_fragment = "void main() {}\n";
+
+/// One triangle that covers the picture.
+constexpr const char* cover_vertex = R"(
+out vec2 place;
+void main() {
+  place = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
+  gl_Position = vec4(place, 1.0, 1.0);
+}
+)";
+
+constexpr const char* sky_fragment = R"(
+in vec2 place;
+out vec4 result;
+vec3 direction(vec2 clip) {
+  vec4 p = inverse_view_projection * vec4(clip, 1.0, 1.0);
+  return normalize(p.xyz / p.w - eye.xyz);
+}
+void main() {
+  float rise = max(0.0, direction(place).z);
+  result = vec4(mix(horizon, zenith, 1.0 - exp(-2.6 * rise)) * 1.12, 1.0);
+}
+)";
+
+constexpr const char* ground_vertex = R"(
+layout(location = 0) in vec2 position;
+out vec3 point;
+void main() {
+  point = vec3(eye.xy + position * sizes.x * 60.0, eye.w);
+  gl_Position = view_projection * vec4(point, 1.0);
+}
+)";
+
+constexpr const char* ground_fragment = R"(
+in vec3 point;
+out vec4 result;
+float lines(vec2 p, float spacing, float pixels) {
+  vec2 q = p / spacing, width = fwidth(q) * pixels;
+  vec2 near_line = abs(fract(q - 0.5) - 0.5);
+  vec2 covered = (1.0 - smoothstep(0.5 * width, 1.5 * width, near_line)) * clamp(0.35 / width, 0.0, 1.0);
+  return max(covered.x, covered.y);
+}
+void main() {
+  float away = length(point.xy - eye.xy), far = 1.0 - exp(-away / (9.0 * sizes.x));
+  vec3 albedo = linear(vec3(0.655, 0.650, 0.625));
+  if (sizes.y > 0.0) {
+    float calm = exp(-length(point.xy) / (5.0 * sizes.x));
+    albedo *= 1.0 - 0.16 * calm * lines(point.xy, sizes.y, 1.0) - 0.20 * calm * lines(point.xy, sizes.y * 5.0, 1.3);
+  }
+  vec3 lit = shade(albedo, vec3(0, 0, 1), point, 0.0);
+  result = vec4(mix(lit, horizon * 1.12, far * far), 1.0);
+}
+)";
+
+constexpr const char* line_vertex = R"(
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec4 colour;
+out vec4 tint;
+void main() {
+  tint = vec4(linear(colour.rgb), colour.a);
+  gl_Position = view_projection * vec4(position, 1.0);
+}
+)";
+constexpr const char* line_fragment = R"(
+in vec4 tint;
+out vec4 result;
+void main() { result = tint; }
+)";
+
+/// Share of the hemisphere above each point that near geometry covers, from the depth buffer.
+constexpr const char* occlusion_fragment = R"(
+in vec2 place;
+out float result;
+uniform sampler2D depth_map;
+vec3 point_at(vec2 uv, float depth) {
+  vec4 p = inverse_view_projection * vec4(vec3(uv, depth) * 2.0 - 1.0, 1.0);
+  return p.xyz / p.w;
+}
+void main() {
+  vec2 uv = place * 0.5 + 0.5;
+  float depth = texture(depth_map, uv).r;
+  vec3 here = point_at(uv, depth);
+  // Far off the depth buffer is too coarse to tell a surface from its neighbour.
+  if (depth >= 1.0 || length(here - eye.xyz) > length(eye.xyz) + 6.0 * sizes.x) { result = 1.0; return; }
+  vec3 normal = normalize(cross(dFdx(here), dFdy(here)));
+  if (dot(normal, eye.xyz - here) < 0.0) normal = -normal;
+  float reach = mode.z, covered = 0.0;
+  float angle = 6.2831853 * fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+  vec4 clip = view_projection * vec4(here, 1.0);
+  float pixels = clamp(reach * picture.y / clip.w, 3.0, 0.12 * picture.y);
+  for (int i = 0; i < 12; ++i) {
+    float r = (float(i) + 0.5) / 12.0, a = angle + 2.3999632 * float(i);
+    vec2 q = uv + r * pixels * vec2(cos(a), sin(a)) / picture.xy;
+    vec3 arm = point_at(q, texture(depth_map, q).r) - here;
+    float distance = length(arm) + 1e-6;
+    covered += max(0.0, dot(normal, arm / distance) - 0.12) * smoothstep(2.0, 0.6, distance / reach);
+  }
+  result = clamp(1.0 - 1.7 * covered / 12.0, 0.0, 1.0);
+}
+)";
+
+/// Occlusion, tone curve, gamma.
+constexpr const char* finish_fragment = R"(
+in vec2 place;
+out vec4 result;
+uniform sampler2D colour_map, depth_map, occlusion_map;
+float occlusion(vec2 uv, float depth) {
+  float sum = 0.0, weight = 0.0;
+  vec2 texel = 1.0 / vec2(textureSize(occlusion_map, 0));
+  for (int y = -1; y <= 2; ++y)
+    for (int x = -1; x <= 2; ++x) {
+      vec2 q = uv + (vec2(x, y) - 0.5) * texel;
+      float w = exp(-abs(texture(depth_map, q).r - depth) / max(1e-7, (1.0 - depth) * 0.02));
+      sum += w * texture(occlusion_map, q).r;
+      weight += w;
+    }
+  return weight > 0.0 ? sum / weight : 1.0;
+}
+vec3 tone(vec3 x) { return clamp((x * (2.2 * x + 0.05)) / (x * (2.1 * x + 0.58) + 0.16), 0.0, 1.0); }
+void main() {
+  vec2 uv = place * 0.5 + 0.5;
+  vec3 colour = texture(colour_map, uv).rgb;
+  float depth = texture(depth_map, uv).r;
+  if (mode.y > 0.5 && depth < 1.0) colour *= mix(1.0, occlusion(uv, depth), 0.8);
+  result = vec4(pow(tone(colour * 0.62), vec3(1.0 / 2.2)), 1.0);
+}
+)";
+
+GlShader compile(GLenum kind, const std::vector<std::string>& parts, const std::string& name) {
+  GlShader shader(glCreateShader(kind));
+  std::vector<const char*> texts;
+  for (const std::string& part : parts) texts.push_back(part.c_str());
+  glShaderSource(shader.get(), static_cast<GLsizei>(texts.size()), texts.data(), nullptr);
+  glCompileShader(shader.get());
+  GLint compiled = 0;
+  glGetShaderiv(shader.get(), GL_COMPILE_STATUS, &compiled);
+  if (compiled != GL_TRUE) {
+    std::string log(4096, '\0');
+    GLsizei length = 0;
+    glGetShaderInfoLog(shader.get(), static_cast<GLsizei>(log.size()), &length, log.data());
+    log.resize(static_cast<std::size_t>(length));
+    throw std::runtime_error("shader '" + name + "' does not compile: " + log);
+  }
+  return shader;
+}
+
+/// `transform` replaces TRANSFORM in a vertex shader: the camera or the light.
+std::string with_transform(std::string text, const std::string& transform) {
+  const std::string word = "TRANSFORM";
+  const auto at = text.find(word);
+  return at == std::string::npos ? text : text.replace(at, word.size(), transform);
+}
+
+void bind_names(GLuint program) {
+  glUniformBlockBinding(program, glGetUniformBlockIndex(program, "Picture"), picture_binding);
+  glUseProgram(program);
+  const std::pair<const char*, GLint> units[] = {{"shadow_map", shadow_unit},
+                                                 {"colour_map", colour_unit},
+                                                 {"depth_map", depth_unit},
+                                                 {"occlusion_map", occlusion_unit}};
+  for (const auto& [name, unit] : units) {
+    const GLint location = glGetUniformLocation(program, name);
+    if (location >= 0) glUniform1i(location, unit);
+  }
+  glUseProgram(0);
+}
+
+GlProgram link(const std::string& name, const char* vertex, const std::string& fragment, const std::string& transform) {
+  const GlShader v = compile(GL_VERTEX_SHADER, {picture_block, with_transform(vertex, transform)}, name);
+  const GlShader f = compile(GL_FRAGMENT_SHADER, {picture_block, fragment}, name);
+  GlProgram program(glCreateProgram());
+  glAttachShader(program.get(), v.get());
+  glAttachShader(program.get(), f.get());
+  glLinkProgram(program.get());
+  GLint linked = 0;
+  glGetProgramiv(program.get(), GL_LINK_STATUS, &linked);
+  if (linked != GL_TRUE) {
+    std::string log(4096, '\0');
+    GLsizei length = 0;
+    glGetProgramInfoLog(program.get(), static_cast<GLsizei>(log.size()), &length, log.data());
+    log.resize(static_cast<std::size_t>(length));
+    throw std::runtime_error("shader program '" + name + "' does not link: " + log);
+  }
+  glDetachShader(program.get(), v.get());
+  glDetachShader(program.get(), f.get());
+  if (glGetUniformBlockIndex(program.get(), "Picture") != GL_INVALID_INDEX) bind_names(program.get());
+  return program;
+}
+
+GlProgram lit(const std::string& name, const char* vertex, const char* fragment) {
+  return link(name, vertex, std::string(lighting) + fragment, "view_projection");
+}
+GlProgram shadow(const std::string& name, const char* vertex) { return link(name, vertex, depth_fragment, "light"); }
+
+}  // namespace
+
+Programs::Programs()
+    : member(lit("member", member_vertex, member_fragment)),
+      member_shadow(shadow("member shadow", member_vertex)),
+      panel(lit("panel", panel_vertex, panel_fragment)),
+      panel_shadow(shadow("panel shadow", panel_vertex)),
+      rigid(lit("rigid", rigid_vertex, rigid_fragment)),
+      rigid_shadow(shadow("rigid shadow", rigid_vertex)),
+      sky(link("sky", cover_vertex, sky_fragment, "")),
+      ground(lit("ground", ground_vertex, ground_fragment)),
+      line(link("line", line_vertex, line_fragment, "")),
+      occlusion(link("occlusion", cover_vertex, occlusion_fragment, "")),
+      finish(link("finish", cover_vertex, finish_fragment, "")) {}
+
+}  // namespace topple::viewer

@@ -1,0 +1,143 @@
+#include "renderer/snapshot_taker.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace topple::viewer {
+namespace {
+
+using structure::Building;
+using structure::JointCapacity;
+using structure::JointId;
+using structure::MemberId;
+using structure::NodeId;
+using structure::PanelId;
+using structure::Sense;
+using structure::Simulation;
+
+double ratio(const JointCapacity& capacity, Sense sense, double demand) {
+  return std::abs(demand) / capacity.value[static_cast<std::size_t>(sense)];
+}
+
+/// Largest ratios among the forces and among the moments.
+std::array<double, 2> shares(const JointCapacity& capacity, const structure::Vec6& demand) {
+  const Sense axial = demand[0] >= 0 ? Sense::tension : Sense::compression;
+  return {std::max({ratio(capacity, axial, demand[0]), ratio(capacity, Sense::shear_y, demand[1]),
+                    ratio(capacity, Sense::shear_z, demand[2])}),
+          std::max({ratio(capacity, Sense::torsion, demand[3]), ratio(capacity, Sense::moment_y, demand[4]),
+                    ratio(capacity, Sense::moment_z, demand[5])})};
+}
+
+bool owner_stands(const structure::StandingFrame& frame, const structure::Joint& joint) {
+  return joint.member.valid() ? frame.stands(joint.member) : frame.stands(joint.panel);
+}
+
+FrameAnswer::Joint joint_answer(const structure::StandingFrame& frame, const Building& building, JointId id) {
+  FrameAnswer::Joint result;
+  result.intact = frame.intact(id);
+  result.standing = owner_stands(frame, building[id]);
+  if (!result.intact || !result.standing) return result;
+  const structure::Vec6 demand = frame.demand(id);
+  for (int c = 0; c < 6; ++c) result.demand[static_cast<std::size_t>(c)] = static_cast<float>(demand[c]);
+  const structure::JointCapacity& capacity = building[id].capacity;
+  if (!capacity.breakable) return result;
+  const structure::Utilisation used = frame.utilisation(id);
+  result.utilisation = static_cast<float>(used.value);
+  result.sense = used.sense;
+  // The rule of interaction and a weakened joint both lift the utilisation above the plain ratios: scale to meet it.
+  const auto [force, torque] = shares(capacity, demand);
+  const double largest = std::max(force, torque), lift = largest > 0 ? used.value / largest : 0;
+  result.force_share = static_cast<float>(force * lift);
+  result.torque_share = static_cast<float>(torque * lift);
+  return result;
+}
+
+std::vector<JointId> most_used(const Building& building, const std::vector<FrameAnswer::Joint>& joints) {
+  std::vector<JointId> order;
+  for (std::size_t i = 0; i < joints.size(); ++i)
+    if (building.joints[i].capacity.breakable && joints[i].intact && joints[i].standing) order.emplace_back(i);
+  const std::size_t count = std::min<std::size_t>(20, order.size());
+  const auto used = [&](JointId id) { return joints[static_cast<std::size_t>(id.index)].utilisation; };
+  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end(),
+                    [&](JointId a, JointId b) { return used(a) != used(b) ? used(a) > used(b) : a < b; });
+  order.resize(count);
+  return order;
+}
+
+std::shared_ptr<const FrameAnswer> read_answer(const Simulation& simulation) {
+  const Building& building = simulation.building();
+  const structure::StandingFrame& frame = simulation.frame();
+  auto answer = std::make_shared<FrameAnswer>();
+  answer->displacements.assign(building.nodes.size(), Eigen::Matrix<float, 6, 1>::Zero());
+  for (std::size_t i = 0; i < building.nodes.size(); ++i)
+    if (frame.stands(NodeId(i))) answer->displacements[i] = frame.displacement(NodeId(i)).cast<float>();
+  answer->joints.reserve(building.joints.size());
+  for (std::size_t i = 0; i < building.joints.size(); ++i)
+    answer->joints.push_back(joint_answer(frame, building, JointId(i)));
+  answer->most_used = most_used(building, answer->joints);
+  return answer;
+}
+
+std::shared_ptr<const Membership> read_membership(const Simulation& simulation) {
+  const Building& building = simulation.building();
+  auto membership = std::make_shared<Membership>();
+  const auto place = [](auto id, const Simulation& from) { return from.frame().stands(id) ? part_stands : part_gone; };
+  for (std::size_t i = 0; i < building.members.size(); ++i) {
+    membership->member.push_back(place(MemberId(i), simulation));
+    membership->members_standing += membership->member.back() == part_stands ? 1 : 0;
+  }
+  for (std::size_t i = 0; i < building.panels.size(); ++i) {
+    membership->panel.push_back(place(PanelId(i), simulation));
+    membership->panels_standing += membership->panel.back() == part_stands ? 1 : 0;
+  }
+  int index = 0;
+  for (const structure::BodyView& body : simulation.bodies()) {
+    for (const MemberId id : body.members) membership->member[static_cast<std::size_t>(id.index)] = index;
+    for (const PanelId id : body.panels) membership->panel[static_cast<std::size_t>(id.index)] = index;
+    ++index;
+  }
+  return membership;
+}
+
+BodyPose pose_of(const structure::BodyView& body) {
+  return {body.id.value, body.pose.position, body.rest_centre, body.pose.orientation, body.radius, body.asleep};
+}
+
+bool same(const structure::FrameCounters& a, const structure::FrameCounters& b) {
+  return a.solves == b.solves && a.low_rank == b.low_rank && a.refactorisations == b.refactorisations &&
+         a.segmentations == b.segmentations;
+}
+
+}  // namespace
+
+bool SnapshotTaker::answer_is_old(const Simulation& simulation) const {
+  return !answer_ || was_pending_ || !same(seen_, simulation.frame().counters()) ||
+         seen_events_ != simulation.events().size();
+}
+
+Snapshot SnapshotTaker::take(const Simulation& simulation) {
+  std::vector<std::int64_t> ids;
+  for (const structure::BodyView& body : simulation.bodies()) ids.push_back(body.id.value);
+  const bool old = answer_is_old(simulation);
+  if (old) answer_ = read_answer(simulation);
+  if (old || ids != seen_bodies_) membership_ = read_membership(simulation);
+  seen_ = simulation.frame().counters();
+  seen_events_ = simulation.events().size();
+  was_pending_ = simulation.frame().pending();
+  seen_bodies_ = std::move(ids);
+
+  Snapshot snapshot;
+  snapshot.time = simulation.time();
+  snapshot.step = simulation.steps();
+  snapshot.at_rest = simulation.at_rest();
+  snapshot.finished = simulation.finished();
+  snapshot.answer = answer_;
+  snapshot.membership = membership_;
+  for (const structure::BodyView& body : simulation.bodies()) snapshot.bodies.push_back(pose_of(body));
+  snapshot.counters = simulation.counters();
+  snapshot.stage_seconds = simulation.stage_seconds();
+  snapshot.collision_engine_seconds = simulation.collision_engine_seconds();
+  return snapshot;
+}
+
+}  // namespace topple::viewer

@@ -1,0 +1,23 @@
+#pragma once
+#include <vector>
+
+#include "renderer/snapshot.h"
+
+namespace topple::viewer {
+
+/// Takes snapshots of one simulation, sharing what did not change since the last one. Used on the simulation's thread.
+class SnapshotTaker {
+ public:
+  [[nodiscard]] Snapshot take(const structure::Simulation& simulation);
+
+ private:
+  [[nodiscard]] bool answer_is_old(const structure::Simulation& simulation) const;
+  structure::FrameCounters seen_;
+  std::size_t seen_events_ = 0;
+  bool was_pending_ = false;
+  std::vector<std::int64_t> seen_bodies_;
+  std::shared_ptr<const FrameAnswer> answer_;
+  std::shared_ptr<const Membership> membership_;
+};
+
+}  // namespace topple::viewer
