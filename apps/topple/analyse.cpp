@@ -1,0 +1,102 @@
+// topple analyse: static analysis of a model, summary on the terminal, files on request.
+#include <chrono>
+#include <cstdio>
+#include <memory>
+
+#include "command.h"
+#include "html_report.h"
+#include "topple/structure/analysis.h"
+#include "topple/structure/error.h"
+#include "topple/structure/files.h"
+#include "write_files.h"
+
+namespace topple::app {
+
+namespace {
+
+using namespace topple::structure;
+
+struct Options {
+  std::string model, output;
+  std::vector<std::string> combinations;
+  int stations = 0, threads = 1;
+  bool html = false;
+};
+
+/// Seconds by stage, in the order of their names.
+class StageClock {
+ public:
+  void stop(const std::string& stage) {
+    const auto now = std::chrono::steady_clock::now();
+    seconds[stage] += std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+  }
+  std::map<std::string, double> seconds;
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+std::vector<CombinationId> chosen(const Building& building, const std::vector<std::string>& names) {
+  std::vector<CombinationId> ids;
+  for (const std::string& name : names) {
+    std::string known;
+    bool found = false;
+    for (std::size_t i = 0; i < building.combinations.size(); ++i) {
+      known += (known.empty() ? "" : ", ") + building.combinations[i].name;
+      if (building.combinations[i].name != name) continue;
+      ids.emplace_back(i);
+      found = true;
+    }
+    if (!found)
+      throw InputError(building.file + ": --combination " + name + ": no such combination; accepted: " + known);
+  }
+  return ids;
+}
+
+int run(const Options& options) {
+  if (options.html && options.output.empty()) throw InputError("--html: name the folder for the report with -o");
+  StageClock clock;
+  const Building building = read_model(find_model(options.model));
+  clock.stop("read");
+  AnalysisRequest request;
+  request.combinations = chosen(building, options.combinations);
+  request.stations = options.stations;
+  request.solver.threads = options.threads;
+  AnalysisRequest wider = request;
+  if (options.html) wider.stations = std::max(request.stations, report_stations);
+  const AnalysisResult result = analyse(building, wider);
+  clock.stop("analyse");
+  clock.seconds["order"] = result.statistics.order_seconds;
+  clock.seconds["assemble"] = result.statistics.assemble_seconds;
+  clock.seconds["factor"] = result.statistics.factor_seconds;
+  clock.seconds["solve"] = result.statistics.solve_seconds;
+  if (!options.output.empty()) {
+    std::vector<std::pair<std::string, std::string>> files;
+    files.emplace_back("results.json", results_json(building, wider, result, clock.seconds));
+    if (options.html) files.emplace_back("report.html", html_report(building, result, files[0].second));
+    write_files(options.output, files);
+    clock.stop("write");
+  }
+  std::fputs(summary_text(building, result, clock.seconds).c_str(), stdout);
+  return success;
+}
+
+std::function<int()> declare(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  app.add_option("MODEL", options->model, "A shipped model's name, or a file (.json, .3dd)")->required();
+  app.add_option("-o", options->output, "Folder for results.json and the other files");
+  app.add_option("--combination", options->combinations, "Combination to analyse (all, when none is named)")
+      ->expected(1)
+      ->take_all();
+  app.add_option("--stations", options->stations, "Stations along each member in results.json")
+      ->check(CLI::Range(1, 10000));
+  app.add_option("--threads", options->threads, "Threads of the factorisation")->check(CLI::Range(1, 1024));
+  app.add_flag("--html", options->html, "Write report.html");
+  return [options] { return run(*options); };
+}
+
+const Registration registration({"analyse", "Analyse a model statically", declare});
+
+}  // namespace
+}  // namespace topple::app

@@ -1,0 +1,69 @@
+#include "analysis/equilibrium.h"
+
+#include <Eigen/Geometry>
+
+namespace topple::structure {
+
+namespace {
+
+/// Six components about a fixed point, with the sum of their sizes.
+class Balance {
+ public:
+  explicit Balance(const Vec3& centre) : centre_(centre) {}
+  void add(const Vec3& at, const Vec3& force, const Vec3& moment) {
+    Vec6 part;
+    part << force, (at - centre_).cross(force) + moment;
+    sum += part;
+    size += part.cwiseAbs();
+  }
+  Vec6 sum = Vec6::Zero(), size = Vec6::Zero();
+
+ private:
+  Vec3 centre_;
+};
+
+void add_beam_load(Balance& balance, const solver::FrameModel& model, const solver::BeamLoad& load) {
+  if (load.kind == solver::BeamLoad::Kind::temperature) return;  // pushes nothing as a whole
+  const solver::Beam& beam = model.beams[static_cast<std::size_t>(load.beam)];
+  const Vec3 start = model.nodes[static_cast<std::size_t>(beam.node[0])] + beam.offset[0];
+  const auto at = [&](double x) { return Vec3(start + x * beam.axes.row(0).transpose()); };
+  const auto add = [&](double x, const Vec6& local) {
+    balance.add(at(x), beam.axes.transpose() * local.head<3>(), beam.axes.transpose() * local.tail<3>());
+  };
+  if (load.kind == solver::BeamLoad::Kind::point) {
+    add(load.from, load.first);
+    return;
+  }
+  // Two triangles of a trapezoid, each at its own centroid: exact.
+  const double width = load.to - load.from;
+  add(load.from + width / 3, load.first * (width / 2));
+  add(load.to - width / 3, load.last * (width / 2));
+}
+
+}  // namespace
+
+Equilibrium equilibrium(const solver::FrameModel& model, const solver::LoadSet& loads,
+                        const std::vector<Vec6>& reactions) {
+  Vec3 centre = Vec3::Zero();
+  for (const Vec3& node : model.nodes) centre += node;
+  centre /= static_cast<double>(model.nodes.size());
+  Balance applied(centre), held(centre);
+  for (const solver::NodeLoad& load : loads.nodes)
+    applied.add(model.nodes[static_cast<std::size_t>(load.node)], load.load.head<3>(), load.load.tail<3>());
+  for (const solver::BeamLoad& load : loads.beams) add_beam_load(applied, model, load);
+  for (std::size_t i = 0; i < reactions.size(); ++i)
+    held.add(model.nodes[static_cast<std::size_t>(model.supports[i].node)], reactions[i].head<3>(),
+             reactions[i].tail<3>());
+  Equilibrium result{applied.sum, held.sum, 0};
+  // A component in which nothing but rounding acts (a symmetric frame's twist) has no error of its own: it is measured
+  // against a millionth of the largest of its kind.
+  constexpr double least_share = 1e-6;
+  const Vec6 size = applied.size + held.size;
+  for (int i = 0; i < 6; ++i) {
+    const double scale = std::max(size[i], least_share * size.segment<3>(i < 3 ? 0 : 3).maxCoeff());
+    if (scale > 0) result.error = std::max(result.error, std::abs(applied.sum[i] + held.sum[i]) / scale);
+  }
+  return result;
+}
+
+}  // namespace topple::structure

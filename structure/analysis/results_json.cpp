@@ -1,0 +1,213 @@
+// results.json: see docs/results-format.md.
+#include <algorithm>
+
+#include "formats/json_writer.h"
+#include "topple/solver/blas_kernel.h"
+#include "topple/structure/analysis.h"
+
+namespace topple::structure {
+
+namespace {
+
+/// Writes in the model's units: every quantity is divided by its factor to SI.
+class Writer {
+ public:
+  Writer(const Building& building, const AnalysisRequest& request, const AnalysisResult& result,
+         const std::map<std::string, double>& seconds)
+      : b_(building), request_(request), result_(result), seconds_(seconds) {
+    const Units& u = building.units;
+    force_ = {u.force, u.force, u.force, u.force * u.length, u.force * u.length, u.force * u.length};
+    movement_ = {u.length, u.length, u.length, 1, 1, 1};
+    diagram_ = {u.force,  u.force, u.force, u.force * u.length, u.force * u.length, u.force * u.length,
+                u.length, u.length};
+  }
+
+  std::string write() {
+    w_.open('{');
+    header();
+    w_.key("combinations").open('{');
+    for (const CombinationResult& c : result_.combinations) combination(c);
+    w_.close('}').newline();
+    envelope();
+    w_.key("seconds").open('{');
+    for (const auto& [stage, time] : seconds_) w_.key(stage).value(time);
+    w_.close('}').close('}');
+    return w_.take() + "\n";
+  }
+
+ private:
+  void header() {
+    w_.key("topple").value(TOPPLE_VERSION).newline();
+    w_.key("model").open('{');
+    w_.key("title").value(b_.title).key("file").value(b_.file).key("nodes").value(b_.nodes.size());
+    w_.key("members").value(b_.members.size()).key("panels").value(b_.panels.size());
+    w_.key("freedoms").value(result_.statistics.freedoms).close('}').newline();
+    w_.key("units").open('{').key("length").value(b_.units.length_name).key("force").value(b_.units.force_name);
+    w_.key("mass").value(b_.units.mass_name).key("angle").value("rad").close('}').newline();
+    w_.key("settings").open('{').key("p_delta").value("none");
+    w_.key("factorisation").value(result_.statistics.factorisation).key("ordering").value(result_.statistics.ordering);
+    w_.key("threads").value(static_cast<std::size_t>(request_.solver.threads));
+    w_.key("blas_kernel").value(solver::blas_kernel()).close('}').newline();
+  }
+
+  template <class Values, class Factors>
+  void list(const Values& values, const Factors& factors, int count) {
+    w_.open('[');
+    for (int i = 0; i < count; ++i) w_.value(values[i] / factors[static_cast<std::size_t>(i) % factors.size()]);
+    w_.close(']');
+  }
+
+  void combination(const CombinationResult& c) {
+    w_.newline().key(b_[c.combination].name).open('{');
+    w_.key("displacements").open('{');
+    for (std::size_t i = 0; i < b_.nodes.size(); ++i) {
+      w_.newline().key(b_.nodes[i].name);
+      list(c.displacements[i], movement_, 6);
+    }
+    w_.close('}').newline().key("reactions").open('{');
+    for (std::size_t i = 0; i < b_.supports.size(); ++i) {
+      w_.newline().key(b_[b_.supports[i].node].name);
+      list(c.reactions[i], force_, 6);
+    }
+    w_.close('}').newline().key("members").open('{');
+    for (std::size_t i = 0; i < b_.members.size(); ++i) member(b_.members[i], c.members[i]);
+    w_.close('}').newline().key("panels").open('{');
+    for (std::size_t i = 0; i < b_.panels.size(); ++i) panel(b_.panels[i], c.panels[i]);
+    w_.close('}').newline().key("joints").open('{');
+    for (std::size_t i = 0; i < b_.joints.size(); ++i) joint(b_.joints[i], c.joints[i]);
+    w_.close('}').newline().key("storeys").open('{');
+    for (std::size_t i = 0; i < c.storeys.size(); ++i) {
+      w_.key(std::to_string(i + 1)).open('{').key("drift").value(c.storeys[i].drift).key("shear").open('[');
+      w_.value(c.storeys[i].shear[0] / b_.units.force)
+          .value(c.storeys[i].shear[1] / b_.units.force)
+          .close(']')
+          .close('}');
+    }
+    w_.close('}').newline().key("equilibrium_error").value(c.equilibrium_error);
+    w_.key("backward_error").value(c.quality.backward_error).key("condition").value(c.quality.condition);
+    w_.key("error_bound").value(c.quality.error_bound).close('}');
+  }
+
+  void extreme(const Extreme& e, double factor) {
+    w_.open('[').value(e.value / factor).value(e.at / b_.units.length).close(']');
+  }
+
+  void member(const Member& member, const MemberResult& r) {
+    w_.newline().key(member.name).open('{').key("end_forces");
+    list(r.end_forces, force_, 12);
+    w_.key("active").value(r.active).key("extremes").open('{');
+    for (std::size_t q = 0; q < 8; ++q) {
+      w_.key(diagram_names[q]).open('{').key("min");
+      extreme(r.min[q], diagram_[q]);
+      w_.key("max");
+      extreme(r.max[q], diagram_[q]);
+      w_.close('}');
+    }
+    w_.close('}');
+    if (request_.stations > 0) stations(member, r);
+    w_.close('}');
+  }
+
+  void stations(const Member& member, const MemberResult& r) {
+    w_.key("stations").open('{').key("at").open('[');
+    for (std::size_t s = 0; s < r.stations.size(); ++s)
+      w_.value(member.length * static_cast<double>(s) / request_.stations / b_.units.length);
+    w_.close(']');
+    for (std::size_t q = 0; q < 8; ++q) {
+      w_.key(diagram_names[q]).open('[');
+      for (const auto& values : r.stations) w_.value(values[q] / diagram_[q]);
+      w_.close(']');
+    }
+    w_.close('}');
+  }
+
+  void panel(const Panel& panel, const PanelResult& r) {
+    const double per_length = b_.units.force / b_.units.length;
+    const std::array<double, 1> tension{per_length}, bending{b_.units.force};
+    w_.newline().key(panel.name).open('{').key("membrane");
+    list(r.membrane, tension, 3);
+    w_.key("moments");
+    list(r.moments, bending, 3);
+    w_.key("shears");
+    list(r.shears, tension, 2);
+    w_.key("corner_forces").open('[');
+    for (const Vec6& corner : r.corner_forces) list(corner, force_, 6);
+    w_.close(']').key("elements").open('[').close(']').close('}');
+  }
+
+  void joint(const Joint& joint, const Utilisation& used) {
+    if (!joint.capacity.breakable) return;
+    w_.newline().key(joint.name).open('{').key("utilisation").value(used.value);
+    w_.key("governing").value(sense_names[static_cast<std::size_t>(used.sense)]).close('}');
+  }
+
+  /// The largest and smallest over the combinations, with the combination's name.
+  template <class Of>
+  const CombinationResult& best(Of of) const {
+    return *std::max_element(result_.combinations.begin(), result_.combinations.end(),
+                             [&](const auto& a, const auto& b) { return of(a) < of(b); });
+  }
+
+  void bound(const Extreme& e, double factor, const CombinationResult& c) {
+    w_.open('[').value(e.value / factor).value(e.at / b_.units.length).value(b_[c.combination].name).close(']');
+  }
+
+  void envelope() {
+    w_.key("envelope").open('{').key("members").open('{');
+    for (std::size_t m = 0; m < b_.members.size(); ++m) {
+      w_.newline().key(b_.members[m].name).open('{');
+      for (std::size_t q = 0; q < 8; ++q) {
+        const auto& low = best([&](const CombinationResult& c) { return -c.members[m].min[q].value; });
+        const auto& high = best([&](const CombinationResult& c) { return c.members[m].max[q].value; });
+        w_.key(diagram_names[q]).open('{').key("min");
+        bound(low.members[m].min[q], diagram_[q], low);
+        w_.key("max");
+        bound(high.members[m].max[q], diagram_[q], high);
+        w_.close('}');
+      }
+      w_.close('}');
+    }
+    w_.close('}').newline().key("joints").open('{');
+    for (std::size_t j = 0; j < b_.joints.size(); ++j) {
+      if (!b_.joints[j].capacity.breakable) continue;
+      const auto& worst = best([&](const CombinationResult& c) { return c.joints[j].value; });
+      w_.newline()
+          .key(b_.joints[j].name)
+          .open('[')
+          .value(worst.joints[j].value)
+          .value(b_[worst.combination].name)
+          .close(']');
+    }
+    w_.close('}').newline().key("displacements").open('{');
+    for (std::size_t n = 0; n < b_.nodes.size(); ++n) {
+      w_.newline().key(b_.nodes[n].name).open('{');
+      for (int i = 0; i < 6; ++i) {
+        const auto& low = best([&](const CombinationResult& c) { return -c.displacements[n][i]; });
+        const auto& high = best([&](const CombinationResult& c) { return c.displacements[n][i]; });
+        const double factor = movement_[static_cast<std::size_t>(i)];
+        w_.key(component_names[static_cast<std::size_t>(i)]).open('{').key("min").open('[');
+        w_.value(low.displacements[n][i] / factor).value(b_[low.combination].name).close(']').key("max").open('[');
+        w_.value(high.displacements[n][i] / factor).value(b_[high.combination].name).close(']').close('}');
+      }
+      w_.close('}');
+    }
+    w_.close('}').close('}').newline();
+  }
+
+  const Building& b_;
+  const AnalysisRequest& request_;
+  const AnalysisResult& result_;
+  const std::map<std::string, double>& seconds_;
+  std::array<double, 6> force_, movement_;
+  std::array<double, 8> diagram_;
+  JsonWriter w_;
+};
+
+}  // namespace
+
+std::string results_json(const Building& building, const AnalysisRequest& request, const AnalysisResult& result,
+                         const std::map<std::string, double>& seconds) {
+  return Writer(building, request, result, seconds).write();
+}
+
+}  // namespace topple::structure

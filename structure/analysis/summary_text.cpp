@@ -1,0 +1,101 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+
+#include "topple/structure/analysis.h"
+
+namespace topple::structure {
+
+namespace {
+
+constexpr std::size_t joints_shown = 10;
+
+class Text {
+ public:
+  [[gnu::format(printf, 2, 3)]] void line(const char* format, ...) {
+    char buffer[512];
+    va_list arguments;
+    va_start(arguments, format);
+    std::vsnprintf(buffer, sizeof buffer, format, arguments);
+    va_end(arguments);
+    text_ += buffer;
+    text_ += '\n';
+  }
+  std::string take() { return std::move(text_); }
+
+ private:
+  std::string text_;
+};
+
+void most_used(Text& text, const Building& building, const CombinationResult& c) {
+  std::vector<std::size_t> order;
+  for (std::size_t j = 0; j < c.joints.size(); ++j)
+    if (building.joints[j].capacity.breakable) order.push_back(j);
+  const std::size_t shown = std::min(joints_shown, order.size());
+  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(shown), order.end(),
+                    [&](std::size_t a, std::size_t b) {
+                      return c.joints[a].value != c.joints[b].value ? c.joints[a].value > c.joints[b].value : a < b;
+                    });
+  if (shown == 0) return;
+  text.line("  most used joints");
+  for (std::size_t k = 0; k < shown; ++k) {
+    const Utilisation& used = c.joints[order[k]];
+    text.line("    %-20s %7.1f %%  %s", building.joints[order[k]].name.c_str(), 100 * used.value,
+              sense_names[static_cast<std::size_t>(used.sense)]);
+  }
+}
+
+void combination(Text& text, const Building& building, const CombinationResult& c) {
+  const Units& u = building.units;
+  const std::string length = u.consistent ? "" : " " + u.length_name, force = u.consistent ? "" : " " + u.force_name;
+  text.line("combination %s", building[c.combination].name.c_str());
+  std::size_t farthest = 0;
+  for (std::size_t i = 1; i < c.displacements.size(); ++i)
+    if (c.displacements[i].head<3>().norm() > c.displacements[farthest].head<3>().norm()) farthest = i;
+  const Vec3 moved = c.displacements[farthest].head<3>() / u.length;
+  text.line("  largest displacement %.4g%s at node %s (x %.4g, y %.4g, z %.4g)", moved.norm(), length.c_str(),
+            building.nodes[farthest].name.c_str(), moved.x(), moved.y(), moved.z());
+  // What rounding leaves of nothing is shown as nothing.
+  const double rounding = 1e-12 * c.total_load.head<3>().norm();
+  const auto shown = [&](double f) { return std::abs(f) < rounding ? 0.0 : f / u.force; };
+  const auto forces = [&](const char* what, const Vec6& f) {
+    text.line("  %-20s x %.6g  y %.6g  z %.6g%s", what, shown(f[0]), shown(f[1]), shown(f[2]), force.c_str());
+  };
+  forces("loads", c.total_load);
+  forces("reactions", c.total_reaction);
+  double drift = 0;
+  std::size_t storey = 0;
+  for (std::size_t i = 0; i < c.storeys.size(); ++i)
+    if (c.storeys[i].drift > drift) {
+      drift = c.storeys[i].drift;
+      storey = i + 1;
+    }
+  if (drift > 0) text.line("  largest drift        1/%.0f in storey %zu", 1 / drift, storey);
+  most_used(text, building, c);
+  text.line("  backward error %.1e, equilibrium error %.1e, condition %.1e, displacements right to %.1e",
+            c.quality.backward_error, c.equilibrium_error, c.quality.condition, c.quality.error_bound);
+}
+
+}  // namespace
+
+std::string summary_text(const Building& building, const AnalysisResult& result,
+                         const std::map<std::string, double>& seconds) {
+  Text text;
+  text.line("%s", building.title.empty() ? building.file.c_str() : building.title.c_str());
+  text.line("  %zu nodes, %zu members, %zu panels, %zu equations", building.nodes.size(), building.members.size(),
+            building.panels.size(), result.statistics.freedoms);
+  for (const CombinationResult& c : result.combinations) combination(text, building, c);
+  std::string times;
+  for (const auto& [stage, time] : seconds) {
+    char part[64];
+    std::snprintf(part, sizeof part, "%s%s %.3f s", times.empty() ? "" : ", ", stage.c_str(), time);
+    times += part;
+  }
+  text.line("%s factor, %zu entries; %s", result.statistics.factorisation.c_str(), result.statistics.factor_entries,
+            times.c_str());
+  for (const std::string& warning : result.warnings) text.line("warning: %s", warning.c_str());
+  return text.take();
+}
+
+}  // namespace topple::structure

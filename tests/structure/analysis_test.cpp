@@ -1,0 +1,153 @@
+// Static analysis of buildings end to end: closed forms, OpenSees' answers, equilibrium, shipped models, instability.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "support/shared_data.h"
+#include "topple/structure/analysis.h"
+#include "topple/structure/error.h"
+#include "topple/structure/files.h"
+
+using namespace topple::structure;
+using Json = nlohmann::json;
+
+namespace {
+
+/// A cantilever along a skew axis with three different inertias, all supports and loads given by the caller.
+std::string cantilever(const std::string& supports, const std::string& loads, const std::string& units = "") {
+  return R"({"topple": 1, )" + units + R"(
+    "materials": {"steel": {"youngs_modulus": 2e11, "shear_modulus": 8e10, "density": 7850}},
+    "sections": {"s": {"area": 0.01, "Iy": 2e-4, "Iz": 3e-5, "J": 5e-6, "shear_area_y": 0.004, "shear_area_z": 0.006}},
+    "nodes": {"A": [0, 0, 0], "B": [4, 0, 0]},
+    "members": {"M": {"nodes": ["A", "B"], "section": "s", "material": "steel"}},
+    "supports": )" +
+         supports + R"(, "loads": )" + loads + "}";
+}
+
+Json results(const Building& building, const AnalysisRequest& request = {}) {
+  return Json::parse(results_json(building, request, analyse(building, request), {}));
+}
+
+Json read_json(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  return Json::parse(stream);
+}
+
+/// Largest deviation of lists of six (or twelve) from expected ones, for translations and forces (half 0) or rotations
+/// and moments (half 1), over the largest expected value of that half.
+struct Deviation {
+  double difference[2] = {0, 0}, size[2] = {0, 0};
+  void add(const Json& found, const Json& expected) {
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      const std::size_t half = i % 6 / 3;
+      difference[half] = std::max(difference[half], std::abs(found[i].get<double>() - expected[i].get<double>()));
+      size[half] = std::max(size[half], std::abs(expected[i].get<double>()));
+    }
+  }
+  [[nodiscard]] bool within(double tolerance) const {
+    return difference[0] <= tolerance * size[0] + 1e-300 &&
+           difference[1] <= tolerance * std::max(size[1], 1e-6 * size[0]);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a cantilever bends and shears as closed form says, each axis by its own stiffness") {
+  const Building b =
+      parse_model(cantilever(R"({"A": "fixed"})", R"({"case": {"nodes": {"B": {"y": 1000, "z": -2000}}}})"), "c.json");
+  const Json c = results(b).at("combinations").at("case");
+  const double L = 4, EIy = 2e11 * 2e-4, EIz = 2e11 * 3e-5, GAy = 8e10 * 0.004, GAz = 8e10 * 0.006;
+  const Json& tip = c.at("displacements").at("B");
+  CHECK(tip[1].get<double>() == Approx(1000 * (L * L * L / (3 * EIz) + L / GAy)).epsilon(1e-10));
+  CHECK(tip[2].get<double>() == Approx(-2000 * (L * L * L / (3 * EIy) + L / GAz)).epsilon(1e-10));
+  const Json& end = c.at("members").at("M").at("end_forces");
+  CHECK(end[2].get<double>() == Approx(2000).epsilon(1e-10));
+  CHECK(end[4].get<double>() == Approx(-8000).epsilon(1e-10));  // about y: hub holds the moment of a load downwards
+  CHECK(c.at("members").at("M").at("extremes").at("shear_z").at("max")[0].get<double>() ==
+        Approx(-2000).epsilon(1e-10));
+  CHECK(c.at("reactions").at("A")[5].get<double>() == Approx(-4000).epsilon(1e-10));
+}
+
+TEST_CASE("a fixed beam's moments and stations under uniform load are those of the textbook") {
+  const Building b = parse_model(
+      cantilever(R"({"A": "fixed", "B": "fixed"})", R"({"q": {"members": {"M": [{"uniform": {"z": -6000}}]}}})"),
+      "c.json");
+  AnalysisRequest request;
+  request.stations = 4;
+  const Json m = results(b, request).at("combinations").at("q").at("members").at("M");
+  const Json& moments = m.at("stations").at("moment_y");
+  REQUIRE(moments.size() == 5);
+  CHECK(std::abs(moments[0].get<double>()) == Approx(6000.0 * 16 / 12).epsilon(1e-10));
+  CHECK(std::abs(moments[2].get<double>()) == Approx(6000.0 * 16 / 24).epsilon(1e-10));
+  CHECK(moments[0].get<double>() * moments[2].get<double>() < 0);
+  CHECK(m.at("stations").at("at")[1].get<double>() == 1.0);
+}
+
+TEST_CASE("results come back in the units of the file") {
+  const std::string text = R"({"topple": 1, "units": {"length": "mm", "force": "kN", "mass": "kg"},
+    "materials": {"steel": {"youngs_modulus": 200, "shear_modulus": 80}},
+    "sections": {"s": {"area": 10000, "Iy": 2e8, "Iz": 3e7, "J": 5e6}},
+    "nodes": {"A": [0, 0, 0], "B": [4000, 0, 0]},
+    "members": {"M": {"nodes": ["A", "B"], "section": "s", "material": "steel"}},
+    "supports": {"A": "fixed"}, "loads": {"case": {"nodes": {"B": {"z": -2}}}}})";
+  const Json r = results(parse_model(text, "mm.json"));
+  CHECK(r.at("units").at("length") == "mm");
+  const Json& c = r.at("combinations").at("case");
+  CHECK(c.at("displacements").at("B")[2].get<double>() ==
+        Approx(-2 * std::pow(4000.0, 3) / (3 * 200 * 2e8)).epsilon(1e-10));
+  CHECK(c.at("reactions").at("A")[4].get<double>() == Approx(-8000).epsilon(1e-10));
+}
+
+TEST_CASE("shipped models stand with a margin, in equilibrium, solved to rounding") {
+  for (const char* name : {"seed_building", "seed_shear_walls", "tower", "la3"}) {
+    INFO(name);
+    const Building b = read_model(find_model(name));
+    const AnalysisResult result = analyse(b);
+    for (const CombinationResult& c : result.combinations) {
+      CHECK(c.equilibrium_error < 1e-10);
+      CHECK((c.total_load + c.total_reaction).head<3>().norm() < 1e-10 * c.total_load.norm());
+      CHECK(c.quality.backward_error < 1e-14);
+      double worst = 0;
+      for (const Utilisation& used : c.joints) worst = std::max(worst, used.value);
+      CHECK(worst > 0.2);
+      CHECK(worst < 0.8);
+    }
+  }
+}
+
+TEST_CASE("an unstable model names the nodes and the members that move") {
+  const Building b =
+      parse_model(cantilever(R"({"A": "pinned"})", R"({"case": {"nodes": {"B": {"z": -1}}}})"), "c.json");
+  CHECK_THROWS_AS(analyse(b), UnstableModel);
+  CHECK_THROWS_WITH(analyse(b), Catch::Contains("node B") && Catch::Contains("members M"));
+}
+
+// Frames, trusses, grillages, an arch and settlements computed by OpenSees; each file states its tolerance.
+TEST_CASE("OpenSees' frames have OpenSees' answers") {
+  if (!topple::test::have_shared("reference/opensees/README.md")) return;
+  for (const char* name : {"A1_def_L1", "A1_def_L3", "A2_def_L2", "A2_def_L4", "A5_def_L1", "A5_def_L3", "A6_def_L1",
+                           "A6_def_L3", "B1_def_L2", "B2_def_L2", "B3_def_L1", "B3_def_L3", "B4_def_L1", "D3_def_L1",
+                           "D3_def_L3", "D4_def_L1", "D4_def_L3"}) {
+    INFO(name);
+    const std::string base = std::string("reference/opensees/") + name;
+    const Json expected = read_json(topple::test::shared_path(base + ".expected.json"));
+    REQUIRE(expected.at("arguments").empty());
+    const Json c = results(read_model(topple::test::shared_path(base + ".json"))).at("combinations").at("case");
+    for (const char* kind : {"displacements", "reactions", "members"}) {
+      if (!expected.contains(kind)) continue;
+      const Json& bound =
+          expected.at("tolerance").at(std::string(kind) == "displacements" ? "displacements" : "forces");
+      if (bound.is_null()) continue;
+      Deviation deviation;
+      for (const auto& [part, values] : expected.at(kind).items()) {
+        const bool member = std::string(kind) == "members";
+        const Json& found = c.at(kind).at(part);
+        deviation.add(member ? found.at("end_forces") : found, member ? values.at("end_forces") : values);
+      }
+      INFO(kind << " differ by " << deviation.difference[0] << " of " << deviation.size[0] << ", "
+                << deviation.difference[1] << " of " << deviation.size[1]);
+      CHECK(deviation.within(bound.get<double>()));
+    }
+  }
+}
