@@ -18,6 +18,9 @@ namespace {
 /// Parts nearer than this (m) touch. What is left is gone through at the approach speed, so times are exact to second
 /// order.
 constexpr double kTouching = 1e-4;
+/// No advance is shorter than it takes to close by this (m): slow pairs, such as those at rest, take few. What it
+/// oversteps is taken back with the approach speed.
+constexpr double kLeastClosing = 5e-4;
 /// No advance is shorter than this share of the duration: bounds the work for a part that spins just above another.
 constexpr double kLeastAdvance = 1.0 / 256;
 
@@ -78,7 +81,7 @@ std::optional<Touch> advance(const Pair& pair, double duration) {
     }
     const double bound = pair.closing_bound(closest.normal, time);
     if (!(bound > 0)) return std::nullopt;
-    time += std::max((closest.distance - kTouching / 2) / bound, kLeastAdvance * duration);
+    time += std::max({(closest.distance - kTouching / 2) / bound, kLeastClosing / bound, kLeastAdvance * duration});
   }
   return std::nullopt;
 }

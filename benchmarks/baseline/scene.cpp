@@ -1,0 +1,66 @@
+#include "scene.h"
+
+#include <sstream>
+#include <stdexcept>
+
+namespace baseline {
+
+namespace {
+
+template <std::size_t N>
+void read(std::istream& in, std::array<double, N>& values) {
+  for (double& value : values) in >> value;
+}
+
+void read_line(std::istream& in, const std::string& kind, Scene& scene) {
+  if (kind == "gravity") {
+    in >> scene.gravity;
+  } else if (kind == "static_sag") {
+    in >> scene.static_sag;
+  } else if (kind == "body") {
+    SceneBody& body = scene.bodies.emplace_back();
+    in >> body.name >> body.mass;
+    read(in, body.half_extents);
+    read(in, body.centre);
+    read(in, body.orientation);
+  } else if (kind == "joint") {
+    SceneJoint& joint = scene.joints.emplace_back();
+    in >> joint.name >> joint.body >> joint.other;
+    read(in, joint.point);
+    in >> joint.has_force;
+    if (joint.has_force) read(in, joint.force);
+  } else if (kind == "roof") {
+    RoofPoint& roof = scene.roof.emplace_back();
+    in >> roof.body;
+    read(in, roof.point);
+  } else {
+    throw std::runtime_error("unknown word " + kind);
+  }
+  if (in.fail()) throw std::runtime_error("a number is missing after " + kind);
+}
+
+}  // namespace
+
+Scene read_scene(std::istream& in) {
+  Scene scene;
+  std::string line;
+  for (int number = 1; std::getline(in, line); ++number) {
+    std::istringstream words(line);
+    std::string kind;
+    if (!(words >> kind)) continue;
+    try {
+      read_line(words, kind, scene);
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error("scene, line " + std::to_string(number) + ": " + error.what());
+    }
+  }
+  const int count = static_cast<int>(scene.bodies.size());
+  for (const SceneJoint& joint : scene.joints) {
+    if (joint.body < 0 || joint.body >= count || joint.other < -1 || joint.other >= count) {
+      throw std::runtime_error("scene: joint " + joint.name + " names a body that is not there");
+    }
+  }
+  return scene;
+}
+
+}  // namespace baseline

@@ -1,0 +1,228 @@
+// Writes a building as rigid bodies and joints in plain numbers, with what frame analysis says of each joint: the scene
+// that the Bullet baseline simulates (baseline/scene.h has the format).
+//   bench_scene MODEL [--combination NAME] [--frame-only]
+// Mass is weight over gravity. Posts come first, then beams, then slabs and walls; so do their joints.
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <iostream>
+#include <map>
+#include <stdexcept>
+
+#include "topple/solver/static_analysis.h"
+#include "topple/structure/building.h"
+#include "topple/structure/files.h"
+#include "topple/structure/frame.h"
+
+namespace {
+
+using namespace topple;
+using namespace topple::structure;
+
+struct Body {
+  std::string name;
+  double mass = 0;
+  Vec3 half_extents, centre;
+  Mat3 axes;  // rows
+};
+
+/// Order of bodies and joints: posts, beams and braces, panels.
+std::vector<std::size_t> members_in_order(const Building& building) {
+  std::vector<std::size_t> order(building.members.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::stable_partition(order.begin(), order.end(),
+                        [&](std::size_t i) { return building.members[i].kind == MemberKind::post; });
+  return order;
+}
+
+double total(const std::vector<solver::BeamLoad>& loads, const Mat3& axes) {
+  double down = 0;
+  for (const solver::BeamLoad& load : loads) {
+    const solver::Vec6 sum = load.kind == solver::BeamLoad::Kind::distributed
+                                 ? solver::Vec6((load.first + load.last) / 2 * (load.to - load.from))
+                                 : load.first;
+    down -= (axes.transpose() * sum.head<3>()).z();
+  }
+  return down;
+}
+
+Vec3 position(const Building& building, NodeId node) { return building[node].position; }
+
+Body member_body(const Building& building, const Member& member, double weight) {
+  const Section& section = building[member.section];
+  const auto side = [](double given, double inertia, double area) {
+    return given > 0 ? given : std::sqrt(12 * inertia / area);
+  };
+  Body body;
+  body.name = member.name;
+  body.mass = weight / building.gravity;
+  body.half_extents = Vec3(member.length, side(section.width, section.Iz, section.area),
+                           side(section.depth, section.Iy, section.area)) /
+                      2;
+  body.centre = (position(building, member.nodes[0]) + member.offsets[0] + position(building, member.nodes[1]) +
+                 member.offsets[1]) /
+                2;
+  body.axes = member.axes;
+  return body;
+}
+
+Body panel_body(const Building& building, const Panel& panel, double& area) {
+  Vec3 low = Vec3::Constant(1e300), high = -low, centre = Vec3::Zero();
+  for (const NodeId node : panel.nodes) {
+    const Vec3 local = panel.axes * position(building, node);
+    low = low.cwiseMin(local);
+    high = high.cwiseMax(local);
+    centre += position(building, node) / 4;
+  }
+  Body body;
+  body.name = panel.name;
+  body.half_extents = Vec3(high.x() - low.x(), high.y() - low.y(), panel.thickness) / 2;
+  body.centre = centre;
+  body.axes = panel.axes;
+  area = 4 * body.half_extents.x() * body.half_extents.y();
+  return body;
+}
+
+void write(const Body& body) {
+  const Mat3 rotation = body.axes.transpose();
+  const Eigen::Quaterniond q(rotation);
+  std::cout << "body " << body.name << ' ' << body.mass << ' ' << body.half_extents.transpose() << ' '
+            << body.centre.transpose() << ' ' << q.w() << ' ' << q.x() << ' ' << q.y() << ' ' << q.z() << '\n';
+}
+
+class Writer {
+ public:
+  Writer(const Building& building, CombinationId combination, bool frame_only)
+      : building_(building), loads_(part_loads(building, combination)) {
+    frame_only_ = frame_only;
+    if (frame_only) {
+      for (PanelAction& action : loads_.panels) action = {};
+    }
+    solver::StaticAnalysis analysis(make_frame(building).model);
+    const std::vector<solver::LoadSet> sets{load_set(building, loads_)};
+    solution_ = analysis.solve(sets).front();
+  }
+
+  void run() {
+    std::cout << std::setprecision(17) << "gravity " << building_.gravity << '\n';
+    bodies();
+    for (const std::size_t i : members_in_order(building_)) member_joints(i);
+    if (!frame_only_) panel_joints();
+    roof();
+  }
+
+ private:
+  void bodies() {
+    for (const std::size_t i : members_in_order(building_)) {
+      const Member& member = building_.members[i];
+      body_of_[member.name] = count_++;
+      write(member_body(building_, member, total(loads_.members[i], member.axes)));
+      if (member.kind == MemberKind::post) post_below_[member.nodes[1].index] = member.name;
+    }
+    if (frame_only_) return;
+    for (std::size_t i = 0; i < building_.panels.size(); ++i) {
+      double area = 0;
+      Body body = panel_body(building_, building_.panels[i], area);
+      const PanelAction& action = loads_.panels[i];
+      const double down = -action.body_force.z() + action.pressure * building_.panels[i].axes(2, 2);
+      body.mass = down * area / building_.gravity;
+      if (!(body.mass > 0)) throw std::runtime_error("panel " + body.name + " has no weight");
+      body_of_[body.name] = count_++;
+      write(body);
+    }
+  }
+
+  void joint(const std::string& name, int body, int other, const Vec3& point,
+             const Eigen::Matrix<double, 6, 1>* force) {
+    std::cout << "joint " << name << ' ' << body << ' ' << other << ' ' << point.transpose() << ' ' << (force ? 1 : 0);
+    if (force) std::cout << ' ' << force->transpose();
+    std::cout << '\n';
+  }
+
+  /// A post is joined to the post below (or the ground) at its lower end; a beam at both ends to the lower posts.
+  void member_joints(std::size_t i) {
+    const Member& member = building_.members[i];
+    for (int end = 0; end < (member.kind == MemberKind::post ? 1 : 2); ++end) {
+      const NodeId node = member.nodes[static_cast<std::size_t>(end)];
+      const auto below = post_below_.find(node.index);
+      const int other = below == post_below_.end() ? -1 : body_of_.at(below->second);
+      const auto& local = solution_.beam_end_forces[i];
+      Eigen::Matrix<double, 6, 1> force;
+      force.head<3>() = member.axes.transpose() * local.segment<3>(6 * end);
+      force.tail<3>() = member.axes.transpose() * local.segment<3>(6 * end + 3);
+      joint(member.name + ':' + std::to_string(end + 1), body_of_.at(member.name), other, position(building_, node),
+            &force);
+    }
+  }
+
+  /// At the middle of each edge, to the member there: a slab has four beams, a wall two beams and two posts.
+  void panel_joints() {
+    const EdgeMembers edges(building_);
+    for (std::size_t i = 0; i < building_.panels.size(); ++i) {
+      const Panel& panel = building_.panels[i];
+      for (int edge = 0; edge < 4; ++edge) {
+        const std::vector<MemberId>& along = edges.of(PanelId(i), edge);
+        if (along.empty()) continue;
+        const Vec3 middle = (position(building_, panel.nodes[static_cast<std::size_t>(edge)]) +
+                             position(building_, panel.nodes[static_cast<std::size_t>((edge + 1) % 4)])) /
+                            2;
+        joint(panel.name + ':' + std::to_string(edge + 1), body_of_.at(panel.name),
+              body_of_.at(building_[along.front()].name), middle, nullptr);
+      }
+    }
+  }
+
+  void roof() {
+    double height = -1e300;
+    for (const Node& node : building_.nodes) height = std::max(height, node.position.z());
+    double sag = 0;
+    int points = 0;
+    for (std::size_t n = 0; n < building_.nodes.size(); ++n) {
+      if (building_.nodes[n].position.z() < height - 1e-6) continue;
+      std::cout << "roof " << body_of_.at(post_below_.at(static_cast<int>(n))) << ' '
+                << building_.nodes[n].position.transpose() << '\n';
+      sag -= solution_.displacements[n].z();
+      ++points;
+    }
+    std::cout << "static_sag " << sag / points << '\n';
+  }
+
+  const Building& building_;
+  PartLoads loads_;
+  bool frame_only_ = false;
+  solver::StaticSolution solution_;
+  std::map<std::string, int> body_of_;
+  std::map<int, std::string> post_below_;
+  int count_ = 0;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    if (argc < 2) throw std::runtime_error("usage: bench_scene MODEL [--combination NAME] [--frame-only]");
+    std::string wanted;
+    bool frame_only = false;
+    for (int i = 2; i < argc; ++i) {
+      const std::string option = argv[i];
+      if (option == "--frame-only") {
+        frame_only = true;
+      } else if (option == "--combination" && i + 1 < argc) {
+        wanted = argv[++i];
+      } else {
+        throw std::runtime_error("unknown option " + option);
+      }
+    }
+    const Building building = read_model(find_model(argv[1]));
+    for (std::size_t c = 0; c < building.combinations.size(); ++c) {
+      if (!wanted.empty() && building.combinations[c].name != wanted) continue;
+      Writer(building, CombinationId(c), frame_only).run();
+      return 0;
+    }
+    throw std::runtime_error("no combination " + wanted);
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return 1;
+  }
+}
