@@ -1,0 +1,47 @@
+#include "simulation/obstacles.h"
+
+namespace topple::structure {
+
+Obstacles::Obstacles(const Building& building, const PartShapes& shapes, const PartGrid& grid, double friction,
+                     double restitution)
+    : building_(building),
+      shapes_(shapes),
+      grid_(grid),
+      friction_(friction),
+      restitution_(restitution),
+      obstacle_of_part_(part_count(building)) {}
+
+void Obstacles::approach(const Bounds& box, const StandingFrame& frame, collision::World& world) {
+  for (const Part part : grid_.near(box)) {
+    collision::ObstacleId& obstacle = obstacle_of_part_[static_cast<std::size_t>(part_number(building_, part))];
+    if (obstacle.value >= 0) continue;
+    if (part.member.valid() ? !frame.stands(part.member) : !frame.stands(part.panel)) continue;
+    collision::ObstacleDescription description;
+    const Bounds& bounds = shapes_.bounds(part);
+    description.pose.position = (bounds.low + bounds.high) / 2;
+    description.parts = {shapes_.shape(part, description.pose.position)};
+    description.friction = friction_;
+    description.restitution = restitution_;
+    obstacle = world.add_obstacle(description);
+    part_of_obstacle_.emplace(obstacle.value, part);
+  }
+}
+
+void Obstacles::remove(Part part, collision::World& world) {
+  collision::ObstacleId& obstacle = obstacle_of_part_[static_cast<std::size_t>(part_number(building_, part))];
+  if (obstacle.value < 0) return;
+  world.remove_obstacle(obstacle);
+  part_of_obstacle_.erase(obstacle.value);
+  obstacle = {};
+}
+
+Part Obstacles::part_of(collision::ObstacleId obstacle) const {
+  const auto found = part_of_obstacle_.find(obstacle.value);
+  return found == part_of_obstacle_.end() ? Part() : found->second;
+}
+
+collision::ObstacleId Obstacles::obstacle_of(Part part) const {
+  return obstacle_of_part_[static_cast<std::size_t>(part_number(building_, part))];
+}
+
+}  // namespace topple::structure

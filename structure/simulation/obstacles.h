@@ -1,0 +1,34 @@
+#pragma once
+// Collision shapes of what stands, made only when something comes near. They stay until their part falls or is removed;
+// a static shape that nothing touches costs nothing.
+#include <map>
+
+#include "simulation/part_grid.h"
+#include "topple/collision/world.h"
+#include "topple/structure/standing_frame.h"
+
+namespace topple::structure {
+
+class Obstacles {
+ public:
+  Obstacles(const Building& building, const PartShapes& shapes, const PartGrid& grid, double friction,
+            double restitution);
+
+  /// Makes shapes for the standing parts that reach into the box.
+  void approach(const Bounds& box, const StandingFrame& frame, collision::World& world);
+  /// The part stands no more.
+  void remove(Part part, collision::World& world);
+  [[nodiscard]] Part part_of(collision::ObstacleId obstacle) const;
+  /// -1 when the part has no shape.
+  [[nodiscard]] collision::ObstacleId obstacle_of(Part part) const;
+
+ private:
+  const Building& building_;
+  const PartShapes& shapes_;
+  const PartGrid& grid_;
+  double friction_, restitution_;
+  std::vector<collision::ObstacleId> obstacle_of_part_;
+  std::map<std::int64_t, Part> part_of_obstacle_;
+};
+
+}  // namespace topple::structure
