@@ -9,7 +9,8 @@ Indentation::Indentation(double body_mass, double approach_speed, double weight,
     : mass_(body_mass + structure_mass),
       weight_(weight),
       speed_(approach_speed * body_mass / (body_mass + structure_mass)),
-      lost_at_contact_(body_mass * structure_mass / (body_mass + structure_mass) * approach_speed * approach_speed / 2) {}
+      lost_at_contact_(body_mass * structure_mass / (body_mass + structure_mass) * approach_speed * approach_speed /
+                       2) {}
 
 Indentation::Stop Indentation::push(double compliance, double failure_force) {
   compliance_ = compliance;

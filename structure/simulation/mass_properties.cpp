@@ -106,8 +106,7 @@ MassProperties panel_mass(const Building& building, const Panel& panel, double m
   inertia(2, 2) = second(0, 0) + second(1, 1);
   MassProperties properties;
   properties.mass = mass;
-  properties.centre =
-      building[panel.nodes[0]].position + panel.axes.transpose() * Vec3(centre.x(), centre.y(), 0);
+  properties.centre = building[panel.nodes[0]].position + panel.axes.transpose() * Vec3(centre.x(), centre.y(), 0);
   properties.inertia = panel.axes.transpose() * inertia * panel.axes;
   return properties;
 }

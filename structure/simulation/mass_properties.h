@@ -1,6 +1,6 @@
 #pragma once
-// Mass, centre and inertia of parts and of bodies made of them. The mass of a part is its downward load in the combination
-// over gravity, the same standing, falling and lying.
+// Mass, centre and inertia of parts and of bodies made of them. The mass of a part is its downward load in the
+// combination over gravity, the same standing, falling and lying.
 #include <vector>
 
 #include "topple/structure/building.h"

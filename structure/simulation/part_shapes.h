@@ -1,7 +1,7 @@
 #pragma once
-// Convex shapes of members and panels for the collision world, in global axes of the undeformed building. A member is the
-// box around its section, a panel the plate between its edges. Both end where their neighbours begin, so that a part that
-// breaks off does not start inside what it was joined to.
+// Convex shapes of members and panels for the collision world, in global axes of the undeformed building. A member is
+// the box around its section, a panel the plate between its edges. Both end where their neighbours begin, so that a
+// part that breaks off does not start inside what it was joined to.
 #include <optional>
 #include <vector>
 

@@ -5,9 +5,9 @@
 #include <catch2/catch.hpp>
 #include <vector>
 
+#include "frame_builder.h"
 #include "simulation/replay_hash.h"
 #include "simulation/step_clock.h"
-#include "frame_builder.h"
 
 using namespace topple::structure;
 using topple::test::FrameBuilder;
@@ -89,8 +89,7 @@ TEST_CASE("a plate with an opening weighs and turns like the plate less the piec
   const MassProperties got = panel_mass(f.building, panel, per_area * (24 - 2));
   MassProperties rest = cubes(Vec3(2, 1.5, 3), Vec3(2, 1, 0.2), Mat3::Identity(), per_area * 2, 40);
   rest.add(got);
-  const Mat3 whole = per_area * 24 / 12 *
-                     Vec3(16 + 0.04, 36 + 0.04, 36 + 16).asDiagonal().toDenseMatrix();
+  const Mat3 whole = per_area * 24 / 12 * Vec3(16 + 0.04, 36 + 0.04, 36 + 16).asDiagonal().toDenseMatrix();
   CHECK((rest.centre - Vec3(3, 2, 3)).norm() < 1e-12);
   CHECK((rest.inertia - whole).norm() < 1e-4 * whole.norm());  // the cut piece is summed over cubes
 }
@@ -98,7 +97,7 @@ TEST_CASE("a plate with an opening weighs and turns like the plate less the piec
 TEST_CASE("an event belongs to the first step that ends at or after it") {
   CHECK(step_of(0, 1.0 / 60) == 1);
   CHECK(step_of(1, 1.0 / 60) == 60);
-  CHECK(step_of(1.0 + 1e-9, 1.0 / 60) == 60);   // within 1e-6 of a step
+  CHECK(step_of(1.0 + 1e-9, 1.0 / 60) == 60);  // within 1e-6 of a step
   CHECK(step_of(1.0 + 1e-7, 1.0 / 60) == 61);
   for (int k = 1; k < 5000; ++k) CHECK(step_of(k * 0.1, 0.1) == k);
 }
@@ -121,6 +120,6 @@ TEST_CASE("the replay hash is FNV-1a of the bytes") {
   ReplayHash zero, minus_zero;
   zero.add(0.0);
   minus_zero.add(-0.0);
-  CHECK(zero.value() != minus_zero.value());  // raw bits
+  CHECK(zero.value() != minus_zero.value());             // raw bits
   CHECK(ReplayHash().value() == 0xcbf29ce484222325ull);  // the published offset basis
 }

@@ -19,12 +19,24 @@ namespace topple::structure {
 
 /// A line of events.jsonl.
 struct SimulationEvent {
-  enum class Kind { tool, impact, joint_yielded, joint_broke, panel_fractured, mechanism, detached, split, at_rest, limited, done };
+  enum class Kind {
+    tool,
+    impact,
+    joint_yielded,
+    joint_broke,
+    panel_fractured,
+    mechanism,
+    detached,
+    split,
+    at_rest,
+    limited,
+    done
+  };
   double time = 0;
   std::int64_t step = 0;
   Kind kind = Kind::tool;
-  std::string name;                 ///< of the joint, member, panel or tool
-  JointBreak joint;                 ///< joint_broke
+  std::string name;  ///< of the joint, member, panel or tool
+  JointBreak joint;  ///< joint_broke
   // detached, split
   std::vector<MemberId> members;
   std::vector<PanelId> panels;
@@ -55,10 +67,10 @@ struct SimulationCounters {
 struct BodyView {
   collision::BodyId id;
   collision::Pose pose;             ///< of its centre of mass, now
-  Vec3 rest_centre = Vec3::Zero();  ///< where the centre of mass was in the undeformed building: a point p of a member moves
-                                    ///< to pose.position + pose.orientation * (p - rest_centre)
+  Vec3 rest_centre = Vec3::Zero();  ///< where the centre of mass was in the undeformed building: a point p of a member
+                                    ///< moves to pose.position + pose.orientation * (p - rest_centre)
   double mass = 0;
-  double radius = 0;                ///< above zero: a projectile (sphere)
+  double radius = 0;  ///< above zero: a projectile (sphere)
   bool asleep = false;
   std::span<const MemberId> members;
   std::span<const PanelId> panels;
@@ -79,6 +91,9 @@ class Simulation {
 
   /// One step of Scenario::step.
   void step();
+  /// Passes over the steps before the next event (or the end) while nothing is awake or pending: they keep their
+  /// numbers and count as idle, as if each had been stepped through. Returns how many were passed over.
+  std::int64_t skip_idle();
   /// True when the scenario's duration is over, or all is at rest and nothing is to come (`until_rest`).
   [[nodiscard]] bool finished() const;
   [[nodiscard]] double time() const;

@@ -1,0 +1,104 @@
+// Move and book: the collision world integrates what is awake; then energies, events and counters.
+#include <algorithm>
+
+#include "simulation/simulation_state.h"
+#include "simulation/step_clock.h"
+
+namespace topple::structure {
+
+void Simulation::State::move() {
+  for (auto& [id, one] : bodies) one.before = world->state(one.id);
+  if (world->awake_count() == 0) return;
+  timer.engine([&] { world->step(scenario.step); });
+  ++counters.collision_steps;
+}
+
+void Simulation::State::book() {
+  book_contacts();
+  for (auto& [id, one] : bodies) book_body(one);
+  resting.read(world->contacts(), obstacles, scenario.step,
+               [&](collision::BodyId id) { return body(id) && !world->state(id).asleep; });
+  update_views();
+}
+
+/// What contacts took from the bodies in the last collision step: impulse times the mean of the velocities before and
+/// after at the point, in the reading in which free flight is exact.
+void Simulation::State::book_contacts() {
+  const auto work_on = [&](collision::BodyId id, const Vec3& impulse, const Vec3& point) {
+    const Body* one = body(id);
+    if (!one) return 0.0;
+    const collision::BodyState after = world->state(id);
+    const Vec3 r = point - one->before.pose.position;
+    // before contacts the velocity was that plus g dt; the reading of the middle of the step takes g dt/2 away
+    const Vec3 velocity = (one->before.velocity + after.velocity) / 2 +
+                          ((one->before.angular_velocity + after.angular_velocity) / 2).cross(r);
+    return impulse.dot(velocity);
+  };
+  for (const collision::Contact& contact : world->contacts()) {
+    ledger.lost_in_contacts -= work_on(contact.body, -contact.impulse, contact.point);
+    if (contact.other.kind == collision::Touched::Kind::body)
+      ledger.lost_in_contacts -= work_on(contact.other.body, contact.impulse, contact.point);
+  }
+}
+
+void Simulation::State::book_body(Body& one) {
+  const collision::BodyState after = world->state(one.id);
+  if (one.asleep && after.asleep) return;
+  const Vec3 weight = one.rest.mass * gravity;
+  body_gravity_work += weight.dot(after.pose.position - one.step_start);
+  // What the collision world moved beyond its velocity (pushing things out of each other) is work of the contacts.
+  const Vec3 pushed = after.pose.position - one.before.pose.position - after.velocity * scenario.step;
+  ledger.lost_in_contacts += weight.dot(pushed);
+  if (one.asleep != after.asleep) {  // a body at rest is read as having no velocity at all
+    collision::BodyState awake = after.asleep ? after : one.before;
+    awake.asleep = false;
+    const Kinetic kinetic = kinetic_energy(one, awake, reading());
+    ledger.lost_in_contacts += (after.asleep ? 1 : -1) * (kinetic.translation + kinetic.rotation);
+    one.asleep = after.asleep;
+  }
+}
+
+void Simulation::State::update_views() {
+  views.clear();
+  for (const auto& [id, one] : bodies) {
+    const collision::BodyState state = world->state(one.id);
+    views.push_back(
+        {one.id, state.pose, one.rest.centre, one.rest.mass, one.radius, state.asleep, one.members, one.panels});
+  }
+}
+
+bool Simulation::State::rests() const {
+  return step > 0 && world->awake_count() == 0 && !frame->pending() && next_event == scenario.events.size() &&
+         asked.empty();
+}
+
+bool Simulation::State::finished() const {
+  return step >= step_of(scenario.duration, scenario.step) || (scenario.until_rest && rests());
+}
+
+void Simulation::State::tell_rest_and_end() {
+  const bool resting_now = rests();
+  if (resting_now && !was_at_rest) tell(SimulationEvent::Kind::at_rest, "");
+  was_at_rest = resting_now;
+  if (done_told || !finished()) return;
+  done_told = true;
+  tell(SimulationEvent::Kind::done, "");
+}
+
+/// Brings the ledger's entries that are states, not sums, up to date.
+void Simulation::State::account_now() {
+  const FrameEnergy energy = frame->energy();
+  ledger.elastic = energy.elastic;
+  ledger.freed_by_breaks = energy.freed;
+  // The loads were laid on slowly before time began, and what lies on the frame goes down with it.
+  ledger.gravity_work = energy.elastic_at_start + energy.gravity_work + energy.contact_work + body_gravity_work;
+  ledger.work_put_in = body_work_put_in + energy.other_work;
+  ledger.kinetic_translation = ledger.kinetic_rotation = 0;
+  for (const auto& [id, one] : bodies) {
+    const Kinetic kinetic = kinetic_energy(one, world->state(one.id), reading());
+    ledger.kinetic_translation += kinetic.translation;
+    ledger.kinetic_rotation += kinetic.rotation;
+  }
+}
+
+}  // namespace topple::structure

@@ -1,0 +1,24 @@
+#pragma once
+// Mass properties of every part of a building in one combination, and of bodies made of parts.
+#include <vector>
+
+#include "simulation/mass_properties.h"
+#include "topple/structure/standing_frame.h"
+
+namespace topple::structure {
+
+class PartMasses {
+ public:
+  /// Throws InputError naming a member or panel whose mass is not above zero.
+  PartMasses(const Building& building, CombinationId combination, const StandingFrame& frame);
+
+  [[nodiscard]] const MassProperties& of(MemberId id) const { return members_[static_cast<std::size_t>(id.index)]; }
+  [[nodiscard]] const MassProperties& of(PanelId id) const { return panels_[static_cast<std::size_t>(id.index)]; }
+  [[nodiscard]] const MassProperties& of(NodeId id) const { return nodes_[static_cast<std::size_t>(id.index)]; }
+  [[nodiscard]] MassProperties of(const Detached& part) const;
+
+ private:
+  std::vector<MassProperties> members_, panels_, nodes_;
+};
+
+}  // namespace topple::structure

@@ -1,0 +1,162 @@
+// Release: what lost its hold on the frame becomes rigid bodies with true mass, centre and inertia.
+#include <algorithm>
+
+#include "simulation/simulation_state.h"
+
+namespace topple::structure {
+
+namespace {
+/// Radius of the sphere that stands for a node's point mass falling alone, m.
+constexpr double hub_radius = 0.1;
+
+std::string name_of(const Building& building, const Detached& part) {
+  if (!part.members.empty()) return building[part.members.front()].name;
+  if (!part.panels.empty()) return building[part.panels.front()].name;
+  return building[part.nodes.front()].name;
+}
+}  // namespace
+
+void Simulation::State::part_is_gone(Part part) {
+  obstacles.remove(part, *world);
+  for (const collision::BodyId lying : resting.drop(part, *frame))
+    if (bodies.contains(lying.value)) world->wake(lying);
+}
+
+void Simulation::State::release() {
+  for (const Detached& part : frame->take_detached()) release(part);
+  keep_limit();
+}
+
+Body Simulation::State::describe(const Detached& part) const {
+  Body one;
+  one.name = name_of(building, part);
+  one.members = part.members;
+  one.panels = part.panels;
+  one.nodes = part.nodes;
+  one.rest = masses.of(part);
+  for (const MemberId member : part.members) {
+    one.volume += member_volume(building, building[member]);
+    one.bounds.add(shapes.bounds(Part(member)));
+  }
+  for (const PanelId panel : part.panels) {
+    one.volume += panel_volume(building, building[panel]);
+    one.bounds.add(shapes.bounds(Part(panel)));
+  }
+  if (part.members.empty() && part.panels.empty()) {
+    one.radius = hub_radius;
+    one.rest = sphere_mass(one.rest.centre, one.rest.mass, hub_radius);
+    one.volume = 4.0 / 3.0 * M_PI * hub_radius * hub_radius * hub_radius;
+    one.bounds.low = one.rest.centre - Vec3::Constant(hub_radius);
+    one.bounds.high = one.rest.centre + Vec3::Constant(hub_radius);
+  }
+  one.bounds.low -= one.rest.centre;
+  one.bounds.high -= one.rest.centre;
+  return one;
+}
+
+void Simulation::State::release(const Detached& part) {
+  if (part.members.empty() && part.panels.empty() && masses.of(part).mass <= 0) return;  // a bare hub
+  Body one = describe(part);
+  Vec3 displacement = Vec3::Zero();
+  for (const NodeId node : part.nodes) displacement += frame->displacement(node).head<3>();
+  if (!part.nodes.empty()) displacement /= static_cast<double>(part.nodes.size());
+  for (const MemberId member : part.members) part_is_gone(Part(member));
+  for (const PanelId panel : part.panels) part_is_gone(Part(panel));
+
+  if (part.mechanism) tell(SimulationEvent::Kind::mechanism, one.name).mass = one.rest.mass;
+  const bool small = one.volume < scenario.debris.smallest_volume;
+  SimulationEvent& event = tell(small ? SimulationEvent::Kind::limited : SimulationEvent::Kind::detached, one.name);
+  event.members = one.members;
+  event.panels = one.panels;
+  event.mass = one.rest.mass;
+  event.position = one.rest.centre + displacement;
+  const std::int64_t nowhere = -2;
+  if (small) {
+    for (const MemberId member : part.members) body_of_part[static_cast<std::size_t>(member.index)] = nowhere;
+    for (const PanelId panel : part.panels)
+      body_of_part[static_cast<std::size_t>(part_number(building, Part(panel)))] = nowhere;
+    return;
+  }
+  Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();
+  knock(one, velocity, spin);
+  add_body(std::move(one), velocity, spin, displacement);
+}
+
+/// A part that an impact broke off takes the momentum of the share of the structure that moved with the body.
+void Simulation::State::knock(const Body& one, Vec3& velocity, Vec3& spin) {
+  for (const Knock& given : knocks) {
+    const bool mine = given.part.member.valid()
+                          ? std::binary_search(one.members.begin(), one.members.end(), given.part.member)
+                          : std::find(one.panels.begin(), one.panels.end(), given.part.panel) != one.panels.end();
+    if (!mine) continue;
+    const Vec3 r = given.point - one.rest.centre;
+    const Mat3 inverse = one.rest.inertia.inverse();
+    const double size = given.impulse.norm();
+    if (size == 0) continue;
+    const Vec3 n = given.impulse / size;
+    const double mass = effective_mass(one.rest.mass, inverse, r, n);
+    const Vec3 impulse = std::min(size, mass * given.speed) * n;
+    velocity += impulse / one.rest.mass;
+    spin += inverse * r.cross(impulse);
+    ledger.lost_in_impacts -= impulse.squaredNorm() / mass / 2;
+  }
+}
+
+void Simulation::State::add_body(Body one, const Vec3& velocity, const Vec3& spin, const Vec3& displacement) {
+  collision::BodyDescription description;
+  if (one.radius > 0) {
+    collision::ConvexPart sphere;
+    sphere.kind = collision::ConvexPart::Kind::sphere;
+    sphere.half_extents = Vec3::Constant(one.radius);
+    description.parts = {sphere};
+  }
+  for (const MemberId member : one.members) description.parts.push_back(shapes.shape(Part(member), one.rest.centre));
+  for (const PanelId panel : one.panels) description.parts.push_back(shapes.shape(Part(panel), one.rest.centre));
+  description.mass = one.rest.mass;
+  description.inertia = one.rest.inertia;
+  description.pose.position = one.rest.centre + displacement;
+  description.velocity = reading().to_world(velocity);
+  description.angular_velocity = spin;
+  description.friction = scenario.debris.friction;
+  description.restitution = scenario.debris.restitution;
+  one.id = world->add_body(description);
+  one.step_start = description.pose.position;
+  for (const MemberId member : one.members) body_of_part[static_cast<std::size_t>(member.index)] = one.id.value;
+  for (const PanelId panel : one.panels)
+    body_of_part[static_cast<std::size_t>(part_number(building, Part(panel)))] = one.id.value;
+  bodies.emplace(one.id.value, std::move(one));
+}
+
+void Simulation::State::remove_body(collision::BodyId id, bool keep_weight) {
+  const auto found = bodies.find(id.value);
+  const Kinetic kinetic = kinetic_energy(found->second, world->state(id), reading());
+  ledger.removed += kinetic.translation + kinetic.rotation;
+  for (std::int64_t& of_part : body_of_part)
+    if (of_part == id.value) of_part = -2;
+  resting.forget(id, *frame, keep_weight);
+  world->remove_body(id);
+  bodies.erase(found);
+}
+
+/// Above the limit of bodies, sleeping ones are dropped, the smallest first and of equals the oldest. Their weight
+/// stays where it lies.
+void Simulation::State::keep_limit() {
+  const auto limit = static_cast<std::size_t>(std::max(0, scenario.debris.limit));
+  if (bodies.size() <= limit) return;
+  std::vector<std::pair<double, std::int64_t>> sleeping;
+  for (const auto& [id, one] : bodies)
+    if (world->state(one.id).asleep) sleeping.emplace_back(one.volume, id);
+  std::sort(sleeping.begin(), sleeping.end());
+  for (const auto& [volume, id] : sleeping) {
+    if (bodies.size() <= limit) return;
+    const Body& one = bodies.at(id);
+    SimulationEvent& event = tell(SimulationEvent::Kind::limited, one.name);
+    event.members = one.members;
+    event.panels = one.panels;
+    event.mass = one.rest.mass;
+    event.position = world->state(one.id).pose.position;
+    remove_body({id}, true);
+  }
+}
+
+}  // namespace topple::structure

@@ -1,0 +1,38 @@
+// Sense: shapes are made for what awake bodies may reach in this step, then the collision world sweeps.
+#include "simulation/simulation_state.h"
+
+namespace topple::structure {
+
+namespace {
+/// Room around a body's swept bounds, m: what its shapes' skins and a step's turn may add.
+constexpr double sense_margin = 0.25;
+}  // namespace
+
+Bounds Simulation::State::swept_bounds(const Body& body) const {
+  const collision::BodyState state = world->state(body.id);
+  const double dt = scenario.step;
+  const Mat3 turn = state.pose.orientation.toRotationMatrix();
+  const Vec3 middle = state.pose.position + turn * ((body.bounds.low + body.bounds.high) / 2);
+  const Vec3 half = turn.cwiseAbs() * ((body.bounds.high - body.bounds.low) / 2);
+  const double turned_by = state.angular_velocity.norm() * dt * (body.bounds.high - body.bounds.low).norm() / 2;
+  const Vec3 margin = half + Vec3::Constant(sense_margin + turned_by);
+  const Vec3 travel = reading().true_velocity(state.velocity) * dt + gravity * dt * dt / 2;
+  Bounds swept;
+  for (const Vec3& at : {middle, Vec3(middle + travel)}) {
+    swept.add(at - margin);
+    swept.add(at + margin);
+  }
+  return swept;
+}
+
+std::vector<collision::Contact> Simulation::State::sense() {
+  struck.clear();
+  knocks.clear();
+  for (auto& [id, one] : bodies) one.step_start = world->state(one.id).pose.position;
+  if (world->awake_count() == 0) return {};
+  for (auto& [id, one] : bodies)
+    if (!world->state(one.id).asleep) obstacles.approach(swept_bounds(one), *frame, *world);
+  return timer.engine([&] { return world->sweep(scenario.step); });
+}
+
+}  // namespace topple::structure

@@ -1,0 +1,230 @@
+// The step, as a table of contents, and what a host asks of a simulation.
+#include "topple/structure/simulation.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "simulation/replay_hash.h"
+#include "simulation/simulation_state.h"
+#include "simulation/step_clock.h"
+#include "topple/structure/error.h"
+
+namespace topple::structure {
+
+void Simulation::step() {
+  State& s = *state_;
+  ++s.step;
+  s.timer.start_step();
+  if (s.nothing_to_do()) {
+    ++s.counters.steps_idle;
+  } else {
+    const auto timed = [&](Stage stage, const auto& work) {
+      return s.timer.stage(static_cast<std::size_t>(stage), work);
+    };
+    timed(Stage::load, [&] { s.use_tools(); });
+    const auto contacts = timed(Stage::sense, [&] { return s.sense(); });
+    timed(Stage::load, [&] { s.load(); });
+    timed(Stage::break_, [&] {
+      s.strike_all(contacts);
+      s.break_generations();
+    });
+    timed(Stage::release, [&] { s.release(); });
+    timed(Stage::move, [&] { s.move(); });
+    timed(Stage::book, [&] { s.book(); });
+  }
+  s.tell_rest_and_end();
+}
+
+namespace {
+
+double ground_height(const Building& building, const Scenario& scenario) {
+  if (scenario.ground) return *scenario.ground;
+  double lowest = unlimited;
+  for (const NodeSupport& support : building.supports) lowest = std::min(lowest, building[support.node].position.z());
+  for (const EdgeSupport& support : building.edge_supports)
+    for (const NodeId node : building[support.panel].nodes) lowest = std::min(lowest, building[node].position.z());
+  return lowest < unlimited ? lowest : 0;
+}
+
+CombinationId combination_of(const Building& building, const Scenario& scenario) {
+  if (scenario.combination) return *scenario.combination;
+  if (building.combinations.size() == 1) return CombinationId(0u);
+  throw InputError(scenario.file + ": combination: missing; the model has several and needs one to be named");
+}
+
+}  // namespace
+
+Simulation::State::State(Building the_building, Scenario the_scenario, SimulationOptions the_options)
+    : building(std::move(the_building)),
+      scenario(std::move(the_scenario)),
+      options(std::move(the_options)),
+      gravity(0, 0, -building.gravity),
+      frame(std::make_unique<StandingFrame>(building, combination_of(building, scenario), scenario.failure,
+                                            options.threads)),
+      world(options.make_world ? options.make_world() : collision::make_bullet_world()),
+      masses(building, combination_of(building, scenario), *frame),
+      shapes(building),
+      grid(building, shapes),
+      obstacles(building, shapes, grid, scenario.debris.friction, scenario.debris.restitution),
+      strength_factors(building.joints.size(), 1.0),
+      body_of_part(part_count(building), -1) {
+  world->set_gravity(gravity);
+  world->set_ground(ground_height(building, scenario), scenario.debris.friction, scenario.debris.restitution);
+}
+
+bool Simulation::State::nothing_to_do() const {
+  if (step <= 1 || !asked.empty() || frame->pending() || world->awake_count() > 0) return false;
+  return next_event == scenario.events.size() || step_of(scenario.events[next_event].at, scenario.step) > step;
+}
+
+Body* Simulation::State::body(collision::BodyId id) {
+  const auto found = bodies.find(id.value);
+  return found == bodies.end() ? nullptr : &found->second;
+}
+
+Vec3 Simulation::State::joint_position(JointId id) const {
+  const Joint& joint = building[id];
+  if (joint.member.valid()) {
+    const Member& member = building[joint.member];
+    const auto end = static_cast<std::size_t>(joint.end);
+    return building[member.nodes[end]].position + member.offsets[end];
+  }
+  const Panel& panel = building[joint.panel];
+  return (building[panel.nodes[static_cast<std::size_t>(joint.end)]].position +
+          building[panel.nodes[static_cast<std::size_t>((joint.end + 1) % 4)]].position) /
+         2;
+}
+
+SimulationEvent& Simulation::State::tell(SimulationEvent::Kind kind, const std::string& name) {
+  SimulationEvent event;
+  event.time = time();
+  event.step = step;
+  event.kind = kind;
+  event.name = name;
+  events.push_back(std::move(event));
+  return events.back();
+}
+
+void Simulation::State::tell(const JointBreak& broken) {
+  SimulationEvent& event = tell(SimulationEvent::Kind::joint_broke, building[broken.joint].name);
+  event.joint = broken;
+  event.position = broken.position;
+}
+
+Simulation::Simulation(Building building, Scenario scenario, SimulationOptions options)
+    : state_(std::make_unique<State>(std::move(building), std::move(scenario), std::move(options))) {}
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+
+std::int64_t Simulation::skip_idle() {
+  State& s = *state_;
+  std::int64_t passed = 0;
+  const std::int64_t end = step_of(s.scenario.duration, s.scenario.step);
+  if (s.step < 1 || !s.asked.empty() || s.frame->pending() || s.world->awake_count() > 0) return 0;
+  const std::int64_t next = s.next_event == s.scenario.events.size()
+                                ? end
+                                : std::min(end, step_of(s.scenario.events[s.next_event].at, s.scenario.step));
+  passed = std::max<std::int64_t>(0, next - 1 - s.step);
+  s.step += passed;
+  s.counters.steps_idle += static_cast<std::uint64_t>(passed);
+  return passed;
+}
+
+bool Simulation::finished() const { return state_->finished(); }
+double Simulation::time() const { return state_->time(); }
+std::int64_t Simulation::steps() const { return state_->step; }
+bool Simulation::at_rest() const { return state_->rests(); }
+void Simulation::apply(const Tool& tool) { state_->asked.push_back(tool); }
+void Simulation::on_event(std::function<void(const SimulationEvent&)> listener) {
+  state_->listeners.push_back(std::move(listener));
+}
+std::span<const SimulationEvent> Simulation::events() const { return state_->events; }
+const Building& Simulation::building() const { return state_->building; }
+const Scenario& Simulation::scenario() const { return state_->scenario; }
+const StandingFrame& Simulation::frame() const { return *state_->frame; }
+std::span<const BodyView> Simulation::bodies() const { return state_->views; }
+
+collision::BodyId Simulation::body_of(MemberId member) const {
+  return {state_->body_of_part[static_cast<std::size_t>(member.index)]};
+}
+collision::BodyId Simulation::body_of(PanelId panel) const {
+  return {state_->body_of_part[static_cast<std::size_t>(part_number(state_->building, Part(panel)))]};
+}
+
+std::optional<Simulation::RayHit> Simulation::ray_cast(const Vec3& from, const Vec3& direction) const {
+  constexpr double sight = 1e4;  // m, farther than any scene
+  const State& s = *state_;
+  const Vec3 n = direction.normalized();
+  RayHit nearest;
+  nearest.distance = sight;
+  bool found = false;
+  for (std::size_t i = 0; i < part_count(s.building); ++i) {
+    const Part part = part_of_number(s.building, static_cast<std::int64_t>(i));
+    if (!s.stands(part)) continue;
+    const auto distance = s.shapes.ray(part, from, n);
+    if (!distance || *distance >= nearest.distance) continue;
+    nearest.member = part.member;
+    nearest.panel = part.panel;
+    nearest.distance = *distance;
+    found = true;
+  }
+  if (const auto hit = s.world->ray_cast(from, from + sight * n); hit && hit->distance < nearest.distance) {
+    const Part part =
+        hit->what.kind == collision::Touched::Kind::obstacle ? s.obstacles.part_of(hit->what.obstacle) : Part();
+    nearest = {part.member, part.panel, hit->what.body, hit->point, hit->distance};
+    return nearest;
+  }
+  if (!found) return std::nullopt;
+  nearest.point = from + nearest.distance * n;
+  return nearest;
+}
+
+const Ledger& Simulation::ledger() const {
+  state_->account_now();
+  return state_->ledger;
+}
+
+const SimulationCounters& Simulation::counters() const {
+  const FrameCounters& frame = state_->frame->counters();
+  SimulationCounters& counters = state_->counters;
+  counters.solves = frame.solves;
+  counters.low_rank = frame.low_rank;
+  counters.refactorisations = frame.refactorisations;
+  counters.segmentations = frame.segmentations;
+  return counters;
+}
+
+const std::array<double, 6>& Simulation::stage_seconds() const { return state_->timer.stages(); }
+double Simulation::collision_engine_seconds() const { return state_->timer.engine_seconds(); }
+
+std::uint64_t Simulation::hash() const {
+  const State& s = *state_;
+  ReplayHash hash;
+  const auto by_name = [](const auto& things) {
+    std::vector<std::size_t> order(things.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(), [&](auto a, auto b) { return things[a].name < things[b].name; });
+    return order;
+  };
+  for (const std::size_t i : by_name(s.building.joints))
+    if (!s.frame->intact(JointId(i))) hash.add(s.building.joints[i].name);
+  for (const std::size_t i : by_name(s.building.nodes)) {
+    if (!s.frame->stands(NodeId(i))) continue;
+    hash.add(s.building.nodes[i].name);
+    hash.add(s.frame->displacement(NodeId(i)));
+  }
+  std::map<std::string, const Body*> named;
+  for (const auto& [id, body] : s.bodies) named.emplace(body.name, &body);
+  for (const auto& [name, body] : named) {
+    const collision::BodyState state = s.world->state(body->id);
+    hash.add(name);
+    hash.add(state.pose.position);
+    hash.add(Eigen::Vector4d(state.pose.orientation.coeffs()));
+    hash.add(state.velocity);
+    hash.add(state.angular_velocity);
+  }
+  return hash.value();
+}
+
+}  // namespace topple::structure

@@ -1,0 +1,120 @@
+#pragma once
+// What a Simulation is made of, and its stages. Each stage has a file of its own.
+#include <map>
+
+#include "simulation/body.h"
+#include "simulation/indentation.h"
+#include "simulation/obstacles.h"
+#include "simulation/part_masses.h"
+#include "simulation/resting_loads.h"
+#include "simulation/stage_timer.h"
+#include "topple/structure/simulation.h"
+
+namespace topple::structure {
+
+struct Simulation::State {
+  State(Building the_building, Scenario the_scenario, SimulationOptions the_options);
+
+  // tools.cpp: what acts in this step, before anything else.
+  void use_tools();
+  void use(const Tool& tool);
+  void use(const Projectile& projectile);
+  void use(const CutTool& cut);
+  void use(const RemoveTool& remove);
+  void use(const ChargeTool& charge);
+  void use(const GravityTool& tool);
+  void use(const LoadTool& load);
+
+  // sense.cpp
+  [[nodiscard]] std::vector<collision::Contact> sense();
+  [[nodiscard]] Bounds swept_bounds(const Body& body) const;
+
+  // strike.cpp: the law of impact for one contact with what stands.
+  void load();
+  void strike_all(const std::vector<collision::Contact>& contacts);
+  struct Strike;
+  void strike(const collision::Contact& contact);
+  [[nodiscard]] std::optional<Strike> aim(const collision::Contact& contact);
+  void push_in(Strike& hit);
+  void send_on(const Strike& hit);
+  void break_generations();
+
+  // release.cpp: what left the frame becomes bodies.
+  void release();
+  void release(const Detached& part);
+  void part_is_gone(Part part);
+  [[nodiscard]] Body describe(const Detached& part) const;
+  void add_body(Body body, const Vec3& velocity, const Vec3& spin, const Vec3& displacement);
+  void knock(const Body& body, Vec3& velocity, Vec3& spin);
+  void remove_body(collision::BodyId id, bool keep_weight);
+  void keep_limit();
+
+  // book.cpp
+  void move();
+  void book();
+  void book_body(Body& body);
+  void book_contacts();
+  void update_views();
+  [[nodiscard]] bool rests() const;
+  void tell_rest_and_end();
+  void account_now();
+
+  // Small things.
+  [[nodiscard]] bool nothing_to_do() const;
+  [[nodiscard]] bool finished() const;
+  [[nodiscard]] double time() const { return static_cast<double>(step) * scenario.step; }
+  [[nodiscard]] VelocityReading reading() const { return {gravity * scenario.step / 2}; }
+  [[nodiscard]] bool stands(Part part) const {
+    return part.member.valid() ? frame->stands(part.member) : frame->stands(part.panel);
+  }
+  [[nodiscard]] Vec3 joint_position(JointId joint) const;
+  SimulationEvent& tell(SimulationEvent::Kind kind, const std::string& name);
+  void tell(const JointBreak& broken);
+  Body* body(collision::BodyId id);
+
+  Building building;
+  Scenario scenario;
+  SimulationOptions options;
+  Vec3 gravity;
+  std::unique_ptr<StandingFrame> frame;
+  std::unique_ptr<collision::World> world;
+  PartMasses masses;
+  PartShapes shapes;
+  PartGrid grid;
+  Obstacles obstacles;
+  RestingLoads resting;
+  std::vector<double> strength_factors;  ///< per joint
+  std::map<std::int64_t, Body> bodies;
+  std::vector<std::int64_t> body_of_part;  ///< by part number; -1 stands, -2 gone
+
+  /// Momentum that an impact gave to what it broke off, handed over when that part becomes a body.
+  struct Knock {
+    Part part;
+    Vec3 impulse, point;
+    double speed = 0;  ///< of the contact place along the impulse: no part is thrown faster
+    collision::BodyId by;
+  };
+  std::vector<Knock> knocks;
+  /// Where in this step a body that has struck something stands in time: see strike.cpp.
+  struct StruckClock {
+    double at = 0;    ///< time of its last impact, as sensed
+    double base = 0;  ///< the same in the body's own time since its state
+  };
+  std::map<std::int64_t, StruckClock> struck;
+
+  std::int64_t step = 0;
+  std::size_t next_event = 0;
+  std::vector<Tool> asked;
+  std::int64_t projectiles = 0;
+  bool was_at_rest = false, done_told = false;
+
+  std::vector<SimulationEvent> events;
+  std::vector<std::function<void(const SimulationEvent&)>> listeners;
+  Ledger ledger;
+  double body_gravity_work = 0, body_work_put_in = 0;
+  SimulationCounters counters;
+  StageTimer timer;
+  std::vector<BodyView> views;
+};
+
+}  // namespace topple::structure

@@ -1,0 +1,40 @@
+#pragma once
+// Wall time of a step by stage, and of the collision engine within it. Times are told, they never decide anything.
+#include <array>
+#include <chrono>
+
+namespace topple::structure {
+
+class StageTimer {
+ public:
+  void start_step() {
+    stages_.fill(0);
+    engine_ = 0;
+  }
+  /// Runs `work` and books its time under a stage.
+  template <class Work>
+  auto stage(std::size_t index, const Work& work) {
+    const Span span(stages_[index]);
+    return work();
+  }
+  template <class Work>
+  auto engine(const Work& work) {
+    const Span span(engine_);
+    return work();
+  }
+  [[nodiscard]] const std::array<double, 6>& stages() const { return stages_; }
+  [[nodiscard]] double engine_seconds() const { return engine_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Span {
+    explicit Span(double& seconds) : total(seconds) {}
+    ~Span() { total += std::chrono::duration<double>(Clock::now() - begin).count(); }
+    double& total;
+    Clock::time_point begin = Clock::now();
+  };
+  std::array<double, 6> stages_{};
+  double engine_ = 0;
+};
+
+}  // namespace topple::structure

@@ -1,0 +1,169 @@
+// Load and break: resting contacts load the frame; new contacts strike it by the law of impact (indentation.h), one
+// after the other by time of impact; then generations break what is over capacity.
+#include <algorithm>
+#include <cmath>
+
+#include "simulation/first_failure.h"
+#include "simulation/simulation_state.h"
+#include "simulation/step_clock.h"
+
+namespace topple::structure {
+
+/// One contact between a body and a standing part, at its instant.
+struct Simulation::State::Strike {
+  Body* body = nullptr;
+  ContactPlace place;
+  Part part;
+  Vec3 normal;                 ///< into the structure
+  collision::BodyState state;  ///< where the body is at that instant, true velocities
+  double sensed_at = 0;        ///< time of impact as sensed
+  double own_time = 0;         ///< the same since the body's state was last set
+  double mass = 0;             ///< effective, along the normal
+  double speed = 0, speed_out = 0;
+  double peak_force = 0;
+  double structure_mass = 0, lost = 0;
+  bool through = false;  ///< what was hit is gone
+  std::vector<JointBreak> breaks;
+};
+
+void Simulation::State::load() {
+  counters.contacts_ignored += resting.lay(*frame, strength_factors, [&](collision::BodyId id) {
+    const Body* one = body(id);
+    return one ? one->rest.mass * gravity.norm() : 0.0;
+  });
+}
+
+void Simulation::State::strike_all(const std::vector<collision::Contact>& contacts) {
+  for (const collision::Contact& contact : contacts)
+    if (contact.other.kind == collision::Touched::Kind::obstacle) strike(contact);
+}
+
+void Simulation::State::strike(const collision::Contact& contact) {
+  std::optional<Strike> hit = aim(contact);
+  if (!hit) return;
+  push_in(*hit);
+  send_on(*hit);
+  SimulationEvent& event = tell(SimulationEvent::Kind::impact, part_name(building, hit->part));
+  event.body = hit->body->id;
+  event.mass = hit->mass;
+  event.peak_force = hit->peak_force;
+  event.speed_in = hit->speed;
+  event.speed_out = hit->speed_out;
+  event.position = hit->place.point;
+  for (const JointBreak& broken : hit->breaks) tell(broken);
+}
+
+/// Nothing when the contact is no impact any more: what it would hit has fallen, or an earlier impact of this step has
+/// stopped the body.
+std::optional<Simulation::State::Strike> Simulation::State::aim(const collision::Contact& contact) {
+  const Part part = obstacles.part_of(contact.other.obstacle);
+  Body* hitting = body(contact.body);
+  if (!part.valid() || !hitting || !stands(part)) return std::nullopt;
+  Strike hit;
+  hit.body = hitting;
+  hit.part = part;
+  hit.place = {part.member, part.panel, contact.point};
+  hit.normal = contact.normal;
+  hit.sensed_at = contact.time;
+  hit.state = world->state(hitting->id);
+  hit.state.velocity = reading().true_velocity(hit.state.velocity);
+
+  double time = contact.time;
+  if (const auto earlier = struck.find(hitting->id.value); earlier != struck.end()) {
+    // After an impact the body is slower (or stopped where it was): the rest of its way takes as much longer.
+    const Vec3 r = contact.point - hit.state.pose.position;
+    const double now = (hit.state.velocity + hit.state.angular_velocity.cross(r)).dot(contact.normal);
+    if (now <= 0) return std::nullopt;
+    time = earlier->second.base + (contact.time - earlier->second.at) * std::max(1.0, contact.approach_speed / now);
+    if (time > scenario.step) return std::nullopt;  // sensed again in the next step
+  }
+  hit.own_time = time;
+  hit.state.pose.position += hit.state.velocity * time + gravity * (time * time / 2);
+  hit.state.pose.orientation = turned(hit.state.pose.orientation, hit.state.angular_velocity * time);
+  hit.state.velocity += gravity * time;
+
+  const Vec3 r = contact.point - hit.state.pose.position;
+  hit.speed = (hit.state.velocity + hit.state.angular_velocity.cross(r)).dot(hit.normal);
+  if (hit.speed <= 0) return std::nullopt;
+  const Mat3 inverse = world_inertia(*hitting, hit.state.pose.orientation).inverse();
+  hit.mass = effective_mass(hitting->rest.mass, inverse, r, hit.normal);
+  return hit;
+}
+
+/// The pushing, break after break, until the body stops or nothing is left to push.
+void Simulation::State::push_in(Strike& hit) {
+  const double weight = hit.mass * gravity.dot(hit.normal);
+  StandingFrame::UnitResponse response = frame->respond(hit.place, hit.normal);
+  hit.structure_mass = scenario.impact.structure_mass ? response.rayleigh_mass : 0;
+  Indentation pushing(hit.mass, hit.speed, weight, hit.structure_mass);
+  for (;;) {
+    const FirstFailure first = first_failure(*frame, response, strength_factors, unlimited);
+    const double had_stored = pushing.force() * pushing.force() * response.compliance / 2;
+    const Indentation::Stop stop = pushing.push(response.compliance, first.force);
+    if (stop != Indentation::Stop::failed) {
+      hit.speed_out = stop == Indentation::Stop::missed
+                          ? pushing.speed()
+                          : -scenario.impact.restitution * pushing.elastic_rebound_speed();
+      break;
+    }
+    for (JointBreak broken : first.joints) {
+      const double stored = pushing.force() * pushing.force() * response.compliance / 2;
+      broken.energy = (stored > had_stored ? stored : had_stored) / static_cast<double>(first.joints.size());
+      broken.position = joint_position(broken.joint);
+      hit.breaks.push_back(broken);
+    }
+    pushing.shift(frame->break_in_impact(first.joints, hit.place, hit.normal));
+    if (!stands(hit.part)) {
+      hit.through = true;
+      hit.speed_out = pushing.speed();
+      break;
+    }
+    response = frame->respond(hit.place, hit.normal);
+  }
+  hit.peak_force = pushing.peak_force();
+  hit.lost = hit.mass * (hit.speed * hit.speed - hit.speed_out * hit.speed_out) / 2;
+}
+
+/// Gives the body its outgoing velocity, before the collision world moves it.
+void Simulation::State::send_on(const Strike& hit) {
+  const Body& one = *hit.body;
+  const Vec3 impulse = hit.mass * (hit.speed_out - hit.speed) * hit.normal;  // on the body
+  const Vec3 r = hit.place.point - hit.state.pose.position;
+  const Mat3 inertia = world_inertia(one, hit.state.pose.orientation);
+  collision::BodyState after = hit.state;
+  after.velocity += impulse / one.rest.mass;
+  after.angular_velocity += inertia.inverse() * r.cross(impulse);
+  ledger.lost_in_impacts += hit.lost;
+  if (hit.through && hit.structure_mass > 0)
+    knocks.push_back(
+        {hit.part, hit.structure_mass * hit.speed_out * hit.normal, hit.place.point, hit.speed_out, one.id});
+
+  const Vec3 change = one.rest.mass * (after.velocity - hit.state.velocity) - impulse;
+  const Vec3 turn = inertia * (after.angular_velocity - hit.state.angular_velocity) - r.cross(impulse);
+  const double scale = impulse.norm() + one.rest.mass * hit.state.velocity.norm();
+  if (scale > 0)
+    ledger.momentum_error =
+        std::max({ledger.momentum_error, change.norm() / scale, turn.norm() / (scale * std::max(r.norm(), 1e-3))});
+
+  StruckClock& clock = struck[one.id.value];
+  clock.at = hit.sensed_at;
+  clock.base = hit.through ? hit.own_time : 0;
+  if (hit.through) {
+    // It flies on as if it had come with its new speed: at the instant of impact it is where it is.
+    const double t = hit.own_time;
+    after.velocity -= gravity * t;
+    after.pose.position -= after.velocity * t + gravity * (t * t / 2);
+    after.pose.orientation = turned(after.pose.orientation, -after.angular_velocity * t);
+  }
+  after.velocity = reading().to_world(after.velocity);
+  after.asleep = false;
+  world->set_state(one.id, after);
+}
+
+void Simulation::State::break_generations() {
+  if (!frame->pending() && step > 1) return;
+  const int generations = generations_of(step, scenario.step, scenario.failure.generations_per_second);
+  for (const JointBreak& broken : frame->settle(generations)) tell(broken);
+}
+
+}  // namespace topple::structure

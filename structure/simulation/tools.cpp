@@ -1,0 +1,97 @@
+// Tools: what a scenario's events or a person do to the building.
+#include <algorithm>
+
+#include "simulation/simulation_state.h"
+#include "simulation/step_clock.h"
+
+namespace topple::structure {
+
+void Simulation::State::use_tools() {
+  for (; next_event < scenario.events.size() && step_of(scenario.events[next_event].at, scenario.step) <= step;
+       ++next_event)
+    use(scenario.events[next_event].tool);
+  for (const Tool& tool : std::exchange(asked, {})) use(tool);
+}
+
+void Simulation::State::use(const Tool& tool) {
+  std::visit([&](const auto& one) { use(one); }, tool);
+}
+
+void Simulation::State::use(const Projectile& projectile) {
+  Body sphere;
+  sphere.name = "projectile " + std::to_string(++projectiles);
+  sphere.rest = sphere_mass(projectile.from, projectile.mass, projectile.radius);
+  sphere.radius = projectile.radius;
+  sphere.volume = 4.0 / 3.0 * M_PI * projectile.radius * projectile.radius * projectile.radius;
+  sphere.bounds.add(Vec3::Constant(-projectile.radius));
+  sphere.bounds.add(Vec3::Constant(projectile.radius));
+  body_work_put_in += projectile.mass * projectile.velocity.squaredNorm() / 2;
+  SimulationEvent& event = tell(SimulationEvent::Kind::tool, "projectile");
+  event.mass = projectile.mass;
+  event.position = projectile.from;
+  add_body(std::move(sphere), projectile.velocity, Vec3::Zero(), Vec3::Zero());
+}
+
+void Simulation::State::use(const CutTool& cut) {
+  tell(SimulationEvent::Kind::tool, "cut");
+  for (const JointId joint : cut.joints)
+    if (frame->intact(joint)) frame->break_joint(joint, BreakCause::tool);
+}
+
+void Simulation::State::use(const RemoveTool& remove) {
+  tell(SimulationEvent::Kind::tool, "remove");
+  for (const MemberId member : remove.members) {
+    if (!frame->stands(member)) continue;
+    frame->remove(member);
+    body_of_part[static_cast<std::size_t>(member.index)] = -2;
+    part_is_gone(Part(member));
+  }
+  for (const PanelId panel : remove.panels) {
+    if (!frame->stands(panel)) continue;
+    frame->remove(panel);
+    body_of_part[static_cast<std::size_t>(part_number(building, Part(panel)))] = -2;
+    part_is_gone(Part(panel));
+  }
+  for (const NodeId support : remove.supports) frame->remove_support(support);
+}
+
+void Simulation::State::use(const ChargeTool& charge) {
+  tell(SimulationEvent::Kind::tool, "charge").position = charge.centre;
+  for (std::size_t i = 0; i < building.joints.size(); ++i) {
+    const JointId joint(i);
+    if (!building[joint].capacity.breakable || !frame->intact(joint)) continue;
+    const double distance = (joint_position(joint) - charge.centre).norm();
+    if (distance > charge.radius) continue;
+    const double factor =
+        charge.strength_at_centre + (charge.strength_at_radius - charge.strength_at_centre) * distance / charge.radius;
+    if (factor > 0) {
+      strength_factors[i] *= factor;
+      frame->set_strength_factor(joint, strength_factors[i]);
+    } else {
+      frame->break_joint(joint, BreakCause::tool);
+    }
+  }
+}
+
+void Simulation::State::use(const GravityTool& tool) {
+  tell(SimulationEvent::Kind::tool, "gravity");
+  const VelocityReading old = reading();
+  gravity = tool.gravity;
+  frame->set_gravity(gravity);
+  world->set_gravity(gravity);
+  for (auto& [id, one] : bodies) {  // the true velocity stays
+    collision::BodyState state = world->state(one.id);
+    if (!state.asleep) state.velocity = reading().to_world(old.true_velocity(state.velocity));
+    state.asleep = false;
+    world->set_state(one.id, state);
+    world->wake(one.id);
+  }
+}
+
+void Simulation::State::use(const LoadTool& load) {
+  tell(SimulationEvent::Kind::tool, "load");
+  for (const NodeLoad& one : load.nodes)
+    if (frame->stands(one.node)) frame->add_load(one.node, one.load);
+}
+
+}  // namespace topple::structure
