@@ -33,6 +33,7 @@ void Simulation::step() {
     timed(Stage::book, [&] { s.book(); });
   }
   s.tell_rest_and_end();
+  s.call_listeners();
 }
 
 namespace {
@@ -103,6 +104,11 @@ SimulationEvent& Simulation::State::tell(SimulationEvent::Kind kind, const std::
   event.name = name;
   events.push_back(std::move(event));
   return events.back();
+}
+
+void Simulation::State::call_listeners() {
+  for (; events_heard < events.size(); ++events_heard)
+    for (const auto& listener : listeners) listener(SimulationEvent(events[events_heard]));
 }
 
 void Simulation::State::tell(const JointBreak& broken) {

@@ -70,6 +70,7 @@ struct Simulation::State {
   [[nodiscard]] Vec3 joint_position(JointId joint) const;
   SimulationEvent& tell(SimulationEvent::Kind kind, const std::string& name);
   void tell(const JointBreak& broken);
+  void call_listeners();
   Body* body(collision::BodyId id);
 
   Building building;
@@ -110,6 +111,7 @@ struct Simulation::State {
 
   std::vector<SimulationEvent> events;
   std::vector<std::function<void(const SimulationEvent&)>> listeners;
+  std::size_t events_heard = 0;
   Ledger ledger;
   double body_gravity_work = 0, body_work_put_in = 0;
   SimulationCounters counters;

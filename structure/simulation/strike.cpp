@@ -45,6 +45,7 @@ void Simulation::State::strike(const collision::Contact& contact) {
   send_on(*hit);
   SimulationEvent& event = tell(SimulationEvent::Kind::impact, part_name(building, hit->part));
   event.body = hit->body->id;
+  event.body_name = hit->body->name;
   event.mass = hit->mass;
   event.peak_force = hit->peak_force;
   event.speed_in = hit->speed;

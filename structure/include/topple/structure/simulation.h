@@ -42,6 +42,7 @@ struct SimulationEvent {
   std::vector<PanelId> panels;
   double mass = 0;
   // impact
+  std::string body_name;  ///< of the body that hit; `name` is what it hit
   collision::BodyId body, other_body;
   double peak_force = 0, speed_in = 0, speed_out = 0;
   Vec3 position = Vec3::Zero();

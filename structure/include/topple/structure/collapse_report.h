@@ -1,0 +1,54 @@
+#pragma once
+// What is written of a collapse: events.jsonl, summary.json, standing.json (docs/demolish-output.md has the keys), and
+// the summary that a person reads. Everything but wall times is the same in every run.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "topple/structure/simulation.h"
+
+namespace topple::structure {
+
+/// Wall times of the steps in which something was done, by stage.
+class StepTimes {
+ public:
+  /// Call after each step(). Steps that were passed over idle are left out.
+  void add(const Simulation& simulation);
+
+  /// Milliseconds.
+  struct Percentiles {
+    double mean = 0, p50 = 0, p95 = 0, p99 = 0, max = 0;
+  };
+  [[nodiscard]] Percentiles whole() const;
+  [[nodiscard]] Percentiles without_collision_engine() const;
+  [[nodiscard]] std::array<double, 6> mean_by_stage() const;
+  [[nodiscard]] double mean_collision_engine() const;
+  [[nodiscard]] std::size_t steps() const { return whole_.size(); }
+
+ private:
+  std::vector<double> whole_, own_;
+  std::array<double, 6> stages_{};
+  double engine_ = 0;
+};
+
+/// How many parts are down, bodies lie about and segments stand.
+struct CollapseCounts {
+  std::size_t joints_broken = 0, members_down = 0, panels_down = 0, bodies = 0, standing_segments = 0;
+};
+[[nodiscard]] CollapseCounts collapse_counts(const Simulation& simulation);
+
+/// One line of events.jsonl, without the line's end.
+[[nodiscard]] std::string event_line(const Building& building, const SimulationEvent& event);
+/// `roof_sag`: StandingFrame::roof_sag() before the first step, m.
+[[nodiscard]] std::string summary_json(const Simulation& simulation, const StepTimes& times, double roof_sag);
+/// What stands at the end: displacements, joint demands and each joint's largest utilisation over the run.
+[[nodiscard]] std::string standing_json(const Simulation& simulation);
+/// What a person reads: what broke, what fell, how long it took, the ledger.
+[[nodiscard]] std::string collapse_text(const Simulation& simulation, const StepTimes& times);
+
+/// Writes the three files; each appears whole or not at all. Throws std::runtime_error naming a file that cannot be
+/// written.
+void write_collapse(const std::filesystem::path& folder, const Simulation& simulation, const StepTimes& times,
+                    double roof_sag);
+
+}  // namespace topple::structure

@@ -1,0 +1,69 @@
+// The summary of a collapse that a person reads.
+#include <cstdarg>
+#include <cstdio>
+
+#include "topple/structure/collapse_report.h"
+
+namespace topple::structure {
+
+namespace {
+
+[[gnu::format(printf, 2, 3)]] void append(std::string& text, const char* format, ...) {
+  char line[256];
+  std::va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(line, sizeof line, format, arguments);
+  va_end(arguments);
+  text += line;
+}
+
+void add_first_breaks(std::string& text, const Simulation& simulation) {
+  constexpr int shown = 5;  // enough to see where it began
+  constexpr std::array<const char*, 5> causes{"impact", "overload", "buckling", "lost bracing", "a tool"};
+  int count = 0;
+  for (const SimulationEvent& event : simulation.events()) {
+    if (event.kind != SimulationEvent::Kind::joint_broke) continue;
+    if (count++ == 0) text += "  first to break:\n";
+    if (count > shown) break;
+    append(text, "    %8.4f s  %-20s %s (%s, %.4g of %.4g)\n", event.time, event.name.c_str(),
+           causes[static_cast<std::size_t>(event.joint.cause)],
+           sense_names[static_cast<std::size_t>(event.joint.sense)], event.joint.demand, event.joint.capacity);
+  }
+}
+
+double fallen_mass(const Simulation& simulation) {
+  double mass = 0;
+  for (const SimulationEvent& event : simulation.events())
+    if (event.kind == SimulationEvent::Kind::detached) mass += event.mass;
+  return mass;
+}
+
+}  // namespace
+
+std::string collapse_text(const Simulation& simulation, const StepTimes& times) {
+  const Building& building = simulation.building();
+  const CollapseCounts counts = collapse_counts(simulation);
+  const Ledger& ledger = simulation.ledger();
+  std::string text;
+  append(text, "%s: %.6g s in %lld steps, %s\n",
+         simulation.scenario().title.empty() ? "collapse" : simulation.scenario().title.c_str(), simulation.time(),
+         static_cast<long long>(simulation.steps()), simulation.at_rest() ? "all at rest" : "still moving");
+  append(text, "  broke:  %zu of %zu joints\n", counts.joints_broken, building.joints.size());
+  append(text, "  down:   %zu of %zu members, %zu of %zu panels, %.4g t\n", counts.members_down,
+         building.members.size(), counts.panels_down, building.panels.size(), fallen_mass(simulation) / 1000);
+  append(text, "  left:   %zu standing segments, %zu bodies\n", counts.standing_segments, counts.bodies);
+  add_first_breaks(text, simulation);
+  const StepTimes::Percentiles whole = times.whole(), own = times.without_collision_engine();
+  append(text, "  steps:  %zu worked, mean %.3g ms, 99 %% under %.3g ms, longest %.3g ms\n", times.steps(), whole.mean,
+         whole.p99, whole.max);
+  append(text, "          without the collision engine: mean %.3g ms, 99 %% under %.3g ms, longest %.3g ms\n", own.mean,
+         own.p99, own.max);
+  append(text, "  energy: gravity %.4g J, put in %.4g J; freed by breaks %.4g J, impacts %.4g J, contacts %.4g J\n",
+         ledger.gravity_work, ledger.work_put_in, ledger.freed_by_breaks, ledger.lost_in_impacts,
+         ledger.lost_in_contacts);
+  append(text, "          moving %.4g J, elastic %.4g J, residual %.3g %%\n",
+         ledger.kinetic_translation + ledger.kinetic_rotation, ledger.elastic, 100 * ledger.residual());
+  return text;
+}
+
+}  // namespace topple::structure
