@@ -1,0 +1,65 @@
+// topple demolish SCENARIO: runs a collapse without a window, as fast as it can.
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+
+#include "command.h"
+#include "topple/structure/collapse_report.h"
+#include "topple/structure/files.h"
+
+namespace topple::app {
+
+namespace {
+
+struct DemolishOptions {
+  std::string scenario, folder;
+  int threads = 1;
+};
+
+/// A line on a terminal, rewritten every so many steps; nothing when standard error goes elsewhere.
+class Progress {
+ public:
+  void show(const structure::Simulation& simulation) {
+    if (!terminal_ || simulation.steps() % 30 != 0) return;
+    std::fprintf(stderr, "\r%8.2f s  %zu bodies  %zu events ", simulation.time(), simulation.bodies().size(),
+                 simulation.events().size());
+  }
+  ~Progress() {
+    if (terminal_) std::fprintf(stderr, "\r\033[K");
+  }
+
+ private:
+  bool terminal_ = isatty(STDERR_FILENO) != 0;
+};
+
+int demolish(const DemolishOptions& options) {
+  auto [building, scenario] = structure::read_scenario(structure::find_scenario(options.scenario));
+  structure::Simulation simulation(std::move(building), std::move(scenario), {options.threads, {}});
+  const double roof_sag = simulation.frame().roof_sag();
+  structure::StepTimes times;
+  {
+    Progress progress;
+    while (!simulation.finished()) {
+      simulation.skip_idle();
+      simulation.step();
+      times.add(simulation);
+      progress.show(simulation);
+    }
+  }
+  if (!options.folder.empty()) structure::write_collapse(options.folder, simulation, times, roof_sag);
+  std::fputs(structure::collapse_text(simulation, times).c_str(), stdout);
+  return success;
+}
+
+const Registration registration{
+    {"demolish", "Run a scenario: what breaks, what falls, what stands", [](CLI::App& app) {
+       auto options = std::make_shared<DemolishOptions>();
+       app.add_option("SCENARIO", options->scenario, "Scenario: a shipped one's name, or a file")->required();
+       app.add_option("-o,--output", options->folder, "Folder for events.jsonl, summary.json and standing.json");
+       app.add_option("--threads", options->threads, "Threads of the solver")->check(CLI::Range(1, 256));
+       return [options] { return demolish(*options); };
+     }}};
+
+}  // namespace
+}  // namespace topple::app
