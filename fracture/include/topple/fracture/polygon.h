@@ -1,0 +1,28 @@
+#pragma once
+// Plane polygons: area, centroid, clipping. Vertices go counter-clockwise. Lengths in m (any unit).
+#include <Eigen/Core>
+#include <vector>
+
+namespace topple::fracture {
+
+using Vec2 = Eigen::Vector2d;
+using Polygon = std::vector<Vec2>;
+
+/// Signed area: positive for counter-clockwise vertices.
+[[nodiscard]] double area(const Polygon& polygon);
+/// Centre of area. The polygon must have an area.
+[[nodiscard]] Vec2 centroid(const Polygon& polygon);
+/// True for a point inside a convex polygon or on its border.
+[[nodiscard]] bool contains(const Polygon& convex, const Vec2& point);
+
+/// A convex polygon each of whose edges says what it came from: edge i runs from vertex i to vertex i + 1.
+struct LabelledPolygon {
+  Polygon vertices;
+  std::vector<int> labels;
+};
+
+/// Keeps the part of a convex polygon with normal . (p - point) <= 0; the new edge gets the label. Empty when nothing
+/// is left. A vertex on the line stays, and makes no second one.
+void clip(LabelledPolygon& polygon, const Vec2& point, const Vec2& normal, int label);
+
+}  // namespace topple::fracture
