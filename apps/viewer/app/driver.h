@@ -1,0 +1,80 @@
+#pragma once
+// What moves a session on: a thread of its own behind a window, or the headless run's own loop.
+#include <memory>
+#include <string>
+
+#include "app/session.h"
+
+namespace topple::viewer {
+
+/// What to draw: between two snapshots.
+struct Moment {
+  std::shared_ptr<const Snapshot> earlier, later;
+  double share = 1;
+  [[nodiscard]] Snapshot interpolated() const {
+    return earlier && share < 1 && earlier->step < later->step ? interpolate(*earlier, *later, share) : *later;
+  }
+};
+
+class Driver {
+ public:
+  virtual ~Driver() = default;
+  virtual void apply(const structure::Tool& tool) = 0;
+  virtual void restart() = 0;
+  virtual void undo() = 0;
+  virtual void single_step() = 0;
+  virtual void set_paused(bool paused) = 0;
+  [[nodiscard]] virtual bool paused() const = 0;
+  /// Simulated seconds for each second.
+  virtual void set_speed(double speed) = 0;
+  [[nodiscard]] virtual double speed() const = 0;
+  [[nodiscard]] virtual Moment moment() const = 0;
+};
+
+/// Steps when told to, on the caller's thread.
+class DirectDriver : public Driver {
+ public:
+  explicit DirectDriver(Session& session) : session_(session), latest_(session.snapshot()) {}
+  void advance();
+  void apply(const structure::Tool& tool) override { session_.apply(tool); }
+  void restart() override;
+  void undo() override;
+  void single_step() override;
+  void set_paused(bool paused) override { paused_ = paused; }
+  [[nodiscard]] bool paused() const override { return paused_; }
+  void set_speed(double speed) override { speed_ = speed; }
+  [[nodiscard]] double speed() const override { return speed_; }
+  [[nodiscard]] Moment moment() const override { return {nullptr, latest_, 1}; }
+
+ private:
+  Session& session_;
+  std::shared_ptr<const Snapshot> latest_;
+  bool paused_ = false;
+  double speed_ = 1;
+};
+
+/// Steps on a thread of its own at the pace of real time; drawing reads the last two snapshots and never waits for a
+/// step.
+class ThreadDriver : public Driver {
+ public:
+  /// The session is the thread's alone from now on.
+  explicit ThreadDriver(std::unique_ptr<Session> session);
+  ~ThreadDriver() override;
+  void apply(const structure::Tool& tool) override;
+  void restart() override;
+  void undo() override;
+  void single_step() override;
+  void set_paused(bool paused) override;
+  [[nodiscard]] bool paused() const override;
+  void set_speed(double speed) override;
+  [[nodiscard]] double speed() const override;
+  [[nodiscard]] Moment moment() const override;
+  /// Why the simulation stopped, when it threw; empty otherwise.
+  [[nodiscard]] std::string error() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace topple::viewer

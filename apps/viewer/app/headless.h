@@ -1,0 +1,21 @@
+#pragma once
+// Runs without a window: a picture at a time, a sequence of them, a script of actions.
+#include <array>
+#include <optional>
+#include <string>
+
+#include "app/open_scene.h"
+
+namespace topple::viewer {
+
+struct HeadlessOptions {
+  std::optional<std::string> screenshot, record, actions;
+  double at = 0;  ///< s, of the screenshot, and end of a recording
+  std::optional<std::array<int, 2>> size;
+  double rate = 30;  ///< recorded pictures for each simulated second
+};
+
+/// Throws structure::InputError for a bad script, std::runtime_error when a picture cannot be drawn or written.
+void run_headless(const Scene& scene, const HeadlessOptions& options);
+
+}  // namespace topple::viewer

@@ -1,0 +1,80 @@
+// topple-viewer: a window on a building that stands, is examined, and is demolished; or pictures of it without a
+// window. Exit status: 0 done, 1 failure, 2 bad input, 3 the model is not stable.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "app/headless.h"
+#include "app/window.h"
+#include "topple/solver/blas_kernel.h"
+#include "topple/structure/error.h"
+
+namespace {
+
+int report(const char* what, int status) {
+  std::fprintf(stderr, "topple-viewer: %s\n", what);
+  return status;
+}
+
+/// "1280x720"
+std::array<int, 2> parse_size(const std::string& text) {
+  std::array<int, 2> size{};
+  char after = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%c", size.data(), size.data() + 1, &after) != 2 || size[0] < 16 || size[1] < 16 ||
+      size[0] > 16384 || size[1] > 16384)
+    throw topple::structure::InputError("--size " + text + ": accepted: WIDTHxHEIGHT, each from 16 to 16384");
+  return size;
+}
+
+int run(int argc, char** argv) {
+  using namespace topple::viewer;
+  CLI::App app{"Shows a building under its loads and lets you demolish it.", "topple-viewer"};
+  app.set_version_flag("--version", TOPPLE_VERSION);
+  std::string name = "seed_building", size;
+  bool headless = false;
+  HeadlessOptions pictures;
+  app.add_option("scene", name, "model or scenario: a shipped name or a file (default: seed_building)");
+  app.add_flag("--headless", headless, "draw without a window");
+  app.add_option("--screenshot", pictures.screenshot, "file of the picture (in the window: what key P writes)");
+  app.add_option("--at", pictures.at, "simulated seconds before the picture, and length of a recording")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--record", pictures.record, "folder for frame-00000.png and so on");
+  app.add_option("--rate", pictures.rate, "recorded pictures for each simulated second")->check(CLI::PositiveNumber);
+  app.add_option("--actions", pictures.actions, "script of what a person would do");
+  app.add_option("--size", size, "WIDTHxHEIGHT in pixels");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& asked) {
+    return app.exit(asked);
+  } catch (const CLI::ParseError& error) {
+    return report(error.what(), 2);
+  }
+  if (!size.empty()) pictures.size = parse_size(size);
+  if (headless && !pictures.screenshot && !pictures.record && !pictures.actions)
+    return report("--headless needs --screenshot FILE, --record DIR or --actions FILE", 2);
+  const Scene scene = open_scene(name);
+  if (headless) {
+    run_headless(scene, pictures);
+    return 0;
+  }
+  WindowOptions window;
+  if (pictures.size) window.width = (*pictures.size)[0], window.height = (*pictures.size)[1];
+  if (pictures.screenshot) window.screenshot = *pictures.screenshot;
+  run_window(scene, window);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  topple::solver::restart_with_better_blas_kernel(argv);
+  try {
+    return run(argc, argv);
+  } catch (const topple::structure::InputError& error) {
+    return report(error.what(), 2);
+  } catch (const topple::structure::UnstableModel& error) {
+    return report(error.what(), 3);
+  } catch (const std::exception& error) {
+    return report(error.what(), 1);
+  }
+}

@@ -1,0 +1,51 @@
+#include "app/open_scene.h"
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "topple/structure/error.h"
+#include "topple/structure/files.h"
+
+namespace topple::viewer {
+namespace {
+
+using structure::InputError;
+
+/// A scenario names its model at the top; what cannot be read counts as a model, whose reader says why. The nesting is
+/// cut off, so that no file can exhaust the memory.
+bool names_a_model(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  bool found = false;
+  const auto filter = [&found](int depth, nlohmann::json::parse_event_t event, nlohmann::json& value) {
+    if (event == nlohmann::json::parse_event_t::key && depth == 1 && value == "model") found = true;
+    return depth <= 1;
+  };
+  const nlohmann::json unused = nlohmann::json::parse(stream, filter, false);
+  return found;
+}
+
+std::optional<std::filesystem::path> scenario_file(const std::string& name) {
+  if (std::filesystem::is_regular_file(name))
+    return names_a_model(name) ? std::optional<std::filesystem::path>(name) : std::nullopt;
+  try {
+    return structure::find_scenario(name);
+  } catch (const InputError&) {
+    return std::nullopt;  // then it is a model's name, or find_model says what is accepted
+  }
+}
+
+}  // namespace
+
+Scene open_scene(const std::string& name) {
+  if (const auto file = scenario_file(name)) {
+    auto [building, scenario] = structure::read_scenario(*file);
+    return {std::make_shared<const structure::Building>(std::move(building)), std::move(scenario)};
+  }
+  auto building = std::make_shared<const structure::Building>(structure::read_model(structure::find_model(name)));
+  structure::Scenario scenario = structure::idle_scenario(*building);
+  return {std::move(building), std::move(scenario)};
+}
+
+}  // namespace topple::viewer

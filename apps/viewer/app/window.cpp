@@ -1,0 +1,239 @@
+#include "app/window.h"
+
+#define GLFW_INCLUDE_NONE  // OpenGL comes from epoxy
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <epoxy/gl.h>
+#include <imgui.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <memory>
+#include <stdexcept>
+
+#include "app/driver.h"
+#include "app/side_panel.h"
+#include "renderer/picture_renderer.h"
+
+namespace topple::viewer {
+namespace {
+
+std::string& last_glfw_error() {
+  static std::string text;
+  return text;
+}
+
+[[noreturn]] void refuse() {
+  const std::string why = last_glfw_error().empty() ? "unknown reason" : last_glfw_error();
+  throw std::runtime_error("no window can be opened: " + why + "; --headless draws without one");
+}
+
+/// The window with its OpenGL context, current while it lives.
+class Window {
+ public:
+  Window(int width, int height, const std::string& title) {
+    glfwSetErrorCallback([](int, const char* text) { last_glfw_error() = text; });
+    if (glfwInit() != GLFW_TRUE) refuse();
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    window_ = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
+    if (window_ == nullptr) {
+      glfwTerminate();
+      refuse();
+    }
+    glfwMakeContextCurrent(window_);
+    glfwSwapInterval(1);
+  }
+  ~Window() {
+    glfwDestroyWindow(window_);
+    glfwTerminate();
+  }
+  Window(const Window&) = delete;
+  Window& operator=(const Window&) = delete;
+  [[nodiscard]] GLFWwindow* get() const { return window_; }
+  [[nodiscard]] glm::dvec2 size() const {
+    int w = 0, h = 0;
+    glfwGetWindowSize(window_, &w, &h);
+    return {std::max(w, 1), std::max(h, 1)};
+  }
+  [[nodiscard]] glm::ivec2 pixels() const {
+    int w = 0, h = 0;
+    glfwGetFramebufferSize(window_, &w, &h);
+    return {std::max(w, 1), std::max(h, 1)};
+  }
+
+ private:
+  GLFWwindow* window_ = nullptr;
+};
+
+class ImGuiLayer {
+ public:
+  explicit ImGuiLayer(GLFWwindow* window) {
+    ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = nullptr;
+    float x = 1, y = 1;
+    glfwGetWindowContentScale(window, &x, &y);
+    ImFontConfig font;
+    font.SizePixels = std::round(13.0F * x);
+    ImGui::GetIO().Fonts->AddFontDefault(&font);
+    ImGui::StyleColorsDark();
+    ImGui::GetStyle().ScaleAllSizes(x);
+    ImGui::GetStyle().Colors[ImGuiCol_WindowBg].w = 0.88F;
+    ImGui_ImplGlfw_InitForOpenGL(window, true);
+    ImGui_ImplOpenGL3_Init("#version 330 core");
+  }
+  ~ImGuiLayer() {
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext();
+  }
+  ImGuiLayer(const ImGuiLayer&) = delete;
+  ImGuiLayer& operator=(const ImGuiLayer&) = delete;
+};
+
+/// From GLFW's callbacks to the controller. Set before ImGui's, which pass events on.
+class Input {
+ public:
+  Input(GLFWwindow* window, Controller& controller, std::string screenshot)
+      : window_(window), controller_(controller), screenshot_file_(std::move(screenshot)) {
+    glfwSetWindowUserPointer(window, this);
+    glfwSetMouseButtonCallback(window,
+                               [](GLFWwindow* w, int button, int action, int) { of(w).button(button, action); });
+    glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) { of(w).move({x, y}); });
+    glfwSetScrollCallback(window, [](GLFWwindow* w, double, double y) {
+      if (!ImGui::GetIO().WantCaptureMouse) of(w).controller_.scroll(y);
+    });
+    glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int) {
+      if (action == GLFW_PRESS && !ImGui::GetIO().WantCaptureKeyboard) of(w).key(key);
+    });
+  }
+  /// Keys held down move the eye, by how long they are held.
+  void fly(double seconds) {
+    if (ImGui::GetIO().WantCaptureKeyboard) return;
+    const double way = seconds * 0.5 * controller_.camera.distance();
+    const auto held = [&](int plus, int minus) {
+      return (glfwGetKey(window_, plus) == GLFW_PRESS ? 1.0 : 0.0) -
+             (glfwGetKey(window_, minus) == GLFW_PRESS ? 1.0 : 0.0);
+    };
+    controller_.camera.fly(way * held(GLFW_KEY_W, GLFW_KEY_S), way * held(GLFW_KEY_D, GLFW_KEY_A),
+                           way * held(GLFW_KEY_E, GLFW_KEY_Q));
+  }
+  [[nodiscard]] glm::dvec2 pointer() const { return pointer_; }
+  /// File to write the next picture to; empty: none is wanted.
+  [[nodiscard]] std::string take_screenshot() { return std::exchange(screenshot_wanted_, {}); }
+
+ private:
+  static Input& of(GLFWwindow* window) { return *static_cast<Input*>(glfwGetWindowUserPointer(window)); }
+
+  void button(int which, int action) {
+    if (action == GLFW_PRESS && ImGui::GetIO().WantCaptureMouse) return;
+    if (action == GLFW_PRESS) {
+      held_ = which;
+      pressed_at_ = pointer_;
+      dragged_ = false;
+    } else if (which == held_) {
+      held_ = -1;
+      if (which == GLFW_MOUSE_BUTTON_LEFT && !dragged_) controller_.fire(pressed_at_);
+    }
+  }
+  void move(glm::dvec2 to) {
+    constexpr double still = 4;  // pixels that a click may wander
+    const glm::dvec2 from = std::exchange(pointer_, to);
+    if (held_ < 0) return;
+    if (!dragged_ && glm::length(to - pressed_at_) < still) return;
+    dragged_ = true;
+    held_ == GLFW_MOUSE_BUTTON_LEFT ? controller_.drag(from, to) : controller_.drag_to_pan(from, to);
+  }
+  void key(int key) {
+    if (key == GLFW_KEY_P) screenshot_wanted_ = screenshot_file_;
+    if (key == GLFW_KEY_SPACE) controller_.key("space");
+    if ((key >= GLFW_KEY_1 && key <= GLFW_KEY_4) || (key >= GLFW_KEY_A && key <= GLFW_KEY_Z))
+      controller_.key(std::string(1, static_cast<char>(key >= GLFW_KEY_A ? key - GLFW_KEY_A + 'a' : key)));
+  }
+
+  GLFWwindow* window_;
+  Controller& controller_;
+  std::string screenshot_file_, screenshot_wanted_;
+  glm::dvec2 pointer_{0}, pressed_at_{0};
+  int held_ = -1;
+  bool dragged_ = false;
+};
+
+void hover_text(Controller& controller, const Snapshot& moment) {
+  const auto& hovered = controller.hovered();
+  if (!hovered || !hovered->joint.valid() || ImGui::GetIO().WantCaptureMouse) return;
+  const auto& building = controller.building();
+  const auto& joint = moment.answer->joints[static_cast<std::size_t>(hovered->joint.index)];
+  ImGui::BeginTooltip();
+  if (hovered->member.valid()) {
+    const auto& member = building[hovered->member];
+    ImGui::Text("%s: %s, %s, %.2f m", member.name.c_str(), building[member.section].name.c_str(),
+                building[member.material].name.c_str(), member.length);
+  } else {
+    const auto& panel = building[hovered->panel];
+    ImGui::Text("%s: %.0f mm, %s", panel.name.c_str(), 1000 * panel.thickness, building[panel.material].name.c_str());
+  }
+  ImGui::Text("joint %s: %s", building[hovered->joint].name.c_str(), joint.intact ? "" : "failed");
+  if (joint.intact && joint.standing) {
+    ImGui::Text("utilisation %.1f %% (%s)", 100.0 * static_cast<double>(joint.utilisation),
+                structure::sense_names[static_cast<std::size_t>(joint.sense)]);
+    const auto k = [&](std::size_t c) { return static_cast<double>(joint.demand[c]) / 1e3; };
+    ImGui::Text("N %.1f  Vy %.1f  Vz %.1f kN", k(0), k(1), k(2));
+    ImGui::Text("T %.1f  My %.1f  Mz %.1f kN m", k(3), k(4), k(5));
+  }
+  ImGui::EndTooltip();
+}
+
+void show(const Renderer& renderer, glm::ivec2 pixels) {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, renderer.framebuffer());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+  glBlitFramebuffer(0, 0, pixels.x, pixels.y, 0, 0, pixels.x, pixels.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  glViewport(0, 0, pixels.x, pixels.y);
+}
+
+}  // namespace
+
+void run_window(const Scene& scene, const WindowOptions& options) {
+  const Window window(options.width, options.height, "Topple");
+  const double ground = ground_height(*scene.building, scene.scenario);
+  SceneInstances instances(*scene.building);
+  Renderer renderer(instances, ground);
+  ThreadDriver driver(std::make_unique<Session>(scene.building, scene.scenario));
+  Controller controller(driver, *scene.building, ground, window.size());
+  Input input(window.get(), controller, options.screenshot);
+  const ImGuiLayer imgui(window.get());
+  SidePanel panel;
+  glm::dvec2 hovered_at{-1};
+  double before = glfwGetTime();
+  while (glfwWindowShouldClose(window.get()) == GLFW_FALSE) {
+    glfwPollEvents();
+    const double now = glfwGetTime();
+    input.fly(now - before);
+    before = now;
+    controller.resize(window.size());
+    if (input.pointer() != hovered_at && !ImGui::GetIO().WantCaptureMouse)
+      controller.hover(hovered_at = input.pointer());
+    const Snapshot moment = driver.moment().interpolated();
+    instances.update(moment, controller.options);
+    renderer.draw(instances, controller.camera, controller.options, window.pixels());
+    if (const std::string file = input.take_screenshot(); !file.empty()) {
+      write_png(renderer.read(), file);
+      controller.message = "picture written to " + file;
+    }
+    show(renderer, window.pixels());
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui_ImplGlfw_NewFrame();
+    ImGui::NewFrame();
+    panel.draw(controller, moment, driver.error());
+    hover_text(controller, moment);
+    ImGui::Render();
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    Renderer::check_errors();
+    glfwSwapBuffers(window.get());
+  }
+}
+
+}  // namespace topple::viewer

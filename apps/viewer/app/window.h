@@ -1,0 +1,18 @@
+#pragma once
+#include <optional>
+#include <string>
+
+#include "app/open_scene.h"
+
+namespace topple::viewer {
+
+struct WindowOptions {
+  int width = 1600, height = 900;
+  std::string screenshot = "topple.png";  ///< where key P writes
+};
+
+/// Opens a window on the scene and returns when it is closed. Throws std::runtime_error with one line when no window
+/// can be opened.
+void run_window(const Scene& scene, const WindowOptions& options);
+
+}  // namespace topple::viewer
