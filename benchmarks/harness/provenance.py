@@ -1,0 +1,64 @@
+"""What a result must carry so that it can be traced: commit, compiler, flags, machine, libraries, date."""
+
+import datetime
+import os
+import platform
+import subprocess
+
+
+def _output(*command, cwd=None):
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, cwd=cwd, timeout=20)
+    except (OSError, subprocess.TimeoutExpired):
+        return ""
+    return done.stdout.strip() if done.returncode == 0 else ""
+
+
+def _cache(build):
+    values = {}
+    with open(os.path.join(build, "CMakeCache.txt"), encoding="utf-8") as cache:
+        for line in cache:
+            key, found, value = line.strip().partition("=")
+            if found:
+                values[key.split(":")[0]] = value
+    return values
+
+
+def _processor():
+    try:
+        with open("/proc/cpuinfo", encoding="utf-8") as info:
+            for line in info:
+                if line.startswith("model name"):
+                    return line.partition(":")[2].strip()
+    except OSError:
+        pass
+    return platform.processor() or "unknown"
+
+
+def _package(name):
+    return _output("dpkg-query", "-W", "-f", "${Version}", name) or "not a package here"
+
+
+def collect(root, build, blas_kernel):
+    """Ordered pairs of name and value."""
+    cache = _cache(build)
+    changed = _output("git", "status", "--porcelain", "--untracked-files=no", cwd=root)
+    kind = cache.get("CMAKE_BUILD_TYPE", "")
+    flags = [cache.get("CMAKE_CXX_FLAGS", ""), cache.get("CMAKE_CXX_FLAGS_" + kind.upper(), ""), "-ffp-contract=off"]
+    compiler = cache.get("CMAKE_CXX_COMPILER", "c++")
+    return {
+        "commit": _output("git", "rev-parse", "HEAD", cwd=root) + (" with local changes" if changed else ""),
+        "date": datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds"),
+        "compiler": _output(compiler, "--version").split("\n")[0],
+        "flags": " ".join(flag for flag in flags if flag),
+        "processor": _processor(),
+        "cores": str(os.cpu_count()),
+        "threads": "1",
+        "blas_kernel": blas_kernel,
+        "load_at_start": "%.2f" % os.getloadavg()[0],
+        "libbullet": _package("libbullet3.24"),
+        "libcholmod": _package("libcholmod3"),
+        "libopenblas": _package("libopenblas0-pthread"),
+        "libmetis": _package("libmetis5"),
+        "eigen": _package("libeigen3-dev"),
+    }
