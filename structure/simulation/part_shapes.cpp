@@ -17,6 +17,8 @@ constexpr double neighbour_gap = 0.01;
 constexpr double largest_cut = 0.4;
 /// Members within this angle (cosine) of an edge count as lying along it.
 constexpr double along_edge = 0.999;
+/// Members steeper than this to a panel's plane (sine) pierce it.
+constexpr double piercing = 0.1;
 
 /// Half of what a section covers along a direction across its member.
 double half_extent(const Member& member, const Vec2& size, const Vec3& direction) {
@@ -89,7 +91,11 @@ double PartShapes::edge_inset(const Building& building, const Panel& panel, int 
   for (const NodeId node : {first, second})
     for (const MemberId id : members_at_node_[static_cast<std::size_t>(node.index)]) {
       const Member& member = building[id];
-      if (std::abs(member.axes.row(0).dot(along)) < along_edge) continue;
+      // Members along the edge, and those that pierce the panel's plane at its corners (posts through a floor): a slab
+      // that falls must not start inside the posts beside it, nor hang between them.
+      const bool lies_along = std::abs(member.axes.row(0).dot(along)) >= along_edge;
+      const bool pierces = std::abs(member.axes.row(0).dot(panel.axes.row(2))) > piercing;
+      if (!lies_along && !pierces) continue;
       inset = std::max(inset, half_extent(member, section_size(building[member.section]), across));
     }
   return inset + neighbour_gap;
