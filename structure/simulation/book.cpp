@@ -21,24 +21,9 @@ void Simulation::State::book() {
   update_views();
 }
 
-/// What contacts took from the bodies in the last collision step: impulse times the mean of the velocities before and
-/// after at the point, in the reading in which free flight is exact.
+/// The collision world measures what each contact took from the bodies, in the same reading of velocities.
 void Simulation::State::book_contacts() {
-  const auto work_on = [&](collision::BodyId id, const Vec3& impulse, const Vec3& point) {
-    const Body* one = body(id);
-    if (!one) return 0.0;
-    const collision::BodyState after = world->state(id);
-    const Vec3 r = point - one->before.pose.position;
-    // before contacts the velocity was that plus g dt; the reading of the middle of the step takes g dt/2 away
-    const Vec3 velocity = (one->before.velocity + after.velocity) / 2 +
-                          ((one->before.angular_velocity + after.angular_velocity) / 2).cross(r);
-    return impulse.dot(velocity);
-  };
-  for (const collision::Contact& contact : world->contacts()) {
-    ledger.lost_in_contacts -= work_on(contact.body, -contact.impulse, contact.point);
-    if (contact.other.kind == collision::Touched::Kind::body)
-      ledger.lost_in_contacts -= work_on(contact.other.body, contact.impulse, contact.point);
-  }
+  for (const collision::Contact& contact : world->contacts()) ledger.lost_in_contacts += contact.work_lost;
 }
 
 void Simulation::State::book_body(Body& one) {

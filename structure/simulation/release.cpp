@@ -79,16 +79,33 @@ void Simulation::State::release(const Detached& part) {
   }
   Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();
   knock(one, velocity, spin);
-  add_body(std::move(one), velocity, spin, displacement);
+  const std::vector<collision::BodyId> passing = breakers_of(one);
+  const collision::BodyId id = add_body(std::move(one), velocity, spin, displacement);
+  collision::Touched broken;
+  broken.kind = collision::Touched::Kind::body;
+  broken.body = id;
+  for (const collision::BodyId by : passing) world->ignore_until_separated(by, broken);
+}
+
+/// True when an impact of this step broke this body off.
+bool Simulation::State::was_struck(const Knock& given, const Body& one) {
+  return given.part.member.valid()
+             ? std::binary_search(one.members.begin(), one.members.end(), given.part.member)
+             : std::find(one.panels.begin(), one.panels.end(), given.part.panel) != one.panels.end();
+}
+
+/// Bodies that go on through what they broke off.
+std::vector<collision::BodyId> Simulation::State::breakers_of(const Body& one) const {
+  std::vector<collision::BodyId> passing;
+  for (const Knock& given : knocks)
+    if (was_struck(given, one) && bodies.contains(given.by.value)) passing.push_back(given.by);
+  return passing;
 }
 
 /// A part that an impact broke off takes the momentum of the share of the structure that moved with the body.
 void Simulation::State::knock(const Body& one, Vec3& velocity, Vec3& spin) {
   for (const Knock& given : knocks) {
-    const bool mine = given.part.member.valid()
-                          ? std::binary_search(one.members.begin(), one.members.end(), given.part.member)
-                          : std::find(one.panels.begin(), one.panels.end(), given.part.panel) != one.panels.end();
-    if (!mine) continue;
+    if (!was_struck(given, one)) continue;
     const Vec3 r = given.point - one.rest.centre;
     const Mat3 inverse = one.rest.inertia.inverse();
     const double size = given.impulse.norm();
@@ -102,7 +119,8 @@ void Simulation::State::knock(const Body& one, Vec3& velocity, Vec3& spin) {
   }
 }
 
-void Simulation::State::add_body(Body one, const Vec3& velocity, const Vec3& spin, const Vec3& displacement) {
+collision::BodyId Simulation::State::add_body(Body one, const Vec3& velocity, const Vec3& spin,
+                                              const Vec3& displacement) {
   collision::BodyDescription description;
   if (one.radius > 0) {
     collision::ConvexPart sphere;
@@ -124,7 +142,9 @@ void Simulation::State::add_body(Body one, const Vec3& velocity, const Vec3& spi
   for (const MemberId member : one.members) body_of_part[static_cast<std::size_t>(member.index)] = one.id.value;
   for (const PanelId panel : one.panels)
     body_of_part[static_cast<std::size_t>(part_number(building, Part(panel)))] = one.id.value;
-  bodies.emplace(one.id.value, std::move(one));
+  const collision::BodyId id = one.id;
+  bodies.emplace(id.value, std::move(one));
+  return id;
 }
 
 void Simulation::State::remove_body(collision::BodyId id, bool keep_weight) {

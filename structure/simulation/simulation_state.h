@@ -39,13 +39,23 @@ struct Simulation::State {
   void send_on(const Strike& hit);
   void break_generations();
 
+  /// Momentum that an impact gave to what it broke off, handed over when that part becomes a body.
+  struct Knock {
+    Part part;
+    Vec3 impulse, point;
+    double speed = 0;  ///< of the contact place along the impulse: no part is thrown faster
+    collision::BodyId by;
+  };
+
   // release.cpp: what left the frame becomes bodies.
   void release();
   void release(const Detached& part);
   void part_is_gone(Part part);
   [[nodiscard]] Body describe(const Detached& part) const;
-  void add_body(Body body, const Vec3& velocity, const Vec3& spin, const Vec3& displacement);
+  collision::BodyId add_body(Body body, const Vec3& velocity, const Vec3& spin, const Vec3& displacement);
   void knock(const Body& body, Vec3& velocity, Vec3& spin);
+  [[nodiscard]] static bool was_struck(const Knock& given, const Body& one);
+  [[nodiscard]] std::vector<collision::BodyId> breakers_of(const Body& one) const;
   void remove_body(collision::BodyId id, bool keep_weight);
   void keep_limit();
 
@@ -88,13 +98,6 @@ struct Simulation::State {
   std::map<std::int64_t, Body> bodies;
   std::vector<std::int64_t> body_of_part;  ///< by part number; -1 stands, -2 gone
 
-  /// Momentum that an impact gave to what it broke off, handed over when that part becomes a body.
-  struct Knock {
-    Part part;
-    Vec3 impulse, point;
-    double speed = 0;  ///< of the contact place along the impulse: no part is thrown faster
-    collision::BodyId by;
-  };
   std::vector<Knock> knocks;
   /// Where in this step a body that has struck something stands in time: see strike.cpp.
   struct StruckClock {

@@ -34,8 +34,11 @@ void Simulation::State::load() {
 }
 
 void Simulation::State::strike_all(const std::vector<collision::Contact>& contacts) {
-  for (const collision::Contact& contact : contacts)
-    if (contact.other.kind == collision::Touched::Kind::obstacle) strike(contact);
+  const double resting_speed = 2 * gravity.norm() * scenario.step;
+  for (const collision::Contact& contact : contacts) {
+    if (contact.other.kind != collision::Touched::Kind::obstacle) continue;
+    if (!contact.persistent || contact.approach_speed > resting_speed) strike(contact);
+  }
 }
 
 void Simulation::State::strike(const collision::Contact& contact) {
@@ -135,7 +138,7 @@ void Simulation::State::send_on(const Strike& hit) {
   after.velocity += impulse / one.rest.mass;
   after.angular_velocity += inertia.inverse() * r.cross(impulse);
   ledger.lost_in_impacts += hit.lost;
-  if (hit.through && hit.structure_mass > 0)
+  if (hit.through)
     knocks.push_back(
         {hit.part, hit.structure_mass * hit.speed_out * hit.normal, hit.place.point, hit.speed_out, one.id});
 

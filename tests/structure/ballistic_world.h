@@ -34,18 +34,23 @@ class BallisticWorld : public collision::World {
   }
   void remove_obstacle(collision::ObstacleId id) override { obstacles_.erase(id.value); }
   void move_obstacle(collision::ObstacleId, const collision::Pose&) override {}
-  collision::HingeId add_hinge(const collision::HingeDescription&) override { throw std::logic_error("no hinges here"); }
+  collision::HingeId add_hinge(const collision::HingeDescription&) override {
+    throw std::logic_error("no hinges here");
+  }
   void remove_hinge(collision::HingeId) override {}
   [[nodiscard]] Eigen::Matrix<double, 6, 1> hinge_force(collision::HingeId) const override {
     return Eigen::Matrix<double, 6, 1>::Zero();
   }
   [[nodiscard]] collision::BodyState state(collision::BodyId id) const override { return bodies_.at(id.value).state; }
-  void set_state(collision::BodyId id, const collision::BodyState& state) override { bodies_.at(id.value).state = state; }
+  void set_state(collision::BodyId id, const collision::BodyState& state) override {
+    bodies_.at(id.value).state = state;
+  }
   void apply_impulse(collision::BodyId id, const Vec3& impulse, const Vec3&) override {
     Flying& body = bodies_.at(id.value);
     body.state.velocity += impulse / body.description.mass;
   }
   void wake(collision::BodyId) override {}
+  void ignore_until_separated(collision::BodyId, const collision::Touched&) override {}
   [[nodiscard]] std::span<const collision::BodyId> bodies() const override { return order_; }
   [[nodiscard]] std::size_t awake_count() const override { return bodies_.size(); }
 
@@ -90,9 +95,7 @@ class BallisticWorld : public collision::World {
              double dt, std::vector<collision::Contact>& found) const {
     const double radius = body.description.parts.front().half_extents.x();
     const Vec3 velocity = body.state.velocity + gravity_ * dt / 2;
-    const auto at = [&](double t) -> Vec3 {
-      return body.state.pose.position + velocity * t + gravity_ * t * t / 2;
-    };
+    const auto at = [&](double t) -> Vec3 { return body.state.pose.position + velocity * t + gravity_ * t * t / 2; };
     const auto gap = [&](double t) { return (at(t) - nearest(obstacle, at(t))).norm() - radius; };
     if (gap(0) <= 0) return;
     for (int i = 1; i <= 1000; ++i) {

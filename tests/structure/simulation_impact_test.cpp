@@ -82,11 +82,13 @@ TEST_CASE("a weight dropped on a light elastic beam is felt alike at every step"
 
 TEST_CASE("a body goes on through what it breaks with the speed that energy leaves") {
   const double limit = 5e4, mass = 500, height = 3;
-  Simulation simulation(beam_between_walls(same_capacity(limit)).building, dropping(1.0 / 60, height, mass), ballistic());
+  Simulation simulation(beam_between_walls(same_capacity(limit)).building, dropping(1.0 / 60, height, mass),
+                        ballistic());
   const SimulationEvent impact = run_to_impact(simulation);
   // Both ends fail together, at the moment F L / 8 (the beam's own weight adds 10 N/m).
   const double force = (limit - 10 * length * length / 12) * 8 / length;
-  const double squared = 2 * g * height - (force * force - 2 * mass * g * force) / (stiffness(simulation.building()) * mass);
+  const double squared =
+      2 * g * height - (force * force - 2 * mass * g * force) / (stiffness(simulation.building()) * mass);
   CHECK(impact.speed_out == Approx(std::sqrt(squared)).epsilon(1e-6));
   CHECK(impact.peak_force == Approx(force).epsilon(1e-6));
   int broken = 0;
@@ -112,7 +114,8 @@ TEST_CASE("what an impact breaks off takes the momentum of the share that moved 
   const double beam_mass = 410 * length / g, share = 13.0 / 35 * beam_mass;
   const double speed = std::sqrt(2 * g * height) * mass / (mass + share);
   const double force = (limit - 410 * length * length / 12) * 8 / length;
-  const double squared = speed * speed - (force * force - 2 * mass * g * force) / (stiffness(f.building) * (mass + share));
+  const double squared =
+      speed * speed - (force * force - 2 * mass * g * force) / (stiffness(f.building) * (mass + share));
   CHECK(impact.speed_out == Approx(std::sqrt(squared)).epsilon(1e-6));
   const double fall = simulation.frame().displacement(NodeId(0u)).norm();
   CHECK(fall == 0);  // the supports stand
