@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "analysis/equilibrium.h"
+#include "analysis/instability.h"
 #include "analysis/storeys.h"
 #include "panel_bearings.h"
 #include "panel_demand.h"
@@ -10,7 +11,6 @@
 #include "topple/structure/analysis.h"
 #include "topple/structure/error.h"
 #include "topple/structure/frame.h"
-#include "unstable_model.h"
 
 namespace topple::structure {
 
@@ -31,7 +31,7 @@ class Analysis {
       for (std::size_t i = 0; i < building.combinations.size(); ++i) combinations_.emplace_back(i);
     for (const CombinationId id : combinations_) {
       parts_.push_back(part_loads(building, id));
-      loads_.push_back(load_set(building, parts_.back()));
+      loads_.push_back(load_set(building, edges_, parts_.back()));
     }
   }
 
@@ -43,7 +43,10 @@ class Analysis {
       result.statistics = analysis.statistics();
       for (std::size_t k = 0; k < solutions.size(); ++k) result.combinations.push_back(gather(k, solutions[k]));
     } catch (const solver::Instability& unstable) {
-      throw UnstableModel(describe(unstable.mechanism));
+      throw UnstableModel(building_.file + ": " + describe_instability(building_, unstable));
+    } catch (const std::invalid_argument& error) {
+      // What a reader cannot see: settlements that bend a rigid floor, for one.
+      throw InputError(building_.file + ": " + error.what());
     }
     result.warnings = building_.warnings;
     if (result.statistics.nearly_unstable)
@@ -54,28 +57,37 @@ class Analysis {
   }
 
  private:
-  [[nodiscard]] std::string describe(const solver::Mechanism& mechanism) const {
-    FrameMechanism named;
-    named.motion = mechanism.motion;
-    for (const int node : mechanism.nodes) named.nodes.emplace_back(static_cast<std::size_t>(node));
-    return describe_mechanism(building_, named);
-  }
-
   [[nodiscard]] CombinationResult gather(std::size_t k, const solver::StaticSolution& solution) const {
     CombinationResult result;
     result.combination = combinations_[k];
     result.displacements = solution.displacements;
     result.reactions = solution.reactions;
+    solver::LoadSet acting = loads_[k];
+    turn_pushes_into_reactions(parts_[k], acting, result.reactions);
     result.quality = solution.quality;
     result.members = members(loads_[k], solution);
     result.panels = panels(solution);
     result.joints = joints(parts_[k], result);
     result.storeys = storeys_.results(result.displacements, result.members);
-    const Equilibrium balance = equilibrium(frame_.model, loads_[k], solution.reactions);
+    const Equilibrium balance = equilibrium(frame_.model, acting, result.reactions);
     result.total_load = balance.load;
     result.total_reaction = balance.reaction;
     result.equilibrium_error = balance.error;
     return result;
+  }
+
+  /// A spring support whose far end is moved pushes its node: that is part of its reaction, not a load.
+  void turn_pushes_into_reactions(const PartLoads& parts, solver::LoadSet& loads, std::vector<Vec6>& reactions) const {
+    for (const solver::Settlement& settlement : parts.settlements)
+      for (std::size_t s = 0; s < building_.supports.size(); ++s) {
+        const NodeSupport& support = building_.supports[s];
+        const double stiffness = support.stiffness(settlement.component);
+        if (support.node.index != settlement.node || stiffness == unlimited) continue;
+        Vec6 push = Vec6::Zero();
+        push(settlement.component) = stiffness * settlement.value;
+        reactions[s] += push;
+        loads.nodes.push_back({settlement.node, -push});
+      }
   }
 
   [[nodiscard]] std::vector<MemberResult> members(const solver::LoadSet& loads,

@@ -151,3 +151,27 @@ TEST_CASE("OpenSees' frames have OpenSees' answers") {
     }
   }
 }
+
+TEST_CASE("a settlement of a spring's far end reaches the structure through the spring, and its reaction tells both") {
+  // A bar of stiffness E A / L = 5e8 N/m along x between a fixed end and a spring of 1e8 N/m whose far end moves.
+  const Building b = parse_model(
+      cantilever(R"({"A": "fixed", "B": {"x": 1e8}})", R"({"pull": {"settlements": {"B": {"x": 0.006}}}})"), "c.json");
+  const Json c = results(b).at("combinations").at("pull");
+  const double force = 0.006 / (1 / 5e8 + 1 / 1e8);
+  CHECK(c.at("displacements").at("B")[0].get<double>() == Approx(force / 5e8).epsilon(1e-12));
+  CHECK(c.at("reactions").at("B")[0].get<double>() == Approx(force).epsilon(1e-12));
+  CHECK(c.at("reactions").at("A")[0].get<double>() == Approx(-force).epsilon(1e-12));
+  CHECK(c.at("equilibrium_error").get<double>() < 1e-12);
+}
+
+TEST_CASE("a node that only a membrane reaches is unstable, and the message says why") {
+  const std::string text = R"({"topple": 1,
+    "materials": {"c": {"youngs_modulus": 3e10, "poisson_ratio": 0.2}},
+    "sections": {"s": {"area": 0.01, "Iy": 2e-4, "Iz": 3e-5, "J": 5e-6}},
+    "nodes": {"A": [0, 0, 0], "B": [4, 0, 0], "C": [4, 4, 0], "D": [0, 4, 0]},
+    "members": {"AB": {"nodes": ["A", "B"], "section": "s", "material": "c"}},
+    "panels": {"S": {"nodes": ["A", "B", "C", "D"], "thickness": 0.2, "material": "c"}},
+    "supports": {"A": "fixed", "B": "fixed"}, "loads": {"case": {"nodes": {"B": {"z": -1}}}}})";
+  CHECK_THROWS_WITH(analyse(parse_model(text, "m.json")),
+                    Catch::Contains("only membrane panels reach node") && Catch::Contains("along z"));
+}

@@ -1,0 +1,55 @@
+// An instability of the solver in the building's own names.
+#include <algorithm>
+
+#include "analysis/instability.h"
+#include "unstable_model.h"
+
+namespace topple::structure {
+
+namespace {
+
+/// Nodes among those that move which no member reaches, but a membrane does.
+std::vector<NodeId> held_by_membranes_only(const Building& building, const std::vector<NodeId>& moving) {
+  std::vector<char> on_member(building.nodes.size(), 0), on_membrane(building.nodes.size(), 0);
+  for (const Member& member : building.members)
+    for (const NodeId node : member.nodes) on_member[static_cast<std::size_t>(node.index)] = 1;
+  for (const Panel& panel : building.panels)
+    if (panel.model == PanelModel::membrane)
+      for (const NodeId node : panel.nodes) on_membrane[static_cast<std::size_t>(node.index)] = 1;
+  std::vector<NodeId> found;
+  for (const NodeId node : moving) {
+    const auto n = static_cast<std::size_t>(node.index);
+    if (on_membrane[n] != 0 && on_member[n] == 0) found.push_back(node);
+  }
+  return found;
+}
+
+}  // namespace
+
+std::string describe_instability(const Building& building, const solver::Instability& instability) {
+  const solver::Mechanism& mechanism = instability.mechanism;
+  FrameMechanism named;
+  for (const int node : mechanism.nodes) named.nodes.push_back(NodeId(static_cast<std::size_t>(node)));
+  named.motion = mechanism.motion;
+  std::string text;
+  if (!named.nodes.empty()) {
+    text = describe_mechanism(building, named);
+  } else {
+    text = "the model is unstable:";
+    constexpr std::size_t named_at_most = 8;
+    for (std::size_t i = 0; i < std::min(mechanism.beams.size(), named_at_most); ++i)
+      text += (i ? ", member " : " member ") + building.members[static_cast<std::size_t>(mechanism.beams[i])].name;
+    if (mechanism.beams.size() > named_at_most)
+      text += " and " + std::to_string(mechanism.beams.size() - named_at_most) + " more";
+    text +=
+        mechanism.beams.empty() ? " " + std::string(instability.what()) : ", released at both ends, can move by itself";
+  }
+  const auto hanging = held_by_membranes_only(building, named.nodes);
+  if (!hanging.empty())
+    text += "; only membrane panels reach node " + building[hanging.front()].name +
+            (hanging.size() > 1 ? " and " + std::to_string(hanging.size() - 1) + " more" : "") +
+            ", and a membrane holds nothing across its plane";
+  return text;
+}
+
+}  // namespace topple::structure
