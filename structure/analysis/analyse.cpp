@@ -4,6 +4,7 @@
 
 #include "analysis/equilibrium.h"
 #include "analysis/instability.h"
+#include "analysis/one_way_members.h"
 #include "analysis/storeys.h"
 #include "panel_bearings.h"
 #include "panel_demand.h"
@@ -38,10 +39,11 @@ class Analysis {
   AnalysisResult run() {
     AnalysisResult result;
     try {
-      solver::StaticAnalysis analysis(frame_.model, request_.solver);
+      solver::StaticAnalysis analysis(carrying_both(frame_.model), request_.solver);
       const std::vector<solver::StaticSolution> solutions = analysis.solve(loads_);
       result.statistics = analysis.statistics();
-      for (std::size_t k = 0; k < solutions.size(); ++k) result.combinations.push_back(gather(k, solutions[k]));
+      for (std::size_t k = 0; k < solutions.size(); ++k)
+        result.combinations.push_back(gather(k, settled(k, solutions[k])));
     } catch (const solver::Instability& unstable) {
       throw UnstableModel(building_.file + ": " + describe_instability(building_, unstable));
     } catch (const std::invalid_argument& error) {
@@ -57,7 +59,25 @@ class Analysis {
   }
 
  private:
-  [[nodiscard]] CombinationResult gather(std::size_t k, const solver::StaticSolution& solution) const {
+  /// With tension-only and compression-only members slack where they have to be.
+  [[nodiscard]] OneWayAnswer settled(std::size_t k, const solver::StaticSolution& solution) const {
+    const OneWayMembers one_way(frame_.model);
+    if (!one_way.any()) return {solution, {}, {}, 0};
+    std::vector<std::string> names;
+    for (const Member& member : building_.members) names.push_back(member.name);
+    try {
+      return one_way.settle(loads_[k], solution, request_.solver, names);
+    } catch (const solver::Instability& unstable) {
+      throw UnstableModel(building_.file + ", combination " + building_[combinations_[k]].name +
+                          ", with members slack: " + describe_instability(building_, unstable));
+    } catch (const std::runtime_error& cycle) {
+      throw std::runtime_error(building_.file + ", combination " + building_[combinations_[k]].name + ": " +
+                               cycle.what());
+    }
+  }
+
+  [[nodiscard]] CombinationResult gather(std::size_t k, const OneWayAnswer& answer) const {
+    const solver::StaticSolution& solution = answer.solution;
     CombinationResult result;
     result.combination = combinations_[k];
     result.displacements = solution.displacements;
@@ -65,7 +85,7 @@ class Analysis {
     solver::LoadSet acting = loads_[k];
     turn_pushes_into_reactions(parts_[k], acting, result.reactions);
     result.quality = solution.quality;
-    result.members = members(loads_[k], solution);
+    result.members = members(loads_[k], answer);
     result.panels = panels(solution);
     result.joints = joints(parts_[k], result);
     result.storeys = storeys_.results(result.displacements, result.members);
@@ -90,15 +110,16 @@ class Analysis {
       }
   }
 
-  [[nodiscard]] std::vector<MemberResult> members(const solver::LoadSet& loads,
-                                                  const solver::StaticSolution& solution) const {
+  [[nodiscard]] std::vector<MemberResult> members(const solver::LoadSet& loads, const OneWayAnswer& answer) const {
+    const std::vector<solver::Beam>& beams = answer.beams.empty() ? frame_.model.beams : answer.beams;
     std::vector<std::vector<solver::BeamLoad>> on(building_.members.size());
     for (const solver::BeamLoad& load : loads.beams) on[static_cast<std::size_t>(load.beam)].push_back(load);
     std::vector<MemberResult> all(building_.members.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
       MemberResult& member = all[i];
-      member.end_forces = solution.beam_end_forces[i];
-      const solver::BeamDiagram diagram(frame_.model.beams[i], member.end_forces, on[i]);
+      member.end_forces = answer.solution.beam_end_forces[i];
+      member.active = answer.active.empty() || answer.active[i] != 0;
+      const solver::BeamDiagram diagram(beams[i], member.end_forces, on[i]);
       for (std::size_t q = 0; q < 8; ++q) {
         const auto range = diagram.extremes(static_cast<solver::BeamDiagram::Quantity>(q));
         member.min[q] = {range.least.value, range.least.at};

@@ -70,6 +70,13 @@ void refuse_openings(const Building& building) {
   for (const Panel& panel : building.panels)
     if (!panel.openings.empty()) refuse(building, "panels." + panel.name + ".openings", "`openings`");
 }
+/// What a cladding hands on takes its openings into account; the one element of a membrane has none.
+void refuse_openings_of_membranes(const Building& building) {
+  for (const Panel& panel : building.panels)
+    if (!panel.openings.empty() && panel.model != PanelModel::cladding)
+      refuse(building, "panels." + panel.name + ".openings",
+             "`openings` in a " + std::string(panel.model == PanelModel::membrane ? "membrane" : "shell"));
+}
 void refuse_one_way_members(const Building& building) {
   for (const Member& member : building.members)
     if (member.axial != AxialAction::both)
@@ -95,8 +102,8 @@ void refuse_diaphragms(const Building& building) {
 
 void refuse_unbuilt(const Building& building, Purpose purpose) {
   using Refusal = void (*)(const Building&);
-  static constexpr std::array<Refusal, 5> analyse{refuse_shells, refuse_meshes_of_panels, refuse_openings,
-                                                  refuse_one_way_members, refuse_edge_supports};
+  static constexpr std::array<Refusal, 4> analyse{refuse_shells, refuse_meshes_of_panels, refuse_openings_of_membranes,
+                                                  refuse_edge_supports};
   static constexpr std::array<Refusal, 7> demolish{refuse_shells,          refuse_meshes_of_panels, refuse_openings,
                                                    refuse_one_way_members, refuse_edge_supports,    refuse_ductility,
                                                    refuse_diaphragms};

@@ -169,7 +169,10 @@ TEST_CASE("what is not built yet is refused by its name for the purpose that nee
   CHECK(refusal("\"model\": \"membrane\"", "\"mesh\": 2", Purpose::analyse) ==
         "m.json, panels.S1.mesh: `mesh` is not built yet; accepted: leave it out");
   CHECK(refusal("\"model\": \"membrane\"", "\"openings\": [[[1, 1], [2, 1], [2, 2]]]", Purpose::analyse) ==
-        "m.json, panels.S1.openings: `openings` is not built yet; accepted: leave it out");
+        "m.json, panels.S1.openings: `openings` in a membrane is not built yet; accepted: leave it out");
+  CHECK(refusal("\"model\": \"membrane\"", "\"model\": \"cladding\", \"openings\": [[[1, 1], [2, 1], [2, 2]]]",
+                Purpose::analyse) == "no error");
+  CHECK(refusal("\"kind\": \"brace\"", "\"axial\": \"tension\"", Purpose::analyse) == "no error");
   CHECK(refusal("\"kind\": \"brace\"", "\"axial\": \"tension\"", Purpose::demolish) ==
         "m.json, members.X1.axial: \"tension\" is not built yet; accepted: leave it out");
   const std::string diaphragm = "\"diaphragms\": {\"roof\": [\"*1\"]}, \"masses\"";

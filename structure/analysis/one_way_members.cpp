@@ -1,0 +1,131 @@
+#include "analysis/one_way_members.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+
+#include "topple/solver/beam_diagram.h"
+
+namespace topple::structure {
+
+namespace {
+
+using solver::AxialAction;
+
+/// The end at which a slack member lets go: the weight of a tie hangs on its upper end, that of a strut stands on its
+/// lower one.
+std::size_t loose_end(const solver::Beam& beam) {
+  const bool rises = beam.axes(0, 2) > 0;
+  return (beam.axial == AxialAction::tension_only) == rises ? 0 : 1;
+}
+
+double sense(const solver::Beam& beam) { return beam.axial == AxialAction::tension_only ? 1 : -1; }
+
+/// Of the hubs at a beam's ends, local axes.
+solver::Vec12 hub_displacements(const solver::Beam& beam, const std::vector<solver::Vec6>& displacements) {
+  solver::Vec12 hubs;
+  for (std::size_t end = 0; end < 2; ++end) {
+    const solver::Vec6& node = displacements[static_cast<std::size_t>(beam.node[end])];
+    const solver::Vec3 turned = node.tail<3>(), moved = node.head<3>() + turned.cross(beam.offset[end]);
+    const auto first = static_cast<Eigen::Index>(6 * end);
+    hubs.segment<3>(first) = beam.axes * moved;
+    hubs.segment<3>(first + 3) = beam.axes * turned;
+  }
+  return hubs;
+}
+
+double largest_axial_force(const solver::StaticSolution& solution) {
+  double largest = 0;
+  for (const solver::Vec12& forces : solution.beam_end_forces)
+    largest = std::max({largest, std::abs(forces(0)), std::abs(forces(6))});
+  return largest;
+}
+
+/// Turns over all that is violated, or only the first.
+std::vector<char> turned_over(std::vector<char> active, const std::vector<std::size_t>& violated, bool only_first) {
+  for (const std::size_t member : violated) {
+    active[member] = active[member] == 0 ? 1 : 0;
+    if (only_first) break;
+  }
+  return active;
+}
+
+[[noreturn]] void report_cycle(const std::vector<std::size_t>& violated, const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::size_t member : violated) list += (list.empty() ? "" : ", ") + names[member];
+  throw std::runtime_error("tension-only and compression-only members find no state that holds; they come round to " +
+                           list + " again");
+}
+
+}  // namespace
+
+solver::FrameModel carrying_both(solver::FrameModel model) {
+  for (solver::Beam& beam : model.beams) beam.axial = AxialAction::both;
+  return model;
+}
+
+OneWayMembers::OneWayMembers(const solver::FrameModel& model) : model_(model) {
+  for (std::size_t i = 0; i < model.beams.size(); ++i)
+    if (model.beams[i].axial != AxialAction::both) members_.push_back(i);
+}
+
+solver::FrameModel OneWayMembers::with_releases(const std::vector<char>& active) const {
+  solver::FrameModel model = carrying_both(model_);
+  for (const std::size_t i : members_)
+    if (active[i] == 0) model.beams[i].end_stiffness[loose_end(model_.beams[i])](0) = 0;
+  return model;
+}
+
+/// How far the member's state is wrong, as a force; 0 or less: it is right.
+double OneWayMembers::violation(std::size_t i, const std::vector<char>& active,
+                                const std::vector<std::vector<solver::BeamLoad>>& loads,
+                                const std::vector<solver::Beam>& beams, const solver::StaticSolution& solution) const {
+  const solver::Beam& beam = beams[i];
+  const double sign = sense(model_.beams[i]);
+  const std::size_t end = loose_end(model_.beams[i]);
+  const solver::Vec12& forces = solution.beam_end_forces[i];
+  const double tension = end == 0 ? -forces(0) : forces(6);
+  if (active[i] != 0) return -sign * tension;
+  const solver::Vec12 hubs = hub_displacements(beam, solution.displacements);
+  const solver::BeamDiagram diagram(beam, forces, loads[i]);
+  const double at_end = diagram.displacement(end == 0 ? 0 : beam.length, hubs)(0);
+  const double pulled = end == 0 ? at_end - hubs(0) : hubs(6) - at_end;
+  return sign * pulled * beam.youngs_modulus * beam.area / beam.length;
+}
+
+OneWayAnswer OneWayMembers::settle(const solver::LoadSet& loads, const solver::StaticSolution& taut,
+                                   const solver::AnalysisOptions& options,
+                                   const std::vector<std::string>& names) const {
+  std::vector<std::vector<solver::BeamLoad>> by_beam(model_.beams.size());
+  for (const solver::BeamLoad& load : loads.beams) by_beam[static_cast<std::size_t>(load.beam)].push_back(load);
+  OneWayAnswer answer{taut, carrying_both(model_).beams, std::vector<char>(model_.beams.size(), 1), 0};
+  std::set<std::vector<char>> seen{answer.active};
+  // All at once is quick but may swing between two wrong states; then one by one in order of index, which ends for
+  // every stable structure (Murty's least-index rule for linear complementarity).
+  bool one_by_one = false;
+  for (;;) {
+    constexpr double rounding = 1e-11;  // of the largest axial force
+    const double least = rounding * largest_axial_force(answer.solution);
+    std::vector<std::size_t> violated;
+    for (const std::size_t i : members_)
+      if (violation(i, answer.active, by_beam, answer.beams, answer.solution) > least) violated.push_back(i);
+    if (violated.empty()) return answer;
+    std::vector<char> next = turned_over(answer.active, violated, one_by_one);
+    if (seen.count(next) != 0) {
+      if (one_by_one) report_cycle(violated, names);
+      one_by_one = true;
+      seen = {answer.active};
+      next = turned_over(answer.active, violated, true);
+    }
+    seen.insert(next);
+    solver::FrameModel model = with_releases(next);
+    answer.active = std::move(next);
+    answer.beams = model.beams;
+    solver::StaticAnalysis analysis(std::move(model), options);
+    answer.solution = std::move(analysis.solve({&loads, 1}).front());
+    ++answer.iterations;
+  }
+}
+
+}  // namespace topple::structure

@@ -1,0 +1,44 @@
+#pragma once
+// Members that carry only tension or only compression. A member that would carry the other is slack: axially released
+// at the end that does not bear its own weight (the lower end of a tie, the upper end of a strut). Which are slack is
+// found by iteration and holds when it is verified: no taut member carries the wrong sign, and no slack one would be
+// stretched the way it can resist.
+#include <string>
+#include <vector>
+
+#include "topple/solver/static_analysis.h"
+
+namespace topple::structure {
+
+struct OneWayAnswer {
+  solver::StaticSolution solution;
+  std::vector<solver::Beam> beams;  ///< with the releases of what is slack
+  std::vector<char> active;         ///< per beam
+  int iterations = 0;
+};
+
+/// The model with every beam taking tension and compression: what the solver takes.
+[[nodiscard]] solver::FrameModel carrying_both(solver::FrameModel model);
+
+class OneWayMembers {
+ public:
+  explicit OneWayMembers(const solver::FrameModel& model);
+  [[nodiscard]] bool any() const { return !members_.empty(); }
+
+  /// `taut` is the solution with all members active. Throws solver::Instability when a state is reached in which too
+  /// much is slack, and std::runtime_error naming beams (by `names`) when the states repeat without an end.
+  [[nodiscard]] OneWayAnswer settle(const solver::LoadSet& loads, const solver::StaticSolution& taut,
+                                    const solver::AnalysisOptions& options,
+                                    const std::vector<std::string>& names) const;
+
+ private:
+  [[nodiscard]] solver::FrameModel with_releases(const std::vector<char>& active) const;
+  [[nodiscard]] double violation(std::size_t member, const std::vector<char>& active,
+                                 const std::vector<std::vector<solver::BeamLoad>>& loads,
+                                 const std::vector<solver::Beam>& beams, const solver::StaticSolution& solution) const;
+
+  const solver::FrameModel& model_;
+  std::vector<std::size_t> members_;  ///< beams that are one-way
+};
+
+}  // namespace topple::structure
