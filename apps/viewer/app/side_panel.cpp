@@ -80,6 +80,8 @@ void help_window(bool& open) {
 
 }  // namespace
 
+double SidePanel::width() { return 24 * static_cast<double>(ImGui::GetIO().Fonts->Fonts[0]->FontSize); }
+
 void SidePanel::view(Controller& controller) {
   ViewOptions& options = controller.options;
   constexpr const char* colourings[] = {"parts", "joints: force and moment", "utilisation", "one component"};
@@ -185,7 +187,7 @@ void SidePanel::joints(Controller& controller, const Snapshot& moment) {
 
 void SidePanel::draw(Controller& controller, const Snapshot& moment, const std::string& error) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
-  const float width = 24 * ImGui::GetFontSize();
+  const auto width = static_cast<float>(SidePanel::width());
   ImGui::SetNextWindowPos(ImVec2(display.x - width, 0));
   ImGui::SetNextWindowSize(ImVec2(width, display.y));
   ImGui::Begin(controller.building().title.empty() ? "Topple" : controller.building().title.c_str(), nullptr,

@@ -9,6 +9,8 @@ namespace topple::viewer {
 
 class SidePanel {
  public:
+  /// Width of the strip at the right edge of the window that it covers; needs Dear ImGui to be set up.
+  [[nodiscard]] static double width();
   /// Draws it with Dear ImGui; `moment` is what the scene shows.
   void draw(Controller& controller, const Snapshot& moment, const std::string& error);
 

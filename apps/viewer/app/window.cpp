@@ -186,12 +186,24 @@ void hover_text(Controller& controller, const Snapshot& moment) {
   ImGui::EndTooltip();
 }
 
+/// Puts the picture into the upper left of the window.
 void show(const Renderer& renderer, glm::ivec2 pixels) {
+  const glm::ivec2 part = renderer.size();
   glBindFramebuffer(GL_READ_FRAMEBUFFER, renderer.framebuffer());
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-  glBlitFramebuffer(0, 0, pixels.x, pixels.y, 0, 0, pixels.x, pixels.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  glBlitFramebuffer(0, 0, part.x, part.y, 0, pixels.y - part.y, part.x, pixels.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   glViewport(0, 0, pixels.x, pixels.y);
+}
+
+/// What the side panel leaves of the window (at least a quarter), in its units.
+glm::dvec2 scene_size(const Window& window) {
+  const glm::dvec2 size = window.size();
+  return {std::max(size.x - SidePanel::width(), 0.25 * size.x), size.y};
+}
+glm::ivec2 scene_pixels(const Window& window) {
+  const double share = scene_size(window).x / window.size().x;
+  return {static_cast<int>(std::lround(share * window.pixels().x)), window.pixels().y};
 }
 
 }  // namespace
@@ -206,6 +218,8 @@ void run_window(const Scene& scene, const WindowOptions& options) {
   Input input(window.get(), controller, options.screenshot);
   const ImGuiLayer imgui(window.get());
   SidePanel panel;
+  controller.resize(scene_size(window));
+  controller.frame_building();
   glm::dvec2 hovered_at{-1};
   double before = glfwGetTime();
   while (glfwWindowShouldClose(window.get()) == GLFW_FALSE) {
@@ -213,12 +227,12 @@ void run_window(const Scene& scene, const WindowOptions& options) {
     const double now = glfwGetTime();
     input.fly(now - before);
     before = now;
-    controller.resize(window.size());
+    controller.resize(scene_size(window));
     if (input.pointer() != hovered_at && !ImGui::GetIO().WantCaptureMouse)
       controller.hover(hovered_at = input.pointer());
     const Snapshot moment = driver.moment().interpolated();
     instances.update(moment, controller.options);
-    renderer.draw(instances, controller.camera, controller.options, window.pixels());
+    renderer.draw(instances, controller.camera, controller.options, scene_pixels(window));
     if (const std::string file = input.take_screenshot(); !file.empty()) {
       write_png(renderer.read(), file);
       controller.message = "picture written to " + file;

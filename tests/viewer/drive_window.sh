@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# What a person does in the window, by xdotool on a display of its own: drive_window.sh VIEWER FOLDER
+# Leaves in FOLDER: start.png, orbited.png, hit.png, paused1.png, paused2.png. Status 77: a tool is missing.
+set -eu
+viewer=$1 folder=$2
+command -v Xvfb >/dev/null && command -v xdotool >/dev/null || exit 77
+mkdir -p "$folder"
+cd "$folder"
+Xvfb -displayfd 3 -screen 0 1000x700x24 -nolisten tcp 3>display 2>xvfb.log &
+server=$!
+trap 'kill $program $server 2>/dev/null || true' EXIT
+program=
+for _ in $(seq 100); do [ -s display ] && break; sleep 0.1; done
+export DISPLAY=:$(cat display)
+"$viewer" seed_building --size 900x600 --screenshot "$folder/shot.png" >viewer.log 2>&1 &
+program=$!
+xdotool search --sync --onlyvisible --name Topple >/dev/null
+# A picture is there when its file has stopped growing.
+picture() {
+  rm -f shot.png
+  xdotool key p
+  for _ in $(seq 300); do [ -s shot.png ] && break; sleep 0.1; done
+  local size=0
+  while [ "$size" != "$(stat -c %s shot.png)" ]; do size=$(stat -c %s shot.png); sleep 0.3; done
+  mv shot.png "$1"
+}
+xdotool mousemove 250 300
+sleep 2
+picture start.png
+xdotool mousedown 1
+for x in 270 290 310; do xdotool mousemove "$x" 300; sleep 0.3; done
+xdotool mouseup 1
+sleep 1
+picture orbited.png
+xdotool mousemove 250 300 click 1
+sleep 6
+picture hit.png
+# A shot in flight stands still while paused.
+xdotool click 1
+xdotool key space
+sleep 1
+picture paused1.png
+sleep 1
+picture paused2.png
+kill -0 $program

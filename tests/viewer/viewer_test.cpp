@@ -1,0 +1,197 @@
+// The viewer as a person or a script uses it.
+#include <stb_image.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+
+#include "app/actions.h"
+#include "app/headless.h"
+#include "app/session.h"
+#include "renderer/headless_context.h"
+#include "test_paths.h"
+#include "topple/structure/error.h"
+
+namespace {
+
+using namespace topple::viewer;
+namespace fs = std::filesystem;
+
+/// An empty folder for a test, removed with it.
+struct Folder {
+  fs::path path;
+  explicit Folder(const std::string& name)
+      : path(fs::temp_directory_path() / (name + "-" + std::to_string(std::rand()) + "-" + std::to_string(getpid()))) {
+    fs::create_directories(path);
+  }
+  ~Folder() { fs::remove_all(path); }
+  [[nodiscard]] std::string file(const std::string& name) const { return (path / name).string(); }
+};
+
+struct Picture {
+  int width = 0, height = 0;
+  std::unique_ptr<unsigned char, void (*)(void*)> pixels{nullptr, stbi_image_free};
+  explicit Picture(const std::string& file) {
+    int channels = 0;
+    pixels.reset(stbi_load(file.c_str(), &width, &height, &channels, 3));
+    REQUIRE(pixels);
+  }
+  [[nodiscard]] int at(int i, int channel) const { return pixels.get()[3 * i + channel]; }
+  /// Share of pixels in the blue of failed joints.
+  [[nodiscard]] double failed() const {
+    int count = 0;
+    for (int i = 0; i < width * height; ++i)
+      count += at(i, 2) > 110 && at(i, 2) > 2 * at(i, 0) && at(i, 2) > at(i, 1) + 40 ? 1 : 0;
+    return static_cast<double>(count) / (width * height);
+  }
+  [[nodiscard]] double changed(const Picture& other) const {
+    REQUIRE(width == other.width);
+    REQUIRE(height == other.height);
+    int count = 0;
+    for (int i = 0; i < width * height; ++i) {
+      int difference = 0;
+      for (int c = 0; c < 3; ++c) difference += std::abs(at(i, c) - other.at(i, c));
+      count += difference > 24 ? 1 : 0;
+    }
+    return static_cast<double>(count) / (width * height);
+  }
+};
+
+bool can_draw() {
+  try {
+    const HeadlessContext context;
+    return true;
+  } catch (const std::runtime_error& error) {
+    std::cout << "SKIPPED: " << error.what() << '\n';
+    return false;
+  }
+}
+
+std::string refused(const std::string& text) {
+  const Folder folder("script");
+  std::ofstream(folder.file("script.json")) << text;
+  try {
+    (void)read_script(folder.file("script.json"));
+  } catch (const topple::structure::InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("without a window, the hit building shows failed joints that the standing one has not") {
+  if (!can_draw()) return;
+  const Folder folder("headless");
+  const Scene scene = open_scene("seed_hit");
+  HeadlessOptions options;
+  options.size = {320, 180};
+  options.screenshot = folder.file("before.png");
+  options.at = 0.5;  // the shot comes at 1 s
+  run_headless(scene, options);
+  options.screenshot = folder.file("after.png");
+  options.at = 2.5;
+  run_headless(scene, options);
+  const Picture before(folder.file("before.png")), after(folder.file("after.png"));
+  CHECK(before.width == 320);
+  CHECK(before.height == 180);
+  CHECK(before.failed() == 0);
+  CHECK(after.failed() > 0.002);
+}
+
+TEST_CASE("a script sets the camera, fires, pauses and takes pictures at its times") {
+  if (!can_draw()) return;
+  const Folder folder("script");
+  std::ofstream(folder.file("script.json")) << R"({"topple": 1, "size": [240, 160], "actions": [
+        {"at": 0, "camera": {"eye": [-30, -25, 12], "target": [8, 8, 8], "field_of_view": 0.8}},
+        {"at": 0, "screenshot": ")" << folder.file("standing.png")
+                                            << R"("},
+        {"at": 0.1, "fire": {"pixel": [100, 100], "speed": 120, "mass": 3000, "radius": 0.6}},
+        {"at": 1.5, "screenshot": ")" << folder.file("hit.png")
+                                            << R"("},
+        {"at": 1.5, "key": "space"},
+        {"at": 2.0, "screenshot": ")" << folder.file("paused.png")
+                                            << R"("},
+        {"at": 2.0, "drag": [[100, 80], [160, 80]]},
+        {"at": 2.0, "screenshot": ")" << folder.file("dragged.png")
+                                            << R"("},
+        {"at": 2.1, "quit": true}]})";
+  HeadlessOptions options;
+  options.actions = folder.file("script.json");
+  run_headless(open_scene("seed_building"), options);
+  const Picture standing(folder.file("standing.png")), hit(folder.file("hit.png")), paused(folder.file("paused.png")),
+      dragged(folder.file("dragged.png"));
+  CHECK(standing.width == 240);
+  CHECK(standing.failed() == 0);
+  CHECK(hit.failed() > 0);
+  CHECK(paused.changed(hit) == 0);
+  CHECK(dragged.changed(paused) > 0.1);
+}
+
+TEST_CASE("undo returns to the very state before the last action") {
+  const Scene scene = open_scene("seed_building");
+  Session session(scene.building, scene.scenario);
+  topple::structure::Projectile shot;
+  shot.from = {-20, 0, 2};
+  shot.velocity = {60, 0, 0};
+  for (int i = 0; i < 5; ++i) session.step();
+  session.apply(shot);
+  for (int i = 0; i < 40; ++i) session.step();
+  const std::uint64_t before = session.simulation().hash();
+  shot.from.z() += 3;
+  session.apply(shot);
+  for (int i = 0; i < 40; ++i) session.step();
+  CHECK(session.simulation().hash() != before);
+  REQUIRE(session.undo());
+  CHECK(session.simulation().steps() == 45);
+  CHECK(session.simulation().hash() == before);
+  CHECK(session.undo());
+  CHECK_FALSE(session.undo());
+  CHECK(session.simulation().steps() == 5);
+}
+
+TEST_CASE("a script's mistakes are named with their place") {
+  CHECK(refused(R"({"topple": 1, "actions": [{"at": 0, "jump": 1}]})").find("actions[0]: unknown key 'jump'") !=
+        std::string::npos);
+  CHECK(refused(R"({"topple": 1, "actions": [{"at": 0, "click": [1]}]})").find("actions[0].click") !=
+        std::string::npos);
+  CHECK(refused(R"({"topple": 1, "actions": [{"click": [1, 2]}]})").find("'at' is missing") != std::string::npos);
+  CHECK(refused(R"({"topple": 2, "actions": []})").find("format 1") != std::string::npos);
+  CHECK(refused(R"({"topple": 1, "actions": [)").find("not JSON") != std::string::npos);
+  CHECK(refused(R"({"topple": 1, "actions": [{"at": 0, "quit": true}]})").empty());
+}
+
+TEST_CASE("in a window, a person orbits, fires, sees joints fail, and pauses") {
+  const Folder folder("window");
+  const std::string command = std::string(TOPPLE_SOURCE_DIR "/tests/viewer/drive_window.sh '") +
+                              TOPPLE_VIEWER_PROGRAM "' '" + folder.path.string() + "'";
+  const int status = WEXITSTATUS(std::system(command.c_str()));
+  if (status == 77) {
+    std::cout << "SKIPPED: Xvfb or xdotool is not installed\n";
+    return;
+  }
+  REQUIRE(status == 0);
+  const Picture start(folder.file("start.png")), orbited(folder.file("orbited.png")), hit(folder.file("hit.png")),
+      paused1(folder.file("paused1.png")), paused2(folder.file("paused2.png"));
+  CHECK(start.failed() == 0);
+  CHECK(orbited.changed(start) > 0.1);
+  CHECK(hit.failed() > 0);
+  CHECK(paused2.changed(paused1) == 0);
+}
+
+TEST_CASE("without a display the viewer says in one line why it opens no window") {
+  const Folder folder("no-display");
+  const std::string command =
+      "env -u DISPLAY -u WAYLAND_DISPLAY '" TOPPLE_VIEWER_PROGRAM "' 2> '" + folder.file("said") + "'";
+  CHECK(WEXITSTATUS(std::system(command.c_str())) == 1);
+  std::ifstream said(folder.file("said"));
+  std::string line, more;
+  std::getline(said, line);
+  CHECK(line.find("no window can be opened") != std::string::npos);
+  CHECK_FALSE(std::getline(said, more));
+}
