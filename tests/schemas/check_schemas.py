@@ -127,6 +127,26 @@ if "scenario" in examples:
     for path, new in scenario_mistakes:
         expect_invalid("scenario", set_at(examples["scenario"], path, new), f"{path} = {new}")
 
+# What the programs write.
+written = {
+    ("analyse", "tower"): [("results", "results.json")],
+    ("demolish", "tower_hit"): [("events", "events.jsonl"), ("summary", "summary.json")],
+}
+known = subprocess.run([topple, "--help"], capture_output=True, text=True).stdout.split()
+for (command, subject), files in written.items():
+    if command not in known:
+        continue
+    with tempfile.TemporaryDirectory() as folder:
+        run = subprocess.run([topple, command, subject, "-o", folder], capture_output=True, text=True)
+        if run.returncode != 0:
+            failures.append(f"topple {command} {subject} ends with {run.returncode}: {run.stderr}")
+            continue
+        for kind, name in files:
+            text = (pathlib.Path(folder) / name).read_text()
+            values = [json.loads(line) for line in text.splitlines()] if name.endswith("jsonl") else [json.loads(text)]
+            for number, value in enumerate(values):
+                expect_valid(kind, value, f"{name} of {command} {subject}, value {number}")
+
 for failure in failures:
     print(failure)
 print(f"{checked} checks, {len(failures)} failures")
