@@ -8,6 +8,9 @@ namespace topple::structure {
 namespace {
 /// Radius of the sphere that stands for a node's point mass falling alone, m.
 constexpr double hub_radius = 0.1;
+/// A part starts where its statics had it, but no farther from the undeformed place than this, m: a segment on its way
+/// to a mechanism has static answers of metres, which it has had no time to reach.
+constexpr double largest_start = 0.05;
 
 std::string name_of(const Building& building, const Detached& part) {
   if (!part.members.empty()) return building[part.members.front()].name;
@@ -60,6 +63,7 @@ void Simulation::State::release(const Detached& part) {
   Vec3 displacement = Vec3::Zero();
   for (const NodeId node : part.nodes) displacement += frame->displacement(node).head<3>();
   if (!part.nodes.empty()) displacement /= static_cast<double>(part.nodes.size());
+  if (displacement.norm() > largest_start) displacement *= largest_start / displacement.norm();
   for (const MemberId member : part.members) part_is_gone(Part(member));
   for (const PanelId panel : part.panels) part_is_gone(Part(panel));
 
