@@ -7,91 +7,140 @@
 
 namespace topple::structure {
 
-EnergyAccount::EnergyAccount(const Sources& sources) : from_(sources), held_(sources.building.joints.size(), 1) {}
+EnergyAccount::EnergyAccount(const Sources& sources)
+    : from_(sources),
+      rest_displacement_(sources.building.nodes.size(), Vec6::Zero()),
+      rest_end_forces_(sources.building.members.size(), solver::Vec12::Zero()),
+      rest_loads_(sources.building.members.size()),
+      rest_corner_forces_(sources.building.panels.size()),
+      rest_holds_(sources.building.joints.size(), 1),
+      rests_(static_cast<std::size_t>(sources.statics.components())),
+      changes_(rests_.size()) {}
 
 void EnergyAccount::start() {
   started_ = true;
-  elastic_at_start_ = from_.statics.strain_energy();
-  start_ = load_work();
+  for (int c = 0; c < from_.statics.components(); ++c) {
+    remember(c);
+    elastic_at_start_ += rest(c).elastic;
+    start_ += rest(c).work;
+  }
+}
+
+/// The component's state as solved is the one in which it rests.
+void EnergyAccount::remember(int component) {
+  for (NodeId node : from_.statics.nodes(component))
+    if (from_.node_solved[index(node)]) rest_displacement_[index(node)] = from_.statics.displacement(node);
+  for (MemberId member : from_.statics.members(component)) {
+    if (from_.segments.label(member) < 0) continue;
+    rest_end_forces_[index(member)] = from_.statics.end_forces(member);
+    rest_loads_[index(member)] = from_.applied[index(member)];
+  }
+  for (PanelId panel : from_.statics.membranes(component))
+    if (from_.bearings.membrane(panel)) rest_corner_forces_[index(panel)] = from_.statics.corner_forces(panel);
+  rests_[static_cast<std::size_t>(component)].known = false;
+}
+
+const EnergyAccount::Rest& EnergyAccount::rest(int component) const {
+  Rest& sums = rests_[static_cast<std::size_t>(component)];
+  if (sums.known || open(component)) return sums;
+  sums = {true, load_work(component), contact_work(component), from_.statics.strain_energy(component)};
+  return sums;
+}
+
+EnergyAccount::Change& EnergyAccount::begin(int component) {
+  Change& change = changes_[static_cast<std::size_t>(component)];
+  if (!change.open) {
+    (void)rest(component);
+    change.open = true;
+  }
+  return change;
 }
 
 Vec3 EnergyAccount::local_gravity(MemberId member) const { return from_.building[member].axes * gravity_; }
 
-Vec6 EnergyAccount::hub_now(MemberId member, int end) const {
+solver::Vec12 EnergyAccount::hubs(MemberId member, const Vec6& first, const Vec6& second) const {
   const Member& own = from_.building[member];
-  const auto e = static_cast<std::size_t>(end);
-  const Vec6& node = from_.statics.displacement(own.nodes[e]);
-  Vec6 hub;
-  hub << own.axes * (node.head<3>() + node.tail<3>().cross(own.offsets[e])), own.axes * node.tail<3>();
-  return hub;
+  solver::Vec12 local;
+  local << own.axes * (first.head<3>() + first.tail<3>().cross(own.offsets[0])), own.axes * first.tail<3>(),
+      own.axes * (second.head<3>() + second.tail<3>().cross(own.offsets[1])), own.axes * second.tail<3>();
+  return local;
+}
+
+Vec6 EnergyAccount::hub_now(MemberId member, int end) const {
+  const auto& nodes = from_.building[member].nodes;
+  return hubs(member, from_.statics.displacement(nodes[0]), from_.statics.displacement(nodes[1])).segment<6>(6 * end);
 }
 
 MemberShape EnergyAccount::shape_now(MemberId member) const {
+  const auto& nodes = from_.building[member].nodes;
+  return {from_.statics.beam(member), from_.statics.end_forces(member),
+          hubs(member, from_.statics.displacement(nodes[0]), from_.statics.displacement(nodes[1])),
+          from_.applied[index(member)]};
+}
+
+const MemberShape& EnergyAccount::shape_at_rest(MemberId member) {
+  auto& shapes = begin(member).before;
+  if (const auto found = shapes.find(member); found != shapes.end()) return found->second;
   solver::Beam beam = from_.statics.beam(member);
-  solver::Vec12 hubs;
   for (int end = 0; end < 2; ++end) {
     const JointId joint = from_.building.joint(member, end);
     beam.end_stiffness[static_cast<std::size_t>(end)] =
-        held_[index_of(joint)] ? from_.building[joint].stiffness : Vec6(Vec6::Zero());
-    hubs.segment<6>(6 * end) = hub_now(member, end);
+        rest_holds_[index(joint)] ? from_.building[joint].stiffness : Vec6(Vec6::Zero());
   }
-  return {beam, from_.statics.end_forces(member), hubs, from_.applied[index_of(member)]};
-}
-
-const MemberShape& EnergyAccount::shape_before(MemberId member) {
-  const auto found = before_.find(member);
-  return found != before_.end() ? found->second : before_.emplace(member, shape_now(member)).first->second;
+  const auto& nodes = from_.building[member].nodes;
+  const solver::Vec12 at = hubs(member, displacement(nodes[0]), displacement(nodes[1]));
+  return shapes.emplace(member, MemberShape(beam, rest_end_forces_[index(member)], at, rest_loads_[index(member)]))
+      .first->second;
 }
 
 void EnergyAccount::lose_joint(JointId joint, int told) {
   const Joint& own = from_.building[joint];
-  Opening opening{joint, told, from_.statics.end_forces(own.member).segment<6>(6 * own.end),
-                  hub_now(own.member, own.end)};
-  shape_before(own.member);  // while the loads are those of the state before
-  openings_.push_back(opening);
+  const MemberShape& shape = shape_at_rest(own.member);
+  begin(own.member)
+      .openings.push_back(
+          {joint, told, rest_end_forces_[index(own.member)].segment<6>(6 * own.end), shape.hub(own.end)});
 }
 
 void EnergyAccount::lose_membrane(PanelId panel) {
-  MembraneLoss loss{panel, from_.statics.corner_forces(panel), {}};
-  for (std::size_t corner = 0; corner < 4; ++corner)
-    loss.displacements[corner] = from_.statics.displacement(from_.building[panel].nodes[corner]);
-  membranes_.push_back(loss);
+  begin(from_.building[panel].nodes[0]).membranes.push_back({panel, rest_corner_forces_[index(panel)]});
 }
 
 void EnergyAccount::lose_support(NodeId node) {
-  SupportLoss loss{node, Vec6::Zero(), from_.statics.displacement(node)};
+  SupportLoss loss{node};
   for (std::size_t s = 0; s < from_.building.supports.size(); ++s)
     if (from_.building.supports[s].node == node) loss.reaction += from_.statics.reaction(s);
-  supports_.push_back(loss);
+  begin(node).supports.push_back(loss);
 }
 
 void EnergyAccount::drop(NodeId node) {
   // A hub that springs back on its support: nothing else hangs on it any more.
-  const Vec6& u = from_.statics.displacement(node);
+  Change& change = begin(node);
   for (const NodeSupport& support : from_.building.supports)
     for (int c = 0; c < 6; ++c)
       if (support.node == node && std::isfinite(support.stiffness(c)))
-        freed_now_ += 0.5 * support.stiffness(c) * u(c) * u(c);
+        change.freed += 0.5 * support.stiffness(c) * std::pow(displacement(node)(c), 2);
 }
 
 void EnergyAccount::leave(MemberId member) {
-  const MemberShape& shape = shape_before(member);
-  left_ += shape.work(from_.loads.own(member), local_gravity(member));
-  freed_now_ += shape.strain_energy();
+  const MemberShape& shape = shape_at_rest(member);
+  Change& change = begin(member);
+  change.left += shape.work(from_.loads.own(member), local_gravity(member));
+  change.freed += shape.strain_energy();
 }
 
 void EnergyAccount::leave(NodeId node) {
-  left_ += work(from_.loads.own(node), from_.statics.displacement(node), gravity_);
-  left_.other += from_.loads.event_load(node).dot(from_.statics.displacement(node));
+  Change& change = begin(node);
+  change.left += work(from_.loads.own(node), displacement(node), gravity_);
+  change.left.other += from_.loads.event_load(node).dot(displacement(node));
 }
 
 void EnergyAccount::add_share(MemberId member, const solver::BeamLoad& load, Shares& shares) {
-  const LoadWork done = shape_before(member).work({&load, 1}, local_gravity(member));
+  const LoadWork done = shape_at_rest(member).work({&load, 1}, local_gravity(member));
   (from_.segments.label(member) >= 0 ? shares.standing : shares.left) += done;
 }
 
 void EnergyAccount::add_share(NodeId node, const Vec6& load, Shares& shares) {
-  const LoadWork done = work(load, from_.statics.displacement(node), gravity_);
+  const LoadWork done = work(load, displacement(node), gravity_);
   (from_.segments.label(node) >= 0 ? shares.standing : shares.left) += done;
 }
 
@@ -103,19 +152,20 @@ void EnergyAccount::hand_on(PanelId panel) {
   for (const solver::BeamLoad& load : handed.beams) add_share(MemberId(static_cast<std::size_t>(load.beam)), load, own);
   for (const solver::NodeLoad& load : handed.nodes)
     add_share(NodeId(static_cast<std::size_t>(load.node)), load.load, own);
+  Change& change = begin(from_.building[panel].nodes[0]);
   if (!from_.bearings.stands(panel)) {
-    left_ += own.standing;
-    left_ += own.left;
-    freed_now_ += own.standing.sum();
+    change.left += own.standing;
+    change.left += own.left;
+    change.freed += own.standing.sum();
     return;
   }
-  freed_now_ -= own.left.sum();
+  change.freed -= own.left.sum();
   for (const auto& [key, placed] : from_.loads.contacts()) {
     if (placed.panel != panel) continue;
     Shares contact;
     for (const auto& [member, load] : placed.members) add_share(member, load, contact);
     for (const auto& [node, load] : placed.nodes) add_share(node, load, contact);
-    freed_now_ -= contact.left.sum();
+    change.freed -= contact.left.sum();
   }
 }
 
@@ -123,74 +173,71 @@ void EnergyAccount::drop_contact(const PlacedLoad& placed) {
   Shares shares;
   for (const auto& [member, load] : placed.members) add_share(member, load, shares);
   for (const auto& [node, load] : placed.nodes) add_share(node, load, shares);
-  contact_left_ += shares.standing.sum() + shares.left.sum();
-  freed_now_ += shares.standing.sum();
+  if (placed.members.empty() && placed.nodes.empty()) return;
+  Change& change = placed.members.empty() ? begin(placed.nodes[0].first) : begin(placed.members[0].first);
+  change.contact_left += shares.standing.sum() + shares.left.sum();
+  change.freed += shares.standing.sum();
 }
 
 void EnergyAccount::add_load(NodeId node, const Vec6& load) {
-  if (!from_.node_solved[index_of(node)]) return;
-  const double present = load.dot(from_.statics.displacement(node));
-  left_.other -= present;
-  freed_now_ -= present;
+  if (!from_.node_solved[index(node)]) return;
+  Change& change = begin(node);
+  const double present = load.dot(displacement(node));
+  change.left.other -= present;
+  change.freed -= present;
 }
 
-LoadWork EnergyAccount::load_work() const {
-  LoadWork sum;
-  for (std::size_t m = 0; m < from_.building.members.size(); ++m) {
-    const MemberId member(m);
-    if (from_.segments.label(member) < 0) continue;
-    const auto loads = from_.loads.own_and_handed(member);
-    if (!loads.empty()) sum += shape_now(member).work(loads, local_gravity(member));
-  }
-  for (std::size_t n = 0; n < from_.building.nodes.size(); ++n) {
-    const NodeId node(n);
-    if (!from_.node_solved[n]) continue;
-    const Vec6& u = from_.statics.displacement(node);
-    sum += work(from_.loads.own_and_handed(node), u, gravity_);
-    sum.other += from_.loads.event_load(node).dot(u);
-  }
-  return sum;
+void EnergyAccount::turn_gravity() {
+  for (int c = 0; c < from_.statics.components(); ++c) begin(c);
 }
 
-void EnergyAccount::gravity_turned(const LoadWork& before, const Vec3& gravity) {
+void EnergyAccount::gravity_turned(const Vec3& gravity) {
   if (gravity.norm() > 0) gravity_ = gravity.normalized();
-  const LoadWork now = load_work();
-  left_.gravity += before.gravity - now.gravity;
-  left_.other += before.other - now.other;
-  freed_now_ += before.sum() - now.sum();
+  for (int c = 0; c < from_.statics.components(); ++c) {
+    Change& change = begin(c);
+    if (!change.before.empty() || !change.openings.empty()) continue;  // moving already: within what is freed
+    const LoadWork before = rests_[static_cast<std::size_t>(c)].work, now = load_work(c);
+    change.left.gravity += before.gravity - now.gravity;
+    change.left.other += before.other - now.other;
+    change.freed += before.sum() - now.sum();
+  }
 }
+
+// Contact loads that are laid on slowly change no more than this: their state of rest is replaced at once, and its sums
+// are not worth making.
+void EnergyAccount::open_quietly(int component) { changes_[static_cast<std::size_t>(component)].open = true; }
 
 void EnergyAccount::write(MemberId member) {
   if (!started_) return;
-  shape_before(member);
-  member_loads_before_.emplace(member, from_.applied[index_of(member)]);
+  open_quietly(from_.statics.component(member));
+  shape_at_rest(member);
+  begin(member).member_loads.emplace(member, rest_loads_[index(member)]);
 }
 
 void EnergyAccount::write(NodeId node, const Vec6& before) {
   if (!started_) return;
-  node_loads_before_.emplace(node, std::pair{before, from_.statics.displacement(node)});
+  open_quietly(from_.statics.component(node));
+  begin(node).node_loads.emplace(node, before);
 }
 
-Vec6 EnergyAccount::after(NodeId node, const Vec6& before) const {
-  return from_.node_solved[index_of(node)] ? from_.statics.displacement(node) : before;
+Vec6 EnergyAccount::after(NodeId node) const {
+  return from_.node_solved[index(node)] ? from_.statics.displacement(node) : displacement(node);
 }
 
 /// 1/2 (F1 - F0).(u0 + u1) over what stands.
-double EnergyAccount::load_changes() const {
+double EnergyAccount::load_changes(const Change& change) const {
   double sum = 0;
-  for (const auto& [member, loads] : member_loads_before_) {
+  for (const auto& [member, loads] : change.member_loads) {
     if (from_.segments.label(member) < 0) continue;
     const Vec3 down = local_gravity(member);
-    const MemberShape &before = before_.at(member), now = shape_now(member);
-    const auto& loads_now = from_.applied[index_of(member)];
+    const MemberShape &before = change.before.at(member), now = shape_now(member);
+    const auto& loads_now = from_.applied[index(member)];
     sum += 0.5 * (before.work(loads_now, down).sum() + now.work(loads_now, down).sum() -
                   before.work(loads, down).sum() - now.work(loads, down).sum());
   }
-  for (const auto& [node, state] : node_loads_before_) {
-    if (!from_.node_solved[index_of(node)]) continue;
-    const auto& [load, displacement] = state;
-    sum += 0.5 * (from_.loads.on(node) - load).dot(displacement + from_.statics.displacement(node));
-  }
+  for (const auto& [node, load] : change.node_loads)
+    if (from_.node_solved[index(node)])
+      sum += 0.5 * (from_.loads.on(node) - load).dot(displacement(node) + from_.statics.displacement(node));
   return sum;
 }
 
@@ -199,66 +246,94 @@ double EnergyAccount::opened(const Opening& opening) const {
   const Joint& own = from_.building[opening.joint];
   const NodeId node = from_.building[own.member].nodes[static_cast<std::size_t>(own.end)];
   const Vec6 end = from_.segments.label(own.member) >= 0 ? shape_now(own.member).end(own.end) : opening.hub;
-  const Vec6 hub = from_.node_solved[index_of(node)] ? hub_now(own.member, own.end) : opening.hub;
+  const Vec6 hub = from_.node_solved[index(node)] ? hub_now(own.member, own.end) : opening.hub;
   return -0.5 * opening.force.dot(end - hub);
 }
 
-void EnergyAccount::finish(bool slow, std::vector<JointBreak>& breaks) {
-  for (const Opening& opening : openings_) held_[index_of(opening.joint)] = 0;
-  const double changes = load_changes();
+void EnergyAccount::finish(int component, bool slow, std::vector<JointBreak>& breaks) {
+  Change& change = changes_[static_cast<std::size_t>(component)];
+  if (!change.open) return;
+  const double loads_changed = load_changes(change);
   if (slow) {
-    contact_left_ -= changes;
+    change.contact_left -= loads_changed;
   } else {
-    freed_now_ += changes;
-    for (const SupportLoss& loss : supports_)
-      freed_now_ -= 0.5 * loss.reaction.dot(after(loss.node, loss.displacement));
-    for (const MembraneLoss& loss : membranes_)
+    change.freed += loads_changed;
+    for (const SupportLoss& loss : change.supports) change.freed -= 0.5 * loss.reaction.dot(after(loss.node));
+    for (const MembraneLoss& loss : change.membranes)
       for (std::size_t corner = 0; corner < 4; ++corner)
-        freed_now_ +=
-            0.5 * loss.forces[corner].dot(after(from_.building[loss.panel].nodes[corner], loss.displacements[corner]));
+        change.freed += 0.5 * loss.forces[corner].dot(after(from_.building[loss.panel].nodes[corner]));
     int told = 0;
-    for (const Opening& opening : openings_) {
+    double own = 0;
+    for (const Opening& opening : change.openings) {
       const double energy = opened(opening);
       if (opening.told < 0) {
-        freed_now_ += energy;
+        change.freed += energy;
         continue;
       }
       breaks[static_cast<std::size_t>(opening.told)].energy = energy;
-      freed_ += energy;
+      own += energy;
       ++told;
     }
-    for (const Opening& opening : openings_)
-      if (opening.told >= 0) breaks[static_cast<std::size_t>(opening.told)].energy += freed_now_ / told;
-    freed_ += freed_now_;
+    for (const Opening& opening : change.openings)
+      if (opening.told >= 0) breaks[static_cast<std::size_t>(opening.told)].energy += change.freed / told;
+    change.freed += own;
   }
-  before_.clear();
-  openings_.clear();
-  supports_.clear();
-  membranes_.clear();
-  member_loads_before_.clear();
-  node_loads_before_.clear();
-  freed_now_ = 0;
+  for (const Opening& opening : change.openings) rest_holds_[index(opening.joint)] = 0;
+  left_ += change.left;
+  contact_left_ += change.contact_left;
+  freed_ += change.freed;
+  change = {};
+  remember(component);
 }
 
-double EnergyAccount::contact_work() const {
+void EnergyAccount::lines_are_out() {
+  for (Change& change : changes_)
+    for (Opening& opening : change.openings) opening.told = -1;
+}
+
+LoadWork EnergyAccount::load_work(int component) const {
+  LoadWork sum;
+  for (MemberId member : from_.statics.members(component)) {
+    if (from_.segments.label(member) < 0) continue;
+    const auto loads = from_.loads.own_and_handed(member);
+    if (!loads.empty()) sum += shape_now(member).work(loads, local_gravity(member));
+  }
+  for (NodeId node : from_.statics.nodes(component)) {
+    if (!from_.node_solved[index(node)]) continue;
+    const Vec6& u = from_.statics.displacement(node);
+    sum += work(from_.loads.own_and_handed(node), u, gravity_);
+    sum.other += from_.loads.event_load(node).dot(u);
+  }
+  return sum;
+}
+
+double EnergyAccount::contact_work(int component) const {
   double sum = 0;
   for (const auto& [key, placed] : from_.loads.contacts()) {
     for (const auto& [member, load] : placed.members)
-      sum += shape_now(member).work({&load, 1}, local_gravity(member)).sum();
-    for (const auto& [node, load] : placed.nodes) sum += load.dot(from_.statics.displacement(node));
+      if (from_.statics.component(member) == component && from_.segments.label(member) >= 0)
+        sum += shape_now(member).work({&load, 1}, local_gravity(member)).sum();
+    for (const auto& [node, load] : placed.nodes)
+      if (from_.statics.component(node) == component && from_.node_solved[index(node)])
+        sum += load.dot(from_.statics.displacement(node));
   }
   return sum;
 }
 
 FrameEnergy EnergyAccount::energy() const {
-  const LoadWork now = load_work();
   FrameEnergy energy;
-  energy.elastic = from_.statics.strain_energy();
   energy.elastic_at_start = elastic_at_start_;
-  energy.gravity_work = now.gravity + left_.gravity - start_.gravity;
-  energy.other_work = now.other + left_.other - start_.other;
-  energy.contact_work = contact_work() + contact_left_;
+  energy.gravity_work = left_.gravity - start_.gravity;
+  energy.other_work = left_.other - start_.other;
+  energy.contact_work = contact_left_;
   energy.freed = freed_;
+  for (int c = 0; c < from_.statics.components(); ++c) {
+    const Rest& sums = rest(c);
+    energy.elastic += sums.elastic;
+    energy.gravity_work += sums.work.gravity;
+    energy.other_work += sums.work.other;
+    energy.contact_work += sums.contact;
+  }
   return energy;
 }
 

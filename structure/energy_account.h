@@ -1,6 +1,7 @@
 #pragma once
-// Energies of a standing frame from one solved state to the next. With U the elastic energy, F loads and u
-// displacements, a sudden change at which loads F0 become F1 and the cut forces s0 vanish frees
+// Energies of a standing frame from one state of rest (in which nothing breaks) to the next, component by component.
+// The static states in between are never reached: their joints break on the way. With U the elastic energy, F loads and
+// u displacements, a sudden change at which loads F0 become F1 and the cut forces s0 vanish frees
 //   1/2 (F1 - F0).(u0 + u1) - 1/2 s0.d1 + U of what left,   d1 the gap that opened (Clapeyron's theorem, twice),
 // corrected for loads that come or go at their present displacement without doing work. Everything in it is local to
 // the change. Works are loads times displacements, summed over what stands when somebody asks.
@@ -32,7 +33,12 @@ class EnergyAccount {
   /// The building stands and is solved: works count from here.
   void start();
 
-  // What happens on the way to the next state, each told before the solver and the loads know of it.
+  /// Displacement in the last state of rest.
+  [[nodiscard]] const Vec6& displacement(NodeId node) const { return rest_displacement_[index(node)]; }
+  /// True while the component is on its way from one state of rest to the next.
+  [[nodiscard]] bool open(int component) const { return changes_[static_cast<std::size_t>(component)].open; }
+
+  // What happens on the way to the next state of rest, each told before the solver and the loads know of it.
   /// `told`: index of the joint's line among the breaks, -1 when it has none.
   void lose_joint(JointId joint, int told);
   void lose_membrane(PanelId panel);
@@ -44,16 +50,18 @@ class EnergyAccount {
   void hand_on(PanelId panel);
   void drop_contact(const PlacedLoad& placed);
   void add_load(NodeId node, const Vec6& load);
-  /// Works of all loads at present; to be handed to gravity_turned() after the loads know of the new gravity.
-  [[nodiscard]] LoadWork load_work() const;
-  void gravity_turned(const LoadWork& before, const Vec3& gravity);
+  /// Around a change of gravity: before and after the loads know of it.
+  void turn_gravity();
+  void gravity_turned(const Vec3& gravity);
   /// Loads are about to be written to the solver.
   void write(MemberId member);
   void write(NodeId node, const Vec6& before);
 
-  /// The next state is solved. `slow`: only contact loads changed, and they were laid on slowly. Adds each told joint's
-  /// energy to its line, what is not a joint's own shared equally between those of this change.
-  void finish(bool slow, std::vector<JointBreak>& breaks);
+  /// The component rests again. `slow`: only contact loads changed, and they were laid on slowly. Adds each told
+  /// joint's energy to its line, what is not a joint's own shared equally between those told.
+  void finish(int component, bool slow, std::vector<JointBreak>& breaks);
+  /// The lines of breaks were handed out: what is freed later is told by none of them.
+  void lines_are_out();
 
   [[nodiscard]] FrameEnergy energy() const;
 
@@ -65,46 +73,72 @@ class EnergyAccount {
   };
   struct SupportLoss {
     NodeId node;
-    Vec6 reaction = Vec6::Zero(), displacement = Vec6::Zero();
+    Vec6 reaction = Vec6::Zero();
   };
   struct MembraneLoss {
     PanelId panel;
-    std::array<Vec6, 4> forces, displacements;
+    std::array<Vec6, 4> forces;
   };
-  const MemberShape& shape_before(MemberId member);
-  [[nodiscard]] MemberShape shape_now(MemberId member) const;
-  [[nodiscard]] Vec3 local_gravity(MemberId member) const;
-  [[nodiscard]] double opened(const Opening& opening) const;
-  [[nodiscard]] double load_changes() const;
-  [[nodiscard]] double contact_work() const;
-  /// Work of what one force on a panel or the panel itself hands on, through the state before: on what stands, and on
-  /// what has left.
+  /// What happened in one component since it rested last.
+  struct Change {
+    bool open = false;
+    std::map<MemberId, MemberShape> before;
+    std::vector<Opening> openings;
+    std::vector<SupportLoss> supports;
+    std::vector<MembraneLoss> membranes;
+    std::map<MemberId, std::vector<solver::BeamLoad>> member_loads;
+    std::map<NodeId, Vec6> node_loads;
+    LoadWork left;  ///< works of what left, and corrections for loads that came or went without work
+    double contact_left = 0, freed = 0;
+  };
+  /// Sums over what stands in the state of rest, made when needed.
+  struct Rest {
+    bool known = false;
+    LoadWork work;
+    double contact = 0, elastic = 0;
+  };
   struct Shares {
     LoadWork standing, left;
   };
+
+  template <class Tag>
+  static std::size_t index(Id<Tag> id) {
+    return static_cast<std::size_t>(id.index);
+  }
+  Change& begin(int component);
+  void open_quietly(int component);
+  Change& begin(MemberId member) { return begin(from_.statics.component(member)); }
+  Change& begin(NodeId node) { return begin(from_.statics.component(node)); }
+  const MemberShape& shape_at_rest(MemberId member);
+  [[nodiscard]] MemberShape shape_now(MemberId member) const;
+  [[nodiscard]] solver::Vec12 hubs(MemberId member, const Vec6& first, const Vec6& second) const;
+  [[nodiscard]] Vec6 hub_now(MemberId member, int end) const;
+  [[nodiscard]] Vec3 local_gravity(MemberId member) const;
+  [[nodiscard]] double opened(const Opening& opening) const;
+  [[nodiscard]] double load_changes(const Change& change) const;
+  [[nodiscard]] Vec6 after(NodeId node) const;
+  [[nodiscard]] LoadWork load_work(int component) const;
+  [[nodiscard]] double contact_work(int component) const;
+  const Rest& rest(int component) const;
+  void remember(int component);
   void add_share(MemberId member, const solver::BeamLoad& load, Shares& shares);
   void add_share(NodeId node, const Vec6& load, Shares& shares);
-  [[nodiscard]] Vec6 after(NodeId node, const Vec6& before) const;
-  [[nodiscard]] Vec6 hub_now(MemberId member, int end) const;
 
   Sources from_;
   Vec3 gravity_ = -Vec3::UnitZ();
-
   bool started_ = false;
   double elastic_at_start_ = 0;
-  LoadWork start_, left_;  ///< left: works of what left, and corrections for loads that came or went without work
+  LoadWork start_, left_;
   double contact_left_ = 0, freed_ = 0;
 
-  std::vector<char> held_;  ///< per joint of a member: it held in the state before
-
-  // The change that is going on.
-  std::map<MemberId, MemberShape> before_;
-  std::vector<Opening> openings_;
-  std::vector<SupportLoss> supports_;
-  std::vector<MembraneLoss> membranes_;
-  std::map<MemberId, std::vector<solver::BeamLoad>> member_loads_before_;
-  std::map<NodeId, std::pair<Vec6, Vec6>> node_loads_before_;  ///< load, displacement
-  double freed_now_ = 0;
+  // The last state of rest.
+  std::vector<Vec6> rest_displacement_;
+  std::vector<solver::Vec12> rest_end_forces_;
+  std::vector<std::vector<solver::BeamLoad>> rest_loads_;
+  std::vector<std::array<Vec6, 4>> rest_corner_forces_;
+  std::vector<char> rest_holds_;  ///< per joint of a member
+  mutable std::vector<Rest> rests_;
+  std::vector<Change> changes_;
 };
 
 }  // namespace topple::structure

@@ -49,7 +49,7 @@ class FrameStatics {
   /// They outlive a mechanism that solve() finds later.
   [[nodiscard]] const solver::Vec12& end_forces(MemberId member) const { return end_forces_[index(member)]; }
   [[nodiscard]] const solver::Beam& beam(MemberId member) const;
-  [[nodiscard]] double strain_energy() const;
+  [[nodiscard]] double strain_energy(int component) const;
   [[nodiscard]] std::array<Vec6, 4> corner_forces(PanelId membrane) const;
   /// Of the support at its index in Building::supports.
   [[nodiscard]] Vec6 reaction(std::size_t support) const;

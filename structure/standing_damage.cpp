@@ -27,9 +27,9 @@ void StandingFrame::State::apply(const Change& change) {
                           loads.add_load(one.node, one.load);
                         },
                         [&](const Gravity& one) {
-                          const LoadWork before = account.load_work();
+                          account.turn_gravity();
                           loads.set_gravity(one.gravity);
-                          account.gravity_turned(before, one.gravity);
+                          account.gravity_turned(one.gravity);
                         }},
              change);
 }

@@ -90,11 +90,6 @@ Vec6 StandingFrame::State::demand(JointId joint) const {
   return edge_demands(own.panel)[static_cast<std::size_t>(own.end)];
 }
 
-const Vec6& StandingFrame::State::displacement(NodeId node) const {
-  const auto left = left_displacement.find(node);
-  return left == left_displacement.end() ? statics.displacement(node) : left->second;
-}
-
 std::array<Vec6, 4> StandingFrame::State::edge_demands(PanelId panel) const {
   return panel_edge_demands(building, bearings, loads, panel,
                             bearings.membrane(panel) ? std::optional(statics.corner_forces(panel)) : std::nullopt);
@@ -134,10 +129,10 @@ bool StandingFrame::stands(MemberId member) const { return state_->stands(member
 bool StandingFrame::stands(PanelId panel) const { return state_->stands(panel); }
 bool StandingFrame::stands(NodeId node) const { return state_->stands(node); }
 bool StandingFrame::intact(JointId joint) const { return state_->holds(joint); }
-const Vec6& StandingFrame::displacement(NodeId node) const { return state_->displacement(node); }
+const Vec6& StandingFrame::displacement(NodeId node) const { return state_->account.displacement(node); }
 Vec6 StandingFrame::demand(JointId joint) const { return state_->demand(joint); }
 double StandingFrame::largest_utilisation_so_far(JointId joint) const { return state_->joints.largest(joint); }
-double StandingFrame::elastic_energy() const { return state_->statics.strain_energy(); }
+double StandingFrame::elastic_energy() const { return state_->account.energy().elastic; }
 FrameEnergy StandingFrame::energy() const { return state_->account.energy(); }
 double StandingFrame::mass(MemberId member) const { return state_->loads.mass(member); }
 double StandingFrame::mass(PanelId panel) const { return state_->loads.mass(panel); }
@@ -168,7 +163,7 @@ double StandingFrame::roof_sag() const {
   int count = 0;
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     if (nodes[n].position.z() < top - same_height || !state_->stands(NodeId(n))) continue;
-    sum -= state_->displacement(NodeId(n))(2);
+    sum -= displacement(NodeId(n))(2);
     ++count;
   }
   return count > 0 ? sum / count : 0;
@@ -243,6 +238,7 @@ std::vector<JointBreak> StandingFrame::settle(int generations) {
     state.bring_up_to_date();
   }
   state.generation = 0;
+  state.account.lines_are_out();
   return std::exchange(state.breaks, {});
 }
 
@@ -261,6 +257,7 @@ double StandingFrame::break_in_impact(std::span<const JointBreak> breaks, const 
   for (const JointBreak& one : breaks) broken.push_back(one.joint);
   state.break_joints(broken, BreakCause::impact);
   state.bring_up_to_date();
+  state.account.lines_are_out();
   // The caller knows its own breaks; what they brought with them is told by the next settle().
   std::erase_if(state.breaks, [](const JointBreak& one) { return one.cause == BreakCause::impact; });
   state.pending = true;

@@ -32,7 +32,6 @@ void StandingFrame::State::take_unanchored() {
     }
     for (NodeId node : parts[p].nodes) {
       left.nodes.emplace_back(node, static_cast<int>(p));
-      left_displacement.emplace(node, statics.displacement(node));
       if (node_solved[index_of(node)]) account.leave(node);
       drop_node(node);
     }

@@ -16,9 +16,10 @@ void StandingFrame::State::lay_contacts() {
     // Loads alone make no mechanism in a structure that was stable before.
     if (statics.solve(c)) continue;
     read_demands(c, true);
+    // On the way to rest, what lies on it is part of that way.
+    if (!to_check[static_cast<std::size_t>(c)]) account.finish(c, true, breaks);
     to_check[static_cast<std::size_t>(c)] = 1;
   }
-  account.finish(true, breaks);
 }
 
 void StandingFrame::State::bring_up_to_date() {
@@ -27,7 +28,6 @@ void StandingFrame::State::bring_up_to_date() {
     release();
     write_loads();
   } while (solve_changed());
-  account.finish(false, breaks);
 }
 
 void StandingFrame::State::write_loads() {
@@ -116,6 +116,7 @@ std::vector<JointId> StandingFrame::State::next_generation() {
     for (const auto& [joint, used] : over)
       if (used >= (1 - same_time) * largest[static_cast<std::size_t>(label(joint))]) next.push_back(joint);
     to_check[static_cast<std::size_t>(c)] = !over.empty();
+    if (over.empty()) account.finish(c, false, breaks);
   }
   std::sort(next.begin(), next.end());
   return next;

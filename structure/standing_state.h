@@ -45,8 +45,6 @@ struct StandingFrame::State {
   [[nodiscard]] int label(JointId joint) const;
   [[nodiscard]] Vec6 demand(JointId joint) const;
   [[nodiscard]] Vec3 position(JointId joint) const;
-  /// Of a node that left: as it was then.
-  [[nodiscard]] const Vec6& displacement(NodeId node) const;
   [[nodiscard]] std::array<Vec6, 4> edge_demands(PanelId panel) const;
 
   /// Number of each label among the standing segments, in order of their least node.
@@ -115,7 +113,6 @@ struct StandingFrame::State {
   std::vector<Change> queue;
   bool pending = false;
   std::map<std::int64_t, ContactLoad> contacts;
-  std::map<NodeId, Vec6> left_displacement;
   std::vector<char> in_mechanism;   ///< per member: it moves, and is about to leave
   std::vector<MemberId> half_held;  ///< members that have just lost one end
   std::vector<JointId> unbraced;

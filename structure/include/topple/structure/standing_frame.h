@@ -57,9 +57,9 @@ struct FrameCounters {
   std::uint64_t vertices_searched = 0;  ///< nodes and members that segmentation looked at
 };
 
-/// Energies of the standing frame in J. The works are sums over the changes since construction; each is loads times
-/// displacements, the elastic energy comes from internal forces, and what a break frees from Clapeyron's theorem, so
-/// that
+/// Energies of the standing frame in J, in the last state of rest. The works are sums over the changes since
+/// construction; each is loads times displacements, the elastic energy comes from internal forces, and what a break
+/// frees from Clapeyron's theorem, so that
 ///   elastic - elastic_at_start = gravity_work + other_work + contact_work - freed
 /// is a check and not a definition.
 struct FrameEnergy {
@@ -82,6 +82,8 @@ class StandingFrame {
   [[nodiscard]] bool stands(PanelId panel) const;
   [[nodiscard]] bool stands(NodeId node) const;
   [[nodiscard]] bool intact(JointId joint) const;
+  /// In the last state of rest, in which nothing was over capacity: static states on the way of a collapse are never
+  /// reached. Of a node that left: as it was then.
   [[nodiscard]] const Vec6& displacement(NodeId node) const;
   /// Static demand in the joint's axes, as solved last; zero when the joint no longer holds.
   [[nodiscard]] Vec6 demand(JointId joint) const;
