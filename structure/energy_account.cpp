@@ -27,17 +27,20 @@ void EnergyAccount::start() {
 }
 
 /// The component's state as solved is the one in which it rests.
-void EnergyAccount::remember(int component) {
-  for (NodeId node : from_.statics.nodes(component))
+void EnergyAccount::remember(int number) {
+  for (NodeId node : from_.statics.nodes(number))
     if (from_.node_solved[index(node)]) rest_displacement_[index(node)] = from_.statics.displacement(node);
-  for (MemberId member : from_.statics.members(component)) {
+  for (MemberId member : from_.statics.members(number)) {
     if (from_.segments.label(member) < 0) continue;
     rest_end_forces_[index(member)] = from_.statics.end_forces(member);
     rest_loads_[index(member)] = from_.applied[index(member)];
   }
-  for (PanelId panel : from_.statics.membranes(component))
+  for (PanelId panel : from_.statics.membranes(number))
     if (from_.bearings.membrane(panel)) rest_corner_forces_[index(panel)] = from_.statics.corner_forces(panel);
-  rests_[static_cast<std::size_t>(component)].known = false;
+  rests_[static_cast<std::size_t>(number)].known = false;
+  std::erase_if(rest_contacts_, [&](const auto& contact) { return component(contact.second) == number; });
+  for (const auto& [key, placed] : from_.loads.contacts())
+    if (component(placed) == number) rest_contacts_[key] = placed;
 }
 
 const EnergyAccount::Rest& EnergyAccount::rest(int component) const {
@@ -144,39 +147,54 @@ void EnergyAccount::add_share(NodeId node, const Vec6& load, Shares& shares) {
   (from_.segments.label(node) >= 0 ? shares.standing : shares.left) += done;
 }
 
+void EnergyAccount::hand_on(PanelId panel) {
+  // What counts is how it was at rest, however often it changes on the way.
+  begin(from_.building[panel].nodes[0]).handed.emplace(panel, from_.loads.handed(panel));
+}
+
 /// A panel that leaves keeps the work that its load has done; one that stays moves to where its new bearings are, and
 /// what its lost bearings bore is among the load changes of what stands.
-void EnergyAccount::hand_on(PanelId panel) {
-  Shares own;
-  const HandOver& handed = from_.loads.handed(panel);
-  for (const solver::BeamLoad& load : handed.beams) add_share(MemberId(static_cast<std::size_t>(load.beam)), load, own);
-  for (const solver::NodeLoad& load : handed.nodes)
-    add_share(NodeId(static_cast<std::size_t>(load.node)), load.load, own);
-  Change& change = begin(from_.building[panel].nodes[0]);
-  if (!from_.bearings.stands(panel)) {
+void EnergyAccount::settle_panels(Change& change) {
+  for (const auto& [panel, handed] : change.handed) {
+    Shares own;
+    for (const solver::BeamLoad& load : handed.beams)
+      add_share(MemberId(static_cast<std::size_t>(load.beam)), load, own);
+    for (const solver::NodeLoad& load : handed.nodes)
+      add_share(NodeId(static_cast<std::size_t>(load.node)), load.load, own);
+    if (from_.bearings.stands(panel)) {
+      change.freed -= own.left.sum();
+      continue;
+    }
     change.left += own.standing;
     change.left += own.left;
     change.freed += own.standing.sum();
-    return;
-  }
-  change.freed -= own.left.sum();
-  for (const auto& [key, placed] : from_.loads.contacts()) {
-    if (placed.panel != panel) continue;
-    Shares contact;
-    for (const auto& [member, load] : placed.members) add_share(member, load, contact);
-    for (const auto& [node, load] : placed.nodes) add_share(node, load, contact);
-    change.freed -= contact.left.sum();
   }
 }
 
-void EnergyAccount::drop_contact(const PlacedLoad& placed) {
-  Shares shares;
-  for (const auto& [member, load] : placed.members) add_share(member, load, shares);
-  for (const auto& [node, load] : placed.nodes) add_share(node, load, shares);
-  if (placed.members.empty() && placed.nodes.empty()) return;
-  Change& change = placed.members.empty() ? begin(placed.nodes[0].first) : begin(placed.members[0].first);
-  change.contact_left += shares.standing.sum() + shares.left.sum();
-  change.freed += shares.standing.sum();
+int EnergyAccount::component(const PlacedLoad& placed) const {
+  if (placed.panel.valid()) return from_.statics.component(from_.building[placed.panel].nodes[0]);
+  return from_.statics.component(placed.members.front().first);
+}
+
+EnergyAccount::Shares EnergyAccount::shares(const PlacedLoad& placed) {
+  Shares sum;
+  for (const auto& [member, load] : placed.members) add_share(member, load, sum);
+  for (const auto& [node, load] : placed.nodes) add_share(node, load, sum);
+  return sum;
+}
+
+/// The same for contact loads: those of parts that left are gone, with the work that they have done.
+void EnergyAccount::settle_contacts(int number, Change& change) {
+  for (const auto& [key, placed] : rest_contacts_) {
+    if (component(placed) != number) continue;
+    const Shares own = shares(placed);
+    if (from_.loads.contacts().contains(key)) {
+      change.freed -= own.left.sum();
+      continue;
+    }
+    change.contact_left += own.standing.sum() + own.left.sum();
+    change.freed += own.standing.sum();
+  }
 }
 
 void EnergyAccount::add_load(NodeId node, const Vec6& load) {
@@ -250,13 +268,15 @@ double EnergyAccount::opened(const Opening& opening) const {
   return -0.5 * opening.force.dot(end - hub);
 }
 
-void EnergyAccount::finish(int component, bool slow, std::vector<JointBreak>& breaks) {
-  Change& change = changes_[static_cast<std::size_t>(component)];
+void EnergyAccount::finish(int number, bool slow, std::vector<JointBreak>& breaks) {
+  Change& change = changes_[static_cast<std::size_t>(number)];
   if (!change.open) return;
   const double loads_changed = load_changes(change);
   if (slow) {
     change.contact_left -= loads_changed;
   } else {
+    settle_panels(change);
+    settle_contacts(number, change);
     change.freed += loads_changed;
     for (const SupportLoss& loss : change.supports) change.freed -= 0.5 * loss.reaction.dot(after(loss.node));
     for (const MembraneLoss& loss : change.membranes)
@@ -283,7 +303,7 @@ void EnergyAccount::finish(int component, bool slow, std::vector<JointBreak>& br
   contact_left_ += change.contact_left;
   freed_ += change.freed;
   change = {};
-  remember(component);
+  remember(number);
 }
 
 void EnergyAccount::lines_are_out() {

@@ -48,7 +48,6 @@ class EnergyAccount {
   void leave(NodeId node);
   /// The panel's load goes another way, or leaves with it; after bearings and segmentation know, before the loads do.
   void hand_on(PanelId panel);
-  void drop_contact(const PlacedLoad& placed);
   void add_load(NodeId node, const Vec6& load);
   /// Around a change of gravity: before and after the loads know of it.
   void turn_gravity();
@@ -88,6 +87,7 @@ class EnergyAccount {
     std::vector<MembraneLoss> membranes;
     std::map<MemberId, std::vector<solver::BeamLoad>> member_loads;
     std::map<NodeId, Vec6> node_loads;
+    std::map<PanelId, HandOver> handed;  ///< by panels that hand on otherwise now
     LoadWork left;  ///< works of what left, and corrections for loads that came or went without work
     double contact_left = 0, freed = 0;
   };
@@ -121,6 +121,10 @@ class EnergyAccount {
   [[nodiscard]] double contact_work(int component) const;
   const Rest& rest(int component) const;
   void remember(int component);
+  void settle_panels(Change& change);
+  void settle_contacts(int component, Change& change);
+  [[nodiscard]] int component(const PlacedLoad& placed) const;
+  Shares shares(const PlacedLoad& placed);
   void add_share(MemberId member, const solver::BeamLoad& load, Shares& shares);
   void add_share(NodeId node, const Vec6& load, Shares& shares);
 
@@ -136,6 +140,7 @@ class EnergyAccount {
   std::vector<solver::Vec12> rest_end_forces_;
   std::vector<std::vector<solver::BeamLoad>> rest_loads_;
   std::vector<std::array<Vec6, 4>> rest_corner_forces_;
+  std::map<std::int64_t, PlacedLoad> rest_contacts_;
   std::vector<char> rest_holds_;  ///< per joint of a member
   mutable std::vector<Rest> rests_;
   std::vector<Change> changes_;

@@ -179,7 +179,6 @@ void StandingFrame::State::drop_contacts(const Gone& gone) {
     } else {
       if (load.place.panel != gone) return false;
     }
-    account.drop_contact(loads.contacts().at(key));
     loads.remove_contact(key);
     return true;
   });
