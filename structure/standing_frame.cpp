@@ -11,13 +11,26 @@
 
 namespace topple::structure {
 
+namespace {
+
+/// The combination's loads; a settlement would have to be held through every change and is refused.
+PartLoads loads_to_stand(const Building& building, CombinationId combination) {
+  PartLoads loads = part_loads(building, combination);
+  if (loads.settlements.empty()) return loads;
+  const Node& node = building.nodes[static_cast<std::size_t>(loads.settlements.front().node)];
+  throw InputError(building.file + ": combinations." + building[combination].name + ": settles node " + node.name +
+                   "; demolition takes combinations without settlements");
+}
+
+}  // namespace
+
 StandingFrame::State::State(const Building& given, CombinationId combination, const FailureRules& failure, int threads)
     : building(given),
       rules(failure),
       edges(given),
       segments(given),
       bearings(given, edges),
-      loads(given, part_loads(given, combination), bearings),
+      loads(given, loads_to_stand(given, combination), bearings),
       statics(given, threads),
       joints(given, failure.sudden),
       node_solved(given.nodes.size(), 1),

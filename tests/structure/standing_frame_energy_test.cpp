@@ -140,7 +140,7 @@ TEST_CASE("energies balance through random damage, loads and losses") {
 }
 
 TEST_CASE("energies balance over a cascade of generations with membrane slabs, and nothing on its way is reported") {
-  FrameBuilder frame = grid_building(3, 3, 3, 6, 3.5, same_capacity(1.2e6), same_capacity(9e5));
+  FrameBuilder frame = grid_building(3, 3, 3, 6, 3.5, same_capacity(2e6), same_capacity(3.5e5));
   const auto node = [](int i, int j, int k) { return NodeId(static_cast<std::size_t>((k * 3 + j) * 3 + i)); };
   for (int k = 1; k <= 3; ++k)
     for (int j = 0; j < 2; ++j)

@@ -291,3 +291,10 @@ TEST_CASE("a structure that can move, or floats, is refused by the names of its 
   swinging.load(a1, (Vec6() << 0, 0, -1, 0, 0, 0).finished());
   CHECK_THROWS_WITH(StandingFrame(swinging.building, CombinationId(0u), quiet()), Catch::Contains("A1"));
 }
+
+TEST_CASE("a combination with a settlement is refused by name") {
+  FrameBuilder frame = built_in_beam(5, 1e9);
+  frame.building.cases[0].settlements.push_back({NodeId(1u), 2, -0.01});
+  CHECK_THROWS_WITH(StandingFrame(frame.building, CombinationId(0u), quiet()),
+                    Catch::Contains("combinations.dead") && Catch::Contains("node B"));
+}
