@@ -1,6 +1,8 @@
 // topple analyse: static analysis of a model, summary on the terminal, files on request.
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <iterator>
 #include <memory>
 
 #include "command.h"
@@ -20,7 +22,7 @@ struct Options {
   std::string model, output;
   std::vector<std::string> combinations;
   int stations = 0, threads = 1;
-  bool html = false;
+  bool html = false, csv = false, vtu = false;
 };
 
 /// Seconds by stage, in the order of their names.
@@ -44,8 +46,8 @@ std::vector<CombinationId> chosen(const Building& building, const std::vector<st
     bool found = false;
     for (std::size_t i = 0; i < building.combinations.size(); ++i) {
       known += (known.empty() ? "" : ", ") + building.combinations[i].name;
-      if (building.combinations[i].name != name) continue;
-      ids.emplace_back(i);
+      if (!matches_pattern(name, building.combinations[i].name)) continue;
+      if (std::find(ids.begin(), ids.end(), CombinationId(i)) == ids.end()) ids.emplace_back(i);
       found = true;
     }
     if (!found)
@@ -55,7 +57,8 @@ std::vector<CombinationId> chosen(const Building& building, const std::vector<st
 }
 
 int run(const Options& options) {
-  if (options.html && options.output.empty()) throw InputError("--html: name the folder for the report with -o");
+  for (const auto& [asked, name] : {std::pair{options.html, "--html"}, {options.csv, "--csv"}, {options.vtu, "--vtu"}})
+    if (asked && options.output.empty()) throw InputError(std::string(name) + ": name the folder for it with -o");
   StageClock clock;
   const Building building = read_model(find_model(options.model));
   clock.stop("read");
@@ -65,6 +68,7 @@ int run(const Options& options) {
   request.solver.threads = options.threads;
   AnalysisRequest wider = request;
   if (options.html) wider.stations = std::max(request.stations, report_stations);
+  if (options.vtu) wider.stations = std::max(wider.stations, drawing_stations);
   const AnalysisResult result = analyse(building, wider);
   clock.stop("analyse");
   clock.seconds["order"] = result.statistics.order_seconds;
@@ -75,6 +79,9 @@ int run(const Options& options) {
     std::vector<std::pair<std::string, std::string>> files;
     files.emplace_back("results.json", results_json(building, wider, result, clock.seconds));
     if (options.html) files.emplace_back("report.html", html_report(building, result, files[0].second));
+    const auto append = [&](NamedTexts more) { std::move(more.begin(), more.end(), std::back_inserter(files)); };
+    if (options.csv) append(results_csv(building, result));
+    if (options.vtu) append(results_vtu(building, result));
     write_files(options.output, files);
     clock.stop("write");
   }
@@ -92,6 +99,8 @@ std::function<int()> declare(CLI::App& app) {
   app.add_option("--stations", options->stations, "Stations along each member in results.json")
       ->check(CLI::Range(1, 10000));
   app.add_option("--threads", options->threads, "Threads of the factorisation")->check(CLI::Range(1, 1024));
+  app.add_flag("--csv", options->csv, "Write tables: displacements, reactions, members, joints, panels");
+  app.add_flag("--vtu", options->vtu, "Write COMBINATION.vtu for ParaView");
   app.add_flag("--html", options->html, "Write report.html");
   return [options] { return run(*options); };
 }

@@ -3,6 +3,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "topple/solver/static_analysis.h"
@@ -64,6 +65,17 @@ struct AnalysisResult {
 /// results.json as the format has it, in the model's units, every number to its last bit.
 [[nodiscard]] std::string results_json(const Building& building, const AnalysisRequest& request,
                                        const AnalysisResult& result, const std::map<std::string, double>& seconds);
+/// Files by name and text.
+using NamedTexts = std::vector<std::pair<std::string, std::string>>;
+/// displacements.csv, reactions.csv, members.csv, joints.csv, panels.csv: a header line with units, one row for each
+/// combination and part, numbers to their last bit in the model's units.
+[[nodiscard]] NamedTexts results_csv(const Building& building, const AnalysisResult& result);
+/// Stations along each member that a drawing goes through: ask for at least this many before results_vtu().
+inline constexpr int drawing_stations = 10;
+/// COMBINATION.vtu for ParaView, in the model's units: members as lines through their stations, panels as
+/// quadrilaterals; displacement (warp by it for the deformed shape) and internal forces at points, utilisation of the
+/// joints on cells. Throws std::invalid_argument when the result has no stations.
+[[nodiscard]] NamedTexts results_vtu(const Building& building, const AnalysisResult& result);
 /// The summary a person reads.
 [[nodiscard]] std::string summary_text(const Building& building, const AnalysisResult& result,
                                        const std::map<std::string, double>& seconds);

@@ -1,0 +1,161 @@
+// Results for ParaView: VTK's XML format for unstructured grids, one file for each combination.
+#include <Eigen/Geometry>
+#include <charconv>
+#include <set>
+#include <stdexcept>
+
+#include "analysis/output_units.h"
+#include "topple/structure/analysis.h"
+
+namespace topple::structure {
+
+namespace {
+
+constexpr std::size_t forces = 6;  ///< leading entries of diagram_names: the internal forces
+
+/// Numbers of one array as text.
+class Numbers {
+ public:
+  void add(double number) {
+    char digits[32];
+    text_.append(digits, std::to_chars(digits, digits + sizeof digits, number == 0 ? 0.0 : number).ptr);
+    text_ += ' ';
+  }
+  void add(std::size_t number) { text_ += std::to_string(number) + ' '; }
+  void add(const Vec3& vector) {
+    for (const double number : vector) add(number);
+    text_ += '\n';
+  }
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+void write_array(std::string& out, const char* type, const std::string& name, int components, const Numbers& numbers) {
+  out += "<DataArray type=\"" + std::string(type) + "\" Name=\"" + name + "\" NumberOfComponents=\"" +
+         std::to_string(components) + "\" format=\"ascii\">\n" + numbers.text() + "\n</DataArray>\n";
+}
+
+/// The drawing of one combination.
+class Grid {
+ public:
+  Grid(const Building& building, const CombinationResult& result)
+      : building_(building), result_(result), units_(building.units) {
+    for (std::size_t m = 0; m < building.members.size(); ++m) add_member(MemberId(m));
+    for (std::size_t p = 0; p < building.panels.size(); ++p) add_panel(PanelId(p));
+  }
+
+  [[nodiscard]] std::string write() const {
+    std::string out =
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
+        "byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"" +
+        std::to_string(points_) + "\" NumberOfCells=\"" + std::to_string(cells_) + "\">\n<Points>\n";
+    write_array(out, "Float64", "points", 3, places_);
+    out += "</Points>\n<Cells>\n";
+    write_array(out, "Int64", "connectivity", 1, connectivity_);
+    write_array(out, "Int64", "offsets", 1, offsets_);
+    write_array(out, "UInt8", "types", 1, types_);
+    out += "</Cells>\n<PointData Vectors=\"displacement\">\n";
+    write_array(out, "Float64", "displacement", 3, displacements_);
+    for (std::size_t q = 0; q < forces; ++q) write_array(out, "Float64", diagram_names[q], 1, diagrams_[q]);
+    out += "</PointData>\n<CellData Scalars=\"utilisation\">\n";
+    write_array(out, "Float64", "utilisation", 1, utilisations_);
+    write_array(out, "Float64", "membrane", 3, membranes_);
+    write_array(out, "Int64", "part", 1, parts_);
+    out += "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+    return out;
+  }
+
+ private:
+  void add_point(const Vec3& place, const Vec3& displacement) {
+    const double length = building_.units.length;
+    places_.add(Vec3(place / length));
+    displacements_.add(Vec3(displacement / length));
+    connectivity_.add(points_++);
+  }
+
+  void end_cell(std::size_t type, double utilisation, const Vec3& membrane, std::size_t part) {
+    offsets_.add(points_);
+    types_.add(type);
+    utilisations_.add(utilisation);
+    membranes_.add(membrane);
+    parts_.add(part);
+    ++cells_;
+  }
+
+  [[nodiscard]] double worst(JointId first, int count) const {
+    double value = 0;
+    for (int i = 0; i < count; ++i)
+      value = std::max(value, result_.joints[static_cast<std::size_t>(first.index + i)].value);
+    return std::min(value, 1e30);  // beyond all use where a joint has no strength
+  }
+
+  /// The displaced chord between the member's ends, and the deflection from it.
+  void add_member(MemberId id) {
+    constexpr std::size_t poly_line = 4;
+    const Member& member = building_[id];
+    const MemberResult& result = result_.members[static_cast<std::size_t>(id.index)];
+    if (result.stations.size() < 2) throw std::invalid_argument("results_vtu: the result has no stations");
+    std::array<Vec3, 2> place, moved;
+    for (std::size_t end = 0; end < 2; ++end) {
+      const Vec6& node = result_.displacements[static_cast<std::size_t>(member.nodes[end].index)];
+      const Vec3 turned = node.tail<3>();
+      place[end] = building_[member.nodes[end]].position + member.offsets[end];
+      moved[end] = node.head<3>() + turned.cross(member.offsets[end]);
+    }
+    for (std::size_t s = 0; s < result.stations.size(); ++s) {
+      const double f = static_cast<double>(s) / static_cast<double>(result.stations.size() - 1);
+      const auto& values = result.stations[s];
+      const Vec3 bent = values[6] * member.axes.row(1) + values[7] * member.axes.row(2);
+      add_point((1 - f) * place[0] + f * place[1], (1 - f) * moved[0] + f * moved[1] + bent);
+      for (std::size_t q = 0; q < forces; ++q) diagrams_[q].add(values[q] / units_.diagram_factor(q));
+    }
+    end_cell(poly_line, worst(building_.joint(id, 0), 2), Vec3::Zero(), static_cast<std::size_t>(id.index));
+  }
+
+  void add_panel(PanelId id) {
+    constexpr std::size_t quadrilateral = 9;
+    const Panel& panel = building_[id];
+    for (const NodeId node : panel.nodes) {
+      add_point(building_[node].position, result_.displacements[static_cast<std::size_t>(node.index)].head<3>());
+      for (Numbers& diagram : diagrams_) diagram.add(0.0);
+    }
+    const auto& membrane = result_.panels[static_cast<std::size_t>(id.index)].membrane;
+    const Vec3 stress = Vec3(membrane[0], membrane[1], membrane[2]) * (building_.units.length / building_.units.force);
+    end_cell(quadrilateral, worst(building_.joint(id, 0), 4), stress,
+             building_.members.size() + static_cast<std::size_t>(id.index));
+  }
+
+  const Building& building_;
+  const CombinationResult& result_;
+  OutputUnits units_;
+  std::size_t points_ = 0, cells_ = 0;
+  Numbers places_, displacements_, connectivity_, offsets_, types_, utilisations_, membranes_, parts_;
+  std::array<Numbers, forces> diagrams_;
+};
+
+/// A combination's name as a file's: what a file system may refuse becomes '_'.
+std::string file_name(const std::string& name) {
+  std::string safe;
+  for (const char c : name) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    safe += plain || c == '-' || c == '_' || c == ' ' || c == '+' || (c == '.' && !safe.empty()) ? c : '_';
+  }
+  return safe;
+}
+
+}  // namespace
+
+NamedTexts results_vtu(const Building& building, const AnalysisResult& result) {
+  NamedTexts files;
+  std::set<std::string> taken;
+  for (const CombinationResult& combination : result.combinations) {
+    std::string name = file_name(building[combination.combination].name);
+    while (!taken.insert(name).second) name += '_';
+    files.emplace_back(name + ".vtu", Grid(building, combination).write());
+  }
+  return files;
+}
+
+}  // namespace topple::structure
