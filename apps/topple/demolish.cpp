@@ -3,9 +3,13 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <memory>
+#include <optional>
 
 #include "command.h"
+#include "image_sequence.h"
 #include "topple/structure/collapse_report.h"
+#include "topple/structure/error.h"
 #include "topple/structure/files.h"
 
 namespace topple::app {
@@ -15,6 +19,8 @@ namespace {
 struct DemolishOptions {
   std::string scenario, folder;
   int threads = 1;
+  bool images = false;
+  double rate = 30;
 };
 
 /// A line on a terminal, rewritten every so many steps; nothing when standard error goes elsewhere.
@@ -34,15 +40,21 @@ class Progress {
 };
 
 int demolish(const DemolishOptions& options) {
+  if (options.images && options.folder.empty()) throw structure::InputError("--images: -o DIR must say where");
   auto [building, scenario] = structure::read_scenario(structure::find_scenario(options.scenario));
   structure::Simulation simulation(std::move(building), std::move(scenario), {options.threads, {}});
   const double roof_sag = simulation.frame().roof_sag();
   structure::StepTimes times;
+  std::optional<ImageSequence> images;
+  if (options.images) images.emplace(simulation, options.folder, options.rate);
+  if (images) images->write_due(simulation);
   {
     Progress progress;
     while (!simulation.finished()) {
       simulation.skip_idle();
+      if (images) images->write_due(simulation);
       simulation.step();
+      if (images) images->write_due(simulation);
       times.add(simulation);
       progress.show(simulation);
     }
@@ -57,6 +69,8 @@ const Registration registration{
        auto options = std::make_shared<DemolishOptions>();
        app.add_option("SCENARIO", options->scenario, "Scenario: a shipped one's name, or a file")->required();
        app.add_option("-o,--output", options->folder, "Folder for events.jsonl, summary.json and standing.json");
+       app.add_flag("--images", options->images, "Draw frame-00000.png and so on into the folder");
+       app.add_option("--rate", options->rate, "Pictures for each simulated second")->check(CLI::PositiveNumber);
        app.add_option("--threads", options->threads, "Threads of the solver")->check(CLI::Range(1, 256));
        return [options] { return demolish(*options); };
      }}};

@@ -73,7 +73,8 @@ void help_window(bool& open) {
         "R                 restart        U  undo the last action\n"
         "C                 next colouring F  frame the building\n"
         "1 2 3 4           posts, beams, slabs, walls\n"
-        "P                 save a picture H  this help");
+        "P                 save a picture H  this help\n"
+        "Esc               leave");
   }
   ImGui::End();
 }

@@ -147,6 +147,7 @@ class Input {
     held_ == GLFW_MOUSE_BUTTON_LEFT ? controller_.drag(from, to) : controller_.drag_to_pan(from, to);
   }
   void key(int key) {
+    if (key == GLFW_KEY_ESCAPE) glfwSetWindowShouldClose(window_, GLFW_TRUE);
     if (key == GLFW_KEY_P) screenshot_wanted_ = screenshot_file_;
     if (key == GLFW_KEY_SPACE) controller_.key("space");
     if ((key >= GLFW_KEY_1 && key <= GLFW_KEY_4) || (key >= GLFW_KEY_A && key <= GLFW_KEY_Z))
