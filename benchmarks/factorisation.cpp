@@ -24,44 +24,23 @@ using namespace topple::bench;
 namespace {
 
 struct MetisGraph {
-  std::vector<idx_t> start{0}, neighbour, weight;
+  std::vector<idx_t> start{0}, neighbour;
   std::vector<idx_t> order;
+  /// As METIS does it by default.
   void dissect() {
     auto count = static_cast<idx_t>(start.size()) - 1;
     idx_t options[METIS_NOPTIONS];
     METIS_SetDefaultOptions(options);
     options[METIS_OPTION_SEED] = 1;
-    order.resize(weight.size());
-    std::vector<idx_t> inverse(weight.size());
-    if (METIS_NodeND(&count, start.data(), neighbour.data(), weight.data(), options, order.data(), inverse.data()) !=
+    order.resize(static_cast<std::size_t>(count));
+    std::vector<idx_t> inverse(order.size());
+    if (METIS_NodeND(&count, start.data(), neighbour.data(), nullptr, options, order.data(), inverse.data()) !=
         METIS_OK) {
       std::fprintf(stderr, "METIS failed\n");
       std::exit(1);
     }
   }
 };
-
-MetisGraph graph_of_nodes(const solver::FrameSystem& system) {
-  const auto& first = system.dofs().first_equation;
-  std::vector<idx_t> index(first.size(), -1);
-  MetisGraph graph;
-  for (std::size_t v = 0; v + 1 < first.size(); ++v) {
-    if (first[v + 1] == first[v]) continue;
-    index[v] = static_cast<idx_t>(graph.weight.size());
-    graph.weight.push_back(first[v + 1] - first[v]);
-  }
-  std::vector<std::vector<idx_t>> lists(graph.weight.size());
-  for (const auto& [v, w] : system.scatter().edges()) {
-    const idx_t a = index[static_cast<std::size_t>(v)], b = index[static_cast<std::size_t>(w)];
-    lists[static_cast<std::size_t>(a)].push_back(b);
-    lists[static_cast<std::size_t>(b)].push_back(a);
-  }
-  for (const auto& list : lists) {
-    graph.neighbour.insert(graph.neighbour.end(), list.begin(), list.end());
-    graph.start.push_back(static_cast<idx_t>(graph.neighbour.size()));
-  }
-  return graph;
-}
 
 MetisGraph graph_of_freedoms(const solver::SparseSymmetric& K) {
   std::vector<std::vector<idx_t>> lists(static_cast<std::size_t>(K.size));
@@ -75,7 +54,6 @@ MetisGraph graph_of_freedoms(const solver::SparseSymmetric& K) {
   for (const auto& list : lists) {
     graph.neighbour.insert(graph.neighbour.end(), list.begin(), list.end());
     graph.start.push_back(static_cast<idx_t>(graph.neighbour.size()));
-    graph.weight.push_back(1);
   }
   return graph;
 }
@@ -144,21 +122,13 @@ class DirectCholmod {
 };
 
 void compare_orderings(const solver::FrameSystem& system, DirectCholmod& direct) {
-  MetisGraph nodes = graph_of_nodes(system), freedoms = graph_of_freedoms(system.matrix());
-  const auto time = interleaved_medians(5, {[&] { nodes.dissect(); }, [&] { freedoms.dissect(); }});
-  std::vector<idx_t> order;
-  const auto& first = system.dofs().first_equation;
-  std::vector<int> vertices;
-  for (std::size_t v = 0; v + 1 < first.size(); ++v)
-    if (first[v + 1] > first[v]) vertices.push_back(static_cast<int>(v));
-  for (const idx_t n : nodes.order) {
-    const auto v = static_cast<std::size_t>(vertices[static_cast<std::size_t>(n)]);
-    for (int e = first[v]; e < first[v + 1]; ++e) order.push_back(e);
-  }
-  const double node_fill = direct.fill(order), freedom_fill = direct.fill(freedoms.order);
-  std::printf("METIS on               time        entries of the factor\n");
-  std::printf("  graph of nodes       %7.1f ms  %.0f\n", 1e3 * time[0], node_fill);
-  std::printf("  graph of freedoms    %7.1f ms  %.0f\n", 1e3 * time[1], freedom_fill);
+  MetisGraph freedoms = graph_of_freedoms(system.matrix());
+  std::vector<int> order;
+  const auto time = interleaved_medians(7, {[&] { order = system.elimination_order(); }, [&] { freedoms.dissect(); }});
+  const double node_fill = direct.fill({order.begin(), order.end()}), freedom_fill = direct.fill(freedoms.order);
+  std::printf("order by METIS on      time        entries of the factor\n");
+  std::printf("  graph of nodes       %7.1f ms  %.0f  (building the graph included)\n", 1e3 * time[0], node_fill);
+  std::printf("  graph of freedoms    %7.1f ms  %.0f  (the call alone)\n", 1e3 * time[1], freedom_fill);
   std::printf("  nodes are %.2f times as fast (asked: 1.8), fill ratio %.3f (asked: at most 1.05)\n\n",
               time[1] / time[0], node_fill / freedom_fill);
 }
