@@ -197,6 +197,31 @@ std::size_t Factor::entries() const {
   return f.is_super ? f.xsize : f.nzmax;
 }
 
+FactorView Factor::view() const {
+  const cholmod_factor& f = *state_->factor;
+  static_assert(sizeof(Long) == sizeof(std::int64_t));
+  const auto integers = [](const void* data, std::size_t count) {
+    return std::span(reinterpret_cast<const std::int64_t*>(data), data == nullptr ? 0 : count);
+  };
+  FactorView view;
+  view.supernodal = f.is_super != 0;
+  view.is_ll = f.is_ll != 0;
+  view.order = integers(f.Perm, f.n);
+  if (view.supernodal) {
+    view.first = integers(f.super, f.nsuper + 1);
+    view.row_start = integers(f.pi, f.nsuper + 1);
+    view.start = integers(f.px, f.nsuper + 1);
+    view.row = integers(f.s, f.ssize);
+    view.value = std::span(static_cast<const double*>(f.x), f.xsize);
+  } else {
+    view.start = integers(f.p, f.n + 1);
+    view.count = integers(f.nz, f.n);
+    view.row = integers(f.i, f.nzmax);
+    view.value = std::span(static_cast<const double*>(f.x), f.nzmax);
+  }
+  return view;
+}
+
 double Factor::operations() const { return state_->operations; }
 
 Factorisation Factor::kind() const {

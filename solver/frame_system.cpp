@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 
 #include "ordering.h"
@@ -236,6 +237,7 @@ void FrameSystem::hold_inert_rotations(int node) {
     if (modes.eigenvalues()(m) > inert_limit * held) continue;
     const Vec3 d = modes.eigenvectors().col(m);
     inert_[n].directions.col(inert_[n].count++) = d;
+    inert_[n].stiffness = held;
     for (std::size_t i = 0; i < free; ++i) {
       for (std::size_t j = 0; j <= i; ++j) {
         entry(equation[i], equation[j]) += held * d(component[i]) * d(component[j]) *
@@ -332,13 +334,58 @@ void FrameSystem::reassemble(std::span<const int> nodes) {
   finish_diaphragms(wanted);
 }
 
+Eigen::MatrixXd FrameSystem::own_stiffness(int node) const {
+  const auto n = static_cast<std::size_t>(node);
+  const int first = dofs_.first_equation[n], count = dofs_.first_equation[n + 1] - first;
+  Mat6 K = Mat6::Zero();
+  if (node_stands[n] != 0) {
+    for (int c = 0; c < 6; ++c) K(c, c) = std::isinf(support_[n](c)) ? 0 : support_[n](c);
+    for (int k = 0; k < inert_[n].count; ++k) {
+      const Vec3 d = inert_[n].directions.col(k);
+      K.bottomRightCorner<3, 3>() += inert_[n].stiffness * d * d.transpose();
+    }
+  }
+  Eigen::MatrixXd own = Eigen::MatrixXd::Zero(count, count);
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) {
+      const int row = dofs_.number[n][static_cast<std::size_t>(i)] - first,
+                column = dofs_.number[n][static_cast<std::size_t>(j)] - first;
+      if (row < 0 || column < 0 || row >= count || column >= count) continue;
+      own(row, column) +=
+          K(i, j) * scale_[static_cast<std::size_t>(first + row)] * scale_[static_cast<std::size_t>(first + column)];
+    }
+  }
+  return own;
+}
+
 std::optional<Defect> FrameSystem::defect() const {
+  std::vector<int> nodes(model.nodes.size()), beams(model.beams.size());
+  std::iota(nodes.begin(), nodes.end(), 0);
+  std::iota(beams.begin(), beams.end(), 0);
+  return defect(nodes, beams);
+}
+
+std::optional<Defect> FrameSystem::defect(std::span<const int> nodes) const {
+  std::vector<int> sorted(nodes.begin(), nodes.end()), beams;
+  std::sort(sorted.begin(), sorted.end());
+  sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+  for (int node : sorted) {
+    const std::vector<int> here = beams_of_node(node);
+    beams.insert(beams.end(), here.begin(), here.end());
+  }
+  std::sort(beams.begin(), beams.end());
+  beams.erase(std::unique(beams.begin(), beams.end()), beams.end());
+  return defect(sorted, beams);
+}
+
+std::optional<Defect> FrameSystem::defect(std::span<const int> nodes, std::span<const int> beams) const {
   static const std::array<const char*, 6> names{"x", "y", "z", "rx", "ry", "rz"};
   std::vector<int> isolated;
   std::string components;
   Defect result;
   result.motion.motion.assign(model.nodes.size(), Vec6::Zero());
-  for (std::size_t node = 0; node < model.nodes.size(); ++node) {
+  for (const int index : nodes) {
+    const auto node = static_cast<std::size_t>(index);
     if (node_stands[node] == 0) continue;
     for (std::size_t c = 0; c < 6; ++c) {
       const int e = dofs_.number[node][c];
@@ -356,9 +403,10 @@ std::optional<Defect> FrameSystem::defect() const {
     result.motion.nodes = isolated;
     return result;
   }
-  for (std::size_t i = 0; i < model.beams.size(); ++i) {
+  for (const int beam : beams) {
+    const auto i = static_cast<std::size_t>(beam);
     if (beam_stands[i] != 0 && CondensedBeam(model.beams[i], beam_factor[i]).loose()) {
-      result.motion.beams.push_back(static_cast<int>(i));
+      result.motion.beams.push_back(beam);
     }
   }
   if (result.motion.beams.empty()) return std::nullopt;

@@ -61,13 +61,18 @@ class FrameSystem {
   /// Assembles anew every entry in the rows and columns of these nodes (and the diaphragms they belong to); the scale
   /// stays.
   void reassemble(std::span<const int> nodes);
-  /// Freedoms without any stiffness, beams that can move by themselves.
+  /// Freedoms without any stiffness, beams that can move by themselves; of the whole, or of these nodes and their
+  /// beams.
   [[nodiscard]] std::optional<Defect> defect() const;
+  [[nodiscard]] std::optional<Defect> defect(std::span<const int> nodes) const;
 
   /// K of a beam in the 12 freedoms of its element (diaphragm arms included); zero where it does not stand.
   [[nodiscard]] Mat12 beam_stiffness(int beam) const;
   /// The same for a shell, 24 freedoms.
   [[nodiscard]] Mat24 shell_stiffness(int shell) const;
+  /// What a node has besides its elements (support springs, held inert rotations), scaled, in its own equations. For
+  /// nodes of no diaphragm.
+  [[nodiscard]] Eigen::MatrixXd own_stiffness(int node) const;
 
   [[nodiscard]] LoadVector load_vector(const LoadSet& loads) const;
   /// A moment on a hub that nothing keeps from turning, or a load on a loose part; empty when there is none.
@@ -100,6 +105,7 @@ class FrameSystem {
   void add_support_springs(int node);
   void hold_inert_rotations(int node);
   void set_scale();
+  [[nodiscard]] std::optional<Defect> defect(std::span<const int> nodes, std::span<const int> beams) const;
   /// K of a shell in the global freedoms of its nodes. Floors repeat one panel: the last one is kept.
   [[nodiscard]] const Mat24& shell_node_stiffness(int shell) const;
   void add_shell_loads(const std::vector<ShellLoad>& loads, LoadVector& result) const;
@@ -117,6 +123,7 @@ class FrameSystem {
   /// Per node: directions in which its hub turns without straining anything (columns), held at zero.
   struct InertHub {
     int count = 0;
+    double stiffness = 0;
     Mat3 directions = Mat3::Zero();
   };
   std::vector<InertHub> inert_;

@@ -76,26 +76,29 @@ bool factorise_shifted(const SparseSymmetric& K, Factor& factor) {
 
 }  // namespace
 
-Defect find_mechanism(const FrameSystem& system, Factor& factor, int row) {
+Defect motion_defect(const FrameSystem& system, const Eigen::VectorXd& scaled_motion) {
   Defect defect;
-  defect.motion.motion.assign(system.model.nodes.size(), Vec6::Zero());
+  Eigen::VectorXd u(scaled_motion.size());
+  for (Eigen::Index i = 0; i < u.size(); ++i) u(i) = scaled_motion(i) * system.scale()[static_cast<std::size_t>(i)];
+  defect.motion.motion = system.node_displacements(u, Eigen::VectorXd::Zero(system.dofs().held));
+  normalise(defect.motion, mean_beam_length(system.model));
+  defect.message = describe(defect.motion);
+  return defect;
+}
+
+Defect find_mechanism(const FrameSystem& system, Factor& factor, int row) {
   const SparseSymmetric& K = system.matrix();
+  Eigen::MatrixXd z = Eigen::MatrixXd::Zero(K.size, 1);
   if (factorise_shifted(K, factor)) {
     // From a unit vector the iteration converges to that row's own part of the null space, not to a mixture of all
     // motions.
-    Eigen::MatrixXd z = Eigen::MatrixXd::Zero(K.size, 1);
     z(std::clamp(row, 0, K.size - 1), 0) = 1;
     for (int i = 0; i < inverse_iterations; ++i) {
       factor.solve(z);
       z /= z.norm();
     }
-    Eigen::VectorXd u(K.size);
-    for (Eigen::Index i = 0; i < u.size(); ++i) u(i) = z(i, 0) * system.scale()[static_cast<std::size_t>(i)];
-    defect.motion.motion = system.node_displacements(u, Eigen::VectorXd::Zero(system.dofs().held));
-    normalise(defect.motion, mean_beam_length(system.model));
   }
-  defect.message = describe(defect.motion);
-  return defect;
+  return motion_defect(system, z.col(0));
 }
 
 void judge_condition(const AnalysisOptions& options, double condition, Stability& stability) {

@@ -22,6 +22,9 @@ struct Stability {
 /// Takes the estimate of the condition into the verdict.
 void judge_condition(const AnalysisOptions& options, double condition, Stability& stability);
 
+/// A motion (scaled equations) told as a mechanism: normalised, the nodes that move named.
+[[nodiscard]] Defect motion_defect(const FrameSystem& system, const Eigen::VectorXd& scaled_motion);
+
 /// The motion that costs (nearly) no energy in which equation `row` takes part.
 [[nodiscard]] Defect find_mechanism(const FrameSystem& system, Factor& factor, int row);
 

@@ -1,0 +1,163 @@
+#include "low_rank.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace topple::solver {
+namespace {
+
+/// W = Q R by modified Gram-Schmidt; a column that depends on the earlier ones becomes zero in Q and R.
+void orthonormalise(Eigen::MatrixXd& W, Eigen::MatrixXd& R) {
+  constexpr double dependent = 1e-14;
+  const Eigen::Index n = W.cols();
+  R.setZero(n, n);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const double before = W.col(j).norm();
+    for (Eigen::Index i = 0; i < j; ++i) {
+      R(i, j) = W.col(i).dot(W.col(j));
+      W.col(j) -= R(i, j) * W.col(i);
+    }
+    const double norm = W.col(j).norm();
+    if (norm <= dependent * before || before == 0) {
+      W.col(j).setZero();
+      continue;
+    }
+    R(j, j) = norm;
+    W.col(j) /= norm;
+  }
+}
+
+}  // namespace
+
+int LowRankCorrection::add(std::span<const int> rows, const Eigen::MatrixXd& B) {
+  Place place;
+  place.path = solver_.path(rows);
+  place.W.setZero(place.path.rows(), B.cols());
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    place.W.row(solver_.row_on_path(place.path, rows[i])) += B.row(static_cast<Eigen::Index>(i));
+  solver_.forward(place.path, place.W);
+  orthonormalise(place.W, place.R);
+  place.D.setZero(B.cols(), B.cols());
+  place.first = static_cast<int>(gram_size_);
+  append_to_gram(place);
+  places_.push_back(std::move(place));
+  return static_cast<int>(places_.size()) - 1;
+}
+
+/// Paths to one root share their ends and nothing else.
+Eigen::MatrixXd LowRankCorrection::product(const Place& a, const Place& b) const {
+  std::size_t i = a.path.block.size(), j = b.path.block.size();
+  while (i > 0 && j > 0 && a.path.block[i - 1] == b.path.block[j - 1]) --i, --j;
+  const Eigen::Index shared = a.path.rows() - a.path.offset[i];
+  return a.W.bottomRows(shared).transpose() * b.W.bottomRows(shared);
+}
+
+void LowRankCorrection::append_to_gram(const Place& place) {
+  const Eigen::Index count = place.W.cols(), size = gram_size_ + count;
+  if (gram_.rows() < size) {
+    const Eigen::Index room = std::max<Eigen::Index>(2 * gram_.rows(), size + 48);
+    gram_.conservativeResize(room, room);
+  }
+  for (const Place& other : places_) {
+    const Eigen::MatrixXd shared = product(other, place);
+    gram_.block(other.first, gram_size_, shared.rows(), count) = shared;
+    gram_.block(gram_size_, other.first, count, shared.rows()) = shared.transpose();
+  }
+  gram_.block(gram_size_, gram_size_, count, count) = product(place, place);
+  gram_size_ = size;
+}
+
+void LowRankCorrection::set(int place, const Eigen::MatrixXd& D) {
+  Place& p = places_[static_cast<std::size_t>(place)];
+  p.D = p.R * D * p.R.transpose();
+  p.active = (D.array() != 0).any();
+}
+
+void LowRankCorrection::update() {
+  active_.clear();
+  active_rank_ = 0;
+  for (std::size_t p = 0; p < places_.size(); ++p) {
+    if (!places_[p].active) continue;
+    active_.push_back(static_cast<int>(p));
+    active_rank_ += static_cast<int>(places_[p].W.cols());
+  }
+  softening_ = 1;
+  if (active_.empty()) return;
+  Eigen::MatrixXd A = Eigen::MatrixXd::Identity(active_rank_, active_rank_);
+  Eigen::Index row = 0;
+  for (const int i : active_) {
+    const Place& p = places_[static_cast<std::size_t>(i)];
+    const Eigen::Index rows = p.W.cols();
+    Eigen::Index column = 0;
+    for (const int j : active_) {
+      const Place& q = places_[static_cast<std::size_t>(j)];
+      A.block(row, column, rows, q.W.cols()).noalias() += p.D * gram_.block(p.first, q.first, rows, q.W.cols());
+      column += q.W.cols();
+    }
+    row += rows;
+  }
+  const double norm = A.cwiseAbs().colwise().sum().maxCoeff();
+  capacitance_.compute(A);
+  const double reciprocal = capacitance_.rcond();
+  softening_ = reciprocal > 0 ? 1 / (reciprocal * norm) : std::numeric_limits<double>::infinity();
+}
+
+double LowRankCorrection::entries() const {
+  double sum = 0;
+  for (const int i : active_) sum += static_cast<double>(places_[static_cast<std::size_t>(i)].W.size());
+  return sum;
+}
+
+void LowRankCorrection::gather(const Eigen::VectorXd& y, Eigen::VectorXd& c) const {
+  c.resize(active_rank_);
+  Eigen::VectorXd local;
+  Eigen::Index row = 0;
+  for (const int i : active_) {
+    const Place& p = places_[static_cast<std::size_t>(i)];
+    solver_.gather(p.path, y, local);
+    c.segment(row, p.W.cols()).noalias() = p.W.transpose() * local;
+    row += p.W.cols();
+  }
+}
+
+void LowRankCorrection::subtract(const Eigen::VectorXd& c, Eigen::VectorXd& y) const {
+  Eigen::VectorXd local;
+  Eigen::Index row = 0;
+  for (const int i : active_) {
+    const Place& p = places_[static_cast<std::size_t>(i)];
+    local.noalias() = p.W * c.segment(row, p.W.cols());
+    solver_.subtract(p.path, local, y);
+    row += p.W.cols();
+  }
+}
+
+void LowRankCorrection::correct(Eigen::VectorXd& y) const {
+  if (active_.empty()) return;
+  Eigen::VectorXd c;
+  gather(y, c);
+  Eigen::Index row = 0;
+  for (const int i : active_) {
+    const Place& p = places_[static_cast<std::size_t>(i)];
+    c.segment(row, p.W.cols()) = (p.D * c.segment(row, p.W.cols())).eval();
+    row += p.W.cols();
+  }
+  subtract(capacitance_.solve(c), y);
+}
+
+Eigen::VectorXd LowRankCorrection::softest_motion() const {
+  Eigen::VectorXd motion = Eigen::VectorXd::Zero(solver_.size());
+  if (active_.empty()) return motion;
+  // The columns of the inverse are dominated by the null vector; one that stands out names one motion, not a mixture.
+  Eigen::MatrixXd inverse = capacitance_.inverse();
+  if (!inverse.allFinite()) return motion;
+  Eigen::Index column = 0;
+  inverse.colwise().norm().maxCoeff(&column);
+  Eigen::VectorXd q = inverse.col(column).normalized();
+  q = capacitance_.solve(q).normalized();
+  subtract(-q, motion);
+  const double norm = motion.norm();
+  if (norm > 0) motion /= norm;
+  return motion;
+}
+
+}  // namespace topple::solver

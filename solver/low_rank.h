@@ -1,0 +1,71 @@
+#pragma once
+// Exact answers of a changed matrix over a standing factor: K + B D B', K = L L' (in elimination order). With W = L^-1
+// B,
+//   (K + B D B')^-1 = L^-T (I - W (I + D G)^-1 D W') L^-1,   G = W'W
+// (Woodbury, in the form that takes a singular D). One backward solve serves an answer; W is nonzero on the elimination
+// path of what changed alone, and made there. I + D G is similar to a symmetric matrix whose eigenvalues are the
+// stationary values of v'(K + B D B')v / v'Kv: it is singular exactly when the changed structure is a mechanism, and
+// the inverse of its least eigenvalue is what the condition has grown by.
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <span>
+#include <vector>
+
+#include "triangular.h"
+
+namespace topple::solver {
+
+class LowRankCorrection {
+ public:
+  /// `solver` must outlive it.
+  explicit LowRankCorrection(const TriangularSolver& solver) : solver_(solver) {}
+
+  /// A place that may change: the rows of the matrix (an element's: they lie on one elimination path; one may come
+  /// twice) and B there, one row each. Returns its number; its D is zero.
+  int add(std::span<const int> rows, const Eigen::MatrixXd& B);
+  /// Replaces the place's D (symmetric; zero: unchanged).
+  void set(int place, const Eigen::MatrixXd& D);
+  /// Brings the correction up to date with all D. To be called before what follows.
+  void update();
+
+  /// Columns of all places with a D, of all places.
+  [[nodiscard]] int active_rank() const { return active_rank_; }
+  [[nodiscard]] int rank() const { return static_cast<int>(gram_size_); }
+  [[nodiscard]] int places() const { return static_cast<int>(places_.size()); }
+  /// Norm of the inverse of I + D G: how much the change has softened the structure in its softest motion.
+  [[nodiscard]] double softening() const { return softening_; }
+  /// Rows of all W of the active places: what one correct() goes through.
+  [[nodiscard]] double entries() const;
+
+  /// y (= L^-1 f) := y - W (I + D G)^-1 D W'y; L^-T of it is the answer.
+  void correct(Eigen::VectorXd& y) const;
+  /// L v of the softest motion v, scaled to 1, as seen from the change that takes most part in it; in elimination
+  /// order.
+  [[nodiscard]] Eigen::VectorXd softest_motion() const;
+
+ private:
+  struct Place {
+    EliminationPath path;
+    Eigen::MatrixXd W;  ///< orthonormal columns on the path
+    Eigen::MatrixXd R;  ///< L^-1 B = W R
+    Eigen::MatrixXd D;  ///< R (the given D) R'
+    int first = 0;      ///< its first row in gram_
+    bool active = false;
+  };
+  [[nodiscard]] Eigen::MatrixXd product(const Place& a, const Place& b) const;
+  void append_to_gram(const Place& place);
+  /// c := W' y of the active places, and y -= W c.
+  void gather(const Eigen::VectorXd& y, Eigen::VectorXd& c) const;
+  void subtract(const Eigen::VectorXd& c, Eigen::VectorXd& y) const;
+
+  const TriangularSolver& solver_;
+  std::vector<Place> places_;
+  Eigen::MatrixXd gram_;  ///< W'W of all places
+  Eigen::Index gram_size_ = 0;
+  std::vector<int> active_;  ///< places with a D, in order
+  int active_rank_ = 0;
+  Eigen::PartialPivLU<Eigen::MatrixXd> capacitance_;
+  double softening_ = 1;
+};
+
+}  // namespace topple::solver

@@ -1,0 +1,133 @@
+// Changes that were asked for, carried into the system.
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "reanalysis_state.h"
+
+namespace topple::solver {
+
+Reanalysis::State::State(FrameModel model, const AnalysisOptions& given)
+    : system(std::make_unique<FrameSystem>(std::move(model))), options(given) {
+  const FrameModel& m = system->model;
+  for (const Beam& beam : m.beams) targets.push_back({beam.end_stiffness, false, 1, {}});
+  shell_removed.assign(m.shells.size(), 0);
+  node_loads.assign(m.nodes.size(), Vec6::Zero());
+  displacements.assign(m.nodes.size(), Vec6::Zero());
+  fixed_end.assign(m.beams.size(), Vec12::Zero());
+  unbalanced.assign(m.beams.size(), 0);
+}
+
+std::size_t Reanalysis::State::checked_beam(int beam) const {
+  if (beam < 0 || static_cast<std::size_t>(beam) >= targets.size()) {
+    throw std::invalid_argument("beam " + std::to_string(beam) + " does not exist");
+  }
+  return static_cast<std::size_t>(beam);
+}
+
+std::size_t Reanalysis::State::checked_shell(int shell) const {
+  if (shell < 0 || static_cast<std::size_t>(shell) >= shell_removed.size()) {
+    throw std::invalid_argument("shell " + std::to_string(shell) + " does not exist");
+  }
+  return static_cast<std::size_t>(shell);
+}
+
+void Reanalysis::State::set_shell_removed(int shell, bool removed) {
+  char& target = shell_removed[checked_shell(shell)];
+  if ((target != 0) == removed) return;
+  target = removed ? 1 : 0;
+  changed_shells.push_back(shell);
+}
+
+void Reanalysis::State::mark(int beam) { changed_beams.push_back(beam); }
+
+bool Reanalysis::State::pending() const {
+  return !answered || !changed_beams.empty() || !changed_shells.empty() || node_loads_changed ||
+         !dropped_nodes.empty() || !changed_supports.empty();
+}
+
+void Reanalysis::State::apply_supports(std::vector<int>& touched) {
+  bool pattern_changes = false;
+  for (const auto& [support, stiffness] : changed_supports) {
+    const Support& old = system->model.supports[static_cast<std::size_t>(support)];
+    if (old.stiffness == stiffness) continue;
+    for (int c = 0; c < 6; ++c) pattern_changes |= std::isinf(old.stiffness(c)) != std::isinf(stiffness(c));
+    touched.push_back(old.node);
+    system->set_support(support, stiffness);
+  }
+  changed_supports.clear();
+  if (pattern_changes) rebuild();
+}
+
+/// A freedom became free or held: the equations are numbered and ordered anew.
+void Reanalysis::State::rebuild() {
+  auto fresh = std::make_unique<FrameSystem>(system->model);
+  fresh->beam_factor = system->beam_factor;
+  fresh->beam_stands = system->beam_stands;
+  fresh->shell_stands = system->shell_stands;
+  fresh->node_stands = system->node_stands;
+  system = std::move(fresh);
+  standing.reset();
+  factor.reset();
+  solution.resize(0);
+  first_solution.resize(0);
+  assembled = factor_valid = structure_stands = false;
+}
+
+void Reanalysis::State::apply_dropped_nodes(std::vector<int>& touched) {
+  for (int node : dropped_nodes) {
+    char& stands = system->node_stands[static_cast<std::size_t>(node)];
+    if (stands == 0) continue;
+    stands = 0;
+    if (standing) standing->drop_node(node);
+    touched.push_back(node);
+    for (int beam : system->beams_of_node(node)) changed_beams.push_back(beam);
+    for (int shell : system->shells_of_node(node)) changed_shells.push_back(shell);
+  }
+  dropped_nodes.clear();
+}
+
+void Reanalysis::State::apply_beams(std::vector<int>& touched) {
+  std::sort(changed_beams.begin(), changed_beams.end());
+  changed_beams.erase(std::unique(changed_beams.begin(), changed_beams.end()), changed_beams.end());
+  for (int index : changed_beams) {
+    const auto i = static_cast<std::size_t>(index);
+    const BeamTarget& target = targets[i];
+    Beam& beam = system->model.beams[i];
+    // A beam with a broken end does not hang on the node there: it stands as a cantilever when that node has left.
+    const auto free_of_dropped = [&](std::size_t end) {
+      return system->node_stands[static_cast<std::size_t>(beam.node[end])] != 0 || target.end_stiffness[end].isZero(0);
+    };
+    const char stands = !target.removed && free_of_dropped(0) && free_of_dropped(1) ? 1 : 0;
+    const bool stiffness_changed =
+        stands != system->beam_stands[i] ||
+        (stands != 0 && (beam.end_stiffness[0] != target.end_stiffness[0] ||
+                         beam.end_stiffness[1] != target.end_stiffness[1] || system->beam_factor[i] != target.factor));
+    if (stiffness_changed && standing) standing->remember_beam(index);
+    beam.end_stiffness = target.end_stiffness;
+    system->beam_factor[i] = target.factor;
+    system->beam_stands[i] = stands;
+    if (stiffness_changed) touched.insert(touched.end(), beam.node.begin(), beam.node.end());
+    const FixedEndForces fixed = system->fixed_end_forces(index, target.loads);
+    fixed_end[i] = fixed.force;
+    unbalanced[i] = fixed.unbalanced > 0 ? 1 : 0;
+  }
+  changed_beams.clear();
+}
+
+void Reanalysis::State::apply_shells(std::vector<int>& touched) {
+  for (int index : changed_shells) {
+    const auto i = static_cast<std::size_t>(index);
+    const auto& nodes = system->model.shells[i].node;
+    const bool on_standing_nodes = std::all_of(
+        nodes.begin(), nodes.end(), [&](int n) { return system->node_stands[static_cast<std::size_t>(n)] != 0; });
+    const char stands = shell_removed[i] == 0 && on_standing_nodes ? 1 : 0;
+    if (stands == system->shell_stands[i]) continue;
+    if (standing) standing->remember_shell(index);
+    system->shell_stands[i] = stands;
+    touched.insert(touched.end(), nodes.begin(), nodes.end());
+  }
+  changed_shells.clear();
+}
+
+}  // namespace topple::solver

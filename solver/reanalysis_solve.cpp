@@ -1,0 +1,308 @@
+// The ladder: which rung a change takes, and the answer over it.
+#include <algorithm>
+#include <cmath>
+
+#include "reanalysis_state.h"
+
+namespace topple::solver {
+namespace {
+
+/// A structure that became this much softer than the factor's in one motion may be a mechanism: rounding leaves a
+/// singular correction at 1e10 and more.
+constexpr double suspicious_softening = 1e7;
+/// Factors of a matrix of this condition and worse are made anew rather than corrected.
+constexpr double ill_conditioned = 1e12;
+/// Columns that a correction may have at most.
+constexpr int most_columns = 600;
+/// An answer over a correction that refinement leaves above this is found again over a new factor.
+constexpr double acceptable_error = 1e-12;
+constexpr int most_refinements = 12;
+constexpr double worthwhile = 0.5;  ///< a step that does not cut the error to this share of the last one is the last
+/// Solves that the estimate of a new factor's condition takes, with the first answer's.
+constexpr double solves_with_factor = 12;
+constexpr double solve_cost = 20;  ///< operations for each entry of the factor in one solve (memory sets the pace)
+
+/// v'Kv / v'v.
+double rayleigh_quotient(const SparseSymmetric& K, const Eigen::VectorXd& v) {
+  double energy = 0;
+  for (std::size_t column = 0; column < static_cast<std::size_t>(K.size); ++column) {
+    const double vc = v(static_cast<Eigen::Index>(column));
+    double sum = K.value[static_cast<std::size_t>(K.start[column])] * vc / 2;
+    for (auto k = K.start[column] + 1; k < K.start[column + 1]; ++k)
+      sum += K.value[static_cast<std::size_t>(k)] * v(K.row[static_cast<std::size_t>(k)]);
+    energy += 2 * vc * sum;
+  }
+  return energy / v.squaredNorm();
+}
+
+}  // namespace
+
+LinearSolve Reanalysis::State::linear_solve() const {
+  return [this](Eigen::Ref<Eigen::MatrixXd> b) {
+    if (!standing || !standing->changed()) {
+      factor->solve(b);
+      return;
+    }
+    Eigen::VectorXd x;
+    for (Eigen::Index j = 0; j < b.cols(); ++j) {
+      x = b.col(j);
+      standing->solve(x);
+      b.col(j) = x;
+    }
+  };
+}
+
+double Reanalysis::State::current_condition() const {
+  return condition * (standing ? std::max(1.0, standing->softening()) : 1.0);
+}
+
+std::optional<Defect> Reanalysis::State::update_structure(const std::vector<int>& touched) {
+  const bool stood = structure_stands;
+  structure_stands = false;
+  if (!assembled) {
+    system->assemble();
+    assembled = true;
+  } else if (!touched.empty()) {
+    system->reassemble(touched);
+  }
+  std::optional<Defect> defect;
+  if (stood && standing) {
+    defect = system->defect(touched);
+  } else {
+    defect = system->defect();
+  }
+  if (standing) standing->touch(touched);
+  stale_nodes.insert(stale_nodes.end(), touched.begin(), touched.end());
+  if (defect) return defect;
+  if (system->dofs().equations == 0) {  // everything is held: nothing to factorise, every answer is exact
+    structure_stands = factor_valid = true;
+    return std::nullopt;
+  }
+  if (correct_factor(touched, defect)) {
+    structure_stands = !defect;
+    return defect;
+  }
+  defect = refactorise();
+  structure_stands = !defect;
+  return defect;
+}
+
+bool Reanalysis::State::correct_factor(const std::vector<int>& touched, std::optional<Defect>& defect) {
+  if (!standing || condition > ill_conditioned) return false;
+  const StandingFactor::Plan plan = standing->plan();
+  const double anew = factor->operations() + solves_with_factor * solve_cost * static_cast<double>(factor->entries());
+  if (!plan.possible || plan.rank > most_columns || plan.operations > anew) return false;
+  standing->update();
+  operations += plan.operations;
+  if (standing->softening() > suspicious_softening) {
+    const Eigen::VectorXd motion = standing->softest_motion();
+    if (!motion.allFinite() || !(motion.squaredNorm() > 0)) return false;
+    if (!(rayleigh_quotient(system->matrix(), motion) < options.singular_limit)) return false;
+    defect = motion_defect(*system, motion);
+  }
+  answer.nearly_unstable = false;
+  if (!touched.empty()) ++counters.low_rank;
+  return true;
+}
+
+std::optional<Defect> Reanalysis::State::refactorise() {
+  factor_valid = false;
+  standing.reset();
+  first_solution.resize(0);
+  if (!factor) {
+    factor = std::make_unique<Factor>(system->matrix(), system->elimination_order(), options.factorisation);
+    ++counters.orderings;
+  } else {
+    ++counters.refactorisations;
+  }
+  operations += factor->operations();
+  const Stability stability = factorise_and_judge(*system, *factor, options);
+  if (stability.defect) return stability.defect;
+  factor_valid = true;
+  condition = stability.condition > 0 ? stability.condition : estimate_condition(system->matrix(), linear_solve());
+  answer.nearly_unstable = stability.nearly_unstable || 1 / condition < options.warning_limit;
+  if (!answer.nearly_unstable) standing = std::make_unique<StandingFactor>(*system, *factor);
+  return std::nullopt;
+}
+
+LoadVector Reanalysis::State::load_vector() const {
+  LoadVector load;
+  const DofMap& dofs = system->dofs();
+  load.force = Eigen::VectorXd::Zero(dofs.equations + dofs.held);
+  load.held_displacement = Eigen::VectorXd::Zero(dofs.held);
+  for (std::size_t n = 0; n < node_loads.size(); ++n) {
+    if (system->node_stands[n] != 0) dofs.add_node_force(static_cast<int>(n), node_loads[n], load.force.data());
+  }
+  for (std::size_t i = 0; i < fixed_end.size(); ++i) {
+    if (system->beam_stands[i] == 0) continue;
+    system->add_fixed_end(static_cast<int>(i), fixed_end[i], load.force);
+    if (unbalanced[i] != 0) load.unbalanced_beams.push_back(static_cast<int>(i));
+  }
+  return load;
+}
+
+Eigen::VectorXd Reanalysis::State::scaled(const Eigen::VectorXd& force) const {
+  const Eigen::Index n = system->dofs().equations;
+  return force.head(n).cwiseProduct(Eigen::Map<const Eigen::VectorXd>(system->scale().data(), n));
+}
+
+Eigen::VectorXd Reanalysis::State::solve_scaled(const Eigen::VectorXd& force, SolveQuality& quality) const {
+  const Eigen::Index n = system->dofs().equations;
+  if (n == 0) return {};
+  const RefinedSolution refined = solve_refined(system->matrix(), linear_solve(), scaled(force));
+  quality = refined.quality[0];
+  quality.condition = current_condition();
+  quality.error_bound = forward_error_bound(quality.condition, quality.backward_error);
+  return refined.x.col(0).cwiseProduct(Eigen::Map<const Eigen::VectorXd>(system->scale().data(), n));
+}
+
+/// Rows in which the last answer does not fit any longer; empty when they are too many to tell apart.
+std::vector<int> Reanalysis::State::changed_rows(const Eigen::VectorXd& force) const {
+  std::vector<int> rows;
+  const std::size_t most = static_cast<std::size_t>(force.size()) / 4;
+  const auto& first = system->dofs().first_equation;
+  const auto add_vertex = [&](std::size_t v) {
+    for (int e = first[v]; e < first[v + 1]; ++e) rows.push_back(e);
+  };
+  for (const int node : stale_nodes) {
+    add_vertex(static_cast<std::size_t>(node));
+    const int d = system->dofs().diaphragm_of_node[static_cast<std::size_t>(node)];
+    if (d >= 0) add_vertex(system->model.nodes.size() + static_cast<std::size_t>(d));
+  }
+  for (Eigen::Index e = 0; e < force.size() && rows.size() <= most; ++e)
+    if (force(e) != solved_force(e)) rows.push_back(static_cast<int>(e));
+  if (rows.size() > most) return {};
+  std::sort(rows.begin(), rows.end());
+  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+  return rows;
+}
+
+/// From the last answer on: what does not fit any longer is solved for and added, until the error is at rounding level.
+void Reanalysis::State::refine(const Eigen::VectorXd& force) {
+  const SparseSymmetric& K = system->matrix();
+  SolveQuality& quality = answer.quality;
+  Eigen::VectorXd r, next;
+  std::vector<int> rows;
+  bool first = true;
+  if (solution.size() != force.size()) {
+    solution = Eigen::VectorXd::Zero(force.size());
+    r = force;
+  } else {
+    quality.backward_error = residual(K, force, solution, r);
+    rows = changed_rows(force);
+    if (!rows.empty()) {
+      Eigen::VectorXd kept = Eigen::VectorXd::Zero(r.size());
+      for (const int row : rows) kept(row) = r(row);
+      r = std::move(kept);
+    }
+  }
+  for (int step = 0; step <= most_refinements; ++step) {
+    Eigen::VectorXd& correction = r;
+    if (first && !rows.empty()) {
+      standing->solve(correction, &rows);
+    } else {
+      standing->solve(correction);
+    }
+    next = solution + correction;
+    const double error = residual(K, force, next, r);
+    const bool go_on = first || error <= worthwhile * quality.backward_error;
+    if (first || error < quality.backward_error) {
+      solution.swap(next);
+      quality.backward_error = error;
+      if (!first) ++quality.refinements;
+    }
+    first = false;
+    if (!go_on || quality.backward_error <= backward_error_limit) break;
+  }
+}
+
+bool Reanalysis::State::solve_loads(const LoadVector& load) {
+  const Eigen::Index n = system->dofs().equations;
+  const Eigen::VectorXd force = n > 0 ? scaled(load.force) : Eigen::VectorXd();
+  if (n == 0) {
+    answer.quality = {};
+    answer.quality.converged = true;
+    displacements = system->node_displacements(force, load.held_displacement);
+    return true;
+  }
+  const bool as_factorised = standing && !standing->changed();
+  if ((force.array() == 0).all()) {
+    solution = force;
+    answer.quality = {};
+  } else if (as_factorised && first_solution.size() == n && first_force == force) {
+    solution = first_solution;  // back to where the factor was made: the very same answer
+    answer.quality = first_quality;
+  } else if (!standing) {
+    const RefinedSolution refined = solve_refined(system->matrix(), linear_solve(), force);
+    solution = refined.x.col(0);
+    answer.quality = refined.quality[0];
+  } else {
+    if (as_factorised && first_solution.size() != n) solution.resize(0);  // a new factor starts anew
+    refine(force);
+    const double passes = 1 + answer.quality.refinements;
+    operations += passes * (standing->solve_operations() + 8.0 * static_cast<double>(system->matrix().row.size()));
+    if (as_factorised && first_solution.size() != n) {
+      first_solution = solution;
+      first_force = force;
+    }
+  }
+  solved_force = force;
+  stale_nodes.clear();
+  answer.quality.converged = answer.quality.backward_error <= backward_error_limit;
+  answer.quality.condition = current_condition();
+  answer.quality.error_bound = forward_error_bound(answer.quality.condition, answer.quality.backward_error);
+  if (as_factorised && first_force.size() == n && first_force == force) first_quality = answer.quality;
+  const Eigen::Map<const Eigen::VectorXd> scale(system->scale().data(), n);
+  displacements = system->node_displacements(solution.cwiseProduct(scale), load.held_displacement);
+  return as_factorised || !standing || answer.quality.backward_error <= acceptable_error;
+}
+
+void Reanalysis::State::give_up(const Defect& defect) {
+  answer.stable = false;
+  answer.mechanism = defect.motion;
+}
+
+const ReanalysisAnswer& Reanalysis::solve() {
+  State& state = *state_;
+  state.operations = 0;
+  if (!state.pending()) {
+    ++state.counters.unchanged;
+    return state.answer;
+  }
+  std::vector<int> touched;
+  state.apply_supports(touched);
+  state.apply_dropped_nodes(touched);
+  state.apply_beams(touched);
+  state.apply_shells(touched);
+  state.node_loads_changed = false;
+  state.answered = true;
+  const bool nearly_unstable = state.answer.nearly_unstable;  // a property of the factor, which may stay
+  state.answer = ReanalysisAnswer();
+  state.answer.nearly_unstable = nearly_unstable;
+  state.reactions.clear();
+  ++state.counters.solves;
+  if (!touched.empty() || !state.assembled || !state.structure_stands) {
+    if (const auto defect = state.update_structure(touched)) {
+      state.give_up(*defect);
+      return state.answer;
+    }
+  } else {
+    ++state.counters.load_solves;
+  }
+  const LoadVector load = state.load_vector();
+  if (const auto defect = state.system->unbalanced_load(load)) {
+    state.give_up(*defect);
+    return state.answer;
+  }
+  if (!state.solve_loads(load)) {
+    if (const auto defect = state.refactorise()) {
+      state.structure_stands = false;
+      state.give_up(*defect);
+      return state.answer;
+    }
+    (void)state.solve_loads(load);
+  }
+  return state.answer;
+}
+
+}  // namespace topple::solver

@@ -1,0 +1,87 @@
+#pragma once
+// What a Reanalysis holds: the system as it stands, what it is to become, the factor and the answer.
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "factor.h"
+#include "frame_system.h"
+#include "mechanism.h"
+#include "refinement.h"
+#include "standing_factor.h"
+#include "topple/solver/reanalysis.h"
+
+namespace topple::solver {
+
+/// What a beam is to be after the next solve().
+struct BeamTarget {
+  std::array<Vec6, 2> end_stiffness;
+  bool removed = false;
+  double factor = 1;
+  std::vector<BeamLoad> loads;
+};
+
+struct Reanalysis::State {
+  std::unique_ptr<FrameSystem> system;
+  AnalysisOptions options;
+  std::unique_ptr<Factor> factor;
+  std::unique_ptr<StandingFactor> standing;  ///< none while there is no valid factor
+  bool assembled = false, factor_valid = false;
+  bool structure_stands = false;  ///< the structure as it is was judged, and is stable
+
+  // Targets, and which of them differ from what the system has.
+  std::vector<BeamTarget> targets;
+  std::vector<int> changed_beams, changed_shells;
+  std::vector<char> shell_removed;
+  std::vector<Vec6> node_loads;
+  bool node_loads_changed = false;
+  std::vector<int> dropped_nodes;
+  std::vector<std::pair<int, Vec6>> changed_supports;
+
+  // The answer.
+  bool answered = false;
+  ReanalysisAnswer answer;
+  double condition = 0;                         ///< of the factorised matrix
+  Eigen::VectorXd solution, solved_force;       ///< scaled; empty: none to start from
+  Eigen::VectorXd first_solution, first_force;  ///< with the factor just made, nothing changed since
+  SolveQuality first_quality;
+  std::vector<int> stale_nodes;  ///< touched since the solution was found
+  std::vector<Vec6> displacements;
+  std::vector<Vec12> fixed_end;  ///< per beam, local
+  std::vector<char> unbalanced;  ///< per beam: loaded in a loose direction
+  mutable std::vector<Vec6> reactions;
+  ReanalysisCounters counters;
+  double operations = 0;
+
+  State(FrameModel model, const AnalysisOptions& given);
+  void mark(int beam);
+  [[nodiscard]] bool pending() const;
+  /// Each applies one kind of change to the system and adds the nodes whose stiffness it touched.
+  void apply_supports(std::vector<int>& touched);
+  void apply_dropped_nodes(std::vector<int>& touched);
+  void apply_beams(std::vector<int>& touched);
+  void apply_shells(std::vector<int>& touched);
+  void rebuild();
+
+  /// Brings matrix, factor and correction up to date; a defect when the structure does not stand.
+  [[nodiscard]] std::optional<Defect> update_structure(const std::vector<int>& touched);
+  /// The rung below a new factor. False: not worth it, or it cannot decide.
+  [[nodiscard]] bool correct_factor(const std::vector<int>& touched, std::optional<Defect>& defect);
+  [[nodiscard]] std::optional<Defect> refactorise();
+  [[nodiscard]] LoadVector load_vector() const;
+  /// False when refinement does not reach rounding level.
+  [[nodiscard]] bool solve_loads(const LoadVector& load);
+  void refine(const Eigen::VectorXd& force);
+  [[nodiscard]] std::vector<int> changed_rows(const Eigen::VectorXd& force) const;
+  void give_up(const Defect& defect);
+  [[nodiscard]] double current_condition() const;
+  [[nodiscard]] LinearSolve linear_solve() const;
+  [[nodiscard]] Eigen::VectorXd scaled(const Eigen::VectorXd& force) const;
+  [[nodiscard]] Eigen::VectorXd solve_scaled(const Eigen::VectorXd& force, SolveQuality& quality) const;
+  [[nodiscard]] std::size_t checked_beam(int beam) const;
+  [[nodiscard]] std::size_t checked_shell(int shell) const;
+  void set_shell_removed(int shell, bool removed);
+};
+
+}  // namespace topple::solver

@@ -1,0 +1,85 @@
+#pragma once
+// A factor that goes on serving while the structure changes: it remembers what every changed element was when the
+// factor was made, keeps the low-rank correction from there to now, and tells beforehand what that costs.
+//
+// Parts that left (dropped nodes) keep the stiffness they had inside, so that nothing inside them needs correcting;
+// only what joined them to the rest is taken away, and one node of each is held. They bear no load and get no
+// displacement.
+#include <Eigen/Core>
+#include <map>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "element_modes.h"
+#include "factor.h"
+#include "frame_system.h"
+#include "low_rank.h"
+#include "triangular.h"
+
+namespace topple::solver {
+
+class StandingFactor {
+ public:
+  /// `factor` holds the system's matrix as it is now. Both must outlive this.
+  StandingFactor(const FrameSystem& system, const Factor& factor);
+
+  // To be told before the system changes.
+  void remember_beam(int beam);
+  void remember_shell(int shell);
+  void drop_node(int node) { dropped_.push_back(node); }
+  /// These nodes' supports or elements change, or have changed.
+  void touch(std::span<const int> nodes) { touched_.insert(touched_.end(), nodes.begin(), nodes.end()); }
+
+  /// Compares the system as it is now with what was remembered.
+  struct Plan {
+    bool possible = false;  ///< false: the change is of a kind that only a new factor takes
+    int rank = 0;           ///< columns of the correction
+    double operations = 0;  ///< to bring it up to date and for one answer
+  };
+  [[nodiscard]] Plan plan();
+  /// Carries the last plan out.
+  void update();
+
+  /// x := K^-1 x of the matrix as it stands. `rows` (unless null): x is zero in all other rows.
+  void solve(Eigen::VectorXd& x, const std::vector<int>* rows = nullptr) const;
+  /// The softest motion of the changed structure relative to that of the factor (scaled equations), and by what factor
+  /// it is softer than there.
+  [[nodiscard]] Eigen::VectorXd softest_motion() const;
+  [[nodiscard]] double softening() const { return correction_.softening(); }
+  /// Whether anything differs from when the factor was made.
+  [[nodiscard]] bool changed() const { return correction_.active_rank() > 0 || !dropped_.empty(); }
+  [[nodiscard]] int rank() const { return correction_.active_rank(); }
+  /// Operations of one answer.
+  [[nodiscard]] double solve_operations() const;
+
+ private:
+  enum class Kind { beam, shell, node, ground };
+  struct Key {
+    Kind kind;
+    int index;
+    auto operator<=>(const Key&) const = default;
+  };
+  void plan_beams();
+  void plan_shells();
+  bool plan_nodes();
+  void plan_grounds();
+  void want(Key key, Eigen::MatrixXd D);
+  [[nodiscard]] bool inside_dropped(std::span<const int> nodes) const;
+  [[nodiscard]] ElementModes modes(Key key) const;
+
+  const FrameSystem& system_;
+  TriangularSolver solver_;
+  LowRankCorrection correction_;
+  std::map<int, Mat6> beam_before_;
+  std::map<int, char> shell_before_;
+  std::map<int, Mat24> shell_stiffness_;
+  std::map<int, Eigen::MatrixXd> node_before_;  ///< own stiffness, of nodes that have any
+  std::vector<int> dropped_, touched_;
+  std::map<Key, int> place_;
+  std::map<Key, Eigen::MatrixXd> wanted_;  ///< D of every place that has or had one
+  mutable Eigen::VectorXd eliminated_;
+  mutable std::vector<char> marked_;
+};
+
+}  // namespace topple::solver

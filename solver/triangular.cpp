@@ -1,0 +1,270 @@
+#include "triangular.h"
+
+#include <algorithm>
+#include <cmath>
+
+extern "C" {
+void dtrsv_(const char*, const char*, const char*, const int*, const double*, const int*, double*, const int*);
+void dgemv_(const char*, const int*, const int*, const double*, const double*, const int*, const double*, const int*,
+            const double*, double*, const int*);
+void dtrsm_(const char*, const char*, const char*, const char*, const int*, const int*, const double*, const double*,
+            const int*, double*, const int*);
+void dgemm_(const char*, const char*, const int*, const int*, const int*, const double*, const double*, const int*,
+            const double*, const int*, const double*, double*, const int*);
+}
+
+namespace topple::solver {
+namespace {
+
+/// Blocks with fewer entries than this are done by plain loops: a call of BLAS costs more than they do.
+constexpr int small_block = 1024;
+constexpr int one = 1;
+constexpr double plus = 1, minus = -1, none = 0;
+
+/// One block of the factor: `columns` dense columns of `rows` entries, the triangle first.
+struct Block {
+  const double* value;
+  int columns, rows;
+  [[nodiscard]] int below() const { return rows - columns; }
+  [[nodiscard]] bool small() const { return columns * rows < small_block; }
+};
+
+/// x (the block's own rows) := triangle^-1 x; below := rectangle x.
+void forward_block(const Block& b, double* x, double* below) {
+  if (b.small()) {
+    std::fill(below, below + b.below(), 0.0);
+    for (int j = 0; j < b.columns; ++j) {
+      const double* column = b.value + static_cast<std::ptrdiff_t>(j) * b.rows;
+      const double xj = x[j] /= column[j];
+      for (int i = j + 1; i < b.columns; ++i) x[i] -= column[i] * xj;
+      for (int i = 0; i < b.below(); ++i) below[i] += column[b.columns + i] * xj;
+    }
+    return;
+  }
+  dtrsv_("L", "N", "N", &b.columns, b.value, &b.rows, x, &one);
+  const int below_rows = b.below();
+  if (below_rows > 0)
+    dgemv_("N", &below_rows, &b.columns, &plus, b.value + b.columns, &b.rows, x, &one, &none, below, &one);
+}
+
+/// x := triangle^-T (x - rectangle' below).
+void backward_block(const Block& b, double* x, const double* below) {
+  if (b.small()) {
+    for (int j = b.columns - 1; j >= 0; --j) {
+      const double* column = b.value + static_cast<std::ptrdiff_t>(j) * b.rows;
+      double sum = x[j];
+      for (int i = j + 1; i < b.columns; ++i) sum -= column[i] * x[i];
+      for (int i = 0; i < b.below(); ++i) sum -= column[b.columns + i] * below[i];
+      x[j] = sum / column[j];
+    }
+    return;
+  }
+  const int below_rows = b.below();
+  if (below_rows > 0)
+    dgemv_("T", &below_rows, &b.columns, &minus, b.value + b.columns, &b.rows, below, &one, &plus, x, &one);
+  dtrsv_("L", "T", "N", &b.columns, b.value, &b.rows, x, &one);
+}
+
+/// The same as forward_block() for several columns; x has leading dimension `stride`, below that of its rows.
+void forward_block(const Block& b, double* x, int count, int stride, double* below) {
+  const int below_rows = b.below();
+  if (b.small()) {
+    for (int c = 0; c < count; ++c)
+      forward_block(b, x + static_cast<std::ptrdiff_t>(c) * stride,
+                    below + static_cast<std::ptrdiff_t>(c) * below_rows);
+    return;
+  }
+  dtrsm_("L", "L", "N", "N", &b.columns, &count, &plus, b.value, &b.rows, x, &stride);
+  if (below_rows > 0)
+    dgemm_("N", "N", &below_rows, &count, &b.columns, &plus, b.value + b.columns, &b.rows, x, &stride, &none, below,
+           &below_rows);
+}
+
+}  // namespace
+
+TriangularSolver::TriangularSolver(const Factor& factor) {
+  const FactorView view = factor.view();
+  size_ = static_cast<int>(view.order.size());
+  order_.assign(view.order.begin(), view.order.end());
+  if (view.supernodal) {
+    take_supernodal(view);
+  } else {
+    take_simplicial(view);
+  }
+  finish();
+}
+
+void TriangularSolver::take_supernodal(const FactorView& view) {
+  first_ = view.first;
+  row_start_ = view.row_start;
+  value_start_ = view.start;
+  row_ = view.row;
+  value_ = view.value;
+}
+
+/// Gathers runs of columns in which each one's pattern is the next one's and the next one itself.
+void TriangularSolver::take_simplicial(const FactorView& view) {
+  const auto n = static_cast<std::size_t>(size_);
+  const auto begin = [&](std::size_t j) { return static_cast<std::size_t>(view.start[j]); };
+  const auto count = [&](std::size_t j) { return static_cast<std::size_t>(view.count[j]); };
+  own_row_start_.push_back(0);
+  own_value_start_.push_back(0);
+  for (std::size_t j = 0; j < n;) {
+    std::size_t end = j + 1;
+    while (end < n && count(end - 1) == count(end) + 1 &&
+           view.row[begin(end - 1) + 1] == static_cast<std::int64_t>(end))
+      ++end;
+    const std::size_t rows = count(j);
+    own_first_.push_back(static_cast<std::int64_t>(j));
+    for (std::size_t k = 0; k < rows; ++k) own_row_.push_back(view.row[begin(j) + k]);
+    for (std::size_t c = j; c < end; ++c) {
+      const double* values = view.value.data() + begin(c);
+      const double pivot = view.is_ll ? 1.0 : std::sqrt(values[0]);
+      own_value_.insert(own_value_.end(), c - j, 0.0);
+      own_value_.push_back(view.is_ll ? values[0] : pivot);
+      for (std::size_t k = 1; k < count(c); ++k) own_value_.push_back(values[k] * pivot);
+    }
+    own_row_start_.push_back(static_cast<std::int64_t>(own_row_.size()));
+    own_value_start_.push_back(static_cast<std::int64_t>(own_value_.size()));
+    j = end;
+  }
+  own_first_.push_back(static_cast<std::int64_t>(n));
+  first_ = own_first_;
+  row_start_ = own_row_start_;
+  value_start_ = own_value_start_;
+  row_ = own_row_;
+  value_ = own_value_;
+}
+
+void TriangularSolver::finish() {
+  position_.resize(order_.size());
+  for (std::size_t k = 0; k < order_.size(); ++k) position_[static_cast<std::size_t>(order_[k])] = static_cast<int>(k);
+  const std::size_t count = first_.empty() ? 0 : first_.size() - 1;
+  block_of_.resize(order_.size());
+  for (std::size_t b = 0; b < count; ++b)
+    std::fill(block_of_.begin() + first_[b], block_of_.begin() + first_[b + 1], static_cast<int>(b));
+  parent_.assign(count, -1);
+  path_offset_.assign(count, 0);
+  std::int64_t most_below = 0;
+  for (std::size_t b = 0; b < count; ++b) {
+    const std::int64_t columns = first_[b + 1] - first_[b], rows = row_start_[b + 1] - row_start_[b];
+    if (rows > columns)
+      parent_[b] = block_of_[static_cast<std::size_t>(row_[static_cast<std::size_t>(row_start_[b] + columns)])];
+    most_below = std::max(most_below, rows - columns);
+    entries_ += static_cast<double>(columns) * static_cast<double>(rows);
+  }
+  below_.resize(most_below, 1);
+}
+
+double TriangularSolver::entries(const EliminationPath& path) const {
+  double sum = 0;
+  for (const int block : path.block) {
+    const auto b = static_cast<std::size_t>(block);
+    sum += static_cast<double>(first_[b + 1] - first_[b]) * static_cast<double>(row_start_[b + 1] - row_start_[b]);
+  }
+  return sum;
+}
+
+void TriangularSolver::permute(const Eigen::VectorXd& natural, Eigen::VectorXd& eliminated) const {
+  eliminated.resize(size_);
+  for (int k = 0; k < size_; ++k) eliminated(k) = natural(order_[static_cast<std::size_t>(k)]);
+}
+
+void TriangularSolver::restore(const Eigen::VectorXd& eliminated, Eigen::VectorXd& natural) const {
+  natural.resize(size_);
+  for (int k = 0; k < size_; ++k) natural(order_[static_cast<std::size_t>(k)]) = eliminated(k);
+}
+
+EliminationPath TriangularSolver::path(std::span<const int> rows) const {
+  EliminationPath result;
+  int least = size_;
+  for (const int row : rows) least = std::min(least, position(row));
+  int offset = 0;
+  for (int block = least < size_ ? block_of_[static_cast<std::size_t>(least)] : -1; block >= 0;
+       block = parent_[static_cast<std::size_t>(block)]) {
+    const auto b = static_cast<std::size_t>(block);
+    result.block.push_back(block);
+    result.offset.push_back(offset);
+    offset += static_cast<int>(first_[b + 1] - first_[b]);
+  }
+  result.offset.push_back(offset);
+  return result;
+}
+
+int TriangularSolver::row_on_path(const EliminationPath& path, int row) const {
+  const int at = position(row), block = block_of_[static_cast<std::size_t>(at)];
+  const auto found = std::lower_bound(path.block.begin(), path.block.end(), block);
+  return path.offset[static_cast<std::size_t>(found - path.block.begin())] + at -
+         static_cast<int>(first_[static_cast<std::size_t>(block)]);
+}
+
+void TriangularSolver::gather(const EliminationPath& path, const Eigen::VectorXd& y, Eigen::VectorXd& on_path) const {
+  on_path.resize(path.rows());
+  for (std::size_t k = 0; k < path.block.size(); ++k)
+    on_path.segment(path.offset[k], path.offset[k + 1] - path.offset[k]) =
+        y.segment(first_[static_cast<std::size_t>(path.block[k])], path.offset[k + 1] - path.offset[k]);
+}
+
+void TriangularSolver::subtract(const EliminationPath& path, const Eigen::VectorXd& on_path, Eigen::VectorXd& y) const {
+  for (std::size_t k = 0; k < path.block.size(); ++k)
+    y.segment(first_[static_cast<std::size_t>(path.block[k])], path.offset[k + 1] - path.offset[k]) -=
+        on_path.segment(path.offset[k], path.offset[k + 1] - path.offset[k]);
+}
+
+void TriangularSolver::mark_paths(std::span<const int> rows, std::vector<char>& marked) const {
+  marked.assign(parent_.size(), 0);
+  for (const int row : rows) {
+    for (int block = block_of_[static_cast<std::size_t>(position(row))];
+         block >= 0 && marked[static_cast<std::size_t>(block)] == 0; block = parent_[static_cast<std::size_t>(block)])
+      marked[static_cast<std::size_t>(block)] = 1;
+  }
+}
+
+void TriangularSolver::forward(Eigen::VectorXd& y, const std::vector<char>* marked) const {
+  double* below = below_.data();
+  for (std::size_t b = 0; b < parent_.size(); ++b) {
+    if (marked != nullptr && (*marked)[b] == 0) continue;
+    const Block block{value_.data() + value_start_[b], static_cast<int>(first_[b + 1] - first_[b]),
+                      static_cast<int>(row_start_[b + 1] - row_start_[b])};
+    forward_block(block, y.data() + first_[b], below);
+    const std::int64_t* rows = row_.data() + row_start_[b] + block.columns;
+    for (int i = 0; i < block.below(); ++i) y(rows[i]) -= below[i];
+  }
+}
+
+void TriangularSolver::backward(Eigen::VectorXd& y) const {
+  double* below = below_.data();
+  for (std::size_t b = parent_.size(); b-- > 0;) {
+    const Block block{value_.data() + value_start_[b], static_cast<int>(first_[b + 1] - first_[b]),
+                      static_cast<int>(row_start_[b + 1] - row_start_[b])};
+    const std::int64_t* rows = row_.data() + row_start_[b] + block.columns;
+    for (int i = 0; i < block.below(); ++i) below[i] = y(rows[i]);
+    backward_block(block, y.data() + first_[b], below);
+  }
+}
+
+void TriangularSolver::forward(const EliminationPath& path, Eigen::MatrixXd& columns) const {
+  const int count = static_cast<int>(columns.cols()), stride = static_cast<int>(columns.rows());
+  if (below_.size() < below_.rows() * count) below_.resize(below_.rows(), count);
+  for (std::size_t k = 0; k < path.block.size(); ++k)
+    path_offset_[static_cast<std::size_t>(path.block[k])] =
+        path.offset[k] - static_cast<int>(first_[static_cast<std::size_t>(path.block[k])]);
+  for (std::size_t k = 0; k < path.block.size(); ++k) {
+    const auto b = static_cast<std::size_t>(path.block[k]);
+    const Block block{value_.data() + value_start_[b], static_cast<int>(first_[b + 1] - first_[b]),
+                      static_cast<int>(row_start_[b + 1] - row_start_[b])};
+    forward_block(block, columns.data() + path.offset[k], count, stride, below_.data());
+    const std::int64_t* rows = row_.data() + row_start_[b] + block.columns;
+    const int below_rows = block.below();
+    for (int i = 0; i < below_rows; ++i) {
+      const int at = static_cast<int>(rows[i]) +
+                     path_offset_[static_cast<std::size_t>(block_of_[static_cast<std::size_t>(rows[i])])];
+      double* target = columns.data() + at;
+      const double* source = below_.data() + i;
+      for (int c = 0; c < count; ++c)
+        target[static_cast<std::ptrdiff_t>(c) * stride] -= source[static_cast<std::ptrdiff_t>(c) * below_rows];
+    }
+  }
+}
+
+}  // namespace topple::solver

@@ -1,0 +1,75 @@
+#pragma once
+// Triangular solves with a sparse Cholesky factor, block by block, in elimination order: whole, restricted to the
+// elimination paths of some rows, and for a few columns along one path. A block is a supernode: consecutive columns
+// with one pattern below them.
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "factor.h"
+
+namespace topple::solver {
+
+/// The blocks that the elimination of some rows goes through, from the first to the root, and where each one's rows
+/// stand when only these are kept.
+struct EliminationPath {
+  std::vector<int> block;
+  std::vector<int> offset;  ///< per block of the path; one more at the end: the number of rows
+  [[nodiscard]] int rows() const { return offset.back(); }
+};
+
+/// K = P' L L' P over the numbers of a Factor, which must outlive it and not be factorised again. (A simplicial L D L'
+/// is copied into blocks as L sqrt(D).)
+class TriangularSolver {
+ public:
+  explicit TriangularSolver(const Factor& factor);
+
+  [[nodiscard]] int size() const { return size_; }
+  [[nodiscard]] int blocks() const { return static_cast<int>(parent_.size()); }
+  /// Entries of the blocks on a path, of the whole factor.
+  [[nodiscard]] double entries(const EliminationPath& path) const;
+  [[nodiscard]] double entries() const { return entries_; }
+
+  /// From the matrix's numbering to the order of elimination and back.
+  void permute(const Eigen::VectorXd& natural, Eigen::VectorXd& eliminated) const;
+  void restore(const Eigen::VectorXd& eliminated, Eigen::VectorXd& natural) const;
+  [[nodiscard]] int position(int row) const { return position_[static_cast<std::size_t>(row)]; }
+
+  /// The path of rows (of the matrix) that lie on one path, as those of an element do.
+  [[nodiscard]] EliminationPath path(std::span<const int> rows) const;
+  /// Marks the blocks on the paths of any rows.
+  void mark_paths(std::span<const int> rows, std::vector<char>& marked) const;
+
+  /// y := L^-1 y in elimination order. With `marked` (per block): only these; the rest of y must be zero.
+  void forward(Eigen::VectorXd& y, const std::vector<char>* marked = nullptr) const;
+  /// y := L^-T y.
+  void backward(Eigen::VectorXd& y) const;
+  /// L^-1 B for a B that is zero outside of a path; rows are those of the path, in its numbering.
+  void forward(const EliminationPath& path, Eigen::MatrixXd& columns) const;
+  /// The row of the path at which an equation of the matrix stands.
+  [[nodiscard]] int row_on_path(const EliminationPath& path, int row) const;
+  /// The path's rows of a whole vector; and y -= a vector on the path.
+  void gather(const EliminationPath& path, const Eigen::VectorXd& y, Eigen::VectorXd& on_path) const;
+  void subtract(const EliminationPath& path, const Eigen::VectorXd& on_path, Eigen::VectorXd& y) const;
+
+ private:
+  void take_supernodal(const FactorView& view);
+  void take_simplicial(const FactorView& view);
+  void finish();
+
+  int size_ = 0;
+  double entries_ = 0;
+  std::vector<int> order_, position_, block_of_;
+  std::vector<int> parent_;  ///< per block; -1: a root
+  std::span<const std::int64_t> first_, row_start_, value_start_, row_;
+  std::span<const double> value_;
+  // What the spans refer to when the factor's own layout is another.
+  std::vector<std::int64_t> own_first_, own_row_start_, own_value_start_, own_row_;
+  std::vector<double> own_value_;
+  mutable Eigen::MatrixXd below_;         ///< scratch
+  mutable std::vector<int> path_offset_;  ///< scratch, per block
+};
+
+}  // namespace topple::solver
