@@ -47,12 +47,16 @@ Graph make_graph(int node_count, std::span<const std::pair<int, int>> edges) {
   return graph;
 }
 
-/// How hard METIS tries, by the size of the graph; measured on regular frames of 500 to 190,000 freedoms. Below this
-/// many nodes the order costs as much as it saves: one refinement pass a level is enough (3 % more fill, 1/4 less
-/// time). Above it the factor dominates: separators may be less balanced, and are up to 1/8 thinner for it.
-constexpr int large_graph = 8000;
+/// How hard METIS tries, by the number of nodes; measured on regular frames of 500 to 190,000 freedoms. Small graphs
+/// are ordered in no time. In the middle the order costs as much as it saves: one refinement pass a level is enough
+/// (the same fill, 1/4 less time). Beyond, the factor dominates: separators may be less balanced, and are up to 1/8
+/// thinner for it.
+constexpr int middle_graph = 500, large_graph = 8000;
 
 void choose_effort(int node_count, idx_t* options) {
+  options[METIS_OPTION_NUMBERING] = 0;
+  options[METIS_OPTION_SEED] = 1;  // fixed: the same order in every run
+  if (node_count < middle_graph) return;
   options[METIS_OPTION_COMPRESS] = 0;  // a vertex is a node already: there is nothing alike to merge
   if (node_count < large_graph) {
     options[METIS_OPTION_NITER] = 1;
@@ -74,12 +78,11 @@ std::vector<int> order_nodes(int node_count, std::span<const std::pair<int, int>
 
   idx_t count = node_count, options[METIS_NOPTIONS];
   METIS_SetDefaultOptions(options);
-  options[METIS_OPTION_NUMBERING] = 0;
-  options[METIS_OPTION_SEED] = 1;  // fixed: the same order in every run
   choose_effort(node_count, options);
   std::vector<idx_t> weight(freedoms.begin(), freedoms.end());
   for (idx_t& w : weight) w = std::max<idx_t>(w, 1);
-  const bool uniform = std::all_of(weight.begin(), weight.end(), [&](idx_t w) { return w == weight.front(); });
+  const bool uniform = node_count >= middle_graph &&
+                       std::all_of(weight.begin(), weight.end(), [&](idx_t w) { return w == weight.front(); });
   std::vector<idx_t> permutation(order.size()), inverse(order.size());
   const int status = METIS_NodeND(&count, graph.start.data(), graph.neighbour.data(), uniform ? nullptr : weight.data(),
                                   options, permutation.data(), inverse.data());

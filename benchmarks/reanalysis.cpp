@@ -1,0 +1,186 @@
+// A joint breaks: what the new answer costs, against a new factorisation by CHOLMOD and against a forward and backward
+// solve with its factor ("pair"), all on the same matrix in one run. Errors beside times.
+//   bench_reanalysis [posts_x posts_y storeys breaks]      (default 10 10 40 50)
+#include <cstdlib>
+#include <map>
+#include <memory>
+#include <random>
+
+#include "factor.h"
+#include "frame_system.h"
+#include "support/measure.h"
+#include "support/provenance.h"
+#include "support/regular_frame.h"
+#include "topple/solver/reanalysis.h"
+
+using namespace topple;
+using namespace topple::bench;
+
+namespace {
+
+constexpr unsigned seed = 1;
+
+std::unique_ptr<solver::Reanalysis> standing(const RegularFrame& frame) {
+  auto result = std::make_unique<solver::Reanalysis>(frame.model);
+  for (const solver::BeamLoad& load : frame.loads.beams) result->set_beam_loads(load.beam, {load});
+  if (!result->solve().stable) std::exit(1);
+  return result;
+}
+
+struct Reference {
+  double factor = 0, pair = 0;
+};
+
+/// CHOLMOD's own numeric factorisation and solve, with the better of its two kinds.
+Reference measure_reference(const RegularFrame& frame, solver::Factorisation kind, int rounds) {
+  solver::FrameSystem system(frame.model);
+  system.assemble();
+  solver::Factor factor(system.matrix(), system.elimination_order(), kind);
+  Eigen::MatrixXd x = Eigen::MatrixXd::Ones(system.matrix().size, 1);
+  const auto time = interleaved_medians(rounds, {[&] { (void)factor.factorise(system.matrix()); },
+                                                 [&] {
+                                                   x.setOnes();
+                                                   factor.solve(x);
+                                                 }});
+  return {time[0], time[1]};
+}
+
+/// Every joint's forces, as a simulation asks for them.
+double all_forces(const solver::Reanalysis& standing) {
+  double sum = 0;
+  for (int b = 0; b < static_cast<int>(standing.model().beams.size()); ++b) sum += standing.beam_end_forces(b)(0);
+  return sum;
+}
+
+/// Largest difference of displacements to a fresh analysis, relative.
+double error(const RegularFrame& frame, const solver::Reanalysis& standing) {
+  solver::FrameModel model = standing.model();
+  solver::LoadSet loads = frame.loads;
+  std::erase_if(loads.beams, [&](const solver::BeamLoad& load) {
+    const auto& ends = model.beams[static_cast<std::size_t>(load.beam)].end_stiffness;
+    return ends[0].isZero(0) && ends[1].isZero(0);
+  });
+  solver::StaticAnalysis fresh(model);
+  const auto answer = fresh.solve(std::span(&loads, 1)).front();
+  double largest = 0, difference = 0;
+  for (std::size_t n = 0; n < answer.displacements.size(); ++n) {
+    largest = std::max(largest, answer.displacements[n].cwiseAbs().maxCoeff());
+    difference = std::max(difference, (answer.displacements[n] - standing.displacements()[n]).cwiseAbs().maxCoeff());
+  }
+  return difference / largest;
+}
+
+/// Members with one joint to break each, never two at one node, so that the frame stays stable.
+std::vector<int> random_members(const RegularFrame& frame, int count) {
+  std::mt19937 random(seed);
+  std::vector<int> members;
+  std::vector<char> taken(frame.model.nodes.size(), 0);
+  const int beams = static_cast<int>(frame.model.beams.size());
+  for (int tries = 0; static_cast<int>(members.size()) < count && tries < 100 * count; ++tries) {
+    const int beam = static_cast<int>(random() % static_cast<unsigned>(beams));
+    const auto& node = frame.model.beams[static_cast<std::size_t>(beam)].node;
+    char& a = taken[static_cast<std::size_t>(node[0])];
+    char& b = taken[static_cast<std::size_t>(node[1])];
+    if (a != 0 || b != 0) continue;
+    a = b = 1;
+    members.push_back(beam);
+  }
+  return members;
+}
+
+struct Steps {
+  std::vector<double> time, forces;
+};
+
+Steps break_one_by_one(solver::Reanalysis& standing, const std::vector<int>& members) {
+  Steps steps;
+  for (const int member : members) {
+    standing.set_end_stiffness(member, 1, solver::Vec6::Zero());
+    steps.time.push_back(seconds([&] {
+      if (!standing.solve().stable) {
+        std::fprintf(stderr, "member %d: the frame became a mechanism\n", member);
+        std::exit(1);
+      }
+    }));
+    double sum = 0;
+    steps.forces.push_back(seconds([&] { sum = all_forces(standing); }));
+    if (sum == 0) std::exit(1);
+  }
+  return steps;
+}
+
+double median_of(const std::vector<double>& values, std::size_t from, std::size_t count) {
+  return median({values.begin() + static_cast<std::ptrdiff_t>(from),
+                 values.begin() + static_cast<std::ptrdiff_t>(std::min(from + count, values.size()))});
+}
+
+/// One joint broken in a fresh state, over and over: breaks are undone in between, which is not counted.
+double first_break(solver::Reanalysis& standing, const std::vector<int>& members, bool forces) {
+  std::vector<double> times;
+  for (const int member : members) {
+    standing.set_end_stiffness(member, 1, solver::Vec6::Zero());
+    times.push_back(seconds([&] {
+      (void)standing.solve();
+      if (forces && all_forces(standing) == 0) std::exit(1);
+    }));
+    standing.set_end_stiffness(member, 1, solver::Vec6::Constant(solver::rigid));
+    (void)standing.solve();
+  }
+  return median(times);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  solver::restart_with_better_blas_kernel(argv);
+  if (argc != 1 && argc != 5) {
+    std::fprintf(stderr, "usage: bench_reanalysis [posts_x posts_y storeys breaks]\n");
+    return 2;
+  }
+  const int nx = argc > 1 ? std::atoi(argv[1]) : 10, ny = argc > 1 ? std::atoi(argv[2]) : 10;
+  const int storeys = argc > 1 ? std::atoi(argv[3]) : 40, breaks = argc > 1 ? std::atoi(argv[4]) : 50;
+  if (nx < 2 || ny < 2 || storeys < 1 || breaks < 1) {
+    std::fprintf(stderr, "bench_reanalysis: at least 2 x 2 posts, 1 storey, 1 break\n");
+    return 2;
+  }
+  const RegularFrame frame = regular_frame(nx, ny, storeys);
+  const auto members = random_members(frame, std::max(breaks, 16));
+  print_provenance("Reanalysis of the regular steel frame", 1);
+  auto structure = standing(frame);
+  const Reference supernodal = measure_reference(frame, solver::Factorisation::supernodal, 5);
+  const Reference simplicial =
+      nx * ny * storeys < 500 ? measure_reference(frame, solver::Factorisation::simplicial, 15) : Reference{1e9, 1e9};
+  const double refactor = std::min(supernodal.factor, simplicial.factor), pair = supernodal.pair;
+  std::printf("%d x %d posts, %d storeys, %zu members; seed of the breaks %u\n\n", nx, ny, storeys,
+              frame.model.beams.size(), seed);
+  std::printf("  CHOLMOD's numeric factorisation  %9.3f ms\n  CHOLMOD's pair                   %9.3f ms\n\n",
+              1e3 * refactor, 1e3 * pair);
+
+  const std::vector<int> some(members.begin(), members.begin() + std::min<std::ptrdiff_t>(9, std::ssize(members)));
+  const double one = first_break(*structure, some, false), one_forces = first_break(*structure, some, true);
+  std::printf("one joint: displacements           %9.3f ms = 1/%.1f factorisation = %.2f pairs\n", 1e3 * one,
+              refactor / one, one / pair);
+  std::printf("one joint: and all joints' forces  %9.3f ms\n", 1e3 * one_forces);
+
+  structure = standing(frame);
+  const Steps steps = break_one_by_one(*structure, members);
+  const auto& c = structure->counters();
+  const std::size_t window = std::min<std::size_t>(5, steps.time.size());
+  const double early = median_of(steps.time, 0, window),
+               late = median_of(steps.time, steps.time.size() - window, window);
+  std::printf(
+      "%zu joints one after the other: first %.3f ms, last %.3f ms (medians of %zu), ratio %.2f (asked: at most "
+      "2); by correction %llu, by new factor %llu\n",
+      steps.time.size(), 1e3 * early, 1e3 * late, window, late / early, static_cast<unsigned long long>(c.low_rank),
+      static_cast<unsigned long long>(c.refactorisations));
+  std::printf("  difference to a fresh analysis after all of them %.1e, backward error %.1e\n",
+              error(frame, *structure), structure->solve().quality.backward_error);
+
+  structure = standing(frame);
+  for (int i = 0; i < 16 && i < static_cast<int>(members.size()); ++i)
+    structure->set_end_stiffness(members[static_cast<std::size_t>(i)], 1, solver::Vec6::Zero());
+  const double sixteen = seconds([&] { (void)structure->solve(); });
+  std::printf("16 joints at once                  %9.3f ms = 1/%.1f factorisation (asked: 1/8), difference %.1e\n",
+              1e3 * sixteen, refactor / sixteen, error(frame, *structure));
+  return 0;
+}
