@@ -118,14 +118,18 @@ FixedEndForces CondensedBeam::fixed_end_forces(std::span<const BeamLoad> loads) 
   return result;
 }
 
+Vec6 relative_motion(double length, const Vec12& hub_displacements) {
+  Vec6 strain = hub_displacements.tail<6>() - hub_displacements.head<6>();
+  strain(1) -= length * hub_displacements(5);
+  strain(2) += length * hub_displacements(4);
+  return strain;
+}
+
 // Only what the second end moves beyond the rigid motion of the first strains the beam: taking it first keeps the
 // digits that a large sway of the whole frame would cost.
 Vec12 beam_end_forces(const CondensedBeam& beam, double length, const Vec12& hub_displacements,
                       const Vec12& fixed_end) {
-  Vec6 strain = hub_displacements.tail<6>() - hub_displacements.head<6>();
-  strain(1) -= length * hub_displacements(5);
-  strain(2) += length * hub_displacements(4);
-  return beam.stiffness().rightCols<6>() * strain + fixed_end;
+  return beam.stiffness().rightCols<6>() * relative_motion(length, hub_displacements) + fixed_end;
 }
 
 Mat3 arm_matrix(const Vec3& arm) {

@@ -47,6 +47,9 @@ class CondensedBeam {
 [[nodiscard]] Vec12 beam_end_forces(const CondensedBeam& beam, double length, const Vec12& hub_displacements,
                                     const Vec12& fixed_end);
 
+/// What the second end moves beyond the rigid motion of the first, local axes: all that strains the beam.
+[[nodiscard]] Vec6 relative_motion(double length, const Vec12& hub_displacements);
+
 /// Displacements of the hubs at the beam's ends (after the arms), local axes, from node displacements (global).
 [[nodiscard]] Vec12 hub_displacements(const Beam& beam, const Vec6& first_node, const Vec6& second_node);
 /// Transpose of the same: local end forces to forces on the element at its nodes, global.

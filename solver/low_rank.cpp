@@ -73,6 +73,35 @@ void LowRankCorrection::set(int place, const Eigen::MatrixXd& D) {
   p.active = (D.array() != 0).any();
 }
 
+std::vector<int> LowRankCorrection::forget_unchanged() {
+  constexpr Eigen::Index always_kept = 96;  // columns; to break and restore the same few joints makes nothing anew
+  Eigen::Index unchanged = 0;
+  for (const Place& place : places_) unchanged += place.active ? 0 : place.W.cols();
+  if (unchanged <= always_kept || 2 * unchanged <= gram_size_) return {};
+  std::vector<int> number(places_.size(), -1);
+  std::vector<Place> kept;
+  for (std::size_t p = 0; p < places_.size(); ++p) {
+    if (!places_[p].active) continue;
+    number[p] = static_cast<int>(kept.size());
+    kept.push_back(std::move(places_[p]));
+  }
+  const Eigen::MatrixXd old = std::move(gram_);
+  gram_.resize(old.rows(), old.cols());
+  gram_size_ = 0;
+  std::vector<int> first;
+  for (const Place& place : kept) {
+    first.push_back(static_cast<int>(gram_size_));
+    gram_size_ += place.W.cols();
+  }
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    for (std::size_t j = 0; j < kept.size(); ++j)
+      gram_.block(first[i], first[j], kept[i].W.cols(), kept[j].W.cols()) =
+          old.block(kept[i].first, kept[j].first, kept[i].W.cols(), kept[j].W.cols());
+  for (std::size_t i = 0; i < kept.size(); ++i) kept[i].first = first[i];
+  places_ = std::move(kept);
+  return number;
+}
+
 void LowRankCorrection::update() {
   active_.clear();
   active_rank_ = 0;

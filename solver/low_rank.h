@@ -25,6 +25,9 @@ class LowRankCorrection {
   int add(std::span<const int> rows, const Eigen::MatrixXd& B);
   /// Replaces the place's D (symmetric; zero: unchanged).
   void set(int place, const Eigen::MatrixXd& D);
+  /// Forgets places whose D is zero when they have become the greater part. Returns for each place so far its new
+  /// number, -1 when forgotten; empty when nothing was.
+  [[nodiscard]] std::vector<int> forget_unchanged();
   /// Brings the correction up to date with all D. To be called before what follows.
   void update();
 

@@ -101,9 +101,21 @@ void Reanalysis::set_beam_loads(int beam, std::vector<BeamLoad> loads) {
 
 const std::vector<Vec6>& Reanalysis::displacements() const { return state_->displacements; }
 
+Vec12 Reanalysis::State::end_forces(std::size_t i, const std::vector<Vec6>& u, const Vec12& fixed) const {
+  if (system->beam_stands[i] == 0) return Vec12::Zero();
+  const Beam& beam = system->model.beams[i];
+  if (end_stiffness_known[i] == 0) {
+    end_stiffness[i] = CondensedBeam(beam, system->beam_factor[i]).stiffness().rightCols<6>();
+    end_stiffness_known[i] = 1;
+  }
+  const Vec12 hubs =
+      hub_displacements(beam, u[static_cast<std::size_t>(beam.node[0])], u[static_cast<std::size_t>(beam.node[1])]);
+  return end_stiffness[i] * relative_motion(beam.length, hubs) + fixed;
+}
+
 Vec12 Reanalysis::beam_end_forces(int beam) const {
   const std::size_t i = state_->checked_beam(beam);
-  return state_->system->end_forces(beam, state_->displacements, state_->fixed_end[i]);
+  return state_->end_forces(i, state_->displacements, state_->fixed_end[i]);
 }
 
 std::array<Vec6, 4> Reanalysis::shell_corner_forces(int shell) const {
@@ -166,7 +178,7 @@ Reanalysis::Response Reanalysis::respond(const LoadSet& loads) const {
   response.beam_end_forces.reserve(state.targets.size());
   for (std::size_t i = 0; i < state.targets.size(); ++i) {
     const Vec12 fixed = load.beam_fixed_end.empty() ? Vec12::Zero() : load.beam_fixed_end[i];
-    response.beam_end_forces.push_back(state.system->end_forces(static_cast<int>(i), response.displacements, fixed));
+    response.beam_end_forces.push_back(state.end_forces(i, response.displacements, fixed));
   }
   return response;
 }

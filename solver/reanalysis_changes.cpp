@@ -15,6 +15,9 @@ Reanalysis::State::State(FrameModel model, const AnalysisOptions& given)
   node_loads.assign(m.nodes.size(), Vec6::Zero());
   displacements.assign(m.nodes.size(), Vec6::Zero());
   fixed_end.assign(m.beams.size(), Vec12::Zero());
+  fixed_at_nodes.assign(m.beams.size(), Vec12::Zero());
+  end_stiffness.resize(m.beams.size());
+  end_stiffness_known.assign(m.beams.size(), 0);
   unbalanced.assign(m.beams.size(), 0);
 }
 
@@ -69,6 +72,7 @@ void Reanalysis::State::rebuild() {
   system = std::move(fresh);
   standing.reset();
   factor.reset();
+  rows.reset();
   solution.resize(0);
   first_solution.resize(0);
   assembled = factor_valid = structure_stands = false;
@@ -110,6 +114,8 @@ void Reanalysis::State::apply_beams(std::vector<int>& touched) {
     if (stiffness_changed) touched.insert(touched.end(), beam.node.begin(), beam.node.end());
     const FixedEndForces fixed = system->fixed_end_forces(index, target.loads);
     fixed_end[i] = fixed.force;
+    fixed_at_nodes[i] = -node_forces(beam, fixed.force);
+    end_stiffness_known[i] = 0;
     unbalanced[i] = fixed.unbalanced > 0 ? 1 : 0;
   }
   changed_beams.clear();

@@ -111,6 +111,7 @@ std::optional<Defect> Reanalysis::State::refactorise() {
   first_solution.resize(0);
   if (!factor) {
     factor = std::make_unique<Factor>(system->matrix(), system->elimination_order(), options.factorisation);
+    rows = std::make_unique<MatrixRows>(system->matrix());
     ++counters.orderings;
   } else {
     ++counters.refactorisations;
@@ -135,7 +136,9 @@ LoadVector Reanalysis::State::load_vector() const {
   }
   for (std::size_t i = 0; i < fixed_end.size(); ++i) {
     if (system->beam_stands[i] == 0) continue;
-    system->add_fixed_end(static_cast<int>(i), fixed_end[i], load.force);
+    const Beam& beam = system->model.beams[i];
+    dofs.add_node_force(beam.node[0], fixed_at_nodes[i].head<6>(), load.force.data());
+    dofs.add_node_force(beam.node[1], fixed_at_nodes[i].tail<6>(), load.force.data());
     if (unbalanced[i] != 0) load.unbalanced_beams.push_back(static_cast<int>(i));
   }
   return load;
@@ -158,23 +161,23 @@ Eigen::VectorXd Reanalysis::State::solve_scaled(const Eigen::VectorXd& force, So
 
 /// Rows in which the last answer does not fit any longer; empty when they are too many to tell apart.
 std::vector<int> Reanalysis::State::changed_rows(const Eigen::VectorXd& force) const {
-  std::vector<int> rows;
+  std::vector<int> changed;
   const std::size_t most = static_cast<std::size_t>(force.size()) / 4;
   const auto& first = system->dofs().first_equation;
   const auto add_vertex = [&](std::size_t v) {
-    for (int e = first[v]; e < first[v + 1]; ++e) rows.push_back(e);
+    for (int e = first[v]; e < first[v + 1]; ++e) changed.push_back(e);
   };
   for (const int node : stale_nodes) {
     add_vertex(static_cast<std::size_t>(node));
     const int d = system->dofs().diaphragm_of_node[static_cast<std::size_t>(node)];
     if (d >= 0) add_vertex(system->model.nodes.size() + static_cast<std::size_t>(d));
   }
-  for (Eigen::Index e = 0; e < force.size() && rows.size() <= most; ++e)
-    if (force(e) != solved_force(e)) rows.push_back(static_cast<int>(e));
-  if (rows.size() > most) return {};
-  std::sort(rows.begin(), rows.end());
-  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
-  return rows;
+  for (Eigen::Index e = 0; e < force.size() && changed.size() <= most; ++e)
+    if (force(e) != solved_force(e)) changed.push_back(static_cast<int>(e));
+  if (changed.size() > most) return {};
+  std::sort(changed.begin(), changed.end());
+  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+  return changed;
 }
 
 /// From the last answer on: what does not fit any longer is solved for and added, until the error is at rounding level.
@@ -182,29 +185,28 @@ void Reanalysis::State::refine(const Eigen::VectorXd& force) {
   const SparseSymmetric& K = system->matrix();
   SolveQuality& quality = answer.quality;
   Eigen::VectorXd r, next;
-  std::vector<int> rows;
+  std::vector<int> changed;
   bool first = true;
   if (solution.size() != force.size()) {
     solution = Eigen::VectorXd::Zero(force.size());
     r = force;
   } else {
-    quality.backward_error = residual(K, force, solution, r);
-    rows = changed_rows(force);
-    if (!rows.empty()) {
-      Eigen::VectorXd kept = Eigen::VectorXd::Zero(r.size());
-      for (const int row : rows) kept(row) = r(row);
-      r = std::move(kept);
+    changed = changed_rows(force);
+    if (changed.empty()) {
+      (void)rows->residual(K, force, solution, r);
+    } else {
+      rows->residual(K, force, solution, changed, r);
     }
   }
   for (int step = 0; step <= most_refinements; ++step) {
     Eigen::VectorXd& correction = r;
-    if (first && !rows.empty()) {
-      standing->solve(correction, &rows);
+    if (first && !changed.empty()) {
+      standing->solve(correction, &changed);
     } else {
       standing->solve(correction);
     }
     next = solution + correction;
-    const double error = residual(K, force, next, r);
+    const double error = rows->residual(K, force, next, r);
     const bool go_on = first || error <= worthwhile * quality.backward_error;
     if (first || error < quality.backward_error) {
       solution.swap(next);

@@ -7,6 +7,7 @@
 
 #include "factor.h"
 #include "frame_system.h"
+#include "matrix_rows.h"
 #include "mechanism.h"
 #include "refinement.h"
 #include "standing_factor.h"
@@ -26,6 +27,7 @@ struct Reanalysis::State {
   std::unique_ptr<FrameSystem> system;
   AnalysisOptions options;
   std::unique_ptr<Factor> factor;
+  std::unique_ptr<MatrixRows> rows;          ///< of the system's matrix; made with its order
   std::unique_ptr<StandingFactor> standing;  ///< none while there is no valid factor
   bool assembled = false, factor_valid = false;
   bool structure_stands = false;  ///< the structure as it is was judged, and is stable
@@ -48,7 +50,11 @@ struct Reanalysis::State {
   SolveQuality first_quality;
   std::vector<int> stale_nodes;  ///< touched since the solution was found
   std::vector<Vec6> displacements;
-  std::vector<Vec12> fixed_end;  ///< per beam, local
+  std::vector<Vec12> fixed_end;       ///< per beam, local
+  std::vector<Vec12> fixed_at_nodes;  ///< per beam: the same reversed, on its nodes, global
+  /// Per beam: its stiffness, local, as the second end sees it (rightmost columns); made when first asked for.
+  mutable std::vector<Eigen::Matrix<double, 12, 6>> end_stiffness;
+  mutable std::vector<char> end_stiffness_known;
   std::vector<char> unbalanced;  ///< per beam: loaded in a loose direction
   mutable std::vector<Vec6> reactions;
   ReanalysisCounters counters;
@@ -76,6 +82,7 @@ struct Reanalysis::State {
   [[nodiscard]] std::vector<int> changed_rows(const Eigen::VectorXd& force) const;
   void give_up(const Defect& defect);
   [[nodiscard]] double current_condition() const;
+  [[nodiscard]] Vec12 end_forces(std::size_t beam, const std::vector<Vec6>& displacements, const Vec12& fixed) const;
   [[nodiscard]] LinearSolve linear_solve() const;
   [[nodiscard]] Eigen::VectorXd scaled(const Eigen::VectorXd& force) const;
   [[nodiscard]] Eigen::VectorXd solve_scaled(const Eigen::VectorXd& force, SolveQuality& quality) const;

@@ -157,15 +157,34 @@ StandingFactor::Plan StandingFactor::plan() {
   return plan;
 }
 
-void StandingFactor::update() {
-  for (const auto& [key, D] : wanted_) {
-    auto place = place_.find(key);
-    if (place == place_.end()) {
-      if (!(D.array() != 0).any()) continue;
-      const ElementModes m = modes(key);
-      place = place_.emplace(key, correction_.add(m.rows, m.B)).first;
+/// What was restored is as the factor has it: no need to look at it again until it changes again.
+void StandingFactor::forget_unchanged() {
+  const std::vector<int> number = correction_.forget_unchanged();
+  if (number.empty()) return;
+  for (auto place = place_.begin(); place != place_.end();) {
+    place->second = number[static_cast<std::size_t>(place->second)];
+    if (place->second >= 0) {
+      ++place;
+      continue;
     }
-    correction_.set(place->second, D);
+    wanted_.erase(place->first);
+    // A beam inside a part that left stays known: it holds the part together.
+    if (place->first.kind == Kind::beam &&
+        !inside_dropped(system_.model.beams[static_cast<std::size_t>(place->first.index)].node))
+      beam_before_.erase(place->first.index);
+    place = place_.erase(place);
+  }
+}
+
+void StandingFactor::update() {
+  for (const auto& [key, place] : place_) correction_.set(place, wanted_.at(key));
+  forget_unchanged();
+  for (const auto& [key, D] : wanted_) {
+    if (place_.contains(key) || !(D.array() != 0).any()) continue;
+    const ElementModes m = modes(key);
+    const int place = correction_.add(m.rows, m.B);
+    place_.emplace(key, place);
+    correction_.set(place, D);
   }
   correction_.update();
 }

@@ -65,6 +65,7 @@ class StandingFactor {
   bool plan_nodes();
   void plan_grounds();
   void want(Key key, Eigen::MatrixXd D);
+  void forget_unchanged();
   [[nodiscard]] bool inside_dropped(std::span<const int> nodes) const;
   [[nodiscard]] ElementModes modes(Key key) const;
 
