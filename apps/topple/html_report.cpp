@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #ifdef TOPPLE_REPORT
 extern "C" const char topple_report_page_begin[];
@@ -118,10 +120,22 @@ class ModelWriter {
     return b_.units.consistent ? "" : b_.units.length_name + power;
   }
 
+  [[nodiscard]] static Json columns(const std::vector<std::pair<std::string, std::string>>& names_and_units) {
+    Json list = Json::array();
+    for (const auto& [name, unit] : names_and_units) list.push_back(Json::array({name, unit}));
+    return list;
+  }
+
   void write_sections(Json& model) const {
-    model["section_columns"] = {{"area", unit("2")}, {"Iy", unit("4")},           {"Iz", unit("4")},
-                                {"J", unit("4")},    {"shear area y", unit("2")}, {"shear area z", unit("2")},
-                                {"depth", unit("")}, {"width", unit("")}};
+    // Said to be arrays: a list of pairs that begin with texts would become an object.
+    model["section_columns"] = columns({{"area", unit("2")},
+                                        {"Iy", unit("4")},
+                                        {"Iz", unit("4")},
+                                        {"J", unit("4")},
+                                        {"shear area y", unit("2")},
+                                        {"shear area z", unit("2")},
+                                        {"depth", unit("")},
+                                        {"width", unit("")}});
     model["sections"] = Json::array();
     const double l2 = length_ * length_, l4 = l2 * l2;
     for (const Section& s : b_.sections)
@@ -132,8 +146,8 @@ class ModelWriter {
   void write_materials(Json& model) const {
     const std::string stress = b_.units.consistent ? "" : b_.units.force_name + "/" + b_.units.length_name + "2";
     const std::string density = b_.units.consistent ? "" : b_.units.mass_name + "/" + b_.units.length_name + "3";
-    model["material_columns"] = {
-        {"E", stress}, {"G", stress}, {"Poisson", ""}, {"density", density}, {"yield", stress}};
+    model["material_columns"] =
+        columns({{"E", stress}, {"G", stress}, {"Poisson", ""}, {"density", density}, {"yield", stress}});
     model["materials"] = Json::array();
     const double pressure = b_.units.force / (length_ * length_);
     const double mass = b_.units.mass / (length_ * length_ * length_);

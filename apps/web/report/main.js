@@ -36,14 +36,14 @@ function movement() {
   return { list, largest };
 }
 
-/** Utilisation of each member's two ends from its joints, and of the member itself. */
-function uses() {
-  const joints = combination().joints ?? {}, members = combination().members ?? {};
-  return model.members.map((m) => ({
+/** Utilisation of a member's two ends from its joints, and of the member itself. */
+function useOf(m) {
+  const { joints = {}, members = {} } = combination();
+  return {
     ends: [joints[`${m.name}:1`]?.utilisation ?? null, joints[`${m.name}:2`]?.utilisation ?? null],
     member: members[m.name]?.utilisation ?? null,
     loss: results.losses?.[m.name]?.[state.combination],
-  }));
+  };
 }
 
 function stationValues(name, m) {
@@ -53,7 +53,7 @@ function stationValues(name, m) {
 }
 
 function colourRule() {
-  const use = uses();
+  const use = model.members.map(useOf);
   const n = view.segments;
   if (state.colour === 'joints') return (m, k) => useColour(2 * k < n ? use[m].ends[0] : 2 * k > n ? use[m].ends[1] : null);
   if (state.colour === 'members') return (m) => useColour(use[m].member);
@@ -247,7 +247,7 @@ function hover(canvas) {
     tip.hidden = m === null;
     if (m === null) return;
     const member = model.members[m], result = combination().members?.[member.name];
-    const use = uses()[m];
+    const use = useOf(member);
     const lines = [`${member.name}  (${member.kind}, ${member.section}, ${member.material})`];
     for (const name of DIAGRAMS) {
       const extreme = result?.extremes?.[name];

@@ -36,7 +36,8 @@ async function open(browser, report) {
   page.on('request', (request) => !request.url().startsWith('file:') && !request.url().startsWith('data:') && requests.push(request.url()));
   const started = Date.now();
   await page.goto(pathToFileURL(report).href);
-  await page.waitForFunction(() => document.querySelectorAll('#tabs button').length > 0, null, { timeout: 60000 });
+  const shown = page.waitForFunction(() => document.querySelectorAll('#tabs button').length > 0, null, { timeout: 60000 });
+  await Promise.race([shown, new Promise((_, fail) => page.on('pageerror', fail))]);
   console.log(`${report}: open after ${Date.now() - started} ms`);
   return { page, complaints, requests };
 }
