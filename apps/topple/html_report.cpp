@@ -1,5 +1,6 @@
 #include "html_report.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -254,6 +255,34 @@ Json diagrams(const Building& building, const AnalysisResult& result) {
   return all;
 }
 
+/// The JSON text with every number of more than nine digits cut to nine: what a page shows, at half of the size.
+std::string shortened(const std::string& json) {
+  constexpr std::size_t longest = 10;
+  std::string out;
+  out.reserve(json.size() / 2);
+  bool in_text = false;
+  for (std::size_t i = 0; i < json.size();) {
+    const char c = json[i];
+    if (in_text || !(c == '-' || (c >= '0' && c <= '9'))) {
+      out += c;
+      if (in_text && c == '\\') out += json[++i];
+      if (c == '"') in_text = !in_text;
+      ++i;
+      continue;
+    }
+    const std::size_t end = std::min(json.find_first_not_of("0123456789+-.eE", i), json.size());
+    if (end - i > longest) {
+      char text[32];
+      out.append(text, static_cast<std::size_t>(std::snprintf(text, sizeof text, "%.9g",
+                                                              std::strtod(json.substr(i, end - i).c_str(), nullptr))));
+    } else {
+      out.append(json, i, end - i);
+    }
+    i = end;
+  }
+  return out;
+}
+
 /// JSON as the text of a script element: "</" would end it.
 std::string in_script(const std::string& json) {
   std::string out;
@@ -286,7 +315,8 @@ std::string html_report(const Building& building, const AnalysisResult& result, 
   Json names = Json::array();
   for (const char* name : diagram_names) names.push_back(name);
   std::string data = "{\"model\":" + ModelWriter(building).write().dump() + ",\"diagram_names\":" + names.dump() +
-                     ",\"diagrams\":" + diagrams(building, result).dump() + ",\"results\":" + results_json + "}";
+                     ",\"diagrams\":" + diagrams(building, result).dump() + ",\"results\":" + shortened(results_json) +
+                     "}";
   std::string out(whole.substr(0, at));
   out += in_script(data);
   out += whole.substr(at + mark.size());

@@ -23,3 +23,10 @@ export function units(model) {
     momentPerLength: `${force} ${length}/${length}`,
   };
 }
+
+/** A force as short as a label wants it: three digits, in kN or MN where the unit is N. */
+export function forceLabel(value, unit) {
+  const size = Math.abs(value);
+  const [factor, name] = unit !== 'N' || size < 1e3 ? [1, unit] : size < 1e6 ? [1e3, 'kN'] : [1e6, 'MN'];
+  return `${number(Number((value / factor).toPrecision(3)))} ${name}`;
+}

@@ -1,6 +1,6 @@
 // The analysis report: one page, no network. The data stand in the page as JSON; see docs/report.md.
 import { css, gradient, signedColour, useColour } from './colours.js';
-import { number, percent, units } from './format.js';
+import { forceLabel, number, percent, units } from './format.js';
 import { StructureView } from './scene.js';
 import { TableView } from './table_view.js';
 import { tables } from './tables.js';
@@ -52,6 +52,16 @@ function stationValues(name, m) {
   return list ? list.map((row) => row[column]) : null;
 }
 
+/** Deflections [y, z] of every member from its chord, of the chosen combination. */
+const bowsOf = new Map();
+function bows() {
+  if (!bowsOf.has(state.combination)) {
+    const [y, z] = ['deflection_y', 'deflection_z'].map((name) => data.diagram_names.indexOf(name));
+    bowsOf.set(state.combination, data.diagrams?.[state.combination]?.map((list) => list?.map((row) => [row[y], row[z]]) ?? null) ?? null);
+  }
+  return bowsOf.get(state.combination);
+}
+
 function colourRule() {
   const use = model.members.map(useOf);
   const n = view.segments;
@@ -67,6 +77,20 @@ function colourRule() {
   return (m) => kinds[model.members[m].kind] ?? kinds.beam;
 }
 
+const forceUnit = (name) => (name.startsWith('moment') || name === 'torsion' ? unit.moment : unit.force);
+
+/** Least and largest value of one internal force over all members, at the exact places of its extremes. */
+function reachOf(name) {
+  let least = 0, most = 0;
+  for (const m of Object.values(combination().members ?? {})) {
+    const extreme = m.extremes?.[name];
+    if (!extreme) continue;
+    least = Math.min(least, extreme.min[0]);
+    most = Math.max(most, extreme.max[0]);
+  }
+  return { least, most };
+}
+
 function highlighted(rule) {
   const chosen = model.members.findIndex((m) => m.name === state.selected || `${m.name}:1` === state.selected || `${m.name}:2` === state.selected);
   return (m, k) => (m === chosen ? [1, 0.45, 0] : rule(m, k));
@@ -77,8 +101,16 @@ function showLegend() {
   const bar = (colour, from, to, ends) => `<div class="bar" style="background:${gradient(colour, from, to)}"></div><div class="ends"><span>${ends[0]}</span><span>${ends[1]}</span></div>`;
   const titles = { joints: 'Use of the joints', members: 'Use of the members', losses: 'Worst use after the loss of the member' };
   if (titles[state.colour]) legend.innerHTML = `${titles[state.colour]}${bar(useColour, 0, 1, ['0', '1'])}<span style="color:${css(useColour(2))}">\u25a0</span> above 1 &nbsp; <span style="color:${css(useColour(null))}">\u25a0</span> none`;
-  else if (DIAGRAMS.includes(state.colour)) legend.innerHTML = `${state.colour.replace('_', ' ')}${bar(signedColour, -1, 1, ['negative', 'positive'])}`;
-  else legend.innerHTML = '<span style="color:rgb(77,97,122)">\u25a0</span> posts &nbsp;<span style="color:rgb(115,140,168)">\u25a0</span> beams &nbsp;<span style="color:rgb(158,122,77)">\u25a0</span> braces';
+  else if (DIAGRAMS.includes(state.colour)) {
+    const { least, most } = reachOf(state.colour), largest = Math.max(Math.abs(least), Math.abs(most));
+    const unitOf = forceUnit(state.colour);
+    legend.innerHTML = `${state.colour.replace('_', ' ')}, ${unitOf}${bar(signedColour, -1, 1, [number(-largest), number(largest)])}`;
+  }
+  if (state.colour === 'kind') legend.innerHTML = '<span style="color:rgb(77,97,122)">\u25a0</span> posts &nbsp;<span style="color:rgb(115,140,168)">\u25a0</span> beams &nbsp;<span style="color:rgb(158,122,77)">\u25a0</span> braces';
+  if (state.diagram !== 'none') {
+    const { least, most } = reachOf(state.diagram);
+    legend.innerHTML += `<div>Diagram: ${state.diagram.replace('_', ' ')} from ${number(least)} to ${number(most)} ${forceUnit(state.diagram)}</div>`;
+  }
 }
 
 /** The factor on the movement at slider position 1: the largest movement is drawn as 4 % of the structure. */
@@ -88,7 +120,10 @@ function baseScale(largest) {
 
 function showShape(phase = 1) {
   const { list, largest } = movement();
-  view.setShape(list, list ? baseScale(largest) * state.scale * phase : 0);
+  view.setShape(list, list ? baseScale(largest) * state.scale * phase : 0, state.shape === 'deformed' ? bows() : null);
+  let at = -1;
+  if (state.shape === 'deformed' && !state.moving && largest > 0) at = list.findIndex((d) => d && Math.hypot(d[0], d[1], d[2]) === largest);
+  view.setNodeLabels('largest', at >= 0 ? [{ node: at, text: `${model.node_names[at]}: ${number(largest)} ${unit.length}` }] : []);
   document.getElementById('factor').textContent = list ? `drawn ${number(Number((baseScale(largest) * state.scale).toPrecision(2)))} times as large` : '';
 }
 
@@ -97,7 +132,7 @@ function refresh() {
   view.setColours(highlighted(colourRule()));
   view.setDiagram(state.diagram === 'none' ? null : model.members.map((_, m) => stationValues(state.diagram, m)), DIAGRAM_AXIS[state.diagram] ?? 2, signedColour);
   const reactions = Object.entries(combination().reactions ?? {}).filter(([name]) => nodeIndex.has(name));
-  view.setArrows(state.reactions ? reactions.map(([name, r]) => ({ node: nodeIndex.get(name), force: r.slice(0, 3) })) : []);
+  view.setArrows(state.reactions ? reactions.map(([name, r]) => ({ node: nodeIndex.get(name), force: r.slice(0, 3), text: forceLabel(Math.hypot(r[0], r[1], r[2]), unit.force) })) : []);
   view.setPanelsVisible(state.panels);
   showLegend();
 }
@@ -251,7 +286,7 @@ function hover(canvas) {
     const lines = [`${member.name}  (${member.kind}, ${member.section}, ${member.material})`];
     for (const name of DIAGRAMS) {
       const extreme = result?.extremes?.[name];
-      if (extreme) lines.push(`${name.replace('_', ' ')}  ${number(extreme.min[0])} to ${number(extreme.max[0])} ${name.startsWith('moment') || name === 'torsion' ? unit.moment : unit.force}`);
+      if (extreme) lines.push(`${name.replace('_', ' ')}  ${number(extreme.min[0])} to ${number(extreme.max[0])} ${forceUnit(name)}`);
     }
     use.ends.forEach((value, end) => value !== null && lines.push(`joint ${end + 1}  ${percent(value)}`));
     if (use.member !== null) lines.push(`member  ${percent(use.member)} by ${result.governing}`);

@@ -2,6 +2,7 @@
 // in place when what is shown changes; drawn only when something moved.
 import * as THREE from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+import { Labels } from './labels.js';
 import { bounds, memberLine } from './shape.js';
 
 const CORNERS = [[-1, -1], [1, -1], [1, 1], [-1, 1]];
@@ -21,21 +22,33 @@ export class StructureView {
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener('change', () => this.draw());
     this.raycaster = new THREE.Raycaster();
+    this.labels = new Labels(canvas);
     this.#addLights();
     this.#addMembers();
     this.#addPanels();
     this.#addSupports();
+    this.#addAxes();
     this.diagram = this.#emptyMesh(new THREE.MeshBasicMaterial({ vertexColors: true, side: THREE.DoubleSide, transparent: true, opacity: 0.75 }));
     this.arrows = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: 0x7a2fb5 }));
     this.scene.add(this.arrows);
-    this.home();
     new ResizeObserver(() => this.#resize()).observe(canvas.parentElement);
     this.#resize();
   }
 
+  /** Looks from the south-east, from above, so that all of the structure and its arrows are in view. */
   home() {
-    const [x, y, z] = this.bounds.centre, s = this.bounds.size;
-    this.camera.position.set(x + 0.75 * s, y - 1.05 * s, z + 0.45 * s);
+    const [x, y, z] = this.bounds.centre;
+    const half = Math.tan(this.camera.fov / 2 * Math.PI / 180) * Math.min(1, this.camera.aspect);
+    const direction = new THREE.Vector3(0.6, -0.8, 0.4).normalize();
+    const right = new THREE.Vector3(0, 0, 1).cross(direction).normalize(), up = direction.clone().cross(right);
+    // Each corner of the box wants a distance at which it is inside of the picture; the margin is for arrows and labels.
+    let distance = 0;
+    for (let k = 0; k < 8; ++k) {
+      const corner = new THREE.Vector3(...[0, 1, 2].map((i) => (k >> i & 1 ? this.bounds.high[i] : this.bounds.low[i]) - this.bounds.centre[i]));
+      const across = Math.max(Math.abs(corner.dot(right)) / Math.max(1, this.camera.aspect), Math.abs(corner.dot(up)));
+      distance = Math.max(distance, corner.dot(direction) + 1.2 * across / half);
+    }
+    this.camera.position.set(x, y, z).addScaledVector(direction, Math.max(distance, 0.1 * this.bounds.size));
     this.controls.target.set(x, y, z);
     this.controls.update();
   }
@@ -45,12 +58,14 @@ export class StructureView {
     this.pending = requestAnimationFrame(() => {
       this.pending = 0;
       this.renderer.render(this.scene, this.camera);
+      this.labels.place(this.camera);
     });
   }
 
-  /** movements: per node six numbers, or null; scale: factor on them. */
-  setShape(movements, scale) {
+  /** movements: per node six numbers, or null; scale: factor on them; bows: per member its deflections (memberLine), or null. */
+  setShape(movements, scale, bows = null) {
     this.movements = movements;
+    this.bows = bows;
     this.scale = scale;
     this.#placeMembers();
     this.#placePanels();
@@ -80,7 +95,7 @@ export class StructureView {
       this.model.members.forEach((member, m) => {
         const list = values[m];
         if (!list) return;
-        const line = memberLine(member, this.model.nodes, this.movements, this.scale, list.length - 1);
+        const line = memberLine(member, this.model.nodes, this.movements, this.scale, list.length - 1, this.bows?.[m]);
         const tip = (k) => line[k].map((p, i) => p + member.axes[axis][i] * list[k] * reach);
         for (let k = 0; k + 1 < list.length; ++k) {
           const a = line[k], b = line[k + 1], c = tip(k + 1), d = tip(k);
@@ -94,17 +109,24 @@ export class StructureView {
     this.draw();
   }
 
-  /** reactions: list of {node, force: [x, y, z]} */
+  /** Texts at nodes, where the drawn shape has them: [{node, text}]. */
+  setNodeLabels(group, list) {
+    this.labels.set(group, list.map(({ node, text }) => ({ at: this.#drawn(node), text })));
+    this.draw();
+  }
+
+  /** reactions: list of {node, force: [x, y, z], text} */
   setArrows(reactions) {
     const largest = Math.max(0, ...reactions.map((r) => Math.hypot(...r.force)));
-    const positions = [];
-    for (const { node, force } of reactions) {
+    const positions = [], labels = [];
+    for (const { node, force, text } of reactions) {
       const size = Math.hypot(...force);
       if (size < 1e-9 * largest || largest === 0) continue;
       const head = this.model.nodes[node];
       const length = this.bounds.size * (0.02 + 0.10 * size / largest);
       const dir = force.map((f) => f / size);
       const tail = head.map((p, i) => p - dir[i] * length);
+      labels.push({ at: tail, text, size });
       const side = Math.abs(dir[2]) < 0.9 ? [-dir[1], dir[0], 0] : [1, 0, 0];
       positions.push(...tail, ...head);
       for (const s of [-1, 1])
@@ -112,6 +134,7 @@ export class StructureView {
     }
     this.arrows.geometry.setAttribute('position', new THREE.Float32BufferAttribute(positions, 3));
     this.arrows.geometry.computeBoundingSphere();
+    this.labels.set('reaction', labels.sort((a, b) => b.size - a.size));
     this.draw();
   }
 
@@ -176,7 +199,7 @@ export class StructureView {
     const position = this.members.geometry.attributes.position;
     const rings = this.segments + 1;
     this.model.members.forEach((member, m) => {
-      const line = memberLine(member, this.model.nodes, this.movements, this.scale, this.segments);
+      const line = memberLine(member, this.model.nodes, this.movements, this.scale, this.segments, this.bows?.[m]);
       const [, y, z] = member.axes;
       for (let k = 0; k < rings; ++k)
         for (let c = 0; c < 4; ++c) {
@@ -200,7 +223,7 @@ export class StructureView {
   #placePanels() {
     const position = this.panels.geometry.attributes.position;
     this.model.panels.forEach((panel, p) => {
-      const corners = panel.nodes.map((n) => this.model.nodes[n].map((v, i) => v + (this.movements ? this.scale * (this.movements[n]?.[i] ?? 0) : 0)));
+      const corners = panel.nodes.map((n) => this.#drawn(n));
       [0, 1, 2, 0, 2, 3].forEach((c, k) => position.setXYZ(6 * p + k, ...corners[c]));
     });
     position.needsUpdate = true;
@@ -218,12 +241,28 @@ export class StructureView {
     this.scene.add(mesh);
   }
 
+  /** Global axes, drawn aside of the lowest corner. */
+  #addAxes() {
+    const size = 0.1 * this.bounds.size;
+    const corner = [this.bounds.low[0] - size, this.bounds.low[1] - size, this.bounds.low[2]];
+    const axes = new THREE.AxesHelper(size);
+    axes.position.set(...corner);
+    this.scene.add(axes);
+    this.labels.set('axis', ['x', 'y', 'z'].map((text, i) => ({ at: corner.map((v, j) => (i === j ? v + 1.15 * size : v)), text })));
+  }
+
+  #drawn(node) {
+    return this.model.nodes[node].map((v, i) => v + (this.movements ? this.scale * (this.movements[node]?.[i] ?? 0) : 0));
+  }
+
   #resize() {
     const box = this.renderer.domElement.parentElement.getBoundingClientRect();
     if (box.width < 1 || box.height < 1) return;
     this.renderer.setSize(box.width, box.height, false);
     this.camera.aspect = box.width / box.height;
     this.camera.updateProjectionMatrix();
+    if (!this.placed) this.home();
+    this.placed = true;
     this.draw();
   }
 }

@@ -31,7 +31,28 @@ export class TableView {
     const current = this.list.find((t) => t.id === id);
     this.columns = current ? current.columns : [];
     this.rows = current ? current.rows() : [];
+    this.#dropEmptyColumns();
+    this.#findNoise();
     this.#fill();
+  }
+
+  /** A column in which no row has anything tells nothing. */
+  #dropEmptyColumns() {
+    const used = this.columns.map((_, k) => k === 0 || this.rows.some((row) => row[k] !== null && row[k] !== undefined && row[k] !== ''));
+    if (used.every(Boolean)) return;
+    this.columns = this.columns.filter((_, k) => used[k]);
+    this.rows = this.rows.map((row) => row.filter((_, k) => used[k]));
+    if (this.order.column >= this.columns.length) this.order = { column: 0, down: false };
+  }
+
+  /** What is smaller than rounding makes of the largest number with the same unit is shown as 0. */
+  #findNoise() {
+    const largest = new Map();
+    for (const row of this.rows)
+      row.forEach((cell, k) => {
+        if (typeof cell === 'number') largest.set(this.columns[k][1], Math.max(largest.get(this.columns[k][1]) ?? 0, Math.abs(cell)));
+      });
+    this.noise = this.columns.map(([, unit]) => (unit ? 1e-11 * (largest.get(unit) ?? 0) : 0));
   }
 
   select(name) {
@@ -66,6 +87,7 @@ export class TableView {
       label.className = 'unit';
       label.textContent = unit || '\u00a0';
       cell.append(label);
+      if (rows.some((row) => typeof row[k] === 'string')) cell.className = 'text';
       cell.addEventListener('click', () => {
         this.order = { column: k, down: this.order.column === k ? !this.order.down : k > 0 };
         this.#fill();
@@ -79,11 +101,11 @@ export class TableView {
     for (const row of shown) {
       const tr = body.insertRow();
       tr.className = row[0] === this.selected ? 'selected' : '';
-      for (const cell of row) {
+      row.forEach((cell, k) => {
         const td = tr.insertCell();
-        td.textContent = number(cell);
+        td.textContent = number(typeof cell === 'number' && Math.abs(cell) < this.noise[k] ? 0 : cell);
         if (typeof cell === 'string') td.className = 'text';
-      }
+      });
       tr.addEventListener('click', () => this.onSelect(row[0]));
     }
     this.table.replaceChildren(head, body);
