@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "frame_system.h"
+#include "second_order_beam.h"
 
 namespace topple::solver {
 namespace {
@@ -75,6 +76,9 @@ Eigen::VectorXd FrameSystem::held_displacements(std::span<const Settlement> sett
 FixedEndForces FrameSystem::fixed_end_forces(int beam, std::span<const BeamLoad> loads) const {
   const auto i = static_cast<std::size_t>(beam);
   if (beam_stands[i] == 0) return {};
+  if (second_order != nullptr)
+    return SecondOrderBeam(model.beams[i], beam_factor[i], second_order->mode, second_order->first_axial[i], loads)
+        .fixed_end_forces();
   return CondensedBeam(model.beams[i], beam_factor[i]).fixed_end_forces(loads);
 }
 

@@ -23,6 +23,13 @@ Vec12 FrameSystem::end_forces(int index, const std::vector<Vec6>& displacements,
   const Beam& beam = model.beams[i];
   const Vec12 hubs = hub_displacements(beam, displacements[static_cast<std::size_t>(beam.node[0])],
                                        displacements[static_cast<std::size_t>(beam.node[1])]);
+  if (second_order != nullptr) {
+    // Only a translation of the whole costs nothing: turned, the axial force pushes sideways.
+    Vec12 moved = hubs;
+    moved.segment<3>(0) -= hubs.head<3>();
+    moved.segment<3>(6) -= hubs.head<3>();
+    return hub_stiffness(i) * moved + fixed_end;
+  }
   return beam_end_forces(CondensedBeam(beam, beam_factor[i]), beam.length, hubs, fixed_end);
 }
 

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "ordering.h"
+#include "second_order_beam.h"
 
 namespace topple::solver {
 namespace {
@@ -121,6 +122,13 @@ std::vector<int> FrameSystem::elimination_order() const {
   return order;
 }
 
+Mat12 FrameSystem::hub_stiffness(std::size_t i) const {
+  if (second_order == nullptr) return CondensedBeam(model.beams[i], beam_factor[i]).stiffness();
+  return SecondOrderBeam(model.beams[i], beam_factor[i], second_order->mode, second_order->first_axial[i],
+                         second_order->loads[i])
+      .stiffness();
+}
+
 Mat12 FrameSystem::beam_stiffness(int index) const {
   const auto i = static_cast<std::size_t>(index);
   if (beam_stands[i] == 0) return Mat12::Zero();
@@ -129,7 +137,7 @@ Mat12 FrameSystem::beam_stiffness(int index) const {
   for (std::size_t end = 0; end < 2; ++end) {
     arm[end] = arm_matrix(beam.offset[end]) + dofs_.diaphragm_arm(beam.node[end]);
   }
-  return to_node_freedoms(beam.axes, CondensedBeam(beam, beam_factor[i]).stiffness(), arm);
+  return to_node_freedoms(beam.axes, hub_stiffness(i), arm);
 }
 
 const Mat24& FrameSystem::shell_node_stiffness(int index) const {
@@ -234,7 +242,8 @@ void FrameSystem::hold_inert_rotations(int node) {
   if (largest > 0 && block.determinant() > 1e-9 * held * held * held) return;
   const Eigen::SelfAdjointEigenSolver<Mat3> modes(block);
   for (int m = 0; m < 3; ++m) {
-    if (modes.eigenvalues()(m) > inert_limit * held) continue;
+    if (std::abs(modes.eigenvalues()(m)) > inert_limit * held)
+      continue;  // below zero: a softened hub, not an inert one
     const Vec3 d = modes.eigenvectors().col(m);
     inert_[n].directions.col(inert_[n].count++) = d;
     inert_[n].stiffness = held;

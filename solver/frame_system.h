@@ -14,6 +14,7 @@
 #include "scatter_map.h"
 #include "shell.h"
 #include "topple/solver/frame_model.h"
+#include "topple/solver/second_order.h"
 #include "topple/solver/static_analysis.h"
 
 namespace topple::solver {
@@ -45,6 +46,8 @@ class FrameSystem {
   FrameModel model;
   std::vector<double> beam_factor;  ///< on E and G
   std::vector<char> beam_stands, shell_stands, node_stands;
+  /// Axial forces that act on the displaced beams; null: first order. Loads given later must be those of this state.
+  const AxialState* second_order = nullptr;
 
   [[nodiscard]] const DofMap& dofs() const { return dofs_; }
   [[nodiscard]] const ScatterMap& scatter() const { return scatter_; }
@@ -98,6 +101,8 @@ class FrameSystem {
                                             const std::vector<Vec6>& node_loads) const;
 
  private:
+  /// K of a beam in the local freedoms of its hubs.
+  [[nodiscard]] Mat12 hub_stiffness(std::size_t beam) const;
   void add_element(std::size_t element, const std::vector<char>& wanted);
   [[nodiscard]] std::vector<char> vertices_of(std::span<const int> nodes) const;
   void finish_node(int node);

@@ -22,6 +22,8 @@ struct Options {
   std::string model, output;
   std::vector<std::string> combinations;
   int stations = 0, threads = 1;
+  std::string p_delta;
+  int buckling = 0;
   bool html = false, csv = false, vtu = false;
 };
 
@@ -56,6 +58,14 @@ std::vector<CombinationId> chosen(const Building& building, const std::vector<st
   return ids;
 }
 
+/// What the command line asks for, else what the file asks for itself.
+solver::SecondOrder second_order(const std::string& asked, const Building& building) {
+  if (asked == "exact") return solver::SecondOrder::exact;
+  if (asked == "cubic") return solver::SecondOrder::cubic;
+  if (building.requested.cubic_p_delta) return solver::SecondOrder::frame3dd;
+  return solver::SecondOrder::none;
+}
+
 int run(const Options& options) {
   for (const auto& [asked, name] : {std::pair{options.html, "--html"}, {options.csv, "--csv"}, {options.vtu, "--vtu"}})
     if (asked && options.output.empty()) throw InputError(std::string(name) + ": name the folder for it with -o");
@@ -66,6 +76,8 @@ int run(const Options& options) {
   request.combinations = chosen(building, options.combinations);
   request.stations = options.stations;
   request.solver.threads = options.threads;
+  request.second_order = second_order(options.p_delta, building);
+  request.buckling = options.buckling;
   AnalysisRequest wider = request;
   if (options.html) wider.stations = std::max(request.stations, report_stations);
   if (options.vtu) wider.stations = std::max(wider.stations, drawing_stations);
@@ -99,6 +111,11 @@ std::function<int()> declare(CLI::App& app) {
   app.add_option("--stations", options->stations, "Stations along each member in results.json")
       ->check(CLI::Range(1, 10000));
   app.add_option("--threads", options->threads, "Threads of the factorisation")->check(CLI::Range(1, 1024));
+  app.add_flag("--p-delta{exact}", options->p_delta,
+               "Second order: exact (stability functions) or, with =cubic, the cubic geometric stiffness")
+      ->check(CLI::IsMember({"exact", "cubic"}));
+  app.add_option("--buckling", options->buckling, "Lowest buckling factors of each combination")
+      ->check(CLI::Range(1, 1000));
   app.add_flag("--csv", options->csv, "Write tables: displacements, reactions, members, joints, panels");
   app.add_flag("--vtu", options->vtu, "Write COMBINATION.vtu for ParaView");
   app.add_flag("--html", options->html, "Write report.html");

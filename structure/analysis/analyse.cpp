@@ -1,6 +1,9 @@
 #include <Eigen/Geometry>
 #include <cmath>
+#include <cstdio>
 #include <numeric>
+#include <optional>
+#include <set>
 
 #include "analysis/equilibrium.h"
 #include "analysis/instability.h"
@@ -42,8 +45,7 @@ class Analysis {
       solver::StaticAnalysis analysis(carrying_both(frame_.model), request_.solver);
       const std::vector<solver::StaticSolution> solutions = analysis.solve(loads_);
       result.statistics = analysis.statistics();
-      for (std::size_t k = 0; k < solutions.size(); ++k)
-        result.combinations.push_back(gather(k, settled(k, solutions[k])));
+      for (std::size_t k = 0; k < solutions.size(); ++k) result.combinations.push_back(analysed(k, solutions[k]));
     } catch (const solver::Instability& unstable) {
       throw UnstableModel(building_.file + ": " + describe_instability(building_, unstable));
     } catch (const std::invalid_argument& error) {
@@ -51,6 +53,7 @@ class Analysis {
       throw InputError(building_.file + ": " + error.what());
     }
     result.warnings = building_.warnings;
+    warn_of_frame3dd(result);
     if (result.statistics.nearly_unstable)
       result.warnings.push_back("the model is nearly unstable: about " +
                                 std::to_string(static_cast<int>(result.statistics.digits_left)) +
@@ -62,7 +65,7 @@ class Analysis {
   /// With tension-only and compression-only members slack where they have to be.
   [[nodiscard]] OneWayAnswer settled(std::size_t k, const solver::StaticSolution& solution) const {
     const OneWayMembers one_way(frame_.model);
-    if (!one_way.any()) return {solution, {}, {}, 0};
+    if (!one_way.any()) return {solution, {}, {}, 0, {}};
     std::vector<std::string> names;
     for (const Member& member : building_.members) names.push_back(member.name);
     try {
@@ -74,6 +77,72 @@ class Analysis {
       throw std::runtime_error(building_.file + ", combination " + building_[combinations_[k]].name + ": " +
                                cycle.what());
     }
+  }
+
+  /// Second order and buckling on what is taut, when they are asked for.
+  [[nodiscard]] CombinationResult analysed(std::size_t k, const solver::StaticSolution& linear) {
+    OneWayAnswer answer = settled(k, linear);
+    const bool second_order = request_.second_order != solver::SecondOrder::none;
+    if (!second_order && request_.buckling == 0) return gather(k, answer);
+    solver::FrameModel model = carrying_both(frame_.model);
+    if (!answer.beams.empty()) model.beams = answer.beams;
+    const int iterations = second_order ? turn_to_second_order(k, model, answer) : 0;
+    CombinationResult result = gather(k, answer);
+    result.second_order_iterations = iterations;
+    if (request_.buckling > 0)
+      result.buckling = solver::buckling_modes(model, loads_[k], request_.buckling, request_.solver);
+    return result;
+  }
+
+  /// Returns the iterations that it took.
+  int turn_to_second_order(std::size_t k, const solver::FrameModel& model, OneWayAnswer& answer) {
+    const std::string place = building_.file + ", combination " + building_[combinations_[k]].name;
+    try {
+      // Combinations with the same members taut share an ordering.
+      if (!second_order_ || !answer.beams.empty()) second_order_.emplace(model, request_.second_order, request_.solver);
+      solver::SecondOrderSolution found = second_order_->solve(loads_[k], answer.solution);
+      answer.solution = std::move(found.solution);
+      answer.axial = std::move(found.axial);
+      require_same_signs(place, answer);
+      return found.iterations;
+    } catch (const solver::Buckled& buckled) {
+      const auto modes = solver::buckling_modes(model, loads_[k], 1, request_.solver);
+      const std::string factor = modes.empty() ? "" : " (critical factor " + short_number(modes[0].factor) + ")";
+      throw UnstableModel(place + ": the loads are beyond what the structure bears before it buckles" + factor + "; " +
+                          describe_instability(building_, buckled));
+    }
+  }
+
+  /// Frame3DD takes a thermal strain for an axial force in the end forces that it prints.
+  void warn_of_frame3dd(AnalysisResult& result) const {
+    if (request_.second_order != solver::SecondOrder::frame3dd) return;
+    std::set<int> heated;
+    for (const solver::LoadSet& loads : loads_)
+      for (const solver::BeamLoad& load : loads.beams)
+        if (load.kind == solver::BeamLoad::Kind::temperature) heated.insert(load.beam);
+    if (heated.empty()) return;
+    result.warnings.push_back(
+        "end forces are Frame3DD's own, which are not in equilibrium for heated elements under geometric stiffness (" +
+        building_.members[static_cast<std::size_t>(*heated.begin())].name +
+        (heated.size() > 1 ? " and " + std::to_string(heated.size() - 1) + " more" : "") +
+        "); --p-delta=cubic gives those in equilibrium");
+  }
+
+  void require_same_signs(const std::string& place, const OneWayAnswer& answer) const {
+    for (std::size_t i = 0; i < answer.active.size(); ++i) {
+      const AxialAction axial = building_.members[i].axial;
+      const double tension = answer.solution.beam_end_forces[i](6);
+      if (axial == AxialAction::both || answer.active[i] == 0) continue;
+      if ((axial == AxialAction::tension ? -tension : tension) > 1e-9 * answer.solution.beam_end_forces[i].norm())
+        throw std::runtime_error(place + ": second-order forces turn over the one-way member " +
+                                 building_.members[i].name + ", whose state was found by first order");
+    }
+  }
+
+  static std::string short_number(double number) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4g", number);
+    return text;
   }
 
   [[nodiscard]] CombinationResult gather(std::size_t k, const OneWayAnswer& answer) const {
@@ -89,7 +158,8 @@ class Analysis {
     result.panels = panels(solution);
     result.joints = joints(parts_[k], result);
     result.storeys = storeys_.results(result.displacements, result.members);
-    const Equilibrium balance = equilibrium(frame_.model, acting, result.reactions);
+    const Equilibrium balance =
+        equilibrium(frame_.model, acting, result.reactions, answer.axial.mode != solver::SecondOrder::none);
     result.total_load = balance.load;
     result.total_reaction = balance.reaction;
     result.equilibrium_error = balance.error;
@@ -110,6 +180,17 @@ class Analysis {
       }
   }
 
+  template <class Diagram>
+  void fill(MemberResult& member, double length, const Diagram& diagram) const {
+    for (std::size_t q = 0; q < 8; ++q) {
+      const auto range = diagram.extremes(static_cast<solver::BeamDiagram::Quantity>(q));
+      member.min[q] = {range.least.value, range.least.at};
+      member.max[q] = {range.greatest.value, range.greatest.at};
+    }
+    for (int s = 0; request_.stations > 0 && s <= request_.stations; ++s)
+      member.stations.push_back(diagram.values(length * s / request_.stations));
+  }
+
   [[nodiscard]] std::vector<MemberResult> members(const solver::LoadSet& loads, const OneWayAnswer& answer) const {
     const std::vector<solver::Beam>& beams = answer.beams.empty() ? frame_.model.beams : answer.beams;
     std::vector<std::vector<solver::BeamLoad>> on(building_.members.size());
@@ -119,14 +200,13 @@ class Analysis {
       MemberResult& member = all[i];
       member.end_forces = answer.solution.beam_end_forces[i];
       member.active = answer.active.empty() || answer.active[i] != 0;
-      const solver::BeamDiagram diagram(beams[i], member.end_forces, on[i]);
-      for (std::size_t q = 0; q < 8; ++q) {
-        const auto range = diagram.extremes(static_cast<solver::BeamDiagram::Quantity>(q));
-        member.min[q] = {range.least.value, range.least.at};
-        member.max[q] = {range.greatest.value, range.greatest.at};
+      if (answer.axial.mode == solver::SecondOrder::none) {
+        fill(member, beams[i].length, solver::BeamDiagram(beams[i], member.end_forces, on[i]));
+      } else {
+        const solver::Vec12 hubs = solver::beam_hub_displacements(beams[i], answer.solution.displacements);
+        fill(member, beams[i].length,
+             solver::SecondOrderDiagram(beams[i], answer.axial, static_cast<int>(i), member.end_forces, hubs));
       }
-      for (int s = 0; request_.stations > 0 && s <= request_.stations; ++s)
-        member.stations.push_back(diagram.values(building_.members[i].length * s / request_.stations));
     }
     return all;
   }
@@ -191,6 +271,7 @@ class Analysis {
   std::vector<CombinationId> combinations_;
   std::vector<PartLoads> parts_;
   std::vector<solver::LoadSet> loads_;
+  std::optional<solver::SecondOrderAnalysis> second_order_;
 };
 
 }  // namespace

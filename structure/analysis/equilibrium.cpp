@@ -43,7 +43,7 @@ void add_beam_load(Balance& balance, const solver::FrameModel& model, const solv
 }  // namespace
 
 Equilibrium equilibrium(const solver::FrameModel& model, const solver::LoadSet& loads,
-                        const std::vector<Vec6>& reactions) {
+                        const std::vector<Vec6>& reactions, bool displaced) {
   Vec3 centre = Vec3::Zero();
   for (const Vec3& node : model.nodes) centre += node;
   centre /= static_cast<double>(model.nodes.size());
@@ -59,7 +59,7 @@ Equilibrium equilibrium(const solver::FrameModel& model, const solver::LoadSet& 
   // against a millionth of the largest of its kind.
   constexpr double least_share = 1e-6;
   const Vec6 size = applied.size + held.size;
-  for (int i = 0; i < 6; ++i) {
+  for (int i = 0; i < (displaced ? 3 : 6); ++i) {
     const double scale = std::max(size[i], least_share * size.segment<3>(i < 3 ? 0 : 3).maxCoeff());
     if (scale > 0) result.error = std::max(result.error, std::abs(applied.sum[i] + held.sum[i]) / scale);
   }

@@ -10,7 +10,9 @@ struct Equilibrium {
   Vec6 load = Vec6::Zero(), reaction = Vec6::Zero();
   double error = 0;
 };
+/// `displaced`: equilibrium holds on the displaced structure (second order), so that moments about undisplaced places
+/// do not balance; the error is then that of the forces.
 [[nodiscard]] Equilibrium equilibrium(const solver::FrameModel& model, const solver::LoadSet& loads,
-                                      const std::vector<Vec6>& reactions);
+                                      const std::vector<Vec6>& reactions, bool displaced = false);
 
 }  // namespace topple::structure

@@ -99,7 +99,7 @@ OneWayAnswer OneWayMembers::settle(const solver::LoadSet& loads, const solver::S
                                    const std::vector<std::string>& names) const {
   std::vector<std::vector<solver::BeamLoad>> by_beam(model_.beams.size());
   for (const solver::BeamLoad& load : loads.beams) by_beam[static_cast<std::size_t>(load.beam)].push_back(load);
-  OneWayAnswer answer{taut, carrying_both(model_).beams, std::vector<char>(model_.beams.size(), 1), 0};
+  OneWayAnswer answer{taut, carrying_both(model_).beams, std::vector<char>(model_.beams.size(), 1), 0, {}};
   std::set<std::vector<char>> seen{answer.active};
   // All at once is quick but may swing between two wrong states; then one by one in order of index, which ends for
   // every stable structure (Murty's least-index rule for linear complementarity).

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "topple/solver/second_order.h"
 #include "topple/solver/static_analysis.h"
 
 namespace topple::structure {
@@ -15,6 +16,7 @@ struct OneWayAnswer {
   std::vector<solver::Beam> beams;  ///< with the releases of what is slack
   std::vector<char> active;         ///< per beam
   int iterations = 0;
+  solver::AxialState axial;  ///< of a second-order solution
 };
 
 /// The model with every beam taking tension and compression: what the solver takes.

@@ -29,6 +29,7 @@ class Writer {
     for (const CombinationResult& c : result_.combinations) combination(c);
     w_.close('}').newline();
     envelope();
+    if (request_.buckling > 0) buckling();
     w_.key("seconds").open('{');
     for (const auto& [stage, time] : seconds_) w_.key(stage).value(time);
     w_.close('}').close('}');
@@ -44,10 +45,22 @@ class Writer {
     w_.key("freedoms").value(result_.statistics.freedoms).close('}').newline();
     w_.key("units").open('{').key("length").value(b_.units.length_name).key("force").value(b_.units.force_name);
     w_.key("mass").value(b_.units.mass_name).key("angle").value("rad").close('}').newline();
-    w_.key("settings").open('{').key("p_delta").value("none");
+    w_.key("settings").open('{').key("p_delta").value(p_delta());
     w_.key("factorisation").value(result_.statistics.factorisation).key("ordering").value(result_.statistics.ordering);
     w_.key("threads").value(static_cast<std::size_t>(request_.solver.threads));
     w_.key("blas_kernel").value(solver::blas_kernel()).close('}').newline();
+  }
+
+  [[nodiscard]] const char* p_delta() const {
+    switch (request_.second_order) {
+      case solver::SecondOrder::exact:
+        return "exact";
+      case solver::SecondOrder::cubic:
+      case solver::SecondOrder::frame3dd:
+        return "cubic";
+      default:
+        return "none";
+    }
   }
 
   template <class Values, class Factors>
@@ -150,6 +163,25 @@ class Writer {
 
   void bound(const Extreme& e, double factor, const CombinationResult& c) {
     w_.open('[').value(e.value / factor).value(e.at / b_.units.length).value(b_[c.combination].name).close(']');
+  }
+
+  void buckling() {
+    w_.key("buckling").open('{');
+    for (const CombinationResult& c : result_.combinations) {
+      w_.newline().key(b_[c.combination].name).open('[');
+      for (const solver::BucklingMode& mode : c.buckling) {
+        w_.newline().open('{').key("factor").value(mode.factor).key("shape").open('{');
+        // A shape's largest translation is 1, whatever the unit of length; its rotations go with it.
+        for (std::size_t n = 0; n < b_.nodes.size(); ++n) {
+          const std::array<double, 6> scale{1, 1, 1, 1 / b_.units.length, 1 / b_.units.length, 1 / b_.units.length};
+          w_.key(b_.nodes[n].name);
+          list(mode.shape[n], scale, 6);
+        }
+        w_.close('}').close('}');
+      }
+      w_.close(']');
+    }
+    w_.close('}').newline();
   }
 
   void envelope() {

@@ -28,6 +28,12 @@ class Text {
   std::string text_;
 };
 
+std::string short_number(double number) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.5g", number);
+  return buffer;
+}
+
 void most_used(Text& text, const Building& building, const CombinationResult& c) {
   std::vector<std::size_t> order;
   for (std::size_t j = 0; j < c.joints.size(); ++j)
@@ -73,6 +79,14 @@ void combination(Text& text, const Building& building, const CombinationResult& 
     }
   if (drift > 0) text.line("  largest drift        1/%.0f in storey %zu", 1 / drift, storey);
   most_used(text, building, c);
+  if (!c.buckling.empty()) {
+    std::string factors;
+    for (const solver::BucklingMode& mode : c.buckling) factors += " " + short_number(mode.factor);
+    text.line("  buckling factors    %s", factors.c_str());
+  }
+  if (c.second_order_iterations > 0)
+    text.line("  second order: axial forces settled in %d iterations, tangent positive definite",
+              c.second_order_iterations);
   text.line("  backward error %.1e, equilibrium error %.1e, condition %.1e, displacements right to %.1e",
             c.quality.backward_error, c.equilibrium_error, c.quality.condition, c.quality.error_bound);
 }

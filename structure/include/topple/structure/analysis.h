@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "topple/solver/buckling.h"
+#include "topple/solver/second_order.h"
 #include "topple/solver/static_analysis.h"
 #include "topple/structure/building.h"
 #include "topple/structure/joint_check.h"
@@ -16,6 +18,8 @@ struct AnalysisRequest {
   std::vector<CombinationId> combinations;  ///< empty: all
   int stations = 0;
   solver::AnalysisOptions solver;
+  solver::SecondOrder second_order = solver::SecondOrder::none;
+  int buckling = 0;  ///< lowest factors to find for each combination
 };
 
 /// [value, distance from the first end]
@@ -51,6 +55,8 @@ struct CombinationResult {
   std::vector<StoreyResult> storeys;
   Vec6 total_load = Vec6::Zero(), total_reaction = Vec6::Zero();  ///< about the model's centroid
   double equilibrium_error = 0;
+  int second_order_iterations = 0;
+  std::vector<solver::BucklingMode> buckling;  ///< lowest first; fewer than asked for when there are no more
   solver::SolveQuality quality;
 };
 struct AnalysisResult {
@@ -59,7 +65,8 @@ struct AnalysisResult {
   std::vector<std::string> warnings;
 };
 
-/// Throws UnstableModel, with names.
+/// Throws UnstableModel, with names: a model that can move without strain, or loads beyond what it bears before it
+/// buckles (second order), with the critical factor.
 [[nodiscard]] AnalysisResult analyse(const Building& building, const AnalysisRequest& request = {});
 
 /// results.json as the format has it, in the model's units, every number to its last bit.

@@ -1,0 +1,88 @@
+#pragma once
+// One bending plane of a beam-column under its axial force, exactly: v' = (rotation + T/GA)/(1 + N/GA) (Engesser),
+// rotation' = M/EI + free curvature, M' = -T + N v' - m, T' = -q, with T the force across the undeformed axis. The beam
+// is cut into segments on which N is constant and the solution smooth; each segment's transfer matrix is an
+// exponential, its stiffness follows, and the inner joints are condensed. Timoshenko and Gere, Theory of Elastic
+// Stability, ch. 1-2.
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <array>
+#include <span>
+#include <vector>
+
+namespace topple::solver {
+
+/// What acts on one stretch of the beam.
+struct ColumnStretch {
+  double start = 0, length = 0;
+  double axial = 0;                     ///< tension, constant on the stretch
+  double force = 0, force_slope = 0;    ///< across, per length
+  double moment = 0, moment_slope = 0;  ///< per length
+  double point_force = 0,
+         point_moment = 0;  ///< at the start of the stretch (not of the first one: those go to the end)
+};
+
+struct ColumnPlane {
+  double bending_stiffness = 0;
+  double shear_compliance = 0;  ///< 1/(G As), or 0
+  double free_curvature = 0;
+};
+
+class BeamColumn {
+ public:
+  /// `end_stiffness`: springs of v1, r1, v2, r2 (infinite: rigid, 0: released).
+  BeamColumn(const ColumnPlane& plane, std::span<const ColumnStretch> stretches,
+             const std::array<double, 4>& end_stiffness);
+
+  /// In the freedoms v1, r1, v2, r2 of the hubs.
+  [[nodiscard]] const Eigen::Matrix4d& stiffness() const { return stiffness_; }
+  [[nodiscard]] const Eigen::Vector4d& fixed_end_forces() const { return fixed_; }
+  /// Modes of the beam between its hubs, held, whose critical load is below its axial force (Wittrick and Williams'
+  /// J0). Above 0 the beam is not stable whatever its nodes do.
+  [[nodiscard]] int buckled_modes() const { return buckled_; }
+
+  /// v, rotation, M, T at points along the beam, given the hubs' displacements.
+  class Curve {
+   public:
+    [[nodiscard]] Eigen::Vector4d at(double distance) const;
+
+   private:
+    friend class BeamColumn;
+    struct Part {
+      ColumnStretch stretch;
+      Eigen::Vector4d start;
+    };
+    ColumnPlane plane_;
+    std::vector<Part> parts_;
+  };
+  [[nodiscard]] Curve curve(const Eigen::Vector4d& hubs) const;
+
+ private:
+  struct Segment {
+    ColumnStretch stretch;
+    Eigen::Matrix4d stiffness;
+    Eigen::Vector4d fixed;
+  };
+  /// The joint before a segment: its displacements follow from those of the first end and of the next joint.
+  struct Joint {
+    Eigen::Matrix2d inverse, to_first, to_next;
+    Eigen::Vector2d load;
+  };
+  void chain(std::span<const ColumnStretch> stretches);
+  void add_springs(const std::array<double, 4>& end_stiffness);
+
+  ColumnPlane plane_;
+  std::vector<Segment> segments_;
+  std::vector<Joint> joints_;  ///< before segments 1, 2, ...
+  struct Spring {
+    int freedom = 0;
+    double stiffness = 0, pivot = 0, fixed = 0;
+    Eigen::Vector4d row;
+  };
+  std::vector<Spring> springs_;
+  Eigen::Matrix4d stiffness_ = Eigen::Matrix4d::Zero();
+  Eigen::Vector4d fixed_ = Eigen::Vector4d::Zero();
+  int buckled_ = 0;
+};
+
+}  // namespace topple::solver

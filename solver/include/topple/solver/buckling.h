@@ -1,0 +1,22 @@
+#pragma once
+// Linear buckling: by which factor may the loads grow, the axial forces with them, before the structure buckles.
+#include <vector>
+
+#include "topple/solver/frame_model.h"
+#include "topple/solver/static_analysis.h"
+
+namespace topple::solver {
+
+struct BucklingMode {
+  double factor = 0;
+  std::vector<Vec6> shape;  ///< per node, largest translation 1; all zero when a member buckles between nodes at rest
+};
+
+/// The lowest positive factors in order, at most `count` of them: fewer when no more exist below `largest_factor`. One
+/// member for each column is enough: the beam-column's exact stiffness at a trial factor is factorised, and the number
+/// of critical factors below it is that of negative pivots plus that of members buckled between their hubs (Wittrick
+/// and Williams 1971); each factor is then enclosed by bisection. Panels bring their elastic stiffness only.
+[[nodiscard]] std::vector<BucklingMode> buckling_modes(const FrameModel& model, const LoadSet& loads, int count,
+                                                       const AnalysisOptions& options, double largest_factor = 1e6);
+
+}  // namespace topple::solver

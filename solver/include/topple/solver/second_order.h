@@ -1,0 +1,86 @@
+#pragma once
+// Second-order (P-Delta) analysis of a frame: axial forces act on the displaced structure, tension stiffens it,
+// compression softens it. Iterated to convergence, and accepted only where the tangent stiffness is positive definite.
+// Displacements stay small: lengths and directions of members are those of the undeformed structure.
+#include <memory>
+
+#include "topple/solver/beam_diagram.h"
+#include "topple/solver/frame_model.h"
+#include "topple/solver/static_analysis.h"
+
+namespace topple::solver {
+
+enum class SecondOrder {
+  none,
+  /// Consistent geometric stiffness of the cubic shape functions: exact for small N L2/(E I), 1 % off for large ones.
+  /// Torsion takes N J/(A L), loads along a member their first-order fixed-end forces.
+  cubic,
+  /// The beam-column's differential equation itself, shear by Engesser, loads along the member and the change of axial
+  /// force under them included: one member for each column is enough. Torsion is not affected.
+  exact,
+  /// Cubic with Frame3DD's own choices, for comparison with it: the tangent goes with the axial force at each element's
+  /// first end; the end forces given are those that it prints, whose geometric part goes with the axial force of the
+  /// elastic strain (wrong for heated elements). Displacements and reactions are in equilibrium.
+  frame3dd
+};
+
+/// The axial forces that one second-order solution rests on.
+struct AxialState {
+  SecondOrder mode = SecondOrder::none;
+  std::vector<double> first_axial;           ///< per beam: tension at its first end
+  std::vector<std::vector<BeamLoad>> loads;  ///< per beam
+};
+
+struct SecondOrderSolution {
+  StaticSolution solution;
+  AxialState axial;
+  int iterations = 0;
+};
+
+/// Thrown when the loads are at or beyond what the structure bears before it buckles.
+class Buckled : public Instability {
+ public:
+  using Instability::Instability;
+};
+
+/// One ordering for any number of load sets; each of its own iterations costs one factorisation.
+class SecondOrderAnalysis {
+ public:
+  /// Throws Instability where a freedom has no stiffness at all.
+  SecondOrderAnalysis(const FrameModel& model, SecondOrder mode, const AnalysisOptions& options = {});
+  ~SecondOrderAnalysis();
+  SecondOrderAnalysis(SecondOrderAnalysis&&) noexcept;
+  SecondOrderAnalysis& operator=(SecondOrderAnalysis&&) noexcept;
+
+  /// `first_order`: the linear answer to the same loads. Throws Buckled when the structure is not stable under the
+  /// loads, std::runtime_error when the axial forces do not settle.
+  [[nodiscard]] SecondOrderSolution solve(const LoadSet& loads, const StaticSolution& first_order);
+  [[nodiscard]] const AnalysisStatistics& statistics() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Along one beam in its second-order state: as BeamDiagram, moments with axial force times deflection. For `cubic` the
+/// shears are those across the displaced chord and moments lie between the end values as without axial force.
+class SecondOrderDiagram {
+ public:
+  /// `hub_displacements`: of the hubs at the beam's ends, local axes.
+  SecondOrderDiagram(const Beam& beam, const AxialState& axial, int index, const Vec12& end_forces,
+                     const Vec12& hub_displacements);
+  ~SecondOrderDiagram();
+  SecondOrderDiagram(SecondOrderDiagram&&) noexcept;
+  SecondOrderDiagram& operator=(SecondOrderDiagram&&) noexcept;
+  [[nodiscard]] std::array<double, 8> values(double distance) const;
+  [[nodiscard]] BeamDiagram::Range extremes(BeamDiagram::Quantity quantity) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Displacements of the hubs at a beam's ends (after its arms), local axes, from those of all nodes.
+[[nodiscard]] Vec12 beam_hub_displacements(const Beam& beam, const std::vector<Vec6>& node_displacements);
+
+}  // namespace topple::solver

@@ -1,0 +1,214 @@
+#include "second_order_beam.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "beam_internal_forces.h"
+
+namespace topple::solver {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+double inverse_or_zero(double stiffness) { return stiffness > 0 ? 1 / stiffness : 0; }
+
+ColumnPlane plane_of(const Beam& beam, double factor, const InternalForces& forces, bool xz) {
+  ColumnPlane plane;
+  plane.bending_stiffness = factor * beam.youngs_modulus * (xz ? beam.Iy : beam.Iz);
+  plane.shear_compliance = inverse_or_zero(factor * beam.shear_modulus * (xz ? beam.shear_area_z : beam.shear_area_y));
+  plane.free_curvature = xz ? -forces.free_curvature_y : forces.free_curvature_z;
+  return plane;
+}
+
+/// Stretches on which the axial force may count as constant and the transfer matrix stays well conditioned.
+int divisions(const BeamPiece& piece, double bending_stiffness) {
+  const double first = piece.force[0][0], last = polynomial(piece.force[0], piece.length);
+  const auto parameter = [&](double axial) { return piece.length * std::sqrt(std::abs(axial) / bending_stiffness); };
+  constexpr double longest = 1.5;  // of L sqrt(N/EI): far below 2 pi, where a held stretch would buckle
+  // By steps as fine as 12 L sqrt(change/EI) a column's own weight comes out at its critical height within 0.1 %.
+  constexpr double step = 1.0 / 12;
+  constexpr double most = 4096;
+  const double need =
+      std::max(parameter(std::max(std::abs(first), std::abs(last))) / longest, parameter(last - first) / step);
+  return static_cast<int>(std::clamp(std::ceil(need), 1.0, most));
+}
+
+std::vector<ColumnStretch> stretches_of(const Beam& beam, double factor, const InternalForces& forces,
+                                        std::span<const BeamLoad> loads, bool xz) {
+  const double EI = factor * beam.youngs_modulus * (xz ? beam.Iy : beam.Iz);
+  const int v = xz ? 2 : 1, r = xz ? 4 : 5;
+  const double sign = xz ? -1 : 1;
+  std::vector<ColumnStretch> stretches;
+  for (const BeamPiece& piece : forces.pieces) {
+    const int n = divisions(piece, EI);
+    for (int i = 0; i < n; ++i) {
+      ColumnStretch s;
+      s.start = piece.start + piece.length * i / n;
+      s.length = piece.length / n;
+      s.axial = polynomial(piece.force[0], piece.length * (i + 0.5) / n);
+      for (const BeamLoad& load : loads) {
+        if (load.kind == BeamLoad::Kind::point && i == 0 && !stretches.empty() &&
+            std::clamp(load.from, 0.0, beam.length) == piece.start) {
+          s.point_force += load.first(v);
+          s.point_moment += sign * load.first(r);
+        }
+        if (load.kind != BeamLoad::Kind::distributed) continue;
+        const double from = std::clamp(load.from, 0.0, beam.length), to = std::clamp(load.to, 0.0, beam.length);
+        if (!(from <= piece.start && to >= piece.start + piece.length)) continue;
+        const Vec6 slope = (load.last - load.first) / (to - from), here = load.first + slope * (s.start - from);
+        s.force += here(v);
+        s.force_slope += slope(v);
+        s.moment += sign * here(r);
+        s.moment_slope += sign * slope(r);
+      }
+      stretches.push_back(s);
+    }
+  }
+  return stretches;
+}
+
+std::array<double, 4> springs_of(const Beam& beam, bool xz) {
+  std::array<double, 4> result{};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const int f = (xz ? xz_plane : xy_plane)[k];
+    result[k] = beam.end_stiffness[static_cast<std::size_t>(f / 6)](f % 6);
+  }
+  return result;
+}
+
+BeamColumn make_column(const Beam& beam, double factor, const InternalForces& forces, std::span<const BeamLoad> loads,
+                       bool xz) {
+  return {plane_of(beam, factor, forces, xz), stretches_of(beam, factor, forces, loads, xz), springs_of(beam, xz)};
+}
+
+/// A cubic beam takes its loads by the first-order formulas: its column carries neither load nor axial force.
+InternalForces bare(const Beam& beam) { return internal_forces(beam.length, Vec6::Zero(), {}); }
+
+InternalForces profile(const Beam& beam, SecondOrder mode, double first_axial, std::span<const BeamLoad> loads) {
+  if (mode != SecondOrder::exact) return bare(beam);
+  Vec6 first = Vec6::Zero();
+  first(0) = -first_axial;
+  return internal_forces(beam.length, first, loads);
+}
+
+/// Consistent geometric stiffness of the Timoshenko beam's cubic shapes for a unit axial force; freedoms v1, r1, v2,
+/// r2. Przemieniecki, ch. 15, with the shear parameter phi = 12 EI/(G As L2).
+Eigen::Matrix4d cubic_geometric_stiffness(double L, double phi) {
+  const double d = (1 + phi) * (1 + phi);
+  const double a = (1.2 + 2 * phi + phi * phi) / d / L, b = 0.1 / d;
+  const double c = L * (2.0 / 15 + phi / 6 + phi * phi / 12) / d, e = -L * (1.0 / 30 + phi / 6 + phi * phi / 12) / d;
+  Eigen::Matrix4d K;
+  K << a, b, -a, b, b, c, -b, e, -a, -b, a, -b, b, e, -b, c;
+  return K;
+}
+
+/// Springs at the ends of a plane's stiffness and fixed-end forces, condensed.
+void condense_springs(const std::array<double, 4>& springs, Eigen::Matrix4d& K, Eigen::Vector4d& fixed) {
+  const Eigen::Vector4d diagonal = K.diagonal().cwiseAbs();
+  for (int f = 0; f < 4; ++f) {
+    const double k = springs[static_cast<std::size_t>(f)];
+    if (std::isinf(k)) continue;
+    constexpr double rounding = 1e-13;
+    const double pivot = K(f, f) + k, inverse = std::abs(pivot) <= rounding * diagonal(f) ? 0 : 1 / pivot;
+    const Eigen::Vector4d row = K.row(f).transpose();
+    const double own = fixed(f);
+    K -= row * row.transpose() * inverse;
+    fixed -= row * (own * inverse);
+    Eigen::Vector4d through = row * (k * inverse);
+    through(f) = k - k * k * inverse;
+    K.row(f) = through.transpose();
+    K.col(f) = through;
+    fixed(f) = k * inverse * own;
+  }
+}
+
+}  // namespace
+
+Eigen::Vector4d plane_part(const Vec12& all, bool xz) {
+  Eigen::Vector4d part;
+  for (std::size_t k = 0; k < 4; ++k) part(static_cast<Eigen::Index>(k)) = all((xz ? xz_plane : xy_plane)[k]);
+  if (xz) {
+    part(1) = -part(1);
+    part(3) = -part(3);
+  }
+  return part;
+}
+
+SecondOrderBeam::SecondOrderBeam(const Beam& beam, double factor, SecondOrder mode, double first_axial,
+                                 std::span<const BeamLoad> loads)
+    : in_xy_(make_column(beam, factor, profile(beam, mode, first_axial, loads),
+                         mode == SecondOrder::exact ? loads : std::span<const BeamLoad>{}, false)),
+      in_xz_(make_column(beam, factor, profile(beam, mode, first_axial, loads),
+                         mode == SecondOrder::exact ? loads : std::span<const BeamLoad>{}, true)) {
+  const CondensedBeam linear(beam, factor);
+  stiffness_ = linear.stiffness();
+  fixed_ = linear.fixed_end_forces(loads);
+  if (linear.absent()) return;
+  if (mode == SecondOrder::frame3dd) {
+    make_cubic(beam, factor, first_axial);
+    return;
+  }
+  if (mode == SecondOrder::cubic) {
+    Vec6 first = Vec6::Zero();
+    first(0) = -first_axial;
+    const BeamPiece last = internal_forces(beam.length, first, loads).pieces.back();
+    make_cubic(beam, factor, 0.5 * (first_axial + polynomial(last.force[0], last.length)));
+    return;
+  }
+  for (const bool xz : {false, true}) {
+    const BeamColumn& column = xz ? in_xz_ : in_xy_;
+    const auto& freedoms = xz ? xz_plane : xy_plane;
+    const Eigen::Vector4d sign(1, xz ? -1 : 1, 1, xz ? -1 : 1);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto ii = static_cast<Eigen::Index>(i);
+      fixed_.force(freedoms[i]) = sign(ii) * column.fixed_end_forces()(ii);
+      for (std::size_t j = 0; j < 4; ++j) {
+        const auto jj = static_cast<Eigen::Index>(j);
+        stiffness_(freedoms[i], freedoms[j]) = sign(ii) * column.stiffness()(ii, jj) * sign(jj);
+      }
+    }
+  }
+}
+
+Vec12 frame3dd_end_forces(const Beam& beam, const Vec12& hubs, const Vec12& fixed_end) {
+  const double strain = (hubs(6) - hubs(0)) / beam.length;
+  const CondensedBeam linear(beam, 1);
+  const SecondOrderBeam displaced(beam, 1, SecondOrder::frame3dd, beam.youngs_modulus * beam.area * strain, {});
+  const Vec12 first_order = beam_end_forces(linear, beam.length, hubs, fixed_end);
+  Vec12 moved = hubs;
+  for (const int end : {0, 6}) moved.segment<3>(end) -= hubs.head<3>();
+  Vec12 geometric = (displaced.stiffness() - linear.stiffness()) * moved;
+  geometric(3) = geometric(9) = 0;
+  return first_order + geometric;
+}
+
+void SecondOrderBeam::make_cubic(const Beam& beam, double factor, double axial) {
+  Beam rigid_ends = beam;
+  for (Vec6& end : rigid_ends.end_stiffness) end.setConstant(infinite);
+  const Mat12 own = CondensedBeam(rigid_ends, factor).stiffness();
+  for (const bool xz : {false, true}) {
+    const auto& freedoms = xz ? xz_plane : xy_plane;
+    const double EI = factor * beam.youngs_modulus * (xz ? beam.Iy : beam.Iz), L = beam.length;
+    const double phi =
+        12 * EI / (L * L) * inverse_or_zero(factor * beam.shear_modulus * (xz ? beam.shear_area_z : beam.shear_area_y));
+    Eigen::Matrix4d K = axial * cubic_geometric_stiffness(L, phi);
+    const double sign = xz ? -1 : 1;
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t j = 0; j < 4; ++j) {
+        const auto ii = static_cast<Eigen::Index>(i), jj = static_cast<Eigen::Index>(j);
+        if (i % 2 != j % 2) K(ii, jj) *= sign;
+        K(ii, jj) += own(freedoms[i], freedoms[j]);
+      }
+    Eigen::Vector4d no_load = Eigen::Vector4d::Zero();
+    condense_springs(springs_of(beam, xz), K, no_load);
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t j = 0; j < 4; ++j)
+        stiffness_(freedoms[i], freedoms[j]) = K(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+  }
+  const double G = factor * beam.shear_modulus + axial / beam.area;
+  const AxialEnds torsion(beam.length / (G * beam.J), {beam.end_stiffness[0](3), beam.end_stiffness[1](3)});
+  stiffness_(3, 3) = stiffness_(9, 9) = torsion.stiffness();
+  stiffness_(3, 9) = stiffness_(9, 3) = -torsion.stiffness();
+}
+
+}  // namespace topple::solver
