@@ -2,10 +2,13 @@
 // Voronoi cells over a convex quadrilateral, from sites on a jittered grid.
 #include <array>
 #include <cstdint>
+#include <memory>
 
 #include "topple/fracture/polygon.h"
 
 namespace topple::fracture {
+
+class Grid;
 
 struct VoronoiSettings {
   double cell = 0.5;    ///< size of a grid cell, m
@@ -27,9 +30,9 @@ class VoronoiGrid {
   /// out of range.
   VoronoiGrid(const std::array<Vec2, 4>& outline, const VoronoiSettings& settings);
 
-  [[nodiscard]] int columns() const { return columns_; }
-  [[nodiscard]] int rows() const { return rows_; }
-  [[nodiscard]] int size() const { return columns_ * rows_; }
+  [[nodiscard]] int columns() const;
+  [[nodiscard]] int rows() const;
+  [[nodiscard]] int size() const { return columns() * rows(); }
   [[nodiscard]] const Vec2& site(int index) const { return sites_[static_cast<std::size_t>(index)]; }
 
   /// Exact: neighbours are taken ring by ring of the grid until the ring lies farther away than twice the cell's
@@ -39,13 +42,16 @@ class VoronoiGrid {
   /// Rings that the last call of this cell needs, for those who want to see why.
   [[nodiscard]] int rings(int index) const;
 
+  /// The cell that holds a point of the panel: the one with the nearest site, the first of equals.
+  [[nodiscard]] int nearest(const Vec2& point) const;
+  /// All cells whose site lies within a distance of a point, in increasing order.
+  [[nodiscard]] std::vector<int> within(const Vec2& point, double radius) const;
+
  private:
   VoronoiCell make(int index, int& rings) const;
 
-  Polygon outline_;
-  int columns_ = 1, rows_ = 1;
+  std::shared_ptr<const Grid> grid_;
   double jitter_ = 1;
-  double least_stretch_ = 0;  ///< lower bound of distance per cell of the grid
   std::vector<Vec2> sites_;
 };
 

@@ -1,0 +1,96 @@
+#pragma once
+// A panel that breaks where it is hit: what remains of it, the chunks that leave, and the meshes of both.
+//
+// Three methods say which cells a hit breaks (voronoi.h, quadrilaterals.h, local_damage.h). One triangulation cuts them
+// out of what is still there, so that whatever lies over the border, an opening or earlier damage is clipped and united
+// exactly, neighbouring pieces share their vertices bit for bit, and the areas of all pieces add up to the panel.
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "topple/fracture/local_damage.h"
+#include "topple/fracture/mesh.h"
+#include "topple/fracture/polygon.h"
+#include "topple/fracture/prism.h"
+
+namespace topple::fracture {
+
+enum class Method { voronoi, quadrilateral, local };
+
+struct PanelSettings {
+  Method method = Method::voronoi;
+  double cell = 0.5;             ///< voronoi, quadrilateral: size of a cell, m
+  std::optional<double> jitter;  ///< 0 to 1; by default 1 for voronoi, 0.5 for quadrilateral
+  LocalDamageSettings local;     ///< local
+  std::uint64_t seed = 1;
+};
+
+struct PanelShape {
+  /// Counter-clockwise, m. A convex quadrilateral; with Method::local any simple polygon.
+  Polygon outline;
+  double thickness = 0;  ///< m
+  std::vector<Polygon>
+      openings;  ///< simple polygons, either way round; what lies outside the outline counts for nothing
+  /// For each edge of the outline whether it holds the panel (edge i runs from corner i to i + 1); empty: all do.
+  std::vector<bool> held;
+};
+
+/// A convex piece that has left its panel: a straight prism. Convex up to the panel's tolerance.
+struct Chunk {
+  Polygon outline;                       ///< panel axes, m, counter-clockwise
+  std::vector<std::array<int, 3>> face;  ///< triangles of the outline's corners
+  bool hit = true;                       ///< false: nothing held it any more
+};
+
+/// What one hit did.
+struct Fracture {
+  std::vector<Chunk> chunks;
+  std::size_t cells = 0;              ///< that the method broke
+  std::size_t triangles_changed = 0;  ///< of the triangulation: the measure of the work done
+};
+
+class BreakablePanel {
+ public:
+  /// Throws std::invalid_argument that says what is wrong with shape or settings.
+  BreakablePanel(const PanelShape& shape, const PanelSettings& settings);
+  ~BreakablePanel();
+  BreakablePanel(const BreakablePanel& other);
+  BreakablePanel(BreakablePanel&&) noexcept;
+  BreakablePanel& operator=(const BreakablePanel&) = delete;
+  BreakablePanel& operator=(BreakablePanel&&) noexcept;
+
+  /// Breaks every cell whose site (voronoi) or any part (quadrilateral) lies within `radius` of a point, and at least
+  /// the one that holds the point when it lies in the panel. With Method::local a radius scales the damage so that its
+  /// greatest length is the radius; without one, the lengths are those of the settings. Pieces that no held edge holds
+  /// any more leave as well. Throws std::invalid_argument for a point or radius that is not finite, a radius below 0.
+  Fracture hit(const Vec2& at, std::optional<double> radius = std::nullopt);
+
+  /// What remains, kept up to date hit by hit at the cost of what changed. Some vertices may be without a triangle
+  /// (`compact` drops them).
+  [[nodiscard]] const Mesh& mesh() const;
+  [[nodiscard]] const PanelShape& shape() const;
+  [[nodiscard]] double area() const;                  ///< of what remains, m2
+  [[nodiscard]] double intact_area() const;           ///< before the first hit, openings taken off, m2
+  [[nodiscard]] bool holds(const Vec2& point) const;  ///< whether the material is still there
+  /// Length of an edge of the outline along which the panel is still there, m.
+  [[nodiscard]] double intact_length(std::size_t edge) const;
+  /// Triangles of what remains, panel axes: for moments, loads and element meshes.
+  [[nodiscard]] std::vector<std::array<Vec2, 3>> triangles() const;
+  [[nodiscard]] std::uint64_t hits() const;
+  /// What comes closer to something than this is joined with it, m: 1e-7 of the panel's size.
+  [[nodiscard]] double tolerance() const;
+  /// Checks the triangulation behind it. For tests.
+  [[nodiscard]] bool valid() const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Mesh of a chunk in panel axes, and its mass properties.
+[[nodiscard]] Mesh mesh_of(const Chunk& chunk, double thickness);
+[[nodiscard]] MassProperties properties_of(const Chunk& chunk, double thickness, double density);
+
+}  // namespace topple::fracture

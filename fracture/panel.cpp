@@ -1,0 +1,338 @@
+#include "topple/fracture/panel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "cell_source.h"
+#include "convex_pieces.h"
+#include "panel_mesh.h"
+#include "predicates.h"
+#include "triangulation.h"
+
+namespace topple::fracture {
+
+namespace {
+
+constexpr double kTolerance = 1e-7;  ///< of the panel's size
+constexpr double kMargin = 0.25;     ///< of the panel's size: empty space around it in the triangulation
+constexpr double kLeastRing = 1e-4;  ///< of the panel's size
+constexpr int kEmpty = 0, kIntact = 1, kFirstPiece = 2;
+
+struct Box {
+  Vec2 lower, upper;
+  [[nodiscard]] double size() const { return (upper - lower).norm(); }
+};
+
+Box bounds(const PanelShape& shape) {
+  Box box{Vec2::Constant(INFINITY), Vec2::Constant(-INFINITY)};
+  const auto take = [&](const Polygon& polygon) {
+    for (const Vec2& point : polygon) {
+      if (!point.allFinite()) throw std::invalid_argument("a coordinate is not finite");
+      box.lower = box.lower.cwiseMin(point);
+      box.upper = box.upper.cwiseMax(point);
+    }
+  };
+  take(shape.outline);
+  for (const Polygon& opening : shape.openings) take(opening);
+  return box;
+}
+
+void check(const PanelShape& shape) {
+  if (!(shape.thickness > 0 && std::isfinite(shape.thickness)))
+    throw std::invalid_argument("thickness must be above 0");
+  if (!is_simple(shape.outline))
+    throw std::invalid_argument("the outline must be a polygon that does not cross itself");
+  if (!(area(shape.outline) > 0)) throw std::invalid_argument("the outline must go counter-clockwise");
+  for (const Polygon& opening : shape.openings)
+    if (!is_simple(opening)) throw std::invalid_argument("an opening must be a polygon that does not cross itself");
+  if (!shape.held.empty() && shape.held.size() != shape.outline.size())
+    throw std::invalid_argument("held must have an entry for each edge of the outline");
+}
+
+}  // namespace
+
+class BreakablePanel::Impl {
+ public:
+  Impl(const PanelShape& shape, const PanelSettings& settings);
+  Impl(const Impl& other)
+      : shape(other.shape),
+        box(other.box),
+        cells(other.cells->clone()),
+        triangulation(other.triangulation),
+        mesh(other.mesh),
+        intact_area(other.intact_area),
+        hits(other.hits) {}
+
+  Fracture hit(const Vec2& at, std::optional<double> radius);
+  [[nodiscard]] double area() const;
+  template <class Visit>
+  void each_intact(const Visit& visit) const {
+    for (int triangle = 0; triangle < triangulation.triangle_slots(); ++triangle)
+      if (triangulation.label(triangle) == kIntact) visit(triangle);
+  }
+
+  PanelShape shape;
+  Box box;
+  std::unique_ptr<CellSource> cells;
+  Triangulation triangulation;
+  PanelMesh mesh;
+  double intact_area = 0;
+  std::uint64_t hits = 0;
+
+ private:
+  struct Loop {
+    std::vector<int> chain;    ///< all vertices along it
+    std::vector<int> corners;  ///< what its own corners have become
+  };
+  [[nodiscard]] std::optional<Loop> insert(const Polygon& polygon);
+  std::vector<int> relabel(const Loop& loop, int from, int to);
+  void clip_to_box(Polygon& polygon) const;
+  [[nodiscard]] std::vector<std::vector<int>> islands(const std::vector<int>& removed) const;
+  [[nodiscard]] bool is_held(int triangle) const;
+  void take_out(std::vector<int> triangles, bool hit, Fracture& fracture);
+  void tidy();
+  [[nodiscard]] Vec2 centroid(int triangle) const;
+};
+
+BreakablePanel::Impl::Impl(const PanelShape& given, const PanelSettings& settings)
+    : shape((check(given), given)),
+      box(bounds(given)),
+      cells(make_cell_source(given, settings)),
+      triangulation(box.lower - Vec2::Constant(kMargin * box.size()), box.upper + Vec2::Constant(kMargin * box.size()),
+                    kTolerance * box.size()),
+      mesh(given.thickness) {
+  if (settings.method == Method::local && settings.local.ring < box.size() * kLeastRing)
+    throw std::invalid_argument("ring is too small for the panel: below a ten-thousandth of its size");
+  if (shape.held.empty()) shape.held.assign(shape.outline.size(), true);
+  const std::optional<Loop> border = insert(shape.outline);
+  if (!border || border->corners.size() != shape.outline.size())
+    throw std::invalid_argument("corners of the outline lie too close together");
+  relabel(*border, kEmpty, kIntact);
+  std::size_t edge = shape.outline.size() - 1;  // the chain begins at the first corner's end of the last edge
+  for (std::size_t i = 0; i < border->chain.size(); ++i) {
+    const int from = border->chain[i], to = border->chain[(i + 1) % border->chain.size()];
+    const auto corner = std::find(border->corners.begin(), border->corners.end(), from);
+    if (corner != border->corners.end()) edge = static_cast<std::size_t>(corner - border->corners.begin());
+    triangulation.set_tag(triangulation.find_edge(from, to), static_cast<int>(edge));
+  }
+  for (const Polygon& opening : shape.openings)
+    if (const auto loop = insert(opening)) relabel(*loop, kIntact, kEmpty);
+  tidy();
+  intact_area = area();
+}
+
+/// Makes a closed loop of fixed edges; none when nothing of it is left at the triangulation's tolerance.
+std::optional<BreakablePanel::Impl::Loop> BreakablePanel::Impl::insert(const Polygon& polygon) {
+  Loop loop;
+  for (const Vec2& point : polygon) {
+    const int vertex = triangulation.add_point(point);
+    if (std::find(loop.corners.begin(), loop.corners.end(), vertex) == loop.corners.end())
+      loop.corners.push_back(vertex);
+  }
+  if (loop.corners.size() < 3) return std::nullopt;
+  for (std::size_t i = 0; i < loop.corners.size(); ++i)
+    triangulation.add_segment(loop.corners[i], loop.corners[(i + 1) % loop.corners.size()], loop.chain);
+  return loop;
+}
+
+Vec2 BreakablePanel::Impl::centroid(int triangle) const {
+  const Vec2& first = triangulation.point(triangulation.origin(3 * triangle));
+  return first + ((triangulation.point(triangulation.origin(3 * triangle + 1)) - first) +
+                  (triangulation.point(triangulation.origin(3 * triangle + 2)) - first)) /
+                     3;
+}
+
+/// Gives the triangles inside a loop a new label where they have the old one, and settles all edges around.
+std::vector<int> BreakablePanel::Impl::relabel(const Loop& loop, int from, int to) {
+  Polygon polygon;
+  for (const int vertex : loop.chain) polygon.push_back(triangulation.point(vertex));
+  const std::vector<int> inside =
+      triangulation.collect(loop.chain, [&](int triangle) { return encloses(polygon, centroid(triangle)); });
+  std::vector<int> changed;
+  for (const int triangle : inside)
+    if (triangulation.label(triangle) == from) {
+      triangulation.set_label(triangle, to);
+      changed.push_back(triangle);
+    }
+  for (const int triangle : inside) triangulation.settle_sides(triangle);
+  // Where the loop runs through empty space it separates nothing.
+  for (const int vertex : loop.chain)
+    for (const int triangle : triangulation.star(vertex)) triangulation.settle_sides(triangle);
+  return changed;
+}
+
+/// Cells reach over the border; what is farther out than half the margin is cut off.
+void BreakablePanel::Impl::clip_to_box(Polygon& polygon) const {
+  const Vec2 margin = Vec2::Constant(kMargin / 2 * box.size());
+  const Vec2 lower = box.lower - margin, upper = box.upper + margin;
+  bool outside = false;
+  for (const Vec2& point : polygon)
+    outside = outside || (point - lower).minCoeff() < 0 || (upper - point).minCoeff() < 0;
+  if (!outside) return;
+  LabelledPolygon clipped{polygon, std::vector<int>(polygon.size(), 0)};
+  clip(clipped, lower, -Vec2::UnitX(), 0);
+  clip(clipped, lower, -Vec2::UnitY(), 0);
+  clip(clipped, upper, Vec2::UnitX(), 0);
+  clip(clipped, upper, Vec2::UnitY(), 0);
+  polygon = std::move(clipped.vertices);
+}
+
+bool BreakablePanel::Impl::is_held(int triangle) const {
+  for (int edge = 3 * triangle; edge < 3 * triangle + 3; ++edge) {
+    const int tag = triangulation.tag(edge);
+    if (tag >= 0 && shape.held[static_cast<std::size_t>(tag)]) return true;
+  }
+  return false;
+}
+
+/// The parts of what remains beside removed triangles that no held edge holds.
+std::vector<std::vector<int>> BreakablePanel::Impl::islands(const std::vector<int>& removed) const {
+  std::vector<int> part_of(static_cast<std::size_t>(triangulation.triangle_slots()), -1);
+  std::vector<char> held;
+  std::vector<std::vector<int>> parts;
+  const auto search = [&](int start) {
+    const int part = static_cast<int>(parts.size());
+    parts.push_back({start});
+    held.push_back(0);
+    part_of[static_cast<std::size_t>(start)] = part;
+    for (std::size_t i = 0; i < parts.back().size(); ++i) {
+      const int triangle = parts.back()[i];
+      if (is_held(triangle)) held.back() = 1;
+      for (int edge = 3 * triangle; edge < 3 * triangle + 3 && !held.back(); ++edge) {
+        const int twin = triangulation.twin(edge);
+        if (twin == Triangulation::none || triangulation.label(twin / 3) != kIntact) continue;
+        int& other = part_of[static_cast<std::size_t>(twin / 3)];
+        if (other >= 0 && other != part) held.back() = held[static_cast<std::size_t>(other)];
+        if (other < 0) parts.back().push_back(twin / 3);
+        if (other < 0) other = part;
+      }
+      if (held.back()) return;  // the rest of it need not be seen
+    }
+  };
+  for (const int triangle : removed)
+    for (int edge = 3 * triangle; edge < 3 * triangle + 3; ++edge) {
+      const int twin = triangulation.twin(edge);
+      if (twin == Triangulation::none || triangulation.label(twin / 3) != kIntact) continue;
+      if (part_of[static_cast<std::size_t>(twin / 3)] < 0) search(twin / 3);
+    }
+  std::vector<std::vector<int>> loose;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    if (!held[i]) loose.push_back(std::move(parts[i]));
+  return loose;
+}
+
+void BreakablePanel::Impl::take_out(std::vector<int> triangles, bool hit, Fracture& fracture) {
+  for (Chunk& chunk : convex_pieces(triangulation, triangles)) {
+    chunk.hit = hit;
+    fracture.chunks.push_back(std::move(chunk));
+  }
+}
+
+/// Drops vertices that no border needs any more, so that the triangulation stays as small as the damage is.
+void BreakablePanel::Impl::tidy() {
+  std::vector<int> vertices;
+  for (const int triangle : triangulation.touched())
+    if (triangulation.alive(triangle))
+      for (int edge = 3 * triangle; edge < 3 * triangle + 3; ++edge) vertices.push_back(triangulation.origin(edge));
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  for (const int vertex : vertices) (void)triangulation.remove_vertex(vertex);
+  mesh.update(triangulation, triangulation.touched(), kIntact);
+  triangulation.clear_touched();
+}
+
+Fracture BreakablePanel::Impl::hit(const Vec2& at, std::optional<double> radius) {
+  Fracture fracture;
+  const double nearest = (at - at.cwiseMax(box.lower).cwiseMin(box.upper)).norm();
+  std::vector<Polygon> broken = cells->broken(at, radius, nearest, nearest + box.size(), ++hits);
+  int label = kFirstPiece;
+  for (Polygon& cell : broken) {
+    clip_to_box(cell);
+    if (cell.size() < 3) continue;
+    const std::optional<Loop> loop = insert(cell);
+    if (loop && !relabel(*loop, kIntact, label).empty()) ++label;
+  }
+  fracture.cells = broken.size();
+  // Later cells may have changed the triangles of earlier ones: they are gathered when all is cut.
+  std::vector<std::vector<int>> pieces(static_cast<std::size_t>(label - kFirstPiece));
+  std::vector<int> removed;
+  for (const int triangle : triangulation.touched()) {
+    if (!triangulation.alive(triangle) || triangulation.label(triangle) < kFirstPiece) continue;
+    pieces[static_cast<std::size_t>(triangulation.label(triangle) - kFirstPiece)].push_back(triangle);
+    removed.push_back(triangle);
+  }
+  for (const std::vector<int>& piece : pieces) take_out(piece, true, fracture);
+  if (!removed.empty())
+    for (const std::vector<int>& island : islands(removed)) {
+      take_out(island, false, fracture);
+      removed.insert(removed.end(), island.begin(), island.end());
+    }
+  for (const int triangle : removed) triangulation.set_label(triangle, kEmpty);
+  for (const int triangle : removed) triangulation.settle_sides(triangle);
+  fracture.triangles_changed = triangulation.touched().size();
+  tidy();
+  return fracture;
+}
+
+double BreakablePanel::Impl::area() const {
+  double doubled = 0;
+  each_intact([&](int triangle) { doubled += triangulation.doubled_area(triangle); });
+  return doubled / 2;
+}
+
+BreakablePanel::BreakablePanel(const PanelShape& shape, const PanelSettings& settings)
+    : impl_(std::make_unique<Impl>(shape, settings)) {}
+BreakablePanel::~BreakablePanel() = default;
+BreakablePanel::BreakablePanel(const BreakablePanel& other) : impl_(std::make_unique<Impl>(*other.impl_)) {}
+BreakablePanel::BreakablePanel(BreakablePanel&&) noexcept = default;
+BreakablePanel& BreakablePanel::operator=(BreakablePanel&&) noexcept = default;
+
+Fracture BreakablePanel::hit(const Vec2& at, std::optional<double> radius) {
+  if (!at.allFinite()) throw std::invalid_argument("the point of a hit must be finite");
+  if (radius && !(*radius >= 0 && std::isfinite(*radius)))
+    throw std::invalid_argument("the radius of a hit must be finite and not below 0");
+  return impl_->hit(at, radius);
+}
+
+const Mesh& BreakablePanel::mesh() const { return impl_->mesh.mesh(); }
+const PanelShape& BreakablePanel::shape() const { return impl_->shape; }
+double BreakablePanel::area() const { return impl_->area(); }
+double BreakablePanel::intact_area() const { return impl_->intact_area; }
+std::uint64_t BreakablePanel::hits() const { return impl_->hits; }
+double BreakablePanel::tolerance() const { return impl_->triangulation.tolerance(); }
+bool BreakablePanel::valid() const { return impl_->triangulation.valid() && impl_->triangulation.unfinished() == 0; }
+
+bool BreakablePanel::holds(const Vec2& point) const {
+  if (!encloses(impl_->shape.outline, point)) return false;
+  return impl_->triangulation.label(impl_->triangulation.locate(point)) == kIntact;
+}
+
+double BreakablePanel::intact_length(std::size_t edge) const {
+  double length = 0;
+  impl_->each_intact([&](int triangle) {
+    const Triangulation& cut = impl_->triangulation;
+    for (int side = 3 * triangle; side < 3 * triangle + 3; ++side)
+      if (cut.tag(side) == static_cast<int>(edge))
+        length += (cut.point(cut.target(side)) - cut.point(cut.origin(side))).norm();
+  });
+  return length;
+}
+
+std::vector<std::array<Vec2, 3>> BreakablePanel::triangles() const {
+  std::vector<std::array<Vec2, 3>> result;
+  impl_->each_intact([&](int triangle) {
+    const Triangulation& cut = impl_->triangulation;
+    const int edge = 3 * triangle;
+    result.push_back({cut.point(cut.origin(edge)), cut.point(cut.origin(edge + 1)), cut.point(cut.origin(edge + 2))});
+  });
+  return result;
+}
+
+Mesh mesh_of(const Chunk& chunk, double thickness) { return prism_mesh(chunk.outline, chunk.face, thickness); }
+
+MassProperties properties_of(const Chunk& chunk, double thickness, double density) {
+  return prism_properties(chunk.outline, thickness, density);
+}
+
+}  // namespace topple::fracture

@@ -1,0 +1,157 @@
+#pragma once
+// A constrained Delaunay triangulation of a box that is cut again and again: the ground on which a panel breaks.
+//
+// Every triangle carries a label (what it is part of) and every edge may be fixed (a border between labels). Points and
+// segments are inserted one by one by S. Sloan's method (point location by walking, Lawson's flips, segments by
+// flipping what they cross), so that the cost of a cut grows with what it touches. All decisions use the exact
+// orientation, so that the triangles tile the box whatever comes in; crossing points are rounded, which moves an old
+// edge by a rounding error and no more. What would come closer than `tolerance` to something that is there is joined
+// with it: a point with a point or with a fixed edge, a segment with the points it passes. So there are no slivers.
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "topple/fracture/polygon.h"
+
+namespace topple::fracture {
+
+class Triangulation {
+ public:
+  /// Half-edges are numbered 3 triangle + side; side i runs from corner i to corner i + 1, the triangle on its left.
+  static constexpr int none = -1;
+
+  /// An empty box of two triangles with the label 0. Everything inserted must lie inside, and `tolerance` away from its
+  /// border.
+  Triangulation(const Vec2& lower, const Vec2& upper, double tolerance);
+
+  /// The vertex that now stands for a point: a new one, or what was within the tolerance.
+  int add_point(const Vec2& point);
+  /// Fixes a chain of edges from one vertex to another, which leaves the straight line by about the tolerance at most.
+  /// Appends the vertices on its way, `to` included, to `chain`.
+  void add_segment(int from, int to, std::vector<int>& chain);
+  /// All connected triangles for which `inside` holds, from the corners of `chain` on, in the order in which they are
+  /// reached.
+  template <class Inside>
+  std::vector<int> collect(const std::vector<int>& chain, const Inside& inside);
+
+  void set_label(int triangle, int label);
+  /// Frees the triangle's sides that separate nothing, fixes those that do.
+  void settle_sides(int triangle);
+  /// Removes a vertex around which nothing is fixed; false when it has to stay (a corner of the box).
+  bool remove_vertex(int vertex);
+
+  [[nodiscard]] const Vec2& point(int vertex) const { return points_[index(vertex)]; }
+  [[nodiscard]] int triangle_slots() const { return static_cast<int>(labels_.size()); }
+  [[nodiscard]] bool alive(int triangle) const { return labels_[index(triangle)] != dead; }
+  [[nodiscard]] int label(int triangle) const { return labels_[index(triangle)]; }
+  [[nodiscard]] int origin(int edge) const { return origins_[index(edge)]; }
+  [[nodiscard]] int target(int edge) const { return origins_[index(next(edge))]; }
+  [[nodiscard]] int apex(int edge) const { return origins_[index(previous(edge))]; }
+  [[nodiscard]] int twin(int edge) const { return twins_[index(edge)]; }
+  [[nodiscard]] bool fixed(int edge) const { return fixed_[index(edge)] != 0; }
+  /// What a fixed edge lies on (`none` for a cut); set once, inherited by its parts.
+  [[nodiscard]] int tag(int edge) const { return tags_[index(edge)]; }
+  void set_tag(int edge, int tag);
+  [[nodiscard]] static int next(int edge) { return edge % 3 == 2 ? edge - 2 : edge + 1; }
+  [[nodiscard]] static int previous(int edge) { return edge % 3 == 0 ? edge + 2 : edge - 1; }
+  [[nodiscard]] double doubled_area(int triangle) const;
+  /// The triangle that holds a point of the box.
+  [[nodiscard]] int locate(const Vec2& point) const;
+  /// The half-edge from one vertex to another, or `none`.
+  [[nodiscard]] int find_edge(int from, int to) const;
+  /// All triangles at a vertex.
+  [[nodiscard]] std::vector<int> star(int vertex) const;
+
+  /// Triangles made, changed or removed since the list was last cleared, each once.
+  [[nodiscard]] const std::vector<int>& touched() const { return touched_; }
+  void clear_touched();
+  /// Segments that could not be finished within the allowed steps: 0 unless something is wrong.
+  [[nodiscard]] int unfinished() const { return unfinished_; }
+  [[nodiscard]] double tolerance() const { return tolerance_; }
+  /// Checks the whole structure: twins, orientation, labels against fixed edges. For tests.
+  [[nodiscard]] bool valid() const;
+
+ private:
+  static constexpr int dead = -1;
+  struct Side {
+    int twin = none;
+    bool fixed = false;
+    int tag = none;
+  };
+  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+  [[nodiscard]] Side side(int edge) const { return {twin(edge), fixed(edge), tag(edge)}; }
+  [[nodiscard]] const Vec2& start(int edge) const { return point(origin(edge)); }
+  [[nodiscard]] const Vec2& end(int edge) const { return point(target(edge)); }
+
+  int new_vertex(const Vec2& point);
+  int new_triangle();
+  void make(int triangle, int a, int b, int c, int label);
+  void attach(int edge, const Side& side);
+  void join(int edge, int other);
+  void fix(int edge, int tag);
+  void touch(int triangle);
+
+  void flip(int edge);
+  [[nodiscard]] bool may_flip(int edge) const;
+  void legalise(std::vector<int>& edges);
+  int insert_inside(int triangle, const Vec2& point);
+  int split_at(int edge, const Vec2& point);
+  int split_fixed(int edge, const Vec2& point);
+  template <class Visit>
+  void collect_near(int home, const Visit& visit);
+  [[nodiscard]] int first_crossed(int from, int to, int& on_the_way) const;
+  [[nodiscard]] bool passes(int vertex, int from, int to) const;
+  int split_crossing(int edge, int from, int to);
+  int advance(int from, int to);
+  int obstacle(int from, int to);
+  void connect(int from, int to);
+
+  std::vector<Vec2> points_;
+  std::vector<int> some_edge_;  ///< of each vertex: one half-edge that leaves it
+  std::vector<int> origins_, twins_, tags_;
+  std::vector<char> fixed_;
+  std::vector<int> labels_;
+  std::vector<int> free_triangles_, free_vertices_, touched_;
+  std::vector<char> is_touched_;
+  std::vector<std::uint32_t> visited_;  ///< of each triangle: the last search that saw it
+  std::uint32_t visit_ = 0;
+  std::vector<int> near_;  ///< of collect_near, kept for its memory
+  double tolerance_;
+  int unfinished_ = 0;
+  mutable int hint_ = 0;
+};
+
+template <class Visit>
+void Triangulation::collect_near(int home, const Visit& visit) {
+  std::vector<int>& open = near_;
+  open.assign(1, home);
+  for (std::size_t i = 0; i < open.size(); ++i)
+    for (int edge = 3 * open[i]; edge < 3 * open[i] + 3; ++edge) {
+      if (!visit(edge) || twin(edge) == none) continue;
+      const int beyond = twin(edge) / 3;
+      bool known = false;
+      for (const int triangle : open) known = known || triangle == beyond;
+      if (!known) open.push_back(beyond);
+    }
+}
+
+template <class Inside>
+std::vector<int> Triangulation::collect(const std::vector<int>& chain, const Inside& inside) {
+  std::vector<int> found;
+  ++visit_;
+  visited_.resize(labels_.size(), 0);
+  const auto take = [&](int triangle) {
+    if (visited_[index(triangle)] == visit_) return;
+    visited_[index(triangle)] = visit_;
+    if (inside(triangle)) found.push_back(triangle);
+  };
+  for (const int vertex : chain)
+    for (const int triangle : star(vertex)) take(triangle);
+  for (std::size_t i = 0; i < found.size(); ++i)
+    for (int edge = 3 * found[i]; edge < 3 * found[i] + 3; ++edge)
+      if (twin(edge) != none) take(twin(edge) / 3);
+  return found;
+}
+
+}  // namespace topple::fracture
