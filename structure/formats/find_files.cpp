@@ -6,6 +6,7 @@
 #include "formats/json_document.h"
 #include "topple/structure/error.h"
 #include "topple/structure/files.h"
+#include "topple/structure/panel_file.h"
 
 namespace topple::structure {
 
@@ -51,5 +52,7 @@ fs::path find_model(const std::string& name_or_path, const fs::path& folder) {
 }
 
 fs::path find_scenario(const std::string& name_or_path) { return find(name_or_path, {}, "scenario", "scenarios"); }
+
+fs::path find_panel(const std::string& name_or_path) { return find(name_or_path, {}, "panel", "panels"); }
 
 }  // namespace topple::structure

@@ -1,0 +1,25 @@
+#pragma once
+// Meshes as files that other programs read.
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "topple/fracture/mesh.h"
+
+namespace topple::fracture {
+
+struct MeshFileInfo {
+  std::string name;
+  Vec3 origin =
+      Vec3::Zero();  ///< where the node stands; positions are written relative to it, which keeps their digits
+  std::vector<std::pair<std::string, double>> extras;  ///< numbers for the node, such as mass
+};
+
+/// glTF 2.0 in its binary form: one node, one mesh, 32-bit floats. Axes are written as they are; the second texture
+/// coordinate runs downwards there and is written as 1 - v.
+[[nodiscard]] std::string glb_text(const Mesh& mesh, const MeshFileInfo& info);
+/// Wavefront OBJ: positions, texture coordinates, normals, faces; with all digits, so that reading it gives the same
+/// numbers.
+[[nodiscard]] std::string obj_text(const Mesh& mesh, const std::string& name);
+
+}  // namespace topple::fracture

@@ -1,0 +1,13 @@
+#pragma once
+// The key `fracture`, which has one shape wherever it stands.
+#include "formats/json_document.h"
+#include "topple/fracture/panel.h"
+
+namespace topple::structure::formats {
+
+/// `method` and that method's keys; the seed is left as it is. Throws InputError.
+[[nodiscard]] fracture::PanelSettings read_fracture(const JsonValue& value);
+
+[[nodiscard]] const char* method_name(fracture::Method method);
+
+}  // namespace topple::structure::formats

@@ -1,0 +1,83 @@
+// A panel file: outline, openings, way of breaking, hits.
+#include <algorithm>
+#include <stdexcept>
+
+#include "formats/json_document.h"
+#include "formats/read_fracture.h"
+#include "topple/structure/panel_file.h"
+
+namespace topple::structure {
+
+namespace formats {
+
+namespace {
+
+constexpr std::size_t kMostCorners = 1000, kMostHits = 1000000;
+
+fracture::Polygon read_polygon(const JsonValue& value) {
+  value.expect_array(3, kMostCorners);
+  fracture::Polygon polygon;
+  for (const JsonValue corner : value) polygon.push_back(corner.numbers<fracture::Vec2>());
+  if (!fracture::is_simple(polygon)) value.fail("the polygon crosses or touches itself; accepted: one that does not");
+  if (fracture::area(polygon) < 0) std::reverse(polygon.begin() + 1, polygon.end());
+  return polygon;
+}
+
+void read_shape(const JsonValue& panel, PanelFile& result) {
+  panel.expect_object();
+  panel.only({"outline", "thickness", "density", "openings"});
+  result.shape.outline = read_polygon(panel.require("outline"));
+  result.shape.thickness = panel.require("thickness").positive();
+  if (const auto density = panel.find("density")) result.density = density->not_negative();
+  if (const auto openings = panel.find("openings")) {
+    openings->expect_array(0, kMostCorners);
+    for (const JsonValue opening : *openings) result.shape.openings.push_back(read_polygon(opening));
+  }
+}
+
+PanelHit read_hit(const JsonValue& value) {
+  value.expect_object();
+  value.only({"at", "radius"});
+  PanelHit hit;
+  hit.at = value.require("at").numbers<fracture::Vec2>();
+  if (const auto radius = value.find("radius")) hit.radius = radius->positive();
+  return hit;
+}
+
+PanelFile read(const JsonDocument& document) {
+  const JsonValue root = document.root();
+  root.expect_object();
+  root.only({"topple", "panel", "seed", "fracture", "hits"});
+  (void)root.require("topple").whole(1, 1);
+  PanelFile result;
+  result.file = document.name();
+  const JsonValue panel = root.require("panel");
+  read_shape(panel, result);
+  result.settings = read_fracture(root.require("fracture"));
+  if (const auto seed = root.find("seed"))
+    result.settings.seed = static_cast<std::uint64_t>(seed->whole(0, std::int64_t{1} << 53));
+  if (const auto hits = root.find("hits")) {
+    hits->expect_array(0, kMostHits);
+    for (const JsonValue hit : *hits) result.hits.push_back(read_hit(hit));
+  }
+  try {  // what only shape and method together can tell
+    (void)fracture::BreakablePanel(result.shape, result.settings);
+  } catch (const std::invalid_argument& error) {
+    panel.fail(error.what());
+  }
+  return result;
+}
+
+}  // namespace
+
+}  // namespace formats
+
+PanelFile read_panel(const std::filesystem::path& file) {
+  return formats::read(formats::JsonDocument::from_file(file));
+}
+
+PanelFile parse_panel(std::string_view text, const std::string& name) {
+  return formats::read(formats::JsonDocument::from_text(text, name));
+}
+
+}  // namespace topple::structure
