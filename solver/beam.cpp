@@ -96,7 +96,8 @@ Mat12 CondensedBeam::stiffness() const {
 FixedEndForces CondensedBeam::fixed_end_forces(std::span<const BeamLoad> loads) const {
   FixedEndForces result;
   if (loads.empty() || absent_) return result;
-  const InternalForces forces = internal_forces(beam_.length, Vec6::Zero(), loads);
+  static thread_local InternalForces forces;  // a joint that breaks asks for no memory
+  find_internal_forces(beam_.length, Vec6::Zero(), loads, forces);
   const Vec6 tip = integrate_deformation(beam_, factor_, forces);
   const Vec6& statics = forces.second_end;
   const auto axial = axial_.fixed_end_forces(statics(0), -tip(0), result.unbalanced);

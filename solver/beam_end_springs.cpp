@@ -65,9 +65,12 @@ void BendingEnds::choose_basis() {
   Eigen::Matrix<double, 4, 2> statics;  // forces at v1, r1, v2, r2 per unit V and M/L at the first end
   statics << 1, 0, 0, 1, -1, 0, sense_, -1;
   std::array<int, 4> order{1, 3, 0, 2};
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    return compliance_[static_cast<std::size_t>(a)] > compliance_[static_cast<std::size_t>(b)];
-  });
+  const auto stiffer = [&](int a, int b) {
+    return compliance_[static_cast<std::size_t>(a)] < compliance_[static_cast<std::size_t>(b)];
+  };
+  // By insertion: stable, and (unlike std::stable_sort) without asking for memory.
+  for (std::size_t k = 1; k < order.size(); ++k)
+    for (std::size_t i = k; i > 0 && stiffer(order[i - 1], order[i]); --i) std::swap(order[i - 1], order[i]);
   const auto shear = [](int freedom) { return freedom % 2 == 0; };
   std::size_t second = 1;
   while (shear(order[0]) && shear(order[second])) ++second;

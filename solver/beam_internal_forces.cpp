@@ -18,8 +18,10 @@ double place_on_beam(double distance, double length, const BeamLoad& load) {
   return std::clamp(distance, 0.0, length);
 }
 
-std::vector<double> breakpoints(double length, std::span<const BeamLoad> loads) {
-  std::vector<double> places{0.0, length};
+void find_breakpoints(double length, std::span<const BeamLoad> loads, std::vector<double>& places) {
+  places.clear();
+  places.push_back(0.0);
+  places.push_back(length);
   for (const BeamLoad& load : loads) {
     if (load.kind == BeamLoad::Kind::temperature) continue;
     places.push_back(place_on_beam(load.from, length, load));
@@ -27,7 +29,6 @@ std::vector<double> breakpoints(double length, std::span<const BeamLoad> loads) 
   }
   std::sort(places.begin(), places.end());
   places.erase(std::unique(places.begin(), places.end()), places.end());
-  return places;
 }
 
 /// Intensity and its slope at the start of a piece, summed over the distributed loads that cover it.
@@ -64,6 +65,14 @@ BeamPiece make_piece(double start, double length, const Vec6& state, const Vec6&
 
 InternalForces internal_forces(double length, const Vec6& first_end, std::span<const BeamLoad> loads) {
   InternalForces result;
+  find_internal_forces(length, first_end, loads, result);
+  return result;
+}
+
+void find_internal_forces(double length, const Vec6& first_end, std::span<const BeamLoad> loads,
+                          InternalForces& result) {
+  result.pieces.clear();
+  result.free_strain = result.free_curvature_y = result.free_curvature_z = 0;
   for (const BeamLoad& load : loads) {
     if (load.kind != BeamLoad::Kind::temperature) continue;
     result.free_strain += load.strain;
@@ -71,7 +80,8 @@ InternalForces internal_forces(double length, const Vec6& first_end, std::span<c
     result.free_curvature_z -= load.curvature_y;
     result.free_curvature_y += load.curvature_z;
   }
-  const std::vector<double> places = breakpoints(length, loads);
+  std::vector<double>& places = result.places;
+  find_breakpoints(length, loads, places);
   result.pieces.reserve(places.size() - 1);
   Vec6 state = -first_end, value, slope;
   add_point_loads(0.0, length, loads, state);
@@ -83,7 +93,6 @@ InternalForces internal_forces(double length, const Vec6& first_end, std::span<c
     add_point_loads(places[i + 1], length, loads, state);
   }
   result.second_end = state;
-  return result;
 }
 
 namespace {

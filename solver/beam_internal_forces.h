@@ -30,10 +30,14 @@ struct InternalForces {
   Vec6 second_end = Vec6::Zero();
   /// Free strain and free curvatures (rotation per length about y and z) from temperature.
   double free_strain = 0, free_curvature_y = 0, free_curvature_z = 0;
+  std::vector<double> places;  ///< where pieces begin and the last one ends
 };
 
 /// `first_end` is what acts on the first end, local axes. Loads outside of the beam are an std::invalid_argument.
 [[nodiscard]] InternalForces internal_forces(double length, const Vec6& first_end, std::span<const BeamLoad> loads);
+/// The same in the storage of an earlier result.
+void find_internal_forces(double length, const Vec6& first_end, std::span<const BeamLoad> loads,
+                          InternalForces& result);
 
 /// Integrates u' = N/EA + strain, rx' = T/GJ, ry' = My/EIy + curvature, rz' = Mz/EIz + curvature, v' = rz + Vy/GAy,
 /// w' = -ry + Vz/GAz from zero at the first end. Returns the displacement of the second end; appends the pieces when

@@ -155,6 +155,7 @@ void FrameSystem::add_settlement_forces(LoadVector& result) const {
 }
 
 std::optional<Defect> FrameSystem::unbalanced_load(const LoadVector& load) const {
+  if (load.unbalanced_beams.empty() && inert_hubs_ == 0) return std::nullopt;
   Defect result;
   result.motion.motion.assign(model.nodes.size(), Vec6::Zero());
   if (!load.unbalanced_beams.empty()) {

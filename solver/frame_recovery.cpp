@@ -17,6 +17,24 @@ std::vector<Vec6> FrameSystem::node_displacements(const Eigen::VectorXd& displac
   return result;
 }
 
+void FrameSystem::node_displacements_of_scaled(const Eigen::VectorXd& solution, std::vector<Vec6>& result) const {
+  for (std::size_t n = 0; n < result.size(); ++n) {
+    if (node_stands[n] == 0) {
+      result[n].setZero();
+      continue;
+    }
+    const auto value = [&](std::size_t c) {
+      const int e = dofs_.number[n][c];
+      return e < dofs_.equations ? solution(e) * scale_[static_cast<std::size_t>(e)] : 0.0;
+    };
+    Vec6 u;
+    for (std::size_t c = 0; c < 6; ++c) u(static_cast<Eigen::Index>(c)) = value(c);
+    u(0) -= dofs_.arm[n][1] * u(5);
+    u(1) += dofs_.arm[n][0] * u(5);
+    result[n] = u;
+  }
+}
+
 Vec12 FrameSystem::end_forces(int index, const std::vector<Vec6>& displacements, const Vec12& fixed_end) const {
   const auto i = static_cast<std::size_t>(index);
   if (beam_stands[i] == 0) return Vec12::Zero();

@@ -81,12 +81,10 @@ FrameSystem::FrameSystem(FrameModel given)
   }
 }
 
-std::vector<int> FrameSystem::beams_of_node(int node) const {
-  std::vector<int> beams;
-  for (int element : elements_of_node_[static_cast<std::size_t>(node)]) {
-    if (static_cast<std::size_t>(element) < model.beams.size()) beams.push_back(element);
-  }
-  return beams;
+std::span<const int> FrameSystem::beams_of_node(int node) const {
+  const auto& elements = elements_of_node_[static_cast<std::size_t>(node)];  // in order: beams first
+  const auto end = std::lower_bound(elements.begin(), elements.end(), static_cast<int>(model.beams.size()));
+  return {elements.begin(), end};
 }
 
 std::vector<int> FrameSystem::shells_of_node(int node) const {
@@ -203,12 +201,17 @@ void FrameSystem::add_support_springs(int node) {
   }
 }
 
+void FrameSystem::forget_inert_rotations(std::size_t node) {
+  if (inert_[node].count > 0) --inert_hubs_;
+  inert_[node].count = 0;
+}
+
 /// A hub turned about an axis that no element resists strains nothing, bears nothing and belongs to nobody: a node of a
 /// truss. It is held at zero, in any direction in space; unbalanced_load() refuses a moment about it.
 void FrameSystem::hold_inert_rotations(int node) {
   constexpr double inert_limit = 1e-13;  // of the largest rotational stiffness at the node: rounding of rotated zeros
   const auto n = static_cast<std::size_t>(node);
-  inert_[n] = {};
+  forget_inert_rotations(n);
   std::array<int, 3> component{}, equation{};
   std::size_t free = 0;
   for (int c = 3; c < 6; ++c) {
@@ -245,6 +248,7 @@ void FrameSystem::hold_inert_rotations(int node) {
     if (std::abs(modes.eigenvalues()(m)) > inert_limit * held)
       continue;  // below zero: a softened hub, not an inert one
     const Vec3 d = modes.eigenvectors().col(m);
+    if (inert_[n].count == 0) ++inert_hubs_;
     inert_[n].directions.col(inert_[n].count++) = d;
     inert_[n].stiffness = held;
     for (std::size_t i = 0; i < free; ++i) {
@@ -261,7 +265,7 @@ void FrameSystem::finish_node(int node) {
   const auto n = static_cast<std::size_t>(node);
   if (node_stands[n] == 0) {
     for (int e = dofs_.first_equation[n]; e < dofs_.first_equation[n + 1]; ++e) entry(e, e) = 1;
-    inert_[n] = {};
+    forget_inert_rotations(n);
     return;
   }
   add_support_springs(node);
@@ -308,42 +312,49 @@ void FrameSystem::assemble() {
   set_scale();
 }
 
+void FrameSystem::want_node(int node) {
+  char& wanted = wanted_[static_cast<std::size_t>(node)];
+  if (wanted == 0) wanted_nodes_.push_back(node);
+  wanted = 1;
+}
+
 /// The vertices of these nodes; a diaphragm takes all of its nodes along.
-std::vector<char> FrameSystem::vertices_of(std::span<const int> nodes) const {
-  std::vector<char> wanted(static_cast<std::size_t>(dofs_.vertices()), 0);
+void FrameSystem::want_vertices_of(std::span<const int> nodes) {
+  wanted_.resize(static_cast<std::size_t>(dofs_.vertices()), 0);
+  wanted_nodes_.clear();
   for (int node : nodes) {
-    wanted[static_cast<std::size_t>(node)] = 1;
+    want_node(node);
     const int d = dofs_.diaphragm_of_node[static_cast<std::size_t>(node)];
     if (d < 0) continue;
-    wanted[model.nodes.size() + static_cast<std::size_t>(d)] = 1;
-    for (int other : model.diaphragms[static_cast<std::size_t>(d)].nodes) wanted[static_cast<std::size_t>(other)] = 1;
+    wanted_[model.nodes.size() + static_cast<std::size_t>(d)] = 1;
+    for (int other : model.diaphragms[static_cast<std::size_t>(d)].nodes) want_node(other);
   }
-  return wanted;
+  std::sort(wanted_nodes_.begin(), wanted_nodes_.end());
 }
 
 // Entries are built again from zero, in the same order as in assemble(), and never subtracted from: what is released
 // leaves exact zeros, not rounding that would pass for stiffness.
 void FrameSystem::reassemble(std::span<const int> nodes) {
-  const std::vector<char> wanted = vertices_of(nodes);
-  std::vector<int> elements;
-  for (std::size_t node = 0; node < model.nodes.size(); ++node) {
-    if (wanted[node] == 0) continue;
-    elements.insert(elements.end(), elements_of_node_[node].begin(), elements_of_node_[node].end());
+  want_vertices_of(nodes);
+  wanted_elements_.clear();
+  for (const int n : wanted_nodes_) {
+    const auto node = static_cast<std::size_t>(n);
+    wanted_elements_.insert(wanted_elements_.end(), elements_of_node_[node].begin(), elements_of_node_[node].end());
     for (int e = dofs_.first_equation[node]; e < dofs_.first_equation[node + 1]; ++e) {
       for (int f = dofs_.first_equation[node]; f <= e; ++f) entry(e, f) = 0;
     }
   }
-  std::sort(elements.begin(), elements.end());
-  elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
-  for (int element : elements) scatter_.clear(static_cast<std::size_t>(element), wanted, matrix_);
-  for (int element : elements) add_element(static_cast<std::size_t>(element), wanted);
-  for (std::size_t node = 0; node < model.nodes.size(); ++node) {
-    if (wanted[node] != 0) finish_node(static_cast<int>(node));
-  }
-  finish_diaphragms(wanted);
+  std::sort(wanted_elements_.begin(), wanted_elements_.end());
+  wanted_elements_.erase(std::unique(wanted_elements_.begin(), wanted_elements_.end()), wanted_elements_.end());
+  for (int element : wanted_elements_) scatter_.clear(static_cast<std::size_t>(element), wanted_, matrix_);
+  for (int element : wanted_elements_) add_element(static_cast<std::size_t>(element), wanted_);
+  for (const int node : wanted_nodes_) finish_node(node);
+  finish_diaphragms(wanted_);
+  for (const int node : wanted_nodes_) wanted_[static_cast<std::size_t>(node)] = 0;
+  std::fill(wanted_.begin() + static_cast<std::ptrdiff_t>(model.nodes.size()), wanted_.end(), char{0});
 }
 
-Eigen::MatrixXd FrameSystem::own_stiffness(int node) const {
+FrameSystem::NodeMatrix FrameSystem::own_stiffness(int node) const {
   const auto n = static_cast<std::size_t>(node);
   const int first = dofs_.first_equation[n], count = dofs_.first_equation[n + 1] - first;
   Mat6 K = Mat6::Zero();
@@ -354,7 +365,7 @@ Eigen::MatrixXd FrameSystem::own_stiffness(int node) const {
       K.bottomRightCorner<3, 3>() += inert_[n].stiffness * d * d.transpose();
     }
   }
-  Eigen::MatrixXd own = Eigen::MatrixXd::Zero(count, count);
+  NodeMatrix own = NodeMatrix::Zero(count, count);
   for (int i = 0; i < 6; ++i) {
     for (int j = 0; j < 6; ++j) {
       const int row = dofs_.number[n][static_cast<std::size_t>(i)] - first,
@@ -375,24 +386,30 @@ std::optional<Defect> FrameSystem::defect() const {
 }
 
 std::optional<Defect> FrameSystem::defect(std::span<const int> nodes) const {
-  std::vector<int> sorted(nodes.begin(), nodes.end()), beams;
-  std::sort(sorted.begin(), sorted.end());
-  sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
-  for (int node : sorted) {
-    const std::vector<int> here = beams_of_node(node);
-    beams.insert(beams.end(), here.begin(), here.end());
+  const auto sort_unique = [](std::vector<int>& values) {
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+  };
+  judged_nodes_.assign(nodes.begin(), nodes.end());
+  sort_unique(judged_nodes_);
+  judged_beams_.clear();
+  for (int node : judged_nodes_) {
+    const std::span<const int> here = beams_of_node(node);
+    judged_beams_.insert(judged_beams_.end(), here.begin(), here.end());
   }
-  std::sort(beams.begin(), beams.end());
-  beams.erase(std::unique(beams.begin(), beams.end()), beams.end());
-  return defect(sorted, beams);
+  sort_unique(judged_beams_);
+  return defect(judged_nodes_, judged_beams_);
 }
 
 std::optional<Defect> FrameSystem::defect(std::span<const int> nodes, std::span<const int> beams) const {
+  std::optional<Defect> result = unheld_freedoms(nodes);
+  return result ? std::move(result) : loose_beams(beams);
+}
+
+std::optional<Defect> FrameSystem::unheld_freedoms(std::span<const int> nodes) const {
   static const std::array<const char*, 6> names{"x", "y", "z", "rx", "ry", "rz"};
-  std::vector<int> isolated;
+  std::optional<Defect> result;
   std::string components;
-  Defect result;
-  result.motion.motion.assign(model.nodes.size(), Vec6::Zero());
   for (const int index : nodes) {
     const auto node = static_cast<std::size_t>(index);
     if (node_stands[node] == 0) continue;
@@ -401,29 +418,39 @@ std::optional<Defect> FrameSystem::defect(std::span<const int> nodes, std::span<
       if (e >= dofs_.equations) continue;
       const double diagonal = matrix_.value[static_cast<std::size_t>(matrix_.start[static_cast<std::size_t>(e)])];
       if (diagonal > 0) continue;
-      if (isolated.empty() || isolated.back() != static_cast<int>(node)) isolated.push_back(static_cast<int>(node));
+      if (!result) {
+        result.emplace();
+        result->motion.motion.assign(model.nodes.size(), Vec6::Zero());
+      }
+      std::vector<int>& isolated = result->motion.nodes;
+      if (isolated.empty() || isolated.back() != index) isolated.push_back(index);
       if (isolated.size() == 1) components += std::string(components.empty() ? "" : ", ") + names[c];
-      result.motion.motion[node](static_cast<Eigen::Index>(c)) = 1;
+      result->motion.motion[node](static_cast<Eigen::Index>(c)) = 1;
     }
   }
-  if (!isolated.empty()) {
-    result.message = "unstable: nothing holds " + list_nodes(isolated) + " (node " + std::to_string(isolated[0]) +
-                     " in " + components + ")";
-    result.motion.nodes = isolated;
-    return result;
+  if (result) {
+    const std::vector<int>& isolated = result->motion.nodes;
+    result->message = "unstable: nothing holds " + list_nodes(isolated) + " (node " + std::to_string(isolated[0]) +
+                      " in " + components + ")";
   }
+  return result;
+}
+
+std::optional<Defect> FrameSystem::loose_beams(std::span<const int> beams) const {
+  std::optional<Defect> result;
   for (const int beam : beams) {
     const auto i = static_cast<std::size_t>(beam);
-    if (beam_stands[i] != 0 && CondensedBeam(model.beams[i], beam_factor[i]).loose()) {
-      result.motion.beams.push_back(beam);
+    if (beam_stands[i] == 0 || !CondensedBeam(model.beams[i], beam_factor[i]).loose()) continue;
+    if (!result) {
+      result.emplace();
+      result->motion.motion.assign(model.nodes.size(), Vec6::Zero());
     }
+    result->motion.beams.push_back(beam);
   }
-  if (result.motion.beams.empty()) return std::nullopt;
-  result.message =
-      "unstable: beam " + std::to_string(result.motion.beams[0]) + " can move by itself: its ends are released too far";
-  if (result.motion.beams.size() > 1) {
-    result.message += " (and " + std::to_string(result.motion.beams.size() - 1) + " more beams)";
-  }
+  if (!result) return result;
+  const std::vector<int>& loose = result->motion.beams;
+  result->message = "unstable: beam " + std::to_string(loose[0]) + " can move by itself: its ends are released too far";
+  if (loose.size() > 1) result->message += " (and " + std::to_string(loose.size() - 1) + " more beams)";
   return result;
 }
 

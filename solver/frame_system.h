@@ -55,7 +55,7 @@ class FrameSystem {
   [[nodiscard]] std::span<const double> scale() const { return scale_; }
 
   /// Beams that reach a node, standing or not, in order.
-  [[nodiscard]] std::vector<int> beams_of_node(int node) const;
+  [[nodiscard]] std::span<const int> beams_of_node(int node) const;
   [[nodiscard]] std::vector<int> shells_of_node(int node) const;
   /// Elimination order of the equations: nodes by nested dissection, the equations of a node together.
   [[nodiscard]] std::vector<int> elimination_order() const;
@@ -75,7 +75,8 @@ class FrameSystem {
   [[nodiscard]] Mat24 shell_stiffness(int shell) const;
   /// What a node has besides its elements (support springs, held inert rotations), scaled, in its own equations. For
   /// nodes of no diaphragm.
-  [[nodiscard]] Eigen::MatrixXd own_stiffness(int node) const;
+  using NodeMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
+  [[nodiscard]] NodeMatrix own_stiffness(int node) const;
 
   [[nodiscard]] LoadVector load_vector(const LoadSet& loads) const;
   /// A moment on a hub that nothing keeps from turning, or a load on a loose part; empty when there is none.
@@ -90,6 +91,9 @@ class FrameSystem {
   /// Per node, from the displacements of the equations (not scaled) and those of held freedoms.
   [[nodiscard]] std::vector<Vec6> node_displacements(const Eigen::VectorXd& displacement,
                                                      const Eigen::VectorXd& held) const;
+  /// The same from the scaled solution of the equations, with nothing held displaced; into a vector with a place for
+  /// each node.
+  void node_displacements_of_scaled(const Eigen::VectorXd& solution, std::vector<Vec6>& result) const;
   [[nodiscard]] Vec12 end_forces(int beam, const std::vector<Vec6>& displacements, const Vec12& fixed_end) const;
   /// Per corner: what the node does to the shell, global; `fixed` as in LoadVector.
   [[nodiscard]] std::array<Vec6, 4> corner_forces(int shell, const std::vector<Vec6>& displacements,
@@ -104,13 +108,17 @@ class FrameSystem {
   /// K of a beam in the local freedoms of its hubs.
   [[nodiscard]] Mat12 hub_stiffness(std::size_t beam) const;
   void add_element(std::size_t element, const std::vector<char>& wanted);
-  [[nodiscard]] std::vector<char> vertices_of(std::span<const int> nodes) const;
+  void want_node(int node);
+  void want_vertices_of(std::span<const int> nodes);
   void finish_node(int node);
   void finish_diaphragms(const std::vector<char>& wanted);
   void add_support_springs(int node);
   void hold_inert_rotations(int node);
+  void forget_inert_rotations(std::size_t node);
   void set_scale();
   [[nodiscard]] std::optional<Defect> defect(std::span<const int> nodes, std::span<const int> beams) const;
+  [[nodiscard]] std::optional<Defect> unheld_freedoms(std::span<const int> nodes) const;
+  [[nodiscard]] std::optional<Defect> loose_beams(std::span<const int> beams) const;
   /// K of a shell in the global freedoms of its nodes. Floors repeat one panel: the last one is kept.
   [[nodiscard]] const Mat24& shell_node_stiffness(int shell) const;
   void add_shell_loads(const std::vector<ShellLoad>& loads, LoadVector& result) const;
@@ -132,6 +140,11 @@ class FrameSystem {
     Mat3 directions = Mat3::Zero();
   };
   std::vector<InertHub> inert_;
+  int inert_hubs_ = 0;  ///< with a count above 0
+  // Scratch of reassemble() and defect(): what changes once a break must not ask for memory.
+  std::vector<char> wanted_;  ///< per vertex; all 0 between calls
+  std::vector<int> wanted_nodes_, wanted_elements_;
+  mutable std::vector<int> judged_nodes_, judged_beams_;
   mutable Shell kept_shell_;
   mutable std::array<Vec3, 4> kept_corners_{};
   mutable Mat24 kept_stiffness_;

@@ -27,6 +27,13 @@ void orthonormalise(Eigen::MatrixXd& W, Eigen::MatrixXd& R) {
   }
 }
 
+/// The first entries of a store that only grows, as a matrix.
+Eigen::Map<Eigen::MatrixXd> scratch(std::vector<double>& store, Eigen::Index rows, Eigen::Index columns) {
+  const auto size = static_cast<std::size_t>(rows * columns);
+  if (store.size() < size) store.resize(2 * size);
+  return {store.data(), rows, columns};
+}
+
 }  // namespace
 
 int LowRankCorrection::add(std::span<const int> rows, const Eigen::MatrixXd& B) {
@@ -67,9 +74,11 @@ void LowRankCorrection::append_to_gram(const Place& place) {
   gram_size_ = size;
 }
 
-void LowRankCorrection::set(int place, const Eigen::MatrixXd& D) {
+void LowRankCorrection::set(int place, const Eigen::Ref<const Eigen::MatrixXd>& D) {
   Place& p = places_[static_cast<std::size_t>(place)];
-  p.D = p.R * D * p.R.transpose();
+  Eigen::Map<Eigen::MatrixXd> RD = scratch(product_, p.R.rows(), D.cols());
+  RD.noalias() = p.R * D;
+  p.D.noalias() = RD * p.R.transpose();
   p.active = (D.array() != 0).any();
 }
 
@@ -112,7 +121,8 @@ void LowRankCorrection::update() {
   }
   softening_ = 1;
   if (active_.empty()) return;
-  Eigen::MatrixXd A = Eigen::MatrixXd::Identity(active_rank_, active_rank_);
+  Eigen::Map<Eigen::MatrixXd> A = capacitance_.matrix(active_rank_);
+  A.setIdentity();
   Eigen::Index row = 0;
   for (const int i : active_) {
     const Place& p = places_[static_cast<std::size_t>(i)];
@@ -125,10 +135,8 @@ void LowRankCorrection::update() {
     }
     row += rows;
   }
-  const double norm = A.cwiseAbs().colwise().sum().maxCoeff();
-  capacitance_.compute(A);
-  const double reciprocal = capacitance_.rcond();
-  softening_ = reciprocal > 0 ? 1 / (reciprocal * norm) : std::numeric_limits<double>::infinity();
+  capacitance_.factorise();
+  softening_ = capacitance_.inverse_norm();
 }
 
 double LowRankCorrection::entries() const {
@@ -137,52 +145,55 @@ double LowRankCorrection::entries() const {
   return sum;
 }
 
-void LowRankCorrection::gather(const Eigen::VectorXd& y, Eigen::VectorXd& c) const {
-  c.resize(active_rank_);
-  Eigen::VectorXd local;
+void LowRankCorrection::gather(const Eigen::VectorXd& y, Eigen::Ref<Eigen::VectorXd> c) const {
   Eigen::Index row = 0;
   for (const int i : active_) {
     const Place& p = places_[static_cast<std::size_t>(i)];
-    solver_.gather(p.path, y, local);
-    c.segment(row, p.W.cols()).noalias() = p.W.transpose() * local;
+    Eigen::Map<Eigen::MatrixXd> local = scratch(on_path_, p.W.rows(), 1);
+    solver_.gather(p.path, y, local.data());
+    c.segment(row, p.W.cols()).noalias() = p.W.transpose() * local.col(0);
     row += p.W.cols();
   }
 }
 
-void LowRankCorrection::subtract(const Eigen::VectorXd& c, Eigen::VectorXd& y) const {
-  Eigen::VectorXd local;
+void LowRankCorrection::subtract(const Eigen::Ref<const Eigen::VectorXd>& c, Eigen::VectorXd& y) const {
   Eigen::Index row = 0;
   for (const int i : active_) {
     const Place& p = places_[static_cast<std::size_t>(i)];
-    local.noalias() = p.W * c.segment(row, p.W.cols());
-    solver_.subtract(p.path, local, y);
+    Eigen::Map<Eigen::MatrixXd> local = scratch(on_path_, p.W.rows(), 1);
+    local.col(0).noalias() = p.W * c.segment(row, p.W.cols());
+    solver_.subtract(p.path, local.data(), y);
     row += p.W.cols();
   }
 }
 
 void LowRankCorrection::correct(Eigen::VectorXd& y) const {
   if (active_.empty()) return;
-  Eigen::VectorXd c;
-  gather(y, c);
+  // W'y in the first half, D W'y in the second.
+  Eigen::Map<Eigen::MatrixXd> c = scratch(coefficients_, active_rank_, 2);
+  gather(y, c.col(0));
   Eigen::Index row = 0;
   for (const int i : active_) {
     const Place& p = places_[static_cast<std::size_t>(i)];
-    c.segment(row, p.W.cols()) = (p.D * c.segment(row, p.W.cols())).eval();
+    c.col(1).segment(row, p.W.cols()).noalias() = p.D * c.col(0).segment(row, p.W.cols());
     row += p.W.cols();
   }
-  subtract(capacitance_.solve(c), y);
+  capacitance_.solve(c.col(1).data());
+  subtract(c.col(1), y);
 }
 
 Eigen::VectorXd LowRankCorrection::softest_motion() const {
   Eigen::VectorXd motion = Eigen::VectorXd::Zero(solver_.size());
   if (active_.empty()) return motion;
   // The columns of the inverse are dominated by the null vector; one that stands out names one motion, not a mixture.
-  Eigen::MatrixXd inverse = capacitance_.inverse();
+  Eigen::MatrixXd inverse = Eigen::MatrixXd::Identity(active_rank_, active_rank_);
+  capacitance_.solve(inverse.data(), active_rank_);
   if (!inverse.allFinite()) return motion;
   Eigen::Index column = 0;
   inverse.colwise().norm().maxCoeff(&column);
   Eigen::VectorXd q = inverse.col(column).normalized();
-  q = capacitance_.solve(q).normalized();
+  capacitance_.solve(q.data());
+  q.normalize();
   subtract(-q, motion);
   const double norm = motion.norm();
   if (norm > 0) motion /= norm;

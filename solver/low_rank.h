@@ -7,10 +7,10 @@
 // stationary values of v'(K + B D B')v / v'Kv: it is singular exactly when the changed structure is a mechanism, and
 // the inverse of its least eigenvalue is what the condition has grown by.
 #include <Eigen/Core>
-#include <Eigen/LU>
 #include <span>
 #include <vector>
 
+#include "dense_factor.h"
 #include "triangular.h"
 
 namespace topple::solver {
@@ -24,7 +24,7 @@ class LowRankCorrection {
   /// twice) and B there, one row each. Returns its number; its D is zero.
   int add(std::span<const int> rows, const Eigen::MatrixXd& B);
   /// Replaces the place's D (symmetric; zero: unchanged).
-  void set(int place, const Eigen::MatrixXd& D);
+  void set(int place, const Eigen::Ref<const Eigen::MatrixXd>& D);
   /// Forgets places whose D is zero when they have become the greater part. Returns for each place so far its new
   /// number, -1 when forgotten; empty when nothing was.
   [[nodiscard]] std::vector<int> forget_unchanged();
@@ -58,8 +58,8 @@ class LowRankCorrection {
   [[nodiscard]] Eigen::MatrixXd product(const Place& a, const Place& b) const;
   void append_to_gram(const Place& place);
   /// c := W' y of the active places, and y -= W c.
-  void gather(const Eigen::VectorXd& y, Eigen::VectorXd& c) const;
-  void subtract(const Eigen::VectorXd& c, Eigen::VectorXd& y) const;
+  void gather(const Eigen::VectorXd& y, Eigen::Ref<Eigen::VectorXd> c) const;
+  void subtract(const Eigen::Ref<const Eigen::VectorXd>& c, Eigen::VectorXd& y) const;
 
   const TriangularSolver& solver_;
   std::vector<Place> places_;
@@ -67,8 +67,11 @@ class LowRankCorrection {
   Eigen::Index gram_size_ = 0;
   std::vector<int> active_;  ///< places with a D, in order
   int active_rank_ = 0;
-  Eigen::PartialPivLU<Eigen::MatrixXd> capacitance_;
+  DenseFactor capacitance_;
   double softening_ = 1;
+  // Scratch; grows only.
+  mutable std::vector<double> on_path_;
+  mutable std::vector<double> coefficients_, product_;
 };
 
 }  // namespace topple::solver

@@ -89,6 +89,7 @@ void Reanalysis::set_node_load(int node, const Vec6& load) {
   if (target == load) return;
   target = load;
   state_->node_loads_changed = true;
+  state_->stale_load_nodes.push_back(node);
 }
 
 void Reanalysis::set_beam_loads(int beam, std::vector<BeamLoad> loads) {

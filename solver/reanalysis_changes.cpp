@@ -75,7 +75,7 @@ void Reanalysis::State::rebuild() {
   rows.reset();
   solution.resize(0);
   first_solution.resize(0);
-  assembled = factor_valid = structure_stands = false;
+  assembled = factor_valid = structure_stands = load_known = false;
 }
 
 void Reanalysis::State::apply_dropped_nodes(std::vector<int>& touched) {
@@ -85,6 +85,7 @@ void Reanalysis::State::apply_dropped_nodes(std::vector<int>& touched) {
     stands = 0;
     if (standing) standing->drop_node(node);
     touched.push_back(node);
+    stale_load_nodes.push_back(node);
     for (int beam : system->beams_of_node(node)) changed_beams.push_back(beam);
     for (int shell : system->shells_of_node(node)) changed_shells.push_back(shell);
   }
@@ -94,31 +95,34 @@ void Reanalysis::State::apply_dropped_nodes(std::vector<int>& touched) {
 void Reanalysis::State::apply_beams(std::vector<int>& touched) {
   std::sort(changed_beams.begin(), changed_beams.end());
   changed_beams.erase(std::unique(changed_beams.begin(), changed_beams.end()), changed_beams.end());
-  for (int index : changed_beams) {
-    const auto i = static_cast<std::size_t>(index);
-    const BeamTarget& target = targets[i];
-    Beam& beam = system->model.beams[i];
-    // A beam with a broken end does not hang on the node there: it stands as a cantilever when that node has left.
-    const auto free_of_dropped = [&](std::size_t end) {
-      return system->node_stands[static_cast<std::size_t>(beam.node[end])] != 0 || target.end_stiffness[end].isZero(0);
-    };
-    const char stands = !target.removed && free_of_dropped(0) && free_of_dropped(1) ? 1 : 0;
-    const bool stiffness_changed =
-        stands != system->beam_stands[i] ||
-        (stands != 0 && (beam.end_stiffness[0] != target.end_stiffness[0] ||
-                         beam.end_stiffness[1] != target.end_stiffness[1] || system->beam_factor[i] != target.factor));
-    if (stiffness_changed && standing) standing->remember_beam(index);
-    beam.end_stiffness = target.end_stiffness;
-    system->beam_factor[i] = target.factor;
-    system->beam_stands[i] = stands;
-    if (stiffness_changed) touched.insert(touched.end(), beam.node.begin(), beam.node.end());
-    const FixedEndForces fixed = system->fixed_end_forces(index, target.loads);
-    fixed_end[i] = fixed.force;
-    fixed_at_nodes[i] = -node_forces(beam, fixed.force);
-    end_stiffness_known[i] = 0;
-    unbalanced[i] = fixed.unbalanced > 0 ? 1 : 0;
-  }
+  for (const int beam : changed_beams) apply_beam(beam, touched);
   changed_beams.clear();
+}
+
+void Reanalysis::State::apply_beam(int index, std::vector<int>& touched) {
+  const auto i = static_cast<std::size_t>(index);
+  const BeamTarget& target = targets[i];
+  Beam& beam = system->model.beams[i];
+  // A beam with a broken end does not hang on the node there: it stands as a cantilever when that node has left.
+  const auto free_of_dropped = [&](std::size_t end) {
+    return system->node_stands[static_cast<std::size_t>(beam.node[end])] != 0 || target.end_stiffness[end].isZero(0);
+  };
+  const char stands = !target.removed && free_of_dropped(0) && free_of_dropped(1) ? 1 : 0;
+  const bool stiffness_changed =
+      stands != system->beam_stands[i] ||
+      (stands != 0 && (beam.end_stiffness[0] != target.end_stiffness[0] ||
+                       beam.end_stiffness[1] != target.end_stiffness[1] || system->beam_factor[i] != target.factor));
+  if (stiffness_changed && standing) standing->remember_beam(index);
+  beam.end_stiffness = target.end_stiffness;
+  system->beam_factor[i] = target.factor;
+  system->beam_stands[i] = stands;
+  if (stiffness_changed) touched.insert(touched.end(), beam.node.begin(), beam.node.end());
+  const FixedEndForces fixed = system->fixed_end_forces(index, target.loads);
+  fixed_end[i] = fixed.force;
+  fixed_at_nodes[i] = -node_forces(beam, fixed.force);
+  stale_load_nodes.insert(stale_load_nodes.end(), beam.node.begin(), beam.node.end());
+  end_stiffness_known[i] = 0;
+  unbalanced[i] = fixed.unbalanced > 0 ? 1 : 0;
 }
 
 void Reanalysis::State::apply_shells(std::vector<int>& touched) {

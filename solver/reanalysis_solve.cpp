@@ -126,42 +126,27 @@ std::optional<Defect> Reanalysis::State::refactorise() {
   return std::nullopt;
 }
 
-LoadVector Reanalysis::State::load_vector() const {
-  LoadVector load;
-  const DofMap& dofs = system->dofs();
-  load.force = Eigen::VectorXd::Zero(dofs.equations + dofs.held);
-  load.held_displacement = Eigen::VectorXd::Zero(dofs.held);
-  for (std::size_t n = 0; n < node_loads.size(); ++n) {
-    if (system->node_stands[n] != 0) dofs.add_node_force(static_cast<int>(n), node_loads[n], load.force.data());
-  }
-  for (std::size_t i = 0; i < fixed_end.size(); ++i) {
-    if (system->beam_stands[i] == 0) continue;
-    const Beam& beam = system->model.beams[i];
-    dofs.add_node_force(beam.node[0], fixed_at_nodes[i].head<6>(), load.force.data());
-    dofs.add_node_force(beam.node[1], fixed_at_nodes[i].tail<6>(), load.force.data());
-    if (unbalanced[i] != 0) load.unbalanced_beams.push_back(static_cast<int>(i));
-  }
-  return load;
-}
-
-Eigen::VectorXd Reanalysis::State::scaled(const Eigen::VectorXd& force) const {
+void Reanalysis::State::scale_force(const Eigen::VectorXd& force, Eigen::VectorXd& result) const {
   const Eigen::Index n = system->dofs().equations;
-  return force.head(n).cwiseProduct(Eigen::Map<const Eigen::VectorXd>(system->scale().data(), n));
+  result = force.head(n).cwiseProduct(Eigen::Map<const Eigen::VectorXd>(system->scale().data(), n));
 }
 
 Eigen::VectorXd Reanalysis::State::solve_scaled(const Eigen::VectorXd& force, SolveQuality& quality) const {
   const Eigen::Index n = system->dofs().equations;
   if (n == 0) return {};
-  const RefinedSolution refined = solve_refined(system->matrix(), linear_solve(), scaled(force));
+  Eigen::VectorXd right_hand_side;
+  scale_force(force, right_hand_side);
+  const RefinedSolution refined = solve_refined(system->matrix(), linear_solve(), right_hand_side);
   quality = refined.quality[0];
   quality.condition = current_condition();
   quality.error_bound = forward_error_bound(quality.condition, quality.backward_error);
   return refined.x.col(0).cwiseProduct(Eigen::Map<const Eigen::VectorXd>(system->scale().data(), n));
 }
 
-/// Rows in which the last answer does not fit any longer; empty when they are too many to tell apart.
-std::vector<int> Reanalysis::State::changed_rows(const Eigen::VectorXd& force) const {
-  std::vector<int> changed;
+/// Rows in which the last answer does not fit any longer; none when they are too many to tell apart.
+void Reanalysis::State::find_changed_rows(const Eigen::VectorXd& force) {
+  std::vector<int>& changed = rows_to_change;
+  changed.clear();
   const std::size_t most = static_cast<std::size_t>(force.size()) / 4;
   const auto& first = system->dofs().first_equation;
   const auto add_vertex = [&](std::size_t v) {
@@ -174,24 +159,24 @@ std::vector<int> Reanalysis::State::changed_rows(const Eigen::VectorXd& force) c
   }
   for (Eigen::Index e = 0; e < force.size() && changed.size() <= most; ++e)
     if (force(e) != solved_force(e)) changed.push_back(static_cast<int>(e));
-  if (changed.size() > most) return {};
+  if (changed.size() > most) changed.clear();
   std::sort(changed.begin(), changed.end());
   changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
-  return changed;
 }
 
 /// From the last answer on: what does not fit any longer is solved for and added, until the error is at rounding level.
 void Reanalysis::State::refine(const Eigen::VectorXd& force) {
   const SparseSymmetric& K = system->matrix();
   SolveQuality& quality = answer.quality;
-  Eigen::VectorXd r, next;
-  std::vector<int> changed;
+  Eigen::VectorXd& r = correction;
+  std::vector<int>& changed = rows_to_change;
   bool first = true;
   if (solution.size() != force.size()) {
     solution = Eigen::VectorXd::Zero(force.size());
     r = force;
+    changed.clear();
   } else {
-    changed = changed_rows(force);
+    find_changed_rows(force);
     if (changed.empty()) {
       (void)rows->residual(K, force, solution, r);
     } else {
@@ -199,17 +184,16 @@ void Reanalysis::State::refine(const Eigen::VectorXd& force) {
     }
   }
   for (int step = 0; step <= most_refinements; ++step) {
-    Eigen::VectorXd& correction = r;
     if (first && !changed.empty()) {
       standing->solve(correction, &changed);
     } else {
       standing->solve(correction);
     }
-    next = solution + correction;
-    const double error = rows->residual(K, force, next, r);
+    improved = solution + correction;
+    const double error = rows->residual(K, force, improved, r);
     const bool go_on = first || error <= worthwhile * quality.backward_error;
     if (first || error < quality.backward_error) {
-      solution.swap(next);
+      solution.swap(improved);
       quality.backward_error = error;
       if (!first) ++quality.refinements;
     }
@@ -218,13 +202,14 @@ void Reanalysis::State::refine(const Eigen::VectorXd& force) {
   }
 }
 
-bool Reanalysis::State::solve_loads(const LoadVector& load) {
+bool Reanalysis::State::solve_loads() {
   const Eigen::Index n = system->dofs().equations;
-  const Eigen::VectorXd force = n > 0 ? scaled(load.force) : Eigen::VectorXd();
+  scale_force(load.force, scaled_force);
+  const Eigen::VectorXd& force = scaled_force;
   if (n == 0) {
     answer.quality = {};
     answer.quality.converged = true;
-    displacements = system->node_displacements(force, load.held_displacement);
+    system->node_displacements_of_scaled(force, displacements);
     return true;
   }
   const bool as_factorised = standing && !standing->changed();
@@ -254,14 +239,23 @@ bool Reanalysis::State::solve_loads(const LoadVector& load) {
   answer.quality.condition = current_condition();
   answer.quality.error_bound = forward_error_bound(answer.quality.condition, answer.quality.backward_error);
   if (as_factorised && first_force.size() == n && first_force == force) first_quality = answer.quality;
-  const Eigen::Map<const Eigen::VectorXd> scale(system->scale().data(), n);
-  displacements = system->node_displacements(solution.cwiseProduct(scale), load.held_displacement);
+  system->node_displacements_of_scaled(solution, displacements);
   return as_factorised || !standing || answer.quality.backward_error <= acceptable_error;
 }
 
 void Reanalysis::State::give_up(const Defect& defect) {
   answer.stable = false;
   answer.mechanism = defect.motion;
+}
+
+void Reanalysis::State::apply_changes() {
+  touched_nodes.clear();
+  apply_supports(touched_nodes);
+  apply_dropped_nodes(touched_nodes);
+  apply_beams(touched_nodes);
+  apply_shells(touched_nodes);
+  update_load();
+  node_loads_changed = false;
 }
 
 const ReanalysisAnswer& Reanalysis::solve() {
@@ -271,38 +265,32 @@ const ReanalysisAnswer& Reanalysis::solve() {
     ++state.counters.unchanged;
     return state.answer;
   }
-  std::vector<int> touched;
-  state.apply_supports(touched);
-  state.apply_dropped_nodes(touched);
-  state.apply_beams(touched);
-  state.apply_shells(touched);
-  state.node_loads_changed = false;
+  state.apply_changes();
   state.answered = true;
   const bool nearly_unstable = state.answer.nearly_unstable;  // a property of the factor, which may stay
   state.answer = ReanalysisAnswer();
   state.answer.nearly_unstable = nearly_unstable;
   state.reactions.clear();
   ++state.counters.solves;
-  if (!touched.empty() || !state.assembled || !state.structure_stands) {
-    if (const auto defect = state.update_structure(touched)) {
+  if (!state.touched_nodes.empty() || !state.assembled || !state.structure_stands) {
+    if (const auto defect = state.update_structure(state.touched_nodes)) {
       state.give_up(*defect);
       return state.answer;
     }
   } else {
     ++state.counters.load_solves;
   }
-  const LoadVector load = state.load_vector();
-  if (const auto defect = state.system->unbalanced_load(load)) {
+  if (const auto defect = state.system->unbalanced_load(state.load)) {
     state.give_up(*defect);
     return state.answer;
   }
-  if (!state.solve_loads(load)) {
+  if (!state.solve_loads()) {
     if (const auto defect = state.refactorise()) {
       state.structure_stands = false;
       state.give_up(*defect);
       return state.answer;
     }
-    (void)state.solve_loads(load);
+    (void)state.solve_loads();
   }
   return state.answer;
 }

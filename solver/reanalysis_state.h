@@ -45,6 +45,9 @@ struct Reanalysis::State {
   bool answered = false;
   ReanalysisAnswer answer;
   double condition = 0;                         ///< of the factorised matrix
+  LoadVector load;                              ///< of what stands now
+  bool load_known = false;                      ///< false: it is summed up from nothing
+  std::vector<int> stale_load_nodes;            ///< where it does not hold any longer
   Eigen::VectorXd solution, solved_force;       ///< scaled; empty: none to start from
   Eigen::VectorXd first_solution, first_force;  ///< with the factor just made, nothing changed since
   SolveQuality first_quality;
@@ -59,6 +62,9 @@ struct Reanalysis::State {
   mutable std::vector<Vec6> reactions;
   ReanalysisCounters counters;
   double operations = 0;
+  // Scratch of solve(): once grown, an answer asks for no memory.
+  std::vector<int> touched_nodes, rows_to_change;
+  Eigen::VectorXd scaled_force, correction, improved;
 
   State(FrameModel model, const AnalysisOptions& given);
   void mark(int beam);
@@ -67,6 +73,7 @@ struct Reanalysis::State {
   void apply_supports(std::vector<int>& touched);
   void apply_dropped_nodes(std::vector<int>& touched);
   void apply_beams(std::vector<int>& touched);
+  void apply_beam(int beam, std::vector<int>& touched);
   void apply_shells(std::vector<int>& touched);
   void rebuild();
 
@@ -75,16 +82,19 @@ struct Reanalysis::State {
   /// The rung below a new factor. False: not worth it, or it cannot decide.
   [[nodiscard]] bool correct_factor(const std::vector<int>& touched, std::optional<Defect>& defect);
   [[nodiscard]] std::optional<Defect> refactorise();
-  [[nodiscard]] LoadVector load_vector() const;
+  void update_load();
+  void sum_up_load();
+  void sum_up_load_at(int node);
   /// False when refinement does not reach rounding level.
-  [[nodiscard]] bool solve_loads(const LoadVector& load);
+  [[nodiscard]] bool solve_loads();
   void refine(const Eigen::VectorXd& force);
-  [[nodiscard]] std::vector<int> changed_rows(const Eigen::VectorXd& force) const;
+  void find_changed_rows(const Eigen::VectorXd& force);
+  void apply_changes();
   void give_up(const Defect& defect);
   [[nodiscard]] double current_condition() const;
   [[nodiscard]] Vec12 end_forces(std::size_t beam, const std::vector<Vec6>& displacements, const Vec12& fixed) const;
   [[nodiscard]] LinearSolve linear_solve() const;
-  [[nodiscard]] Eigen::VectorXd scaled(const Eigen::VectorXd& force) const;
+  void scale_force(const Eigen::VectorXd& force, Eigen::VectorXd& result) const;
   [[nodiscard]] Eigen::VectorXd solve_scaled(const Eigen::VectorXd& force, SolveQuality& quality) const;
   [[nodiscard]] std::size_t checked_beam(int beam) const;
   [[nodiscard]] std::size_t checked_shell(int shell) const;

@@ -21,13 +21,14 @@ StandingFactor::StandingFactor(const FrameSystem& system, const Factor& factor)
     : system_(system), solver_(factor), correction_(solver_) {
   for (int node = 0; node < static_cast<int>(system.model.nodes.size()); ++node) {
     if (system.dofs().diaphragm_of_node[static_cast<std::size_t>(node)] >= 0) continue;
-    Eigen::MatrixXd own = system.own_stiffness(node);
-    if ((own.array() != 0).any()) node_before_.emplace(node, std::move(own));
+    const auto own = system.own_stiffness(node);
+    if ((own.array() != 0).any()) node_before_.emplace(node, own);
   }
 }
 
 void StandingFactor::remember_beam(int beam) {
   if (!beam_before_.contains(beam)) beam_before_.emplace(beam, beam_mode_stiffness(system_, beam));
+  stale_beams_.push_back(beam);
 }
 
 void StandingFactor::remember_shell(int shell) {
@@ -41,22 +42,31 @@ bool StandingFactor::inside_dropped(std::span<const int> nodes) const {
                      [&](int n) { return std::binary_search(dropped_.begin(), dropped_.end(), n); });
 }
 
-void StandingFactor::want(Key key, Eigen::MatrixXd D) {
+void StandingFactor::want(Key key, const Eigen::Ref<const Eigen::MatrixXd>& D) {
   const auto known = wanted_.find(key);
   if (known != wanted_.end()) {
-    known->second = std::move(D);
+    if (known->second.D.size() == D.size() && known->second.D == D) return;
+    known->second.D = D;
+    known->second.set = false;
   } else if ((D.array() != 0).any()) {
-    wanted_.emplace(key, std::move(D));
+    wanted_.emplace(key, Wanted{D, false});
   }
 }
 
+void StandingFactor::plan_beam(int beam, const Mat6& before) {
+  const auto& nodes = system_.model.beams[static_cast<std::size_t>(beam)].node;
+  Mat6 D = Mat6::Zero();
+  if (!inside_dropped(nodes)) D = beam_mode_stiffness(system_, beam) - before;
+  want({Kind::beam, beam}, D);
+}
+
 void StandingFactor::plan_beams() {
-  for (const auto& [beam, before] : beam_before_) {
-    const auto& nodes = system_.model.beams[static_cast<std::size_t>(beam)].node;
-    Mat6 D = Mat6::Zero();
-    if (!inside_dropped(nodes)) D = beam_mode_stiffness(system_, beam) - before;
-    want({Kind::beam, beam}, D);
+  if (dropped_more_) {
+    for (const auto& [beam, before] : beam_before_) plan_beam(beam, before);
+  } else {
+    for (const int beam : stale_beams_) plan_beam(beam, beam_before_.at(beam));
   }
+  stale_beams_.clear();
 }
 
 void StandingFactor::plan_shells() {
@@ -83,19 +93,23 @@ bool StandingFactor::plan_nodes() {
       if (dropped) return false;
       continue;
     }
-    Eigen::MatrixXd D = system_.own_stiffness(node);
+    FrameSystem::NodeMatrix D = system_.own_stiffness(node);
     if (dropped) D.setZero();
     const auto before = node_before_.find(node);
     if (before != node_before_.end() && !dropped) D -= before->second;
-    want({Kind::node, node}, std::move(D));
+    want({Kind::node, node}, D);
   }
+  touched_.clear();
   return true;
 }
 
 /// One node of each dropped part that held together is held, so that the part is not loose.
 void StandingFactor::plan_grounds() {
-  for (auto& [key, D] : wanted_)
-    if (key.kind == Kind::ground) D.setZero();
+  for (auto& [key, wanted] : wanted_) {
+    if (key.kind != Kind::ground) continue;
+    wanted.D.setZero();
+    wanted.set = false;
+  }
   std::vector<int> part(dropped_.size());
   std::iota(part.begin(), part.end(), 0);
   const auto index = [&](int node) {
@@ -139,15 +153,17 @@ StandingFactor::Plan StandingFactor::plan() {
   plan_beams();
   plan_shells();
   if (!plan_nodes()) return plan;
-  plan_grounds();
+  if (dropped_more_) plan_grounds();
+  dropped_more_ = false;
   plan.possible = true;
   double new_columns = 0, path_cost = 0;
-  for (const auto& [key, D] : wanted_) {
-    if ((D.array() != 0).any()) plan.rank += static_cast<int>(D.cols());
-    if (place_.contains(key) || !(D.array() != 0).any()) continue;
+  for (const auto& [key, wanted] : wanted_) {
+    if (!wanted.active()) continue;
+    plan.rank += static_cast<int>(wanted.D.cols());
+    if (place_.contains(key)) continue;
     const ElementModes m = modes(key);
     const EliminationPath path = solver_.path(m.rows);
-    const auto columns = static_cast<double>(D.cols());
+    const auto columns = static_cast<double>(wanted.D.cols());
     path_cost += solver_.entries(path) * (entry_cost + column_cost * columns);
     path_cost += 2 * columns * path.rows() * (correction_.rank() + new_columns + columns);
     new_columns += columns;
@@ -177,14 +193,19 @@ void StandingFactor::forget_unchanged() {
 }
 
 void StandingFactor::update() {
-  for (const auto& [key, place] : place_) correction_.set(place, wanted_.at(key));
+  for (const auto& [key, place] : place_) {
+    Wanted& wanted = wanted_.at(key);
+    if (!wanted.set) correction_.set(place, wanted.D);
+    wanted.set = true;
+  }
   forget_unchanged();
-  for (const auto& [key, D] : wanted_) {
-    if (place_.contains(key) || !(D.array() != 0).any()) continue;
+  for (auto& [key, wanted] : wanted_) {
+    if (wanted.set || !wanted.active()) continue;
     const ElementModes m = modes(key);
     const int place = correction_.add(m.rows, m.B);
     place_.emplace(key, place);
-    correction_.set(place, D);
+    correction_.set(place, wanted.D);
+    wanted.set = true;
   }
   correction_.update();
 }

@@ -27,7 +27,10 @@ class StandingFactor {
   // To be told before the system changes.
   void remember_beam(int beam);
   void remember_shell(int shell);
-  void drop_node(int node) { dropped_.push_back(node); }
+  void drop_node(int node) {
+    dropped_.push_back(node);
+    dropped_more_ = true;
+  }
   /// These nodes' supports or elements change, or have changed.
   void touch(std::span<const int> nodes) { touched_.insert(touched_.end(), nodes.begin(), nodes.end()); }
 
@@ -60,11 +63,12 @@ class StandingFactor {
     int index;
     auto operator<=>(const Key&) const = default;
   };
+  void plan_beam(int beam, const Mat6& before);
   void plan_beams();
   void plan_shells();
   bool plan_nodes();
   void plan_grounds();
-  void want(Key key, Eigen::MatrixXd D);
+  void want(Key key, const Eigen::Ref<const Eigen::MatrixXd>& D);
   void forget_unchanged();
   [[nodiscard]] bool inside_dropped(std::span<const int> nodes) const;
   [[nodiscard]] ElementModes modes(Key key) const;
@@ -76,9 +80,18 @@ class StandingFactor {
   std::map<int, char> shell_before_;
   std::map<int, Mat24> shell_stiffness_;
   std::map<int, Eigen::MatrixXd> node_before_;  ///< own stiffness, of nodes that have any
-  std::vector<int> dropped_, touched_;
+  std::vector<int> dropped_;
+  // Since the last plan. When parts left, everything is looked at again.
+  std::vector<int> stale_beams_, touched_;
+  bool dropped_more_ = false;
   std::map<Key, int> place_;
-  std::map<Key, Eigen::MatrixXd> wanted_;  ///< D of every place that has or had one
+  /// D of every place that has or had one, and whether the correction has it yet.
+  struct Wanted {
+    Eigen::MatrixXd D;
+    bool set = false;
+    [[nodiscard]] bool active() const { return (D.array() != 0).any(); }
+  };
+  std::map<Key, Wanted> wanted_;
   mutable Eigen::VectorXd eliminated_;
   mutable std::vector<char> marked_;
 };

@@ -198,17 +198,18 @@ int TriangularSolver::row_on_path(const EliminationPath& path, int row) const {
          static_cast<int>(first_[static_cast<std::size_t>(block)]);
 }
 
-void TriangularSolver::gather(const EliminationPath& path, const Eigen::VectorXd& y, Eigen::VectorXd& on_path) const {
-  on_path.resize(path.rows());
-  for (std::size_t k = 0; k < path.block.size(); ++k)
-    on_path.segment(path.offset[k], path.offset[k + 1] - path.offset[k]) =
-        y.segment(first_[static_cast<std::size_t>(path.block[k])], path.offset[k + 1] - path.offset[k]);
+void TriangularSolver::gather(const EliminationPath& path, const Eigen::VectorXd& y, double* on_path) const {
+  for (std::size_t k = 0; k < path.block.size(); ++k) {
+    const double* from = y.data() + first_[static_cast<std::size_t>(path.block[k])];
+    std::copy(from, from + path.offset[k + 1] - path.offset[k], on_path + path.offset[k]);
+  }
 }
 
-void TriangularSolver::subtract(const EliminationPath& path, const Eigen::VectorXd& on_path, Eigen::VectorXd& y) const {
-  for (std::size_t k = 0; k < path.block.size(); ++k)
-    y.segment(first_[static_cast<std::size_t>(path.block[k])], path.offset[k + 1] - path.offset[k]) -=
-        on_path.segment(path.offset[k], path.offset[k + 1] - path.offset[k]);
+void TriangularSolver::subtract(const EliminationPath& path, const double* on_path, Eigen::VectorXd& y) const {
+  for (std::size_t k = 0; k < path.block.size(); ++k) {
+    double* to = y.data() + first_[static_cast<std::size_t>(path.block[k])];
+    for (int i = path.offset[k]; i < path.offset[k + 1]; ++i) *to++ -= on_path[i];
+  }
 }
 
 void TriangularSolver::mark_paths(std::span<const int> rows, std::vector<char>& marked) const {

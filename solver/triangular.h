@@ -51,8 +51,8 @@ class TriangularSolver {
   /// The row of the path at which an equation of the matrix stands.
   [[nodiscard]] int row_on_path(const EliminationPath& path, int row) const;
   /// The path's rows of a whole vector; and y -= a vector on the path.
-  void gather(const EliminationPath& path, const Eigen::VectorXd& y, Eigen::VectorXd& on_path) const;
-  void subtract(const EliminationPath& path, const Eigen::VectorXd& on_path, Eigen::VectorXd& y) const;
+  void gather(const EliminationPath& path, const Eigen::VectorXd& y, double* on_path) const;
+  void subtract(const EliminationPath& path, const double* on_path, Eigen::VectorXd& y) const;
 
  private:
   void take_supernodal(const FactorView& view);
