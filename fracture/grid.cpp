@@ -15,7 +15,7 @@ constexpr int kNewtonSteps = 4;
 
 }  // namespace
 
-Grid::Grid(const std::array<Vec2, 4>& outline, double cell) : outline_(outline) {
+Grid::Grid(const std::array<Vec2, 4>& outline, double cell, const std::array<int, 2>& divisions) : outline_(outline) {
   if (!(cell > 0)) throw std::invalid_argument("cell must be above 0");
   for (std::size_t i = 0; i < 4; ++i)
     if (!(cross(outline[(i + 1) % 4] - outline[i], outline[(i + 2) % 4] - outline[(i + 1) % 4]) > 0))
@@ -25,8 +25,8 @@ Grid::Grid(const std::array<Vec2, 4>& outline, double cell) : outline_(outline) 
     if (!(size / cell < 1e5)) throw std::invalid_argument("cell is too small for the panel: more than 100000 in a row");
     return std::max(1, static_cast<int>(std::lround(size / cell)));
   };
-  columns_ = cells((length(0) + length(2)) / 2);
-  rows_ = cells((length(1) + length(3)) / 2);
+  columns_ = divisions[0] > 0 ? divisions[0] : cells((length(0) + length(2)) / 2);
+  rows_ = divisions[1] > 0 ? divisions[1] : cells((length(1) + length(3)) / 2);
 
   // The map from the grid to the panel stretches every direction by at least min |det J| / max |J|: its determinant is
   // linear and its norm convex, so both bounds are found at the corners. The panel is convex, so a straight line in it

@@ -9,9 +9,9 @@ namespace topple::fracture {
 class Grid {
  public:
   Grid() = default;
-  /// As many columns and rows as bring the cells closest to the size `cell` (m). Throws std::invalid_argument when the
-  /// outline is not convex and counter-clockwise or `cell` is not above 0.
-  Grid(const std::array<Vec2, 4>& outline, double cell);
+  /// As many columns and rows as bring the cells closest to the size `cell` (m), or those of `divisions` where it is
+  /// not 0. Throws std::invalid_argument when the outline is not convex and counter-clockwise or `cell` is not above 0.
+  Grid(const std::array<Vec2, 4>& outline, double cell, const std::array<int, 2>& divisions);
 
   [[nodiscard]] int columns() const { return columns_; }
   [[nodiscard]] int rows() const { return rows_; }

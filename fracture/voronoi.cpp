@@ -10,7 +10,7 @@
 namespace topple::fracture {
 
 VoronoiGrid::VoronoiGrid(const std::array<Vec2, 4>& outline, const VoronoiSettings& settings)
-    : grid_(std::make_shared<const Grid>(outline, settings.cell)), jitter_(settings.jitter) {
+    : grid_(std::make_shared<const Grid>(outline, settings.cell, settings.divisions)), jitter_(settings.jitter) {
   if (!(jitter_ >= 0 && jitter_ <= 1)) throw std::invalid_argument("jitter must be from 0 to 1");
   Random random(settings.seed);
   sites_.reserve(static_cast<std::size_t>(size()));

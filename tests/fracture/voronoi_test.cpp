@@ -45,18 +45,70 @@ TEST_CASE("cells are those of the whole diagram, and add up to the panel") {
     }
 }
 
-TEST_CASE("two rings of neighbours are not always enough") {
-  int beyond_two = 0;
-  for (std::uint64_t seed = 1; seed <= 400 && beyond_two == 0; ++seed) {
-    const auto outline = rectangle(60, 1.4);  // one row of cells that are wider than long
-    const VoronoiGrid grid(outline, {1.0, 1.0, seed});
-    for (int i = 0; i < grid.size(); ++i)
-      for (const int label : grid.cell(i).polygon.labels)
-        if (label >= 0 && (std::abs(label % grid.columns() - i % grid.columns()) > 2 ||
-                           std::abs(label / grid.columns() - i / grid.columns()) > 2))
-          ++beyond_two;
+namespace {
+
+/// The farthest neighbour of a cell, in cells of the grid; 24 x 24 cells `aspect` times as long as wide.
+int farthest_neighbour(double aspect, std::uint64_t seed, int index, int n = 24) {
+  const VoronoiGrid grid(rectangle(n * aspect, n), {1.0, 1.0, seed, {n, n}});
+  int farthest = 0;
+  for (const int label : grid.cell(index).polygon.labels)
+    if (label >= 0) farthest = std::max({farthest, std::abs(label % n - index % n), std::abs(label / n - index / n)});
+  return farthest;
+}
+
+}  // namespace
+
+TEST_CASE("no fixed number of rings is enough: neighbours lie three, four and five cells away") {
+  // Found by search over seeds; brute force (above) agrees with such cells.
+  CHECK(farthest_neighbour(1.0, 175, 450) == 3);
+  CHECK(farthest_neighbour(1.5, 1, 161) == 3);
+  CHECK(farthest_neighbour(2.0, 57, 332) == 4);
+  CHECK(farthest_neighbour(3.0, 1, 288) == 5);
+}
+
+TEST_CASE("a bound of two or three rings gives wrong cells, at every aspect") {
+  struct Case {
+    double aspect;
+    std::uint64_t seed;
+    int index, enough;
+  };
+  for (const Case& c : {Case{1.0, 175, 450, 3}, Case{1.5, 1, 161, 3}, Case{2.0, 57, 332, 4}, Case{3.0, 1, 288, 5}}) {
+    const auto outline = rectangle(24 * c.aspect, 24);
+    const VoronoiGrid grid(outline, {1.0, 1.0, c.seed, {24, 24}});
+    const double exact = area(brute_force(grid, outline, c.index).vertices);
+    CHECK(area(grid.cell(c.index).polygon.vertices) == Approx(exact).epsilon(1e-13));
+    for (int bound = 2; bound <= c.enough; ++bound) {
+      LabelledPolygon polygon{Polygon(outline.begin(), outline.end()), {-1, -2, -3, -4}};
+      for (int other = 0; other < grid.size(); ++other) {
+        const int columns = std::abs(other % 24 - c.index % 24), rows = std::abs(other / 24 - c.index / 24);
+        if (other == c.index || columns > bound || rows > bound) continue;
+        const Vec2 away = grid.site(other) - grid.site(c.index);
+        clip(polygon, grid.site(c.index) + away / 2, away, other);
+      }
+      if (bound < c.enough)
+        CHECK(area(polygon.vertices) > exact * (1 + 1e-9));
+      else
+        CHECK(area(polygon.vertices) == Approx(exact).epsilon(1e-13));
+    }
   }
-  CHECK(beyond_two > 0);
+}
+
+TEST_CASE("the nearest site and those within a distance are those of all sites") {
+  std::mt19937 random(8);
+  const std::array<Vec2, 4> outline{Vec2(0, 0), Vec2(9, 1), Vec2(8, 4), Vec2(-1, 3)};
+  const VoronoiGrid grid(outline, {0.4, 1.0, 5});
+  for (int k = 0; k < 500; ++k) {
+    const Vec2 point(-3 + 14.0 * (random() % 1009) / 1009, -2 + 8.0 * (random() % 1009) / 1009);
+    const double radius = 2.0 * (random() % 101) / 101;
+    int nearest = 0;
+    std::vector<int> within;
+    for (int i = 0; i < grid.size(); ++i) {
+      if ((grid.site(i) - point).norm() < (grid.site(nearest) - point).norm()) nearest = i;
+      if ((grid.site(i) - point).norm() <= radius) within.push_back(i);
+    }
+    REQUIRE(grid.nearest(point) == nearest);
+    REQUIRE(grid.within(point, radius) == within);
+  }
 }
 
 TEST_CASE("any convex quadrilateral is covered without gap, at every jitter") {

@@ -19,6 +19,7 @@ struct QuadrilateralSettings {
   double cell = 0.5;    ///< size of a cell, m
   double jitter = 0.5;  ///< 0: a regular grid, 1: points move by up to half a cell
   std::uint64_t seed = 1;
+  std::array<int, 2> divisions{0, 0};  ///< columns and rows; 0: as many as bring the cells closest to `cell`
 };
 
 class QuadrilateralGrid {

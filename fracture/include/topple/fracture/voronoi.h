@@ -14,6 +14,7 @@ struct VoronoiSettings {
   double cell = 0.5;    ///< size of a grid cell, m
   double jitter = 1.0;  ///< 0: sites at the cells' centres, 1: anywhere in their cells
   std::uint64_t seed = 1;
+  std::array<int, 2> divisions{0, 0};  ///< columns and rows; 0: as many as bring the cells closest to `cell`
 };
 
 /// One cell of the diagram. The label of an edge is the site on its other side, or -1 - k on edge k of the panel's
