@@ -157,12 +157,12 @@ Vec24 ShellElement::fixed_forces(const Vec3& traction, double strain) const {
   return to_global(local);
 }
 
-Eigen::Matrix<double, 8, 1> ShellElement::resultants(const Vec24& displacements, double strain) const {
+Eigen::Matrix<double, 8, 1> ShellElement::resultants(const Vec24& displacements, double strain, const Vec2& at) const {
   const Vec24 local = to_local(displacements);
   Eigen::Matrix<double, 8, 1> result = Eigen::Matrix<double, 8, 1>::Zero();
-  const Vec2 centre = Bilinear(0, 0).place(corners_);
-  result.head<3>() = membrane_.forces(part(local, membrane_components), strain, centre);
-  if (bending_) result.tail<5>() = plate_.forces(part(local, plate_components), 0, 0);
+  result.head<3>() =
+      membrane_.forces(part(local, membrane_components), strain, Bilinear(at.x(), at.y()).place(corners_));
+  if (bending_) result.tail<5>() = plate_.forces(part(local, plate_components), at.x(), at.y());
   return result;
 }
 

@@ -19,7 +19,7 @@ Vec3 turned(const Vec3& t, double cosine, double sine) {
 }  // namespace
 
 ShellResultants shell_resultants(const FrameModel& model, int index, const std::vector<Vec6>& displacements,
-                                 double strain) {
+                                 double strain, const Eigen::Vector2d& at) {
   if (index < 0 || static_cast<std::size_t>(index) >= model.shells.size()) {
     throw std::invalid_argument("shell " + std::to_string(index) + " does not exist");
   }
@@ -30,7 +30,7 @@ ShellResultants shell_resultants(const FrameModel& model, int index, const std::
   for (int n = 0; n < 4; ++n) {
     u.segment<6>(6 * n) = displacements[static_cast<std::size_t>(shell.node[static_cast<std::size_t>(n)])];
   }
-  const Eigen::Matrix<double, 8, 1> r = element.resultants(u, strain);
+  const Eigen::Matrix<double, 8, 1> r = element.resultants(u, strain, at);
   const Vec3 edge = element.axes() * (places[1] - places[0]);
   const double length = std::hypot(edge.x(), edge.y()), c = edge.x() / length, s = edge.y() / length;
   ShellResultants result;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "mesh/frame_mesh.h"
+
 namespace topple::structure {
 
 namespace {
@@ -73,6 +75,9 @@ Frame make_frame(const Building& building) {
     model.diaphragms.emplace_back();
     for (const NodeId node : diaphragm.nodes) model.diaphragms.back().nodes.push_back(node.index);
   }
+  add_shell_panels(building, frame);
+  divide_members(building, frame);
+  add_edge_supports(building, frame);
   return frame;
 }
 

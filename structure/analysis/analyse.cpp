@@ -5,9 +5,12 @@
 #include <optional>
 #include <set>
 
+#include "analysis/divided_member.h"
 #include "analysis/equilibrium.h"
 #include "analysis/instability.h"
 #include "analysis/one_way_members.h"
+#include "analysis/second_order_member.h"
+#include "analysis/shell_results.h"
 #include "analysis/storeys.h"
 #include "panel_bearings.h"
 #include "panel_demand.h"
@@ -35,7 +38,8 @@ class Analysis {
       for (std::size_t i = 0; i < building.combinations.size(); ++i) combinations_.emplace_back(i);
     for (const CombinationId id : combinations_) {
       parts_.push_back(part_loads(building, id));
-      loads_.push_back(load_set(building, edges_, parts_.back()));
+      whole_.push_back(load_set(building, edges_, parts_.back()));
+      loads_.push_back(on_frame(building, frame_, parts_.back(), whole_.back()));
     }
   }
 
@@ -47,11 +51,13 @@ class Analysis {
       result.statistics = analysis.statistics();
       for (std::size_t k = 0; k < solutions.size(); ++k) result.combinations.push_back(analysed(k, solutions[k]));
     } catch (const solver::Instability& unstable) {
-      throw UnstableModel(building_.file + ": " + describe_instability(building_, unstable));
+      throw UnstableModel(building_.file + ": " + describe_instability(building_, frame_, unstable));
     } catch (const std::invalid_argument& error) {
       // What a reader cannot see: settlements that bend a rigid floor, for one.
       throw InputError(building_.file + ": " + error.what());
     }
+    const auto& nodes = frame_.model.nodes;
+    result.mesh_nodes.assign(nodes.begin() + static_cast<std::ptrdiff_t>(building_.nodes.size()), nodes.end());
     result.warnings = building_.warnings;
     warn_of_frame3dd(result);
     if (result.statistics.nearly_unstable)
@@ -72,7 +78,7 @@ class Analysis {
       return one_way.settle(loads_[k], solution, request_.solver, names);
     } catch (const solver::Instability& unstable) {
       throw UnstableModel(building_.file + ", combination " + building_[combinations_[k]].name +
-                          ", with members slack: " + describe_instability(building_, unstable));
+                          ", with members slack: " + describe_instability(building_, frame_, unstable));
     } catch (const std::runtime_error& cycle) {
       throw std::runtime_error(building_.file + ", combination " + building_[combinations_[k]].name + ": " +
                                cycle.what());
@@ -109,7 +115,7 @@ class Analysis {
       const auto modes = solver::buckling_modes(model, loads_[k], 1, request_.solver);
       const std::string factor = modes.empty() ? "" : " (critical factor " + short_number(modes[0].factor) + ")";
       throw UnstableModel(place + ": the loads are beyond what the structure bears before it buckles" + factor + "; " +
-                          describe_instability(building_, buckled));
+                          describe_instability(building_, frame_, buckled));
     }
   }
 
@@ -129,7 +135,7 @@ class Analysis {
   }
 
   void require_same_signs(const std::string& place, const OneWayAnswer& answer) const {
-    for (std::size_t i = 0; i < answer.active.size(); ++i) {
+    for (std::size_t i = 0; i < std::min(answer.active.size(), building_.members.size()); ++i) {
       const AxialAction axial = building_.members[i].axial;
       const double tension = answer.solution.beam_end_forces[i](6);
       if (axial == AxialAction::both || answer.active[i] == 0) continue;
@@ -149,17 +155,21 @@ class Analysis {
     const solver::StaticSolution& solution = answer.solution;
     CombinationResult result;
     result.combination = combinations_[k];
-    result.displacements = solution.displacements;
+    const auto of_mesh = solution.displacements.begin() + static_cast<std::ptrdiff_t>(building_.nodes.size());
+    result.displacements.assign(solution.displacements.begin(), of_mesh);
+    result.mesh_displacements.assign(of_mesh, solution.displacements.end());
     result.reactions = solution.reactions;
     solver::LoadSet acting = loads_[k];
     turn_pushes_into_reactions(parts_[k], acting, result.reactions);
     result.quality = solution.quality;
-    result.members = members(loads_[k], answer);
-    result.panels = panels(solution);
-    result.joints = joints(parts_[k], result);
+    result.members = members(whole_[k], answer);
+    result.panels = panels(parts_[k], solution);
+    result.joints = joints(parts_[k], solution, result);
     result.storeys = storeys_.results(result.displacements, result.members);
     const Equilibrium balance =
         equilibrium(frame_.model, acting, result.reactions, answer.axial.mode != solver::SecondOrder::none);
+    result.edge_reactions = edge_reactions(building_, frame_, result.reactions);
+    result.reactions.resize(building_.supports.size());
     result.total_load = balance.load;
     result.total_reaction = balance.reaction;
     result.equilibrium_error = balance.error;
@@ -198,23 +208,25 @@ class Analysis {
     std::vector<MemberResult> all(building_.members.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
       MemberResult& member = all[i];
-      member.end_forces = answer.solution.beam_end_forces[i];
+      const WholeMember whole = whole_member(frame_, i, beams, answer.solution.beam_end_forces, std::move(on[i]));
+      member.end_forces = whole.end_forces;
       member.active = answer.active.empty() || answer.active[i] != 0;
-      if (answer.axial.mode == solver::SecondOrder::none) {
-        fill(member, beams[i].length, solver::BeamDiagram(beams[i], member.end_forces, on[i]));
-      } else {
-        const solver::Vec12 hubs = solver::beam_hub_displacements(beams[i], answer.solution.displacements);
-        fill(member, beams[i].length,
-             solver::SecondOrderDiagram(beams[i], answer.axial, static_cast<int>(i), member.end_forces, hubs));
-      }
+      if (answer.axial.mode == solver::SecondOrder::none)
+        fill(member, whole.beam.length, solver::BeamDiagram(whole.beam, member.end_forces, whole.loads));
+      else
+        fill(member, whole.beam.length, SecondOrderMember(frame_, i, beams, answer.axial, answer.solution));
     }
     return all;
   }
 
   /// Mean membrane forces of a membrane panel from its corner forces (the virial theorem), panel axes.
-  [[nodiscard]] std::vector<PanelResult> panels(const solver::StaticSolution& solution) const {
+  [[nodiscard]] std::vector<PanelResult> panels(const PartLoads& parts, const solver::StaticSolution& solution) const {
     std::vector<PanelResult> all(building_.panels.size());
     for (std::size_t p = 0; p < all.size(); ++p) {
+      if (!frame_.meshes[p].elements.empty()) {
+        all[p] = shell_panel_result(building_, frame_, PanelId(p), parts, solution);
+        continue;
+      }
       const int shell = frame_.shell_of_panel[p];
       all[p].corner_forces.fill(Vec6::Zero());
       if (shell < 0) continue;
@@ -235,7 +247,8 @@ class Analysis {
     return all;
   }
 
-  [[nodiscard]] std::vector<Utilisation> joints(const PartLoads& parts, const CombinationResult& result) const {
+  [[nodiscard]] std::vector<Utilisation> joints(const PartLoads& parts, const solver::StaticSolution& solution,
+                                                const CombinationResult& result) const {
     std::vector<Utilisation> used(building_.joints.size());
     for (std::size_t m = 0; m < building_.members.size(); ++m)
       for (int end = 0; end < 2; ++end) {
@@ -246,8 +259,9 @@ class Analysis {
       }
     for (std::size_t p = 0; p < building_.panels.size(); ++p) {
       const PanelId panel(p);
-      if (building_.panels[p].model == PanelModel::shell) continue;
       std::array<Vec6, 4> demand{Vec6::Zero(), Vec6::Zero(), Vec6::Zero(), Vec6::Zero()};
+      const bool meshed = !frame_.meshes[p].elements.empty();
+      if (meshed) demand = shell_edge_demands(building_, frame_, panel, parts, solution);
       if (frame_.shell_of_panel[p] >= 0)
         demand = membrane_edge_demands(building_, panel, result.panels[p].corner_forces);
       const HandOver given = hand_over(building_, edges_, panel, parts.panels[p], {true, true, true, true});
@@ -255,7 +269,7 @@ class Analysis {
         const JointId id = building_.joint(panel, edge);
         const auto e = static_cast<std::size_t>(edge);
         if (!building_[id].capacity.breakable) continue;
-        demand[e] += handed_edge_demand(building_, bearings_, panel, edge, given.edge_force[e]);
+        if (!meshed) demand[e] += handed_edge_demand(building_, bearings_, panel, edge, given.edge_force[e]);
         used[static_cast<std::size_t>(id.index)] = utilisation(building_[id].capacity, demand[e]);
       }
     }
@@ -270,7 +284,8 @@ class Analysis {
   Storeys storeys_;
   std::vector<CombinationId> combinations_;
   std::vector<PartLoads> parts_;
-  std::vector<solver::LoadSet> loads_;
+  std::vector<solver::LoadSet> whole_;  ///< per combination, on whole members
+  std::vector<solver::LoadSet> loads_;  ///< the same on the frame
   std::optional<solver::SecondOrderAnalysis> second_order_;
 };
 

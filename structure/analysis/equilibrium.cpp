@@ -40,6 +40,17 @@ void add_beam_load(Balance& balance, const solver::FrameModel& model, const solv
   add(load.to - width / 3, load.last * (width / 2));
 }
 
+/// A uniform traction on both triangles of a quadrilateral, each at its centroid.
+void add_shell_load(Balance& balance, const solver::FrameModel& model, const solver::ShellLoad& load) {
+  const auto& nodes = model.shells[static_cast<std::size_t>(load.shell)].node;
+  const auto corner = [&](std::size_t i) -> const Vec3& { return model.nodes[static_cast<std::size_t>(nodes[i])]; };
+  const Vec3 normal = (corner(2) - corner(0)).cross(corner(3) - corner(1)).normalized();
+  for (const std::size_t i : {std::size_t{1}, std::size_t{2}}) {
+    const double area = (corner(i) - corner(0)).cross(corner(i + 1) - corner(0)).dot(normal) / 2;
+    balance.add((corner(0) + corner(i) + corner(i + 1)) / 3, area * load.traction, Vec3::Zero());
+  }
+}
+
 }  // namespace
 
 Equilibrium equilibrium(const solver::FrameModel& model, const solver::LoadSet& loads,
@@ -51,6 +62,7 @@ Equilibrium equilibrium(const solver::FrameModel& model, const solver::LoadSet& 
   for (const solver::NodeLoad& load : loads.nodes)
     applied.add(model.nodes[static_cast<std::size_t>(load.node)], load.load.head<3>(), load.load.tail<3>());
   for (const solver::BeamLoad& load : loads.beams) add_beam_load(applied, model, load);
+  for (const solver::ShellLoad& load : loads.shells) add_shell_load(applied, model, load);
   for (std::size_t i = 0; i < reactions.size(); ++i)
     held.add(model.nodes[static_cast<std::size_t>(model.supports[i].node)], reactions[i].head<3>(),
              reactions[i].tail<3>());

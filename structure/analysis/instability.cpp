@@ -8,14 +8,15 @@ namespace topple::structure {
 
 namespace {
 
-/// Nodes among those that move which no member reaches, but a membrane does.
+/// Nodes among those that move which neither a member nor a shell reaches, but a membrane does.
 std::vector<NodeId> held_by_membranes_only(const Building& building, const std::vector<NodeId>& moving) {
   std::vector<char> on_member(building.nodes.size(), 0), on_membrane(building.nodes.size(), 0);
   for (const Member& member : building.members)
     for (const NodeId node : member.nodes) on_member[static_cast<std::size_t>(node.index)] = 1;
   for (const Panel& panel : building.panels)
-    if (panel.model == PanelModel::membrane)
-      for (const NodeId node : panel.nodes) on_membrane[static_cast<std::size_t>(node.index)] = 1;
+    if (panel.model != PanelModel::cladding)
+      for (const NodeId node : panel.nodes)
+        (panel.model == PanelModel::membrane ? on_membrane : on_member)[static_cast<std::size_t>(node.index)] = 1;
   std::vector<NodeId> found;
   for (const NodeId node : moving) {
     const auto n = static_cast<std::size_t>(node.index);
@@ -24,21 +25,40 @@ std::vector<NodeId> held_by_membranes_only(const Building& building, const std::
   return found;
 }
 
+/// Of a beam, or of the member that it is a piece of.
+const std::string& member_name(const Building& building, const Frame& frame, int beam) {
+  auto member = static_cast<std::size_t>(beam);
+  if (member >= building.members.size())
+    for (std::size_t m = 0; m < frame.pieces.size(); ++m)
+      for (const MemberPiece& piece : frame.pieces[m])
+        if (piece.beam == beam) member = m;
+  return building.members[member].name;
+}
+
 }  // namespace
 
-std::string describe_instability(const Building& building, const solver::Instability& instability) {
+std::string describe_instability(const Building& building, const Frame& frame, const solver::Instability& instability) {
   const solver::Mechanism& mechanism = instability.mechanism;
   FrameMechanism named;
-  for (const int node : mechanism.nodes) named.nodes.push_back(NodeId(static_cast<std::size_t>(node)));
+  std::size_t of_meshes = 0;
+  for (const int node : mechanism.nodes) {
+    if (static_cast<std::size_t>(node) < building.nodes.size())
+      named.nodes.push_back(NodeId(static_cast<std::size_t>(node)));
+    else
+      ++of_meshes;
+  }
   named.motion = mechanism.motion;
   std::string text;
   if (!named.nodes.empty()) {
     text = describe_mechanism(building, named);
+    if (of_meshes > 0) text += "; and " + std::to_string(of_meshes) + " mesh nodes of shell panels with them";
+  } else if (of_meshes > 0) {
+    text = "the model is unstable: " + std::to_string(of_meshes) + " mesh nodes of shell panels move";
   } else {
     text = "the model is unstable:";
     constexpr std::size_t named_at_most = 8;
     for (std::size_t i = 0; i < std::min(mechanism.beams.size(), named_at_most); ++i)
-      text += (i ? ", member " : " member ") + building.members[static_cast<std::size_t>(mechanism.beams[i])].name;
+      text += (i ? ", member " : " member ") + member_name(building, frame, mechanism.beams[i]);
     if (mechanism.beams.size() > named_at_most)
       text += " and " + std::to_string(mechanism.beams.size() - named_at_most) + " more";
     text +=

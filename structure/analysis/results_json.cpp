@@ -82,10 +82,14 @@ class Writer {
       w_.newline().key(b_[b_.supports[i].node].name);
       list(c.reactions[i], force_, 6);
     }
+    for (std::size_t i = 0; i < b_.edge_supports.size(); ++i) {
+      w_.newline().key(b_[b_.joint(b_.edge_supports[i].panel, b_.edge_supports[i].edge)].name);
+      list(c.edge_reactions[i], force_, 6);
+    }
     w_.close('}').newline().key("members").open('{');
     for (std::size_t i = 0; i < b_.members.size(); ++i) member(b_.members[i], c.members[i]);
     w_.close('}').newline().key("panels").open('{');
-    for (std::size_t i = 0; i < b_.panels.size(); ++i) panel(b_.panels[i], c.panels[i]);
+    for (std::size_t i = 0; i < b_.panels.size(); ++i) panel(b_.panels[i], c.panels[i], c);
     w_.close('}').newline().key("joints").open('{');
     for (std::size_t i = 0; i < b_.joints.size(); ++i) joint(b_.joints[i], c.joints[i]);
     w_.close('}').newline().key("storeys").open('{');
@@ -134,18 +138,56 @@ class Writer {
     w_.close('}');
   }
 
-  void panel(const Panel& panel, const PanelResult& r) {
-    const double per_length = b_.units.force / b_.units.length;
-    const std::array<double, 1> tension{per_length}, bending{b_.units.force};
-    w_.newline().key(panel.name).open('{').key("membrane");
+  void panel(const Panel& panel, const PanelResult& r, const CombinationResult& c) {
+    w_.newline().key(panel.name).open('{');
+    resultants(r);
+    w_.key("corner_forces").open('[');
+    for (const Vec6& corner : r.corner_forces) list(corner, force_, 6);
+    w_.close(']').key("elements").open('[');
+    std::vector<int> nodes;
+    for (const PanelElement& element : r.elements) {
+      w_.newline().open('{').key("nodes").open('[');
+      for (const int node : element.nodes) {
+        auto at = std::find(nodes.begin(), nodes.end(), node);
+        if (at == nodes.end()) at = nodes.insert(nodes.end(), node);
+        w_.value(static_cast<std::size_t>(at - nodes.begin()));
+      }
+      w_.close(']');
+      resultants(element);
+      w_.close('}');
+    }
+    w_.close(']');
+    if (!nodes.empty()) mesh(nodes, c);
+    w_.close('}');
+  }
+
+  /// Places and displacements of a panel's mesh nodes, numbered as its elements do.
+  void mesh(const std::vector<int>& nodes, const CombinationResult& c) {
+    const std::array<double, 1> length{b_.units.length};
+    const auto own = [&](int node) { return static_cast<std::size_t>(node) < b_.nodes.size(); };
+    const auto of_mesh = [&](int node) { return static_cast<std::size_t>(node) - b_.nodes.size(); };
+    w_.key("places").open('[');
+    for (const int node : nodes) {
+      const auto n = static_cast<std::size_t>(node);
+      list(own(node) ? b_.nodes[n].position : result_.mesh_nodes[of_mesh(node)], length, 3);
+    }
+    w_.close(']').newline().key("displacements").open('[');
+    for (const int node : nodes) {
+      const auto n = static_cast<std::size_t>(node);
+      list(own(node) ? c.displacements[n] : c.mesh_displacements[of_mesh(node)], movement_, 6);
+    }
+    w_.close(']');
+  }
+
+  template <class Result>
+  void resultants(const Result& r) {
+    const std::array<double, 1> tension{b_.units.force / b_.units.length}, bending{b_.units.force};
+    w_.key("membrane");
     list(r.membrane, tension, 3);
     w_.key("moments");
     list(r.moments, bending, 3);
     w_.key("shears");
     list(r.shears, tension, 2);
-    w_.key("corner_forces").open('[');
-    for (const Vec6& corner : r.corner_forces) list(corner, force_, 6);
-    w_.close(']').key("elements").open('[').close(']').close('}');
   }
 
   void joint(const Joint& joint, const Utilisation& used) {

@@ -40,8 +40,8 @@ void write_array(std::string& out, const char* type, const std::string& name, in
 /// The drawing of one combination.
 class Grid {
  public:
-  Grid(const Building& building, const CombinationResult& result)
-      : building_(building), result_(result), units_(building.units) {
+  Grid(const Building& building, const CombinationResult& result, const std::vector<Vec3>& mesh_nodes)
+      : building_(building), result_(result), mesh_nodes_(mesh_nodes), units_(building.units) {
     for (std::size_t m = 0; m < building.members.size(); ++m) add_member(MemberId(m));
     for (std::size_t p = 0; p < building.panels.size(); ++p) add_panel(PanelId(p));
   }
@@ -62,6 +62,8 @@ class Grid {
     out += "</PointData>\n<CellData Scalars=\"utilisation\">\n";
     write_array(out, "Float64", "utilisation", 1, utilisations_);
     write_array(out, "Float64", "membrane", 3, membranes_);
+    write_array(out, "Float64", "moments", 3, moments_);
+    write_array(out, "Float64", "shears", 3, shears_);
     write_array(out, "Int64", "part", 1, parts_);
     out += "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
     return out;
@@ -75,11 +77,14 @@ class Grid {
     connectivity_.add(points_++);
   }
 
-  void end_cell(std::size_t type, double utilisation, const Vec3& membrane, std::size_t part) {
+  void end_cell(std::size_t type, double utilisation, const Vec3& membrane, std::size_t part,
+                const Vec3& moments = Vec3::Zero(), const Vec3& shears = Vec3::Zero()) {
     offsets_.add(points_);
     types_.add(type);
     utilisations_.add(utilisation);
     membranes_.add(membrane);
+    moments_.add(moments);
+    shears_.add(shears);
     parts_.add(part);
     ++cells_;
   }
@@ -115,23 +120,41 @@ class Grid {
   }
 
   void add_panel(PanelId id) {
-    constexpr std::size_t quadrilateral = 9;
     const Panel& panel = building_[id];
-    for (const NodeId node : panel.nodes) {
-      add_point(building_[node].position, result_.displacements[static_cast<std::size_t>(node.index)].head<3>());
+    const PanelResult& result = result_.panels[static_cast<std::size_t>(id.index)];
+    for (const PanelElement& element : result.elements) add_quadrilateral(id, element.nodes, element);
+    if (!result.elements.empty()) return;
+    std::array<int, 4> nodes{};
+    for (std::size_t i = 0; i < 4; ++i) nodes[i] = panel.nodes[i].index;
+    add_quadrilateral(id, nodes, result);
+  }
+
+  /// `result`: of the element, or of the panel as a whole.
+  template <class Result>
+  void add_quadrilateral(PanelId id, const std::array<int, 4>& nodes, const Result& result) {
+    constexpr std::size_t quadrilateral = 9;
+    for (const int node : nodes) {
+      const auto own = static_cast<std::size_t>(node), of_mesh = own - building_.nodes.size();
+      if (own < building_.nodes.size())
+        add_point(building_.nodes[own].position, result_.displacements[own].template head<3>());
+      else
+        add_point(mesh_nodes_[of_mesh], result_.mesh_displacements[of_mesh].template head<3>());
       for (Numbers& diagram : diagrams_) diagram.add(0.0);
     }
-    const auto& membrane = result_.panels[static_cast<std::size_t>(id.index)].membrane;
-    const Vec3 stress = Vec3(membrane[0], membrane[1], membrane[2]) * (building_.units.length / building_.units.force);
-    end_cell(quadrilateral, worst(building_.joint(id, 0), 4), stress,
-             building_.members.size() + static_cast<std::size_t>(id.index));
+    const double per_length = building_.units.force / building_.units.length;
+    end_cell(quadrilateral, worst(building_.joint(id, 0), 4), Vec3(result.membrane.data()) / per_length,
+             building_.members.size() + static_cast<std::size_t>(id.index),
+             Vec3(result.moments.data()) / building_.units.force,
+             Vec3(result.shears[0], result.shears[1], 0) / per_length);
   }
 
   const Building& building_;
   const CombinationResult& result_;
+  const std::vector<Vec3>& mesh_nodes_;
   OutputUnits units_;
   std::size_t points_ = 0, cells_ = 0;
-  Numbers places_, displacements_, connectivity_, offsets_, types_, utilisations_, membranes_, parts_;
+  Numbers places_, displacements_, connectivity_, offsets_, types_, utilisations_, membranes_, moments_, shears_,
+      parts_;
   std::array<Numbers, forces> diagrams_;
 };
 
@@ -153,7 +176,7 @@ NamedTexts results_vtu(const Building& building, const AnalysisResult& result) {
   for (const CombinationResult& combination : result.combinations) {
     std::string name = file_name(building[combination.combination].name);
     while (!taken.insert(name).second) name += '_';
-    files.emplace_back(name + ".vtu", Grid(building, combination).write());
+    files.emplace_back(name + ".vtu", Grid(building, combination, result.mesh_nodes).write());
   }
   return files;
 }

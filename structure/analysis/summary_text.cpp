@@ -53,21 +53,25 @@ void most_used(Text& text, const Building& building, const CombinationResult& c)
 }
 
 void combination(Text& text, const Building& building, const CombinationResult& c) {
-  const Units& u = building.units;
-  const std::string length = u.consistent ? "" : " " + u.length_name, force = u.consistent ? "" : " " + u.force_name;
+  const Units& units = building.units;
+  const std::string length = units.consistent ? "" : " " + units.length_name,
+                    force = units.consistent ? "" : " " + units.force_name;
   text.line("combination %s", building[c.combination].name.c_str());
   std::size_t farthest = 0;
   for (std::size_t i = 1; i < c.displacements.size(); ++i)
     if (c.displacements[i].head<3>().norm() > c.displacements[farthest].head<3>().norm()) farthest = i;
-  const Vec3 moved = c.displacements[farthest].head<3>() / u.length;
+  const Vec3 moved = c.displacements[farthest].head<3>() / units.length;
   text.line("  largest displacement %.4g%s at node %s (x %.4g, y %.4g, z %.4g)", moved.norm(), length.c_str(),
             building.nodes[farthest].name.c_str(), moved.x(), moved.y(), moved.z());
   // What rounding leaves of nothing is shown as nothing.
   const double rounding = 1e-12 * c.total_load.head<3>().norm();
-  const auto shown = [&](double f) { return std::abs(f) < rounding ? 0.0 : f / u.force; };
+  const auto shown = [&](double f) { return std::abs(f) < rounding ? 0.0 : f / units.force; };
   const auto forces = [&](const char* what, const Vec6& f) {
     text.line("  %-20s x %.6g  y %.6g  z %.6g%s", what, shown(f[0]), shown(f[1]), shown(f[2]), force.c_str());
   };
+  double in_mesh = 0;
+  for (const Vec6& u : c.mesh_displacements) in_mesh = std::max(in_mesh, u.head<3>().norm() / units.length);
+  if (in_mesh > moved.norm()) text.line("  within shell panels  %.4g%s", in_mesh, length.c_str());
   forces("loads", c.total_load);
   forces("reactions", c.total_reaction);
   double drift = 0;

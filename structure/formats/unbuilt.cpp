@@ -62,9 +62,19 @@ void refuse_shells(const Building& building) {
   for (const Panel& panel : building.panels)
     if (panel.model == PanelModel::shell) refuse(building, "panels." + panel.name + ".model", "\"shell\"");
 }
+/// A membrane is one element and a cladding none.
 void refuse_meshes_of_panels(const Building& building) {
   for (const Panel& panel : building.panels)
-    if (panel.mesh != std::array<int, 2>{1, 1}) refuse(building, "panels." + panel.name + ".mesh", "`mesh`");
+    if (panel.model != PanelModel::shell && panel.mesh != std::array<int, 2>{1, 1})
+      throw InputError(building.file + ", panels." + panel.name + ".mesh: found a mesh in a " +
+                       std::string(panel.model == PanelModel::membrane ? "membrane" : "cladding") +
+                       "; accepted: \"model\": \"shell\", or leave it out");
+}
+/// A shell is one with its members and supports along its edges: whether that may give is told by stiffness.
+void refuse_giving_edges(const Building& building) {
+  for (const Joint& joint : building.joints)
+    if (joint.panel.valid() && (joint.stiffness.array() != unlimited).any())
+      refuse(building, "joint " + joint.name, "`stiffness` of a shell's edge");
 }
 void refuse_openings(const Building& building) {
   for (const Panel& panel : building.panels)
@@ -73,9 +83,8 @@ void refuse_openings(const Building& building) {
 /// What a cladding hands on takes its openings into account; the one element of a membrane has none.
 void refuse_openings_of_membranes(const Building& building) {
   for (const Panel& panel : building.panels)
-    if (!panel.openings.empty() && panel.model != PanelModel::cladding)
-      refuse(building, "panels." + panel.name + ".openings",
-             "`openings` in a " + std::string(panel.model == PanelModel::membrane ? "membrane" : "shell"));
+    if (!panel.openings.empty() && panel.model == PanelModel::membrane)
+      refuse(building, "panels." + panel.name + ".openings", "`openings` in a membrane");
 }
 void refuse_one_way_members(const Building& building) {
   for (const Member& member : building.members)
@@ -102,8 +111,8 @@ void refuse_diaphragms(const Building& building) {
 
 void refuse_unbuilt(const Building& building, Purpose purpose) {
   using Refusal = void (*)(const Building&);
-  static constexpr std::array<Refusal, 4> analyse{refuse_shells, refuse_meshes_of_panels, refuse_openings_of_membranes,
-                                                  refuse_edge_supports};
+  static constexpr std::array<Refusal, 3> analyse{refuse_meshes_of_panels, refuse_openings_of_membranes,
+                                                  refuse_giving_edges};
   static constexpr std::array<Refusal, 7> demolish{refuse_shells,          refuse_meshes_of_panels, refuse_openings,
                                                    refuse_one_way_members, refuse_edge_supports,    refuse_ductility,
                                                    refuse_diaphragms};

@@ -36,10 +36,17 @@ struct MemberResult {
   std::vector<std::array<double, 8>> stations;
   bool active = true;
 };
+/// One element of a shell panel's mesh: stress resultants per length at its centre, in the panel's axes.
+struct PanelElement {
+  std::array<int, 4> nodes{};  ///< of the building, and beyond those of AnalysisResult::mesh_nodes
+  std::array<double, 3> membrane{}, moments{};
+  std::array<double, 2> shears{};
+};
 struct PanelResult {
   std::array<double, 3> membrane{}, moments{};
   std::array<double, 2> shears{};
   std::array<Vec6, 4> corner_forces{};
+  std::vector<PanelElement> elements;  ///< of a shell panel
 };
 struct StoreyResult {
   double drift = 0;
@@ -47,8 +54,10 @@ struct StoreyResult {
 };
 struct CombinationResult {
   CombinationId combination;
-  std::vector<Vec6> displacements;  ///< per node
-  std::vector<Vec6> reactions;      ///< per Building::supports
+  std::vector<Vec6> displacements;       ///< per node
+  std::vector<Vec6> mesh_displacements;  ///< per AnalysisResult::mesh_nodes
+  std::vector<Vec6> reactions;           ///< per Building::supports
+  std::vector<Vec6> edge_reactions;      ///< per Building::edge_supports; moments about the middle of the edge
   std::vector<MemberResult> members;
   std::vector<PanelResult> panels;
   std::vector<Utilisation> joints;  ///< per Building::joints; value 0 where it has no capacity
@@ -61,6 +70,7 @@ struct CombinationResult {
 };
 struct AnalysisResult {
   std::vector<CombinationResult> combinations;
+  std::vector<Vec3> mesh_nodes;  ///< of shell panels, beside the building's nodes
   solver::AnalysisStatistics statistics;
   std::vector<std::string> warnings;
 };

@@ -9,12 +9,30 @@
 
 namespace topple::structure {
 
-/// Node i of the building is node i of the frame, member i is beam i, support i is support i. Panels of model
-/// `membrane` become shells without bending while all four edge joints hold: `shell_of_panel` gives their index, or -1.
+/// One of the beams of a member that is divided at the nodes of a mesh.
+struct MemberPiece {
+  int beam = -1;
+  double start = 0;  ///< distance of its first end from the member's
+};
+
+/// Elements of one shell panel; element k is shell `first_shell` + k.
+struct PanelMesh {
+  int first_shell = -1;
+  std::vector<std::array<int, 4>> elements;    ///< frame nodes, counter-clockwise against the panel's normal
+  std::array<std::vector<int>, 4> edge_nodes;  ///< frame nodes along edge i, from the panel's node i to i + 1
+};
+
+/// Node i of the building is node i of the frame, support i is support i; nodes of meshes and supports of panel edges
+/// come after them. Member i is beam i, or the first of its pieces. Panels of model `membrane` become shells without
+/// bending while all four edge joints hold: `shell_of_panel` gives their index, or -1.
 struct Frame {
   solver::FrameModel model;
   std::vector<int> shell_of_panel;
+  std::vector<PanelMesh> meshes;                 ///< per panel; without elements when it is no shell
+  std::vector<std::vector<MemberPiece>> pieces;  ///< per member, in order; empty when it is one beam
+  std::vector<std::vector<int>> edge_supports;   ///< per Building::edge_supports: supports of the frame
 };
+/// Throws InputError for openings that leave nothing of a shell panel.
 [[nodiscard]] Frame make_frame(const Building& building);
 
 /// What acts on a panel as a whole in one combination.
@@ -60,9 +78,13 @@ struct HandOver {
                                  const PanelAction& action, const std::array<bool, 4>& edge_holds,
                                  const std::vector<bool>& member_stands = {});
 
-/// The whole combination as one right-hand side of `make_frame(building).model`, everything standing.
+/// The whole combination, everything standing, with loads on whole members and without what acts on shell panels.
 /// A settlement of a spring support becomes the push of that spring on its node.
 [[nodiscard]] solver::LoadSet load_set(const Building& building, const EdgeMembers& edges, const PartLoads& loads);
 [[nodiscard]] solver::LoadSet load_set(const Building& building, const PartLoads& loads);
+/// A load set of whole members as a right-hand side of the frame: loads of divided members by piece, and what acts on
+/// shell panels by element.
+[[nodiscard]] solver::LoadSet on_frame(const Building& building, const Frame& frame, const PartLoads& loads,
+                                       const solver::LoadSet& whole);
 
 }  // namespace topple::structure

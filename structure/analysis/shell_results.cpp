@@ -1,0 +1,164 @@
+#include "analysis/shell_results.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "index_of.h"
+#include "topple/solver/shell_resultants.h"
+
+namespace topple::structure {
+
+namespace {
+
+using solver::ShellResultants;
+
+/// Resultants in axes turned about the normal: the new x has these components in the old axes.
+ShellResultants turned(const ShellResultants& r, double c, double s) {
+  const auto tensor = [&](const Vec3& t) {
+    return Vec3(c * c * t(0) + s * s * t(1) + 2 * c * s * t(2), s * s * t(0) + c * c * t(1) - 2 * c * s * t(2),
+                c * s * (t(1) - t(0)) + (c * c - s * s) * t(2));
+  };
+  ShellResultants result;
+  result.membrane = tensor(r.membrane);
+  result.moments = tensor(r.moments);
+  result.shears << c * r.shears(0) + s * r.shears(1), c * r.shears(1) - s * r.shears(0);
+  return result;
+}
+
+class PanelReader {
+ public:
+  PanelReader(const Building& building, const Frame& frame, PanelId id, double strain,
+              const solver::StaticSolution& solution)
+      : panel_(building[id]), mesh_(frame.meshes[index_of(id)]), frame_(frame), strain_(strain), solution_(solution) {}
+
+  [[nodiscard]] std::size_t elements() const { return mesh_.elements.size(); }
+  [[nodiscard]] const Vec3& place(std::size_t element, std::size_t corner) const {
+    return frame_.model.nodes[static_cast<std::size_t>(mesh_.elements[element][corner % 4])];
+  }
+  [[nodiscard]] Vec3 centre(std::size_t element) const {
+    return (place(element, 0) + place(element, 1) + place(element, 2) + place(element, 3)) / 4;
+  }
+  /// In axes whose x lies along `x`, a direction in the panel; at a place of the element (-1 to 1 both ways).
+  [[nodiscard]] ShellResultants resultants(std::size_t element, const Vec3& x, const Vec2& at = Vec2::Zero()) const {
+    const ShellResultants own = solver::shell_resultants(frame_.model, mesh_.first_shell + static_cast<int>(element),
+                                                         solution_.displacements, strain_, at);
+    const Vec3 normal = panel_.axes.row(2);
+    const Vec3 from = (place(element, 1) - place(element, 0)).normalized();
+    const double c = from.dot(x), s = normal.dot(from.cross(x)), length = std::hypot(c, s);
+    return turned(own, c / length, s / length);
+  }
+
+ private:
+  const Panel& panel_;
+  const PanelMesh& mesh_;
+  const Frame& frame_;
+  double strain_;
+  const solver::StaticSolution& solution_;
+};
+
+PanelElement element_of(const ShellResultants& r, const std::array<int, 4>& nodes) {
+  PanelElement element;
+  element.nodes = nodes;
+  for (std::size_t i = 0; i < 3; ++i) {
+    element.membrane[i] = r.membrane(static_cast<Eigen::Index>(i));
+    element.moments[i] = r.moments(static_cast<Eigen::Index>(i));
+  }
+  element.shears = {r.shears(0), r.shears(1)};
+  return element;
+}
+
+/// Mean of the elements whose centres lie nearest to the panel's.
+void set_centre(const PanelReader& reader, const Vec3& centre, double size, PanelResult& result) {
+  constexpr double equally_near = 1e-6;  // of the panel's size
+  double least = 1e300;
+  for (std::size_t k = 0; k < reader.elements(); ++k) least = std::min(least, (reader.centre(k) - centre).norm());
+  double count = 0;
+  for (std::size_t k = 0; k < reader.elements(); ++k) {
+    if ((reader.centre(k) - centre).norm() > least + equally_near * size) continue;
+    count += 1;
+    for (std::size_t i = 0; i < 3; ++i) {
+      result.membrane[i] += result.elements[k].membrane[i];
+      result.moments[i] += result.elements[k].moments[i];
+      if (i < 2) result.shears[i] += result.elements[k].shears[i];
+    }
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    result.membrane[i] /= count;
+    result.moments[i] /= count;
+    if (i < 2) result.shears[i] /= count;
+  }
+}
+
+}  // namespace
+
+PanelResult shell_panel_result(const Building& building, const Frame& frame, PanelId id, const PartLoads& loads,
+                               const solver::StaticSolution& solution) {
+  const Panel& panel = building[id];
+  const PanelMesh& mesh = frame.meshes[index_of(id)];
+  const PanelReader reader(building, frame, id, loads.panels[index_of(id)].strain, solution);
+  PanelResult result;
+  result.corner_forces.fill(Vec6::Zero());
+  for (std::size_t k = 0; k < mesh.elements.size(); ++k) {
+    result.elements.push_back(element_of(reader.resultants(k, panel.axes.row(0)), mesh.elements[k]));
+    for (std::size_t c = 0; c < 4; ++c)
+      for (std::size_t corner = 0; corner < 4; ++corner)
+        if (mesh.elements[k][c] == panel.nodes[corner].index)
+          result.corner_forces[corner] +=
+              solution.shell_corner_forces[static_cast<std::size_t>(mesh.first_shell) + k][c];
+  }
+  Vec3 centre = Vec3::Zero();
+  for (const NodeId node : panel.nodes) centre += building[node].position / 4;
+  set_centre(reader, centre, (building[panel.nodes[2]].position - centre).norm(), result);
+  return result;
+}
+
+std::array<Vec6, 4> shell_edge_demands(const Building& building, const Frame& frame, PanelId id, const PartLoads& loads,
+                                       const solver::StaticSolution& solution) {
+  const Panel& panel = building[id];
+  const PanelMesh& mesh = frame.meshes[index_of(id)];
+  const PanelReader reader(building, frame, id, loads.panels[index_of(id)].strain, solution);
+  static const std::array<Vec2, 4> middle{Vec2(0, -1), Vec2(1, 0), Vec2(0, 1), Vec2(-1, 0)};
+  std::array<Vec6, 4> demands;
+  for (std::size_t edge = 0; edge < 4; ++edge) {
+    demands[edge].setZero();
+    const auto& on_edge = mesh.edge_nodes[edge];
+    const auto has = [&](int node) { return std::find(on_edge.begin(), on_edge.end(), node) != on_edge.end(); };
+    double intact = 0;
+    for (std::size_t k = 0; k < mesh.elements.size(); ++k)
+      for (std::size_t side = 0; side < 4; ++side) {
+        if (!has(mesh.elements[k][side]) || !has(mesh.elements[k][(side + 1) % 4])) continue;
+        const Vec3 along = reader.place(k, side + 1) - reader.place(k, side);
+        const Vec3 outwards = along.cross(Vec3(panel.axes.row(2))).normalized();
+        const ShellResultants r = reader.resultants(k, outwards, middle[side]);
+        Vec6 traction;
+        traction << r.membrane(0), r.membrane(2), r.shears(0), -r.moments(2), r.moments(0), 0;
+        demands[edge] += along.norm() * traction;
+        intact += along.norm();
+      }
+    if (intact > 0) demands[edge] /= intact;
+  }
+  return demands;
+}
+
+std::vector<Vec6> edge_reactions(const Building& building, const Frame& frame, const std::vector<Vec6>& reactions) {
+  std::vector<Vec6> all;
+  for (std::size_t i = 0; i < building.edge_supports.size(); ++i) {
+    const EdgeSupport& support = building.edge_supports[i];
+    const auto& nodes = building[support.panel].nodes;
+    const auto edge = static_cast<std::size_t>(support.edge);
+    const Vec3 middle = (building[nodes[edge]].position + building[nodes[(edge + 1) % 4]].position) / 2;
+    Vec6 sum = Vec6::Zero();
+    for (const int s : frame.edge_supports[i]) {
+      const Vec6& reaction = reactions[static_cast<std::size_t>(s)];
+      const Vec3 force = reaction.head<3>();
+      const int node = frame.model.supports[static_cast<std::size_t>(s)].node;
+      sum += reaction;
+      sum.tail<3>() += (frame.model.nodes[static_cast<std::size_t>(node)] - middle).cross(force);
+    }
+    all.push_back(sum);
+  }
+  return all;
+}
+
+}  // namespace topple::structure
