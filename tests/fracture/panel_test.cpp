@@ -297,3 +297,21 @@ TEST_CASE("a panel that cannot be is refused") {
   CHECK_THROWS_AS(panel.hit(Vec2(0, 0), -1.0), std::invalid_argument);
   CHECK_THROWS_AS(panel.hit(Vec2(0, 0), INFINITY), std::invalid_argument);
 }
+
+TEST_CASE("the work of a hit grows with its damage, not with the wall nor with earlier damage elsewhere") {
+  for (const Method method : kMethods) {
+    BreakablePanel small(wall(10, 10), settings(method)), large(wall(100, 100), settings(method));
+    const std::size_t alone = small.hit(Vec2(5, 5), 1.0).triangles_changed;
+    (void)large.hit(Vec2(50, 50), 1.0);
+    std::size_t most = 0, wide = 0;
+    for (int k = 0; k < 60; ++k) {
+      const Fracture fracture = large.hit(Vec2(5 + k % 8 * 11, 5 + k / 8 * 11), 1.0);
+      most = std::max(most, fracture.triangles_changed);
+    }
+    CHECK(most < 3 * alone);  // places differ in the number of their cells, by less than this
+    BreakablePanel fresh(wall(100, 100), settings(method));
+    wide = fresh.hit(Vec2(50, 50), 4.0).triangles_changed;
+    CHECK(wide > alone);
+    CHECK(wide < 20 * alone);  // sixteen times the cells
+  }
+}
