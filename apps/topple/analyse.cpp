@@ -10,6 +10,7 @@
 #include "topple/structure/analysis.h"
 #include "topple/structure/error.h"
 #include "topple/structure/files.h"
+#include "topple/structure/member_checks.h"
 #include "write_files.h"
 
 namespace topple::app {
@@ -21,6 +22,8 @@ using namespace topple::structure;
 struct Options {
   std::string model, output;
   std::vector<std::string> combinations;
+  std::string code;
+  double drift_limit = 1 / usual_drift_limit;
   int stations = 0, threads = 1;
   std::string p_delta;
   int buckling = 0;
@@ -66,6 +69,11 @@ solver::SecondOrder second_order(const std::string& asked, const Building& build
   return solver::SecondOrder::none;
 }
 
+/// The smallest multiple of `stations` that is not below `wanted`.
+int whole_multiple(int stations, int wanted) {
+  return stations == 0 ? wanted : stations * std::max(1, (wanted + stations - 1) / stations);
+}
+
 int run(const Options& options) {
   for (const auto& [asked, name] : {std::pair{options.html, "--html"}, {options.csv, "--csv"}, {options.vtu, "--vtu"}})
     if (asked && options.output.empty()) throw InputError(std::string(name) + ": name the folder for it with -o");
@@ -79,17 +87,23 @@ int run(const Options& options) {
   request.second_order = second_order(options.p_delta, building);
   request.buckling = options.buckling;
   AnalysisRequest wider = request;
-  if (options.html) wider.stations = std::max(request.stations, report_stations);
-  if (options.vtu) wider.stations = std::max(wider.stations, drawing_stations);
-  const AnalysisResult result = analyse(building, wider);
+  const int wanted = std::max({options.html ? report_stations : 0, options.vtu ? drawing_stations : 0,
+                               options.code.empty() ? 0 : design_stations});
+  wider.stations = whole_multiple(request.stations, wanted);
+  AnalysisResult result = analyse(building, wider);
   clock.stop("analyse");
+  if (!options.code.empty()) {
+    const DesignCode code = options.code == "en1993" ? DesignCode::en1993 : DesignCode::aisc360;
+    check_design(building, code, 1 / options.drift_limit, result);
+    clock.stop("design");
+  }
   clock.seconds["order"] = result.statistics.order_seconds;
   clock.seconds["assemble"] = result.statistics.assemble_seconds;
   clock.seconds["factor"] = result.statistics.factor_seconds;
   clock.seconds["solve"] = result.statistics.solve_seconds;
   if (!options.output.empty()) {
     std::vector<std::pair<std::string, std::string>> files;
-    files.emplace_back("results.json", results_json(building, wider, result, clock.seconds));
+    files.emplace_back("results.json", results_json(building, request, result, clock.seconds));
     if (options.html) files.emplace_back("report.html", html_report(building, result, files[0].second));
     const auto append = [&](NamedTexts more) { std::move(more.begin(), more.end(), std::back_inserter(files)); };
     if (options.csv) append(results_csv(building, result));
@@ -116,6 +130,10 @@ std::function<int()> declare(CLI::App& app) {
       ->check(CLI::IsMember({"exact", "cubic"}));
   app.add_option("--buckling", options->buckling, "Lowest buckling factors of each combination")
       ->check(CLI::Range(1, 1000));
+  app.add_option("--code", options->code, "Check every member by EN 1993-1-1 or AISC 360")
+      ->check(CLI::IsMember({"en1993", "aisc360"}));
+  app.add_option("--drift-limit", options->drift_limit, "With --code: limit of the storey drift, height/N")
+      ->check(CLI::PositiveNumber);
   app.add_flag("--csv", options->csv, "Write tables: displacements, reactions, members, joints, panels");
   app.add_flag("--vtu", options->vtu, "Write COMBINATION.vtu for ParaView");
   app.add_flag("--html", options->html, "Write report.html");

@@ -1,5 +1,6 @@
 // results.json: see docs/results-format.md.
 #include <algorithm>
+#include <set>
 
 #include "formats/json_writer.h"
 #include "topple/solver/blas_kernel.h"
@@ -25,6 +26,7 @@ class Writer {
   std::string write() {
     w_.open('{');
     header();
+    if (result_.design_code) design_header();
     w_.key("combinations").open('{');
     for (const CombinationResult& c : result_.combinations) combination(c);
     w_.close('}').newline();
@@ -63,6 +65,18 @@ class Writer {
     }
   }
 
+  /// The code, the limit of the drift, and the formula of every clause that was evaluated.
+  void design_header() {
+    w_.key("design").open('{').key("code").value(std::string(design_code_name(*result_.design_code)));
+    w_.key("drift_limit").value(result_.drift_limit).key("formulas").open('{');
+    std::set<std::string> clauses;
+    for (const CombinationResult& c : result_.combinations)
+      for (const DesignResult& used : c.designs)
+        for (const DesignClause& clause : used.clauses) clauses.insert(clause.clause);
+    for (const std::string& clause : clauses) w_.key(clause).value(std::string(design_formula(clause)));
+    w_.close('}').close('}').newline();
+  }
+
   template <class Values, class Factors>
   void list(const Values& values, const Factors& factors, int count) {
     w_.open('[');
@@ -87,7 +101,8 @@ class Writer {
       list(c.edge_reactions[i], force_, 6);
     }
     w_.close('}').newline().key("members").open('{');
-    for (std::size_t i = 0; i < b_.members.size(); ++i) member(b_.members[i], c.members[i]);
+    for (std::size_t i = 0; i < b_.members.size(); ++i)
+      member(b_.members[i], c.members[i], c.designs.empty() ? nullptr : &c.designs[i]);
     w_.close('}').newline().key("panels").open('{');
     for (std::size_t i = 0; i < b_.panels.size(); ++i) panel(b_.panels[i], c.panels[i], c);
     w_.close('}').newline().key("joints").open('{');
@@ -95,10 +110,9 @@ class Writer {
     w_.close('}').newline().key("storeys").open('{');
     for (std::size_t i = 0; i < c.storeys.size(); ++i) {
       w_.key(std::to_string(i + 1)).open('{').key("drift").value(c.storeys[i].drift).key("shear").open('[');
-      w_.value(c.storeys[i].shear[0] / b_.units.force)
-          .value(c.storeys[i].shear[1] / b_.units.force)
-          .close(']')
-          .close('}');
+      w_.value(c.storeys[i].shear[0] / b_.units.force).value(c.storeys[i].shear[1] / b_.units.force).close(']');
+      if (result_.design_code) w_.key("utilisation").value(c.storeys[i].drift / result_.drift_limit);
+      w_.close('}');
     }
     w_.close('}').newline().key("equilibrium_error").value(c.equilibrium_error);
     w_.key("backward_error").value(c.quality.backward_error).key("condition").value(c.quality.condition);
@@ -109,9 +123,17 @@ class Writer {
     w_.open('[').value(e.value / factor).value(e.at / b_.units.length).close(']');
   }
 
-  void member(const Member& member, const MemberResult& r) {
+  void design(const DesignResult& used) {
+    if (used.governing.empty()) return;
+    w_.key("utilisation").value(used.utilisation).key("governing").value(used.governing).key("clauses").open('{');
+    for (const DesignClause& clause : used.clauses) w_.key(clause.clause).value(clause.utilisation);
+    w_.close('}');
+  }
+
+  void member(const Member& member, const MemberResult& r, const DesignResult* used) {
     w_.newline().key(member.name).open('{').key("end_forces");
     list(r.end_forces, force_, 12);
+    if (used != nullptr) design(*used);
     w_.key("active").value(r.active).key("extremes").open('{');
     for (std::size_t q = 0; q < 8; ++q) {
       w_.key(diagram_names[q]).open('{').key("min");
@@ -126,13 +148,16 @@ class Writer {
   }
 
   void stations(const Member& member, const MemberResult& r) {
+    // The analysis may have been asked for a multiple of the stations that are wanted here.
+    const auto spaces = static_cast<std::size_t>(request_.stations);
+    const std::size_t every = (r.stations.size() - 1) / spaces;
     w_.key("stations").open('{').key("at").open('[');
-    for (std::size_t s = 0; s < r.stations.size(); ++s)
+    for (std::size_t s = 0; s <= spaces; ++s)
       w_.value(member.length * static_cast<double>(s) / request_.stations / b_.units.length);
     w_.close(']');
     for (std::size_t q = 0; q < 8; ++q) {
       w_.key(diagram_names[q]).open('[');
-      for (const auto& values : r.stations) w_.value(values[q] / diagram_[q]);
+      for (std::size_t s = 0; s <= spaces; ++s) w_.value(r.stations[s * every][q] / diagram_[q]);
       w_.close(']');
     }
     w_.close('}');
@@ -238,6 +263,14 @@ class Writer {
         w_.key("max");
         bound(high.members[m].max[q], diagram_[q], high);
         w_.close('}');
+      }
+      if (result_.design_code && !result_.combinations.front().designs[m].governing.empty()) {
+        const auto& worst = best([&](const CombinationResult& c) { return c.designs[m].utilisation; });
+        w_.key("utilisation")
+            .open('[')
+            .value(worst.designs[m].utilisation)
+            .value(b_[worst.combination].name)
+            .close(']');
       }
       w_.close('}');
     }

@@ -52,7 +52,36 @@ void most_used(Text& text, const Building& building, const CombinationResult& c)
   }
 }
 
-void combination(Text& text, const Building& building, const CombinationResult& c) {
+/// The ten most used members with clause, and what the clauses of those say.
+void most_used_members(Text& text, const Building& building, const AnalysisResult& result, const CombinationResult& c) {
+  std::vector<std::size_t> order;
+  std::size_t over = 0;
+  for (std::size_t m = 0; m < c.designs.size(); ++m) {
+    if (c.designs[m].governing.empty()) continue;
+    order.push_back(m);
+    if (c.designs[m].utilisation > 1) ++over;
+  }
+  if (order.empty()) return;
+  const std::size_t shown = std::min(joints_shown, order.size());
+  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(shown), order.end(),
+                    [&](std::size_t a, std::size_t b) {
+                      const double ua = c.designs[a].utilisation, ub = c.designs[b].utilisation;
+                      return ua != ub ? ua > ub : a < b;
+                    });
+  text.line("  most used members by %s: %zu of %zu checked are above 100 %%",
+            std::string(design_code_name(*result.design_code)).c_str(), over, order.size());
+  std::vector<std::string> clauses;
+  for (std::size_t k = 0; k < shown; ++k) {
+    const DesignResult& used = c.designs[order[k]];
+    text.line("    %-20s %7.1f %%  %s", building.members[order[k]].name.c_str(), 100 * used.utilisation,
+              used.governing.c_str());
+    if (std::find(clauses.begin(), clauses.end(), used.governing) == clauses.end()) clauses.push_back(used.governing);
+  }
+  for (const std::string& clause : clauses)
+    text.line("    %s: %s", clause.c_str(), std::string(design_formula(clause)).c_str());
+}
+
+void combination(Text& text, const Building& building, const AnalysisResult& result, const CombinationResult& c) {
   const Units& units = building.units;
   const std::string length = units.consistent ? "" : " " + units.length_name,
                     force = units.consistent ? "" : " " + units.force_name;
@@ -81,7 +110,12 @@ void combination(Text& text, const Building& building, const CombinationResult& 
       drift = c.storeys[i].drift;
       storey = i + 1;
     }
-  if (drift > 0) text.line("  largest drift        1/%.0f in storey %zu", 1 / drift, storey);
+  if (drift > 0 && result.design_code)
+    text.line("  largest drift        1/%.0f in storey %zu: %.1f %% of the limit 1/%.0f", 1 / drift, storey,
+              100 * drift / result.drift_limit, 1 / result.drift_limit);
+  else if (drift > 0)
+    text.line("  largest drift        1/%.0f in storey %zu", 1 / drift, storey);
+  most_used_members(text, building, result, c);
   most_used(text, building, c);
   if (!c.buckling.empty()) {
     std::string factors;
@@ -103,7 +137,7 @@ std::string summary_text(const Building& building, const AnalysisResult& result,
   text.line("%s", building.title.empty() ? building.file.c_str() : building.title.c_str());
   text.line("  %zu nodes, %zu members, %zu panels, %zu equations", building.nodes.size(), building.members.size(),
             building.panels.size(), result.statistics.freedoms);
-  for (const CombinationResult& c : result.combinations) combination(text, building, c);
+  for (const CombinationResult& c : result.combinations) combination(text, building, result, c);
   std::string times;
   for (const auto& [stage, time] : seconds) {
     char part[64];

@@ -184,8 +184,10 @@ double strong_strength(const SteelSection& s, const DesignMember& member) {
       return pipe_strength(s);
     case SteelSection::Kind::solid:
       return bar_strength(s, length, cb);
-    default:
-      return s.fy * s.elastic_y;
+    default:  // F12, with the critical stress of a shape whose warping is not known
+      if (!(length > 0)) return s.fy * s.elastic_y;
+      return std::min(s.fy * s.elastic_y,
+                      cb * std::numbers::pi / length * std::sqrt(s.E * std::min(s.Iy, s.Iz) * s.G * s.J));
   }
 }
 

@@ -106,7 +106,8 @@ Reductions reductions(const SteelSection& steel, const DesignMember& member, dou
     r.slenderness_z = std::sqrt(squash / euler(steel.E, steel.Iz, member.lengths.z));
     r.z = reduction(r.slenderness_z, curve.z);
   }
-  const bool open = steel.kind == SteelSection::Kind::I;
+  // A section given as numbers may be open; without its warping stiffness it is taken as less than it is.
+  const bool open = steel.kind == SteelSection::Kind::I || steel.kind == SteelSection::Kind::other;
   if (open && member.lengths.torsion > 0) {  // 6.3.1.4
     const double polar = (steel.Iy + steel.Iz) / steel.area;
     const double ncr = (steel.G * steel.J + euler(steel.E, steel.warping, member.lengths.torsion)) / polar;

@@ -120,7 +120,7 @@ class PlanReader {
   }
 
   MemberDraft read_member_rule(const JsonValue& value, MemberKind kind) const {
-    value.only({"storeys", "section", "material", "joint", "groups"});
+    value.only({"storeys", "section", "material", "joint", "groups", "design"});
     MemberDraft rule;
     rule.kind = kind;
     rule.section = draft_.section(value.require("section"));
@@ -131,6 +131,7 @@ class PlanReader {
       if (kind == MemberKind::beam) rule.joints[1] = rule.joints[0];
     }
     if (const auto groups = value.find("groups")) rule.groups = read_names(*groups);
+    if (const auto design = value.find("design")) rule.design = read_member_design(*design, draft_.scale);
     return rule;
   }
 

@@ -81,6 +81,7 @@ MemberId ModelDraft::add_member(const MemberDraft& draft, const JsonValue& place
   member.material = draft.material;
   member.offsets = draft.offsets;
   member.axial = draft.axial;
+  member.design = draft.design;
   member.groups = draft.groups;
   const std::array<Vec3, 2> ends{building[draft.nodes[0]].position + draft.offsets[0],
                                  building[draft.nodes[1]].position + draft.offsets[1]};
@@ -88,6 +89,9 @@ MemberId ModelDraft::add_member(const MemberDraft& draft, const JsonValue& place
   member.length = along.norm();
   if (!(member.length > 1e-12 * (ends[0].norm() + ends[1].norm())) || !std::isfinite(member.length))
     place.fail("the member has no length (its ends are in one place); accepted: two ends apart from each other");
+  for (const double at : draft.design.restraints)
+    if (!(at > 0 && at < member.length))
+      place.fail("`restraints` of its `design` lie beyond its ends; accepted: distances from the first end inside it");
   const auto axes = member_axes(along, draft.up, draft.roll);
   if (!axes) place.fail("`up` is along the member's axis; accepted: a direction at least 1e-6 rad away from it");
   member.axes = *axes;

@@ -78,6 +78,7 @@ struct MemberDraft {
   std::optional<Vec3> up;
   double roll = 0;
   AxialAction axial = AxialAction::both;
+  MemberDesign design;
   std::vector<std::string> groups;
 };
 

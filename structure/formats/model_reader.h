@@ -33,6 +33,7 @@ template <class Factor>
 [[nodiscard]] Vec6 read_support(const JsonValue& value, const Scale& scale);
 [[nodiscard]] Vec3 read_point(const JsonValue& value, double factor);
 [[nodiscard]] std::vector<std::string> read_names(const JsonValue& list);
+[[nodiscard]] MemberDesign read_member_design(const JsonValue& value, const Scale& scale);
 [[nodiscard]] PanelModel read_panel_model(const JsonValue& value);
 [[nodiscard]] Span read_span(const JsonValue& value);
 [[nodiscard]] std::array<int, 2> read_mesh(const JsonValue& value);

@@ -100,7 +100,8 @@ std::array<NodeId, N> read_node_names(const JsonValue& value, const ModelDraft& 
 }
 
 void read_member(const JsonValue& value, ModelDraft& draft) {
-  value.only({"kind", "nodes", "section", "material", "up", "roll", "joints", "offsets", "axial", "groups"});
+  value.only({"kind", "nodes", "section", "material", "up", "roll", "joints", "offsets", "axial", "groups",
+              "design"});
   MemberDraft member;
   member.name = value.key();
   member.nodes = read_node_names<2>(value.require("nodes"), draft);
@@ -129,6 +130,8 @@ void read_member(const JsonValue& value, ModelDraft& draft) {
       member.axial = read_axial(entry);
     } else if (key == "groups") {
       member.groups = read_names(entry);
+    } else if (key == "design") {
+      member.design = read_member_design(entry, draft.scale);
     }
   }
   draft.add_member(member, value);

@@ -149,6 +149,36 @@ TEST_CASE("EN 1993: a rolled beam without lateral restraint loses what the gener
   CHECK(result.governing == "EN 1993-1-1 6.3.2 (6.54)");
 }
 
+// IPE 500, S235, L = 3.75 m, uniform moment, after worked example 5 of Boissonnade, Greiner, Jaspart and Lindner, Rules
+// for member stability in EN 1993-1-1 (ECCS 119): I_t = 89.287 cm4, I_w = 1.2494e6 cm6, M_cr,0 = 899.4 kNm, slenderness
+// 0.757 with W_pl,y = 2194.26 cm3. The general case's curve b gives chi_LT = 0.751 by the formula. Published digits:
+// 0.3 %.
+TEST_CASE("EN 1993: the critical moment of an IPE 500 is that of ECCS 119's worked example 5") {
+  Section ipe;
+  ipe.name = "IPE500";
+  ipe.shape = Section::Shape::I;
+  ipe.catalogue = "IPE500";
+  ipe.depth = 0.5;
+  ipe.width = 0.2;
+  ipe.web = 0.0102;
+  ipe.flange = 0.016;
+  ipe.fillet = 0.021;
+  ipe.area = 115.5e-4;
+  ipe.Iy = 48200e-8;
+  ipe.Iz = 2141.7e-8;
+  ipe.J = 89.287e-8;
+  ipe.plastic_modulus_y = 2194.26e-6;
+  ipe.plastic_modulus_z = 335.9e-6;
+  const Material s235 = steel(235e6, 210e9, 80.769e9);
+  const double slenderness = 0.757, phi = 0.5 * (1 + 0.34 * (slenderness - 0.2) + slenderness * slenderness);
+  const double chi = 1 / (phi + std::sqrt(phi * phi - slenderness * slenderness));
+  CHECK(chi == Approx(0.751).margin(0.0006));
+  const DesignMember member{&ipe, &s235, {3.75, 3.75, 3.75, 3.75}, {}};
+  const SectionForces at[] = {forces(0, 300e3)};
+  CHECK(clause(check_member(DesignCode::en1993, member, at), "EN 1993-1-1 6.3.2 (6.54)") ==
+        Approx(300e3 / (chi * 2194.26e-6 * 235e6)).epsilon(0.003));
+}
+
 TEST_CASE("a class 4 section counts for less than its yield strength, a class 1 section for all of it") {
   Section box;
   box.name = "box";

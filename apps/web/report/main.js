@@ -12,7 +12,7 @@ const nodeIndex = new Map(model.node_names.map((name, k) => [name, k]));
 const DIAGRAMS = ['axial', 'shear_y', 'shear_z', 'torsion', 'moment_y', 'moment_z'];
 const DIAGRAM_AXIS = { axial: 2, shear_y: 1, shear_z: 2, torsion: 2, moment_y: 2, moment_z: 1 };
 
-const state = { combination: Object.keys(results.combinations ?? {})[0], shape: 'deformed', scale: 1, colour: 'joints', diagram: 'none', reactions: true, panels: true, moving: false, selected: null };
+const state = { combination: Object.keys(results.combinations ?? {})[0], shape: 'deformed', scale: 1, colour: results.design ? 'members' : 'joints', diagram: 'none', reactions: true, panels: true, moving: false, selected: null };
 
 const byNode = (shape) => {
   if (!shape) return null;
@@ -236,6 +236,7 @@ function showSummary() {
     if (size > largest[1]) largest = [name, size];
   }
   const worst = Object.entries(c.joints ?? {}).reduce((a, [name, j]) => (j.utilisation > a[1] ? [name, j.utilisation, j.governing] : a), ['', 0, '']);
+  const worstMember = Object.entries(c.members ?? {}).reduce((a, [name, m]) => ((m.utilisation ?? -1) > a[1] ? [name, m.utilisation, m.governing] : a), ['', -1, '']);
   const total = [0, 0, 0];
   for (const r of Object.values(c.reactions ?? {})) for (let i = 0; i < 3; ++i) total[i] += r[i];
   const seconds = Object.values(results.seconds ?? {}).reduce((a, b) => a + b, 0);
@@ -244,10 +245,11 @@ function showSummary() {
     definitions(`Combination ${state.combination}`, [
       ['largest displacement', `${number(largest[1])} ${unit.length}`], ['at node', largest[0]],
       ['sum of reactions z', `${number(total[2])} ${unit.force}`],
+      ...(worstMember[0] ? [['most used member', `${worstMember[0]} (${worstMember[2]})`], ['its use', percent(worstMember[1])]] : []),
       ...(worst[0] ? [['most used joint', `${worst[0]} (${worst[2]})`], ['its use', percent(worst[1])]] : []),
     ]),
     definitions('How exact', [['backward error', number(c.backward_error)], ['equilibrium error', number(c.equilibrium_error)], ['condition', number(c.condition)], ['error bound', number(c.error_bound)]]),
-    definitions('How', [['second order', results.settings?.p_delta ?? 'none'], ['factorisation', results.settings?.factorisation ?? ''], ['seconds', number(seconds)], ['Topple', results.topple]]),
+    definitions('How', [['second order', results.settings?.p_delta ?? 'none'], ...(results.design ? [['design code', results.design.code], ['drift limit', `height/${number(1 / results.design.drift_limit)}`]] : []), ['factorisation', results.settings?.factorisation ?? ''], ['seconds', number(seconds)], ['Topple', results.topple]]),
   ];
   if (model.warnings.length) {
     const box = document.createElement('div');

@@ -10,6 +10,7 @@
 #include "topple/solver/second_order.h"
 #include "topple/solver/static_analysis.h"
 #include "topple/structure/building.h"
+#include "topple/structure/design_check.h"
 #include "topple/structure/joint_check.h"
 
 namespace topple::structure {
@@ -62,6 +63,7 @@ struct CombinationResult {
   std::vector<PanelResult> panels;
   std::vector<Utilisation> joints;  ///< per Building::joints; value 0 where it has no capacity
   std::vector<StoreyResult> storeys;
+  std::vector<DesignResult> designs;  ///< per member, empty without a design check; no `governing`: not checked
   Vec6 total_load = Vec6::Zero(), total_reaction = Vec6::Zero();  ///< about the model's centroid
   double equilibrium_error = 0;
   int second_order_iterations = 0;
@@ -73,13 +75,16 @@ struct AnalysisResult {
   std::vector<Vec3> mesh_nodes;  ///< of shell panels, beside the building's nodes
   solver::AnalysisStatistics statistics;
   std::vector<std::string> warnings;
+  std::optional<DesignCode> design_code;  ///< set by check_design() (member_checks.h)
+  double drift_limit = 0;                 ///< with it: storey drift that counts as a use of 1
 };
 
 /// Throws UnstableModel, with names: a model that can move without strain, or loads beyond what it bears before it
 /// buckles (second order), with the critical factor.
 [[nodiscard]] AnalysisResult analyse(const Building& building, const AnalysisRequest& request = {});
 
-/// results.json as the format has it, in the model's units, every number to its last bit.
+/// results.json as the format has it, in the model's units, every number to its last bit. The result may hold a whole
+/// multiple of the stations that `request` asks for.
 [[nodiscard]] std::string results_json(const Building& building, const AnalysisRequest& request,
                                        const AnalysisResult& result, const std::map<std::string, double>& seconds);
 /// Files by name and text.

@@ -1,6 +1,6 @@
 #pragma once
-// The building as it was read or generated: immutable input for analysis and simulation. SI units (unless the model says
-// "consistent"), global z up. Names, defaults and meanings are those of the model format (docs/model-format.md).
+// The building as it was read or generated: immutable input for analysis and simulation. SI units (unless the model
+// says "consistent"), global z up. Names, defaults and meanings are those of the model format (docs/model-format.md).
 #include <Eigen/Core>
 #include <array>
 #include <limits>
@@ -25,7 +25,8 @@ inline constexpr double unlimited = std::numeric_limits<double>::infinity();
 /// Names of the six components, in order.
 inline constexpr std::array<const char*, 6> component_names{"x", "y", "z", "rx", "ry", "rz"};
 
-/// Factors from the model's units to SI, and their names for output. `consistent`: all factors 1, names are "consistent".
+/// Factors from the model's units to SI, and their names for output. `consistent`: all factors 1, names are
+/// "consistent".
 struct Units {
   double length = 1, force = 1, mass = 1;
   std::string length_name = "m", force_name = "N", mass_name = "kg";
@@ -56,14 +57,14 @@ struct Section {
 
 /// The seven senses in which a joint can fail.
 enum class Sense { tension, compression, shear_y, shear_z, torsion, moment_y, moment_z };
-inline constexpr std::array<const char*, 7> sense_names{"tension",  "compression", "shear_y", "shear_z",
+inline constexpr std::array<const char*, 7> sense_names{"tension", "compression", "shear_y", "shear_z",
                                                         "torsion", "moment_y",    "moment_z"};
 
 /// `max`: the largest of the seven ratios. `sum`: N/Nc + My/Myc + Mz/Mzc, shear and torsion apart.
 enum class Interaction { max, sum };
 
-/// What one joint can bear, already multiplied by its `strength`, for its own member's section and material. For a panel's
-/// edge the four forces are per unit length of edge.
+/// What one joint can bear, already multiplied by its `strength`, for its own member's section and material. For a
+/// panel's edge the four forces are per unit length of edge.
 struct JointCapacity {
   std::array<double, 7> value{unlimited, unlimited, unlimited, unlimited, unlimited, unlimited, unlimited};
   Interaction interaction = Interaction::max;
@@ -73,16 +74,29 @@ struct JointCapacity {
 
 /// A member end or panel edge as the building has it.
 struct Joint {
-  std::string name;                 ///< "PA:1", "S1:3"
-  MemberId member;                  ///< valid for a member end ...
-  PanelId panel;                    ///< ... or a panel's edge
-  int end = 0;                      ///< 0 or 1 (first, second end); edges 0 to 3
+  std::string name;                            ///< "PA:1", "S1:3"
+  MemberId member;                             ///< valid for a member end ...
+  PanelId panel;                               ///< ... or a panel's edge
+  int end = 0;                                 ///< 0 or 1 (first, second end); edges 0 to 3
   Vec6 stiffness = Vec6::Constant(unlimited);  ///< unlimited: rigid, 0: released, else a spring
   JointCapacity capacity;
 };
 
 enum class MemberKind { post, beam, brace };
 enum class AxialAction { both, tension, compression };
+
+/// What a design check needs to know of a member beside its section: the `design` of the model format. What is left out
+/// is assumed on the safe side (member_design.h).
+struct MemberDesign {
+  bool checked = true;
+  /// Effective lengths for flexural buckling about y, about z, and torsional buckling: as lengths, or as multiples of
+  /// the member's length. 0: it cannot buckle so.
+  std::array<std::optional<double>, 3> lengths, factors;
+  bool restrained_throughout = false;  ///< the compression flange is held all along
+  std::vector<double> restraints;      ///< where it is held between the ends: distances from the first end
+  double moment_factor = 1;            ///< C1 of EN 1993-1-1, Cb of AISC 360
+  double equivalent_moment_y = 1, equivalent_moment_z = 1;  ///< C_my (and C_mLT), C_mz of EN 1993-1-1 annex B
+};
 
 struct Member {
   std::string name;
@@ -94,7 +108,8 @@ struct Member {
   Mat3 axes = Mat3::Identity();                             ///< rows: local x, y, z
   double length = 0;                                        ///< between the ends, after the offsets
   AxialAction axial = AxialAction::both;
-  std::vector<std::string> groups;                          ///< beside the one of its kind
+  MemberDesign design;
+  std::vector<std::string> groups;  ///< beside the one of its kind
 };
 
 enum class PanelKind { slab, wall };
@@ -138,8 +153,8 @@ struct MemberLoad {
   MemberId member;
   Kind kind = Kind::distributed;
   LoadFrame frame = LoadFrame::global;
-  double from = 0, to = 0;                          ///< point: `from` is the place
-  Vec6 first = Vec6::Zero(), last = Vec6::Zero();   ///< intensity at from and to; point: `first`
+  double from = 0, to = 0;                                 ///< point: `from` is the place
+  Vec6 first = Vec6::Zero(), last = Vec6::Zero();          ///< intensity at from and to; point: `first`
   double temperature = 0, gradient_y = 0, gradient_z = 0;  ///< K and K per length
 };
 struct PanelLoad {
@@ -187,8 +202,8 @@ struct RequestedAnalyses {
   bool cubic_p_delta = false;
   int modes = 0;
   bool lumped_mass = false;
-  double frequency_shift = 0;               ///< of the eigenvalue (rad/s)^2, for structures that float
-  bool modes_of_last_combination = false;   ///< modes about the tangent stiffness of the last combination
+  double frequency_shift = 0;              ///< of the eigenvalue (rad/s)^2, for structures that float
+  bool modes_of_last_combination = false;  ///< modes about the tangent stiffness of the last combination
 };
 
 struct Node {

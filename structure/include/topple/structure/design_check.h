@@ -6,6 +6,7 @@
 #include <array>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "topple/structure/building.h"
@@ -56,5 +57,10 @@ struct DesignResult {
 /// section's `depth` and `width` where its moduli cannot be had otherwise).
 [[nodiscard]] DesignResult check_member(DesignCode code, const DesignMember& member,
                                         std::span<const SectionForces> stations);
+
+/// The formula of a clause in the code's own symbols; empty for an unknown clause.
+[[nodiscard]] std::string_view design_formula(std::string_view clause);
+/// Edition and safety factors.
+[[nodiscard]] std::string_view design_code_name(DesignCode code);
 
 }  // namespace topple::structure
