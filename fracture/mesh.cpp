@@ -7,11 +7,10 @@
 #include <sstream>
 #include <tuple>
 
+#include "weld.h"
+
 namespace topple::fracture {
 
-namespace {
-
-/// One number for all vertices at one position, in the order of the positions.
 std::vector<int> weld(const std::vector<Vec3>& positions) {
   std::vector<int> order(positions.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
@@ -28,6 +27,8 @@ std::vector<int> weld(const std::vector<Vec3>& positions) {
   }
   return number;
 }
+
+namespace {
 
 struct DirectedEdge {
   int low, high;
