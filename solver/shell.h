@@ -24,7 +24,8 @@ class ShellElement {
   /// Rows: element axes; x, y halve the angle between the element's middle lines.
   [[nodiscard]] const Mat3& axes() const { return axes_; }
   /// nx, ny, nxy; mx, my, mxy; qx, qy at natural coordinates (-1 to 1), element axes.
-  [[nodiscard]] Eigen::Matrix<double, 8, 1> resultants(const Vec24& displacements, double strain, const Vec2& at) const;
+  [[nodiscard]] Eigen::Matrix<double, 8, 1> resultants(const Vec24& displacements, double strain,
+                                                       const Vec2& at = Vec2::Zero()) const;
 
  private:
   [[nodiscard]] Vec24 to_local(const Vec24& global) const;
