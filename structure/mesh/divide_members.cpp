@@ -3,6 +3,7 @@
 
 #include "index_of.h"
 #include "mesh/frame_mesh.h"
+#include "mesh/panel_edges.h"
 
 namespace topple::structure {
 
@@ -21,23 +22,20 @@ class Cuts {
       if (building.members[m].axial == AxialAction::both) at_node_[first_node(m)].push_back(m);
   }
 
-  void add_edge(const std::vector<int>& nodes) {
-    std::vector<char>& on_edge = marks_;
-    on_edge.assign(building_.nodes.size(), 0);
-    for (const int node : nodes)
-      if (is_of_building(node)) on_edge[static_cast<std::size_t>(node)] = 1;
-    for (const int node : nodes) {
-      if (!is_of_building(node)) continue;
-      for (const std::size_t m : at_node_[static_cast<std::size_t>(node)])
-        if (on_edge[index_of(building_.members[m].nodes[1])] != 0) cut(m, nodes);
-    }
+  /// `on_edge`: nodes of the model on an edge; `mesh`: those of the mesh.
+  void add_edge(const std::vector<EdgeNode>& on_edge, const std::vector<int>& mesh) {
+    const auto has = [&](NodeId id) {
+      return std::any_of(on_edge.begin(), on_edge.end(), [&](const EdgeNode& node) { return node.node == id.index; });
+    };
+    for (const EdgeNode& node : on_edge)
+      for (const std::size_t m : at_node_[static_cast<std::size_t>(node.node)])
+        if (has(building_.members[m].nodes[1])) cut(m, mesh);
   }
 
  private:
   [[nodiscard]] std::size_t first_node(std::size_t member) const {
     return index_of(building_.members[member].nodes[0]);
   }
-  [[nodiscard]] bool is_of_building(int node) const { return static_cast<std::size_t>(node) < building_.nodes.size(); }
 
   void cut(std::size_t m, const std::vector<int>& nodes) {
     const Member& member = building_.members[m];
@@ -55,7 +53,6 @@ class Cuts {
   const Building& building_;
   const Frame& frame_;
   std::vector<std::vector<std::size_t>> at_node_;  ///< members whose first end is at a node
-  std::vector<char> marks_;
 
  public:
   std::vector<std::vector<Cut>> of_member;
@@ -95,8 +92,10 @@ void divide(const Member& member, std::size_t index, std::vector<Cut> cuts, Fram
 void divide_members(const Building& building, Frame& frame) {
   frame.pieces.resize(building.members.size());
   Cuts cuts(building, frame);
-  for (const PanelMesh& mesh : frame.meshes)
-    for (const auto& nodes : mesh.edge_nodes) cuts.add_edge(nodes);
+  const PanelEdges edges(building);
+  for (std::size_t p = 0; p < building.panels.size(); ++p)
+    for (std::size_t edge = 0; edge < 4; ++edge)
+      cuts.add_edge(edges.nodes(PanelId(p), edge), frame.meshes[p].edge_nodes[edge]);
   for (std::size_t m = 0; m < building.members.size(); ++m)
     if (!cuts.of_member[m].empty()) divide(building.members[m], m, std::move(cuts.of_member[m]), frame);
 }

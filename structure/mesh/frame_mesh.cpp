@@ -2,18 +2,20 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <map>
+#include <optional>
 
 #include "index_of.h"
 #include "mesh/panel_cells.h"
-#include "mesh/point_index.h"
 #include "topple/structure/error.h"
 
 namespace topple::structure {
 
 namespace {
 
-/// Points of two panels on a common edge are one when they are nearer than this share of it.
-constexpr double same_point = 2 * same_line;
+/// Points of two panels on a common segment are one when they are nearer than this share of it: less than the least
+/// distance of two lines, more than what a line may be off its neighbour's.
+constexpr double same_point = 0.9 * same_line;
 
 /// Parameters within this of 0 and 1 are on the border.
 constexpr double on_border = 1e-8;
@@ -33,10 +35,8 @@ std::optional<double> along_edge(std::size_t edge, const Vec2& st) {
 
 class Mesher {
  public:
-  Mesher(const Building& building, Frame& frame) : building_(building), frame_(frame), on_edges_(reach(building)) {
-    for (std::size_t n = 0; n < building.nodes.size(); ++n)
-      on_edges_.add(building.nodes[n].position, static_cast<int>(n));
-  }
+  Mesher(const Building& building, const PanelEdges& edges, Frame& frame)
+      : building_(building), edges_(edges), frame_(frame) {}
 
   void mesh(const PanelLines& lines, bool halved) {
     const Panel& panel = building_[lines.panel];
@@ -45,7 +45,7 @@ class Mesher {
     if (cells.quadrilaterals.empty())
       throw InputError("panels." + panel.name + ".openings: nothing is left of the panel; accepted: smaller openings");
     PanelMesh& mesh = frame_.meshes[index_of(lines.panel)];
-    const std::vector<int> nodes = place(panel, surface, cells.points, mesh);
+    const std::vector<int> nodes = place(lines.panel, surface, cells.points, mesh);
     mesh.first_shell = static_cast<int>(frame_.model.shells.size());
     for (const auto& cell : cells.quadrilaterals) {
       solver::Shell shell = shell_of(panel);
@@ -56,13 +56,6 @@ class Mesher {
   }
 
  private:
-  static double reach(const Building& building) {
-    double longest = 0;
-    for (const Panel& panel : building.panels)
-      if (panel.model == PanelModel::shell) longest = std::max(longest, PanelSurface(building, panel).size());
-    return same_point * longest;
-  }
-
   [[nodiscard]] solver::Shell shell_of(const Panel& panel) const {
     const Material& material = building_[panel.material];
     solver::Shell shell;
@@ -75,8 +68,7 @@ class Mesher {
   }
 
   /// The frame's nodes for a panel's points; new ones for those that nobody has.
-  std::vector<int> place(const Panel& panel, const PanelSurface& surface, const std::vector<Vec2>& points,
-                         PanelMesh& mesh) {
+  std::vector<int> place(PanelId panel, const PanelSurface& surface, const std::vector<Vec2>& points, PanelMesh& mesh) {
     std::vector<int> nodes;
     std::array<std::vector<std::pair<double, int>>, 4> on_edge;
     for (const Vec2& point : points) {
@@ -92,42 +84,49 @@ class Mesher {
     return nodes;
   }
 
-  int node_at(const Panel& panel, const PanelSurface& surface, const Vec2& st) {
-    double edge_length = 0;
+  int node_at(PanelId panel, const PanelSurface& surface, const Vec2& st) {
     for (std::size_t edge = 0; edge < 4; ++edge)
-      if (const auto along = along_edge(edge, st)) {
-        if (*along == 0) return panel.nodes[edge].index;
-        if (*along == 1) return panel.nodes[(edge + 1) % 4].index;
-        edge_length = surface.edge_length(edge);
-      }
-    const Vec3 place = surface.at(st);
-    if (edge_length > 0)
-      if (const int found = on_edges_.nearest(place, same_point * edge_length); found >= 0) return found;
-    const int node = static_cast<int>(frame_.model.nodes.size());
+      if (const auto along = along_edge(edge, st)) return node_on_edge(panel, edge, *along, surface.at(st));
+    return new_node(surface.at(st));
+  }
+
+  int node_on_edge(PanelId panel, std::size_t edge, double along, const Vec3& place) {
+    for (const EdgeNode& node : edges_.nodes(panel, edge))
+      if (std::abs(node.at - along) < same_point) return node.node;
+    const EdgePlace on_segment = edges_.place(panel, edge, along);
+    auto& shared = on_segments_[on_segment.segment];
+    for (const auto& [at, node] : shared)
+      if (std::abs(at - on_segment.at) < same_point) return node;
+    shared.emplace_back(on_segment.at, new_node(place));
+    return shared.back().second;
+  }
+
+  int new_node(const Vec3& place) {
     frame_.model.nodes.push_back(place);
-    if (edge_length > 0) on_edges_.add(place, node);
-    return node;
+    return static_cast<int>(frame_.model.nodes.size()) - 1;
   }
 
   const Building& building_;
+  const PanelEdges& edges_;
   Frame& frame_;
-  PointIndex on_edges_;
+  std::map<EdgeSegment, std::vector<std::pair<double, int>>> on_segments_;  ///< mesh nodes by their place
 };
 
 }  // namespace
 
 void add_shell_panels(const Building& building, Frame& frame) {
   frame.meshes.resize(building.panels.size());
-  const std::vector<PanelLines> lines = panel_lines(building);
+  const PanelEdges edges(building);
+  const std::vector<PanelLines> lines = panel_lines(building, edges);
   if (lines.empty()) return;
-  const std::vector<int> group = connected_panels(building, lines);
+  const std::vector<int> group = connected_panels(edges, lines);
   std::vector<char> halved(lines.size(), 0);
   for (std::size_t k = 0; k < lines.size(); ++k) {
     const Panel& panel = building[lines[k].panel];
     if (!panel.openings.empty() && cuts_cells(PanelSurface(building, panel), panel, lines[k]))
       halved[static_cast<std::size_t>(group[k])] = 1;
   }
-  Mesher mesher(building, frame);
+  Mesher mesher(building, edges, frame);
   for (std::size_t k = 0; k < lines.size(); ++k) mesher.mesh(lines[k], halved[static_cast<std::size_t>(group[k])] != 0);
 }
 

@@ -199,6 +199,25 @@ TEST_CASE("meshes of neighbours match, lines go through openings and nodes on ed
   }
 }
 
+TEST_CASE("panels and members that only lie at the same place are not joined") {
+  // A wall under a beam and beside a wall on the same line, without a common node; and one that shares a node.
+  const std::string nodes = R"("nodes": {"A": [0, 0, 0], "B": [4, 0, 0], "C": [4, 0, 3], "D": [0, 0, 3],
+    "E": [1, 0, 3], "F": [3, 0, 3], "G": [3, 0, 5], "H": [1, 0, 5]}, "supports": {"A": "fixed", "E": "fixed"},)";
+  const std::string lower =
+      R"("W": {"nodes": ["A", "B", "C", "D"], "thickness": 0.2, "material": "c", "model": "shell"})";
+  const Frame apart = make_frame(model(nodes +
+                                       R"("members": {"b": {"nodes": ["E", "F"], "section": "s", "material": "c"}},
+    "panels": {)" + lower + R"(, "V": {"nodes": ["E", "F", "G", "H"], "thickness": 0.2, "material": "c",
+    "model": "shell", "mesh": [3, 1]}})"));
+  CHECK(apart.model.shells.size() == 1 + 3);
+  CHECK(apart.pieces[0].size() == 3);
+  const Frame joined = make_frame(model(nodes +
+                                        R"("members": {"b": {"nodes": ["D", "E"], "section": "s", "material": "c"}},
+    "panels": {)" + lower + "}"));
+  CHECK(joined.model.shells.size() == 2);
+  CHECK(joined.model.shells[0].node[2] == 4);  // E
+}
+
 TEST_CASE("openings that overlap are cut out together") {
   const Frame frame = make_frame(
       model(R"("nodes": {"A": [0, 0, 0], "B": [4, 0, 0], "C": [4, 4, 0], "D": [0, 4, 0]}, "supports": {"A": "fixed"},
