@@ -106,6 +106,13 @@ PanelBearings::Changes PanelBearings::leave(const Left& left) {
   return changes;
 }
 
+void PanelBearings::become(const PanelBearings& other) {
+  states_ = other.states_;
+  member_stands_ = other.member_stands_;
+  member_part_ = other.member_part_;
+  node_part_ = other.node_part_;
+}
+
 PanelBearings::Changes PanelBearings::bare(NodeId node) {
   Changes changes;
   for (PanelId panel : panels_at_node_[index_of(node)])

@@ -32,6 +32,8 @@ class PanelBearings {
     std::vector<std::pair<NodeId, int>> nodes;
   };
   Changes leave(const Left& left);
+  /// Takes over the state of another one of the same building.
+  void become(const PanelBearings& other);
   /// A node that stands, but with no member on it: a membrane can no longer hang there.
   Changes bare(NodeId node);
 

@@ -27,11 +27,15 @@ std::string directions(const Vec6& motion) {
 }  // namespace
 
 std::string describe_mechanism(const Building& building, const FrameMechanism& mechanism) {
-  std::string text = "the model is unstable:";
+  return "the model is unstable: " + describe_motion(building, mechanism);
+}
+
+std::string describe_motion(const Building& building, const FrameMechanism& mechanism) {
+  std::string text;
   const std::size_t named = std::min(named_at_most, mechanism.nodes.size());
   for (std::size_t i = 0; i < named; ++i) {
     const NodeId node = mechanism.nodes[i];
-    text += (i ? ", node " : " node ") + building[node].name + " moves " + directions(mechanism.motion[index_of(node)]);
+    text += (i ? ", node " : "node ") + building[node].name + " moves " + directions(mechanism.motion[index_of(node)]);
   }
   if (mechanism.nodes.size() > named) text += " and " + std::to_string(mechanism.nodes.size() - named) + " more";
   std::string members;

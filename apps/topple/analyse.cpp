@@ -27,6 +27,8 @@ struct Options {
   int stations = 0, threads = 1;
   std::string p_delta;
   int buckling = 0;
+  std::vector<std::string> lose, lose_each;
+  double sudden = 2;
   bool html = false, csv = false, vtu = false;
 };
 
@@ -61,6 +63,28 @@ std::vector<CombinationId> chosen(const Building& building, const std::vector<st
   return ids;
 }
 
+/// Members by name or pattern, and all members of groups.
+LossRequest losses(const Options& options, const Building& building) {
+  LossRequest request;
+  request.sudden = options.sudden;
+  const NameIndex names(building);
+  for (const std::string& name : options.lose) {
+    const std::vector<MemberId> found = names.members_matching(name);
+    if (found.empty())
+      throw InputError(building.file + ": --lose " + name +
+                       ": no such member; accepted: a member's name, in which * stands for any run of characters");
+    request.named.insert(request.named.end(), found.begin(), found.end());
+  }
+  for (const std::string& name : options.lose_each) {
+    const NameIndex::Group* group = names.group(name);
+    if (group == nullptr || group->members.empty())
+      throw InputError(building.file + ": --lose-each " + name +
+                       ": no such group of members; accepted: posts, beams, braces and the groups of the model");
+    request.each.insert(request.each.end(), group->members.begin(), group->members.end());
+  }
+  return request;
+}
+
 /// What the command line asks for, else what the file asks for itself.
 solver::SecondOrder second_order(const std::string& asked, const Building& building) {
   if (asked == "exact") return solver::SecondOrder::exact;
@@ -86,6 +110,7 @@ int run(const Options& options) {
   request.solver.threads = options.threads;
   request.second_order = second_order(options.p_delta, building);
   request.buckling = options.buckling;
+  request.losses = losses(options, building);
   AnalysisRequest wider = request;
   const int wanted = std::max({options.html ? report_stations : 0, options.vtu ? drawing_stations : 0,
                                options.code.empty() ? 0 : design_stations});
@@ -101,6 +126,7 @@ int run(const Options& options) {
   clock.seconds["assemble"] = result.statistics.assemble_seconds;
   clock.seconds["factor"] = result.statistics.factor_seconds;
   clock.seconds["solve"] = result.statistics.solve_seconds;
+  if (request.losses.any()) clock.seconds["losses"] = result.loss_seconds;
   if (!options.output.empty()) {
     std::vector<std::pair<std::string, std::string>> files;
     files.emplace_back("results.json", results_json(building, request, result, clock.seconds));
@@ -134,6 +160,14 @@ std::function<int()> declare(CLI::App& app) {
       ->check(CLI::IsMember({"en1993", "aisc360"}));
   app.add_option("--drift-limit", options->drift_limit, "With --code: limit of the storey drift, height/N")
       ->check(CLI::PositiveNumber);
+  app.add_option("--lose", options->lose, "Member to lose suddenly, alone, with the whole state after it")
+      ->expected(1)
+      ->take_all();
+  app.add_option("--lose-each", options->lose_each, "Group whose members are lost one at a time, with what is worst")
+      ->expected(1)
+      ->take_all();
+  app.add_option("--sudden", options->sudden, "Factor f of a sudden loss: R0 + f (R1 - R0); 1 is the static state")
+      ->check(CLI::Range(1.0, 10.0));
   app.add_flag("--csv", options->csv, "Write tables: displacements, reactions, members, joints, panels");
   app.add_flag("--vtu", options->vtu, "Write COMBINATION.vtu for ParaView");
   app.add_flag("--html", options->html, "Write report.html");

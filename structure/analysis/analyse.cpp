@@ -1,4 +1,5 @@
 #include <Eigen/Geometry>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <numeric>
@@ -58,6 +59,7 @@ class Analysis {
     }
     const auto& nodes = frame_.model.nodes;
     result.mesh_nodes.assign(nodes.begin() + static_cast<std::ptrdiff_t>(building_.nodes.size()), nodes.end());
+    find_losses_asked_for(result);
     result.warnings = building_.warnings;
     warn_of_frame3dd(result);
     if (result.statistics.nearly_unstable)
@@ -68,6 +70,15 @@ class Analysis {
   }
 
  private:
+  void find_losses_asked_for(AnalysisResult& result) const {
+    if (!request_.losses.any()) return;
+    if (request_.second_order != solver::SecondOrder::none)
+      throw InputError(building_.file + ": losses of members are found by first order; accepted: no --p-delta");
+    const auto start = std::chrono::steady_clock::now();
+    result.losses = find_losses(building_, combinations_, request_.losses, request_.solver);
+    result.loss_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+
   /// With tension-only and compression-only members slack where they have to be.
   [[nodiscard]] OneWayAnswer settled(std::size_t k, const solver::StaticSolution& solution) const {
     const OneWayMembers one_way(frame_.model);

@@ -31,6 +31,7 @@ class Writer {
     for (const CombinationResult& c : result_.combinations) combination(c);
     w_.close('}').newline();
     envelope();
+    if (request_.losses.any()) losses();
     if (request_.buckling > 0) buckling();
     w_.key("seconds").open('{');
     for (const auto& [stage, time] : seconds_) w_.key(stage).value(time);
@@ -232,17 +233,67 @@ class Writer {
     w_.open('[').value(e.value / factor).value(e.at / b_.units.length).value(b_[c.combination].name).close(']');
   }
 
+  void losses() {
+    w_.key("losses").open('{');
+    for (const MemberLoss& loss : result_.losses.losses) {
+      w_.newline().key(b_[loss.member].name).open('{');
+      for (const LossState& state : loss.states) {
+        w_.key(b_[state.combination].name).open('{');
+        state.stands() ? loss_state(state) : loss_mechanism(state);
+        w_.close('}');
+      }
+      w_.close('}');
+    }
+    w_.close('}').newline();
+  }
+
+  void loss_mechanism(const LossState& state) {
+    w_.key("mechanism").open('{').key("text").value(state.mechanism).key("nodes").open('{');
+    for (const auto& [node, motion] : state.motion) {
+      w_.key(b_[node].name);
+      shape_of(motion);
+    }
+    w_.close('}').key("members").open('[');
+    for (const MemberId member : state.loose) w_.value(b_[member].name);
+    w_.close(']').close('}');
+  }
+
+  void loss_state(const LossState& state) {
+    if (state.worst.valid()) {
+      w_.key("worst").open('{').key("joint").value(b_[state.worst].name).key("utilisation").value(state.use.value);
+      w_.key("governing").value(sense_names[static_cast<std::size_t>(state.use.sense)]).close('}');
+    }
+    w_.key("survives").value(state.survives()).key("displacements").open('{');
+    for (std::size_t n = 0; n < state.displacements.size(); ++n) {
+      w_.key(b_.nodes[n].name);
+      list(state.displacements[n], movement_, 6);
+    }
+    w_.close('}').key("members").open('{');
+    for (const auto& [member, forces] : state.end_forces) {
+      w_.key(b_[member].name).open('{').key("end_forces");
+      list(forces, force_, 12);
+      w_.close('}');
+    }
+    w_.close('}').key("joints").open('{');
+    for (const auto& [id, used] : state.joints) joint(b_[id], used);
+    w_.close('}');
+  }
+
+  /// A shape's largest translation is 1, whatever the unit of length; its rotations go with it.
+  void shape_of(const Vec6& motion) {
+    const std::array<double, 6> scale{1, 1, 1, 1 / b_.units.length, 1 / b_.units.length, 1 / b_.units.length};
+    list(motion, scale, 6);
+  }
+
   void buckling() {
     w_.key("buckling").open('{');
     for (const CombinationResult& c : result_.combinations) {
       w_.newline().key(b_[c.combination].name).open('[');
       for (const solver::BucklingMode& mode : c.buckling) {
         w_.newline().open('{').key("factor").value(mode.factor).key("shape").open('{');
-        // A shape's largest translation is 1, whatever the unit of length; its rotations go with it.
         for (std::size_t n = 0; n < b_.nodes.size(); ++n) {
-          const std::array<double, 6> scale{1, 1, 1, 1 / b_.units.length, 1 / b_.units.length, 1 / b_.units.length};
           w_.key(b_.nodes[n].name);
-          list(mode.shape[n], scale, 6);
+          shape_of(mode.shape[n]);
         }
         w_.close('}').close('}');
       }

@@ -129,6 +129,34 @@ void combination(Text& text, const Building& building, const AnalysisResult& res
             c.quality.backward_error, c.equilibrium_error, c.quality.condition, c.quality.error_bound);
 }
 
+void losses(Text& text, const Building& building, const LossResult& result) {
+  if (result.losses.empty()) return;
+  constexpr std::size_t losses_shown = 20;
+  std::size_t survived = 0;
+  for (const MemberLoss& loss : result.losses)
+    survived += std::all_of(loss.states.begin(), loss.states.end(), [](const LossState& s) { return s.survives(); });
+  text.line("losses of members: %zu of %zu survived; %llu by correction, %llu by a new factor", survived,
+            result.losses.size(), static_cast<unsigned long long>(result.counters.low_rank),
+            static_cast<unsigned long long>(result.counters.refactorisations));
+  text.line("  %-20s %-16s %9s  %s", "lost", "combination", "worst use", "joint, or what moves");
+  for (std::size_t k = 0; k < std::min(losses_shown, result.losses.size()); ++k) {
+    const MemberLoss& loss = result.losses[k];
+    for (const LossState& state : loss.states) {
+      const char* lost = building[loss.member].name.c_str();
+      const char* under = building[state.combination].name.c_str();
+      if (!state.stands())
+        text.line("  %-20s %-16s mechanism  %.300s", lost, under, state.mechanism.c_str());
+      else if (state.worst.valid())
+        text.line("  %-20s %-16s %7.1f %%  %s %s", lost, under, 100 * state.use.value,
+                  building[state.worst].name.c_str(), sense_names[static_cast<std::size_t>(state.use.sense)]);
+      else
+        text.line("  %-20s %-16s    stands  no joint has a capacity", lost, under);
+    }
+  }
+  if (result.losses.size() > losses_shown)
+    text.line("  and %zu more, of less use", result.losses.size() - losses_shown);
+}
+
 }  // namespace
 
 std::string summary_text(const Building& building, const AnalysisResult& result,
@@ -138,6 +166,7 @@ std::string summary_text(const Building& building, const AnalysisResult& result,
   text.line("  %zu nodes, %zu members, %zu panels, %zu equations", building.nodes.size(), building.members.size(),
             building.panels.size(), result.statistics.freedoms);
   for (const CombinationResult& c : result.combinations) combination(text, building, result, c);
+  losses(text, building, result.losses);
   std::string times;
   for (const auto& [stage, time] : seconds) {
     char part[64];

@@ -140,6 +140,7 @@ with tempfile.TemporaryDirectory() as folder:
     place = pathlib.Path(folder)
     (place / "collapse.json").write_text(json.dumps(collapse))
     for command, files in [(["analyse", "tower"], ["results.json"]),
+                           (["analyse", "tower", "--lose", "P-1-1-1", "--lose-each", "storey-2"], ["results.json"]),
                            (["demolish", str(place / "collapse.json")], ["events.jsonl", "summary.json"])]:
         run = subprocess.run([topple, *command, "-o", folder], capture_output=True, text=True)
         if run.returncode != 0:

@@ -12,6 +12,7 @@
 #include "topple/structure/building.h"
 #include "topple/structure/design_check.h"
 #include "topple/structure/joint_check.h"
+#include "topple/structure/losses.h"
 
 namespace topple::structure {
 
@@ -21,6 +22,7 @@ struct AnalysisRequest {
   solver::AnalysisOptions solver;
   solver::SecondOrder second_order = solver::SecondOrder::none;
   int buckling = 0;  ///< lowest factors to find for each combination
+  LossRequest losses;
 };
 
 /// [value, distance from the first end]
@@ -73,6 +75,8 @@ struct CombinationResult {
 struct AnalysisResult {
   std::vector<CombinationResult> combinations;
   std::vector<Vec3> mesh_nodes;  ///< of shell panels, beside the building's nodes
+  LossResult losses;
+  double loss_seconds = 0;
   solver::AnalysisStatistics statistics;
   std::vector<std::string> warnings;
   std::optional<DesignCode> design_code;  ///< set by check_design() (member_checks.h)

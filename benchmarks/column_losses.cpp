@@ -1,0 +1,117 @@
+// Columns lost one at a time by corrections of one factor, every joint's use after each, against as many
+// factorisations and solves by CHOLMOD on the same matrix in the same run. Errors beside times.
+//   bench_column_losses [posts_x posts_y storeys lost_storeys]      (default 10 10 40 4)
+#include <cstdlib>
+#include <memory>
+
+#include "factor.h"
+#include "frame_system.h"
+#include "support/measure.h"
+#include "support/provenance.h"
+#include "support/regular_frame.h"
+#include "topple/solver/reanalysis.h"
+#include "topple/structure/joint_check.h"
+
+using namespace topple;
+using namespace topple::bench;
+
+namespace {
+
+/// Steel of 355 MPa, plastic moments of about 1.15 times the elastic ones: any capacity does for a measurement.
+structure::JointCapacity capacity() {
+  structure::JointCapacity result;
+  result.breakable = true;
+  result.value = {3e6, 3e6, 6e5, 6e5, 5e4, 3e5, 1e5};
+  return result;
+}
+
+double worst_use(const solver::Reanalysis& standing, const structure::JointCapacity& limit) {
+  double worst = 0;
+  for (int beam = 0; beam < static_cast<int>(standing.model().beams.size()); ++beam) {
+    const solver::Vec12 forces = standing.beam_end_forces(beam);
+    for (int end = 0; end < 2; ++end)
+      worst = std::max(worst, structure::utilisation(limit, structure::member_joint_demand(forces, end)).value);
+  }
+  return worst;
+}
+
+/// Largest difference of displacements to a fresh analysis without the member, relative.
+double error(const RegularFrame& frame, const solver::Reanalysis& standing, int lost) {
+  solver::FrameModel model = frame.model;
+  solver::LoadSet loads = frame.loads;
+  model.beams[static_cast<std::size_t>(lost)].end_stiffness.fill(solver::Vec6::Zero());
+  std::erase_if(loads.beams, [&](const solver::BeamLoad& load) { return load.beam == lost; });
+  solver::StaticAnalysis fresh(model);
+  const auto answer = fresh.solve(std::span(&loads, 1)).front();
+  double largest = 0, difference = 0;
+  for (std::size_t n = 0; n < answer.displacements.size(); ++n) {
+    largest = std::max(largest, answer.displacements[n].cwiseAbs().maxCoeff());
+    difference = std::max(difference, (answer.displacements[n] - standing.displacements()[n]).cwiseAbs().maxCoeff());
+  }
+  return difference / largest;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  solver::restart_with_better_blas_kernel(argv);
+  if (argc != 1 && argc != 5) {
+    std::fprintf(stderr, "usage: bench_column_losses [posts_x posts_y storeys lost_storeys]\n");
+    return 2;
+  }
+  const int nx = argc > 1 ? std::atoi(argv[1]) : 10, ny = argc > 1 ? std::atoi(argv[2]) : 10;
+  const int storeys = argc > 1 ? std::atoi(argv[3]) : 40, lost_storeys = argc > 1 ? std::atoi(argv[4]) : 4;
+  if (nx < 2 || ny < 2 || storeys < lost_storeys || lost_storeys < 1) {
+    std::fprintf(stderr, "bench_column_losses: at least 2 x 2 posts, 1 storey, 1 of them lost\n");
+    return 2;
+  }
+  const RegularFrame frame = regular_frame(nx, ny, storeys);
+  print_provenance("Columns lost one at a time in the regular steel frame", 1);
+  solver::Reanalysis standing(frame.model);
+  for (const solver::BeamLoad& load : frame.loads.beams) standing.set_beam_loads(load.beam, {load});
+  if (!standing.solve().stable) return 1;
+
+  solver::FrameSystem system(frame.model);
+  system.assemble();
+  solver::Factor factor(system.matrix(), system.elimination_order(), solver::Factorisation::supernodal);
+  Eigen::MatrixXd x;
+  const auto anew = [&] {
+    (void)factor.factorise(system.matrix());
+    x.setOnes(system.matrix().size, 1);
+    factor.solve(x);
+  };
+  const double fresh = interleaved_medians(5, {anew})[0];
+
+  // Posts come first in each storey.
+  const int in_a_storey = nx * ny + (nx - 1) * ny + nx * (ny - 1);
+  std::vector<int> posts;
+  for (int k = 0; k < lost_storeys; ++k)
+    for (int p = 0; p < nx * ny; ++p) posts.push_back(k * in_a_storey + p);
+  const structure::JointCapacity limit = capacity();
+  double worst = 0, largest_error = 0, largest_backward = 0, time = 0;
+  int last = -1;
+  for (std::size_t k = 0; k < posts.size(); ++k) {
+    time += seconds([&] {
+      if (last >= 0) standing.restore_beam(last);
+      standing.remove_beam(posts[k]);
+      if (!standing.solve().stable) std::exit(1);
+      worst = std::max(worst, worst_use(standing, limit));
+    });
+    last = posts[k];
+    largest_backward = std::max(largest_backward, standing.solve().quality.backward_error);
+    if (k == 0 || k == posts.size() / 2 || k + 1 == posts.size())
+      largest_error = std::max(largest_error, error(frame, standing, last));
+  }
+  const double all = fresh * static_cast<double>(posts.size());
+  std::printf("%d x %d posts, %d storeys; the %zu posts of the lowest %d lost one at a time\n\n", nx, ny, storeys,
+              posts.size(), lost_storeys);
+  std::printf("  CHOLMOD, factorisation and solve  %9.3f ms each, %.2f s for as many\n", 1e3 * fresh, all);
+  std::printf("  corrections, every joint's use    %9.3f ms each, %.2f s: 1/%.1f (asked: 1/20)\n",
+              1e3 * time / static_cast<double>(posts.size()), time, all / time);
+  std::printf("  difference to a fresh analysis %.1e (first, middle and last), backward error at most %.1e\n",
+              largest_error, largest_backward);
+  const auto& c = standing.counters();
+  std::printf("  by correction %llu, by new factor %llu; worst use %.2f\n", static_cast<unsigned long long>(c.low_rank),
+              static_cast<unsigned long long>(c.refactorisations), worst);
+  return 0;
+}

@@ -1,0 +1,171 @@
+#include "topple/structure/losses.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "analysis/lossy_frame.h"
+#include "index_of.h"
+#include "topple/structure/error.h"
+#include "unstable_model.h"
+
+namespace topple::structure {
+
+namespace {
+
+[[noreturn]] void refuse(const Building& building, const std::string& what, const std::string& accepted) {
+  throw InputError(building.file + ": losses of members do not go with " + what + " yet; accepted: " + accepted);
+}
+
+void refuse_what_is_not_built(const Building& building) {
+  for (const Member& member : building.members)
+    if (member.axial != AxialAction::both)
+      refuse(building, "members of one sign (" + member.name + ")", "\"axial\": \"both\"");
+  for (const Panel& panel : building.panels)
+    if (panel.model == PanelModel::shell)
+      refuse(building, "shell panels (" + panel.name + ")", "\"model\": \"membrane\" or \"cladding\"");
+}
+
+void refuse_loads_that_are_not_built(const Building& building, CombinationId combination, const PartLoads& loads) {
+  const std::string place = " in combination " + building[combination].name;
+  if (!loads.settlements.empty()) refuse(building, "settlements" + place, "a combination without them");
+  for (std::size_t p = 0; p < building.panels.size(); ++p)
+    if (loads.panels[p].strain != 0 && building.panels[p].model == PanelModel::membrane)
+      refuse(building, "a heated membrane (" + building.panels[p].name + ")" + place, "a combination without it");
+}
+
+/// R0 of one combination.
+struct Reference {
+  std::vector<Vec6> displacements, demand;
+  std::vector<solver::Vec12> end_forces;
+};
+
+class Losses {
+ public:
+  Losses(const Building& building, const LossRequest& request, const solver::AnalysisOptions& options)
+      : building_(building), request_(request), members_(all_of(request)), frame_(building, members_, options) {
+    for (const MemberId member : members_) {
+      const bool named = std::find(request.named.begin(), request.named.end(), member) != request.named.end();
+      result_.losses.push_back({member, named, {}});
+    }
+  }
+
+  LossResult run(const std::vector<CombinationId>& combinations) {
+    for (const CombinationId combination : combinations) {
+      const PartLoads loads = part_loads(building_, combination);
+      refuse_loads_that_are_not_built(building_, combination, loads);
+      frame_.load(loads);
+      if (!frame_.solve().stable)
+        throw UnstableModel(building_.file + ": the model is unstable before anything is lost");
+      keep_reference();
+      for (MemberLoss& loss : result_.losses) {
+        frame_.lose(loss.member);
+        loss.states.push_back(state_after(loss.named));
+        loss.states.back().combination = combination;
+        frame_.restore();
+      }
+    }
+    sort();
+    result_.counters = frame_.analysis().counters();
+    return std::move(result_);
+  }
+
+ private:
+  static std::vector<MemberId> all_of(const LossRequest& request) {
+    std::vector<MemberId> members = request.named;
+    members.insert(members.end(), request.each.begin(), request.each.end());
+    std::sort(members.begin(), members.end());
+    members.erase(std::unique(members.begin(), members.end()), members.end());
+    return members;
+  }
+
+  void keep_reference() {
+    std::vector<JointId> holding;
+    frame_.read_demands(reference_.demand, holding);
+    reference_.displacements = frame_.analysis().displacements();
+    reference_.end_forces.clear();
+    for (std::size_t m = 0; m < building_.members.size(); ++m)
+      reference_.end_forces.push_back(frame_.analysis().beam_end_forces(static_cast<int>(m)));
+  }
+
+  [[nodiscard]] LossState state_after(bool in_full) {
+    LossState state;
+    const solver::ReanalysisAnswer& answer = frame_.solve();
+    if (!answer.stable) {
+      tell_mechanism(answer.mechanism, state);
+      return state;
+    }
+    check_joints(in_full, state);
+    if (in_full) take_state(state);
+    return state;
+  }
+
+  /// R0 + f (R1 - R0).
+  template <class Vector>
+  [[nodiscard]] Vector sudden(const Vector& before, const Vector& after) const {
+    return before + request_.sudden * (after - before);
+  }
+
+  void check_joints(bool in_full, LossState& state) {
+    frame_.read_demands(demand_, holding_);
+    for (const JointId joint : holding_) {
+      const Vec6 felt = sudden(reference_.demand[index_of(joint)], demand_[index_of(joint)]);
+      const Utilisation used = utilisation(building_[joint].capacity, felt);
+      if (in_full) state.joints.emplace_back(joint, used);
+      if (state.worst.valid() && !(used.value > state.use.value)) continue;
+      state.worst = joint;
+      state.use = used;
+    }
+  }
+
+  void take_state(LossState& state) const {
+    const std::vector<Vec6>& after = frame_.analysis().displacements();
+    for (std::size_t n = 0; n < building_.nodes.size(); ++n)
+      state.displacements.push_back(sudden(reference_.displacements[n], after[n]));
+    for (std::size_t m = 0; m < building_.members.size(); ++m)
+      if (frame_.stands(MemberId(m)))
+        state.end_forces.emplace_back(
+            MemberId(m), sudden(reference_.end_forces[m], frame_.analysis().beam_end_forces(static_cast<int>(m))));
+  }
+
+  void tell_mechanism(const solver::Mechanism& found, LossState& state) const {
+    FrameMechanism named;
+    for (const int node : found.nodes) named.nodes.emplace_back(static_cast<std::size_t>(node));
+    named.motion = found.motion;
+    for (const NodeId node : named.nodes) state.motion.emplace_back(node, named.motion[index_of(node)]);
+    for (const int beam : found.beams) state.loose.emplace_back(static_cast<std::size_t>(beam));
+    state.mechanism = describe_motion(building_, named);
+    if (!named.nodes.empty()) return;
+    state.mechanism = "a member is released too far to hold itself";
+    if (!state.loose.empty()) state.mechanism = "member " + building_[state.loose[0]].name + " can move by itself";
+  }
+
+  void sort() {
+    const auto badness = [](const MemberLoss& loss) {
+      double worst = 0;
+      for (const LossState& state : loss.states)
+        worst = std::max(worst, state.stands() ? state.use.value : std::numeric_limits<double>::infinity());
+      return worst;
+    };
+    std::stable_sort(result_.losses.begin(), result_.losses.end(),
+                     [&](const MemberLoss& a, const MemberLoss& b) { return badness(a) > badness(b); });
+  }
+
+  const Building& building_;
+  const LossRequest& request_;
+  std::vector<MemberId> members_;
+  LossyFrame frame_;
+  Reference reference_;
+  std::vector<Vec6> demand_;
+  std::vector<JointId> holding_;
+  LossResult result_;
+};
+
+}  // namespace
+
+LossResult find_losses(const Building& building, const std::vector<CombinationId>& combinations,
+                       const LossRequest& request, const solver::AnalysisOptions& options) {
+  refuse_what_is_not_built(building);
+  return Losses(building, request, options).run(combinations);
+}
+
+}  // namespace topple::structure

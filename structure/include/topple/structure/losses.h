@@ -1,0 +1,55 @@
+#pragma once
+// What the sudden loss of a member does: each by an exact correction over one standing factor.
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "topple/solver/reanalysis.h"
+#include "topple/structure/building.h"
+#include "topple/structure/joint_check.h"
+
+namespace topple::structure {
+
+/// Each member is lost alone. `named` ones keep their whole state, those of `each` only what is worst.
+struct LossRequest {
+  std::vector<MemberId> named, each;
+  /// f of R0 + f (R1 - R0): 2 is the peak of an undamped elastic system, 1 the static state.
+  double sudden = 2;
+  [[nodiscard]] bool any() const { return !named.empty() || !each.empty(); }
+};
+
+/// The state R0 + f (R1 - R0) after a loss, before anything else breaks, under one combination. SI.
+struct LossState {
+  CombinationId combination;
+  /// Empty when it stands; else what moves, in words, and the motion of the nodes that take part, most first.
+  std::string mechanism;
+  std::vector<std::pair<NodeId, Vec6>> motion;
+  std::vector<MemberId> loose;  ///< members that can move by themselves
+  // What follows is there when it stands.
+  JointId worst;  ///< not valid when no joint that is left has a capacity
+  Utilisation use;
+  /// Only for a named loss: every node, every member and breakable joint that is left.
+  std::vector<Vec6> displacements;
+  std::vector<std::pair<MemberId, solver::Vec12>> end_forces;
+  std::vector<std::pair<JointId, Utilisation>> joints;
+
+  [[nodiscard]] bool stands() const { return mechanism.empty(); }
+  [[nodiscard]] bool survives() const { return stands() && use.value <= 1; }
+};
+
+struct MemberLoss {
+  MemberId member;
+  bool named = false;
+  std::vector<LossState> states;  ///< one for each combination
+};
+
+struct LossResult {
+  std::vector<MemberLoss> losses;  ///< mechanisms first, then by the worst utilisation
+  solver::ReanalysisCounters counters;
+};
+
+/// Throws InputError for what losses do not go with: members of one sign, settlements, shell panels, heated membranes.
+[[nodiscard]] LossResult find_losses(const Building& building, const std::vector<CombinationId>& combinations,
+                                     const LossRequest& request, const solver::AnalysisOptions& options);
+
+}  // namespace topple::structure
