@@ -354,17 +354,22 @@ void FrameSystem::reassemble(std::span<const int> nodes) {
   std::fill(wanted_.begin() + static_cast<std::ptrdiff_t>(model.nodes.size()), wanted_.end(), char{0});
 }
 
+Mat6 FrameSystem::supports_and_inert_rotations(int node) const {
+  const auto n = static_cast<std::size_t>(node);
+  Mat6 K = Mat6::Zero();
+  if (node_stands[n] == 0) return K;
+  for (int c = 0; c < 6; ++c) K(c, c) = std::isinf(support_[n](c)) ? 0 : support_[n](c);
+  for (int k = 0; k < inert_[n].count; ++k) {
+    const Vec3 d = inert_[n].directions.col(k);
+    K.bottomRightCorner<3, 3>() += inert_[n].stiffness * d * d.transpose();
+  }
+  return K;
+}
+
 FrameSystem::NodeMatrix FrameSystem::own_stiffness(int node) const {
   const auto n = static_cast<std::size_t>(node);
   const int first = dofs_.first_equation[n], count = dofs_.first_equation[n + 1] - first;
-  Mat6 K = Mat6::Zero();
-  if (node_stands[n] != 0) {
-    for (int c = 0; c < 6; ++c) K(c, c) = std::isinf(support_[n](c)) ? 0 : support_[n](c);
-    for (int k = 0; k < inert_[n].count; ++k) {
-      const Vec3 d = inert_[n].directions.col(k);
-      K.bottomRightCorner<3, 3>() += inert_[n].stiffness * d * d.transpose();
-    }
-  }
+  const Mat6 K = supports_and_inert_rotations(node);
   NodeMatrix own = NodeMatrix::Zero(count, count);
   for (int i = 0; i < 6; ++i) {
     for (int j = 0; j < 6; ++j) {

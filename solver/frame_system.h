@@ -75,6 +75,8 @@ class FrameSystem {
   [[nodiscard]] Mat24 shell_stiffness(int shell) const;
   /// What a node has besides its elements (support springs, held inert rotations), scaled, in its own equations. For
   /// nodes of no diaphragm.
+  /// The same in the six components of the node, not scaled.
+  [[nodiscard]] Mat6 supports_and_inert_rotations(int node) const;
   using NodeMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
   [[nodiscard]] NodeMatrix own_stiffness(int node) const;
 

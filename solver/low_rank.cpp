@@ -42,13 +42,24 @@ int LowRankCorrection::add(std::span<const int> rows, const Eigen::MatrixXd& B) 
   place.W.setZero(place.path.rows(), B.cols());
   for (std::size_t i = 0; i < rows.size(); ++i)
     place.W.row(solver_.row_on_path(place.path, rows[i])) += B.row(static_cast<Eigen::Index>(i));
-  solver_.forward(place.path, place.W);
-  orthonormalise(place.W, place.R);
   place.D.setZero(B.cols(), B.cols());
   place.first = static_cast<int>(gram_size_);
-  append_to_gram(place);
+  gram_size_ += B.cols();
+  place.gram_known.assign(places_.size() + 1, 0);
   places_.push_back(std::move(place));
   return static_cast<int>(places_.size()) - 1;
+}
+
+void LowRankCorrection::finish_adding() {
+  if (finished_ == places_.size()) return;
+  std::vector<PathColumns> groups;
+  for (std::size_t p = finished_; p < places_.size(); ++p) groups.push_back({&places_[p].path, &places_[p].W});
+  solver_.forward(groups);
+  for (; finished_ < places_.size(); ++finished_) orthonormalise(places_[finished_].W, places_[finished_].R);
+  if (gram_.rows() < gram_size_) {
+    const Eigen::Index room = std::max<Eigen::Index>(2 * gram_.rows(), gram_size_ + 48);
+    gram_.conservativeResize(room, room);
+  }
 }
 
 /// Paths to one root share their ends and nothing else.
@@ -59,19 +70,14 @@ Eigen::MatrixXd LowRankCorrection::product(const Place& a, const Place& b) const
   return a.W.bottomRows(shared).transpose() * b.W.bottomRows(shared);
 }
 
-void LowRankCorrection::append_to_gram(const Place& place) {
-  const Eigen::Index count = place.W.cols(), size = gram_size_ + count;
-  if (gram_.rows() < size) {
-    const Eigen::Index room = std::max<Eigen::Index>(2 * gram_.rows(), size + 48);
-    gram_.conservativeResize(room, room);
-  }
-  for (const Place& other : places_) {
-    const Eigen::MatrixXd shared = product(other, place);
-    gram_.block(other.first, gram_size_, shared.rows(), count) = shared;
-    gram_.block(gram_size_, other.first, count, shared.rows()) = shared.transpose();
-  }
-  gram_.block(gram_size_, gram_size_, count, count) = product(place, place);
-  gram_size_ = size;
+/// `other` comes before `place`, or is it.
+void LowRankCorrection::know_gram(Place& place, const Place& other) {
+  char& known = place.gram_known[static_cast<std::size_t>(&other - places_.data())];
+  if (known != 0) return;
+  known = 1;
+  const Eigen::MatrixXd shared = product(other, place);
+  gram_.block(other.first, place.first, shared.rows(), shared.cols()) = shared;
+  gram_.block(place.first, other.first, shared.cols(), shared.rows()) = shared.transpose();
 }
 
 void LowRankCorrection::set(int place, const Eigen::Ref<const Eigen::MatrixXd>& D) {
@@ -106,7 +112,14 @@ std::vector<int> LowRankCorrection::forget_unchanged() {
     for (std::size_t j = 0; j < kept.size(); ++j)
       gram_.block(first[i], first[j], kept[i].W.cols(), kept[j].W.cols()) =
           old.block(kept[i].first, kept[j].first, kept[i].W.cols(), kept[j].W.cols());
-  for (std::size_t i = 0; i < kept.size(); ++i) kept[i].first = first[i];
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    kept[i].first = first[i];
+    std::vector<char> known;
+    for (std::size_t p = 0; p < number.size() && known.size() <= i; ++p)
+      if (number[p] >= 0) known.push_back(kept[i].gram_known[p]);
+    kept[i].gram_known = std::move(known);
+  }
+  finished_ = kept.size();
   places_ = std::move(kept);
   return number;
 }
@@ -121,6 +134,11 @@ void LowRankCorrection::update() {
   }
   softening_ = 1;
   if (active_.empty()) return;
+  for (const int i : active_) {
+    for (const int j : active_) {
+      if (j <= i) know_gram(places_[static_cast<std::size_t>(i)], places_[static_cast<std::size_t>(j)]);
+    }
+  }
   Eigen::Map<Eigen::MatrixXd> A = capacitance_.matrix(active_rank_);
   A.setIdentity();
   Eigen::Index row = 0;

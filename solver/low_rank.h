@@ -23,6 +23,8 @@ class LowRankCorrection {
   /// A place that may change: the rows of the matrix (an element's: they lie on one elimination path; one may come
   /// twice) and B there, one row each. Returns its number; its D is zero.
   int add(std::span<const int> rows, const Eigen::MatrixXd& B);
+  /// Finds W of all places added since the last call, together. To be called before set() of any of them.
+  void finish_adding();
   /// Replaces the place's D (symmetric; zero: unchanged).
   void set(int place, const Eigen::Ref<const Eigen::MatrixXd>& D);
   /// Forgets places whose D is zero when they have become the greater part. Returns for each place so far its new
@@ -54,18 +56,20 @@ class LowRankCorrection {
     Eigen::MatrixXd D;  ///< R (the given D) R'
     int first = 0;      ///< its first row in gram_
     bool active = false;
+    std::vector<char> gram_known;  ///< per place up to itself: whether gram_ has their product
   };
   [[nodiscard]] Eigen::MatrixXd product(const Place& a, const Place& b) const;
-  void append_to_gram(const Place& place);
+  void know_gram(Place& place, const Place& other);
   /// c := W' y of the active places, and y -= W c.
   void gather(const Eigen::VectorXd& y, Eigen::Ref<Eigen::VectorXd> c) const;
   void subtract(const Eigen::Ref<const Eigen::VectorXd>& c, Eigen::VectorXd& y) const;
 
   const TriangularSolver& solver_;
   std::vector<Place> places_;
-  Eigen::MatrixXd gram_;  ///< W'W of all places
+  Eigen::MatrixXd gram_;  ///< W'W of pairs of places that were active together
   Eigen::Index gram_size_ = 0;
-  std::vector<int> active_;  ///< places with a D, in order
+  std::size_t finished_ = 0;  ///< places before this one have their W
+  std::vector<int> active_;   ///< places with a D, in order
   int active_rank_ = 0;
   DenseFactor capacitance_;
   double softening_ = 1;

@@ -10,6 +10,8 @@ namespace {
 /// A structure that became this much softer than the factor's in one motion may be a mechanism: rounding leaves a
 /// singular correction at 1e10 and more.
 constexpr double suspicious_softening = 1e7;
+/// And from here on it is looked at whether the correction brought it into the warning band.
+constexpr double remarkable_softening = 1e3;
 /// Factors of a matrix of this condition and worse are made anew rather than corrected.
 constexpr double ill_conditioned = 1e12;
 /// Columns that a correction may have at most.
@@ -94,13 +96,18 @@ bool Reanalysis::State::correct_factor(const std::vector<int>& touched, std::opt
   if (!plan.possible || plan.rank > most_columns || plan.operations > anew) return false;
   standing->update();
   operations += plan.operations;
-  if (standing->softening() > suspicious_softening) {
+  answer.nearly_unstable = false;
+  const double softening = standing->softening();
+  if (softening > remarkable_softening && softening * condition * options.warning_limit > 1) {
     const Eigen::VectorXd motion = standing->softest_motion();
     if (!motion.allFinite() || !(motion.squaredNorm() > 0)) return false;
-    if (!(rayleigh_quotient(system->matrix(), motion) < options.singular_limit)) return false;
-    defect = motion_defect(*system, motion);
+    const double stiffness = rayleigh_quotient(system->matrix(), motion);
+    answer.nearly_unstable = stiffness < options.warning_limit * matrix_norm(system->matrix());
+    if (softening > suspicious_softening) {
+      if (!(stiffness < options.singular_limit)) return false;
+      defect = motion_defect(*system, motion);
+    }
   }
-  answer.nearly_unstable = false;
   if (!touched.empty()) ++counters.low_rank;
   return true;
 }

@@ -96,9 +96,7 @@ RefinedSolution solve_refined(const SparseSymmetric& K, const LinearSolve& solve
   return result;
 }
 
-namespace {
-
-double norm1(const SparseSymmetric& K) {
+double matrix_norm(const SparseSymmetric& K) {
   std::vector<double> sum(static_cast<std::size_t>(K.size), 0.0);
   for (std::size_t column = 0; column < sum.size(); ++column) {
     for (auto k = K.start[column]; k < K.start[column + 1]; ++k) {
@@ -110,8 +108,6 @@ double norm1(const SparseSymmetric& K) {
   }
   return sum.empty() ? 0 : *std::max_element(sum.begin(), sum.end());
 }
-
-}  // namespace
 
 double estimate_condition(const SparseSymmetric& K, const LinearSolve& solve) {
   const Eigen::Index n = K.size;
@@ -144,7 +140,7 @@ double estimate_condition(const SparseSymmetric& K, const LinearSolve& solve) {
     estimate = grown;
     y = x.col(0);
   }
-  const double condition = std::max(estimate, alternative) * norm1(K);
+  const double condition = std::max(estimate, alternative) * matrix_norm(K);
   return std::isfinite(condition) ? std::max(condition, 1.0) : std::numeric_limits<double>::infinity();
 }
 

@@ -29,6 +29,9 @@ struct RefinedSolution {
 [[nodiscard]] RefinedSolution solve_refined(const SparseSymmetric& K, const LinearSolve& solve,
                                             const Eigen::MatrixXd& b);
 
+/// The 1-norm.
+[[nodiscard]] double matrix_norm(const SparseSymmetric& K);
+
 /// Estimate of the condition number in the 1-norm (Hager, Higham); a lower bound, nearly always within a factor of 3.
 [[nodiscard]] double estimate_condition(const SparseSymmetric& K, const LinearSolve& solve);
 

@@ -20,7 +20,10 @@ void sort_unique(std::vector<int>& values) {
 StandingFactor::StandingFactor(const FrameSystem& system, const Factor& factor)
     : system_(system), solver_(factor), correction_(solver_) {
   for (int node = 0; node < static_cast<int>(system.model.nodes.size()); ++node) {
-    if (system.dofs().diaphragm_of_node[static_cast<std::size_t>(node)] >= 0) continue;
+    if (system.dofs().diaphragm_of_node[static_cast<std::size_t>(node)] >= 0) {
+      diaphragm_node_before_.emplace(node, system.supports_and_inert_rotations(node));
+      continue;
+    }
     const auto own = system.own_stiffness(node);
     if ((own.array() != 0).any()) node_before_.emplace(node, own);
   }
@@ -90,7 +93,8 @@ bool StandingFactor::plan_nodes() {
     const auto n = static_cast<std::size_t>(node);
     const bool dropped = inside_dropped(std::span(&node, 1));
     if (system_.dofs().diaphragm_of_node[n] >= 0) {
-      if (dropped) return false;
+      // Its own equations alone: what it shares with the diaphragm is not corrected for.
+      if (dropped || diaphragm_node_before_.at(node) != system_.supports_and_inert_rotations(node)) return false;
       continue;
     }
     FrameSystem::NodeMatrix D = system_.own_stiffness(node);
@@ -199,12 +203,15 @@ void StandingFactor::update() {
     wanted.set = true;
   }
   forget_unchanged();
-  for (auto& [key, wanted] : wanted_) {
+  for (const auto& [key, wanted] : wanted_) {
     if (wanted.set || !wanted.active()) continue;
     const ElementModes m = modes(key);
-    const int place = correction_.add(m.rows, m.B);
-    place_.emplace(key, place);
-    correction_.set(place, wanted.D);
+    place_.emplace(key, correction_.add(m.rows, m.B));
+  }
+  correction_.finish_adding();
+  for (const auto& [key, place] : place_) {
+    Wanted& wanted = wanted_.at(key);
+    if (!wanted.set) correction_.set(place, wanted.D);
     wanted.set = true;
   }
   correction_.update();

@@ -80,6 +80,7 @@ class StandingFactor {
   std::map<int, char> shell_before_;
   std::map<int, Mat24> shell_stiffness_;
   std::map<int, Eigen::MatrixXd> node_before_;  ///< own stiffness, of nodes that have any
+  std::map<int, Mat6> diaphragm_node_before_;   ///< the same, of nodes in diaphragms
   std::vector<int> dropped_;
   // Since the last plan. When parts left, everything is looked at again.
   std::vector<int> stale_beams_, touched_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "few_columns.h"
+
 extern "C" {
 void dtrsv_(const char*, const char*, const char*, const int*, const double*, const int*, double*, const int*);
 void dgemv_(const char*, const int*, const int*, const double*, const double*, const int*, const double*, const int*,
@@ -18,6 +20,8 @@ namespace {
 
 /// Blocks with fewer entries than this are done by plain loops: a call of BLAS costs more than they do.
 constexpr int small_block = 1024;
+/// Up to so many right-hand sides BLAS loses to a plain pass over the block.
+constexpr int few_columns = 12;
 constexpr int one = 1;
 constexpr double plus = 1, minus = -1, none = 0;
 
@@ -65,18 +69,16 @@ void backward_block(const Block& b, double* x, const double* below) {
   dtrsv_("L", "T", "N", &b.columns, b.value, &b.rows, x, &one);
 }
 
-/// The same as forward_block() for several columns; x has leading dimension `stride`, below that of its rows.
-void forward_block(const Block& b, double* x, int count, int stride, double* below) {
+/// The same as forward_block() for several columns.
+void forward_block(const Block& b, double* x, int count, double* below) {
   const int below_rows = b.below();
-  if (b.small()) {
-    for (int c = 0; c < count; ++c)
-      forward_block(b, x + static_cast<std::ptrdiff_t>(c) * stride,
-                    below + static_cast<std::ptrdiff_t>(c) * below_rows);
+  if (count <= few_columns || b.small()) {
+    eliminate_few_columns(b.value, b.columns, b.rows, x, count, below);
     return;
   }
-  dtrsm_("L", "L", "N", "N", &b.columns, &count, &plus, b.value, &b.rows, x, &stride);
+  dtrsm_("L", "L", "N", "N", &b.columns, &count, &plus, b.value, &b.rows, x, &b.columns);
   if (below_rows > 0)
-    dgemm_("N", "N", &below_rows, &count, &b.columns, &plus, b.value + b.columns, &b.rows, x, &stride, &none, below,
+    dgemm_("N", "N", &below_rows, &count, &b.columns, &plus, b.value + b.columns, &b.rows, x, &b.columns, &none, below,
            &below_rows);
 }
 
@@ -144,7 +146,6 @@ void TriangularSolver::finish() {
   for (std::size_t b = 0; b < count; ++b)
     std::fill(block_of_.begin() + first_[b], block_of_.begin() + first_[b + 1], static_cast<int>(b));
   parent_.assign(count, -1);
-  path_offset_.assign(count, 0);
   std::int64_t most_below = 0;
   for (std::size_t b = 0; b < count; ++b) {
     const std::int64_t columns = first_[b + 1] - first_[b], rows = row_start_[b + 1] - row_start_[b];
@@ -153,7 +154,12 @@ void TriangularSolver::finish() {
     most_below = std::max(most_below, rows - columns);
     entries_ += static_cast<double>(columns) * static_cast<double>(rows);
   }
-  below_.resize(most_below, 1);
+  below_.resize(static_cast<std::size_t>(most_below));
+  rows_to_root_.assign(count, 0);
+  for (std::size_t b = count; b-- > 0;) {
+    rows_to_root_[b] = static_cast<int>(first_[b + 1] - first_[b]);
+    if (parent_[b] >= 0) rows_to_root_[b] += rows_to_root_[static_cast<std::size_t>(parent_[b])];
+  }
 }
 
 double TriangularSolver::entries(const EliminationPath& path) const {
@@ -244,27 +250,66 @@ void TriangularSolver::backward(Eigen::VectorXd& y) const {
   }
 }
 
-void TriangularSolver::forward(const EliminationPath& path, Eigen::MatrixXd& columns) const {
-  const int count = static_cast<int>(columns.cols()), stride = static_cast<int>(columns.rows());
-  if (below_.size() < below_.rows() * count) below_.resize(below_.rows(), count);
-  for (std::size_t k = 0; k < path.block.size(); ++k)
-    path_offset_[static_cast<std::size_t>(path.block[k])] =
-        path.offset[k] - static_cast<int>(first_[static_cast<std::size_t>(path.block[k])]);
-  for (std::size_t k = 0; k < path.block.size(); ++k) {
-    const auto b = static_cast<std::size_t>(path.block[k]);
-    const Block block{value_.data() + value_start_[b], static_cast<int>(first_[b + 1] - first_[b]),
-                      static_cast<int>(row_start_[b + 1] - row_start_[b])};
-    forward_block(block, columns.data() + path.offset[k], count, stride, below_.data());
-    const std::int64_t* rows = row_.data() + row_start_[b] + block.columns;
-    const int below_rows = block.below();
-    for (int i = 0; i < below_rows; ++i) {
-      const int at = static_cast<int>(rows[i]) +
-                     path_offset_[static_cast<std::size_t>(block_of_[static_cast<std::size_t>(rows[i])])];
-      double* target = columns.data() + at;
-      const double* source = below_.data() + i;
-      for (int c = 0; c < count; ++c)
-        target[static_cast<std::ptrdiff_t>(c) * stride] -= source[static_cast<std::ptrdiff_t>(c) * below_rows];
+void TriangularSolver::forward(std::span<const PathColumns> groups) const {
+  next_.assign(groups.size(), 0);
+  for (;;) {
+    // Paths ascend: the least block that is next on any of them, and all whose next it is.
+    int block = -1;
+    sharing_.clear();
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      const std::vector<int>& path = groups[g].path->block;
+      if (next_[g] == path.size()) continue;
+      const int own = path[next_[g]];
+      if (block < 0 || own < block) {
+        block = own;
+        sharing_.clear();
+      }
+      if (own == block) sharing_.push_back(g);
     }
+    if (block < 0) return;
+    for (const std::size_t g : sharing_) ++next_[g];
+    forward_block_of(static_cast<std::size_t>(block), groups);
+  }
+}
+
+/// One block, for the groups in sharing_.
+void TriangularSolver::forward_block_of(std::size_t b, std::span<const PathColumns> groups) const {
+  const Block block{value_.data() + value_start_[b], static_cast<int>(first_[b + 1] - first_[b]),
+                    static_cast<int>(row_start_[b + 1] - row_start_[b])};
+  int count = 0;
+  for (const std::size_t g : sharing_) count += static_cast<int>(groups[g].columns->cols());
+  const auto grow = [](std::vector<double>& store, int rows, int columns) {
+    const std::size_t size = static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns);
+    if (store.size() < size) store.resize(size);
+  };
+  grow(together_, block.columns, count);
+  grow(below_, block.below(), count);
+  const auto each_column = [&](auto&& work) {
+    int at = 0;
+    for (const std::size_t g : sharing_) {
+      Eigen::MatrixXd& columns = *groups[g].columns;
+      // Where the block's first row stands in a column, counted from the column's end.
+      for (Eigen::Index c = 0; c < columns.cols(); ++c, ++at) work(columns.col(c).data() + columns.rows(), at);
+    }
+  };
+  double* x = together_.data();
+  const int own = rows_to_root_[b];
+  each_column([&](double* end, int at) {
+    std::copy(end - own, end - own + block.columns, x + static_cast<std::ptrdiff_t>(at) * block.columns);
+  });
+  forward_block(block, x, count, below_.data());
+  const std::int64_t* rows = row_.data() + row_start_[b] + block.columns;
+  const int below_rows = block.below();
+  each_column([&](double* end, int at) {
+    const double* from = x + static_cast<std::ptrdiff_t>(at) * block.columns;
+    std::copy(from, from + block.columns, end - own);
+  });
+  for (int i = 0; i < below_rows; ++i) {
+    const auto of = static_cast<std::size_t>(block_of_[static_cast<std::size_t>(rows[i])]);
+    const std::int64_t from_end = rows_to_root_[of] - (rows[i] - first_[of]);
+    const double* source = below_.data() + i;
+    each_column(
+        [&](double* end, int at) { *(end - from_end) -= source[static_cast<std::ptrdiff_t>(at) * below_rows]; });
   }
 }
 

@@ -20,6 +20,12 @@ struct EliminationPath {
   [[nodiscard]] int rows() const { return offset.back(); }
 };
 
+/// Columns that are zero outside of one path; rows are those of the path, in its numbering.
+struct PathColumns {
+  const EliminationPath* path;
+  Eigen::MatrixXd* columns;
+};
+
 /// K = P' L L' P over the numbers of a Factor, which must outlive it and not be factorised again. (A simplicial L D L'
 /// is copied into blocks as L sqrt(D).)
 class TriangularSolver {
@@ -46,8 +52,8 @@ class TriangularSolver {
   void forward(Eigen::VectorXd& y, const std::vector<char>* marked = nullptr) const;
   /// y := L^-T y.
   void backward(Eigen::VectorXd& y) const;
-  /// L^-1 B for a B that is zero outside of a path; rows are those of the path, in its numbering.
-  void forward(const EliminationPath& path, Eigen::MatrixXd& columns) const;
+  /// B := L^-1 B for each B. Blocks that several paths share are gone through once, with all their columns together.
+  void forward(std::span<const PathColumns> groups) const;
   /// The row of the path at which an equation of the matrix stands.
   [[nodiscard]] int row_on_path(const EliminationPath& path, int row) const;
   /// The path's rows of a whole vector; and y -= a vector on the path.
@@ -58,6 +64,7 @@ class TriangularSolver {
   void take_supernodal(const FactorView& view);
   void take_simplicial(const FactorView& view);
   void finish();
+  void forward_block_of(std::size_t block, std::span<const PathColumns> groups) const;
 
   int size_ = 0;
   double entries_ = 0;
@@ -68,8 +75,11 @@ class TriangularSolver {
   // What the spans refer to when the factor's own layout is another.
   std::vector<std::int64_t> own_first_, own_row_start_, own_value_start_, own_row_;
   std::vector<double> own_value_;
-  mutable Eigen::MatrixXd below_;         ///< scratch
-  mutable std::vector<int> path_offset_;  ///< scratch, per block
+  /// Per block: rows of a path from it to the root, its own included. A path's rows stand that far from its end.
+  std::vector<int> rows_to_root_;
+  // Scratch; grows only.
+  mutable std::vector<double> below_, together_;
+  mutable std::vector<std::size_t> next_, sharing_;
 };
 
 }  // namespace topple::solver

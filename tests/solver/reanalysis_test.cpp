@@ -230,3 +230,80 @@ TEST_CASE("removed and restored panels change the answer as a fresh analysis say
   standing.restore_shell(1);
   agrees(model);
 }
+
+TEST_CASE("supports of a floor that is rigid in its plane can be weakened and given back") {
+  FrameModel model = tower(2, 2);
+  model.diaphragms.push_back({{4, 5, 6, 7}});
+  model.supports.push_back({5, components(2e6, 0, 3e6, 0, 0, 0)});
+  Reanalysis standing(model);
+  LoadSet loads;
+  loads.nodes = {{6, components(2e4, -1e4, -3e4, 0, 0, 0)}};
+  standing.set_node_load(6, loads.nodes[0].load);
+  for (const double stiffness : {2e6, 1e9, 0.0, 2e6}) {
+    model.supports.back().stiffness = components(stiffness, 0, stiffness, 0, 0, 0);
+    standing.set_support_stiffness(static_cast<int>(model.supports.size()) - 1, model.supports.back().stiffness);
+    REQUIRE(standing.solve().stable);
+    const StaticSolution fresh = solve_one(model, loads);
+    for (std::size_t n = 0; n < model.nodes.size(); ++n)
+      CHECK((fresh.displacements[n] - standing.displacements()[n]).norm() <
+            same_answer * fresh.displacements[6].norm());
+  }
+}
+
+TEST_CASE(
+    "a correction that leaves hardly any stiffness warns, and below the limit it is a mechanism, as a fresh analysis") {
+  // A portal whose four joints become hinges with weaker and weaker springs: it sways more and more easily.
+  const auto portal = [] {
+    FrameModel model;
+    model.nodes = {Vec3(0, 0, 0), Vec3(0, 0, 3), Vec3(5, 0, 3), Vec3(5, 0, 0)};
+    add_beam(model, 0, 1);
+    add_beam(model, 1, 2);
+    add_beam(model, 2, 3);
+    model.supports = {{0, fixed()}, {3, fixed()}};
+    for (const int node : {1, 2}) model.supports.push_back({node, components(0, rigid, 0, rigid, 0, rigid)});
+    return model;
+  };
+  LoadSet loads;
+  loads.nodes = {{1, unit(0, 1)}};
+  int firm = 0, warned = 0, mechanisms = 0;
+  for (double spring = 1e6; spring > 1e-9; spring /= 10) {
+    Reanalysis standing(portal());
+    standing.set_node_load(1, unit(0, 1));
+    REQUIRE(standing.solve().stable);
+    CHECK_FALSE(standing.solve().nearly_unstable);
+    FrameModel changed = portal();
+    for (const int post : {0, 2}) {
+      for (int end = 0; end < 2; ++end) {
+        const Vec6 hinge = components(rigid, rigid, rigid, rigid, spring, rigid);
+        changed.beams[static_cast<std::size_t>(post)].end_stiffness[static_cast<std::size_t>(end)] = hinge;
+        standing.set_end_stiffness(post, end, hinge);
+      }
+    }
+    const ReanalysisAnswer answer = standing.solve();
+    INFO("spring " << spring);
+    bool stable = true, nearly = false;
+    try {
+      StaticAnalysis fresh(changed);
+      const StaticSolution solution = fresh.solve(std::span(&loads, 1)).front();
+      nearly = fresh.statistics().nearly_unstable;
+      if (answer.stable)
+        CHECK((solution.displacements[1] - standing.displacements()[1]).norm() <
+              std::max(1e-10, 10 * solution.quality.condition * 1e-16) * solution.displacements[1].norm());
+    } catch (const Instability&) {
+      stable = false;
+    }
+    // The two measure the same smallest stiffness by other norms: a decade at the borders of the band is left to them.
+    if (stable && !nearly) CHECK(answer.stable);
+    if (!stable) CHECK((!answer.stable || answer.nearly_unstable));
+    if (!answer.stable) {
+      CHECK(answer.mechanism.nodes.size() == 2);
+      CHECK(std::abs(answer.mechanism.motion[1](0)) == Approx(1).epsilon(1e-6));
+    }
+    firm += answer.stable && !answer.nearly_unstable ? 1 : 0;
+    warned += answer.stable && answer.nearly_unstable ? 1 : 0;
+    mechanisms += answer.stable ? 0 : 1;
+  }
+  CHECK(firm >= 5);
+  CHECK(warned >= 2);
+  CHECK(mechanisms >= 2);
+}

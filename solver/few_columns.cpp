@@ -1,0 +1,101 @@
+#include "few_columns.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+// One build for every processor: the compiler makes a version for each kind of vector, the loader takes the best.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#define TOPPLE_VECTOR_VERSIONS __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#define TOPPLE_VECTOR_VERSIONS
+#endif
+
+namespace topple::solver {
+namespace {
+
+constexpr int strip = 8;  // columns of L at a time
+constexpr int six = 6;    // right-hand sides at a time
+constexpr int lanes = 8;
+using Vector = double __attribute__((vector_size(lanes * sizeof(double)), aligned(sizeof(double)), may_alias));
+using Coefficients = std::array<double, strip * six>;
+
+const Vector& vector_at(const double* p) { return *reinterpret_cast<const Vector*>(p); }
+Vector& vector_at(double* p) { return *reinterpret_cast<Vector*>(p); }
+
+/// target(i, c) += sum over k < width of L(i, k) coefficient[k six + c], for six columns of the target.
+TOPPLE_VECTOR_VERSIONS
+void add_six(const double* L, std::ptrdiff_t ld, int width, const double* coefficient, double* target,
+             std::ptrdiff_t stride, int rows) {
+  int i = 0;
+  for (; i + lanes <= rows; i += lanes) {
+    Vector sum[six];
+    for (int c = 0; c < six; ++c) sum[c] = vector_at(target + c * stride + i);
+    for (int k = 0; k < width; ++k) {
+      const Vector l = vector_at(L + k * ld + i);
+      for (int c = 0; c < six; ++c) sum[c] += l * coefficient[k * six + c];
+    }
+    for (int c = 0; c < six; ++c) vector_at(target + c * stride + i) = sum[c];
+  }
+  for (; i < rows; ++i)
+    for (int c = 0; c < six; ++c)
+      for (int k = 0; k < width; ++k) target[c * stride + i] += L[k * ld + i] * coefficient[k * six + c];
+}
+
+TOPPLE_VECTOR_VERSIONS
+void add_one(const double* L, std::ptrdiff_t ld, int width, const double* coefficient, double* target, int rows) {
+  int i = 0;
+  for (; i + lanes <= rows; i += lanes) {
+    Vector sum = vector_at(target + i);
+    for (int k = 0; k < width; ++k) sum += vector_at(L + k * ld + i) * coefficient[k * six];
+    vector_at(target + i) = sum;
+  }
+  for (; i < rows; ++i)
+    for (int k = 0; k < width; ++k) target[i] += L[k * ld + i] * coefficient[k * six];
+}
+
+void add(const double* L, int ld, int width, const Coefficients& coefficient, double* target, int stride, int rows,
+         int count) {
+  if (rows <= 0) return;
+  if (count == six) {
+    add_six(L, ld, width, coefficient.data(), target, stride, rows);
+    return;
+  }
+  for (int c = 0; c < count; ++c)
+    add_one(L, ld, width, coefficient.data() + c, target + static_cast<std::ptrdiff_t>(c) * stride, rows);
+}
+
+/// At most six columns.
+void eliminate(const double* L, int columns, int rows, double* x, int count, double* below) {
+  const int below_rows = rows - columns;
+  Coefficients minus{}, plus{};
+  for (int first = 0; first < columns; first += strip) {
+    const int width = std::min(strip, columns - first);
+    const double* block = L + static_cast<std::ptrdiff_t>(first) * rows;
+    for (int c = 0; c < count; ++c) {
+      double* own = x + static_cast<std::ptrdiff_t>(c) * columns + first;
+      for (int k = 0; k < width; ++k) {
+        const double* column = block + static_cast<std::ptrdiff_t>(k) * rows + first;
+        const double value = own[k] /= column[k];
+        for (int i = k + 1; i < width; ++i) own[i] -= column[i] * value;
+        plus[static_cast<std::size_t>(k * six + c)] = value;
+        minus[static_cast<std::size_t>(k * six + c)] = -value;
+      }
+    }
+    const int next = first + width;
+    add(block + next, rows, width, minus, x + next, columns, columns - next, count);
+    add(block + columns, rows, width, plus, below, below_rows, below_rows, count);
+  }
+}
+
+}  // namespace
+
+void eliminate_few_columns(const double* L, int columns, int rows, double* x, int count, double* below) {
+  const int below_rows = rows - columns;
+  std::fill(below, below + static_cast<std::ptrdiff_t>(below_rows) * count, 0.0);
+  for (int c = 0; c < count; c += six)
+    eliminate(L, columns, rows, x + static_cast<std::ptrdiff_t>(c) * columns, std::min(six, count - c),
+              below + static_cast<std::ptrdiff_t>(c) * below_rows);
+}
+
+}  // namespace topple::solver

@@ -1,0 +1,12 @@
+#pragma once
+// Elimination with a dense block of a factor for a handful of right-hand sides (an element has six): BLAS packs the
+// block for such calls, which costs more than the arithmetic; here it is read once, eight columns at a time.
+
+namespace topple::solver {
+
+/// L: `columns` columns of `rows` entries, the triangle first. x (columns x count) := triangle^-1 x, and below
+/// ((rows - columns) x count) := rectangle x. Every entry is summed in order of L's columns, by itself: the bits do not
+/// depend on the processor's vectors.
+void eliminate_few_columns(const double* L, int columns, int rows, double* x, int count, double* below);
+
+}  // namespace topple::solver
