@@ -143,7 +143,7 @@ int run(const Options& options) {
 
 std::function<int()> declare(CLI::App& app) {
   auto options = std::make_shared<Options>();
-  app.add_option("MODEL", options->model, "A shipped model's name, or a file (.json, .3dd)")->required();
+  app.add_option("MODEL", options->model, "A shipped model's name, a file (.json, .3dd), or a folder of tables (.csv)")->required();
   app.add_option("-o", options->output, "Folder for results.json and the other files");
   app.add_option("--combination", options->combinations, "Combination to analyse (all, when none is named)")
       ->expected(1)

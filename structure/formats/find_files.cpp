@@ -29,9 +29,14 @@ bool is_file(const fs::path& path) {
   return fs::is_regular_file(path, ignored);
 }
 
+bool is_folder_of_tables(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path / "nodes.csv", ignored);
+}
+
 fs::path find(const std::string& name_or_path, const fs::path& folder, const char* kind, const fs::path& below) {
   const fs::path path = folder / name_or_path;
-  if (is_file(path)) return path;
+  if (is_file(path) || (std::string_view(kind) == "model" && is_folder_of_tables(path))) return path;
   std::set<std::string> shipped;
   for (const fs::path& place : shipped_folders()) {
     std::error_code ignored;

@@ -9,6 +9,10 @@
 
 namespace topple::structure {
 
+/// Matrix condensation changes no result: it is read, checked and told in this warning.
+inline constexpr const char* frame3dd_condensation_warning =
+    "the file asks for matrix condensation, which is not carried out (no result depends on it)";
+
 /// Throws InputError with file, line, what was found and what is accepted.
 [[nodiscard]] Building parse_frame3dd(std::string_view text, const std::string& name);
 

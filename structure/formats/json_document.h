@@ -27,10 +27,14 @@ class JsonDocument {
  public:
   /// Both throw InputError. `name` stands for the file in messages.
   static JsonDocument from_file(const std::filesystem::path& file, const JsonLimits& limits = {});
-  static JsonDocument from_text(std::string_view text, const std::string& name, const JsonLimits& limits = {});
+  /// `places`: for a text that was made from something else, where its lines come from ("nodes.csv, line 5"), for messages.
+  static JsonDocument from_text(std::string_view text, const std::string& name, const JsonLimits& limits = {},
+                                std::vector<std::string> places = {});
 
   [[nodiscard]] JsonValue root() const;
   [[nodiscard]] const std::string& name() const { return name_; }
+  /// "model.json, line 12", or what stands for that line.
+  [[nodiscard]] std::string place(std::uint32_t line) const;
 
  private:
   friend class JsonValue;
@@ -46,6 +50,7 @@ class JsonDocument {
     Type type = Type::null;
   };
   std::string name_, text_;
+  std::vector<std::string> places_;
   std::vector<Slot> slots_;
 };
 

@@ -239,9 +239,11 @@ JsonDocument JsonDocument::from_file(const std::filesystem::path& file, const Js
   return document;
 }
 
-JsonDocument JsonDocument::from_text(std::string_view text, const std::string& name, const JsonLimits& limits) {
+JsonDocument JsonDocument::from_text(std::string_view text, const std::string& name, const JsonLimits& limits,
+                                     std::vector<std::string> places) {
   JsonDocument document;
   document.name_ = name;
+  document.places_ = std::move(places);
   Characters characters(text);
   parse(document, characters, limits);
   return document;

@@ -145,10 +145,14 @@ std::string JsonValue::path() const {
   return before + "[" + std::to_string(position) + "]";
 }
 
+std::string JsonDocument::place(std::uint32_t line) const {
+  if (line >= 1 && line <= places_.size()) return places_[line - 1];
+  return name_ + ", line " + std::to_string(line);
+}
+
 void JsonValue::fail(const std::string& what) const {
   const std::string place = path();
-  throw InputError(document_->name_ + ", line " + std::to_string(slot().line) + (place.empty() ? "" : ", " + place) +
-                   ": " + what);
+  throw InputError(document_->place(slot().line) + (place.empty() ? "" : ", " + place) + ": " + what);
 }
 
 void JsonValue::refuse(std::string_view accepted) const {

@@ -53,6 +53,38 @@ void need_thermal_expansion(const JsonValue& value, const Material& material) {
                ".thermal_expansion is missing; accepted: that key");
 }
 
+/// Temperatures of the faces at +y and -y, +z and -z, and the depths between them: as many programs have them. With an
+/// `expansion` of its own, the strains are those of that coefficient.
+void read_faces(const JsonValue& value, const ModelDraft& draft, const Material& material, MemberLoad& load) {
+  value.only({"expansion", "depth_y", "depth_z", "faces_y", "faces_z"});
+  double scale = 1;
+  const auto expansion = value.find("expansion");
+  if (expansion && expansion->number() == 0) {
+    scale = 0;
+  } else {
+    need_thermal_expansion(value, material);
+    if (expansion) {
+      if (*material.thermal_expansion == 0) expansion->fail("the material's thermal_expansion is 0; accepted: 0");
+      scale = expansion->number() / *material.thermal_expansion;
+    }
+  }
+  double sum = 0;
+  const auto pair = [&](const char* faces, const char* depth) {
+    const JsonValue list = value.require(faces);
+    list.expect_array(2, 2);
+    auto face = list.begin();
+    const double plus = (*face).number();
+    ++face;
+    const double minus = (*face).number();
+    sum += plus + minus;
+    (void)value.require(depth).positive();
+    return scale * (plus - minus) / scaled(value.require(depth), draft.scale.length);
+  };
+  load.gradient_y = pair("faces_y", "depth_y");
+  load.gradient_z = pair("faces_z", "depth_z");
+  load.temperature = scale * sum / 4;
+}
+
 MemberLoad read_member_load(const JsonValue& value, MemberId id, const ModelDraft& draft) {
   const Member& member = draft.building[id];
   const Scale& scale = draft.scale;
@@ -77,10 +109,14 @@ MemberLoad read_member_load(const JsonValue& value, MemberId id, const ModelDraf
     load.from = load.to = read_place(value.require("at"), member, scale);
   } else if (const auto temperature = value.find("temperature")) {
     value.only({"temperature"});
-    temperature->only({"uniform", "gradient_y", "gradient_z"});
-    need_thermal_expansion(*temperature, draft.building[member.material]);
     load.kind = MemberLoad::Kind::temperature;
     load.to = member.length;
+    if (temperature->find("faces_y") || temperature->find("faces_z")) {
+      read_faces(*temperature, draft, draft.building[member.material], load);
+      return load;
+    }
+    temperature->only({"uniform", "gradient_y", "gradient_z"});
+    need_thermal_expansion(*temperature, draft.building[member.material]);
     if (const auto number = temperature->find("uniform")) load.temperature = number->number();
     if (const auto number = temperature->find("gradient_y")) load.gradient_y = scaled(*number, 1 / scale.length);
     if (const auto number = temperature->find("gradient_z")) load.gradient_z = scaled(*number, 1 / scale.length);

@@ -1,10 +1,9 @@
 // A model from its file: the stages of reading in their order.
-#include <algorithm>
-#include <cctype>
-#include <fstream>
-#include <sstream>
+#include <system_error>
 
 #include "formats/frame3dd.h"
+#include "formats/model_files.h"
+#include "formats/model_forms.h"
 #include "formats/model_reader.h"
 #include "formats/unbuilt.h"
 #include "topple/structure/error.h"
@@ -23,7 +22,8 @@ Building read_document(const JsonDocument& document) {
   if (!root.is_object()) root.refuse("an object");
   refuse_unbuilt_keys(root, UnbuiltPlace::model);
   root.only({"topple", "title", "units", "gravity", "materials", "sections", "joints", "nodes", "members", "panels",
-             "supports", "diaphragms", "masses", "loads", "combinations", "building", "buildings"});
+             "supports", "diaphragms", "masses", "loads", "combinations", "building", "buildings", "analyses",
+             "frame3dd"});
   const JsonValue version = root.require("topple");
   if (!version.is_number() || version.number() != 1) version.refuse("1, the version of the format");
   ModelDraft draft;
@@ -46,28 +46,9 @@ Building read_document(const JsonDocument& document) {
   read_masses(root, draft);
   read_loads(root, draft);
   read_combinations(root, draft);
+  read_analyses(root, draft);
+  read_frame3dd_remarks(root, draft);
   return std::move(draft.building);
-}
-
-std::string ending_of(const std::filesystem::path& file) {
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  return ending;
-}
-
-std::string whole_text(const std::filesystem::path& file) {
-  constexpr std::uintmax_t largest = std::uintmax_t{1} << 28;
-  std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(file, error);
-  if (error) throw InputError(file.string() + ": cannot be opened; accepted: a file that exists and can be read");
-  if (size > largest)
-    throw InputError(file.string() + ": " + std::to_string(size) + " bytes; accepted: at most " +
-                     std::to_string(largest));
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  if (!stream) throw InputError(file.string() + ": cannot be read; accepted: a file that exists and can be read");
-  return std::move(text).str();
 }
 
 }  // namespace
@@ -78,15 +59,27 @@ Building parse_model(std::string_view text, const std::string& name, Purpose pur
   return building;
 }
 
+Building parse_tables(const std::vector<std::pair<std::string, std::string>>& tables, const std::string& folder,
+                      Purpose purpose) {
+  ModelOfTables model = model_of_tables(tables, folder);
+  Building building = read_document(JsonDocument::from_text(model.json, folder, {}, std::move(model.places)));
+  refuse_unbuilt(building, purpose);
+  return building;
+}
+
 Building read_model(const std::filesystem::path& file, Purpose purpose) {
+  using namespace formats;
   const std::string ending = ending_of(file);
   Building building;
   if (ending == ".json")
     building = read_document(JsonDocument::from_file(file));
   else if (ending == ".3dd")
     building = parse_frame3dd(whole_text(file), file.filename().string());
+  else if (std::error_code ignored; std::filesystem::is_directory(file, ignored))
+    building = parse_tables(read_tables(file), file.string(), Purpose::inspect);
   else
-    throw InputError(file.string() + ": a model of unknown format; accepted: a file that ends in .json or .3dd");
+    throw InputError(file.string() +
+                     ": a model of unknown format; accepted: a file that ends in .json or .3dd, or a folder of tables");
   refuse_unbuilt(building, purpose);
   return building;
 }

@@ -100,8 +100,7 @@ std::array<NodeId, N> read_node_names(const JsonValue& value, const ModelDraft& 
 }
 
 void read_member(const JsonValue& value, ModelDraft& draft) {
-  value.only({"kind", "nodes", "section", "material", "up", "roll", "joints", "offsets", "axial", "groups",
-              "design"});
+  value.only({"kind", "nodes", "section", "material", "up", "roll", "joints", "offsets", "axial", "groups", "design"});
   MemberDraft member;
   member.name = value.key();
   member.nodes = read_node_names<2>(value.require("nodes"), draft);

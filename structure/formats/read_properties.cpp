@@ -133,7 +133,7 @@ Section section_of_catalogue(const JsonValue& value, const JsonValue& name, cons
 
 Section section_of_numbers(const JsonValue& value, const Scale& scale) {
   value.only({"area", "Iy", "Iz", "J", "shear_area_y", "shear_area_z", "plastic_modulus_y", "plastic_modulus_z",
-              "torsion_modulus", "depth", "width"});
+              "torsion_modulus", "depth", "width", "shear_deformation"});
   Section section;
   section.area = dimension(value, "area", scale.area());
   section.Iy = dimension(value, "Iy", scale.inertia());

@@ -1,9 +1,6 @@
-// The .3dd reader: what it makes of the published examples, where it says that a file is wrong, and that no mutation of
-// a file makes it crash, hang or accept nonsense.
+// The .3dd reader: what it makes of the published examples, and where it says that a file is wrong.
 #include <catch2/catch.hpp>
-#include <cmath>
 #include <fstream>
-#include <random>
 #include <sstream>
 
 #include "formats/frame3dd.h"
@@ -135,39 +132,4 @@ TEST_CASE("the published .3dd examples are read whole") {
   const Building h = parse_frame3dd(read_shared("reference/frame3dd/exH.3dd"), "exH.3dd");
   CHECK(h.members.size() == 295);
   CHECK(h.masses.members.size() == 163);
-}
-
-TEST_CASE("a mutated .3dd file is read or refused with its name, never worse") {
-  std::mt19937 random(20140514);
-  const std::string original = two_posts;
-  int refused = 0;
-  for (int k = 0; k < 10000; ++k) {
-    std::string text = original;
-    for (int edits = 1 + static_cast<int>(random() % 3); edits > 0; --edits) {
-      const std::size_t at = random() % text.size();
-      switch (random() % 4) {
-        case 0:
-          text[at] = static_cast<char>(random() % 256);
-          break;
-        case 1:
-          text.erase(at, 1 + random() % 20);
-          break;
-        case 2:
-          text.insert(at, 1, "0123456789.-eE \n#"[random() % 17]);
-          break;
-        default:
-          text.resize(at);
-          break;
-      }
-      if (text.empty()) text.push_back('x');
-    }
-    try {
-      const Building building = parse_frame3dd(text, "m.3dd");
-      for (const Member& member : building.members) REQUIRE((std::isfinite(member.length) && member.length > 0));
-    } catch (const InputError& error) {
-      ++refused;
-      REQUIRE(std::string(error.what()).starts_with("m.3dd:"));
-    }
-  }
-  CHECK(refused > 1000);  // the mutations do bite
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "topple/structure/building.h"
 #include "topple/structure/scenario.h"
@@ -21,11 +22,15 @@ void refuse_unbuilt(const Building& building, Purpose purpose);
 [[nodiscard]] std::filesystem::path find_model(const std::string& name_or_path, const std::filesystem::path& folder = {});
 [[nodiscard]] std::filesystem::path find_scenario(const std::string& name_or_path);
 
-/// Reads a model of any known format by its ending (.json, .3dd).
+/// Reads a model of any known format: by its ending (.json, .3dd), or a folder of tables (CSV).
 [[nodiscard]] Building read_model(const std::filesystem::path& file, Purpose purpose = Purpose::analyse);
 /// The same from text, `name` standing for the file in messages.
 [[nodiscard]] Building parse_model(std::string_view text, const std::string& name,
                                    Purpose purpose = Purpose::analyse);
+
+/// A model from tables: file names ("nodes.csv") and texts, `folder` standing for their place in messages.
+[[nodiscard]] Building parse_tables(const std::vector<std::pair<std::string, std::string>>& tables,
+                                    const std::string& folder, Purpose purpose = Purpose::analyse);
 
 /// Reads a scenario and the model that it names.
 [[nodiscard]] std::pair<Building, Scenario> read_scenario(const std::filesystem::path& file);

@@ -1,0 +1,38 @@
+// topple convert IN OUT: a model from one file format to another.
+#include "topple/structure/convert.h"
+
+#include <cstdio>
+
+#include "command.h"
+#include "topple/structure/files.h"
+#include "write_files.h"
+
+namespace topple::app {
+
+namespace {
+
+int convert(const std::string& in, const std::string& out) {
+  const std::filesystem::path target(out);
+  const structure::ModelForm form = structure::model_form(target);
+  structure::ConvertedModel model = structure::convert_model(structure::find_model(in), form);
+  if (form == structure::ModelForm::tables) {
+    write_files(target, model.files);
+  } else {
+    model.files.front().first = target.filename().string();
+    write_files(target.has_parent_path() ? target.parent_path() : ".", model.files);
+  }
+  return success;
+}
+
+const Registration registration(
+    {"convert", "Write a model in another file format", [](CLI::App& app) -> std::function<int()> {
+       auto in = std::make_shared<std::string>(), out = std::make_shared<std::string>();
+       app.add_option("IN", *in, "A shipped model's name, a file (.json, .3dd), or a folder of tables (.csv)")
+           ->required();
+       app.add_option("OUT", *out, "The file to write (.json, .3dd), or a folder for tables")->required();
+       return [in, out] { return convert(*in, *out); };
+     }});
+
+}  // namespace
+
+}  // namespace topple::app

@@ -1,0 +1,66 @@
+#include "topple/structure/convert.h"
+
+#include "formats/json_document.h"
+#include "formats/model_files.h"
+#include "formats/model_forms.h"
+#include "topple/structure/error.h"
+#include "topple/structure/files.h"
+
+namespace topple::structure {
+
+namespace {
+
+/// The JSON model of whatever stands at `in`; a sound one.
+formats::JsonDocument json_model(const std::filesystem::path& in) {
+  const std::string name = in.filename().string();
+  switch (model_form(in)) {
+    case ModelForm::frame3dd: {
+      const std::string text = model_of_frame3dd(parse_frame3dd_file(formats::whole_text(in), name));
+      return formats::JsonDocument::from_text(text, name);
+    }
+    case ModelForm::tables: {
+      ModelOfTables model = model_of_tables(formats::read_tables(in), in.string());
+      return formats::JsonDocument::from_text(model.json, in.string(), {}, std::move(model.places));
+    }
+    default:
+      return formats::JsonDocument::from_file(in);
+  }
+}
+
+std::string json_text(const std::filesystem::path& in) {
+  switch (model_form(in)) {
+    case ModelForm::frame3dd:
+      return model_of_frame3dd(parse_frame3dd_file(formats::whole_text(in), in.filename().string()));
+    case ModelForm::tables:
+      return model_of_tables(formats::read_tables(in), in.string()).json;
+    default:
+      return formats::whole_text(in);
+  }
+}
+
+}  // namespace
+
+ModelForm model_form(const std::filesystem::path& path) {
+  const std::string ending = formats::ending_of(path);
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) return ModelForm::tables;
+  if (ending == ".json") return ModelForm::json;
+  if (ending == ".3dd") return ModelForm::frame3dd;
+  if (ending.empty()) return ModelForm::tables;
+  throw InputError(path.string() + ": the ending " + ending +
+                   " is not known; accepted: .json, .3dd, or a folder of tables (no ending)");
+}
+
+ConvertedModel convert_model(const std::filesystem::path& in, ModelForm to) {
+  (void)read_model(in, Purpose::inspect);  // whatever is wrong with it is told here
+  switch (to) {
+    case ModelForm::json:
+      return {{{"", json_text(in)}}};
+    case ModelForm::frame3dd:
+      return {{{"", frame3dd_text(frame3dd_of_model(json_model(in)))}}};
+    default:
+      return {tables_of_model(json_model(in))};
+  }
+}
+
+}  // namespace topple::structure

@@ -1,0 +1,335 @@
+// A JSON model as tables. What they cannot hold is refused by its name; numbers go over as they stand.
+#include <algorithm>
+#include <charconv>
+
+#include "formats/model_forms.h"
+#include "formats/model_tables.h"
+
+namespace topple::structure {
+
+namespace {
+
+using formats::JsonDocument;
+using formats::JsonValue;
+
+[[noreturn]] void refuse(const JsonValue& value, const std::string& instead) {
+  value.fail("tables cannot hold it; accepted for them: " + instead);
+}
+
+void hold_only(const JsonValue& object, const std::vector<std::string_view>& keys, const std::string& instead) {
+  for (const JsonValue value : object)
+    if (std::find(keys.begin(), keys.end(), value.key()) == keys.end()) refuse(value, instead);
+}
+
+/// A table as it is written: cells by column name.
+class TableText {
+ public:
+  explicit TableText(const model_tables::Columns& columns) : columns_(columns), cells_(columns.size()) {
+    for (const std::string_view column : columns) text_ += (text_.empty() ? "" : ",") + std::string(column);
+    text_ += '\n';
+  }
+  TableText& set(std::string_view column, std::string_view text) {
+    std::string& cell = cells_[index(column)];
+    const bool plain =
+        text.find_first_of(",\"\n\r;\t") == std::string_view::npos && !text.starts_with(' ') && !text.ends_with(' ');
+    cell = plain ? text : "\"";
+    if (plain) return *this;
+    for (const char c : text) cell += c == '"' ? std::string("\"\"") : std::string(1, c);
+    cell += '"';
+    return *this;
+  }
+  TableText& set(std::string_view column, double number) {
+    char digits[32];
+    cells_[index(column)].assign(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
+    return *this;
+  }
+  TableText& set(std::string_view column, const JsonValue& value) {
+    if (value.is_number()) return set(column, value.number());
+    if (value.is_bool()) return set(column, std::string_view(value.boolean() ? "true" : "false"));
+    return set(column, value.text());
+  }
+  void end_row() {
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+      if (c > 0) text_ += ',';
+      text_ += cells_[c];
+      cells_[c].clear();
+    }
+    text_ += '\n';
+    ++rows_;
+  }
+  [[nodiscard]] std::size_t rows() const { return rows_; }
+  [[nodiscard]] std::string take() { return std::move(text_); }
+
+ private:
+  [[nodiscard]] std::size_t index(std::string_view column) const {
+    return static_cast<std::size_t>(std::find(columns_.begin(), columns_.end(), column) - columns_.begin());
+  }
+  const model_tables::Columns& columns_;
+  std::vector<std::string> cells_;
+  std::string text_;
+  std::size_t rows_ = 0;
+};
+
+class TableMaker {
+ public:
+  explicit TableMaker(const JsonDocument& model) : root_(model.root()) {}
+
+  TextsByName make() {
+    hold_only(root_,
+              {"topple", "title", "units", "gravity", "materials", "sections", "joints", "nodes", "members", "panels",
+               "supports", "loads", "combinations"},
+              "materials, sections, joints, nodes, members, panels, supports, loads, combinations");
+    model();
+    plain("materials.csv", "materials", model_tables::materials);
+    plain("sections.csv", "sections", model_tables::sections);
+    each("joints.csv", "joints", model_tables::joints, [](TableText& t, const JsonValue& v) { joint(t, v); });
+    each("nodes.csv", "nodes", model_tables::nodes, [](TableText& t, const JsonValue& v) { node(t, v); });
+    each("members.csv", "members", model_tables::members, [](TableText& t, const JsonValue& v) { member(t, v); });
+    each("panels.csv", "panels", model_tables::panels, [](TableText& t, const JsonValue& v) { panel(t, v); });
+    each("supports.csv", "supports", model_tables::supports,
+         [this](TableText& t, const JsonValue& v) { support(t, v); });
+    loads();
+    combinations();
+    return std::move(files_);
+  }
+
+ private:
+  void keep(std::string_view file, TableText& table) {
+    if (table.rows() > 0 || file == "nodes.csv") files_.emplace_back(file, table.take());
+  }
+
+  /// A table with a row for each value of an object, whose key is the first cell.
+  template <class Write>
+  void each(std::string_view file, const char* key, const model_tables::Columns& columns, Write write) {
+    TableText table(columns);
+    if (const auto object = root_.find(key))
+      for (const JsonValue value : *object) {
+        name_of_row(table, columns.front(), value);
+        write(table, value);
+        table.end_row();
+      }
+    keep(file, table);
+  }
+  static void name_of_row(TableText& table, std::string_view column, const JsonValue& value) {
+    if (value.key().find('\0') != std::string_view::npos) refuse(value, "a name without a null character");
+    table.set(column, value.key());
+  }
+  void plain(std::string_view file, const char* key, const model_tables::Columns& columns) {
+    each(file, key, columns, [&](TableText& table, const JsonValue& value) {
+      hold_only(value, {columns.begin() + 1, columns.end()}, "numbers and names");
+      for (const JsonValue entry : value) table.set(entry.key(), entry);
+    });
+  }
+
+  void model() {
+    TableText table(model_tables::model);
+    const auto row = [&](std::string_view key, const JsonValue& value) {
+      table.set("key", key).set("value", value).end_row();
+    };
+    if (const auto title = root_.find("title")) row("title", *title);
+    if (const auto gravity = root_.find("gravity")) row("gravity", *gravity);
+    if (const auto units = root_.find("units")) {
+      if (units->is_text())
+        row("units", *units);
+      else
+        for (const JsonValue unit : *units) row(unit.key(), unit);
+    }
+    keep("model.csv", table);
+  }
+
+  static void joint(TableText& table, const JsonValue& value) {
+    hold_only(value, {"strength", "capacity", "stiffness"}, "strength, capacity, stiffness");
+    if (const auto strength = value.find("strength")) table.set("strength", *strength);
+    if (const auto capacity = value.find("capacity")) {
+      hold_only(*capacity, {"tension", "compression", "shear_y", "shear_z", "torsion", "moment_y", "moment_z"},
+                "capacities as seven numbers");
+      if (capacity->size() == 0) refuse(*capacity, "at least one capacity");
+      for (const JsonValue number : *capacity) table.set(number.key(), number);
+    }
+    if (const auto stiffness = value.find("stiffness")) {
+      if (stiffness->size() == 0) refuse(*stiffness, "at least one stiffness");
+      for (const JsonValue number : *stiffness) table.set(number.key(), number);
+    }
+  }
+
+  template <std::size_t N>
+  static void list(TableText& table, const std::array<const char*, N>& columns, const JsonValue& values) {
+    std::size_t i = 0;
+    for (const JsonValue value : values)
+      if (i < N) table.set(columns[i++], value);
+  }
+
+  static void node(TableText& table, const JsonValue& value) {
+    list(table, std::array<const char*, 3>{"x", "y", "z"}, value);
+  }
+
+  static void member(TableText& table, const JsonValue& value) {
+    hold_only(value, {"kind", "nodes", "section", "material", "up", "roll", "joints", "groups"},
+              "kind, nodes, section, material, up, roll, joints, groups");
+    list(table, std::array<const char*, 2>{"node1", "node2"}, value.require("nodes"));
+    for (const char* key : {"kind", "section", "material", "roll"})
+      if (const auto entry = value.find(key)) table.set(key, *entry);
+    if (const auto up = value.find("up")) list(table, std::array<const char*, 3>{"upx", "upy", "upz"}, *up);
+    if (const auto joints = value.find("joints"); joints && joints->is_array()) {
+      const char* column = "joint1";
+      for (const JsonValue joint : *joints) {
+        if (!joint.is_null()) table.set(column, joint);
+        column = "joint2";
+      }
+    }
+    if (const auto groups = value.find("groups")) {
+      std::string cell;
+      for (const JsonValue group : *groups) {
+        if (group.text().empty() || group.text().find(model_tables::group_separator) != std::string_view::npos)
+          refuse(group, "names of groups without \";\"");
+        cell += (cell.empty() ? "" : std::string(1, model_tables::group_separator)) + std::string(group.text());
+      }
+      table.set("groups", cell);
+    }
+  }
+
+  static void panel(TableText& table, const JsonValue& value) {
+    hold_only(value, {"kind", "nodes", "thickness", "material", "model", "mesh", "joint"},
+              "kind, nodes, thickness, material, model, mesh, joint");
+    list(table, std::array<const char*, 4>{"node1", "node2", "node3", "node4"}, value.require("nodes"));
+    for (const char* key : {"kind", "thickness", "material", "model"})
+      if (const auto entry = value.find(key)) table.set(key, *entry);
+    if (const auto joint = value.find("joint"); joint && !joint->is_null()) table.set("joint", *joint);
+    if (const auto mesh = value.find("mesh")) {
+      std::string cell;
+      if (mesh->is_number())
+        cell = mesh->found();
+      else
+        for (const JsonValue number : *mesh) cell += (cell.empty() ? "" : "x") + number.found();
+      table.set("mesh", cell);
+    }
+  }
+
+  void support(TableText& table, const JsonValue& value) const {
+    const auto nodes = root_.find("nodes");
+    if (!nodes || !has(*nodes, value.key())) refuse(value, "supports of nodes");
+    constexpr std::array<const char*, 6> components{"x", "y", "z", "rx", "ry", "rz"};
+    if (value.is_text()) {
+      const std::size_t held = value.text() == "fixed" ? 6 : value.text() == "pinned" ? 3 : 0;
+      for (std::size_t i = 0; i < held; ++i) table.set(components[i], std::string_view("fixed"));
+      if (value.text() == "roller") table.set("z", std::string_view("fixed"));
+      return;
+    }
+    for (const JsonValue entry : value)
+      if (entry.is_bool())
+        table.set(entry.key(), std::string_view("fixed"));
+      else
+        table.set(entry.key(), entry);
+  }
+  bool has(const JsonValue& nodes, std::string_view name) const {
+    if (node_names_.empty())
+      for (const JsonValue node : nodes) node_names_.push_back(node.key());
+    if (!std::is_sorted(node_names_.begin(), node_names_.end())) std::sort(node_names_.begin(), node_names_.end());
+    return std::binary_search(node_names_.begin(), node_names_.end(), name);
+  }
+
+  // Loads.
+
+  struct Row {
+    std::string_view load_case, on, name, type;
+  };
+  static TableText& start(TableText& table, const Row& row) {
+    table.set("case", row.load_case).set("on", row.on).set("name", row.name);
+    return table.set("type", row.type);
+  }
+
+  void loads() {
+    TableText table(model_tables::loads);
+    if (const auto loads = root_.find("loads"))
+      for (const JsonValue value : *loads) {
+        const std::size_t before = table.rows();
+        load_case(table, value);
+        if (table.rows() == before) table.set("case", value.key()).end_row();
+      }
+    keep("loads.csv", table);
+  }
+
+  static void load_case(TableText& table, const JsonValue& value) {
+    const std::string_view name = value.key();
+    if (const auto weight = value.find("self_weight")) self_weight(table, name, *weight);
+    if (const auto panels = value.find("panels"))
+      for (const JsonValue panel : *panels) {
+        if (panel.size() == 0) refuse(panel, "at least one load of a panel that is named");
+        for (const JsonValue load : panel)
+          start(table, {name, model_tables::on_panel, panel.key(), load.key()}).set("value", load).end_row();
+      }
+    components(table, value, "nodes", model_tables::on_node, "force");
+    if (const auto members = value.find("members"))
+      for (const JsonValue list : *members) {
+        if (list.size() == 0) refuse(list, "at least one load of a member that is named");
+        for (const JsonValue load : list) member_load(table, {name, model_tables::on_member, list.key(), {}}, load);
+      }
+    components(table, value, "settlements", model_tables::on_settlement, "settlement");
+  }
+
+  static void self_weight(TableText& table, std::string_view load_case, const JsonValue& weight) {
+    const Row row{load_case, model_tables::on_model, {}, "self_weight"};
+    if (!weight.is_array()) {
+      start(table, row).set("value", weight).end_row();
+      return;
+    }
+    constexpr std::array<std::string_view, 3> axes{"x", "y", "z"};
+    std::size_t i = 0;
+    for (const JsonValue number : weight) start(table, row).set("component", axes[i++]).set("value", number).end_row();
+  }
+
+  static void components(TableText& table, const JsonValue& load_case, const char* key, std::string_view on,
+                         std::string_view type) {
+    if (const auto nodes = load_case.find(key))
+      for (const JsonValue node : *nodes) {
+        if (node.size() == 0) refuse(node, "at least one component of a node that is named");
+        for (const JsonValue number : node)
+          start(table, {load_case.key(), on, node.key(), type})
+              .set("component", number.key())
+              .set("value", number)
+              .end_row();
+      }
+  }
+
+  static void member_load(TableText& table, Row row, const JsonValue& load) {
+    const JsonValue first = *load.begin();
+    JsonValue object = first;
+    for (const char* type : {"uniform", "trapezoid", "point", "temperature"})
+      if (const auto found = load.find(type)) {
+        row.type = found->key();
+        object = *found;
+      }
+    if (object.size() == 0) refuse(object, "at least one component");
+    if (row.type == "temperature") hold_only(object, {"uniform", "gradient_y", "gradient_z"}, "uniform, gradients");
+    for (const JsonValue value : object) {
+      start(table, row).set("component", value.key());
+      if (value.is_array())
+        list(table, std::array<const char*, 2>{"value", "value2"}, value);
+      else
+        table.set("value", value);
+      if (const auto at = load.find("at")) table.set("from", *at);
+      for (const char* key : {"from", "to", "frame"})
+        if (const auto entry = load.find(key)) table.set(key, *entry);
+      table.end_row();
+    }
+  }
+
+  void combinations() {
+    TableText table(model_tables::combinations);
+    if (const auto combinations = root_.find("combinations"))
+      for (const JsonValue combination : *combinations)
+        for (const JsonValue factor : combination)
+          table.set("name", combination.key()).set("case", factor.key()).set("factor", factor).end_row();
+    keep("combinations.csv", table);
+  }
+
+  JsonValue root_;
+  TextsByName files_;
+  mutable std::vector<std::string_view> node_names_;
+};
+
+}  // namespace
+
+TextsByName tables_of_model(const JsonDocument& model) { return TableMaker(model).make(); }
+
+}  // namespace topple::structure

@@ -1,0 +1,346 @@
+// Conversion between JSON, .3dd and tables: a round trip keeps every number to the bit, and what the target cannot hold
+// is refused by its name.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "formats/frame3dd_file.h"
+#include "formats/model_files.h"
+#include "support/shared_data.h"
+#include "topple/structure/analysis.h"
+#include "topple/structure/convert.h"
+#include "topple/structure/error.h"
+#include "topple/structure/files.h"
+
+using namespace topple::structure;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder that goes with the test.
+class Scratch {
+ public:
+  Scratch() : path_(fs::temp_directory_path() / ("topple_convert_" + std::to_string(++count_))) {
+    fs::remove_all(path_);
+    fs::create_directories(path_);
+  }
+  ~Scratch() { fs::remove_all(path_); }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  [[nodiscard]] fs::path operator/(const std::string& name) const { return path_ / name; }
+
+  fs::path write(const std::string& name, const std::string& text) const {
+    fs::create_directories((path_ / name).parent_path());
+    std::ofstream(path_ / name, std::ios::binary) << text;
+    return path_ / name;
+  }
+  /// Converts and writes; returns where.
+  fs::path convert(const fs::path& in, const std::string& out) const {
+    const ModelForm form = model_form(path_ / out);
+    for (const auto& [name, text] : convert_model(in, form).files)
+      write(form == ModelForm::tables ? out + "/" + name : out, text);
+    return path_ / out;
+  }
+
+ private:
+  static inline int count_ = 0;
+  fs::path path_;
+};
+
+std::string message(const Scratch& scratch, const fs::path& in, const std::string& out) {
+  try {
+    scratch.convert(in, out);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+/// With everything that tables hold; numbers without a short binary form, to the last bit.
+const std::string full_model = R"({"topple": 1, "title": "All, of \"it\"; tables", "gravity": 9.81000000000000049,
+ "units": {"length": "mm", "force": "kN", "mass": "t"},
+ "materials": {"S 355": {"youngs_modulus": 210.00000000000003, "poisson_ratio": 0.3, "density": 7.85e-9, "yield_strength": 0.355,
+   "thermal_expansion": 1.2e-5}, "C,30": {"youngs_modulus": 33.1, "shear_modulus": 13.75, "poisson_ratio": 0.2, "tensile_strength": 0.0029, "thermal_expansion": 1e-5}},
+ "sections": {"I": {"shape": "I", "depth": 300.1, "width": 300, "web": 11, "flange": 19, "fillet": 27, "shear_deformation": false},
+   "pipe": {"shape": "pipe", "diameter": 219.1, "thickness": 6.3}, "w": {"catalogue": "W14x48"},
+   "raw": {"area": 0.1e5, "Iy": 1e8, "Iz": 1e7, "J": 1e6, "shear_area_y": 4000.000000000001, "torsion_modulus": 2e4, "depth": 300, "width": 200}},
+ "joints": {"pin": {"stiffness": {"ry": 0, "rz": 0}}, "j": {"capacity": {"tension": 2e3, "moment_y": 6.1e5}, "strength": 1.1, "stiffness": {"rx": 4.7e7}}},
+ "nodes": {"A0": [0, 0, 0], "A1": [0, 0, 3500.1], "B0": [6000, 0, 0], "B1": [6000, 0, 3500.1], "C0": [6000, 6000, 0.1e-3],
+           "C1": [6000, 6000, 3500.1], "D1": [0, 6000, 3500.1]},
+ "members": {"PA": {"kind": "post", "nodes": ["A0", "A1"], "section": "I", "material": "S 355", "up": [0.1, 0.7, 0], "roll": 0.30000000000000004,
+   "joints": ["j", null], "groups": ["west", "first floor"]},
+   "PB": {"kind": "post", "nodes": ["B0", "B1"], "section": "pipe", "material": "S 355"},
+   "PC": {"kind": "post", "nodes": ["C0", "C1"], "section": "raw", "material": "S 355"},
+   "AB": {"nodes": ["A1", "B1"], "section": "w", "material": "S 355", "joints": ["pin", "pin"]},
+   "BC": {"nodes": ["B1", "C1"], "section": "w", "material": "S 355"}, "CD": {"nodes": ["C1", "D1"], "section": "w", "material": "S 355"},
+   "DA": {"nodes": ["D1", "A1"], "section": "w", "material": "S 355"}},
+ "panels": {"S1": {"kind": "slab", "nodes": ["A1", "B1", "C1", "D1"], "thickness": 200.7, "material": "C,30", "model": "membrane", "mesh": [4, 3]}},
+ "supports": {"A0": "fixed", "B0": "pinned", "C0": {"x": true, "y": true, "z": 50.3}},
+ "loads": {"dead": {"self_weight": 1.1, "panels": {"S1": {"pressure": 1.5e-6, "temperature": 3.3}}},
+   "wind": {"self_weight": [0.1, 0, -0.2], "nodes": {"B1": {"z": -50.7, "rx": 0}}, "members": {"BC": [{"uniform": {"x": 0.1, "z": -8e-3}},
+     {"trapezoid": {"z": [-1e-3, -4e-3]}, "from": 1000.3, "to": 3000, "frame": "local"}, {"point": {"y": 2.3, "rz": 1e2}, "at": 2500.7},
+     {"temperature": {"uniform": 20.1, "gradient_z": 15e-3}}]}},
+   "settle": {"settlements": {"B0": {"z": -10.3}}}, "nothing": {}},
+ "combinations": {"service": {"dead": 1, "wind": 0.30000000000000004}, "other": {"settle": 1.35, "dead": 1}}})";
+
+void check_same(const Building& a, const Building& b) {
+  CHECK(a.title == b.title);
+  CHECK(a.gravity == b.gravity);
+  CHECK(a.units.length_name == b.units.length_name);
+  REQUIRE(a.nodes.size() == b.nodes.size());
+  for (std::size_t i = 0; i < a.nodes.size(); ++i) {
+    CHECK(a.nodes[i].name == b.nodes[i].name);
+    CHECK(a.nodes[i].position == b.nodes[i].position);
+  }
+  REQUIRE(a.materials.size() == b.materials.size());
+  for (std::size_t i = 0; i < a.materials.size(); ++i) {
+    CHECK(a.materials[i].youngs_modulus == b.materials[i].youngs_modulus);
+    CHECK(a.materials[i].shear_modulus == b.materials[i].shear_modulus);
+    CHECK(a.materials[i].density == b.materials[i].density);
+    CHECK(a.materials[i].yield_strength == b.materials[i].yield_strength);
+    CHECK(a.materials[i].thermal_expansion == b.materials[i].thermal_expansion);
+  }
+  REQUIRE(a.sections.size() == b.sections.size());
+  for (std::size_t i = 0; i < a.sections.size(); ++i) {
+    CHECK(a.sections[i].area == b.sections[i].area);
+    CHECK(a.sections[i].Iy == b.sections[i].Iy);
+    CHECK(a.sections[i].J == b.sections[i].J);
+    CHECK(a.sections[i].shear_area_y == b.sections[i].shear_area_y);
+    CHECK(a.sections[i].torsion_modulus == b.sections[i].torsion_modulus);
+  }
+  REQUIRE(a.members.size() == b.members.size());
+  for (std::size_t i = 0; i < a.members.size(); ++i) {
+    CHECK(a.members[i].name == b.members[i].name);
+    CHECK(a.members[i].axes == b.members[i].axes);
+    CHECK(a.members[i].kind == b.members[i].kind);
+    CHECK(a.members[i].groups == b.members[i].groups);
+    CHECK(a.members[i].offsets == b.members[i].offsets);
+  }
+  REQUIRE(a.joints.size() == b.joints.size());
+  for (std::size_t i = 0; i < a.joints.size(); ++i) {
+    CHECK(a.joints[i].stiffness == b.joints[i].stiffness);
+    CHECK(a.joints[i].capacity.value == b.joints[i].capacity.value);
+    CHECK(a.joints[i].capacity.breakable == b.joints[i].capacity.breakable);
+  }
+  REQUIRE(a.supports.size() == b.supports.size());
+  for (std::size_t i = 0; i < a.supports.size(); ++i) CHECK(a.supports[i].stiffness == b.supports[i].stiffness);
+  REQUIRE(a.cases.size() == b.cases.size());
+  for (std::size_t i = 0; i < a.cases.size(); ++i) {
+    CHECK(a.cases[i].name == b.cases[i].name);
+    CHECK(a.cases[i].self_weight == b.cases[i].self_weight);
+    REQUIRE(a.cases[i].members.size() == b.cases[i].members.size());
+    for (std::size_t k = 0; k < a.cases[i].members.size(); ++k) {
+      const MemberLoad &p = a.cases[i].members[k], &q = b.cases[i].members[k];
+      CHECK(p.member == q.member);
+      CHECK(p.kind == q.kind);
+      CHECK(p.frame == q.frame);
+      CHECK(p.first == q.first);
+      CHECK(p.last == q.last);
+      CHECK(p.from == q.from);
+      CHECK(p.to == q.to);
+      CHECK(p.temperature == q.temperature);
+      CHECK(p.gradient_y == q.gradient_y);
+      CHECK(p.gradient_z == q.gradient_z);
+    }
+    REQUIRE(a.cases[i].nodes.size() == b.cases[i].nodes.size());
+    for (std::size_t k = 0; k < a.cases[i].nodes.size(); ++k)
+      CHECK(a.cases[i].nodes[k].load == b.cases[i].nodes[k].load);
+    REQUIRE(a.cases[i].panels.size() == b.cases[i].panels.size());
+    for (std::size_t k = 0; k < a.cases[i].panels.size(); ++k)
+      CHECK(a.cases[i].panels[k].pressure == b.cases[i].panels[k].pressure);
+    REQUIRE(a.cases[i].settlements.size() == b.cases[i].settlements.size());
+    for (std::size_t k = 0; k < a.cases[i].settlements.size(); ++k)
+      CHECK(a.cases[i].settlements[k].value == b.cases[i].settlements[k].value);
+  }
+  REQUIRE(a.combinations.size() == b.combinations.size());
+  for (std::size_t i = 0; i < a.combinations.size(); ++i) {
+    CHECK(a.combinations[i].name == b.combinations[i].name);
+    CHECK(a.combinations[i].factors == b.combinations[i].factors);
+  }
+}
+
+/// A .3dd file with every kind of load, radii, rolls, masses, condensation, and numbers without a short binary form.
+const std::string full_3dd = R"(All that a file can hold
+4  # nodes
+1 0 0 0 0
+2 0 0 3000.1 25.4
+3 2000.7 0 3000.1 12.7
+4 2000.7 700.3 3000.1 0.1
+2
+1 1 1 1 1 1 1
+4 0 0 1 0 0 0
+3
+1 1 2 100.1 50.3 60.7 10 20 30 200000.1 80000.3 0 7.85e-9
+3 3 4 100.1 50.3 60.7 10 20 30.9 200000.1 80000.3 33.3 7.85e-9
+2 2 3 100.1 50.3 60.7 10 20 30 200000.1 80000.3 -71.7 7.9e-9
+1 1  10.5 1.25 20
+2
+0.1 0.2 -9806.65
+1
+3 1.1 0 -1000.3 0 0 0.7
+2
+2 0.3 -5.1 0.7
+2 0 0 1
+1
+2 0 0 0 0  500.3 1500.7 0.1 0.2  0.1 1900.3 0 -0.7
+2
+2 0 -5.3 0 1700.1
+3 1 2 3 100.7
+2
+1 12.1e-6 100.7 200.3 10.1 20.2 30.3 70.7
+2 0 1 1 1 2 3 4
+1
+1 0 0 -2.51 0 0.001 0
+0 0 0
+0 0 0 0 0 0
+3
+1 1
+1e-9 0.1 12.5
+1
+3 0.1 1 2 3.3
+1
+2 0.7
+2 1 2
+0.5
+2 1
+3 1 0 0 1 0 0
+1 3
+)";
+
+/// The numbers of a .3dd file as lines of text, sorted: loads on elements may change their order, which says nothing.
+std::vector<std::string> sorted_lines(const std::string& text) {
+  std::istringstream stream(frame3dd_text(parse_frame3dd_file(text, "a.3dd")));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  std::sort(lines.begin(), lines.end());
+  return lines;
+}
+
+}  // namespace
+
+TEST_CASE("JSON to tables and back keeps every number to the bit") {
+  const Scratch scratch;
+  const fs::path in = scratch.write("in.json", full_model);
+  const fs::path tables = scratch.convert(in, "tables");
+  const fs::path back = scratch.convert(tables, "back.json");
+  const Building original = read_model(in, Purpose::inspect);
+  check_same(original, read_model(tables, Purpose::inspect));
+  check_same(original, read_model(back, Purpose::inspect));
+  // And the second time the tables are the same text.
+  scratch.convert(back, "again");
+  for (const auto& entry : fs::directory_iterator(tables))
+    CHECK(formats::whole_text(entry.path()) ==
+          formats::whole_text(scratch / ("again/" + entry.path().filename().string())));
+}
+
+TEST_CASE(".3dd to JSON and back keeps every number to the bit") {
+  const Scratch scratch;
+  const fs::path in = scratch.write("in.3dd", full_3dd);
+  const fs::path json = scratch.convert(in, "model.json");
+  const fs::path back = scratch.convert(json, "back.3dd");
+  CHECK(sorted_lines(formats::whole_text(back)) == sorted_lines(full_3dd));
+}
+
+TEST_CASE("a .3dd file and its JSON are the same model") {
+  const Scratch scratch;
+  const fs::path in = scratch.write("in.3dd", full_3dd);
+  const Building a = read_model(in, Purpose::inspect);
+  const Building b = read_model(scratch.convert(in, "model.json"), Purpose::inspect);
+  REQUIRE(a.members.size() == b.members.size());
+  // Axes and lengths pass through other operations: rounding.
+  for (std::size_t i = 0; i < a.members.size(); ++i) {
+    CHECK((a.members[i].axes - b.members[i].axes).norm() < 1e-14);
+    CHECK(a.members[i].length == Approx(b.members[i].length).epsilon(1e-14));
+    CHECK(a[a.members[i].section].shear_area_y == b[b.members[i].section].shear_area_y);
+    CHECK(a[a.members[i].material].density == b[b.members[i].material].density);
+  }
+  for (std::size_t k = 0; k < a.cases.size(); ++k)
+    CHECK((a.gravity * a.cases[k].self_weight - b.gravity * b.cases[k].self_weight).norm() < 1e-11);
+  CHECK(b.requested.cubic_p_delta);
+  CHECK(b.requested.modes == 3);
+  CHECK(b.requested.lumped_mass);
+  CHECK(b.requested.frequency_shift == 0.1);
+  CHECK(b.masses.nodes.at(0).inertia.z() == 3.3);
+  REQUIRE(a.warnings.size() == 1);
+  CHECK(b.warnings.back() == a.warnings[0]);  // of the condensation
+  // The temperatures of the faces: mean and gradients as the .3dd reader has them.
+  const auto heat = [](const Building& building) {
+    for (const MemberLoad& load : building.cases[0].members)
+      if (load.kind == MemberLoad::Kind::temperature && load.temperature != 0) return load;
+    return MemberLoad{};
+  };
+  CHECK(heat(a).temperature == Approx(heat(b).temperature).epsilon(1e-15));
+  CHECK(heat(a).gradient_y == Approx(heat(b).gradient_y).epsilon(1e-15));
+  CHECK(heat(a).gradient_z == Approx(heat(b).gradient_z).epsilon(1e-15));
+}
+
+TEST_CASE("the published .3dd examples go to JSON and back to the bit") {
+  if (!topple::test::have_shared("reference/frame3dd/exE.3dd")) return;
+  for (const char* name : {"exA", "exB", "exE", "exH"}) {
+    const Scratch scratch;
+    const fs::path in = topple::test::shared_path("reference/frame3dd/" + std::string(name) + ".3dd");
+    const fs::path back = scratch.convert(scratch.convert(in, "model.json"), "back.3dd");
+    INFO(name);
+    CHECK(sorted_lines(formats::whole_text(back)) == sorted_lines(formats::whole_text(in)));
+  }
+}
+
+TEST_CASE("what the target cannot hold is refused by its name") {
+  const Scratch scratch;
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string text = full_model;
+    text.replace(text.find(from), from.size(), to);
+    return scratch.write("in.json", text);
+  };
+  CHECK_THAT(message(scratch, with(R"("section": "pipe",)", R"("section": "pipe", "axial": "tension",)"), "t"),
+             Catch::Contains("members.PB.axial: tables cannot hold it"));
+  CHECK_THAT(message(scratch, with(R"("joints": {)", R"("joints": {"d": {"capacity": {"from": "section"}}, )"), "t"),
+             Catch::Contains("joints.d.capacity.from: tables cannot hold it"));
+  CHECK_THAT(message(scratch, with(R"("supports":)", R"("diaphragms": {"level": ["A1"]}, "supports":)"), "t"),
+             Catch::Contains("diaphragms: tables cannot hold it"));
+  CHECK_THAT(message(scratch, scratch.write("in.json", full_model), "out.3dd"),
+             Catch::Contains("panels.S1: a .3dd file cannot hold it"));
+  const std::string frame = R"({"topple": 1, "materials": {"s": {"youngs_modulus": 2e11, "shear_modulus": 8e10}},
+    "sections": {"b": {"area": 0.01, "Iy": 1e-4, "Iz": 1e-4, "J": 1e-4}}, "nodes": {"A": [0,0,0], "B": [3,0,0]},
+    "joints": {"pin": {"stiffness": {"ry": 0}}},
+    "members": {"AB": {"nodes": ["A", "B"], "section": "b", "material": "s"}}, "supports": {"A": "fixed"},
+    "loads": {"u": {"members": {"AB": [{"uniform": {"z": -1}, "frame": "local"}]}}}})";
+  const auto changed = [&](const std::string& from, const std::string& to) {
+    std::string text = frame;
+    text.replace(text.find(from), from.size(), to);
+    return message(scratch, scratch.write("frame.json", text), "out.3dd");
+  };
+  CHECK(changed("-1", "-2") == "accepted");
+  CHECK_THAT(changed(R"(, "frame": "local")", ""),
+             Catch::Contains("loads.u.members.AB[0]: a .3dd file cannot hold it"));
+  CHECK_THAT(changed(R"("material": "s")", R"("material": "s", "joints": ["pin", null])"),
+             Catch::Contains("members.AB.joints[0]: a .3dd file cannot hold it"));
+  CHECK_THAT(changed(R"({"area": 0.01, "Iy": 1e-4, "Iz": 1e-4, "J": 1e-4})", R"({"shape": "circle", "diameter": 0.1})"),
+             Catch::Contains("sections.b.shape: a .3dd file cannot hold it"));
+  CHECK_THAT(changed(R"("A": "fixed")", R"("A": "fixed", "B": {"z": 1e6})"),
+             Catch::Contains("supports.B: a .3dd file"));
+  CHECK_THAT(message(scratch, scratch / "frame.json", "out.xyz"), Catch::Contains("the ending .xyz is not known"));
+}
+
+TEST_CASE("a frame written as .3dd keeps its axes and its answer") {
+  const Scratch scratch;
+  // Odd directions, `up` vectors and rolls; offsets along the members as radii of their nodes.
+  const fs::path in = scratch.write("frame.json", R"({"topple": 1, "gravity": 10,
+    "materials": {"s": {"youngs_modulus": 2e11, "shear_modulus": 8e10, "density": 7850}},
+    "sections": {"b": {"area": 0.01, "Iy": 1e-4, "Iz": 3e-5, "J": 1e-5}},
+    "nodes": {"A": [0,0,0], "B": [0,0,3], "C": [4,1,3.5], "D": [4,5,0]},
+    "members": {"AB": {"kind": "post", "nodes": ["A", "B"], "section": "b", "material": "s", "up": [0, 1, 0]},
+                "BC": {"nodes": ["B", "C"], "section": "b", "material": "s", "roll": 0.7853981633974483},
+                "CD": {"nodes": ["C", "D"], "section": "b", "material": "s", "up": [1, 0, 0]}},
+    "supports": {"A": "fixed", "D": "pinned"}, "loads": {"u": {"self_weight": 1, "nodes": {"C": {"x": 1000, "y": -300}}}}})");
+  const Building a = read_model(in), b = read_model(scratch.convert(in, "frame.3dd"));
+  for (std::size_t i = 0; i < a.members.size(); ++i) CHECK((a.members[i].axes - b.members[i].axes).norm() < 1e-11);
+  const AnalysisResult ra = analyse(a), rb = analyse(b);
+  for (std::size_t n = 0; n < a.nodes.size(); ++n)
+    CHECK((ra.combinations[0].displacements[n] - rb.combinations[0].displacements[n]).norm() <
+          1e-10 * ra.combinations[0].displacements[2].norm());
+}
