@@ -35,7 +35,7 @@ TEST_CASE("unknown and missing keys are named with what is accepted") {
   CHECK(
       error("\"up\": [1, 0, 0], \"roll\"", "\"up\": [1, 0, 0], \"rol\"") ==
       "m.json, line 29, members.PA.rol: unknown key; accepted: \"kind\", \"nodes\", \"section\", \"material\", \"up\", "
-      "\"roll\", \"joints\", \"offsets\", \"axial\", \"groups\"");
+      "\"roll\", \"joints\", \"offsets\", \"axial\", \"groups\", \"design\"");
   CHECK(error("\"nodes\": [\"B0\", \"B1\"], \"section\": \"col\", ", "\"nodes\": [\"B0\", \"B1\"], ") ==
         "m.json, line 30, members.PB: the key \"section\" is missing");
   CHECK(error("\"topple\": 1", "\"topple\": 2") ==
