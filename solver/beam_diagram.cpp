@@ -24,27 +24,48 @@ Polynomial derivative(const Polynomial& p) {
   return d;
 }
 
-/// Bisection to the last bit on a bracket with a change of sign.
-double bisect(const Polynomial& p, double a, double b) {
+/// The zero on a bracket with a change of sign, to the last bit or two: Newton's method, and bisection where that would
+/// leave the bracket or close it too slowly.
+double zero_between(const Polynomial& p, const Polynomial& slope, double a, double b) {
   const bool rising = polynomial(p, a) < 0;
-  for (int i = 0; i < 200; ++i) {
-    const double middle = a + (b - a) / 2;
-    if (middle <= a || middle >= b) break;
-    ((polynomial(p, middle) < 0) == rising ? a : b) = middle;
+  double x = a + (b - a) / 2, before = b - a;
+  constexpr int enough = 200;
+  for (int i = 0; i < enough; ++i) {
+    const double value = polynomial(p, x);
+    if (value == 0) return x;
+    ((value < 0) == rising ? a : b) = x;
+    double step = -value / polynomial(slope, x);
+    if (!(x + step > a && x + step < b) || std::abs(step) > before / 2) step = a + (b - a) / 2 - x;
+    if (x + step == x || x + step <= a || x + step >= b) break;
+    before = std::abs(step);
+    x += step;
   }
-  return a;
+  return x;
+}
+
+/// One more than the highest power with a coefficient.
+std::size_t terms(const Polynomial& p) {
+  std::size_t n = p.size();
+  while (n > 0 && p[n - 1] == 0) --n;
+  return n;
 }
 
 /// Where p changes sign within (0, length): between neighbouring roots of its derivative it is monotone.
 std::vector<double> sign_changes(const Polynomial& p, double length) {
-  if (std::all_of(p.begin() + 1, p.end(), [](double c) { return c == 0; })) return {};
+  const std::size_t n = terms(p);
+  if (n < 2) return {};
+  if (n == 2) {
+    const double root = -p[0] / p[1];
+    return root > 0 && root < length ? std::vector<double>{root} : std::vector<double>{};
+  }
+  const Polynomial slope = derivative(p);
   std::vector<double> marks{0.0};
-  for (double root : sign_changes(derivative(p), length)) marks.push_back(root);
+  for (double root : sign_changes(slope, length)) marks.push_back(root);
   marks.push_back(length);
   std::vector<double> roots;
   for (std::size_t i = 0; i + 1 < marks.size(); ++i) {
     if ((polynomial(p, marks[i]) < 0) != (polynomial(p, marks[i + 1]) < 0)) {
-      roots.push_back(bisect(p, marks[i], marks[i + 1]));
+      roots.push_back(zero_between(p, slope, marks[i], marks[i + 1]));
     }
   }
   return roots;

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "serial_regions.h"
+
 extern "C" void openblas_set_num_threads(int);
 
 namespace topple::solver {
@@ -137,6 +139,7 @@ Factor::Factor(const SparseSymmetric& pattern, std::vector<int> permutation, Fac
   std::vector<Long> order(permutation.begin(), permutation.end());
   // Values of one: CHOLMOD's analysis takes the pattern of a real matrix, and looks at no value.
   cholmod_sparse a = s.view(nullptr);
+  const SerialRegions serial;
   s.factor = cholmod_l_analyze_p(&a, order.data(), nullptr, 0, s.common.get());
   s.common.check("symbolic factorisation");
   s.operations = s.common->fl;
@@ -149,6 +152,7 @@ Factor& Factor::operator=(Factor&&) noexcept = default;
 Factor::Outcome Factor::factorise(const SparseSymmetric& matrix) {
   State& s = *state_;
   cholmod_sparse a = s.view(matrix.value.data());
+  const SerialRegions serial;
   cholmod_l_factorize(&a, s.factor, s.common.get());
   if (s.common->status != CHOLMOD_NOT_POSDEF && s.common->status != CHOLMOD_DSMALL) s.common.check("factorisation");
   const auto* order = static_cast<const Long*>(s.factor->Perm);
@@ -184,6 +188,7 @@ void Factor::solve(Eigen::Ref<Eigen::MatrixXd> right_hand_sides) const {
   b.x = right_hand_sides.data();
   b.xtype = CHOLMOD_REAL;
   b.dtype = CHOLMOD_DOUBLE;
+  const SerialRegions serial;
   // solve2 keeps its workspaces from call to call: nothing is allocated once they are large enough.
   cholmod_l_solve2(CHOLMOD_A, s.factor, &b, nullptr, &s.solution, nullptr, &s.work_y, &s.work_e, s.common.get());
   s.common.check("solution");
