@@ -105,6 +105,7 @@ class Tables {
       for (const char* side : {" least", " greatest"})
         header += "," + std::string(diagram_names[q]) + side + unit + ",at" + length_;
     }
+    if (result_.design_code) header += ",utilisation,governing";
     Table table(header);
     for (const CombinationResult& c : result_.combinations)
       for (std::size_t m = 0; m < building_.members.size(); ++m) {
@@ -114,9 +115,17 @@ class Tables {
         for (std::size_t q = 0; q < diagram_names.size(); ++q)
           for (const Extreme& end : {member.min[q], member.max[q]})
             table.cell(end.value / units_.diagram_factor(q)).cell(end.at / building_.units.length);
+        if (result_.design_code) design(table, c.designs[m]);
         table.end_row();
       }
     return table.take();
+  }
+
+  static void design(Table& table, const DesignResult& used) {
+    if (used.governing.empty())
+      table.cell("").cell("");  // not checked
+    else
+      table.cell(used.utilisation).cell(used.governing);
   }
 
   [[nodiscard]] std::string joints() const {

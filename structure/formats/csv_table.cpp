@@ -31,10 +31,10 @@ std::size_t bad_byte(std::string_view text) {
   return std::string_view::npos;
 }
 
-std::string trimmed(std::string_view text) {
+std::string_view trimmed(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(" \t");
   if (begin == std::string_view::npos) return {};
-  return std::string(text.substr(begin, text.find_last_not_of(" \t") + 1 - begin));
+  return text.substr(begin, text.find_last_not_of(" \t") + 1 - begin);
 }
 
 /// What the decimal sign of a number can be.
@@ -72,8 +72,9 @@ DecimalSign decimal_sign(std::string_view cell) {
 
 }  // namespace
 
-CsvTable::CsvTable(std::string_view text, std::string name, std::vector<std::string_view> columns)
-    : name_(std::move(name)), columns_(std::move(columns)) {
+CsvTable::CsvTable(std::string whole, std::string name, std::vector<std::string_view> columns)
+    : text_(std::move(whole)), name_(std::move(name)), columns_(std::move(columns)) {
+  std::string_view text = text_;
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   if (const std::size_t bad = bad_byte(text); bad != std::string_view::npos)
     fail_line(
@@ -88,59 +89,66 @@ CsvTable::CsvTable(std::string_view text, std::string name, std::vector<std::str
   bool has_header = false;
   while (!text.empty()) {
     const std::uint32_t at = line;
-    std::vector<std::string> cells = next_record(text, line);
-    if (std::all_of(cells.begin(), cells.end(), [](const std::string& cell) { return cell.empty(); })) continue;
-    if (has_header) {
-      add_row(std::move(cells), at);
-    } else {
-      read_header(cells);
-      has_header = true;
-    }
+    next_record(text, line);
+    if (std::all_of(record_.begin(), record_.end(), [](std::string_view cell) { return cell.empty(); })) continue;
+    if (has_header)
+      add_row(at);
+    else
+      read_header();
+    has_header = true;
   }
   if (!has_header) fail_line(1, "the table is empty; accepted: a header line with " + quoted_list(columns_));
   find_decimal_sign();
 }
 
-std::vector<std::string> CsvTable::next_record(std::string_view& rest, std::uint32_t& line) const {
-  std::vector<std::string> cells;
+void CsvTable::next_record(std::string_view& rest, std::uint32_t& line) {
+  record_.clear();
   while (true) {
-    std::string cell;
     const std::size_t begin = rest.find_first_not_of(separator_ == '\t' ? " " : " \t");
     const bool quoted = begin != std::string_view::npos && rest[begin] == '"';
+    std::string_view cell;
     if (quoted) {
-      const std::uint32_t start = line;
       rest.remove_prefix(begin + 1);
-      while (true) {
-        const std::size_t quote = rest.find('"');
-        if (quote == std::string_view::npos) fail_line(start, "a quotation mark is not closed; accepted: \"...\"");
-        line += static_cast<std::uint32_t>(
-            std::count(rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(quote), '\n'));
-        cell += rest.substr(0, quote);
-        rest.remove_prefix(quote + 1);
-        if (!rest.starts_with('"')) break;
-        cell += '"';
-        rest.remove_prefix(1);
-      }
+      cell = quoted_cell(rest, line);
     }
-    const std::size_t end = rest.find_first_of(separator_ == ';' ? ";\n" : separator_ == '\t' ? "\t\n" : ",\n");
+    std::size_t end = 0;
+    while (end < rest.size() && rest[end] != separator_ && rest[end] != '\n') ++end;
     std::string_view plain = rest.substr(0, end);
     if (plain.ends_with('\r')) plain.remove_suffix(1);
-    const std::string outside = trimmed(plain);
+    const std::string_view outside = trimmed(plain);
     if (quoted && !outside.empty()) fail_line(line, "text after a closing quotation mark; accepted: a separator");
-    if (!quoted && outside.find('"') != std::string::npos)
+    if (!quoted && outside.find('"') != std::string_view::npos)
       fail_line(line,
                 "a quotation mark inside a cell; accepted: the cell in quotation marks, with \"\" for each inside");
-    cells.push_back(quoted ? std::move(cell) : outside);
-    const bool last = end == std::string_view::npos || rest[end] == '\n';
-    rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
+    record_.push_back(quoted ? cell : outside);
+    const bool last = end == rest.size() || rest[end] == '\n';
+    rest.remove_prefix(std::min(end + 1, rest.size()));
     if (last) break;
   }
   ++line;
-  return cells;
 }
 
-void CsvTable::read_header(const std::vector<std::string>& names) {
-  for (const std::string& column : names) {
+std::string_view CsvTable::quoted_cell(std::string_view& rest, std::uint32_t& line) {
+  const std::uint32_t start = line;
+  std::string_view piece;
+  std::string* joined = nullptr;
+  while (true) {
+    const std::size_t quote = rest.find('"');
+    if (quote == std::string_view::npos) fail_line(start, "a quotation mark is not closed; accepted: \"...\"");
+    piece = rest.substr(0, quote);
+    line += static_cast<std::uint32_t>(std::count(piece.begin(), piece.end(), '\n'));
+    rest.remove_prefix(quote + 1);
+    const bool doubled = rest.starts_with('"');
+    if (doubled && joined == nullptr) joined = &unquoted_.emplace_back();
+    if (joined != nullptr) *joined += piece;
+    if (!doubled) return joined != nullptr ? std::string_view(*joined) : piece;
+    *joined += '"';
+    rest.remove_prefix(1);
+  }
+}
+
+void CsvTable::read_header() {
+  for (const std::string_view column : record_) {
     const auto known = std::find(columns_.begin(), columns_.end(), column);
     if (!column.empty() && known == columns_.end())
       fail_line(1, "there is no column " + in_quotes(column) + "; accepted: " + quoted_list(columns_));
@@ -151,18 +159,19 @@ void CsvTable::read_header(const std::vector<std::string>& names) {
   }
 }
 
-void CsvTable::add_row(std::vector<std::string> cells, std::uint32_t line) {
-  if (cells.size() != column_of_.size())
-    fail_line(line, std::to_string(cells.size()) + " cells where the header has " + std::to_string(column_of_.size()) +
+void CsvTable::add_row(std::uint32_t line) {
+  if (record_.size() != column_of_.size())
+    fail_line(line, std::to_string(record_.size()) + " cells where the header has " +
+                        std::to_string(column_of_.size()) +
                         "; accepted: as many as the header (is there a decimal comma, or a comma in a name without "
                         "quotation marks?)");
   const std::size_t first = cells_.size();
   cells_.resize(first + columns_.size());
-  for (std::size_t k = 0; k < cells.size(); ++k) {
+  for (std::size_t k = 0; k < record_.size(); ++k) {
     if (column_of_[k] >= 0)
-      cells_[first + static_cast<std::size_t>(column_of_[k])] = std::move(cells[k]);
-    else if (!cells[k].empty())
-      fail_line(line, "found " + in_quotes(cells[k]) + " under no heading; accepted: a name in the header line");
+      cells_[first + static_cast<std::size_t>(column_of_[k])] = record_[k];
+    else if (!record_[k].empty())
+      fail_line(line, "found " + in_quotes(record_[k]) + " under no heading; accepted: a name in the header line");
   }
   lines_.push_back(line);
 }

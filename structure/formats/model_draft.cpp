@@ -182,6 +182,14 @@ const NodeSupport* ModelDraft::support_of(NodeId node) const {
   return index < 0 ? nullptr : &building.supports[static_cast<std::size_t>(index)];
 }
 
+void ModelDraft::reserve(std::size_t nodes, std::size_t members) {
+  building.nodes.reserve(building.nodes.size() + nodes);
+  nodes_.reserve(nodes);
+  building.members.reserve(building.members.size() + members);
+  members_.reserve(members);
+  member_joints_.reserve(member_joints_.size() + 2 * members);
+}
+
 void ModelDraft::finish_joints() {
   building.joints = std::move(member_joints_);
   building.joints.insert(building.joints.end(), std::make_move_iterator(panel_joints_.begin()),

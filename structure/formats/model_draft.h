@@ -46,6 +46,7 @@ class Names {
     return found->second;
   }
   [[nodiscard]] std::size_t size() const { return map_.size(); }
+  void reserve(std::size_t more) { map_.reserve(map_.size() + more); }
 
  private:
   struct Hash {
@@ -92,6 +93,9 @@ class ModelDraft {
   Building building;
   Scale scale;
   std::vector<JointType> joint_types;
+
+  /// Room for so many more, so that large models do not move what is there again and again.
+  void reserve(std::size_t nodes, std::size_t members);
 
   // `place` is where the part is described, for messages.
   NodeId add_node(const std::string& name, const Vec3& position, const JsonValue& place);

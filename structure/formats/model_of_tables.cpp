@@ -63,7 +63,18 @@ class ModelMaker {
     made_.json += '\n';
     made_.places.push_back(place.empty() ? folder_ : std::move(place));
   }
-  static std::string quoted(std::string_view text) { return JsonWriter().value(text).take(); }
+  static std::string quoted(std::string_view text) {
+    const bool plain = std::all_of(text.begin(), text.end(), [](char c) {
+      return c != '"' && c != '\\' && static_cast<unsigned char>(c) >= 0x20;
+    });
+    if (!plain) return JsonWriter().value(text).take();
+    std::string result;
+    result.reserve(text.size() + 2);
+    result += '"';
+    result += text;
+    result += '"';
+    return result;
+  }
   static std::string digits(double number) { return JsonWriter().value(number).take(); }
 
   /// One line for each row of a table, as the values of one object with the row's first cell as key.
@@ -73,9 +84,10 @@ class ModelMaker {
     if (found == tables_.end()) return;
     const CsvTable& table = found->second;
     put(opening, table.name());
-    std::unordered_map<std::string, std::size_t> seen;  // looked up only
+    std::unordered_map<std::string_view, std::size_t> seen;  // looked up only
+    seen.reserve(table.rows());
     for (std::size_t row = 0; row < table.rows(); ++row) {
-      const std::string part(table.text(row, 0));
+      const std::string_view part = table.text(row, 0);
       if (const auto [first, is_new] = seen.try_emplace(part, row); !is_new)
         table.fail(row, 0,
                    in_quotes(part) + " stands twice, first in " + table.place(first->second) + "; accepted: each once");

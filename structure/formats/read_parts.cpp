@@ -168,6 +168,7 @@ void read_nodes(const JsonValue& root, ModelDraft& draft) {
   const auto nodes = root.find("nodes");
   if (!nodes) return;
   nodes->expect_object();
+  draft.reserve(nodes->size(), 0);
   for (const JsonValue value : *nodes)
     draft.add_node(std::string(value.key()), read_point(value, draft.scale.length), value);
 }
@@ -176,6 +177,7 @@ void read_members(const JsonValue& root, ModelDraft& draft) {
   const auto members = root.find("members");
   if (!members) return;
   members->expect_object();
+  draft.reserve(0, members->size());
   for (const JsonValue value : *members) read_member(value, draft);
 }
 
