@@ -24,8 +24,8 @@ class FreeSpinWorld : public btDiscreteDynamicsWorld {
 
  protected:
   void predictUnconstraintMotion(btScalar time_step) override;
-  /// Turns each body by the angular velocity at mid-step, L = I w held constant (explicit midpoint rule: the momentum
-  /// is kept to rounding, the energy to second order). Bullet's own gyroscopic terms, which keep neither, are off.
+  /// Turns each body as a free one (free_spin.h). Bullet's own rotation stops at 45 degrees a step, and its gyroscopic
+  /// terms keep neither momentum nor energy.
   void integrateTransforms(btScalar time_step) override;
 
  private:
