@@ -21,6 +21,9 @@ struct Settings {
       0.5;  ///< m/s: slower contacts do not bounce, so that piles come to rest (2 g dt at 1/60 s is 0.33)
   double asleep_below =
       0.1;  ///< m/s and rad/s for two seconds. Bullet's 0.8 and 1 freeze a post that has begun to topple
+  double settled_time = 2;    ///< s: things that touch each other rest when in such a time they have come less than ...
+  double settled_mean = 0.1;  ///< m on the whole (root mean square by mass), and ...
+  double settled_single = 1;  ///< m each by its centre: see let_settled_sleep()
   double rolling_resistance =
       0.1;  ///< of the normal force times the radius, a ball on soil: on flat ground it would roll for ever
   double continuous_from =
@@ -288,6 +291,7 @@ void BulletWorld::wake(BodyId id) {
   btRigidBody& rigid = *body(id.value).rigid;
   rigid.forceActivationState(ACTIVE_TAG);
   rigid.setDeactivationTime(0);
+  body(id.value).watched = false;
 }
 
 void BulletWorld::wake_all() {
@@ -322,6 +326,7 @@ void BulletWorld::step(double dt) {
   world_.stepSimulation(dt, 0);
   gather_contacts();
   resist_rolling();
+  let_settled_sleep(dt);
   for (auto& [id, hinge] : hinges_) read_hinge(*hinge);
 }
 
@@ -340,6 +345,40 @@ void BulletWorld::resist_rolling() {
       ball.setAngularVelocity(ball.getAngularVelocity() * (slowed / spin));
       contact.work_lost += (spin * spin - slowed * slowed) / (2 * inverse_inertia);
     }
+  }
+}
+
+/// Bullet lets things that touch each other sleep when each of them is still. In a large pile of unequal bodies that
+/// never comes: the solver's remaining error keeps light ones trembling between heavy ones, on the spot. Such a pile
+/// rests when it is not going anywhere.
+void BulletWorld::let_settled_sleep(double dt) {
+  watched_for_ += dt;
+  if (watched_for_ < kSettings.settled_time) return;
+  watched_for_ = 0;
+  struct Island {
+    double mass = 0, sum = 0, farthest = 0;
+  };
+  std::map<int, Island> islands;
+  for (const auto& [id, one] : bodies_) {
+    if (!one->rigid->isActive()) continue;
+    const btTransform& now = one->rigid->getWorldTransform();
+    const double turned = now.getRotation().angleShortestPath(one->watched_at.getRotation());
+    const double away = (now.getOrigin() - one->watched_at.getOrigin()).length();
+    const double moved = away + one->reach * turned;
+    const double mass = 1 / one->rigid->getInvMass();
+    Island& island = islands[one->rigid->getIslandTag()];
+    island.mass += mass;
+    island.sum += mass * moved * moved;
+    island.farthest = std::max(island.farthest, one->watched ? away : BT_LARGE_FLOAT);
+  }
+  for (const auto& [id, one] : bodies_) {
+    one->watched = one->rigid->isActive();
+    if (!one->watched) continue;
+    one->watched_at = one->rigid->getWorldTransform();
+    const Island& island = islands[one->rigid->getIslandTag()];
+    if (island.sum < kSettings.settled_mean * kSettings.settled_mean * island.mass &&
+        island.farthest < kSettings.settled_single)
+      one->rigid->setActivationState(WANTS_DEACTIVATION);
   }
 }
 

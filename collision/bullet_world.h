@@ -30,6 +30,8 @@ struct Body : Solid {
   double rolling_radius = 0;
   int ignored = 0;  ///< pairs that it is in and that are ignored until separated
   SolverVelocities velocities;
+  bool watched = false;                                 ///< since the last look, for going anywhere
+  btTransform watched_at = btTransform::getIdentity();  ///< where it was then
   std::set<std::int64_t> hinges;
 };
 
@@ -104,6 +106,7 @@ class BulletWorld final : public World {
 
   void gather_contacts();
   void resist_rolling();
+  void let_settled_sleep(double dt);
   void forget_contacts_of(Touched::Kind kind, std::int64_t id);
   [[nodiscard]] bool is_awake(const Contact& contact) const;
 
@@ -130,6 +133,7 @@ class BulletWorld final : public World {
   std::map<std::int64_t, std::unique_ptr<Obstacle>> obstacles_;
   std::map<std::int64_t, std::unique_ptr<Hinge>> hinges_;
   std::vector<BodyId> order_;
+  double watched_for_ = 0;  ///< s since the last look
   std::int64_t next_body_ = 0, next_obstacle_ = 0, next_hinge_ = 0;
 
   Solid ground_;

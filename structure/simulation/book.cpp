@@ -13,39 +13,9 @@ void Simulation::State::move() {
   ++counters.collision_steps;
 }
 
-namespace {
-/// Rolling resistance of a projectile over rubble and ground: braking force over weight (a steel ball on gravel), and
-/// the speed below which it is left alone to fall asleep, m/s.
-constexpr double rolling_resistance = 0.05, slow_enough = 0.1;
-}  // namespace
-
-/// Spheres would roll for ever: those that touch something are braked. What that takes is lost in contacts.
-void Simulation::State::brake_rolling() {
-  std::vector<std::int64_t> touching;
-  for (const collision::Contact& contact : world->contacts()) {
-    touching.push_back(contact.body.value);
-    if (contact.other.kind == collision::Touched::Kind::body) touching.push_back(contact.other.body.value);
-  }
-  std::sort(touching.begin(), touching.end());
-  for (auto& [id, one] : bodies) {
-    if (one.radius <= 0 || !std::binary_search(touching.begin(), touching.end(), id)) continue;
-    collision::BodyState state = world->state(one.id);
-    const double speed = state.velocity.norm();
-    if (state.asleep || speed < slow_enough) continue;
-    const Kinetic before = kinetic_energy(one, state, reading());
-    const double kept = std::max(0.0, 1 - rolling_resistance * gravity.norm() * scenario.step / speed);
-    state.velocity *= kept;
-    state.angular_velocity *= kept;
-    const Kinetic after = kinetic_energy(one, state, reading());
-    ledger.lost_in_contacts += before.translation + before.rotation - after.translation - after.rotation;
-    world->set_state(one.id, state);
-  }
-}
-
 void Simulation::State::book() {
   book_contacts();
   for (auto& [id, one] : bodies) book_body(one);
-  brake_rolling();
   resting.read(world->contacts(), obstacles, scenario.step,
                [&](collision::BodyId id) { return body(id) && !world->state(id).asleep; });
   update_views();

@@ -41,6 +41,11 @@ Indentation::Stop Indentation::push(double compliance, double failure_force) {
   return Stop::stood;
 }
 
+double Indentation::stored(double compliance) const {
+  const double pressed = std::max(0.0, depth_ - unloaded_);
+  return pressed * pressed / (2 * compliance);
+}
+
 double Indentation::elastic_rebound_speed() const {
   const double squared = (force_ * force_ - 2 * weight_ * force_) * compliance_ / mass_;
   return squared > 0 ? std::sqrt(squared) : 0;

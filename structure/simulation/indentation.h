@@ -37,6 +37,8 @@ class Indentation {
   [[nodiscard]] double peak_force() const { return peak_force_; }
   [[nodiscard]] double indentation() const { return depth_; }
   [[nodiscard]] double pushing_mass() const { return mass_; }
+  /// Elastic energy under the contact when the place gives way by `compliance`, as deep as the body is now.
+  [[nodiscard]] double stored(double compliance) const;
   /// Speed at which the stored energy would throw the body back from where it stopped (0 when its weight holds it
   /// down).
   [[nodiscard]] double elastic_rebound_speed() const;

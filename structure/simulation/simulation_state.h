@@ -64,7 +64,6 @@ struct Simulation::State {
   void book();
   void book_body(Body& body);
   void book_contacts();
-  void brake_rolling();
   void update_views();
   [[nodiscard]] bool rests() const;
   void tell_rest_and_end();

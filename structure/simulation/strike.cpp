@@ -9,6 +9,12 @@
 
 namespace topple::structure {
 
+namespace {
+/// When a break would move the unloaded contact place by more than this, m, the statics are on their way to a mechanism
+/// that the structure has had no time to reach: the push ends there, and the body keeps the speed it has.
+constexpr double largest_shift = 0.1;
+}  // namespace
+
 /// One contact between a body and a standing part, at its instant.
 struct Simulation::State::Strike {
   Body* body = nullptr;
@@ -102,7 +108,6 @@ void Simulation::State::push_in(Strike& hit) {
   Indentation pushing(hit.mass, hit.speed, weight, hit.structure_mass);
   for (;;) {
     const FirstFailure first = first_failure(*frame, response, strength_factors, unlimited);
-    const double had_stored = pushing.force() * pushing.force() * response.compliance / 2;
     const Indentation::Stop stop = pushing.push(response.compliance, first.force);
     if (stop != Indentation::Stop::failed) {
       hit.speed_out = stop == Indentation::Stop::missed
@@ -110,19 +115,24 @@ void Simulation::State::push_in(Strike& hit) {
                           : -scenario.impact.restitution * pushing.elastic_rebound_speed();
       break;
     }
+    const double stored = pushing.stored(response.compliance);
+    const double shift = frame->break_in_impact(first.joints, hit.place, hit.normal);
+    hit.through = !stands(hit.part);
+    const bool ends = hit.through || std::abs(shift) > largest_shift;
+    if (!ends) {
+      pushing.shift(shift);
+      response = frame->respond(hit.place, hit.normal);
+    }
+    const double freed = ends ? stored : std::max(0.0, stored - pushing.stored(response.compliance));
     for (JointBreak broken : first.joints) {
-      const double stored = pushing.force() * pushing.force() * response.compliance / 2;
-      broken.energy = (stored > had_stored ? stored : had_stored) / static_cast<double>(first.joints.size());
+      broken.energy = freed / static_cast<double>(first.joints.size());
       broken.position = joint_position(broken.joint);
       hit.breaks.push_back(broken);
     }
-    pushing.shift(frame->break_in_impact(first.joints, hit.place, hit.normal));
-    if (!stands(hit.part)) {
-      hit.through = true;
+    if (ends) {
       hit.speed_out = pushing.speed();
       break;
     }
-    response = frame->respond(hit.place, hit.normal);
   }
   hit.peak_force = pushing.peak_force();
   hit.lost = hit.mass * (hit.speed * hit.speed - hit.speed_out * hit.speed_out) / 2;

@@ -46,13 +46,30 @@ TEST_CASE(
     const BodyState now = world->state(id);
     const Vec3 momentum = angular_momentum(now, body.inertia);
     CHECK((momentum - start).norm() < 1e-11 * start.norm());
-    // The midpoint rule is of second order: (w dt)^2 = 1 % a step; the error swings and does not grow beyond a few of
-    // it.
-    CHECK(momentum.dot(now.angular_velocity) / 2 == Approx(energy).epsilon(0.05));
+    // The split is of second order in the largest turn of a part, 0.05 rad: 0.25 % of what is exchanged; it swings.
+    CHECK(momentum.dot(now.angular_velocity) / 2 == Approx(energy).epsilon(5e-3));
     most_turned = std::max(most_turned, std::abs(now.angular_velocity.x()));
     CHECK((now.velocity - body.velocity).norm() == 0);
   }
   CHECK(most_turned > 2);  // it did tumble
+}
+
+TEST_CASE("a slender bar that tumbles fast gains no spin about its own axis") {
+  // 6 m long and 0.1 m thick: its moments differ by a factor of 1800, so that an error of 1/40 in the direction of its
+  // axis would be as much energy again.
+  const auto world = make_bullet_world();
+  BodyDescription bar = box_body({3, 0.05, 0.05}, 295, Vec3::Zero());
+  bar.angular_velocity = Vec3(2, 9, 4);
+  const BodyId id = world->add_body(bar);
+  const Vec3 start = angular_momentum(world->state(id), bar.inertia);
+  const double energy = start.dot(world->state(id).angular_velocity) / 2;
+  for (int step = 0; step < 3600; ++step) world->step(kStep);
+  const BodyState now = world->state(id);
+  const Vec3 momentum = angular_momentum(now, bar.inertia);
+  CHECK((momentum - start).norm() < 1e-10 * start.norm());  // rounding of 3600 steps
+  CHECK(momentum.dot(now.angular_velocity) / 2 == Approx(energy).epsilon(5e-3));
+  const double along = (now.pose.orientation.inverse() * now.angular_velocity).x();
+  CHECK(std::abs(along) == Approx(2).epsilon(0.05));  // of a body with two equal moments it stays
 }
 
 TEST_CASE("a body whose inertia is not diagonal comes back in the frame it was given in") {

@@ -147,6 +147,22 @@ TEST_CASE("a convex hull rests on its face where a box of the same size does") {
   CHECK(world->state(id).pose.position.z() == Approx(0.25).margin(0.004));
 }
 
+TEST_CASE("a heap of heavy slabs and light bars between them comes to rest") {
+  const auto world = world_with_ground();
+  for (int level = 0; level < 8; ++level) {
+    const double z = 0.5 + 0.6 * level, skew = 0.3 * (level % 3);
+    world->add_body(box_body({2, 2, 0.1}, 25000, {skew, -skew, z}));
+    world->add_body(box_body({1.5, 0.06, 0.1}, 300, {skew, 0.8 - skew, z + 0.3}));
+    world->add_body(box_body({0.06, 1.5, 0.1}, 300, {0.5 * skew - 0.9, skew, z + 0.3}));
+  }
+  int steps = 0;
+  while (world->awake_count() > 0 && steps < 60 * 30) {
+    world->step(kStep);
+    ++steps;
+  }
+  CHECK(steps < 60 * 30);
+}
+
 TEST_CASE("two runs of a falling heap agree to the bit") {
   const auto run_once = [] {
     const auto world = world_with_ground(0.6, 0.1);
