@@ -8,7 +8,7 @@ namespace topple::structure {
 namespace {
 /// A place that gives way farther than this, m, without bearing the body is part of something that swings or falls with
 /// it, which linear statics say nothing about.
-constexpr double largest_depth = 0.5;
+constexpr double largest_depth = 3;
 }  // namespace
 
 Indentation::Indentation(double body_mass, double approach_speed, double weight, double structure_mass)

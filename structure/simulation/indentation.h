@@ -25,7 +25,7 @@ class Indentation {
     stood,   ///< the body came to a stop; the peak force was borne
     failed,  ///< the force reached `failure_force` while the body was still moving
     missed   ///< the place moved away and the body's weight turns it round before it catches up, or it gives way by
-             ///< more than 0.5 m, which is no elastic push: the body goes on with its speed
+             ///< more than 3 m, which is no elastic push: the body goes on with its speed
   };
   /// Pushes from where it is until one of these. `failure_force` may be infinite. A force that is above it already
   /// fails at once.

@@ -110,8 +110,9 @@ void Simulation::State::push_in(Strike& hit) {
     const FirstFailure first = first_failure(*frame, response, strength_factors, unlimited);
     const Indentation::Stop stop = pushing.push(response.compliance, first.force);
     if (stop != Indentation::Stop::failed) {
+      // A body that is let go stays where it is: what its weight would have done further in is not its own.
       hit.speed_out = stop == Indentation::Stop::missed
-                          ? pushing.speed()
+                          ? std::min(pushing.speed(), hit.speed)
                           : -scenario.impact.restitution * pushing.elastic_rebound_speed();
       break;
     }
