@@ -1,4 +1,7 @@
 // topple analyse: static analysis of a model, summary on the terminal, files on request.
+#if __has_include(<malloc.h>)
+#include <malloc.h>
+#endif
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -98,11 +101,19 @@ int whole_multiple(int stations, int wanted) {
   return stations == 0 ? wanted : stations * std::max(1, (wanted + stations - 1) / stations);
 }
 
+/// A file's text and tree are free again, but scattered: without this they would stand under the factor at the peak.
+void give_back_free_memory() {
+#if defined(__GLIBC__)
+  malloc_trim(0);
+#endif
+}
+
 int run(const Options& options) {
   for (const auto& [asked, name] : {std::pair{options.html, "--html"}, {options.csv, "--csv"}, {options.vtu, "--vtu"}})
     if (asked && options.output.empty()) throw InputError(std::string(name) + ": name the folder for it with -o");
   StageClock clock;
   const Building building = read_model(find_model(options.model));
+  give_back_free_memory();
   clock.stop("read");
   AnalysisRequest request;
   request.combinations = chosen(building, options.combinations);
@@ -143,7 +154,8 @@ int run(const Options& options) {
 
 std::function<int()> declare(CLI::App& app) {
   auto options = std::make_shared<Options>();
-  app.add_option("MODEL", options->model, "A shipped model's name, a file (.json, .3dd), or a folder of tables (.csv)")->required();
+  app.add_option("MODEL", options->model, "A shipped model's name, a file (.json, .3dd), or a folder of tables (.csv)")
+      ->required();
   app.add_option("-o", options->output, "Folder for results.json and the other files");
   app.add_option("--combination", options->combinations, "Combination to analyse (all, when none is named)")
       ->expected(1)

@@ -1,4 +1,5 @@
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -39,17 +40,17 @@ class Analysis {
       for (std::size_t i = 0; i < building.combinations.size(); ++i) combinations_.emplace_back(i);
     for (const CombinationId id : combinations_) {
       parts_.push_back(part_loads(building, id));
-      whole_.push_back(load_set(building, edges_, parts_.back()));
-      loads_.push_back(on_frame(building, frame_, parts_.back(), whole_.back()));
+      loads_.push_back(load_set(building, edges_, parts_.back()));
+      if (!has_meshes(frame_)) continue;
+      whole_.push_back(std::move(loads_.back()));
+      loads_.back() = on_frame(building, frame_, parts_.back(), whole_.back());
     }
   }
 
   AnalysisResult run() {
     AnalysisResult result;
     try {
-      solver::StaticAnalysis analysis(carrying_both(frame_.model), request_.solver);
-      const std::vector<solver::StaticSolution> solutions = analysis.solve(loads_);
-      result.statistics = analysis.statistics();
+      const std::vector<solver::StaticSolution> solutions = solve_linear(result.statistics);
       for (std::size_t k = 0; k < solutions.size(); ++k) result.combinations.push_back(analysed(k, solutions[k]));
     } catch (const solver::Instability& unstable) {
       throw UnstableModel(building_.file + ": " + describe_instability(building_, frame_, unstable));
@@ -70,6 +71,19 @@ class Analysis {
   }
 
  private:
+  static bool has_meshes(const Frame& frame) {
+    return std::any_of(frame.meshes.begin(), frame.meshes.end(),
+                       [](const PanelMesh& mesh) { return !mesh.elements.empty(); });
+  }
+
+  /// The factor, by far the largest thing there is, goes with the analysis: nothing that follows needs it.
+  [[nodiscard]] std::vector<solver::StaticSolution> solve_linear(solver::AnalysisStatistics& statistics) const {
+    solver::StaticAnalysis analysis(carrying_both(frame_.model), request_.solver);
+    std::vector<solver::StaticSolution> solutions = analysis.solve(loads_);
+    statistics = analysis.statistics();
+    return solutions;
+  }
+
   void find_losses_asked_for(AnalysisResult& result) const {
     if (!request_.losses.any()) return;
     if (request_.second_order != solver::SecondOrder::none)
@@ -173,7 +187,7 @@ class Analysis {
     solver::LoadSet acting = loads_[k];
     turn_pushes_into_reactions(parts_[k], acting, result.reactions);
     result.quality = solution.quality;
-    result.members = members(whole_[k], answer);
+    result.members = members(whole_.empty() ? loads_[k] : whole_[k], answer);
     result.panels = panels(parts_[k], solution);
     result.joints = joints(parts_[k], solution, result);
     result.storeys = storeys_.results(result.displacements, result.members);
@@ -295,8 +309,8 @@ class Analysis {
   Storeys storeys_;
   std::vector<CombinationId> combinations_;
   std::vector<PartLoads> parts_;
-  std::vector<solver::LoadSet> whole_;  ///< per combination, on whole members
-  std::vector<solver::LoadSet> loads_;  ///< the same on the frame
+  std::vector<solver::LoadSet> loads_;  ///< per combination, on the frame
+  std::vector<solver::LoadSet> whole_;  ///< the same on whole members; empty where a mesh divides none
   std::optional<solver::SecondOrderAnalysis> second_order_;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 // JSON text as it is made: numbers in the shortest form that reads back to the same bits.
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <string>
@@ -71,6 +72,12 @@ class JsonWriter {
   }
   void quote(std::string_view text) {
     text_ += '"';
+    const auto plain = [](char c) { return c != '"' && c != '\\' && static_cast<unsigned char>(c) >= 0x20; };
+    if (std::all_of(text.begin(), text.end(), plain)) {
+      text_ += text;
+      text_ += '"';
+      return;
+    }
     for (const char c : text) {
       if (c == '"' || c == '\\') {
         text_ += '\\';
