@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <limits>
 
+extern "C" void dgemm_(const char*, const char*, const int*, const int*, const int*, const double*, const double*,
+                       const int*, const double*, const int*, const double*, double*, const int*);
+
 namespace topple::solver {
 namespace {
 
@@ -66,8 +69,14 @@ void LowRankCorrection::finish_adding() {
 Eigen::MatrixXd LowRankCorrection::product(const Place& a, const Place& b) const {
   std::size_t i = a.path.block.size(), j = b.path.block.size();
   while (i > 0 && j > 0 && a.path.block[i - 1] == b.path.block[j - 1]) --i, --j;
-  const Eigen::Index shared = a.path.rows() - a.path.offset[i];
-  return a.W.bottomRows(shared).transpose() * b.W.bottomRows(shared);
+  const int shared = a.path.rows() - a.path.offset[i];
+  const int rows = static_cast<int>(a.W.cols()), columns = static_cast<int>(b.W.cols());
+  const int first_stride = static_cast<int>(a.W.rows()), second_stride = static_cast<int>(b.W.rows());
+  constexpr double one = 1, none = 0;
+  Eigen::MatrixXd result(rows, columns);
+  dgemm_("T", "N", &rows, &columns, &shared, &one, a.W.data() + a.W.rows() - shared, &first_stride,
+         b.W.data() + b.W.rows() - shared, &second_stride, &none, result.data(), &rows);
+  return result;
 }
 
 /// `other` comes before `place`, or is it.

@@ -171,6 +171,15 @@ double TriangularSolver::entries(const EliminationPath& path) const {
   return sum;
 }
 
+double TriangularSolver::entries_on_paths(std::span<const int> rows, std::vector<char>& marked) const {
+  mark_paths(rows, marked);
+  double sum = 0;
+  for (std::size_t b = 0; b < marked.size(); ++b)
+    if (marked[b] != 0)
+      sum += static_cast<double>(first_[b + 1] - first_[b]) * static_cast<double>(row_start_[b + 1] - row_start_[b]);
+  return sum;
+}
+
 void TriangularSolver::permute(const Eigen::VectorXd& natural, Eigen::VectorXd& eliminated) const {
   eliminated.resize(size_);
   for (int k = 0; k < size_; ++k) eliminated(k) = natural(order_[static_cast<std::size_t>(k)]);

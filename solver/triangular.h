@@ -37,6 +37,8 @@ class TriangularSolver {
   /// Entries of the blocks on a path, of the whole factor.
   [[nodiscard]] double entries(const EliminationPath& path) const;
   [[nodiscard]] double entries() const { return entries_; }
+  /// Of the blocks on the paths of any rows, each once; `marked` as by mark_paths().
+  [[nodiscard]] double entries_on_paths(std::span<const int> rows, std::vector<char>& marked) const;
 
   /// From the matrix's numbering to the order of elimination and back.
   void permute(const Eigen::VectorXd& natural, Eigen::VectorXd& eliminated) const;

@@ -1,0 +1,128 @@
+// Where the ladder changes rungs: more and more joints broken at once, by a correction and by a new factor, and which
+// of the two the ladder takes. Asked: its choice takes at most 1.3 times as long as the better one.
+//   bench_ladder [posts_x posts_y storeys]      (default 10 10 20)
+#include <cstdlib>
+#include <random>
+
+#include "factor.h"
+#include "frame_system.h"
+#include "refinement.h"
+#include "standing_factor.h"
+#include "support/measure.h"
+#include "support/provenance.h"
+#include "support/regular_frame.h"
+#include "topple/solver/reanalysis.h"
+
+using namespace topple;
+using namespace topple::bench;
+
+namespace {
+
+/// One joint each, never two at one node, so that the frame stays stable.
+std::vector<int> random_members(const RegularFrame& frame, std::size_t count, unsigned seed) {
+  std::mt19937 random(seed);
+  std::vector<int> members;
+  std::vector<char> taken(frame.model.nodes.size(), 0);
+  for (std::size_t tries = 0; members.size() < count && tries < 100 * count; ++tries) {
+    const int beam = static_cast<int>(random() % frame.model.beams.size());
+    const auto& node = frame.model.beams[static_cast<std::size_t>(beam)].node;
+    char& a = taken[static_cast<std::size_t>(node[0])];
+    char& b = taken[static_cast<std::size_t>(node[1])];
+    if (a != 0 || b != 0) continue;
+    a = b = 1;
+    members.push_back(beam);
+  }
+  return members;
+}
+
+struct Times {
+  double correction = 0, new_factor = 0;
+};
+
+/// Each rung's own work for one answer: correction and solve, or factorisation, estimate of the condition and solve.
+Times break_at_once(const RegularFrame& frame, solver::Factor& whole, const std::vector<int>& members) {
+  solver::FrameSystem system(frame.model);
+  system.assemble();
+  (void)whole.factorise(system.matrix());
+  solver::Factor anew(system.matrix(), system.elimination_order(), solver::Factorisation::automatic);
+  (void)anew.factorise(system.matrix());
+  solver::StandingFactor standing(system, whole);
+  std::vector<int> nodes;
+  for (const int member : members) {
+    solver::Beam& beam = system.model.beams[static_cast<std::size_t>(member)];
+    standing.remember_beam(member);
+    beam.end_stiffness[1].setZero();
+    nodes.insert(nodes.end(), beam.node.begin(), beam.node.end());
+  }
+  system.reassemble(nodes);
+  standing.touch(nodes);
+  Times times;
+  Eigen::VectorXd x = Eigen::VectorXd::Ones(system.matrix().size);
+  times.correction = seconds([&] {
+    if (!standing.plan().possible) std::exit(1);
+    standing.update();
+    standing.solve(x);
+  });
+  times.new_factor = seconds([&] {
+    Eigen::MatrixXd y = Eigen::MatrixXd::Ones(system.matrix().size, 1);
+    (void)anew.factorise(system.matrix());
+    const auto solve = [&](Eigen::Ref<Eigen::MatrixXd> b) { anew.solve(b); };
+    if (!(solver::estimate_condition(system.matrix(), solve) > 0)) std::exit(1);
+    anew.solve(y);
+  });
+  return times;
+}
+
+/// What the ladder itself does.
+bool takes_correction(const RegularFrame& frame, const std::vector<int>& members) {
+  solver::Reanalysis standing(frame.model);
+  if (!standing.solve().stable) std::exit(1);
+  for (const int member : members) standing.set_end_stiffness(member, 1, solver::Vec6::Zero());
+  if (!standing.solve().stable) std::exit(1);
+  return standing.counters().low_rank > 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  solver::restart_with_better_blas_kernel(argv);
+  if (argc != 1 && argc != 4) {
+    std::fprintf(stderr, "usage: bench_ladder [posts_x posts_y storeys]\n");
+    return 2;
+  }
+  const int nx = argc > 1 ? std::atoi(argv[1]) : 10, ny = argc > 1 ? std::atoi(argv[2]) : 10;
+  const int storeys = argc > 1 ? std::atoi(argv[3]) : 20;
+  if (nx < 2 || ny < 2 || storeys < 1) {
+    std::fprintf(stderr, "bench_ladder: at least 2 x 2 posts, 1 storey\n");
+    return 2;
+  }
+  const RegularFrame frame = regular_frame(nx, ny, storeys);
+  print_provenance("The ladder's choice over the number of joints broken at once", 1);
+  std::printf("%d x %d posts, %d storeys, %zu freedoms\n\n", nx, ny, storeys,
+              6 * static_cast<std::size_t>(nx * ny * storeys));
+  std::printf("  joints   correction   new factor   the ladder takes   times the better\n");
+  solver::FrameSystem system(frame.model);
+  system.assemble();
+  solver::Factor whole(system.matrix(), system.elimination_order(), solver::Factorisation::automatic);
+  constexpr unsigned rounds = 5;
+  double worst = 0;
+  for (std::size_t joints = 1; joints <= 128; joints *= 2) {
+    std::vector<double> correction, new_factor;
+    for (unsigned round = 0; round < rounds; ++round) {
+      const std::vector<int> members = random_members(frame, joints, round + 1);
+      if (members.size() < joints) break;
+      const Times times = break_at_once(frame, whole, members);
+      correction.push_back(times.correction);
+      new_factor.push_back(times.new_factor);
+    }
+    if (correction.size() < rounds) break;
+    const double corrected = median(correction), anew = median(new_factor);
+    const bool corrects = takes_correction(frame, random_members(frame, joints, 1));
+    const double ratio = (corrects ? corrected : anew) / std::min(corrected, anew);
+    worst = std::max(worst, ratio);
+    std::printf("  %6zu %9.3f ms %9.3f ms   %-16s %8.2f\n", joints, 1e3 * corrected, 1e3 * anew,
+                corrects ? "correction" : "new factor", ratio);
+  }
+  std::printf("\n  worst choice %.2f times the better (asked: 1.3)\n", worst);
+  return 0;
+}
