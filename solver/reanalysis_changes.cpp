@@ -84,6 +84,10 @@ void Reanalysis::State::apply_dropped_nodes(std::vector<int>& touched) {
     if (stands == 0) continue;
     stands = 0;
     if (standing) standing->drop_node(node);
+    // Corrections leave it alone from now on: the answer that they start from must have it at rest.
+    const auto& first = system->dofs().first_equation;
+    for (int e = first[static_cast<std::size_t>(node)]; e < first[static_cast<std::size_t>(node) + 1]; ++e)
+      if (solution.size() > e) solution(e) = 0;
     touched.push_back(node);
     stale_load_nodes.push_back(node);
     for (int beam : system->beams_of_node(node)) changed_beams.push_back(beam);
