@@ -50,25 +50,48 @@ std::size_t terms(const Polynomial& p) {
   return n;
 }
 
+/// At most as many as the highest power, ascending.
+struct Places {
+  std::array<double, 6> at{};
+  std::size_t count = 0;
+  void add(double place) { at[count++] = place; }
+  [[nodiscard]] const double* begin() const { return at.data(); }
+  [[nodiscard]] const double* end() const { return at.data() + count; }
+};
+
+/// Places where c + b x + a x2 changes sign, by the formula that loses no digits to cancellation.
+Places sign_changes_of_quadratic(double c, double b, double a, double length) {
+  Places places;
+  const double discriminant = b * b - 4 * a * c;
+  if (!(discriminant > 0)) return places;
+  const double q = -(b + std::copysign(std::sqrt(discriminant), b)) / 2;
+  const auto [first, second] = std::minmax({q / a, q == 0 ? 0 : c / q});
+  for (const double place : {first, second})
+    if (place > 0 && place < length) places.add(place);
+  return places;
+}
+
 /// Where p changes sign within (0, length): between neighbouring roots of its derivative it is monotone.
-std::vector<double> sign_changes(const Polynomial& p, double length) {
+Places sign_changes(const Polynomial& p, double length) {
   const std::size_t n = terms(p);
-  if (n < 2) return {};
+  Places places;
+  if (n < 2) return places;
   if (n == 2) {
-    const double root = -p[0] / p[1];
-    return root > 0 && root < length ? std::vector<double>{root} : std::vector<double>{};
+    if (const double root = -p[0] / p[1]; root > 0 && root < length) places.add(root);
+    return places;
   }
+  if (n == 3) return sign_changes_of_quadratic(p[0], p[1], p[2], length);
   const Polynomial slope = derivative(p);
-  std::vector<double> marks{0.0};
-  for (double root : sign_changes(slope, length)) marks.push_back(root);
-  marks.push_back(length);
-  std::vector<double> roots;
-  for (std::size_t i = 0; i + 1 < marks.size(); ++i) {
-    if ((polynomial(p, marks[i]) < 0) != (polynomial(p, marks[i + 1]) < 0)) {
-      roots.push_back(zero_between(p, slope, marks[i], marks[i + 1]));
-    }
-  }
-  return roots;
+  double from = 0, value = polynomial(p, 0);
+  const auto look_up_to = [&](double to) {
+    const double there = polynomial(p, to);
+    if ((value < 0) != (there < 0)) places.add(zero_between(p, slope, from, to));
+    from = to;
+    value = there;
+  };
+  for (const double turn : sign_changes(slope, length)) look_up_to(turn);
+  look_up_to(length);
+  return places;
 }
 
 }  // namespace
@@ -136,7 +159,8 @@ BeamDiagram::Range BeamDiagram::extremes(Quantity quantity) const {
     const BeamPiece& piece = state_->forces.pieces[i];
     const Polynomial p = state_->curve(i, quantity);
     consider(p[0], piece.start);
-    for (double root : sign_changes(derivative(p), piece.length)) consider(polynomial(p, root), piece.start + root);
+    for (const double root : sign_changes(derivative(p), piece.length))
+      consider(polynomial(p, root), piece.start + root);
     consider(polynomial(p, piece.length), piece.start + piece.length);
   }
   return range;
