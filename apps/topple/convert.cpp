@@ -1,9 +1,11 @@
 // topple convert IN OUT: a model from one file format to another.
 #include "topple/structure/convert.h"
 
-#include <cstdio>
+#include <algorithm>
+#include <system_error>
 
 #include "command.h"
+#include "topple/structure/error.h"
 #include "topple/structure/files.h"
 #include "write_files.h"
 
@@ -11,11 +13,25 @@ namespace topple::app {
 
 namespace {
 
+/// A table that is left from something else would become part of the model.
+void refuse_other_tables(const std::filesystem::path& folder, const structure::ConvertedModel& model) {
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    if (entry.path().extension() != ".csv") continue;
+    const std::string name = entry.path().filename().string();
+    if (std::none_of(model.files.begin(), model.files.end(), [&](const auto& file) { return file.first == name; }))
+      throw structure::InputError(
+          entry.path().string() +
+          ": is there already and would become part of the tables; accepted: a folder without it");
+  }
+}
+
 int convert(const std::string& in, const std::string& out) {
   const std::filesystem::path target(out);
   const structure::ModelForm form = structure::model_form(target);
   structure::ConvertedModel model = structure::convert_model(structure::find_model(in), form);
   if (form == structure::ModelForm::tables) {
+    refuse_other_tables(target, model);
     write_files(target, model.files);
   } else {
     model.files.front().first = target.filename().string();

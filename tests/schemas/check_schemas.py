@@ -104,7 +104,9 @@ model_mistakes = [
     (["panels", "S1", "model"], "plate"), (["panels", "W1", "openings"], [[[0, 0], [1, 0]]]), (["supports", "A0"], "clamped"),
     (["supports", "C0", "x"], False), (["loads", "live", "members", "BC", 2, "at"], None),
     (["loads", "live", "members", "BC", 2, "frame"], "projected"), (["loads", "live", "members", "BC", 0, "uniform"], {"w": 1}),
-    (["combinations", "service"], {}),
+    (["combinations", "service"], {}), (["members", "PA", "design"], {"length_y": -1}), (["members", "PA", "design"], "all"),
+    (["members", "PA", "design"], {"restraints": "top"}), (["analyses"], {"p_delta": "exact"}), (["analyses"], {"mass": "lumped"}),
+    (["frame3dd"], {"tolerance": 0}),
 ]
 scenario_mistakes = [
     (["model"], None), (["step"], 0), (["failure", "bracing"], "strong"), (["failure", "sudden"], 0.5),
@@ -140,6 +142,7 @@ with tempfile.TemporaryDirectory() as folder:
     place = pathlib.Path(folder)
     (place / "collapse.json").write_text(json.dumps(collapse))
     for command, files in [(["analyse", "tower"], ["results.json"]),
+                           (["analyse", "tower", "--code", "en1993", "--stations", "3"], ["results.json"]),
                            (["analyse", "tower", "--lose", "P-1-1-1", "--lose-each", "storey-2"], ["results.json"]),
                            (["demolish", str(place / "collapse.json")], ["events.jsonl", "summary.json"])]:
         run = subprocess.run([topple, *command, "-o", folder], capture_output=True, text=True)
@@ -151,6 +154,52 @@ with tempfile.TemporaryDirectory() as folder:
             values = text.splitlines()[:most_events] if name.endswith("jsonl") else [text]
             for number, value in enumerate(values):
                 expect_valid(name.split(".")[0], json.loads(value), f"{name}, value {number}")
+
+# A Frame3DD file with loads of every kind, modes and condensation, as a JSON model.
+frame3dd = """Everything that a file can hold
+3
+1 0 0 0 0
+2 0 0 3000 10
+3 2000 0 3000 0
+1
+1 1 1 1 1 1 1
+2
+1 1 2 100 50 60 10 20 30 200000 80000 0 7.85e-9
+2 2 3 100 50 60 10 20 30 200000 80000 30 7.85e-9
+1 1 10 1 -1
+1
+0 0 -9806.65
+1
+3 0 0 -1000 0 0 0
+1
+1 0 1 0
+1
+2 0 0 0 0 500 1500 0.1 0.2 0 0 0 0
+1
+2 0 -5 0 1500
+1
+1 12e-6 100 200 10 20 30 70
+1
+1 0 0 -2.5 0 0 0
+2 1 0 1e-9 0 10
+1
+3 1 2 3 4
+1
+2 5
+1 1
+0
+2 1
+3 1 0 0 0 0 0
+1
+"""
+with tempfile.TemporaryDirectory() as folder:
+    place = pathlib.Path(folder)
+    (place / "all.3dd").write_text(frame3dd)
+    run = subprocess.run([topple, "convert", str(place / "all.3dd"), str(place / "all.json")], capture_output=True, text=True)
+    if run.returncode != 0:
+        failures.append(f"topple convert ends with {run.returncode}: {run.stderr}")
+    else:
+        expect_valid("model", json.loads((place / "all.json").read_text()), "a converted .3dd file")
 
 for failure in failures:
     print(failure)
