@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "random.h"
+#include "topple/fracture/local_damage.h"
 #include "topple/fracture/quadrilaterals.h"
 #include "topple/fracture/voronoi.h"
 

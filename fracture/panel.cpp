@@ -65,6 +65,7 @@ class BreakablePanel::Impl {
         hits(other.hits) {}
 
   Fracture hit(const Vec2& at, std::optional<double> radius);
+  Fracture leave();
   [[nodiscard]] double area() const;
   template <class Visit>
   void each_intact(const Visit& visit) const {
@@ -275,6 +276,18 @@ Fracture BreakablePanel::Impl::hit(const Vec2& at, std::optional<double> radius)
   return fracture;
 }
 
+Fracture BreakablePanel::Impl::leave() {
+  Fracture fracture;
+  std::vector<int> all;
+  each_intact([&](int triangle) { all.push_back(triangle); });
+  take_out(all, false, fracture);
+  for (const int triangle : all) triangulation.set_label(triangle, kEmpty);
+  for (const int triangle : all) triangulation.settle_sides(triangle);
+  fracture.triangles_changed = triangulation.touched().size();
+  tidy();
+  return fracture;
+}
+
 double BreakablePanel::Impl::area() const {
   double doubled = 0;
   each_intact([&](int triangle) { doubled += triangulation.doubled_area(triangle); });
@@ -294,6 +307,8 @@ Fracture BreakablePanel::hit(const Vec2& at, std::optional<double> radius) {
     throw std::invalid_argument("the radius of a hit must be finite and not below 0");
   return impl_->hit(at, radius);
 }
+
+Fracture BreakablePanel::leave() { return impl_->leave(); }
 
 const Mesh& BreakablePanel::mesh() const { return impl_->mesh.mesh(); }
 const PanelShape& BreakablePanel::shape() const { return impl_->shape; }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "formats/model_reader.h"
+#include "formats/read_fracture.h"
 #include "formats/unbuilt.h"
 
 namespace topple::structure::formats {
@@ -139,10 +140,10 @@ class PlanReader {
     refuse_unbuilt_keys(value, UnbuiltPlace::panel);
     if (kind == PanelKind::wall)
       value.only({"storeys", "thickness", "material", "joint", "model", "span", "mesh", "openings", "pressure",
-                  "groups", "sides"});
+                  "groups", "sides", "fracture"});
     else
-      value.only(
-          {"storeys", "thickness", "material", "joint", "model", "span", "mesh", "openings", "pressure", "groups"});
+      value.only({"storeys", "thickness", "material", "joint", "model", "span", "mesh", "openings", "pressure",
+                  "groups", "fracture"});
     PanelRule rule;
     Panel& panel = rule.draft.panel;
     panel.kind = kind;
@@ -155,6 +156,7 @@ class PlanReader {
     if (const auto model = value.find("model")) panel.model = read_panel_model(*model);
     if (const auto span = value.find("span")) panel.span = read_span(*span);
     if (const auto mesh = value.find("mesh")) panel.mesh = read_mesh(*mesh);
+    if (const auto fracture = value.find("fracture")) panel.fracture = read_fracture(*fracture, draft_.scale.length);
     if (const auto openings = value.find("openings")) panel.openings = read_openings(*openings, draft_.scale);
     if (const auto groups = value.find("groups")) panel.groups = read_names(*groups);
     if (const auto pressure = value.find("pressure")) {

@@ -7,11 +7,11 @@ namespace {
 constexpr std::int64_t kMostPoints =
     1000;  ///< corners of one hit's damage; the pattern stops looking like one long before
 
-fracture::PanelSettings read_cells(const JsonValue& value, fracture::Method method) {
+fracture::PanelSettings read_cells(const JsonValue& value, fracture::Method method, double unit) {
   value.only({"method", "cell", "jitter"});
   fracture::PanelSettings settings;
   settings.method = method;
-  if (const auto cell = value.find("cell")) settings.cell = cell->positive();
+  if (const auto cell = value.find("cell")) settings.cell = cell->positive() * unit;
   if (const auto jitter = value.find("jitter")) {
     const double number = jitter->number("a number from 0 to 1");
     if (!(number >= 0 && number <= 1)) jitter->refuse("a number from 0 to 1");
@@ -20,7 +20,7 @@ fracture::PanelSettings read_cells(const JsonValue& value, fracture::Method meth
   return settings;
 }
 
-fracture::PanelSettings read_local(const JsonValue& value) {
+fracture::PanelSettings read_local(const JsonValue& value, double unit) {
   value.only({"method", "points", "length", "ring"});
   fracture::PanelSettings settings;
   settings.method = fracture::Method::local;
@@ -33,10 +33,10 @@ fracture::PanelSettings read_local(const JsonValue& value) {
   if (const auto length = value.find("length")) {
     length->expect_array(2, 2);
     std::size_t i = 0;
-    for (const JsonValue bound : *length) settings.local.length[i++] = bound.positive();
+    for (const JsonValue bound : *length) settings.local.length[i++] = bound.positive() * unit;
     if (settings.local.length[1] < settings.local.length[0]) length->refuse("the least length, then the greatest");
   }
-  if (const auto ring = value.find("ring")) settings.local.ring = ring->positive();
+  if (const auto ring = value.find("ring")) settings.local.ring = ring->positive() * unit;
   return settings;
 }
 
@@ -54,14 +54,14 @@ const char* method_name(fracture::Method method) {
   return "";
 }
 
-fracture::PanelSettings read_fracture(const JsonValue& value) {
+fracture::PanelSettings read_fracture(const JsonValue& value, double length) {
   value.expect_object();
   constexpr std::string_view accepted = "\"voronoi\", \"quadrilateral\" or \"local\"";
   const JsonValue method = value.require("method");
   const std::string_view name = method.text(accepted);
-  if (name == "voronoi") return read_cells(value, fracture::Method::voronoi);
-  if (name == "quadrilateral") return read_cells(value, fracture::Method::quadrilateral);
-  if (name == "local") return read_local(value);
+  if (name == "voronoi") return read_cells(value, fracture::Method::voronoi, length);
+  if (name == "quadrilateral") return read_cells(value, fracture::Method::quadrilateral, length);
+  if (name == "local") return read_local(value, length);
   method.refuse(accepted);
 }
 

@@ -5,8 +5,8 @@
 
 namespace topple::structure::formats {
 
-/// `method` and that method's keys; the seed is left as it is. Throws InputError.
-[[nodiscard]] fracture::PanelSettings read_fracture(const JsonValue& value);
+/// `method` and that method's keys, lengths in units of `length` (m); the seed is left as it is. Throws InputError.
+[[nodiscard]] fracture::PanelSettings read_fracture(const JsonValue& value, double length = 1);
 
 [[nodiscard]] const char* method_name(fracture::Method method);
 

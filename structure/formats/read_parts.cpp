@@ -1,5 +1,6 @@
 // Nodes, members and panels that the file lists one by one.
 #include "formats/model_reader.h"
+#include "formats/read_fracture.h"
 #include "formats/unbuilt.h"
 
 namespace topple::structure::formats {
@@ -138,7 +139,8 @@ void read_member(const JsonValue& value, ModelDraft& draft) {
 
 void read_panel(const JsonValue& value, ModelDraft& draft) {
   refuse_unbuilt_keys(value, UnbuiltPlace::panel);
-  value.only({"kind", "nodes", "thickness", "material", "model", "span", "mesh", "openings", "joint", "groups"});
+  value.only(
+      {"kind", "nodes", "thickness", "material", "model", "span", "mesh", "openings", "joint", "groups", "fracture"});
   PanelDraft draft_panel;
   Panel& panel = draft_panel.panel;
   panel.name = value.key();
@@ -156,6 +158,7 @@ void read_panel(const JsonValue& value, ModelDraft& draft) {
   if (const auto model = value.find("model")) panel.model = read_panel_model(*model);
   if (const auto span = value.find("span")) panel.span = read_span(*span);
   if (const auto mesh = value.find("mesh")) panel.mesh = read_mesh(*mesh);
+  if (const auto fracture = value.find("fracture")) panel.fracture = read_fracture(*fracture, draft.scale.length);
   if (const auto openings = value.find("openings")) panel.openings = read_openings(*openings, draft.scale);
   if (const auto joint = value.find("joint")) draft_panel.joint = draft.joint_type(*joint);
   if (const auto groups = value.find("groups")) panel.groups = read_names(*groups);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "formats/model_reader.h"
+#include "formats/read_fracture.h"
 #include "formats/unbuilt.h"
 #include "sections/catalogue.h"
 #include "sections/shape_properties.h"
@@ -42,7 +43,7 @@ void read_unit(const JsonValue& units, const char* key, const std::array<Unit, N
 void read_material(const JsonValue& value, ModelDraft& draft) {
   refuse_unbuilt_keys(value, UnbuiltPlace::material);
   value.only({"youngs_modulus", "poisson_ratio", "shear_modulus", "density", "yield_strength", "compressive_strength",
-              "tensile_strength", "thermal_expansion"});
+              "tensile_strength", "thermal_expansion", "fracture"});
   const double stress = draft.scale.stress();
   Material material;
   material.name = value.key();
@@ -65,6 +66,7 @@ void read_material(const JsonValue& value, ModelDraft& draft) {
     (void)density->not_negative();
     material.density = scaled(*density, draft.scale.density());
   }
+  if (const auto fracture = value.find("fracture")) material.fracture = read_fracture(*fracture, draft.scale.length);
   const auto strength = [&](const char* key, std::optional<double>& target) {
     if (const auto number = value.find(key)) {
       (void)number->positive();

@@ -4,6 +4,7 @@
 
 #include "formats/json_document.h"
 #include "formats/model_reader.h"
+#include "formats/read_fracture.h"
 #include "formats/unbuilt.h"
 #include "topple/structure/error.h"
 #include "topple/structure/files.h"
@@ -45,6 +46,7 @@ class ScenarioReader {
     if (const auto failure = root_.find("failure")) read_failure(*failure);
     if (const auto impact = root_.find("impact")) read_impact(*impact);
     if (const auto debris = root_.find("debris")) read_debris(*debris);
+    if (const auto fracture = root_.find("fracture")) scenario_.fracture = read_fracture(*fracture);
     if (const auto budget = root_.find("budget")) {
       budget->only({"operations"});
       scenario_.operations_budget = budget->require("operations").positive();
@@ -247,7 +249,7 @@ std::pair<Building, Scenario> read_document(const JsonDocument& document, const 
   if (!root.is_object()) root.refuse("an object");
   refuse_unbuilt_keys(root, UnbuiltPlace::scenario);
   root.only({"topple", "title", "model", "combination", "step", "duration", "until_rest", "seed", "ground", "failure",
-             "impact", "debris", "budget", "events"});
+             "impact", "debris", "fracture", "budget", "events"});
   const JsonValue version = root.require("topple");
   if (!version.is_number() || version.number() != 1) version.refuse("1, the version of the format");
   const JsonValue model = root.require("model");

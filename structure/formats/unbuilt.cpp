@@ -16,9 +16,9 @@ struct UnbuiltKey {
   std::string_view key;
 };
 constexpr std::array unbuilt_keys{
-    UnbuiltKey{UnbuiltPlace::model, "meshes"},        UnbuiltKey{UnbuiltPlace::material, "fracture"},
-    UnbuiltKey{UnbuiltPlace::panel, "fracture"},      UnbuiltKey{UnbuiltPlace::scenario, "fracture"},
-    UnbuiltKey{UnbuiltPlace::cut, "members"},         UnbuiltKey{UnbuiltPlace::event, "weaken"},
+    UnbuiltKey{UnbuiltPlace::model, "meshes"},
+    UnbuiltKey{UnbuiltPlace::cut, "members"},
+    UnbuiltKey{UnbuiltPlace::event, "weaken"},
     UnbuiltKey{UnbuiltPlace::event, "wrecking_ball"},
 };
 

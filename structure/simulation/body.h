@@ -4,12 +4,14 @@
 // The collision world integrates by semi-implicit Euler. Its velocities are taken as those of the middle of the step,
 // so that free flight is exact: a body whose true velocity is V enters with V - g dt/2, and is read back by adding g
 // dt/2.
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "simulation/mass_properties.h"
 #include "simulation/part_shapes.h"
 #include "topple/collision/world.h"
+#include "topple/fracture/mesh.h"
 
 namespace topple::structure {
 
@@ -19,13 +21,16 @@ struct Body {
   std::vector<MemberId> members;
   std::vector<PanelId> panels;
   std::vector<NodeId> nodes;
-  MassProperties rest;             ///< in the undeformed building
-  double radius = 0;               ///< above zero: a sphere
-  double volume = 0;               ///< of solid material, m3
-  Bounds bounds;                   ///< in the undeformed building, about `rest.centre`
-  bool asleep = false;             ///< as booked last
-  collision::BodyState before;     ///< at the start of this step's motion, after its impacts
-  Vec3 step_start = Vec3::Zero();  ///< where its centre was when the step began
+  MassProperties rest;     ///< in the undeformed building
+  double radius = 0;       ///< above zero: a sphere
+  double volume = 0;       ///< of solid material, m3
+  std::vector<Vec3> hull;  ///< a chunk: corners of its shape about `rest.centre`, global axes at rest; else empty
+  PanelKind chunk_of = PanelKind::slab;
+  std::shared_ptr<const fracture::Mesh> mesh;  ///< a chunk: as it is drawn, in the same axes
+  Bounds bounds;                               ///< in the undeformed building, about `rest.centre`
+  bool asleep = false;                         ///< as booked last
+  collision::BodyState before;                 ///< at the start of this step's motion, after its impacts
+  Vec3 step_start = Vec3::Zero();              ///< where its centre was when the step began
 };
 
 /// Inertia about the centre, global axes, as the body lies.

@@ -18,6 +18,7 @@ void Simulation::State::book() {
   for (auto& [id, one] : bodies) book_body(one);
   resting.read(world->contacts(), obstacles, scenario.step,
                [&](collision::BodyId id) { return body(id) && !world->state(id).asleep; });
+  shatter_landed();
   update_views();
 }
 
@@ -47,8 +48,8 @@ void Simulation::State::update_views() {
   views.clear();
   for (const auto& [id, one] : bodies) {
     const collision::BodyState state = world->state(one.id);
-    views.push_back(
-        {one.id, state.pose, one.rest.centre, one.rest.mass, one.radius, state.asleep, one.members, one.panels});
+    views.push_back({one.id, state.pose, one.rest.centre, one.rest.mass, one.radius, state.asleep, one.members,
+                     one.panels, one.mesh, one.chunk_of});
   }
 }
 

@@ -82,6 +82,12 @@ void Simulation::State::release(const Detached& part) {
     return;
   }
   Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();
+  const bool breaks = breakable_of(one).valid() &&
+                      std::any_of(knocks.begin(), knocks.end(), [&](const Knock& k) { return was_struck(k, one); });
+  if (breaks) {
+    shatter_struck(add_body(std::move(one), velocity, spin, displacement));
+    return;
+  }
   knock(one, velocity, spin);
   const std::vector<collision::BodyId> passing = breakers_of(one);
   const collision::BodyId id = add_body(std::move(one), velocity, spin, displacement);
@@ -125,6 +131,15 @@ void Simulation::State::knock(const Body& one, Vec3& velocity, Vec3& spin) {
 
 collision::BodyId Simulation::State::add_body(Body one, const Vec3& velocity, const Vec3& spin,
                                               const Vec3& displacement) {
+  collision::BodyState state;
+  state.pose.position = one.rest.centre + displacement;
+  state.velocity = reading().to_world(velocity);
+  state.angular_velocity = spin;
+  return add_body(std::move(one), state);
+}
+
+/// `state` as the collision world reads it.
+collision::BodyId Simulation::State::add_body(Body one, const collision::BodyState& state) {
   collision::BodyDescription description;
   if (one.radius > 0) {
     collision::ConvexPart sphere;
@@ -132,13 +147,19 @@ collision::BodyId Simulation::State::add_body(Body one, const Vec3& velocity, co
     sphere.half_extents = Vec3::Constant(one.radius);
     description.parts = {sphere};
   }
+  if (!one.hull.empty()) {
+    collision::ConvexPart hull;
+    hull.kind = collision::ConvexPart::Kind::hull;
+    hull.points = one.hull;
+    description.parts = {hull};
+  }
   for (const MemberId member : one.members) description.parts.push_back(shapes.shape(Part(member), one.rest.centre));
   for (const PanelId panel : one.panels) description.parts.push_back(shapes.shape(Part(panel), one.rest.centre));
   description.mass = one.rest.mass;
   description.inertia = one.rest.inertia;
-  description.pose.position = one.rest.centre + displacement;
-  description.velocity = reading().to_world(velocity);
-  description.angular_velocity = spin;
+  description.pose = state.pose;
+  description.velocity = state.velocity;
+  description.angular_velocity = state.angular_velocity;
   description.friction = scenario.debris.friction;
   description.restitution = scenario.debris.restitution;
   one.id = world->add_body(description);

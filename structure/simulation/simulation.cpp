@@ -69,6 +69,7 @@ Simulation::State::State(Building the_building, Scenario the_scenario, Simulatio
       obstacles(building, shapes, grid, scenario.debris.friction, scenario.debris.restitution),
       strength_factors(building.joints.size(), 1.0),
       body_of_part(part_count(building), -1) {
+  find_breakable_panels();
   world->set_gravity(gravity);
   world->set_ground(ground_height(building, scenario), scenario.debris.friction, scenario.debris.restitution);
 }

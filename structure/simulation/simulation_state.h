@@ -56,8 +56,18 @@ struct Simulation::State {
   void knock(const Body& body, Vec3& velocity, Vec3& spin);
   [[nodiscard]] static bool was_struck(const Knock& given, const Body& one);
   [[nodiscard]] std::vector<collision::BodyId> breakers_of(const Body& one) const;
+  collision::BodyId add_body(Body body, const collision::BodyState& state);
   void remove_body(collision::BodyId id, bool keep_weight);
   void keep_limit();
+
+  // shatter.cpp: panels that came off break into chunks.
+  void find_breakable_panels();
+  [[nodiscard]] PanelId breakable_of(const Body& one) const;
+  std::vector<collision::BodyId> shatter(collision::BodyId id, const Vec3& point, std::optional<double> radius,
+                                         std::size_t& out);
+  void push_whole(collision::BodyId id);
+  void shatter_struck(collision::BodyId id);
+  void shatter_landed();
 
   // book.cpp
   void move();
@@ -97,6 +107,12 @@ struct Simulation::State {
   std::vector<double> strength_factors;  ///< per joint
   std::map<std::int64_t, Body> bodies;
   std::vector<std::int64_t> body_of_part;  ///< by part number; -1 stands, -2 gone
+
+  struct BreakablePanel {
+    std::optional<fracture::PanelSettings> settings;  ///< none: it never breaks
+    double breaking_speed = unlimited;                ///< change of speed that breaks it, m/s
+  };
+  std::vector<BreakablePanel> breakable_panels;  ///< per panel
 
   std::vector<Knock> knocks;
   /// Where in this step a body that has struck something stands in time: see strike.cpp.

@@ -5,6 +5,7 @@
 #include <random>
 #include <set>
 
+#include "topple/fracture/local_damage.h"
 #include "topple/fracture/quadrilaterals.h"
 #include "topple/fracture/voronoi.h"
 
@@ -313,5 +314,19 @@ TEST_CASE("the work of a hit grows with its damage, not with the wall nor with e
     wide = fresh.hit(Vec2(50, 50), 4.0).triangles_changed;
     CHECK(wide > alone);
     CHECK(wide < 20 * alone);  // sixteen times the cells
+  }
+}
+
+TEST_CASE("a panel that comes off leaves altogether, whatever was broken before") {
+  for (const Method method : kMethods) {
+    BreakablePanel panel(wall(), settings(method));
+    const double first = hit_area(panel.hit(Vec2(2, 1), 0.6));
+    const Fracture rest = panel.leave();
+    CHECK(rest.chunks.size() > 1);  // with a hole in it, it is not convex
+    CHECK(first + hit_area(rest) == Approx(18).epsilon(1e-13));
+    CHECK(panel.area() == 0);
+    CHECK(panel.mesh().triangles.empty());
+    CHECK(panel.leave().chunks.empty());
+    CHECK(panel.valid());
   }
 }

@@ -120,8 +120,9 @@ TEST_CASE("what is not built yet is refused by its name") {
         "s.json, line 4, failure.second_order: true is not built yet; accepted: false");
   CHECK(error("\"joints\": [", "\"members\": [], \"joints\": [") ==
         "s.json, line 10, events[2].cut.members: `members` is not built yet; accepted: leave the key out");
-  CHECK(error("\"impact\"", "\"fracture\": {\"method\": \"voronoi\"}, \"impact\"") ==
-        "s.json, line 5, fracture: `fracture` is not built yet; accepted: leave the key out");
+  CHECK(error("\"impact\"", "\"fracture\": {\"method\": \"voronoi\"}, \"impact\"") == "no error");
+  CHECK(error("\"impact\"", "\"fracture\": {\"method\": \"saw\"}, \"impact\"") ==
+        "s.json, line 5, fracture.method: found \"saw\"; accepted: \"voronoi\", \"quadrilateral\" or \"local\"");
   for (const std::string tool : {"weaken", "wrecking_ball"})
     CHECK(error("\"gravity\"", "\"" + tool + "\"").find("`" + tool + "` is not built yet") != std::string::npos);
 }

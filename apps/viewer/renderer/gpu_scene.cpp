@@ -105,6 +105,9 @@ void GpuScene::update(const SceneInstances& scene) {
   update_all(slabs_, scene.panels(structure::PanelKind::slab));
   update_all(walls_, scene.panels(structure::PanelKind::wall));
   projectiles_[0].update(scene.projectiles());
+  for (std::size_t i = chunks_.size(); i < scene.chunks().size(); ++i)
+    chunks_.emplace_back(scene.chunks()[i].mesh, rigid_attributes(), sizeof(RigidInstance));
+  update_all(chunks_, scene.chunks());
 }
 
 }  // namespace topple::viewer

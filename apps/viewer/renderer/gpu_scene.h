@@ -43,13 +43,17 @@ class GpuScene {
   void update(const SceneInstances& scene);
   void draw_members() const { draw(members_); }
   void draw_panels(structure::PanelKind kind) const { draw(kind == structure::PanelKind::slab ? slabs_ : walls_); }
-  void draw_projectiles() const { draw(projectiles_); }
+  /// Projectiles and the chunks of broken panels.
+  void draw_rigid() const {
+    draw(projectiles_);
+    draw(chunks_);
+  }
 
  private:
   static void draw(const std::vector<GpuBatch>& batches) {
     for (const GpuBatch& batch : batches) batch.draw();
   }
-  std::vector<GpuBatch> members_, slabs_, walls_, projectiles_;
+  std::vector<GpuBatch> members_, slabs_, walls_, projectiles_, chunks_;
 };
 
 }  // namespace topple::viewer

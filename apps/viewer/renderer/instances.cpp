@@ -237,6 +237,24 @@ void SceneInstances::append_moving(const Snapshot& snapshot) {
                                         glm::vec3(static_cast<float>(body.radius)), projectile_colour});
 }
 
+void SceneInstances::place_chunks(const Snapshot& snapshot) {
+  for (auto& batch : chunks_) batch.instances.clear();
+  if (!built_options_.debris) return;
+  for (const BodyPose& body : snapshot.bodies) {
+    if (!body.chunk) continue;
+    const bool slab = body.chunk_of == PanelKind::slab;
+    if (!(slab ? built_options_.shown.slabs : built_options_.shown.walls)) continue;
+    const auto [found, is_new] = chunk_of_body_.try_emplace(body.id, chunks_.size());
+    if (is_new) {
+      chunks_.emplace_back();
+      chunks_.back().mesh = chunk_mesh(*body.chunk);
+    }
+    chunks_[found->second].instances.push_back({glm::vec3(to_glm(body.position) - origin_),
+                                                packed(to_glm(body.orientation)), glm::vec3(1),
+                                                panel_colour(body.chunk_of)});
+  }
+}
+
 void SceneInstances::update(const Snapshot& snapshot, const ViewOptions& options) {
   const bool changed =
       built_answer_ != snapshot.answer || built_membership_ != snapshot.membership || !(built_options_ == options);
@@ -245,6 +263,7 @@ void SceneInstances::update(const Snapshot& snapshot, const ViewOptions& options
   built_membership_ = snapshot.membership;
   built_options_ = options;
   append_moving(snapshot);
+  place_chunks(snapshot);
 }
 
 }  // namespace topple::viewer

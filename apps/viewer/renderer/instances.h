@@ -5,6 +5,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -56,6 +57,8 @@ class SceneInstances {
     return kind == structure::PanelKind::slab ? slabs_ : walls_;
   }
   [[nodiscard]] const InstanceBatch<RigidInstance>& projectiles() const { return projectiles_; }
+  /// Each chunk of a broken panel has a mesh of its own; batches are only ever added. One that is gone has no instance.
+  [[nodiscard]] const std::vector<InstanceBatch<RigidInstance>>& chunks() const { return chunks_; }
 
   /// The centre of the undeformed building; single precision counts from here.
   [[nodiscard]] const glm::dvec3& origin() const { return origin_; }
@@ -76,6 +79,7 @@ class SceneInstances {
   void place_panels();
   void rebuild_standing(const Snapshot& snapshot, const ViewOptions& options);
   void append_moving(const Snapshot& snapshot);
+  void place_chunks(const Snapshot& snapshot);
   void add_standing_member(std::size_t index, const Snapshot& snapshot, const ViewOptions& options);
   void add_standing_panel(std::size_t index, const Snapshot& snapshot, const ViewOptions& options);
   void colour_member(std::size_t index, const Snapshot& snapshot, const ViewOptions& options);
@@ -93,6 +97,8 @@ class SceneInstances {
   std::vector<InstanceBatch<MemberInstance>> members_;
   std::vector<InstanceBatch<PanelInstance>> slabs_, walls_;
   InstanceBatch<RigidInstance> projectiles_;
+  std::vector<InstanceBatch<RigidInstance>> chunks_;
+  std::map<std::int64_t, std::size_t> chunk_of_body_;
   double largest_ = 0;
   // What the standing instances were built for.
   std::shared_ptr<const FrameAnswer> built_answer_;

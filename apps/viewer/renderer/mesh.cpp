@@ -177,6 +177,17 @@ Mesh panel_mesh(const structure::Building& building, const structure::Panel& pan
   return mesh;
 }
 
+Mesh chunk_mesh(const fracture::Mesh& chunk) {
+  Mesh mesh;
+  for (std::size_t i = 0; i < chunk.positions.size(); ++i) {
+    const Eigen::Vector3f p = chunk.positions[i].cast<float>(), n = chunk.normals[i].cast<float>();
+    mesh.vertices.push_back({{p.x(), p.y(), p.z()}, {n.x(), n.y(), n.z()}});
+  }
+  for (const auto& triangle : chunk.triangles)
+    for (const int corner : triangle) mesh.indices.push_back(static_cast<std::uint32_t>(corner));
+  return mesh;
+}
+
 Mesh sphere_mesh(int rings) {
   std::vector<glm::vec2> profile;
   for (int i = 0; i <= rings; ++i) {

@@ -5,6 +5,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "topple/fracture/mesh.h"
 #include "topple/structure/building.h"
 
 namespace topple::viewer {
@@ -25,6 +26,9 @@ struct Mesh {
 /// A panel with its openings: x, y in [0, 1] along the panel's first and fourth edge, z in [-1/2, 1/2] across its
 /// thickness.
 [[nodiscard]] Mesh panel_mesh(const structure::Building& building, const structure::Panel& panel);
+
+/// A piece of a broken panel as it is.
+[[nodiscard]] Mesh chunk_mesh(const fracture::Mesh& chunk);
 
 /// Radius 1, about the origin.
 [[nodiscard]] Mesh sphere_mesh(int rings);

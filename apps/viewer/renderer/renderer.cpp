@@ -136,7 +136,7 @@ void Renderer::State::draw_shadows() {
   scene.draw_panels(PanelKind::slab);
   scene.draw_panels(PanelKind::wall);
   glUseProgram(programs.rigid_shadow.get());
-  scene.draw_projectiles();
+  scene.draw_rigid();
   glDisable(GL_POLYGON_OFFSET_FILL);
 }
 
@@ -199,7 +199,7 @@ void Renderer::State::draw_scene(const SceneInstances& instances, const ViewOpti
   glUseProgram(programs.member.get());
   scene.draw_members();
   glUseProgram(programs.rigid.get());
-  scene.draw_projectiles();
+  scene.draw_rigid();
   if (options.slab_opacity >= 1) draw_panels(PanelKind::slab, 1);
   if (options.wall_opacity >= 1) draw_panels(PanelKind::wall, 1);
   glUseProgram(programs.ground.get());

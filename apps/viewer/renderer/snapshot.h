@@ -39,6 +39,8 @@ struct BodyPose {
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
   double radius = 0;  ///< above zero: a projectile
   bool asleep = false;
+  std::shared_ptr<const fracture::Mesh> chunk;  ///< of a broken panel: about its centre of mass
+  structure::PanelKind chunk_of = structure::PanelKind::slab;
 };
 
 struct Snapshot {

@@ -1,18 +1,12 @@
 #pragma once
 // Local damage: the hole that a hit tears into a panel, and the spider's web of cracks in it.
-#include <array>
 #include <cstdint>
 #include <vector>
 
+#include "topple/fracture/panel_settings.h"
 #include "topple/fracture/polygon.h"
 
 namespace topple::fracture {
-
-struct LocalDamageSettings {
-  std::array<int, 2> points{5, 12};        ///< least and most corners, at least 3
-  std::array<double, 2> length{0.3, 0.9};  ///< least and most distance of a corner from the hit, m
-  double ring = 0.4;                       ///< chunks longer than this are cut across, m
-};
 
 /// What a hit does to an endless panel.
 struct LocalDamage {

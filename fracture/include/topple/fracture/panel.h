@@ -10,22 +10,12 @@
 #include <optional>
 #include <vector>
 
-#include "topple/fracture/local_damage.h"
 #include "topple/fracture/mesh.h"
+#include "topple/fracture/panel_settings.h"
 #include "topple/fracture/polygon.h"
 #include "topple/fracture/prism.h"
 
 namespace topple::fracture {
-
-enum class Method { voronoi, quadrilateral, local };
-
-struct PanelSettings {
-  Method method = Method::voronoi;
-  double cell = 0.5;             ///< voronoi, quadrilateral: size of a cell, m
-  std::optional<double> jitter;  ///< 0 to 1; by default 1 for voronoi, 0.5 for quadrilateral
-  LocalDamageSettings local;     ///< local
-  std::uint64_t seed = 1;
-};
 
 struct PanelShape {
   /// Counter-clockwise, m. A convex quadrilateral; with Method::local any simple polygon.
@@ -66,6 +56,9 @@ class BreakablePanel {
   /// greatest length is the radius; without one, the lengths are those of the settings. Pieces that no held edge holds
   /// any more leave as well. Throws std::invalid_argument for a point or radius that is not finite, a radius below 0.
   Fracture hit(const Vec2& at, std::optional<double> radius = std::nullopt);
+
+  /// All that remains leaves, as chunks that nothing holds: what happens to a panel that has come off.
+  Fracture leave();
 
   /// What remains, kept up to date hit by hit at the cost of what changed. Some vertices may be without a triangle
   /// (`compact` drops them).

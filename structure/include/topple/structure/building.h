@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "topple/fracture/panel_settings.h"
 #include "topple/structure/ids.h"
 
 namespace topple::structure {
@@ -37,6 +38,7 @@ struct Material {
   std::string name;
   double youngs_modulus = 0, shear_modulus = 0, poisson_ratio = 0, density = 0;
   std::optional<double> yield_strength, compressive_strength, tensile_strength, thermal_expansion;
+  std::optional<fracture::PanelSettings> fracture;  ///< of panels of this material that have none of their own
 };
 
 /// Cross section: depth along local z, width along local y. Numbers that a raw section leaves out stay empty.
@@ -128,6 +130,7 @@ struct Panel {
   std::vector<std::vector<Vec2>> openings;  ///< polygons in local x, y from node 1
   Mat3 axes = Mat3::Identity();             ///< rows: local x (node 1 to 2), y, z (normal)
   std::vector<std::string> groups;
+  std::optional<fracture::PanelSettings> fracture;  ///< none: its material's
 };
 
 /// Per component: 0 free, `unlimited` held, else a spring stiffness; global axes.

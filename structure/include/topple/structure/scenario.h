@@ -26,8 +26,8 @@ struct ImpactRules {
 };
 struct DebrisRules {
   double friction = 0.6, restitution = 0.1;
-  int limit = 2000;                 ///< bodies
-  double smallest_volume = 0.002;   ///< m3
+  int limit = 2000;                ///< bodies
+  double smallest_volume = 0.002;  ///< m3
 };
 
 struct Projectile {
@@ -71,6 +71,7 @@ struct Scenario {
   FailureRules failure;
   ImpactRules impact;
   DebrisRules debris;
+  std::optional<fracture::PanelSettings> fracture;  ///< of panels that have none of their own nor by material
   std::optional<double> operations_budget;
   std::vector<Event> events;  ///< in order of time
 };

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "topple/collision/world.h"
+#include "topple/fracture/mesh.h"
 #include "topple/structure/building.h"
 #include "topple/structure/scenario.h"
 #include "topple/structure/standing_frame.h"
@@ -75,6 +76,9 @@ struct BodyView {
   bool asleep = false;
   std::span<const MemberId> members;
   std::span<const PanelId> panels;
+  std::shared_ptr<const fracture::Mesh>
+      chunk;  ///< of a broken panel: about its centre of mass, turned by the pose alone
+  PanelKind chunk_of = PanelKind::slab;         ///< what it is a piece of
 };
 
 struct SimulationOptions {

@@ -1,0 +1,167 @@
+// Shatter: a panel that has come off breaks into chunks where something hits it hard enough.
+//
+// The chunks move on as the parts of one rigid body, so that momentum and energy go over exactly; what hit the panel
+// out of the frame then pushes the chunks that it broke out. Hard enough is a blow whose elastic wave carries more than
+// the compressive strength: the stress at the front of a wave is v sqrt(E rho), v the change of speed (K. Graff, "Wave
+// Motion in Elastic Solids", 1975, section 2.1).
+#include <algorithm>
+#include <cmath>
+
+#include "simulation/panel_chunks.h"
+#include "simulation/simulation_state.h"
+#include "topple/structure/error.h"
+
+namespace topple::structure {
+
+void Simulation::State::find_breakable_panels() {
+  for (std::size_t i = 0; i < building.panels.size(); ++i) {
+    const Panel& panel = building.panels[i];
+    const Material& material = building[panel.material];
+    const auto& settings = panel.fracture ? panel.fracture : material.fracture ? material.fracture : scenario.fracture;
+    BreakablePanel breakable;
+    if (settings) {
+      if (!material.compressive_strength)
+        throw InputError(building.file + ", materials." + material.name +
+                         ".compressive_strength: missing; expected, because panel \"" + panel.name +
+                         "\" of this material can break (fracture)");
+      breakable.settings = *settings;
+      // Every panel has a pattern of its own (splitmix64's increment keeps their seeds far apart).
+      breakable.settings->seed = scenario.seed + (i + 1) * 0x9e3779b97f4a7c15u;
+      const double density =
+          material.density > 0 ? material.density : masses.of(PanelId(i)).mass / panel_volume(building, panel);
+      breakable.breaking_speed = *material.compressive_strength / std::sqrt(material.youngs_modulus * density);
+    }
+    breakable_panels.push_back(std::move(breakable));
+  }
+}
+
+/// The panel that a body consists of, when nothing else belongs to it and it can break.
+PanelId Simulation::State::breakable_of(const Body& one) const {
+  if (!one.members.empty() || one.panels.size() != 1) return {};
+  const PanelId panel = one.panels.front();
+  // A hub that carries a point mass of its own cannot go with any one chunk.
+  if (std::abs(one.rest.mass - masses.of(panel).mass) > 1e-12 * one.rest.mass) return {};
+  return breakable_panels[static_cast<std::size_t>(panel.index)].settings ? panel : PanelId();
+}
+
+/// Replaces the body by chunks that move as it did. Returns those that became bodies, what was hit out first; `out`:
+/// how many these are. Nothing when the blow falls where nothing can break.
+std::vector<collision::BodyId> Simulation::State::shatter(collision::BodyId id, const Vec3& point,
+                                                          std::optional<double> radius, std::size_t& out) {
+  const Body one = bodies.at(id.value);
+  const PanelId panel = breakable_of(one);
+  const collision::BodyState state = world->state(id);
+  const Mat3 turn = state.pose.orientation.toRotationMatrix();
+  const Vec3 at = one.rest.centre + turn.transpose() * (point - state.pose.position);
+  std::vector<PanelChunk> chunks =
+      break_panel(building, panel, one.rest.mass, shapes.shape(Part(panel), Vec3::Zero()).points, at, radius,
+                  *breakable_panels[static_cast<std::size_t>(panel.index)].settings);
+  out = 0;
+  if (chunks.empty()) return {};
+  tell(SimulationEvent::Kind::panel_fractured, building[panel].name).position = point;
+  resting.forget(id, *frame, false);
+  world->remove_body(id);
+  bodies.erase(id.value);
+  body_of_part[static_cast<std::size_t>(part_number(building, Part(panel)))] = -2;
+
+  std::vector<collision::BodyId> made;
+  double dust = 0;
+  for (std::size_t i = 0; i < chunks.size(); ++i) {
+    const Vec3 arm = turn * (chunks[i].rest.centre - one.rest.centre);
+    Body piece;
+    piece.name = one.name + "#" + std::to_string(i + 1);
+    piece.rest = chunks[i].rest;
+    piece.volume = chunks[i].volume;
+    piece.hull = std::move(chunks[i].hull);
+    piece.chunk_of = building[panel].kind;
+    piece.mesh = std::move(chunks[i].mesh);
+    for (const Vec3& corner : piece.hull) piece.bounds.add(corner);
+    collision::BodyState moving = state;
+    moving.pose.position += arm;
+    moving.velocity += state.angular_velocity.cross(arm);
+    if (piece.volume < scenario.debris.smallest_volume) {
+      const Kinetic lost = kinetic_energy(piece, moving, reading());
+      ledger.removed += lost.translation + lost.rotation;
+      dust += piece.rest.mass;
+      continue;
+    }
+    if (chunks[i].hit) ++out;
+    made.push_back(add_body(std::move(piece), moving));
+  }
+  if (dust > 0) tell(SimulationEvent::Kind::limited, building[panel].name).mass = dust;
+  return made;
+}
+
+void Simulation::State::push_whole(collision::BodyId id) {
+  Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();
+  knock(bodies.at(id.value), velocity, spin);
+  collision::BodyState state = world->state(id);
+  state.velocity += velocity;
+  state.angular_velocity += spin;
+  world->set_state(id, state);
+}
+
+/// A panel that an impact broke off the frame: what hit it pushes the chunks that it broke out, each by its share of
+/// the mass, and flies on through the gap.
+void Simulation::State::shatter_struck(collision::BodyId id) {
+  const Body& one = bodies.at(id.value);
+  if (!breakable_of(one).valid()) return;
+  for (const Knock& given : knocks) {
+    if (!was_struck(given, one)) continue;
+    const Body* by = body(given.by);
+    const std::optional<double> radius = by && by->radius > 0 ? std::optional(by->radius) : std::nullopt;
+    const Knock blow = given;
+    std::size_t out = 0;
+    const std::vector<collision::BodyId> made = shatter(id, blow.point, radius, out);
+    if (made.empty()) {  // hit where there is nothing to break: it is pushed as a whole
+      if (bodies.contains(id.value)) push_whole(id);
+      return;
+    }
+    double struck_mass = 0;
+    for (std::size_t i = 0; i < out; ++i) struck_mass += bodies.at(made[i].value).rest.mass;
+    const double size = blow.impulse.norm();
+    for (std::size_t i = 0; i < made.size(); ++i) {
+      collision::Touched broken;
+      broken.kind = collision::Touched::Kind::body;
+      broken.body = made[i];
+      if (bodies.contains(blow.by.value)) world->ignore_until_separated(blow.by, broken);
+      if (i >= out || size == 0) continue;
+      const double mass = bodies.at(made[i].value).rest.mass;
+      const Vec3 gained = std::min(size / struck_mass, blow.speed) * blow.impulse / size;
+      collision::BodyState state = world->state(made[i]);
+      const Vec3 before = reading().true_velocity(state.velocity);
+      state.velocity += gained;
+      ledger.lost_in_impacts -= mass * gained.dot(before + gained / 2);
+      world->set_state(made[i], state);
+    }
+    return;
+  }
+}
+
+/// Panels that came down hard in this step.
+void Simulation::State::shatter_landed() {
+  std::map<std::int64_t, std::pair<double, Vec3>> blows;  // the hardest of each body: change of speed and place
+  const auto feel = [&](collision::BodyId id, const collision::Contact& contact) {
+    const Body* one = body(id);
+    if (!one || one->asleep || !breakable_of(*one).valid()) return;
+    const collision::BodyState state = world->state(id);
+    const Mat3 inverse = world_inertia(*one, state.pose.orientation).inverse();
+    const double mass = effective_mass(one->rest.mass, inverse, contact.point - state.pose.position, contact.normal);
+    const double change = std::abs(contact.impulse.dot(contact.normal)) / mass;
+    const PanelId panel = one->panels.front();
+    if (change < breakable_panels[static_cast<std::size_t>(panel.index)].breaking_speed) return;
+    auto& hardest = blows.try_emplace(id.value, 0.0, Vec3::Zero()).first->second;
+    if (change > hardest.first) hardest = {change, contact.point};
+  };
+  for (const collision::Contact& contact : world->contacts()) {
+    feel(contact.body, contact);
+    if (contact.other.kind == collision::Touched::Kind::body) feel(contact.other.body, contact);
+  }
+  for (const auto& [id, blow] : blows) {
+    std::size_t out = 0;
+    (void)shatter({id}, blow.second, std::nullopt, out);
+  }
+  if (!blows.empty()) keep_limit();
+}
+
+}  // namespace topple::structure
