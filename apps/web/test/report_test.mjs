@@ -73,6 +73,12 @@ async function exercise(browser, report) {
   await page.fill('#filter', name);
   check((await page.locator('#table tbody tr').count()) >= 1 && (await page.locator('#rowcount').textContent()) !== all, 'a table filters');
   check((await page.locator('#table th .unit').nth(1).textContent()).trim() !== '' , 'columns name their units');
+  const checks = page.locator('#tabs button[data-table=design]');
+  if (await checks.count()) {
+    await page.fill('#filter', '');
+    await checks.click();
+    check((await page.locator('#table tbody tr').first().textContent()).includes('AISC 360'), 'design checks name their clauses');
+  }
   check(complaints.length === 0, `no console errors ${complaints.join('; ')}`);
   check(requests.length === 0, `no request to the network ${requests.join(' ')}`);
   if (process.env.TOPPLE_REPORT_PICTURE) await page.screenshot({ path: process.env.TOPPLE_REPORT_PICTURE, fullPage: true });
