@@ -1,9 +1,11 @@
 #include "topple/solver/buckling.h"
 
-#include <Eigen/SparseCholesky>
 #include <cmath>
+#include <memory>
 
 #include "frame_system.h"
+#include "ldl_factor.h"
+#include "mass_matrix.h"
 #include "second_order_beam.h"
 
 namespace topple::solver {
@@ -13,7 +15,19 @@ constexpr double enclosed = 1e-11;    // relative width at which a factor counts
 constexpr double same_factor = 1e-6;  // modes this close are sought apart from each other
 constexpr int inverse_iterations = 8;
 
-using Sparse = Eigen::SparseMatrix<double>;
+/// Members held at both ends buckle at 4 pi2 EI/L2 (less by shear); far below it there is nothing to count.
+bool cannot_buckle_between_rigid_ends(const Beam& beam, double axial, const std::vector<BeamLoad>& loads) {
+  if (!loads.empty()) return false;
+  for (const Vec6& end : beam.end_stiffness)
+    if (!(end.array() == rigid).all()) return false;
+  constexpr double pi = 3.14159265358979323846, far_below = 0.9;
+  for (const auto& [I, area] : {std::pair(beam.Iy, beam.shear_area_z), std::pair(beam.Iz, beam.shear_area_y)}) {
+    const double euler = 4 * pi * pi * beam.youngs_modulus * I / (beam.length * beam.length);
+    const double critical = area > 0 ? euler / (1 + euler / (beam.shear_modulus * area)) : euler;
+    if (-axial > far_below * critical) return false;
+  }
+  return true;
+}
 
 class Buckling {
  public:
@@ -24,40 +38,61 @@ class Buckling {
     loads_.resize(model.beams.size());
     for (const BeamLoad& load : loads.beams) loads_[static_cast<std::size_t>(load.beam)].push_back(load);
     axial_.mode = SecondOrder::exact;
+    if (!model.shells.empty()) {
+      axial_.shell_displacements = solution.front().displacements;
+      axial_.shell_strain = shell_strains(model, loads);
+    }
     system_.assemble();
     const std::vector<int> order = system_.elimination_order();
-    place_.resize(static_cast<Eigen::Index>(order.size()));
-    for (std::size_t k = 0; k < order.size(); ++k) place_.indices()(order[k]) = static_cast<int>(k);
+    if (!order.empty()) ldl_ = std::make_unique<LdlFactor>(system_.matrix(), order);
     system_.second_order = &axial_;
   }
 
-  /// How many critical factors lie below this one. Leaves the factorised tangent behind.
-  int below(double factor) {
+  /// How many critical factors lie below this one. Leaves the factorised tangent behind when it is to be kept.
+  int below(double factor, bool keep = false) {
     set_factor(factor);
     int count = 0;
-    for (std::size_t i = 0; i < first_axial_.size(); ++i)
-      count += SecondOrderBeam(system_.model.beams[i], 1, SecondOrder::exact, axial_.first_axial[i], axial_.loads[i])
-                   .buckled_modes();
-    if (place_.size() == 0) return count;
+    for (std::size_t i = 0; i < first_axial_.size(); ++i) {
+      const Beam& beam = system_.model.beams[i];
+      if (cannot_buckle_between_rigid_ends(beam, axial_.first_axial[i], axial_.loads[i])) continue;
+      count += SecondOrderBeam(beam, 1, SecondOrder::exact, axial_.first_axial[i], axial_.loads[i]).buckled_modes();
+    }
+    if (!ldl_) return count;
     system_.assemble();
-    ldlt_.compute(permuted());
-    for (Eigen::Index i = 0; i < ldlt_.vectorD().size(); ++i) count += ldlt_.vectorD()(i) < 0 ? 1 : 0;
-    return count;
+    return count + ldl_->factorise(system_.matrix(), keep);
+  }
+
+  /// After below(factor, true): where the tangent's eigenvalue nearest to zero vanishes, by Newton's method on its
+  /// Rayleigh quotient.
+  double newton(double factor) {
+    if (!ldl_) return factor;
+    constexpr int turns = 3;
+    constexpr double step = 1e-5;
+    if (displacement_.size() == 0) displacement_ = start();
+    Eigen::VectorXd x = displacement_;
+    for (int k = 0; k < turns; ++k) {
+      ldl_->solve(x);
+      x.normalize();
+    }
+    displacement_ = x;
+    const Eigen::VectorXd u = unscaled(x);
+    const double here = energy(u);
+    set_factor(factor * (1 + step));
+    system_.assemble();
+    return factor - here * step * factor / (energy(u) - here);
   }
 
   /// The shape at a factor hardly below a critical one, apart from the vectors in `known`.
   std::vector<Vec6> shape(double factor, std::vector<Eigen::VectorXd>& known) {
     std::vector<Vec6> shape(system_.model.nodes.size(), Vec6::Zero());
-    if (place_.size() == 0) return shape;
-    below(factor);
-    const Eigen::Index n = place_.size();
-    Eigen::VectorXd x(n);
-    for (Eigen::Index i = 0; i < n; ++i) x(i) = std::sin(1.0 + 0.7 * static_cast<double>(i));  // no symmetry of its own
+    if (!ldl_) return shape;
+    below(factor, true);
+    Eigen::VectorXd x = start();
     double growth = 0;
     for (int k = 0; k < inverse_iterations; ++k) {
       for (const Eigen::VectorXd& other : known) x -= other.dot(x) * other;
       x.normalize();
-      x = ldlt_.solve(x);
+      ldl_->solve(x);
       growth = x.norm();
     }
     for (const Eigen::VectorXd& other : known) x -= other.dot(x) * other;
@@ -65,26 +100,43 @@ class Buckling {
     constexpr double singular = 1e5;  // what a vector grows by where the tangent is all but singular
     if (growth < singular) return shape;
     known.push_back(x);
-    Eigen::VectorXd u = place_.transpose() * x;
-    for (Eigen::Index i = 0; i < n; ++i) u(i) *= system_.scale()[static_cast<std::size_t>(i)];
-    shape = system_.node_displacements(u, Eigen::VectorXd::Zero(system_.dofs().held));
-    double largest = 0;
-    for (const Vec6& s : shape) largest = std::max(largest, s.head<3>().norm());
-    if (largest > 0)
-      for (Vec6& s : shape) s /= largest;
-    return shape;
+    return system_.shape(x);
   }
 
   [[nodiscard]] bool has_compression() const {
+    if (!system_.model.shells.empty()) return true;
     for (std::size_t i = 0; i < first_axial_.size(); ++i)
       if (first_axial_[i] < 0 || !loads_[i].empty()) return true;
     return false;
   }
 
  private:
+  /// A vector without any symmetry of its own.
+  [[nodiscard]] Eigen::VectorXd start() const {
+    Eigen::VectorXd x(system_.dofs().equations);
+    for (Eigen::Index i = 0; i < x.size(); ++i) x(i) = std::sin(1.0 + 0.7 * static_cast<double>(i));
+    return x;
+  }
+
+  [[nodiscard]] Eigen::VectorXd unscaled(const Eigen::VectorXd& x) const {
+    Eigen::VectorXd u(x.size());
+    for (Eigen::Index i = 0; i < x.size(); ++i) u(i) = x(i) * system_.scale()[static_cast<std::size_t>(i)];
+    return u;
+  }
+
+  /// u K u of the tangent as it is assembled; its scale may be another one than the vector's.
+  [[nodiscard]] double energy(const Eigen::VectorXd& u) const {
+    Eigen::VectorXd x(u.size());
+    for (Eigen::Index i = 0; i < u.size(); ++i) x(i) = u(i) / system_.scale()[static_cast<std::size_t>(i)];
+    Eigen::MatrixXd force = Eigen::MatrixXd::Zero(u.size(), 1);
+    multiply_symmetric(system_.matrix(), x, force);
+    return x.dot(force.col(0));
+  }
+
   void set_factor(double factor) {
     axial_.first_axial = first_axial_;
     axial_.loads = loads_;
+    axial_.shell_factor = factor;
     for (double& n : axial_.first_axial) n *= factor;
     for (auto& list : axial_.loads)
       for (BeamLoad& load : list) {
@@ -93,27 +145,31 @@ class Buckling {
       }
   }
 
-  [[nodiscard]] Sparse permuted() const {
-    const SparseSymmetric& K = system_.matrix();
-    std::vector<Eigen::Triplet<double>> entries;
-    entries.reserve(K.row.size());
-    for (int column = 0; column < K.size; ++column)
-      for (auto k = K.start[static_cast<std::size_t>(column)]; k < K.start[static_cast<std::size_t>(column) + 1]; ++k) {
-        const int i = place_.indices()(K.row[static_cast<std::size_t>(k)]), j = place_.indices()(column);
-        entries.emplace_back(std::max(i, j), std::min(i, j), K.value[static_cast<std::size_t>(k)]);
-      }
-    Sparse matrix(K.size, K.size);
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    return matrix;
-  }
-
   FrameSystem system_;
   AxialState axial_;
   std::vector<double> first_axial_;
   std::vector<std::vector<BeamLoad>> loads_;
-  Eigen::PermutationMatrix<Eigen::Dynamic> place_;
-  Eigen::SimplicialLDLT<Sparse, Eigen::Lower, Eigen::NaturalOrdering<int>> ldlt_;
+  std::unique_ptr<LdlFactor> ldl_;
+  Eigen::VectorXd displacement_;  ///< where the last search for an eigenvector ended
 };
+
+/// Encloses the k-th factor between `low`, with fewer below it, and `high`, with at least k.
+void enclose(Buckling& buckling, int k, double& low, double& high) {
+  const auto take = [&](double factor, int count) { (count >= k ? high : low) = factor; };
+  constexpr double close = 0.5;  // relative width from which Newton's method is worth its price
+  while (high - low > enclosed * high) {
+    const double middle = low + (high - low) / 2;
+    const bool sharpen = high - low < close * high;
+    take(middle, buckling.below(middle, sharpen));
+    if (!sharpen) continue;
+    // A factor where a member buckles between resting nodes is a pole, not a zero: then halving goes on.
+    const double guess = buckling.newton(middle), moved = guess - middle;
+    if (!(guess > low && guess < high)) continue;
+    const double margin = std::max(10 * moved * moved / guess, enclosed / 4 * guess);
+    for (const double side : {guess - margin, guess + margin})
+      if (side > low && side < high) take(side, buckling.below(side));
+  }
+}
 
 }  // namespace
 
@@ -131,10 +187,7 @@ std::vector<BucklingMode> buckling_modes(const FrameModel& model, const LoadSet&
       high *= 2;
       if (high > largest_factor) return modes;
     }
-    while (high - low > enclosed * high) {
-      const double middle = low + (high - low) / 2;
-      (buckling.below(middle) >= k ? high : low) = middle;
-    }
+    enclose(buckling, k, low, high);
     const bool repeated = !modes.empty() && high - modes.back().factor < same_factor * high;
     if (!repeated) known.clear();
     modes.push_back({high, buckling.shape(low * (1 - 100 * enclosed), known)});

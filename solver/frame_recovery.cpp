@@ -35,6 +35,35 @@ void FrameSystem::node_displacements_of_scaled(const Eigen::VectorXd& solution, 
   }
 }
 
+std::vector<Vec6> FrameSystem::shape(const Eigen::VectorXd& scaled) const {
+  Eigen::VectorXd u(scaled.size());
+  for (Eigen::Index i = 0; i < u.size(); ++i) u(i) = scaled(i) * scale_[static_cast<std::size_t>(i)];
+  std::vector<Vec6> shape = node_displacements(u, Eigen::VectorXd::Zero(dofs_.held));
+  double translation = 0, rotation = 0;
+  for (const Vec6& s : shape) {
+    translation = std::max(translation, s.head<3>().norm());
+    rotation = std::max(rotation, s.tail<3>().norm());
+  }
+  // Rounding of a motion that only turns nodes is no translation.
+  double extent = 0;
+  for (const Vec3& node : model.nodes) extent = std::max(extent, (node - model.nodes.front()).norm());
+  constexpr double rounding = 1e-9;
+  const bool turns_only = translation <= rounding * rotation * extent;
+  const double largest = turns_only ? rotation : translation;
+  if (!(largest > 0)) return shape;
+  constexpr double equal = 1 - 1e-6;
+  for (const Vec6& s : shape) {
+    const Vec3 part = turns_only ? s.tail<3>() : s.head<3>();
+    if (part.norm() < equal * largest) continue;
+    Eigen::Index most = 0;
+    part.cwiseAbs().maxCoeff(&most);
+    const double sign = part(most) < 0 ? -1 : 1;
+    for (Vec6& all : shape) all *= sign / largest;
+    break;
+  }
+  return shape;
+}
+
 Vec12 FrameSystem::end_forces(int index, const std::vector<Vec6>& displacements, const Vec12& fixed_end) const {
   const auto i = static_cast<std::size_t>(index);
   if (beam_stands[i] == 0) return Vec12::Zero();
@@ -65,7 +94,8 @@ std::array<Vec6, 4> FrameSystem::corner_forces(int index, const std::vector<Vec6
     u.segment<6>(6 * n) = displacements[static_cast<std::size_t>(shell.node[static_cast<std::size_t>(n)])];
     u.segment<3>(6 * n) -= origin;
   }
-  const Vec24 force = shell_node_stiffness(index) * u + fixed;
+  Vec24 force = shell_node_stiffness(index) * u + fixed;
+  if (shells_pushed()) force += shell_geometric_stiffness(index) * u;
   for (int n = 0; n < 4; ++n) result[static_cast<std::size_t>(n)] = force.segment<6>(6 * n);
   return result;
 }

@@ -155,8 +155,29 @@ const Mat24& FrameSystem::shell_node_stiffness(int index) const {
 Mat24 FrameSystem::shell_stiffness(int index) const {
   const auto i = static_cast<std::size_t>(index);
   if (shell_stands[i] == 0) return Mat24::Zero();
-  const Shell& shell = model.shells[i];
   Mat24 K = shell_node_stiffness(index);
+  if (shells_pushed()) K += shell_geometric_stiffness(index);
+  add_diaphragm_arms(index, K);
+  return K;
+}
+
+Mat24 FrameSystem::shell_geometric_stiffness(int index) const {
+  const auto i = static_cast<std::size_t>(index);
+  const Shell& shell = model.shells[i];
+  Vec24 u;
+  const Vec3 origin = second_order->shell_displacements[static_cast<std::size_t>(shell.node[0])].head<3>();
+  for (int n = 0; n < 4; ++n) {
+    u.segment<6>(6 * n) =
+        second_order->shell_displacements[static_cast<std::size_t>(shell.node[static_cast<std::size_t>(n)])];
+    u.segment<3>(6 * n) -= origin;
+  }
+  const double strain = second_order->shell_strain.empty() ? 0 : second_order->shell_strain[i];
+  return second_order->shell_factor *
+         ShellElement(shell, corner_places(shell, model.nodes)).geometric_stiffness(u, strain);
+}
+
+void FrameSystem::add_diaphragm_arms(int index, Mat24& K) const {
+  const Shell& shell = model.shells[static_cast<std::size_t>(index)];
   for (int n = 0; n < 4; ++n) {
     const int node = shell.node[static_cast<std::size_t>(n)];
     if (dofs_.diaphragm_of_node[static_cast<std::size_t>(node)] < 0) continue;
@@ -164,7 +185,6 @@ Mat24 FrameSystem::shell_stiffness(int index) const {
     K.middleRows<3>(6 * n + 3) += C.transpose() * K.middleRows<3>(6 * n);
     K.middleCols<3>(6 * n + 3) += K.middleCols<3>(6 * n) * C;
   }
-  return K;
 }
 
 void FrameSystem::add_element(std::size_t element, const std::vector<char>& wanted) {

@@ -73,6 +73,8 @@ class FrameSystem {
   [[nodiscard]] Mat12 beam_stiffness(int beam) const;
   /// The same for a shell, 24 freedoms.
   [[nodiscard]] Mat24 shell_stiffness(int shell) const;
+  /// Takes a shell's matrix from the freedoms of its nodes to those of their diaphragms.
+  void add_diaphragm_arms(int shell, Mat24& K) const;
   /// What a node has besides its elements (support springs, held inert rotations), scaled, in its own equations. For
   /// nodes of no diaphragm.
   /// The same in the six components of the node, not scaled.
@@ -96,6 +98,9 @@ class FrameSystem {
   /// The same from the scaled solution of the equations, with nothing held displaced; into a vector with a place for
   /// each node.
   void node_displacements_of_scaled(const Eigen::VectorXd& solution, std::vector<Vec6>& result) const;
+  /// A vector of scaled equations as a shape: its largest translation 1 (rotation, where nothing translates), and the
+  /// first component of that size positive.
+  [[nodiscard]] std::vector<Vec6> shape(const Eigen::VectorXd& scaled) const;
   [[nodiscard]] Vec12 end_forces(int beam, const std::vector<Vec6>& displacements, const Vec12& fixed_end) const;
   /// Per corner: what the node does to the shell, global; `fixed` as in LoadVector.
   [[nodiscard]] std::array<Vec6, 4> corner_forces(int shell, const std::vector<Vec6>& displacements,
@@ -121,6 +126,11 @@ class FrameSystem {
   [[nodiscard]] std::optional<Defect> defect(std::span<const int> nodes, std::span<const int> beams) const;
   [[nodiscard]] std::optional<Defect> unheld_freedoms(std::span<const int> nodes) const;
   [[nodiscard]] std::optional<Defect> loose_beams(std::span<const int> beams) const;
+  /// Of the membrane forces in the second-order state; global freedoms of the nodes.
+  [[nodiscard]] Mat24 shell_geometric_stiffness(int shell) const;
+  [[nodiscard]] bool shells_pushed() const {
+    return second_order != nullptr && !second_order->shell_displacements.empty();
+  }
   /// K of a shell in the global freedoms of its nodes. Floors repeat one panel: the last one is kept.
   [[nodiscard]] const Mat24& shell_node_stiffness(int shell) const;
   void add_shell_loads(const std::vector<ShellLoad>& loads, LoadVector& result) const;

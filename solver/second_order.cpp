@@ -23,6 +23,12 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 }  // namespace
 
+std::vector<double> shell_strains(const FrameModel& model, const LoadSet& loads) {
+  std::vector<double> strain(model.shells.size(), 0);
+  for (const ShellLoad& load : loads.shells) strain[static_cast<std::size_t>(load.shell)] += load.strain;
+  return strain;
+}
+
 struct SecondOrderAnalysis::State {
  public:
   State(const FrameModel& model, SecondOrder mode, const AnalysisOptions& options) : system_(model), options_(options) {
@@ -42,6 +48,8 @@ struct SecondOrderAnalysis::State {
     axial_.first_axial.assign(beams, 0);
     axial_.loads.assign(beams, {});
     for (const BeamLoad& load : loads.beams) axial_.loads[static_cast<std::size_t>(load.beam)].push_back(load);
+    axial_.shell_displacements.clear();
+    if (!system_.model.shells.empty()) axial_.shell_strain = shell_strains(system_.model, loads);
     SecondOrderSolution result;
     result.solution = first_order;  // the axial forces to begin with
     double before = 1;
@@ -72,6 +80,20 @@ struct SecondOrderAnalysis::State {
       change = std::max(change, std::abs(tension - axial_.first_axial[i]));
       largest = std::max(largest, std::abs(tension));
       axial_.first_axial[i] = tension;
+    }
+    const double relative = largest > 0 ? change / largest : 0;
+    return system_.model.shells.empty() ? relative : std::max(relative, take_displacements(solution));
+  }
+
+  /// Membrane forces follow from displacements: returns their largest change over the largest translation.
+  double take_displacements(const StaticSolution& solution) {
+    double change = 0, largest = 0;
+    std::vector<Vec6>& known = axial_.shell_displacements;
+    known.resize(solution.displacements.size(), Vec6::Zero());
+    for (std::size_t n = 0; n < known.size(); ++n) {
+      change = std::max(change, (solution.displacements[n] - known[n]).head<3>().norm());
+      largest = std::max(largest, solution.displacements[n].head<3>().norm());
+      known[n] = solution.displacements[n];
     }
     return largest > 0 ? change / largest : 0;
   }

@@ -29,6 +29,9 @@ class SecondOrderBeam {
 /// the change of length, which leaves out loads along the element and thermal strain; torsion has no such part.
 [[nodiscard]] Vec12 frame3dd_end_forces(const Beam& beam, const Vec12& hub_displacements, const Vec12& fixed_end);
 
+/// Free strain of each shell under these loads.
+[[nodiscard]] std::vector<double> shell_strains(const FrameModel& model, const LoadSet& loads);
+
 /// Freedoms of the two bending planes, v1 r1 v2 r2; in the x-z plane rotations and moments change sign.
 inline constexpr std::array<int, 4> xy_plane{1, 5, 7, 11}, xz_plane{2, 4, 8, 10};
 [[nodiscard]] Eigen::Vector4d plane_part(const Vec12& all, bool xz);

@@ -21,6 +21,10 @@ class ShellElement {
   [[nodiscard]] Mat24 stiffness() const;
   /// Forces of the nodes on the shell with all nodes held: against the traction (global, per area), from a free strain.
   [[nodiscard]] Vec24 fixed_forces(const Vec3& traction, double strain) const;
+  /// Mass in the three translations, none in the rotations; bilinear shapes, or lumped at the nodes by them.
+  [[nodiscard]] Mat24 mass(double per_area, bool lumped) const;
+  /// Of the membrane forces at these displacements (global): what they do to the gradient of all three translations.
+  [[nodiscard]] Mat24 geometric_stiffness(const Vec24& displacements, double strain) const;
   /// Rows: element axes; x, y halve the angle between the element's middle lines.
   [[nodiscard]] const Mat3& axes() const { return axes_; }
   /// nx, ny, nxy; mx, my, mxy; qx, qy at natural coordinates (-1 to 1), element axes.
@@ -30,6 +34,7 @@ class ShellElement {
  private:
   [[nodiscard]] Vec24 to_local(const Vec24& global) const;
   [[nodiscard]] Vec24 to_global(const Vec24& local) const;
+  [[nodiscard]] Mat24 on_translations(const Eigen::Matrix4d& entry) const;
 
   bool bending_;
   Mat3 axes_;

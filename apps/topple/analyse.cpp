@@ -29,10 +29,12 @@ struct Options {
   double drift_limit = 1 / usual_drift_limit;
   int stations = 0, threads = 1;
   std::string p_delta;
-  int buckling = 0;
+  int buckling = 0, modes = 0;
+  std::string mass, torsional_mass;
+  bool rotary_inertia = false;
   std::vector<std::string> lose, lose_each;
   double sudden = 2;
-  bool html = false, csv = false, vtu = false;
+  bool html = false, csv = false, vtu = false, diagnose = false;
 };
 
 /// Seconds by stage, in the order of their names.
@@ -108,8 +110,34 @@ void give_back_free_memory() {
 #endif
 }
 
+/// Options come before what the file asks for itself.
+void ask_for_modes(const Options& options, const RequestedAnalyses& requested, AnalysisRequest& request) {
+  request.modes = options.modes > 0 ? options.modes : requested.modes;
+  const bool lumped = options.mass.empty() ? requested.lumped_mass : options.mass == "lumped";
+  // Only a Frame3DD file asks for modes itself: its elements spin with density x J and have rotary inertia.
+  const bool frame3dd = requested.modes > 0;
+  const bool by_j = options.torsional_mass.empty() ? frame3dd : options.torsional_mass == "j";
+  if (lumped) request.mass = solver::MassDistribution::lumped;
+  if (by_j) request.torsional_mass = solver::TorsionalMass::torsion_constant;
+  request.rotary_inertia = options.rotary_inertia || frame3dd;
+}
+
+/// What moves, as results.json and in the drawings that are asked for.
+void write_diagnosis(const Options& options, const Building& building, const AnalysisRequest& request,
+                     const Diagnosis& diagnosis) {
+  std::vector<std::pair<std::string, std::string>> files;
+  files.emplace_back("results.json", diagnosis_json(building, request, diagnosis));
+  if (options.html) files.emplace_back("report.html", html_report(building, {}, files[0].second));
+  if (options.vtu)
+    for (auto& file : diagnosis_vtu(building, diagnosis)) files.push_back(std::move(file));
+  write_files(options.output, files);
+}
+
 int run(const Options& options) {
-  for (const auto& [asked, name] : {std::pair{options.html, "--html"}, {options.csv, "--csv"}, {options.vtu, "--vtu"}})
+  for (const auto& [asked, name] : {std::pair{options.html, "--html"},
+                                    {options.csv, "--csv"},
+                                    {options.vtu, "--vtu"},
+                                    {options.diagnose, "--diagnose"}})
     if (asked && options.output.empty()) throw InputError(std::string(name) + ": name the folder for it with -o");
   StageClock clock;
   const Building building = read_model(find_model(options.model));
@@ -122,11 +150,18 @@ int run(const Options& options) {
   request.second_order = second_order(options.p_delta, building);
   request.buckling = options.buckling;
   request.losses = losses(options, building);
+  ask_for_modes(options, building.requested, request);
   AnalysisRequest wider = request;
   const int wanted = std::max({options.html ? report_stations : 0, options.vtu ? drawing_stations : 0,
                                options.code.empty() ? 0 : design_stations});
   wider.stations = whole_multiple(request.stations, wanted);
-  AnalysisResult result = analyse(building, wider);
+  AnalysisResult result;
+  try {
+    result = analyse(building, wider);
+  } catch (const UnstableAnalysis& unstable) {
+    if (options.diagnose) write_diagnosis(options, building, request, unstable.diagnosis);
+    throw;
+  }
   clock.stop("analyse");
   if (!options.code.empty()) {
     const DesignCode code = options.code == "en1993" ? DesignCode::en1993 : DesignCode::aisc360;
@@ -180,8 +215,17 @@ std::function<int()> declare(CLI::App& app) {
       ->take_all();
   app.add_option("--sudden", options->sudden, "Factor f of a sudden loss: R0 + f (R1 - R0); 1 is the static state")
       ->check(CLI::Range(1.0, 10.0));
+  app.add_option("--modes", options->modes, "Lowest natural frequencies and modes")->check(CLI::Range(1, 100000));
+  app.add_option("--mass", options->mass, "Mass of elements: consistent (default) or lumped")
+      ->check(CLI::IsMember({"consistent", "lumped"}));
+  app.add_option("--torsional-mass", options->torsional_mass,
+                 "Spin of members about their axes: density x polar moment (default) or density x J")
+      ->check(CLI::IsMember({"polar", "j"}));
+  app.add_flag("--rotary-inertia", options->rotary_inertia, "Rotary inertia of members' sections in bending");
   app.add_flag("--csv", options->csv, "Write tables: displacements, reactions, members, joints, panels");
   app.add_flag("--vtu", options->vtu, "Write COMBINATION.vtu for ParaView");
+  app.add_flag("--diagnose", options->diagnose,
+               "Where the model is not stable, write what moves (results.json, and with --vtu, --html its drawing)");
   app.add_flag("--html", options->html, "Write report.html");
   return [options] { return run(*options); };
 }

@@ -10,6 +10,7 @@
 #include "analysis/divided_member.h"
 #include "analysis/equilibrium.h"
 #include "analysis/instability.h"
+#include "analysis/modal_masses.h"
 #include "analysis/one_way_members.h"
 #include "analysis/second_order_member.h"
 #include "analysis/shell_results.h"
@@ -52,8 +53,10 @@ class Analysis {
     try {
       const std::vector<solver::StaticSolution> solutions = solve_linear(result.statistics);
       for (std::size_t k = 0; k < solutions.size(); ++k) result.combinations.push_back(analysed(k, solutions[k]));
+      if (request_.modes > 0) find_modes(result);
     } catch (const solver::Instability& unstable) {
-      throw UnstableModel(building_.file + ": " + describe_instability(building_, frame_, unstable));
+      const std::string message = building_.file + ": " + describe_instability(building_, frame_, unstable);
+      throw UnstableAnalysis(diagnose(building_, frame_, unstable, "mechanism", combinations_.front(), message));
     } catch (const std::invalid_argument& error) {
       // What a reader cannot see: settlements that bend a rigid floor, for one.
       throw InputError(building_.file + ": " + error.what());
@@ -61,7 +64,7 @@ class Analysis {
     const auto& nodes = frame_.model.nodes;
     result.mesh_nodes.assign(nodes.begin() + static_cast<std::ptrdiff_t>(building_.nodes.size()), nodes.end());
     find_losses_asked_for(result);
-    result.warnings = building_.warnings;
+    result.warnings.insert(result.warnings.begin(), building_.warnings.begin(), building_.warnings.end());
     warn_of_frame3dd(result);
     if (result.statistics.nearly_unstable)
       result.warnings.push_back("the model is nearly unstable: about " +
@@ -102,8 +105,9 @@ class Analysis {
     try {
       return one_way.settle(loads_[k], solution, request_.solver, names);
     } catch (const solver::Instability& unstable) {
-      throw UnstableModel(building_.file + ", combination " + building_[combinations_[k]].name +
-                          ", with members slack: " + describe_instability(building_, frame_, unstable));
+      const std::string message = building_.file + ", combination " + building_[combinations_[k]].name +
+                                  ", with members slack: " + describe_instability(building_, frame_, unstable);
+      throw UnstableAnalysis(diagnose(building_, frame_, unstable, "mechanism", combinations_[k], message));
     } catch (const std::runtime_error& cycle) {
       throw std::runtime_error(building_.file + ", combination " + building_[combinations_[k]].name + ": " +
                                cycle.what());
@@ -119,6 +123,8 @@ class Analysis {
     if (!answer.beams.empty()) model.beams = answer.beams;
     const int iterations = second_order ? turn_to_second_order(k, model, answer) : 0;
     CombinationResult result = gather(k, answer);
+    tangent_ = answer.axial;
+    tangent_beams_ = model.beams;
     result.second_order_iterations = iterations;
     if (request_.buckling > 0)
       result.buckling = solver::buckling_modes(model, loads_[k], request_.buckling, request_.solver);
@@ -139,9 +145,28 @@ class Analysis {
     } catch (const solver::Buckled& buckled) {
       const auto modes = solver::buckling_modes(model, loads_[k], 1, request_.solver);
       const std::string factor = modes.empty() ? "" : " (critical factor " + short_number(modes[0].factor) + ")";
-      throw UnstableModel(place + ": the loads are beyond what the structure bears before it buckles" + factor + "; " +
-                          describe_instability(building_, frame_, buckled));
+      const std::string message = place + ": the loads are beyond what the structure bears before it buckles" + factor +
+                                  "; " + describe_instability(building_, frame_, buckled);
+      Diagnosis diagnosis = diagnose(building_, frame_, buckled, "buckling", combinations_[k], message);
+      if (!modes.empty()) diagnosis.shape = modes.front().shape;
+      throw UnstableAnalysis(std::move(diagnosis));
     }
+  }
+
+  /// Without load, all one-way members taut; with second order as the last combination has left the structure.
+  void find_modes(AnalysisResult& result) const {
+    solver::MassModel masses{request_.mass, request_.torsional_mass, request_.rotary_inertia,
+                             modal_masses(building_, frame_, edges_)};
+    solver::FrameModel model = carrying_both(frame_.model);
+    const bool loaded = request_.second_order != solver::SecondOrder::none;
+    if (loaded) model.beams = tangent_beams_;
+    solver::ModalAnswer answer =
+        solver::natural_modes(model, masses, request_.modes, request_.solver, loaded ? &tangent_ : nullptr);
+    result.modes = std::move(answer.modes);
+    result.moving_mass = answer.moving_mass;
+    if (static_cast<int>(result.modes.size()) < request_.modes)
+      result.warnings.push_back("the masses have " + std::to_string(result.modes.size()) + " modes, " +
+                                std::to_string(request_.modes) + " were asked for");
   }
 
   /// Frame3DD takes a thermal strain for an axial force in the end forces that it prints.
@@ -312,6 +337,8 @@ class Analysis {
   std::vector<solver::LoadSet> loads_;  ///< per combination, on the frame
   std::vector<solver::LoadSet> whole_;  ///< the same on whole members; empty where a mesh divides none
   std::optional<solver::SecondOrderAnalysis> second_order_;
+  solver::AxialState tangent_;  ///< of the last combination
+  std::vector<solver::Beam> tangent_beams_;
 };
 
 }  // namespace

@@ -25,14 +25,18 @@ std::vector<NodeId> held_by_membranes_only(const Building& building, const std::
   return found;
 }
 
-/// Of a beam, or of the member that it is a piece of.
-const std::string& member_name(const Building& building, const Frame& frame, int beam) {
+/// The member that a beam of the frame is, or is a piece of.
+std::size_t member_of(const Building& building, const Frame& frame, int beam) {
   auto member = static_cast<std::size_t>(beam);
   if (member >= building.members.size())
     for (std::size_t m = 0; m < frame.pieces.size(); ++m)
       for (const MemberPiece& piece : frame.pieces[m])
         if (piece.beam == beam) member = m;
-  return building.members[member].name;
+  return member;
+}
+
+const std::string& member_name(const Building& building, const Frame& frame, int beam) {
+  return building.members[member_of(building, frame, beam)].name;
 }
 
 }  // namespace
@@ -70,6 +74,27 @@ std::string describe_instability(const Building& building, const Frame& frame, c
             (hanging.size() > 1 ? " and " + std::to_string(hanging.size() - 1) + " more" : "") +
             ", and a membrane holds nothing across its plane";
   return text;
+}
+
+Diagnosis diagnose(const Building& building, const Frame& frame, const solver::Instability& instability,
+                   const char* kind, CombinationId combination, const std::string& message) {
+  const solver::Mechanism& mechanism = instability.mechanism;
+  Diagnosis result{message, combination, kind, {}, {}, mechanism.motion};
+  std::vector<char> moves(building.nodes.size(), 0), alone(building.members.size(), 0);
+  for (const int node : mechanism.nodes) {
+    const auto n = static_cast<std::size_t>(node);
+    if (n >= moves.size()) continue;
+    result.nodes.push_back(NodeId(n));
+    moves[n] = 1;
+  }
+  for (const int beam : mechanism.beams) alone[member_of(building, frame, beam)] = 1;
+  for (std::size_t m = 0; m < building.members.size(); ++m) {
+    const Member& member = building.members[m];
+    const bool hangs_on = std::any_of(member.nodes.begin(), member.nodes.end(),
+                                      [&](NodeId node) { return moves[static_cast<std::size_t>(node.index)] != 0; });
+    if (hangs_on || alone[m] != 0) result.members.push_back(MemberId(m));
+  }
+  return result;
 }
 
 }  // namespace topple::structure

@@ -2,6 +2,7 @@
 #include <string>
 
 #include "topple/solver/static_analysis.h"
+#include "topple/structure/analysis.h"
 #include "topple/structure/frame.h"
 
 namespace topple::structure {
@@ -9,5 +10,8 @@ namespace topple::structure {
 /// One line that names the nodes that move, how, and the members that move, in the building's own names.
 [[nodiscard]] std::string describe_instability(const Building& building, const Frame& frame,
                                                const solver::Instability& instability);
+/// The same as a motion that can be drawn. `kind` as in Diagnosis.
+[[nodiscard]] Diagnosis diagnose(const Building& building, const Frame& frame, const solver::Instability& instability,
+                                 const char* kind, CombinationId combination, const std::string& message);
 
 }  // namespace topple::structure

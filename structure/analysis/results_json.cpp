@@ -23,6 +23,21 @@ class Writer {
                 u.length, u.length};
   }
 
+  /// The header keys and what moves.
+  std::string write_diagnosis(const Diagnosis& diagnosis) {
+    w_.open('{');
+    header();
+    w_.key("diagnosis").open('{').key("combination").value(b_[diagnosis.combination].name);
+    w_.key("kind").value(diagnosis.kind).key("message").value(diagnosis.message).newline().key("nodes").open('[');
+    for (const NodeId node : diagnosis.nodes) w_.value(b_[node].name);
+    w_.close(']').newline().key("members").open('[');
+    for (const MemberId member : diagnosis.members) w_.value(b_[member].name);
+    w_.close(']').newline();
+    shape(diagnosis.shape);
+    w_.close('}').close('}');
+    return w_.take() + "\n";
+  }
+
   std::string write() {
     w_.open('{');
     header();
@@ -33,6 +48,7 @@ class Writer {
     envelope();
     if (request_.losses.any()) losses();
     if (request_.buckling > 0) buckling();
+    if (request_.modes > 0) modes();
     w_.key("seconds").open('{');
     for (const auto& [stage, time] : seconds_) w_.key(stage).value(time);
     w_.close('}').close('}');
@@ -290,16 +306,35 @@ class Writer {
     for (const CombinationResult& c : result_.combinations) {
       w_.newline().key(b_[c.combination].name).open('[');
       for (const solver::BucklingMode& mode : c.buckling) {
-        w_.newline().open('{').key("factor").value(mode.factor).key("shape").open('{');
-        for (std::size_t n = 0; n < b_.nodes.size(); ++n) {
-          w_.key(b_.nodes[n].name);
-          shape_of(mode.shape[n]);
-        }
-        w_.close('}').close('}');
+        w_.newline().open('{').key("factor").value(mode.factor);
+        shape(mode.shape);
+        w_.close('}');
       }
       w_.close(']');
     }
     w_.close('}').newline();
+  }
+
+  void modes() {
+    w_.key("modes").open('[');
+    for (const solver::VibrationMode& mode : result_.modes) {
+      constexpr double pi = 3.14159265358979323846;
+      w_.newline().open('{').key("frequency").value(mode.angular_frequency / (2 * pi));
+      w_.key("angular_frequency").value(mode.angular_frequency).key("mass_share");
+      list(mode.mass_share, std::array<double, 1>{1}, 6);
+      shape(mode.shape);
+      w_.close('}');
+    }
+    w_.close(']').newline();
+  }
+
+  void shape(const std::vector<Vec6>& motion) {
+    w_.key("shape").open('{');
+    for (std::size_t n = 0; n < b_.nodes.size(); ++n) {
+      w_.key(b_.nodes[n].name);
+      shape_of(motion[n]);
+    }
+    w_.close('}');
   }
 
   void envelope() {
@@ -366,6 +401,12 @@ class Writer {
 std::string results_json(const Building& building, const AnalysisRequest& request, const AnalysisResult& result,
                          const std::map<std::string, double>& seconds) {
   return Writer(building, request, result, seconds).write();
+}
+
+std::string diagnosis_json(const Building& building, const AnalysisRequest& request, const Diagnosis& diagnosis) {
+  const AnalysisResult nothing;
+  const std::map<std::string, double> no_times;
+  return Writer(building, request, nothing, no_times).write_diagnosis(diagnosis);
 }
 
 }  // namespace topple::structure

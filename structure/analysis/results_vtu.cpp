@@ -40,8 +40,14 @@ void write_array(std::string& out, const char* type, const std::string& name, in
 /// The drawing of one combination.
 class Grid {
  public:
-  Grid(const Building& building, const CombinationResult& result, const std::vector<Vec3>& mesh_nodes)
-      : building_(building), result_(result), mesh_nodes_(mesh_nodes), units_(building.units) {
+  using Shapes = std::vector<std::pair<std::string, const std::vector<Vec6>*>>;
+  Grid(const Building& building, const CombinationResult& result, const std::vector<Vec3>& mesh_nodes, Shapes shapes)
+      : building_(building),
+        result_(result),
+        mesh_nodes_(mesh_nodes),
+        units_(building.units),
+        shapes_(std::move(shapes)) {
+    drawn_.resize(shapes_.size());
     for (std::size_t m = 0; m < building.members.size(); ++m) add_member(MemberId(m));
     for (std::size_t p = 0; p < building.panels.size(); ++p) add_panel(PanelId(p));
   }
@@ -58,6 +64,7 @@ class Grid {
     write_array(out, "UInt8", "types", 1, types_);
     out += "</Cells>\n<PointData Vectors=\"displacement\">\n";
     write_array(out, "Float64", "displacement", 3, displacements_);
+    for (std::size_t s = 0; s < shapes_.size(); ++s) write_array(out, "Float64", shapes_[s].first, 3, drawn_[s]);
     for (std::size_t q = 0; q < forces; ++q) write_array(out, "Float64", diagram_names[q], 1, diagrams_[q]);
     out += "</PointData>\n<CellData Scalars=\"utilisation\">\n";
     write_array(out, "Float64", "utilisation", 1, utilisations_);
@@ -96,6 +103,31 @@ class Grid {
     return std::min(value, 1e30);  // beyond all use where a joint has no strength
   }
 
+  /// A shape inside a member: the cubic through its ends' places and slopes; an end that is released there takes the
+  /// slope of the chord.
+  [[nodiscard]] Vec3 along_member(MemberId id, const std::vector<Vec6>& shape, double f) const {
+    const Member& member = building_[id];
+    const Vec3 axis = member.axes.row(0);
+    std::array<Vec3, 2> moved, slope;
+    for (std::size_t end = 0; end < 2; ++end) {
+      const Vec6& node = shape[static_cast<std::size_t>(member.nodes[end].index)];
+      const Vec3 turned = node.tail<3>();
+      moved[end] = node.head<3>() + turned.cross(member.offsets[end]);
+      slope[end] = member.length * turned.cross(axis);
+    }
+    const Vec3 chord = moved[1] - moved[0];
+    for (std::size_t end = 0; end < 2; ++end) {
+      const Vec6& stiffness = building_[building_.joint(id, static_cast<int>(end))].stiffness;
+      for (const int about : {1, 2}) {  // a release about local y frees the slope along z, and the other way round
+        if (stiffness(3 + about) != 0) continue;
+        const Vec3 across = member.axes.row(3 - about);
+        slope[end] += (chord - slope[end]).dot(across) * across;
+      }
+    }
+    const Vec3 bow = f * (1 - f) * ((1 - f) * (slope[0] - chord) - f * (slope[1] - chord));
+    return moved[0] + f * chord + bow - bow.dot(axis) * axis;
+  }
+
   /// The displaced chord between the member's ends, and the deflection from it.
   void add_member(MemberId id) {
     constexpr std::size_t poly_line = 4;
@@ -114,6 +146,7 @@ class Grid {
       const auto& values = result.stations[s];
       const Vec3 bent = values[6] * member.axes.row(1) + values[7] * member.axes.row(2);
       add_point((1 - f) * place[0] + f * place[1], (1 - f) * moved[0] + f * moved[1] + bent);
+      for (std::size_t k = 0; k < shapes_.size(); ++k) drawn_[k].add(along_member(id, *shapes_[k].second, f));
       for (std::size_t q = 0; q < forces; ++q) diagrams_[q].add(values[q] / units_.diagram_factor(q));
     }
     end_cell(poly_line, worst(building_.joint(id, 0), 2), Vec3::Zero(), static_cast<std::size_t>(id.index));
@@ -139,6 +172,8 @@ class Grid {
         add_point(building_.nodes[own].position, result_.displacements[own].template head<3>());
       else
         add_point(mesh_nodes_[of_mesh], result_.mesh_displacements[of_mesh].template head<3>());
+      for (std::size_t k = 0; k < shapes_.size(); ++k)
+        drawn_[k].add(Vec3((*shapes_[k].second)[own].template head<3>()));
       for (Numbers& diagram : diagrams_) diagram.add(0.0);
     }
     const double per_length = building_.units.force / building_.units.length;
@@ -156,6 +191,8 @@ class Grid {
   Numbers places_, displacements_, connectivity_, offsets_, types_, utilisations_, membranes_, moments_, shears_,
       parts_;
   std::array<Numbers, forces> diagrams_;
+  Shapes shapes_;
+  std::vector<Numbers> drawn_;  ///< per shape
 };
 
 /// A combination's name as a file's: what a file system may refuse becomes '_'.
@@ -170,13 +207,38 @@ std::string file_name(const std::string& name) {
 
 }  // namespace
 
+namespace {
+
+Grid::Shapes shapes(const AnalysisResult& result, const CombinationResult& combination) {
+  Grid::Shapes list;
+  for (std::size_t m = 0; m < result.modes.size(); ++m)
+    list.emplace_back("mode " + std::to_string(m + 1), &result.modes[m].shape);
+  for (std::size_t m = 0; m < combination.buckling.size(); ++m)
+    list.emplace_back("buckling " + std::to_string(m + 1), &combination.buckling[m].shape);
+  return list;
+}
+
+}  // namespace
+
+NamedTexts diagnosis_vtu(const Building& building, const Diagnosis& diagnosis) {
+  CombinationResult still;  // nothing but the motion
+  still.combination = diagnosis.combination;
+  still.displacements.assign(building.nodes.size(), Vec6::Zero());
+  still.members.resize(building.members.size());
+  for (MemberResult& member : still.members) member.stations.resize(drawing_stations + 1);
+  still.panels.resize(building.panels.size());
+  still.joints.resize(building.joints.size());
+  return {{"diagnosis.vtu", Grid(building, still, {}, {{"motion", &diagnosis.shape}}).write()}};
+}
+
 NamedTexts results_vtu(const Building& building, const AnalysisResult& result) {
   NamedTexts files;
   std::set<std::string> taken;
   for (const CombinationResult& combination : result.combinations) {
     std::string name = file_name(building[combination.combination].name);
     while (!taken.insert(name).second) name += '_';
-    files.emplace_back(name + ".vtu", Grid(building, combination, result.mesh_nodes).write());
+    files.emplace_back(name + ".vtu",
+                       Grid(building, combination, result.mesh_nodes, shapes(result, combination)).write());
   }
   return files;
 }

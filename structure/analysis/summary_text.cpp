@@ -157,6 +157,19 @@ void losses(Text& text, const Building& building, const LossResult& result) {
     text.line("  and %zu more, of less use", result.losses.size() - losses_shown);
 }
 
+void modes(Text& text, const Building& building, const AnalysisResult& result) {
+  constexpr double pi = 3.14159265358979323846;
+  const Vec3 mass = result.moving_mass / building.units.mass;
+  const bool consistent = building.units.mass_name == "consistent";
+  text.line("natural modes (moving mass x %.6g, y %.6g, z %.6g%s)", mass.x(), mass.y(), mass.z(),
+            consistent ? "" : (" " + building.units.mass_name).c_str());
+  for (std::size_t m = 0; m < result.modes.size(); ++m) {
+    const solver::VibrationMode& mode = result.modes[m];
+    text.line("  %2zu  %12.6g Hz   mass share x %.3f  y %.3f  z %.3f", m + 1, mode.angular_frequency / (2 * pi),
+              mode.mass_share[0], mode.mass_share[1], mode.mass_share[2]);
+  }
+}
+
 }  // namespace
 
 std::string summary_text(const Building& building, const AnalysisResult& result,
@@ -167,6 +180,7 @@ std::string summary_text(const Building& building, const AnalysisResult& result,
             building.panels.size(), result.statistics.freedoms);
   for (const CombinationResult& c : result.combinations) combination(text, building, result, c);
   losses(text, building, result.losses);
+  if (!result.modes.empty()) modes(text, building, result);
   std::string times;
   for (const auto& [stage, time] : seconds) {
     char part[64];

@@ -1,7 +1,8 @@
 #pragma once
-// Second-order (P-Delta) analysis of a frame: axial forces act on the displaced structure, tension stiffens it,
-// compression softens it. Iterated to convergence, and accepted only where the tangent stiffness is positive definite.
-// Displacements stay small: lengths and directions of members are those of the undeformed structure.
+// Second-order (P-Delta) analysis of a frame: axial forces and the membrane forces of shells act on the displaced
+// structure, tension stiffens it, compression softens it. Iterated to convergence, and accepted only where the tangent
+// stiffness is positive definite. Displacements stay small: lengths and directions of members are those of the
+// undeformed structure.
 #include <memory>
 
 #include "topple/solver/beam_diagram.h"
@@ -24,11 +25,16 @@ enum class SecondOrder {
   frame3dd
 };
 
-/// The axial forces that one second-order solution rests on.
+/// The forces that one second-order solution rests on: axial forces of beams, membrane forces of shells.
 struct AxialState {
   SecondOrder mode = SecondOrder::none;
   std::vector<double> first_axial;           ///< per beam: tension at its first end
   std::vector<std::vector<BeamLoad>> loads;  ///< per beam
+  /// Shells' membrane forces are `shell_factor` times those of these displacements (per node; empty: none) and free
+  /// strains (per shell; empty: none).
+  std::vector<Vec6> shell_displacements;
+  std::vector<double> shell_strain;
+  double shell_factor = 1;
 };
 
 struct SecondOrderSolution {

@@ -7,10 +7,12 @@
 #include <vector>
 
 #include "topple/solver/buckling.h"
+#include "topple/solver/modes.h"
 #include "topple/solver/second_order.h"
 #include "topple/solver/static_analysis.h"
 #include "topple/structure/building.h"
 #include "topple/structure/design_check.h"
+#include "topple/structure/error.h"
 #include "topple/structure/joint_check.h"
 #include "topple/structure/losses.h"
 
@@ -23,6 +25,10 @@ struct AnalysisRequest {
   solver::SecondOrder second_order = solver::SecondOrder::none;
   int buckling = 0;  ///< lowest factors to find for each combination
   LossRequest losses;
+  int modes = 0;  ///< lowest natural frequencies; with second order about the tangent of the last combination
+  solver::MassDistribution mass = solver::MassDistribution::consistent;
+  solver::TorsionalMass torsional_mass = solver::TorsionalMass::polar;
+  bool rotary_inertia = false;
 };
 
 /// [value, distance from the first end]
@@ -77,13 +83,30 @@ struct AnalysisResult {
   std::vector<Vec3> mesh_nodes;  ///< of shell panels, beside the building's nodes
   LossResult losses;
   double loss_seconds = 0;
+  std::vector<solver::VibrationMode> modes;  ///< lowest first; fewer than asked for when the mass has no more
+  Vec3 moving_mass = Vec3::Zero();           ///< along x, y, z: what takes part in the modes
   solver::AnalysisStatistics statistics;
   std::vector<std::string> warnings;
   std::optional<DesignCode> design_code;  ///< set by check_design() (member_checks.h)
   double drift_limit = 0;                 ///< with it: storey drift that counts as a use of 1
 };
 
-/// Throws UnstableModel, with names: a model that can move without strain, or loads beyond what it bears before it
+/// What moves when a model is not stable, for reports and drawings.
+struct Diagnosis {
+  std::string message;
+  CombinationId combination;  ///< the first one analysed, where the loads have no part in it
+  const char* kind = "";      ///< "mechanism": moves without strain; "buckling": the loads are beyond the critical ones
+  std::vector<NodeId> nodes;  ///< that move, most first
+  std::vector<MemberId> members;
+  std::vector<Vec6> shape;  ///< per node; largest translation 1, all zero when a member moves between nodes at rest
+};
+class UnstableAnalysis : public UnstableModel {
+ public:
+  explicit UnstableAnalysis(Diagnosis found) : UnstableModel(found.message), diagnosis(std::move(found)) {}
+  Diagnosis diagnosis;
+};
+
+/// Throws UnstableAnalysis, with names: a model that can move without strain, or loads beyond what it bears before it
 /// buckles (second order), with the critical factor.
 [[nodiscard]] AnalysisResult analyse(const Building& building, const AnalysisRequest& request = {});
 
@@ -91,6 +114,9 @@ struct AnalysisResult {
 /// multiple of the stations that `request` asks for.
 [[nodiscard]] std::string results_json(const Building& building, const AnalysisRequest& request,
                                        const AnalysisResult& result, const std::map<std::string, double>& seconds);
+/// results.json of a model that is not stable: the header and the one key `diagnosis`.
+[[nodiscard]] std::string diagnosis_json(const Building& building, const AnalysisRequest& request,
+                                         const Diagnosis& diagnosis);
 /// Files by name and text.
 using NamedTexts = std::vector<std::pair<std::string, std::string>>;
 /// displacements.csv, reactions.csv, members.csv, joints.csv, panels.csv: a header line with units, one row for each
@@ -99,9 +125,11 @@ using NamedTexts = std::vector<std::pair<std::string, std::string>>;
 /// Stations along each member that a drawing goes through: ask for at least this many before results_vtu().
 inline constexpr int drawing_stations = 10;
 /// COMBINATION.vtu for ParaView, in the model's units: members as lines through their stations, panels as
-/// quadrilaterals; displacement (warp by it for the deformed shape) and internal forces at points, utilisation of the
-/// joints on cells. Throws std::invalid_argument when the result has no stations.
+/// quadrilaterals; displacement (warp by it for the deformed shape), shapes of the modes and of buckling, and internal
+/// forces at points, utilisation of the joints on cells. Throws std::invalid_argument when the result has no stations.
 [[nodiscard]] NamedTexts results_vtu(const Building& building, const AnalysisResult& result);
+/// The motion as a drawing, members straight.
+[[nodiscard]] NamedTexts diagnosis_vtu(const Building& building, const Diagnosis& diagnosis);
 /// The summary a person reads.
 [[nodiscard]] std::string summary_text(const Building& building, const AnalysisResult& result,
                                        const std::map<std::string, double>& seconds);

@@ -17,16 +17,17 @@ enum class Purpose { analyse, demolish, inspect };
 /// Throws InputError for the first feature of the building that `purpose` cannot carry out yet.
 void refuse_unbuilt(const Building& building, Purpose purpose);
 
-/// A shipped model's name ("seed_building"), or a path (relative to `folder`). Shipped ones are found in $TOPPLE_MODELS, in
-/// the source tree while building, in the installed data; scenarios in the folder `scenarios` there. Throws InputError.
-[[nodiscard]] std::filesystem::path find_model(const std::string& name_or_path, const std::filesystem::path& folder = {});
+/// A shipped model's name ("seed_building"), or a path (relative to `folder`). Shipped ones are found in
+/// $TOPPLE_MODELS, in the source tree while building, in the installed data; scenarios in the folder `scenarios` there.
+/// Throws InputError.
+[[nodiscard]] std::filesystem::path find_model(const std::string& name_or_path,
+                                               const std::filesystem::path& folder = {});
 [[nodiscard]] std::filesystem::path find_scenario(const std::string& name_or_path);
 
 /// Reads a model of any known format: by its ending (.json, .3dd), or a folder of tables (CSV).
 [[nodiscard]] Building read_model(const std::filesystem::path& file, Purpose purpose = Purpose::analyse);
 /// The same from text, `name` standing for the file in messages.
-[[nodiscard]] Building parse_model(std::string_view text, const std::string& name,
-                                   Purpose purpose = Purpose::analyse);
+[[nodiscard]] Building parse_model(std::string_view text, const std::string& name, Purpose purpose = Purpose::analyse);
 
 /// A model from tables: file names ("nodes.csv") and texts, `folder` standing for their place in messages.
 [[nodiscard]] Building parse_tables(const std::vector<std::pair<std::string, std::string>>& tables,
@@ -37,10 +38,11 @@ void refuse_unbuilt(const Building& building, Purpose purpose);
 /// The same from text; the model is looked up from `folder`.
 [[nodiscard]] std::pair<Building, Scenario> parse_scenario(std::string_view text, const std::string& name,
                                                            const std::filesystem::path& folder);
-/// True when the file is a scenario (a JSON object that names a model), false when it is something else that can be read.
+/// True when the file is a scenario (a JSON object that names a model), false when it is something else that can be
+/// read.
 [[nodiscard]] bool is_scenario(const std::filesystem::path& file);
-/// The scenario in which nothing happens to a model (for a viewer that is given a model): its combination "collapse", or
-/// its first.
+/// The scenario in which nothing happens to a model (for a viewer that is given a model): its combination "collapse",
+/// or its first.
 [[nodiscard]] Scenario idle_scenario(const Building& building);
 
 }  // namespace topple::structure

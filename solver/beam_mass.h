@@ -1,0 +1,12 @@
+#pragma once
+// Mass matrix of a beam.
+#include "beam.h"
+#include "topple/solver/modes.h"
+
+namespace topple::solver {
+
+/// Local axes, freedoms of the hubs. Consistent: cubic and linear shapes between the beam's ends, which follow the hubs
+/// statically through springs and releases. Lumped: half at either hub, springs or not. Przemieniecki, ch. 11.
+[[nodiscard]] Mat12 beam_mass_matrix(const Beam& beam, const MassModel& masses);
+
+}  // namespace topple::solver

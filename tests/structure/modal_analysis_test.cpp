@@ -1,0 +1,89 @@
+// Natural modes of whole models: OpenSees' frequencies, where masses come from, results.json.
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "support/shared_data.h"
+#include "topple/structure/analysis.h"
+#include "topple/structure/error.h"
+#include "topple/structure/files.h"
+
+using namespace topple::structure;
+using Json = nlohmann::json;
+namespace solver = topple::solver;
+
+namespace {
+
+/// A light post of 3 m with a mast arm of 2 m along x at its head, and what the masses say.
+Building mast(const std::string& rest, const std::string& units = R"("consistent")", double gravity = 10) {
+  return parse_model(R"({"topple": 1, "units": )" + units + R"(, "gravity": )" + std::to_string(gravity) + R"(,
+    "materials": {"light": {"youngs_modulus": 2e11, "shear_modulus": 8e10}},
+    "sections": {"s": {"area": 0.01, "Iy": 1e-4, "Iz": 2e-5, "J": 1e-5}},
+    "nodes": {"A": [0, 0, 0], "B": [0, 0, 3], "C": [2, 0, 3]},
+    "members": {"P": {"kind": "post", "nodes": ["A", "B"], "section": "s", "material": "light"},
+                "M": {"nodes": ["B", "C"], "section": "s", "material": "light"}},
+    "supports": {"A": "fixed"})" + rest + "}",
+                     "mast.json");
+}
+
+AnalysisResult modes(const Building& building, int count) {
+  AnalysisRequest request;
+  request.modes = count;
+  return analyse(building, request);
+}
+
+}  // namespace
+
+TEST_CASE("OpenSees' frames have its natural frequencies") {
+  for (const std::string name : {"A1_def_L6", "D3_def_L6"}) {
+    const std::string base = "reference/opensees/" + name;
+    if (!topple::test::have_shared(base + ".expected.json")) return;
+    std::ifstream file(topple::test::shared_path(base + ".expected.json"));
+    const Json expected = Json::parse(file);
+    AnalysisRequest request;
+    request.modes = 3;
+    request.torsional_mass = solver::TorsionalMass::torsion_constant;
+    const AnalysisResult result = analyse(read_model(topple::test::shared_path(base + ".json")), request);
+    REQUIRE(result.modes.size() == 3);
+    for (std::size_t m = 0; m < 3; ++m)
+      CHECK(result.modes[m].angular_frequency ==
+            Approx(expected["modes"][m]["angular_frequency"].get<double>()).epsilon(1e-8));
+  }
+}
+
+TEST_CASE("mass comes from nodes, from members by halves, and from vertical loads over gravity") {
+  const auto moving = [](const Building& building) { return modes(building, 1).moving_mass.z(); };
+  CHECK(moving(mast(R"(, "masses": {"nodes": {"C": 50}})")) == Approx(50).epsilon(1e-12));
+  CHECK(moving(mast(R"(, "masses": {"members": {"P": 30}})")) == Approx(15).epsilon(1e-12));
+  // 100 over the second half of the arm and a point load of 60 at a quarter, both downwards; half of it counts.
+  const std::string loads = R"(, "loads": {"live": {"self_weight": 1, "members": {"M": [
+    {"uniform": {"z": -100, "x": 7}, "from": 1, "to": 2}, {"point": {"z": -60}, "at": 0.5}]}, "nodes": {"C": {"z": -40}}}},
+    "masses": {"loads": {"live": 0.5}})";
+  CHECK(moving(mast(loads)) == Approx(0.5 * 200 / 10).epsilon(1e-12));
+  CHECK_THROWS_WITH(mast(R"(, "masses": {"loads": {"live": -1}})"), Catch::Contains("masses"));
+  CHECK_THROWS_WITH(modes(mast(R"(, "loads": {"lift": {"nodes": {"C": {"z": 40}}}}, "masses": {"loads": {"lift": 1}})"), 1),
+                    Catch::Contains("node C upwards"));
+  CHECK_THROWS_WITH(modes(mast(""), 1), Catch::Contains("mass"));
+}
+
+TEST_CASE("results.json has frequencies in Hz and rad/s, mass shares and shapes, and asks for no more than there are") {
+  const Building building = mast(R"(, "masses": {"nodes": {"C": 50}})");
+  AnalysisRequest request;
+  request.modes = 5;
+  const AnalysisResult result = analyse(building, request);
+  const Json json = Json::parse(results_json(building, request, result, {}));
+  REQUIRE(json["modes"].size() == 3);
+  CHECK_THAT(result.warnings.at(result.warnings.size() - 1), Catch::Contains("3 modes, 5 were asked for"));
+  double shares = 0;
+  for (const Json& mode : json["modes"]) {
+    CHECK(mode["frequency"].get<double>() * 2 * 3.14159265358979323846 ==
+          Approx(mode["angular_frequency"].get<double>()).epsilon(1e-14));
+    shares += mode["mass_share"][1].get<double>();
+    CHECK(mode["shape"].size() == 3);
+  }
+  CHECK(shares == Approx(1).epsilon(1e-10));
+  // Sideways the post bends and twists, the arm bends: flexibilities add up at the mass.
+  const double E = 2e11, G = 8e10, L = 3, a = 2;
+  const double flexibility = L * L * L / (3 * E * 2e-5) + a * a * L / (G * 1e-5) + a * a * a / (3 * E * 2e-5);
+  CHECK(json["modes"][0]["angular_frequency"].get<double>() == Approx(1 / std::sqrt(50 * flexibility)).epsilon(1e-9));
+}
