@@ -134,13 +134,13 @@ void BulletWorld::sweep_ground(const Mover& mover, double dt, std::vector<Contac
   }
 }
 
-void BulletWorld::sweep_standing(const Mover& mover, double dt, std::vector<Contact>& found) const {
+void BulletWorld::sweep_standing(const Mover& mover, Sweep what, double dt, std::vector<Contact>& found) const {
   Candidates candidates;
   // Bullet's query changes nothing, but is not declared so.
   const_cast<btDbvtBroadphase&>(broadphase_).aabbTest(mover.whole.low, mover.whole.high, candidates);
   for (const Solid* other : candidates.solids) {
-    if (other->kind == Touched::Kind::ground || (other->kind == Touched::Kind::body && other->object->isActive()))
-      continue;
+    if (other->kind == Touched::Kind::ground) continue;
+    if (other->kind == Touched::Kind::body && (what == Sweep::obstacles || other->object->isActive())) continue;
     Motion still;
     still.start = other->object->getWorldTransform();
     sweep_pair(mover, *other, still, dt, found);
@@ -163,17 +163,18 @@ void BulletWorld::sweep_movers(const std::vector<Mover>& movers, double dt, std:
   }
 }
 
-std::vector<Contact> BulletWorld::sweep(double dt) {
+std::vector<Contact> BulletWorld::sweep(double dt, Sweep what) {
   if (!(dt > 0) || !std::isfinite(dt))
     throw std::invalid_argument("sweep of " + std::to_string(dt) + " s; it must be above zero");
   release_separated();
   std::vector<Contact> found;
+  if (what == Sweep::obstacles && obstacles_.empty()) return found;
   const std::vector<Mover> awake = movers(dt);
-  for (const Mover& mover : awake) {
-    sweep_standing(mover, dt, found);
-    sweep_ground(mover, dt, found);
+  for (const Mover& mover : awake) sweep_standing(mover, what, dt, found);
+  if (what == Sweep::everything) {
+    for (const Mover& mover : awake) sweep_ground(mover, dt, found);
+    sweep_movers(awake, dt, found);
   }
-  sweep_movers(awake, dt, found);
   for (Contact& contact : found) {
     put_lower_first(contact);
     contact.persistent = std::binary_search(touching_.begin(), touching_.end(), contact, before_by_parts);

@@ -36,7 +36,7 @@ class PartShapes {
   [[nodiscard]] std::optional<double> ray(Part part, const Vec3& from, const Vec3& direction) const;
 
  private:
-  /// A member: box with rows of `axes` as its own. A panel: eight corners.
+  /// A member or a rectangular panel: box with rows of `axes` as its own. Another panel: eight corners.
   struct Shape {
     Mat3 axes = Mat3::Identity();
     Vec3 centre = Vec3::Zero(), half = Vec3::Zero();
@@ -46,6 +46,7 @@ class PartShapes {
   [[nodiscard]] const Shape& of(Part part) const;
   [[nodiscard]] Shape member_shape(const Building& building, MemberId id) const;
   [[nodiscard]] Shape panel_shape(const Building& building, PanelId id) const;
+  static void make_box(Shape& shape);
   [[nodiscard]] double clearance(const Building& building, NodeId node, MemberId except, const Vec3& direction) const;
   [[nodiscard]] double edge_inset(const Building& building, const Panel& panel, int edge) const;
 

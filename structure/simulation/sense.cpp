@@ -32,7 +32,7 @@ std::vector<collision::Contact> Simulation::State::sense() {
   if (world->awake_count() == 0) return {};
   for (auto& [id, one] : bodies)
     if (!world->state(one.id).asleep) obstacles.approach(swept_bounds(one), *frame, *world);
-  return timer.engine([&] { return world->sweep(scenario.step); });
+  return timer.engine([&] { return world->sweep(scenario.step, collision::Sweep::obstacles); });
 }
 
 }  // namespace topple::structure

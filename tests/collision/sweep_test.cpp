@@ -1,6 +1,8 @@
 // Swept detection: what a body will touch before it gets there.
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+
 #include "world_builder.h"
 
 using namespace collision_test;
@@ -153,6 +155,23 @@ TEST_CASE("the step itself does not carry a fast ball through a wall, nor throug
   const BodyId id = world->add_body(ball);
   run(*world, 10);
   CHECK(world->state(id).pose.position.x() < 4.7);
+}
+
+TEST_CASE("a sweep for obstacles finds those alone, as the full sweep does") {
+  const auto world = world_with_ground();
+  world->add_obstacle(box_obstacle({0.1, 2, 2}, {0.55, 0, 0.5}));
+  BodyDescription ball = ball_body(0.4, 500, {0, 0, 0.45});
+  ball.velocity = Vec3(30, 0, -20);
+  world->add_body(ball);
+  world->add_body(box_body({0.2, 0.2, 0.2}, 100, {0, 0.7, 0.45}));
+  const std::vector<Contact> all = world->sweep(kStep), standing = world->sweep(kStep, Sweep::obstacles);
+  REQUIRE(standing.size() == 1);
+  CHECK(all.size() > 1);
+  const auto same =
+      std::find_if(all.begin(), all.end(), [](const Contact& c) { return c.other.kind == Touched::Kind::obstacle; });
+  REQUIRE(same != all.end());
+  CHECK(same->time == standing[0].time);
+  CHECK(same->point == standing[0].point);
 }
 
 TEST_CASE("thousands of obstacles come and go, and are found by box and by ray") {

@@ -1,7 +1,7 @@
 #pragma once
-// Rigid debris as the structure sees it: bodies, standing parts as obstacles, contacts, sweeps, hinges. An interface, with
-// Bullet in double precision as its one real implementation, so that a game can put its own engine here and a test a
-// recording one. SI units, global z up.
+// Rigid debris as the structure sees it: bodies, standing parts as obstacles, contacts, sweeps, hinges. An interface,
+// with Bullet in double precision as its one real implementation, so that a game can put its own engine here and a test
+// a recording one. SI units, global z up.
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
@@ -42,19 +42,19 @@ struct HingeId {
 struct ConvexPart {
   enum class Kind { box, sphere, hull };
   Kind kind = Kind::box;
-  Pose pose;                           ///< of the part in the body (box and sphere: its centre)
-  Vec3 half_extents = Vec3::Zero();    ///< box; sphere: x is the radius
-  std::vector<Vec3> points;            ///< hull: vertices
-  std::int64_t tag = -1;               ///< given back in contacts: which part of the body was touched
+  Pose pose;                         ///< of the part in the body (box and sphere: its centre)
+  Vec3 half_extents = Vec3::Zero();  ///< box; sphere: x is the radius
+  std::vector<Vec3> points;          ///< hull: vertices
+  std::int64_t tag = -1;             ///< given back in contacts: which part of the body was touched
 };
 
 struct BodyDescription {
   std::vector<ConvexPart> parts;
-  double mass = 0;                         ///< above zero
-  Mat3 inertia = Mat3::Zero();             ///< about the centre of mass, body axes; need not be diagonal
-  Pose pose;                               ///< of the centre of mass; parts are relative to it
-  Vec3 velocity = Vec3::Zero();            ///< of the centre of mass
-  Vec3 angular_velocity = Vec3::Zero();    ///< global axes
+  double mass = 0;                           ///< above zero
+  Mat3 inertia = Mat3::Zero();               ///< about the centre of mass, body axes; need not be diagonal
+  Pose pose;                                 ///< of the centre of mass; parts are relative to it
+  Vec3 velocity = Vec3::Zero();              ///< of the centre of mass
+  Vec3 angular_velocity = Vec3::Zero();      ///< global axes
   double friction = 0.6, restitution = 0.1;  ///< a pair has the geometric mean of its two
 };
 
@@ -79,16 +79,20 @@ struct Contact {
   BodyId body;
   std::int64_t part_tag = -1;
   Touched other;
-  Vec3 point = Vec3::Zero();     ///< centre of the area of contact (sweep), of its impulses (step); global
-  Vec3 normal = Vec3::Zero();    ///< unit, from the body into what it touches
-  double approach_speed = 0;     ///< relative speed at the point along the normal, rotation included, positive when closing
-  double time = 0;               ///< sweep: time of impact from now; step: 0
-  Vec3 impulse = Vec3::Zero();   ///< step: what the body did to the other during the last step, friction included, N s
-  double work_lost = 0;          ///< step: energy that it took out of the bodies (velocities read at mid-step), J
-  bool persistent = false;       ///< it was there in the step before as well
-  int corner_count = 0;          ///< corners of the area of contact, 1 to 4: a slab that falls flat has 4
+  Vec3 point = Vec3::Zero();   ///< centre of the area of contact (sweep), of its impulses (step); global
+  Vec3 normal = Vec3::Zero();  ///< unit, from the body into what it touches
+  double approach_speed =
+      0;            ///< relative speed at the point along the normal, rotation included, positive when closing
+  double time = 0;  ///< sweep: time of impact from now; step: 0
+  Vec3 impulse = Vec3::Zero();  ///< step: what the body did to the other during the last step, friction included, N s
+  double work_lost = 0;         ///< step: energy that it took out of the bodies (velocities read at mid-step), J
+  bool persistent = false;      ///< it was there in the step before as well
+  int corner_count = 0;         ///< corners of the area of contact, 1 to 4: a slab that falls flat has 4
   std::array<Vec3, 4> corners{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
 };
+
+/// What a sweep looks at.
+enum class Sweep { everything, obstacles };
 
 /// Velocities are those of semi-implicit Euler as they stand: v(k+1) = v(k) + g dt, x(k+1) = x(k) + v(k+1) dt. Read as
 /// speeds at mid-step they make free flight exact: a body that flies with v now enters with v - g dt/2, and one whose
@@ -111,10 +115,10 @@ struct RayHit {
 /// One or two free rotations leave the held ones no more than a right angle from where they began.
 struct HingeDescription {
   BodyId body;
-  std::optional<BodyId> other;      ///< none: fixed in space
-  Vec3 point = Vec3::Zero();        ///< global, now
+  std::optional<BodyId> other;                                   ///< none: fixed in space
+  Vec3 point = Vec3::Zero();                                     ///< global, now
   std::array<bool, 6> held{true, true, true, true, true, true};  ///< components x y z rx ry rz in `axes`
-  Mat3 axes = Mat3::Identity();     ///< rows: joint axes in global components, now
+  Mat3 axes = Mat3::Identity();                                  ///< rows: joint axes in global components, now
 };
 
 class World {
@@ -126,8 +130,9 @@ class World {
   /// A half space below z = height; replaces the one before. Wakes every body.
   virtual void set_ground(double height, double friction, double restitution) = 0;
 
-  // Every function throws std::out_of_range for a handle that is not in the world, and std::invalid_argument, naming the
-  // part, for a description without mass, with an inertia that is not positive definite, or with a part of no volume.
+  // Every function throws std::out_of_range for a handle that is not in the world, and std::invalid_argument, naming
+  // the part, for a description without mass, with an inertia that is not positive definite, or with a part of no
+  // volume.
 
   virtual BodyId add_body(const BodyDescription& description) = 0;
   /// Its hinges go with it; what touched it wakes.
@@ -155,22 +160,23 @@ class World {
   [[nodiscard]] virtual std::span<const BodyId> bodies() const = 0;
   [[nodiscard]] virtual std::size_t awake_count() const = 0;
 
-  /// Contacts that awake bodies make with obstacles, ground or bodies within dt on their ballistic paths, each as if the
-  /// others were not there, in order of time, then of body id. One for each pair of parts, the body with the lower id
-  /// first. Those that were there in the last step are flagged persistent. Nothing moves.
-  [[nodiscard]] virtual std::vector<Contact> sweep(double dt) = 0;
+  /// Contacts that awake bodies make with obstacles, ground or bodies within dt on their ballistic paths, each as if
+  /// the others were not there, in order of time, then of body id. One for each pair of parts, the body with the lower
+  /// id first. Those that were there in the last step are flagged persistent. Nothing moves. Sweep::obstacles leaves
+  /// out bodies and ground, and with them most of the cost when debris lies in a pile.
+  [[nodiscard]] virtual std::vector<Contact> sweep(double dt, Sweep what = Sweep::everything) = 0;
   /// Integrates awake bodies by dt > 0 (one internal step, semi-implicit Euler; rotation keeps angular momentum).
   virtual void step(double dt) = 0;
-  /// Contacts of awake bodies in the last step, one for each pair of parts, in order of ids and tags. What a sleeping body
-  /// pressed with when it fell asleep, it presses with still.
+  /// Contacts of awake bodies in the last step, one for each pair of parts, in order of ids and tags. What a sleeping
+  /// body pressed with when it fell asleep, it presses with still.
   [[nodiscard]] virtual std::span<const Contact> contacts() const = 0;
   [[nodiscard]] virtual std::optional<RayHit> ray_cast(const Vec3& from, const Vec3& to) const = 0;
   /// Obstacles whose bounds meet the box.
   [[nodiscard]] virtual std::vector<ObstacleId> obstacles_in(const Vec3& low, const Vec3& high) const = 0;
 };
 
-/// The real one: Bullet, double precision, deterministic order. Throws std::runtime_error when the Bullet library that was
-/// linked is not the one whose headers were compiled (single precision).
+/// The real one: Bullet, double precision, deterministic order. Throws std::runtime_error when the Bullet library that
+/// was linked is not the one whose headers were compiled (single precision).
 [[nodiscard]] std::unique_ptr<World> make_bullet_world();
 
 }  // namespace topple::collision
