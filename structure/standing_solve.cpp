@@ -16,10 +16,19 @@ void StandingFrame::State::lay_contacts() {
     // Loads alone make no mechanism in a structure that was stable before.
     if (statics.solve(c)) continue;
     read_demands(c, true);
-    // On the way to rest, what lies on it is part of that way.
-    if (!to_check[static_cast<std::size_t>(c)]) account.finish(c, true, breaks);
+    // On the way to rest, what lies on it is part of that way. So is what the structure cannot bear: that state,
+    // however far it lies, is never reached.
+    if (!to_check[static_cast<std::size_t>(c)] && bears(c)) account.finish(c, true, breaks);
     to_check[static_cast<std::size_t>(c)] = 1;
   }
+}
+
+/// True when no joint of the component is over its capacity in the state solved last.
+bool StandingFrame::State::bears(int c) const {
+  const std::vector<JointId>& all = checked_joints[static_cast<std::size_t>(c)];
+  return std::none_of(all.begin(), all.end(), [&](JointId joint) {
+    return holds(joint) && label(joint) >= 0 && joints.utilisation(joint).value > 1;
+  });
 }
 
 void StandingFrame::State::bring_up_to_date() {

@@ -75,6 +75,7 @@ struct StandingFrame::State {
 
   // Solve.
   void lay_contacts();
+  [[nodiscard]] bool bears(int component) const;
   void bring_up_to_date();
   void write_loads();
   [[nodiscard]] bool solve_changed();
