@@ -6,10 +6,9 @@
 
 #include "factor.h"
 #include "frame_system.h"
+#include "support/changed_frame.h"
 #include "support/measure.h"
 #include "support/provenance.h"
-#include "support/regular_frame.h"
-#include "topple/solver/reanalysis.h"
 #include "topple/structure/joint_check.h"
 
 using namespace topple;
@@ -41,14 +40,7 @@ double error(const RegularFrame& frame, const solver::Reanalysis& standing, int 
   solver::LoadSet loads = frame.loads;
   model.beams[static_cast<std::size_t>(lost)].end_stiffness.fill(solver::Vec6::Zero());
   std::erase_if(loads.beams, [&](const solver::BeamLoad& load) { return load.beam == lost; });
-  solver::StaticAnalysis fresh(model);
-  const auto answer = fresh.solve(std::span(&loads, 1)).front();
-  double largest = 0, difference = 0;
-  for (std::size_t n = 0; n < answer.displacements.size(); ++n) {
-    largest = std::max(largest, answer.displacements[n].cwiseAbs().maxCoeff());
-    difference = std::max(difference, (answer.displacements[n] - standing.displacements()[n]).cwiseAbs().maxCoeff());
-  }
-  return difference / largest;
+  return difference_to_fresh(model, loads, standing);
 }
 
 }  // namespace
@@ -67,9 +59,8 @@ int main(int argc, char** argv) {
   }
   const RegularFrame frame = regular_frame(nx, ny, storeys);
   print_provenance("Columns lost one at a time in the regular steel frame", 1);
-  solver::Reanalysis standing(frame.model);
-  for (const solver::BeamLoad& load : frame.loads.beams) standing.set_beam_loads(load.beam, {load});
-  if (!standing.solve().stable) return 1;
+  const auto owned = stand(frame);
+  solver::Reanalysis& standing = *owned;
 
   solver::FrameSystem system(frame.model);
   system.assemble();

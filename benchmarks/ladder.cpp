@@ -2,38 +2,19 @@
 // of the two the ladder takes. Asked: its choice takes at most 1.3 times as long as the better one.
 //   bench_ladder [posts_x posts_y storeys]      (default 10 10 20)
 #include <cstdlib>
-#include <random>
 
 #include "factor.h"
 #include "frame_system.h"
 #include "refinement.h"
 #include "standing_factor.h"
+#include "support/changed_frame.h"
 #include "support/measure.h"
 #include "support/provenance.h"
-#include "support/regular_frame.h"
-#include "topple/solver/reanalysis.h"
 
 using namespace topple;
 using namespace topple::bench;
 
 namespace {
-
-/// One joint each, never two at one node, so that the frame stays stable.
-std::vector<int> random_members(const RegularFrame& frame, std::size_t count, unsigned seed) {
-  std::mt19937 random(seed);
-  std::vector<int> members;
-  std::vector<char> taken(frame.model.nodes.size(), 0);
-  for (std::size_t tries = 0; members.size() < count && tries < 100 * count; ++tries) {
-    const int beam = static_cast<int>(random() % frame.model.beams.size());
-    const auto& node = frame.model.beams[static_cast<std::size_t>(beam)].node;
-    char& a = taken[static_cast<std::size_t>(node[0])];
-    char& b = taken[static_cast<std::size_t>(node[1])];
-    if (a != 0 || b != 0) continue;
-    a = b = 1;
-    members.push_back(beam);
-  }
-  return members;
-}
 
 struct Times {
   double correction = 0, new_factor = 0;

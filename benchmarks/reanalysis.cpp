@@ -4,14 +4,12 @@
 #include <cstdlib>
 #include <map>
 #include <memory>
-#include <random>
 
 #include "factor.h"
 #include "frame_system.h"
+#include "support/changed_frame.h"
 #include "support/measure.h"
 #include "support/provenance.h"
-#include "support/regular_frame.h"
-#include "topple/solver/reanalysis.h"
 
 using namespace topple;
 using namespace topple::bench;
@@ -19,13 +17,6 @@ using namespace topple::bench;
 namespace {
 
 constexpr unsigned seed = 1;
-
-std::unique_ptr<solver::Reanalysis> standing(const RegularFrame& frame) {
-  auto result = std::make_unique<solver::Reanalysis>(frame.model);
-  for (const solver::BeamLoad& load : frame.loads.beams) result->set_beam_loads(load.beam, {load});
-  if (!result->solve().stable) std::exit(1);
-  return result;
-}
 
 struct Reference {
   double factor = 0, pair = 0;
@@ -60,32 +51,7 @@ double error(const RegularFrame& frame, const solver::Reanalysis& standing) {
     const auto& ends = model.beams[static_cast<std::size_t>(load.beam)].end_stiffness;
     return ends[0].isZero(0) && ends[1].isZero(0);
   });
-  solver::StaticAnalysis fresh(model);
-  const auto answer = fresh.solve(std::span(&loads, 1)).front();
-  double largest = 0, difference = 0;
-  for (std::size_t n = 0; n < answer.displacements.size(); ++n) {
-    largest = std::max(largest, answer.displacements[n].cwiseAbs().maxCoeff());
-    difference = std::max(difference, (answer.displacements[n] - standing.displacements()[n]).cwiseAbs().maxCoeff());
-  }
-  return difference / largest;
-}
-
-/// Members with one joint to break each, never two at one node, so that the frame stays stable.
-std::vector<int> random_members(const RegularFrame& frame, int count) {
-  std::mt19937 random(seed);
-  std::vector<int> members;
-  std::vector<char> taken(frame.model.nodes.size(), 0);
-  const int beams = static_cast<int>(frame.model.beams.size());
-  for (int tries = 0; static_cast<int>(members.size()) < count && tries < 100 * count; ++tries) {
-    const int beam = static_cast<int>(random() % static_cast<unsigned>(beams));
-    const auto& node = frame.model.beams[static_cast<std::size_t>(beam)].node;
-    char& a = taken[static_cast<std::size_t>(node[0])];
-    char& b = taken[static_cast<std::size_t>(node[1])];
-    if (a != 0 || b != 0) continue;
-    a = b = 1;
-    members.push_back(beam);
-  }
-  return members;
+  return difference_to_fresh(model, loads, standing);
 }
 
 struct Steps {
@@ -144,9 +110,9 @@ int main(int argc, char** argv) {
     return 2;
   }
   const RegularFrame frame = regular_frame(nx, ny, storeys);
-  const auto members = random_members(frame, std::max(breaks, 16));
+  const auto members = random_members(frame, static_cast<std::size_t>(std::max(breaks, 16)), seed);
   print_provenance("Reanalysis of the regular steel frame", 1);
-  auto structure = standing(frame);
+  auto structure = stand(frame);
   const Reference supernodal = measure_reference(frame, solver::Factorisation::supernodal, 5);
   const Reference simplicial =
       nx * ny * storeys < 500 ? measure_reference(frame, solver::Factorisation::simplicial, 15) : Reference{1e9, 1e9};
@@ -162,7 +128,7 @@ int main(int argc, char** argv) {
               refactor / one, one / pair);
   std::printf("one joint: and all joints' forces  %9.3f ms\n", 1e3 * one_forces);
 
-  structure = standing(frame);
+  structure = stand(frame);
   const Steps steps = break_one_by_one(*structure, members);
   const auto& c = structure->counters();
   const std::size_t window = std::min<std::size_t>(5, steps.time.size());
@@ -176,7 +142,7 @@ int main(int argc, char** argv) {
   std::printf("  difference to a fresh analysis after all of them %.1e, backward error %.1e\n",
               error(frame, *structure), structure->solve().quality.backward_error);
 
-  structure = standing(frame);
+  structure = stand(frame);
   for (int i = 0; i < 16 && i < static_cast<int>(members.size()); ++i)
     structure->set_end_stiffness(members[static_cast<std::size_t>(i)], 1, solver::Vec6::Zero());
   const double sixteen = seconds([&] { (void)structure->solve(); });
