@@ -1,5 +1,7 @@
 // Reading a model of 100,000 members from each file format: text to a checked building, every one in under a second.
 //   bench_reading [MEMBERS]
+#include <unistd.h>
+
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -103,7 +105,7 @@ void write_tables(const Frame& frame, const fs::path& folder) {
 int main(int argc, char** argv) {
   const std::size_t count = argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 100000;
   bench::print_provenance("Reading a model: wall time, median of 5 rounds, and processor time, mean of them", 1);
-  const fs::path folder = fs::temp_directory_path() / "topple_bench_reading";
+  const fs::path folder = fs::temp_directory_path() / ("topple_bench_reading_" + std::to_string(getpid()));
   fs::remove_all(folder);
   fs::create_directories(folder);
   const Frame frame(count);

@@ -9,6 +9,7 @@
 
 #include "formats/frame3dd_file.h"
 #include "formats/model_files.h"
+#include "support/scratch_folder.h"
 #include "support/shared_data.h"
 #include "topple/structure/analysis.h"
 #include "topple/structure/convert.h"
@@ -21,34 +22,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder that goes with the test.
-class Scratch {
+class Scratch : public topple::test::ScratchFolder {
  public:
-  Scratch() : path_(fs::temp_directory_path() / ("topple_convert_" + std::to_string(++count_))) {
-    fs::remove_all(path_);
-    fs::create_directories(path_);
-  }
-  ~Scratch() { fs::remove_all(path_); }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  [[nodiscard]] fs::path operator/(const std::string& name) const { return path_ / name; }
-
   fs::path write(const std::string& name, const std::string& text) const {
-    fs::create_directories((path_ / name).parent_path());
-    std::ofstream(path_ / name, std::ios::binary) << text;
-    return path_ / name;
+    const fs::path file = *this / name;
+    fs::create_directories(file.parent_path());
+    std::ofstream(file, std::ios::binary) << text;
+    return file;
   }
   /// Converts and writes; returns where.
   fs::path convert(const fs::path& in, const std::string& out) const {
-    const ModelForm form = model_form(path_ / out);
+    const ModelForm form = model_form(*this / out);
     for (const auto& [name, text] : convert_model(in, form).files)
       write(form == ModelForm::tables ? out + "/" + name : out, text);
-    return path_ / out;
+    return *this / out;
   }
-
- private:
-  static inline int count_ = 0;
-  fs::path path_;
 };
 
 std::string message(const Scratch& scratch, const fs::path& in, const std::string& out) {

@@ -1,11 +1,12 @@
 // Every kind of mistake in a model is told with its file, its place, what was found and what is accepted.
 #include <catch2/catch.hpp>
-#include <chrono>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 
 #include "example_model.h"
 #include "formats/json_document.h"
+#include "support/scratch_folder.h"
 #include "topple/structure/error.h"
 #include "topple/structure/files.h"
 
@@ -196,7 +197,8 @@ TEST_CASE("syntax errors are told by line and column") {
 }
 
 TEST_CASE("a large file of brackets is refused at once") {
-  const auto file = std::filesystem::temp_directory_path() / "topple_brackets.json";
+  const topple::test::ScratchFolder scratch;
+  const auto file = scratch / "topple_brackets.json";
   {
     std::ofstream stream(file, std::ios::binary);
     stream.put('[');
@@ -207,18 +209,18 @@ TEST_CASE("a large file of brackets is refused at once") {
     const std::string block(std::size_t{1} << 20, '[');
     for (int i = 0; i < 64; ++i) stream << block;
   }
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();
   std::string what;
   try {
     (void)read_model(file);
   } catch (const InputError& error) {
     what = error.what();
   }
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  std::filesystem::remove(file);
+  const double seconds =
+      static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;  // of the processor: others may run
   CHECK(what ==
         "topple_brackets.json, line 1, column 33: brackets nested more than 32 deep; accepted: a file of this format");
-  CHECK(seconds.count() < 0.1);  // reading 64 MB through the parser would take longer
+  CHECK(seconds < 0.1);  // reading 64 MB through the parser would take longer
 }
 
 TEST_CASE("endless tokens and values beyond all use are refused with bounded memory") {

@@ -7,6 +7,7 @@
 
 #include "formats/frame3dd.h"
 #include "mutation.h"
+#include "support/scratch_folder.h"
 #include "support/shared_data.h"
 #include "topple/structure/error.h"
 #include "topple/structure/files.h"
@@ -154,8 +155,8 @@ TEST_CASE("mutated tables with decimal commas give a sound building or one clear
 
 TEST_CASE("mutated scenarios give a scenario of its model or one clear line") {
   namespace fs = std::filesystem;
-  const fs::path folder = fs::temp_directory_path() / "topple_scenario_fuzz";
-  fs::create_directories(folder);
+  const topple::test::ScratchFolder scratch;
+  const fs::path& folder = scratch.path();
   std::ofstream(folder / "post.json")
       << R"({"topple": 1, "materials": {"s": {"youngs_modulus": 2e11, "poisson_ratio": 0.3, "density": 7850}},
     "sections": {"b": {"shape": "box", "depth": 0.3, "width": 0.2, "thickness": 0.01}}, "joints": {"j": {"capacity": {"tension": 1e6}}},

@@ -4,6 +4,7 @@
 
 #include "simulation/panel_chunks.h"
 #include "simulation/part_shapes.h"
+#include "support/scratch_folder.h"
 #include "topple/structure/error.h"
 #include "topple/structure/files.h"
 #include "topple/structure/simulation.h"
@@ -26,8 +27,7 @@ const char* const model_text = R"({"topple": 1, "title": "One bay",
 Building building() { return parse_model(model_text, "bay.json", Purpose::demolish); }
 
 Scenario scenario(const std::string& events, const std::string& method) {
-  const auto folder = std::filesystem::temp_directory_path() / "topple_fracture_test";
-  std::filesystem::create_directories(folder);
+  const topple::test::ScratchFolder folder;
   std::FILE* file = std::fopen((folder / "bay.json").string().c_str(), "w");
   REQUIRE(file != nullptr);
   std::fputs(model_text, file);
@@ -36,7 +36,7 @@ Scenario scenario(const std::string& events, const std::string& method) {
              "{\"topple\": 1, \"model\": \"bay.json\", \"duration\": 8, \"debris\": {\"smallest_volume\": 1e-9}, "
              "\"fracture\": {\"method\": \"" +
                  method + "\"}, \"events\": [" + events + "]}",
-             "s.json", folder)
+             "s.json", folder.path())
       .second;
 }
 

@@ -14,6 +14,7 @@
 #include "app/headless.h"
 #include "app/session.h"
 #include "renderer/headless_context.h"
+#include "support/scratch_folder.h"
 #include "test_paths.h"
 #include "topple/structure/error.h"
 
@@ -22,15 +23,8 @@ namespace {
 using namespace topple::viewer;
 namespace fs = std::filesystem;
 
-/// An empty folder for a test, removed with it.
-struct Folder {
-  fs::path path;
-  explicit Folder(const std::string& name)
-      : path(fs::temp_directory_path() / (name + "-" + std::to_string(std::rand()) + "-" + std::to_string(getpid()))) {
-    fs::create_directories(path);
-  }
-  ~Folder() { fs::remove_all(path); }
-  [[nodiscard]] std::string file(const std::string& name) const { return (path / name).string(); }
+struct Folder : topple::test::ScratchFolder {
+  [[nodiscard]] std::string file(const std::string& name) const { return (*this / name).string(); }
 };
 
 struct Picture {
@@ -73,7 +67,7 @@ bool can_draw() {
 }
 
 std::string refused(const std::string& text) {
-  const Folder folder("script");
+  const Folder folder;
   std::ofstream(folder.file("script.json")) << text;
   try {
     (void)read_script(folder.file("script.json"));
@@ -87,7 +81,7 @@ std::string refused(const std::string& text) {
 
 TEST_CASE("without a window, the hit building shows failed joints that the standing one has not") {
   if (!can_draw()) return;
-  const Folder folder("headless");
+  const Folder folder;
   const Scene scene = open_scene("seed_hit");
   HeadlessOptions options;
   options.size = {320, 180};
@@ -106,7 +100,7 @@ TEST_CASE("without a window, the hit building shows failed joints that the stand
 
 TEST_CASE("a script sets the camera, fires, pauses and takes pictures at its times") {
   if (!can_draw()) return;
-  const Folder folder("script");
+  const Folder folder;
   std::ofstream(folder.file("script.json")) << R"({"topple": 1, "size": [240, 160], "actions": [
         {"at": 0, "camera": {"eye": [-30, -25, 12], "target": [8, 8, 8], "field_of_view": 0.8}},
         {"at": 0, "screenshot": ")" << folder.file("standing.png")
@@ -167,9 +161,9 @@ TEST_CASE("a script's mistakes are named with their place") {
 }
 
 TEST_CASE("in a window, a person orbits, fires, sees joints fail, and pauses") {
-  const Folder folder("window");
+  const Folder folder;
   const std::string command = std::string(TOPPLE_SOURCE_DIR "/tests/viewer/drive_window.sh '") +
-                              TOPPLE_VIEWER_PROGRAM "' '" + folder.path.string() + "'";
+                              TOPPLE_VIEWER_PROGRAM "' '" + folder.path().string() + "'";
   const int status = WEXITSTATUS(std::system(command.c_str()));
   if (status == 77) {
     std::cout << "SKIPPED: Xvfb or xdotool is not installed\n";
@@ -185,7 +179,7 @@ TEST_CASE("in a window, a person orbits, fires, sees joints fail, and pauses") {
 }
 
 TEST_CASE("without a display the viewer says in one line why it opens no window") {
-  const Folder folder("no-display");
+  const Folder folder;
   const std::string command =
       "env -u DISPLAY -u WAYLAND_DISPLAY '" TOPPLE_VIEWER_PROGRAM "' 2> '" + folder.file("said") + "'";
   CHECK(WEXITSTATUS(std::system(command.c_str())) == 1);
