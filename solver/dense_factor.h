@@ -14,6 +14,8 @@ class DenseFactor {
   void factorise();
   /// Estimates of the inverse's 1-norm (Hager, Higham; LAPACK's dgecon); infinite when the matrix is singular.
   [[nodiscard]] double inverse_norm() const { return inverse_norm_; }
+  /// Number of the inverse's column with the largest 1-norm, by the same estimate; -1 when the matrix is singular.
+  [[nodiscard]] int largest_inverse_column() const;
   /// x := A^-1 x, `columns` of them. Not for singular matrices.
   void solve(double* x, int columns = 1) const;
   [[nodiscard]] int size() const { return size_; }

@@ -213,13 +213,14 @@ Eigen::VectorXd LowRankCorrection::softest_motion() const {
   Eigen::VectorXd motion = Eigen::VectorXd::Zero(solver_.size());
   if (active_.empty()) return motion;
   // The columns of the inverse are dominated by the null vector; one that stands out names one motion, not a mixture.
-  Eigen::MatrixXd inverse = Eigen::MatrixXd::Identity(active_rank_, active_rank_);
-  capacitance_.solve(inverse.data(), active_rank_);
-  if (!inverse.allFinite()) return motion;
-  Eigen::Index column = 0;
-  inverse.colwise().norm().maxCoeff(&column);
-  Eigen::VectorXd q = inverse.col(column).normalized();
+  const int column = capacitance_.largest_inverse_column();
+  if (column < 0) return motion;
+  Eigen::VectorXd q = Eigen::VectorXd::Unit(active_rank_, column);
   capacitance_.solve(q.data());
+  if (!q.allFinite()) return motion;
+  q.normalize();
+  capacitance_.solve(q.data());
+  if (!q.allFinite()) return motion;
   q.normalize();
   subtract(-q, motion);
   const double norm = motion.norm();

@@ -172,16 +172,24 @@ Reanalysis::Response Reanalysis::respond(const LoadSet& loads) const {
   }
   const LoadVector load = state.system->load_vector(loads);
   if (const auto defect = state.system->unbalanced_load(load)) throw Instability(defect->message, defect->motion);
-  SolveQuality quality;
-  const Eigen::VectorXd u = state.solve_scaled(load.force, quality);
   Response response;
+  const Eigen::VectorXd u = state.solve_sparse(load.force, response.backward_error);
   response.displacements = state.system->node_displacements(u, load.held_displacement);
-  response.beam_end_forces.reserve(state.targets.size());
-  for (std::size_t i = 0; i < state.targets.size(); ++i) {
-    const Vec12 fixed = load.beam_fixed_end.empty() ? Vec12::Zero() : load.beam_fixed_end[i];
-    response.beam_end_forces.push_back(state.end_forces(i, response.displacements, fixed));
+  for (const BeamLoad& one : loads.beams) {
+    const auto beam = static_cast<std::size_t>(one.beam);
+    response.fixed_end.emplace_back(one.beam, load.beam_fixed_end[beam]);
   }
+  std::sort(response.fixed_end.begin(), response.fixed_end.end(),
+            [](const auto& a, const auto& b) { return a.first < b.first; });
   return response;
+}
+
+Vec12 Reanalysis::beam_end_forces(int beam, const Response& response) const {
+  const std::size_t i = state_->checked_beam(beam);
+  const auto fixed = std::lower_bound(response.fixed_end.begin(), response.fixed_end.end(), beam,
+                                      [](const auto& one, int wanted) { return one.first < wanted; });
+  const bool loaded = fixed != response.fixed_end.end() && fixed->first == beam;
+  return state_->end_forces(i, response.displacements, loaded ? fixed->second : Vec12::Zero());
 }
 
 Vec3 Reanalysis::point_displacement(int beam, double distance, const std::vector<Vec6>& node_displacements,

@@ -138,16 +138,39 @@ void Reanalysis::State::scale_force(const Eigen::VectorXd& force, Eigen::VectorX
   result = force.head(n).cwiseProduct(Eigen::Map<const Eigen::VectorXd>(system->scale().data(), n));
 }
 
-Eigen::VectorXd Reanalysis::State::solve_scaled(const Eigen::VectorXd& force, SolveQuality& quality) const {
+Eigen::VectorXd Reanalysis::State::solve_sparse(const Eigen::VectorXd& force, double& backward_error) const {
   const Eigen::Index n = system->dofs().equations;
+  backward_error = 0;
   if (n == 0) return {};
+  const Eigen::Map<const Eigen::VectorXd> scale(system->scale().data(), n);
   Eigen::VectorXd right_hand_side;
   scale_force(force, right_hand_side);
-  const RefinedSolution refined = solve_refined(system->matrix(), linear_solve(), right_hand_side);
-  quality = refined.quality[0];
-  quality.condition = current_condition();
-  quality.error_bound = forward_error_bound(quality.condition, quality.backward_error);
-  return refined.x.col(0).cwiseProduct(Eigen::Map<const Eigen::VectorXd>(system->scale().data(), n));
+  Eigen::VectorXd x;
+  if (!standing) {
+    const RefinedSolution refined = solve_refined(system->matrix(), linear_solve(), right_hand_side);
+    backward_error = refined.quality[0].backward_error;
+    x = refined.x.col(0);
+    return x.cwiseProduct(scale);
+  }
+  std::vector<int> loaded;
+  for (Eigen::Index e = 0; e < n; ++e)
+    if (right_hand_side(e) != 0) loaded.push_back(static_cast<int>(e));
+  x = right_hand_side;
+  standing->solve(x, &loaded);
+  Eigen::VectorXd r, better;
+  backward_error = rows->residual(system->matrix(), right_hand_side, x, r);
+  for (int step = 0; step < most_refinements && backward_error > backward_error_limit; ++step) {
+    standing->solve(r);
+    better = x + r;
+    const double error = rows->residual(system->matrix(), right_hand_side, better, r);
+    const bool go_on = error <= worthwhile * backward_error;
+    if (error < backward_error) {
+      x.swap(better);
+      backward_error = error;
+    }
+    if (!go_on) break;
+  }
+  return x.cwiseProduct(scale);
 }
 
 /// Rows in which the last answer does not fit any longer; none when they are too many to tell apart.

@@ -95,7 +95,8 @@ struct Reanalysis::State {
   [[nodiscard]] Vec12 end_forces(std::size_t beam, const std::vector<Vec6>& displacements, const Vec12& fixed) const;
   [[nodiscard]] LinearSolve linear_solve() const;
   void scale_force(const Eigen::VectorXd& force, Eigen::VectorXd& result) const;
-  [[nodiscard]] Eigen::VectorXd solve_scaled(const Eigen::VectorXd& force, SolveQuality& quality) const;
+  /// Answer to a force that few equations feel; refined to rounding level.
+  [[nodiscard]] Eigen::VectorXd solve_sparse(const Eigen::VectorXd& force, double& backward_error) const;
   [[nodiscard]] std::size_t checked_beam(int beam) const;
   [[nodiscard]] std::size_t checked_shell(int shell) const;
   void set_shell_removed(int shell, bool removed);

@@ -213,8 +213,9 @@ const Vec6& FrameStatics::Response::displacement(NodeId node) const {
   return answer_.displacements[static_cast<std::size_t>(statics_->node_place_[index(node)].local)];
 }
 
-const solver::Vec12& FrameStatics::Response::end_forces(MemberId member) const {
-  return answer_.beam_end_forces[static_cast<std::size_t>(statics_->member_place_[index(member)].local)];
+solver::Vec12 FrameStatics::Response::end_forces(MemberId member) const {
+  const Place& place = statics_->member_place_[index(member)];
+  return statics_->at(place).beam_end_forces(place.local, answer_);
 }
 
 Vec3 FrameStatics::Response::point_displacement(MemberId member, double distance,

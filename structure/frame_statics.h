@@ -61,7 +61,7 @@ class FrameStatics {
   class Response {
    public:
     [[nodiscard]] const Vec6& displacement(NodeId node) const;
-    [[nodiscard]] const solver::Vec12& end_forces(MemberId member) const;
+    [[nodiscard]] solver::Vec12 end_forces(MemberId member) const;
     [[nodiscard]] Vec3 point_displacement(MemberId member, double distance,
                                           const std::vector<solver::BeamLoad>& loads) const;
     [[nodiscard]] int component() const { return component_; }

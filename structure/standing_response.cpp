@@ -77,15 +77,20 @@ std::vector<std::pair<JointId, Vec6>> StandingFrame::State::response_demands(
     int c, const PlacedLoad& placed, const FrameStatics::Response& response) const {
   std::vector<std::pair<JointId, Vec6>> demands;
   Vec6 largest = Vec6::Zero();
+  MemberId member_read;
+  solver::Vec12 end_forces;
   for (JointId joint : checked_joints[static_cast<std::size_t>(c)]) {
     if (!holds(joint) || label(joint) < 0) continue;
     const Joint& own = building[joint];
     Vec6 demand = Vec6::Zero();
-    if (own.member.valid())
-      demand = member_joint_demand(response.end_forces(own.member), own.end);
-    else if (own.panel == placed.panel)
+    if (own.member.valid()) {
+      if (own.member != member_read) end_forces = response.end_forces(own.member);
+      member_read = own.member;
+      demand = member_joint_demand(end_forces, own.end);
+    } else if (own.panel == placed.panel) {
       demand = handed_edge_demand(building, bearings, own.panel, own.end,
                                   placed.edge_force[static_cast<std::size_t>(own.end)]);
+    }
     if (demand.isZero(0)) continue;
     largest = largest.cwiseMax(demand.cwiseAbs());
     demands.emplace_back(joint, demand);

@@ -269,8 +269,18 @@ TEST_CASE("the response to one more load is that load's alone, and reciprocal") 
   LoadSet both = c.loads;
   both.nodes.push_back(at_node.nodes[0]);
   const StaticSolution together = solve_one(c.model, both);
+  CHECK(a.backward_error <= 1e-14);
   const Vec6 sum = c.standing.displacements()[30] + a.displacements[30];
   CHECK((together.displacements[30] - sum).norm() < 1e-10 * sum.norm());
+  // End forces add up too: of the member that bears the load and of its neighbour.
+  LoadSet with_beam = c.loads;
+  with_beam.beams.push_back(on_beam.beams[0]);
+  const StaticSolution loaded = solve_one(c.model, with_beam);
+  for (int beam : {5, 6}) {
+    const Vec12& expected = loaded.beam_end_forces[static_cast<std::size_t>(beam)];
+    const Vec12 added = c.standing.beam_end_forces(beam) + c.standing.beam_end_forces(beam, b);
+    CHECK((added - expected).norm() < 1e-9 * expected.norm());
+  }
 }
 
 TEST_CASE("removed and restored panels change the answer as a fresh analysis says, and drop with their nodes") {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "topple/solver/frame_model.h"
@@ -73,9 +74,11 @@ class Reanalysis {
   /// included exactly. Used for compliances under contacts and for the direction of impact forces. One solve each.
   struct Response {
     std::vector<Vec6> displacements;
-    std::vector<Vec12> beam_end_forces;
+    std::vector<std::pair<int, Vec12>> fixed_end;  ///< of the beams that bear one of the loads, in order of the beam
+    double backward_error = 0;
   };
   [[nodiscard]] Response respond(const LoadSet& loads) const;
+  [[nodiscard]] Vec12 beam_end_forces(int beam, const Response& response) const;  ///< local
   /// Displacement of a point of a beam (local coordinate along it) under the given state: exact, from the end
   /// displacements and the beam's own flexibility under `own` (the loads on that beam that belong to the state).
   [[nodiscard]] Vec3 point_displacement(int beam, double distance, const std::vector<Vec6>& node_displacements,
