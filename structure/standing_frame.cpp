@@ -99,6 +99,11 @@ Vec6 StandingFrame::State::demand(JointId joint) const {
   if (!holds(joint) || label(joint) < 0) return Vec6::Zero();
   const Joint& own = building[joint];
   if (own.capacity.breakable) return joints.demand(joint);
+  return solved_demand(joint);
+}
+
+Vec6 StandingFrame::State::solved_demand(JointId joint) const {
+  const Joint& own = building[joint];
   if (own.member.valid()) return member_joint_demand(statics.end_forces(own.member), own.end);
   return edge_demands(own.panel)[static_cast<std::size_t>(own.end)];
 }

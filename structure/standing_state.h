@@ -44,6 +44,7 @@ struct StandingFrame::State {
   [[nodiscard]] int component(JointId joint) const;
   [[nodiscard]] int label(JointId joint) const;
   [[nodiscard]] Vec6 demand(JointId joint) const;
+  [[nodiscard]] Vec6 solved_demand(JointId joint) const;  ///< read from the solver; the joint must hold
   [[nodiscard]] Vec3 position(JointId joint) const;
   [[nodiscard]] std::array<Vec6, 4> edge_demands(PanelId panel) const;
 

@@ -6,6 +6,13 @@
 
 namespace topple::structure {
 
+void Simulation::set_capacities(std::span<const std::pair<JointId, JointCapacity>> capacities) {
+  for (const auto& [joint, capacity] : capacities) {
+    state_->building.joints[static_cast<std::size_t>(joint.index)].capacity = capacity;
+    state_->frame->capacity_changed(joint);
+  }
+}
+
 void Simulation::State::use_tools() {
   for (; next_event < scenario.events.size() && step_of(scenario.events[next_event].at, scenario.step) <= step;
        ++next_event)

@@ -16,11 +16,17 @@ namespace {
 /// A drag across the picture's height turns the view by half a turn.
 constexpr double turn_per_height = glm::pi<double>();
 constexpr double zoom_per_click = 0.88;
+/// A drawn mode's largest translation, as a share of the building's radius, and its pace: every mode at the same one.
+constexpr double mode_share = 0.05, swings_per_second = 0.5;
 
 }  // namespace
 
-Controller::Controller(Driver& driver, const structure::Building& building, double ground, glm::dvec2 size)
-    : driver_(driver), building_(building), ground_(ground), size_(size) {
+Controller::Controller(Driver& driver, const Scene& scene, double ground, glm::dvec2 size)
+    : driver_(driver),
+      building_(*scene.building),
+      modes_(scene.building, scene.scenario.combination.value_or(structure::CombinationId(0u))),
+      ground_(ground),
+      size_(size) {
   frame_building();
 }
 
@@ -61,7 +67,7 @@ bool Controller::key(const std::string& name) {
       {"r", [&] { driver_.restart(); }},
       {"u", [&] { driver_.undo(); }},
       {"f", [&] { frame_building(); }},
-      {"c", [&] { options.colouring = static_cast<Colouring>((static_cast<int>(options.colouring) + 1) % 4); }},
+      {"c", [&] { options.colouring = static_cast<Colouring>((static_cast<int>(options.colouring) + 1) % 5); }},
       {"1", [&] { options.shown.posts = !options.shown.posts; }},
       {"2", [&] { options.shown.beams = !options.shown.beams; }},
       {"3", [&] { options.shown.slabs = !options.shown.slabs; }},
@@ -73,20 +79,24 @@ bool Controller::key(const std::string& name) {
   return true;
 }
 
-bool Controller::show(const std::string& what) {
-  const std::map<std::string, Colouring> views{
-      {"plain", Colouring::plain}, {"joints", Colouring::joints}, {"utilisation", Colouring::utilisation}};
-  if (const auto view = views.find(what); view != views.end()) {
-    options.colouring = view->second;
-    return true;
-  }
-  const std::map<std::string, int> components{{"axial", 0},   {"tension", 0}, {"compression", 0}, {"shear_y", 1},
-                                              {"shear_z", 2}, {"torsion", 3}, {"moment_y", 4},    {"moment_z", 5}};
-  const auto component = components.find(what);
-  if (component == components.end()) return false;
-  options.colouring = Colouring::component;
-  options.component = component->second;
-  return true;
+void Controller::show(const std::string& words) { viewer::show(words, options, mode); }
+
+void Controller::update() {
+  const Wanted wanted{options.diagram >= 0, options.loads || options.reactions || options.contacts};
+  if (wanted == wanted_) return;
+  wanted_ = wanted;
+  driver_.want(wanted);
+}
+
+Snapshot Controller::drawn(Snapshot moment, double seconds, bool wait) {
+  if (!mode.kind) return moment;
+  const auto* known = wait ? &modes_.wait(*mode.kind) : modes_.find(*mode.kind);
+  if (known == nullptr || known->empty()) return moment;
+  const auto number = std::min(static_cast<std::size_t>(mode.number), known->size() - 1);
+  moment.shape = (*known)[number].shape;
+  const double swing = std::cos(glm::two_pi<double>() * seconds * swings_per_second);
+  moment.shape_scale = static_cast<float>(mode_share * bounds_of(building_).radius() * swing) * mode.scale;
+  return moment;
 }
 
 void Controller::hover(glm::dvec2 pixel) {

@@ -4,7 +4,9 @@
 #include <string>
 
 #include "app/driver.h"
+#include "app/open_scene.h"
 #include "app/picking.h"
+#include "app/show_words.h"
 #include "renderer/camera.h"
 #include "renderer/view_options.h"
 
@@ -16,10 +18,11 @@ struct Shot {
 
 class Controller {
  public:
-  Controller(Driver& driver, const structure::Building& building, double ground, glm::dvec2 size);
+  Controller(Driver& driver, const Scene& scene, double ground, glm::dvec2 size);
 
   Camera camera;
   ViewOptions options;
+  ModeView mode;
   Shot shot;
   bool help = false;
   std::optional<std::string> message;  ///< for the person, one line
@@ -35,8 +38,13 @@ class Controller {
   /// "space" pause, "n" single step, "r" restart, "u" undo, "f" frame, "c" colouring, "1" to "4" posts, beams, slabs,
   /// walls, "h" help. False when the key has no meaning.
   bool key(const std::string& name);
-  /// "joints", "plain", "utilisation", a sense's or a component's name. False when there is no such view.
-  bool show(const std::string& what);
+  /// Words of show_words.h. Throws structure::InputError.
+  void show(const std::string& words);
+  /// To be called before each picture: tells the driver what the view needs to know.
+  void update();
+  /// What to draw of a moment: with a mode in the view its shape, swinging with `seconds`; `wait`: until it is known.
+  [[nodiscard]] Snapshot drawn(Snapshot moment, double seconds, bool wait);
+  [[nodiscard]] ModeShapes& modes() { return modes_; }
   /// Marks what lies under the pointer.
   void hover(glm::dvec2 pixel);
   [[nodiscard]] const std::optional<Pick>& hovered() const { return hovered_; }
@@ -48,6 +56,8 @@ class Controller {
  private:
   Driver& driver_;
   const structure::Building& building_;
+  ModeShapes modes_;
+  Wanted wanted_;
   double ground_;
   glm::dvec2 size_;
   std::optional<Pick> hovered_;

@@ -28,6 +28,11 @@ void DirectDriver::single_step() {
   latest_ = session_.snapshot();
 }
 
+void DirectDriver::want(Wanted wanted) {
+  session_.want(wanted);
+  latest_ = session_.snapshot();
+}
+
 using Clock = std::chrono::steady_clock;
 
 struct ThreadDriver::State {
@@ -143,6 +148,12 @@ void ThreadDriver::single_step() {
   state_->order([state = state_.get()](Session& session) {
     session.step();
     state->publish(true);
+  });
+}
+void ThreadDriver::want(Wanted wanted) {
+  state_->order([wanted, state = state_.get()](Session& session) {
+    session.want(wanted);
+    state->publish(false);
   });
 }
 void ThreadDriver::set_paused(bool paused) {

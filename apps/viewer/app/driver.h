@@ -23,6 +23,7 @@ class Driver {
   virtual void restart() = 0;
   virtual void undo() = 0;
   virtual void single_step() = 0;
+  virtual void want(Wanted wanted) = 0;
   virtual void set_paused(bool paused) = 0;
   [[nodiscard]] virtual bool paused() const = 0;
   /// Simulated seconds for each second.
@@ -40,6 +41,7 @@ class DirectDriver : public Driver {
   void restart() override;
   void undo() override;
   void single_step() override;
+  void want(Wanted wanted) override;
   void set_paused(bool paused) override { paused_ = paused; }
   [[nodiscard]] bool paused() const override { return paused_; }
   void set_speed(double speed) override { speed_ = speed; }
@@ -64,6 +66,7 @@ class ThreadDriver : public Driver {
   void restart() override;
   void undo() override;
   void single_step() override;
+  void want(Wanted wanted) override;
   void set_paused(bool paused) override;
   [[nodiscard]] bool paused() const override;
   void set_speed(double speed) override;

@@ -26,7 +26,7 @@ class HeadlessRun {
         driver_(session_),
         ground_(ground_height(*scene.building, scene.scenario)),
         renderer_(*scene.building, ground_, size[0], size[1]),
-        controller_(driver_, *scene.building, ground_, {size[0], size[1]}),
+        controller_(driver_, scene, ground_, {size[0], size[1]}),
         script_(std::move(script)) {}
 
   /// Up to the given time, doing what the script says on the way. False: the script has quit.
@@ -40,7 +40,8 @@ class HeadlessRun {
   [[nodiscard]] double last_action() const { return script_.actions.empty() ? 0 : script_.actions.back().at; }
 
   void write(const std::string& file) {
-    const Snapshot snapshot = driver_.moment().interpolated();
+    controller_.update();
+    const Snapshot snapshot = controller_.drawn(driver_.moment().interpolated(), clock(), true);
     renderer_.write(snapshot, controller_.camera, controller_.options, file);
     std::printf("%s at %.3f s\n", file.c_str(), snapshot.time);
   }
@@ -66,10 +67,7 @@ class HeadlessRun {
                             if (!controller_.key(a.key)) throw structure::InputError("no such key: '" + a.key + "'");
                           },
                           [&](const DragAction& a) { controller_.drag(a.from, a.to); },
-                          [&](const ShowAction& a) {
-                            if (!controller_.show(a.what))
-                              throw structure::InputError("no such view: '" + a.what + "'");
-                          },
+                          [&](const ShowAction& a) { controller_.show(a.what); },
                           [&](const ScreenshotAction& a) { write(a.file); }, [&](const QuitAction&) { quit_ = true; }},
                action.what);
   }

@@ -20,6 +20,7 @@ Session::Session(std::shared_ptr<const structure::Building> building, structure:
 void Session::begin() {
   simulation_ = std::make_unique<structure::Simulation>(*building_, scenario_);
   taker_ = SnapshotTaker();
+  taker_.want(wanted_);
 }
 
 void Session::step() { simulation_->step(); }

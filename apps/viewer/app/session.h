@@ -27,6 +27,8 @@ class Session {
   [[nodiscard]] const structure::Scenario& scenario() const { return scenario_; }
   [[nodiscard]] const structure::Simulation& simulation() const { return *simulation_; }
   [[nodiscard]] std::shared_ptr<const Snapshot> snapshot();
+  /// What the next snapshots hold beside poses and demands.
+  void want(Wanted wanted) { taker_.want(wanted_ = wanted); }
   [[nodiscard]] std::size_t actions() const { return actions_.size(); }
 
  private:
@@ -39,6 +41,7 @@ class Session {
   structure::Scenario scenario_;
   std::unique_ptr<structure::Simulation> simulation_;
   SnapshotTaker taker_;
+  Wanted wanted_;
   std::vector<Action> actions_;
 };
 

@@ -215,7 +215,7 @@ void run_window(const Scene& scene, const WindowOptions& options) {
   SceneInstances instances(*scene.building);
   Renderer renderer(instances, ground);
   ThreadDriver driver(std::make_unique<Session>(scene.building, scene.scenario));
-  Controller controller(driver, *scene.building, ground, window.size());
+  Controller controller(driver, scene, ground, window.size());
   Input input(window.get(), controller, options.screenshot);
   const ImGuiLayer imgui(window.get());
   SidePanel panel;
@@ -231,7 +231,8 @@ void run_window(const Scene& scene, const WindowOptions& options) {
     controller.resize(scene_size(window));
     if (input.pointer() != hovered_at && !ImGui::GetIO().WantCaptureMouse)
       controller.hover(hovered_at = input.pointer());
-    const Snapshot moment = driver.moment().interpolated();
+    controller.update();
+    const Snapshot moment = controller.drawn(driver.moment().interpolated(), now, false);
     instances.update(moment, controller.options);
     renderer.draw(instances, controller.camera, controller.options, scene_pixels(window));
     if (const std::string file = input.take_screenshot(); !file.empty()) {

@@ -98,6 +98,8 @@ GpuScene::GpuScene(const SceneInstances& scene) {
   for (const auto& batch : scene.panels(structure::PanelKind::wall))
     walls_.emplace_back(batch.mesh, panel_attributes(), sizeof(PanelInstance));
   projectiles_.emplace_back(scene.projectiles().mesh, rigid_attributes(), sizeof(RigidInstance));
+  for (const auto* batch : {&scene.arrows(), &scene.buried_arrows()})
+    arrows_.emplace_back(batch->mesh, rigid_attributes(), sizeof(RigidInstance));
 }
 
 void GpuScene::update(const SceneInstances& scene) {
@@ -105,6 +107,8 @@ void GpuScene::update(const SceneInstances& scene) {
   update_all(slabs_, scene.panels(structure::PanelKind::slab));
   update_all(walls_, scene.panels(structure::PanelKind::wall));
   projectiles_[0].update(scene.projectiles());
+  arrows_[0].update(scene.arrows());
+  arrows_[1].update(scene.buried_arrows());
   for (std::size_t i = chunks_.size(); i < scene.chunks().size(); ++i)
     chunks_.emplace_back(scene.chunks()[i].mesh, rigid_attributes(), sizeof(RigidInstance));
   update_all(chunks_, scene.chunks());

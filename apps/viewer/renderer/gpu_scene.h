@@ -48,12 +48,14 @@ class GpuScene {
     draw(projectiles_);
     draw(chunks_);
   }
+  void draw_arrows() const { arrows_[0].draw(); }
+  void draw_buried_arrows() const { arrows_[1].draw(); }
 
  private:
   static void draw(const std::vector<GpuBatch>& batches) {
     for (const GpuBatch& batch : batches) batch.draw();
   }
-  std::vector<GpuBatch> members_, slabs_, walls_, projectiles_, chunks_;
+  std::vector<GpuBatch> members_, slabs_, walls_, projectiles_, chunks_, arrows_;
 };
 
 }  // namespace topple::viewer

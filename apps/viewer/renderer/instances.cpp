@@ -2,8 +2,12 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+
+#include "renderer/arrows.h"
+#include "renderer/diagram.h"
 
 namespace topple::viewer {
 namespace {
@@ -23,22 +27,36 @@ glm::vec4 packed(const glm::dquat& q) { return {q.x, q.y, q.z, q.w}; }
 /// ease.
 int segments_for(const Building& building) { return building.members.size() > 4000 ? 3 : 8; }
 
-Rgba highlighted(Rgba colour, bool hovered, bool selected) {
-  if (!hovered && !selected) return colour;
-  const glm::vec4 to = selected ? glm::vec4(1.0F, 0.62F, 0.1F, 1.0F) : glm::vec4(1.0F, 1.0F, 1.0F, 1.0F);
-  return rgba(glm::mix(unpack(colour), to, selected ? 0.75F : 0.4F));
+/// Of a connected part: bodies by their own number, after those that segments usually take.
+Rgba part_colour(int place, int segment, const Snapshot& snapshot, const ViewOptions& options) {
+  constexpr std::int64_t after_segments = 3;
+  const std::int64_t number =
+      place >= 0 ? after_segments + snapshot.bodies[static_cast<std::size_t>(place)].id : segment;
+  return segment_colour(std::max<std::int64_t>(number, 0), options.colour_blind_safe);
 }
 
+/// Displacements as they are drawn: those of a mode when there is one.
+struct DrawnShape {
+  const std::vector<Eigen::Matrix<float, 6, 1>>& displacements;
+  float scale;
+  DrawnShape(const Snapshot& snapshot, const ViewOptions& options)
+      : displacements(snapshot.shape ? *snapshot.shape : snapshot.answer->displacements),
+        scale(snapshot.shape ? snapshot.shape_scale : options.deflection_scale) {}
+  [[nodiscard]] Eigen::Matrix<float, 6, 1> at(structure::NodeId node) const {
+    return scale * displacements[static_cast<std::size_t>(node.index)];
+  }
+};
+
+}  // namespace
+
 /// Rigid motion of a body as a drawing needs it.
-struct Motion {
+struct SceneInstances::Motion {
   glm::dvec3 position, rest_centre;
   glm::dquat turn;
   explicit Motion(const BodyPose& body)
       : position(to_glm(body.position)), rest_centre(to_glm(body.rest_centre)), turn(to_glm(body.orientation)) {}
   [[nodiscard]] glm::dvec3 operator()(const glm::dvec3& point) const { return position + turn * (point - rest_centre); }
 };
-
-}  // namespace
 
 Bounds bounds_of(const Building& building) {
   Bounds bounds;
@@ -56,6 +74,7 @@ SceneInstances::SceneInstances(const Building& building)
   place_members();
   place_panels();
   projectiles_.mesh = sphere_mesh(24);
+  arrows_.mesh = buried_arrows_.mesh = arrow_mesh(10);
 }
 
 void SceneInstances::place_members() {
@@ -114,9 +133,14 @@ void SceneInstances::colour_member(std::size_t index, const Snapshot& snapshot, 
   const Member& member = building_.members[index];
   MemberInstance& instance = member_parts_[index].rest;
   const structure::MemberId id(index);
-  instance.base = highlighted(member_colour(member.kind), options.hovered_member == id, options.selected_member == id);
+  const bool coloured = shown(member, options.coloured);
+  // Beside the colours of joints, those of kinds would only be read as more of them.
+  instance.base = coloured && options.colouring == Colouring::joints ? plain_member : member_colour(member.kind);
+  if (options.colouring == Colouring::segments)
+    instance.base =
+        part_colour(snapshot.membership->member[index], snapshot.membership->segment[index], snapshot, options);
   instance.end1 = instance.end2 = 0;
-  if (!shown(member, options.coloured)) return;
+  if (!coloured) return;
   const auto colour = [&](int end) {
     const auto j = static_cast<std::size_t>(building_.joint(id, end).index);
     return joint_colour(snapshot.answer->joints[j], building_.joints[j].capacity, options, largest_);
@@ -129,7 +153,10 @@ void SceneInstances::colour_panel(std::size_t index, const Snapshot& snapshot, c
   const Panel& panel = building_.panels[index];
   PanelInstance& instance = panel_parts_[index].rest;
   const structure::PanelId id(index);
-  instance.base = highlighted(panel_colour(panel.kind), options.hovered_panel == id, options.selected_panel == id);
+  instance.base = panel_colour(panel.kind);
+  // Which segment a standing panel hangs on is not asked for: it keeps its colour.
+  if (const int place = snapshot.membership->panel[index]; options.colouring == Colouring::segments && place >= 0)
+    instance.base = part_colour(place, -1, snapshot, options);
   const bool coloured = panel.kind == PanelKind::slab ? options.coloured.slabs : options.coloured.walls;
   // A map along members has no meaning across a panel; its failed edges still show.
   const bool map = options.colouring == Colouring::utilisation || options.colouring == Colouring::component;
@@ -141,30 +168,28 @@ void SceneInstances::colour_panel(std::size_t index, const Snapshot& snapshot, c
   }
 }
 
-void SceneInstances::add_standing_member(std::size_t index, const Snapshot& snapshot, const ViewOptions& options) {
+MemberInstance SceneInstances::standing_member(std::size_t index, const Snapshot& snapshot,
+                                               const ViewOptions& options) const {
   const Member& member = building_.members[index];
-  const Part& part = member_parts_[index];
-  MemberInstance instance = part.rest;
+  const DrawnShape shape(snapshot, options);
+  MemberInstance instance = member_parts_[index].rest;
   const auto end = [&](std::size_t e, glm::vec3& displacement, glm::vec3& rotation) {
-    const auto& d = snapshot.answer->displacements[static_cast<std::size_t>(member.nodes[e].index)];
-    rotation = options.deflection_scale * to_glm(Eigen::Vector3f(d.tail<3>()));
-    displacement = options.deflection_scale * to_glm(Eigen::Vector3f(d.head<3>())) +
-                   glm::cross(rotation, glm::vec3(to_glm(member.offsets[e])));
+    const Eigen::Matrix<float, 6, 1> d = shape.at(member.nodes[e]);
+    rotation = to_glm(Eigen::Vector3f(d.tail<3>()));
+    displacement = to_glm(Eigen::Vector3f(d.head<3>())) + glm::cross(rotation, glm::vec3(to_glm(member.offsets[e])));
   };
   end(0, instance.displacement1, instance.rotation1);
   end(1, instance.displacement2, instance.rotation2);
-  members_[part.batch].instances.push_back(instance);
+  return instance;
 }
 
-void SceneInstances::add_standing_panel(std::size_t index, const Snapshot& snapshot, const ViewOptions& options) {
-  const Panel& panel = building_.panels[index];
-  PanelPart& part = panel_parts_[index];
-  PanelInstance instance = part.rest;
-  for (std::size_t c = 0; c < 4; ++c) {
-    const auto& d = snapshot.answer->displacements[static_cast<std::size_t>(panel.nodes[c].index)];
-    instance.corner[c] += options.deflection_scale * to_glm(Eigen::Vector3f(d.head<3>()));
-  }
-  batches(panel)[part.batch].instances.push_back(instance);
+PanelInstance SceneInstances::standing_panel(std::size_t index, const Snapshot& snapshot,
+                                             const ViewOptions& options) const {
+  const DrawnShape shape(snapshot, options);
+  PanelInstance instance = panel_parts_[index].rest;
+  for (std::size_t c = 0; c < 4; ++c)
+    instance.corner[c] += to_glm(Eigen::Vector3f(shape.at(building_.panels[index].nodes[c]).head<3>()));
+  return instance;
 }
 
 void SceneInstances::rebuild_standing(const Snapshot& snapshot, const ViewOptions& options) {
@@ -191,7 +216,7 @@ void SceneInstances::rebuild_standing(const Snapshot& snapshot, const ViewOption
     if (place == part_gone || !shown(building_.members[i], options.shown)) continue;
     colour_member(i, snapshot, options);
     if (place == part_stands)
-      add_standing_member(i, snapshot, options);
+      members_[member_parts_[i].batch].instances.push_back(standing_member(i, snapshot, options));
     else if (options.debris)
       moving_members_.push_back({i, place});
   }
@@ -201,11 +226,108 @@ void SceneInstances::rebuild_standing(const Snapshot& snapshot, const ViewOption
     if (place == part_gone || !(slab ? options.shown.slabs : options.shown.walls)) continue;
     colour_panel(i, snapshot, options);
     if (place == part_stands)
-      add_standing_panel(i, snapshot, options);
+      batches(building_.panels[i])[panel_parts_[i].batch].instances.push_back(standing_panel(i, snapshot, options));
     else if (options.debris)
       moving_panels_.push_back({i, place});
   }
   close(members_), close(slabs_), close(walls_);
+  draw_diagrams(snapshot, options);
+  draw_arrows(snapshot, options);
+}
+
+void SceneInstances::draw_diagrams(const Snapshot& snapshot, const ViewOptions& options) {
+  diagrams_.clear();
+  diagram_range_ = {0, 0};
+  const auto& forces = snapshot.answer->forces;
+  if (options.diagram < 0 || !forces || forces->internal.empty()) return;
+  constexpr std::size_t places = FrameForces::intervals + 1;
+  std::vector<std::size_t> drawn;
+  for (std::size_t i = 0; i < building_.members.size(); ++i) {
+    const Member& member = building_.members[i];
+    if (snapshot.membership->member[i] == part_stands && shown(member, options.shown) &&
+        shown(member, options.coloured))
+      drawn.push_back(i);
+  }
+  const auto value = [&](std::size_t member, std::size_t place) {
+    return forces->internal[member * places + place][static_cast<std::size_t>(options.diagram)];
+  };
+  for (const std::size_t i : drawn)
+    for (std::size_t k = 0; k < places; ++k) {
+      diagram_range_[0] = std::min<double>(diagram_range_[0], value(i, k));
+      diagram_range_[1] = std::max<double>(diagram_range_[1], value(i, k));
+    }
+  const double most = std::max(-diagram_range_[0], diagram_range_[1]);
+  if (!(most > 0)) return;
+  const auto reach = static_cast<float>(0.1 * bounds_.radius() * options.diagram_scale / most);
+  for (const std::size_t i : drawn) {
+    std::array<float, places> along{};
+    for (std::size_t k = 0; k < places; ++k) along[k] = value(i, k);
+    add_diagram(diagrams_, standing_member(i, snapshot, options), along.data(), FrameForces::intervals, options.diagram,
+                reach);
+  }
+}
+
+void SceneInstances::draw_arrows(const Snapshot& snapshot, const ViewOptions& options) {
+  arrows_.instances.clear();
+  buried_arrows_.instances.clear();
+  if (const auto& forces = snapshot.answer->forces) {
+    const auto longest = static_cast<float>(0.12 * bounds_.radius()) * options.arrow_scale;
+    arrows_.instances = arrow_instances(*forces, options, origin_, longest);
+    if (options.reactions) buried_arrows_.instances = reaction_instances(*forces, origin_, longest);
+  }
+  for (auto* batch : {&arrows_, &buried_arrows_}) {
+    batch->standing = batch->instances.size();
+    ++batch->revision;
+  }
+}
+
+void SceneInstances::draw_marks(const Snapshot& snapshot, const ViewOptions& options) {
+  constexpr Rgba hovered = rgba(255, 255, 255), selected = rgba(255, 150, 20);
+  marks_.clear();
+  std::vector<Motion> motions;
+  for (const BodyPose& body : snapshot.bodies) motions.emplace_back(body);
+  const auto mark_member = [&](structure::MemberId id, Rgba colour) {
+    if (!id.valid()) return;
+    const auto index = static_cast<std::size_t>(id.index);
+    const int place = snapshot.membership->member[index];
+    if (place == part_gone) return;
+    const structure::Section& section = building_[building_[id].section];
+    const double side = std::sqrt(section.area);
+    const glm::vec2 half(section.width > 0 ? section.width / 2 : side / 2,
+                         section.depth > 0 ? section.depth / 2 : side / 2);
+    add_mark(marks_,
+             place == part_stands ? standing_member(index, snapshot, options)
+                                  : moved_member(index, motions[static_cast<std::size_t>(place)]),
+             half, colour);
+  };
+  const auto mark_panel = [&](structure::PanelId id, Rgba colour) {
+    if (!id.valid()) return;
+    const auto index = static_cast<std::size_t>(id.index);
+    const int place = snapshot.membership->panel[index];
+    if (place == part_gone) return;
+    add_mark(marks_,
+             place == part_stands ? standing_panel(index, snapshot, options)
+                                  : moved_panel(index, motions[static_cast<std::size_t>(place)]),
+             colour);
+  };
+  mark_member(options.hovered_member, hovered);
+  mark_panel(options.hovered_panel, hovered);
+  mark_member(options.selected_member, selected);
+  mark_panel(options.selected_panel, selected);
+}
+
+MemberInstance SceneInstances::moved_member(std::size_t index, const Motion& motion) const {
+  MemberInstance instance = member_parts_[index].rest;
+  const glm::vec4 q = instance.rotation;
+  instance.first_end = glm::vec3(motion(glm::dvec3(instance.first_end) + origin_) - origin_);
+  instance.rotation = packed(motion.turn * glm::dquat(q.w, q.x, q.y, q.z));
+  return instance;
+}
+
+PanelInstance SceneInstances::moved_panel(std::size_t index, const Motion& motion) const {
+  PanelInstance instance = panel_parts_[index].rest;
+  for (glm::vec3& corner : instance.corner) corner = glm::vec3(motion(glm::dvec3(corner) + origin_) - origin_);
+  return instance;
 }
 
 void SceneInstances::append_moving(const Snapshot& snapshot) {
@@ -217,18 +339,12 @@ void SceneInstances::append_moving(const Snapshot& snapshot) {
   for (auto& batch : walls_) batch.instances.resize(batch.standing);
   for (const MovingPart& moving : moving_members_) {
     const Motion& motion = motions[static_cast<std::size_t>(moving.body)];
-    const Part& part = member_parts_[moving.index];
-    MemberInstance instance = part.rest;
-    const glm::vec4 q = instance.rotation;
-    instance.first_end = glm::vec3(motion(glm::dvec3(instance.first_end) + origin_) - origin_);
-    instance.rotation = packed(motion.turn * glm::dquat(q.w, q.x, q.y, q.z));
-    members_[part.batch].instances.push_back(instance);
+    members_[member_parts_[moving.index].batch].instances.push_back(moved_member(moving.index, motion));
   }
   for (const MovingPart& moving : moving_panels_) {
     const Motion& motion = motions[static_cast<std::size_t>(moving.body)];
-    PanelInstance instance = panel_parts_[moving.index].rest;
-    for (glm::vec3& corner : instance.corner) corner = glm::vec3(motion(glm::dvec3(corner) + origin_) - origin_);
-    batches(building_.panels[moving.index])[panel_parts_[moving.index].batch].instances.push_back(instance);
+    batches(building_.panels[moving.index])[panel_parts_[moving.index].batch].instances.push_back(
+        moved_panel(moving.index, motion));
   }
   projectiles_.instances.clear();
   for (const BodyPose& body : snapshot.bodies)
@@ -256,14 +372,18 @@ void SceneInstances::place_chunks(const Snapshot& snapshot) {
 }
 
 void SceneInstances::update(const Snapshot& snapshot, const ViewOptions& options) {
-  const bool changed =
-      built_answer_ != snapshot.answer || built_membership_ != snapshot.membership || !(built_options_ == options);
+  const bool changed = built_answer_ != snapshot.answer || built_membership_ != snapshot.membership ||
+                       !built_options_.same_but_marks(options) || built_shape_ != snapshot.shape ||
+                       (snapshot.shape && built_scale_ != snapshot.shape_scale);
   if (changed) rebuild_standing(snapshot, options);
   built_answer_ = snapshot.answer;
   built_membership_ = snapshot.membership;
   built_options_ = options;
+  built_shape_ = snapshot.shape;
+  built_scale_ = snapshot.shape_scale;
   append_moving(snapshot);
   place_chunks(snapshot);
+  draw_marks(snapshot, options);
 }
 
 }  // namespace topple::viewer

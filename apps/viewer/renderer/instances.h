@@ -2,6 +2,7 @@
 // From a building and a snapshot to the arrays that the graphics card draws: one array for each section and one for
 // each shape of panel, standing parts first, moving ones after them. Standing parts are worked out again only when the
 // structure's answer or the options change; moving ones for each picture.
+#include <array>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -11,6 +12,7 @@
 
 #include "renderer/camera.h"
 #include "renderer/mesh.h"
+#include "renderer/overlay.h"
 #include "renderer/palette.h"
 #include "renderer/snapshot.h"
 #include "renderer/view_options.h"
@@ -60,13 +62,24 @@ class SceneInstances {
   /// Each chunk of a broken panel has a mesh of its own; batches are only ever added. One that is gone has no instance.
   [[nodiscard]] const std::vector<InstanceBatch<RigidInstance>>& chunks() const { return chunks_; }
 
+  /// Loads and contacts; reactions, which come from below the ground.
+  [[nodiscard]] const InstanceBatch<RigidInstance>& arrows() const { return arrows_; }
+  [[nodiscard]] const InstanceBatch<RigidInstance>& buried_arrows() const { return buried_arrows_; }
+  /// Diagrams along members.
+  [[nodiscard]] const Overlay& diagrams() const { return diagrams_; }
+  /// Around what is hovered over and selected, where it now is.
+  [[nodiscard]] const Overlay& marks() const { return marks_; }
+
   /// The centre of the undeformed building; single precision counts from here.
   [[nodiscard]] const glm::dvec3& origin() const { return origin_; }
   [[nodiscard]] const Bounds& bounds() const { return bounds_; }
   /// The largest of the values that Scale::largest_in_view refers to.
   [[nodiscard]] double largest() const { return largest_; }
+  /// The least and greatest value of the diagram that is drawn (N, N m).
+  [[nodiscard]] const std::array<double, 2>& diagram_range() const { return diagram_range_; }
 
  private:
+  struct Motion;
   struct Part {
     std::size_t batch = 0;
     MemberInstance rest;
@@ -78,12 +91,19 @@ class SceneInstances {
   void place_members();
   void place_panels();
   void rebuild_standing(const Snapshot& snapshot, const ViewOptions& options);
+  void draw_diagrams(const Snapshot& snapshot, const ViewOptions& options);
+  void draw_arrows(const Snapshot& snapshot, const ViewOptions& options);
   void append_moving(const Snapshot& snapshot);
+  void draw_marks(const Snapshot& snapshot, const ViewOptions& options);
+  [[nodiscard]] MemberInstance standing_member(std::size_t index, const Snapshot& snapshot,
+                                               const ViewOptions& options) const;
+  [[nodiscard]] PanelInstance standing_panel(std::size_t index, const Snapshot& snapshot,
+                                             const ViewOptions& options) const;
   void place_chunks(const Snapshot& snapshot);
-  void add_standing_member(std::size_t index, const Snapshot& snapshot, const ViewOptions& options);
-  void add_standing_panel(std::size_t index, const Snapshot& snapshot, const ViewOptions& options);
   void colour_member(std::size_t index, const Snapshot& snapshot, const ViewOptions& options);
   void colour_panel(std::size_t index, const Snapshot& snapshot, const ViewOptions& options);
+  [[nodiscard]] MemberInstance moved_member(std::size_t index, const Motion& motion) const;
+  [[nodiscard]] PanelInstance moved_panel(std::size_t index, const Motion& motion) const;
   [[nodiscard]] bool shown(const structure::Member& member, const PartSwitches& switches) const;
   [[nodiscard]] std::vector<InstanceBatch<PanelInstance>>& batches(const structure::Panel& panel) {
     return panel.kind == structure::PanelKind::slab ? slabs_ : walls_;
@@ -99,11 +119,16 @@ class SceneInstances {
   InstanceBatch<RigidInstance> projectiles_;
   std::vector<InstanceBatch<RigidInstance>> chunks_;
   std::map<std::int64_t, std::size_t> chunk_of_body_;
+  InstanceBatch<RigidInstance> arrows_, buried_arrows_;
+  Overlay diagrams_, marks_;
+  std::array<double, 2> diagram_range_{};
   double largest_ = 0;
   // What the standing instances were built for.
   std::shared_ptr<const FrameAnswer> built_answer_;
   std::shared_ptr<const Membership> built_membership_;
   ViewOptions built_options_;
+  std::shared_ptr<const std::vector<Eigen::Matrix<float, 6, 1>>> built_shape_;
+  float built_scale_ = 0;
   struct MovingPart {
     std::size_t index;
     int body;

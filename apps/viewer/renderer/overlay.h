@@ -14,6 +14,11 @@ struct OverlayVertex {
 struct Overlay {
   std::vector<OverlayVertex> triangles, lines;  ///< by threes, by twos; hidden by what stands before them
   std::vector<OverlayVertex> lines_on_top;      ///< never hidden
+  std::uint64_t revision = 0;                   ///< counts changes, for those who keep a copy
+  void clear() {
+    triangles.clear(), lines.clear(), lines_on_top.clear();
+    ++revision;
+  }
 };
 
 }  // namespace topple::viewer

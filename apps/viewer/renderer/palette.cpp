@@ -82,6 +82,21 @@ Rgba signed_colour(double share) {
   return rgba(blend(none, share < 0 ? negative : positive, std::min(1.0, std::abs(share))));
 }
 
+Rgba segment_colour(std::int64_t number, bool colour_blind_safe) {
+  // Okabe and Ito's, without black.
+  constexpr std::array<Rgba, 7> safe{rgba(0, 114, 178),  rgba(230, 159, 0), rgba(0, 158, 115), rgba(204, 121, 167),
+                                     rgba(86, 180, 233), rgba(213, 94, 0),  rgba(240, 228, 66)};
+  if (colour_blind_safe) return safe[static_cast<std::size_t>(number) % safe.size()];
+  // Hues by the golden ratio: any run of numbers is spread evenly round the circle.
+  const double hue = 6 * std::fmod(0.42 + 0.6180339887498949 * static_cast<double>(number), 1.0);
+  const double chroma = 0.62, low = 0.24;
+  const auto channel = [&](double shift) {
+    const double x = std::fmod(hue + shift, 6.0);
+    return static_cast<float>(low + chroma * std::clamp(std::min(x, 4 - x), 0.0, 1.0));
+  };
+  return rgba(glm::vec4(channel(2), channel(0), channel(4), 1));
+}
+
 double joint_value(const FrameAnswer::Joint& joint, const ViewOptions& options) {
   if (options.colouring == Colouring::component)
     return std::abs(joint.demand[static_cast<std::size_t>(options.component)]);
@@ -92,13 +107,14 @@ Rgba joint_colour(const FrameAnswer::Joint& joint, const structure::JointCapacit
                   double largest) {
   const JointPalette palette = joint_palette(options.colour_blind_safe);
   if (!joint.intact) return options.failed_joints ? palette.failed : with_alpha(palette.failed, 0);
-  if (options.colouring == Colouring::plain || !joint.standing) return 0;
+  if (options.colouring == Colouring::plain || options.colouring == Colouring::segments || !joint.standing) return 0;
   if (options.colouring == Colouring::utilisation) return utilisation_colour(joint.utilisation);
   if (options.colouring == Colouring::component)
     return signed_colour(component_share(joint, capacity, options, largest));
   const double full = options.scale == Scale::capacity ? 1.0 : std::max(largest, 1e-9);
   const double force = joint.force_share / full, torque = joint.torque_share / full;
-  return with_alpha(force_torque_hue(force, torque, palette), std::max(force, torque));
+  // The root: at a third of the capacity a joint is to be seen, not only near its failure.
+  return with_alpha(force_torque_hue(force, torque, palette), std::sqrt(std::max(force, torque)));
 }
 
 }  // namespace topple::viewer

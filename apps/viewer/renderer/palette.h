@@ -32,6 +32,11 @@ struct JointPalette {
 /// Signed share from -1 (blue) over 0 (grey) to 1 (red).
 [[nodiscard]] Rgba signed_colour(double share);
 
+/// Colours that tell connected parts apart: neighbours in number differ most.
+[[nodiscard]] Rgba segment_colour(std::int64_t number, bool colour_blind_safe);
+inline constexpr Rgba load_colour = rgba(126, 60, 190), reaction_colour = rgba(16, 134, 74),
+                      contact_colour = rgba(236, 112, 20);
+
 /// Colour of a joint; `largest` is the largest value in view that Scale::largest_in_view refers to.
 [[nodiscard]] Rgba joint_colour(const FrameAnswer::Joint& joint, const structure::JointCapacity& capacity,
                                 const ViewOptions& options, double largest);

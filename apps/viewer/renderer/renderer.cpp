@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "renderer/gpu_scene.h"
+#include "renderer/overlay_buffer.h"
 #include "renderer/render_targets.h"
 #include "renderer/shaders.h"
 
@@ -19,6 +20,8 @@ constexpr glm::vec3 to_sun{-0.34F, -0.56F, 0.75F};
 constexpr int shadow_size = 2048;
 /// Colours fade over this length from a joint, as a share of the building's radius, within these limits by storey size.
 constexpr float fade_share = 0.085F;
+/// Where colours carry a meaning, this share of the light is the same on every side.
+constexpr float colour_light = 0.5F;
 /// Occlusion looks this far, as a share of the building's radius.
 constexpr float occlusion_share = 0.09F;
 
@@ -54,25 +57,23 @@ struct Renderer::State {
   GpuScene scene;
   RenderTargets targets;
   ShadowMap shadow{shadow_size};
-  GlBuffer block = make_buffer(), ground_vertices = make_buffer(), overlay_vertices = make_buffer();
-  GlVertexArray empty = make_vertex_array(), ground = make_vertex_array(), overlay = make_vertex_array();
+  GlBuffer block = make_buffer(), ground_vertices = make_buffer();
+  GlVertexArray empty = make_vertex_array(), ground = make_vertex_array();
+  OverlayBuffer diagrams, marks, extra;
   double ground_height = 0;
   PictureBlock picture{};
 
-  State(const SceneInstances& instances, double height) : scene(instances), ground_height(height) {
-    make_ground();
-    make_overlay();
-  }
+  State(const SceneInstances& instances, double height) : scene(instances), ground_height(height) { make_ground(); }
   void make_ground();
-  void make_overlay();
   void fill_block(const SceneInstances& instances, const Camera& camera, const ViewOptions& options, glm::ivec2 size);
   void send_block();
   void draw_shadows();
   void draw_scene(const SceneInstances& instances, const ViewOptions& options, const Overlay& lines);
   void draw_panels(PanelKind kind, float opacity);
   void blend_panels(PanelKind kind);
-  void draw_overlay(const Overlay& lines);
-  void draw_vertices(const std::vector<OverlayVertex>& vertices, GLenum kind);
+  void draw_overlay(const SceneInstances& instances, const Overlay& more);
+  void draw_on_top();
+  void draw_buried_arrows();
   void finish(const ViewOptions& options);
 };
 
@@ -83,17 +84,6 @@ void Renderer::State::make_ground() {
   glBufferData(GL_ARRAY_BUFFER, sizeof corners, corners, GL_STATIC_DRAW);
   glEnableVertexAttribArray(0);
   glVertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, 0, nullptr);
-  glBindVertexArray(0);
-}
-
-void Renderer::State::make_overlay() {
-  glBindVertexArray(overlay.get());
-  glBindBuffer(GL_ARRAY_BUFFER, overlay_vertices.get());
-  glEnableVertexAttribArray(0);
-  glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(OverlayVertex), nullptr);
-  glEnableVertexAttribArray(1);
-  glVertexAttribPointer(1, 4, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(OverlayVertex),
-                        reinterpret_cast<const void*>(offsetof(OverlayVertex, colour)));
   glBindVertexArray(0);
 }
 
@@ -114,7 +104,8 @@ void Renderer::State::fill_block(const SceneInstances& instances, const Camera& 
   picture.sizes = glm::vec4(radius, spacing, 2 * reach / shadow_size, fade_share * radius);
   picture.picture = glm::vec4(size, near, far);
   const bool map = options.colouring == Colouring::utilisation || options.colouring == Colouring::component;
-  picture.mode = glm::vec4(map ? 1.0F : 0.0F, options.ambient_occlusion ? 1.0F : 0.0F, occlusion_share * radius, 0);
+  picture.mode = glm::vec4(map ? 1.0F : 0.0F, options.ambient_occlusion ? 1.0F : 0.0F, occlusion_share * radius,
+                           options.colouring == Colouring::plain ? 0.0F : colour_light);
   picture.opacity = glm::vec4(1);
 }
 
@@ -165,32 +156,38 @@ void Renderer::State::blend_panels(PanelKind kind) {
   glDisable(GL_BLEND);
 }
 
-void Renderer::State::draw_vertices(const std::vector<OverlayVertex>& vertices, GLenum kind) {
-  if (vertices.empty()) return;
-  glBindBuffer(GL_ARRAY_BUFFER, overlay_vertices.get());
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(OverlayVertex)), vertices.data(),
-               GL_STREAM_DRAW);
-  glDrawArrays(kind, 0, static_cast<GLsizei>(vertices.size()));
-}
-
-void Renderer::State::draw_overlay(const Overlay& lines) {
+void Renderer::State::draw_overlay(const SceneInstances& instances, const Overlay& more) {
+  diagrams.update(instances.diagrams());
+  marks.update(instances.marks());
+  extra.update(more);
   glUseProgram(programs.line.get());
-  glBindVertexArray(overlay.get());
   glEnable(GL_BLEND);
   glDisable(GL_CULL_FACE);
   glDepthMask(GL_FALSE);
-  draw_vertices(lines.triangles, GL_TRIANGLES);
-  draw_vertices(lines.lines, GL_LINES);
-  glDisable(GL_DEPTH_TEST);
-  draw_vertices(lines.lines_on_top, GL_LINES);
-  glEnable(GL_DEPTH_TEST);
+  for (const OverlayBuffer* buffer : {&diagrams, &marks, &extra}) buffer->draw();
   glDepthMask(GL_TRUE);
   glEnable(GL_CULL_FACE);
   glDisable(GL_BLEND);
 }
 
+void Renderer::State::draw_on_top() {
+  glUseProgram(programs.line.get());
+  glDisable(GL_DEPTH_TEST);
+  glEnable(GL_BLEND);
+  for (const OverlayBuffer* buffer : {&diagrams, &marks, &extra}) buffer->draw_on_top();
+  glDisable(GL_BLEND);
+  glEnable(GL_DEPTH_TEST);
+}
+
+/// Reactions push from below: they are seen through the ground.
+void Renderer::State::draw_buried_arrows() {
+  glUseProgram(programs.rigid.get());
+  glDepthFunc(GL_ALWAYS);
+  scene.draw_buried_arrows();
+  glDepthFunc(GL_LEQUAL);
+}
+
 void Renderer::State::draw_scene(const SceneInstances& instances, const ViewOptions& options, const Overlay& lines) {
-  (void)instances;
   glBindFramebuffer(GL_FRAMEBUFFER, targets.multisampled());
   glViewport(0, 0, targets.size().x, targets.size().y);
   glActiveTexture(GL_TEXTURE0 + shadow_unit);
@@ -200,6 +197,7 @@ void Renderer::State::draw_scene(const SceneInstances& instances, const ViewOpti
   scene.draw_members();
   glUseProgram(programs.rigid.get());
   scene.draw_rigid();
+  scene.draw_arrows();
   if (options.slab_opacity >= 1) draw_panels(PanelKind::slab, 1);
   if (options.wall_opacity >= 1) draw_panels(PanelKind::wall, 1);
   glUseProgram(programs.ground.get());
@@ -211,9 +209,12 @@ void Renderer::State::draw_scene(const SceneInstances& instances, const ViewOpti
   glDepthFunc(GL_LEQUAL);
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glEnable(GL_CULL_FACE);
+  // Before what shows through, whose depth would hide it.
+  draw_buried_arrows();
+  draw_overlay(instances, lines);
   if (options.slab_opacity < 1) draw_panels(PanelKind::slab, options.slab_opacity);
   if (options.wall_opacity < 1) draw_panels(PanelKind::wall, options.wall_opacity);
-  draw_overlay(lines);
+  draw_on_top();
 }
 
 void Renderer::State::finish(const ViewOptions& options) {

@@ -46,6 +46,11 @@ vec3 shade(vec3 albedo, vec3 normal, vec3 point, float gloss) {
   float shine = gloss * pow(max(0.0, dot(normal, half_way)), 48.0) * lit;
   return albedo * (vec3(2.55, 2.38, 2.10) * facing * lit + 0.74 * sky + fill) + shine;
 }
+// Of members, whose colours may carry a meaning.
+vec3 shade_even(vec3 albedo, vec3 normal, vec3 point, float gloss) {
+  vec3 even = albedo * (1.35 + 0.25 * normal.z + 0.15 * dot(normal, normalize(eye.xyz - point)));
+  return mix(shade(albedo, normal, point, gloss), even, mode.w);
+}
 )";
 
 constexpr const char* member_vertex = R"(
@@ -113,7 +118,7 @@ void main() {
     albedo = mix(plain, colour1.rgb, colour1.a * fade(along.x, reach));
     albedo = mix(albedo, colour2.rgb, colour2.a * fade(along.y, reach));
   }
-  result = vec4(shade(albedo, normalize(surface_normal), point, 0.10), 1.0);
+  result = vec4(shade_even(albedo, normalize(surface_normal), point, 0.10), 1.0);
 }
 )";
 

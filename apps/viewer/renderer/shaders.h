@@ -15,7 +15,8 @@ struct PictureBlock {
   glm::vec4 sun;                                              ///< xyz: towards the sun; w: 1 with shadows
   glm::vec4 sizes;  ///< scene radius, grid spacing (0: none), width of a shadow texel in the scene, colour fade length
   glm::vec4 picture;  ///< width, height (pixels), near, far
-  glm::vec4 mode;     ///< x: 1 when members blend from end to end; y: ambient occlusion; z: its radius in the scene
+  glm::vec4 mode;     ///< x: 1 when members blend from end to end; y: ambient occlusion; z: its radius in the scene; w:
+                      ///< share of even light
   glm::vec4 opacity;  ///< x: panels of this draw
 };
 

@@ -12,6 +12,24 @@
 
 namespace topple::viewer {
 
+/// What acts on the frame and how its members bear it; read out only when it is wanted.
+struct FrameForces {
+  static constexpr int intervals = 12;  ///< even parts of a member between the places at which its forces are told
+  /// [member * (intervals + 1) + place]: axial, shear_y, shear_z, torsion, moment_y, moment_z in member axes (N, N m).
+  /// Empty when not wanted.
+  std::vector<std::array<float, 6>> internal;
+  struct Arrow {
+    Eigen::Vector3d at;
+    Eigen::Vector3f force;  ///< global; N, spread loads N/m
+  };
+  std::vector<Arrow> spread, points, contacts, reactions;
+};
+/// What a drawing wants beside displacements and demands.
+struct Wanted {
+  bool internal_forces = false, arrows = false;
+  bool operator==(const Wanted&) const = default;
+};
+
 /// The answer of the statics: shared by all snapshots until it changes.
 struct FrameAnswer {
   std::vector<Eigen::Matrix<float, 6, 1>> displacements;  ///< per node, global; zero where the node does not stand
@@ -24,12 +42,14 @@ struct FrameAnswer {
   };
   std::vector<Joint> joints;                  ///< per Building::joints
   std::vector<structure::JointId> most_used;  ///< standing joints that have a capacity, most used first (at most 20)
+  std::shared_ptr<const FrameForces> forces;  ///< null when not wanted
 };
 
 /// Which part is where: index into Snapshot::bodies, or one of these.
 inline constexpr int part_stands = -1, part_gone = -2;
 struct Membership {
   std::vector<int> member, panel;
+  std::vector<int> segment;  ///< per member: number of its standing segment, -1 when it does not stand
   int members_standing = 0, panels_standing = 0;
 };
 
@@ -50,6 +70,9 @@ struct Snapshot {
   std::shared_ptr<const FrameAnswer> answer;
   std::shared_ptr<const Membership> membership;
   std::vector<BodyPose> bodies;  ///< in order of id
+  /// When there is one, what stands is drawn in this shape times the scale instead of its displacements (a mode).
+  std::shared_ptr<const std::vector<Eigen::Matrix<float, 6, 1>>> shape;
+  float shape_scale = 0;
   structure::SimulationCounters counters;
   std::array<double, 6> stage_seconds{};
   double collision_engine_seconds = 0;

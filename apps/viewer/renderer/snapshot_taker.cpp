@@ -64,7 +64,63 @@ std::vector<JointId> most_used(const Building& building, const std::vector<Frame
   return order;
 }
 
-std::shared_ptr<const FrameAnswer> read_answer(const Simulation& simulation) {
+/// Along a member, the sum of its distributed loads at the middles of even parts (global axes).
+void add_spread(FrameForces& forces, const Building& building, MemberId id, const std::vector<solver::BeamLoad>& loads,
+                int parts) {
+  const structure::Member& member = building[id];
+  const structure::Vec3 first = building[member.nodes[0]].position + member.offsets[0];
+  for (int i = 0; i < parts; ++i) {
+    const double at = member.length * (i + 0.5) / parts;
+    structure::Vec3 sum = structure::Vec3::Zero();
+    for (const solver::BeamLoad& load : loads) {
+      if (load.kind != solver::BeamLoad::Kind::distributed || at < load.from || at > load.to) continue;
+      const double share = load.to > load.from ? (at - load.from) / (load.to - load.from) : 0;
+      sum += (load.first + share * (load.last - load.first)).head<3>();
+    }
+    if (sum.isZero(0)) continue;
+    const structure::Vec3 place = first + at * member.axes.row(0).transpose();
+    forces.spread.push_back({place, (member.axes.transpose() * sum).cast<float>()});
+  }
+  for (const solver::BeamLoad& load : loads)
+    if (load.kind == solver::BeamLoad::Kind::point && !load.first.head<3>().isZero(0))
+      forces.points.push_back({first + load.from * member.axes.row(0).transpose(),
+                               (member.axes.transpose() * load.first.head<3>()).cast<float>()});
+}
+
+void read_arrows(FrameForces& forces, const structure::StandingFrame& frame, const Building& building) {
+  // Fewer arrows for each member of a large building: they would cover each other.
+  const int parts = building.members.size() > 4000 ? 1 : building.members.size() > 1000 ? 2 : 4;
+  for (std::size_t m = 0; m < building.members.size(); ++m)
+    add_spread(forces, building, MemberId(m), frame.member_loads(MemberId(m)), parts);
+  for (std::size_t n = 0; n < building.nodes.size(); ++n)
+    if (const structure::Vec3 force = frame.node_load(NodeId(n)).head<3>(); !force.isZero(0))
+      forces.points.push_back({building.nodes[n].position, force.cast<float>()});
+  for (std::size_t s = 0; s < building.supports.size(); ++s)
+    if (const structure::Vec3 force = frame.reaction(s).head<3>(); !force.isZero(0))
+      forces.reactions.push_back({building[building.supports[s].node].position, force.cast<float>()});
+  for (const structure::ContactLoad& contact : frame.contact_loads())
+    forces.contacts.push_back({contact.place.point, contact.force.cast<float>()});
+}
+
+void read_internal(FrameForces& forces, const structure::StandingFrame& frame, const Building& building) {
+  constexpr std::size_t places = FrameForces::intervals + 1;
+  forces.internal.resize(building.members.size() * places, {});
+  for (std::size_t m = 0; m < building.members.size(); ++m) {
+    const auto along = frame.internal_forces(MemberId(m), FrameForces::intervals);
+    for (std::size_t i = 0; i < along.size(); ++i)
+      for (std::size_t c = 0; c < 6; ++c) forces.internal[m * places + i][c] = static_cast<float>(along[i][c]);
+  }
+}
+
+std::shared_ptr<const FrameForces> read_forces(const Simulation& simulation, Wanted wanted) {
+  if (wanted == Wanted()) return nullptr;
+  auto forces = std::make_shared<FrameForces>();
+  if (wanted.arrows) read_arrows(*forces, simulation.frame(), simulation.building());
+  if (wanted.internal_forces) read_internal(*forces, simulation.frame(), simulation.building());
+  return forces;
+}
+
+std::shared_ptr<const FrameAnswer> read_answer(const Simulation& simulation, Wanted wanted) {
   const Building& building = simulation.building();
   const structure::StandingFrame& frame = simulation.frame();
   auto answer = std::make_shared<FrameAnswer>();
@@ -75,6 +131,7 @@ std::shared_ptr<const FrameAnswer> read_answer(const Simulation& simulation) {
   for (std::size_t i = 0; i < building.joints.size(); ++i)
     answer->joints.push_back(joint_answer(frame, building, JointId(i)));
   answer->most_used = most_used(building, answer->joints);
+  answer->forces = read_forces(simulation, wanted);
   return answer;
 }
 
@@ -84,6 +141,7 @@ std::shared_ptr<const Membership> read_membership(const Simulation& simulation) 
   const auto place = [](auto id, const Simulation& from) { return from.frame().stands(id) ? part_stands : part_gone; };
   for (std::size_t i = 0; i < building.members.size(); ++i) {
     membership->member.push_back(place(MemberId(i), simulation));
+    membership->segment.push_back(simulation.frame().segment(MemberId(i)));
     membership->members_standing += membership->member.back() == part_stands ? 1 : 0;
   }
   for (std::size_t i = 0; i < building.panels.size(); ++i) {
@@ -100,7 +158,8 @@ std::shared_ptr<const Membership> read_membership(const Simulation& simulation) 
 }
 
 BodyPose pose_of(const structure::BodyView& body) {
-  return {body.id.value, body.pose.position, body.rest_centre, body.pose.orientation, body.radius, body.asleep, body.chunk, body.chunk_of};
+  return {body.id.value, body.pose.position, body.rest_centre, body.pose.orientation,
+          body.radius,   body.asleep,        body.chunk,       body.chunk_of};
 }
 
 bool same(const structure::FrameCounters& a, const structure::FrameCounters& b) {
@@ -111,7 +170,7 @@ bool same(const structure::FrameCounters& a, const structure::FrameCounters& b) 
 }  // namespace
 
 bool SnapshotTaker::answer_is_old(const Simulation& simulation) const {
-  return !answer_ || was_pending_ || !same(seen_, simulation.frame().counters()) ||
+  return !answer_ || !(wanted_ == read_) || was_pending_ || !same(seen_, simulation.frame().counters()) ||
          seen_events_ != simulation.events().size();
 }
 
@@ -119,7 +178,8 @@ Snapshot SnapshotTaker::take(const Simulation& simulation) {
   std::vector<std::int64_t> ids;
   for (const structure::BodyView& body : simulation.bodies()) ids.push_back(body.id.value);
   const bool old = answer_is_old(simulation);
-  if (old) answer_ = read_answer(simulation);
+  if (old) answer_ = read_answer(simulation, wanted_);
+  read_ = wanted_;
   if (old || ids != seen_bodies_) membership_ = read_membership(simulation);
   seen_ = simulation.frame().counters();
   seen_events_ = simulation.events().size();

@@ -9,9 +9,14 @@ namespace topple::viewer {
 class SnapshotTaker {
  public:
   [[nodiscard]] Snapshot take(const structure::Simulation& simulation);
+  /// From the next snapshot on.
+  void want(Wanted wanted) { wanted_ = wanted; }
+  /// Joints were given other capacities: the next snapshot reads their utilisations anew.
+  void forget_answer() { answer_ = nullptr; }
 
  private:
   [[nodiscard]] bool answer_is_old(const structure::Simulation& simulation) const;
+  Wanted wanted_, read_;
   structure::FrameCounters seen_;
   std::size_t seen_events_ = 0;
   bool was_pending_ = false;

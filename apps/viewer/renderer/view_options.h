@@ -9,6 +9,7 @@ enum class Colouring {
   joints,       ///< at each end: force red, torque green, both yellow
   utilisation,  ///< along each member between its ends' utilisations, by the legend's map
   component,    ///< one of the six components of the joints' demand, signed
+  segments,     ///< each connected part in a colour of its own, standing or fallen
 };
 /// What full colour stands for in `joints` and `component`.
 enum class Scale { capacity, largest_in_view };
@@ -25,13 +26,24 @@ struct ViewOptions {
   PartSwitches shown, coloured;  ///< what is drawn at all; whose joints are coloured
   bool failed_joints = true;     ///< show failed joints in their colour
   bool colour_blind_safe = false;
-  float deflection_scale = 1;  ///< standing parts are drawn at this multiple of their displacement
+  float deflection_scale = 1;                   ///< standing parts are drawn at this multiple of their displacement
   float slab_opacity = 1, wall_opacity = 0.4F;  ///< below 1, what is behind shows through
+  int diagram = -1;                             ///< 0 to 5: that internal force drawn along each member; -1: none
+  float diagram_scale = 1;                      ///< 1: the largest is drawn as a tenth of the building's radius
+  bool loads = false, reactions = false, contacts = false;  ///< as arrows
+  float arrow_scale = 1;
   bool shadows = true, ambient_occlusion = true, grid = true, debris = true;
   structure::JointId selected_joint;
   structure::MemberId hovered_member, selected_member;
   structure::PanelId hovered_panel, selected_panel;
   bool operator==(const ViewOptions&) const = default;
+  /// Equal but for what is hovered over and selected, which are marks over the scene.
+  [[nodiscard]] bool same_but_marks(ViewOptions other) const {
+    other.selected_joint = selected_joint;
+    other.hovered_member = hovered_member, other.selected_member = selected_member;
+    other.hovered_panel = hovered_panel, other.selected_panel = selected_panel;
+    return *this == other;
+  }
 };
 
 }  // namespace topple::viewer

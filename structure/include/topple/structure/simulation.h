@@ -107,6 +107,9 @@ class Simulation {
 
   /// A tool used now (by a person): acts in the next step.
   void apply(const Tool& tool);
+  /// Gives joints other capacities, at once: utilisations follow without solving anything, and what is then over
+  /// capacity breaks in the next step. Part of the run: the same calls before the same steps give the same bits.
+  void set_capacities(std::span<const std::pair<JointId, JointCapacity>> capacities);
   void on_event(std::function<void(const SimulationEvent&)> listener);
   [[nodiscard]] std::span<const SimulationEvent> events() const;
 

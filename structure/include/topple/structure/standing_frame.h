@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "topple/solver/frame_model.h"
 #include "topple/structure/building.h"
 #include "topple/structure/joint_check.h"
 #include "topple/structure/scenario.h"
@@ -104,12 +105,26 @@ class StandingFrame {
   /// Mean downward displacement of the nodes at the greatest height.
   [[nodiscard]] double roof_sag() const;
 
+  // What acts and what bears, for drawings. All of the statics as solved last; empty or zero for what stands no more.
+  /// Along a standing member at `intervals` + 1 even places from its first end, in the order of
+  /// solver::BeamDiagram::Quantity (N, N m, m; member axes).
+  [[nodiscard]] std::vector<std::array<double, 8>> internal_forces(MemberId member, int intervals) const;
+  /// Loads of the combination, what panels hand on, events and contacts: member axes.
+  [[nodiscard]] std::vector<solver::BeamLoad> member_loads(MemberId member) const;
+  [[nodiscard]] Vec6 node_load(NodeId node) const;  ///< global axes, loads of members apart
+  /// What the support at this index of Building::supports does to its node, global axes.
+  [[nodiscard]] Vec6 reaction(std::size_t support) const;
+  [[nodiscard]] std::vector<ContactLoad> contact_loads() const;  ///< in order of key
+
   // Changes by tools and contacts: they take effect in the next generations.
   void break_joint(JointId joint, BreakCause cause);
   void remove(MemberId member);
   void remove(PanelId panel);
   void remove_support(NodeId node);
   void set_strength_factor(JointId joint, double factor);  ///< on top of the capacity
+  /// The owner of the building changed this joint's capacity in place: its utilisation follows at once (no statics are
+  /// solved), and if it is over capacity it breaks in the next generations.
+  void capacity_changed(JointId joint);
   void set_gravity(const Vec3& gravity);
   void add_load(NodeId node, const Vec6& load);
   void set_contact_load(const ContactLoad& load);
