@@ -116,6 +116,11 @@ FixedEndForces CondensedBeam::fixed_end_forces(std::span<const BeamLoad> loads) 
   constexpr double rounding = 1e-10;
   const double scale = statics.cwiseAbs().sum() * (1 + 1 / beam_.length);
   if (result.unbalanced <= rounding * scale) result.unbalanced = 0;
+  for (const BeamLoad& load : loads) {
+    if (load.kind != BeamLoad::Kind::temperature || (load.first.isZero(0) && load.last.isZero(0))) continue;
+    const Mat12 K = stiffness();
+    result.force -= K.leftCols<6>() * load.first + K.rightCols<6>() * load.last;
+  }
   return result;
 }
 

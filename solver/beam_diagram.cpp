@@ -101,7 +101,8 @@ struct BeamDiagram::State {
   Vec12 end_forces;
   InternalForces forces;
   std::vector<DeformedPiece> deformed;
-  Vec6 tip = Vec6::Zero();  ///< displacement of the second end when the first stays
+  Vec6 tip = Vec6::Zero();     ///< displacement of the second end when the first stays
+  Vec12 slip = Vec12::Zero();  ///< of the hubs against the beam's own ends
 
   [[nodiscard]] std::size_t piece_at(double distance) const {
     std::size_t i = 0;
@@ -128,6 +129,11 @@ BeamDiagram::BeamDiagram(const Beam& beam, const Vec12& end_forces, std::span<co
   state_->end_forces = end_forces;
   state_->forces = internal_forces(beam.length, end_forces.head<6>(), loads);
   state_->tip = integrate_deformation(beam, stiffness_factor, state_->forces, &state_->deformed);
+  for (const BeamLoad& load : loads) {
+    if (load.kind != BeamLoad::Kind::temperature) continue;
+    state_->slip.head<6>() += load.first;
+    state_->slip.tail<6>() += load.last;
+  }
 }
 BeamDiagram::~BeamDiagram() = default;
 BeamDiagram::BeamDiagram(BeamDiagram&&) noexcept = default;
@@ -172,7 +178,8 @@ void BeamDiagram::State::rigid_motion(int translation, int rotation, double sens
                                       double& slope) const {
   const auto held = [&](int f) { return beam.end_stiffness[static_cast<std::size_t>(f / 6)](f % 6) > 0; };
   const auto end = [&](int f) {
-    return hubs(f) - spring_compliance(beam.end_stiffness[static_cast<std::size_t>(f / 6)](f % 6)) * end_forces(f);
+    return hubs(f) - slip(f) -
+           spring_compliance(beam.end_stiffness[static_cast<std::size_t>(f / 6)](f % 6)) * end_forces(f);
   };
   const int v1 = translation, v2 = translation + 6, r1 = rotation, r2 = rotation + 6;
   const double L = beam.length;
@@ -198,8 +205,8 @@ Vec6 BeamDiagram::displacement(double distance, const Vec12& hubs) const {
   const DeformedPiece& d = s.deformed[i];
   const auto axial_start = [&](int f) {
     const double k1 = s.beam.end_stiffness[0](f), k2 = s.beam.end_stiffness[1](f);
-    if (k1 > 0) return hubs(f) - spring_compliance(k1) * s.end_forces(f);
-    if (k2 > 0) return hubs(f + 6) - spring_compliance(k2) * s.end_forces(f + 6) - s.tip(f);
+    if (k1 > 0) return hubs(f) - s.slip(f) - spring_compliance(k1) * s.end_forces(f);
+    if (k2 > 0) return hubs(f + 6) - s.slip(f + 6) - spring_compliance(k2) * s.end_forces(f + 6) - s.tip(f);
     return hubs(f);
   };
   double v = 0, v_slope = 0, w = 0, w_slope = 0;

@@ -34,6 +34,10 @@ void EnergyAccount::remember(int number) {
     if (from_.segments.label(member) < 0) continue;
     rest_end_forces_[index(member)] = from_.statics.end_forces(member);
     rest_loads_[index(member)] = from_.applied[index(member)];
+    if (const solver::Vec12 slips = from_.statics.slips(member); !slips.isZero(0))
+      rest_slips_[member] = slips;
+    else
+      rest_slips_.erase(member);
   }
   for (PanelId panel : from_.statics.membranes(number))
     if (from_.bearings.membrane(panel)) rest_corner_forces_[index(panel)] = from_.statics.corner_forces(panel);
@@ -77,7 +81,8 @@ Vec6 EnergyAccount::hub_now(MemberId member, int end) const {
 MemberShape EnergyAccount::shape_now(MemberId member) const {
   const auto& nodes = from_.building[member].nodes;
   return {from_.statics.beam(member), from_.statics.end_forces(member),
-          hubs(member, from_.statics.displacement(nodes[0]), from_.statics.displacement(nodes[1])),
+          hubs(member, from_.statics.displacement(nodes[0]), from_.statics.displacement(nodes[1])) -
+              from_.statics.slips(member),
           from_.applied[index(member)]};
 }
 
@@ -91,7 +96,7 @@ const MemberShape& EnergyAccount::shape_at_rest(MemberId member) {
         rest_holds_[index(joint)] ? from_.building[joint].stiffness : Vec6(Vec6::Zero());
   }
   const auto& nodes = from_.building[member].nodes;
-  const solver::Vec12 at = hubs(member, displacement(nodes[0]), displacement(nodes[1]));
+  const solver::Vec12 at = hubs(member, displacement(nodes[0]), displacement(nodes[1])) - rest_slips(member);
   return shapes.emplace(member, MemberShape(beam, rest_end_forces_[index(member)], at, rest_loads_[index(member)]))
       .first->second;
 }
@@ -100,8 +105,30 @@ void EnergyAccount::lose_joint(JointId joint, int told) {
   const Joint& own = from_.building[joint];
   const MemberShape& shape = shape_at_rest(own.member);
   begin(own.member)
-      .openings.push_back(
-          {joint, told, rest_end_forces_[index(own.member)].segment<6>(6 * own.end), shape.hub(own.end)});
+      .openings.push_back({joint, told, rest_end_forces_[index(own.member)].segment<6>(6 * own.end),
+                           shape.hub(own.end) + rest_slips(own.member).segment<6>(6 * own.end)});
+}
+
+void EnergyAccount::dissipate(MemberId member, double work) { begin(member).dissipated += work; }
+
+solver::Vec12 EnergyAccount::rest_slips(MemberId member) const {
+  const auto found = rest_slips_.find(member);
+  return found == rest_slips_.end() ? solver::Vec12::Zero() : found->second;
+}
+
+/// 1/2 (M0 + M1).(slip1 - slip0) over the joints that hold: elastic deformation is what slips leave of the whole.
+double EnergyAccount::turned(int component) const {
+  double sum = 0;
+  for (MemberId member : from_.statics.members(component)) {
+    if (from_.segments.label(member) < 0) continue;
+    const solver::Vec12 slipped = from_.statics.slips(member) - rest_slips(member);
+    if (slipped.isZero(0)) continue;
+    for (int end = 0; end < 2; ++end)
+      if (from_.segments.holds(from_.building.joint(member, end)))
+        sum += 0.5 * slipped.segment<6>(6 * end).dot(rest_end_forces_[index(member)].segment<6>(6 * end) +
+                                                     from_.statics.end_forces(member).segment<6>(6 * end));
+  }
+  return sum;
 }
 
 void EnergyAccount::lose_membrane(PanelId panel) {
@@ -263,9 +290,11 @@ double EnergyAccount::load_changes(const Change& change) const {
 double EnergyAccount::opened(const Opening& opening) const {
   const Joint& own = from_.building[opening.joint];
   const NodeId node = from_.building[own.member].nodes[static_cast<std::size_t>(own.end)];
-  const Vec6 end = from_.segments.label(own.member) >= 0 ? shape_now(own.member).end(own.end) : opening.hub;
+  const Vec6 slipped = rest_slips(own.member).segment<6>(6 * own.end);
+  const Vec6 end =
+      from_.segments.label(own.member) >= 0 ? shape_now(own.member).end(own.end) : Vec6(opening.hub - slipped);
   const Vec6 hub = from_.node_solved[index(node)] ? hub_now(own.member, own.end) : opening.hub;
-  return -0.5 * opening.force.dot(end - hub);
+  return -0.5 * opening.force.dot(end - hub + slipped);
 }
 
 void EnergyAccount::finish(int number, bool slow, std::vector<JointBreak>& breaks) {
@@ -277,7 +306,7 @@ void EnergyAccount::finish(int number, bool slow, std::vector<JointBreak>& break
   } else {
     settle_panels(change);
     settle_contacts(number, change);
-    change.freed += loads_changed;
+    change.freed += loads_changed + turned(number) - change.dissipated;
     for (const SupportLoss& loss : change.supports) change.freed -= 0.5 * loss.reaction.dot(after(loss.node));
     for (const MembraneLoss& loss : change.membranes)
       for (std::size_t corner = 0; corner < 4; ++corner)
@@ -302,6 +331,7 @@ void EnergyAccount::finish(int number, bool slow, std::vector<JointBreak>& break
   left_ += change.left;
   contact_left_ += change.contact_left;
   freed_ += change.freed;
+  dissipated_ += change.dissipated;
   change = {};
   remember(number);
 }
@@ -347,6 +377,7 @@ FrameEnergy EnergyAccount::energy() const {
   energy.other_work = left_.other - start_.other;
   energy.contact_work = contact_left_;
   energy.freed = freed_;
+  energy.dissipated = dissipated_;
   for (int c = 0; c < from_.statics.components(); ++c) {
     const Rest& sums = rest(c);
     energy.elastic += sums.elastic;

@@ -56,6 +56,12 @@ class EnergyAccount {
   void write(MemberId member);
   void write(NodeId node, const Vec6& before);
 
+  /// A plastic hinge turned: told as it turns, on the way from one state of rest to the next.
+  void dissipate(MemberId member, double work);
+  [[nodiscard]] MemberShape shape_now(MemberId member) const;
+  /// Displacements of the hubs at a member's ends, local axes, from those of its nodes.
+  [[nodiscard]] solver::Vec12 hubs(MemberId member, const Vec6& first, const Vec6& second) const;
+
   /// The component rests again. `slow`: only contact loads changed, and they were laid on slowly. Adds each told
   /// joint's energy to its line, what is not a joint's own shared equally between those told.
   void finish(int component, bool slow, std::vector<JointBreak>& breaks);
@@ -89,7 +95,7 @@ class EnergyAccount {
     std::map<NodeId, Vec6> node_loads;
     std::map<PanelId, HandOver> handed;  ///< by panels that hand on otherwise now
     LoadWork left;  ///< works of what left, and corrections for loads that came or went without work
-    double contact_left = 0, freed = 0;
+    double contact_left = 0, freed = 0, dissipated = 0;
   };
   /// Sums over what stands in the state of rest, made when needed.
   struct Rest {
@@ -110,8 +116,8 @@ class EnergyAccount {
   Change& begin(MemberId member) { return begin(from_.statics.component(member)); }
   Change& begin(NodeId node) { return begin(from_.statics.component(node)); }
   const MemberShape& shape_at_rest(MemberId member);
-  [[nodiscard]] MemberShape shape_now(MemberId member) const;
-  [[nodiscard]] solver::Vec12 hubs(MemberId member, const Vec6& first, const Vec6& second) const;
+  [[nodiscard]] solver::Vec12 rest_slips(MemberId member) const;
+  [[nodiscard]] double turned(int component) const;
   [[nodiscard]] Vec6 hub_now(MemberId member, int end) const;
   [[nodiscard]] Vec3 local_gravity(MemberId member) const;
   [[nodiscard]] double opened(const Opening& opening) const;
@@ -133,7 +139,7 @@ class EnergyAccount {
   bool started_ = false;
   double elastic_at_start_ = 0;
   LoadWork start_, left_;
-  double contact_left_ = 0, freed_ = 0;
+  double contact_left_ = 0, freed_ = 0, dissipated_ = 0;
 
   // The last state of rest.
   std::vector<Vec6> rest_displacement_;
@@ -141,7 +147,8 @@ class EnergyAccount {
   std::vector<std::vector<solver::BeamLoad>> rest_loads_;
   std::vector<std::array<Vec6, 4>> rest_corner_forces_;
   std::map<std::int64_t, PlacedLoad> rest_contacts_;
-  std::vector<char> rest_holds_;  ///< per joint of a member
+  std::vector<char> rest_holds_;                  ///< per joint of a member
+  std::map<MemberId, solver::Vec12> rest_slips_;  ///< of members with plastic hinges
   mutable std::vector<Rest> rests_;
   std::vector<Change> changes_;
 };

@@ -39,6 +39,8 @@ FrameStatics::FrameStatics(const Building& building, int threads) {
   const Frame frame = make_frame(building);
   std::vector<solver::FrameModel> models = split(building, frame);
   end_forces_.assign(building.members.size(), solver::Vec12::Zero());
+  member_loads_.resize(building.members.size());
+  node_loads_.assign(building.nodes.size(), Vec6::Zero());
   solver::AnalysisOptions options;
   options.threads = threads;
   for (std::size_t c = 0; c < models.size(); ++c)
@@ -104,11 +106,20 @@ const solver::Reanalysis& FrameStatics::at(const Place& place) const { return *p
 void FrameStatics::break_joint(MemberId member, int end) {
   const Place& place = member_place_[index(member)];
   changing(place).set_end_stiffness(place.local, end, Vec6::Zero());
+  const auto found = hinges_.find(member);
+  if (found == hinges_.end()) return;
+  found->second.held.segment<6>(6 * end).setZero();
+  found->second.slip.segment<6>(6 * end).setZero();
+  found->second.stiffness[static_cast<std::size_t>(end)].setZero();
+  write_loads(member);
 }
 
 void FrameStatics::remove(MemberId member) {
   const Place& place = member_place_[index(member)];
   changing(place).remove_beam(place.local);
+  if (hinges_.erase(member) == 0) return;
+  const solver::Beam& beam = at(place).model().beams[static_cast<std::size_t>(place.local)];
+  for (const int local : beam.node) write_load(parts(place.component).nodes[static_cast<std::size_t>(local)]);
 }
 
 void FrameStatics::remove_membrane(PanelId panel) {
@@ -131,14 +142,13 @@ void FrameStatics::drop(const std::vector<NodeId>& nodes) {
 }
 
 void FrameStatics::set_loads(MemberId member, std::vector<solver::BeamLoad> loads) {
-  const Place& place = member_place_[index(member)];
-  for (solver::BeamLoad& load : loads) load.beam = place.local;
-  changing(place).set_beam_loads(place.local, std::move(loads));
+  member_loads_[index(member)] = std::move(loads);
+  write_loads(member);
 }
 
 void FrameStatics::set_load(NodeId node, const Vec6& load) {
-  const Place& place = node_place_[index(node)];
-  changing(place).set_node_load(place.local, load);
+  node_loads_[index(node)] = load;
+  write_load(node);
 }
 
 void FrameStatics::forget(int number) {
@@ -155,6 +165,8 @@ std::optional<FrameMechanism> FrameStatics::solve(int number) {
   if (answer.stable) {
     for (MemberId member : component.members)
       end_forces_[index(member)] = component.analysis->beam_end_forces(member_place_[index(member)].local);
+    for (const auto& [member, hinges] : hinges_)
+      if (member_place_[index(member)].component == number) end_forces_[index(member)] += hinges.held;
     return std::nullopt;
   }
   component.changed = true;
@@ -192,7 +204,7 @@ Vec6 FrameStatics::reaction(std::size_t support) const {
 Vec3 FrameStatics::point_displacement(MemberId member, double distance,
                                       const std::vector<solver::BeamLoad>& loads) const {
   const Place& place = member_place_[index(member)];
-  return at(place).point_displacement(place.local, distance, at(place).displacements(), loads);
+  return at(place).point_displacement(place.local, distance, at(place).displacements(), with_hinges(member, loads));
 }
 
 FrameStatics::Response FrameStatics::respond(int component, const ResponseLoads& loads) const {

@@ -2,6 +2,7 @@
 // The solver behind a standing frame, in the building's own ids. Each connected component that the undamaged building
 // has (by members, panels and diaphragms) is one solver::Reanalysis, so that a street of houses costs what was
 // touched.
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -31,6 +32,14 @@ class FrameStatics {
   void set_loads(MemberId member, std::vector<solver::BeamLoad> loads);
   void set_load(NodeId node, const Vec6& load);
 
+  // Plastic hinges at the ends of members, component 3 to 5 of the member's axes.
+  /// From now on the end turns freely in this component under the moment `held` that the hub gives to the member.
+  void let_flow(MemberId member, int end, int axis, double held);
+  /// It holds again (with `stiffness`), turned by `slip` (hub less end).
+  void hold_again(MemberId member, int end, int axis, double stiffness, double slip);
+  /// By how much the hubs have turned against the member's ends at hinges that hold; local axes.
+  [[nodiscard]] solver::Vec12 slips(MemberId member) const;
+
   [[nodiscard]] int components() const { return static_cast<int>(components_.size()); }
   [[nodiscard]] int component(NodeId node) const { return node_place_[index(node)].component; }
   [[nodiscard]] int component(MemberId member) const { return member_place_[index(member)].component; }
@@ -46,7 +55,7 @@ class FrameStatics {
 
   // The answer as solved last.
   [[nodiscard]] const Vec6& displacement(NodeId node) const;
-  /// They outlive a mechanism that solve() finds later.
+  /// What flowing hinges hold included. They outlive a mechanism that solve() finds later.
   [[nodiscard]] const solver::Vec12& end_forces(MemberId member) const { return end_forces_[index(member)]; }
   [[nodiscard]] const solver::Beam& beam(MemberId member) const;
   [[nodiscard]] double strain_energy(int component) const;
@@ -97,7 +106,17 @@ class FrameStatics {
     return static_cast<std::size_t>(id.index);
   }
   [[nodiscard]] const Component& parts(int component) const { return components_[static_cast<std::size_t>(component)]; }
+  /// Of a member with hinges: what those that flow hold, how far those that hold again have slipped, and the stiffness
+  /// of both ends with the flowing ones released.
+  struct Hinges {
+    std::array<Vec6, 2> stiffness;
+    solver::Vec12 held = solver::Vec12::Zero(), slip = solver::Vec12::Zero();
+  };
   solver::Reanalysis& changing(const Place& place);
+  void write_loads(MemberId member);
+  void write_load(NodeId node);
+  [[nodiscard]] std::vector<solver::BeamLoad> with_hinges(MemberId member, std::vector<solver::BeamLoad> loads) const;
+  void set_hinge(MemberId member, int end, int axis, double stiffness, double held, double slip);
   [[nodiscard]] const solver::Reanalysis& at(const Place& place) const;
   std::vector<solver::FrameModel> split(const Building& building, const Frame& frame);
 
@@ -105,6 +124,9 @@ class FrameStatics {
   std::vector<NodeId> support_node_;
   std::vector<solver::Vec12> end_forces_;
   std::vector<Component> components_;
+  std::map<MemberId, Hinges> hinges_;
+  std::vector<std::vector<solver::BeamLoad>> member_loads_;  ///< as given
+  std::vector<Vec6> node_loads_;                             ///< as given
   double operations_ = 0;
 };
 

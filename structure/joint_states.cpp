@@ -10,7 +10,32 @@ JointStates::JointStates(const Building& building, double sudden)
       demand_(building.joints.size(), Vec6::Zero()),
       reference_(building.joints.size(), Vec6::Zero()),
       strength_(building.joints.size(), 1.0),
-      largest_(building.joints.size(), 0.0) {}
+      largest_(building.joints.size(), 0.0) {
+  for (std::size_t j = 0; j < building.joints.size(); ++j) {
+    const JointCapacity& all = building.joints[j].capacity;
+    JointCapacity brittle = all;
+    for (std::size_t sense = 0; sense < brittle.value.size(); ++sense)
+      if (brittle.ductility[sense] > 0) brittle.value[sense] = unlimited;
+    if (brittle.value != all.value) brittle_.emplace(JointId(j), brittle);
+  }
+}
+
+const JointCapacity& JointStates::brittle_capacity(JointId joint) const {
+  const auto found = brittle_.find(joint);
+  return found == brittle_.end() ? building_[joint].capacity : found->second;
+}
+
+Utilisation JointStates::used(JointId joint, const Vec6& demand) const {
+  const std::size_t j = index(joint);
+  const Utilisation all = structure::utilisation(building_.joints[j].capacity, demand, strength_[j]);
+  const auto found = brittle_.find(joint);
+  if (found == brittle_.end() || !(all.value > 1)) return all;
+  const Utilisation brittle = structure::utilisation(found->second, demand, strength_[j]);
+  if (brittle.value >= 1) return brittle;
+  Utilisation held = all;
+  held.value = 1;
+  return held;
+}
 
 void JointStates::set_slow_demand(JointId joint, const Vec6& demand) {
   const std::size_t j = index(joint);
@@ -24,19 +49,15 @@ void JointStates::lose(JointId joint) {
   reference_[index(joint)].setZero();
 }
 
-Utilisation JointStates::utilisation(JointId joint) const {
-  const std::size_t j = index(joint);
-  return structure::utilisation(building_.joints[j].capacity, demand_[j], strength_[j]);
-}
+Utilisation JointStates::utilisation(JointId joint) const { return used(joint, demand_[index(joint)]); }
 
 Utilisation JointStates::check(JointId joint) {
   const std::size_t j = index(joint);
-  const JointCapacity& capacity = building_.joints[j].capacity;
   const bool settled = sudden_ == 1.0 || reference_[j] == demand_[j];
-  const Utilisation used = structure::utilisation(
-      capacity, settled ? demand_[j] : Vec6(reference_[j] + sudden_ * (demand_[j] - reference_[j])), strength_[j]);
-  largest_[j] = std::max(largest_[j], used.value);
-  return used;
+  const Utilisation now =
+      used(joint, settled ? demand_[j] : Vec6(reference_[j] + sudden_ * (demand_[j] - reference_[j])));
+  remember(joint, now.value);
+  return now;
 }
 
 }  // namespace topple::structure

@@ -1,6 +1,8 @@
 #pragma once
 // What each joint bears and how close it is to failing, in flat arrays: the static demand R, the reference R0 (the last
 // state in which nothing broke), and the check at R0 + f (R - R0) after a sudden loss.
+#include <algorithm>
+#include <map>
 #include <vector>
 
 #include "topple/structure/building.h"
@@ -16,11 +18,24 @@ class JointStates {
   void set_demand(JointId joint, const Vec6& demand) { demand_[index(joint)] = demand; }
   /// Static demand that came on slowly: the reference moves along with it.
   void set_slow_demand(JointId joint, const Vec6& demand);
+  /// R0 moves by `part` of the way to R.
+  void move_reference(JointId joint, double part) {
+    Vec6& from = reference_[index(joint)];
+    from += part * (demand_[index(joint)] - from);
+  }
   /// The joint transmits nothing from now on.
   void lose(JointId joint);
   void set_strength(JointId joint, double factor) { strength_[index(joint)] = factor; }
 
   [[nodiscard]] const Vec6& demand(JointId joint) const { return demand_[index(joint)]; }
+  [[nodiscard]] const Vec6& reference(JointId joint) const { return reference_[index(joint)]; }
+  /// Of a demand. Ductile senses count up to 1: they hold at their capacity and break by turning too far.
+  [[nodiscard]] Utilisation used(JointId joint, const Vec6& demand) const;
+  /// The capacity in the senses that break at once.
+  [[nodiscard]] const JointCapacity& brittle_capacity(JointId joint) const;
+  void remember(JointId joint, double utilisation) {
+    largest_[index(joint)] = std::max(largest_[index(joint)], utilisation);
+  }
   [[nodiscard]] double strength(JointId joint) const { return strength_[index(joint)]; }
   /// Of the static demand.
   [[nodiscard]] Utilisation utilisation(JointId joint) const;
@@ -37,6 +52,7 @@ class JointStates {
   double sudden_;
   std::vector<Vec6> demand_, reference_;
   std::vector<double> strength_, largest_;
+  std::map<JointId, JointCapacity> brittle_;  ///< of ductile joints
 };
 
 }  // namespace topple::structure

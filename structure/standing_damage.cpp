@@ -83,6 +83,7 @@ void StandingFrame::State::lose_member_joint(JointId joint, int told) {
   const NodeId node = building[own.member].nodes[static_cast<std::size_t>(own.end)];
   statics.break_joint(own.member, own.end);
   joints.lose(joint);
+  ductile.lose(joint, component(joint));
   to_check[static_cast<std::size_t>(component(joint))] = 1;
   half_held.push_back(own.member);
   if (bracing) {

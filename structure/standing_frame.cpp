@@ -33,6 +33,7 @@ StandingFrame::State::State(const Building& given, CombinationId combination, co
       loads(given, loads_to_stand(given, combination), bearings),
       statics(given, threads),
       joints(given, failure.sudden),
+      ductile(given, statics, segments, bearings, applied),
       node_solved(given.nodes.size(), 1),
       applied(given.members.size()),
       node_applied(given.nodes.size(), Vec6::Zero()),
@@ -61,6 +62,7 @@ StandingFrame::State::State(const Building& given, CombinationId combination, co
   for (int c = 0; c < statics.components(); ++c) {
     if (const auto mechanism = statics.solve(c)) throw UnstableModel(describe_mechanism(building, *mechanism));
     read_demands(c, true);
+    if (ductile.any(c)) ductile.base_is_answer(c);
   }
   account.start();
   // Nothing broke to get here: this state is R0. Joints over capacity break in the first generation.
@@ -260,6 +262,7 @@ std::vector<JointBreak> StandingFrame::settle(int generations) {
   return std::exchange(state.breaks, {});
 }
 
+std::vector<JointBreak> StandingFrame::take_yielded() { return std::exchange(state_->yielded, {}); }
 std::vector<Detached> StandingFrame::take_detached() { return std::exchange(state_->detached, {}); }
 
 StandingFrame::UnitResponse StandingFrame::respond(const ContactPlace& place, const Vec3& direction) const {

@@ -28,6 +28,7 @@ void StandingFrame::State::take_unanchored() {
       drop_contacts(member);
       account.leave(member);
       statics.remove(member);
+      for (int end = 0; end < 2; ++end) ductile.lose(building.joint(member, end), statics.component(member));
       to_check[static_cast<std::size_t>(statics.component(member))] = 1;
     }
     for (NodeId node : parts[p].nodes) {

@@ -18,7 +18,10 @@ void StandingFrame::State::lay_contacts() {
     read_demands(c, true);
     // On the way to rest, what lies on it is part of that way. So is what the structure cannot bear: that state,
     // however far it lies, is never reached.
-    if (!to_check[static_cast<std::size_t>(c)] && bears(c)) account.finish(c, true, breaks);
+    if (!to_check[static_cast<std::size_t>(c)] && bears(c)) {
+      account.finish(c, true, breaks);
+      if (ductile.any(c)) ductile.base_is_answer(c);
+    }
     to_check[static_cast<std::size_t>(c)] = 1;
   }
 }
@@ -65,7 +68,7 @@ bool StandingFrame::State::solve_changed() {
       continue;
     }
     if (const auto mechanism = statics.solve(c)) {
-      release_mechanism(*mechanism);
+      if (!swing(c, *mechanism)) release_mechanism(*mechanism);
       found = true;
       continue;
     }
@@ -98,8 +101,8 @@ void StandingFrame::State::read_demands(int c, bool slow) {
   }
 }
 
-/// The joints that break next: in each segment all that are over capacity and within `same_time` of its largest, in
-/// order of id. A segment without any has come to rest: R becomes R0.
+/// The joints that break next, those of components whose joints yield first: in each segment all that are over capacity
+/// and within `same_time` of its largest, in order of id. A segment without any has come to rest: R becomes R0.
 std::vector<JointId> StandingFrame::State::next_generation() {
   constexpr double same_time = 1e-6;  // relative; symmetric joints differ by rounding only
   std::vector<JointId> next;
@@ -107,6 +110,12 @@ std::vector<JointId> StandingFrame::State::next_generation() {
   std::vector<std::pair<JointId, double>> over;
   for (int c = 0; c < statics.components(); ++c) {
     if (!to_check[static_cast<std::size_t>(c)]) continue;
+    if (const Way way = follow_yielding(c, next); way == Way::breaking) {
+      continue;
+    } else if (way == Way::resting) {
+      come_to_rest(c);
+      continue;
+    }
     largest.assign(static_cast<std::size_t>(segments.labels()), 0.0);
     over.clear();
     const std::vector<JointId>& all = checked_joints[static_cast<std::size_t>(c)];
@@ -124,11 +133,19 @@ std::vector<JointId> StandingFrame::State::next_generation() {
     }
     for (const auto& [joint, used] : over)
       if (used >= (1 - same_time) * largest[static_cast<std::size_t>(label(joint))]) next.push_back(joint);
-    to_check[static_cast<std::size_t>(c)] = !over.empty();
-    if (over.empty()) account.finish(c, false, breaks);
+    if (over.empty()) come_to_rest(c);
   }
   std::sort(next.begin(), next.end());
   return next;
+}
+
+/// The static answer is borne: R becomes R0.
+void StandingFrame::State::come_to_rest(int c) {
+  for (JointId joint : checked_joints[static_cast<std::size_t>(c)])
+    if (label(joint) >= 0) joints.accept(joint);
+  to_check[static_cast<std::size_t>(c)] = 0;
+  account.finish(c, false, breaks);
+  if (ductile.any(c)) ductile.base_is_answer(c);
 }
 
 }  // namespace topple::structure

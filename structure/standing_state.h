@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "bracing.h"
+#include "ductile_joints.h"
 #include "energy_account.h"
 #include "frame_loads.h"
 #include "frame_statics.h"
@@ -82,8 +83,30 @@ struct StandingFrame::State {
   [[nodiscard]] bool solve_changed();
   void read_demands(int component, bool slow);
 
+  // Yield: the way of a component whose joints turn before they break.
+  enum class Way {
+    unyielding,  ///< no hinge has formed since the last state of rest, and none will
+    breaking,    ///< joints break in the state reached
+    resting      ///< the static answer is reached and borne
+  };
+  [[nodiscard]] Way follow_yielding(int component, std::vector<JointId>& breaking);
+  struct NextEvent;
+  [[nodiscard]] NextEvent find_next_event(int component);
+  [[nodiscard]] double end_of_way(int component, double energy);
+  [[nodiscard]] double slip_in_answer(const PlasticHinge& hinge) const;
+  [[nodiscard]] double demand_in_base(const PlasticHinge& hinge) const;
+  bool turn_back(int component);
+  void move_base(int component, double part, double energy);
+  void let_flow(PlasticHinge& hinge, double held);
+  void hold_again(PlasticHinge& hinge);
+  void hold_all_again(int component);
+  [[nodiscard]] bool turns_out_alone(PlasticHinge& hinge, double held);
+  [[nodiscard]] bool swing(int component, const FrameMechanism& mechanism);
+  void tell_yield(PlasticHinge& hinge, double held);
+
   // Check.
   [[nodiscard]] std::vector<JointId> next_generation();
+  void come_to_rest(int component);
 
   // Response.
   [[nodiscard]] UnitResponse respond(const ContactPlace& place, const Vec3& direction) const;
@@ -101,6 +124,7 @@ struct StandingFrame::State {
   FrameLoads loads;
   FrameStatics statics;
   JointStates joints;
+  DuctileJoints ductile;
   std::optional<ClassicBracing> bracing;
   std::vector<char> node_solved;                       ///< per node: the solver still holds it
   std::vector<std::vector<solver::BeamLoad>> applied;  ///< per member: loads that the solver has
@@ -119,7 +143,8 @@ struct StandingFrame::State {
   std::vector<MemberId> half_held;  ///< members that have just lost one end
   std::vector<JointId> unbraced;
   std::vector<Detached> detached;
-  std::vector<JointBreak> breaks;  ///< of the settle() or impact that runs
+  std::vector<JointBreak> yielded;  ///< to hand out
+  std::vector<JointBreak> breaks;   ///< of the settle() or impact that runs
   int generation = 0;
   std::uint64_t idle_settles = 0;
   mutable FrameCounters counters;

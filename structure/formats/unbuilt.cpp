@@ -92,11 +92,6 @@ void refuse_one_way_members(const Building& building) {
       refuse(building, "members." + member.name + ".axial",
              member.axial == AxialAction::tension ? "\"tension\"" : "\"compression\"");
 }
-void refuse_ductility(const Building& building) {
-  for (const Joint& joint : building.joints)
-    for (const double rotation : joint.capacity.ductility)
-      if (rotation > 0) refuse(building, "joint " + joint.name, "`ductility`");
-}
 void refuse_edge_supports(const Building& building) {
   for (const EdgeSupport& support : building.edge_supports)
     refuse(building, "supports." + building[support.panel].name + ":" + std::to_string(support.edge + 1),
@@ -113,9 +108,8 @@ void refuse_unbuilt(const Building& building, Purpose purpose) {
   using Refusal = void (*)(const Building&);
   static constexpr std::array<Refusal, 3> analyse{refuse_meshes_of_panels, refuse_openings_of_membranes,
                                                   refuse_giving_edges};
-  static constexpr std::array<Refusal, 7> demolish{refuse_shells,          refuse_meshes_of_panels, refuse_openings,
-                                                   refuse_one_way_members, refuse_edge_supports,    refuse_ductility,
-                                                   refuse_diaphragms};
+  static constexpr std::array<Refusal, 6> demolish{refuse_shells,          refuse_meshes_of_panels, refuse_openings,
+                                                   refuse_one_way_members, refuse_edge_supports,    refuse_diaphragms};
   switch (purpose) {
     case Purpose::analyse:
       for (const Refusal refusal : analyse) refusal(building);

@@ -76,6 +76,7 @@ void Simulation::State::account_now() {
   const FrameEnergy energy = frame->energy();
   ledger.elastic = energy.elastic;
   ledger.freed_by_breaks = energy.freed;
+  ledger.dissipated_in_joints = energy.dissipated;
   // The loads were laid on slowly before time began, and what lies on the frame goes down with it.
   ledger.gravity_work = energy.elastic_at_start + energy.gravity_work + energy.contact_work + body_gravity_work;
   ledger.work_put_in = body_work_put_in + energy.other_work;

@@ -178,7 +178,13 @@ void Simulation::State::send_on(const Strike& hit) {
 void Simulation::State::break_generations() {
   if (!frame->pending() && step > 1) return;
   const int generations = generations_of(step, scenario.step, scenario.failure.generations_per_second);
-  for (const JointBreak& broken : frame->settle(generations)) tell(broken);
+  const std::vector<JointBreak> breaks = frame->settle(generations);
+  for (const JointBreak& line : frame->take_yielded()) {
+    SimulationEvent& event = tell(SimulationEvent::Kind::joint_yielded, building[line.joint].name);
+    event.joint = line;
+    event.position = line.position;
+  }
+  for (const JointBreak& broken : breaks) tell(broken);
 }
 
 }  // namespace topple::structure

@@ -38,6 +38,9 @@ struct Detached {
   std::vector<PanelId> panels;
   std::vector<NodeId> nodes;
   bool mechanism = false;
+  /// Joints of members by which it still hangs on what stands (`mechanism: hinge`): free to turn in what is released,
+  /// holding in the rest until the host breaks them.
+  std::vector<JointId> hinges;
 };
 
 /// Where a force acts on the standing frame.
@@ -61,7 +64,7 @@ struct FrameCounters {
 /// Energies of the standing frame in J, in the last state of rest. The works are sums over the changes since
 /// construction; each is loads times displacements, the elastic energy comes from internal forces, and what a break
 /// frees from Clapeyron's theorem, so that
-///   elastic - elastic_at_start = gravity_work + other_work + contact_work - freed
+///   elastic - elastic_at_start = gravity_work + other_work + contact_work - freed - dissipated
 /// is a check and not a definition.
 struct FrameEnergy {
   double elastic = 0, elastic_at_start = 0;
@@ -69,6 +72,7 @@ struct FrameEnergy {
       0;  ///< of all that counts as mass, through the frame's displacements; parts that left: up to then
   double other_work = 0;    ///< of horizontal loads, moments and event loads
   double contact_work = 0;  ///< of contact loads, which are laid on slowly
+  double dissipated = 0;    ///< in joints that turned while they held their capacity
   double freed = 0;         ///< by breaks, removals and suddenly changed loads: what the static path does not need
 };
 
@@ -136,6 +140,9 @@ class StandingFrame {
   /// `generations` of them), sudden loss and bracing by the rules, mechanisms released. Returns what broke, in order;
   /// pending() stays true when the limit cut it short.
   std::vector<JointBreak> settle(int generations);
+  /// Joints whose moment or torsion came to its capacity, and that have turned since, as they did; each sense of a joint
+  /// once. Handed out once.
+  std::vector<JointBreak> take_yielded();
   /// What has left since the last call, each connected part apart.
   std::vector<Detached> take_detached();
 
