@@ -131,11 +131,13 @@ Vec6 relative_motion(double length, const Vec12& hub_displacements) {
   return strain;
 }
 
+BeamStrainStiffness strain_stiffness(const CondensedBeam& beam) { return beam.stiffness().rightCols<6>(); }
+
 // Only what the second end moves beyond the rigid motion of the first strains the beam: taking it first keeps the
 // digits that a large sway of the whole frame would cost.
 Vec12 beam_end_forces(const CondensedBeam& beam, double length, const Vec12& hub_displacements,
                       const Vec12& fixed_end) {
-  return beam.stiffness().rightCols<6>() * relative_motion(length, hub_displacements) + fixed_end;
+  return strain_stiffness(beam) * relative_motion(length, hub_displacements) + fixed_end;
 }
 
 Mat3 arm_matrix(const Vec3& arm) {

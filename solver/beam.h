@@ -43,6 +43,10 @@ class CondensedBeam {
   bool absent_;
 };
 
+/// End forces per relative_motion(): the columns of the stiffness that belong to the second end.
+using BeamStrainStiffness = Eigen::Matrix<double, 12, 6>;
+[[nodiscard]] BeamStrainStiffness strain_stiffness(const CondensedBeam& beam);
+
 /// End force from displacements of the hubs and fixed-end forces, local axes.
 [[nodiscard]] Vec12 beam_end_forces(const CondensedBeam& beam, double length, const Vec12& hub_displacements,
                                     const Vec12& fixed_end);

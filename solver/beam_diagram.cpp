@@ -24,17 +24,20 @@ Polynomial derivative(const Polynomial& p) {
   return d;
 }
 
-/// The zero on a bracket with a change of sign, to the last bit or two: Newton's method, and bisection where that would
-/// leave the bracket or close it too slowly.
-double zero_between(const Polynomial& p, const Polynomial& slope, double a, double b) {
-  const bool rising = polynomial(p, a) < 0;
+/// The zero of the first `terms` on a bracket with a change of sign, to the last bit or two: Newton's method, and
+/// bisection where that would leave the bracket or close it too slowly.
+double zero_between(const Polynomial& p, std::size_t terms, double a, double b, bool rising) {
   double x = a + (b - a) / 2, before = b - a;
   constexpr int enough = 200;
   for (int i = 0; i < enough; ++i) {
-    const double value = polynomial(p, x);
+    double value = p[terms - 1], slope = 0;
+    for (std::size_t k = terms - 1; k-- > 0;) {
+      slope = slope * x + value;
+      value = value * x + p[k];
+    }
     if (value == 0) return x;
     ((value < 0) == rising ? a : b) = x;
-    double step = -value / polynomial(slope, x);
+    double step = -value / slope;
     if (!(x + step > a && x + step < b) || std::abs(step) > before / 2) step = a + (b - a) / 2 - x;
     if (x + step == x || x + step <= a || x + step >= b) break;
     before = std::abs(step);
@@ -81,15 +84,14 @@ Places sign_changes(const Polynomial& p, double length) {
     return places;
   }
   if (n == 3) return sign_changes_of_quadratic(p[0], p[1], p[2], length);
-  const Polynomial slope = derivative(p);
-  double from = 0, value = polynomial(p, 0);
+  double from = 0, value = p[0];
   const auto look_up_to = [&](double to) {
     const double there = polynomial(p, to);
-    if ((value < 0) != (there < 0)) places.add(zero_between(p, slope, from, to));
+    if ((value < 0) != (there < 0)) places.add(zero_between(p, n, from, to, value < 0));
     from = to;
     value = there;
   };
-  for (const double turn : sign_changes(slope, length)) look_up_to(turn);
+  for (const double turn : sign_changes(derivative(p), length)) look_up_to(turn);
   look_up_to(length);
   return places;
 }

@@ -21,6 +21,14 @@ double place_on_beam(double distance, double length, const BeamLoad& load) {
 void find_breakpoints(double length, std::span<const BeamLoad> loads, std::vector<double>& places) {
   places.clear();
   places.push_back(0.0);
+  const auto covers_all = [&](const BeamLoad& load) {
+    return load.kind == BeamLoad::Kind::temperature ||
+           (load.kind == BeamLoad::Kind::distributed && load.from == 0 && load.to == length);
+  };
+  if (std::all_of(loads.begin(), loads.end(), covers_all)) {
+    places.push_back(length);
+    return;
+  }
   places.push_back(length);
   for (const BeamLoad& load : loads) {
     if (load.kind == BeamLoad::Kind::temperature) continue;
@@ -39,8 +47,10 @@ void intensity_on(double start, double end, double length, std::span<const BeamL
     if (load.kind != BeamLoad::Kind::distributed) continue;
     const double from = std::clamp(load.from, 0.0, length), to = std::clamp(load.to, 0.0, length);
     if (!(from <= start && to >= end)) continue;
+    value += load.first;
+    if (load.first == load.last) continue;
     const Vec6 load_slope = (load.last - load.first) / (to - from);
-    value += load.first + load_slope * (start - from);
+    value += load_slope * (start - from);
     slope += load_slope;
   }
 }

@@ -1,8 +1,12 @@
 // Right-hand sides of a frame: loads on nodes and beams, imposed displacements.
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
+#include <deque>
+#include <numeric>
 #include <stdexcept>
 
+#include "beam_unit_loads.h"
 #include "frame_system.h"
 #include "second_order_beam.h"
 
@@ -16,15 +20,35 @@ void check_index(int index, std::size_t count, const char* what) {
   }
 }
 
-/// The loads of each beam together.
-std::vector<std::vector<BeamLoad>> loads_by_beam(std::size_t beams, const std::vector<BeamLoad>& loads) {
-  std::vector<std::vector<BeamLoad>> result(beams);
-  for (const BeamLoad& load : loads) {
-    check_index(load.beam, beams, "beam");
-    result[static_cast<std::size_t>(load.beam)].push_back(load);
+/// Sets of loads from which on those of unit loads are worth the trouble.
+constexpr std::size_t worth_unit_loads = 3;
+
+/// The loads of each beam together: those of the set itself where they lie in order of the beams.
+class LoadsByBeam {
+ public:
+  LoadsByBeam(std::size_t beams, const std::vector<BeamLoad>& loads) : start_(beams + 1, 0), loads_(&loads) {
+    for (const BeamLoad& load : loads) {
+      check_index(load.beam, beams, "beam");
+      ++start_[static_cast<std::size_t>(load.beam) + 1];
+    }
+    std::partial_sum(start_.begin(), start_.end(), start_.begin());
+    const auto before = [](const BeamLoad& a, const BeamLoad& b) { return a.beam < b.beam; };
+    if (std::is_sorted(loads.begin(), loads.end(), before)) return;
+    sorted_ = loads;
+    std::stable_sort(sorted_.begin(), sorted_.end(), before);
+    loads_ = &sorted_;
   }
-  return result;
-}
+  LoadsByBeam(LoadsByBeam&&) = delete;
+
+  [[nodiscard]] std::span<const BeamLoad> on(std::size_t beam) const {
+    return {loads_->data() + start_[beam], start_[beam + 1] - start_[beam]};
+  }
+
+ private:
+  std::vector<std::size_t> start_;
+  std::vector<BeamLoad> sorted_;
+  const std::vector<BeamLoad>* loads_;
+};
 
 }  // namespace
 
@@ -89,33 +113,67 @@ void FrameSystem::add_fixed_end(int index, const Vec12& fixed_end, Eigen::Vector
   dofs_.add_node_force(beam.node[1], -at_nodes.tail<6>(), force.data());
 }
 
-LoadVector FrameSystem::load_vector(const LoadSet& loads) const {
-  LoadVector result;
-  result.force = Eigen::VectorXd::Zero(dofs_.equations + dofs_.held);
-  if (!loads.nodes.empty()) result.node_load.assign(model.nodes.size(), Vec6::Zero());
-  for (const NodeLoad& load : loads.nodes) {
+LoadVector FrameSystem::load_vector(const LoadSet& loads) const { return std::move(load_vectors({&loads, 1}).front()); }
+
+std::vector<LoadVector> FrameSystem::load_vectors(std::span<const LoadSet> sets) const {
+  std::vector<LoadVector> result(sets.size());
+  for (std::size_t k = 0; k < sets.size(); ++k) {
+    result[k].force = Eigen::VectorXd::Zero(dofs_.equations + dofs_.held);
+    add_node_loads(sets[k].nodes, result[k]);
+  }
+  add_beam_loads(sets, result);
+  for (std::size_t k = 0; k < sets.size(); ++k) {
+    LoadVector& vector = result[k];
+    if (!sets[k].shells.empty()) add_shell_loads(sets[k].shells, vector);
+    vector.held_displacement = held_displacements(sets[k].settlements);
+    if (!(vector.held_displacement.array() == 0).all()) add_settlement_forces(vector);
+    if (!vector.force.allFinite()) throw std::invalid_argument("a load is not finite");
+  }
+  return result;
+}
+
+void FrameSystem::add_node_loads(const std::vector<NodeLoad>& loads, LoadVector& result) const {
+  if (!loads.empty()) result.node_load.assign(model.nodes.size(), Vec6::Zero());
+  for (const NodeLoad& load : loads) {
     check_index(load.node, model.nodes.size(), "node");
     const auto n = static_cast<std::size_t>(load.node);
     if (node_stands[n] == 0) continue;
     result.node_load[n] += load.load;
     dofs_.add_node_force(load.node, load.load, result.force.data());
   }
-  if (!loads.beams.empty()) {
-    result.beam_fixed_end.assign(model.beams.size(), Vec12::Zero());
-    const auto by_beam = loads_by_beam(model.beams.size(), loads.beams);
-    for (std::size_t i = 0; i < by_beam.size(); ++i) {
-      if (by_beam[i].empty() || beam_stands[i] == 0) continue;
-      const FixedEndForces fixed = fixed_end_forces(static_cast<int>(i), by_beam[i]);
-      if (fixed.unbalanced > 0) result.unbalanced_beams.push_back(static_cast<int>(i));
-      result.beam_fixed_end[i] = fixed.force;
-      add_fixed_end(static_cast<int>(i), fixed.force, result.force);
+}
+
+/// Beam by beam, so that each is condensed once for all sets.
+void FrameSystem::add_beam_loads(std::span<const LoadSet> sets, std::vector<LoadVector>& result) const {
+  const std::size_t beams = model.beams.size();
+  std::deque<LoadsByBeam> by_beam;
+  for (std::size_t k = 0; k < sets.size(); ++k) {
+    by_beam.emplace_back(beams, sets[k].beams);
+    if (!sets[k].beams.empty()) result[k].beam_fixed_end.assign(beams, Vec12::Zero());
+  }
+  for (std::size_t i = 0; i < beams; ++i) {
+    if (beam_stands[i] == 0) continue;
+    std::optional<CondensedBeam> condensed;
+    std::optional<BeamUnitLoads> units;
+    for (std::size_t k = 0; k < sets.size(); ++k) {
+      const std::span<const BeamLoad> loads = by_beam[k].on(i);
+      if (loads.empty()) continue;
+      if (!condensed && second_order == nullptr) {
+        condensed.emplace(model.beams[i], beam_factor[i]);
+        if (sets.size() >= worth_unit_loads && BeamUnitLoads::apply_to(model.beams[i])) units.emplace(*condensed);
+      }
+      const int beam = static_cast<int>(i);
+      FixedEndForces fixed;
+      if (units) {
+        fixed.force = units->fixed_end_forces(loads);
+      } else {
+        fixed = condensed ? condensed->fixed_end_forces(loads) : fixed_end_forces(beam, loads);
+      }
+      if (fixed.unbalanced > 0) result[k].unbalanced_beams.push_back(beam);
+      result[k].beam_fixed_end[i] = fixed.force;
+      add_fixed_end(beam, fixed.force, result[k].force);
     }
   }
-  if (!loads.shells.empty()) add_shell_loads(loads.shells, result);
-  result.held_displacement = held_displacements(loads.settlements);
-  if (!(result.held_displacement.array() == 0).all()) add_settlement_forces(result);
-  if (!result.force.allFinite()) throw std::invalid_argument("a load is not finite");
-  return result;
 }
 
 void FrameSystem::add_shell_loads(const std::vector<ShellLoad>& loads, LoadVector& result) const {

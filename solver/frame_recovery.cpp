@@ -80,6 +80,43 @@ Vec12 FrameSystem::end_forces(int index, const std::vector<Vec6>& displacements,
   return beam_end_forces(CondensedBeam(beam, beam_factor[i]), beam.length, hubs, fixed_end);
 }
 
+std::vector<StaticSolution> FrameSystem::recover(std::span<const LoadVector> loads,
+                                                 const Eigen::MatrixXd& displacements) const {
+  std::vector<StaticSolution> solutions(loads.size());
+  for (std::size_t k = 0; k < loads.size(); ++k) {
+    solutions[k].displacements =
+        node_displacements(displacements.col(static_cast<Eigen::Index>(k)), loads[k].held_displacement);
+    solutions[k].beam_end_forces.resize(model.beams.size(), Vec12::Zero());
+    solutions[k].shell_corner_forces.resize(model.shells.size());
+  }
+  for (std::size_t i = 0; i < model.beams.size(); ++i) {
+    if (beam_stands[i] == 0) continue;
+    const Beam& beam = model.beams[i];
+    std::optional<BeamStrainStiffness> stiffness;
+    if (second_order == nullptr) stiffness = strain_stiffness(CondensedBeam(beam, beam_factor[i]));
+    for (std::size_t k = 0; k < loads.size(); ++k) {
+      const Vec12 fixed = loads[k].beam_fixed_end.empty() ? Vec12::Zero() : loads[k].beam_fixed_end[i];
+      const std::vector<Vec6>& u = solutions[k].displacements;
+      if (!stiffness) {
+        solutions[k].beam_end_forces[i] = end_forces(static_cast<int>(i), u, fixed);
+        continue;
+      }
+      const Vec12 hubs =
+          hub_displacements(beam, u[static_cast<std::size_t>(beam.node[0])], u[static_cast<std::size_t>(beam.node[1])]);
+      solutions[k].beam_end_forces[i] = *stiffness * relative_motion(beam.length, hubs) + fixed;
+    }
+  }
+  for (std::size_t i = 0; i < model.shells.size(); ++i)
+    for (std::size_t k = 0; k < loads.size(); ++k) {
+      const Vec24 fixed = loads[k].shell_fixed.empty() ? Vec24::Zero() : loads[k].shell_fixed[i];
+      solutions[k].shell_corner_forces[i] = corner_forces(static_cast<int>(i), solutions[k].displacements, fixed);
+    }
+  for (std::size_t k = 0; k < loads.size(); ++k)
+    solutions[k].reactions = reactions(solutions[k].displacements, solutions[k].beam_end_forces,
+                                       solutions[k].shell_corner_forces, loads[k].node_load);
+  return solutions;
+}
+
 std::array<Vec6, 4> FrameSystem::corner_forces(int index, const std::vector<Vec6>& displacements,
                                                const Vec24& fixed) const {
   const auto i = static_cast<std::size_t>(index);
@@ -134,10 +171,18 @@ std::vector<Vec6> FrameSystem::reactions(const std::vector<Vec6>& displacements,
                                          const std::vector<Vec12>& beam_end_forces,
                                          const std::vector<std::array<Vec6, 4>>& shell_corner_forces,
                                          const std::vector<Vec6>& node_loads) const {
-  // What must act on each node beside its load for equilibrium with its elements.
+  std::vector<char> held_node(model.nodes.size(), 0);
+  for (const Support& support : model.supports) held_node[static_cast<std::size_t>(support.node)] = 1;
+  for (const Diaphragm& diaphragm : model.diaphragms)
+    for (const int node : diaphragm.nodes) held_node[static_cast<std::size_t>(node)] = 1;
+  const auto reaches_held = [&](const Beam& beam) {
+    return held_node[static_cast<std::size_t>(beam.node[0])] != 0 ||
+           held_node[static_cast<std::size_t>(beam.node[1])] != 0;
+  };
+  // What must act on each held node beside its load for equilibrium with its elements.
   std::vector<Vec6> residual(model.nodes.size(), Vec6::Zero());
   for (std::size_t i = 0; i < model.beams.size(); ++i) {
-    if (beam_stands[i] == 0) continue;
+    if (beam_stands[i] == 0 || !reaches_held(model.beams[i])) continue;
     const Vec12 force = node_forces(model.beams[i], beam_end_forces[i]);
     residual[static_cast<std::size_t>(model.beams[i].node[0])] += force.head<6>();
     residual[static_cast<std::size_t>(model.beams[i].node[1])] += force.tail<6>();

@@ -83,6 +83,8 @@ class FrameSystem {
   [[nodiscard]] NodeMatrix own_stiffness(int node) const;
 
   [[nodiscard]] LoadVector load_vector(const LoadSet& loads) const;
+  /// Several at once: what they share of the elements is worked out once.
+  [[nodiscard]] std::vector<LoadVector> load_vectors(std::span<const LoadSet> sets) const;
   /// A moment on a hub that nothing keeps from turning, or a load on a loose part; empty when there is none.
   [[nodiscard]] std::optional<Defect> unbalanced_load(const LoadVector& load) const;
 
@@ -102,6 +104,10 @@ class FrameSystem {
   /// first component of that size positive.
   [[nodiscard]] std::vector<Vec6> shape(const Eigen::VectorXd& scaled) const;
   [[nodiscard]] Vec12 end_forces(int beam, const std::vector<Vec6>& displacements, const Vec12& fixed_end) const;
+  /// Displacements, forces and reactions of several right-hand sides, the solution of each (not scaled) in a column.
+  /// Their quality is left to the caller.
+  [[nodiscard]] std::vector<StaticSolution> recover(std::span<const LoadVector> loads,
+                                                    const Eigen::MatrixXd& displacements) const;
   /// Per corner: what the node does to the shell, global; `fixed` as in LoadVector.
   [[nodiscard]] std::array<Vec6, 4> corner_forces(int shell, const std::vector<Vec6>& displacements,
                                                   const Vec24& fixed) const;
@@ -133,6 +139,8 @@ class FrameSystem {
   }
   /// K of a shell in the global freedoms of its nodes. Floors repeat one panel: the last one is kept.
   [[nodiscard]] const Mat24& shell_node_stiffness(int shell) const;
+  void add_node_loads(const std::vector<NodeLoad>& loads, LoadVector& result) const;
+  void add_beam_loads(std::span<const LoadSet> sets, std::vector<LoadVector>& result) const;
   void add_shell_loads(const std::vector<ShellLoad>& loads, LoadVector& result) const;
   void add_settlement_forces(LoadVector& result) const;
   [[nodiscard]] double& entry(int equation, int other);

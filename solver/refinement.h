@@ -3,6 +3,7 @@
 // into a bound on the answer. Sources: Oettli and Prager 1964; Arioli, Demmel and Duff 1989; Higham, Accuracy and
 // Stability of Numerical Algorithms, ch. 12 and 15.
 #include <Eigen/Core>
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -17,7 +18,26 @@ using LinearSolve = std::function<void(Eigen::Ref<Eigen::MatrixXd>)>;
 /// What counts as rounding level.
 inline constexpr double backward_error_limit = 1e-14;
 
-/// r = b - K x, accumulated in extended precision, and max |r_i| / (|K| |x| + |b|)_i.
+/// r = b - K x, accumulated in extended precision row by row, and max |r_i| / (|K| |x| + |b|)_i. The pattern is
+/// analysed once for any number of residuals; the matrix is borrowed.
+class ExtendedResidual {
+ public:
+  explicit ExtendedResidual(const SparseSymmetric& K);
+  double operator()(const Eigen::Ref<const Eigen::VectorXd>& b, const Eigen::Ref<const Eigen::VectorXd>& x,
+                    Eigen::VectorXd& r) const;
+
+ private:
+  /// An entry left of the diagonal: its column, and how far below that column's diagonal it is stored.
+  struct Left {
+    std::int32_t column, place;
+  };
+  const SparseSymmetric& K_;
+  std::vector<std::int64_t> left_start_;
+  std::vector<Left> left_;
+  std::vector<double> row_sum_;
+};
+
+/// The same for a single one.
 double residual(const SparseSymmetric& K, const Eigen::Ref<const Eigen::VectorXd>& b,
                 const Eigen::Ref<const Eigen::VectorXd>& x, Eigen::VectorXd& r);
 

@@ -144,18 +144,7 @@ struct SecondOrderAnalysis::State {
   }
 
   [[nodiscard]] StaticSolution recover(const LoadVector& load, const Eigen::VectorXd& u) const {
-    StaticSolution solution;
-    solution.displacements = system_.node_displacements(u, load.held_displacement);
-    for (std::size_t i = 0; i < system_.model.beams.size(); ++i) {
-      const Vec12 fixed = load.beam_fixed_end.empty() ? Vec12::Zero() : load.beam_fixed_end[i];
-      solution.beam_end_forces.push_back(system_.end_forces(static_cast<int>(i), solution.displacements, fixed));
-    }
-    for (std::size_t i = 0; i < system_.model.shells.size(); ++i) {
-      const Vec24 fixed = load.shell_fixed.empty() ? Vec24::Zero() : load.shell_fixed[i];
-      solution.shell_corner_forces.push_back(system_.corner_forces(static_cast<int>(i), solution.displacements, fixed));
-    }
-    solution.reactions = system_.reactions(solution.displacements, solution.beam_end_forces,
-                                           solution.shell_corner_forces, load.node_load);
+    StaticSolution solution = std::move(system_.recover({&load, 1}, u).front());
     if (axial_.mode == SecondOrder::frame3dd) print_as_frame3dd(load, solution);
     return solution;
   }

@@ -45,7 +45,6 @@ struct StaticAnalysis::State {
   [[nodiscard]] LinearSolve linear_solve() const {
     return [this](Eigen::Ref<Eigen::MatrixXd> b) { factor->solve(b); };
   }
-  [[nodiscard]] StaticSolution recover(const LoadVector& load, const Eigen::VectorXd& scaled) const;
 };
 
 void StaticAnalysis::State::assemble() {
@@ -98,42 +97,17 @@ StaticAnalysis::~StaticAnalysis() = default;
 StaticAnalysis::StaticAnalysis(StaticAnalysis&&) noexcept = default;
 StaticAnalysis& StaticAnalysis::operator=(StaticAnalysis&&) noexcept = default;
 
-StaticSolution StaticAnalysis::State::recover(const LoadVector& load, const Eigen::VectorXd& scaled) const {
-  Eigen::VectorXd u(scaled.size());
-  for (Eigen::Index i = 0; i < u.size(); ++i) u(i) = scaled(i) * system.scale()[static_cast<std::size_t>(i)];
-  StaticSolution solution;
-  solution.displacements = system.node_displacements(u, load.held_displacement);
-  const std::size_t beams = system.model.beams.size();
-  solution.beam_end_forces.reserve(beams);
-  for (std::size_t i = 0; i < beams; ++i) {
-    const Vec12 fixed = load.beam_fixed_end.empty() ? Vec12::Zero() : load.beam_fixed_end[i];
-    solution.beam_end_forces.push_back(system.end_forces(static_cast<int>(i), solution.displacements, fixed));
-  }
-  for (std::size_t i = 0; i < system.model.shells.size(); ++i) {
-    const Vec24 fixed = load.shell_fixed.empty() ? Vec24::Zero() : load.shell_fixed[i];
-    solution.shell_corner_forces.push_back(system.corner_forces(static_cast<int>(i), solution.displacements, fixed));
-  }
-  solution.reactions =
-      system.reactions(solution.displacements, solution.beam_end_forces, solution.shell_corner_forces, load.node_load);
-  return solution;
-}
-
 std::vector<StaticSolution> StaticAnalysis::solve(std::span<const LoadSet> loads) {
   State& state = *state_;
   state.estimate();
   const Stopwatch watch(state.statistics.solve_seconds);
-  std::vector<LoadVector> vectors;
-  vectors.reserve(loads.size());
+  const std::vector<LoadVector> vectors = state.system.load_vectors(loads);
+  for (const LoadVector& vector : vectors) require_stable(state.system.unbalanced_load(vector));
   const Eigen::Index n = state.system.dofs().equations;
+  const Eigen::Map<const Eigen::VectorXd> scale(state.system.scale().data(), n);
   Eigen::MatrixXd b(n, static_cast<Eigen::Index>(loads.size()));
-  for (const LoadSet& set : loads) {
-    vectors.push_back(state.system.load_vector(set));
-    require_stable(state.system.unbalanced_load(vectors.back()));
-    const auto j = static_cast<Eigen::Index>(vectors.size()) - 1;
-    for (Eigen::Index i = 0; i < n; ++i) {
-      b(i, j) = vectors.back().force(i) * state.system.scale()[static_cast<std::size_t>(i)];
-    }
-  }
+  for (std::size_t j = 0; j < vectors.size(); ++j)
+    b.col(static_cast<Eigen::Index>(j)) = vectors[j].force.head(n).cwiseProduct(scale);
   RefinedSolution refined;
   if (n > 0) {
     refined = solve_refined(state.system.matrix(), state.linear_solve(), b);
@@ -141,11 +115,10 @@ std::vector<StaticSolution> StaticAnalysis::solve(std::span<const LoadSet> loads
     refined.x = b;
     refined.quality.resize(loads.size());
   }
-  std::vector<StaticSolution> solutions;
-  solutions.reserve(loads.size());
+  refined.x.array().colwise() *= scale.array();
+  std::vector<StaticSolution> solutions = state.system.recover(vectors, refined.x);
   for (std::size_t j = 0; j < loads.size(); ++j) {
-    solutions.push_back(state.recover(vectors[j], refined.x.col(static_cast<Eigen::Index>(j))));
-    SolveQuality& quality = solutions.back().quality;
+    SolveQuality& quality = solutions[j].quality;
     quality = refined.quality[j];
     quality.condition = std::max(state.stability.condition, 1.0);
     quality.error_bound = forward_error_bound(quality.condition, quality.backward_error);

@@ -27,7 +27,7 @@ struct Options {
   std::vector<std::string> combinations;
   std::string code;
   double drift_limit = 1 / usual_drift_limit;
-  int stations = 0, threads = 1;
+  int stations = 0, threads = 0;
   std::string p_delta;
   int buckling = 0, modes = 0;
   std::string mass, torsional_mass;
@@ -146,7 +146,8 @@ int run(const Options& options) {
   AnalysisRequest request;
   request.combinations = chosen(building, options.combinations);
   request.stations = options.stations;
-  request.solver.threads = options.threads;
+  request.workers = options.threads;
+  request.solver.threads = std::max(options.threads, 1);
   request.second_order = second_order(options.p_delta, building);
   request.buckling = options.buckling;
   request.losses = losses(options, building);
@@ -175,12 +176,19 @@ int run(const Options& options) {
   if (request.losses.any()) clock.seconds["losses"] = result.loss_seconds;
   if (!options.output.empty()) {
     std::vector<std::pair<std::string, std::string>> files;
-    files.emplace_back("results.json", results_json(building, request, result, clock.seconds));
-    if (options.html) files.emplace_back("report.html", html_report(building, result, files[0].second));
+    std::vector<StreamedFile> streamed;
+    if (options.html) {
+      files.emplace_back("results.json", results_json(building, request, result, clock.seconds));
+      files.emplace_back("report.html", html_report(building, result, files[0].second));
+    } else {
+      streamed.push_back({"results.json", [&, seconds = clock.seconds](const auto& sink) {
+                            write_results_json(building, request, result, seconds, sink);
+                          }});
+    }
     const auto append = [&](NamedTexts more) { std::move(more.begin(), more.end(), std::back_inserter(files)); };
     if (options.csv) append(results_csv(building, result));
     if (options.vtu) append(results_vtu(building, result));
-    write_files(options.output, files);
+    write_files(options.output, files, streamed);
     clock.stop("write");
   }
   std::fputs(summary_text(building, result, clock.seconds).c_str(), stdout);
@@ -197,7 +205,10 @@ std::function<int()> declare(CLI::App& app) {
       ->take_all();
   app.add_option("--stations", options->stations, "Stations along each member in results.json")
       ->check(CLI::Range(1, 10000));
-  app.add_option("--threads", options->threads, "Threads of the factorisation")->check(CLI::Range(1, 1024));
+  app.add_option("--threads", options->threads,
+                 "Threads (else one for the factorisation, and one for each processor where combinations are recovered "
+                 "and written)")
+      ->check(CLI::Range(1, 1024));
   app.add_flag("--p-delta{exact}", options->p_delta,
                "Second order: exact (stability functions) or, with =cubic, the cubic geometric stiffness")
       ->check(CLI::IsMember({"exact", "cubic"}));

@@ -17,21 +17,26 @@ std::filesystem::path temporary(const std::filesystem::path& path) { return path
 
 }  // namespace
 
-void write_files(const std::filesystem::path& folder, const std::vector<std::pair<std::string, std::string>>& files) {
+void write_files(const std::filesystem::path& folder, const std::vector<std::pair<std::string, std::string>>& files,
+                 const std::vector<StreamedFile>& streamed) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw std::runtime_error("cannot make the folder " + folder.string() + ": " + error.message());
-  for (const auto& [name, text] : files) {
+  std::vector<std::string> names;
+  const auto write = [&](const std::string& name, const auto& hand_over) {
+    names.push_back(name);
     const auto path = temporary(folder / name);
     std::ofstream out(path, std::ios::binary);
-    out.write(text.data(), static_cast<std::streamsize>(text.size()));
+    hand_over([&](std::string_view text) { out.write(text.data(), static_cast<std::streamsize>(text.size())); });
     out.close();
     if (!out) {
-      for (const auto& [other, unused] : files) std::filesystem::remove(temporary(folder / other), error);
+      for (const std::string& other : names) std::filesystem::remove(temporary(folder / other), error);
       fail(path);
     }
-  }
-  for (const auto& [name, text] : files) std::filesystem::rename(temporary(folder / name), folder / name);
+  };
+  for (const auto& [name, text] : files) write(name, [&](const auto& sink) { sink(text); });
+  for (const StreamedFile& file : streamed) write(file.name, file.write);
+  for (const std::string& name : names) std::filesystem::rename(temporary(folder / name), folder / name);
 }
 
 }  // namespace topple::app

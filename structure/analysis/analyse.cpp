@@ -17,6 +17,7 @@
 #include "analysis/storeys.h"
 #include "panel_bearings.h"
 #include "panel_demand.h"
+#include "side_by_side.h"
 #include "topple/solver/beam_diagram.h"
 #include "topple/structure/analysis.h"
 #include "topple/structure/error.h"
@@ -52,7 +53,7 @@ class Analysis {
     AnalysisResult result;
     try {
       const std::vector<solver::StaticSolution> solutions = solve_linear(result.statistics);
-      for (std::size_t k = 0; k < solutions.size(); ++k) result.combinations.push_back(analysed(k, solutions[k]));
+      recover(solutions, result);
       if (request_.modes > 0) find_modes(result);
     } catch (const solver::Instability& unstable) {
       const std::string message = building_.file + ": " + describe_instability(building_, frame_, unstable);
@@ -74,6 +75,19 @@ class Analysis {
   }
 
  private:
+  /// Combinations that are linear to the end stand alone; others share an ordering, and what one leaves behind.
+  void recover(const std::vector<solver::StaticSolution>& solutions, AnalysisResult& result) {
+    result.combinations.resize(solutions.size());
+    const bool linear = request_.second_order == solver::SecondOrder::none && request_.buckling == 0 &&
+                        !OneWayMembers(frame_.model).any();
+    const auto one = [&](std::size_t k) { result.combinations[k] = analysed(k, solutions[k]); };
+    if (linear) {
+      side_by_side(solutions.size(), request_.workers, one);
+    } else {
+      for (std::size_t k = 0; k < solutions.size(); ++k) one(k);
+    }
+  }
+
   static bool has_meshes(const Frame& frame) {
     return std::any_of(frame.meshes.begin(), frame.meshes.end(),
                        [](const PanelMesh& mesh) { return !mesh.elements.empty(); });

@@ -1,8 +1,10 @@
 // results.json: see docs/results-format.md.
 #include <algorithm>
+#include <memory>
 #include <set>
 
 #include "formats/json_writer.h"
+#include "side_by_side.h"
 #include "topple/solver/blas_kernel.h"
 #include "topple/structure/analysis.h"
 
@@ -14,13 +16,18 @@ namespace {
 class Writer {
  public:
   Writer(const Building& building, const AnalysisRequest& request, const AnalysisResult& result,
-         const std::map<std::string, double>& seconds)
-      : b_(building), request_(request), result_(result), seconds_(seconds) {
+         const std::map<std::string, double>& seconds, JsonWriter writer = {})
+      : b_(building), request_(request), result_(result), seconds_(seconds), w_(std::move(writer)) {
     const Units& u = building.units;
     force_ = {u.force, u.force, u.force, u.force * u.length, u.force * u.length, u.force * u.length};
     movement_ = {u.length, u.length, u.length, 1, 1, 1};
     diagram_ = {u.force,  u.force, u.force, u.force * u.length, u.force * u.length, u.force * u.length,
                 u.length, u.length};
+    auto keys = std::make_shared<Keys>();
+    for (const Node& node : building.nodes) keys->nodes.push_back(json_key(node.name));
+    for (const Member& member : building.members) keys->members.push_back(json_key(member.name));
+    for (std::size_t q = 0; q < 8; ++q) keys->diagrams[q] = json_key(diagram_names[q]) + R"({"min":[)";
+    keys_ = std::move(keys);
   }
 
   /// The header keys and what moves.
@@ -39,6 +46,36 @@ class Writer {
   }
 
   std::string write() {
+    write_all();
+    return w_.take() + "\n";
+  }
+
+  /// To the writer's sink.
+  void stream() {
+    write_all();
+    w_.finish();
+  }
+
+ private:
+  /// Names as keys, made once.
+  struct Keys {
+    std::vector<std::string> nodes, members;
+    std::array<std::string, 8> diagrams;  ///< up to the first number
+  };
+
+  /// For a part of what another one writes, into the storage of an earlier text.
+  Writer(const Writer& whole, std::string storage)
+      : b_(whole.b_),
+        request_(whole.request_),
+        result_(whole.result_),
+        seconds_(whole.seconds_),
+        force_(whole.force_),
+        movement_(whole.movement_),
+        diagram_(whole.diagram_),
+        keys_(whole.keys_),
+        w_(std::move(storage)) {}
+
+  void write_all() {
     w_.open('{');
     header();
     if (result_.design_code) design_header();
@@ -52,10 +89,8 @@ class Writer {
     w_.key("seconds").open('{');
     for (const auto& [stage, time] : seconds_) w_.key(stage).value(time);
     w_.close('}').close('}');
-    return w_.take() + "\n";
   }
 
- private:
   void header() {
     w_.key("topple").value(TOPPLE_VERSION).newline();
     w_.key("model").open('{');
@@ -101,11 +136,34 @@ class Writer {
     w_.close(']');
   }
 
+  /// Calls each(writer, i) for every item of a list: some hundred of them at a time by a writer of their own, as many
+  /// of those at once as there are threads.
+  template <class Each>
+  void items(std::size_t count, Each each) {
+    constexpr std::size_t together = 512;
+    const std::size_t chunks = (count + together - 1) / together, at_once = workers_for(chunks, request_.workers);
+    if (at_once == 1) {
+      for (std::size_t i = 0; i < count; ++i) each(*this, i);
+      return;
+    }
+    texts_.resize(at_once);
+    for (std::size_t from = 0; from < chunks; from += at_once) {
+      const std::size_t batch = std::min(at_once, chunks - from);
+      side_by_side(batch, request_.workers, [&](std::size_t k) {
+        Writer own(*this, std::move(texts_[k]));
+        const std::size_t first = (from + k) * together;
+        for (std::size_t i = first; i < std::min(count, first + together); ++i) each(own, i);
+        texts_[k] = own.w_.take();
+      });
+      for (std::size_t k = 0; k < batch; ++k) w_.item(texts_[k]);
+    }
+  }
+
   void combination(const CombinationResult& c) {
     w_.newline().key(b_[c.combination].name).open('{');
     w_.key("displacements").open('{');
     for (std::size_t i = 0; i < b_.nodes.size(); ++i) {
-      w_.newline().key(b_.nodes[i].name);
+      w_.newline().raw_key(keys_->nodes[i]);
       list(c.displacements[i], movement_, 6);
     }
     w_.close('}').newline().key("reactions").open('{');
@@ -118,8 +176,9 @@ class Writer {
       list(c.edge_reactions[i], force_, 6);
     }
     w_.close('}').newline().key("members").open('{');
-    for (std::size_t i = 0; i < b_.members.size(); ++i)
-      member(b_.members[i], c.members[i], c.designs.empty() ? nullptr : &c.designs[i]);
+    items(b_.members.size(), [&](Writer& writer, std::size_t i) {
+      writer.member(i, c.members[i], c.designs.empty() ? nullptr : &c.designs[i]);
+    });
     w_.close('}').newline().key("panels").open('{');
     for (std::size_t i = 0; i < b_.panels.size(); ++i) panel(b_.panels[i], c.panels[i], c);
     w_.close('}').newline().key("joints").open('{');
@@ -136,10 +195,6 @@ class Writer {
     w_.key("error_bound").value(c.quality.error_bound).close('}');
   }
 
-  void extreme(const Extreme& e, double factor) {
-    w_.open('[').value(e.value / factor).value(e.at / b_.units.length).close(']');
-  }
-
   void design(const DesignResult& used) {
     if (used.governing.empty()) return;
     w_.key("utilisation").value(used.utilisation).key("governing").value(used.governing).key("clauses").open('{');
@@ -147,20 +202,18 @@ class Writer {
     w_.close('}');
   }
 
-  void member(const Member& member, const MemberResult& r, const DesignResult* used) {
-    w_.newline().key(member.name).open('{').key("end_forces");
+  void member(std::size_t m, const MemberResult& r, const DesignResult* used) {
+    w_.newline().raw_key(keys_->members[m]).raw_value(R"({"end_forces":)");
     list(r.end_forces, force_, 12);
     if (used != nullptr) design(*used);
-    w_.key("active").value(r.active).key("extremes").open('{');
+    w_.raw_key(r.active ? R"("active":true,"extremes":{)" : R"("active":false,"extremes":{)");
     for (std::size_t q = 0; q < 8; ++q) {
-      w_.key(diagram_names[q]).open('{').key("min");
-      extreme(r.min[q], diagram_[q]);
-      w_.key("max");
-      extreme(r.max[q], diagram_[q]);
-      w_.close('}');
+      w_.raw_key(keys_->diagrams[q]).value(r.min[q].value / diagram_[q]).value(r.min[q].at / b_.units.length);
+      w_.raw_value(R"(],"max":[)").value(r.max[q].value / diagram_[q]).value(r.max[q].at / b_.units.length);
+      w_.raw_value("]}");
     }
     w_.close('}');
-    if (request_.stations > 0) stations(member, r);
+    if (request_.stations > 0) stations(b_.members[m], r);
     w_.close('}');
   }
 
@@ -281,7 +334,7 @@ class Writer {
     }
     w_.key("survives").value(state.survives()).key("displacements").open('{');
     for (std::size_t n = 0; n < state.displacements.size(); ++n) {
-      w_.key(b_.nodes[n].name);
+      w_.raw_key(keys_->nodes[n]);
       list(state.displacements[n], movement_, 6);
     }
     w_.close('}').key("members").open('{');
@@ -331,35 +384,33 @@ class Writer {
   void shape(const std::vector<Vec6>& motion) {
     w_.key("shape").open('{');
     for (std::size_t n = 0; n < b_.nodes.size(); ++n) {
-      w_.key(b_.nodes[n].name);
+      w_.raw_key(keys_->nodes[n]);
       shape_of(motion[n]);
+    }
+    w_.close('}');
+  }
+
+  void member_envelope(std::size_t m) {
+    w_.newline().raw_key(keys_->members[m]).open('{');
+    for (std::size_t q = 0; q < 8; ++q) {
+      const auto& low = best([&](const CombinationResult& c) { return -c.members[m].min[q].value; });
+      const auto& high = best([&](const CombinationResult& c) { return c.members[m].max[q].value; });
+      w_.key(diagram_names[q]).open('{').key("min");
+      bound(low.members[m].min[q], diagram_[q], low);
+      w_.key("max");
+      bound(high.members[m].max[q], diagram_[q], high);
+      w_.close('}');
+    }
+    if (result_.design_code && !result_.combinations.front().designs[m].governing.empty()) {
+      const auto& worst = best([&](const CombinationResult& c) { return c.designs[m].utilisation; });
+      w_.key("utilisation").open('[').value(worst.designs[m].utilisation).value(b_[worst.combination].name).close(']');
     }
     w_.close('}');
   }
 
   void envelope() {
     w_.key("envelope").open('{').key("members").open('{');
-    for (std::size_t m = 0; m < b_.members.size(); ++m) {
-      w_.newline().key(b_.members[m].name).open('{');
-      for (std::size_t q = 0; q < 8; ++q) {
-        const auto& low = best([&](const CombinationResult& c) { return -c.members[m].min[q].value; });
-        const auto& high = best([&](const CombinationResult& c) { return c.members[m].max[q].value; });
-        w_.key(diagram_names[q]).open('{').key("min");
-        bound(low.members[m].min[q], diagram_[q], low);
-        w_.key("max");
-        bound(high.members[m].max[q], diagram_[q], high);
-        w_.close('}');
-      }
-      if (result_.design_code && !result_.combinations.front().designs[m].governing.empty()) {
-        const auto& worst = best([&](const CombinationResult& c) { return c.designs[m].utilisation; });
-        w_.key("utilisation")
-            .open('[')
-            .value(worst.designs[m].utilisation)
-            .value(b_[worst.combination].name)
-            .close(']');
-      }
-      w_.close('}');
-    }
+    items(b_.members.size(), [](Writer& writer, std::size_t m) { writer.member_envelope(m); });
     w_.close('}').newline().key("joints").open('{');
     for (std::size_t j = 0; j < b_.joints.size(); ++j) {
       if (!b_.joints[j].capacity.breakable) continue;
@@ -373,7 +424,7 @@ class Writer {
     }
     w_.close('}').newline().key("displacements").open('{');
     for (std::size_t n = 0; n < b_.nodes.size(); ++n) {
-      w_.newline().key(b_.nodes[n].name).open('{');
+      w_.newline().raw_key(keys_->nodes[n]).open('{');
       for (int i = 0; i < 6; ++i) {
         const auto& low = best([&](const CombinationResult& c) { return -c.displacements[n][i]; });
         const auto& high = best([&](const CombinationResult& c) { return c.displacements[n][i]; });
@@ -393,7 +444,9 @@ class Writer {
   const std::map<std::string, double>& seconds_;
   std::array<double, 6> force_, movement_;
   std::array<double, 8> diagram_;
+  std::shared_ptr<const Keys> keys_;
   JsonWriter w_;
+  std::vector<std::string> texts_;  ///< of items(), their storage kept
 };
 
 }  // namespace
@@ -401,6 +454,12 @@ class Writer {
 std::string results_json(const Building& building, const AnalysisRequest& request, const AnalysisResult& result,
                          const std::map<std::string, double>& seconds) {
   return Writer(building, request, result, seconds).write();
+}
+
+void write_results_json(const Building& building, const AnalysisRequest& request, const AnalysisResult& result,
+                        const std::map<std::string, double>& seconds,
+                        const std::function<void(std::string_view)>& sink) {
+  Writer(building, request, result, seconds, JsonWriter(sink)).stream();
 }
 
 std::string diagnosis_json(const Building& building, const AnalysisRequest& request, const Diagnosis& diagnosis) {

@@ -75,7 +75,7 @@ class ModelMaker {
     result += '"';
     return result;
   }
-  static std::string digits(double number) { return JsonWriter().value(number).take(); }
+  static std::string digits(double number) { return json_number(number); }
 
   /// One line for each row of a table, as the values of one object with the row's first cell as key.
   template <class Write>

@@ -1,8 +1,10 @@
 #pragma once
 // Static analysis of a building: what `topple analyse` does, as a library call.
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -29,6 +31,8 @@ struct AnalysisRequest {
   solver::MassDistribution mass = solver::MassDistribution::consistent;
   solver::TorsionalMass torsional_mass = solver::TorsionalMass::polar;
   bool rotary_inertia = false;
+  /// Threads that recover and write combinations side by side; 0: one for each processor. Changes no number.
+  int workers = 0;
 };
 
 /// [value, distance from the first end]
@@ -114,6 +118,10 @@ class UnstableAnalysis : public UnstableModel {
 /// multiple of the stations that `request` asks for.
 [[nodiscard]] std::string results_json(const Building& building, const AnalysisRequest& request,
                                        const AnalysisResult& result, const std::map<std::string, double>& seconds);
+/// The same, handed to `sink` in pieces as it is made.
+void write_results_json(const Building& building, const AnalysisRequest& request, const AnalysisResult& result,
+                        const std::map<std::string, double>& seconds,
+                        const std::function<void(std::string_view)>& sink);
 /// results.json of a model that is not stable: the header and the one key `diagnosis`.
 [[nodiscard]] std::string diagnosis_json(const Building& building, const AnalysisRequest& request,
                                          const Diagnosis& diagnosis);
