@@ -1,8 +1,11 @@
 #include "topple/solver/buckling.h"
 
 #include <cmath>
+#include <map>
 #include <memory>
 
+#include "buckling_start.h"
+#include "factor.h"
 #include "frame_system.h"
 #include "ldl_factor.h"
 #include "mass_matrix.h"
@@ -50,6 +53,69 @@ class Buckling {
 
   /// How many critical factors lie below this one. Leaves the factorised tangent behind when it is to be kept.
   int below(double factor, bool keep = false) {
+    if (const auto known = counted_.find(factor); known != counted_.end() && !keep) return known->second;
+    return counted_[factor] = count_below(factor, keep);
+  }
+
+  /// What the counts made so far leave for the k-th factor: `high` stays when none has been beyond it.
+  void bracket(int k, double& low, double& high) const {
+    for (const auto& [factor, count] : counted_) {
+      if (count < k) {
+        low = std::max(low, factor);
+      } else {
+        high = factor;
+        break;
+      }
+    }
+  }
+
+  /// Estimates to begin with; none where members are not what is compressed.
+  [[nodiscard]] std::vector<BucklingStart> starts(int count, const AnalysisOptions& options) {
+    const double reference = reference_factor();
+    if (!ldl_ || !(reference > 0)) return {};
+    set_factor(0);
+    system_.assemble();
+    const SparseSymmetric K = system_.matrix();
+    const std::vector<double> scale(system_.scale().begin(), system_.scale().end());
+    constexpr double small = 1e-4;  // of the reference: what is lost is then linear to some digits
+    set_factor(small * reference);
+    system_.assemble();
+    SparseSymmetric G = system_.matrix();
+    for (std::size_t column = 0; column < scale.size(); ++column)
+      for (auto k = static_cast<std::size_t>(G.start[column]); k < static_cast<std::size_t>(G.start[column + 1]); ++k) {
+        const auto row = static_cast<std::size_t>(G.row[k]);
+        const double same = scale[row] / system_.scale()[row] * (scale[column] / system_.scale()[column]);
+        G.value[k] = (K.value[k] - G.value[k] * same) / (small * reference);
+      }
+    Factor factor(K, system_.elimination_order(), options.factorisation);
+    if (!factor.factorise(K).positive_definite) return {};
+    const auto times = [&](const Eigen::Ref<const Eigen::MatrixXd>& x) {
+      Eigen::MatrixXd y = Eigen::MatrixXd::Zero(x.rows(), x.cols());
+      multiply_symmetric(G, x, y);
+      return y;
+    };
+    return estimate_buckling({K.size, [&](Eigen::Ref<Eigen::MatrixXd> x) { factor.solve(x); }, times}, count);
+  }
+
+  /// From an estimate to the factor nearby: inverse iteration and Newton's method in turn, until it moves no more than
+  /// its square shows. Returns what is left of the doubt; the factor is proved by counts alone.
+  double sharpen(const BucklingStart& start, double& factor) {
+    constexpr int most = 6;
+    constexpr double close = 1e-7, lost = 0.5;
+    factor = start.factor;
+    displacement_ = start.vector.normalized();
+    double moved = factor;
+    for (int turn = 0; turn < most && std::abs(moved) > close * factor; ++turn) {
+      below(factor, true);
+      const double guess = newton(factor);
+      moved = guess - factor;
+      if (!(guess > 0) || !(std::abs(moved) < lost * factor)) return factor;
+      factor = guess;
+    }
+    return std::max(10 * moved * moved / factor, enclosed / 4 * factor);
+  }
+
+  int count_below(double factor, bool keep) {
     set_factor(factor);
     int count = 0;
     for (std::size_t i = 0; i < first_axial_.size(); ++i) {
@@ -145,8 +211,21 @@ class Buckling {
       }
   }
 
+  /// The least of the factors at which a member would buckle by itself between pinned ends.
+  [[nodiscard]] double reference_factor() const {
+    constexpr double pi = 3.14159265358979323846;
+    double most = 0;
+    for (std::size_t i = 0; i < first_axial_.size(); ++i) {
+      const Beam& beam = system_.model.beams[i];
+      const double least = std::min(beam.Iy, beam.Iz) * beam.youngs_modulus * pi * pi / (beam.length * beam.length);
+      most = std::max(most, -first_axial_[i] / least);
+    }
+    return most > 0 ? 1 / most : 0;
+  }
+
   FrameSystem system_;
   AxialState axial_;
+  std::map<double, int> counted_;
   std::vector<double> first_axial_;
   std::vector<std::vector<BeamLoad>> loads_;
   std::unique_ptr<LdlFactor> ldl_;
@@ -171,6 +250,17 @@ void enclose(Buckling& buckling, int k, double& low, double& high) {
   }
 }
 
+/// Counts on both sides of where an estimate leads to: most often that encloses the k-th factor at once.
+void count_around(Buckling& buckling, int k, const BucklingStart& start) {
+  double low = 0, high = 0;
+  buckling.bracket(k, low, high);
+  if (high > 0 && high - low <= enclosed * high) return;
+  double factor = 0;
+  const double doubt = buckling.sharpen(start, factor);
+  for (const double side : {factor - doubt, factor + doubt})
+    if (side > 0) buckling.below(side);
+}
+
 }  // namespace
 
 std::vector<BucklingMode> buckling_modes(const FrameModel& model, const LoadSet& loads, int count,
@@ -180,13 +270,21 @@ std::vector<BucklingMode> buckling_modes(const FrameModel& model, const LoadSet&
   if (!buckling.has_compression()) return modes;
   double low = 0;
   std::vector<Eigen::VectorXd> known;
+  const std::vector<BucklingStart> starts = buckling.starts(count, options);
   for (int k = 1; k <= count; ++k) {
-    double high = std::max(2 * low, 1.0);
-    while (buckling.below(high) < k) {
-      low = high;
-      high *= 2;
-      if (high > largest_factor) return modes;
+    if (static_cast<std::size_t>(k) <= starts.size())
+      count_around(buckling, k, starts[static_cast<std::size_t>(k) - 1]);
+    double high = 0;
+    buckling.bracket(k, low, high);
+    if (high == 0) {
+      high = std::max(2 * low, 1.0);
+      while (buckling.below(high) < k) {
+        low = high;
+        high *= 2;
+        if (high > largest_factor) return modes;
+      }
     }
+    if (high > largest_factor) return modes;
     enclose(buckling, k, low, high);
     const bool repeated = !modes.empty() && high - modes.back().factor < same_factor * high;
     if (!repeated) known.clear();

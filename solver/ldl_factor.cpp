@@ -6,6 +6,14 @@
 #include <limits>
 #include <numeric>
 
+extern "C" {
+void openblas_set_num_threads(int);
+void dgemm_(const char*, const char*, const int*, const int*, const int*, const double*, const double*, const int*,
+            const double*, const int*, const double*, double*, const int*);
+void dtrsm_(const char*, const char*, const char*, const char*, const int*, const int*, const double*, const double*,
+            const int*, double*, const int*);
+}
+
 namespace topple::solver {
 namespace {
 
@@ -108,26 +116,55 @@ std::vector<std::int32_t> column_counts(const Rows& rows, const std::vector<std:
   return count;
 }
 
+/// L D L' of the square on the diagonal, in place: D on the diagonal, L D below. Returns the negative pivots.
+int eliminate_square(Eigen::Ref<Eigen::MatrixXd> square) {
+  int negative = 0;
+  const Eigen::Index w = square.rows();
+  for (Eigen::Index j = 0; j < w; ++j) {
+    double d = square(j, j);
+    // A pivot that is exactly zero stands for a shift that hits an eigenvalue of a part: it counts as positive.
+    if (d == 0) d = std::numeric_limits<double>::epsilon();
+    if (d < 0) ++negative;
+    for (Eigen::Index c = j + 1; c < w; ++c) square.col(c).tail(w - c) -= square(c, j) / d * square.col(j).tail(w - c);
+    square(j, j) = d;
+  }
+  return negative;
+}
+
+/// A -= B C' below the diagonal of the square A, by strips, so that little above it is touched.
+void subtract_lower_product(Eigen::Ref<Eigen::MatrixXd> A, const Eigen::MatrixXd& B,
+                            const Eigen::Ref<const Eigen::MatrixXd>& C) {
+  constexpr int strip = 96;
+  const int n = static_cast<int>(A.rows()), k = static_cast<int>(B.cols());
+  const int lda = static_cast<int>(A.outerStride()), ldb = static_cast<int>(B.outerStride()),
+            ldc = static_cast<int>(C.outerStride());
+  const double minus = -1, plus = 1;
+  for (int from = 0; from < n; from += strip) {
+    const int rows = n - from, columns = std::min(strip, rows);
+    dgemm_("N", "T", &rows, &columns, &k, &minus, B.data() + from, &ldb, C.data() + from, &ldc, &plus,
+           A.data() + from + static_cast<std::ptrdiff_t>(from) * lda, &lda);
+  }
+}
+
 /// Eliminates the leading columns of a dense front; returns the negative pivots and leaves the rest updated.
 int eliminate(Eigen::MatrixXd& front, Eigen::Index pivots) {
   constexpr Eigen::Index width = 48;
   int negative = 0;
   const Eigen::Index m = front.rows();
   for (Eigen::Index from = 0; from < pivots; from += width) {
-    const Eigen::Index w = std::min(width, pivots - from), behind = from + w;
-    for (Eigen::Index j = from; j < behind; ++j) {
-      double d = front(j, j);
-      // A pivot that is exactly zero stands for a shift that hits an eigenvalue of a part: it counts as positive.
-      if (d == 0) d = std::numeric_limits<double>::epsilon();
-      if (d < 0) ++negative;
-      for (Eigen::Index c = j + 1; c < behind; ++c)
-        front.col(c).tail(m - c) -= front(c, j) / d * front.col(j).tail(m - c);
-      front(j, j) = d;
-    }
-    if (behind == m) break;
-    const auto L = front.block(behind, from, m - behind, w);
-    const Eigen::MatrixXd scaled = L * front.diagonal().segment(from, w).cwiseInverse().asDiagonal();
-    front.bottomRightCorner(m - behind, m - behind).triangularView<Eigen::Lower>() -= scaled * L.transpose();
+    const Eigen::Index w = std::min(width, pivots - from), behind = from + w, below = m - behind;
+    negative += eliminate_square(front.block(from, from, w, w));
+    if (below == 0) break;
+    const Eigen::VectorXd inverse = front.diagonal().segment(from, w).cwiseInverse();
+    const Eigen::MatrixXd unit = front.block(from, from, w, w) * inverse.asDiagonal();
+    // What is below the square is L D times its unit triangle.
+    auto LD = front.block(behind, from, below, w);
+    const int rows = static_cast<int>(below), columns = static_cast<int>(w),
+              lda = static_cast<int>(front.outerStride());
+    const double one = 1;
+    dtrsm_("R", "L", "T", "U", &rows, &columns, &one, unit.data(), &columns, LD.data(), &lda);
+    const Eigen::MatrixXd L = LD * inverse.asDiagonal();
+    subtract_lower_product(front.bottomRightCorner(below, below), L, LD);
   }
   return negative;
 }
@@ -142,6 +179,7 @@ struct LdlFactor::Update {
 
 LdlFactor::LdlFactor(const SparseSymmetric& matrix, std::span<const int> order)
     : place_(order.size()), block_of_(order.size()), local_(order.size(), -1) {
+  openblas_set_num_threads(1);  // with more, the bits would change
   const std::size_t n = order.size();
   for (std::size_t k = 0; k < n; ++k) place_[static_cast<std::size_t>(order[k])] = static_cast<std::int32_t>(k);
   // Subtrees together: what a front hands on then waits as briefly as it can.
