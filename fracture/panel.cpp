@@ -65,7 +65,9 @@ class BreakablePanel::Impl {
         hits(other.hits) {}
 
   Fracture hit(const Vec2& at, std::optional<double> radius);
+  Fracture hold(const std::vector<bool>& held);
   Fracture leave();
+  [[nodiscard]] std::vector<int> intact() const;
   [[nodiscard]] double area() const;
   template <class Visit>
   void each_intact(const Visit& visit) const {
@@ -90,6 +92,8 @@ class BreakablePanel::Impl {
   std::vector<int> relabel(const Loop& loop, int from, int to);
   void clip_to_box(Polygon& polygon) const;
   [[nodiscard]] std::vector<std::vector<int>> islands(const std::vector<int>& removed) const;
+  [[nodiscard]] std::vector<std::vector<int>> loose_parts(const std::vector<int>& starts) const;
+  void empty(const std::vector<int>& triangles);
   [[nodiscard]] bool is_held(int triangle) const;
   void take_out(std::vector<int> triangles, bool hit, Fracture& fracture);
   void tidy();
@@ -189,6 +193,17 @@ bool BreakablePanel::Impl::is_held(int triangle) const {
 
 /// The parts of what remains beside removed triangles that no held edge holds.
 std::vector<std::vector<int>> BreakablePanel::Impl::islands(const std::vector<int>& removed) const {
+  std::vector<int> beside;
+  for (const int triangle : removed)
+    for (int edge = 3 * triangle; edge < 3 * triangle + 3; ++edge) {
+      const int twin = triangulation.twin(edge);
+      if (twin != Triangulation::none && triangulation.label(twin / 3) == kIntact) beside.push_back(twin / 3);
+    }
+  return loose_parts(beside);
+}
+
+/// The parts around these intact triangles that no held edge holds.
+std::vector<std::vector<int>> BreakablePanel::Impl::loose_parts(const std::vector<int>& starts) const {
   std::vector<int> part_of(static_cast<std::size_t>(triangulation.triangle_slots()), -1);
   std::vector<char> held;
   std::vector<std::vector<int>> parts;
@@ -211,12 +226,8 @@ std::vector<std::vector<int>> BreakablePanel::Impl::islands(const std::vector<in
       if (held.back()) return;  // the rest of it need not be seen
     }
   };
-  for (const int triangle : removed)
-    for (int edge = 3 * triangle; edge < 3 * triangle + 3; ++edge) {
-      const int twin = triangulation.twin(edge);
-      if (twin == Triangulation::none || triangulation.label(twin / 3) != kIntact) continue;
-      if (part_of[static_cast<std::size_t>(twin / 3)] < 0) search(twin / 3);
-    }
+  for (const int triangle : starts)
+    if (part_of[static_cast<std::size_t>(triangle)] < 0) search(triangle);
   std::vector<std::vector<int>> loose;
   for (std::size_t i = 0; i < parts.size(); ++i)
     if (!held[i]) loose.push_back(std::move(parts[i]));
@@ -269,8 +280,30 @@ Fracture BreakablePanel::Impl::hit(const Vec2& at, std::optional<double> radius)
       take_out(island, false, fracture);
       removed.insert(removed.end(), island.begin(), island.end());
     }
-  for (const int triangle : removed) triangulation.set_label(triangle, kEmpty);
-  for (const int triangle : removed) triangulation.settle_sides(triangle);
+  empty(removed);
+  fracture.triangles_changed = triangulation.touched().size();
+  tidy();
+  return fracture;
+}
+
+void BreakablePanel::Impl::empty(const std::vector<int>& triangles) {
+  for (const int triangle : triangles) triangulation.set_label(triangle, kEmpty);
+  for (const int triangle : triangles) triangulation.settle_sides(triangle);
+}
+
+std::vector<int> BreakablePanel::Impl::intact() const {
+  std::vector<int> all;
+  each_intact([&](int triangle) { all.push_back(triangle); });
+  return all;
+}
+
+Fracture BreakablePanel::Impl::hold(const std::vector<bool>& held) {
+  shape.held = held;
+  Fracture fracture;
+  for (const std::vector<int>& island : loose_parts(intact())) {
+    take_out(island, false, fracture);
+    empty(island);
+  }
   fracture.triangles_changed = triangulation.touched().size();
   tidy();
   return fracture;
@@ -278,11 +311,9 @@ Fracture BreakablePanel::Impl::hit(const Vec2& at, std::optional<double> radius)
 
 Fracture BreakablePanel::Impl::leave() {
   Fracture fracture;
-  std::vector<int> all;
-  each_intact([&](int triangle) { all.push_back(triangle); });
+  const std::vector<int> all = intact();
   take_out(all, false, fracture);
-  for (const int triangle : all) triangulation.set_label(triangle, kEmpty);
-  for (const int triangle : all) triangulation.settle_sides(triangle);
+  empty(all);
   fracture.triangles_changed = triangulation.touched().size();
   tidy();
   return fracture;
@@ -306,6 +337,12 @@ Fracture BreakablePanel::hit(const Vec2& at, std::optional<double> radius) {
   if (radius && !(*radius >= 0 && std::isfinite(*radius)))
     throw std::invalid_argument("the radius of a hit must be finite and not below 0");
   return impl_->hit(at, radius);
+}
+
+Fracture BreakablePanel::hold(const std::vector<bool>& held) {
+  if (held.size() != impl_->shape.outline.size())
+    throw std::invalid_argument("held must have an entry for each edge of the outline");
+  return impl_->hold(held);
 }
 
 Fracture BreakablePanel::leave() { return impl_->leave(); }
@@ -342,6 +379,12 @@ std::vector<std::array<Vec2, 3>> BreakablePanel::triangles() const {
     result.push_back({cut.point(cut.origin(edge)), cut.point(cut.origin(edge + 1)), cut.point(cut.origin(edge + 2))});
   });
   return result;
+}
+
+std::vector<Chunk> BreakablePanel::pieces() const {
+  std::vector<Chunk> pieces = convex_pieces(impl_->triangulation, impl_->intact());
+  for (Chunk& piece : pieces) piece.hit = false;
+  return pieces;
 }
 
 Mesh mesh_of(const Chunk& chunk, double thickness) { return prism_mesh(chunk.outline, chunk.face, thickness); }

@@ -179,15 +179,30 @@ void EnergyAccount::hand_on(PanelId panel) {
   begin(from_.building[panel].nodes[0]).handed.emplace(panel, from_.loads.handed(panel));
 }
 
+EnergyAccount::Shares EnergyAccount::shares(const HandOver& handed) {
+  Shares sum;
+  for (const solver::BeamLoad& load : handed.beams) add_share(MemberId(static_cast<std::size_t>(load.beam)), load, sum);
+  for (const solver::NodeLoad& load : handed.nodes)
+    add_share(NodeId(static_cast<std::size_t>(load.node)), load.load, sum);
+  return sum;
+}
+
+/// The part that left keeps the work that its load has done, as a panel that leaves does (settle_panels).
+void EnergyAccount::lightened(PanelId panel, const HandOver& before, const HandOver& after) {
+  Change& change = begin(from_.building[panel].nodes[0]);
+  const Shares with = shares(before), without = shares(after);
+  change.left += with.standing;
+  change.left += LoadWork{-without.standing.gravity, -without.standing.other};
+  change.freed += with.standing.sum() - without.standing.sum();
+  // What goes another way later, in the same change, is only what is left.
+  if (const auto at_rest = change.handed.find(panel); at_rest != change.handed.end()) at_rest->second = after;
+}
+
 /// A panel that leaves keeps the work that its load has done; one that stays moves to where its new bearings are, and
 /// what its lost bearings bore is among the load changes of what stands.
 void EnergyAccount::settle_panels(Change& change) {
   for (const auto& [panel, handed] : change.handed) {
-    Shares own;
-    for (const solver::BeamLoad& load : handed.beams)
-      add_share(MemberId(static_cast<std::size_t>(load.beam)), load, own);
-    for (const solver::NodeLoad& load : handed.nodes)
-      add_share(NodeId(static_cast<std::size_t>(load.node)), load.load, own);
+    const Shares own = shares(handed);
     if (from_.bearings.stands(panel)) {
       change.freed -= own.left.sum();
       continue;

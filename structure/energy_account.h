@@ -48,6 +48,10 @@ class EnergyAccount {
   void leave(NodeId node);
   /// The panel's load goes another way, or leaves with it; after bearings and segmentation know, before the loads do.
   void hand_on(PanelId panel);
+  /// Around the loss of a part of a standing panel: before the loads know of it, and after; what it hands on by the
+  /// bearings that it has, with that part and without.
+  void lighten(PanelId panel) { begin(from_.building[panel].nodes[0]); }
+  void lightened(PanelId panel, const HandOver& before, const HandOver& after);
   void add_load(NodeId node, const Vec6& load);
   /// Around a change of gravity: before and after the loads know of it.
   void turn_gravity();
@@ -131,6 +135,7 @@ class EnergyAccount {
   void settle_contacts(int component, Change& change);
   [[nodiscard]] int component(const PlacedLoad& placed) const;
   Shares shares(const PlacedLoad& placed);
+  [[nodiscard]] Shares shares(const HandOver& handed);
   void add_share(MemberId member, const solver::BeamLoad& load, Shares& shares);
   void add_share(NodeId node, const Vec6& load, Shares& shares);
 

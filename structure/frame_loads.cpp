@@ -61,6 +61,13 @@ FrameLoads::FrameLoads(const Building& building, PartLoads loads, const PanelBea
     for (const Vec3& force : handed_[p].edge_force) down -= force.z();
     panel_mass_.push_back(down / g);
   }
+  whole_panel_mass_ = panel_mass_;
+}
+
+void FrameLoads::fracture(PanelId panel, const PanelRemains& remains) {
+  holes_[panel] = remains.holes;
+  panel_mass_[index_of(panel)] = remains.share * whole_panel_mass_[index_of(panel)];
+  hand_on_anew(panel);
 }
 
 void FrameLoads::hand_on_anew(PanelId panel) {
@@ -71,8 +78,11 @@ void FrameLoads::hand_on_anew(PanelId panel) {
   }
   mark(handed_[p]);
   if (bearings_.stands(panel)) {
+    static const std::vector<std::vector<Vec2>> none;
+    const auto broken = holes_.find(panel);
+    const auto& holes = broken == holes_.end() ? none : broken->second;
     handed_[p] = hand_over(building_, bearings_.edge_members(), panel, under_gravity(panel, loads_.panels[p]),
-                           bearings_.holds(panel), bearings_.member_stands());
+                           bearings_.holds(panel), bearings_.member_stands(), holes);
     for (const solver::BeamLoad& load : handed_[p].beams)
       insert(handing_members_[static_cast<std::size_t>(load.beam)], static_cast<int>(p));
     for (const solver::NodeLoad& load : handed_[p].nodes)

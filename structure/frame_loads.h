@@ -33,6 +33,8 @@ class FrameLoads {
   void add_load(NodeId node, const Vec6& load);
   /// The panel's bearings changed, or it left.
   void hand_on_anew(PanelId panel);
+  /// Only this remains of a panel that stands.
+  void fracture(PanelId panel, const PanelRemains& remains);
   /// Returns false when nothing changes.
   bool set_contact(std::int64_t key, PlacedLoad load);
   bool remove_contact(std::int64_t key);
@@ -79,6 +81,8 @@ class FrameLoads {
   std::vector<std::vector<int>> handing_members_, handing_nodes_;  ///< per member, node: panels that hand it something
   std::vector<Vec6> events_;
   std::map<std::int64_t, PlacedLoad> contacts_;
+  std::map<PanelId, std::vector<std::vector<Vec2>>> holes_;  ///< of broken panels
+  std::vector<double> whole_panel_mass_;
   std::vector<double> member_mass_, panel_mass_, node_mass_;
   std::vector<MemberId> changed_members_;
   std::vector<NodeId> changed_nodes_;

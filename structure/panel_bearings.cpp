@@ -69,6 +69,13 @@ PanelBearings::Changes PanelBearings::break_edge(PanelId panel, int edge) {
   return changes;
 }
 
+PanelBearings::Changes PanelBearings::fracture(PanelId panel, const std::array<double, 4>& edge_length) {
+  Changes changes;
+  state(panel).edge_length = edge_length;
+  lose_membrane(panel, changes);
+  return changes;
+}
+
 void PanelBearings::remove(PanelId panel) {
   State& own = state(panel);
   own.stands = own.membrane = false;
@@ -157,14 +164,15 @@ double PanelBearings::intact_length(PanelId panel, int edge) const {
   const Panel& own = building_[panel];
   const Vec3 along = building_[own.nodes[static_cast<std::size_t>((edge + 1) % 4)]].position -
                      building_[own.nodes[static_cast<std::size_t>(edge)]].position;
-  if (members.empty()) return along.norm();
+  const double left = std::min(along.norm(), state(panel).edge_length[static_cast<std::size_t>(edge)]);
+  if (members.empty()) return left;
   // Nodes, not member ends: a rigid offset is part of the edge.
   double length = 0;
   for (MemberId member : members)
     if (member_stands_[index_of(member)])
       length +=
           (building_[building_[member].nodes[1]].position - building_[building_[member].nodes[0]].position).norm();
-  return std::min(length, along.norm());
+  return std::min(length, left);
 }
 
 std::optional<MemberId> PanelBearings::bearing_member(PanelId panel) const {

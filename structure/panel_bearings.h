@@ -24,6 +24,8 @@ class PanelBearings {
   };
   /// One edge joint breaks. No effect on one that is broken already.
   Changes break_edge(PanelId panel, int edge);
+  /// A panel is broken in part: it lies on this length of each edge at most, and is no membrane any more.
+  Changes fracture(PanelId panel, const std::array<double, 4>& edge_length);
   /// A panel is taken away; its edge joints are gone.
   void remove(PanelId panel);
   /// Members and nodes that no longer stand, with the part (0 and up) that they left in, or -1: taken away.
@@ -57,6 +59,7 @@ class PanelBearings {
   struct State {
     bool served = false, stands = false, membrane = false;
     std::array<bool, 4> holds{};
+    std::array<double, 4> edge_length{unlimited, unlimited, unlimited, unlimited};
   };
   [[nodiscard]] const State& state(PanelId panel) const { return states_[static_cast<std::size_t>(panel.index)]; }
   State& state(PanelId panel) { return states_[static_cast<std::size_t>(panel.index)]; }

@@ -138,6 +138,20 @@ void StandingFrame::State::take(const PanelBearings::Changes& changes, std::vect
   }
 }
 
+void StandingFrame::State::fracture(PanelId panel, const PanelRemains& remains) {
+  account.lighten(panel);
+  take(bearings.fracture(panel, remains.edge_length), nullptr);
+  const HandOver before = loads.handed(panel);
+  loads.fracture(panel, remains);
+  account.lightened(panel, before, loads.handed(panel));
+  to_check[static_cast<std::size_t>(statics.component(building[panel].nodes[0]))] = 1;
+  std::vector<JointId> bare;
+  for (int edge = 0; edge < 4; ++edge)
+    if (holds(building.joint(panel, edge)) && remains.edge_length[static_cast<std::size_t>(edge)] <= 0)
+      bare.push_back(building.joint(panel, edge));
+  break_joints(bare, BreakCause::impact);
+}
+
 void StandingFrame::State::remove(MemberId member) {
   if (!stands(member)) return;
   for (int end = 0; end < 2; ++end) {

@@ -285,6 +285,14 @@ double StandingFrame::break_in_impact(std::span<const JointBreak> breaks, const 
   return state.stands(place) ? state.displacement_along(place, direction) - before : 0.0;
 }
 
+void StandingFrame::fracture(PanelId panel, const PanelRemains& remains) {
+  State& state = *state_;
+  if (!state.stands(panel)) return;
+  state.lay_contacts();
+  state.fracture(panel, remains);
+  state.pending = true;
+}
+
 const FrameCounters& StandingFrame::counters() const {
   FrameCounters& counters = state_->counters;
   const solver::ReanalysisCounters solved = state_->statics.counters();

@@ -60,6 +60,7 @@ struct StandingFrame::State {
   void damage(JointId joint, int told);
   void lose_member_joint(JointId joint, int told);
   void take(const PanelBearings::Changes& changes, std::vector<Detached>* parts);
+  void fracture(PanelId panel, const PanelRemains& remains);
   void remove(MemberId member);
   void remove(PanelId panel);
   template <class Gone>

@@ -14,12 +14,13 @@ namespace {
 
 constexpr double level = 1e-6;  // of the panel's size: heights that differ less are equal
 
-PanelOutline outline_of(const Building& building, const Panel& panel) {
+PanelOutline outline_of(const Building& building, const Panel& panel, const std::vector<std::vector<Vec2>>& holes) {
   PanelOutline outline;
   const Vec3& origin = building[panel.nodes[0]].position;
   for (std::size_t i = 0; i < 4; ++i)
     outline.corner[i] = panel.axes.topRows<2>() * (building[panel.nodes[i]].position - origin);
   outline.openings = panel.openings;
+  outline.openings.insert(outline.openings.end(), holes.begin(), holes.end());
   return outline;
 }
 
@@ -42,12 +43,32 @@ Vec2 shorter_span(const PanelOutline& outline) {
   return second.norm() < first.norm() ? second : first;
 }
 
+/// Both pairs of edges by the lever rule, sharing as they do in the whole panel.
+EdgeShares shares_with_holes(const PanelOutline& outline) {
+  PanelOutline whole = outline;
+  whole.openings.clear();
+  std::array<double, 2> area{};
+  const EdgeShares parts = two_way_shares(whole);
+  for (std::size_t edge = 0; edge < 4; ++edge)
+    for (const LineShare& part : parts[edge]) area[edge % 2] += (part.first + part.last) / 2 * (part.to - part.from);
+  EdgeShares shares;
+  for (std::size_t pair = 0; pair < 2; ++pair) {
+    const double share = area[pair] / (area[0] + area[1]);
+    const EdgeShares strips = strip_shares(outline, outline.middle(pair + 2) - outline.middle(pair));
+    for (std::size_t edge = 0; edge < 4; ++edge)
+      for (const LineShare& part : strips[edge])
+        shares[edge].push_back({part.from, part.to, share * part.first, share * part.last});
+  }
+  return shares;
+}
+
 /// Shares of what acts across the panel.
-EdgeShares shares_across(const PanelOutline& outline, Span span, const Bearing& bearing) {
+EdgeShares shares_across(const PanelOutline& outline, Span span, const Bearing& bearing, bool opened_by_design) {
   if (!bearing.all) return pair_shares(outline, bearing.pair);
   if (span == Span::x) return strip_shares(outline, Vec2::UnitX());
   if (span == Span::y) return strip_shares(outline, Vec2::UnitY());
-  return outline.openings.empty() ? two_way_shares(outline) : strip_shares(outline, shorter_span(outline));
+  if (outline.openings.empty()) return two_way_shares(outline);
+  return opened_by_design ? strip_shares(outline, shorter_span(outline)) : shares_with_holes(outline);
 }
 
 /// The bearing edge that lies lowest; none when they lie equally high as a pair or all together.
@@ -130,7 +151,8 @@ class Handing {
 }  // namespace
 
 HandOver hand_over(const Building& building, const EdgeMembers& edges, PanelId id, const PanelAction& action,
-                   const std::array<bool, 4>& edge_holds, const std::vector<bool>& member_stands) {
+                   const std::array<bool, 4>& edge_holds, const std::vector<bool>& member_stands,
+                   const std::vector<std::vector<Vec2>>& holes) {
   const Panel& panel = building[id];
   Handing handing(building, edges, id, member_stands);
   const std::optional<Bearing> bearing = bearing_of(edge_holds);
@@ -138,14 +160,14 @@ HandOver hand_over(const Building& building, const EdgeMembers& edges, PanelId i
   const Vec3 normal = panel.axes.row(2);
   const Vec3 whole = action.body_force - action.pressure * normal;
   if (whole.isZero(0)) return std::move(handing.result);
-  const PanelOutline outline = outline_of(building, panel);
+  const PanelOutline outline = outline_of(building, panel, holes);
   const Vec3 across = whole.dot(normal) * normal;
   Vec3 within = whole - across;
   constexpr double rounding = 1e-14;
   if (within.norm() <= rounding * whole.norm()) within.setZero();
   const auto lowest = lowest_edge(building, panel, *bearing, outline.size());
   const bool down = lowest && !within.isZero(0);
-  handing.hand(shares_across(outline, panel.span, *bearing), outline, down ? across : whole);
+  handing.hand(shares_across(outline, panel.span, *bearing, !panel.openings.empty()), outline, down ? across : whole);
   if (down) handing.hand_down(outline, *lowest, within);
   return std::move(handing.result);
 }

@@ -16,15 +16,27 @@ void Obstacles::approach(const Bounds& box, const StandingFrame& frame, collisio
     collision::ObstacleId& obstacle = obstacle_of_part_[static_cast<std::size_t>(part_number(building_, part))];
     if (obstacle.value >= 0) continue;
     if (part.member.valid() ? !frame.stands(part.member) : !frame.stands(part.panel)) continue;
-    collision::ObstacleDescription description;
-    const Bounds& bounds = shapes_.bounds(part);
-    description.pose.position = (bounds.low + bounds.high) / 2;
-    description.parts = {shapes_.shape(part, description.pose.position)};
-    description.friction = friction_;
-    description.restitution = restitution_;
-    obstacle = world.add_obstacle(description);
-    part_of_obstacle_.emplace(obstacle.value, part);
+    obstacle = make(part, world);
   }
+}
+
+collision::ObstacleId Obstacles::make(Part part, collision::World& world) {
+  collision::ObstacleDescription description;
+  const Bounds& bounds = shapes_.bounds(part);
+  description.pose.position = (bounds.low + bounds.high) / 2;
+  description.parts = shapes_.parts(part, description.pose.position);
+  description.friction = friction_;
+  description.restitution = restitution_;
+  const collision::ObstacleId obstacle = world.add_obstacle(description);
+  part_of_obstacle_.emplace(obstacle.value, part);
+  return obstacle;
+}
+
+void Obstacles::renew(Part part, collision::World& world) {
+  collision::ObstacleId& obstacle = obstacle_of_part_[static_cast<std::size_t>(part_number(building_, part))];
+  if (obstacle.value < 0) return;
+  world.remove_obstacle(obstacle);
+  obstacle = make(part, world);
 }
 
 void Obstacles::remove(Part part, collision::World& world) {

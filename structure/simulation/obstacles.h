@@ -16,6 +16,8 @@ class Obstacles {
 
   /// Makes shapes for the standing parts that reach into the box.
   void approach(const Bounds& box, const StandingFrame& frame, collision::World& world);
+  /// The part has another shape now. What was sensed against the old one still tells the part.
+  void renew(Part part, collision::World& world);
   /// The part stands no more.
   void remove(Part part, collision::World& world);
   [[nodiscard]] Part part_of(collision::ObstacleId obstacle) const;
@@ -23,6 +25,7 @@ class Obstacles {
   [[nodiscard]] collision::ObstacleId obstacle_of(Part part) const;
 
  private:
+  [[nodiscard]] collision::ObstacleId make(Part part, collision::World& world);
   const Building& building_;
   const PartShapes& shapes_;
   const PartGrid& grid_;

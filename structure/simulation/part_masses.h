@@ -16,6 +16,8 @@ class PartMasses {
   [[nodiscard]] const MassProperties& of(PanelId id) const { return panels_[static_cast<std::size_t>(id.index)]; }
   [[nodiscard]] const MassProperties& of(NodeId id) const { return nodes_[static_cast<std::size_t>(id.index)]; }
   [[nodiscard]] MassProperties of(const Detached& part) const;
+  /// What is left of a broken panel.
+  void set(PanelId id, const MassProperties& left) { panels_[static_cast<std::size_t>(id.index)] = left; }
 
  private:
   std::vector<MassProperties> members_, panels_, nodes_;

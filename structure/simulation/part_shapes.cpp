@@ -171,6 +171,32 @@ collision::ConvexPart PartShapes::shape(Part part, const Vec3& origin) const {
   return convex;
 }
 
+std::vector<collision::ConvexPart> PartShapes::parts(Part part, const Vec3& origin) const {
+  const auto broken = part.panel.valid() ? broken_.find(part.panel) : broken_.end();
+  if (broken == broken_.end()) return {shape(part, origin)};
+  std::vector<collision::ConvexPart> convex;
+  for (const std::vector<Vec3>& hull : broken->second) {
+    collision::ConvexPart& own = convex.emplace_back();
+    own.tag = static_cast<std::int64_t>(members_) + part.panel.index;
+    own.kind = collision::ConvexPart::Kind::hull;
+    for (const Vec3& corner : hull) own.points.push_back(corner - origin);
+  }
+  return convex;
+}
+
+void PartShapes::set_broken(PanelId panel, std::vector<std::vector<Vec3>> hulls) { broken_[panel] = std::move(hulls); }
+
+std::vector<Vec3> PartShapes::corners(PanelId panel) const {
+  const Shape& shape = of(Part(panel));
+  if (!shape.corners.empty()) return shape.corners;
+  constexpr std::array<std::array<double, 2>, 4> round{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
+  std::vector<Vec3> corners;
+  for (const auto& [x, y] : round)
+    for (const double z : {-1.0, 1.0})
+      corners.push_back(shape.centre + shape.axes.transpose() * shape.half.cwiseProduct(Vec3(x, y, z)));
+  return corners;
+}
+
 std::optional<double> PartShapes::ray(Part part, const Vec3& from, const Vec3& direction) const {
   const Shape& shape = of(part);
   Vec3 half = shape.half;

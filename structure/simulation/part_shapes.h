@@ -2,6 +2,7 @@
 // Convex shapes of members and panels for the collision world, in global axes of the undeformed building. A member is
 // the box around its section, a panel the plate between its edges. Both end where their neighbours begin, so that a
 // part that breaks off does not start inside what it was joined to.
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -31,6 +32,12 @@ class PartShapes {
 
   /// Relative to `origin`; the tag is the part's number.
   [[nodiscard]] collision::ConvexPart shape(Part part, const Vec3& origin) const;
+  /// The same of what is left of it: several convex parts where it is broken.
+  [[nodiscard]] std::vector<collision::ConvexPart> parts(Part part, const Vec3& origin) const;
+  /// From now on the panel has these shapes (corners of each).
+  void set_broken(PanelId panel, std::vector<std::vector<Vec3>> hulls);
+  /// The eight corners of a panel's whole shape: going round, on both sides in turn.
+  [[nodiscard]] std::vector<Vec3> corners(PanelId panel) const;
   [[nodiscard]] const Bounds& bounds(Part part) const;
   /// Distance along a ray (unit direction) to the part where it stands undeformed.
   [[nodiscard]] std::optional<double> ray(Part part, const Vec3& from, const Vec3& direction) const;
@@ -53,6 +60,7 @@ class PartShapes {
   std::size_t members_ = 0;
   std::vector<std::vector<MemberId>> members_at_node_;
   std::vector<Shape> shapes_;
+  std::map<PanelId, std::vector<std::vector<Vec3>>> broken_;
 };
 
 /// Width along local y and depth along local z: as given, or those of the rectangle with the same area and inertia.

@@ -26,7 +26,15 @@ void Simulation::State::part_is_gone(Part part) {
 }
 
 void Simulation::State::release() {
-  for (const Detached& part : frame->take_detached()) release(part);
+  for (Detached& part : frame->take_detached()) {
+    // Of a panel that is broken out altogether nothing is left to leave.
+    std::erase_if(part.panels, [&](PanelId panel) {
+      const BrokenPanel* left = broken_panel(panel);
+      return left && left->hulls().empty();
+    });
+    release(part);
+  }
+  drop_loose_pieces();
   keep_limit();
 }
 
@@ -42,7 +50,8 @@ Body Simulation::State::describe(const Detached& part) const {
     one.bounds.add(shapes.bounds(Part(member)));
   }
   for (const PanelId panel : part.panels) {
-    one.volume += panel_volume(building, building[panel]);
+    const BrokenPanel* left = broken_panel(panel);
+    one.volume += left ? left->volume() : panel_volume(building, building[panel]);
     one.bounds.add(shapes.bounds(Part(panel)));
   }
   if (part.members.empty() && part.panels.empty()) {
@@ -58,6 +67,7 @@ Body Simulation::State::describe(const Detached& part) const {
 }
 
 void Simulation::State::release(const Detached& part) {
+  if (part.members.empty() && part.panels.empty() && part.nodes.empty()) return;
   if (part.members.empty() && part.panels.empty() && masses.of(part).mass <= 0) return;  // a bare hub
   Body one = describe(part);
   Vec3 displacement = Vec3::Zero();
@@ -153,8 +163,12 @@ collision::BodyId Simulation::State::add_body(Body one, const collision::BodySta
     hull.points = one.hull;
     description.parts = {hull};
   }
-  for (const MemberId member : one.members) description.parts.push_back(shapes.shape(Part(member), one.rest.centre));
-  for (const PanelId panel : one.panels) description.parts.push_back(shapes.shape(Part(panel), one.rest.centre));
+  const auto add_shapes = [&](Part part) {
+    for (collision::ConvexPart& convex : shapes.parts(part, one.rest.centre))
+      description.parts.push_back(std::move(convex));
+  };
+  for (const MemberId member : one.members) add_shapes(Part(member));
+  for (const PanelId panel : one.panels) add_shapes(Part(panel));
   description.mass = one.rest.mass;
   description.inertia = one.rest.inertia;
   description.pose = state.pose;

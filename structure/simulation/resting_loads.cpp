@@ -127,6 +127,13 @@ std::vector<collision::BodyId> RestingLoads::drop(Part part, StandingFrame& fram
   return bodies;
 }
 
+std::vector<collision::BodyId> RestingLoads::on(Part part) const {
+  std::vector<collision::BodyId> bodies;
+  for (const auto& [key, resting] : resting_)
+    if (key.part == part) bodies.push_back({key.body});
+  return bodies;
+}
+
 void RestingLoads::forget(collision::BodyId body, StandingFrame& frame, bool keep) {
   for (auto entry = resting_.begin(); entry != resting_.end();) {
     if (entry->first.body != body.value) {

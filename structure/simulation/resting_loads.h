@@ -20,6 +20,8 @@ class RestingLoads {
   std::uint64_t lay(StandingFrame& frame, std::span<const double> strength_factors, const Weight& weight_of);
   /// The part stands no more: its loads are dropped. Returns the bodies that lay on it.
   std::vector<collision::BodyId> drop(Part part, StandingFrame& frame);
+  /// The bodies that lie on a part.
+  [[nodiscard]] std::vector<collision::BodyId> on(Part part) const;
   /// The body is gone. `keep`: its weight stays where it lay.
   void forget(collision::BodyId body, StandingFrame& frame, bool keep);
   [[nodiscard]] std::size_t size() const { return resting_.size(); }

@@ -29,6 +29,9 @@ void Simulation::State::find_breakable_panels() {
       breakable.settings->seed = scenario.seed + (i + 1) * 0x9e3779b97f4a7c15u;
       const double density =
           material.density > 0 ? material.density : masses.of(PanelId(i)).mass / panel_volume(building, panel);
+      // Where it is not given: that of concrete of this compressive strength (EN 1992-1-1, table 3.1).
+      breakable.tensile_strength =
+          material.tensile_strength.value_or(0.3e6 * std::pow(*material.compressive_strength / 1e6, 2.0 / 3.0));
       breakable.breaking_speed = *material.compressive_strength / std::sqrt(material.youngs_modulus * density);
     }
     breakable_panels.push_back(std::move(breakable));
@@ -44,6 +47,23 @@ PanelId Simulation::State::breakable_of(const Body& one) const {
   return breakable_panels[static_cast<std::size_t>(panel.index)].settings ? panel : PanelId();
 }
 
+const BrokenPanel* Simulation::State::broken_panel(PanelId panel) const {
+  const auto found = broken_panels.find(panel);
+  return found == broken_panels.end() ? nullptr : &found->second;
+}
+
+Body Simulation::State::chunk_body(PanelId panel, PanelChunk chunk, int number) const {
+  Body piece;
+  piece.name = building[panel].name + "#" + std::to_string(number);
+  piece.rest = chunk.rest;
+  piece.volume = chunk.volume;
+  piece.hull = std::move(chunk.hull);
+  piece.chunk_of = building[panel].kind;
+  piece.mesh = std::move(chunk.mesh);
+  for (const Vec3& corner : piece.hull) piece.bounds.add(corner);
+  return piece;
+}
+
 /// Replaces the body by chunks that move as it did. Returns those that became bodies, what was hit out first; `out`:
 /// how many these are. Nothing when the blow falls where nothing can break.
 std::vector<collision::BodyId> Simulation::State::shatter(collision::BodyId id, const Vec3& point,
@@ -53,9 +73,12 @@ std::vector<collision::BodyId> Simulation::State::shatter(collision::BodyId id, 
   const collision::BodyState state = world->state(id);
   const Mat3 turn = state.pose.orientation.toRotationMatrix();
   const Vec3 at = one.rest.centre + turn.transpose() * (point - state.pose.position);
-  std::vector<PanelChunk> chunks =
-      break_panel(building, panel, one.rest.mass, shapes.shape(Part(panel), Vec3::Zero()).points, at, radius,
-                  *breakable_panels[static_cast<std::size_t>(panel.index)].settings);
+  const BrokenPanel* left = broken_panel(panel);
+  const int before = left ? left->chunks_out() : 0;
+  std::vector<PanelChunk> chunks = left
+                                       ? break_up(*left, at, radius)
+                                       : break_panel(building, panel, one.rest.mass, shapes.corners(panel), at, radius,
+                                                     *breakable_panels[static_cast<std::size_t>(panel.index)].settings);
   out = 0;
   if (chunks.empty()) return {};
   tell(SimulationEvent::Kind::panel_fractured, building[panel].name).position = point;
@@ -67,15 +90,9 @@ std::vector<collision::BodyId> Simulation::State::shatter(collision::BodyId id, 
   std::vector<collision::BodyId> made;
   double dust = 0;
   for (std::size_t i = 0; i < chunks.size(); ++i) {
-    const Vec3 arm = turn * (chunks[i].rest.centre - one.rest.centre);
-    Body piece;
-    piece.name = one.name + "#" + std::to_string(i + 1);
-    piece.rest = chunks[i].rest;
-    piece.volume = chunks[i].volume;
-    piece.hull = std::move(chunks[i].hull);
-    piece.chunk_of = building[panel].kind;
-    piece.mesh = std::move(chunks[i].mesh);
-    for (const Vec3& corner : piece.hull) piece.bounds.add(corner);
+    const bool of_hit = chunks[i].hit;
+    Body piece = chunk_body(panel, std::move(chunks[i]), before + static_cast<int>(i) + 1);
+    const Vec3 arm = turn * (piece.rest.centre - one.rest.centre);
     collision::BodyState moving = state;
     moving.pose.position += arm;
     moving.velocity += state.angular_velocity.cross(arm);
@@ -85,7 +102,7 @@ std::vector<collision::BodyId> Simulation::State::shatter(collision::BodyId id, 
       dust += piece.rest.mass;
       continue;
     }
-    if (chunks[i].hit) ++out;
+    if (of_hit) ++out;
     made.push_back(add_body(std::move(piece), moving));
   }
   if (dust > 0) tell(SimulationEvent::Kind::limited, building[panel].name).mass = dust;

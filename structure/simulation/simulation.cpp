@@ -159,6 +159,11 @@ collision::BodyId Simulation::body_of(PanelId panel) const {
   return {state_->body_of_part[static_cast<std::size_t>(part_number(state_->building, Part(panel)))]};
 }
 
+std::shared_ptr<const fracture::Mesh> Simulation::broken_panel(PanelId panel) const {
+  const BrokenPanel* broken = state_->broken_panel(panel);
+  return broken ? broken->mesh() : nullptr;
+}
+
 std::optional<Simulation::RayHit> Simulation::ray_cast(const Vec3& from, const Vec3& direction) const {
   constexpr double sight = 1e4;  // m, farther than any scene
   const State& s = *state_;
@@ -169,7 +174,8 @@ std::optional<Simulation::RayHit> Simulation::ray_cast(const Vec3& from, const V
   for (std::size_t i = 0; i < part_count(s.building); ++i) {
     const Part part = part_of_number(s.building, static_cast<std::int64_t>(i));
     if (!s.stands(part)) continue;
-    const auto distance = s.shapes.ray(part, from, n);
+    const BrokenPanel* broken = part.panel.valid() ? s.broken_panel(part.panel) : nullptr;
+    const auto distance = broken ? broken->ray(from, n) : s.shapes.ray(part, from, n);
     if (!distance || *distance >= nearest.distance) continue;
     nearest.member = part.member;
     nearest.panel = part.panel;

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "simulation/body.h"
+#include "simulation/broken_panel.h"
 #include "simulation/indentation.h"
 #include "simulation/obstacles.h"
 #include "simulation/part_masses.h"
@@ -62,12 +63,24 @@ struct Simulation::State {
 
   // shatter.cpp: panels that came off break into chunks.
   void find_breakable_panels();
+  [[nodiscard]] const BrokenPanel* broken_panel(PanelId panel) const;
   [[nodiscard]] PanelId breakable_of(const Body& one) const;
+  [[nodiscard]] Body chunk_body(PanelId panel, PanelChunk chunk, int number) const;
   std::vector<collision::BodyId> shatter(collision::BodyId id, const Vec3& point, std::optional<double> radius,
                                          std::size_t& out);
   void push_whole(collision::BodyId id);
   void shatter_struck(collision::BodyId id);
   void shatter_landed();
+
+  // break_standing.cpp: panels that break where they stand.
+  [[nodiscard]] double punching_force(const Strike& hit) const;
+  /// Returns the mass that the hit broke out; 0 when nothing can break there.
+  double break_out(Strike& hit);
+  void push_chunks(const Strike& hit);
+  BrokenPanel& breaking(PanelId panel);
+  [[nodiscard]] std::array<bool, 4> held(PanelId panel) const;
+  std::vector<collision::BodyId> break_standing(PanelId panel, std::vector<PanelChunk> chunks);
+  void drop_loose_pieces();
 
   // book.cpp
   void move();
@@ -111,8 +124,10 @@ struct Simulation::State {
   struct BreakablePanel {
     std::optional<fracture::PanelSettings> settings;  ///< none: it never breaks
     double breaking_speed = unlimited;                ///< change of speed that breaks it, m/s
+    double tensile_strength = unlimited;              ///< Pa
   };
   std::vector<BreakablePanel> breakable_panels;  ///< per panel
+  std::map<PanelId, BrokenPanel> broken_panels;  ///< those that are broken in part: standing, or whole bodies
 
   std::vector<Knock> knocks;
   /// Where in this step a body that has struck something stands in time: see strike.cpp.

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "simulation/first_failure.h"
-#include "simulation/simulation_state.h"
 #include "simulation/step_clock.h"
+#include "simulation/strike.h"
 
 namespace topple::structure {
 
@@ -14,23 +14,6 @@ namespace {
 /// that the structure has had no time to reach: the push ends there, and the body keeps the speed it has.
 constexpr double largest_shift = 0.1;
 }  // namespace
-
-/// One contact between a body and a standing part, at its instant.
-struct Simulation::State::Strike {
-  Body* body = nullptr;
-  ContactPlace place;
-  Part part;
-  Vec3 normal;                 ///< into the structure
-  collision::BodyState state;  ///< where the body is at that instant, true velocities
-  double sensed_at = 0;        ///< time of impact as sensed
-  double own_time = 0;         ///< the same since the body's state was last set
-  double mass = 0;             ///< effective, along the normal
-  double speed = 0, speed_out = 0;
-  double peak_force = 0;
-  double structure_mass = 0, lost = 0;
-  bool through = false;  ///< what was hit is gone
-  std::vector<JointBreak> breaks;
-};
 
 void Simulation::State::load() {
   counters.contacts_ignored += resting.lay(*frame, strength_factors, [&](collision::BodyId id) {
@@ -52,6 +35,7 @@ void Simulation::State::strike(const collision::Contact& contact) {
   if (!hit) return;
   push_in(*hit);
   send_on(*hit);
+  push_chunks(*hit);
   SimulationEvent& event = tell(SimulationEvent::Kind::impact, part_name(building, hit->part));
   event.body = hit->body->id;
   event.body_name = hit->body->name;
@@ -69,6 +53,9 @@ std::optional<Simulation::State::Strike> Simulation::State::aim(const collision:
   const Part part = obstacles.part_of(contact.other.obstacle);
   Body* hitting = body(contact.body);
   if (!part.valid() || !hitting || !stands(part)) return std::nullopt;
+  // What was sensed may have been broken out since.
+  if (const BrokenPanel* left = part.panel.valid() ? broken_panel(part.panel) : nullptr)
+    if (obstacles.obstacle_of(part) != contact.other.obstacle && !left->holds(contact.point)) return std::nullopt;
   Strike hit;
   hit.body = hitting;
   hit.part = part;
@@ -106,15 +93,25 @@ void Simulation::State::push_in(Strike& hit) {
   StandingFrame::UnitResponse response = frame->respond(hit.place, hit.normal);
   hit.structure_mass = scenario.impact.structure_mass ? response.rayleigh_mass : 0;
   Indentation pushing(hit.mass, hit.speed, weight, hit.structure_mass);
+  double punching = punching_force(hit);
   for (;;) {
     const FirstFailure first = first_failure(*frame, response, strength_factors, unlimited);
-    const Indentation::Stop stop = pushing.push(response.compliance, first.force);
+    const Indentation::Stop stop = pushing.push(response.compliance, std::min(first.force, punching));
     if (stop != Indentation::Stop::failed) {
       // A body that is let go stays where it is: what its weight would have done further in is not its own.
       hit.speed_out = stop == Indentation::Stop::missed
                           ? std::min(pushing.speed(), hit.speed)
                           : -scenario.impact.restitution * pushing.elastic_rebound_speed();
       break;
+    }
+    if (punching <= first.force) {
+      if (const double plug = break_out(hit); plug > 0) {
+        hit.through = true;
+        hit.speed_out = pushing.speed() * hit.mass / (hit.mass + plug);  // it takes along what it broke out
+        break;
+      }
+      punching = unlimited;
+      continue;
     }
     const double stored = pushing.stored(response.compliance);
     const double shift = frame->break_in_impact(first.joints, hit.place, hit.normal);
@@ -149,7 +146,7 @@ void Simulation::State::send_on(const Strike& hit) {
   after.velocity += impulse / one.rest.mass;
   after.angular_velocity += inertia.inverse() * r.cross(impulse);
   ledger.lost_in_impacts += hit.lost;
-  if (hit.through)
+  if (hit.through && hit.chunks.empty())
     knocks.push_back(
         {hit.part, hit.structure_mass * hit.speed_out * hit.normal, hit.place.point, hit.speed_out, one.id});
 

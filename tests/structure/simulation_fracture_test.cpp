@@ -68,7 +68,7 @@ TEST_CASE("chunks of a panel have together its mass, centre and inertia") {
       topple::fracture::PanelSettings settings;
       settings.method = method;
       const auto chunks =
-          break_panel(b, id, 1234, shapes.shape(Part(id), Vec3::Zero()).points, whole.centre, 0.8, settings);
+          break_panel(b, id, 1234, shapes.corners(id), whole.centre, 0.8, settings);
       REQUIRE(chunks.size() > 4);
       MassProperties sum;
       double volume = 0;

@@ -57,6 +57,10 @@ class BreakablePanel {
   /// any more leave as well. Throws std::invalid_argument for a point or radius that is not finite, a radius below 0.
   Fracture hit(const Vec2& at, std::optional<double> radius = std::nullopt);
 
+  /// Other edges hold the panel from now on (an entry for each edge of the outline). Pieces that none of them holds
+  /// leave.
+  Fracture hold(const std::vector<bool>& held);
+
   /// All that remains leaves, as chunks that nothing holds: what happens to a panel that has come off.
   Fracture leave();
 
@@ -69,6 +73,8 @@ class BreakablePanel {
   [[nodiscard]] bool holds(const Vec2& point) const;  ///< whether the material is still there
   /// Length of an edge of the outline along which the panel is still there, m.
   [[nodiscard]] double intact_length(std::size_t edge) const;
+  /// What remains as convex pieces that share borders (`hit` false in all of them); it stays where it is.
+  [[nodiscard]] std::vector<Chunk> pieces() const;
   /// Triangles of what remains, panel axes: for moments, loads and element meshes.
   [[nodiscard]] std::vector<std::array<Vec2, 3>> triangles() const;
   [[nodiscard]] std::uint64_t hits() const;

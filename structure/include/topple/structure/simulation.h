@@ -77,8 +77,8 @@ struct BodyView {
   std::span<const MemberId> members;
   std::span<const PanelId> panels;
   std::shared_ptr<const fracture::Mesh>
-      chunk;  ///< of a broken panel: about its centre of mass, turned by the pose alone
-  PanelKind chunk_of = PanelKind::slab;         ///< what it is a piece of
+      chunk;                             ///< of a broken panel: about its centre of mass, turned by the pose alone
+  PanelKind chunk_of = PanelKind::slab;  ///< what it is a piece of
 };
 
 struct SimulationOptions {
@@ -121,6 +121,8 @@ class Simulation {
   /// Body that a member (panel) is part of; value -1: it stands, -2: it is gone.
   [[nodiscard]] collision::BodyId body_of(MemberId member) const;
   [[nodiscard]] collision::BodyId body_of(PanelId panel) const;
+  /// What remains of a panel that is broken in part, where it stood undeformed; null while it is whole.
+  [[nodiscard]] std::shared_ptr<const fracture::Mesh> broken_panel(PanelId panel) const;
   /// Nearest thing along a ray: standing member or panel, body, ground.
   struct RayHit {
     MemberId member;

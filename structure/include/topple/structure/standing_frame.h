@@ -55,6 +55,13 @@ struct ContactLoad {
   Vec3 force = Vec3::Zero();
 };
 
+/// What a panel that was broken in part still is.
+struct PanelRemains {
+  double share = 1;                      ///< of its area and mass
+  std::vector<std::vector<Vec2>> holes;  ///< convex, apart from each other; panel axes from its node 1
+  std::array<double, 4> edge_length{};   ///< along which it is still there, for each edge, m
+};
+
 struct FrameCounters {
   std::uint64_t solves = 0, low_rank = 0, refactorisations = 0, segmentations = 0, unchanged = 0;
   double operations = 0;                ///< predicted by the solver, for budgets
@@ -162,6 +169,11 @@ class StandingFrame {
   /// `direction` (the shift D of the impact law). Ask stands() of the place's part afterwards: when it left, the shift
   /// is 0 and there is nothing left to push.
   double break_in_impact(std::span<const JointBreak> breaks, const ContactPlace& place, const Vec3& direction);
+
+  /// A standing panel is broken in part, now: it hands on what remains of its weight by where that lies, its edge
+  /// joints bear over what remains of their length (told as broken by the next settle() when nothing does), and its
+  /// membrane gives way. Holes are all since it was whole.
+  void fracture(PanelId panel, const PanelRemains& remains);
 
   [[nodiscard]] const FrameCounters& counters() const;
   [[nodiscard]] const Building& building() const;

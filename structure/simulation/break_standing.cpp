@@ -1,0 +1,128 @@
+// Panels that break where they stand: a hit that is harder than the panel can bear there punches a hole, what hangs on
+// nothing leaves as well, and the frame goes on with what remains.
+//
+// A punch fails along a cone at 45 degrees around the body: tensile strength times the cone's area seen along the blow,
+// pi t (2 r + t) for a round body of radius r (ACI 349, appendix D, with the tensile strength itself in place of 4
+// sqrt(f'c)). What is broken out has to be taken along: body and chunks leave with one speed, which keeps momentum.
+#include <algorithm>
+
+#include "simulation/strike.h"
+
+namespace topple::structure {
+
+namespace {
+/// Blows flatter to the panel than this (sine) do not punch it.
+constexpr double steepest = 0.5;
+/// A chunk starts where the statics had its panel, but no farther from the undeformed place than this, m.
+constexpr double largest_start = 0.05;
+}  // namespace
+
+double Simulation::State::punching_force(const Strike& hit) const {
+  if (!hit.part.panel.valid()) return unlimited;
+  const Panel& panel = building[hit.part.panel];
+  const BreakablePanel& breakable = breakable_panels[static_cast<std::size_t>(hit.part.panel.index)];
+  if (!breakable.settings || std::abs(panel.axes.row(2).dot(hit.normal)) < steepest) return unlimited;
+  const double t = panel.thickness, r = hit.body->radius;
+  return breakable.tensile_strength * M_PI * t * (2 * r + t);
+}
+
+double Simulation::State::break_out(Strike& hit) {
+  const PanelId panel = hit.part.panel;
+  const auto radius = hit.body->radius > 0 ? std::optional(hit.body->radius) : std::nullopt;
+  std::vector<PanelChunk> chunks = breaking(panel).hit(hit.place.point, radius);
+  double plug = 0;
+  for (const PanelChunk& chunk : chunks) plug += chunk.hit ? chunk.rest.mass : 0;
+  if (chunks.empty()) return 0;
+  tell(SimulationEvent::Kind::panel_fractured, building[panel].name).position = hit.place.point;
+  hit.chunks = break_standing(panel, std::move(chunks));
+  return plug;
+}
+
+/// The panel as it is broken now, whole at first.
+BrokenPanel& Simulation::State::breaking(PanelId panel) {
+  if (const auto found = broken_panels.find(panel); found != broken_panels.end()) return found->second;
+  return broken_panels
+      .emplace(panel, BrokenPanel(building, panel, masses.of(panel).mass, shapes.corners(panel),
+                                  *breakable_panels[static_cast<std::size_t>(panel.index)].settings, held(panel)))
+      .first->second;
+}
+
+std::array<bool, 4> Simulation::State::held(PanelId panel) const {
+  std::array<bool, 4> edges{};
+  for (int edge = 0; edge < 4; ++edge)
+    edges[static_cast<std::size_t>(edge)] = frame->intact(building.joint(panel, edge));
+  return edges;
+}
+
+/// These chunks of a standing panel become bodies at rest; everybody hears of what remains. Returns the bodies of
+/// those that a hit broke out.
+std::vector<collision::BodyId> Simulation::State::break_standing(PanelId panel, std::vector<PanelChunk> chunks) {
+  const BrokenPanel& left = broken_panels.at(panel);
+  const Part part(panel);
+  Vec3 sunk = Vec3::Zero();
+  for (const NodeId node : building[panel].nodes) sunk += frame->displacement(node).head<3>() / 4;
+  if (sunk.norm() > largest_start) sunk *= largest_start / sunk.norm();
+
+  frame->fracture(panel, left.remains());
+  if (left.hulls().empty()) {
+    part_is_gone(part);
+    body_of_part[static_cast<std::size_t>(part_number(building, part))] = -2;
+  } else {
+    masses.set(panel, left.rest());
+    shapes.set_broken(panel, left.hulls());
+    obstacles.renew(part, *world);
+    for (const collision::BodyId lying : resting.on(part))
+      if (bodies.contains(lying.value)) world->wake(lying);
+  }
+
+  std::vector<collision::BodyId> out;
+  int number = left.chunks_out() - static_cast<int>(chunks.size());
+  double dust = 0;
+  for (PanelChunk& chunk : chunks) {
+    const bool of_hit = chunk.hit;
+    Body piece = chunk_body(panel, std::move(chunk), ++number);
+    if (piece.volume < scenario.debris.smallest_volume) {
+      dust += piece.rest.mass;
+      continue;
+    }
+    const collision::BodyId id = add_body(std::move(piece), Vec3::Zero(), Vec3::Zero(), sunk);
+    if (of_hit) out.push_back(id);
+  }
+  if (dust > 0) tell(SimulationEvent::Kind::limited, building[panel].name).mass = dust;
+  return out;
+}
+
+/// What a hit broke out of a standing panel leaves with the speed of the body, which flies on through the hole.
+void Simulation::State::push_chunks(const Strike& hit) {
+  if (!hit.part.panel.valid() || !hit.through) return;
+  const auto pass = [&](const collision::Touched& other) { world->ignore_until_separated(hit.body->id, other); };
+  collision::Touched touched;
+  if (const collision::ObstacleId panel = obstacles.obstacle_of(hit.part); panel.value >= 0) {
+    touched.kind = collision::Touched::Kind::obstacle;
+    touched.obstacle = panel;
+    pass(touched);
+  }
+  touched.kind = collision::Touched::Kind::body;
+  for (const collision::BodyId id : hit.chunks) {
+    touched.body = id;
+    pass(touched);
+    const Vec3 gained = hit.speed_out * hit.normal;
+    collision::BodyState state = world->state(id);
+    state.velocity += gained;
+    ledger.lost_in_impacts -= bodies.at(id.value).rest.mass * gained.squaredNorm() / 2;
+    world->set_state(id, state);
+  }
+}
+
+/// Where edges of broken panels have failed since, pieces that only they held leave.
+void Simulation::State::drop_loose_pieces() {
+  for (auto& [panel, broken] : broken_panels) {
+    if (!frame->stands(panel) || held(panel) == broken.held()) continue;
+    std::vector<PanelChunk> loose = broken.hold(held(panel));
+    if (loose.empty()) continue;
+    tell(SimulationEvent::Kind::panel_fractured, building[panel].name).position = loose.front().rest.centre;
+    (void)break_standing(panel, std::move(loose));
+  }
+}
+
+}  // namespace topple::structure
