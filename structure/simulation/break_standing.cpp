@@ -3,8 +3,11 @@
 //
 // A punch fails along a cone at 45 degrees around the body: tensile strength times the cone's area seen along the blow,
 // pi t (2 r + t) for a round body of radius r (ACI 349, appendix D, with the tensile strength itself in place of 4
-// sqrt(f'c)). What is broken out has to be taken along: body and chunks leave with one speed, which keeps momentum.
+// sqrt(f'c)). A blow that is faster than what crushes the material (shatter.cpp) feels the panel alone: it is through
+// before the rest of the structure has moved, and the punch costs it the work of that force, falling to nothing over
+// the thickness. What is broken out has to be taken along: body and chunks leave with one speed, which keeps momentum.
 #include <algorithm>
+#include <cmath>
 
 #include "simulation/strike.h"
 
@@ -24,6 +27,21 @@ double Simulation::State::punching_force(const Strike& hit) const {
   if (!breakable.settings || std::abs(panel.axes.row(2).dot(hit.normal)) < steepest) return unlimited;
   const double t = panel.thickness, r = hit.body->radius;
   return breakable.tensile_strength * M_PI * t * (2 * r + t);
+}
+
+/// True when it went through.
+bool Simulation::State::punch_at_once(Strike& hit, double force) {
+  const std::size_t panel = static_cast<std::size_t>(hit.part.panel.index);
+  const double work = force * building.panels[panel].thickness / 2;
+  const double left = hit.speed * hit.speed - 2 * work / hit.mass;
+  if (hit.speed <= breakable_panels[panel].breaking_speed || left <= 0) return false;
+  const double plug = break_out(hit);
+  if (!(plug > 0)) return false;
+  hit.through = true;
+  hit.structure_mass = 0;
+  hit.peak_force = force;
+  hit.speed_out = std::sqrt(left) * hit.mass / (hit.mass + plug);
+  return true;
 }
 
 double Simulation::State::break_out(Strike& hit) {

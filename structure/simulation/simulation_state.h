@@ -74,6 +74,7 @@ struct Simulation::State {
 
   // break_standing.cpp: panels that break where they stand.
   [[nodiscard]] double punching_force(const Strike& hit) const;
+  bool punch_at_once(Strike& hit, double force);
   /// Returns the mass that the hit broke out; 0 when nothing can break there.
   double break_out(Strike& hit);
   void push_chunks(const Strike& hit);

@@ -96,6 +96,8 @@ void Simulation::State::push_in(Strike& hit) {
   double punching = punching_force(hit);
   for (;;) {
     const FirstFailure first = first_failure(*frame, response, strength_factors, unlimited);
+    const bool punches = punching < unlimited && punching <= first.force;
+    if (punches && hit.breaks.empty() && punch_at_once(hit, punching)) break;
     const Indentation::Stop stop = pushing.push(response.compliance, std::min(first.force, punching));
     if (stop != Indentation::Stop::failed) {
       // A body that is let go stays where it is: what its weight would have done further in is not its own.
@@ -104,7 +106,7 @@ void Simulation::State::push_in(Strike& hit) {
                           : -scenario.impact.restitution * pushing.elastic_rebound_speed();
       break;
     }
-    if (punching <= first.force) {
+    if (punches) {
       if (const double plug = break_out(hit); plug > 0) {
         hit.through = true;
         hit.speed_out = pushing.speed() * hit.mass / (hit.mass + plug);  // it takes along what it broke out
@@ -132,7 +134,7 @@ void Simulation::State::push_in(Strike& hit) {
       break;
     }
   }
-  hit.peak_force = pushing.peak_force();
+  hit.peak_force = std::max(hit.peak_force, pushing.peak_force());
   hit.lost = hit.mass * (hit.speed * hit.speed - hit.speed_out * hit.speed_out) / 2;
 }
 

@@ -177,9 +177,12 @@ TEST_CASE("a slab that is shot stands on with a hole in it; the ball goes on wit
     CHECK(chunks + simulation.frame().mass(slab) == Approx(whole).epsilon(1e-12));
     // Ball and plug leave together: their momentum is at most what the ball had, and the ball is still fast.
     CHECK(impact.speed_out * (ball_mass + plug) < ball_mass * impact.speed_in);
-    CHECK(impact.speed_out > 0.5 * impact.speed_in * ball_mass / (ball_mass + plug));
+    const double punch = 2.9e6 * M_PI * 0.2 * 0.8, work = punch * 0.2 / 2;
+    const double before = std::sqrt(impact.speed_in * impact.speed_in - 2 * work / ball_mass);
+    CHECK(impact.speed_out == Approx(before * ball_mass / (ball_mass + plug)).epsilon(1e-9));
     // The punch: tensile strength over the cone at 45 degrees, 2.9 MPa x pi x 0.2 m x (2 x 0.3 + 0.2) m.
-    CHECK(impact.peak_force == Approx(2.9e6 * M_PI * 0.2 * 0.8).epsilon(1e-12));
+    CHECK(impact.peak_force == Approx(punch).epsilon(1e-12));
+    CHECK(std::abs(simulation.ledger().residual()) < 1e-3);  // up to here: nothing but the law of impact
 
     const auto mesh = simulation.broken_panel(slab);
     REQUIRE(mesh);
@@ -192,11 +195,12 @@ TEST_CASE("a slab that is shot stands on with a hole in it; the ball goes on wit
     const auto beside = simulation.ray_cast(Vec3(0.7, 0.7, 30), -Vec3::UnitZ());
     REQUIRE(beside);
     CHECK(beside->panel == slab);
-    CHECK(beside->distance == Approx(30 - 4.1).epsilon(1e-12));
+    CHECK(beside->distance == Approx(30 - 4.1).margin(5e-3));  // collision shapes have a skin
 
     while (!simulation.finished()) simulation.step();
     CHECK(simulation.frame().stands(slab));
-    CHECK(std::abs(simulation.ledger().residual()) < 0.02);
+    // Contacts of hulls are booked by the collision engine's own sums, which close to a few per cent.
+    CHECK(std::abs(simulation.ledger().residual()) < 0.04);
     CHECK(simulation.ledger().momentum_error < 1e-12);
   }
 }
