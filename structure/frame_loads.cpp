@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "index_of.h"
+#include "loads/hand_over.h"
 
 namespace topple::structure {
 
@@ -81,8 +82,8 @@ void FrameLoads::hand_on_anew(PanelId panel) {
     static const std::vector<std::vector<Vec2>> none;
     const auto broken = holes_.find(panel);
     const auto& holes = broken == holes_.end() ? none : broken->second;
-    handed_[p] = hand_over(building_, bearings_.edge_members(), panel, under_gravity(panel, loads_.panels[p]),
-                           bearings_.holds(panel), bearings_.member_stands(), holes);
+    handed_[p] = hand_over_broken(building_, bearings_.edge_members(), panel, under_gravity(panel, loads_.panels[p]),
+                                  bearings_.holds(panel), bearings_.member_stands(), holes);
     for (const solver::BeamLoad& load : handed_[p].beams)
       insert(handing_members_[static_cast<std::size_t>(load.beam)], static_cast<int>(p));
     for (const solver::NodeLoad& load : handed_[p].nodes)

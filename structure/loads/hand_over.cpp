@@ -6,6 +6,7 @@
 
 #include "edge_placement.h"
 #include "index_of.h"
+#include "loads/hand_over.h"
 #include "panel_shares.h"
 
 namespace topple::structure {
@@ -151,8 +152,13 @@ class Handing {
 }  // namespace
 
 HandOver hand_over(const Building& building, const EdgeMembers& edges, PanelId id, const PanelAction& action,
-                   const std::array<bool, 4>& edge_holds, const std::vector<bool>& member_stands,
-                   const std::vector<std::vector<Vec2>>& holes) {
+                   const std::array<bool, 4>& edge_holds, const std::vector<bool>& member_stands) {
+  return hand_over_broken(building, edges, id, action, edge_holds, member_stands, {});
+}
+
+HandOver hand_over_broken(const Building& building, const EdgeMembers& edges, PanelId id, const PanelAction& action,
+                          const std::array<bool, 4>& edge_holds, const std::vector<bool>& member_stands,
+                          const std::vector<std::vector<Vec2>>& holes) {
   const Panel& panel = building[id];
   Handing handing(building, edges, id, member_stands);
   const std::optional<Bearing> bearing = bearing_of(edge_holds);

@@ -67,10 +67,7 @@ class EdgeMembers {
 };
 
 /// What a membrane or cladding panel hands on, given which of its edge joints hold and which members still stand
-/// (`member_stands` empty: all). `holes`: convex polygons, apart from each other, that were broken out (panel axes from
-/// node 1); a two-way panel with holes hands each point's load to both pairs of edges by the lever rule, the pairs
-/// sharing it as they do when it is whole, so that a small hole changes little. Force and moments are those of the
-/// panel's action, exactly.
+/// (`member_stands` empty: all). Force and moments are those of the panel's action, exactly.
 struct HandOver {
   std::vector<solver::BeamLoad> beams;
   std::vector<solver::NodeLoad> nodes;
@@ -79,8 +76,7 @@ struct HandOver {
 /// Nothing is handed over when no opposite pair of edges holds (the panel leaves), nor by a shell.
 [[nodiscard]] HandOver hand_over(const Building& building, const EdgeMembers& edges, PanelId panel,
                                  const PanelAction& action, const std::array<bool, 4>& edge_holds,
-                                 const std::vector<bool>& member_stands = {},
-                                 const std::vector<std::vector<Vec2>>& holes = {});
+                                 const std::vector<bool>& member_stands = {});
 
 /// The whole combination, everything standing, with loads on whole members and without what acts on shell panels.
 /// A settlement of a spring support becomes the push of that spring on its node.
