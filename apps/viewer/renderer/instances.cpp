@@ -224,6 +224,7 @@ void SceneInstances::rebuild_standing(const Snapshot& snapshot, const ViewOption
     const int place = snapshot.membership->panel[i];
     const bool slab = building_.panels[i].kind == PanelKind::slab;
     if (place == part_gone || !(slab ? options.shown.slabs : options.shown.walls)) continue;
+    if (snapshot.membership->broken[i]) continue;  // drawn by its own mesh
     colour_panel(i, snapshot, options);
     if (place == part_stands)
       batches(building_.panels[i])[panel_parts_[i].batch].instances.push_back(standing_panel(i, snapshot, options));
@@ -371,6 +372,34 @@ void SceneInstances::place_chunks(const Snapshot& snapshot) {
   }
 }
 
+/// What remains of panels that are broken in part: at rest where it stood, else moved with its body.
+void SceneInstances::place_broken_panels(const Snapshot& snapshot) {
+  for (std::size_t i = 0; i < building_.panels.size(); ++i) {
+    const auto& mesh = snapshot.membership->broken[i];
+    const int place = snapshot.membership->panel[i];
+    const PanelKind kind = building_.panels[i].kind;
+    if (!mesh || place == part_gone || mesh->triangles.empty()) continue;
+    if (!(kind == PanelKind::slab ? built_options_.shown.slabs : built_options_.shown.walls)) continue;
+    if (place != part_stands && !built_options_.debris) continue;
+    auto& [drawn, batch] = chunk_of_panel_[i];
+    if (drawn != mesh) {
+      drawn = mesh;
+      batch = chunks_.size();
+      chunks_.emplace_back();
+      chunks_.back().mesh = chunk_mesh(*mesh);
+    }
+    glm::dvec3 position(0);
+    glm::dquat turn(1, 0, 0, 0);
+    if (place != part_stands) {
+      const Motion motion(snapshot.bodies[static_cast<std::size_t>(place)]);
+      position = motion(glm::dvec3(0));
+      turn = motion.turn;
+    }
+    chunks_[batch].instances.push_back(
+        {glm::vec3(position - origin_), packed(turn), glm::vec3(1), panel_parts_[i].rest.base});
+  }
+}
+
 void SceneInstances::update(const Snapshot& snapshot, const ViewOptions& options) {
   const bool changed = built_answer_ != snapshot.answer || built_membership_ != snapshot.membership ||
                        !built_options_.same_but_marks(options) || built_shape_ != snapshot.shape ||
@@ -384,6 +413,7 @@ void SceneInstances::update(const Snapshot& snapshot, const ViewOptions& options
   append_moving(snapshot);
   place_chunks(snapshot);
   draw_marks(snapshot, options);
+  place_broken_panels(snapshot);
 }
 
 }  // namespace topple::viewer

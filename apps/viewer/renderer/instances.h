@@ -59,7 +59,8 @@ class SceneInstances {
     return kind == structure::PanelKind::slab ? slabs_ : walls_;
   }
   [[nodiscard]] const InstanceBatch<RigidInstance>& projectiles() const { return projectiles_; }
-  /// Each chunk of a broken panel has a mesh of its own; batches are only ever added. One that is gone has no instance.
+  /// Each chunk of a broken panel, and each state of what remains of it, has a mesh of its own; batches are only ever
+  /// added. One that is gone has no instance.
   [[nodiscard]] const std::vector<InstanceBatch<RigidInstance>>& chunks() const { return chunks_; }
 
   /// Loads and contacts; reactions, which come from below the ground.
@@ -100,6 +101,7 @@ class SceneInstances {
   [[nodiscard]] PanelInstance standing_panel(std::size_t index, const Snapshot& snapshot,
                                              const ViewOptions& options) const;
   void place_chunks(const Snapshot& snapshot);
+  void place_broken_panels(const Snapshot& snapshot);
   void colour_member(std::size_t index, const Snapshot& snapshot, const ViewOptions& options);
   void colour_panel(std::size_t index, const Snapshot& snapshot, const ViewOptions& options);
   [[nodiscard]] MemberInstance moved_member(std::size_t index, const Motion& motion) const;
@@ -122,6 +124,8 @@ class SceneInstances {
   InstanceBatch<RigidInstance> arrows_, buried_arrows_;
   Overlay diagrams_, marks_;
   std::array<double, 2> diagram_range_{};
+  /// Batches of standing panels that are broken in part, by panel, with the mesh that they draw.
+  std::map<std::size_t, std::pair<std::shared_ptr<const fracture::Mesh>, std::size_t>> chunk_of_panel_;
   double largest_ = 0;
   // What the standing instances were built for.
   std::shared_ptr<const FrameAnswer> built_answer_;

@@ -50,6 +50,8 @@ inline constexpr int part_stands = -1, part_gone = -2;
 struct Membership {
   std::vector<int> member, panel;
   std::vector<int> segment;  ///< per member: number of its standing segment, -1 when it does not stand
+  /// Per panel: what remains of one that is broken in part, where it stood undeformed; null while it is whole.
+  std::vector<std::shared_ptr<const fracture::Mesh>> broken;
   int members_standing = 0, panels_standing = 0;
 };
 

@@ -147,6 +147,7 @@ std::shared_ptr<const Membership> read_membership(const Simulation& simulation) 
   for (std::size_t i = 0; i < building.panels.size(); ++i) {
     membership->panel.push_back(place(PanelId(i), simulation));
     membership->panels_standing += membership->panel.back() == part_stands ? 1 : 0;
+    membership->broken.push_back(simulation.broken_panel(PanelId(i)));
   }
   int index = 0;
   for (const structure::BodyView& body : simulation.bodies()) {
