@@ -1,148 +1,49 @@
 #include "factor.h"
 
-#include <cholmod.h>
-
 #include <cmath>
+#include <cstdint>
 #include <limits>
-#include <new>
-#include <stdexcept>
-#include <string>
+#include <optional>
 
-#include "serial_regions.h"
-
-extern "C" void openblas_set_num_threads(int);
+#include "cholmod_factor.h"
+#include "multifrontal.h"
 
 namespace topple::solver {
-
 namespace {
 
-using Long = SuiteSparse_long;
-
-/// CHOLMOD's workspace and settings, ended with their owner.
-class Common {
- public:
-  Common() {
-    // BLAS runs on one thread, always: with more it sums in another order, and gives other bits.
-    openblas_set_num_threads(1);
-    cholmod_l_start(&common_);
-    common_.itype = CHOLMOD_LONG;
-    common_.print = 0;
-    common_.error_handler = nullptr;
-    common_.try_catch = 1;  // failures come back as a status, and nothing is written to the terminal
-    common_.quick_return_if_not_posdef = 1;
+/// Calls visit(k, pivot): the square of the k-th diagonal entry of L, or D's.
+template <class Visit>
+void each_pivot(const FactorView& view, Visit visit) {
+  const auto square = [](double diagonal) { return diagonal * diagonal; };
+  if (!view.supernodal) {
+    for (std::size_t k = 0; k < view.order.size(); ++k) {
+      const double value = view.value[static_cast<std::size_t>(view.start[k])];
+      visit(k, view.is_ll ? square(value) : value);
+    }
+    return;
   }
-  ~Common() { cholmod_l_finish(&common_); }
-  Common(const Common&) = delete;
-  Common& operator=(const Common&) = delete;
-  cholmod_common* get() { return &common_; }
-  cholmod_common* operator->() { return &common_; }
-
-  void check(const char* what) const {
-    if (common_.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
-    if (common_.status == CHOLMOD_TOO_LARGE)
-      throw std::runtime_error(std::string(what) + ": the system is too large for CHOLMOD's integers");
-    if (common_.status < CHOLMOD_OK)
-      throw std::runtime_error(std::string(what) + ": CHOLMOD failed with status " + std::to_string(common_.status));
+  for (std::size_t b = 0; b + 1 < view.first.size(); ++b) {
+    const std::int64_t rows = view.row_start[b + 1] - view.row_start[b];
+    for (std::int64_t k = view.first[b]; k < view.first[b + 1]; ++k)
+      visit(static_cast<std::size_t>(k),
+            square(view.value[static_cast<std::size_t>(view.start[b] + (k - view.first[b]) * (rows + 1))]));
   }
-
- private:
-  cholmod_common common_{};
-};
+}
 
 }  // namespace
 
 struct Factor::State {
-  Common common;
-  cholmod_factor* factor = nullptr;
-  std::vector<Long> start, row;  // the pattern, in CHOLMOD's integers
-  int size = 0;
-  double operations = 0;
-  cholmod_dense *solution = nullptr, *work_y = nullptr, *work_e = nullptr;
-
-  ~State() {
-    for (cholmod_dense** dense : {&solution, &work_y, &work_e})
-      if (*dense) cholmod_l_free_dense(dense, common.get());
-    if (factor) cholmod_l_free_factor(&factor, common.get());
-  }
-
-  /// The matrix as CHOLMOD sees it: lower triangle, borrowed arrays.
-  cholmod_sparse view(const double* values) {
-    cholmod_sparse a{};
-    a.nrow = a.ncol = static_cast<std::size_t>(size);
-    a.nzmax = row.size();
-    a.p = start.data();
-    a.i = row.data();
-    a.x = const_cast<double*>(values);  // CHOLMOD reads it only
-    a.stype = -1;
-    a.itype = CHOLMOD_LONG;
-    a.xtype = values ? CHOLMOD_REAL : CHOLMOD_PATTERN;
-    a.dtype = CHOLMOD_DOUBLE;
-    a.sorted = 1;
-    a.packed = 1;
-    return a;
-  }
-
-  void choose(Factorisation kind) {
-#ifdef TOPPLE_GPL
-    if (kind == Factorisation::simplicial) common->supernodal = CHOLMOD_SIMPLICIAL;
-    if (kind == Factorisation::supernodal) common->supernodal = CHOLMOD_SUPERNODAL;
-    if (kind == Factorisation::automatic) {
-      // By operations for each entry of the factor: below 40 the dense kernels of supernodes do not pay for themselves.
-      common->supernodal = CHOLMOD_AUTO;
-      common->supernodal_switch = 40;
-    }
-#else
-    (void)kind;
-    common->supernodal = CHOLMOD_SIMPLICIAL;
-#endif
-    common->final_ll = 0;  // simplicial: L D L', whose pivots' signs are seen
-    common->nmethods = 1;
-    common->method[0].ordering = CHOLMOD_GIVEN;
-    common->postorder = 1;
-  }
-
-  /// Pivot k of the factor (the square of the diagonal of L, or D).
-  [[nodiscard]] double pivot(std::size_t k) const {
-    const auto* x = static_cast<const double*>(factor->x);
-    const auto* p = static_cast<const Long*>(factor->p);
-    const double value = x[p[k]];
-    return factor->is_ll ? value * value : value;
-  }
-
-  template <class Visit>
-  void each_pivot(Visit visit) const {
-    if (!factor->is_super) {
-      for (std::size_t k = 0; k < factor->n; ++k) visit(k, pivot(k));
-      return;
-    }
-    const auto* x = static_cast<const double*>(factor->x);
-    const auto* super = static_cast<const Long*>(factor->super);
-    const auto* pi = static_cast<const Long*>(factor->pi);
-    const auto* px = static_cast<const Long*>(factor->px);
-    for (std::size_t s = 0; s < factor->nsuper; ++s) {
-      const Long rows = pi[s + 1] - pi[s];
-      for (Long k = super[s]; k < super[s + 1]; ++k) {
-        const double diagonal = x[px[s] + (k - super[s]) * (rows + 1)];
-        visit(static_cast<std::size_t>(k), diagonal * diagonal);
-      }
-    }
-  }
+  std::optional<CholmodFactor> cholmod;
+  std::optional<MultifrontalFactor> own;
 };
 
-Factor::Factor(const SparseSymmetric& pattern, std::vector<int> permutation, Factorisation kind)
+Factor::Factor(const SparseSymmetric& pattern, const std::vector<int>& permutation, Factorisation kind, int threads)
     : state_(std::make_unique<State>()) {
-  State& s = *state_;
-  s.size = pattern.size;
-  s.start.assign(pattern.start.begin(), pattern.start.end());
-  s.row.assign(pattern.row.begin(), pattern.row.end());
-  s.choose(kind);
-  std::vector<Long> order(permutation.begin(), permutation.end());
-  // Values of one: CHOLMOD's analysis takes the pattern of a real matrix, and looks at no value.
-  cholmod_sparse a = s.view(nullptr);
-  const SerialRegions serial;
-  s.factor = cholmod_l_analyze_p(&a, order.data(), nullptr, 0, s.common.get());
-  s.common.check("symbolic factorisation");
-  s.operations = s.common->fl;
+  if (kind == Factorisation::automatic || kind == Factorisation::multifrontal) {
+    state_->own.emplace(pattern, permutation, threads);
+  } else {
+    state_->cholmod.emplace(pattern, permutation, kind);
+  }
 }
 
 Factor::~Factor() = default;
@@ -150,27 +51,21 @@ Factor::Factor(Factor&&) noexcept = default;
 Factor& Factor::operator=(Factor&&) noexcept = default;
 
 Factor::Outcome Factor::factorise(const SparseSymmetric& matrix) {
-  State& s = *state_;
-  cholmod_sparse a = s.view(matrix.value.data());
-  const SerialRegions serial;
-  cholmod_l_factorize(&a, s.factor, s.common.get());
-  if (s.common->status != CHOLMOD_NOT_POSDEF && s.common->status != CHOLMOD_DSMALL) s.common.check("factorisation");
-  const auto* order = static_cast<const Long*>(s.factor->Perm);
-  const auto diagonal = [&](std::size_t k) {
-    return matrix.value[static_cast<std::size_t>(matrix.start[static_cast<std::size_t>(order[k])])];
-  };
+  const std::int64_t done = state_->own ? state_->own->factorise(matrix) : state_->cholmod->factorise(matrix);
+  const FactorView numbers = view();
   Outcome outcome;
-  if (s.factor->minor < s.factor->n) {
-    outcome.worst_row = static_cast<int>(order[s.factor->minor]);
+  if (done < static_cast<std::int64_t>(numbers.order.size())) {
+    outcome.worst_row = static_cast<int>(numbers.order[static_cast<std::size_t>(done)]);
     return outcome;
   }
   outcome.positive_definite = true;
   outcome.worst_pivot = std::numeric_limits<double>::infinity();
-  s.each_pivot([&](std::size_t k, double pivot) {
-    const double relative = pivot / diagonal(k);
+  each_pivot(numbers, [&](std::size_t k, double pivot) {
+    const auto row = static_cast<std::size_t>(numbers.order[k]);
+    const double relative = pivot / matrix.value[static_cast<std::size_t>(matrix.start[row])];
     if (relative < outcome.worst_pivot || !std::isfinite(relative)) {
       outcome.worst_pivot = relative;
-      outcome.worst_row = static_cast<int>(order[k]);
+      outcome.worst_row = static_cast<int>(row);
     }
     if (!(pivot > 0)) outcome.positive_definite = false;
   });
@@ -178,59 +73,47 @@ Factor::Outcome Factor::factorise(const SparseSymmetric& matrix) {
 }
 
 void Factor::solve(Eigen::Ref<Eigen::MatrixXd> right_hand_sides) const {
-  State& s = *state_;
-  if (right_hand_sides.cols() == 0 || s.size == 0) return;
-  cholmod_dense b{};
-  b.nrow = static_cast<std::size_t>(right_hand_sides.rows());
-  b.ncol = static_cast<std::size_t>(right_hand_sides.cols());
-  b.d = static_cast<std::size_t>(right_hand_sides.outerStride());
-  b.nzmax = b.d * b.ncol;
-  b.x = right_hand_sides.data();
-  b.xtype = CHOLMOD_REAL;
-  b.dtype = CHOLMOD_DOUBLE;
-  const SerialRegions serial;
-  // solve2 keeps its workspaces from call to call: nothing is allocated once they are large enough.
-  cholmod_l_solve2(CHOLMOD_A, s.factor, &b, nullptr, &s.solution, nullptr, &s.work_y, &s.work_e, s.common.get());
-  s.common.check("solution");
-  right_hand_sides = Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>(
-      static_cast<const double*>(s.solution->x), right_hand_sides.rows(), right_hand_sides.cols(),
-      Eigen::OuterStride<>(static_cast<Eigen::Index>(s.solution->d)));
+  if (right_hand_sides.size() == 0) return;
+  if (state_->own) {
+    state_->own->solve(right_hand_sides);
+  } else {
+    state_->cholmod->solve(right_hand_sides);
+  }
 }
 
 std::size_t Factor::entries() const {
-  const cholmod_factor& f = *state_->factor;
-  return f.is_super ? f.xsize : f.nzmax;
+  return state_->own ? static_cast<std::size_t>(state_->own->fronts().value_start.back()) : state_->cholmod->entries();
+}
+
+double Factor::operations() const {
+  return state_->own ? state_->own->fronts().operations : state_->cholmod->operations();
 }
 
 FactorView Factor::view() const {
-  const cholmod_factor& f = *state_->factor;
-  static_assert(sizeof(Long) == sizeof(std::int64_t));
-  const auto integers = [](const void* data, std::size_t count) {
-    return std::span(reinterpret_cast<const std::int64_t*>(data), data == nullptr ? 0 : count);
-  };
+  if (!state_->own) return state_->cholmod->view();
+  const Supernodes& fronts = state_->own->fronts();
   FactorView view;
-  view.supernodal = f.is_super != 0;
-  view.is_ll = f.is_ll != 0;
-  view.order = integers(f.Perm, f.n);
-  if (view.supernodal) {
-    view.first = integers(f.super, f.nsuper + 1);
-    view.row_start = integers(f.pi, f.nsuper + 1);
-    view.start = integers(f.px, f.nsuper + 1);
-    view.row = integers(f.s, f.ssize);
-    view.value = std::span(static_cast<const double*>(f.x), f.xsize);
-  } else {
-    view.start = integers(f.p, f.n + 1);
-    view.count = integers(f.nz, f.n);
-    view.row = integers(f.i, f.nzmax);
-    view.value = std::span(static_cast<const double*>(f.x), f.nzmax);
-  }
+  view.supernodal = view.is_ll = true;
+  view.order = fronts.order;
+  view.first = fronts.first;
+  view.row_start = fronts.row_start;
+  view.row = fronts.row;
+  view.start = fronts.value_start;
+  view.value = state_->own->values();
   return view;
 }
 
-double Factor::operations() const { return state_->operations; }
+Factorisation Factor::kind() const { return state_->own ? Factorisation::multifrontal : state_->cholmod->kind(); }
 
-Factorisation Factor::kind() const {
-  return state_->factor->is_super ? Factorisation::supernodal : Factorisation::simplicial;
+const char* Factor::name() const {
+  switch (kind()) {
+    case Factorisation::simplicial:
+      return "simplicial";
+    case Factorisation::supernodal:
+      return "supernodal";
+    default:
+      return "multifrontal";
+  }
 }
 
 }  // namespace topple::solver

@@ -1,31 +1,22 @@
 #pragma once
-// Sparse Cholesky factor of a symmetric positive definite matrix under a given permutation. CHOLMOD behind it, on one
-// BLAS thread, always.
+// Sparse Cholesky factor of a symmetric positive definite matrix under a given permutation: our own multifrontal one,
+// or one of CHOLMOD's.
 #include <Eigen/Core>
-#include <cstdint>
+#include <cstddef>
 #include <memory>
-#include <span>
 #include <vector>
 
+#include "factor_view.h"
 #include "sparse.h"
 #include "topple/solver/static_analysis.h"
 
 namespace topple::solver {
 
-/// The numbers of a factor as they lie, in elimination order. Supernodal, L L': block b has the columns first[b] ...
-/// first[b + 1] - 1; row[row_start[b]] ... are its rows (its own first), and value[start[b]] ... its dense columns.
-/// Simplicial: column j has row[start[j]] ... (count[j] of them, the diagonal first) and value[start[j]] ... of L, or
-/// of L D L' with D in the place of L's unit diagonal.
-struct FactorView {
-  bool supernodal = false, is_ll = false;
-  std::span<const std::int64_t> order, first, row_start, start, count, row;
-  std::span<const double> value;
-};
-
 class Factor {
  public:
-  /// Symbolic analysis. `permutation[k]` is the row eliminated k-th.
-  Factor(const SparseSymmetric& pattern, std::vector<int> permutation, Factorisation kind);
+  /// Symbolic analysis. `permutation[k]` is the row eliminated k-th. What comes out does not depend on `threads`.
+  /// `automatic` is multifrontal: it is the fastest at every size.
+  Factor(const SparseSymmetric& pattern, const std::vector<int>& permutation, Factorisation kind, int threads = 1);
   ~Factor();
   Factor(Factor&&) noexcept;
   Factor& operator=(Factor&&) noexcept;
@@ -44,7 +35,8 @@ class Factor {
   [[nodiscard]] double operations() const;
   /// Borrowed from the last numeric factorisation, until the next.
   [[nodiscard]] FactorView view() const;
-  [[nodiscard]] Factorisation kind() const;  ///< simplicial or supernodal, as chosen
+  [[nodiscard]] Factorisation kind() const;  ///< as chosen: never automatic
+  [[nodiscard]] const char* name() const;    ///< of its kind
 
  private:
   struct State;

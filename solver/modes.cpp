@@ -22,7 +22,7 @@ class Modes {
     order_ = system_.elimination_order();
     mass_ = std::make_unique<MassMatrix>(system_, masses);
     if (order_.empty()) return;
-    factor_ = std::make_unique<Factor>(system_.matrix(), order_, options.factorisation);
+    factor_ = std::make_unique<Factor>(system_.matrix(), order_, options.factorisation, options.threads);
     const Stability stability = factorise_and_judge(system_, *factor_, options);
     if (stability.defect) throw Instability(stability.defect->message, stability.defect->motion);
   }

@@ -117,7 +117,8 @@ std::optional<Defect> Reanalysis::State::refactorise() {
   standing.reset();
   first_solution.resize(0);
   if (!factor) {
-    factor = std::make_unique<Factor>(system->matrix(), system->elimination_order(), options.factorisation);
+    factor =
+        std::make_unique<Factor>(system->matrix(), system->elimination_order(), options.factorisation, options.threads);
     rows = std::make_unique<MatrixRows>(system->matrix());
     ++counters.orderings;
   } else {

@@ -37,7 +37,8 @@ struct SecondOrderAnalysis::State {
     if (const auto defect = system_.defect()) throw Instability(defect->message, defect->motion);
     const auto start = std::chrono::steady_clock::now();
     if (system_.dofs().equations > 0)
-      factor_ = std::make_unique<Factor>(system_.matrix(), system_.elimination_order(), options.factorisation);
+      factor_ = std::make_unique<Factor>(system_.matrix(), system_.elimination_order(), options.factorisation,
+                                         options.threads);
     statistics.order_seconds += seconds_since(start);
     statistics.freedoms = static_cast<std::size_t>(system_.dofs().equations);
     system_.second_order = &axial_;

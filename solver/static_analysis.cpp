@@ -56,9 +56,10 @@ void StaticAnalysis::State::assemble() {
 
 void StaticAnalysis::State::order() {
   const Stopwatch watch(statistics.order_seconds);
-  factor = std::make_unique<Factor>(system.matrix(), system.elimination_order(), options.factorisation);
+  factor =
+      std::make_unique<Factor>(system.matrix(), system.elimination_order(), options.factorisation, options.threads);
   statistics.ordering = "node graph METIS";
-  statistics.factorisation = factor->kind() == Factorisation::supernodal ? "supernodal" : "simplicial";
+  statistics.factorisation = factor->name();
   statistics.factor_entries = factor->entries();
   statistics.factor_operations = factor->operations();
 }

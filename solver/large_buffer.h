@@ -1,0 +1,43 @@
+#pragma once
+// Memory for many numbers, not touched when it is asked for and on large pages where the system has them: filling a
+// gigabyte for the first time costs as much in small pages as a tenth of the work that goes into it.
+#include <cstddef>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+namespace topple::solver {
+
+class LargeBuffer {
+ public:
+  LargeBuffer() = default;
+  /// Not initialised. Throws std::bad_alloc.
+  explicit LargeBuffer(std::size_t entries);
+  [[nodiscard]] double* data() const { return memory_.get(); }
+  [[nodiscard]] std::size_t size() const { return size_; }
+  void release() { *this = LargeBuffer(); }
+
+ private:
+  struct Free {
+    std::size_t alignment;
+    void operator()(double* p) const;
+  };
+  std::unique_ptr<double, Free> memory_{nullptr, Free{alignof(double)}};
+  std::size_t size_ = 0;
+};
+
+/// Buffers that have served and may serve again, for several threads: memory that is in use already need not be cleared
+/// by the system once more. When nothing fits and much lies idle, that is let go.
+class BufferPool {
+ public:
+  /// At least so many entries, at most four times as many.
+  [[nodiscard]] LargeBuffer take(std::size_t entries);
+  void give_back(LargeBuffer buffer);
+  void clear();
+
+ private:
+  std::mutex mutex_;
+  std::vector<LargeBuffer> free_;
+};
+
+}  // namespace topple::solver
