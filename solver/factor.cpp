@@ -39,7 +39,7 @@ struct Factor::State {
 
 Factor::Factor(const SparseSymmetric& pattern, const std::vector<int>& permutation, Factorisation kind, int threads)
     : state_(std::make_unique<State>()) {
-  if (kind == Factorisation::automatic || kind == Factorisation::multifrontal) {
+  if (kind == Factorisation::automatic) {
     state_->own.emplace(pattern, permutation, threads);
   } else {
     state_->cholmod.emplace(pattern, permutation, kind);
@@ -103,7 +103,7 @@ FactorView Factor::view() const {
   return view;
 }
 
-Factorisation Factor::kind() const { return state_->own ? Factorisation::multifrontal : state_->cholmod->kind(); }
+Factorisation Factor::kind() const { return state_->own ? Factorisation::automatic : state_->cholmod->kind(); }
 
 const char* Factor::name() const {
   switch (kind()) {

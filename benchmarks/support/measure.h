@@ -3,6 +3,7 @@
 // and the median of each is compared.
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 #include <functional>
 #include <span>
 #include <vector>
@@ -37,6 +38,33 @@ inline std::vector<double> interleaved_medians(int rounds, std::span<const std::
 }
 inline std::vector<double> interleaved_medians(int rounds, std::initializer_list<std::function<void()>> contestants) {
   return interleaved_medians(rounds, std::span(contestants.begin(), contestants.size()));
+}
+
+/// What one contestant took: medians in seconds.
+struct Spending {
+  double wall = 0;
+  double processor = 0;  ///< of all threads of this program together
+};
+
+/// Like interleaved_medians(), with the processor time beside the wall time: on a busy machine it tells more.
+inline std::vector<Spending> interleaved_spending(int rounds,
+                                                  std::initializer_list<std::function<void()>> contestants) {
+  std::vector<std::vector<double>> wall(contestants.size()), processor(contestants.size());
+  for (int round = 0; round <= rounds; ++round) {
+    std::size_t i = 0;
+    for (const auto& work : contestants) {
+      const std::clock_t before = std::clock();
+      const double t = seconds(work);
+      if (round > 0) {
+        wall[i].push_back(t);
+        processor[i].push_back(static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC);
+      }
+      ++i;
+    }
+  }
+  std::vector<Spending> result;
+  for (std::size_t i = 0; i < wall.size(); ++i) result.push_back({median(wall[i]), median(processor[i])});
+  return result;
 }
 
 }  // namespace topple::bench

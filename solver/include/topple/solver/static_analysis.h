@@ -28,12 +28,11 @@ class Instability : public std::runtime_error {
   Mechanism mechanism;
 };
 
-/// Ours (multifrontal), or CHOLMOD's, which serve to compare with. Automatic is what is fastest: ours.
-enum class Factorisation { automatic, simplicial, supernodal, multifrontal };
+enum class Factorisation { automatic, simplicial, supernodal };
 
 struct AnalysisOptions {
   Factorisation factorisation = Factorisation::automatic;
-  int threads = 1;  ///< of the factorisation; no result depends on it
+  int threads = 1;
   /// Relative size of a scaled pivot (or reciprocal condition) below which a model is unstable, and the band above it
   /// that warns.
   double singular_limit = 1e-13, warning_limit = 1e-10;
