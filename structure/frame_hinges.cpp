@@ -35,6 +35,7 @@ void FrameStatics::write_loads(MemberId member) {
 void FrameStatics::write_load(NodeId node) {
   const Place& place = node_place_[index(node)];
   Vec6 load = node_loads_[index(node)];
+  if (second_order_) load += geometric_[index(node)];
   for (const auto& [member, hinges] : hinges_) {
     if (member_place_[index(member)].component != place.component) continue;
     const solver::Beam& own = beam(member);

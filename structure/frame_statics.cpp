@@ -41,6 +41,7 @@ FrameStatics::FrameStatics(const Building& building, int threads) {
   end_forces_.assign(building.members.size(), solver::Vec12::Zero());
   member_loads_.resize(building.members.size());
   node_loads_.assign(building.nodes.size(), Vec6::Zero());
+  geometric_.assign(building.nodes.size(), Vec6::Zero());
   solver::AnalysisOptions options;
   options.threads = threads;
   for (std::size_t c = 0; c < models.size(); ++c)
@@ -157,16 +158,28 @@ void FrameStatics::forget(int number) {
   component.gone = true;
 }
 
+void FrameStatics::read_end_forces(int number) {
+  const Component& component = components_[static_cast<std::size_t>(number)];
+  for (MemberId member : component.members)
+    end_forces_[index(member)] = component.analysis->beam_end_forces(member_place_[index(member)].local);
+  for (const auto& [member, hinges] : hinges_)
+    if (member_place_[index(member)].component == number) end_forces_[index(member)] += hinges.held;
+}
+
+const solver::Shell& FrameStatics::shell(PanelId membrane) const {
+  const Place& place = membrane_place_[index(membrane)];
+  return at(place).model().shells[static_cast<std::size_t>(place.local)];
+}
+
 std::optional<FrameMechanism> FrameStatics::solve(int number) {
   Component& component = components_[static_cast<std::size_t>(number)];
   const solver::ReanalysisAnswer& answer = component.analysis->solve();
   operations_ += component.analysis->last_operations();
   component.changed = false;
   if (answer.stable) {
-    for (MemberId member : component.members)
-      end_forces_[index(member)] = component.analysis->beam_end_forces(member_place_[index(member)].local);
-    for (const auto& [member, hinges] : hinges_)
-      if (member_place_[index(member)].component == number) end_forces_[index(member)] += hinges.held;
+    read_end_forces(number);
+    if (second_order_) component.diverged = !displace(number);
+    component.changed = false;
     return std::nullopt;
   }
   component.changed = true;

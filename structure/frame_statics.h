@@ -49,7 +49,12 @@ class FrameStatics {
   [[nodiscard]] const std::vector<PanelId>& membranes(int component) const { return parts(component).membranes; }
 
   /// Brings one component up to date. A mechanism leaves the displacements as they were.
+  /// With second order the answer is that of the displaced structure, iterated on the elastic factor with the geometric
+  /// forces as loads, K u' = F - Kg(N) u; where that does not settle (the loads are near or beyond what it bears before
+  /// it buckles) the first-order answer stands, and diverged() says so.
   [[nodiscard]] std::optional<FrameMechanism> solve(int component);
+  void use_second_order() { second_order_ = true; }
+  [[nodiscard]] bool diverged(int component) const { return parts(component).diverged; }
   /// Nothing of the component stands: there is nothing to solve.
   void forget(int component);
 
@@ -58,6 +63,11 @@ class FrameStatics {
   /// What flowing hinges hold included. They outlive a mechanism that solve() finds later.
   [[nodiscard]] const solver::Vec12& end_forces(MemberId member) const { return end_forces_[index(member)]; }
   [[nodiscard]] const solver::Beam& beam(MemberId member) const;
+  [[nodiscard]] const solver::Shell& shell(PanelId membrane) const;
+  /// As they are now, with the nodes numbered as in nodes().
+  [[nodiscard]] const std::vector<solver::Support>& supports(int component) const {
+    return parts(component).analysis->model().supports;
+  }
   [[nodiscard]] double strain_energy(int component) const;
   [[nodiscard]] std::array<Vec6, 4> corner_forces(PanelId membrane) const;
   /// Of the support at its index in Building::supports.
@@ -99,7 +109,7 @@ class FrameStatics {
     std::vector<MemberId> members;
     std::vector<PanelId> membranes;
     std::unique_ptr<solver::Reanalysis> analysis;
-    bool changed = true, gone = false;
+    bool changed = true, gone = false, diverged = false;
   };
   template <class Tag>
   static std::size_t index(Id<Tag> id) {
@@ -113,6 +123,8 @@ class FrameStatics {
     solver::Vec12 held = solver::Vec12::Zero(), slip = solver::Vec12::Zero();
   };
   solver::Reanalysis& changing(const Place& place);
+  void read_end_forces(int component);
+  bool displace(int component);
   void write_loads(MemberId member);
   void write_load(NodeId node);
   [[nodiscard]] std::vector<solver::BeamLoad> with_hinges(MemberId member, std::vector<solver::BeamLoad> loads) const;
@@ -127,6 +139,8 @@ class FrameStatics {
   std::map<MemberId, Hinges> hinges_;
   std::vector<std::vector<solver::BeamLoad>> member_loads_;  ///< as given
   std::vector<Vec6> node_loads_;                             ///< as given
+  std::vector<Vec6> geometric_;                              ///< second order: added to them, per node
+  bool second_order_ = false;
   double operations_ = 0;
 };
 

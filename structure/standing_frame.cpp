@@ -44,6 +44,9 @@ StandingFrame::State::State(const Building& given, CombinationId combination, co
       solved_nodes(checked_joints.size(), 0),
       in_mechanism(given.members.size(), 0) {
   if (rules.bracing == BracingRule::classic) bracing.emplace(building);
+  if (rules.bracing == BracingRule::buckling)
+    buckling.emplace(building, statics, segments, bearings, applied, node_applied, node_solved);
+  if (rules.second_order) statics.use_second_order();
   for (std::size_t j = 0; j < building.joints.size(); ++j)
     if (building.joints[j].capacity.breakable)
       checked_joints[static_cast<std::size_t>(component(JointId(j)))].push_back(JointId(j));
@@ -63,6 +66,11 @@ StandingFrame::State::State(const Building& given, CombinationId combination, co
     if (const auto mechanism = statics.solve(c)) throw UnstableModel(describe_mechanism(building, *mechanism));
     read_demands(c, true);
     if (ductile.any(c)) ductile.base_is_answer(c);
+    if (!buckling) continue;
+    if (const auto post = buckling->find(c, statics.diverged(c)))
+      throw UnstableModel(building.file + ": post " + (post->post.valid() ? building[post->post].name : "") +
+                          " buckles under combination " + building[combination].name + ": the critical factor is " +
+                          std::to_string(post->factor));
   }
   account.start();
   // Nothing broke to get here: this state is R0. Joints over capacity break in the first generation.
@@ -249,12 +257,16 @@ std::vector<JointBreak> StandingFrame::settle(int generations) {
   for (const State::Change& change : std::exchange(state.queue, {})) state.apply(change);
   state.bring_up_to_date();
   state.pending = false;
-  for (std::vector<JointId> next; !(next = state.next_generation()).empty(); ++state.generation) {
+  for (;; ++state.generation) {
+    const std::vector<JointId> next = state.next_generation();
+    if (next.empty() && state.buckled.empty()) break;
     if (state.generation >= generations) {
+      state.buckled.clear();  // found again
       state.pending = true;
       break;
     }
     state.break_joints(next, BreakCause::overload);
+    state.snap_buckled();
     state.bring_up_to_date();
   }
   state.generation = 0;

@@ -113,7 +113,7 @@ std::vector<JointId> StandingFrame::State::next_generation() {
     if (const Way way = follow_yielding(c, next); way == Way::breaking) {
       continue;
     } else if (way == Way::resting) {
-      come_to_rest(c);
+      if (!buckles(c)) come_to_rest(c);
       continue;
     }
     largest.assign(static_cast<std::size_t>(segments.labels()), 0.0);
@@ -133,10 +133,32 @@ std::vector<JointId> StandingFrame::State::next_generation() {
     }
     for (const auto& [joint, used] : over)
       if (used >= (1 - same_time) * largest[static_cast<std::size_t>(label(joint))]) next.push_back(joint);
-    if (over.empty()) come_to_rest(c);
+    if (over.empty() && !buckles(c)) come_to_rest(c);
   }
   std::sort(next.begin(), next.end());
   return next;
+}
+
+/// A post of the component gives way sideways in the static answer: it is to break next.
+bool StandingFrame::State::buckles(int c) {
+  if (!buckling) return false;
+  const std::optional<BuckledPost> post = buckling->find(c, statics.diverged(c));
+  if (!post || !post->joint.valid()) return false;
+  buckled.push_back(*post);
+  return true;
+}
+
+void StandingFrame::State::snap_buckled() {
+  for (const BuckledPost& post : std::exchange(buckled, {})) {
+    const std::size_t first = breaks.size();
+    break_joint(post.joint, BreakCause::buckling);
+    if (breaks.size() == first) continue;
+    JointBreak& line = breaks[first];
+    line.sense = Sense::compression;
+    line.demand = post.compression;
+    line.capacity = post.bearable;
+    line.position = post.bulge;
+  }
 }
 
 /// The static answer is borne: R becomes R0.

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "bracing.h"
+#include "buckling_bracing.h"
 #include "ductile_joints.h"
 #include "energy_account.h"
 #include "frame_loads.h"
@@ -108,6 +109,8 @@ struct StandingFrame::State {
   // Check.
   [[nodiscard]] std::vector<JointId> next_generation();
   void come_to_rest(int component);
+  [[nodiscard]] bool buckles(int component);
+  void snap_buckled();
 
   // Response.
   [[nodiscard]] UnitResponse respond(const ContactPlace& place, const Vec3& direction) const;
@@ -127,6 +130,8 @@ struct StandingFrame::State {
   JointStates joints;
   DuctileJoints ductile;
   std::optional<ClassicBracing> bracing;
+  std::optional<BucklingBracing> buckling;
+  std::vector<BuckledPost> buckled;                    ///< to break next
   std::vector<char> node_solved;                       ///< per node: the solver still holds it
   std::vector<std::vector<solver::BeamLoad>> applied;  ///< per member: loads that the solver has
   std::vector<Vec6> node_applied;                      ///< per node

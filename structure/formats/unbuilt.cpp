@@ -27,9 +27,7 @@ struct UnbuiltValue {
   std::string_view accepted;
 };
 constexpr std::array unbuilt_values{
-    UnbuiltValue{"bracing", "\"buckling\"", "\"classic\", \"none\""},
     UnbuiltValue{"mechanism", "\"hinge\"", "\"detach\""},
-    UnbuiltValue{"second_order", "true", "false"},
 };
 
 }  // namespace

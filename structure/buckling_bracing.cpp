@@ -1,0 +1,268 @@
+#include "buckling_bracing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometric_forces.h"
+#include "index_of.h"
+#include "panel_bearings.h"
+#include "topple/solver/buckling.h"
+
+namespace topple::structure {
+
+namespace {
+/// Of the lower bound. Beams that hold a post softly can bring it below the bound; a half of it they do not.
+constexpr double tested_share = 0.5;
+/// A post that was stable is tested again when it uses this much more of its bound.
+constexpr double tested_again = 1.02;
+/// Rayleigh quotients above this go to the tangent: one cubic member for each post is up to 22 % on the safe side of a
+/// pinned one, and the quotient comes from below.
+constexpr double suspicious_quotient = 0.7;
+/// A post that bears more than this share of its pinned Euler load may buckle between nodes at rest, which the
+/// iteration does not see.
+constexpr double inner_share = 0.7;
+constexpr int iterations = 12;
+constexpr double settled = 1e-3;
+constexpr double pi = 3.14159265358979323846;
+
+double least_euler(const Building& building, const Member& member, double length) {
+  const Section& section = building[member.section];
+  return pi * pi * building[member.material].youngs_modulus * std::min(section.Iy, section.Iz) / (length * length);
+}
+
+}  // namespace
+
+BucklingBracing::BucklingBracing(const Building& building, const FrameStatics& statics, const Segmentation& segments,
+                                 const PanelBearings& bearings,
+                                 const std::vector<std::vector<solver::BeamLoad>>& applied,
+                                 const std::vector<Vec6>& node_applied, const std::vector<char>& node_solved)
+    : building_(building),
+      statics_(statics),
+      segments_(segments),
+      bearings_(bearings),
+      applied_(applied),
+      node_applied_(node_applied),
+      node_solved_(node_solved),
+      members_at_(building.nodes.size()),
+      membranes_at_(building.nodes.size()),
+      supported_(building.nodes.size(), 0),
+      tested_(building.members.size(), 0.0) {
+  for (std::size_t m = 0; m < building.members.size(); ++m)
+    for (NodeId node : building.members[m].nodes) members_at_[index_of(node)].push_back(MemberId(m));
+  for (std::size_t p = 0; p < building.panels.size(); ++p)
+    if (building.panels[p].model == PanelModel::membrane)
+      for (NodeId node : building.panels[p].nodes) membranes_at_[index_of(node)].push_back(PanelId(p));
+  for (const NodeSupport& support : building.supports) supported_[index_of(support.node)] = 1;
+}
+
+bool BucklingBracing::braced(NodeId node) const {
+  if (supported_[index_of(node)] != 0) return true;
+  for (MemberId member : members_at_[index_of(node)]) {
+    if (building_[member].kind == MemberKind::post || segments_.label(member) < 0) continue;
+    if (segments_.holds(building_.joint(member, 0)) && segments_.holds(building_.joint(member, 1))) return true;
+  }
+  return std::any_of(membranes_at_[index_of(node)].begin(), membranes_at_[index_of(node)].end(),
+                     [&](PanelId panel) { return bearings_.membrane(panel); });
+}
+
+double BucklingBracing::unbraced_length(MemberId post) const {
+  double length = building_[post].length;
+  for (int end = 0; end < 2; ++end) {
+    MemberId from = post;
+    NodeId node = building_[post].nodes[static_cast<std::size_t>(end)];
+    for (std::size_t turns = 0; turns < building_.members.size() && !braced(node); ++turns) {
+      MemberId next;
+      for (MemberId member : members_at_[index_of(node)])
+        if (member != from && building_[member].kind == MemberKind::post && segments_.label(member) >= 0 &&
+            segments_.holds(building_.joint(member, building_[member].nodes[0] == node ? 0 : 1)))
+          next = member;
+      if (!next.valid()) break;
+      length += building_[next].length;
+      node = building_[next].nodes[building_[next].nodes[0] == node ? 1 : 0];
+      from = next;
+    }
+  }
+  return length;
+}
+
+/// Remembers what each post uses of its bound when any is to be tested.
+bool BucklingBracing::suspicious(int c) {
+  bool found = false;
+  std::vector<std::pair<MemberId, double>> used;
+  for (MemberId member : statics_.members(c)) {
+    const Member& own = building_[member];
+    if (own.kind != MemberKind::post || segments_.label(member) < 0) continue;
+    const solver::Vec12& force = statics_.end_forces(member);
+    const double compression = std::max(force(0), -force(6));
+    // Without any walk: the bound is no higher than that of the post alone.
+    if (!(compression > 0)) continue;
+    const double alone = compression / least_euler(building_, own, 2 * own.length);
+    if (alone < tested_share / 400) continue;  // twenty storeys without bracing would still bear it
+    const double share = compression / least_euler(building_, own, 2 * unbraced_length(member));
+    if (share < tested_share) continue;
+    used.emplace_back(member, share);
+    found = found || share > tested_again * tested_[index_of(member)];
+  }
+  if (found)
+    for (const auto& [member, share] : used) tested_[index_of(member)] = share;
+  return found;
+}
+
+/// The Rayleigh quotient of -Kg over K in the shape that the second-order iteration comes to.
+double BucklingBracing::iterate(int c) const {
+  FrameStatics::ResponseLoads loads;
+  // A push sideways without any symmetry of its own.
+  double step = 0;
+  for (NodeId node : statics_.nodes(c)) {
+    if (node_solved_[index_of(node)] == 0) continue;
+    step += 1;
+    Vec6 push = Vec6::Zero();
+    push(0) = 1 + 0.3 * std::sin(0.7 * step);
+    push(1) = 0.8 + 0.3 * std::sin(1.1 * step + 1);
+    loads.nodes.emplace_back(node, push);
+  }
+  double quotient = 0;
+  for (int k = 0; k < iterations; ++k) {
+    const FrameStatics::Response shape = statics_.respond(c, loads);
+    double done = 0, geometric = 0, size = 0;
+    for (const auto& [node, load] : loads.nodes) {
+      done += load.dot(shape.displacement(node));
+      size = std::max(size, shape.displacement(node).cwiseAbs().maxCoeff());
+    }
+    if (!(done > 0) || !(size > 0)) return quotient;
+    std::vector<Vec6> at(building_.nodes.size(), Vec6::Zero());
+    for (MemberId member : statics_.members(c)) {
+      if (segments_.label(member) < 0) continue;
+      const auto& nodes = building_[member].nodes;
+      const solver::Beam& beam = statics_.beam(member);
+      const solver::Vec12& force = statics_.end_forces(member);
+      const solver::Vec12 hubs = hubs_of(beam, shape.displacement(nodes[0]), shape.displacement(nodes[1]));
+      const solver::Vec12 push = -forces_at_nodes(beam, geometric_forces(beam, (force(6) - force(0)) / 2, hubs));
+      for (int end = 0; end < 2; ++end) at[index_of(nodes[static_cast<std::size_t>(end)])] += push.segment<6>(6 * end);
+    }
+    for (auto& [node, load] : loads.nodes) {
+      geometric += at[index_of(node)].dot(shape.displacement(node));
+      load = at[index_of(node)] / size;
+    }
+    const double before = std::exchange(quotient, geometric / done);
+    if (k > 2 && std::abs(quotient - before) < settled * std::abs(quotient)) break;
+  }
+  return quotient;
+}
+
+std::optional<BuckledPost> BucklingBracing::judge(int c) const {
+  // What stands, numbered anew.
+  solver::FrameModel model;
+  solver::LoadSet loads;
+  std::vector<int> number(building_.nodes.size(), -1);
+  for (NodeId node : statics_.nodes(c)) {
+    if (node_solved_[index_of(node)] == 0 || segments_.label(node) < 0) continue;
+    number[index_of(node)] = static_cast<int>(model.nodes.size());
+    model.nodes.push_back(building_[node].position);
+    if (!node_applied_[index_of(node)].isZero(0))
+      loads.nodes.push_back({number[index_of(node)], node_applied_[index_of(node)]});
+  }
+  std::vector<MemberId> members;
+  for (MemberId member : statics_.members(c)) {
+    if (segments_.label(member) < 0) continue;
+    solver::Beam beam = statics_.beam(member);
+    for (int end = 0; end < 2; ++end) {
+      const auto e = static_cast<std::size_t>(end);
+      beam.node[e] = number[index_of(building_[member].nodes[e])];
+    }
+    if (beam.node[0] < 0 || beam.node[1] < 0) continue;
+    for (solver::BeamLoad load : applied_[index_of(member)]) {
+      load.beam = static_cast<int>(model.beams.size());
+      loads.beams.push_back(load);
+    }
+    model.beams.push_back(beam);
+    members.push_back(member);
+  }
+  for (PanelId panel : statics_.membranes(c)) {
+    if (!bearings_.membrane(panel)) continue;
+    solver::Shell shell = statics_.shell(panel);
+    for (std::size_t corner = 0; corner < 4; ++corner)
+      shell.node[corner] = number[index_of(building_[panel].nodes[corner])];
+    model.shells.push_back(shell);
+  }
+  for (const solver::Support& support : statics_.supports(c)) {
+    solver::Support own = support;
+    own.node = number[index_of(statics_.nodes(c)[static_cast<std::size_t>(support.node)])];
+    if (own.node >= 0 && !own.stiffness.isZero(0)) model.supports.push_back(own);
+  }
+  const std::vector<solver::BucklingMode> modes = solver::buckling_modes(model, loads, 1, {}, 1.0);
+  if (modes.empty() || modes.front().factor > 1) return std::nullopt;
+  const solver::BucklingMode& mode = modes.front();
+
+  BuckledPost worst;
+  double most = -1;
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    const Member& own = building_[members[i]];
+    if (own.kind != MemberKind::post) continue;
+    const solver::Vec12& force = statics_.end_forces(members[i]);
+    const double compression = (force(0) - force(6)) / 2;
+    if (!(compression > 0)) continue;
+    const auto motion = [&](int end) -> const Vec6& {
+      return mode.shape[static_cast<std::size_t>(model.beams[i].node[static_cast<std::size_t>(end)])];
+    };
+    const solver::Beam& beam = model.beams[i];
+    const solver::Vec12 hubs = hubs_of(beam, motion(0), motion(1));
+    const solver::Vec12 pushed = geometric_forces(beam, -compression * mode.factor, hubs);
+    // Between nodes at rest nothing tells the joints apart: the post that uses most of its own Euler load.
+    const bool at_rest = hubs.isZero(0);
+    const double inside = 1e-9 * compression / least_euler(building_, own, own.length);
+    const JointId joints[] = {building_.joint(members[i], 0), building_.joint(members[i], 1)};
+    JointId joint;
+    double bends = -1;
+    for (int end = 0; end < 2; ++end) {
+      if (!building_[joints[end]].capacity.breakable || !segments_.holds(joints[end])) continue;
+      // Moment of the cubic at this end: 2 E I/L (2 here + there), rotations against the chord, and what the axial
+      // force adds.
+      double bending = at_rest ? inside : 0;
+      for (const auto& [v, r, sense, I] : {std::tuple(1, 5, 1.0, beam.Iz), std::tuple(2, 4, -1.0, beam.Iy)}) {
+        const double chord = (hubs(v + 6) - hubs(v)) / own.length;
+        const double here = sense * hubs(r + 6 * end) - chord, there = sense * hubs(r + 6 * (1 - end)) - chord;
+        const double moment = beam.youngs_modulus * I / own.length * (4 * here + 2 * there);
+        bending = std::max(bending, std::abs(sense * moment + pushed(r + 6 * end)));
+      }
+      if (bending > bends) {
+        bends = bending;
+        joint = joints[end];
+      }
+    }
+    if (!joint.valid() || bends <= most) continue;
+    most = bends;
+    worst.post = members[i];
+    worst.joint = joint;
+    worst.compression = compression;
+    worst.bearable = mode.factor * compression;
+    const Vec3 first = motion(0).head<3>(), second = motion(1).head<3>();
+    const auto& nodes = own.nodes;
+    const double apart = (first - second).norm(), moved = std::max(first.norm(), second.norm());
+    worst.bulge = apart < 0.5 * moved            ? 0.5 * (building_[nodes[0]].position + building_[nodes[1]].position)
+                  : first.norm() > second.norm() ? building_[nodes[0]].position
+                                                 : building_[nodes[1]].position;
+  }
+  worst.factor = mode.factor;
+  return worst;
+}
+
+std::optional<BuckledPost> BucklingBracing::find(int c, bool certain) {
+  ++counters_.screened;
+  if (!suspicious(c) && !certain) return std::nullopt;
+  ++counters_.iterated;
+  bool inner = certain;
+  for (MemberId member : statics_.members(c)) {
+    if (segments_.label(member) < 0) continue;
+    const solver::Vec12& force = statics_.end_forces(member);
+    inner = inner || (force(0) - force(6)) / 2 >
+                         inner_share * least_euler(building_, building_[member], building_[member].length);
+  }
+  if (!inner && iterate(c) < suspicious_quotient) return std::nullopt;
+  ++counters_.judged;
+  std::optional<BuckledPost> buckled = judge(c);
+  if (buckled) std::fill(tested_.begin(), tested_.end(), 0.0);
+  return buckled;
+}
+
+}  // namespace topple::structure

@@ -1,0 +1,68 @@
+#pragma once
+// Loss of bracing by buckling: which post of a standing component gives way sideways under what it bears.
+//
+// Three sieves, the finest last:
+//   1. a post's compression against a lower bound of what it can bear, pi2 E I/(2 Lu)2, Lu the length over which
+//   nothing
+//      braces it: below `tested_share` of it nothing is looked at, nor while no post bears more than when it was tested
+//      last;
+//   2. the second-order iteration over the standing elastic factor, K u' = -Kg(N) u: its Rayleigh quotient comes to the
+//      inverse of the buckling factor from below;
+//   3. the full tangent (solver::buckling_modes: exact members, counted eigenvalues) decides, and gives the shape.
+// The post that the critical shape bends most at a joint that can break gives way there.
+#include <optional>
+#include <vector>
+
+#include "frame_statics.h"
+#include "segmentation.h"
+
+namespace topple::structure {
+
+class PanelBearings;
+
+struct BuckledPost {
+  MemberId post;
+  JointId joint;                         ///< valid when one of its joints can break
+  double factor = 0;                     ///< by which the loads would have to be smaller: below 1
+  double compression = 0, bearable = 0;  ///< N; `bearable`: compression times factor
+  Vec3 bulge = Vec3::Zero();             ///< where the critical shape moves it most, undeformed
+};
+
+class BucklingBracing {
+ public:
+  BucklingBracing(const Building& building, const FrameStatics& statics, const Segmentation& segments,
+                  const PanelBearings& bearings, const std::vector<std::vector<solver::BeamLoad>>& applied,
+                  const std::vector<Vec6>& node_applied, const std::vector<char>& node_solved);
+
+  /// Of the state solved last. Nothing: the component is stable. `certain`: the tangent is asked in any case.
+  [[nodiscard]] std::optional<BuckledPost> find(int component, bool certain = false);
+
+  struct Counters {
+    int screened = 0, iterated = 0, judged = 0;  ///< components that each sieve was asked about
+  };
+  [[nodiscard]] const Counters& counters() const { return counters_; }
+
+  /// Length over which nothing braces the post sideways.
+  [[nodiscard]] double unbraced_length(MemberId post) const;
+
+ private:
+  [[nodiscard]] bool braced(NodeId node) const;
+  [[nodiscard]] bool suspicious(int component);
+  [[nodiscard]] double iterate(int component) const;
+  [[nodiscard]] std::optional<BuckledPost> judge(int component) const;
+
+  const Building& building_;
+  const FrameStatics& statics_;
+  const Segmentation& segments_;
+  const PanelBearings& bearings_;
+  const std::vector<std::vector<solver::BeamLoad>>& applied_;
+  const std::vector<Vec6>& node_applied_;
+  const std::vector<char>& node_solved_;
+  std::vector<std::vector<MemberId>> members_at_;  ///< per node
+  std::vector<std::vector<PanelId>> membranes_at_;
+  std::vector<char> supported_;  ///< per node
+  std::vector<double> tested_;   ///< per member: utilisation of the lower bound when it was tested last
+  Counters counters_;
+};
+
+}  // namespace topple::structure
