@@ -1,0 +1,77 @@
+#pragma once
+// What the joints of a free body bear: a segment in flight under contact forces and gravity, held in balance by the
+// inertia of its parts (inertia relief). The accelerations of translation and rotation are those at which all of it is
+// in balance, gyroscopic moment included; every part then pushes with its mass times minus its own acceleration,
+//   a + alpha x r + w x (w x r),
+// and the frame is solved held at one node, whose reaction is nothing.
+#include <functional>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "topple/solver/static_analysis.h"
+#include "topple/structure/building.h"
+
+namespace topple::structure {
+
+/// Of a body made of the building's parts; masses in kg. Members' masses lie evenly along them, panels' at their
+/// corners.
+struct FreeSegmentParts {
+  std::vector<MemberId> members;
+  std::vector<PanelId> panels;
+  std::vector<NodeId> nodes;
+  std::vector<double> member_mass, panel_mass, node_mass;
+};
+
+/// A force on the body, at the place and in the axes of the undeformed building.
+struct FreePush {
+  MemberId member;  ///< valid: on a member, else on a panel
+  PanelId panel;
+  Vec3 point = Vec3::Zero(), force = Vec3::Zero();
+};
+
+class FreeSegment {
+ public:
+  /// `holds`: whether a joint of the members is intact.
+  FreeSegment(const Building& building, FreeSegmentParts parts, const std::function<bool(JointId)>& holds);
+
+  /// False when no joint inside it could break, or when it can move within itself: then nothing is asked of it.
+  [[nodiscard]] bool can_break() const { return analysis_ != nullptr; }
+
+  struct Answer {
+    std::vector<std::pair<JointId, Vec6>> demands;  ///< of each intact joint with a capacity, in order of id
+    Vec3 acceleration = Vec3::Zero();               ///< of the centre
+    Vec3 angular_acceleration = Vec3::Zero();
+    double imbalance = 0;  ///< reaction of the node that holds it, over the largest force on it
+  };
+  /// `spin` and `gravity` in the axes of the undeformed building. Only when it can break.
+  [[nodiscard]] Answer bear(std::span<const FreePush> pushes, const Vec3& spin, const Vec3& gravity);
+
+ private:
+  [[nodiscard]] int node_at(MemberId member, int end);
+  [[nodiscard]] double polar(MemberId member) const;
+  void add_mass(const Vec3& at, double mass);
+  [[nodiscard]] solver::LoadSet place(std::span<const FreePush> pushes) const;
+  void push_corners(const Panel& panel, const Vec3& point, const Vec3& force, solver::LoadSet& loads) const;
+  [[nodiscard]] Vec3 on(const Vec3& at, const Answer& motion, const Vec3& spin, const Vec3& gravity) const;
+
+  const Building& building_;
+  FreeSegmentParts parts_;
+  std::vector<JointId> joints_;
+  std::vector<int> node_number_;    ///< per node of the building, -1: not in the body
+  std::vector<double> point_mass_;  ///< per node of the model
+  solver::FrameModel model_;
+  double mass_ = 0;
+  Vec3 centre_ = Vec3::Zero();
+  Mat3 inertia_ = Mat3::Zero();
+  std::unique_ptr<solver::StaticAnalysis> analysis_;
+};
+
+/// The connected parts that a body falls into when only these joints still hold: members and nodes by joints, each
+/// panel with the part that has most of its corners (of equal ones the first). In order of their least member, node or
+/// panel.
+[[nodiscard]] std::vector<FreeSegmentParts> connected_parts(const Building& building, const FreeSegmentParts& whole,
+                                                            const std::function<bool(JointId)>& holds);
+
+}  // namespace topple::structure
