@@ -150,6 +150,8 @@ int main(int argc, char** argv) {
     std::size_t down = 0;
     for (std::size_t m = 0; m < simulation.building().members.size(); ++m)
       down += simulation.frame().stands(structure::MemberId(m)) ? 0 : 1;
+    std::printf("%llu impacts were borne by a bound alone\n",
+                static_cast<unsigned long long>(simulation.counters().impacts_bounded));
     std::printf("%.3f s simulated, %s, %zu members down, hash %016llx\n", simulation.time(),
                 simulation.at_rest() ? "at rest" : "not at rest", down,
                 static_cast<unsigned long long>(simulation.hash()));

@@ -165,23 +165,56 @@ double Reanalysis::strain_energy() const {
   return energy;
 }
 
+LoadVector Reanalysis::State::force_on_standing(const LoadSet& loads) const {
+  if (!answer.stable || !structure_stands)
+    throw Instability("the structure does not stand: it has no response", answer.mechanism);
+  LoadVector result = system->load_vector(loads);
+  if (const auto defect = system->unbalanced_load(result)) throw Instability(defect->message, defect->motion);
+  return result;
+}
+
+namespace {
+
+std::vector<std::pair<int, Vec12>> fixed_end_of(const LoadSet& loads, const LoadVector& load) {
+  std::vector<std::pair<int, Vec12>> fixed_end;
+  for (const BeamLoad& one : loads.beams)
+    fixed_end.emplace_back(one.beam, load.beam_fixed_end[static_cast<std::size_t>(one.beam)]);
+  std::sort(fixed_end.begin(), fixed_end.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  return fixed_end;
+}
+
+}  // namespace
+
 Reanalysis::Response Reanalysis::respond(const LoadSet& loads) const {
   const State& state = *state_;
-  if (!state.answer.stable || !state.structure_stands) {
-    throw Instability("the structure does not stand: it has no response", state.answer.mechanism);
-  }
-  const LoadVector load = state.system->load_vector(loads);
-  if (const auto defect = state.system->unbalanced_load(load)) throw Instability(defect->message, defect->motion);
+  const LoadVector load = state.force_on_standing(loads);
   Response response;
   const Eigen::VectorXd u = state.solve_sparse(load.force, response.backward_error);
   response.displacements = state.system->node_displacements(u, load.held_displacement);
-  for (const BeamLoad& one : loads.beams) {
-    const auto beam = static_cast<std::size_t>(one.beam);
-    response.fixed_end.emplace_back(one.beam, load.beam_fixed_end[beam]);
-  }
-  std::sort(response.fixed_end.begin(), response.fixed_end.end(),
-            [](const auto& a, const auto& b) { return a.first < b.first; });
+  response.fixed_end = fixed_end_of(loads, load);
   return response;
+}
+
+Reanalysis::Response Reanalysis::respond_near(const LoadSet& loads, std::vector<char>& known) const {
+  const State& state = *state_;
+  const LoadVector load = state.force_on_standing(loads);
+  std::vector<char> equation_known;
+  Response response;
+  const Eigen::VectorXd u = state.solve_on_paths(load.force, equation_known);
+  response.displacements = state.system->node_displacements(u, load.held_displacement);
+  response.fixed_end = fixed_end_of(loads, load);
+  const DofMap& dofs = state.system->dofs();
+  known.assign(response.displacements.size(), 1);
+  for (std::size_t n = 0; n < known.size(); ++n) {
+    for (const int number : dofs.number[n])
+      if (number < dofs.equations && equation_known[static_cast<std::size_t>(number)] == 0) known[n] = 0;
+    if (known[n] == 0) response.displacements[n].setZero();
+  }
+  return response;
+}
+
+Vec12 Reanalysis::beam_stiffness_diagonal(int beam) const {
+  return CondensedBeam(state_->system->model.beams[state_->checked_beam(beam)]).stiffness().diagonal();
 }
 
 Vec12 Reanalysis::beam_end_forces(int beam, const Response& response) const {

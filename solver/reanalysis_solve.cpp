@@ -174,6 +174,23 @@ Eigen::VectorXd Reanalysis::State::solve_sparse(const Eigen::VectorXd& force, do
   return x.cwiseProduct(scale);
 }
 
+Eigen::VectorXd Reanalysis::State::solve_on_paths(const Eigen::VectorXd& force, std::vector<char>& known) const {
+  const Eigen::Index n = system->dofs().equations;
+  known.assign(static_cast<std::size_t>(n), 1);
+  if (n == 0) return {};
+  if (!standing) {
+    double backward_error = 0;
+    return solve_sparse(force, backward_error);
+  }
+  Eigen::VectorXd x;
+  scale_force(force, x);
+  std::vector<int> loaded;
+  for (Eigen::Index e = 0; e < n; ++e)
+    if (x(e) != 0) loaded.push_back(static_cast<int>(e));
+  standing->solve_on_paths(x, loaded, known);
+  return x.cwiseProduct(Eigen::Map<const Eigen::VectorXd>(system->scale().data(), n));
+}
+
 /// Rows in which the last answer does not fit any longer; none when they are too many to tell apart.
 void Reanalysis::State::find_changed_rows(const Eigen::VectorXd& force) {
   std::vector<int>& changed = rows_to_change;

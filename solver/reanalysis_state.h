@@ -91,11 +91,15 @@ struct Reanalysis::State {
   void find_changed_rows(const Eigen::VectorXd& force);
   void apply_changes();
   void give_up(const Defect& defect);
+  /// The same on elimination paths, see StandingFactor::solve_on_paths().
+  [[nodiscard]] Eigen::VectorXd solve_on_paths(const Eigen::VectorXd& force, std::vector<char>& known) const;
   [[nodiscard]] double current_condition() const;
   [[nodiscard]] Vec12 end_forces(std::size_t beam, const std::vector<Vec6>& displacements, const Vec12& fixed) const;
   [[nodiscard]] LinearSolve linear_solve() const;
   void scale_force(const Eigen::VectorXd& force, Eigen::VectorXd& result) const;
   /// Answer to a force that few equations feel; refined to rounding level.
+  /// The force that loads make, of a structure that stands; throws Instability.
+  [[nodiscard]] LoadVector force_on_standing(const LoadSet& loads) const;
   [[nodiscard]] Eigen::VectorXd solve_sparse(const Eigen::VectorXd& force, double& backward_error) const;
   [[nodiscard]] std::size_t checked_beam(int beam) const;
   [[nodiscard]] std::size_t checked_shell(int shell) const;

@@ -234,10 +234,29 @@ void StandingFactor::solve(Eigen::VectorXd& x, const std::vector<int>* rows) con
   correction_.correct(eliminated_);
   solver_.backward(eliminated_);
   solver_.restore(eliminated_, x);
+  forget_dropped(x);
+}
+
+void StandingFactor::forget_dropped(Eigen::VectorXd& x) const {
   for (const int node : dropped_) {
     const auto n = static_cast<std::size_t>(node);
     for (int e = system_.dofs().first_equation[n]; e < system_.dofs().first_equation[n + 1]; ++e) x(e) = 0;
   }
+}
+
+void StandingFactor::solve_on_paths(Eigen::VectorXd& x, const std::vector<int>& rows, std::vector<char>& known) const {
+  solver_.permute(x, eliminated_);
+  solver_.mark_paths(rows, marked_);
+  solver_.forward(eliminated_, &marked_);
+  correction_.correct(eliminated_);
+  solver_.backward(eliminated_, &marked_);
+  solver_.restore(eliminated_, x);
+  known.resize(static_cast<std::size_t>(x.size()));
+  for (Eigen::Index row = 0; row < x.size(); ++row) {
+    known[static_cast<std::size_t>(row)] = marked_[static_cast<std::size_t>(solver_.block_of(static_cast<int>(row)))];
+    if (known[static_cast<std::size_t>(row)] == 0) x(row) = 0;
+  }
+  forget_dropped(x);
 }
 
 Eigen::VectorXd StandingFactor::softest_motion() const {

@@ -46,6 +46,9 @@ class StandingFactor {
 
   /// x := K^-1 x of the matrix as it stands. `rows` (unless null): x is zero in all other rows.
   void solve(Eigen::VectorXd& x, const std::vector<int>* rows = nullptr) const;
+  /// The same on the elimination paths of `rows` alone, where x may differ from zero: a part of the work. `known` (per
+  /// row) tells where x holds the answer; it is zero elsewhere.
+  void solve_on_paths(Eigen::VectorXd& x, const std::vector<int>& rows, std::vector<char>& known) const;
   /// The softest motion of the changed structure relative to that of the factor (scaled equations), and by what factor
   /// it is softer than there.
   [[nodiscard]] Eigen::VectorXd softest_motion() const;
@@ -70,6 +73,7 @@ class StandingFactor {
   void plan_grounds();
   void want(Key key, const Eigen::Ref<const Eigen::MatrixXd>& D);
   void forget_unchanged();
+  void forget_dropped(Eigen::VectorXd& x) const;
   [[nodiscard]] bool inside_dropped(std::span<const int> nodes) const;
   [[nodiscard]] ElementModes modes(Key key) const;
 

@@ -248,9 +248,10 @@ void TriangularSolver::forward(Eigen::VectorXd& y, const std::vector<char>* mark
   }
 }
 
-void TriangularSolver::backward(Eigen::VectorXd& y) const {
+void TriangularSolver::backward(Eigen::VectorXd& y, const std::vector<char>* marked) const {
   double* below = below_.data();
   for (std::size_t b = parent_.size(); b-- > 0;) {
+    if (marked != nullptr && (*marked)[b] == 0) continue;
     const Block block{value_.data() + value_start_[b], static_cast<int>(first_[b + 1] - first_[b]),
                       static_cast<int>(row_start_[b + 1] - row_start_[b])};
     const std::int64_t* rows = row_.data() + row_start_[b] + block.columns;

@@ -45,6 +45,8 @@ class TriangularSolver {
   void restore(const Eigen::VectorXd& eliminated, Eigen::VectorXd& natural) const;
   [[nodiscard]] int position(int row) const { return position_[static_cast<std::size_t>(row)]; }
 
+  /// The block that eliminates a row of the matrix.
+  [[nodiscard]] int block_of(int row) const { return block_of_[static_cast<std::size_t>(position(row))]; }
   /// The path of rows (of the matrix) that lie on one path, as those of an element do.
   [[nodiscard]] EliminationPath path(std::span<const int> rows) const;
   /// Marks the blocks on the paths of any rows.
@@ -52,8 +54,9 @@ class TriangularSolver {
 
   /// y := L^-1 y in elimination order. With `marked` (per block): only these; the rest of y must be zero.
   void forward(Eigen::VectorXd& y, const std::vector<char>* marked = nullptr) const;
-  /// y := L^-T y.
-  void backward(Eigen::VectorXd& y) const;
+  /// y := L^-T y. With `marked`: these blocks alone, which are right whatever the rest of y holds when each one's
+  /// parent is marked too.
+  void backward(Eigen::VectorXd& y, const std::vector<char>* marked = nullptr) const;
   /// B := L^-1 B for each B. Blocks that several paths share are gone through once, with all their columns together.
   void forward(std::span<const PathColumns> groups) const;
   /// The row of the path at which an equation of the matrix stands.

@@ -46,6 +46,8 @@ FrameStatics::FrameStatics(const Building& building, int threads) {
   options.threads = threads;
   for (std::size_t c = 0; c < models.size(); ++c)
     components_[c].analysis = std::make_unique<solver::Reanalysis>(std::move(models[c]), options);
+  for (const Place& place : member_place_)
+    stiffness_diagonal_.push_back(at(place).beam_stiffness_diagonal(place.local));
 }
 
 std::vector<solver::FrameModel> FrameStatics::split(const Building& building, const Frame& frame) {
@@ -220,18 +222,34 @@ Vec3 FrameStatics::point_displacement(MemberId member, double distance,
   return at(place).point_displacement(place.local, distance, at(place).displacements(), with_hinges(member, loads));
 }
 
-FrameStatics::Response FrameStatics::respond(int component, const ResponseLoads& loads) const {
+solver::LoadSet FrameStatics::local(const ResponseLoads& loads) const {
   solver::LoadSet set;
   for (const auto& [node, load] : loads.nodes) set.nodes.push_back({node_place_[index(node)].local, load});
   for (const auto& [member, load] : loads.members) {
     set.beams.push_back(load);
     set.beams.back().beam = member_place_[index(member)].local;
   }
+  return set;
+}
+
+FrameStatics::Response FrameStatics::respond(int component, const ResponseLoads& loads) const {
   Response response;
   response.statics_ = this;
   response.component_ = component;
-  response.answer_ = parts(component).analysis->respond(set);
+  response.answer_ = parts(component).analysis->respond(local(loads));
   return response;
+}
+
+FrameStatics::Response FrameStatics::respond_near(int component, const ResponseLoads& loads) const {
+  Response response;
+  response.statics_ = this;
+  response.component_ = component;
+  response.answer_ = parts(component).analysis->respond_near(local(loads), response.known_);
+  return response;
+}
+
+bool FrameStatics::Response::known(NodeId node) const {
+  return known_.empty() || known_[static_cast<std::size_t>(statics_->node_place_[index(node)].local)] != 0;
 }
 
 const Vec6& FrameStatics::Response::displacement(NodeId node) const {

@@ -84,18 +84,27 @@ class FrameStatics {
     [[nodiscard]] Vec3 point_displacement(MemberId member, double distance,
                                           const std::vector<solver::BeamLoad>& loads) const;
     [[nodiscard]] int component() const { return component_; }
+    /// False only of a response on elimination paths: the displacement is not known there.
+    [[nodiscard]] bool known(NodeId node) const;
 
    private:
     friend class FrameStatics;
     const FrameStatics* statics_ = nullptr;
     int component_ = 0;
     solver::Reanalysis::Response answer_;
+    std::vector<char> known_;  ///< per node of the component; empty: everywhere
   };
   struct ResponseLoads {
     std::vector<std::pair<MemberId, solver::BeamLoad>> members;
     std::vector<std::pair<NodeId, Vec6>> nodes;
   };
   [[nodiscard]] Response respond(int component, const ResponseLoads& loads) const;
+  /// At a part of the cost, and known on the elimination paths of the loads alone, where they act among them.
+  [[nodiscard]] Response respond_near(int component, const ResponseLoads& loads) const;
+  /// Diagonal of the stiffness that the member had in the undamaged building, local axes.
+  [[nodiscard]] const solver::Vec12& stiffness_diagonal(MemberId member) const {
+    return stiffness_diagonal_[index(member)];
+  }
 
   [[nodiscard]] solver::ReanalysisCounters counters() const;
   [[nodiscard]] double operations() const { return operations_; }
@@ -122,6 +131,7 @@ class FrameStatics {
     std::array<Vec6, 2> stiffness;
     solver::Vec12 held = solver::Vec12::Zero(), slip = solver::Vec12::Zero();
   };
+  [[nodiscard]] solver::LoadSet local(const ResponseLoads& loads) const;
   solver::Reanalysis& changing(const Place& place);
   void read_end_forces(int component);
   bool displace(int component);
@@ -134,7 +144,7 @@ class FrameStatics {
 
   std::vector<Place> node_place_, member_place_, membrane_place_, support_place_;
   std::vector<NodeId> support_node_;
-  std::vector<solver::Vec12> end_forces_;
+  std::vector<solver::Vec12> end_forces_, stiffness_diagonal_;
   std::vector<Component> components_;
   std::map<MemberId, Hinges> hinges_;
   std::vector<std::vector<solver::BeamLoad>> member_loads_;  ///< as given

@@ -41,6 +41,8 @@ StandingFrame::State::State(const Building& given, CombinationId combination, co
       checked_joints(static_cast<std::size_t>(statics.components())),
       component_panels(checked_joints.size()),
       to_check(checked_joints.size(), 1),
+      critical_energies(checked_joints.size(), -1.0),
+      certain(checked_joints.size()),
       solved_nodes(checked_joints.size(), 0),
       in_mechanism(given.members.size(), 0) {
   if (rules.bracing == BracingRule::classic) bracing.emplace(building);
@@ -228,6 +230,7 @@ void StandingFrame::set_strength_factor(JointId joint, double factor) {
   if (!(factor > 0)) return break_joint(joint, BreakCause::tool);
   state.joints.set_strength(joint, factor);
   state.to_check[static_cast<std::size_t>(state.component(joint))] = 1;
+  state.forget_bounds(state.component(joint));
   state.pending = true;
 }
 
@@ -279,6 +282,14 @@ std::vector<Detached> StandingFrame::take_detached() { return std::exchange(stat
 
 StandingFrame::UnitResponse StandingFrame::respond(const ContactPlace& place, const Vec3& direction) const {
   return state_->respond(place, direction);
+}
+
+StandingFrame::UnitResponse StandingFrame::respond_near(const ContactPlace& place, const Vec3& direction) const {
+  return state_->respond_near(place, direction);
+}
+
+double StandingFrame::critical_energy(const ContactPlace& place) const {
+  return state_->critical_energy(state_->component(place));
 }
 
 double StandingFrame::break_in_impact(std::span<const JointBreak> breaks, const ContactPlace& place,

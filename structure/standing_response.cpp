@@ -57,20 +57,31 @@ double mean_square(const Building& building, MemberId member, const FrameStatics
 
 }  // namespace
 
-StandingFrame::UnitResponse StandingFrame::State::respond(const ContactPlace& place, const Vec3& direction) const {
-  const PlacedLoad placed = place_load(building, bearings, place, direction);
+FrameStatics::ResponseLoads StandingFrame::State::response_loads(const PlacedLoad& placed) const {
   FrameStatics::ResponseLoads unit;
   unit.members = placed.members;
   for (const auto& [node, load] : placed.nodes)
     if (node_solved[index_of(node)]) unit.nodes.emplace_back(node, load);
-  const int c =
-      place.member.valid() ? statics.component(place.member) : statics.component(building[place.panel].nodes[0]);
-  const FrameStatics::Response response = statics.respond(c, unit);
+  return unit;
+}
+
+int StandingFrame::State::component(const ContactPlace& place) const {
+  return place.member.valid() ? statics.component(place.member) : statics.component(building[place.panel].nodes[0]);
+}
+
+StandingFrame::UnitResponse StandingFrame::State::respond(const ContactPlace& place, const Vec3& direction) const {
+  const PlacedLoad placed = place_load(building, bearings, place, direction);
+  const int c = component(place);
+  const FrameStatics::Response response = statics.respond(c, response_loads(placed));
   UnitResponse answer;
-  answer.compliance = work(building, placed, response) + placed.bending_compliance;
+  answer.compliance = compliance(placed, response);
   answer.demands = response_demands(c, placed, response);
   answer.rayleigh_mass = rayleigh_mass(c, placed, response, answer.compliance);
   return answer;
+}
+
+double StandingFrame::State::compliance(const PlacedLoad& placed, const FrameStatics::Response& response) const {
+  return work(building, placed, response) + placed.bending_compliance;
 }
 
 std::vector<std::pair<JointId, Vec6>> StandingFrame::State::response_demands(

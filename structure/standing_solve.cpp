@@ -79,6 +79,7 @@ bool StandingFrame::State::solve_changed() {
 }
 
 void StandingFrame::State::read_demands(int c, bool slow) {
+  forget_bounds(c);
   const auto set = [&](JointId joint, const Vec6& demand) {
     slow ? joints.set_slow_demand(joint, demand) : joints.set_demand(joint, demand);
   };

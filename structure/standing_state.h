@@ -113,11 +113,22 @@ struct StandingFrame::State {
   void snap_buckled();
 
   // Response.
+  [[nodiscard]] FrameStatics::ResponseLoads response_loads(const PlacedLoad& placed) const;
+  [[nodiscard]] int component(const ContactPlace& place) const;
+  [[nodiscard]] double compliance(const PlacedLoad& placed, const FrameStatics::Response& response) const;
   [[nodiscard]] UnitResponse respond(const ContactPlace& place, const Vec3& direction) const;
   [[nodiscard]] std::vector<std::pair<JointId, Vec6>> response_demands(int component, const PlacedLoad& placed,
                                                                        const FrameStatics::Response& response) const;
   [[nodiscard]] double rayleigh_mass(int component, const PlacedLoad& placed, const FrameStatics::Response& response,
                                      double compliance) const;
+  // Response, as far as it is known at little cost (standing_bound.cpp).
+  [[nodiscard]] UnitResponse respond_near(const ContactPlace& place, const Vec3& direction) const;
+  [[nodiscard]] double least_mass(int component, const PlacedLoad& placed, const FrameStatics::Response& response,
+                                  double compliance) const;
+  [[nodiscard]] const std::vector<double>& certain_masses(int component) const;
+  [[nodiscard]] double critical_energy(int component) const;
+  [[nodiscard]] double critical_energy(JointId joint) const;
+  void forget_bounds(int component);
   [[nodiscard]] double displacement_along(const ContactPlace& place, const Vec3& direction) const;
 
   const Building& building;
@@ -140,7 +151,11 @@ struct StandingFrame::State {
   std::vector<std::vector<JointId>> checked_joints;    ///< per component: joints with a capacity
   std::vector<std::vector<PanelId>> component_panels;  ///< per component
   std::vector<char> to_check;                          ///< per component
-  std::vector<int> solved_nodes;                       ///< per component: nodes that the solver still holds
+  /// Per component, of its state as solved last: critical energy (below 0: to be found), and per node the mass that
+  /// moves with it whatever the others do (empty: to be found).
+  mutable std::vector<double> critical_energies;
+  mutable std::vector<std::vector<double>> certain;
+  std::vector<int> solved_nodes;  ///< per component: nodes that the solver still holds
 
   std::vector<Change> queue;
   bool pending = false;

@@ -152,7 +152,8 @@ std::string summary_json(const Simulation& simulation, const StepTimes& times, d
                     {"refactorisations", work.refactorisations},
                     {"segmentations", work.segmentations},
                     {"collision_steps", work.collision_steps},
-                    {"contacts_ignored", work.contacts_ignored}}},
+                    {"contacts_ignored", work.contacts_ignored},
+                    {"impacts_bounded", work.impacts_bounded}}},
                   {"step_milliseconds", times_json(times)},
                   {"ledger", ledger_json(simulation.ledger())},
                   {"roof_sag_at_start", roof_sag}};

@@ -36,7 +36,10 @@ struct Simulation::State {
   struct Strike;
   void strike(const collision::Contact& contact);
   [[nodiscard]] std::optional<Strike> aim(const collision::Contact& contact);
+  [[nodiscard]] double rebound(const Indentation& pushing) const;
+  [[nodiscard]] bool bears(Strike& hit, double weight);
   void push_in(Strike& hit);
+  static void tell_loss(Strike& hit);
   void send_on(const Strike& hit);
   void break_generations();
 

@@ -87,9 +87,33 @@ std::optional<Simulation::State::Strike> Simulation::State::aim(const collision:
   return hit;
 }
 
+/// A body that is let go stays where it is: what its weight would have done further in is not its own.
+double Simulation::State::rebound(const Indentation& pushing) const {
+  return -scenario.impact.restitution * pushing.elastic_rebound_speed();
+}
+
+/// Whether what is hit provably bears the push: the joints that bear it directly do not fail, and the energy is less
+/// than any other joint fails at. A lower bound of the mass that takes part makes the push harder than it is, so what
+/// is told of it (peak force, speed out) is a bound as well. Most impacts of debris end here, at a part of the cost.
+bool Simulation::State::bears(Strike& hit, double weight) {
+  constexpr double rounding = 1e-6;
+  const StandingFrame::UnitResponse near = frame->respond_near(hit.place, hit.normal);
+  const double mass = scenario.impact.structure_mass ? near.rayleigh_mass : 0;
+  Indentation pushing(hit.mass, hit.speed, weight, mass);
+  const FirstFailure own = first_failure(*frame, near, strength_factors, unlimited);
+  if (pushing.push(near.compliance, std::min(own.force, punching_force(hit))) != Indentation::Stop::stood) return false;
+  if (pushing.stored(near.compliance) > (1 - rounding) * frame->critical_energy(hit.place)) return false;
+  hit.structure_mass = mass;
+  hit.speed_out = rebound(pushing);
+  hit.peak_force = pushing.peak_force();
+  ++counters.impacts_bounded;
+  return true;
+}
+
 /// The pushing, break after break, until the body stops or nothing is left to push.
 void Simulation::State::push_in(Strike& hit) {
   const double weight = hit.mass * gravity.dot(hit.normal);
+  if (bears(hit, weight)) return tell_loss(hit);
   StandingFrame::UnitResponse response = frame->respond(hit.place, hit.normal);
   hit.structure_mass = scenario.impact.structure_mass ? response.rayleigh_mass : 0;
   Indentation pushing(hit.mass, hit.speed, weight, hit.structure_mass);
@@ -100,10 +124,7 @@ void Simulation::State::push_in(Strike& hit) {
     if (punches && hit.breaks.empty() && punch_at_once(hit, punching)) break;
     const Indentation::Stop stop = pushing.push(response.compliance, std::min(first.force, punching));
     if (stop != Indentation::Stop::failed) {
-      // A body that is let go stays where it is: what its weight would have done further in is not its own.
-      hit.speed_out = stop == Indentation::Stop::missed
-                          ? std::min(pushing.speed(), hit.speed)
-                          : -scenario.impact.restitution * pushing.elastic_rebound_speed();
+      hit.speed_out = stop == Indentation::Stop::missed ? std::min(pushing.speed(), hit.speed) : rebound(pushing);
       break;
     }
     if (punches) {
@@ -135,6 +156,10 @@ void Simulation::State::push_in(Strike& hit) {
     }
   }
   hit.peak_force = std::max(hit.peak_force, pushing.peak_force());
+  tell_loss(hit);
+}
+
+void Simulation::State::tell_loss(Strike& hit) {
   hit.lost = hit.mass * (hit.speed * hit.speed - hit.speed_out * hit.speed_out) / 2;
 }
 

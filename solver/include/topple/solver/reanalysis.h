@@ -78,6 +78,13 @@ class Reanalysis {
     double backward_error = 0;
   };
   [[nodiscard]] Response respond(const LoadSet& loads) const;
+  /// The same for the nodes alone that lie on the elimination paths of those that bear the loads, these among them: a
+  /// part of the work. Not refined, so that no backward error is told. `known` (per node): where the answer holds; zero
+  /// elsewhere.
+  [[nodiscard]] Response respond_near(const LoadSet& loads, std::vector<char>& known) const;
+  /// Diagonal of a beam's stiffness as it stands (local axes, its joints included): what one freedom of an end meets
+  /// while all others are held.
+  [[nodiscard]] Vec12 beam_stiffness_diagonal(int beam) const;
   [[nodiscard]] Vec12 beam_end_forces(int beam, const Response& response) const;  ///< local
   /// Displacement of a point of a beam (local coordinate along it) under the given state: exact, from the end
   /// displacements and the beam's own flexibility under `own` (the loads on that beam that belong to the state).

@@ -63,6 +63,7 @@ struct Ledger {
 struct SimulationCounters {
   std::uint64_t steps_idle = 0, solves = 0, low_rank = 0, refactorisations = 0, segmentations = 0;
   std::uint64_t collision_steps = 0, contacts_ignored = 0;
+  std::uint64_t impacts_bounded = 0;  ///< borne by a bound alone, without a solve
 };
 
 /// A moving body: debris of the building, or a projectile.

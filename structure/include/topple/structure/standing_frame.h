@@ -164,6 +164,12 @@ class StandingFrame {
   /// The place must stand. A place on a member is taken at the nearest point of its axis, on a panel at the nearest
   /// point of its plane; a panel hands the force by the lever rule to two opposite edges along its shorter span.
   [[nodiscard]] UnitResponse respond(const ContactPlace& place, const Vec3& direction) const;
+  /// The same as far as it is known at a part of the cost: the compliance, a lower bound of the Rayleigh mass, and the
+  /// demands of the joints at the members and the panel that bear the force directly.
+  [[nodiscard]] UnitResponse respond_near(const ContactPlace& place, const Vec3& direction) const;
+  /// J: a push there that adds less strain energy than this to the structure breaks no joint, those of the members and
+  /// the panel that bear it directly aside. Joints over capacity already are left to the generations.
+  [[nodiscard]] double critical_energy(const ContactPlace& place) const;
   /// Breaks these joints now, at an impact (uses up no generation): re-segments and solves. What snaps with them
   /// (bracing, mechanisms) is told by the next settle(). Returns how far the unloaded contact place moved along
   /// `direction` (the shift D of the impact law). Ask stands() of the place's part afterwards: when it left, the shift
