@@ -8,7 +8,7 @@ namespace {
 
 // What a front costs, in nanoseconds on a processor of 2023; the ratios decide, and they vary little.
 constexpr double front_cost = 1500;       ///< however small it is
-constexpr double entry_cost = 1.5;        ///< for each stored entry: cleared, filled, packed, written, read by solves
+constexpr double entry_cost = 4;          ///< for each stored entry: cleared, filled, packed, written, read by solves
 constexpr double update_cost = 0.8;       ///< for each entry of the update: cleared, added to the front above
 constexpr double operation_cost = 0.025;  ///< for each multiply-add, in fronts of middling size
 

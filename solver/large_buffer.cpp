@@ -4,28 +4,18 @@
 #include <new>
 #include <utility>
 
-#if defined(__linux__)
-#include <sys/mman.h>
-#endif
-
 namespace topple::solver {
 namespace {
-constexpr std::size_t line = 64, large_page = std::size_t{1} << 21;
+constexpr std::size_t line = 64;
 /// Entries that may lie idle in a pool: 32 MiB.
 constexpr std::size_t most_spare = std::size_t{1} << 22;
 }  // namespace
 
-void LargeBuffer::Free::operator()(double* p) const { ::operator delete (p, std::align_val_t{alignment}); }
+void LargeBuffer::Free::operator()(double* p) const { ::operator delete (p, std::align_val_t{line}); }
 
-LargeBuffer::LargeBuffer(std::size_t entries) : size_(entries) {
-  const std::size_t bytes = entries * sizeof(double), alignment = bytes >= 2 * large_page ? large_page : line;
-  memory_ = {static_cast<double*>(::operator new (bytes, std::align_val_t{alignment})), Free{alignment}};
-#if defined(__linux__)
-  // Advice only: whether it is taken changes nothing but the time.
-  if (alignment == large_page)
-    static_cast<void>(madvise(memory_.get(), bytes / large_page * large_page, MADV_HUGEPAGE));
-#endif
-}
+LargeBuffer::LargeBuffer(std::size_t entries)
+    : memory_(static_cast<double*>(::operator new (entries * sizeof(double), std::align_val_t{line}))),
+      size_(entries) {}
 
 LargeBuffer BufferPool::take(std::size_t entries) {
   const std::lock_guard lock(mutex_);

@@ -1,6 +1,6 @@
 #pragma once
-// Memory for many numbers, not touched when it is asked for and on large pages where the system has them: filling a
-// gigabyte for the first time costs as much in small pages as a tenth of the work that goes into it.
+// Memory for many numbers that is not touched when it is asked for. (Large pages are not asked for: where memory is
+// fragmented the system takes longer to find them than it ever saves.)
 #include <cstddef>
 #include <memory>
 #include <mutex>
@@ -19,10 +19,9 @@ class LargeBuffer {
 
  private:
   struct Free {
-    std::size_t alignment;
     void operator()(double* p) const;
   };
-  std::unique_ptr<double, Free> memory_{nullptr, Free{alignof(double)}};
+  std::unique_ptr<double, Free> memory_;
   std::size_t size_ = 0;
 };
 

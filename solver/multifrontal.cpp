@@ -14,6 +14,8 @@ namespace {
 /// Several threads: a subtree is one thread's when it holds at most this share of all work divided by their number, or
 /// this many multiply-adds.
 constexpr double item_share = 1.0 / 12, least_item = 1e6;
+/// Below so many multiply-adds in all (a millisecond or two) starting threads takes longer than they save.
+constexpr double least_parallel = 5e7;
 /// Fronts with at least so many are cut into tiles for several threads.
 constexpr double least_split = 4e6;
 /// Entries that are cleared and added to together: they stay in the second-level cache meanwhile.
@@ -109,7 +111,7 @@ std::int64_t MultifrontalFactor::factorise(const SparseSymmetric& matrix) {
   update_.assign(count, nullptr);
   kept_update_.resize(count);
   failed_ = std::numeric_limits<std::int64_t>::max();
-  TaskTeam team(items_.size() > 1 ? threads_ : 1);
+  TaskTeam team(items_.size() > 1 && fronts_.operations >= least_parallel ? threads_ : 1);
   std::vector<Worker> workers(static_cast<std::size_t>(team.threads()));
   team.run_tree(item_parent_, [&](int item, int worker) {
     run_item(static_cast<std::size_t>(item), workers[static_cast<std::size_t>(worker)], matrix, team);
@@ -213,7 +215,9 @@ void MultifrontalFactor::assemble_columns(std::size_t f, const Front& front, con
   const auto column = [&](int j) { return front.panel + static_cast<std::ptrdiff_t>(j) * front.rows; };
   const bool in_panel = begin < front.pivots;
   const UpdateLayout layout(front.below());
-  if (in_panel) std::fill(column(begin), column(end), 0.0);
+  // Whole strips only: what lies above them is never read, and a large front's pages there are never touched.
+  if (in_panel)
+    for (int j = begin; j < end; ++j) std::fill(column(j) + j / strip_rows * strip_rows, column(j + 1), 0.0);
   const FrontKernels& kernels = front_kernels();
   for (auto k = child_start_[f]; k < child_start_[f + 1]; ++k) {
     const auto index = static_cast<std::size_t>(k - child_start_[f]);

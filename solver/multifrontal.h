@@ -34,7 +34,8 @@ class MultifrontalFactor {
   void solve(Eigen::Ref<Eigen::MatrixXd> right_hand_sides) const;
 
   [[nodiscard]] const Supernodes& fronts() const { return fronts_; }
-  /// Columns of L front by front (Supernodes::value_start), of the last factorisation. Above a front's diagonal: zeros.
+  /// Columns of L front by front (Supernodes::value_start), of the last factorisation. Above a front's diagonal:
+  /// anything.
   [[nodiscard]] std::span<const double> values() const { return {values_.data(), values_.size()}; }
 
  private:
