@@ -126,7 +126,8 @@ TEST_CASE("what is not built yet is refused by its name") {
 }
 
 TEST_CASE("every shipped scenario is read") {
-  for (const std::string name : {"seed_idle", "seed_hit", "tower_hit", "tower_10x10x40_corner"}) {
+  for (const std::string name : {"seed_idle", "seed_hit", "tower_hit", "tower_10x10x40_corner", "bridge_hit", "house_hit",
+                                 "street_hit"}) {
     CAPTURE(name);
     const auto file = find_scenario(name);
     CHECK(is_scenario(file));
