@@ -19,6 +19,7 @@ void Simulation::State::book() {
   resting.read(world->contacts(), obstacles, scenario.step,
                [&](collision::BodyId id) { return body(id) && !world->state(id).asleep; });
   shatter_landed();
+  break_up_landed();
   update_views();
 }
 

@@ -194,6 +194,7 @@ void Simulation::State::remove_body(collision::BodyId id, bool keep_weight) {
     if (of_part == id.value) of_part = -2;
   resting.forget(id, *frame, keep_weight);
   world->remove_body(id);
+  free_segments.erase(id.value);
   bodies.erase(found);
 }
 

@@ -68,7 +68,8 @@ Simulation::State::State(Building the_building, Scenario the_scenario, Simulatio
       grid(building, shapes),
       obstacles(building, shapes, grid, scenario.debris.friction, scenario.debris.restitution),
       strength_factors(building.joints.size(), 1.0),
-      body_of_part(part_count(building), -1) {
+      body_of_part(part_count(building), -1),
+      debris_broken(building.joints.size(), 0) {
   find_breakable_panels();
   world->set_gravity(gravity);
   world->set_ground(ground_height(building, scenario), scenario.debris.friction, scenario.debris.restitution);
@@ -221,7 +222,7 @@ std::uint64_t Simulation::hash() const {
     return order;
   };
   for (const std::size_t i : by_name(s.building.joints))
-    if (!s.frame->intact(JointId(i))) hash.add(s.building.joints[i].name);
+    if (!s.holds_in_debris(JointId(i))) hash.add(s.building.joints[i].name);
   for (const std::size_t i : by_name(s.building.nodes)) {
     if (!s.frame->stands(NodeId(i))) continue;
     hash.add(s.building.nodes[i].name);

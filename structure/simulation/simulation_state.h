@@ -4,6 +4,7 @@
 
 #include "simulation/body.h"
 #include "simulation/broken_panel.h"
+#include "simulation/free_segment.h"
 #include "simulation/indentation.h"
 #include "simulation/obstacles.h"
 #include "simulation/part_masses.h"
@@ -86,6 +87,14 @@ struct Simulation::State {
   std::vector<collision::BodyId> break_standing(PanelId panel, std::vector<PanelChunk> chunks);
   void drop_loose_pieces();
 
+  // break_up.cpp: bodies of several members that are hit hard fall apart.
+  void break_up_landed();
+  [[nodiscard]] std::map<std::int64_t, std::vector<FreePush>> blows();
+  std::vector<collision::BodyId> break_up(collision::BodyId id, const std::vector<FreePush>& pushes, int generation);
+  std::vector<collision::BodyId> split(collision::BodyId id, const std::vector<FreeSegmentParts>& parts);
+  [[nodiscard]] bool holds_in_debris(JointId joint) const;
+  [[nodiscard]] FreeSegmentParts parts_of(const Body& one) const;
+
   // book.cpp
   void move();
   void book();
@@ -132,6 +141,9 @@ struct Simulation::State {
   };
   std::vector<BreakablePanel> breakable_panels;  ///< per panel
   std::map<PanelId, BrokenPanel> broken_panels;  ///< those that are broken in part: standing, or whole bodies
+
+  std::vector<char> debris_broken;                                     ///< per joint: broke after it had left the frame
+  std::map<std::int64_t, std::unique_ptr<FreeSegment>> free_segments;  ///< by body, made when it is first hit hard
 
   std::vector<Knock> knocks;
   /// Where in this step a body that has struck something stands in time: see strike.cpp.

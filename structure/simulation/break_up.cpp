@@ -1,0 +1,195 @@
+// Break-up: a body that is hit hard is a free segment (free_segment.h). Its joints that are over capacity break, those
+// most over first, and it falls apart into parts that move on as the whole did: momentum, linear and angular, and
+// kinetic energy go over exactly.
+//
+// One analysis answers for a body, however many members it has, and its factor is kept until the body breaks.
+#include <algorithm>
+
+#include "simulation/simulation_state.h"
+#include "simulation/step_clock.h"
+#include "topple/structure/joint_check.h"
+
+namespace topple::structure {
+
+namespace {
+/// Forces of contact below this multiple of the body's weight, and spins whose pull is below this multiple of gravity,
+/// are those of lying, rolling and tumbling: what fell in one piece bears them.
+constexpr double hard = 3;
+/// Joints within this share of the most used break together: symmetric ones differ by rounding only.
+constexpr double same_time = 1e-6;
+}  // namespace
+
+bool Simulation::State::holds_in_debris(JointId joint) const {
+  return frame->intact(joint) && debris_broken[static_cast<std::size_t>(joint.index)] == 0;
+}
+
+FreeSegmentParts Simulation::State::parts_of(const Body& one) const {
+  FreeSegmentParts parts;
+  parts.members = one.members;
+  parts.panels = one.panels;
+  parts.nodes = one.nodes;
+  for (const MemberId member : one.members) parts.member_mass.push_back(masses.of(member).mass);
+  for (const PanelId panel : one.panels) parts.panel_mass.push_back(masses.of(panel).mass);
+  for (const NodeId node : one.nodes) parts.node_mass.push_back(masses.of(node).mass);
+  return parts;
+}
+
+/// What contacts did to each body of several members in this step, in its own undeformed axes.
+std::map<std::int64_t, std::vector<FreePush>> Simulation::State::blows() {
+  std::map<std::int64_t, std::vector<FreePush>> all;
+  const auto feel = [&](collision::BodyId id, std::int64_t tag, const Vec3& impulse, const Vec3& point) {
+    const Body* one = body(id);
+    if (!one || one->members.size() < 2 || tag < 0 || impulse.isZero(0)) return;
+    const collision::Pose pose = world->state(id).pose;
+    const Mat3 back = pose.orientation.toRotationMatrix().transpose();
+    const Part part = part_of_number(building, tag);
+    all[id.value].push_back(
+        {part.member, part.panel, one->rest.centre + back * (point - pose.position), back * impulse / scenario.step});
+  };
+  for (const collision::Contact& contact : world->contacts()) {
+    feel(contact.body, contact.part_tag, -contact.impulse, contact.point);
+    if (contact.other.kind == collision::Touched::Kind::body)
+      feel(contact.other.body, contact.other.part_tag, contact.impulse, contact.point);
+  }
+  return all;
+}
+
+void Simulation::State::break_up_landed() {
+  if (world->awake_count() == 0) return;
+  std::map<std::int64_t, std::vector<FreePush>> pushes = blows();
+  const int generations = generations_of(step, scenario.step, scenario.failure.generations_per_second);
+  std::vector<collision::BodyId> hit;
+  for (const auto& [id, one] : bodies) {
+    if (one.members.size() < 2 || one.asleep) continue;
+    double force = 0;
+    if (const auto found = pushes.find(id); found != pushes.end())
+      for (const FreePush& push : found->second) force += push.force.norm();
+    const double spin = world->state(one.id).angular_velocity.norm();
+    const double pull = spin * spin * (one.bounds.high - one.bounds.low).norm() / 2;
+    if (force > hard * one.rest.mass * building.gravity || pull > hard * building.gravity) hit.push_back({id});
+  }
+  for (int generation = 0; generation < generations && !hit.empty(); ++generation) {
+    std::vector<collision::BodyId> pieces;
+    for (const collision::BodyId id : hit)
+      for (const collision::BodyId piece : break_up(id, pushes[id.value], generation)) {
+        // The blow is that of the parts it fell on.
+        for (const FreePush& push : pushes[id.value]) {
+          const Body& own = bodies.at(piece.value);
+          const bool its = push.member.valid()
+                               ? std::binary_search(own.members.begin(), own.members.end(), push.member)
+                               : std::find(own.panels.begin(), own.panels.end(), push.panel) != own.panels.end();
+          if (its && piece != id) pushes[piece.value].push_back(push);
+        }
+        if (bodies.at(piece.value).members.size() > 1) pieces.push_back(piece);
+      }
+    hit = std::move(pieces);
+  }
+  keep_limit();
+}
+
+/// One generation of a body's breaks. Returns what it is now: itself when joints broke and it still hangs together,
+/// nothing when nothing broke.
+std::vector<collision::BodyId> Simulation::State::break_up(collision::BodyId id, const std::vector<FreePush>& pushes,
+                                                           int generation) {
+  const Body& one = bodies.at(id.value);
+  const collision::BodyState state = world->state(id);
+  const Mat3 turn = state.pose.orientation.toRotationMatrix();
+  std::unique_ptr<FreeSegment>& segment = free_segments[id.value];
+  const auto holds = [&](JointId joint) { return holds_in_debris(joint); };
+  if (!segment) segment = std::make_unique<FreeSegment>(building, parts_of(one), holds);
+  if (!segment->can_break()) return {};
+  const FreeSegment::Answer answer =
+      segment->bear(pushes, turn.transpose() * state.angular_velocity, turn.transpose() * gravity);
+  std::vector<std::pair<JointId, Utilisation>> over;
+  double largest = 1;
+  for (const auto& [joint, demand] : answer.demands) {
+    const Utilisation used =
+        utilisation(building[joint].capacity, demand, strength_factors[static_cast<std::size_t>(joint.index)]);
+    if (!(used.value > 1)) continue;
+    over.emplace_back(joint, used);
+    largest = std::max(largest, used.value);
+  }
+  if (over.empty()) return {};
+  for (const auto& [joint, used] : over) {
+    if (used.value < (1 - same_time) * largest) continue;
+    debris_broken[static_cast<std::size_t>(joint.index)] = 1;
+    JointBreak line;
+    line.joint = joint;
+    line.cause = BreakCause::impact;
+    line.sense = used.sense;
+    line.demand = used.demand;
+    line.capacity = used.capacity;
+    line.generation = generation;
+    line.position = state.pose.position + turn * (joint_position(joint) - one.rest.centre);
+    tell(line);
+  }
+  segment.reset();
+  const std::vector<FreeSegmentParts> parts = connected_parts(building, parts_of(one), holds);
+  if (parts.size() == 1) return {id};
+  return split(id, parts);
+}
+
+/// Replaces the body by its parts, each with the velocity of its centre in the whole.
+std::vector<collision::BodyId> Simulation::State::split(collision::BodyId id,
+                                                        const std::vector<FreeSegmentParts>& parts) {
+  const Body whole = bodies.at(id.value);
+  const collision::BodyState state = world->state(id);
+  const Mat3 turn = state.pose.orientation.toRotationMatrix();
+  resting.forget(id, *frame, false);
+  world->remove_body(id);
+  bodies.erase(id.value);
+  free_segments.erase(id.value);
+
+  std::vector<collision::BodyId> made;
+  const Vec3 velocity = reading().true_velocity(state.velocity);
+  Vec3 momentum = -whole.rest.mass * velocity;
+  Vec3 turning = -(world_inertia(whole, state.pose.orientation) * state.angular_velocity);
+  for (const FreeSegmentParts& part : parts) {
+    Detached piece;
+    piece.members = part.members;
+    piece.panels = part.panels;
+    piece.nodes = part.nodes;
+    const double mass = masses.of(piece).mass;
+    if (piece.members.empty() && piece.panels.empty() && mass <= 0) continue;  // a bare hub
+    Body own = describe(piece);
+    const Vec3 arm = turn * (own.rest.centre - whole.rest.centre);
+    collision::BodyState moving = state;
+    moving.pose.position += arm;
+    moving.velocity += state.angular_velocity.cross(arm);
+    moving.asleep = false;
+    const Vec3 own_velocity = reading().true_velocity(moving.velocity);
+    momentum += own.rest.mass * own_velocity;
+    turning += world_inertia(own, moving.pose.orientation) * state.angular_velocity +
+               own.rest.mass * arm.cross(Vec3(own_velocity - velocity));
+    SimulationEvent& event = tell(SimulationEvent::Kind::split, own.name);
+    event.members = own.members;
+    event.panels = own.panels;
+    event.mass = own.rest.mass;
+    event.position = moving.pose.position;
+    if (own.volume < scenario.debris.smallest_volume) {
+      const Kinetic lost = kinetic_energy(own, moving, reading());
+      ledger.removed += lost.translation + lost.rotation;
+      for (const MemberId member : own.members) body_of_part[static_cast<std::size_t>(member.index)] = -2;
+      for (const PanelId panel : own.panels)
+        body_of_part[static_cast<std::size_t>(part_number(building, Part(panel)))] = -2;
+      tell(SimulationEvent::Kind::limited, own.name).mass = own.rest.mass;
+      continue;
+    }
+    made.push_back(add_body(std::move(own), moving));
+    bodies.at(made.back().value).step_start = moving.pose.position;
+  }
+  const double scale = whole.rest.mass * (velocity.norm() + state.angular_velocity.norm() + 1e-3);
+  ledger.momentum_error = std::max({ledger.momentum_error, momentum.norm() / scale,
+                                    turning.norm() / (scale * (whole.bounds.high - whole.bounds.low).norm())});
+  // Parts are born inside each other where they were joined.
+  for (std::size_t i = 0; i < made.size(); ++i)
+    for (std::size_t j = i + 1; j < made.size(); ++j) {
+      collision::Touched other;
+      other.kind = collision::Touched::Kind::body;
+      other.body = made[j];
+      world->ignore_until_separated(made[i], other);
+    }
+  return made;
+}
+
+}  // namespace topple::structure
