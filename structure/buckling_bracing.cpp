@@ -21,6 +21,8 @@ constexpr double suspicious_quotient = 0.7;
 /// A post that bears more than this share of its pinned Euler load may buckle between nodes at rest, which the
 /// iteration does not see.
 constexpr double inner_share = 0.7;
+/// Factors above this are not looked for; well above 1, so that an enclosure of one below 1 lies within.
+constexpr double sought = 2;
 constexpr int iterations = 12;
 constexpr double settled = 1e-3;
 constexpr double pi = 3.14159265358979323846;
@@ -190,7 +192,7 @@ std::optional<BuckledPost> BucklingBracing::judge(int c) const {
     own.node = number[index_of(statics_.nodes(c)[static_cast<std::size_t>(support.node)])];
     if (own.node >= 0 && !own.stiffness.isZero(0)) model.supports.push_back(own);
   }
-  const std::vector<solver::BucklingMode> modes = solver::buckling_modes(model, loads, 1, {}, 1.0);
+  const std::vector<solver::BucklingMode> modes = solver::buckling_modes(model, loads, 1, {}, sought);
   if (modes.empty() || modes.front().factor > 1) return std::nullopt;
   const solver::BucklingMode& mode = modes.front();
 

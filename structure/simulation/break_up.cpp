@@ -71,7 +71,7 @@ void Simulation::State::break_up_landed() {
   for (int generation = 0; generation < generations && !hit.empty(); ++generation) {
     std::vector<collision::BodyId> pieces;
     for (const collision::BodyId id : hit)
-      for (const collision::BodyId piece : break_up(id, pushes[id.value], generation)) {
+      for (const collision::BodyId piece : fall_apart(id, pushes[id.value], generation)) {
         // The blow is that of the parts it fell on.
         for (const FreePush& push : pushes[id.value]) {
           const Body& own = bodies.at(piece.value);
@@ -89,8 +89,8 @@ void Simulation::State::break_up_landed() {
 
 /// One generation of a body's breaks. Returns what it is now: itself when joints broke and it still hangs together,
 /// nothing when nothing broke.
-std::vector<collision::BodyId> Simulation::State::break_up(collision::BodyId id, const std::vector<FreePush>& pushes,
-                                                           int generation) {
+std::vector<collision::BodyId> Simulation::State::fall_apart(collision::BodyId id, const std::vector<FreePush>& pushes,
+                                                             int generation) {
   const Body& one = bodies.at(id.value);
   const collision::BodyState state = world->state(id);
   const Mat3 turn = state.pose.orientation.toRotationMatrix();

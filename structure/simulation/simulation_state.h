@@ -90,7 +90,7 @@ struct Simulation::State {
   // break_up.cpp: bodies of several members that are hit hard fall apart.
   void break_up_landed();
   [[nodiscard]] std::map<std::int64_t, std::vector<FreePush>> blows();
-  std::vector<collision::BodyId> break_up(collision::BodyId id, const std::vector<FreePush>& pushes, int generation);
+  std::vector<collision::BodyId> fall_apart(collision::BodyId id, const std::vector<FreePush>& pushes, int generation);
   std::vector<collision::BodyId> split(collision::BodyId id, const std::vector<FreeSegmentParts>& parts);
   [[nodiscard]] bool holds_in_debris(JointId joint) const;
   [[nodiscard]] FreeSegmentParts parts_of(const Body& one) const;
