@@ -9,8 +9,10 @@
 #include "command.h"
 #include "image_sequence.h"
 #include "topple/structure/collapse_report.h"
+#include "topple/structure/drawn_model.h"
 #include "topple/structure/error.h"
 #include "topple/structure/files.h"
+#include "write_files.h"
 
 namespace topple::app {
 
@@ -41,9 +43,16 @@ class Progress {
 
 int demolish(const DemolishOptions& options) {
   if (options.images && options.folder.empty()) throw structure::InputError("--images: -o DIR must say where");
-  auto [building, scenario] = structure::read_scenario(structure::find_scenario(options.scenario));
+  const std::filesystem::path file = structure::find_scenario(options.scenario);
+  auto [building, scenario] = structure::read_scenario(file);
   structure::Simulation simulation(std::move(building), std::move(scenario), {options.threads, {}});
   const double roof_sag = simulation.frame().roof_sag();
+  std::optional<structure::DrawnModel> drawn;
+  if (!options.folder.empty())
+    if (auto meshes = structure::read_drawn_meshes(
+            simulation.building(), structure::find_model(simulation.scenario().model, file.parent_path()));
+        !meshes.empty())
+      drawn.emplace(simulation.building(), std::move(meshes));
   structure::StepTimes times;
   std::optional<ImageSequence> images;
   if (options.images) images.emplace(simulation, options.folder, options.rate);
@@ -54,12 +63,14 @@ int demolish(const DemolishOptions& options) {
       simulation.skip_idle();
       if (images) images->write_due(simulation);
       simulation.step();
+      if (drawn) drawn->update(simulation);
       if (images) images->write_due(simulation);
       times.add(simulation);
       progress.show(simulation);
     }
   }
   if (!options.folder.empty()) structure::write_collapse(options.folder, simulation, times, roof_sag);
+  if (drawn) write_files(options.folder, {{"meshes.glb", structure::drawn_model_glb(*drawn, simulation)}});
   std::fputs(structure::collapse_text(simulation, times).c_str(), stdout);
   return success;
 }

@@ -5,6 +5,7 @@
 #include "formats/model_files.h"
 #include "formats/model_forms.h"
 #include "formats/model_reader.h"
+#include "formats/read_meshes.h"
 #include "formats/unbuilt.h"
 #include "topple/structure/error.h"
 #include "topple/structure/files.h"
@@ -23,7 +24,7 @@ Building read_document(const JsonDocument& document) {
   refuse_unbuilt_keys(root, UnbuiltPlace::model);
   root.only({"topple", "title", "units", "gravity", "materials", "sections", "joints", "nodes", "members", "panels",
              "supports", "diaphragms", "masses", "loads", "combinations", "building", "buildings", "analyses",
-             "frame3dd"});
+             "frame3dd", "meshes"});
   const JsonValue version = root.require("topple");
   if (!version.is_number() || version.number() != 1) version.refuse("1, the version of the format");
   ModelDraft draft;
@@ -48,6 +49,7 @@ Building read_document(const JsonDocument& document) {
   read_combinations(root, draft);
   read_analyses(root, draft);
   read_frame3dd_remarks(root, draft);
+  (void)read_meshes(root);  // what they draw is read when somebody draws it
   return std::move(draft.building);
 }
 

@@ -16,7 +16,6 @@ struct UnbuiltKey {
   std::string_view key;
 };
 constexpr std::array unbuilt_keys{
-    UnbuiltKey{UnbuiltPlace::model, "meshes"},
     UnbuiltKey{UnbuiltPlace::cut, "members"},
     UnbuiltKey{UnbuiltPlace::event, "weaken"},
     UnbuiltKey{UnbuiltPlace::event, "wrecking_ball"},

@@ -149,8 +149,10 @@ TEST_CASE("capacities that the section or material cannot give name the missing 
 }
 
 TEST_CASE("what is not built yet is refused by its name for the purpose that needs it") {
-  CHECK(error("\"topple\": 1,", "\"topple\": 1, \"meshes\": {},") ==
-        "m.json, line 2, meshes: `meshes` is not built yet; accepted: leave the key out");
+  CHECK(error("\"topple\": 1,", "\"topple\": 1, \"meshes\": {\"f\": {\"file\": \"h.glb\", \"density\": 100}},") ==
+        "m.json, line 2, meshes.f.density: a density above 0 is not built yet; accepted: 0, or leave the key out");
+  CHECK(error("\"topple\": 1,", "\"topple\": 1, \"meshes\": {\"f\": {\"file\": \"h.glb\", \"bind\": \"near\"}},") ==
+        "m.json, line 2, meshes.f.bind: found \"near\"; accepted: \"nearest\", or an object of glTF node names");
   const auto refusal = [](const std::string& from, const std::string& to, Purpose purpose) {
     // Without what else is refused: the shell, the brace's one-way action, the diaphragm.
     std::string text = replaced(example_model, "\"model\": \"shell\", \"mesh\": [4, 3],", "");

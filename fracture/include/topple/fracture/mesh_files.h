@@ -18,6 +18,15 @@ struct MeshFileInfo {
 /// glTF 2.0 in its binary form: one node, one mesh, 32-bit floats. Axes are written as they are; the second texture
 /// coordinate runs downwards there and is written as 1 - v.
 [[nodiscard]] std::string glb_text(const Mesh& mesh, const MeshFileInfo& info);
+/// One of several meshes in a file: its node stands at `info.origin`, turned by a quaternion x, y, z, w.
+struct PlacedMesh {
+  const Mesh* mesh = nullptr;
+  MeshFileInfo info;
+  Eigen::Vector4d rotation{0, 0, 0, 1};
+};
+/// The same with a node for each mesh, all under one node that turns z up to glTF's y up. Positions are written as they
+/// are, about the node. Meshes without triangles are left out.
+[[nodiscard]] std::string glb_text(const std::vector<PlacedMesh>& meshes);
 /// Wavefront OBJ: positions, texture coordinates, normals, faces; with all digits, so that reading it gives the same
 /// numbers.
 [[nodiscard]] std::string obj_text(const Mesh& mesh, const std::string& name);

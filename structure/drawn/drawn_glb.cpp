@@ -1,0 +1,34 @@
+#include "topple/fracture/mesh_files.h"
+#include "topple/structure/drawn_model.h"
+
+namespace topple::structure {
+
+std::string drawn_model_glb(const DrawnModel& model, const Simulation& simulation) {
+  std::map<std::int64_t, const BodyView*> bodies;
+  for (const BodyView& body : simulation.bodies()) bodies.emplace(body.id.value, &body);
+  std::vector<fracture::Mesh> meshes;
+  meshes.reserve(model.pieces().size());  // the list below points into it
+  std::vector<fracture::PlacedMesh> placed;
+  for (const DrawnModel::Piece& piece : model.pieces()) {
+    const auto body = bodies.find(piece.body.value);
+    if (piece.body.value != -1 && body == bodies.end()) continue;
+    fracture::PlacedMesh one;
+    fracture::Mesh mesh = *piece.mesh;
+    if (piece.body.value == -1) {
+      for (Vec3& position : mesh.positions) position += model.displacement(piece, position, simulation);
+    } else {
+      const BodyView& view = *body->second;
+      for (Vec3& position : mesh.positions) position -= view.rest_centre;
+      one.info.origin = view.pose.position;
+      one.rotation = view.pose.orientation.coeffs();
+    }
+    meshes.push_back(std::move(mesh));
+    one.mesh = &meshes.back();
+    one.info.name = piece.name;
+    one.info.extras = {{"volume", piece.volume}};
+    placed.push_back(std::move(one));
+  }
+  return fracture::glb_text(placed);
+}
+
+}  // namespace topple::structure

@@ -1,0 +1,216 @@
+#include "topple/structure/drawn_model.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <tuple>
+
+#include "drawn/part_places.h"
+#include "topple/fracture/solid_cut.h"
+#include "topple/structure/error.h"
+
+namespace topple::structure {
+
+namespace {
+
+/// A mesh is looked at along its edges in steps of this, m: a long face has no vertices in its middle.
+constexpr double sample_step = 0.75;
+/// A part with less than this share of a piece's samples does not cut it.
+constexpr double least_share = 0.02;
+/// Cuts of one piece in a row; what is still shared then goes with most of it.
+constexpr int most_cuts = 12;
+/// Pairs of parts between which a cut is tried.
+constexpr std::size_t most_pairs = 8;
+
+constexpr std::int64_t stands = -1;
+
+/// What holds a part now: a body, the frame, or nothing any more.
+std::int64_t owner_of(const Simulation& simulation, Part part) {
+  const bool standing =
+      part.member.valid() ? simulation.frame().stands(part.member) : simulation.frame().stands(part.panel);
+  if (standing) return stands;
+  const collision::BodyId body = part.member.valid() ? simulation.body_of(part.member) : simulation.body_of(part.panel);
+  return body.value == stands ? -2 : body.value;
+}
+
+}  // namespace
+
+struct DrawnModel::State {
+  struct Source {
+    Piece piece;
+    std::vector<Part> parts;  ///< that it follows; one when it is bound by name
+    int cuts = 0;             ///< so far
+  };
+
+  explicit State(const Building& given) : building(given), places(given) {}
+
+  void follow(Source source, const Simulation& simulation, std::vector<Source>& result);
+  [[nodiscard]] fracture::Plane between(Part first, Part second, const Simulation& simulation) const;
+  [[nodiscard]] std::map<Part, std::size_t> samples(const fracture::Mesh& mesh, const std::vector<Part>& among) const;
+  void list();
+
+  const Building& building;
+  PartPlaces places;
+  std::vector<Source> sources;
+  std::vector<Piece> pieces;
+  double volume = 0;
+  std::size_t events_seen = static_cast<std::size_t>(-1);
+  std::vector<std::int64_t> bodies_seen;
+};
+
+/// How many places of a mesh lie nearest to each part.
+std::map<Part, std::size_t> DrawnModel::State::samples(const fracture::Mesh& mesh,
+                                                       const std::vector<Part>& among) const {
+  std::map<Part, std::size_t> counts;
+  for (const auto& triangle : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3& a = mesh.positions[static_cast<std::size_t>(triangle[k])];
+      const Vec3& b = mesh.positions[static_cast<std::size_t>(triangle[(k + 1) % 3])];
+      const int steps = std::max(1, static_cast<int>(std::ceil((b - a).norm() / sample_step)));
+      for (int i = 0; i < steps; ++i) ++counts[places.nearest(a + (b - a) * (i + 0.5) / steps, among)];
+    }
+  return counts;
+}
+
+/// Through the joint that broke between two parts, across its member; else half way between the parts.
+fracture::Plane DrawnModel::State::between(Part first, Part second, const Simulation& simulation) const {
+  const auto broken_end = [&](Part of, Part other) -> std::optional<fracture::Plane> {
+    if (!of.member.valid()) return std::nullopt;
+    const Member& member = building[of.member];
+    for (int end = 0; end < 2; ++end) {
+      const NodeId node = member.nodes[static_cast<std::size_t>(end)];
+      if (simulation.frame().intact(building.joint(of.member, end)) || !places.touches(other, node)) continue;
+      return fracture::Plane{building[node].position + member.offsets[static_cast<std::size_t>(end)],
+                             member.axes.row(0).transpose()};
+    }
+    return std::nullopt;
+  };
+  if (const auto plane = broken_end(first, second)) return *plane;
+  if (const auto plane = broken_end(second, first)) return *plane;
+  const auto [a, b] = places.closest(first, second);
+  Vec3 direction = b - a;
+  if (direction.norm() < 1e-6) direction = places.centre(second) - places.centre(first);
+  if (direction.norm() < 1e-6) direction = Vec3::UnitZ();
+  return {(a + b) / 2, direction.normalized()};
+}
+
+void DrawnModel::State::follow(Source source, const Simulation& simulation, std::vector<Source>& result) {
+  std::map<std::int64_t, std::vector<Part>> owners;
+  for (const Part part : source.parts) owners[owner_of(simulation, part)].push_back(part);
+  source.piece.body = {owners.begin()->first};
+  if (owners.size() == 1) {
+    result.push_back(std::move(source));
+    return;
+  }
+  // Most places first; of equals the first owner.
+  const std::map<Part, std::size_t> counts = samples(*source.piece.mesh, source.parts);
+  std::vector<std::pair<std::size_t, std::int64_t>> order;
+  std::size_t total = 0;
+  for (const auto& [owner, parts] : owners) {
+    std::size_t sum = 0;
+    for (const Part part : parts)
+      if (const auto found = counts.find(part); found != counts.end()) sum += found->second;
+    order.emplace_back(sum, owner);
+    total += sum;
+  }
+  std::stable_sort(order.begin(), order.end(), [](const auto& x, const auto& y) { return x.first > y.first; });
+  const auto settle = [&] {
+    source.parts = owners[order[0].second];
+    source.piece.body = {order[0].second};
+    result.push_back(std::move(source));
+  };
+  if (source.cuts >= most_cuts || static_cast<double>(order[1].first) < least_share * static_cast<double>(total))
+    return settle();
+
+  // Between parts of the two owners, those that lie closest to each other first, until a cut parts something.
+  std::vector<std::tuple<double, Part, Part>> pairs;
+  for (const Part a : owners[order[0].second])
+    for (const Part b : owners[order[1].second]) {
+      if (!counts.contains(a) || !counts.contains(b)) continue;
+      const auto [at_a, at_b] = places.closest(a, b);
+      pairs.emplace_back((at_a - at_b).norm(), a, b);
+    }
+  std::sort(pairs.begin(), pairs.end());
+  if (pairs.size() > most_pairs) pairs.resize(most_pairs);
+  fracture::CutSolid halves;
+  for (const auto& [distance, first, second] : pairs) {
+    halves = fracture::cut(*source.piece.mesh, between(first, second, simulation));
+    if (!halves.below.triangles.empty() && !halves.above.triangles.empty()) break;
+  }
+  if (halves.below.triangles.empty() || halves.above.triangles.empty()) return settle();
+  for (const fracture::Mesh* half : {&halves.below, &halves.above})
+    for (fracture::Mesh& solid : fracture::connected_parts(*half)) {
+      Source part;
+      part.cuts = source.cuts + 1;
+      part.piece.name = source.piece.name;
+      part.piece.volume = fracture::solid_properties(solid, 1).volume;
+      part.piece.mesh = std::make_shared<const fracture::Mesh>(std::move(solid));
+      for (const auto& [near, count] : samples(*part.piece.mesh, source.parts)) part.parts.push_back(near);
+      follow(std::move(part), simulation, result);
+    }
+}
+
+/// Pieces of one mesh are numbered in their order.
+void DrawnModel::State::list() {
+  std::map<std::string, int> of_name, number;
+  for (const Source& source : sources) ++of_name[source.piece.name];
+  pieces.clear();
+  for (const Source& source : sources) {
+    pieces.push_back(source.piece);
+    if (of_name[source.piece.name] > 1) pieces.back().name += "#" + std::to_string(++number[source.piece.name]);
+  }
+}
+
+DrawnModel::DrawnModel(const Building& building, std::vector<DrawnMesh> meshes)
+    : state_(std::make_unique<State>(building)) {
+  State& s = *state_;
+  for (DrawnMesh& drawn : meshes) {
+    const fracture::MeshAudit audit = fracture::audit(drawn.mesh, 1e-9, true);
+    if (audit.open_edges > 0 || !(audit.volume > 0))
+      throw InputError(building.file + ", meshes: \"" + drawn.name + "\" is not closed (" + audit.text() +
+                       "); accepted: closed triangle meshes whose triangles go counter-clockwise seen from outside");
+    State::Source source;
+    source.piece.name = drawn.name;
+    source.piece.volume = fracture::solid_properties(drawn.mesh, 1).volume;
+    s.volume += source.piece.volume;
+    source.piece.mesh = std::make_shared<const fracture::Mesh>(std::move(drawn.mesh));
+    if (drawn.member.valid())
+      source.parts = {Part(drawn.member)};
+    else if (drawn.panel.valid())
+      source.parts = {Part(drawn.panel)};
+    else
+      for (const auto& [part, count] : s.samples(*source.piece.mesh, s.places.all())) source.parts.push_back(part);
+    s.sources.push_back(std::move(source));
+  }
+  s.list();
+}
+
+DrawnModel::~DrawnModel() = default;
+
+void DrawnModel::update(const Simulation& simulation) {
+  State& s = *state_;
+  std::vector<std::int64_t> bodies;
+  for (const BodyView& body : simulation.bodies()) bodies.push_back(body.id.value);
+  if (simulation.events().size() == s.events_seen && bodies == s.bodies_seen) return;
+  s.events_seen = simulation.events().size();
+  s.bodies_seen = std::move(bodies);
+  std::vector<State::Source> now;
+  for (State::Source& source : s.sources) s.follow(std::move(source), simulation, now);
+  s.sources = std::move(now);
+  s.list();
+}
+
+const std::vector<DrawnModel::Piece>& DrawnModel::pieces() const { return state_->pieces; }
+double DrawnModel::volume() const { return state_->volume; }
+
+Vec3 DrawnModel::displacement(const Piece& piece, const Vec3& point, const Simulation& simulation) const {
+  const auto same = [&](const Piece& other) { return &other == &piece; };
+  const auto at = std::find_if(state_->pieces.begin(), state_->pieces.end(), same);
+  if (at == state_->pieces.end()) return Vec3::Zero();
+  const auto& parts = state_->sources[static_cast<std::size_t>(at - state_->pieces.begin())].parts;
+  return state_->places.displacement(state_->places.nearest(point, parts), point, simulation.frame());
+}
+
+}  // namespace topple::structure

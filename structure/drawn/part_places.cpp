@@ -1,0 +1,119 @@
+#include "drawn/part_places.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace topple::structure {
+
+namespace {
+
+double along(const std::array<Vec3, 2>& line, const Vec3& point) {
+  const Vec3 way = line[1] - line[0];
+  return std::clamp((point - line[0]).dot(way) / way.squaredNorm(), 0.0, 1.0);
+}
+
+}  // namespace
+
+PartPlaces::PartPlaces(const Building& building) : building_(building) {
+  for (std::size_t i = 0; i < part_count(building); ++i)
+    all_.push_back(part_of_number(building, static_cast<std::int64_t>(i)));
+}
+
+PartPlaces::Line PartPlaces::line(Part part) const {
+  if (part.member.valid()) {
+    const Member& member = building_[part.member];
+    return {building_[member.nodes[0]].position + member.offsets[0],
+            building_[member.nodes[1]].position + member.offsets[1]};
+  }
+  const auto& nodes = building_[part.panel].nodes;
+  const auto at = [&](std::size_t i) -> const Vec3& { return building_[nodes[i]].position; };
+  return {(at(0) + at(3)) / 2, (at(1) + at(2)) / 2};
+}
+
+double PartPlaces::distance(Part part, const Vec3& point) const {
+  if (part.member.valid()) {
+    const Line own = line(part);
+    return (own[0] + along(own, point) * (own[1] - own[0]) - point).norm();
+  }
+  // To the plate: across its plane, and in it beyond its box of nodes.
+  const Panel& panel = building_[part.panel];
+  const Vec3 origin = building_[panel.nodes[0]].position;
+  const Vec3 local = panel.axes * (point - origin);
+  Vec2 low = Vec2::Zero(), high = Vec2::Zero();
+  for (const NodeId node : panel.nodes) {
+    const Vec2 corner = (panel.axes * (building_[node].position - origin)).head<2>();
+    low = low.cwiseMin(corner);
+    high = high.cwiseMax(corner);
+  }
+  const Vec2 flat = local.head<2>();
+  const Vec2 inside = flat.cwiseMax(low).cwiseMin(high);
+  return std::hypot((flat - inside).norm(), local.z());
+}
+
+Part PartPlaces::nearest(const Vec3& point, const std::vector<Part>& among) const {
+  Part best = among.front();
+  double least = unlimited;
+  for (const Part part : among) {
+    const double away = distance(part, point);
+    if (away >= least) continue;
+    least = away;
+    best = part;
+  }
+  return best;
+}
+
+/// C. Ericson, "Real-Time Collision Detection" (2005), section 5.1.9.
+std::pair<Vec3, Vec3> PartPlaces::closest(Part first, Part second) const {
+  const Line p = line(first), q = line(second);
+  const Vec3 d1 = p[1] - p[0], d2 = q[1] - q[0], r = p[0] - q[0];
+  const double a = d1.squaredNorm(), e = d2.squaredNorm(), b = d1.dot(d2), c = d1.dot(r), f = d2.dot(r);
+  const double denominator = a * e - b * b;
+  double s = denominator > 1e-12 * a * e ? std::clamp((b * f - c * e) / denominator, 0.0, 1.0) : 0.5;
+  const double t = std::clamp((b * s + f) / e, 0.0, 1.0);
+  s = std::clamp((b * t - c) / a, 0.0, 1.0);
+  return {p[0] + s * d1, q[0] + t * d2};
+}
+
+Vec3 PartPlaces::centre(Part part) const {
+  const Line own = line(part);
+  return (own[0] + own[1]) / 2;
+}
+
+bool PartPlaces::touches(Part part, NodeId node) const {
+  if (part.member.valid()) {
+    const auto& nodes = building_[part.member].nodes;
+    return nodes[0] == node || nodes[1] == node;
+  }
+  const auto& nodes = building_[part.panel].nodes;
+  return std::find(nodes.begin(), nodes.end(), node) != nodes.end();
+}
+
+Vec3 PartPlaces::displacement(Part part, const Vec3& point, const StandingFrame& frame) const {
+  if (part.member.valid()) {
+    const Member& member = building_[part.member];
+    const Line own = line(part);
+    const double s = along(own, point);
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t end = 0; end < 2; ++end) {
+      const Vec6& u = frame.displacement(member.nodes[end]);
+      // The axis between the ends is taken straight; what hangs beside it turns with the ends.
+      const Vec3 beside = point - (own[0] + s * (own[1] - own[0]));
+      const double share = end == 0 ? 1 - s : s;
+      const Vec3 turn = u.tail<3>();
+      sum += share * (u.head<3>() + turn.cross(member.offsets[end] + beside));
+    }
+    return sum;
+  }
+  Vec3 sum = Vec3::Zero();
+  double weights = 0;
+  for (const NodeId node : building_[part.panel].nodes) {
+    const double weight = 1 / (1e-3 + (building_[node].position - point).norm());
+    sum += weight * frame.displacement(node).head<3>();
+    weights += weight;
+  }
+  return sum / weights;
+}
+
+}  // namespace topple::structure

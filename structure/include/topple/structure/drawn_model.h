@@ -1,0 +1,62 @@
+#pragma once
+// A drawn model bound to a building: closed triangle meshes that follow the parts they are bound to, and are cut where
+// those part from each other.
+//
+// Each place of a mesh belongs to the member or panel nearest to it (or to the one that its glTF node is bound to by
+// name). While the parts of a piece stand or move together, the piece is whole; standing, its vertices follow the
+// members as bones. When they part, it is cut by planes: through the joints that broke between them, across the member;
+// else half way between the parts. Cuts are capped, so pieces stay closed and their volumes add up.
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "topple/fracture/mesh.h"
+#include "topple/structure/simulation.h"
+
+namespace topple::structure {
+
+/// One closed mesh of a model, global axes (z up), m.
+struct DrawnMesh {
+  std::string name;  ///< of its glTF node
+  fracture::Mesh mesh;
+  MemberId member;  ///< what it is bound to by name, if it is
+  PanelId panel;
+};
+
+/// The `meshes` of the file that the building was read from, from their glTF files; empty when it has none. Throws
+/// InputError.
+[[nodiscard]] std::vector<DrawnMesh> read_drawn_meshes(const Building& building, const std::filesystem::path& file);
+
+class DrawnModel {
+ public:
+  /// Throws InputError, naming the mesh, for one that is not closed.
+  DrawnModel(const Building& building, std::vector<DrawnMesh> meshes);
+  ~DrawnModel();
+
+  /// Cuts what has parted since the last call.
+  void update(const Simulation& simulation);
+
+  struct Piece {
+    std::string name;                            ///< of the mesh, numbered when it is in pieces
+    std::shared_ptr<const fracture::Mesh> mesh;  ///< where it was in the undeformed building
+    double volume = 0;                           ///< m3
+    collision::BodyId body;                      ///< that it follows; -1: it stands, -2: it is gone
+  };
+  [[nodiscard]] const std::vector<Piece>& pieces() const;
+  /// Volume of all meshes as they were read, m3.
+  [[nodiscard]] double volume() const;
+  /// How far a point of a standing piece has moved with its bones, as the frame is bent at rest now.
+  [[nodiscard]] Vec3 displacement(const Piece& piece, const Vec3& point, const Simulation& simulation) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// All pieces that are there, as a binary glTF file (y up): those that stand bent with their members, the others as
+/// they lie. Each node tells its volume.
+[[nodiscard]] std::string drawn_model_glb(const DrawnModel& model, const Simulation& simulation);
+
+}  // namespace topple::structure
