@@ -97,11 +97,17 @@ double Simulation::State::rebound(const Indentation& pushing) const {
 /// is told of it (peak force, speed out) is a bound as well. Most impacts of debris end here, at a part of the cost.
 bool Simulation::State::bears(Strike& hit, double weight) {
   constexpr double rounding = 1e-6;
+  const double punching = punching_force(hit);
+  if (punching < unlimited) {  // a fast blow goes through whatever the joints bear (break_standing.cpp)
+    const auto panel = static_cast<std::size_t>(hit.part.panel.index);
+    const double work = punching * building.panels[panel].thickness / 2;
+    if (hit.speed > breakable_panels[panel].breaking_speed && hit.mass * hit.speed * hit.speed / 2 > work) return false;
+  }
   const StandingFrame::UnitResponse near = frame->respond_near(hit.place, hit.normal);
   const double mass = scenario.impact.structure_mass ? near.rayleigh_mass : 0;
   Indentation pushing(hit.mass, hit.speed, weight, mass);
   const FirstFailure own = first_failure(*frame, near, strength_factors, unlimited);
-  if (pushing.push(near.compliance, std::min(own.force, punching_force(hit))) != Indentation::Stop::stood) return false;
+  if (pushing.push(near.compliance, std::min(own.force, punching)) != Indentation::Stop::stood) return false;
   if (pushing.stored(near.compliance) > (1 - rounding) * frame->critical_energy(hit.place)) return false;
   hit.structure_mass = mass;
   hit.speed_out = rebound(pushing);
