@@ -14,8 +14,9 @@
 namespace topple::solver {
 namespace {
 
-constexpr double enclosed = 1e-11;    // relative width at which a factor counts as found
-constexpr double same_factor = 1e-6;  // modes this close are sought apart from each other
+constexpr double enclosed = 1e-11;        // relative width at which a factor counts as found
+constexpr double equal_to_newton = 2e-9;  // relative distance of factors whose shapes it mixes
+constexpr double same_factor = 1e-6;      // modes this close are sought apart from each other
 constexpr int inverse_iterations = 8;
 
 /// Members held at both ends buckle at 4 pi2 EI/L2 (less by shear); far below it there is nothing to count.
@@ -245,8 +246,11 @@ void enclose(Buckling& buckling, int k, double& low, double& high) {
     const double guess = buckling.newton(middle), moved = guess - middle;
     if (!(guess > low && guess < high)) continue;
     const double margin = std::max(10 * moved * moved / guess, enclosed / 4 * guess);
+    const bool another_nearby = moved != 0 && high - low < equal_to_newton * high;
     for (const double side : {guess - margin, guess + margin})
       if (side > low && side < high) take(side, buckling.below(side));
+    // Newton's method ends between factors that lie so close that it cannot tell their shapes apart.
+    if (another_nearby && high - low > enclosed * high && high - low < equal_to_newton * high) return;
   }
 }
 
@@ -257,8 +261,13 @@ void count_around(Buckling& buckling, int k, const BucklingStart& start) {
   if (high > 0 && high - low <= enclosed * high) return;
   double factor = 0;
   const double doubt = buckling.sharpen(start, factor);
-  for (const double side : {factor - doubt, factor + doubt})
-    if (side > 0) buckling.below(side);
+  // Factors close by, or an estimate of another one, leave it on one side: then from further and further away.
+  constexpr double least = 5e-10, wider = 100, furthest = 0.1;
+  for (const double way : {-1.0, 1.0})
+    for (double step = doubt; step < furthest * factor; step = std::max(least * factor, wider * step)) {
+      const bool beyond = buckling.below(factor + way * step) >= k;
+      if (beyond == (way > 0)) break;
+    }
 }
 
 }  // namespace

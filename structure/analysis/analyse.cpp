@@ -110,14 +110,22 @@ class Analysis {
     result.loss_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
 
+  [[nodiscard]] std::vector<std::string> member_names() const {
+    std::vector<std::string> names;
+    for (const Member& member : building_.members) names.push_back(member.name);
+    return names;
+  }
+
   /// With tension-only and compression-only members slack where they have to be.
   [[nodiscard]] OneWayAnswer settled(std::size_t k, const solver::StaticSolution& solution) const {
     const OneWayMembers one_way(frame_.model);
     if (!one_way.any()) return {solution, {}, {}, 0, {}};
-    std::vector<std::string> names;
-    for (const Member& member : building_.members) names.push_back(member.name);
+    const auto linear = [&](const solver::FrameModel& model, OneWayAnswer& answer) {
+      solver::StaticAnalysis analysis(model, request_.solver);
+      answer.solution = std::move(analysis.solve({&loads_[k], 1}).front());
+    };
     try {
-      return one_way.settle(loads_[k], solution, request_.solver, names);
+      return one_way.settle(loads_[k], one_way.all_taut(solution), linear, member_names());
     } catch (const solver::Instability& unstable) {
       const std::string message = building_.file + ", combination " + building_[combinations_[k]].name +
                                   ", with members slack: " + describe_instability(building_, frame_, unstable);
@@ -133,9 +141,9 @@ class Analysis {
     OneWayAnswer answer = settled(k, linear);
     const bool second_order = request_.second_order != solver::SecondOrder::none;
     if (!second_order && request_.buckling == 0) return gather(k, answer);
+    const int iterations = second_order ? turn_to_second_order(k, answer) : 0;
     solver::FrameModel model = carrying_both(frame_.model);
     if (!answer.beams.empty()) model.beams = answer.beams;
-    const int iterations = second_order ? turn_to_second_order(k, model, answer) : 0;
     CombinationResult result = gather(k, answer);
     tangent_ = answer.axial;
     tangent_beams_ = model.beams;
@@ -145,17 +153,32 @@ class Analysis {
     return result;
   }
 
-  /// Returns the iterations that it took.
-  int turn_to_second_order(std::size_t k, const solver::FrameModel& model, OneWayAnswer& answer) {
+  /// From the first-order answer; members that second order turns over are turned, until every one is as it has to be.
+  /// Returns the iterations that the last state took.
+  int turn_to_second_order(std::size_t k, OneWayAnswer& answer) {
     const std::string place = building_.file + ", combination " + building_[combinations_[k]].name;
-    try {
+    solver::FrameModel model = carrying_both(frame_.model);
+    const OneWayMembers one_way(frame_.model);
+    int iterations = 0;
+    const auto solve = [&](const solver::FrameModel& state, OneWayAnswer& found) {
+      model.beams = state.beams;
       // Combinations with the same members taut share an ordering.
-      if (!second_order_ || !answer.beams.empty()) second_order_.emplace(model, request_.second_order, request_.solver);
-      solver::SecondOrderSolution found = second_order_->solve(loads_[k], answer.solution);
-      answer.solution = std::move(found.solution);
-      answer.axial = std::move(found.axial);
-      require_same_signs(place, answer);
-      return found.iterations;
+      if (!second_order_ || one_way.any()) second_order_.emplace(model, request_.second_order, request_.solver);
+      solver::SecondOrderSolution solution = second_order_->solve(loads_[k], found.solution);
+      found.solution = std::move(solution.solution);
+      found.axial = std::move(solution.axial);
+      iterations = solution.iterations;
+    };
+    const auto solve_anew = [&](const solver::FrameModel& state, OneWayAnswer& found) {
+      solver::StaticAnalysis linear(state, request_.solver);
+      found.solution = std::move(linear.solve({&loads_[k], 1}).front());
+      solve(state, found);
+    };
+    try {
+      if (!answer.beams.empty()) model.beams = answer.beams;
+      solve(solver::FrameModel(model), answer);
+      if (one_way.any()) answer = one_way.settle(loads_[k], std::move(answer), solve_anew, member_names());
+      return iterations;
     } catch (const solver::Buckled& buckled) {
       const auto modes = solver::buckling_modes(model, loads_[k], 1, request_.solver);
       const std::string factor = modes.empty() ? "" : " (critical factor " + short_number(modes[0].factor) + ")";
@@ -164,6 +187,11 @@ class Analysis {
       Diagnosis diagnosis = diagnose(building_, frame_, buckled, "buckling", combinations_[k], message);
       if (!modes.empty()) diagnosis.shape = modes.front().shape;
       throw UnstableAnalysis(std::move(diagnosis));
+    } catch (const solver::Instability& unstable) {
+      const std::string message = place + ", with members slack: " + describe_instability(building_, frame_, unstable);
+      throw UnstableAnalysis(diagnose(building_, frame_, unstable, "mechanism", combinations_[k], message));
+    } catch (const std::runtime_error& cycle) {
+      throw std::runtime_error(place + ", second order: " + cycle.what());
     }
   }
 
@@ -196,17 +224,6 @@ class Analysis {
         building_.members[static_cast<std::size_t>(*heated.begin())].name +
         (heated.size() > 1 ? " and " + std::to_string(heated.size() - 1) + " more" : "") +
         "); --p-delta=cubic gives those in equilibrium");
-  }
-
-  void require_same_signs(const std::string& place, const OneWayAnswer& answer) const {
-    for (std::size_t i = 0; i < std::min(answer.active.size(), building_.members.size()); ++i) {
-      const AxialAction axial = building_.members[i].axial;
-      const double tension = answer.solution.beam_end_forces[i](6);
-      if (axial == AxialAction::both || answer.active[i] == 0) continue;
-      if ((axial == AxialAction::tension ? -tension : tension) > 1e-9 * answer.solution.beam_end_forces[i].norm())
-        throw std::runtime_error(place + ": second-order forces turn over the one-way member " +
-                                 building_.members[i].name + ", whose state was found by first order");
-    }
   }
 
   static std::string short_number(double number) {

@@ -94,12 +94,14 @@ double OneWayMembers::violation(std::size_t i, const std::vector<char>& active,
   return sign * pulled * beam.youngs_modulus * beam.area / beam.length;
 }
 
-OneWayAnswer OneWayMembers::settle(const solver::LoadSet& loads, const solver::StaticSolution& taut,
-                                   const solver::AnalysisOptions& options,
+OneWayAnswer OneWayMembers::all_taut(const solver::StaticSolution& solution) const {
+  return {solution, carrying_both(model_).beams, std::vector<char>(model_.beams.size(), 1), 0, {}};
+}
+
+OneWayAnswer OneWayMembers::settle(const solver::LoadSet& loads, OneWayAnswer answer, const Solve& solve,
                                    const std::vector<std::string>& names) const {
   std::vector<std::vector<solver::BeamLoad>> by_beam(model_.beams.size());
   for (const solver::BeamLoad& load : loads.beams) by_beam[static_cast<std::size_t>(load.beam)].push_back(load);
-  OneWayAnswer answer{taut, carrying_both(model_).beams, std::vector<char>(model_.beams.size(), 1), 0, {}};
   std::set<std::vector<char>> seen{answer.active};
   // All at once is quick but may swing between two wrong states; then one by one in order of index, which ends for
   // every stable structure (Murty's least-index rule for linear complementarity).
@@ -119,11 +121,10 @@ OneWayAnswer OneWayMembers::settle(const solver::LoadSet& loads, const solver::S
       next = turned_over(answer.active, violated, true);
     }
     seen.insert(next);
-    solver::FrameModel model = with_releases(next);
+    const solver::FrameModel model = with_releases(next);
     answer.active = std::move(next);
     answer.beams = model.beams;
-    solver::StaticAnalysis analysis(std::move(model), options);
-    answer.solution = std::move(analysis.solve({&loads, 1}).front());
+    solve(model, answer);
     ++answer.iterations;
   }
 }

@@ -3,6 +3,7 @@
 // at the end that does not bear its own weight (the lower end of a tie, the upper end of a strut). Which are slack is
 // found by iteration and holds when it is verified: no taut member carries the wrong sign, and no slack one would be
 // stretched the way it can resist.
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -27,10 +28,15 @@ class OneWayMembers {
   explicit OneWayMembers(const solver::FrameModel& model);
   [[nodiscard]] bool any() const { return !members_.empty(); }
 
-  /// `taut` is the solution with all members active. Throws solver::Instability when a state is reached in which too
-  /// much is slack, and std::runtime_error naming beams (by `names`) when the states repeat without an end.
-  [[nodiscard]] OneWayAnswer settle(const solver::LoadSet& loads, const solver::StaticSolution& taut,
-                                    const solver::AnalysisOptions& options,
+  /// Solves a model with releases where members are slack: into the solution and what goes with it.
+  using Solve = std::function<void(const solver::FrameModel& model, OneWayAnswer& answer)>;
+
+  /// All members active, with the solution for that.
+  [[nodiscard]] OneWayAnswer all_taut(const solver::StaticSolution& solution) const;
+  /// Turns members over until every one is as the solution wants it, from a state with its solution, by first order or
+  /// by second: `solve` decides. Passes on what `solve` throws in a state in which too much is slack; throws
+  /// std::runtime_error naming beams (by `names`) when the states repeat without an end.
+  [[nodiscard]] OneWayAnswer settle(const solver::LoadSet& loads, OneWayAnswer start, const Solve& solve,
                                     const std::vector<std::string>& names) const;
 
  private:

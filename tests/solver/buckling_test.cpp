@@ -2,6 +2,7 @@
 #include "topple/solver/buckling.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -150,4 +151,40 @@ TEST_CASE("membrane forces soften a plate by 1/(1 - P/Pcr), and their answer end
   CHECK(sag(share) / sag(0) < 1 / (1 - share));
   CHECK_NOTHROW(sag(0.999));
   CHECK_THROWS_AS(sag(1.001), Buckled);
+}
+
+TEST_CASE("columns that buckle at hardly different loads are told apart, as far as their number goes") {
+  // Six cantilevers in a row, each with its own load, two the same, some 1e-9 or 1e-8 apart; each buckles in two planes
+  // that are 1e-8 apart: 12 factors in all.
+  FrameModel model;
+  LoadSet loads;
+  const double base = 1000;
+  std::vector<double> expected;
+  for (const double share : {1.0, 1.0, 1 - 1e-9, 1 - 1e-8, 0.99, 0.5}) {
+    const int foot = static_cast<int>(model.nodes.size());
+    model.nodes.emplace_back(1.5 * foot, 0, 0);
+    model.nodes.emplace_back(1.5 * foot, 0, 4);
+    Beam beam;
+    beam.node = {foot, foot + 1};
+    beam.length = 4;
+    beam.axes << 0, 0, 1, 0, 1, 0, -1, 0, 0;
+    beam.youngs_modulus = 2e11;
+    beam.shear_modulus = 8e10;
+    beam.area = 0.01;
+    beam.Iy = 1e-5;
+    beam.Iz = 1e-5 * (1 + 1e-8);
+    beam.J = 1e-5;
+    model.beams.push_back(beam);
+    model.supports.push_back({foot, fixed});
+    NodeLoad load{foot + 1, Vec6::Zero()};
+    load.load(2) = -base * share;
+    loads.nodes.push_back(load);
+    for (const double I : {beam.Iy, beam.Iz})
+      expected.push_back(pi * pi * beam.youngs_modulus * I / (4 * 16) / (base * share));
+  }
+  std::sort(expected.begin(), expected.end());
+  const auto modes = buckling_modes(model, loads, static_cast<int>(expected.size()), {});
+  REQUIRE(modes.size() == expected.size());
+  // Where Newton's method cannot tell shapes apart, factors are enclosed to 2e-9 of themselves.
+  for (std::size_t k = 0; k < modes.size(); ++k) CHECK(modes[k].factor == Approx(expected[k]).epsilon(4e-9));
 }

@@ -7,12 +7,8 @@
 
 namespace topple::test {
 
-/// Rounds of a fuzz test: all of them where the sanitizers watch, a share of them in the other builds.
-#ifdef __SANITIZE_ADDRESS__
-inline constexpr int fuzz_rounds = 10000;
-#else
+/// Rounds of a fuzz test; scripts/stress readers makes more of them under the sanitizers.
 inline constexpr int fuzz_rounds = 2000;
-#endif
 
 /// One to three random changes: a character, a piece dropped or moved over another, a cell between two of `separators`
 /// replaced by one of `values`, the end cut off.

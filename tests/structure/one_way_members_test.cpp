@@ -150,3 +150,53 @@ TEST_CASE("every state that is found holds: ties pull, slack ties would be compr
   CHECK(slack > 0);
   CHECK(result.equilibrium_error < 1e-10);
 }
+
+TEST_CASE("a tie that first order leaves slack is pulled taut by the sway that second order adds") {
+  // A cantilever column under half of its critical load: its shortening slackens the tie by 1.5 times what the
+  // first-order sway stretches it; the axial load about doubles the sway.
+  const auto column = [](const std::string& axial) {
+    return parse_model(R"({"topple": 1, "materials": {"steel": {"youngs_modulus": 2e11, "shear_modulus": 8e10}},
+      "sections": {"post": {"area": 0.01, "Iy": 1e-5, "Iz": 1e-5, "J": 1e-5}, "tie": {"area": 1e-4, "Iy": 1e-9, "Iz": 1e-9, "J": 1e-9}},
+      "joints": {"hinge": {"stiffness": {"ry": 0, "rz": 0}}},
+      "nodes": {"foot": [0, 0, 0], "head": [0, 0, 4], "anchor": [-3, 0, 0]},
+      "members": {"post": {"kind": "post", "nodes": ["foot", "head"], "section": "post", "material": "steel"},
+        "tie": {"kind": "brace", "nodes": ["anchor", "head"], "section": "tie", "material": "steel", "axial": ")" +
+                           axial + R"(", "joints": ["hinge", "hinge"]}},
+      "supports": {"foot": "fixed", "anchor": "fixed"},
+      "loads": {"all": {"nodes": {"head": {"x": 25.7, "z": -154e3}}}}})",
+                       "column.json");
+  };
+  AnalysisRequest request;
+  const CombinationResult first = analyse(column("tension"), request).combinations.front();
+  CHECK_FALSE(first.members[1].active);
+  request.second_order = topple::solver::SecondOrder::exact;
+  const CombinationResult second = analyse(column("tension"), request).combinations.front();
+  CHECK(second.members[1].active);
+  CHECK(second.members[1].end_forces(6) > 0);
+  CHECK(second.equilibrium_error < 1e-10);
+  // Nothing of how the state was found is left in the answer.
+  const CombinationResult both = analyse(column("both"), request).combinations.front();
+  CHECK((second.displacements[1] - both.displacements[1]).norm() <= 1e-9 * both.displacements[1].norm());
+}
+
+TEST_CASE("a strut that second order would pull is slack in the second-order answer") {
+  // The same column with a strut in the tie's place: first order presses it, the added sway would pull it.
+  const Building building =
+      parse_model(R"({"topple": 1, "materials": {"steel": {"youngs_modulus": 2e11, "shear_modulus": 8e10}},
+      "sections": {"post": {"area": 0.01, "Iy": 1e-5, "Iz": 1e-5, "J": 1e-5}, "strut": {"area": 1e-6, "Iy": 1e-9, "Iz": 1e-9, "J": 1e-9}},
+      "joints": {"hinge": {"stiffness": {"ry": 0, "rz": 0}}},
+      "nodes": {"foot": [0, 0, 0], "head": [0, 0, 4], "anchor": [-3, 0, 0]},
+      "members": {"post": {"kind": "post", "nodes": ["foot", "head"], "section": "post", "material": "steel"},
+        "strut": {"kind": "brace", "nodes": ["anchor", "head"], "section": "strut", "material": "steel", "axial": "compression", "joints": ["hinge", "hinge"]}},
+      "supports": {"foot": "fixed", "anchor": "fixed"},
+      "loads": {"all": {"nodes": {"head": {"x": 25.7, "z": -154e3}}}}})",
+                  "column.json");
+  AnalysisRequest request;
+  CHECK(analyse(building, request).combinations.front().members[1].active);
+  request.second_order = topple::solver::SecondOrder::exact;
+  const CombinationResult second = analyse(building, request).combinations.front();
+  CHECK_FALSE(second.members[1].active);
+  // The column alone: base moment H L tan(a)/a with a = L sqrt(P/EI).
+  const double a = 4 * std::sqrt(154e3 / 2e6);
+  CHECK(std::abs(second.members[0].end_forces(4)) == Approx(25.7 * 4 * std::tan(a) / a).epsilon(1e-6));
+}
