@@ -1,9 +1,11 @@
-// From text to JsonDocument, through the event interface of nlohmann-json.
+// From text to JsonDocument: by a scanner of our own where the text is plain and regular, which all but few are, and
+// through the event interface of nlohmann-json for everything else: escapes, characters beyond ASCII, and every error.
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "formats/json_document.h"
+#include "formats/plain_json.h"
 #include "topple/structure/error.h"
 
 namespace topple::structure::formats {
@@ -36,6 +38,8 @@ class Characters {
   [[nodiscard]] std::uint32_t column() const { return token_column_; }
   [[nodiscard]] std::size_t since_event() const { return since_event_; }
   void event() { since_event_ = 0; }
+  /// For one that reads the text by itself.
+  void set_line(std::uint32_t line) { token_line_ = line; }
 
  private:
   void refill() {
@@ -119,7 +123,8 @@ class JsonBuilder {
     return number_of(JsonDocument::Type::number, static_cast<double>(value));
   }
   bool number_float(number_float_t value, const string_t&) { return number_of(JsonDocument::Type::number, value); }
-  bool string(string_t& value) {
+  bool string(const string_t& value) { return string(std::string_view(value)); }
+  bool string(std::string_view value) {
     auto& slot = add(JsonDocument::Type::text);
     slot.text = document_.text_.size();
     slot.text_length = static_cast<std::uint32_t>(value.size());
@@ -130,16 +135,25 @@ class JsonBuilder {
   bool start_object(std::size_t) { return open(JsonDocument::Type::object); }
   bool start_array(std::size_t) { return open(JsonDocument::Type::array); }
   bool end_object() {
-    refuse_duplicate_keys();
+    if (keys_may_repeat()) refuse_duplicate_keys();
     return close();
   }
   bool end_array() { return close(); }
-  bool key(string_t& value) {
+  bool key(const string_t& value) { return key(std::string_view(value)); }
+  bool key(std::string_view value) {
     key_ = document_.text_.size();
     key_length_ = static_cast<std::uint32_t>(value.size());
     document_.text_ += value;
     characters_.event();
     return true;
+  }
+  bool number(double value) { return number_of(JsonDocument::Type::number, value); }
+  void at_line(std::uint32_t line) { characters_.set_line(line); }
+  [[nodiscard]] bool full() const { return document_.slots_.size() >= limits_.values; }
+  /// Leaves nothing in the document.
+  void forget() {
+    document_.slots_.clear();
+    document_.text_.clear();
   }
   bool parse_error(std::size_t, const std::string&, const nlohmann::json::exception& error) {
     fail(plain_message(error.what()));
@@ -186,6 +200,24 @@ class JsonBuilder {
     open_.pop_back();
     return true;
   }
+  /// By comparing all in a small object, by their hashes in a large one: equal hashes are looked into by names.
+  bool keys_may_repeat() {
+    const auto& slots = document_.slots_;
+    const std::string_view text = document_.text_;
+    const auto name = [&](std::uint32_t i) { return text.substr(slots[i].key, slots[i].key_length); };
+    const std::uint32_t first = open_.back() + 1, end = static_cast<std::uint32_t>(slots.size());
+    constexpr std::uint32_t few = 12;
+    if (slots[open_.back()].count <= few) {
+      for (std::uint32_t i = first; i < end; i = slots[i].next)
+        for (std::uint32_t j = first; j < i; j = slots[j].next)
+          if (name(i) == name(j)) return true;
+      return false;
+    }
+    hashes_.clear();
+    for (std::uint32_t i = first; i < end; i = slots[i].next) hashes_.push_back(std::hash<std::string_view>()(name(i)));
+    std::sort(hashes_.begin(), hashes_.end());
+    return std::adjacent_find(hashes_.begin(), hashes_.end()) != hashes_.end();
+  }
   void refuse_duplicate_keys() {
     const auto& slots = document_.slots_;
     keys_.clear();
@@ -208,11 +240,21 @@ class JsonBuilder {
   Characters& characters_;
   JsonLimits limits_;
   std::vector<std::uint32_t> open_, keys_;
+  std::vector<std::size_t> hashes_;
   std::uint64_t key_ = 0;
   std::uint32_t key_length_ = 0;
 };
 
 namespace {
+
+/// Whether the text was plain; if not, nothing is left of it in the document.
+bool parse_plain(JsonDocument& document, std::string_view text, const JsonLimits& limits) {
+  Characters places(text);
+  JsonBuilder builder(document, places, limits);
+  if (PlainScanner(text, builder, limits).scan()) return true;
+  builder.forget();
+  return false;
+}
 
 void parse(JsonDocument& document, Characters& characters, const JsonLimits& limits) {
   JsonBuilder builder(document, characters, limits);
@@ -234,6 +276,15 @@ JsonDocument JsonDocument::from_file(const std::filesystem::path& file, const Js
     throw InputError(file.string() + ": is a folder; accepted: a JSON file");
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw InputError(file.string() + ": cannot be opened; accepted: a file that exists and can be read");
+  constexpr std::uintmax_t held_at_once = std::uintmax_t{1} << 28;
+  const std::uintmax_t size = std::filesystem::file_size(file, ignored);
+  if (!ignored && size <= held_at_once) {
+    std::string text(static_cast<std::size_t>(size), '\0');
+    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+    if (static_cast<std::uintmax_t>(stream.gcount()) == size && parse_plain(document, text, limits)) return document;
+    stream.clear();
+    stream.seekg(0);
+  }
   Characters characters(stream);
   parse(document, characters, limits);
   return document;
@@ -244,6 +295,7 @@ JsonDocument JsonDocument::from_text(std::string_view text, const std::string& n
   JsonDocument document;
   document.name_ = name;
   document.places_ = std::move(places);
+  if (parse_plain(document, text, limits)) return document;
   Characters characters(text);
   parse(document, characters, limits);
   return document;
