@@ -9,30 +9,12 @@
 #include "support/changed_frame.h"
 #include "support/measure.h"
 #include "support/provenance.h"
-#include "topple/structure/joint_check.h"
+#include "support/steel_uses.h"
 
 using namespace topple;
 using namespace topple::bench;
 
 namespace {
-
-/// Steel of 355 MPa, plastic moments of about 1.15 times the elastic ones: any capacity does for a measurement.
-structure::JointCapacity capacity() {
-  structure::JointCapacity result;
-  result.breakable = true;
-  result.value = {3e6, 3e6, 6e5, 6e5, 5e4, 3e5, 1e5};
-  return result;
-}
-
-double worst_use(const solver::Reanalysis& standing, const structure::JointCapacity& limit) {
-  double worst = 0;
-  for (int beam = 0; beam < static_cast<int>(standing.model().beams.size()); ++beam) {
-    const solver::Vec12 forces = standing.beam_end_forces(beam);
-    for (int end = 0; end < 2; ++end)
-      worst = std::max(worst, structure::utilisation(limit, structure::member_joint_demand(forces, end)).value);
-  }
-  return worst;
-}
 
 /// Largest difference of displacements to a fresh analysis without the member, relative.
 double error(const RegularFrame& frame, const solver::Reanalysis& standing, int lost) {
@@ -78,7 +60,7 @@ int main(int argc, char** argv) {
   std::vector<int> posts;
   for (int k = 0; k < lost_storeys; ++k)
     for (int p = 0; p < nx * ny; ++p) posts.push_back(k * in_a_storey + p);
-  const structure::JointCapacity limit = capacity();
+  SteelUses uses(standing);
   double worst = 0, largest_error = 0, largest_backward = 0, time = 0;
   int last = -1;
   for (std::size_t k = 0; k < posts.size(); ++k) {
@@ -86,7 +68,7 @@ int main(int argc, char** argv) {
       if (last >= 0) standing.restore_beam(last);
       standing.remove_beam(posts[k]);
       if (!standing.solve().stable) std::exit(1);
-      worst = std::max(worst, worst_use(standing, limit));
+      worst = std::max(worst, uses.largest());
     });
     last = posts[k];
     largest_backward = std::max(largest_backward, standing.solve().quality.backward_error);

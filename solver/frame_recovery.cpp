@@ -17,22 +17,21 @@ std::vector<Vec6> FrameSystem::node_displacements(const Eigen::VectorXd& displac
   return result;
 }
 
-void FrameSystem::node_displacements_of_scaled(const Eigen::VectorXd& solution, std::vector<Vec6>& result) const {
-  for (std::size_t n = 0; n < result.size(); ++n) {
-    if (node_stands[n] == 0) {
-      result[n].setZero();
-      continue;
-    }
-    const auto value = [&](std::size_t c) {
-      const int e = dofs_.number[n][c];
-      return e < dofs_.equations ? solution(e) * scale_[static_cast<std::size_t>(e)] : 0.0;
-    };
-    Vec6 u;
-    for (std::size_t c = 0; c < 6; ++c) u(static_cast<Eigen::Index>(c)) = value(c);
-    u(0) -= dofs_.arm[n][1] * u(5);
-    u(1) += dofs_.arm[n][0] * u(5);
-    result[n] = u;
+Vec6 FrameSystem::node_displacement_of_scaled(int node, const Eigen::VectorXd& solution) const {
+  const auto n = static_cast<std::size_t>(node);
+  Vec6 u = Vec6::Zero();
+  if (node_stands[n] == 0) return u;
+  for (std::size_t c = 0; c < 6; ++c) {
+    const int e = dofs_.number[n][c];
+    if (e < dofs_.equations) u(static_cast<Eigen::Index>(c)) = solution(e) * scale_[static_cast<std::size_t>(e)];
   }
+  u(0) -= dofs_.arm[n][1] * u(5);
+  u(1) += dofs_.arm[n][0] * u(5);
+  return u;
+}
+
+void FrameSystem::node_displacements_of_scaled(const Eigen::VectorXd& solution, std::vector<Vec6>& result) const {
+  for (std::size_t n = 0; n < result.size(); ++n) result[n] = node_displacement_of_scaled(static_cast<int>(n), solution);
 }
 
 std::vector<Vec6> FrameSystem::shape(const Eigen::VectorXd& scaled) const {

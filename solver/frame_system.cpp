@@ -87,6 +87,15 @@ std::span<const int> FrameSystem::beams_of_node(int node) const {
   return {elements.begin(), end};
 }
 
+void FrameSystem::elements_of_vertex(int vertex, std::vector<int>& elements) const {
+  const auto v = static_cast<std::size_t>(vertex);
+  const auto append = [&](std::size_t node) {
+    elements.insert(elements.end(), elements_of_node_[node].begin(), elements_of_node_[node].end());
+  };
+  if (v < model.nodes.size()) return append(v);
+  for (const int node : model.diaphragms[v - model.nodes.size()].nodes) append(static_cast<std::size_t>(node));
+}
+
 std::vector<int> FrameSystem::shells_of_node(int node) const {
   std::vector<int> shells;
   const std::size_t beams = model.beams.size();

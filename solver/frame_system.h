@@ -57,6 +57,8 @@ class FrameSystem {
   /// Beams that reach a node, standing or not, in order.
   [[nodiscard]] std::span<const int> beams_of_node(int node) const;
   [[nodiscard]] std::vector<int> shells_of_node(int node) const;
+  /// Elements (numbers of the scatter map) that reach a vertex: those of a node, of all nodes of a diaphragm.
+  void elements_of_vertex(int vertex, std::vector<int>& elements) const;
   /// Elimination order of the equations: nodes by nested dissection, the equations of a node together.
   [[nodiscard]] std::vector<int> elimination_order() const;
   /// Assembles everything and sets the scale.
@@ -73,6 +75,8 @@ class FrameSystem {
   [[nodiscard]] Mat12 beam_stiffness(int beam) const;
   /// The same for a shell, 24 freedoms.
   [[nodiscard]] Mat24 shell_stiffness(int shell) const;
+  /// K of a shell in the global freedoms of its nodes. Floors repeat one panel: the last one is kept.
+  [[nodiscard]] const Mat24& shell_node_stiffness(int shell) const;
   /// Takes a shell's matrix from the freedoms of its nodes to those of their diaphragms.
   void add_diaphragm_arms(int shell, Mat24& K) const;
   /// What a node has besides its elements (support springs, held inert rotations), scaled, in its own equations. For
@@ -100,6 +104,7 @@ class FrameSystem {
   /// The same from the scaled solution of the equations, with nothing held displaced; into a vector with a place for
   /// each node.
   void node_displacements_of_scaled(const Eigen::VectorXd& solution, std::vector<Vec6>& result) const;
+  [[nodiscard]] Vec6 node_displacement_of_scaled(int node, const Eigen::VectorXd& solution) const;
   /// A vector of scaled equations as a shape: its largest translation 1 (rotation, where nothing translates), and the
   /// first component of that size positive.
   [[nodiscard]] std::vector<Vec6> shape(const Eigen::VectorXd& scaled) const;
@@ -137,8 +142,6 @@ class FrameSystem {
   [[nodiscard]] bool shells_pushed() const {
     return second_order != nullptr && !second_order->shell_displacements.empty();
   }
-  /// K of a shell in the global freedoms of its nodes. Floors repeat one panel: the last one is kept.
-  [[nodiscard]] const Mat24& shell_node_stiffness(int shell) const;
   void add_node_loads(const std::vector<NodeLoad>& loads, LoadVector& result) const;
   void add_beam_loads(std::span<const LoadSet> sets, std::vector<LoadVector>& result) const;
   void add_shell_loads(const std::vector<ShellLoad>& loads, LoadVector& result) const;

@@ -128,6 +128,30 @@ void MatrixRows::residual(const SparseSymmetric& K, const Eigen::VectorXd& b, co
   }
 }
 
+double MatrixRows::error(const SparseSymmetric& K, const Eigen::VectorXd& b, const Eigen::VectorXd& x,
+                         std::span<const int> rows) const {
+  double worst = 0;
+  const double rounding = static_cast<double>(b.size()) * epsilon * (b.size() > 0 ? x.cwiseAbs().maxCoeff() : 0.0);
+  for (const int row : rows) {
+    const auto i = static_cast<std::size_t>(row);
+    double sum = b(row), size = std::abs(b(row)), coefficients = 0;
+    const auto add = [&](double k, double xj) {
+      sum -= k * xj;
+      size += std::abs(k * xj);
+      coefficients += std::abs(k);
+    };
+    for (auto k = K.start[i]; k < K.start[i + 1]; ++k)
+      add(K.value[static_cast<std::size_t>(k)], x(K.row[static_cast<std::size_t>(k)]));
+    for (auto k = left_start_[i]; k < left_start_[i + 1]; ++k)
+      add(K.value[static_cast<std::size_t>(left_position_[static_cast<std::size_t>(k)])],
+          x(left_column_[static_cast<std::size_t>(k)]));
+    if (size <= rounding * coefficients) size += coefficients * rounding / (static_cast<double>(b.size()) * epsilon);
+    if (sum != 0) worst = std::max(worst, std::abs(sum) / size);
+    if (!std::isfinite(sum)) return std::numeric_limits<double>::infinity();
+  }
+  return worst;
+}
+
 double MatrixRows::row_sum(const SparseSymmetric& K, int row) const {
   const auto i = static_cast<std::size_t>(row);
   double sum = 0;

@@ -21,6 +21,10 @@ class MatrixRows {
   void residual(const SparseSymmetric& K, const Eigen::VectorXd& b, const Eigen::VectorXd& x, std::span<const int> rows,
                 Eigen::VectorXd& r) const;
 
+  /// The largest componentwise backward error of these rows.
+  [[nodiscard]] double error(const SparseSymmetric& K, const Eigen::VectorXd& b, const Eigen::VectorXd& x,
+                             std::span<const int> rows) const;
+
  private:
   /// Consecutive rows below the diagonal of a column.
   struct Run {

@@ -100,27 +100,36 @@ void Reanalysis::set_beam_loads(int beam, std::vector<BeamLoad> loads) {
   state_->mark(beam);
 }
 
-const std::vector<Vec6>& Reanalysis::displacements() const { return state_->displacements; }
+const std::vector<Vec6>& Reanalysis::displacements() const {
+  state_->complete(nullptr);
+  return state_->displacements;
+}
+
+const Eigen::Matrix<double, 12, 6>& Reanalysis::State::end_stiffness_of(std::size_t i) const {
+  if (end_stiffness_known[i] == 0) {
+    end_stiffness[i] = CondensedBeam(system->model.beams[i], system->beam_factor[i]).stiffness().rightCols<6>();
+    end_stiffness_known[i] = 1;
+  }
+  return end_stiffness[i];
+}
 
 Vec12 Reanalysis::State::end_forces(std::size_t i, const std::vector<Vec6>& u, const Vec12& fixed) const {
   if (system->beam_stands[i] == 0) return Vec12::Zero();
   const Beam& beam = system->model.beams[i];
-  if (end_stiffness_known[i] == 0) {
-    end_stiffness[i] = CondensedBeam(beam, system->beam_factor[i]).stiffness().rightCols<6>();
-    end_stiffness_known[i] = 1;
-  }
   const Vec12 hubs =
       hub_displacements(beam, u[static_cast<std::size_t>(beam.node[0])], u[static_cast<std::size_t>(beam.node[1])]);
-  return end_stiffness[i] * relative_motion(beam.length, hubs) + fixed;
+  return end_stiffness_of(i) * relative_motion(beam.length, hubs) + fixed;
 }
 
 Vec12 Reanalysis::beam_end_forces(int beam) const {
   const std::size_t i = state_->checked_beam(beam);
+  if (state_->restricted && !state_->restricted->beam_is_current(beam)) state_->complete(nullptr);
   return state_->end_forces(i, state_->displacements, state_->fixed_end[i]);
 }
 
 std::array<Vec6, 4> Reanalysis::shell_corner_forces(int shell) const {
   (void)state_->checked_shell(shell);
+  if (state_->restricted && !state_->restricted->shell_is_current(shell)) state_->complete(nullptr);
   return state_->system->corner_forces(shell, state_->displacements, Vec24::Zero());
 }
 
@@ -129,6 +138,7 @@ Vec6 Reanalysis::reaction(int support) const {
   if (support < 0 || static_cast<std::size_t>(support) >= system.model.supports.size()) {
     throw std::invalid_argument("support " + std::to_string(support) + " does not exist");
   }
+  state_->complete(nullptr);
   if (state_->reactions.empty()) {
     std::vector<Vec12> forces;
     forces.reserve(system.model.beams.size());
@@ -143,6 +153,7 @@ Vec6 Reanalysis::reaction(int support) const {
 }
 
 double Reanalysis::strain_energy() const {
+  state_->complete(nullptr);
   const FrameSystem& system = *state_->system;
   double energy = 0;
   for (std::size_t i = 0; i < system.model.beams.size(); ++i) {
@@ -239,6 +250,7 @@ Vec3 Reanalysis::point_displacement(int beam, double distance, const std::vector
 
 const ReanalysisCounters& Reanalysis::counters() const { return state_->counters; }
 const FrameModel& Reanalysis::model() const { return state_->system->model; }
+const RestrictedEffort& Reanalysis::restricted_effort() const { return state_->effort; }
 double Reanalysis::last_operations() const { return state_->operations; }
 
 }  // namespace topple::solver

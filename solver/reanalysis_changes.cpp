@@ -6,6 +6,17 @@
 #include "reanalysis_state.h"
 
 namespace topple::solver {
+namespace {
+
+/// What a beam's use can grow by was read when it was no stiffer than before.
+bool may_be_stiffer(const Beam& before, char stood, double factor, const BeamTarget& after) {
+  if (stood == 0 || after.factor > factor) return true;
+  for (std::size_t end = 0; end < 2; ++end)
+    if ((after.end_stiffness[end].array() > before.end_stiffness[end].array()).any()) return true;
+  return false;
+}
+
+}  // namespace
 
 Reanalysis::State::State(FrameModel model, const AnalysisOptions& given)
     : system(std::make_unique<FrameSystem>(std::move(model))), options(given) {
@@ -64,6 +75,8 @@ void Reanalysis::State::apply_supports(std::vector<int>& touched) {
 
 /// A freedom became free or held: the equations are numbered and ordered anew.
 void Reanalysis::State::rebuild() {
+  complete(nullptr);
+  restricted.reset();
   auto fresh = std::make_unique<FrameSystem>(system->model);
   fresh->beam_factor = system->beam_factor;
   fresh->beam_stands = system->beam_stands;
@@ -117,6 +130,8 @@ void Reanalysis::State::apply_beam(int index, std::vector<int>& touched) {
       (stands != 0 && (beam.end_stiffness[0] != target.end_stiffness[0] ||
                        beam.end_stiffness[1] != target.end_stiffness[1] || system->beam_factor[i] != target.factor));
   if (stiffness_changed && standing) standing->remember_beam(index);
+  if (stiffness_changed && restricted && may_be_stiffer(beam, system->beam_stands[i], system->beam_factor[i], target))
+    restricted->forget_uses();
   beam.end_stiffness = target.end_stiffness;
   system->beam_factor[i] = target.factor;
   system->beam_stands[i] = stands;
@@ -125,6 +140,7 @@ void Reanalysis::State::apply_beam(int index, std::vector<int>& touched) {
   fixed_end[i] = fixed.force;
   fixed_at_nodes[i] = -node_forces(beam, fixed.force);
   stale_load_nodes.insert(stale_load_nodes.end(), beam.node.begin(), beam.node.end());
+  if (restricted) loaded_nodes.insert(loaded_nodes.end(), beam.node.begin(), beam.node.end());
   end_stiffness_known[i] = 0;
   unbalanced[i] = fixed.unbalanced > 0 ? 1 : 0;
 }
@@ -139,6 +155,7 @@ void Reanalysis::State::apply_shells(std::vector<int>& touched) {
     if (stands == system->shell_stands[i]) continue;
     if (standing) standing->remember_shell(index);
     system->shell_stands[i] = stands;
+    if (stands != 0 && restricted) restricted->forget_uses();
     touched.insert(touched.end(), nodes.begin(), nodes.end());
   }
   changed_shells.clear();

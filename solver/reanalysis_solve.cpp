@@ -113,7 +113,9 @@ bool Reanalysis::State::correct_factor(const std::vector<int>& touched, std::opt
 }
 
 std::optional<Defect> Reanalysis::State::refactorise() {
+  complete(nullptr);
   factor_valid = false;
+  restricted.reset();
   standing.reset();
   first_solution.resize(0);
   if (!factor) {
@@ -191,20 +193,24 @@ Eigen::VectorXd Reanalysis::State::solve_on_paths(const Eigen::VectorXd& force, 
   return x.cwiseProduct(Eigen::Map<const Eigen::VectorXd>(system->scale().data(), n));
 }
 
+void Reanalysis::State::add_rows_of(const std::vector<int>& nodes) {
+  const auto& first = system->dofs().first_equation;
+  const auto add_vertex = [&](std::size_t v) {
+    for (int e = first[v]; e < first[v + 1]; ++e) rows_to_change.push_back(e);
+  };
+  for (const int node : nodes) {
+    add_vertex(static_cast<std::size_t>(node));
+    const int d = system->dofs().diaphragm_of_node[static_cast<std::size_t>(node)];
+    if (d >= 0) add_vertex(system->model.nodes.size() + static_cast<std::size_t>(d));
+  }
+}
+
 /// Rows in which the last answer does not fit any longer; none when they are too many to tell apart.
 void Reanalysis::State::find_changed_rows(const Eigen::VectorXd& force) {
   std::vector<int>& changed = rows_to_change;
   changed.clear();
   const std::size_t most = static_cast<std::size_t>(force.size()) / 4;
-  const auto& first = system->dofs().first_equation;
-  const auto add_vertex = [&](std::size_t v) {
-    for (int e = first[v]; e < first[v + 1]; ++e) changed.push_back(e);
-  };
-  for (const int node : stale_nodes) {
-    add_vertex(static_cast<std::size_t>(node));
-    const int d = system->dofs().diaphragm_of_node[static_cast<std::size_t>(node)];
-    if (d >= 0) add_vertex(system->model.nodes.size() + static_cast<std::size_t>(d));
-  }
+  add_rows_of(stale_nodes);
   for (Eigen::Index e = 0; e < force.size() && changed.size() <= most; ++e)
     if (force(e) != solved_force(e)) changed.push_back(static_cast<int>(e));
   if (changed.size() > most) changed.clear();
@@ -215,30 +221,34 @@ void Reanalysis::State::find_changed_rows(const Eigen::VectorXd& force) {
 /// From the last answer on: what does not fit any longer is solved for and added, until the error is at rounding level.
 void Reanalysis::State::refine(const Eigen::VectorXd& force) {
   const SparseSymmetric& K = system->matrix();
-  SolveQuality& quality = answer.quality;
-  Eigen::VectorXd& r = correction;
-  std::vector<int>& changed = rows_to_change;
-  bool first = true;
   if (solution.size() != force.size()) {
     solution = Eigen::VectorXd::Zero(force.size());
-    r = force;
-    changed.clear();
+    correction = force;
+    rows_to_change.clear();
   } else {
     find_changed_rows(force);
-    if (changed.empty()) {
-      (void)rows->residual(K, force, solution, r);
+    if (rows_to_change.empty()) {
+      (void)rows->residual(K, force, solution, correction);
     } else {
-      rows->residual(K, force, solution, changed, r);
+      rows->residual(K, force, solution, rows_to_change, correction);
     }
   }
+  improve(force, true);
+}
+
+/// Solves for the residual in `correction` and adds it, again and again. On the `first` step there is no error known
+/// yet, and the residual is that of rows_to_change alone when there are any.
+void Reanalysis::State::improve(const Eigen::VectorXd& force, bool first) {
+  const SparseSymmetric& K = system->matrix();
+  SolveQuality& quality = answer.quality;
   for (int step = 0; step <= most_refinements; ++step) {
-    if (first && !changed.empty()) {
-      standing->solve(correction, &changed);
+    if (first && !rows_to_change.empty()) {
+      standing->solve(correction, &rows_to_change);
     } else {
       standing->solve(correction);
     }
     improved = solution + correction;
-    const double error = rows->residual(K, force, improved, r);
+    const double error = rows->residual(K, force, improved, correction);
     const bool go_on = first || error <= worthwhile * quality.backward_error;
     if (first || error < quality.backward_error) {
       solution.swap(improved);
@@ -261,6 +271,8 @@ bool Reanalysis::State::solve_loads() {
     return true;
   }
   const bool as_factorised = standing && !standing->changed();
+  complete(nullptr);
+  if (restricted) restricted->forget_uses();
   if ((force.array() == 0).all()) {
     solution = force;
     answer.quality = {};
@@ -283,6 +295,7 @@ bool Reanalysis::State::solve_loads() {
   }
   solved_force = force;
   stale_nodes.clear();
+  loaded_nodes.clear();
   answer.quality.converged = answer.quality.backward_error <= backward_error_limit;
   answer.quality.condition = current_condition();
   answer.quality.error_bound = forward_error_bound(answer.quality.condition, answer.quality.backward_error);
@@ -306,41 +319,49 @@ void Reanalysis::State::apply_changes() {
   node_loads_changed = false;
 }
 
-const ReanalysisAnswer& Reanalysis::solve() {
-  State& state = *state_;
-  state.operations = 0;
-  if (!state.pending()) {
-    ++state.counters.unchanged;
-    return state.answer;
+const ReanalysisAnswer& Reanalysis::solve() { return state_->solve(nullptr); }
+
+const ReanalysisAnswer& Reanalysis::State::solve(UseWatch* watch) {
+  operations = 0;
+  if (!pending()) {
+    ++counters.unchanged;
+    if (watch != nullptr && answer.stable) read_all_uses(*watch);
+    return answer;
   }
-  state.apply_changes();
-  state.answered = true;
-  const bool nearly_unstable = state.answer.nearly_unstable;  // a property of the factor, which may stay
-  state.answer = ReanalysisAnswer();
-  state.answer.nearly_unstable = nearly_unstable;
-  state.reactions.clear();
-  ++state.counters.solves;
-  if (!state.touched_nodes.empty() || !state.assembled || !state.structure_stands) {
-    if (const auto defect = state.update_structure(state.touched_nodes)) {
-      state.give_up(*defect);
-      return state.answer;
+  effort = {};
+  // The uses of the present answer are what a restricted one starts from.
+  if (watch != nullptr && restricted && !restricted->uses_known() && answered && answer.stable && structure_stands)
+    read_all_uses(*watch);
+  apply_changes();
+  answered = true;
+  const bool nearly_unstable = answer.nearly_unstable;  // a property of the factor, which may stay
+  answer = ReanalysisAnswer();
+  answer.nearly_unstable = nearly_unstable;
+  reactions.clear();
+  ++counters.solves;
+  if (!touched_nodes.empty() || !assembled || !structure_stands) {
+    if (const auto defect = update_structure(touched_nodes)) {
+      give_up(*defect);
+      return answer;
     }
   } else {
-    ++state.counters.load_solves;
+    ++counters.load_solves;
   }
-  if (const auto defect = state.system->unbalanced_load(state.load)) {
-    state.give_up(*defect);
-    return state.answer;
+  if (const auto defect = system->unbalanced_load(load)) {
+    give_up(*defect);
+    return answer;
   }
-  if (!state.solve_loads()) {
-    if (const auto defect = state.refactorise()) {
-      state.structure_stands = false;
-      state.give_up(*defect);
-      return state.answer;
+  if (watch != nullptr && answer_in_part(*watch)) return answer;
+  if (!solve_loads()) {
+    if (const auto defect = refactorise()) {
+      structure_stands = false;
+      give_up(*defect);
+      return answer;
     }
-    (void)state.solve_loads();
+    (void)solve_loads();
   }
-  return state.answer;
+  if (watch != nullptr) read_all_uses(*watch);
+  return answer;
 }
 
 }  // namespace topple::solver

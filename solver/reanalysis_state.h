@@ -10,6 +10,7 @@
 #include "matrix_rows.h"
 #include "mechanism.h"
 #include "refinement.h"
+#include "restricted_answer.h"
 #include "standing_factor.h"
 #include "topple/solver/reanalysis.h"
 
@@ -27,8 +28,9 @@ struct Reanalysis::State {
   std::unique_ptr<FrameSystem> system;
   AnalysisOptions options;
   std::unique_ptr<Factor> factor;
-  std::unique_ptr<MatrixRows> rows;          ///< of the system's matrix; made with its order
-  std::unique_ptr<StandingFactor> standing;  ///< none while there is no valid factor
+  std::unique_ptr<MatrixRows> rows;              ///< of the system's matrix; made with its order
+  std::unique_ptr<StandingFactor> standing;      ///< none while there is no valid factor
+  std::unique_ptr<RestrictedAnswer> restricted;  ///< over the standing factor; made when first asked for
   bool assembled = false, factor_valid = false;
   bool structure_stands = false;  ///< the structure as it is was judged, and is stable
 
@@ -51,7 +53,9 @@ struct Reanalysis::State {
   Eigen::VectorXd solution, solved_force;       ///< scaled; empty: none to start from
   Eigen::VectorXd first_solution, first_force;  ///< with the factor just made, nothing changed since
   SolveQuality first_quality;
-  std::vector<int> stale_nodes;  ///< touched since the solution was found
+  std::vector<int> stale_nodes;   ///< touched since the solution was found
+  std::vector<int> loaded_nodes;  ///< of beams that changed, and loaded otherwise, since then
+  RestrictedEffort effort;
   std::vector<Vec6> displacements;
   std::vector<Vec12> fixed_end;       ///< per beam, local
   std::vector<Vec12> fixed_at_nodes;  ///< per beam: the same reversed, on its nodes, global
@@ -64,7 +68,7 @@ struct Reanalysis::State {
   double operations = 0;
   // Scratch of solve(): once grown, an answer asks for no memory.
   std::vector<int> touched_nodes, rows_to_change;
-  Eigen::VectorXd scaled_force, correction, improved;
+  Eigen::VectorXd scaled_force, correction, improved, eliminated;
 
   State(FrameModel model, const AnalysisOptions& given);
   void mark(int beam);
@@ -88,12 +92,23 @@ struct Reanalysis::State {
   /// False when refinement does not reach rounding level.
   [[nodiscard]] bool solve_loads();
   void refine(const Eigen::VectorXd& force);
+  void improve(const Eigen::VectorXd& force, bool first);
   void find_changed_rows(const Eigen::VectorXd& force);
+  void add_rows_of(const std::vector<int>& nodes);
+  /// Brings displacements up to date where the watch needs it. False: a full answer is needed.
+  [[nodiscard]] bool answer_in_part(UseWatch& watch);
+  void tell_effort();
+  /// Makes a restricted answer whole.
+  void complete(UseWatch* watch);
+  void bring_up_to_date(UseWatch* watch);
+  void read_all_uses(UseWatch& watch);
+  [[nodiscard]] const ReanalysisAnswer& solve(UseWatch* watch);
   void apply_changes();
   void give_up(const Defect& defect);
   /// The same on elimination paths, see StandingFactor::solve_on_paths().
   [[nodiscard]] Eigen::VectorXd solve_on_paths(const Eigen::VectorXd& force, std::vector<char>& known) const;
   [[nodiscard]] double current_condition() const;
+  [[nodiscard]] const Eigen::Matrix<double, 12, 6>& end_stiffness_of(std::size_t beam) const;
   [[nodiscard]] Vec12 end_forces(std::size_t beam, const std::vector<Vec6>& displacements, const Vec12& fixed) const;
   [[nodiscard]] LinearSolve linear_solve() const;
   void scale_force(const Eigen::VectorXd& force, Eigen::VectorXd& result) const;

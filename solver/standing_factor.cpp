@@ -259,6 +259,12 @@ void StandingFactor::solve_on_paths(Eigen::VectorXd& x, const std::vector<int>& 
   forget_dropped(x);
 }
 
+void StandingFactor::forward(const Eigen::VectorXd& x, const std::vector<char>& marked, Eigen::VectorXd& y) const {
+  solver_.permute(x, y);
+  solver_.forward(y, &marked);
+  correction_.correct(y);
+}
+
 Eigen::VectorXd StandingFactor::softest_motion() const {
   Eigen::VectorXd y = correction_.softest_motion(), x;
   solver_.backward(y);

@@ -49,6 +49,10 @@ class StandingFactor {
   /// The same on the elimination paths of `rows` alone, where x may differ from zero: a part of the work. `known` (per
   /// row) tells where x holds the answer; it is zero elsewhere.
   void solve_on_paths(Eigen::VectorXd& x, const std::vector<int>& rows, std::vector<char>& known) const;
+  /// The same up to the backward solve: y, in elimination order, of which L^-T makes the answer. Rows as above, the
+  /// blocks on their paths in `marked`.
+  void forward(const Eigen::VectorXd& x, const std::vector<char>& marked, Eigen::VectorXd& y) const;
+  [[nodiscard]] const TriangularSolver& triangles() const { return solver_; }
   /// The softest motion of the changed structure relative to that of the factor (scaled equations), and by what factor
   /// it is softer than there.
   [[nodiscard]] Eigen::VectorXd softest_motion() const;

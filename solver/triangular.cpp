@@ -248,6 +248,20 @@ void TriangularSolver::forward(Eigen::VectorXd& y, const std::vector<char>* mark
   }
 }
 
+TriangularSolver::BlockRows TriangularSolver::block(int block) const {
+  const auto b = static_cast<std::size_t>(block);
+  const auto columns = static_cast<std::size_t>(first_[b + 1] - first_[b]);
+  const auto start = static_cast<std::size_t>(row_start_[b]), end = static_cast<std::size_t>(row_start_[b + 1]);
+  return {static_cast<int>(first_[b]), static_cast<int>(columns), row_.subspan(start + columns, end - start - columns)};
+}
+
+void TriangularSolver::backward(int block, double* x, const double* below) const {
+  const auto b = static_cast<std::size_t>(block);
+  backward_block({value_.data() + value_start_[b], static_cast<int>(first_[b + 1] - first_[b]),
+                  static_cast<int>(row_start_[b + 1] - row_start_[b])},
+                 x, below);
+}
+
 void TriangularSolver::backward(Eigen::VectorXd& y, const std::vector<char>* marked) const {
   double* below = below_.data();
   for (std::size_t b = parent_.size(); b-- > 0;) {
@@ -314,13 +328,16 @@ void TriangularSolver::forward_block_of(std::size_t b, std::span<const PathColum
     const double* from = x + static_cast<std::ptrdiff_t>(at) * block.columns;
     std::copy(from, from + block.columns, end - own);
   });
+  if (from_end_.size() < static_cast<std::size_t>(below_rows)) from_end_.resize(static_cast<std::size_t>(below_rows));
   for (int i = 0; i < below_rows; ++i) {
     const auto of = static_cast<std::size_t>(block_of_[static_cast<std::size_t>(rows[i])]);
-    const std::int64_t from_end = rows_to_root_[of] - (rows[i] - first_[of]);
-    const double* source = below_.data() + i;
-    each_column(
-        [&](double* end, int at) { *(end - from_end) -= source[static_cast<std::ptrdiff_t>(at) * below_rows]; });
+    from_end_[static_cast<std::size_t>(i)] = rows_to_root_[of] - (rows[i] - first_[of]);
   }
+  const std::int64_t* from_end = from_end_.data();
+  each_column([&](double* end, int at) {
+    const double* source = below_.data() + static_cast<std::ptrdiff_t>(at) * below_rows;
+    for (int i = 0; i < below_rows; ++i) *(end - from_end[i]) -= source[i];
+  });
 }
 
 }  // namespace topple::solver

@@ -43,6 +43,8 @@ class TriangularSolver {
   /// From the matrix's numbering to the order of elimination and back.
   void permute(const Eigen::VectorXd& natural, Eigen::VectorXd& eliminated) const;
   void restore(const Eigen::VectorXd& eliminated, Eigen::VectorXd& natural) const;
+  /// The row of the matrix eliminated k-th.
+  [[nodiscard]] int row_at(int k) const { return order_[static_cast<std::size_t>(k)]; }
   [[nodiscard]] int position(int row) const { return position_[static_cast<std::size_t>(row)]; }
 
   /// The block that eliminates a row of the matrix.
@@ -51,6 +53,16 @@ class TriangularSolver {
   [[nodiscard]] EliminationPath path(std::span<const int> rows) const;
   /// Marks the blocks on the paths of any rows.
   void mark_paths(std::span<const int> rows, std::vector<char>& marked) const;
+
+  /// One block: its columns (consecutive in elimination order) and the rows below them.
+  struct BlockRows {
+    int first, columns;
+    std::span<const std::int64_t> below;
+  };
+  [[nodiscard]] BlockRows block(int block) const;
+  [[nodiscard]] int parent(int block) const { return parent_[static_cast<std::size_t>(block)]; }
+  /// The backward step of one block: x (its own rows) := triangle^-T (x - rectangle' below).
+  void backward(int block, double* x, const double* below) const;
 
   /// y := L^-1 y in elimination order. With `marked` (per block): only these; the rest of y must be zero.
   void forward(Eigen::VectorXd& y, const std::vector<char>* marked = nullptr) const;
@@ -85,6 +97,7 @@ class TriangularSolver {
   // Scratch; grows only.
   mutable std::vector<double> below_, together_;
   mutable std::vector<std::size_t> next_, sharing_;
+  mutable std::vector<std::int64_t> from_end_;
 };
 
 }  // namespace topple::solver

@@ -11,6 +11,7 @@
 
 #include "topple/solver/frame_model.h"
 #include "topple/solver/static_analysis.h"
+#include "topple/solver/use_watch.h"
 
 namespace topple::solver {
 
@@ -22,6 +23,20 @@ struct ReanalysisCounters {
   std::uint64_t low_rank = 0;          ///< answered by a low-rank correction
   std::uint64_t refactorisations = 0;  ///< new numeric factor on the same ordering
   std::uint64_t orderings = 0;
+  std::uint64_t restricted = 0;     ///< answers that left out what could not matter
+  std::uint64_t beams_visited = 0;  ///< by restricted answers
+  std::uint64_t beams_left = 0;     ///< left out by them
+};
+
+/// What a restricted answer went through and left out.
+struct RestrictedEffort {
+  bool restricted = false;      ///< false: the answer was full
+  double visited_entries = 0;   ///< of the factor, by the backward solve
+  double factor_entries = 0;    ///< of the whole factor
+  int beams = 0, shells = 0;    ///< visited
+  double energy = 0;            ///< strain energy of the change (J)
+  double energy_left_out = 0;   ///< of it in the parts left out, at most (J)
+  double largest_left_out = 0;  ///< bound of the uses there
 };
 
 struct ReanalysisAnswer {
@@ -62,6 +77,22 @@ class Reanalysis {
 
   /// Brings the answer up to date. A mechanism is an answer (stable == false), not an exception.
   [[nodiscard]] const ReanalysisAnswer& solve();
+
+  /// The same, brought up to date only where the watch's uses may matter: no use that was not read anew lies above
+  /// (1 - margin) max(1, the largest use). Nothing else may be concluded about what was left out; asking for its
+  /// displacements or forces makes the answer whole (as complete() does). The first call reads every use, as does one
+  /// that needs a full answer.
+  [[nodiscard]] const ReanalysisAnswer& solve(UseWatch& watch);
+  /// Makes a restricted answer whole, with the backward error of a full one; the watch reads the uses of what was left
+  /// out.
+  void complete(UseWatch* watch = nullptr);
+  /// To be called when capacities changed: the next solve(watch) reads everything again.
+  void forget_uses();
+  /// The uses that the last solve(watch) counts on were all read. False while the structure is in the warning band:
+  /// its answers are full, and nothing is read.
+  [[nodiscard]] bool uses_known() const;
+  /// Of the last solve().
+  [[nodiscard]] const RestrictedEffort& restricted_effort() const;
 
   // The current answer.
   [[nodiscard]] const std::vector<Vec6>& displacements() const;
