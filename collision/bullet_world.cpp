@@ -124,6 +124,7 @@ BulletWorld::BulletWorld()
 
 BulletWorld::~BulletWorld() {
   for (auto& [id, hinge] : hinges_) world_.removeConstraint(hinge->constraint.get());
+  for (auto& [id, cable] : cables_) world_.removeConstraint(&cable->constraint);
   for (auto& [id, body] : bodies_) world_.removeRigidBody(body->rigid.get());
   for (auto& [id, obstacle] : obstacles_) world_.removeCollisionObject(obstacle->fixed.get());
   remove_ground();
@@ -203,6 +204,10 @@ void BulletWorld::set_continuous(Body& body) {
 void BulletWorld::remove_body(BodyId id) {
   Body& gone = body(id.value);
   while (!gone.hinges.empty()) remove_hinge({*gone.hinges.begin()});
+  for (auto hung = cables_.begin(); hung != cables_.end();) {
+    const auto one = hung++;
+    if (one->second->body == id.value) remove_cable({one->first});
+  }
   wake_touching(*gone.object);
   forget_ignored_of(Touched::Kind::body, id.value);
   forget_contacts_of(Touched::Kind::body, id.value);
@@ -326,8 +331,10 @@ void BulletWorld::step(double dt) {
   world_.stepSimulation(dt, 0);
   gather_contacts();
   resist_rolling();
+  keep_swinging();
   let_settled_sleep(dt);
   for (auto& [id, hinge] : hinges_) read_hinge(*hinge);
+  read_cables(dt);
 }
 
 void BulletWorld::resist_rolling() {
@@ -373,7 +380,7 @@ void BulletWorld::let_settled_sleep(double dt) {
   }
   for (const auto& [id, one] : bodies_) {
     one->watched = one->rigid->isActive();
-    if (!one->watched) continue;
+    if (!one->watched || one->swings) continue;
     one->watched_at = one->rigid->getWorldTransform();
     const Island& island = islands[one->rigid->getIslandTag()];
     if (island.sum < kSettings.settled_mean * kSettings.settled_mean * island.mass &&

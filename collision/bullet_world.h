@@ -1,6 +1,7 @@
 #pragma once
 // collision::World on Bullet. Its parts by file: bodies, obstacles and the step (bullet_world), contacts
-// (bullet_world_contacts), sweeps and rays (bullet_world_sweep), hinges (bullet_world_hinges).
+// (bullet_world_contacts), sweeps and rays (bullet_world_sweep), hinges (bullet_world_hinges), cables
+// (bullet_world_cables).
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
 #include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
 #include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
@@ -12,6 +13,7 @@
 #include <map>
 #include <set>
 
+#include "cable.h"
 #include "first_touch.h"
 #include "free_spin_world.h"
 #include "half_space_contacts.h"
@@ -30,6 +32,7 @@ struct Body : Solid {
   double rolling_radius = 0;
   int ignored = 0;  ///< pairs that it is in and that are ignored until separated
   SolverVelocities velocities;
+  bool swings = false;                                  ///< on a cable, off its plumb line and touching nothing
   bool watched = false;                                 ///< since the last look, for going anywhere
   btTransform watched_at = btTransform::getIdentity();  ///< where it was then
   std::set<std::int64_t> hinges;
@@ -46,6 +49,13 @@ struct Hinge {
   btVector3 point_in_body{0, 0, 0};  ///< the joint's point in the body's Bullet frame
   Mat3 axes_in_holder = Mat3::Identity();
   Eigen::Matrix<double, 6, 1> force = Eigen::Matrix<double, 6, 1>::Zero();
+};
+
+struct HungCable {
+  HungCable(btRigidBody& rigid, const btVector3& anchor, double length) : constraint(rigid, anchor, length) {}
+  Cable constraint;
+  std::int64_t body = -1;
+  CablePull pull;
 };
 
 /// Two solids by kind and id, lower first: bodies before obstacles before the ground.
@@ -73,6 +83,9 @@ class BulletWorld final : public World {
   HingeId add_hinge(const HingeDescription& description) override;
   void remove_hinge(HingeId hinge) override;
   [[nodiscard]] Eigen::Matrix<double, 6, 1> hinge_force(HingeId hinge) const override;
+  CableId add_cable(const CableDescription& description) override;
+  void remove_cable(CableId cable) override;
+  [[nodiscard]] CablePull cable_pull(CableId cable) const override;
   [[nodiscard]] BodyState state(BodyId body) const override;
   void set_state(BodyId body, const BodyState& state) override;
   void apply_impulse(BodyId body, const Vec3& impulse, const Vec3& point) override;
@@ -95,6 +108,9 @@ class BulletWorld final : public World {
   [[nodiscard]] Hinge& hinge(std::int64_t id);
   [[nodiscard]] const Hinge& hinge(std::int64_t id) const;
   [[nodiscard]] const Solid& solid(const SolidPair& pair) const;
+  [[nodiscard]] HungCable& cable(std::int64_t id) const;
+  void read_cables(double dt);
+  void keep_swinging();
   void remove_ground();
   void wake_all();
   void wake_touching(const btCollisionObject& object);
@@ -132,9 +148,10 @@ class BulletWorld final : public World {
   std::map<std::int64_t, std::unique_ptr<Body>> bodies_;
   std::map<std::int64_t, std::unique_ptr<Obstacle>> obstacles_;
   std::map<std::int64_t, std::unique_ptr<Hinge>> hinges_;
+  std::map<std::int64_t, std::unique_ptr<HungCable>> cables_;
   std::vector<BodyId> order_;
   double watched_for_ = 0;  ///< s since the last look
-  std::int64_t next_body_ = 0, next_obstacle_ = 0, next_hinge_ = 0;
+  std::int64_t next_body_ = 0, next_obstacle_ = 0, next_hinge_ = 0, next_cable_ = 0;
 
   Solid ground_;
   std::unique_ptr<btStaticPlaneShape> ground_shape_;

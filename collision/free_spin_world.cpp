@@ -31,6 +31,8 @@ void FreeSpinWorld::predictUnconstraintMotion(btScalar time_step) {
 }
 
 void FreeSpinWorld::integrateTransforms(btScalar time_step) {
+  for (Cable* cable : cables_)
+    if (cable->body().isActive()) cable->hold(time_step);
   for (int i = 0; i < m_nonStaticRigidBodies.size(); ++i) {
     btRigidBody& body = *m_nonStaticRigidBodies[i];
     if (!body.isActive()) continue;

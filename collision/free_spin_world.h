@@ -2,6 +2,10 @@
 // Bullet's world with a rotation that keeps angular momentum, and a record of what the solver did to each body.
 #include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
 
+#include <vector>
+
+#include "cable.h"
+
 namespace topple::collision {
 
 /// Where the constraint solver saw a body, and its velocities at the step's beginning (before gravity) and after the
@@ -21,6 +25,9 @@ class FreeSpinWorld : public btDiscreteDynamicsWorld {
   /// of the body: see Body in bullet_world.h.
   using Record = SolverVelocities& (*)(btRigidBody&);
   void record_with(Record record) { record_ = record; }
+  /// Cables that the world holds taut when its solver is done.
+  void hold_after_solving(Cable* cable) { cables_.push_back(cable); }
+  void let_go(Cable* cable) { std::erase(cables_, cable); }
 
  protected:
   void predictUnconstraintMotion(btScalar time_step) override;
@@ -30,6 +37,7 @@ class FreeSpinWorld : public btDiscreteDynamicsWorld {
 
  private:
   Record record_ = nullptr;
+  std::vector<Cable*> cables_;
 };
 
 }  // namespace topple::collision

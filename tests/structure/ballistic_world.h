@@ -41,6 +41,9 @@ class BallisticWorld : public collision::World {
   [[nodiscard]] Eigen::Matrix<double, 6, 1> hinge_force(collision::HingeId) const override {
     return Eigen::Matrix<double, 6, 1>::Zero();
   }
+  collision::CableId add_cable(const collision::CableDescription&) override { throw std::logic_error("no cables here"); }
+  void remove_cable(collision::CableId) override {}
+  [[nodiscard]] collision::CablePull cable_pull(collision::CableId) const override { return {}; }
   [[nodiscard]] collision::BodyState state(collision::BodyId id) const override { return bodies_.at(id.value).state; }
   void set_state(collision::BodyId id, const collision::BodyState& state) override {
     bodies_.at(id.value).state = state;

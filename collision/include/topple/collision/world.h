@@ -38,6 +38,11 @@ struct HingeId {
   auto operator<=>(const HingeId&) const = default;
 };
 
+struct CableId {
+  std::int64_t value = -1;
+  auto operator<=>(const CableId&) const = default;
+};
+
 /// One convex piece of a shape, in the frame of the body.
 struct ConvexPart {
   enum class Kind { box, sphere, hull };
@@ -121,6 +126,18 @@ struct HingeDescription {
   Mat3 axes = Mat3::Identity();                                  ///< rows: joint axes in global components, now
 };
 
+/// A cable without weight from a point in space to a body's centre of mass. It does not stretch, and pulls only.
+struct CableDescription {
+  BodyId body;
+  Vec3 anchor = Vec3::Zero();
+  double length = 0;  ///< above zero
+};
+/// Of the last step.
+struct CablePull {
+  double tension = 0;    ///< mean over the step, N
+  double work_lost = 0;  ///< energy that it took out of the body where it came taut (velocities read at mid-step), J
+};
+
 class World {
  public:
   virtual ~World() = default;
@@ -135,7 +152,7 @@ class World {
   // volume.
 
   virtual BodyId add_body(const BodyDescription& description) = 0;
-  /// Its hinges go with it; what touched it wakes.
+  /// Its hinges and cables go with it; what touched it wakes.
   virtual void remove_body(BodyId body) = 0;
   virtual ObstacleId add_obstacle(const ObstacleDescription& description) = 0;
   /// Bodies that lay on it wake.
@@ -146,6 +163,11 @@ class World {
   virtual void remove_hinge(HingeId hinge) = 0;
   /// Force and moment about the point (joint axes, mean of the last step) that the body exerts on what holds it.
   [[nodiscard]] virtual Eigen::Matrix<double, 6, 1> hinge_force(HingeId hinge) const = 0;
+
+  /// Throws std::invalid_argument when its length is not above zero or the body is farther away than that.
+  virtual CableId add_cable(const CableDescription& description) = 0;
+  virtual void remove_cable(CableId cable) = 0;
+  [[nodiscard]] virtual CablePull cable_pull(CableId cable) const = 0;
 
   [[nodiscard]] virtual BodyState state(BodyId body) const = 0;
   /// Wakes the body, unless the state says asleep.
