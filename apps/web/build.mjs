@@ -25,4 +25,4 @@ async function page(name) {
   writeFileSync(join(output, `${name}.html`), html);
 }
 
-await page('report');
+for (const name of ['report', 'replay']) await page(name);

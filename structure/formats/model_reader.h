@@ -21,6 +21,7 @@ void read_diaphragms(const JsonValue& root, ModelDraft& draft);
 void read_masses(const JsonValue& root, ModelDraft& draft);
 void read_loads(const JsonValue& root, ModelDraft& draft);
 void read_combinations(const JsonValue& root, ModelDraft& draft);
+void read_joint_changes(const JsonValue& root, ModelDraft& draft);
 void read_analyses(const JsonValue& root, ModelDraft& draft);
 void read_frame3dd_remarks(const JsonValue& root, ModelDraft& draft);
 

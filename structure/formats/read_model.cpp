@@ -23,8 +23,8 @@ Building read_document(const JsonDocument& document) {
   if (!root.is_object()) root.refuse("an object");
   refuse_unbuilt_keys(root, UnbuiltPlace::model);
   root.only({"topple", "title", "units", "gravity", "materials", "sections", "joints", "nodes", "members", "panels",
-             "supports", "diaphragms", "masses", "loads", "combinations", "building", "buildings", "analyses",
-             "frame3dd", "meshes"});
+             "supports", "diaphragms", "masses", "loads", "combinations", "building", "buildings", "joint_changes",
+             "analyses", "frame3dd", "meshes"});
   const JsonValue version = root.require("topple");
   if (!version.is_number() || version.number() != 1) version.refuse("1, the version of the format");
   ModelDraft draft;
@@ -42,6 +42,7 @@ Building read_document(const JsonDocument& document) {
   if (draft.building.members.empty() && draft.building.panels.empty())
     root.fail("the model has no member and no panel; accepted: at least one");
   draft.finish_joints();
+  read_joint_changes(root, draft);
   read_supports(root, draft);
   read_diaphragms(root, draft);
   read_masses(root, draft);

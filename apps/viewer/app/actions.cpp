@@ -86,11 +86,23 @@ FireAction fire_of(const Value& value) {
   return fire;
 }
 
+structure::JointChange change_of(const Value& value) {
+  std::set<std::string> keys{"joints", "strength"};
+  for (const char* sense : structure::sense_names) keys.insert(sense);
+  value.only(keys);
+  structure::JointChange change;
+  change.joints = value["joints"].text();
+  if (value.has("strength")) change.strength = value["strength"].positive();
+  for (std::size_t s = 0; s < 7; ++s)
+    if (value.has(structure::sense_names[s])) change.capacity[s] = value[structure::sense_names[s]].positive();
+  if (change.empty()) value.refuse("nothing to set; accepted: strength, or the capacity in a sense");
+  return change;
+}
+
 Action action_of(const Value& value) {
   value.only({"at", "camera", "click", "fire", "key", "drag", "set", "show", "screenshot", "quit"});
   Action action;
   action.at = value["at"].number();
-  if (value.has("set")) value["set"].refuse("tuning of joints is not built yet");
   if (value.has("camera"))
     action.what = CameraAction{camera_of(value["camera"])};
   else if (value.has("click"))
@@ -99,6 +111,8 @@ Action action_of(const Value& value) {
     action.what = fire_of(value["fire"]);
   else if (value.has("key"))
     action.what = KeyAction{value["key"].text()};
+  else if (value.has("set"))
+    action.what = change_of(value["set"]);
   else if (value.has("show"))
     action.what = ShowAction{value["show"].text()};
   else if (value.has("screenshot"))
@@ -110,7 +124,7 @@ Action action_of(const Value& value) {
   } else if (value.has("quit"))
     action.what = QuitAction{};
   else
-    value.refuse("no action; accepted: one of camera, click, fire, key, drag, show, screenshot, quit");
+    value.refuse("no action; accepted: one of camera, click, fire, key, drag, set, show, screenshot, quit");
   return action;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/controller.h"
+#include "topple/structure/joint_tuning.h"
 
 namespace topple::viewer {
 
@@ -37,7 +38,8 @@ struct QuitAction {};
 
 struct Action {
   double at = 0;  ///< seconds since the start, pauses counted
-  std::variant<CameraAction, ClickAction, FireAction, KeyAction, DragAction, ShowAction, ScreenshotAction, QuitAction>
+  std::variant<CameraAction, ClickAction, FireAction, KeyAction, DragAction, structure::JointChange, ShowAction,
+               ScreenshotAction, QuitAction>
       what;
 };
 struct Script {

@@ -19,11 +19,15 @@ constexpr double zoom_per_click = 0.88;
 /// A drawn mode's largest translation, as a share of the building's radius, and its pace: every mode at the same one.
 constexpr double mode_share = 0.05, swings_per_second = 0.5;
 
+structure::Vec3 to_eigen(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+
 }  // namespace
 
 Controller::Controller(Driver& driver, const Scene& scene, double ground, glm::dvec2 size)
     : driver_(driver),
+      scene_(scene),
       building_(*scene.building),
+      names_(*scene.building),
       modes_(scene.building, scene.scenario.combination.value_or(structure::CombinationId(0u))),
       ground_(ground),
       size_(size) {
@@ -32,16 +36,84 @@ Controller::Controller(Driver& driver, const Scene& scene, double ground, glm::d
 
 void Controller::frame_building() { camera = frame(bounds_of(building_), size_.x / size_.y); }
 
+Snapshot Controller::now() const {
+  return looking_at_ ? driver_.recording().at(*looking_at_) : driver_.moment().interpolated();
+}
+
+std::optional<Pick> Controller::pick_at(glm::dvec2 pixel) const {
+  return pick(building_, now(), options, ground_, camera.ray(pixel, size_));
+}
+
+void Controller::click(glm::dvec2 pixel) {
+  if (tool == ToolKind::fire) return fire(pixel);
+  const auto found = pick_at(pixel);
+  if (!found || !found->joint.valid()) {
+    message = std::string(tool_names[static_cast<std::size_t>(tool)]) + ": nothing of the building is there";
+    return;
+  }
+  if (tool == ToolKind::select) return select(*found);
+  if (looking_at_) go_on_from_here();
+  use(*found);
+}
+
+void Controller::use(const Pick& found) {
+  const auto said = [&](const std::string& what) { message = what; };
+  switch (tool) {
+    case ToolKind::cut:
+      driver_.apply(structure::CutTool{{found.joint}});
+      return said("cut " + building_[found.joint].name);
+    case ToolKind::remove: {
+      structure::RemoveTool gone;
+      if (found.member.valid()) gone.members = {found.member};
+      if (found.panel.valid()) gone.panels = {found.panel};
+      driver_.apply(gone);
+      return said("removed " + (found.member.valid() ? building_[found.member].name : building_[found.panel].name));
+    }
+    case ToolKind::support:
+      return remove_support_at(found);
+    case ToolKind::charge:
+      driver_.apply(structure::ChargeTool{to_eigen(found.point), charge_radius, 0, 1});
+      return said("charge at " + building_[found.joint].name);
+    case ToolKind::path: {
+      const structure::ContactPlace place{found.member, found.panel, to_eigen(found.point)};
+      driver_.order_and_show([place](Session& session) { session.find_path(place); });
+      options.colouring = Colouring::path;
+      return said("the way of a downward force on " + building_[found.joint].name);
+    }
+    default:
+      return;
+  }
+}
+
+void Controller::remove_support_at(const Pick& found) {
+  if (!found.member.valid()) {
+    message = "remove support: click a member that stands on one";
+    return;
+  }
+  const auto supported = [&](structure::NodeId node) {
+    return std::any_of(building_.supports.begin(), building_.supports.end(),
+                       [node](const structure::NodeSupport& s) { return s.node == node; });
+  };
+  for (const structure::NodeId node : building_[found.member].nodes) {
+    if (!supported(node)) continue;
+    driver_.apply(structure::RemoveTool{{}, {}, {node}});
+    message = "removed the support of " + building_[node].name;
+    return;
+  }
+  message = "remove support: " + building_[found.member].name + " stands on none";
+}
+
 void Controller::fire(glm::dvec2 pixel) {
   const Ray ray = camera.ray(pixel, size_);
-  const auto target = pick(building_, *driver_.moment().later, options, ground_, ray);
+  const auto target = pick_at(pixel);
+  if (looking_at_) go_on_from_here();
   const double distance = target ? target->distance : camera.distance();
   const double flight = distance / shot.speed;
   const glm::dvec3 velocity =
       shot.speed * ray.direction + glm::dvec3(0, 0, building_.gravity * flight / 2);  // falls g t^2/2 on the way
   structure::Projectile projectile;
-  projectile.from = {ray.origin.x, ray.origin.y, ray.origin.z};
-  projectile.velocity = {velocity.x, velocity.y, velocity.z};
+  projectile.from = to_eigen(ray.origin);
+  projectile.velocity = to_eigen(velocity);
   projectile.mass = shot.mass;
   projectile.radius = shot.radius;
   driver_.apply(projectile);
@@ -60,14 +132,67 @@ void Controller::drag_to_pan(glm::dvec2 from, glm::dvec2 to) {
 
 void Controller::scroll(double clicks) { camera.zoom(std::pow(zoom_per_click, clicks)); }
 
+const char* Controller::key_help() {
+  return "left click        use the tool in hand    right click   select\n"
+         "left drag         orbit                   right drag    pan\n"
+         "wheel             zoom                    W A S D Q E   fly\n"
+         "space             pause                   N             single step\n"
+         "R                 restart                 U             undo the last action\n"
+         "G                 fire                    B             wrecking ball\n"
+         "J                 cut a joint             M             remove a part\n"
+         "K                 charge                  L             load path\n"
+         "T                 remove a support        V             select\n"
+         "C                 next colouring          X             panels clear or not\n"
+         "F                 frame the building      I             next diagram\n"
+         "1 2 3 4           posts, beams, slabs, walls\n"
+         "O                 loads and reactions     Y             back to the present\n"
+         "P                 save a picture          H             this help\n"
+         "Esc               leave";
+}
+
 bool Controller::key(const std::string& name) {
+  const auto hold = [this](ToolKind kind) { return [this, kind] { tool = kind; }; };
   const std::map<std::string, std::function<void()>> meanings{
-      {"space", [&] { driver_.set_paused(!driver_.paused()); }},
+      {"space",
+       [&] {
+         if (looking_at_)
+           replaying_ = !replaying_;
+         else
+           driver_.set_paused(!driver_.paused());
+       }},
       {"n", [&] { driver_.single_step(); }},
-      {"r", [&] { driver_.restart(); }},
-      {"u", [&] { driver_.undo(); }},
+      {"r",
+       [&] {
+         look_at_present();
+         driver_.restart();
+       }},
+      {"u",
+       [&] {
+         look_at_present();
+         driver_.undo();
+       }},
       {"f", [&] { frame_building(); }},
+      {"g",
+       [&] {
+         tool = ToolKind::fire;
+         shot = Shot();
+       }},
+      {"b",
+       [&] {
+         tool = ToolKind::fire;
+         shot = wrecking_ball;
+       }},
+      {"j", hold(ToolKind::cut)},
+      {"m", hold(ToolKind::remove)},
+      {"k", hold(ToolKind::charge)},
+      {"l", hold(ToolKind::path)},
+      {"t", hold(ToolKind::support)},
+      {"v", hold(ToolKind::select)},
+      {"x", [&] { show(options.slab_opacity < 0.5F ? "panels" : "frame"); }},
       {"c", [&] { options.colouring = static_cast<Colouring>((static_cast<int>(options.colouring) + 1) % 5); }},
+      {"i", [&] { options.diagram = options.diagram == 5 ? -1 : options.diagram + 1; }},
+      {"o", [&] { options.loads = options.reactions = options.contacts = !options.loads; }},
+      {"y", [&] { look_at_present(); }},
       {"1", [&] { options.shown.posts = !options.shown.posts; }},
       {"2", [&] { options.shown.beams = !options.shown.beams; }},
       {"3", [&] { options.shown.slabs = !options.shown.slabs; }},
@@ -81,28 +206,86 @@ bool Controller::key(const std::string& name) {
 
 void Controller::show(const std::string& words) { viewer::show(words, options, mode); }
 
-void Controller::update() {
+void Controller::tune(const structure::JointChange& change) {
+  (void)structure::joints_of(building_, names_, change.joints);  // refused here, on the person's thread
+  driver_.order_and_show([change](Session& session) { session.tune(change); });
+}
+
+void Controller::hover(glm::dvec2 pixel) {
+  hovered_ = pick_at(pixel);
+  options.hovered_member = hovered_ ? hovered_->member : structure::MemberId();
+  options.hovered_panel = hovered_ ? hovered_->panel : structure::PanelId();
+}
+
+void Controller::select(structure::JointId joint) {
+  options.selected_joint = joint;
+  options.selected_member = building_[joint].member;
+  options.selected_panel = building_[joint].panel;
+}
+
+void Controller::select(const Pick& found) {
+  if (found.joint.valid()) select(found.joint);
+}
+
+std::vector<structure::JointId> Controller::search(const std::string& text, std::size_t most) const {
+  std::vector<structure::JointId> found;
+  if (text.empty()) return found;
+  const bool joints = text.find(':') != std::string::npos, pattern = text.find('*') != std::string::npos;
+  const auto fits = [&](const std::string& name) {
+    return pattern ? structure::matches_pattern(text, name) : name.find(text) != std::string::npos;
+  };
+  for (std::size_t j = 0; j < building_.joints.size() && found.size() < most; ++j) {
+    const structure::Joint& joint = building_.joints[j];
+    const std::string& owner = joint.member.valid() ? building_[joint.member].name : building_[joint.panel].name;
+    if (joints ? fits(joint.name) : joint.end == 0 && fits(owner)) found.emplace_back(j);
+  }
+  return found;
+}
+
+void Controller::update(double seconds) {
+  swing_ += seconds;
+  if (looking_at_ && replaying_) {
+    const auto span = driver_.recording().span();
+    looking_at_ = *looking_at_ + seconds * driver_.speed();
+    if (*looking_at_ >= span[1]) {
+      looking_at_ = span[1];
+      replaying_ = false;
+    }
+  }
   const Wanted wanted{options.diagram >= 0, options.loads || options.reactions || options.contacts};
   if (wanted == wanted_) return;
   wanted_ = wanted;
-  driver_.want(wanted);
+  driver_.order_and_show([wanted](Session& session) { session.want(wanted); });
 }
 
-Snapshot Controller::drawn(Snapshot moment, double seconds, bool wait) {
+Snapshot Controller::shown(bool wait) {
+  Snapshot moment = now();
   if (!mode.kind) return moment;
   const auto* known = wait ? &modes_.wait(*mode.kind) : modes_.find(*mode.kind);
   if (known == nullptr || known->empty()) return moment;
   const auto number = std::min(static_cast<std::size_t>(mode.number), known->size() - 1);
   moment.shape = (*known)[number].shape;
-  const double swing = std::cos(glm::two_pi<double>() * seconds * swings_per_second);
+  const double swing = std::cos(glm::two_pi<double>() * swing_ * swings_per_second);
   moment.shape_scale = static_cast<float>(mode_share * bounds_of(building_).radius() * swing) * mode.scale;
   return moment;
 }
 
-void Controller::hover(glm::dvec2 pixel) {
-  hovered_ = pick(building_, *driver_.moment().later, options, ground_, camera.ray(pixel, size_));
-  options.hovered_member = hovered_ ? hovered_->member : structure::MemberId();
-  options.hovered_panel = hovered_ ? hovered_->panel : structure::PanelId();
+void Controller::look_at(double time) {
+  const auto span = driver_.recording().span();
+  looking_at_ = std::clamp(time, span[0], span[1]);
+  driver_.set_paused(true);
+}
+
+void Controller::look_at_present() {
+  looking_at_.reset();
+  replaying_ = false;
+}
+
+void Controller::go_on_from_here() {
+  if (!looking_at_) return;
+  const std::int64_t step = driver_.recording().at(*looking_at_).step;
+  look_at_present();
+  driver_.order_and_show([step](Session& session) { session.return_to(step); });
 }
 
 }  // namespace topple::viewer

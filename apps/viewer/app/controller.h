@@ -1,9 +1,12 @@
 #pragma once
-// What a person does, whether by hand in the window or by a script without one: camera, switches, shots, keys.
+// What a person does, whether by hand in the window or by a script without one: camera, switches, tools, keys, looking
+// back.
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/driver.h"
+#include "app/mode_shapes.h"
 #include "app/open_scene.h"
 #include "app/picking.h"
 #include "app/show_words.h"
@@ -15,6 +18,12 @@ namespace topple::viewer {
 struct Shot {
   double speed = 60, mass = 500, radius = 0.4;  ///< m/s, kg, m
 };
+inline constexpr Shot wrecking_ball{12, 5000, 0.9};
+
+/// What a click does.
+enum class ToolKind { fire, cut, remove, support, charge, path, select };
+inline constexpr std::array<const char*, 7> tool_names{"fire",   "cut joint", "remove part", "remove support",
+                                                       "charge", "load path", "select"};
 
 class Controller {
  public:
@@ -24,43 +33,77 @@ class Controller {
   ViewOptions options;
   ModeView mode;
   Shot shot;
+  ToolKind tool = ToolKind::fire;
+  double charge_radius = 3;  ///< m; within it joints lose strength, all of it at the centre
   bool help = false;
   std::optional<std::string> message;  ///< for the person, one line
 
   void resize(glm::dvec2 size) { size_ = size; }
   [[nodiscard]] glm::dvec2 size() const { return size_; }
+  /// Uses the tool in hand on what is seen at the pixel.
+  void click(glm::dvec2 pixel);
   /// A projectile from the eye that meets what is seen at the pixel (gravity allowed for); along the view when nothing
   /// is.
   void fire(glm::dvec2 pixel);
   void drag(glm::dvec2 from, glm::dvec2 to);  ///< orbits
   void drag_to_pan(glm::dvec2 from, glm::dvec2 to);
   void scroll(double clicks);
-  /// "space" pause, "n" single step, "r" restart, "u" undo, "f" frame, "c" colouring, "1" to "4" posts, beams, slabs,
-  /// walls, "h" help. False when the key has no meaning.
+  /// The keys of key_help(), as their letters and "space". False when the key has no meaning.
   bool key(const std::string& name);
+  [[nodiscard]] static const char* key_help();
   /// Words of show_words.h. Throws structure::InputError.
   void show(const std::string& words);
-  /// To be called before each picture: tells the driver what the view needs to know.
-  void update();
-  /// What to draw of a moment: with a mode in the view its shape, swinging with `seconds`; `wait`: until it is known.
-  [[nodiscard]] Snapshot drawn(Snapshot moment, double seconds, bool wait);
-  [[nodiscard]] ModeShapes& modes() { return modes_; }
+  /// Changes capacities; seen at once. Throws structure::InputError.
+  void tune(const structure::JointChange& change);
   /// Marks what lies under the pointer.
   void hover(glm::dvec2 pixel);
   [[nodiscard]] const std::optional<Pick>& hovered() const { return hovered_; }
+  void select(structure::JointId joint);
+  void select(const Pick& pick);
+  /// Joints, members and panels whose name holds the text or matches it as a pattern, at most `most`; joints only when
+  /// the text holds a colon.
+  [[nodiscard]] std::vector<structure::JointId> search(const std::string& text, std::size_t most) const;
   void frame_building();
 
+  /// To be called before each picture: tells the driver what the view needs to know, and moves a replay on.
+  void update(double seconds);
+  /// What to draw: the present or the moment that is looked back at; with a mode in the view its shape. `wait`: until
+  /// the mode is known.
+  [[nodiscard]] Snapshot shown(bool wait);
+
+  // Looking back at what has been recorded.
+  void look_at(double time);  ///< the simulation pauses
+  void look_at_present();
+  void replay(bool on) { replaying_ = on; }
+  [[nodiscard]] bool replaying() const { return replaying_; }
+  [[nodiscard]] const std::optional<double>& looking_at() const { return looking_at_; }
+  /// The run goes on from the moment that is looked at; what came after it is forgotten.
+  void go_on_from_here();
+
   [[nodiscard]] Driver& driver() { return driver_; }
+  [[nodiscard]] const Driver& driver() const { return driver_; }
+  [[nodiscard]] const Scene& scene() const { return scene_; }
   [[nodiscard]] const structure::Building& building() const { return building_; }
+  [[nodiscard]] ModeShapes& modes() { return modes_; }
+  [[nodiscard]] const structure::NameIndex& names() const { return names_; }
 
  private:
+  [[nodiscard]] Snapshot now() const;
+  [[nodiscard]] std::optional<Pick> pick_at(glm::dvec2 pixel) const;
+  void use(const Pick& pick);
+  void remove_support_at(const Pick& pick);
   Driver& driver_;
+  const Scene& scene_;
   const structure::Building& building_;
+  structure::NameIndex names_;
   ModeShapes modes_;
   Wanted wanted_;
   double ground_;
   glm::dvec2 size_;
   std::optional<Pick> hovered_;
+  std::optional<double> looking_at_;
+  bool replaying_ = false;
+  double swing_ = 0;  ///< s, of a mode
 };
 
 }  // namespace topple::viewer

@@ -15,21 +15,8 @@ void DirectDriver::advance() {
   session_.step();
   latest_ = session_.snapshot();
 }
-void DirectDriver::restart() {
-  session_.restart();
-  latest_ = session_.snapshot();
-}
-void DirectDriver::undo() {
-  if (session_.undo()) latest_ = session_.snapshot();
-}
-void DirectDriver::single_step() {
-  paused_ = true;
-  session_.step();
-  latest_ = session_.snapshot();
-}
-
-void DirectDriver::want(Wanted wanted) {
-  session_.want(wanted);
+void DirectDriver::order_and_show(Order what) {
+  what(session_);
   latest_ = session_.snapshot();
 }
 
@@ -113,7 +100,8 @@ void ThreadDriver::State::run() {
   }
 }
 
-ThreadDriver::ThreadDriver(std::unique_ptr<Session> session) : state_(std::make_unique<State>()) {
+ThreadDriver::ThreadDriver(std::unique_ptr<Session> session)
+    : Driver(session->recording()), state_(std::make_unique<State>()) {
   state_->step_length = session->scenario().step;
   state_->session = std::move(session);
   state_->publish(false);
@@ -129,30 +117,10 @@ ThreadDriver::~ThreadDriver() {
   state_->thread.join();
 }
 
-void ThreadDriver::apply(const structure::Tool& tool) {
-  state_->order([tool](Session& session) { session.apply(tool); });
-}
-void ThreadDriver::restart() {
-  state_->order([state = state_.get()](Session& session) {
-    session.restart();
-    state->publish(false);
-  });
-}
-void ThreadDriver::undo() {
-  state_->order([state = state_.get()](Session& session) {
-    if (session.undo()) state->publish(false);
-  });
-}
-void ThreadDriver::single_step() {
-  set_paused(true);
-  state_->order([state = state_.get()](Session& session) {
-    session.step();
-    state->publish(true);
-  });
-}
-void ThreadDriver::want(Wanted wanted) {
-  state_->order([wanted, state = state_.get()](Session& session) {
-    session.want(wanted);
+void ThreadDriver::order(Order what) { state_->order(std::move(what)); }
+void ThreadDriver::order_and_show(Order what) {
+  state_->order([what = std::move(what), state = state_.get()](Session& session) {
+    what(session);
     state->publish(false);
   });
 }

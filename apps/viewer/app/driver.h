@@ -1,5 +1,6 @@
 #pragma once
 // What moves a session on: a thread of its own behind a window, or the headless run's own loop.
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -19,29 +20,47 @@ struct Moment {
 class Driver {
  public:
   virtual ~Driver() = default;
-  virtual void apply(const structure::Tool& tool) = 0;
-  virtual void restart() = 0;
-  virtual void undo() = 0;
-  virtual void single_step() = 0;
-  virtual void want(Wanted wanted) = 0;
+  using Order = std::function<void(Session&)>;
+  /// Does something with the session between two steps.
+  virtual void order(Order what) = 0;
+  /// The same, and what it changed is to be seen at once, also while paused.
+  virtual void order_and_show(Order what) = 0;
+  void apply(const structure::Tool& tool) {
+    order([tool](Session& session) { session.apply(tool); });
+  }
+  void restart() {
+    order_and_show([](Session& session) { session.restart(); });
+  }
+  void undo() {
+    order_and_show([](Session& session) { (void)session.undo(); });
+  }
+  void single_step() {
+    set_paused(true);
+    order_and_show([](Session& session) { session.step(); });
+  }
   virtual void set_paused(bool paused) = 0;
   [[nodiscard]] virtual bool paused() const = 0;
   /// Simulated seconds for each second.
   virtual void set_speed(double speed) = 0;
   [[nodiscard]] virtual double speed() const = 0;
   [[nodiscard]] virtual Moment moment() const = 0;
+  [[nodiscard]] const Recording& recording() const { return *recording_; }
+
+ protected:
+  explicit Driver(std::shared_ptr<const Recording> recording) : recording_(std::move(recording)) {}
+
+ private:
+  std::shared_ptr<const Recording> recording_;
 };
 
 /// Steps when told to, on the caller's thread.
 class DirectDriver : public Driver {
  public:
-  explicit DirectDriver(Session& session) : session_(session), latest_(session.snapshot()) {}
+  explicit DirectDriver(Session& session)
+      : Driver(session.recording()), session_(session), latest_(session.snapshot()) {}
   void advance();
-  void apply(const structure::Tool& tool) override { session_.apply(tool); }
-  void restart() override;
-  void undo() override;
-  void single_step() override;
-  void want(Wanted wanted) override;
+  void order(Order what) override { what(session_); }
+  void order_and_show(Order what) override;
   void set_paused(bool paused) override { paused_ = paused; }
   [[nodiscard]] bool paused() const override { return paused_; }
   void set_speed(double speed) override { speed_ = speed; }
@@ -62,11 +81,8 @@ class ThreadDriver : public Driver {
   /// The session is the thread's alone from now on.
   explicit ThreadDriver(std::unique_ptr<Session> session);
   ~ThreadDriver() override;
-  void apply(const structure::Tool& tool) override;
-  void restart() override;
-  void undo() override;
-  void single_step() override;
-  void want(Wanted wanted) override;
+  void order(Order what) override;
+  void order_and_show(Order what) override;
   void set_paused(bool paused) override;
   [[nodiscard]] bool paused() const override;
   void set_speed(double speed) override;

@@ -6,6 +6,13 @@
 #include <utility>
 
 #include "app/actions.h"
+#include "app/html_replay.h"
+#include "app/interface.h"
+#include "app/side_panel.h"
+#include "app/usd_scene.h"
+#include "app/video.h"
+#include "renderer/frame_composer.h"
+#include "renderer/headless_context.h"
 #include "renderer/picture_renderer.h"
 #include "topple/structure/error.h"
 
@@ -19,32 +26,109 @@ struct Overloaded : Cases... {
 template <class... Cases>
 Overloaded(Cases...) -> Overloaded<Cases...>;
 
+/// What a window has, without one.
+class Stage {
+ public:
+  Stage(const Scene& scene, glm::ivec2 size, bool panel, double scale)
+      : size_(size),
+        instances_(*scene.building),
+        renderer_(instances_, ground_height(*scene.building, scene.scenario)) {
+    if (!panel) return;
+    interface_.emplace(static_cast<float>(scale));
+    composer_.emplace(size);
+  }
+  [[nodiscard]] glm::dvec2 scene_size() const {
+    return interface_ ? glm::dvec2(glm::ivec2(SidePanel::scene_size(size_))) : glm::dvec2(size_);
+  }
+  [[nodiscard]] Image draw(Controller& controller) {
+    const Snapshot moment = controller.shown(true);
+    instances_.update(moment, controller.options);
+    renderer_.draw(instances_, controller.camera, controller.options, glm::ivec2(scene_size()));
+    Image image;
+    if (interface_) {
+      composer_->begin(renderer_);
+      // The first frame only finds out how large everything is.
+      for (int i = laid_out_ ? 1 : 0; i < 2; ++i) {
+        lay_out(controller, moment);
+        Interface::end_frame();
+      }
+      laid_out_ = true;
+      image = composer_->read();
+    } else {
+      image = renderer_.read();
+    }
+    Renderer::check_errors();
+    return image;
+  }
+  /// True when the panels take what the pointer does there.
+  bool panel_at(glm::dvec2 pixel) const {
+    return interface_ && (pixel.x >= scene_size().x || pixel.y >= scene_size().y);
+  }
+  /// Presses at one place, moves to the other, and lets go: frames as a window would draw them in between.
+  void drag_in_panel(Controller& controller, glm::dvec2 from, glm::dvec2 to) {
+    constexpr int ways = 4;
+    frame(controller, from, false);
+    frame(controller, from, false);
+    for (int i = 0; i <= ways; ++i) frame(controller, from + (to - from) * (static_cast<double>(i) / ways), true);
+    frame(controller, to, false);
+    frame(controller, {-1, -1}, false);
+  }
+
+ private:
+  void frame(Controller& controller, glm::dvec2 pointer, bool pressed) {
+    interface_->point(pointer);
+    interface_->press(pressed);
+    controller.update(0);
+    (void)draw(controller);
+  }
+  void lay_out(Controller& controller, const Snapshot& moment) {
+    interface_->begin_frame(size_, 1.0 / 60);
+    panel_.draw(controller, moment, instances_, "");
+    draw_hover_text(controller, moment);
+  }
+
+  glm::ivec2 size_;
+  HeadlessContext context_;
+  SceneInstances instances_;
+  Renderer renderer_;
+  std::optional<Interface> interface_;
+  std::optional<FrameComposer> composer_;
+  SidePanel panel_;
+  bool laid_out_ = false;
+};
+
 class HeadlessRun {
  public:
-  HeadlessRun(const Scene& scene, Script script, std::array<int, 2> size)
+  HeadlessRun(const Scene& scene, Script script, std::array<int, 2> size, const HeadlessOptions& options)
       : session_(scene.building, scene.scenario),
         driver_(session_),
-        ground_(ground_height(*scene.building, scene.scenario)),
-        renderer_(*scene.building, ground_, size[0], size[1]),
-        controller_(driver_, scene, ground_, {size[0], size[1]}),
-        script_(std::move(script)) {}
+        stage_(scene, {size[0], size[1]}, options.panel, options.scale),
+        controller_(driver_, scene, ground_height(*scene.building, scene.scenario), stage_.scene_size()),
+        script_(std::move(script)) {
+    for (const std::string& words : options.show) controller_.show(words);
+    controller_.update(0);
+  }
 
   /// Up to the given time, doing what the script says on the way. False: the script has quit.
   bool run_until(double time) {
     while (act() && clock() + 0.5 * session_.scenario().step < time) {
       driver_.advance();
+      controller_.update(session_.scenario().step);
       ++frames_;
     }
     return !quit_;
   }
   [[nodiscard]] double last_action() const { return script_.actions.empty() ? 0 : script_.actions.back().at; }
-
-  void write(const std::string& file) {
-    controller_.update();
-    const Snapshot snapshot = controller_.drawn(driver_.moment().interpolated(), clock(), true);
-    renderer_.write(snapshot, controller_.camera, controller_.options, file);
-    std::printf("%s at %.3f s\n", file.c_str(), snapshot.time);
+  [[nodiscard]] Image draw() {
+    controller_.update(0);
+    return stage_.draw(controller_);
   }
+  void write(const std::string& file) {
+    write_png(draw(), file);
+    std::printf("%s at %.3f s\n", file.c_str(), driver_.moment().later->time);
+  }
+  [[nodiscard]] const Recording& recording() const { return driver_.recording(); }
+  [[nodiscard]] const Snapshot& present() { return *(now_ = driver_.moment().later); }
 
  private:
   [[nodiscard]] double clock() const { return static_cast<double>(frames_) * session_.scenario().step; }
@@ -56,42 +140,64 @@ class HeadlessRun {
     return !quit_;
   }
 
+  void click(glm::dvec2 pixel) {
+    if (stage_.panel_at(pixel)) return stage_.drag_in_panel(controller_, pixel, pixel);
+    controller_.hover(pixel);
+    controller_.click(pixel);
+  }
+  void drag(const DragAction& a) {
+    stage_.panel_at(a.from) ? stage_.drag_in_panel(controller_, a.from, a.to) : controller_.drag(a.from, a.to);
+  }
+
   void perform(const Action& action) {
-    std::visit(Overloaded{[&](const CameraAction& a) { controller_.camera = a.camera; },
-                          [&](const ClickAction& a) { controller_.fire(a.pixel); },
-                          [&](const FireAction& a) {
-                            controller_.shot = a.shot;
-                            controller_.fire(a.pixel);
-                          },
-                          [&](const KeyAction& a) {
-                            if (!controller_.key(a.key)) throw structure::InputError("no such key: '" + a.key + "'");
-                          },
-                          [&](const DragAction& a) { controller_.drag(a.from, a.to); },
-                          [&](const ShowAction& a) { controller_.show(a.what); },
-                          [&](const ScreenshotAction& a) { write(a.file); }, [&](const QuitAction&) { quit_ = true; }},
-               action.what);
+    std::visit(
+        Overloaded{[&](const CameraAction& a) { controller_.camera = a.camera; },
+                   [&](const ClickAction& a) { click(a.pixel); },
+                   [&](const FireAction& a) {
+                     controller_.shot = a.shot;
+                     controller_.fire(a.pixel);
+                   },
+                   [&](const KeyAction& a) {
+                     if (!controller_.key(a.key)) throw structure::InputError("no such key: '" + a.key + "'");
+                   },
+                   [&](const DragAction& a) { drag(a); }, [&](const structure::JointChange& a) { controller_.tune(a); },
+                   [&](const ShowAction& a) { controller_.show(a.what); },
+                   [&](const ScreenshotAction& a) { write(a.file); }, [&](const QuitAction&) { quit_ = true; }},
+        action.what);
+    controller_.update(0);
   }
 
   Session session_;
   DirectDriver driver_;
-  double ground_;
-  PictureRenderer renderer_;
+  Stage stage_;
   Controller controller_;
   Script script_;
+  std::shared_ptr<const Snapshot> now_;
   std::size_t next_ = 0;
   std::int64_t frames_ = 0;  ///< steps and pauses
   bool quit_ = false;
 };
 
-void record(HeadlessRun& run, const std::string& folder, double until, double rate) {
-  std::filesystem::create_directories(folder);
-  const auto count = static_cast<int>(std::floor(until * rate + 1e-6)) + 1;
+/// Pictures at even times, into a folder, a video, or both.
+void record(HeadlessRun& run, const HeadlessOptions& options, double until) {
+  std::optional<VideoWriter> video;
+  if (options.record) std::filesystem::create_directories(*options.record);
+  const auto count = static_cast<int>(std::floor(until * options.rate + 1e-6)) + 1;
   for (int i = 0; i < count; ++i) {
-    if (!run.run_until(i / rate)) return;
-    char name[32];
-    std::snprintf(name, sizeof name, "frame-%05d.png", i);
-    run.write((std::filesystem::path(folder) / name).string());
+    if (!run.run_until(i / options.rate)) break;
+    const Image image = run.draw();
+    if (options.record) {
+      char name[32];
+      std::snprintf(name, sizeof name, "frame-%05d.png", i);
+      write_png(image, (std::filesystem::path(*options.record) / name).string());
+    }
+    if (!options.video) continue;
+    if (!video) video.emplace(*options.video, glm::ivec2(image.width, image.height), options.rate);
+    video->add(image);
   }
+  if (video) video->finish();
+  if (options.record) std::printf("%s: pictures\n", options.record->c_str());
+  if (options.video) std::printf("%s: video\n", options.video->c_str());
 }
 
 }  // namespace
@@ -99,11 +205,14 @@ void record(HeadlessRun& run, const std::string& folder, double until, double ra
 void run_headless(const Scene& scene, const HeadlessOptions& options) {
   Script script = options.actions ? read_script(*options.actions) : Script();
   const std::array<int, 2> size = options.size ? *options.size : script.size.value_or(std::array<int, 2>{1280, 720});
-  HeadlessRun run(scene, std::move(script), size);
+  HeadlessRun run(scene, std::move(script), size, options);
   const double end = std::max(options.at, run.last_action());
-  if (options.record) record(run, *options.record, end, options.rate);
+  if (options.record || options.video) record(run, options, end);
   run.run_until(end);
   if (options.screenshot) run.write(*options.screenshot);
+  if (options.replay) write_html_replay(*scene.building, run.recording(), *options.replay);
+  if (options.usd) write_usd(*scene.building, run.recording(), *options.usd);
+  if (options.model) write_tuned_model(scene, run.present(), *options.model);
 }
 
 }  // namespace topple::viewer

@@ -3,16 +3,20 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/open_scene.h"
 
 namespace topple::viewer {
 
 struct HeadlessOptions {
-  std::optional<std::string> screenshot, record, actions;
-  double at = 0;  ///< s, of the screenshot, and end of a recording
+  std::optional<std::string> screenshot, record, actions, video, replay, usd, model;
+  std::vector<std::string> show;  ///< words of show_words.h, before the first picture
+  double at = 0;                  ///< s, of the screenshot, and end of a recording
   std::optional<std::array<int, 2>> size;
-  double rate = 30;  ///< recorded pictures for each simulated second
+  double rate = 30;    ///< recorded pictures for each simulated second
+  bool panel = false;  ///< the panels as well, which clicks and drags then reach
+  double scale = 1;    ///< of the panels' text
 };
 
 /// Throws structure::InputError for a bad script, std::runtime_error when a picture cannot be drawn or written.

@@ -41,6 +41,13 @@ int run(int argc, char** argv) {
   app.add_option("--record", pictures.record, "folder for frame-00000.png and so on");
   app.add_option("--rate", pictures.rate, "recorded pictures for each simulated second")->check(CLI::PositiveNumber);
   app.add_option("--actions", pictures.actions, "script of what a person would do");
+  app.add_option("--show", pictures.show, "how to draw it, as the action `show` says; may be given several times");
+  app.add_flag("--panel", pictures.panel, "with the panels, without a window");
+  app.add_option("--scale", pictures.scale, "of the panels' text, without a window")->check(CLI::Range(0.5, 4.0));
+  app.add_option("--video", pictures.video, "file of a video (.mp4, .webm); needs ffmpeg");
+  app.add_option("--replay", pictures.replay, "file of a page that shows the run again (.html)");
+  app.add_option("--usd", pictures.usd, "file of the run as an animation (.usda)");
+  app.add_option("--model", pictures.model, "file of the model as the run's actions have tuned it (.json)");
   app.add_option("--size", size, "WIDTHxHEIGHT in pixels");
   try {
     app.parse(argc, argv);
@@ -50,8 +57,10 @@ int run(int argc, char** argv) {
     return report(error.what(), 2);
   }
   if (!size.empty()) pictures.size = parse_size(size);
-  if (headless && !pictures.screenshot && !pictures.record && !pictures.actions)
-    return report("--headless needs --screenshot FILE, --record DIR or --actions FILE", 2);
+  const bool output = pictures.screenshot || pictures.record || pictures.actions || pictures.video || pictures.replay ||
+                      pictures.usd || pictures.model;
+  if (headless && !output)
+    return report("--headless needs --screenshot, --record, --actions, --video, --replay, --usd or --model", 2);
   const Scene scene = open_scene(name);
   if (headless) {
     run_headless(scene, pictures);
@@ -60,6 +69,7 @@ int run(int argc, char** argv) {
   WindowOptions window;
   if (pictures.size) window.width = (*pictures.size)[0], window.height = (*pictures.size)[1];
   if (pictures.screenshot) window.screenshot = *pictures.screenshot;
+  window.show = pictures.show;
   run_window(scene, window);
   return 0;
 }

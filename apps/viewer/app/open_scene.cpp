@@ -41,11 +41,13 @@ std::optional<std::filesystem::path> scenario_file(const std::string& name) {
 Scene open_scene(const std::string& name) {
   if (const auto file = scenario_file(name)) {
     auto [building, scenario] = structure::read_scenario(*file);
-    return {std::make_shared<const structure::Building>(std::move(building)), std::move(scenario)};
+    const std::filesystem::path model = structure::find_model(scenario.model, file->parent_path());
+    return {std::make_shared<const structure::Building>(std::move(building)), std::move(scenario), model};
   }
-  auto building = std::make_shared<const structure::Building>(structure::read_model(structure::find_model(name)));
+  const std::filesystem::path model = structure::find_model(name);
+  auto building = std::make_shared<const structure::Building>(structure::read_model(model));
   structure::Scenario scenario = structure::idle_scenario(*building);
-  return {std::move(building), std::move(scenario)};
+  return {std::move(building), std::move(scenario), model};
 }
 
 }  // namespace topple::viewer

@@ -1,4 +1,5 @@
 #pragma once
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -10,6 +11,7 @@ namespace topple::viewer {
 struct Scene {
   std::shared_ptr<const structure::Building> building;
   structure::Scenario scenario;
+  std::filesystem::path model;  ///< file or folder that the building was read from
 };
 
 /// A shipped scenario's or model's name, or a file of either kind. Throws structure::InputError.

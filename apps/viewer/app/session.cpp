@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "app/event_text.h"
+
 namespace topple::viewer {
 namespace {
 
@@ -11,7 +13,7 @@ constexpr double endless = 1e9;
 }  // namespace
 
 Session::Session(std::shared_ptr<const structure::Building> building, structure::Scenario scenario)
-    : building_(std::move(building)), scenario_(std::move(scenario)) {
+    : building_(std::move(building)), scenario_(std::move(scenario)), tuning_(*building_) {
   scenario_.duration = endless;
   scenario_.until_rest = false;
   begin();
@@ -21,35 +23,100 @@ void Session::begin() {
   simulation_ = std::make_unique<structure::Simulation>(*building_, scenario_);
   taker_ = SnapshotTaker();
   taker_.want(wanted_);
+  tuning_.reset();
+  tuned_ = nullptr;
+  path_ = nullptr;
+  events_recorded_ = 0;
 }
 
 void Session::step() { simulation_->step(); }
 
 void Session::apply(const structure::Tool& tool) {
   actions_.push_back({simulation_->steps(), tool});
-  simulation_->apply(tool);
+  carry_out(actions_.back());
+}
+
+void Session::tune(const structure::JointChange& change) {
+  actions_.push_back({simulation_->steps(), change});
+  carry_out(actions_.back());
+}
+
+void Session::carry_out(const Action& action) {
+  if (const auto* tool = std::get_if<structure::Tool>(&action.what)) return simulation_->apply(*tool);
+  std::vector<std::pair<structure::JointId, structure::JointCapacity>> capacities;
+  for (const structure::JointId joint : tuning_.apply(std::get<structure::JointChange>(action.what)))
+    capacities.emplace_back(joint, tuning_.capacity(joint));
+  simulation_->set_capacities(capacities);
+  auto tuned = std::make_shared<TunedJoints>();
+  for (std::size_t j = 0; j < building_->joints.size(); ++j) {
+    tuned->capacity.push_back(tuning_.capacity(structure::JointId(j)));
+    tuned->strength.push_back(tuning_.strength(structure::JointId(j)));
+  }
+  tuned->changes = tuning_.changes();
+  tuned_ = std::move(tuned);
+  taker_.forget_answer();
 }
 
 void Session::restart() {
   actions_.clear();
+  recording_->clear();
   begin();
+}
+
+void Session::restart(const structure::FailureRules& rules) {
+  scenario_.failure = rules;
+  restart();
 }
 
 bool Session::undo() {
   if (actions_.empty()) return false;
   const std::int64_t until = actions_.back().step;
   actions_.pop_back();
-  begin();
-  auto next = actions_.begin();
-  const auto act = [&] {
-    for (; next != actions_.end() && next->step == simulation_->steps(); ++next) simulation_->apply(next->tool);
-  };
-  for (act(); simulation_->steps() < until; act()) simulation_->step();
+  run_again(until);
   return true;
 }
 
+void Session::return_to(std::int64_t step) {
+  std::erase_if(actions_, [step](const Action& action) { return action.step >= step; });
+  run_again(step);
+}
+
+void Session::run_again(std::int64_t until) {
+  begin();
+  auto next = actions_.begin();
+  const auto act = [&] {
+    for (; next != actions_.end() && next->step == simulation_->steps(); ++next) carry_out(*next);
+  };
+  for (act(); simulation_->steps() < until; act()) simulation_->step();
+  events_recorded_ = simulation_->events().size();
+}
+
+void Session::find_path(const structure::ContactPlace& place) {
+  const auto& frame = simulation_->frame();
+  const bool stands = place.member.valid() ? frame.stands(place.member) : frame.stands(place.panel);
+  path_ = nullptr;
+  if (!stands) return;
+  auto path = std::make_shared<std::vector<float>>(building_->joints.size(), 0.0F);
+  for (const auto& [joint, demand] : frame.respond(place, {0, 0, -1}).demands)
+    (*path)[static_cast<std::size_t>(joint.index)] = static_cast<float>(demand.head<3>().norm());
+  path_ = std::move(path);
+}
+
+void Session::record_events() {
+  const auto events = simulation_->events();
+  for (; events_recorded_ < events.size(); ++events_recorded_) {
+    const auto& event = events[events_recorded_];
+    recording_->add_event({event.time, event.kind, event_text(event)});
+  }
+}
+
 std::shared_ptr<const Snapshot> Session::snapshot() {
-  return std::make_shared<const Snapshot>(taker_.take(*simulation_));
+  auto snapshot = std::make_shared<Snapshot>(taker_.take(*simulation_));
+  snapshot->tuned = tuned_;
+  snapshot->path = path_;
+  recording_->add(*snapshot);
+  record_events();
+  return snapshot;
 }
 
 }  // namespace topple::viewer

@@ -1,11 +1,14 @@
 #pragma once
-// One run of a building as a person steers it: the simulation with the actions taken, so that it can be started again
-// and the last action be taken back.
+// One run of a building as a person steers it: the simulation with the actions taken, so that it can be started again,
+// the last action be taken back, and the run be taken up again at any step that it has passed.
 #include <cstdint>
 #include <memory>
+#include <variant>
 #include <vector>
 
+#include "renderer/recording.h"
 #include "renderer/snapshot_taker.h"
+#include "topple/structure/joint_tuning.h"
 #include "topple/structure/simulation.h"
 
 namespace topple::viewer {
@@ -17,16 +20,26 @@ class Session {
 
   void step();
   void apply(const structure::Tool& tool);
-  /// Back to the beginning; actions are forgotten.
+  /// Changes capacities at once. Throws structure::InputError for a change that means no joint.
+  void tune(const structure::JointChange& change);
+  /// Back to the beginning; actions are forgotten, rules stay.
   void restart();
+  /// The same, by other rules.
+  void restart(const structure::FailureRules& rules);
   /// Back to just before the last action, by running again what came before it (the same bits, as runs are
   /// deterministic). False when there was none.
   bool undo();
+  /// Back to a step that has been made; later actions are forgotten.
+  void return_to(std::int64_t step);
+  /// Finds which share of a downward force put here goes through each joint; snapshots carry it from now on.
+  void find_path(const structure::ContactPlace& place);
 
   [[nodiscard]] const structure::Building& building() const { return *building_; }
   [[nodiscard]] const structure::Scenario& scenario() const { return scenario_; }
   [[nodiscard]] const structure::Simulation& simulation() const { return *simulation_; }
   [[nodiscard]] std::shared_ptr<const Snapshot> snapshot();
+  /// All snapshots that were taken; may be read on any thread.
+  [[nodiscard]] const std::shared_ptr<Recording>& recording() const { return recording_; }
   /// What the next snapshots hold beside poses and demands.
   void want(Wanted wanted) { taker_.want(wanted_ = wanted); }
   [[nodiscard]] std::size_t actions() const { return actions_.size(); }
@@ -34,15 +47,24 @@ class Session {
  private:
   struct Action {
     std::int64_t step;
-    structure::Tool tool;
+    std::variant<structure::Tool, structure::JointChange> what;
   };
   void begin();
+  void carry_out(const Action& action);
+  void run_again(std::int64_t until);
+  void record_events();
+
   std::shared_ptr<const structure::Building> building_;
   structure::Scenario scenario_;
   std::unique_ptr<structure::Simulation> simulation_;
+  structure::JointTuning tuning_;
+  std::shared_ptr<const TunedJoints> tuned_;
+  std::shared_ptr<const std::vector<float>> path_;
   SnapshotTaker taker_;
   Wanted wanted_;
   std::vector<Action> actions_;
+  std::shared_ptr<Recording> recording_ = std::make_shared<Recording>();
+  std::size_t events_recorded_ = 0;
 };
 
 }  // namespace topple::viewer

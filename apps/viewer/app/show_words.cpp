@@ -35,6 +35,7 @@ const std::map<std::string, Plain>& plain_words() {
       {"joints", colour(Colouring::joints)},
       {"utilisation", colour(Colouring::utilisation)},
       {"segments", colour(Colouring::segments)},
+      {"path", colour(Colouring::path)},
       {"capacity", [](ViewOptions& o, ModeView&) { o.scale = Scale::capacity; }},
       {"largest", [](ViewOptions& o, ModeView&) { o.scale = Scale::largest_in_view; }},
       {"loads", flag(&ViewOptions::loads, true)},

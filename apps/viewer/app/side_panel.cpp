@@ -1,45 +1,71 @@
 #include "app/side_panel.h"
 
-#include <imgui.h>
-
 #include <algorithm>
+#include <cfloat>
+#include <cmath>
+#include <cstdio>
 #include <numeric>
 
-#include "renderer/palette.h"
+#include "app/widgets.h"
+#include "renderer/arrows.h"
 
 namespace topple::viewer {
 namespace {
 
-ImVec4 to_imgui(Rgba colour) {
-  const glm::vec4 c = unpack(colour);
-  return {c.r, c.g, c.b, 1.0F};
-}
-void legend_entry(const char* label, Rgba colour) {
-  ImGui::ColorButton(label, to_imgui(colour), ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoPicker,
-                     ImVec2(ImGui::GetFontSize(), ImGui::GetFontSize()));
-  ImGui::SameLine();
-  ImGui::TextUnformatted(label);
+constexpr const char* component_words[] = {"axial", "shear y", "shear z", "torsion", "moment y", "moment z"};
+
+double text_size() { return static_cast<double>(ImGui::GetIO().Fonts->Fonts[0]->FontSize); }
+
+void colour_bar(Rgba (*colour)(double), double low, double high) {
+  constexpr int steps = 60;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = 0.92F * ImGui::GetContentRegionAvail().x, height = 0.8F * ImGui::GetFontSize();
+  for (int i = 0; i < steps; ++i) {
+    const double share = low + (high - low) * (i + 0.5) / steps;
+    const float x0 = at.x + width * static_cast<float>(i) / steps,
+                x1 = at.x + width * static_cast<float>(i + 1) / steps;
+    ImGui::GetWindowDrawList()->AddRectFilled(ImVec2(x0, at.y), ImVec2(x1, at.y + height),
+                                              ImGui::GetColorU32(to_imgui(colour(share))));
+  }
+  ImGui::Dummy(ImVec2(width, height));
 }
 
-void legend(const ViewOptions& options) {
+void legend(const ViewOptions& options, const SceneInstances& scene) {
   const JointPalette palette = joint_palette(options.colour_blind_safe);
-  if (options.colouring == Colouring::joints) {
-    legend_entry("force", palette.force);
-    ImGui::SameLine();
-    legend_entry("moment", palette.torque);
-    ImGui::SameLine();
-    legend_entry("both", palette.both);
+  const bool capacity = options.scale == Scale::capacity;
+  char text[96];
+  switch (options.colouring) {
+    case Colouring::joints:
+      legend_entry("force", palette.force);
+      ImGui::SameLine();
+      legend_entry("moment", palette.torque);
+      ImGui::SameLine();
+      legend_entry("both", palette.both);
+      if (capacity)
+        ImGui::TextUnformatted("full colour: at capacity");
+      else
+        ImGui::Text("full colour: %.1f %% of capacity", 100 * scene.largest());
+      break;
+    case Colouring::utilisation:
+      colour_bar(utilisation_colour, 0, 1);
+      ImGui::TextUnformatted("0          50 %       100 %  red: above");
+      break;
+    case Colouring::path:
+      colour_bar(utilisation_colour, 0, 1);
+      ImGui::TextUnformatted("share of the force: 0 to 100 %");
+      break;
+    case Colouring::component:
+      colour_bar(signed_colour, -1, 1);
+      if (capacity)
+        std::snprintf(text, sizeof text, "- capacity        0        + capacity");
+      else
+        std::snprintf(text, sizeof text, "-%.3g        0        +%.3g %s", scene.largest() / 1e3, scene.largest() / 1e3,
+                      options.component < 3 ? "kN" : "kN m");
+      ImGui::TextUnformatted(text);
+      break;
+    default:
+      break;
   }
-  if (options.colouring == Colouring::utilisation)
-    for (const auto& [label, value] : {std::pair{"0", 0.0}, {"25", 0.25}, {"50", 0.5}, {"75", 0.75}, {"100 %", 1.0}}) {
-      legend_entry(label, utilisation_colour(value));
-      ImGui::SameLine();
-    }
-  if (options.colouring == Colouring::component)
-    for (const auto& [label, value] : {std::pair{"-1", -1.0}, {"0", 0.0}, {"+1", 1.0}}) {
-      legend_entry(label, signed_colour(value));
-      ImGui::SameLine();
-    }
   legend_entry("failed", palette.failed);
 }
 
@@ -57,99 +83,193 @@ void switches(const char* title, PartSwitches& parts) {
   ImGui::PopID();
 }
 
-void slider(const char* label, double& value, float low, float high, const char* format) {
-  auto v = static_cast<float>(value);
-  if (ImGui::SliderFloat(label, &v, low, high, format, ImGuiSliderFlags_Logarithmic)) value = v;
+void scale_slider(const char* label, float& value, float high) {
+  ImGui::SliderFloat(label, &value, 0, high, "x %.1f", ImGuiSliderFlags_Logarithmic);
+}
+
+void diagrams(ViewOptions& options, const SceneInstances& scene) {
+  int choice = options.diagram + 1;
+  constexpr const char* choices[] = {"none", "axial", "shear y", "shear z", "torsion", "moment y", "moment z"};
+  if (ImGui::Combo("diagram", &choice, choices, IM_ARRAYSIZE(choices))) options.diagram = choice - 1;
+  if (options.diagram < 0) return;
+  scale_slider("its scale", options.diagram_scale, 10);
+  const auto& [low, high] = scene.diagram_range();
+  ImGui::Text("%.4g ... %.4g %s", low / 1e3, high / 1e3, options.diagram < 3 ? "kN" : "kN m");
+}
+
+void arrows(ViewOptions& options, const Snapshot& moment) {
+  ImGui::Checkbox("loads", &options.loads);
+  ImGui::SameLine();
+  ImGui::Checkbox("reactions", &options.reactions);
+  ImGui::SameLine();
+  ImGui::Checkbox("contacts", &options.contacts);
+  if (!(options.loads || options.reactions || options.contacts)) return;
+  scale_slider("arrows", options.arrow_scale, 10);
+  if (!moment.answer->forces) return;
+  const ArrowScale scale = arrow_scale(*moment.answer->forces);
+  const auto entry = [](const char* what, double largest, const char* unit, Rgba colour) {
+    if (largest <= 0) return;
+    char text[64];
+    std::snprintf(text, sizeof text, "%s, longest %.4g %s", what, largest / 1e3, unit);
+    legend_entry(text, colour);
+  };
+  if (options.loads) entry("spread", scale.spread, "kN/m", load_colour);
+  if (options.loads) entry("at points", scale.points, "kN", load_colour);
+  if (options.reactions) entry("reactions", scale.reactions, "kN", reaction_colour);
+  if (options.contacts) entry("contacts", scale.contacts, "kN", contact_colour);
+}
+
+void mode_choice(Controller& controller) {
+  ModeView& mode = controller.mode;
+  int kind = mode.kind ? 1 + static_cast<int>(*mode.kind) : 0;
+  constexpr const char* kinds[] = {"none", "vibration", "buckling"};
+  if (ImGui::Combo("mode", &kind, kinds, IM_ARRAYSIZE(kinds)))
+    mode.kind = kind == 0 ? std::nullopt : std::optional(static_cast<ModeKind>(kind - 1));
+  if (!mode.kind) return;
+  const auto* known = controller.modes().find(*mode.kind);
+  if (known == nullptr) return ImGui::TextUnformatted("being worked out ...");
+  if (known->empty()) return ImGui::TextWrapped("no mode: %s", controller.modes().error(*mode.kind).c_str());
+  int number = mode.number + 1;
+  if (ImGui::SliderInt("number", &number, 1, static_cast<int>(known->size()))) mode.number = number - 1;
+  scale_slider("swing", mode.scale, 10);
+  const double value = (*known)[std::min(static_cast<std::size_t>(mode.number), known->size() - 1)].value;
+  ImGui::Text(*mode.kind == ModeKind::vibration ? "%.3f Hz, undamaged" : "at %.2f times the loads, undamaged", value);
 }
 
 void help_window(bool& open) {
   ImGui::SetNextWindowPos(ImVec2(20, 20), ImGuiCond_FirstUseEver);
-  if (ImGui::Begin("Help", &open, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse)) {
-    ImGui::TextUnformatted(
-        "left click        fire at what is under the pointer\n"
-        "left drag         orbit          right drag  pan\n"
-        "wheel             zoom           W A S D Q E fly\n"
-        "space             pause          N  single step\n"
-        "R                 restart        U  undo the last action\n"
-        "C                 next colouring F  frame the building\n"
-        "1 2 3 4           posts, beams, slabs, walls\n"
-        "P                 save a picture H  this help\n"
-        "Esc               leave");
-  }
+  if (ImGui::Begin("Help", &open, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse))
+    ImGui::TextUnformatted(Controller::key_help());
   ImGui::End();
 }
 
 }  // namespace
 
-double SidePanel::width() { return 24 * static_cast<double>(ImGui::GetIO().Fonts->Fonts[0]->FontSize); }
+glm::dvec2 SidePanel::scene_size(glm::dvec2 window) {
+  return {std::max(window.x - 25 * text_size(), 0.25 * window.x),
+          std::max(window.y - 6.2 * text_size(), 0.25 * window.y)};
+}
 
-void SidePanel::view(Controller& controller) {
+void SidePanel::run_bar(Controller& controller) {
+  Driver& driver = controller.driver();
+  if (ImGui::Button(driver.paused() ? "Run" : "Pause")) {
+    controller.look_at_present();
+    driver.set_paused(!driver.paused());
+  }
+  const auto key_button = [&](const char* label, const char* key) {
+    ImGui::SameLine();
+    if (ImGui::Button(label)) controller.key(key);
+  };
+  key_button("Step", "n");
+  key_button("Undo", "u");
+  key_button("Restart", "r");
+  key_button("Help", "h");
+  double speed = driver.speed();
+  if (slider("speed", speed, 0.02, 1, "x %.2f")) driver.set_speed(speed);
+  ImGui::TextUnformatted("A click will");
+  for (std::size_t i = 0; i < tool_names.size(); ++i) {
+    if (i % 3 != 0) ImGui::SameLine();
+    if (toggle_button(tool_names[i], controller.tool == static_cast<ToolKind>(i)))
+      controller.tool = static_cast<ToolKind>(i);
+  }
+  if (controller.tool == ToolKind::fire) {
+    slider("shot", controller.shot.speed, 5, 300, "%.0f m/s");
+    slider("mass", controller.shot.mass, 10, 20000, "%.0f kg");
+    slider("radius", controller.shot.radius, 0.1, 2, "%.2f m");
+    if (ImGui::Button("Usual shot")) controller.shot = Shot();
+    ImGui::SameLine();
+    if (ImGui::Button("Wrecking ball")) controller.shot = wrecking_ball;
+  }
+  if (controller.tool == ToolKind::charge) slider("reach", controller.charge_radius, 0.5, 20, "%.1f m");
+}
+
+void SidePanel::view(Controller& controller, const Snapshot& moment, const SceneInstances& scene) {
   ViewOptions& options = controller.options;
-  constexpr const char* colourings[] = {"parts", "joints: force and moment", "utilisation", "one component"};
+  constexpr const char* colourings[] = {
+      "parts", "joints: force and moment", "utilisation", "one component", "segments", "load path"};
   int colouring = static_cast<int>(options.colouring);
   if (ImGui::Combo("colours", &colouring, colourings, IM_ARRAYSIZE(colourings)))
     options.colouring = static_cast<Colouring>(colouring);
-  constexpr const char* components[] = {"axial", "shear y", "shear z", "torsion", "moment y", "moment z"};
   if (options.colouring == Colouring::component)
-    ImGui::Combo("component", &options.component, components, IM_ARRAYSIZE(components));
+    ImGui::Combo("component", &options.component, component_words, IM_ARRAYSIZE(component_words));
   bool largest = options.scale == Scale::largest_in_view;
   if (ImGui::Checkbox("scale by the largest in view", &largest))
     options.scale = largest ? Scale::largest_in_view : Scale::capacity;
-  legend(options);
+  legend(options, scene);
+  ImGui::Separator();
+  diagrams(options, scene);
+  arrows(options, moment);
+  mode_choice(controller);
+  ImGui::SliderFloat("deflection", &options.deflection_scale, 0, 1000, "x %.0f", ImGuiSliderFlags_Logarithmic);
+  ImGui::Separator();
   switches("shown", options.shown);
   switches("joints coloured", options.coloured);
   ImGui::Checkbox("failed joints", &options.failed_joints);
   ImGui::SameLine();
   ImGui::Checkbox("colour-blind safe", &options.colour_blind_safe);
-  ImGui::SliderFloat("deflection", &options.deflection_scale, 0, 1000, "x %.0f", ImGuiSliderFlags_Logarithmic);
-  ImGui::SliderFloat("slabs", &options.slab_opacity, 0.05F, 1, "%.2f");
-  ImGui::SliderFloat("walls", &options.wall_opacity, 0.05F, 1, "%.2f");
+  ImGui::SliderFloat("slabs##opacity", &options.slab_opacity, 0.05F, 1, "%.2f");
+  ImGui::SliderFloat("walls##opacity", &options.wall_opacity, 0.05F, 1, "%.2f");
   ImGui::Checkbox("shadows", &options.shadows);
   ImGui::SameLine();
   ImGui::Checkbox("occlusion", &options.ambient_occlusion);
   ImGui::SameLine();
   ImGui::Checkbox("grid", &options.grid);
+  ImGui::Checkbox("debris", &options.debris);
 }
 
-void SidePanel::tools(Controller& controller) {
-  Driver& driver = controller.driver();
-  if (ImGui::Button(driver.paused() ? "Run" : "Pause")) driver.set_paused(!driver.paused());
-  ImGui::SameLine();
-  if (ImGui::Button("Step")) driver.single_step();
-  ImGui::SameLine();
-  if (ImGui::Button("Undo")) driver.undo();
-  ImGui::SameLine();
-  if (ImGui::Button("Restart")) driver.restart();
-  ImGui::SameLine();
-  if (ImGui::Button("Help")) controller.help = !controller.help;
-  double speed = driver.speed();
-  slider("speed", speed, 0.02F, 1, "x %.2f");
-  if (speed != driver.speed()) driver.set_speed(speed);
-  slider("shot", controller.shot.speed, 5, 300, "%.0f m/s");
-  slider("mass", controller.shot.mass, 10, 20000, "%.0f kg");
-  slider("radius", controller.shot.radius, 0.1F, 2, "%.2f m");
+void SidePanel::part(Controller& controller, const Snapshot& moment) {
+  ImGui::InputTextWithHint("##search", "search by name, * for any", search_.data(), search_.size());
+  for (const structure::JointId id : controller.search(search_.data(), 8)) {
+    const structure::Joint& joint = controller.building()[id];
+    const bool whole = std::string_view(search_.data()).find(':') == std::string_view::npos;
+    const std::string& name = !whole                 ? joint.name
+                              : joint.member.valid() ? controller.building()[joint.member].name
+                                                     : controller.building()[joint.panel].name;
+    if (ImGui::Selectable(name.c_str(), controller.options.selected_joint == id)) controller.select(id);
+  }
+  if (controller.options.selected_joint.valid()) {
+    ImGui::Separator();
+    const structure::Joint& chosen = controller.building()[controller.options.selected_joint];
+    ImGui::TextWrapped("%s", part_text(controller.building(), controller.options.selected_joint).c_str());
+    const int joints = chosen.member.valid() ? 2 : 4;
+    for (int end = 0; end < joints; ++end) {
+      if (end > 0) ImGui::SameLine();
+      const structure::JointId id = chosen.member.valid() ? controller.building().joint(chosen.member, end)
+                                                          : controller.building().joint(chosen.panel, end);
+      if (toggle_button(controller.building()[id].name.c_str(), id == controller.options.selected_joint))
+        controller.select(id);
+    }
+    draw_joint(controller, moment, controller.options.selected_joint, true);
+  } else {
+    ImGui::TextWrapped("Right click a part, or choose one below.");
+  }
+  ImGui::Separator();
+  ImGui::TextUnformatted("most used joints");
+  joints(controller, moment);
 }
 
 void SidePanel::state(const Controller& controller, const Snapshot& moment) {
   ImGui::Text("%.2f s, step %lld%s", moment.time, static_cast<long long>(moment.step),
-              controller.building().members.empty() ? ""
-              : moment.at_rest                      ? ", at rest"
-                                                    : "");
-  ImGui::Text("standing: %d of %zu members, %d of %zu panels", moment.membership->members_standing,
+              moment.at_rest ? ", at rest" : "");
+  ImGui::Text("standing: %d/%zu members, %d/%zu panels", moment.membership->members_standing,
               controller.building().members.size(), moment.membership->panels_standing,
               controller.building().panels.size());
   const auto asleep =
       std::count_if(moment.bodies.begin(), moment.bodies.end(), [](const BodyPose& b) { return b.asleep; });
   ImGui::Text("bodies: %zu, asleep %zu", moment.bodies.size(), static_cast<std::size_t>(asleep));
-  const auto& c = moment.counters;
-  const auto number = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
-  ImGui::Text("solves %llu, low rank %llu, factors %llu", number(c.solves), number(c.low_rank),
-              number(c.refactorisations));
-  ImGui::Text("segmentations %llu, collision steps %llu", number(c.segmentations), number(c.collision_steps));
-  ImGui::Text("idle steps %llu, contacts ignored %llu", number(c.steps_idle), number(c.contacts_ignored));
 }
 
 void SidePanel::performance(const Snapshot& moment) {
+  const auto& c = moment.counters;
+  const auto number = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
+  ImGui::TextUnformatted("solved");
+  ImGui::Text("  %llu answers: %llu corrections, %llu factors", number(c.solves), number(c.low_rank),
+              number(c.refactorisations));
+  ImGui::Text("  %llu segmentations, %llu collision steps", number(c.segmentations), number(c.collision_steps));
+  ImGui::TextUnformatted("skipped");
+  ImGui::Text("  %llu steps: nothing was awake or changed", number(c.steps_idle));
+  ImGui::Text("  %llu changes of contact: within the dead band", number(c.contacts_ignored));
+  ImGui::TextUnformatted("time of each stage");
   if (moment.step != last_step_) {
     const double whole = std::accumulate(moment.stage_seconds.begin(), moment.stage_seconds.end(), 0.0);
     for (std::size_t i = 0; i < history_.size(); ++i) {
@@ -174,35 +294,47 @@ void SidePanel::performance(const Snapshot& moment) {
 void SidePanel::joints(Controller& controller, const Snapshot& moment) {
   for (const structure::JointId id : moment.answer->most_used) {
     const auto& joint = moment.answer->joints[static_cast<std::size_t>(id.index)];
-    const structure::Joint& owner = controller.building()[id];
     char text[96];
     std::snprintf(text, sizeof text, "%5.1f %%  %-12s %s", 100.0 * static_cast<double>(joint.utilisation),
-                  structure::sense_names[static_cast<std::size_t>(joint.sense)], owner.name.c_str());
-    if (ImGui::Selectable(text, controller.options.selected_joint == id)) {
-      controller.options.selected_joint = id;
-      controller.options.selected_member = owner.member;
-      controller.options.selected_panel = owner.panel;
-    }
+                  structure::sense_names[static_cast<std::size_t>(joint.sense)],
+                  controller.building()[id].name.c_str());
+    if (ImGui::Selectable(text, controller.options.selected_joint == id)) controller.select(id);
   }
 }
 
-void SidePanel::draw(Controller& controller, const Snapshot& moment, const std::string& error) {
+void SidePanel::draw(Controller& controller, const Snapshot& moment, const SceneInstances& scene,
+                     const std::string& error) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
-  const auto width = static_cast<float>(SidePanel::width());
-  ImGui::SetNextWindowPos(ImVec2(display.x - width, 0));
+  const glm::dvec2 left = scene_size({display.x, display.y});
+  const float width = display.x - static_cast<float>(left.x);
+  ImGui::SetNextWindowPos(ImVec2(static_cast<float>(left.x), 0));
   ImGui::SetNextWindowSize(ImVec2(width, display.y));
-  ImGui::Begin(controller.building().title.empty() ? "Topple" : controller.building().title.c_str(), nullptr,
-               ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse);
+  ImGui::Begin(
+      "Topple", nullptr,
+      ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoTitleBar);
   ImGui::PushItemWidth(0.62F * width);
+  ImGui::TextWrapped("%s", controller.building().title.empty() ? "Topple" : controller.building().title.c_str());
   if (!error.empty()) ImGui::TextWrapped("The simulation stopped: %s", error.c_str());
-  if (controller.message) ImGui::TextWrapped("%s", controller.message->c_str());
-  tools(controller);
-  if (ImGui::CollapsingHeader("View", ImGuiTreeNodeFlags_DefaultOpen)) view(controller);
-  if (ImGui::CollapsingHeader("State", ImGuiTreeNodeFlags_DefaultOpen)) state(controller, moment);
-  if (ImGui::CollapsingHeader("Most used joints", ImGuiTreeNodeFlags_DefaultOpen)) joints(controller, moment);
-  if (ImGui::CollapsingHeader("Performance")) performance(moment);
+  run_bar(controller);
+  state(controller, moment);
+  ImGui::TextWrapped("%s", controller.message ? controller.message->c_str() : "");
+  if (ImGui::BeginTabBar("tabs")) {
+    const auto tab = [](const char* name, const auto& content) {
+      if (!ImGui::BeginTabItem(name)) return;
+      ImGui::BeginChild(name);
+      content();
+      ImGui::EndChild();
+      ImGui::EndTabItem();
+    };
+    tab("View", [&] { view(controller, moment, scene); });
+    tab("Part", [&] { part(controller, moment); });
+    tab("Tune", [&] { tuning_.draw(controller, moment); });
+    tab("Times", [&] { performance(moment); });
+    ImGui::EndTabBar();
+  }
   ImGui::PopItemWidth();
   ImGui::End();
+  draw_timeline(controller, moment, left, static_cast<double>(display.y));
   if (controller.help) help_window(controller.help);
 }
 

@@ -1,28 +1,46 @@
 #pragma once
-// The panel beside the scene: switches, legend, shot, counters, times, the most used joints.
+// The panels beside and below the scene: view, part, tools, tuning, times; and the timeline.
 #include <array>
+#include <string>
 #include <vector>
 
 #include "app/controller.h"
+#include "app/tuning_panel.h"
+#include "renderer/instances.h"
 
 namespace topple::viewer {
 
 class SidePanel {
  public:
-  /// Width of the strip at the right edge of the window that it covers; needs Dear ImGui to be set up.
-  [[nodiscard]] static double width();
-  /// Draws it with Dear ImGui; `moment` is what the scene shows.
-  void draw(Controller& controller, const Snapshot& moment, const std::string& error);
+  /// What the panels leave of a window of this size (at least a quarter of it each way), from its upper left corner;
+  /// needs Dear ImGui to be set up.
+  [[nodiscard]] static glm::dvec2 scene_size(glm::dvec2 window);
+  /// Draws all with Dear ImGui; `moment` is what the scene shows.
+  void draw(Controller& controller, const Snapshot& moment, const SceneInstances& scene, const std::string& error);
 
  private:
-  void view(Controller& controller);
-  void tools(Controller& controller);
+  void run_bar(Controller& controller);
+  void view(Controller& controller, const Snapshot& moment, const SceneInstances& scene);
+  void part(Controller& controller, const Snapshot& moment);
   void state(const Controller& controller, const Snapshot& moment);
   void performance(const Snapshot& moment);
   void joints(Controller& controller, const Snapshot& moment);
+  TuningPanel tuning_;
   static constexpr std::size_t history_length = 240;  ///< steps drawn: four seconds
   std::array<std::vector<float>, 7> history_;         ///< milliseconds by stage, and of the whole
   std::int64_t last_step_ = -1;
+  std::array<char, 64> search_{};
 };
+
+/// Play, pause, scrub, and the events as marks; below the scene.
+void draw_timeline(Controller& controller, const Snapshot& moment, glm::dvec2 scene_size, double window_height);
+
+/// Name, section, forces and capacities of what lies under the pointer.
+void draw_hover_text(Controller& controller, const Snapshot& moment);
+
+/// The joint's six components with capacities, its utilisation, and how that went.
+void draw_joint(Controller& controller, const Snapshot& moment, structure::JointId joint, bool with_history);
+/// "PA: post, box 300, steel, 3.50 m"
+[[nodiscard]] std::string part_text(const structure::Building& building, structure::JointId joint);
 
 }  // namespace topple::viewer

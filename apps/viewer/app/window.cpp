@@ -8,12 +8,15 @@
 #include <imgui.h>
 
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <memory>
 #include <stdexcept>
 
 #include "app/driver.h"
+#include "app/interface.h"
 #include "app/side_panel.h"
+#include "renderer/frame_composer.h"
 #include "renderer/picture_renderer.h"
 
 namespace topple::viewer {
@@ -68,29 +71,33 @@ class Window {
   GLFWwindow* window_ = nullptr;
 };
 
-class ImGuiLayer {
+float content_scale(GLFWwindow* window) {
+  float x = 1, y = 1;
+  glfwGetWindowContentScale(window, &x, &y);
+  // Where a window's units are larger than pixels, text is scaled with them already.
+  int units = 0, pixels = 0, unused = 0;
+  glfwGetWindowSize(window, &units, &unused);
+  glfwGetFramebufferSize(window, &pixels, &unused);
+  return units > 0 ? std::max(1.0F, x * static_cast<float>(units) / static_cast<float>(std::max(pixels, 1))) : x;
+}
+
+/// Dear ImGui fed by the window. GLFW's callbacks of our own are set before.
+class WindowInterface {
  public:
-  explicit ImGuiLayer(GLFWwindow* window) {
-    ImGui::CreateContext();
-    ImGui::GetIO().IniFilename = nullptr;
-    float x = 1, y = 1;
-    glfwGetWindowContentScale(window, &x, &y);
-    ImFontConfig font;
-    font.SizePixels = std::round(13.0F * x);
-    ImGui::GetIO().Fonts->AddFontDefault(&font);
-    ImGui::StyleColorsDark();
-    ImGui::GetStyle().ScaleAllSizes(x);
-    ImGui::GetStyle().Colors[ImGuiCol_WindowBg].w = 0.88F;
+  explicit WindowInterface(GLFWwindow* window) : interface_(content_scale(window)) {
     ImGui_ImplGlfw_InitForOpenGL(window, true);
-    ImGui_ImplOpenGL3_Init("#version 330 core");
   }
-  ~ImGuiLayer() {
-    ImGui_ImplOpenGL3_Shutdown();
-    ImGui_ImplGlfw_Shutdown();
-    ImGui::DestroyContext();
+  ~WindowInterface() { ImGui_ImplGlfw_Shutdown(); }
+  WindowInterface(const WindowInterface&) = delete;
+  WindowInterface& operator=(const WindowInterface&) = delete;
+  static void begin_frame() {
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui_ImplGlfw_NewFrame();
+    ImGui::NewFrame();
   }
-  ImGuiLayer(const ImGuiLayer&) = delete;
-  ImGuiLayer& operator=(const ImGuiLayer&) = delete;
+
+ private:
+  Interface interface_;
 };
 
 /// From GLFW's callbacks to the controller. Set before ImGui's, which pass events on.
@@ -135,7 +142,9 @@ class Input {
       dragged_ = false;
     } else if (which == held_) {
       held_ = -1;
-      if (which == GLFW_MOUSE_BUTTON_LEFT && !dragged_) controller_.fire(pressed_at_);
+      if (dragged_) return;
+      if (which == GLFW_MOUSE_BUTTON_LEFT) controller_.click(pressed_at_);
+      if (which == GLFW_MOUSE_BUTTON_RIGHT && controller_.hovered()) controller_.select(*controller_.hovered());
     }
   }
   void move(glm::dvec2 to) {
@@ -162,49 +171,9 @@ class Input {
   bool dragged_ = false;
 };
 
-void hover_text(Controller& controller, const Snapshot& moment) {
-  const auto& hovered = controller.hovered();
-  if (!hovered || !hovered->joint.valid() || ImGui::GetIO().WantCaptureMouse) return;
-  const auto& building = controller.building();
-  const auto& joint = moment.answer->joints[static_cast<std::size_t>(hovered->joint.index)];
-  ImGui::BeginTooltip();
-  if (hovered->member.valid()) {
-    const auto& member = building[hovered->member];
-    ImGui::Text("%s: %s, %s, %.2f m", member.name.c_str(), building[member.section].name.c_str(),
-                building[member.material].name.c_str(), member.length);
-  } else {
-    const auto& panel = building[hovered->panel];
-    ImGui::Text("%s: %.0f mm, %s", panel.name.c_str(), 1000 * panel.thickness, building[panel.material].name.c_str());
-  }
-  ImGui::Text("joint %s: %s", building[hovered->joint].name.c_str(), joint.intact ? "" : "failed");
-  if (joint.intact && joint.standing) {
-    ImGui::Text("utilisation %.1f %% (%s)", 100.0 * static_cast<double>(joint.utilisation),
-                structure::sense_names[static_cast<std::size_t>(joint.sense)]);
-    const auto k = [&](std::size_t c) { return static_cast<double>(joint.demand[c]) / 1e3; };
-    ImGui::Text("N %.1f  Vy %.1f  Vz %.1f kN", k(0), k(1), k(2));
-    ImGui::Text("T %.1f  My %.1f  Mz %.1f kN m", k(3), k(4), k(5));
-  }
-  ImGui::EndTooltip();
-}
-
-/// Puts the picture into the upper left of the window.
-void show(const Renderer& renderer, glm::ivec2 pixels) {
-  const glm::ivec2 part = renderer.size();
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, renderer.framebuffer());
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-  glBlitFramebuffer(0, 0, part.x, part.y, 0, pixels.y - part.y, part.x, pixels.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-  glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  glViewport(0, 0, pixels.x, pixels.y);
-}
-
-/// What the side panel leaves of the window (at least a quarter), in its units.
-glm::dvec2 scene_size(const Window& window) {
-  const glm::dvec2 size = window.size();
-  return {std::max(size.x - SidePanel::width(), 0.25 * size.x), size.y};
-}
+glm::dvec2 scene_size(const Window& window) { return SidePanel::scene_size(window.size()); }
 glm::ivec2 scene_pixels(const Window& window) {
-  const double share = scene_size(window).x / window.size().x;
-  return {static_cast<int>(std::lround(share * window.pixels().x)), window.pixels().y};
+  return glm::ivec2(glm::round(scene_size(window) / window.size() * glm::dvec2(window.pixels())));
 }
 
 }  // namespace
@@ -217,36 +186,33 @@ void run_window(const Scene& scene, const WindowOptions& options) {
   ThreadDriver driver(std::make_unique<Session>(scene.building, scene.scenario));
   Controller controller(driver, scene, ground, window.size());
   Input input(window.get(), controller, options.screenshot);
-  const ImGuiLayer imgui(window.get());
+  const WindowInterface interface(window.get());
   SidePanel panel;
   controller.resize(scene_size(window));
   controller.frame_building();
+  for (const std::string& words : options.show) controller.show(words);
   glm::dvec2 hovered_at{-1};
   double before = glfwGetTime();
   while (glfwWindowShouldClose(window.get()) == GLFW_FALSE) {
     glfwPollEvents();
     const double now = glfwGetTime();
     input.fly(now - before);
-    before = now;
     controller.resize(scene_size(window));
-    if (input.pointer() != hovered_at && !ImGui::GetIO().WantCaptureMouse)
-      controller.hover(hovered_at = input.pointer());
-    controller.update();
-    const Snapshot moment = controller.drawn(driver.moment().interpolated(), now, false);
+    controller.update(now - before);
+    before = now;
+    if (input.pointer() != hovered_at && !Interface::wants_pointer()) controller.hover(hovered_at = input.pointer());
+    const Snapshot moment = controller.shown(false);
     instances.update(moment, controller.options);
     renderer.draw(instances, controller.camera, controller.options, scene_pixels(window));
     if (const std::string file = input.take_screenshot(); !file.empty()) {
       write_png(renderer.read(), file);
       controller.message = "picture written to " + file;
     }
-    show(renderer, window.pixels());
-    ImGui_ImplOpenGL3_NewFrame();
-    ImGui_ImplGlfw_NewFrame();
-    ImGui::NewFrame();
-    panel.draw(controller, moment, driver.error());
-    hover_text(controller, moment);
-    ImGui::Render();
-    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    copy_scene(renderer, 0, window.pixels());
+    WindowInterface::begin_frame();
+    panel.draw(controller, moment, instances, driver.error());
+    draw_hover_text(controller, moment);
+    Interface::end_frame();
     Renderer::check_errors();
     glfwSwapBuffers(window.get());
   }

@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/open_scene.h"
 
@@ -9,6 +10,7 @@ namespace topple::viewer {
 struct WindowOptions {
   int width = 1600, height = 900;
   std::string screenshot = "topple.png";  ///< where key P writes
+  std::vector<std::string> show;          ///< words of show_words.h
 };
 
 /// Opens a window on the scene and returns when it is closed. Throws std::runtime_error with one line when no window

@@ -142,8 +142,12 @@ void SceneInstances::colour_member(std::size_t index, const Snapshot& snapshot, 
   instance.end1 = instance.end2 = 0;
   if (!coloured) return;
   const auto colour = [&](int end) {
-    const auto j = static_cast<std::size_t>(building_.joint(id, end).index);
-    return joint_colour(snapshot.answer->joints[j], building_.joints[j].capacity, options, largest_);
+    const structure::JointId joint = building_.joint(id, end);
+    const auto j = static_cast<std::size_t>(joint.index);
+    const FrameAnswer::Joint& answer = snapshot.answer->joints[j];
+    if (options.colouring == Colouring::path && snapshot.path && answer.intact && answer.standing)
+      return utilisation_colour(static_cast<double>(std::min((*snapshot.path)[j], 1.0F)));
+    return joint_colour(answer, joint_capacity(building_, snapshot, joint), options, largest_);
   };
   instance.end1 = colour(0);
   instance.end2 = colour(1);
@@ -164,7 +168,9 @@ void SceneInstances::colour_panel(std::size_t index, const Snapshot& snapshot, c
     const auto j = static_cast<std::size_t>(building_.joint(id, edge).index);
     const FrameAnswer::Joint& joint = snapshot.answer->joints[j];
     const bool plain = !coloured || (map && joint.intact);
-    instance.edge[edge] = plain ? 0 : joint_colour(joint, building_.joints[j].capacity, options, largest_);
+    instance.edge[edge] =
+        plain ? 0
+              : joint_colour(joint, joint_capacity(building_, snapshot, building_.joint(id, edge)), options, largest_);
   }
 }
 
@@ -403,12 +409,15 @@ void SceneInstances::place_broken_panels(const Snapshot& snapshot) {
 void SceneInstances::update(const Snapshot& snapshot, const ViewOptions& options) {
   const bool changed = built_answer_ != snapshot.answer || built_membership_ != snapshot.membership ||
                        !built_options_.same_but_marks(options) || built_shape_ != snapshot.shape ||
+                       built_tuned_ != snapshot.tuned || built_path_ != snapshot.path ||
                        (snapshot.shape && built_scale_ != snapshot.shape_scale);
   if (changed) rebuild_standing(snapshot, options);
   built_answer_ = snapshot.answer;
   built_membership_ = snapshot.membership;
   built_options_ = options;
   built_shape_ = snapshot.shape;
+  built_tuned_ = snapshot.tuned;
+  built_path_ = snapshot.path;
   built_scale_ = snapshot.shape_scale;
   append_moving(snapshot);
   place_chunks(snapshot);

@@ -133,6 +133,8 @@ class SceneInstances {
   ViewOptions built_options_;
   std::shared_ptr<const std::vector<Eigen::Matrix<float, 6, 1>>> built_shape_;
   float built_scale_ = 0;
+  std::shared_ptr<const TunedJoints> built_tuned_;
+  std::shared_ptr<const std::vector<float>> built_path_;
   struct MovingPart {
     std::size_t index;
     int body;

@@ -107,7 +107,9 @@ Rgba joint_colour(const FrameAnswer::Joint& joint, const structure::JointCapacit
                   double largest) {
   const JointPalette palette = joint_palette(options.colour_blind_safe);
   if (!joint.intact) return options.failed_joints ? palette.failed : with_alpha(palette.failed, 0);
-  if (options.colouring == Colouring::plain || options.colouring == Colouring::segments || !joint.standing) return 0;
+  if (options.colouring == Colouring::plain || options.colouring == Colouring::segments ||
+      options.colouring == Colouring::path || !joint.standing)
+    return 0;
   if (options.colouring == Colouring::utilisation) return utilisation_colour(joint.utilisation);
   if (options.colouring == Colouring::component)
     return signed_colour(component_share(joint, capacity, options, largest));

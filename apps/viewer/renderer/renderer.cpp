@@ -103,7 +103,8 @@ void Renderer::State::fill_block(const SceneInstances& instances, const Camera& 
   const auto spacing = options.grid ? static_cast<float>(round_spacing(radius / 4)) : 0.0F;
   picture.sizes = glm::vec4(radius, spacing, 2 * reach / shadow_size, fade_share * radius);
   picture.picture = glm::vec4(size, near, far);
-  const bool map = options.colouring == Colouring::utilisation || options.colouring == Colouring::component;
+  const bool map = options.colouring == Colouring::utilisation || options.colouring == Colouring::component ||
+                   options.colouring == Colouring::path;
   picture.mode = glm::vec4(map ? 1.0F : 0.0F, options.ambient_occlusion ? 1.0F : 0.0F, occlusion_share * radius,
                            options.colouring == Colouring::plain ? 0.0F : colour_light);
   picture.opacity = glm::vec4(1);
@@ -271,13 +272,13 @@ void Renderer::draw(const SceneInstances& scene, const Camera& camera, const Vie
 unsigned Renderer::framebuffer() const { return state_->targets.finished().framebuffer.get(); }
 glm::ivec2 Renderer::size() const { return state_->targets.size(); }
 
-Image Renderer::read() const {
+Image read_framebuffer(unsigned framebuffer, glm::ivec2 size) {
   Image image;
-  image.width = size().x;
-  image.height = size().y;
+  image.width = size.x;
+  image.height = size.y;
   const std::size_t row = 4 * static_cast<std::size_t>(image.width);
   std::vector<std::uint8_t> upside_down(row * static_cast<std::size_t>(image.height));
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer());
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE, upside_down.data());
   image.pixels.resize(upside_down.size());
@@ -286,6 +287,8 @@ Image Renderer::read() const {
                 image.pixels.begin() + static_cast<std::ptrdiff_t>(row) * (image.height - 1 - y));
   return image;
 }
+
+Image Renderer::read() const { return read_framebuffer(framebuffer(), size()); }
 
 void Renderer::check_errors() {
   if (const GLenum error = glGetError(); error != GL_NO_ERROR)

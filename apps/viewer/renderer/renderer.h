@@ -26,6 +26,9 @@ struct Image {
 /// Throws std::runtime_error when the file cannot be written.
 void write_png(const Image& image, const std::string& file);
 
+/// Of a framebuffer with a colour of 8-bit RGBA.
+[[nodiscard]] Image read_framebuffer(unsigned framebuffer, glm::ivec2 size);
+
 class Renderer {
  public:
   /// `ground`: its height. Throws std::runtime_error when the context is too old or the driver refuses something.

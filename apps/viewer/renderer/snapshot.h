@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "topple/structure/joint_tuning.h"
 #include "topple/structure/simulation.h"
 
 namespace topple::viewer {
@@ -45,6 +46,13 @@ struct FrameAnswer {
   std::shared_ptr<const FrameForces> forces;  ///< null when not wanted
 };
 
+/// Capacities as a person has changed them, per joint.
+struct TunedJoints {
+  std::vector<structure::JointCapacity> capacity;
+  std::vector<double> strength;  ///< multiplier, contained in the capacity
+  std::vector<structure::JointChange> changes;
+};
+
 /// Which part is where: index into Snapshot::bodies, or one of these.
 inline constexpr int part_stands = -1, part_gone = -2;
 struct Membership {
@@ -71,7 +79,9 @@ struct Snapshot {
   bool at_rest = false, finished = false;
   std::shared_ptr<const FrameAnswer> answer;
   std::shared_ptr<const Membership> membership;
-  std::vector<BodyPose> bodies;  ///< in order of id
+  std::shared_ptr<const TunedJoints> tuned;        ///< null: as in the model
+  std::shared_ptr<const std::vector<float>> path;  ///< per joint: share of a chosen force that goes through it
+  std::vector<BodyPose> bodies;                    ///< in order of id
   /// When there is one, what stands is drawn in this shape times the scale instead of its displacements (a mode).
   std::shared_ptr<const std::vector<Eigen::Matrix<float, 6, 1>>> shape;
   float shape_scale = 0;
@@ -79,6 +89,13 @@ struct Snapshot {
   std::array<double, 6> stage_seconds{};
   double collision_engine_seconds = 0;
 };
+
+/// What a joint bears now.
+[[nodiscard]] inline const structure::JointCapacity& joint_capacity(const structure::Building& building,
+                                                                    const Snapshot& snapshot,
+                                                                    structure::JointId joint) {
+  return snapshot.tuned ? snapshot.tuned->capacity[static_cast<std::size_t>(joint.index)] : building[joint].capacity;
+}
 
 /// A building in its undeformed state, nothing loaded.
 [[nodiscard]] Snapshot undeformed(const structure::Building& building);

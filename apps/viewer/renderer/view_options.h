@@ -10,6 +10,7 @@ enum class Colouring {
   utilisation,  ///< along each member between its ends' utilisations, by the legend's map
   component,    ///< one of the six components of the joints' demand, signed
   segments,     ///< each connected part in a colour of its own, standing or fallen
+  path,         ///< which way a chosen force goes: its share at each joint
 };
 /// What full colour stands for in `joints` and `component`.
 enum class Scale { capacity, largest_in_view };

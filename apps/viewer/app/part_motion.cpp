@@ -1,0 +1,75 @@
+#include "app/part_motion.h"
+
+#include <glm/geometric.hpp>
+
+namespace topple::viewer {
+
+std::vector<std::vector<PlaceChange>> part_places(const structure::Building& building, const Recording& recording) {
+  const auto& frames = recording.frames();
+  const auto& tracks = recording.tracks();
+  std::vector<std::vector<PlaceChange>> places(building.members.size() + building.panels.size());
+  std::shared_ptr<const Membership> seen;
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    if (frames[f].membership == seen) continue;
+    seen = frames[f].membership;
+    const auto frame = static_cast<std::int32_t>(f);
+    std::vector<int> alive;  // tracks in the order of the snapshot's bodies
+    for (std::size_t t = 0; t < tracks.size(); ++t)
+      if (tracks[t].first <= frame && (tracks[t].end < 0 || frame < tracks[t].end))
+        alive.push_back(static_cast<int>(t));
+    const auto note = [&](std::size_t part, int place) {
+      const int track = place >= 0 ? alive[static_cast<std::size_t>(place)] : place;
+      if (places[part].empty() || places[part].back().track != track) places[part].push_back({frame, track});
+    };
+    for (std::size_t m = 0; m < building.members.size(); ++m) note(m, seen->member[m]);
+    for (std::size_t p = 0; p < building.panels.size(); ++p) note(building.members.size() + p, seen->panel[p]);
+  }
+  return places;
+}
+
+Mesh placed_member_mesh(const structure::Building& building, const structure::Member& member,
+                        const Eigen::Vector3d& origin) {
+  Mesh mesh = section_mesh(building[member.section], 1);
+  const Eigen::Vector3d first = building[member.nodes[0]].position + member.offsets[0] - origin;
+  for (Vertex& v : mesh.vertices) {
+    const Eigen::Vector3d local(member.length * static_cast<double>(v.position.x), static_cast<double>(v.position.y),
+                                static_cast<double>(v.position.z));
+    const Eigen::Vector3d p = first + member.axes.transpose() * local;
+    const Eigen::Vector3d n =
+        member.axes.transpose() * Eigen::Vector3f(v.normal.x, v.normal.y, v.normal.z).cast<double>();
+    v.position = glm::vec3(p.x(), p.y(), p.z());
+    v.normal = glm::vec3(n.x(), n.y(), n.z());
+  }
+  return mesh;
+}
+
+Mesh placed_panel_mesh(const structure::Building& building, const structure::Panel& panel,
+                       const Eigen::Vector3d& origin) {
+  Mesh mesh = panel_mesh(building, panel);
+  glm::vec3 corner[4];
+  for (std::size_t c = 0; c < 4; ++c) {
+    const Eigen::Vector3d p = building[panel.nodes[c]].position - origin;
+    corner[c] = glm::vec3(p.x(), p.y(), p.z());
+  }
+  for (Vertex& v : mesh.vertices) {
+    const float s = v.position.x, t = v.position.y;
+    const glm::vec3 along_s = glm::mix(corner[1] - corner[0], corner[2] - corner[3], t);
+    const glm::vec3 along_t = glm::mix(corner[3] - corner[0], corner[2] - corner[1], s);
+    const glm::vec3 across = glm::normalize(glm::cross(along_s, along_t));
+    const float z = v.position.z * static_cast<float>(panel.thickness);
+    v.position = glm::mix(glm::mix(corner[0], corner[1], s), glm::mix(corner[3], corner[2], s), t) + across * z;
+    v.normal = glm::normalize(v.normal.x * along_s / glm::dot(along_s, along_s) +
+                              v.normal.y * along_t / glm::dot(along_t, along_t) + v.normal.z * across);
+  }
+  return mesh;
+}
+
+PartMotion motion_of(const BodyTrack& track, std::int32_t frame, const Eigen::Vector3d& origin) {
+  const BodyPose pose = track.pose(frame);
+  PartMotion motion;
+  motion.turn = pose.orientation;
+  motion.shift = pose.position - origin - pose.orientation * (pose.rest_centre - origin);
+  return motion;
+}
+
+}  // namespace topple::viewer

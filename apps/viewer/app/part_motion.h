@@ -1,0 +1,33 @@
+#pragma once
+// From a recording: how each part of the building moved, for files that other programs play.
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "renderer/mesh.h"
+#include "renderer/recording.h"
+
+namespace topple::viewer {
+
+/// From a frame on, a member or panel belongs to this track; part_stands or part_gone otherwise.
+struct PlaceChange {
+  std::int32_t frame = 0;
+  int track = part_stands;
+};
+/// Per part, members first, then panels: its places in order of frame. The first is that of frame 0.
+[[nodiscard]] std::vector<std::vector<PlaceChange>> part_places(const structure::Building& building,
+                                                                const Recording& recording);
+
+/// Meshes in the undeformed building, global axes, double precision where it matters: positions relative to `origin`.
+[[nodiscard]] Mesh placed_member_mesh(const structure::Building& building, const structure::Member& member,
+                                      const Eigen::Vector3d& origin);
+[[nodiscard]] Mesh placed_panel_mesh(const structure::Building& building, const structure::Panel& panel,
+                                     const Eigen::Vector3d& origin);
+
+/// Rigid motion p -> turn p + shift of points of the undeformed building (about the same origin) at a frame.
+struct PartMotion {
+  Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero();
+};
+[[nodiscard]] PartMotion motion_of(const BodyTrack& track, std::int32_t frame, const Eigen::Vector3d& origin);
+
+}  // namespace topple::viewer

@@ -1,0 +1,92 @@
+// What is told of one part: under the pointer, and in the panel.
+#include <cfloat>
+#include <cmath>
+#include <cstdio>
+
+#include "app/side_panel.h"
+#include "app/widgets.h"
+
+namespace topple::viewer {
+namespace {
+
+using structure::Sense;
+
+const structure::JointCapacity& capacity_now(const Controller& controller, const Snapshot& moment,
+                                             structure::JointId joint) {
+  return joint_capacity(controller.building(), moment, joint);
+}
+
+/// The sense that a component of this sign is held against.
+Sense sense_of(int component, double demand) {
+  if (component == 0) return demand < 0 ? Sense::compression : Sense::tension;
+  return static_cast<Sense>(component + 1);
+}
+
+void component_row(int component, double demand, const structure::JointCapacity& capacity, bool edge) {
+  constexpr const char* names[] = {"N ", "Vy", "Vz", "T ", "My", "Mz"};
+  const char* unit = component < 3 ? (edge ? "kN/m" : "kN  ") : (edge ? "kN  " : "kN m");
+  const double limit = capacity.value[static_cast<std::size_t>(sense_of(component, demand))];
+  if (!capacity.breakable || !std::isfinite(limit))
+    ImGui::Text("%s %10.2f %s", names[component], demand / 1e3, unit);
+  else
+    ImGui::Text("%s %10.2f / %9.1f %s %5.1f %%", names[component], demand / 1e3, limit / 1e3, unit,
+                100 * std::abs(demand) / limit);
+}
+
+}  // namespace
+
+std::string part_text(const structure::Building& building, structure::JointId id) {
+  const structure::Joint& joint = building[id];
+  char text[256];
+  if (joint.member.valid()) {
+    const auto& member = building[joint.member];
+    constexpr const char* kinds[] = {"post", "beam", "brace"};
+    std::snprintf(text, sizeof text, "%s: %s, section %s, %s, %.2f m", member.name.c_str(),
+                  kinds[static_cast<std::size_t>(member.kind)], building[member.section].name.c_str(),
+                  building[member.material].name.c_str(), member.length);
+  } else {
+    const auto& panel = building[joint.panel];
+    std::snprintf(text, sizeof text, "%s: %s, %.0f mm, %s", panel.name.c_str(),
+                  panel.kind == structure::PanelKind::slab ? "slab" : "wall", 1000 * panel.thickness,
+                  building[panel.material].name.c_str());
+  }
+  return text;
+}
+
+void draw_joint(Controller& controller, const Snapshot& moment, structure::JointId id, bool with_history) {
+  const auto& joint = moment.answer->joints[static_cast<std::size_t>(id.index)];
+  const char* state = !joint.intact ? "failed" : joint.standing ? "" : "part of a body";
+  ImGui::Text("joint %s %s", controller.building()[id].name.c_str(), state);
+  if (joint.intact && joint.standing) {
+    const structure::JointCapacity& capacity = capacity_now(controller, moment, id);
+    if (capacity.breakable)
+      ImGui::Text("utilisation %.1f %% (%s)", 100.0 * static_cast<double>(joint.utilisation),
+                  structure::sense_names[static_cast<std::size_t>(joint.sense)]);
+    else
+      ImGui::TextUnformatted("never breaks");
+    const bool edge = controller.building()[id].panel.valid();
+    for (int c = 0; c < 6; ++c)
+      component_row(c, static_cast<double>(joint.demand[static_cast<std::size_t>(c)]), capacity, edge);
+  }
+  if (!with_history) return;
+  const auto history = controller.driver().recording().history(id);
+  if (history.size() < 2) return;
+  std::vector<float> values;
+  for (const auto& point : history) values.push_back(100 * point[1]);
+  char text[64];
+  std::snprintf(text, sizeof text, "utilisation, %.1f to %.1f s", static_cast<double>(history.front()[0]),
+                static_cast<double>(history.back()[0]));
+  ImGui::PlotLines("%", values.data(), static_cast<int>(values.size()), 0, text, 0, FLT_MAX,
+                   ImVec2(0, 5 * ImGui::GetFontSize()));
+}
+
+void draw_hover_text(Controller& controller, const Snapshot& moment) {
+  const auto& hovered = controller.hovered();
+  if (!hovered || !hovered->joint.valid() || ImGui::GetIO().WantCaptureMouse) return;
+  ImGui::BeginTooltip();
+  ImGui::TextUnformatted(part_text(controller.building(), hovered->joint).c_str());
+  draw_joint(controller, moment, hovered->joint, true);
+  ImGui::EndTooltip();
+}
+
+}  // namespace topple::viewer

@@ -1,0 +1,119 @@
+#include "app/tuning_panel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <stdexcept>
+
+#include "app/widgets.h"
+#include "topple/structure/files.h"
+
+namespace topple::viewer {
+namespace {
+
+using structure::JointChange;
+using structure::Sense;
+
+constexpr const char* targets[] = {"all joints", "posts", "beams", "braces", "slabs", "walls", "selected", "pattern"};
+constexpr const char* selectors[] = {"*", "posts", "beams", "braces", "slabs", "walls"};
+constexpr int selected_target = 6, pattern_target = 7;
+
+/// Joints that the selector means; none when it is not yet a whole name.
+std::vector<structure::JointId> meant(const Controller& controller, const std::string& selector) {
+  try {
+    return structure::joints_of(controller.building(), controller.names(), selector);
+  } catch (const std::exception&) {
+    return {};
+  }
+}
+
+}  // namespace
+
+void write_tuned_model(const Scene& scene, const Snapshot& moment, const std::string& file) {
+  const auto text =
+      structure::model_with_changes(scene.model, moment.tuned ? moment.tuned->changes : std::vector<JointChange>());
+  std::ofstream stream(file);
+  stream << text;
+  if (!stream.flush()) throw std::runtime_error("cannot write " + file);
+}
+
+std::string TuningPanel::selector(const Controller& controller) const {
+  if (target_ == pattern_target) return pattern_.data();
+  if (target_ != selected_target) return selectors[target_];
+  const structure::JointId chosen = controller.options.selected_joint;
+  return chosen.valid() ? controller.building()[chosen].name : "";
+}
+
+void TuningPanel::capacities(Controller& controller, const Snapshot& moment) {
+  ImGui::Combo("joints", &target_, targets, IM_ARRAYSIZE(targets));
+  if (target_ == pattern_target) ImGui::InputText("pattern", pattern_.data(), pattern_.size());
+  const std::string name = selector(controller);
+  const auto joints = meant(controller, name);
+  if (joints.empty()) return ImGui::TextWrapped("%s", name.empty() ? "none is selected" : "no joint has this name");
+  // Of several the first that can break stands for all.
+  auto first = std::find_if(joints.begin(), joints.end(), [&](structure::JointId j) {
+    return joint_capacity(controller.building(), moment, j).breakable;
+  });
+  if (first == joints.end()) first = joints.begin();
+  ImGui::Text("%zu joints, values of %s", joints.size(), controller.building()[*first].name.c_str());
+  double strength =
+      moment.tuned ? static_cast<double>(moment.tuned->strength[static_cast<std::size_t>(first->index)]) : 1;
+  const double multiplier = strength;
+  JointChange change;
+  change.joints = name;
+  if (slider("strength", strength, 0.05, 10, "x %.3f")) change.strength = strength;
+  const structure::JointCapacity& now = joint_capacity(controller.building(), moment, *first);
+  for (std::size_t s = 0; s < 7; ++s) {
+    const double unit = structure::capacity_unit(controller.building(), *first, static_cast<Sense>(s));
+    const bool limited = now.breakable && std::isfinite(now.value[s]);
+    double value = (limited ? now.value[s] / multiplier : 1e6) / 1e3;
+    if (slider(structure::sense_names[s], value, 1, 1e5, limited ? "%.1f k" : "unlimited"))
+      change.capacity[s] = 1e3 * value / unit;
+  }
+  if (!change.empty()) controller.tune(change);
+}
+
+void TuningPanel::gravity(Controller& controller) {
+  if (gravity_ < 0) gravity_ = controller.building().gravity;
+  slider("gravity", gravity_, 0, 30, "%.2f m/s2", ImGuiSliderFlags_None);
+  if (ImGui::IsItemDeactivatedAfterEdit())
+    controller.driver().apply(structure::GravityTool{structure::Vec3(0, 0, -gravity_)});
+}
+
+void TuningPanel::rules(Controller& controller) {
+  if (!rules_) rules_ = controller.scene().scenario.failure;
+  slider("sudden loss", rules_->sudden, 1, 2, "x %.2f", ImGuiSliderFlags_None);
+  slider("generations", rules_->generations_per_second, 10, 2000, "%.0f / s");
+  int bracing = static_cast<int>(rules_->bracing);
+  constexpr const char* bracings[] = {"buckling", "classic", "none"};
+  if (ImGui::Combo("bracing", &bracing, bracings, IM_ARRAYSIZE(bracings)))
+    rules_->bracing = static_cast<structure::BracingRule>(bracing);
+  if (ImGui::Button("Restart by these rules")) {
+    const structure::FailureRules rules = *rules_;
+    controller.look_at_present();
+    controller.driver().order_and_show([rules](Session& session) { session.restart(rules); });
+  }
+}
+
+void TuningPanel::file(Controller& controller, const Snapshot& moment) {
+  ImGui::InputText("file", file_.data(), file_.size());
+  if (!ImGui::Button("Write the changed model")) return;
+  try {
+    write_tuned_model(controller.scene(), moment, file_.data());
+    controller.message = std::string("model written to ") + file_.data();
+  } catch (const std::exception& failed) {
+    controller.message = failed.what();
+  }
+}
+
+void TuningPanel::draw(Controller& controller, const Snapshot& moment) {
+  capacities(controller, moment);
+  ImGui::Separator();
+  gravity(controller);
+  ImGui::Separator();
+  rules(controller);
+  ImGui::Separator();
+  file(controller, moment);
+}
+
+}  // namespace topple::viewer

@@ -1,0 +1,36 @@
+#pragma once
+// Small parts of panels.
+#include <imgui.h>
+
+#include "renderer/palette.h"
+
+namespace topple::viewer {
+
+[[nodiscard]] inline ImVec4 to_imgui(Rgba colour) {
+  const glm::vec4 c = unpack(colour);
+  return {c.r, c.g, c.b, 1.0F};
+}
+inline void legend_entry(const char* label, Rgba colour) {
+  const float side = ImGui::GetFontSize();
+  ImGui::ColorButton(label, to_imgui(colour), ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoPicker,
+                     ImVec2(side, side));
+  ImGui::SameLine();
+  ImGui::TextUnformatted(label);
+}
+/// True while it is being changed.
+inline bool slider(const char* label, double& value, double low, double high, const char* format,
+                   ImGuiSliderFlags flags = ImGuiSliderFlags_Logarithmic) {
+  auto v = static_cast<float>(value);
+  if (!ImGui::SliderFloat(label, &v, static_cast<float>(low), static_cast<float>(high), format, flags)) return false;
+  value = static_cast<double>(v);
+  return true;
+}
+/// A button that is lit when it is on.
+inline bool toggle_button(const char* label, bool on) {
+  if (on) ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0.85F, 0.45F, 0.10F, 1.0F));
+  const bool pressed = ImGui::Button(label);
+  if (on) ImGui::PopStyleColor();
+  return pressed;
+}
+
+}  // namespace topple::viewer

@@ -1,0 +1,127 @@
+// What leaves the viewer: USD, the replay page, videos; and the panels without a window.
+#include <sys/stat.h>
+
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+
+#include "app/headless.h"
+#include "app/html_replay.h"
+#include "app/part_motion.h"
+#include "app/session.h"
+#include "app/usd_scene.h"
+#include "app/video.h"
+#include "support/scratch_folder.h"
+
+namespace {
+
+using namespace topple::viewer;
+using topple::test::ScratchFolder;
+
+std::string text_of(const std::string& file) {
+  std::ifstream stream(file);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+std::size_t count(const std::string& text, const std::string& what) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++found;
+  return found;
+}
+
+/// Two posts of the seed building are taken away; a second and a half of it.
+struct Fall {
+  Scene scene = open_scene("seed_building");
+  Session session{scene.building, scene.scenario};
+  Fall() {
+    const topple::structure::NameIndex names(*scene.building);
+    (void)session.snapshot();
+    session.apply(topple::structure::RemoveTool{{*names.member("P-1-1-1"), *names.member("P-1-1-2")}, {}, {}});
+    for (int i = 0; i < 90; ++i) {
+      session.step();
+      (void)session.snapshot();
+    }
+  }
+};
+
+}  // namespace
+
+TEST_CASE("USD holds each part once, its motion as samples, and balanced braces") {
+  const ScratchFolder folder;
+  const Fall fall;
+  const std::string file = (folder / "fall.usda").string();
+  write_usd(*fall.scene.building, *fall.session.recording(), file);
+  const std::string usd = text_of(file);
+  CHECK(usd.rfind("#usda 1.0\n", 0) == 0);
+  CHECK(count(usd, "def Mesh \"") >= fall.scene.building->members.size() + fall.scene.building->panels.size());
+  CHECK(count(usd, "{") == count(usd, "}"));
+  CHECK(count(usd, "[") == count(usd, "]"));
+  CHECK(usd.find("upAxis = \"Z\"") != std::string::npos);
+  CHECK(usd.find("endTimeCode = 45") != std::string::npos);  // 1.5 s at 30 a second
+  CHECK(usd.find("def Mesh \"P_1_1_1\"") != std::string::npos);
+  CHECK(count(usd, "\"invisible\"") >= 2);  // what was removed
+  CHECK(count(usd, "xformOp:translate.timeSamples") > 0);
+}
+
+TEST_CASE("a part in a recording moves with its body") {
+  const Fall fall;
+  const auto& recording = *fall.session.recording();
+  const auto places = part_places(*fall.scene.building, recording);
+  const auto last = static_cast<std::int32_t>(recording.frames().size()) - 1;
+  int moving = 0;
+  for (std::size_t m = 0; m < fall.scene.building->members.size(); ++m) {
+    const int track = places[m].back().track;
+    if (track < 0) continue;
+    ++moving;
+    const auto& member = fall.scene.building->members[m];
+    const auto& body = recording.tracks()[static_cast<std::size_t>(track)];
+    const Eigen::Vector3d p = (*fall.scene.building)[member.nodes[0]].position;
+    const PartMotion motion = motion_of(body, last, Eigen::Vector3d(3, 4, 5));
+    const Eigen::Vector3d moved =
+        motion.turn * (p - Eigen::Vector3d(3, 4, 5)) + motion.shift + Eigen::Vector3d(3, 4, 5);
+    const BodyPose pose = body.pose(last);
+    CHECK((moved - (pose.position + pose.orientation * (p - pose.rest_centre))).norm() < 1e-9);
+  }
+  CHECK(moving > 0);
+}
+
+TEST_CASE("the replay page carries the run and asks for nothing else") {
+  if (!can_write_replay()) {
+    std::cout << "SKIPPED: built without the replay page\n";
+    return;
+  }
+  const ScratchFolder folder;
+  const Fall fall;
+  const std::string file = (folder / "fall.html").string();
+  write_html_replay(*fall.scene.building, *fall.session.recording(), file);
+  const std::string html = text_of(file);
+  CHECK(html.find("\"TOPPLE_DATA\"") == std::string::npos);
+  CHECK(html.find("\"name\":\"P-1-1-1\"") != std::string::npos);
+  CHECK(html.find("src=\"http") == std::string::npos);
+}
+
+TEST_CASE("a video gets every picture, and without ffmpeg one line says what to do instead") {
+  const ScratchFolder folder;
+  const std::string path = std::getenv("PATH");
+  Image image;
+  image.width = 8, image.height = 4;
+  image.pixels.assign(8 * 4 * 4, 77);
+  setenv("PATH", folder.path().c_str(), 1);
+  CHECK_THROWS_WITH(VideoWriter((folder / "v.mp4").string(), {8, 4}, 30), Catch::Contains("--record"));
+  // One that keeps what it is told and given.
+  const std::string fake = (folder / "ffmpeg").string();
+  std::ofstream(fake)
+      << "#!/bin/sh\nfor word; do last=$word; done\necho \"$*\" > \"$last.words\"\n/bin/cat > \"$last\"\n";
+  chmod(fake.c_str(), 0755);
+  {
+    VideoWriter video((folder / "v.mp4").string(), {8, 4}, 24);
+    for (int i = 0; i < 3; ++i) video.add(image);
+    video.finish();
+  }
+  setenv("PATH", path.c_str(), 1);
+  CHECK(text_of((folder / "v.mp4").string()).size() == 3 * image.pixels.size());
+  CHECK(text_of((folder / "v.mp4.words").string()).find("-s 8x4 -r 24") != std::string::npos);
+}

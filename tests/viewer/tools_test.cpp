@@ -1,0 +1,175 @@
+// What a person does with the building through the controller: tools, tuning, looking back, search.
+#include <catch2/catch.hpp>
+#include <fstream>
+
+#include "app/controller.h"
+#include "app/tuning_panel.h"
+#include "support/scratch_folder.h"
+#include "topple/structure/error.h"
+#include "topple/structure/files.h"
+
+namespace {
+
+using namespace topple::viewer;
+using topple::structure::JointId;
+using topple::structure::MemberId;
+
+constexpr glm::dvec2 size{800, 600};
+
+struct Person {
+  Scene scene = open_scene("seed_building");
+  Session session{scene.building, scene.scenario};
+  DirectDriver driver{session};
+  Controller controller{driver, scene, 0, size};
+  Person() {
+    // Only the frame, seen from a corner: a click meets the member that is meant.
+    controller.options.shown.slabs = controller.options.shown.walls = false;
+  }
+  [[nodiscard]] MemberId member(const std::string& name) const { return *controller.names().member(name); }
+  [[nodiscard]] JointId joint(const std::string& name) const { return *controller.names().joint(name); }
+  /// Looks at a place of a member straight from outside and clicks on it.
+  void click_on(const std::string& name, double share) {
+    const auto& one = (*scene.building)[member(name)];
+    const auto& a = (*scene.building)[one.nodes[0]].position;
+    const topple::structure::Vec3 p = a + share * ((*scene.building)[one.nodes[1]].position - a);
+    controller.camera.target = {p.x(), p.y(), p.z()};
+    controller.camera.eye = controller.camera.target + glm::dvec3(-6, -6, 1);
+    controller.click(size / 2.0);
+  }
+  void go(int steps) {
+    for (int i = 0; i < steps; ++i) driver.advance();
+  }
+  [[nodiscard]] const Snapshot& now() const { return *driver.moment().later; }
+  [[nodiscard]] float use(const std::string& name) const {
+    return now().answer->joints[static_cast<std::size_t>(joint(name).index)].utilisation;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("the cutting tool breaks the joint nearest to the click") {
+  Person person;
+  person.controller.key("j");
+  person.click_on("P-1-1-1", 0.2);
+  person.go(2);
+  CHECK_FALSE(person.session.simulation().frame().intact(person.joint("P-1-1-1:1")));
+  CHECK(person.controller.message == "cut P-1-1-1:1");
+}
+
+TEST_CASE("removing a part takes it away, and undo brings it back") {
+  Person person;
+  person.controller.key("m");
+  person.click_on("P-1-1-2", 0.5);
+  person.go(1);
+  CHECK(person.now().membership->member[static_cast<std::size_t>(person.member("P-1-1-2").index)] == part_gone);
+  person.controller.key("u");
+  CHECK(person.now().membership->member[static_cast<std::size_t>(person.member("P-1-1-2").index)] == part_stands);
+}
+
+TEST_CASE("a support goes with a click on what stands on it, and nothing with a click elsewhere") {
+  Person person;
+  person.controller.key("t");
+  person.click_on("P-1-1-3", 0.5);
+  CHECK(person.controller.message == "remove support: P-1-1-3 stands on none");
+  CHECK(person.session.actions() == 0);
+  person.click_on("P-1-1-1", 0.3);
+  CHECK(person.controller.message == "removed the support of N-1-1-0");
+  person.go(1);
+  // Without its support the corner post hangs: it bears no more than its own weight.
+  CHECK(std::abs(person.session.simulation().frame().demand(person.joint("P-1-1-1:1"))(0)) < 1e4);
+}
+
+TEST_CASE("a charge weakens the joints around it") {
+  Person person;
+  person.controller.key("k");
+  const float before = person.use("P-2-1-1:1");
+  person.controller.charge_radius = 1;
+  person.click_on("P-2-1-1", 0.12);
+  person.go(1);
+  CHECK(person.session.simulation().frame().utilisation(person.joint("P-2-1-1:1")).value >
+        1.1 * static_cast<double>(before));
+}
+
+TEST_CASE("the load path of a force on a post's head goes down through the post") {
+  Person person;
+  person.controller.key("l");
+  person.click_on("P-1-1-6", 0.97);
+  REQUIRE(person.now().path);
+  const auto share = [&](const std::string& name) {
+    return static_cast<double>((*person.now().path)[static_cast<std::size_t>(person.joint(name).index)]);
+  };
+  CHECK(share("P-1-1-6:1") > 0.5);
+  CHECK(share("P-1-1-6:1") <= 1.05);
+  CHECK(share("P-4-5-1:1") < 0.05);  // the far corner hears little of it
+  CHECK(person.controller.options.colouring == Colouring::path);
+}
+
+TEST_CASE("the effect of a changed capacity is seen at once while paused, and undone") {
+  Person person;
+  person.go(1);
+  person.driver.set_paused(true);
+  const float before = person.use("BX-1-1-1:1");
+  topple::structure::JointChange stronger;
+  stronger.joints = "beams";
+  stronger.strength = 2.0;
+  const auto solves = person.now().counters.solves;
+  person.controller.tune(stronger);
+  CHECK(person.use("BX-1-1-1:1") == Approx(before / 2));
+  CHECK(person.now().counters.solves == solves);
+  CHECK(joint_capacity(*person.scene.building, person.now(), person.joint("BX-1-1-1:1")).value[5] == 2 * 2.4e5);
+  person.controller.key("u");
+  CHECK(person.use("BX-1-1-1:1") == before);
+  CHECK_FALSE(person.now().tuned);
+  topple::structure::JointChange wrong;
+  wrong.joints = "columns";
+  wrong.strength = 2.0;
+  CHECK_THROWS_AS(person.controller.tune(wrong), topple::structure::InputError);
+}
+
+TEST_CASE("a tuned model is written and reads back as it was tuned") {
+  const topple::test::ScratchFolder folder;
+  Person person;
+  topple::structure::JointChange change;
+  change.joints = "posts";
+  change.strength = 1.5;
+  person.controller.tune(change);
+  const std::string file = (folder / "tuned.json").string();
+  write_tuned_model(person.scene, person.now(), file);
+  const auto again = topple::structure::read_model(file);
+  const auto post = static_cast<std::size_t>(person.joint("P-1-1-1:1").index);
+  CHECK(again.joints[post].capacity.value == person.now().tuned->capacity[post].value);
+}
+
+TEST_CASE("scrubbing pauses, shows the past, and the present comes back") {
+  Person person;
+  person.controller.key("m");
+  person.go(10);
+  person.click_on("P-1-1-1", 0.5);
+  person.go(60);
+  const double end = person.now().time;
+  person.controller.look_at(5 * person.scene.scenario.step);
+  CHECK(person.driver.paused());
+  CHECK(person.controller.shown(true).time == Approx(5 * person.scene.scenario.step));
+  CHECK(person.controller.shown(true).membership->members_standing ==
+        static_cast<int>(person.scene.building->members.size()));
+  person.controller.key("space");  // plays again
+  person.controller.update(0.1);
+  CHECK(person.controller.shown(true).time == Approx(5 * person.scene.scenario.step + 0.1).epsilon(0.2));
+  person.controller.key("y");
+  CHECK(person.controller.shown(true).time == end);
+  person.controller.look_at(5 * person.scene.scenario.step);
+  person.controller.go_on_from_here();
+  CHECK(person.session.simulation().steps() == 5);
+  CHECK(person.session.actions() == 0);
+}
+
+TEST_CASE("parts are found by name, piece of a name, and pattern") {
+  const Person person;
+  CHECK(person.controller.search("", 10).empty());
+  CHECK(person.controller.search("P-1-1-", 10).size() == 6);
+  CHECK(person.controller.search("P-1-1-", 4).size() == 4);
+  CHECK(person.controller.search("P-*-1-1", 10).size() == 4);
+  const auto joints = person.controller.search("P-1-1-1:", 10);
+  REQUIRE(joints.size() == 2);
+  CHECK(joints[0] == person.joint("P-1-1-1:1"));
+}
