@@ -11,13 +11,16 @@ JointStates::JointStates(const Building& building, double sudden)
       reference_(building.joints.size(), Vec6::Zero()),
       strength_(building.joints.size(), 1.0),
       largest_(building.joints.size(), 0.0) {
-  for (std::size_t j = 0; j < building.joints.size(); ++j) {
-    const JointCapacity& all = building.joints[j].capacity;
-    JointCapacity brittle = all;
-    for (std::size_t sense = 0; sense < brittle.value.size(); ++sense)
-      if (brittle.ductility[sense] > 0) brittle.value[sense] = unlimited;
-    if (brittle.value != all.value) brittle_.emplace(JointId(j), brittle);
-  }
+  for (std::size_t j = 0; j < building.joints.size(); ++j) capacity_changed(JointId(j));
+}
+
+void JointStates::capacity_changed(JointId joint) {
+  const JointCapacity& all = building_[joint].capacity;
+  JointCapacity brittle = all;
+  for (std::size_t sense = 0; sense < brittle.value.size(); ++sense)
+    if (brittle.ductility[sense] > 0) brittle.value[sense] = unlimited;
+  brittle_.erase(joint);
+  if (brittle.value != all.value) brittle_.emplace(joint, brittle);
 }
 
 const JointCapacity& JointStates::brittle_capacity(JointId joint) const {

@@ -25,6 +25,8 @@ class JointStates {
   }
   /// The joint transmits nothing from now on.
   void lose(JointId joint);
+  /// The building's capacity of this joint is another one.
+  void capacity_changed(JointId joint);
   void set_strength(JointId joint, double factor) { strength_[index(joint)] = factor; }
 
   [[nodiscard]] const Vec6& demand(JointId joint) const { return demand_[index(joint)]; }

@@ -53,6 +53,7 @@ void StandingFrame::capacity_changed(JointId joint) {
       state.joints.accept(joint);
     }
   }
+  state.joints.capacity_changed(joint);
   state.to_check[static_cast<std::size_t>(c)] = 1;
   state.pending = true;
 }

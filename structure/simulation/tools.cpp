@@ -8,7 +8,11 @@ namespace topple::structure {
 
 void Simulation::set_capacities(std::span<const std::pair<JointId, JointCapacity>> capacities) {
   for (const auto& [joint, capacity] : capacities) {
-    state_->building.joints[static_cast<std::size_t>(joint.index)].capacity = capacity;
+    JointCapacity& own = state_->building.joints[static_cast<std::size_t>(joint.index)].capacity;
+    const JointCapacity before = std::exchange(own, capacity);
+    // Hinges are made where a ductile sense has a capacity from the start; one that gets it later breaks at once.
+    for (std::size_t sense = 0; sense < 7; ++sense)
+      if (before.value[sense] == unlimited) own.ductility[sense] = 0;
     state_->frame->capacity_changed(joint);
   }
 }

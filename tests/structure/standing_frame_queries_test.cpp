@@ -84,3 +84,17 @@ TEST_CASE("a changed capacity changes the utilisation without a solve, and break
   CHECK(standing.internal_forces(c.beam, 4).empty());
   CHECK(standing.member_loads(c.beam).empty());
 }
+
+TEST_CASE("a ductile joint yields at the capacity that it is given") {
+  Cantilever c;
+  const double moment = tip * length + spread * length * length / 2;
+  const JointId root = c.frame.building.joint(c.beam, 0);
+  JointCapacity& capacity = c.frame.building.joints[static_cast<std::size_t>(root.index)].capacity;
+  capacity = same_capacity(10 * moment);
+  capacity.ductility[static_cast<std::size_t>(Sense::moment_y)] = 0.01;
+  StandingFrame standing(c.frame.building, CombinationId(0u), {});
+  CHECK(standing.utilisation(root).value == Approx(0.1));
+  capacity.value[static_cast<std::size_t>(Sense::moment_y)] = 0.5 * moment;
+  standing.capacity_changed(root);
+  CHECK(standing.utilisation(root).value == 1);  // it holds at its capacity until it has turned too far
+}
