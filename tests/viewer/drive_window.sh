@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # What a person does in the window, by xdotool on a display of its own: drive_window.sh VIEWER FOLDER
-# Leaves in FOLDER: start.png, orbited.png, hit.png, paused1.png, paused2.png. Status 77: a tool is missing.
+# Leaves in FOLDER: start.png, orbited.png, picked.png, hit.png, scrubbed.png, paused1.png, paused2.png. Status 77: a tool is missing.
 set -eu
 viewer=$1 folder=$2
 command -v Xvfb >/dev/null && command -v xdotool >/dev/null || exit 77
@@ -32,9 +32,24 @@ for x in 270 290 310; do xdotool mousemove "$x" 300; sleep 0.3; done
 xdotool mouseup 1
 sleep 1
 picture orbited.png
+# The tool that selects; then the one that fires again.
+xdotool key v
 xdotool mousemove 250 300 click 1
+sleep 1
+picture picked.png
+xdotool key g
+xdotool click 1
 sleep 6
 picture hit.png
+# The slider of time (panels: 25 texts of 13 pixels wide, 6.2 high) dragged to the beginning; Y returns to the present.
+xdotool mousemove 500 558 mousedown 1
+for x in 300 100 14; do xdotool mousemove "$x" 558; sleep 0.3; done
+xdotool mouseup 1
+sleep 1
+picture scrubbed.png
+xdotool key y key space
+xdotool mousemove 250 300
+sleep 1
 # A shot in flight stands still while paused.
 xdotool click 1
 xdotool key space

@@ -43,6 +43,13 @@ struct Picture {
       count += at(i, 2) > 110 && at(i, 2) > 2 * at(i, 0) && at(i, 2) > at(i, 1) + 40 ? 1 : 0;
     return static_cast<double>(count) / (width * height);
   }
+  /// Pixels in the colour of what is selected.
+  [[nodiscard]] int orange() const {
+    int count = 0;
+    for (int i = 0; i < width * height; ++i)
+      count += at(i, 0) > 150 && at(i, 0) > at(i, 1) + 45 && at(i, 1) > at(i, 2) + 25 ? 1 : 0;
+    return count;
+  }
   [[nodiscard]] double changed(const Picture& other) const {
     REQUIRE(width == other.width);
     REQUIRE(height == other.height);
@@ -170,11 +177,14 @@ TEST_CASE("in a window, a person orbits, fires, sees joints fail, and pauses") {
     return;
   }
   REQUIRE(status == 0);
-  const Picture start(folder.file("start.png")), orbited(folder.file("orbited.png")), hit(folder.file("hit.png")),
+  const Picture start(folder.file("start.png")), orbited(folder.file("orbited.png")), picked(folder.file("picked.png")),
+      hit(folder.file("hit.png")), scrubbed(folder.file("scrubbed.png")),
       paused1(folder.file("paused1.png")), paused2(folder.file("paused2.png"));
   CHECK(start.failed() == 0);
   CHECK(orbited.changed(start) > 0.1);
+  CHECK(picked.orange() > orbited.orange());
   CHECK(hit.failed() > 0);
+  CHECK(scrubbed.failed() == 0);
   CHECK(paused2.changed(paused1) == 0);
 }
 
