@@ -113,12 +113,12 @@ class Input {
       if (!ImGui::GetIO().WantCaptureMouse) of(w).controller_.scroll(y);
     });
     glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int) {
-      if (action == GLFW_PRESS && !ImGui::GetIO().WantCaptureKeyboard) of(w).key(key);
+      if (action == GLFW_PRESS && !ImGui::GetIO().WantTextInput) of(w).key(key);
     });
   }
   /// Keys held down move the eye, by how long they are held.
   void fly(double seconds) {
-    if (ImGui::GetIO().WantCaptureKeyboard) return;
+    if (ImGui::GetIO().WantTextInput) return;
     const double way = seconds * 0.5 * controller_.camera.distance();
     const auto held = [&](int plus, int minus) {
       return (glfwGetKey(window_, plus) == GLFW_PRESS ? 1.0 : 0.0) -
