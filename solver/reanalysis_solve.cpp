@@ -24,6 +24,14 @@ constexpr double worthwhile = 0.5;  ///< a step that does not cut the error to t
 constexpr double solves_with_factor = 12;
 constexpr double solve_cost = 20;  ///< operations for each entry of the factor in one solve (memory sets the pace)
 
+/// Rows in which v is not zero.
+std::vector<int> rows_in(const Eigen::VectorXd& v) {
+  std::vector<int> rows;
+  for (Eigen::Index row = 0; row < v.size(); ++row)
+    if (v(row) != 0) rows.push_back(static_cast<int>(row));
+  return rows;
+}
+
 /// v'Kv / v'v.
 double rayleigh_quotient(const SparseSymmetric& K, const Eigen::VectorXd& v) {
   double energy = 0;
@@ -155,9 +163,7 @@ Eigen::VectorXd Reanalysis::State::solve_sparse(const Eigen::VectorXd& force, do
     x = refined.x.col(0);
     return x.cwiseProduct(scale);
   }
-  std::vector<int> loaded;
-  for (Eigen::Index e = 0; e < n; ++e)
-    if (right_hand_side(e) != 0) loaded.push_back(static_cast<int>(e));
+  const std::vector<int> loaded = rows_in(right_hand_side);
   x = right_hand_side;
   standing->solve(x, &loaded);
   Eigen::VectorXd r, better;
@@ -186,10 +192,7 @@ Eigen::VectorXd Reanalysis::State::solve_on_paths(const Eigen::VectorXd& force, 
   }
   Eigen::VectorXd x;
   scale_force(force, x);
-  std::vector<int> loaded;
-  for (Eigen::Index e = 0; e < n; ++e)
-    if (x(e) != 0) loaded.push_back(static_cast<int>(e));
-  standing->solve_on_paths(x, loaded, known);
+  standing->solve_on_paths(x, rows_in(x), known);
   return x.cwiseProduct(Eigen::Map<const Eigen::VectorXd>(system->scale().data(), n));
 }
 

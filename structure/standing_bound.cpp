@@ -21,6 +21,14 @@ constexpr std::array<Eigen::Index, 3> normal_stress{0, 4, 5};
 
 double squared(double x) { return x * x; }
 
+/// Members that bear the force directly, each once.
+std::vector<MemberId> bearing_members(const PlacedLoad& placed) {
+  std::vector<MemberId> members;
+  for (const auto& [member, load] : placed.members)
+    if (std::find(members.begin(), members.end(), member) == members.end()) members.push_back(member);
+  return members;
+}
+
 /// Least energy at which a demand beyond `demand` fails, per sense; `k`: stiffness against each component.
 double least_energy(const JointCapacity& capacity, double strength, const Vec6& demand, const Vec6& k) {
   double least = unlimited;
@@ -98,10 +106,7 @@ double StandingFrame::State::least_mass(int c, const PlacedLoad& placed, const F
   for (NodeId node : statics.nodes(c))
     if (response.known(node)) sum += mass[index_of(node)] * response.displacement(node).head<3>().squaredNorm();
   // Members that bear the force bend as well: their share is left out.
-  std::vector<MemberId> bent;
-  for (const auto& [member, load] : placed.members)
-    if (std::find(bent.begin(), bent.end(), member) == bent.end()) bent.push_back(member);
-  for (MemberId member : bent)
+  for (MemberId member : bearing_members(placed))
     if (segments.holds(building.joint(member, 0)) && segments.holds(building.joint(member, 1)))
       for (NodeId node : building[member].nodes)
         if (response.known(node))
@@ -120,10 +125,7 @@ StandingFrame::UnitResponse StandingFrame::State::respond_near(const ContactPlac
     if (building[joint].capacity.breakable && holds(joint) && label(joint) >= 0 && !demand.isZero(0))
       answer.demands.emplace_back(joint, demand);
   };
-  std::vector<MemberId> bearing;
-  for (const auto& [member, load] : placed.members)
-    if (std::find(bearing.begin(), bearing.end(), member) == bearing.end()) bearing.push_back(member);
-  for (MemberId member : bearing)
+  for (MemberId member : bearing_members(placed))
     for (int end = 0; end < 2; ++end)
       add(building.joint(member, end), member_joint_demand(response.end_forces(member), end));
   if (placed.panel.valid())
