@@ -127,6 +127,7 @@ std::vector<Step> run(structure::Simulation& simulation, double seconds) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  solver::restart_with_better_blas_kernel(argv);
   std::string scenario_name = "seed_hit", steps_file;
   double seconds = structure::unlimited;
   for (int i = 1; i < argc; ++i) {

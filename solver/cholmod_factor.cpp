@@ -6,9 +6,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "one_blas_thread.h"
 #include "serial_regions.h"
-
-extern "C" void openblas_set_num_threads(int);
 
 namespace topple::solver {
 
@@ -20,8 +19,7 @@ using Long = SuiteSparse_long;
 class Common {
  public:
   Common() {
-    // BLAS runs on one thread, always: with more it sums in another order, and gives other bits.
-    openblas_set_num_threads(1);
+    use_one_blas_thread();
     cholmod_l_start(&common_);
     common_.itype = CHOLMOD_LONG;
     common_.print = 0;

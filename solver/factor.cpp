@@ -7,6 +7,7 @@
 
 #include "cholmod_factor.h"
 #include "multifrontal.h"
+#include "one_blas_thread.h"
 
 namespace topple::solver {
 namespace {
@@ -39,6 +40,7 @@ struct Factor::State {
 
 Factor::Factor(const SparseSymmetric& pattern, const std::vector<int>& permutation, Factorisation kind, int threads)
     : state_(std::make_unique<State>()) {
+  use_one_blas_thread();
   if (kind == Factorisation::automatic) {
     state_->own.emplace(pattern, permutation, threads);
   } else {

@@ -6,8 +6,9 @@
 #include <limits>
 #include <numeric>
 
+#include "one_blas_thread.h"
+
 extern "C" {
-void openblas_set_num_threads(int);
 void dgemm_(const char*, const char*, const int*, const int*, const int*, const double*, const double*, const int*,
             const double*, const int*, const double*, double*, const int*);
 void dtrsm_(const char*, const char*, const char*, const char*, const int*, const int*, const double*, const double*,
@@ -179,7 +180,7 @@ struct LdlFactor::Update {
 
 LdlFactor::LdlFactor(const SparseSymmetric& matrix, std::span<const int> order)
     : place_(order.size()), block_of_(order.size()), local_(order.size(), -1) {
-  openblas_set_num_threads(1);  // with more, the bits would change
+  use_one_blas_thread();
   const std::size_t n = order.size();
   for (std::size_t k = 0; k < n; ++k) place_[static_cast<std::size_t>(order[k])] = static_cast<std::int32_t>(k);
   // Subtrees together: what a front hands on then waits as briefly as it can.

@@ -10,6 +10,11 @@
 
 #include "ordering.h"
 
+extern "C" {
+void openblas_set_num_threads(int);
+int openblas_get_num_threads();
+}
+
 using namespace topple::solver;
 
 namespace {
@@ -121,4 +126,13 @@ TEST_CASE("the node order is a permutation, the same in every call, and dissects
   std::vector<int> all(side * side);
   std::iota(all.begin(), all.end(), 0);
   CHECK(sorted == all);
+}
+
+TEST_CASE("BLAS runs on one thread once there is a factor, whichever it is") {
+  const GridSystem system = make_grid(3, 6, 5);
+  for (const Factorisation kind : {Factorisation::automatic, Factorisation::simplicial}) {
+    openblas_set_num_threads(2);
+    const Factor factor(system.sparse, system.permutation, kind, 1);
+    CHECK(openblas_get_num_threads() == 1);
+  }
 }
