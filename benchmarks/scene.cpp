@@ -1,6 +1,7 @@
 // Writes a building as rigid bodies and joints in plain numbers, with what frame analysis says of each joint: the scene
 // that the Bullet baseline simulates (baseline/scene.h has the format).
-//   bench_scene MODEL [--combination NAME] [--frame-only]
+//   bench_scene MODEL [--combination NAME] [--frame-only] [--push NEWTON]
+// --push: downwards on the first node of the roof; forces and sag count it once, whatever it does in time.
 // Mass is weight over gravity. Posts come first, then beams, then slabs and walls; so do their joints.
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -93,14 +94,18 @@ void write(const Body& body) {
 
 class Writer {
  public:
-  Writer(const Building& building, CombinationId combination, bool frame_only)
-      : building_(building), loads_(part_loads(building, combination)) {
+  Writer(const Building& building, CombinationId combination, bool frame_only, double push)
+      : building_(building), loads_(part_loads(building, combination)), push_(push) {
     frame_only_ = frame_only;
     if (frame_only) {
       for (PanelAction& action : loads_.panels) action = {};
     }
     solver::StaticAnalysis analysis(make_frame(building).model);
-    const std::vector<solver::LoadSet> sets{load_set(building, loads_)};
+    std::vector<solver::LoadSet> sets{load_set(building, loads_)};
+    for (const Node& node : building.nodes) height_ = std::max(height_, node.position.z());
+    for (std::size_t n = 0; pushed_ < 0 && n < building.nodes.size(); ++n)
+      if (on_roof(n)) pushed_ = static_cast<int>(n);
+    sets[0].nodes.push_back({pushed_, solver::Vec6::Unit(2) * -push});
     solution_ = analysis.solve(sets).front();
   }
 
@@ -113,6 +118,8 @@ class Writer {
   }
 
  private:
+  [[nodiscard]] bool on_roof(std::size_t node) const { return building_.nodes[node].position.z() > height_ - 1e-6; }
+
   void bodies() {
     for (const std::size_t i : members_in_order(building_)) {
       const Member& member = building_.members[i];
@@ -174,23 +181,26 @@ class Writer {
   }
 
   void roof() {
-    double height = -1e300;
-    for (const Node& node : building_.nodes) height = std::max(height, node.position.z());
     double sag = 0;
     int points = 0;
     for (std::size_t n = 0; n < building_.nodes.size(); ++n) {
-      if (building_.nodes[n].position.z() < height - 1e-6) continue;
+      if (!on_roof(n)) continue;
       std::cout << "roof " << body_of_.at(post_below_.at(static_cast<int>(n))) << ' '
                 << building_.nodes[n].position.transpose() << '\n';
       sag -= solution_.displacements[n].z();
       ++points;
     }
     std::cout << "static_sag " << sag / points << '\n';
+    if (push_ == 0) return;
+    std::cout << "push " << body_of_.at(post_below_.at(pushed_)) << ' '
+              << building_.nodes[static_cast<std::size_t>(pushed_)].position.transpose() << " 0 0 " << -push_ << '\n';
   }
 
   const Building& building_;
   PartLoads loads_;
   bool frame_only_ = false;
+  double push_ = 0, height_ = -1e300;
+  int pushed_ = -1;
   solver::StaticSolution solution_;
   std::map<std::string, int> body_of_;
   std::map<int, std::string> post_below_;
@@ -201,15 +211,19 @@ class Writer {
 
 int main(int argc, char** argv) {
   try {
-    if (argc < 2) throw std::runtime_error("usage: bench_scene MODEL [--combination NAME] [--frame-only]");
+    if (argc < 2)
+      throw std::runtime_error("usage: bench_scene MODEL [--combination NAME] [--frame-only] [--push NEWTON]");
     std::string wanted;
     bool frame_only = false;
+    double push = 0;
     for (int i = 2; i < argc; ++i) {
       const std::string option = argv[i];
       if (option == "--frame-only") {
         frame_only = true;
       } else if (option == "--combination" && i + 1 < argc) {
         wanted = argv[++i];
+      } else if (option == "--push" && i + 1 < argc) {
+        push = std::stod(argv[++i]);
       } else {
         throw std::runtime_error("unknown option " + option);
       }
@@ -217,7 +231,7 @@ int main(int argc, char** argv) {
     const Building building = read_model(find_model(argv[1]));
     for (std::size_t c = 0; c < building.combinations.size(); ++c) {
       if (!wanted.empty() && building.combinations[c].name != wanted) continue;
-      Writer(building, CombinationId(c), frame_only).run();
+      Writer(building, CombinationId(c), frame_only, push).run();
       return 0;
     }
     throw std::runtime_error("no combination " + wanted);

@@ -41,7 +41,7 @@ BulletBuilding::BulletBuilding(const Scene& scene, const Method& method)
   } else if (method.solver == "si") {
     solver_ = std::make_unique<btSequentialImpulseConstraintSolver>();
   } else {
-    throw std::runtime_error("solver " + method.solver + "; accepted are si, nncg, pgs, dantzig, lemke");
+    throw std::runtime_error("solver " + method.solver + "; accepted are si, nncg, pgs, dantzig, lemke, featherstone");
   }
   world_ = std::make_unique<btDiscreteDynamicsWorld>(&dispatcher_, &broadphase_, solver_.get(), &configuration_);
   world_->setGravity({0, 0, btScalar(-scene.gravity)});
@@ -90,8 +90,20 @@ void BulletBuilding::step() {
   for (JointForce& force : forces_) force.fill(0);
   for (int i = 0; i < method_.substeps; ++i) {
     for (std::size_t b = 0; b < bodies_.size(); ++b) at_solve_[b] = bodies_[b]->getWorldTransform();
+    push_bodies();
     world_->stepSimulation(btScalar(method_.step / method_.substeps), 0);
     gather_forces();
+  }
+  ++steps_;
+}
+
+void BulletBuilding::push_bodies() {
+  for (const ScenePush& push : scene_.pushes) {
+    btRigidBody& body = *bodies_[static_cast<std::size_t>(push.body)];
+    const btVector3 at_rest =
+        start_of(scene_.bodies[static_cast<std::size_t>(push.body)]).inverse() * vector(push.point);
+    const btVector3 arm = body.getWorldTransform().getBasis() * at_rest;
+    body.applyForce(vector(push.force) * btScalar(push_factor(steps_)), arm);
   }
 }
 
@@ -128,7 +140,5 @@ double BulletBuilding::mean_roof_sag() const {
 }
 
 int BulletBuilding::silent_fallbacks() const { return mlcp_ ? mlcp_->getNumFallbacks() : 0; }
-
-bool BulletBuilding::finite() const { return std::isfinite(mean_roof_sag()); }
 
 }  // namespace baseline

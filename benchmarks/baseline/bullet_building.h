@@ -7,41 +7,29 @@
 #include <string>
 #include <vector>
 
-#include "scene.h"
+#include "engine.h"
 
 class btMLCPSolver;
 class btMLCPSolverInterface;
 
 namespace baseline {
 
-struct Method {
-  std::string solver = "si";  // si, nncg, pgs, dantzig, lemke
-  int iterations = 10;
-  int substeps = 1;  // of one step
-  double step = 1.0 / 60;
-  double compliance = 0;  // constraint force mixing of the joints; 0: Bullet's default
-};
-
-/// What one joint did in the last step, as SceneJoint::force: mean over its substeps.
-using JointForce = std::array<double, 6>;
-
-class BulletBuilding {
+class BulletBuilding : public Engine {
  public:
   BulletBuilding(const Scene& scene, const Method& method);
-  ~BulletBuilding();
+  ~BulletBuilding() override;
   BulletBuilding(const BulletBuilding&) = delete;
   BulletBuilding& operator=(const BulletBuilding&) = delete;
 
-  void step();
-  [[nodiscard]] double mean_roof_sag() const;
-  [[nodiscard]] std::vector<JointForce> joint_forces() const;
-  /// Steps (substeps) in which a direct MLCP solver failed and Bullet went on with sequential impulse by itself.
-  [[nodiscard]] int silent_fallbacks() const;
-  [[nodiscard]] bool finite() const;
+  void step() override;
+  [[nodiscard]] double mean_roof_sag() const override;
+  [[nodiscard]] std::vector<JointForce> joint_forces() const override;
+  [[nodiscard]] int silent_fallbacks() const override;
 
  private:
   void add_body(const SceneBody& body);
   void add_joint(const SceneJoint& joint, double compliance);
+  void push_bodies();
   void gather_forces();
 
   const Scene& scene_;
@@ -59,6 +47,7 @@ class BulletBuilding {
   std::vector<btJointFeedback> feedback_;
   std::vector<btTransform> at_solve_;  // poses that the forces of the step belong to
   std::vector<JointForce> forces_;
+  int steps_ = 0;
 };
 
 }  // namespace baseline

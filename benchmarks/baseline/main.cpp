@@ -1,6 +1,6 @@
 // Simulates a scene with Bullet until the given time and says how far its roof sagged, what its joints carried and what
 // a step cost. Reads the scene from a file, writes one JSON object.
-//   bench_baseline_double SCENE [--solver si|nncg|pgs|dantzig|lemke] [--iterations N] [--substeps N]
+//   bench_baseline_double SCENE [--solver si|nncg|pgs|dantzig|lemke|featherstone] [--iterations N] [--substeps N]
 //                         [--step S] [--seconds S] [--average S] [--compliance C] [--limit S] [--trace]
 // --limit: processor seconds after which it stops and says so; --average: the last seconds over which forces are
 // averaged.
@@ -14,6 +14,7 @@
 #include <stdexcept>
 
 #include "bullet_building.h"
+#include "bullet_tree.h"
 
 namespace {
 
@@ -24,13 +25,19 @@ struct Run {
   std::vector<JointForce> mean_forces;
   std::vector<double> sag;  // after every step
   bool out_of_time = false, diverged = false;
-  int silent_fallbacks = 0;
+  int silent_fallbacks = 0, joints_left_out = 0;
 };
 
 double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 Run simulate(const Scene& scene, const Method& method, double seconds, double average, double limit) {
-  BulletBuilding building(scene, method);
+  std::unique_ptr<Engine> engine;
+  if (method.solver == "featherstone") {
+    engine = std::make_unique<BulletTree>(scene, method);
+  } else {
+    engine = std::make_unique<BulletBuilding>(scene, method);
+  }
+  Engine& building = *engine;
   Run run;
   run.mean_forces.assign(scene.joints.size(), JointForce{});
   const int steps = static_cast<int>(std::lround(seconds / method.step));
@@ -53,13 +60,25 @@ Run simulate(const Scene& scene, const Method& method, double seconds, double av
     }
   }
   run.silent_fallbacks = building.silent_fallbacks();
+  run.joints_left_out = building.joints_left_out();
   return run;
 }
 
-double median(std::vector<double> values) {
+/// Quantile of the sorted values; 0 when there are none.
+double quantile(std::vector<double> values, double share) {
   if (values.empty()) return 0;
   std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
+  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
+
+/// Steps after which the sag stays within 5 % of where it ends; not finite when it was still moving as the averaging
+/// began.
+double steps_to_settle(const Run& run, double end, std::size_t averaged) {
+  const double band = 0.05 * std::abs(end);
+  std::size_t settled = run.sag.size();
+  while (settled > 0 && std::abs(run.sag[settled - 1] - end) <= band) --settled;
+  const bool moving = settled + averaged > run.sag.size() || run.out_of_time || run.diverged;
+  return moving ? NAN : static_cast<double>(settled + 1);
 }
 
 /// Root mean square of the differences over that of the reference, over joints and components that `use` picks.
@@ -130,8 +149,12 @@ void write(std::ostream& out, const Scene& scene, const Method& method, const Ru
   number(out, "post_force_error", relative_error(scene, run, posts));
   number(out, "beam_shear_error", relative_error(scene, run, shears));
   number(out, "beam_moment_error", relative_error(scene, run, moments));
-  number(out, "milliseconds_per_step", 1e3 * median(run.step_seconds));
+  number(out, "milliseconds_per_step", 1e3 * quantile(run.step_seconds, 0.5));
+  number(out, "milliseconds_low", 1e3 * quantile(run.step_seconds, 0.25));
+  number(out, "milliseconds_high", 1e3 * quantile(run.step_seconds, 0.75));
+  number(out, "steps_to_settle", steps_to_settle(run, mean_of_last(run.sag, averaged), averaged));
   number(out, "silent_fallbacks", run.silent_fallbacks);
+  number(out, "joints_left_out", run.joints_left_out);
   out << ", \"timed_out\": " << (run.out_of_time ? "true" : "false")
       << ", \"diverged\": " << (run.diverged ? "true" : "false");
   if (trace) {

@@ -33,6 +33,11 @@ void read_line(std::istream& in, const std::string& kind, Scene& scene) {
     RoofPoint& roof = scene.roof.emplace_back();
     in >> roof.body;
     read(in, roof.point);
+  } else if (kind == "push") {
+    ScenePush& push = scene.pushes.emplace_back();
+    in >> push.body;
+    read(in, push.point);
+    read(in, push.force);
   } else {
     throw std::runtime_error("unknown word " + kind);
   }
@@ -59,6 +64,9 @@ Scene read_scene(std::istream& in) {
     if (joint.body < 0 || joint.body >= count || joint.other < -1 || joint.other >= count) {
       throw std::runtime_error("scene: joint " + joint.name + " names a body that is not there");
     }
+  }
+  for (const ScenePush& push : scene.pushes) {
+    if (push.body < 0 || push.body >= count) throw std::runtime_error("scene: a push names a body that is not there");
   }
   return scene;
 }

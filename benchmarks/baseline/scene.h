@@ -33,12 +33,19 @@ struct RoofPoint {
   Vec3 point{};
 };
 
+/// A force at a point of a body, global axes: half of it and one and a half of it at alternate steps.
+struct ScenePush {
+  int body = -1;
+  Vec3 point{}, force{};
+};
+
 struct Scene {
   double gravity = 0;     // m/s2, downwards
   double static_sag = 0;  // m, mean over the roof points, by frame analysis
   std::vector<SceneBody> bodies;
   std::vector<SceneJoint> joints;
   std::vector<RoofPoint> roof;
+  std::vector<ScenePush> pushes;  // joint forces and sag count them once
 };
 
 /// Throws std::runtime_error naming the line.

@@ -44,7 +44,7 @@ def solve_seconds(folder):
 
 
 def run(context):
-    rows = []
+    rows, lines = [], []
     for nx, ny, storeys, runs in ((6, 6, 30, 7), (10, 10, 40, 5)):
         frame = peers.Frame(nx, ny, storeys)
         folder = os.path.join(context.results, "combinations", frame.name)
@@ -63,10 +63,11 @@ def run(context):
                          "solve": statistics.median(solve), "memory": max(peak)})
         for what, place, asked in (("the whole process", 0, WHOLE_ASKED), ("the processor time", 1, None), ("the solve stage", 2, SOLVE_ASKED)):
             ratios = sorted(ten[place] / one[place] for one, ten in zip(figures["one"], figures["ten"]))
-            print("bench: %s: ten combinations take %.2f times %s of one%s (median of %d pairs; %.2f to %.2f)"
-                  % (frame.name, statistics.median(ratios), what, "" if asked is None else ", asked: under %g" % asked, len(ratios),
-                     ratios[0], ratios[-1]))
+            lines.append("%s: ten combinations take %.2f times %s of one%s (median of %d pairs; %.2f to %.2f)"
+                         % (frame.name, statistics.median(ratios), what, "" if asked is None else ", asked: under %g" % asked, len(ratios),
+                            ratios[0], ratios[-1]))
+            print("bench: " + lines[-1])
     output.print_table(rows, COLUMNS)
-    output.write_csv(os.path.join(context.results, "combinations.csv"), rows, COLUMNS, context.provenance)
+    output.write_results(context, "combinations", rows, COLUMNS, ("frame", "combinations"), lines)
     return [("Ten combinations beside one", "Whole runs of topple analyse, from the file read to results.json written, in turn.", [],
              (rows, COLUMNS))]

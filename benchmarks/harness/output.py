@@ -2,9 +2,16 @@
 
 import csv
 import html
+import json
 import os
+import re
 import shutil
 import subprocess
+import time
+
+
+def progress(context, text):
+    print("bench: %5.0f s  %s" % (time.time() - context.start, text), flush=True)
 
 
 def cell(value):
@@ -33,9 +40,23 @@ def write_csv(path, rows, columns, provenance):
             writer.writerow(["" if row.get(key) is None else row.get(key) for key, _ in columns])
 
 
-def read_csv(path):
+def write_results(context, name, rows, columns, keys, lines=()):
+    """NAME.csv and NAME.json: the same rows, each with the provenance of the run. `keys`: columns that tell rows apart, for a later
+    comparison; `lines`: what was asked and what was measured, in words."""
+    for told in lines:
+        context.lines.append(told)
+    write_csv(os.path.join(context.results, name + ".csv"), rows, columns, context.provenance)
+    kept = [key for key, _ in columns]
+    stored = {"name": name, "provenance": context.provenance, "machine": context.machine, "keys": list(keys), "lines": list(lines),
+              "columns": {key: title for key, title in columns}, "rows": [{key: row.get(key) for key in kept} for row in rows]}
+    with open(os.path.join(context.results, name + ".json"), "w", encoding="utf-8") as out:
+        json.dump(stored, out, indent=1)
+        out.write("\n")
+
+
+def read_results(path):
     with open(path, encoding="utf-8") as stored:
-        return list(csv.DictReader(line for line in stored if not line.startswith("#")))
+        return json.load(stored)
 
 
 def plot(path, script, data):
@@ -55,25 +76,55 @@ def plot(path, script, data):
     return path
 
 
-def write_page(path, title, sections, provenance):
-    """One HTML page without anything outside it. A section: heading, text, figures, (rows, columns)."""
-    parts = ["<!doctype html><html lang='en'><meta charset='utf-8'><title>%s</title>" % html.escape(title),
-             "<style>body{font:15px/1.5 sans-serif;max-width:980px;margin:2em auto;padding:0 1em;color:#222}"
-             "table{border-collapse:collapse;font-size:13px}td,th{border:1px solid #ccc;padding:2px 7px;text-align:right}"
-             "td:first-child,th:first-child{text-align:left}svg{max-width:100%;height:auto}</style>",
-             "<h1>%s</h1>" % html.escape(title)]
-    for heading, text, figures, (rows, columns) in sections:
-        parts.append("<h2>%s</h2><p>%s</p>" % (html.escape(heading), html.escape(text)))
+STYLE = ("body{font:15px/1.5 system-ui,sans-serif;max-width:1100px;margin:2em auto;padding:0 1em;color:#222;background:#fff}"
+         "h2{margin-top:2.2em;border-bottom:1px solid #ddd}table{border-collapse:collapse;font-size:12.5px;margin:1em 0}"
+         "td,th{border:1px solid #ccc;padding:2px 7px;text-align:right}th{background:#f4f4f4}"
+         "td:first-child,th:first-child,td.text{text-align:left}.wide{overflow-x:auto}svg{max-width:100%;height:auto}"
+         "nav a{margin-right:1em}li{margin:.2em 0}")
+
+
+def _table(rows, columns):
+    text = {key for key, _ in columns if all(isinstance(row.get(key), (str, type(None))) for row in rows)}
+    mark = lambda key: " class='text'" if key in text else ""
+    lines = ["<div class='wide'><table><tr>" + "".join("<th>%s</th>" % html.escape(name) for _, name in columns) + "</tr>"]
+    for row in rows:
+        lines.append("<tr>" + "".join("<td%s>%s</td>" % (mark(key), html.escape(cell(row.get(key)))) for key, _ in columns) + "</tr>")
+    return lines + ["</table></div>"]
+
+
+def _figure(path, number):
+    """The picture itself; names inside it are made its own, since one page holds many."""
+    with open(path, encoding="utf-8") as svg:
+        content = svg.read()
+    content = content[content.index("<svg"):]
+    names = sorted(set(re.findall(r'\bid="([^"]+)"', content)), key=len, reverse=True)
+    for name in names:
+        for before, after in (('id="', '"'), ('href="#', '"'), ("href='#", "'"), ("url(#", ")")):
+            content = content.replace(before + name + after, before + "f%d-" % number + name + after)
+    return content
+
+
+def write_page(path, title, sections, context, worse=None):
+    """One HTML page without anything outside it. A section: heading, text, figures, (rows, columns). `worse`: what a comparison with an
+    earlier run has found; None when there was none."""
+    parts = ["<!doctype html><html lang='en'><head><meta charset='utf-8'><title>%s</title><style>%s</style></head><body><h1>%s</h1>"
+             % (html.escape(title), STYLE, html.escape(title))]
+    parts.append("<nav>" + "".join("<a href='#s%d'>%s</a>" % (i, html.escape(section[0])) for i, section in enumerate(sections)) + "</nav>")
+    if context.lines:
+        parts.append("<h2>Asked and measured</h2><ul>" + "".join("<li>%s</li>" % html.escape(line) for line in context.lines) + "</ul>")
+    if worse is not None:
+        parts.append("<h2>Against an earlier run</h2><ul>%s</ul>"
+                     % ("".join("<li>%s</li>" % html.escape(line) for line in worse) or "<li>nothing is worse beyond the noise</li>"))
+    number = 0
+    for i, (heading, text, figures, (rows, columns)) in enumerate(sections):
+        parts.append("<h2 id='s%d'>%s</h2><p>%s</p>" % (i, html.escape(heading), html.escape(text)))
         for figure in figures:
-            with open(figure, encoding="utf-8") as svg:
-                content = svg.read()
-            parts.append(content[content.index("<svg"):])
-        parts.append("<table><tr>" + "".join("<th>%s</th>" % html.escape(name) for _, name in columns) + "</tr>")
-        for row in rows:
-            parts.append("<tr>" + "".join("<td>%s</td>" % html.escape(cell(row.get(key))) for key, _ in columns) + "</tr>")
-        parts.append("</table>")
-    parts.append("<h2>Where this comes from</h2><table>")
-    parts += ["<tr><td>%s</td><td style='text-align:left'>%s</td></tr>" % (html.escape(k), html.escape(v)) for k, v in provenance.items()]
-    parts.append("</table></html>\n")
+            parts.append(_figure(figure, number))
+            number += 1
+        parts += _table(rows, columns)
+    origin = [{"what": key, "value": str(value)} for key, value in list(context.provenance.items()) + list(context.machine.items())]
+    parts.append("<h2>Where this comes from</h2>")
+    parts += _table(origin, [("what", "what"), ("value", "value")])
+    parts.append("</body></html>\n")
     with open(path, "w", encoding="utf-8") as page:
         page.write("\n".join(parts))

@@ -147,7 +147,7 @@ def run(context):
     if ccx is None:
         print("bench: ccx is not installed (Debian: calculix-ccx); Topple is measured alone")
     environment = dict(os.environ, OMP_NUM_THREADS="1", CCX_NPROC_EQUATION_SOLVER="1", CCX_NPROC_STIFFNESS="1")
-    rows = []
+    rows, lines = [], []
     for nx, ny, storeys, runs in FRAMES[:2] if context.quick else FRAMES:
         frame = Frame(nx, ny, storeys)
         folder = os.path.join(context.results, "peers", frame.name)
@@ -176,9 +176,10 @@ def run(context):
         if ccx is not None:
             for what, spent in (("as long", times), ("the processor time", processor)):
                 ratios = sorted(c / t for t, c in zip(spent["Topple"], spent["CalculiX"]))
-                print("bench: %s: CalculiX takes %.2f times %s (median of %d pairs; %.2f to %.2f)"
-                      % (frame.name, statistics.median(ratios), what, runs, ratios[0], ratios[-1]))
+                lines.append("%s: CalculiX takes %.2f times %s (median of %d pairs; %.2f to %.2f)"
+                             % (frame.name, statistics.median(ratios), what, runs, ratios[0], ratios[-1]))
+                print("bench: " + lines[-1])
     output.print_table(rows, COLUMNS)
-    output.write_csv(os.path.join(context.results, "peers.csv"), rows, COLUMNS, context.provenance)
+    output.write_results(context, "peers", rows, COLUMNS, ("frame", "program"), lines)
     return [("Whole process against CalculiX", "Each program reads its file, solves and writes all displacements and forces; "
              "run in turn on one thread; the roof's mean sag says whether they solved the same frame.", [], (rows, COLUMNS))]

@@ -6,6 +6,9 @@ import platform
 import subprocess
 
 
+MISSING = "not a package here"
+
+
 def _output(*command, cwd=None):
     try:
         done = subprocess.run(command, capture_output=True, text=True, cwd=cwd, timeout=20)
@@ -36,7 +39,13 @@ def _processor():
 
 
 def _package(name):
-    return _output("dpkg-query", "-W", "-f", "${Version}", name) or "not a package here"
+    return _output("dpkg-query", "-W", "-f", "${Version}", name) or MISSING
+
+
+def _scheduling():
+    """Programs inherit it: real-time priority keeps other work on a shared machine away."""
+    policy = {os.SCHED_OTHER: "ordinary", os.SCHED_FIFO: "real time", os.SCHED_RR: "real time"}.get(os.sched_getscheduler(0), "other")
+    return "%s, nice %d" % (policy, os.nice(0))
 
 
 def collect(root, build, blas_kernel):
@@ -54,9 +63,11 @@ def collect(root, build, blas_kernel):
         "processor": _processor(),
         "cores": str(os.cpu_count()),
         "threads": "1",
+        "scheduling": _scheduling(),
         "blas_kernel": blas_kernel,
         "load_at_start": "%.2f" % os.getloadavg()[0],
-        "libbullet": _package("libbullet3.24"),
+        "libbullet, single precision": _package("libbullet3.24"),
+        "libbullet, double precision": _package("libbullet-double3.24") if _package("libbullet-double3.24") != MISSING else _package("libbullet3.24"),
         "libcholmod": _package("libcholmod3"),
         "libopenblas": _package("libopenblas0-pthread"),
         "libmetis": _package("libmetis5"),

@@ -23,6 +23,21 @@ inline double median(std::vector<double> values) {
   return *middle;
 }
 
+/// Of repeated runs: median and quartiles.
+struct Spread {
+  double median = 0, low = 0, high = 0;
+  std::size_t runs = 0;
+};
+
+inline Spread spread_of(std::vector<double> values) {
+  if (values.empty()) return {};
+  std::sort(values.begin(), values.end());
+  const auto at = [&](double share) {
+    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+  };
+  return {at(0.5), at(0.25), at(0.75), values.size()};
+}
+
 /// Median wall time of each contestant over `rounds` rounds in which all run once, after one round that does not count.
 inline std::vector<double> interleaved_medians(int rounds, std::span<const std::function<void()>> contestants) {
   std::vector<std::vector<double>> times(contestants.size());

@@ -1,176 +1,208 @@
 // Topple on one building: errors of sag, reactions and joint forces against a solution in extended precision, and what
-// a step costs when nothing changes, when a load changes at every step, and when it starts. Writes one JSON object.
-//   bench_topple MODEL [--repeats N] [--frame-only]
+// a step costs when nothing changes, when a load changes at every step, when a joint breaks and when it starts; its own
+// ways beside CHOLMOD's factorisations under the same orders. All take turns. Writes one JSON object.
+//   bench_topple MODEL [--repeats N] [--frame-only] [--push NEWTON]
+// --push: downwards on the first node of the roof, half and one and a half of it at alternate steps.
 #include <algorithm>
-#include <chrono>
-#include <cmath>
+#include <array>
 #include <iostream>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 
-#include "extended_frame.h"
+#include "standing_building.h"
+#include "support/measure.h"
+#include "support/steel_uses.h"
 #include "topple/solver/blas_kernel.h"
-#include "topple/solver/reanalysis.h"
 #include "topple/structure/files.h"
-#include "topple/structure/frame.h"
 
 namespace {
 
 using namespace topple;
-using namespace topple::structure;
-using Clock = std::chrono::steady_clock;
+using namespace topple::bench;
+using solver::Factorisation;
+using solver::Reanalysis;
+using solver::StaticAnalysis;
 
-double milliseconds_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-struct Spread {
-  double median = 0, low = 0, high = 0;  // quartiles
+/// One way to an answer: its times, and the errors of its last answer.
+struct Way {
+  std::string name;
+  std::vector<double> times{};  ///< s
+  Errors errors{};
+  double bound = 0;  ///< that the answer told of its displacements
 };
 
-Spread spread(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const auto at = [&](double share) {
-    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-  };
-  return {at(0.5), at(0.25), at(0.75)};
-}
+constexpr std::array kinds{Factorisation::automatic, Factorisation::simplicial, Factorisation::supernodal};
+constexpr std::array kind_names{"own", "simplicial", "supernodal"};
 
-/// Root mean square of differences over that of the reference.
-class RelativeError {
+class Measurement {
  public:
-  void add(double value, reference::Real exact) {
-    const reference::Real difference = reference::Real(value) - exact;
-    difference_ += difference * difference;
-    exact_ += exact * exact;
-  }
-  [[nodiscard]] double value() const { return exact_ > 0 ? static_cast<double>(std::sqrt(difference_ / exact_)) : 0; }
+  Measurement(const StandingBuilding& standing, double push) : standing_(standing), push_(push) {}
+
+  std::vector<Way> from_nothing(int repeats);
+  std::vector<Way> nothing_changes(int repeats);
+  std::vector<Way> a_load_changes(int repeats);
+  std::vector<Way> a_joint_breaks(int repeats);
 
  private:
-  reference::Real difference_ = 0, exact_ = 0;
+  [[nodiscard]] std::unique_ptr<Reanalysis> stand() const;
+  [[nodiscard]] solver::LoadSet loads_of_step(int step) const;
+  void finish(Way& way, const solver::StaticSolution& state, double bound, const Exact& exact) const;
+
+  const StandingBuilding& standing_;
+  double push_;
 };
 
-std::vector<int> roof_nodes(const Building& building) {
-  double height = -1e300;
-  for (const Node& node : building.nodes) height = std::max(height, node.position.z());
-  std::vector<int> roof;
-  for (std::size_t n = 0; n < building.nodes.size(); ++n) {
-    if (building.nodes[n].position.z() > height - 1e-6) roof.push_back(static_cast<int>(n));
-  }
-  return roof;
+std::unique_ptr<Reanalysis> Measurement::stand() const {
+  auto result = std::make_unique<Reanalysis>(standing_.frame.model);
+  apply(*result, standing_.loads);
+  if (!result->solve().stable) throw std::runtime_error("the building does not stand");
+  return result;
 }
 
-/// Gives the standing structure its loads; the reanalysis keeps those of each beam and node.
-void apply(solver::Reanalysis& standing, const solver::LoadSet& loads, std::size_t beams) {
-  std::vector<std::vector<solver::BeamLoad>> by_beam(beams);
-  for (const solver::BeamLoad& load : loads.beams) by_beam[static_cast<std::size_t>(load.beam)].push_back(load);
-  for (std::size_t b = 0; b < beams; ++b) standing.set_beam_loads(static_cast<int>(b), std::move(by_beam[b]));
-  for (const solver::NodeLoad& load : loads.nodes) standing.set_node_load(load.node, load.load);
+solver::LoadSet Measurement::loads_of_step(int step) const {
+  solver::LoadSet loads = standing_.loads;
+  solver::NodeLoad push{standing_.roof.front(), solver::Vec6::Zero()};
+  push.load[2] = -push_ * (step % 2 == 0 ? 1.5 : 0.5);
+  loads.nodes.push_back(push);
+  return loads;
 }
 
-void report(const char* name, const Spread& time) {
-  std::cout << ", \"" << name << "\": " << time.median << ", \"" << name << "_quartiles\": [" << time.low << ", "
-            << time.high << "]";
+void Measurement::finish(Way& way, const solver::StaticSolution& state, double bound, const Exact& exact) const {
+  way.errors = measure(standing_, state, exact);
+  way.bound = bound;
 }
 
-struct Errors {
-  double sag = 0, sag_error = 0, reaction_sum = 0, least_share = 1e300, largest_share = -1e300;
-  double reactions = 0, posts = 0, shears = 0, moments = 0;
-};
-
-/// The standing frame's answer against the reference: the measures of the baseline.
-Errors measure(const Building& building, const solver::FrameModel& model, const solver::Reanalysis& standing,
-               const reference::Answer& exact, const std::vector<int>& roof) {
-  Errors errors;
-  reference::Real sag = 0, exact_sag = 0, sum = 0, exact_sum = 0;
-  for (const int node : roof) {
-    sag -= standing.displacements()[static_cast<std::size_t>(node)].z() / reference::Real(roof.size());
-    exact_sag -= exact.displacements[static_cast<std::size_t>(node)][2] / reference::Real(roof.size());
-  }
-  RelativeError reactions, posts, shears, moments;
-  for (std::size_t s = 0; s < model.supports.size(); ++s) {
-    const double reaction = standing.reaction(static_cast<int>(s)).z();
-    const double share = static_cast<double>(reaction / exact.reactions[s][2]);
-    reactions.add(reaction, exact.reactions[s][2]);
-    sum += reaction;
-    exact_sum += exact.reactions[s][2];
-    errors.least_share = std::min(errors.least_share, share);
-    errors.largest_share = std::max(errors.largest_share, share);
-  }
-  for (std::size_t b = 0; b < building.members.size(); ++b) {
-    const auto force = standing.beam_end_forces(static_cast<int>(b));
-    const bool post = building.members[b].kind == MemberKind::post;
-    for (std::size_t c = 0; c < 12; ++c) {
-      const double value = force[static_cast<Eigen::Index>(c)];
-      if (post && c == 0) posts.add(value, exact.beam_end_forces[b][c]);
-      if (!post && c % 6 == 2) shears.add(value, exact.beam_end_forces[b][c]);
-      if (!post && c % 6 > 2) moments.add(value, exact.beam_end_forces[b][c]);
-    }
-  }
-  errors.sag = static_cast<double>(sag);
-  errors.sag_error = static_cast<double>(std::abs(sag - exact_sag) / std::abs(exact_sag));
-  errors.reaction_sum = static_cast<double>(sum / exact_sum);
-  errors.reactions = reactions.value();
-  errors.posts = posts.value();
-  errors.shears = shears.value();
-  errors.moments = moments.value();
-  return errors;
-}
-
-void report(const char* name, const Errors& e) {
-  std::cout << ", \"" << name << "\": {\"sag\": " << e.sag << ", \"sag_error\": " << e.sag_error
-            << ", \"reaction_sum\": " << e.reaction_sum << ", \"least_share\": " << e.least_share
-            << ", \"largest_share\": " << e.largest_share << ", \"reaction_error\": " << e.reactions
-            << ", \"post_force_error\": " << e.posts << ", \"beam_shear_error\": " << e.shears
-            << ", \"beam_moment_error\": " << e.moments << "}";
-}
-
-void run(const Building& building, int repeats, bool frame_only) {
-  PartLoads parts = part_loads(building, CombinationId(0));
-  if (frame_only) {
-    for (PanelAction& action : parts.panels) action = {};
-  }
-  const Frame frame = make_frame(building);
-  const solver::LoadSet loads = load_set(building, parts);
-  std::vector<double> first, idle, changing;
-  std::optional<solver::Reanalysis> standing;
-  for (int i = 0; i < std::max(3, repeats / 20); ++i) {
-    const auto start = Clock::now();
-    standing.emplace(frame.model);
-    apply(*standing, loads, frame.model.beams.size());
-    if (!standing->solve().stable) throw std::runtime_error("the building does not stand");
-    first.push_back(milliseconds_since(start));
-  }
-
-  const std::vector<int> roof = roof_nodes(building);
-  const Errors at_rest = measure(building, frame.model, *standing, reference::solve(frame.model, loads), roof);
-
-  solver::LoadSet pushed = loads;
+std::vector<Way> Measurement::from_nothing(int repeats) {
+  std::vector<Way> ways;
+  const Exact exact = reference::solve<reference::Extended>(standing_.frame.model, standing_.loads);
+  for (const char* name : kind_names) ways.push_back({name});
+  ways.push_back({"standing"});
+  solver::StaticSolution state;
   for (int i = 0; i < repeats; ++i) {
-    auto start = Clock::now();
-    static_cast<void>(standing->solve());
-    idle.push_back(milliseconds_since(start));
-    start = Clock::now();
-    Vec6 push = Vec6::Zero();
-    push[0] = 1e3 * (1 + i);
-    const int node = roof[static_cast<std::size_t>(i) % roof.size()];
-    standing->set_node_load(node, push);
-    static_cast<void>(standing->solve());
-    changing.push_back(milliseconds_since(start));
-    std::erase_if(pushed.nodes, [&](const solver::NodeLoad& load) { return load.node == node; });
-    pushed.nodes.push_back({node, push});
+    for (std::size_t k = 0; k < kinds.size(); ++k) {
+      ways[k].times.push_back(seconds([&] {
+        StaticAnalysis analysis(standing_.frame.model, {.factorisation = kinds[k]});
+        state = analysis.solve(std::span(&standing_.loads, 1)).front();
+      }));
+      finish(ways[k], state, state.quality.error_bound, exact);
+    }
+    std::unique_ptr<Reanalysis> made;
+    ways.back().times.push_back(seconds([&] { made = stand(); }));
+    finish(ways.back(), state_of(*made), made->solve().quality.error_bound, exact);
   }
-  const Errors after_changes = measure(building, frame.model, *standing, reference::solve(frame.model, pushed), roof);
+  return ways;
+}
+
+std::vector<Way> Measurement::nothing_changes(int repeats) {
+  Way way{"standing"};
+  const auto standing = stand();
+  for (int i = 0; i < repeats; ++i) way.times.push_back(seconds([&] { (void)standing->solve(); }));
+  finish(way, state_of(*standing), standing->solve().quality.error_bound,
+         reference::solve<reference::Extended>(standing_.frame.model, standing_.loads));
+  return {way};
+}
+
+std::vector<Way> Measurement::a_load_changes(int repeats) {
+  const auto standing = stand(), part = stand();
+  SteelUses uses(*part);
+  (void)part->solve(uses);
+  std::vector<StaticAnalysis> fresh;
+  std::vector<Way> ways{{"standing"}, {"restricted"}};
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    fresh.emplace_back(standing_.frame.model, solver::AnalysisOptions{.factorisation = kinds[k]});
+    (void)fresh.back().solve(std::span(&standing_.loads, 1));  // estimates the condition, once
+    ways.push_back({kind_names[k]});
+  }
+  std::vector<solver::StaticSolution> states(fresh.size());
+  for (int i = 0; i < repeats; ++i) {
+    const solver::LoadSet loads = loads_of_step(i);
+    const solver::NodeLoad& push = loads.nodes.back();
+    ways[0].times.push_back(seconds([&] {
+      standing->set_node_load(push.node, push.load);
+      (void)standing->solve();
+    }));
+    ways[1].times.push_back(seconds([&] {
+      part->set_node_load(push.node, push.load);
+      (void)part->solve(uses);
+    }));
+    for (std::size_t k = 0; k < fresh.size(); ++k)
+      ways[2 + k].times.push_back(
+          seconds([&] { states[k] = std::move(fresh[k].solve(std::span(&loads, 1)).front()); }));
+  }
+  const Exact exact = reference::solve<reference::Extended>(standing_.frame.model, loads_of_step(repeats - 1));
+  finish(ways[0], state_of(*standing), standing->solve().quality.error_bound, exact);
+  finish(ways[1], state_of(*part), part->solve().quality.error_bound, exact);
+  for (std::size_t k = 0; k < fresh.size(); ++k) finish(ways[2 + k], states[k], states[k].quality.error_bound, exact);
+  return ways;
+}
+
+/// The second end of one beam after the other is broken, each in an undamaged frame.
+std::vector<Way> Measurement::a_joint_breaks(int repeats) {
+  std::vector<int> beams;
+  for (std::size_t b = 0; b < standing_.building.members.size(); ++b) {
+    if (standing_.building.members[b].kind == structure::MemberKind::beam) beams.push_back(static_cast<int>(b));
+  }
+  const auto standing = stand(), part = stand();
+  SteelUses uses(*part);
+  (void)part->solve(uses);
+  std::vector<Way> ways{{"low rank"}, {"restricted"}, {"own"}};
+  solver::FrameModel broken = standing_.frame.model;
+  const solver::Vec6 whole = solver::Vec6::Constant(solver::rigid);
+  const auto count = static_cast<std::size_t>(repeats);
+  for (std::size_t i = 0; i < count; ++i) {
+    const int beam = beams[(i * 7919) % beams.size()];
+    broken = standing_.frame.model;
+    broken.beams[static_cast<std::size_t>(beam)].end_stiffness[1].setZero();
+    standing->set_end_stiffness(beam, 1, solver::Vec6::Zero());
+    part->set_end_stiffness(beam, 1, solver::Vec6::Zero());
+    ways[0].times.push_back(seconds([&] { (void)standing->solve(); }));
+    ways[1].times.push_back(seconds([&] { (void)part->solve(uses); }));
+    solver::StaticSolution state;
+    ways[2].times.push_back(seconds([&] {
+      StaticAnalysis analysis(broken);
+      state = analysis.solve(std::span(&standing_.loads, 1)).front();
+    }));
+    if (i + 1 == count) {
+      const Exact exact = reference::solve<reference::Extended>(broken, standing_.loads);
+      finish(ways[0], state_of(*standing), standing->solve().quality.error_bound, exact);
+      finish(ways[1], state_of(*part), part->solve().quality.error_bound, exact);
+      finish(ways[2], state, state.quality.error_bound, exact);
+      break;
+    }
+    standing->set_end_stiffness(beam, 1, whole);
+    part->set_end_stiffness(beam, 1, whole);
+    (void)standing->solve();
+    (void)part->solve();
+    (void)part->solve(uses);
+  }
+  return ways;
+}
+
+void print_ways(const char* title, std::vector<Way> ways) {
+  std::cout << ", \"" << title << "\": {";
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    const Spread spread = spread_of(std::move(ways[i].times));
+    std::cout << (i > 0 ? ", " : "") << "\"" << ways[i].name << "\": {\"milliseconds\": " << 1e3 * spread.median
+              << ", \"low\": " << 1e3 * spread.low << ", \"high\": " << 1e3 * spread.high
+              << ", \"runs\": " << spread.runs << ", \"error_bound\": " << ways[i].bound << ", \"errors\": ";
+    print(ways[i].errors);
+    std::cout << "}";
+  }
+  std::cout << "}";
+}
+
+void run(const StandingBuilding& standing, int repeats, double push) {
+  const std::size_t free = standing.frame.model.nodes.size() - standing.frame.model.supports.size();
+  const int fewer = std::max(3, repeats / 20);
+  Measurement measurement(standing, push);
   std::cout.precision(9);
-  std::cout << "{\"solver\": \"topple\", \"precision\": \"double\", \"blas_kernel\": \"" << solver::blas_kernel()
-            << "\", \"freedoms\": " << 6 * (frame.model.nodes.size() - frame.model.supports.size())
-            << ", \"error_bound\": " << standing->solve().quality.error_bound;
-  report("at_rest", at_rest);
-  report("after_changes", after_changes);
-  report("first_milliseconds", spread(first));
-  report("idle_milliseconds", spread(idle));
-  report("changing_milliseconds", spread(changing));
+  std::cout << "{\"blas_kernel\": \"" << solver::blas_kernel() << "\", \"freedoms\": " << 6 * free;
+  print_ways("from nothing", measurement.from_nothing(fewer));
+  print_ways("nothing changes", measurement.nothing_changes(repeats));
+  print_ways("a load changes", measurement.a_load_changes(repeats));
+  print_ways("a joint breaks", measurement.a_joint_breaks(fewer));
   std::cout << "}\n";
 }
 
@@ -179,20 +211,23 @@ void run(const Building& building, int repeats, bool frame_only) {
 int main(int argc, char** argv) {
   solver::restart_with_better_blas_kernel(argv);
   try {
-    if (argc < 2) throw std::runtime_error("usage: bench_topple MODEL [--repeats N] [--frame-only]");
+    if (argc < 2) throw std::runtime_error("usage: bench_topple MODEL [--repeats N] [--frame-only] [--push NEWTON]");
     int repeats = 200;
     bool frame_only = false;
+    double push = 1e5;
     for (int i = 2; i < argc; ++i) {
       const std::string option = argv[i];
       if (option == "--frame-only") {
         frame_only = true;
       } else if (option == "--repeats" && i + 1 < argc) {
         repeats = std::max(1, std::stoi(argv[++i]));
+      } else if (option == "--push" && i + 1 < argc) {
+        push = std::stod(argv[++i]);
       } else {
         throw std::runtime_error("unknown option " + option);
       }
     }
-    run(read_model(find_model(argv[1])), repeats, frame_only);
+    run(StandingBuilding(structure::read_model(structure::find_model(argv[1])), frame_only), repeats, push);
     return 0;
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';

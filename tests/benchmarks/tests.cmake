@@ -1,0 +1,9 @@
+# What the benchmarks measure with: the reference in extended precision, and the comparison of stored results.
+if(TOPPLE_BENCHMARKS)
+  topple_tests(benchmarks topple::solver bench_reference)
+  find_package(Python3 COMPONENTS Interpreter)
+  if(Python3_FOUND)
+    add_test(NAME benchmark_harness COMMAND "${Python3_EXECUTABLE}" "${CMAKE_CURRENT_LIST_DIR}/check_harness.py"
+             "${PROJECT_SOURCE_DIR}")
+  endif()
+endif()
