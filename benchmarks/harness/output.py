@@ -79,7 +79,7 @@ def plot(path, script, data):
 STYLE = ("body{font:15px/1.5 system-ui,sans-serif;max-width:1100px;margin:2em auto;padding:0 1em;color:#222;background:#fff}"
          "h2{margin-top:2.2em;border-bottom:1px solid #ddd}table{border-collapse:collapse;font-size:12.5px;margin:1em 0}"
          "td,th{border:1px solid #ccc;padding:2px 7px;text-align:right}th{background:#f4f4f4}"
-         "td:first-child,th:first-child,td.text{text-align:left}.wide{overflow-x:auto}svg{max-width:100%;height:auto}"
+         "td{white-space:nowrap}td:first-child,th:first-child,td.text{text-align:left}.wide{overflow-x:auto}svg{max-width:100%;height:auto}"
          "nav a{margin-right:1em}li{margin:.2em 0}")
 
 

@@ -4,6 +4,7 @@ import os
 import time
 
 import baseline
+import labels
 import output
 import regular_model
 import topple_rows
@@ -35,15 +36,16 @@ set format y '10^{%%L}'
 set format x '10^{%%L}'
 set xlabel '%s'
 set ylabel 'relative error of the reactions'
-set title '%s: %s'
+set title 'Standing %s: error against time'
 set key outside below horizontal
 set grid
-set yrange [1e-16:1e2]
-plot $bullet_idle using 2:3 with points pt 7 ps 1 lc rgb '#c0392b' title 'Bullet, nothing changes', \\
+set xrange [%g:%g]
+set yrange [%g:%g]
+plot $labels using 4:5:($2-$4):($3-$5) with vectors nohead lw 0.4 lc rgb '#bbbbbb' notitle, \\
+     $bullet_idle using 2:3 with points pt 7 ps 1 lc rgb '#c0392b' title 'Bullet, nothing changes', \\
      $bullet_changing using 2:3 with points pt 6 ps 1 lc rgb '#c0392b' title 'Bullet, a load changes', \\
-     $bullet_idle using 2:3:1 with labels left offset 0.7,0.4 font ',8' tc rgb '#7b241c' notitle, \\
      $topple using 2:3 with points pt 5 ps 1 lc rgb '#2471a3' title 'Topple', \\
-     $topple using 2:3:1 with labels left offset 0.7,0 font ',8' tc rgb '#1a5276' notitle
+     $labels using 2:3:1 with labels left font ',8' notitle
 """
 
 
@@ -113,8 +115,11 @@ def figure(context, size, rows, key, axis, name):
         data[block].append((label + (": " + row["load"] if own else ""), row[key], max(1e-16, row["reaction_error"])))
     if not all(data.values()):
         return None
+    points = sum(data.values(), [])
+    x_range, y_range = labels.decades([p[1] for p in points]), (1e-16, 1e3)
+    data["labels"] = labels.place(data["bullet_idle"] + data["topple"], x_range, y_range)
     path = os.path.join(context.results, "precision_%s_%s.svg" % (size, name))
-    return output.plot(path, FIGURE % (axis, size.replace("x", " x "), "error against time"), data)
+    return output.plot(path, FIGURE % ((axis, size.replace("x", " x ")) + x_range + y_range), data)
 
 
 def run(context):

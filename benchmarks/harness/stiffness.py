@@ -4,6 +4,7 @@ import os
 import time
 
 import baseline
+import labels
 import output
 import topple_rows
 
@@ -28,19 +29,20 @@ SIZES = ("3x3x12", "4x5x6")
 FIGURE = """
 set logscale xy
 set format y '10^{%%L}'
-set format x '%%g'
+set format x '10^{%%L}'
 set xlabel 'milliseconds a step'
-set ylabel 'relative error of the reactions and of the sag'
+set ylabel 'relative error'
 set title 'Standing %s: error against time'
-set key outside below
+set key outside below horizontal
 set grid
-set yrange [1e-16:1e4]
-plot $bullet using 2:3 with points pt 7 ps 0.9 lc rgb '#c0392b' title 'Bullet, sag', \\
+set xrange [%g:%g]
+set yrange [%g:%g]
+plot $labels using 4:5:($2-$4):($3-$5) with vectors nohead lw 0.4 lc rgb '#bbbbbb' notitle, \\
+     $bullet using 2:3 with points pt 7 ps 0.9 lc rgb '#c0392b' title 'Bullet, sag', \\
      $bullet using 2:4 with points pt 6 ps 0.9 lc rgb '#c0392b' title 'Bullet, reactions', \\
-     $bullet using 2:3:1 with labels left offset 0.6,0.3 font ',8' notitle, \\
      $topple using 2:3 with points pt 5 ps 1 lc rgb '#2471a3' title 'Topple, sag', \\
      $topple using 2:4 with points pt 4 ps 1 lc rgb '#2471a3' title 'Topple, reactions', \\
-     $topple using 2:3:1 with labels left offset 0.6,0.6 font ',8' notitle
+     $labels using 2:3:1 with labels left font ',8' notitle
 """
 
 FLOOR = 1e-16  # an error of zero has no place on a logarithmic scale
@@ -54,7 +56,12 @@ def figure(path, size, rows):
         kind = "topple" if row["method"].startswith("Topple") else "bullet"
         data[kind].append((row["method"].replace("sequential impulse", "SI") + ("" if row["precision"] == "double" else " single"),
                            row["milliseconds"], max(FLOOR, row["sag_error"]), max(FLOOR, row["reaction_error"] or FLOOR)))
-    return output.plot(path, FIGURE % size, data) if all(data.values()) else None
+    if not all(data.values()):
+        return None
+    points = data["bullet"] + data["topple"]
+    x_range, y_range = labels.decades([p[1] for p in points]), (FLOOR, 1e5)
+    data["labels"] = labels.place([p[:3] for p in points], x_range, y_range)
+    return output.plot(path, FIGURE % ((size,) + x_range + y_range), data)
 
 
 def planned(quick):
