@@ -323,7 +323,7 @@ std::size_t BulletWorld::awake_count() const {
 void BulletWorld::step(double dt) {
   if (!(dt > 0) || !std::isfinite(dt))
     throw std::invalid_argument("step of " + std::to_string(dt) + " s; it must be above zero");
-  release_separated();
+  release_separated(dt);
   if (awake_count() == 0) {
     contacts_.clear();
     return;

@@ -118,7 +118,8 @@ class BulletWorld final : public World {
 
   void ignore(const SolidPair& pair, bool ignored);
   void forget_ignored_of(Touched::Kind kind, std::int64_t id);
-  void release_separated();
+  [[nodiscard]] bool still_to_pass(const Body& first, const Solid& other, bool other_moves, double dt) const;
+  void release_separated(double dt);
 
   void gather_contacts();
   void resist_rolling();
@@ -126,6 +127,7 @@ class BulletWorld final : public World {
   void forget_contacts_of(Touched::Kind kind, std::int64_t id);
   [[nodiscard]] bool is_awake(const Contact& contact) const;
 
+  [[nodiscard]] Motion motion_of(const Body& body, double dt) const;
   [[nodiscard]] std::vector<Mover> movers(double dt) const;
   void sweep_pair(const Mover& mover, const Solid& other, const Motion& other_motion, double dt,
                   std::vector<Contact>& found) const;

@@ -225,12 +225,13 @@ bool separated(const Solid& first, const Solid& second) {
 
 }  // namespace
 
-void BulletWorld::release_separated() {
+void BulletWorld::release_separated(double dt) {
   for (auto pair = ignored_.begin(); pair != ignored_.end();) {
     const Body& first = body(pair->body);
     const Solid& other = solid(*pair);
-    const bool moves = first.object->isActive() || (pair->kind == Touched::Kind::body && other.object->isActive());
-    const bool apart = moves && separated(first, other);
+    const bool other_moves = pair->kind == Touched::Kind::body && other.object->isActive();
+    const bool moves = first.object->isActive() || other_moves;
+    const bool apart = moves && separated(first, other) && !still_to_pass(first, other, other_moves, dt);
     if (apart) ignore(*pair, false);
     pair = apart ? ignored_.erase(pair) : std::next(pair);
   }

@@ -58,17 +58,24 @@ struct BulletWorld::Mover {
   Bounds whole;
 };
 
+Motion BulletWorld::motion_of(const Body& body, double dt) const {
+  const btVector3 gravity = world_.getGravity();
+  Motion motion;
+  motion.start = body.rigid->getWorldTransform();
+  motion.acceleration = body.rigid->isActive() ? gravity : btVector3(0, 0, 0);
+  // Stored velocities are those of mid-step.
+  motion.velocity = body.rigid->getLinearVelocity() + motion.acceleration * (dt / 2);
+  motion.angular_velocity = body.rigid->getAngularVelocity();
+  return motion;
+}
+
 std::vector<BulletWorld::Mover> BulletWorld::movers(double dt) const {
   std::vector<Mover> result;
-  const btVector3 gravity = world_.getGravity();
   for (const auto& [id, body] : bodies_) {
     if (!body->rigid->isActive()) continue;
     Mover mover;
     mover.body = body.get();
-    mover.motion.start = body->rigid->getWorldTransform();
-    mover.motion.acceleration = gravity;
-    mover.motion.velocity = body->rigid->getLinearVelocity() + gravity * (dt / 2);  // stored ones are those of mid-step
-    mover.motion.angular_velocity = body->rigid->getAngularVelocity();
+    mover.motion = motion_of(*body, dt);
     for (const SolidPart& part : body->parts) mover.parts.push_back(swept_bounds(part, mover.motion, dt));
     mover.whole = mover.parts.front();
     for (const Bounds& part : mover.parts) {
@@ -124,6 +131,26 @@ void BulletWorld::sweep_pair(const Mover& mover, const Solid& other, const Motio
   }
 }
 
+/// Whether they meet within this step or the next, faster than what rests does: one that is about to go through the
+/// other. (This step alone would not do: who is told at the end of a step to pass has yet to arrive.)
+bool BulletWorld::still_to_pass(const Body& first, const Solid& other, bool other_moves, double dt) const {
+  const double ahead = 2 * dt;
+  const Motion motion = motion_of(first, dt);
+  Motion other_motion;
+  other_motion.start = other.object->getWorldTransform();
+  if (other_moves) other_motion = motion_of(static_cast<const Body&>(other), dt);
+  const double resting_speed = 2 * world_.getGravity().length() * dt;
+  for (const SolidPart& part : first.parts) {
+    const Bounds bounds = swept_bounds(part, motion, ahead);
+    for (const SolidPart& other_part : other.parts) {
+      if (!bounds.meets(swept_bounds(other_part, other_motion, ahead))) continue;
+      const std::optional<Touch> touch = first_touch(part, motion, other_part, other_motion, ahead);
+      if (touch && touch->approach_speed > resting_speed) return true;
+    }
+  }
+  return false;
+}
+
 void BulletWorld::sweep_ground(const Mover& mover, double dt, std::vector<Contact>& found) const {
   if (!ground_object_ || mover.whole.low.z() > ground_height_) return;
   for (std::size_t i = 0; i < mover.parts.size(); ++i) {
@@ -166,7 +193,7 @@ void BulletWorld::sweep_movers(const std::vector<Mover>& movers, double dt, std:
 std::vector<Contact> BulletWorld::sweep(double dt, Sweep what) {
   if (!(dt > 0) || !std::isfinite(dt))
     throw std::invalid_argument("sweep of " + std::to_string(dt) + " s; it must be above zero");
-  release_separated();
+  release_separated(dt);
   std::vector<Contact> found;
   if (what == Sweep::obstacles && obstacles_.empty()) return found;
   const std::vector<Mover> awake = movers(dt);

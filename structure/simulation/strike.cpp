@@ -124,10 +124,10 @@ void Simulation::State::push_in(Strike& hit) {
   hit.structure_mass = scenario.impact.structure_mass ? response.rayleigh_mass : 0;
   Indentation pushing(hit.mass, hit.speed, weight, hit.structure_mass);
   double punching = punching_force(hit);
+  if (punching < unlimited && punch_at_once(hit, punching)) return tell_loss(hit);
   for (;;) {
     const FirstFailure first = first_failure(*frame, response, strength_factors, unlimited);
     const bool punches = punching < unlimited && punching <= first.force;
-    if (punches && hit.breaks.empty() && punch_at_once(hit, punching)) break;
     const Indentation::Stop stop = pushing.push(response.compliance, std::min(first.force, punching));
     if (stop != Indentation::Stop::failed) {
       hit.speed_out = stop == Indentation::Stop::missed ? std::min(pushing.speed(), hit.speed) : rebound(pushing);

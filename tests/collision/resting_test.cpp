@@ -212,6 +212,28 @@ TEST_CASE("a body born inside another passes through it until they have come apa
   CHECK(world->state(ball).pose.position.z() == Approx(5.4).margin(0.01));  // lies on it
 }
 
+TEST_CASE("a ball that is to go through what it is about to hit goes through it, and meets it on the way back") {
+  const auto world = world_with_gravity();
+  const ObstacleId wall = world->add_obstacle(box_obstacle({0.1, 2, 2}, {1, 0, 5}));
+  const BodyId ball = world->add_body(ball_body(0.3, 100, {0.27, 0, 5}));  // arrives 0.33 m on, at the end of the step
+  BodyState state = world->state(ball);
+  state.velocity.x() = 20;
+  world->set_state(ball, state);
+  Touched other;
+  other.kind = Touched::Kind::obstacle;
+  other.obstacle = wall;
+  REQUIRE(world->sweep(kStep).size() == 1);
+  world->ignore_until_separated(ball, other);  // it has not reached the wall yet
+  CHECK(world->sweep(kStep).empty());
+  run(*world, 6);
+  CHECK(world->state(ball).pose.position.x() == Approx(0.27 + 20 * 6 * kStep).margin(1e-6));
+  state = world->state(ball);
+  state.velocity.x() = -20;
+  world->set_state(ball, state);
+  run(*world, 20);
+  CHECK(world->state(ball).pose.position.x() > 1);
+}
+
 TEST_CASE("descriptions that mean nothing are refused with their name") {
   const auto world = make_bullet_world();
   BodyDescription body = box_body({1, 1, 1}, 10, Vec3::Zero());

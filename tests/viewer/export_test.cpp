@@ -66,6 +66,47 @@ TEST_CASE("USD holds each part once, its motion as samples, and balanced braces"
   CHECK(count(usd, "xformOp:translate.timeSamples") > 0);
 }
 
+TEST_CASE("what remains of a panel that breaks where it stands is in every export, from the frame on where it broke") {
+  const ScratchFolder folder;
+  const Scene scene = open_scene("seed_hit_fracture");
+  Session session(scene.building, scene.scenario);
+  // A ball flies at the middle of a wall.
+  session.apply(topple::structure::Projectile{{-3, 3, 2}, {40, 0, 0}, 300, 0.3});
+  (void)session.snapshot();
+  const auto broken = [&] {
+    for (const auto& states : panel_states(*scene.building, *session.recording()))
+      if (states.size() > 1 && states.back().remains) return true;
+    return false;
+  };
+  for (int i = 0; i < 60 && !broken(); ++i) {
+    session.step();
+    (void)session.snapshot();
+  }
+  const auto all = panel_states(*scene.building, *session.recording());
+  std::size_t states = 0;
+  for (std::size_t p = 0; p < all.size(); ++p) {
+    REQUIRE_FALSE(all[p].empty());
+    CHECK(all[p][0].frame == 0);
+    CHECK_FALSE(all[p][0].remains);
+    states += all[p].size();
+    for (std::size_t k = 1; k < all[p].size(); ++k) {
+      CHECK(all[p][k].frame > all[p][k - 1].frame);
+      const Mesh mesh = placed_panel_mesh(*scene.building, scene.building->panels[p], all[p][k], {1, 2, 3});
+      if (!all[p][k].remains) continue;
+      REQUIRE(mesh.vertices.size() == all[p][k].remains->positions.size());
+      CHECK(mesh.vertices[0].position.x == Approx(all[p][k].remains->positions[0].x() - 1));
+    }
+  }
+  REQUIRE(states > all.size());
+  const std::string usd = (folder / "broken.usda").string();
+  write_usd(*scene.building, *session.recording(), usd);
+  CHECK(count(text_of(usd), "_rest") >= states - all.size());
+  if (!can_write_replay()) return;
+  const std::string page = (folder / "broken.html").string();
+  write_html_replay(*scene.building, *session.recording(), page);
+  CHECK(count(text_of(page), "\"frame\":") == states);
+}
+
 TEST_CASE("a part in a recording moves with its body") {
   const Fall fall;
   const auto& recording = *fall.session.recording();

@@ -113,10 +113,15 @@ class ReplayData {
 
   [[nodiscard]] Json panels() const {
     Json list = Json::array();
-    for (const auto& panel : building_.panels)
-      list.push_back({{"name", panel.name},
-                      {"kind", static_cast<int>(panel.kind)},
-                      {"mesh", mesh_json(placed_panel_mesh(building_, panel, origin_))}});
+    const auto all = panel_states(building_, recording_);
+    for (std::size_t p = 0; p < building_.panels.size(); ++p) {
+      const structure::Panel& panel = building_.panels[p];
+      Json states = Json::array();
+      for (const PanelState& state : all[p])
+        states.push_back(
+            {{"frame", state.frame}, {"mesh", mesh_json(placed_panel_mesh(building_, panel, state, origin_))}});
+      list.push_back({{"name", panel.name}, {"kind", static_cast<int>(panel.kind)}, {"states", std::move(states)}});
+    }
     return list;
   }
 

@@ -27,6 +27,18 @@ std::vector<std::vector<PlaceChange>> part_places(const structure::Building& bui
   return places;
 }
 
+std::vector<std::vector<PanelState>> panel_states(const structure::Building& building, const Recording& recording) {
+  std::vector<std::vector<PanelState>> states(building.panels.size());
+  for (std::size_t f = 0; f < recording.frames().size(); ++f) {
+    const Membership& membership = *recording.frames()[f].membership;
+    if (f > 0 && recording.frames()[f - 1].membership.get() == &membership) continue;
+    for (std::size_t p = 0; p < states.size(); ++p)
+      if (states[p].empty() || states[p].back().remains != membership.broken[p])
+        states[p].push_back({static_cast<std::int32_t>(f), membership.broken[p]});
+  }
+  return states;
+}
+
 Mesh placed_member_mesh(const structure::Building& building, const structure::Member& member,
                         const Eigen::Vector3d& origin) {
   Mesh mesh = section_mesh(building[member.section], 1);
@@ -60,6 +72,17 @@ Mesh placed_panel_mesh(const structure::Building& building, const structure::Pan
     v.position = glm::mix(glm::mix(corner[0], corner[1], s), glm::mix(corner[3], corner[2], s), t) + across * z;
     v.normal = glm::normalize(v.normal.x * along_s / glm::dot(along_s, along_s) +
                               v.normal.y * along_t / glm::dot(along_t, along_t) + v.normal.z * across);
+  }
+  return mesh;
+}
+
+Mesh placed_panel_mesh(const structure::Building& building, const structure::Panel& panel, const PanelState& state,
+                       const Eigen::Vector3d& origin) {
+  if (!state.remains) return placed_panel_mesh(building, panel, origin);
+  Mesh mesh = chunk_mesh(*state.remains);
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    const Eigen::Vector3d p = state.remains->positions[i] - origin;
+    mesh.vertices[i].position = glm::vec3(p.x(), p.y(), p.z());
   }
   return mesh;
 }

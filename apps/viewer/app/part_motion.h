@@ -17,11 +17,23 @@ struct PlaceChange {
 [[nodiscard]] std::vector<std::vector<PlaceChange>> part_places(const structure::Building& building,
                                                                 const Recording& recording);
 
+/// From a frame on, this is what remains of a panel; null: all of it.
+struct PanelState {
+  std::int32_t frame = 0;
+  std::shared_ptr<const fracture::Mesh> remains;
+};
+/// Per panel, in order of frame; the first is that of frame 0.
+[[nodiscard]] std::vector<std::vector<PanelState>> panel_states(const structure::Building& building,
+                                                                const Recording& recording);
+
 /// Meshes in the undeformed building, global axes, double precision where it matters: positions relative to `origin`.
 [[nodiscard]] Mesh placed_member_mesh(const structure::Building& building, const structure::Member& member,
                                       const Eigen::Vector3d& origin);
 [[nodiscard]] Mesh placed_panel_mesh(const structure::Building& building, const structure::Panel& panel,
                                      const Eigen::Vector3d& origin);
+
+[[nodiscard]] Mesh placed_panel_mesh(const structure::Building& building, const structure::Panel& panel,
+                                     const PanelState& state, const Eigen::Vector3d& origin);
 
 /// Rigid motion p -> turn p + shift of points of the undeformed building (about the same origin) at a frame.
 struct PartMotion {

@@ -5,9 +5,11 @@
 #include <cstdarg>
 #include <cstdio>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "app/part_motion.h"
 #include "renderer/palette.h"
@@ -68,9 +70,15 @@ class UsdWriter {
            member_colour(building_.members[m].kind));
     out_ << "    }\n    def Scope \"Panels\"\n    {\n";
     PrimNames panels;
+    const auto states = panel_states(building_, recording_);
     for (std::size_t p = 0; p < building_.panels.size(); ++p)
-      part(panels(building_.panels[p].name), placed_panel_mesh(building_, building_.panels[p], origin_),
-           places[building_.members.size() + p], panel_colour(building_.panels[p].kind));
+      for (std::size_t k = 0; k < states[p].size(); ++k) {
+        // What remains after each break is a prim of its own, seen while it lasts.
+        const structure::Panel& panel = building_.panels[p];
+        part(panels(k == 0 ? panel.name : panel.name + "_rest"),
+             placed_panel_mesh(building_, panel, states[p][k], origin_), places[building_.members.size() + p],
+             panel_colour(panel.kind), {states[p][k].frame, k + 1 < states[p].size() ? states[p][k + 1].frame : never});
+      }
     out_ << "    }\n    def Scope \"Bodies\"\n    {\n";
     for (const BodyTrack& track : recording_.tracks()) body(track);
     out_ << "    }\n}\n";
@@ -162,13 +170,18 @@ class UsdWriter {
     return text + "            }\n";
   }
 
-  void part(const std::string& name, const Mesh& shape, const std::vector<PlaceChange>& places, Rgba colour) {
+  static constexpr std::int32_t never = std::numeric_limits<std::int32_t>::max();
+  /// Frames of the recording: from the first to before the second.
+  using Span = std::pair<std::int32_t, std::int32_t>;
+  void part(const std::string& name, const Mesh& shape, const std::vector<PlaceChange>& places, Rgba colour,
+            Span lasts = {0, never}) {
     Motion motion;
     std::vector<std::pair<int, bool>> visible;
     std::size_t next = 0;
     for (const Sample& sample : samples_) {
       while (next + 1 < places.size() && places[next + 1].frame <= sample.frame) ++next;
-      const int track = places[next].track;
+      const bool there = lasts.first <= sample.frame && sample.frame < lasts.second;
+      const int track = there ? places[next].track : part_gone;
       if (visible.empty() || visible.back().second != (track != part_gone))
         visible.emplace_back(sample.code, track != part_gone);
       if (track == part_gone) continue;

@@ -81,11 +81,13 @@ class Replay {
   }
 
   #panels() {
-    this.panels = this.data.panels.map(({ kind, mesh }) => {
+    this.panels = this.data.panels.map(({ kind, states }) => {
       const opacity = kind === 1 ? 0.45 : 1;
-      const panel = new THREE.Mesh(geometry(mesh), new THREE.MeshLambertMaterial({ color: PANEL_COLOURS[kind], transparent: opacity < 1, opacity }));
+      const panel = new THREE.Mesh(geometry(states[0].mesh), new THREE.MeshLambertMaterial({ color: PANEL_COLOURS[kind], transparent: opacity < 1, opacity }));
       panel.castShadow = panel.receiveShadow = true;
       panel.matrixAutoUpdate = false;
+      panel.frames = states.map(({ frame }) => frame);
+      panel.shapes = states.map(({ mesh }, k) => (k === 0 ? panel.geometry : geometry(mesh)));
       this.scene.add(panel);
       return panel;
     });
@@ -152,6 +154,7 @@ class Replay {
     this.panels.forEach((panel, p) => {
       const place = placeOf(this.members.length + p);
       panel.visible = place !== GONE && byId('panels').checked;
+      panel.geometry = panel.shapes[Math.max(0, lastNotAbove(panel.frames, whole))];
       if (place >= 0) panel.matrix.copy(this.tracks[place].matrix);
       else panel.matrix.identity();
       panel.matrixWorldNeedsUpdate = true;

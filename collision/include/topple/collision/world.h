@@ -176,7 +176,8 @@ class World {
   virtual void apply_impulse(BodyId body, const Vec3& impulse, const Vec3& point) = 0;
   virtual void wake(BodyId body) = 0;
   /// Contacts between this body and that other (body or obstacle) are left out of sweeps and steps until they have come
-  /// apart: a body that goes through what it broke, or is born inside what it was joined to.
+  /// apart and are not about to meet as an impact: a body that goes through what it broke, or is born inside what it was
+  /// joined to.
   virtual void ignore_until_separated(BodyId body, const Touched& other) = 0;
   /// Live bodies in order of id.
   [[nodiscard]] virtual std::span<const BodyId> bodies() const = 0;
