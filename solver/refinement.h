@@ -55,7 +55,7 @@ struct RefinedSolution {
 /// Estimate of the condition number in the 1-norm (Hager, Higham); a lower bound, nearly always within a factor of 3.
 [[nodiscard]] double estimate_condition(const SparseSymmetric& K, const LinearSolve& solve);
 
-/// Bound on the relative forward error.
+/// Bound on the relative forward error, the rounding of the assembled matrix included.
 [[nodiscard]] double forward_error_bound(double condition, double backward_error);
 
 }  // namespace topple::solver
