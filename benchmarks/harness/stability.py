@@ -1,0 +1,103 @@
+"""Where accuracy is lost, and whether the program says so."""
+
+import json
+import os
+import subprocess
+
+import output
+
+COLUMNS = [("family", "along"), ("what", "what"), ("way", "way"), ("parameter", "value"), ("count", "answers"), ("error", "error"), ("bound", "stated bound"),
+           ("force_error", "forces error"), ("backward_error", "backward error"), ("condition", "condition"), ("told", "told"),
+           ("false_confidence", "false confidence")]
+
+TEXT = ("Errors against solutions in quadruple precision that share no code with the solver: of the displacements, relative to the largest (rotations times the "
+        "mean length of members). The stated bound is what the answer says of itself. Told: the structure was refused as unstable, or the answer carries a "
+        "warning. False confidence: an error above the bound without a word; asked: none. Frames made by chance are shown by the decade of their condition, each "
+        "by the one whose error comes nearest to its bound. Debris has no stated bound: the error is how far a heavy box sinks into a light one below it within "
+        "three seconds, over its height. What is not shown: errors of the model itself.")
+
+FIGURE = """
+set logscale xy
+set format y '10^{%%L}'
+set format x '10^{%%L}'
+set xlabel '%s'
+set ylabel 'relative error of the displacements'
+set title '%s: error, and the bound that the answer states'
+set key outside below horizontal
+set grid
+set yrange [1e-17:1e2]
+plot %s
+"""
+COLOURS = ("#c0392b", "#2471a3", "#1e8449", "#b7950b", "#7d3c98")
+AXES = {"stiffness ratio": "stiffness over that of the rest (or the reverse)", "slenderness": "length over side", "chain length": "members",
+        "near-mechanism": "what still holds it (see the key)", "damage sequence": "changes of joints", "by chance": "condition", "debris": "mass of the upper box over the lower"}
+
+
+def told(row):
+    if row.get("refused"):
+        return "unstable" if row["mechanism"] else "refused"
+    return "warned" if row.get("warned") else ""
+
+
+def figure(context, family, rows):
+    """Points are errors, lines with open points the bounds."""
+    across = "condition" if family == "by chance" else "parameter"
+    data, parts = {}, []
+    for i, what in enumerate(sorted({row["what"] for row in rows})):
+        shown = [row for row in rows if row["what"] == what and row.get("error") is not None and row.get(across) and (row["way"] != "fresh" or family == "by chance")]
+        if not shown:
+            continue
+        shown.sort(key=lambda row: row[across])
+        colour = COLOURS[i % len(COLOURS)]
+        data["e%d" % i] = [(row[across], max(1e-17, row["error"])) for row in shown]
+        parts.append("$e%d using 1:2 with points pt 7 ps 0.9 lc rgb '%s' title \"%s: error\"" % (i, colour, what))
+        bounds = [(row[across], row["bound"]) for row in shown if row.get("bound") is not None]
+        if bounds:
+            data["b%d" % i] = bounds
+            parts.append("$b%d using 1:2 with linespoints pt 6 lc rgb '%s' title 'bound'" % (i, colour))
+    if not parts:
+        return None
+    name = family.replace(" ", "_").replace("-", "_")
+    return output.plot(os.path.join(context.results, "stability_%s.svg" % name), FIGURE % (AXES[family], family.capitalize(), ", ".join(parts)), data)
+
+
+def measured(context):
+    """Rows as they come, with progress."""
+    options = ["--members", "10000", "--changes", "1000", "--frames", "2000"] if context.quick else []
+    rows, families = [], []
+    running = subprocess.Popen([os.path.join(context.programs, "bench_stability")] + options, stdout=subprocess.PIPE, text=True)
+    for line in running.stdout:
+        row = json.loads(line)
+        row["told"] = told(row)
+        rows.append(row)
+        if row["family"] not in families:
+            families.append(row["family"])
+            output.progress(context, "stability: " + row["family"])
+    if running.wait() != 0:
+        raise RuntimeError("bench_stability ended with status %d" % running.returncode)
+    return rows, families
+
+
+def verdict(rows):
+    judged = [row for row in rows if "false_confidence" in row]
+    answers = sum(row["count"] for row in judged)
+    false = sum(row["false_confidence"] for row in judged)
+    refused = sum(row["count"] for row in judged if row["false_alarm"])
+    mechanisms = [row for row in judged if row["mechanism"]]
+    margin = max(row["error"] / row["bound"] for row in judged if row.get("error") and row.get("bound"))
+    lines = ["stability: %d answers judged: %d of false confidence (asked: 0); the error that comes nearest to its bound is %.2f of it" % (answers, false, margin),
+             "stability: %d mechanisms, %d of them refused; %d structures that stand were refused because fewer than three digits would be left" % (len(mechanisms), sum(row["refused"] for row in mechanisms), refused)]
+    sunk = [row for row in rows if row["family"] == "debris" and row["error"] > 0.01]
+    if sunk:
+        lines.append("debris: from a mass ratio of %g on, a heavy box sinks into a light one by more than 1 %% of its height, and nothing says so" % sunk[0]["parameter"])
+    for line in lines:
+        print("bench: " + line)
+    return lines
+
+
+def run(context):
+    rows, families = measured(context)
+    lines = verdict(rows)
+    output.write_results(context, "stability", rows, COLUMNS, ("family", "what", "way", "parameter"), lines)
+    figures = [figure(context, family, [row for row in rows if row["family"] == family]) for family in families if family in AXES]
+    return [("Stability", TEXT + "".join(" In this run, " + line + "." for line in lines), [drawn for drawn in figures if drawn], (rows, COLUMNS))]
