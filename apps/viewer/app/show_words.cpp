@@ -44,6 +44,8 @@ const std::map<std::string, Plain>& plain_words() {
       {"no reactions", flag(&ViewOptions::reactions, false)},
       {"contacts", flag(&ViewOptions::contacts, true)},
       {"no contacts", flag(&ViewOptions::contacts, false)},
+      {"dust", flag(&ViewOptions::dust, true)},
+      {"no dust", flag(&ViewOptions::dust, false)},
       {"failed", flag(&ViewOptions::failed_joints, true)},
       {"no failed", flag(&ViewOptions::failed_joints, false)},
       {"colour-blind safe", flag(&ViewOptions::colour_blind_safe, true)},

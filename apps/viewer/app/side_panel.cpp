@@ -215,6 +215,8 @@ void SidePanel::view(Controller& controller, const Snapshot& moment, const Scene
   ImGui::SameLine();
   ImGui::Checkbox("grid", &options.grid);
   ImGui::Checkbox("debris", &options.debris);
+  ImGui::SameLine();
+  ImGui::Checkbox("dust", &options.dust);
 }
 
 void SidePanel::part(Controller& controller, const Snapshot& moment) {

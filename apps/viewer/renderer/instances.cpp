@@ -423,6 +423,8 @@ void SceneInstances::update(const Snapshot& snapshot, const ViewOptions& options
   place_chunks(snapshot);
   draw_marks(snapshot, options);
   place_broken_panels(snapshot);
+  dust_.clear();
+  if (options.dust && snapshot.dust) place_dust(*snapshot.dust, snapshot.time, origin_, dust_);
 }
 
 }  // namespace topple::viewer

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "renderer/camera.h"
+#include "renderer/dust.h"
 #include "renderer/mesh.h"
 #include "renderer/overlay.h"
 #include "renderer/palette.h"
@@ -66,6 +67,7 @@ class SceneInstances {
   /// Loads and contacts; reactions, which come from below the ground.
   [[nodiscard]] const InstanceBatch<RigidInstance>& arrows() const { return arrows_; }
   [[nodiscard]] const InstanceBatch<RigidInstance>& buried_arrows() const { return buried_arrows_; }
+  [[nodiscard]] const std::vector<DustInstance>& dust() const { return dust_; }
   /// Diagrams along members.
   [[nodiscard]] const Overlay& diagrams() const { return diagrams_; }
   /// Around what is hovered over and selected, where it now is.
@@ -122,6 +124,7 @@ class SceneInstances {
   std::vector<InstanceBatch<RigidInstance>> chunks_;
   std::map<std::int64_t, std::size_t> chunk_of_body_;
   InstanceBatch<RigidInstance> arrows_, buried_arrows_;
+  std::vector<DustInstance> dust_;
   Overlay diagrams_, marks_;
   std::array<double, 2> diagram_range_{};
   /// Batches of standing panels that are broken in part, by panel, with the mesh that they draw.

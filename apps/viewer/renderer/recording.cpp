@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+
+#include "renderer/dust.h"
 
 namespace topple::viewer {
 namespace {
@@ -52,7 +55,7 @@ BodyPose BodyTrack::pose(std::int32_t frame) const {
 
 void Recording::clear() {
   const std::lock_guard lock(mutex_);
-  frames_.clear(), tracks_.clear(), alive_.clear(), events_.clear();
+  frames_.clear(), tracks_.clear(), alive_.clear(), events_.clear(), dust_.clear();
   resting_ = false;
 }
 
@@ -61,6 +64,7 @@ void Recording::cut_from(std::int64_t step) {
       std::lower_bound(frames_.begin(), frames_.end(), step, [](const Frame& f, std::int64_t s) { return f.step < s; });
   if (first == frames_.end()) return;
   const auto kept = static_cast<std::int32_t>(first - frames_.begin());
+  std::erase_if(dust_, [&](const DustPuff& puff) { return puff.time >= first->time; });
   frames_.erase(first, frames_.end());
   std::erase_if(tracks_, [kept](const BodyTrack& track) { return track.first >= kept; });
   alive_.clear();
@@ -88,6 +92,10 @@ void Recording::add(const Snapshot& snapshot) {
     if (too_soon) frame.answer = last.answer;
     news = frame.answer != last.answer || frame.membership != last.membership || frame.tuned != last.tuned || too_soon;
   }
+  if (snapshot.dust)
+    for (const DustPuff& puff : *snapshot.dust)
+      if (dust_.empty() || std::tie(dust_.back().time, dust_.back().number) < std::tie(puff.time, puff.number))
+        dust_.push_back(puff), news = true;
   const auto number = static_cast<std::int32_t>(frames_.size());
   std::vector<std::size_t> still;
   std::size_t next = 0;
@@ -139,6 +147,13 @@ std::size_t Recording::frame_at(double time) const {
   return after == frames_.begin() ? 0 : static_cast<std::size_t>(after - frames_.begin()) - 1;
 }
 
+std::shared_ptr<const std::vector<DustPuff>> Recording::dust_at(double time) const {
+  std::vector<DustPuff> there;
+  for (const DustPuff& puff : dust_)
+    if (puff.time <= time && time < puff.time + dust_life) there.push_back(puff);
+  return there.empty() ? nullptr : std::make_shared<const std::vector<DustPuff>>(std::move(there));
+}
+
 Snapshot Recording::frame_snapshot(std::size_t number) const {
   const Frame& frame = frames_[number];
   Snapshot snapshot;
@@ -149,6 +164,7 @@ Snapshot Recording::frame_snapshot(std::size_t number) const {
   snapshot.membership = frame.membership;
   snapshot.tuned = frame.tuned;
   snapshot.counters = frame.counters;
+  snapshot.dust = dust_at(frame.time);
   const auto at = static_cast<std::int32_t>(number);
   for (const BodyTrack& track : tracks_)
     if (track.first <= at && (track.end < 0 || at < track.end)) snapshot.bodies.push_back(track.pose(at));

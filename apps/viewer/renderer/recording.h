@@ -67,6 +67,7 @@ class Recording {
 
  private:
   void cut_from(std::int64_t step);
+  [[nodiscard]] std::shared_ptr<const std::vector<DustPuff>> dust_at(double time) const;
   [[nodiscard]] Snapshot frame_snapshot(std::size_t frame) const;
   [[nodiscard]] std::size_t frame_at(double time) const;
 
@@ -75,7 +76,8 @@ class Recording {
   std::vector<BodyTrack> tracks_;   ///< in order of id
   std::vector<std::size_t> alive_;  ///< tracks that have not ended, in order of id
   std::vector<Event> events_;
-  bool resting_ = false;  ///< the last frame brought nothing new
+  std::vector<DustPuff> dust_;  ///< all there was, in order of number
+  bool resting_ = false;        ///< the last frame brought nothing new
 };
 
 }  // namespace topple::viewer

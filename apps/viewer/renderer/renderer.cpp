@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <stdexcept>
 
+#include "renderer/dust_buffer.h"
 #include "renderer/gpu_scene.h"
 #include "renderer/overlay_buffer.h"
 #include "renderer/render_targets.h"
@@ -60,6 +61,7 @@ struct Renderer::State {
   GlBuffer block = make_buffer(), ground_vertices = make_buffer();
   GlVertexArray empty = make_vertex_array(), ground = make_vertex_array();
   OverlayBuffer diagrams, marks, extra;
+  DustBuffer dust;
   double ground_height = 0;
   PictureBlock picture{};
 
@@ -72,6 +74,7 @@ struct Renderer::State {
   void draw_panels(PanelKind kind, float opacity);
   void blend_panels(PanelKind kind);
   void draw_overlay(const SceneInstances& instances, const Overlay& more);
+  void draw_dust(const SceneInstances& instances);
   void draw_on_top();
   void draw_buried_arrows();
   void finish(const ViewOptions& options);
@@ -171,6 +174,18 @@ void Renderer::State::draw_overlay(const SceneInstances& instances, const Overla
   glDisable(GL_BLEND);
 }
 
+void Renderer::State::draw_dust(const SceneInstances& instances) {
+  dust.update(instances.dust(), glm::vec3(picture.eye));
+  glUseProgram(programs.dust.get());
+  glEnable(GL_BLEND);
+  glDisable(GL_CULL_FACE);
+  glDepthMask(GL_FALSE);
+  dust.draw();
+  glDepthMask(GL_TRUE);
+  glEnable(GL_CULL_FACE);
+  glDisable(GL_BLEND);
+}
+
 void Renderer::State::draw_on_top() {
   glUseProgram(programs.line.get());
   glDisable(GL_DEPTH_TEST);
@@ -215,6 +230,7 @@ void Renderer::State::draw_scene(const SceneInstances& instances, const ViewOpti
   draw_overlay(instances, lines);
   if (options.slab_opacity < 1) draw_panels(PanelKind::slab, options.slab_opacity);
   if (options.wall_opacity < 1) draw_panels(PanelKind::wall, options.wall_opacity);
+  draw_dust(instances);
   draw_on_top();
 }
 

@@ -266,6 +266,36 @@ out vec4 result;
 void main() { result = tint; }
 )";
 
+constexpr const char* dust_vertex = R"(
+layout(location = 0) in vec3 centre;
+layout(location = 1) in float radius;
+layout(location = 2) in float density;
+out vec2 place;
+out float height, thickness, share;
+void main() {
+  place = vec2(gl_VertexID % 2 == 0 ? -1.0 : 1.0, gl_VertexID < 2 ? -1.0 : 1.0);
+  vec3 away = centre - eye.xyz;
+  vec3 side = normalize(cross(away, abs(away.z) > 0.99 * length(away) ? vec3(1, 0, 0) : vec3(0, 0, 1)));
+  vec3 point = centre + radius * (place.x * side + place.y * normalize(cross(side, away)));
+  height = point.z - eye.w;
+  thickness = radius;
+  share = density;
+  gl_Position = view_projection * vec4(point, 1.0);
+}
+)";
+constexpr const char* dust_fragment = R"(
+in vec2 place;
+in float height, thickness, share;
+out vec4 result;
+void main() {
+  float r2 = dot(place, place);
+  if (r2 >= 1.0) discard;
+  // Thin where the ground cuts the disc, so that no edge is seen there.
+  float soft = (exp(-3.0 * r2) - exp(-3.0)) * smoothstep(0.0, 0.5 * thickness, height);
+  result = vec4(linear(vec3(0.77, 0.73, 0.66)), share * soft);
+}
+)";
+
 /// Share of the hemisphere above each point that near geometry covers, from the depth buffer.
 constexpr const char* occlusion_fragment = R"(
 in vec2 place;
@@ -403,6 +433,7 @@ Programs::Programs()
       sky(link("sky", cover_vertex, sky_fragment, "")),
       ground(lit("ground", ground_vertex, ground_fragment)),
       line(link("line", line_vertex, line_fragment, "")),
+      dust(link("dust", dust_vertex, dust_fragment, "")),
       occlusion(link("occlusion", cover_vertex, occlusion_fragment, "")),
       finish(link("finish", cover_vertex, finish_fragment, "")) {}
 

@@ -22,7 +22,7 @@ struct PictureBlock {
 
 struct Programs {
   GlProgram member, member_shadow, panel, panel_shadow, rigid, rigid_shadow;
-  GlProgram sky, ground, line, occlusion, finish;
+  GlProgram sky, ground, line, dust, occlusion, finish;
   Programs();  ///< throws std::runtime_error with the compiler's log
 };
 

@@ -73,15 +73,24 @@ struct BodyPose {
   structure::PanelKind chunk_of = structure::PanelKind::slab;
 };
 
+/// Dust thrown up at an instant: see dust.h.
+struct DustPuff {
+  std::int64_t number = 0;  ///< tells puffs of one time apart
+  double time = 0;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  float size = 0;  ///< radius of the cloud when it has spread, m
+};
+
 struct Snapshot {
   double time = 0;
   std::int64_t step = 0;
   bool at_rest = false, finished = false;
   std::shared_ptr<const FrameAnswer> answer;
   std::shared_ptr<const Membership> membership;
-  std::shared_ptr<const TunedJoints> tuned;        ///< null: as in the model
-  std::shared_ptr<const std::vector<float>> path;  ///< per joint: share of a chosen force that goes through it
-  std::vector<BodyPose> bodies;                    ///< in order of id
+  std::shared_ptr<const TunedJoints> tuned;           ///< null: as in the model
+  std::shared_ptr<const std::vector<float>> path;     ///< per joint: share of a chosen force that goes through it
+  std::vector<BodyPose> bodies;                       ///< in order of id
+  std::shared_ptr<const std::vector<DustPuff>> dust;  ///< in order of time; null: none
   /// When there is one, what stands is drawn in this shape times the scale instead of its displacements (a mode).
   std::shared_ptr<const std::vector<Eigen::Matrix<float, 6, 1>>> shape;
   float shape_scale = 0;

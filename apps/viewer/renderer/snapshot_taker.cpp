@@ -195,6 +195,7 @@ Snapshot SnapshotTaker::take(const Simulation& simulation) {
   snapshot.answer = answer_;
   snapshot.membership = membership_;
   for (const structure::BodyView& body : simulation.bodies()) snapshot.bodies.push_back(pose_of(body));
+  snapshot.dust = dust_.watch(simulation);
   snapshot.counters = simulation.counters();
   snapshot.stage_seconds = simulation.stage_seconds();
   snapshot.collision_engine_seconds = simulation.collision_engine_seconds();

@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "renderer/dust.h"
 #include "renderer/snapshot.h"
 
 namespace topple::viewer {
@@ -21,6 +22,7 @@ class SnapshotTaker {
   std::size_t seen_events_ = 0;
   bool was_pending_ = false;
   std::vector<std::int64_t> seen_bodies_;
+  DustWatcher dust_;
   std::shared_ptr<const FrameAnswer> answer_;
   std::shared_ptr<const Membership> membership_;
 };

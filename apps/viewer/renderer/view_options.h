@@ -33,7 +33,7 @@ struct ViewOptions {
   float diagram_scale = 1;                      ///< 1: the largest is drawn as a tenth of the building's radius
   bool loads = false, reactions = false, contacts = false;  ///< as arrows
   float arrow_scale = 1;
-  bool shadows = true, ambient_occlusion = true, grid = true, debris = true;
+  bool shadows = true, ambient_occlusion = true, grid = true, debris = true, dust = true;
   structure::JointId selected_joint;
   structure::MemberId hovered_member, selected_member;
   structure::PanelId hovered_panel, selected_panel;

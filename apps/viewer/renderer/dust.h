@@ -1,0 +1,49 @@
+#pragma once
+// Dust where things break and land. A puff is an event with a place and a size; what is seen of it is a function of its
+// age alone, so that a run looked back at shows the dust that it showed when it ran.
+#include <glm/vec3.hpp>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "renderer/snapshot.h"
+
+namespace topple::viewer {
+
+/// A puff is gone when it is this old, s.
+inline constexpr double dust_life = 3.5;
+
+/// Watches one simulation, step after step, for what throws dust up.
+class DustWatcher {
+ public:
+  /// Puffs that are not gone yet, in order of time; null: none. The same pointer as before when nothing changed.
+  [[nodiscard]] std::shared_ptr<const std::vector<DustPuff>> watch(const structure::Simulation& simulation);
+
+ private:
+  struct Seen {
+    Eigen::Vector3d position, velocity;
+  };
+  void hear(const structure::Simulation& simulation);
+  void look_for_landings(const structure::Simulation& simulation);
+  void throw_up(double time, const Eigen::Vector3d& position, double size);
+
+  std::vector<DustPuff> puffs_;
+  std::shared_ptr<const std::vector<DustPuff>> shared_;
+  std::map<std::int64_t, Seen> bodies_;
+  std::size_t events_heard_ = 0;
+  std::int64_t thrown_up_ = 0;
+  double time_ = 0;
+  bool changed_ = false;
+};
+
+/// One soft disc that faces the eye.
+struct DustInstance {
+  glm::vec3 position;  ///< relative to the origin given
+  float radius;
+  float opacity;
+};
+/// What is seen of the puffs at an instant.
+void place_dust(const std::vector<DustPuff>& puffs, double time, const glm::dvec3& origin,
+                std::vector<DustInstance>& instances);
+
+}  // namespace topple::viewer
