@@ -175,3 +175,34 @@ TEST_CASE("parts are found by name, piece of a name, and pattern") {
   REQUIRE(joints.size() == 2);
   CHECK(joints[0] == person.joint("P-1-1-1:1"));
 }
+
+TEST_CASE(
+    "a run starts again with other strengths of materials and another way of breaking, and the model is written so") {
+  Person person;
+  RunRules rules{person.scene.scenario.failure, topple::fracture::PanelSettings(), nullptr};
+  rules.fracture->method = topple::fracture::Method::quadrilateral;
+  const std::vector<topple::structure::MaterialChange> weaker{{"concrete", 0.5}};
+  rules.building = building_with_strengths(person.scene, weaker);
+  CHECK(*rules.building->materials[1].compressive_strength == 15e6);
+  person.controller.restart(rules);
+  CHECK(person.now().step == 0);
+  CHECK(person.session.scenario().fracture->method == topple::fracture::Method::quadrilateral);
+  CHECK(&person.session.building() == rules.building.get());
+  // A ball at the middle of a wall now breaks it.
+  person.driver.apply(topple::structure::Projectile{{-3, 3, 2}, {40, 0, 0}, 300, 0.3});
+  person.go(40);
+  bool broken = false;
+  for (const auto& event : person.session.simulation().events())
+    broken = broken || event.kind == topple::structure::SimulationEvent::Kind::panel_fractured;
+  CHECK(broken);
+
+  const topple::test::ScratchFolder folder;
+  const std::string file = (folder / "weaker.json").string();
+  write_tuned_model(person.scene, person.now(), file, weaker);
+  const auto again = topple::structure::read_model(file);
+  CHECK(*again.materials[1].compressive_strength == 15e6);
+  CHECK(*again.materials[0].yield_strength == 355e6);
+  CHECK_THROWS_WITH(building_with_strengths(person.scene, {{"wood", 2}}),
+                    Catch::Contains("'wood'") && Catch::Contains("steel, concrete"));
+  CHECK_THROWS_WITH(building_with_strengths(person.scene, {{"steel", 0}}), Catch::Contains("above 0"));
+}

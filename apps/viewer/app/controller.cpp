@@ -206,6 +206,16 @@ bool Controller::key(const std::string& name) {
 
 void Controller::show(const std::string& words) { viewer::show(words, options, mode); }
 
+void Controller::restart(const RunRules& rules) {
+  structure::Scenario scenario = scene_.scenario;
+  scenario.failure = rules.failure;
+  scenario.fracture = rules.fracture;
+  // Refused here, where a person is told, and not on the simulation's thread.
+  const structure::Simulation tried(rules.building ? *rules.building : building_, scenario);
+  look_at_present();
+  driver_.order_and_show([rules](Session& session) { session.restart(rules); });
+}
+
 void Controller::tune(const structure::JointChange& change) {
   (void)structure::joints_of(building_, names_, change.joints);  // refused here, on the person's thread
   driver_.order_and_show([change](Session& session) { session.tune(change); });

@@ -55,6 +55,9 @@ class Controller {
   void show(const std::string& words);
   /// Changes capacities; seen at once. Throws structure::InputError.
   void tune(const structure::JointChange& change);
+  /// Starts the run again by other rules. Throws structure::InputError when the building cannot be run by them; then
+  /// the run goes on.
+  void restart(const RunRules& rules);
   /// Marks what lies under the pointer.
   void hover(glm::dvec2 pixel);
   [[nodiscard]] const std::optional<Pick>& hovered() const { return hovered_; }

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "topple/structure/convert.h"
 #include "topple/structure/error.h"
 #include "topple/structure/files.h"
 
@@ -48,6 +49,14 @@ Scene open_scene(const std::string& name) {
   auto building = std::make_shared<const structure::Building>(structure::read_model(model));
   structure::Scenario scenario = structure::idle_scenario(*building);
   return {std::move(building), std::move(scenario), model};
+}
+
+std::shared_ptr<const structure::Building> building_with_strengths(
+    const Scene& scene, const std::vector<structure::MaterialChange>& changes) {
+  if (changes.empty()) return scene.building;
+  const std::string text = structure::convert_model(scene.model, structure::ModelForm::json).files.at(0).second;
+  return std::make_shared<const structure::Building>(
+      structure::parse_model(structure::model_with_strengths(text, changes), scene.model.string()));
 }
 
 }  // namespace topple::viewer

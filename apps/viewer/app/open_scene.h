@@ -4,6 +4,7 @@
 #include <string>
 
 #include "topple/structure/building.h"
+#include "topple/structure/material_tuning.h"
 #include "topple/structure/scenario.h"
 
 namespace topple::viewer {
@@ -16,5 +17,9 @@ struct Scene {
 
 /// A shipped scenario's or model's name, or a file of either kind. Throws structure::InputError.
 [[nodiscard]] Scene open_scene(const std::string& name);
+
+/// The scene's building with other strengths of materials. Throws structure::InputError.
+[[nodiscard]] std::shared_ptr<const structure::Building> building_with_strengths(
+    const Scene& scene, const std::vector<structure::MaterialChange>& changes);
 
 }  // namespace topple::viewer

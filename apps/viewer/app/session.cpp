@@ -13,7 +13,7 @@ constexpr double endless = 1e9;
 }  // namespace
 
 Session::Session(std::shared_ptr<const structure::Building> building, structure::Scenario scenario)
-    : building_(std::move(building)), scenario_(std::move(scenario)), tuning_(*building_) {
+    : building_(std::move(building)), given_(building_), scenario_(std::move(scenario)) {
   scenario_.duration = endless;
   scenario_.until_rest = false;
   begin();
@@ -23,8 +23,9 @@ void Session::begin() {
   simulation_ = std::make_unique<structure::Simulation>(*building_, scenario_);
   taker_ = SnapshotTaker();
   taker_.want(wanted_);
-  tuning_.reset();
+  tuning_ = std::make_unique<structure::JointTuning>(*building_);
   tuned_ = nullptr;
+  if (building_ != given_) tell_capacities();
   path_ = nullptr;
   events_recorded_ = 0;
 }
@@ -44,17 +45,22 @@ void Session::tune(const structure::JointChange& change) {
 void Session::carry_out(const Action& action) {
   if (const auto* tool = std::get_if<structure::Tool>(&action.what)) return simulation_->apply(*tool);
   std::vector<std::pair<structure::JointId, structure::JointCapacity>> capacities;
-  for (const structure::JointId joint : tuning_.apply(std::get<structure::JointChange>(action.what)))
-    capacities.emplace_back(joint, tuning_.capacity(joint));
+  for (const structure::JointId joint : tuning_->apply(std::get<structure::JointChange>(action.what)))
+    capacities.emplace_back(joint, tuning_->capacity(joint));
   simulation_->set_capacities(capacities);
+  tell_capacities();
+  taker_.forget_answer();
+}
+
+/// What joints bear, for those who know the building only as it was given.
+void Session::tell_capacities() {
   auto tuned = std::make_shared<TunedJoints>();
   for (std::size_t j = 0; j < building_->joints.size(); ++j) {
-    tuned->capacity.push_back(tuning_.capacity(structure::JointId(j)));
-    tuned->strength.push_back(tuning_.strength(structure::JointId(j)));
+    tuned->capacity.push_back(tuning_->capacity(structure::JointId(j)));
+    tuned->strength.push_back(tuning_->strength(structure::JointId(j)));
   }
-  tuned->changes = tuning_.changes();
+  tuned->changes = tuning_->changes();
   tuned_ = std::move(tuned);
-  taker_.forget_answer();
 }
 
 void Session::restart() {
@@ -63,8 +69,12 @@ void Session::restart() {
   begin();
 }
 
-void Session::restart(const structure::FailureRules& rules) {
-  scenario_.failure = rules;
+void Session::restart(const RunRules& rules) {
+  scenario_.failure = rules.failure;
+  scenario_.fracture = rules.fracture;
+  simulation_.reset();
+  tuning_.reset();
+  if (rules.building) building_ = rules.building;
   restart();
 }
 

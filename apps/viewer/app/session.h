@@ -3,6 +3,7 @@
 // the last action be taken back, and the run be taken up again at any step that it has passed.
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -12,6 +13,15 @@
 #include "topple/structure/simulation.h"
 
 namespace topple::viewer {
+
+/// What a run is started with beside the building's geometry.
+struct RunRules {
+  structure::FailureRules failure;
+  /// How panels break that say nothing of their own; none: they stay whole.
+  std::optional<fracture::PanelSettings> fracture;
+  /// The same parts with other strengths; null: as the session has it.
+  std::shared_ptr<const structure::Building> building;
+};
 
 class Session {
  public:
@@ -24,8 +34,8 @@ class Session {
   void tune(const structure::JointChange& change);
   /// Back to the beginning; actions are forgotten, rules stay.
   void restart();
-  /// The same, by other rules.
-  void restart(const structure::FailureRules& rules);
+  /// The same, by other rules. Throws as structure::Simulation does.
+  void restart(const RunRules& rules);
   /// Back to just before the last action, by running again what came before it (the same bits, as runs are
   /// deterministic). False when there was none.
   bool undo();
@@ -50,14 +60,15 @@ class Session {
     std::variant<structure::Tool, structure::JointChange> what;
   };
   void begin();
+  void tell_capacities();
   void carry_out(const Action& action);
   void run_again(std::int64_t until);
   void record_events();
 
-  std::shared_ptr<const structure::Building> building_;
+  std::shared_ptr<const structure::Building> building_, given_;  ///< given_: with the strengths that it came with
   structure::Scenario scenario_;
   std::unique_ptr<structure::Simulation> simulation_;
-  structure::JointTuning tuning_;
+  std::unique_ptr<structure::JointTuning> tuning_;
   std::shared_ptr<const TunedJoints> tuned_;
   std::shared_ptr<const std::vector<float>> path_;
   SnapshotTaker taker_;

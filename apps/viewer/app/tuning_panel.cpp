@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
 
 #include "app/widgets.h"
@@ -29,9 +30,11 @@ std::vector<structure::JointId> meant(const Controller& controller, const std::s
 
 }  // namespace
 
-void write_tuned_model(const Scene& scene, const Snapshot& moment, const std::string& file) {
-  const auto text =
-      structure::model_with_changes(scene.model, moment.tuned ? moment.tuned->changes : std::vector<JointChange>());
+void write_tuned_model(const Scene& scene, const Snapshot& moment, const std::string& file,
+                       const std::vector<structure::MaterialChange>& materials) {
+  const std::string text = structure::model_with_strengths(
+      structure::model_with_changes(scene.model, moment.tuned ? moment.tuned->changes : std::vector<JointChange>()),
+      materials);
   std::ofstream stream(file);
   stream << text;
   if (!stream.flush()) throw std::runtime_error("cannot write " + file);
@@ -80,18 +83,62 @@ void TuningPanel::gravity(Controller& controller) {
     controller.driver().apply(structure::GravityTool{structure::Vec3(0, 0, -gravity_)});
 }
 
+/// How panels break that say nothing of their own.
+void TuningPanel::panels() {
+  constexpr const char* methods[] = {"stay whole", "voronoi", "quadrilateral", "local"};
+  int method = rules_->fracture ? 1 + static_cast<int>(rules_->fracture->method) : 0;
+  if (ImGui::Combo("panels", &method, methods, IM_ARRAYSIZE(methods))) {
+    fracture::PanelSettings settings = rules_->fracture.value_or(fracture::PanelSettings());
+    settings.method = static_cast<fracture::Method>(std::max(0, method - 1));
+    rules_->fracture = method == 0 ? std::nullopt : std::optional(settings);
+  }
+  if (rules_->fracture && rules_->fracture->method != fracture::Method::local)
+    slider("cell", rules_->fracture->cell, 0.1, 3, "%.2f m");
+  if (rules_->fracture && rules_->fracture->method == fracture::Method::local) {
+    slider("least reach", rules_->fracture->local.length[0], 0.05, rules_->fracture->local.length[1], "%.2f m");
+    slider("most reach", rules_->fracture->local.length[1], rules_->fracture->local.length[0], 5, "%.2f m");
+  }
+}
+
+/// Strengths of materials, each a multiple of the model's.
+void TuningPanel::materials(Controller& controller) {
+  if (materials_.empty())
+    for (const structure::Material& material : controller.building().materials)
+      if (material.yield_strength || material.compressive_strength || material.tensile_strength)
+        materials_.push_back({material.name, 1});
+  for (structure::MaterialChange& change : materials_)
+    slider((change.material + " strength").c_str(), change.strength, 0.05, 10, "x %.3f");
+}
+
+/// Those that differ from the model.
+std::vector<structure::MaterialChange> TuningPanel::changed_materials() const {
+  std::vector<structure::MaterialChange> changed;
+  std::copy_if(materials_.begin(), materials_.end(), std::back_inserter(changed),
+               [](const structure::MaterialChange& change) { return change.strength != 1; });
+  return changed;
+}
+
 void TuningPanel::rules(Controller& controller) {
-  if (!rules_) rules_ = controller.scene().scenario.failure;
-  slider("sudden loss", rules_->sudden, 1, 2, "x %.2f", ImGuiSliderFlags_None);
-  slider("generations", rules_->generations_per_second, 10, 2000, "%.0f / s");
-  int bracing = static_cast<int>(rules_->bracing);
+  if (!rules_) rules_ = RunRules{controller.scene().scenario.failure, controller.scene().scenario.fracture, nullptr};
+  structure::FailureRules& failure = rules_->failure;
+  slider("sudden loss", failure.sudden, 1, 2, "x %.2f", ImGuiSliderFlags_None);
+  slider("generations", failure.generations_per_second, 10, 2000, "%.0f / s");
+  int bracing = static_cast<int>(failure.bracing);
   constexpr const char* bracings[] = {"buckling", "classic", "none"};
   if (ImGui::Combo("bracing", &bracing, bracings, IM_ARRAYSIZE(bracings)))
-    rules_->bracing = static_cast<structure::BracingRule>(bracing);
-  if (ImGui::Button("Restart by these rules")) {
-    const structure::FailureRules rules = *rules_;
-    controller.look_at_present();
-    controller.driver().order_and_show([rules](Session& session) { session.restart(rules); });
+    failure.bracing = static_cast<structure::BracingRule>(bracing);
+  panels();
+  materials(controller);
+  if (ImGui::Button("Restart by these rules")) restart(controller);
+}
+
+void TuningPanel::restart(Controller& controller) {
+  try {
+    RunRules rules = *rules_;
+    rules.building = building_with_strengths(controller.scene(), changed_materials());
+    controller.restart(rules);
+  } catch (const std::exception& refused) {
+    controller.message = refused.what();
   }
 }
 
@@ -99,7 +146,7 @@ void TuningPanel::file(Controller& controller, const Snapshot& moment) {
   ImGui::InputText("file", file_.data(), file_.size());
   if (!ImGui::Button("Write the changed model")) return;
   try {
-    write_tuned_model(controller.scene(), moment, file_.data());
+    write_tuned_model(controller.scene(), moment, file_.data(), changed_materials());
     controller.message = std::string("model written to ") + file_.data();
   } catch (const std::exception& failed) {
     controller.message = failed.what();

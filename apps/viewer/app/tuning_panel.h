@@ -20,11 +20,17 @@ class TuningPanel {
   int target_ = 0;
   std::array<char, 64> pattern_{};
   double gravity_ = -1;  ///< m/s2; below 0: not read yet
-  std::optional<structure::FailureRules> rules_;
+  void panels();
+  void materials(Controller& controller);
+  void restart(Controller& controller);
+  [[nodiscard]] std::vector<structure::MaterialChange> changed_materials() const;
+  std::optional<RunRules> rules_;
+  std::vector<structure::MaterialChange> materials_;
   std::array<char, 256> file_{"tuned.json"};
 };
 
-/// Writes the scene's model with the changes of its capacities. Throws std::exception when it cannot.
-void write_tuned_model(const Scene& scene, const Snapshot& moment, const std::string& file);
+/// Writes the scene's model with the changes of its capacities and strengths. Throws std::exception when it cannot.
+void write_tuned_model(const Scene& scene, const Snapshot& moment, const std::string& file,
+                       const std::vector<structure::MaterialChange>& materials = {});
 
 }  // namespace topple::viewer
