@@ -31,7 +31,8 @@ Vec6 FrameSystem::node_displacement_of_scaled(int node, const Eigen::VectorXd& s
 }
 
 void FrameSystem::node_displacements_of_scaled(const Eigen::VectorXd& solution, std::vector<Vec6>& result) const {
-  for (std::size_t n = 0; n < result.size(); ++n) result[n] = node_displacement_of_scaled(static_cast<int>(n), solution);
+  for (std::size_t n = 0; n < result.size(); ++n)
+    result[n] = node_displacement_of_scaled(static_cast<int>(n), solution);
 }
 
 std::vector<Vec6> FrameSystem::shape(const Eigen::VectorXd& scaled) const {
@@ -123,9 +124,12 @@ std::array<Vec6, 4> FrameSystem::corner_forces(int index, const std::vector<Vec6
   result.fill(Vec6::Zero());
   if (shell_stands[i] == 0) return result;
   const Shell& shell = model.shells[i];
-  // From the first corner's place: a rigid translation of the whole costs no digits.
+  // From the first corner's place: a rigid translation of the whole costs no digits. A given stiffness may hold on to
+  // the ground.
   Vec24 u;
-  const Vec3 origin = displacements[static_cast<std::size_t>(shell.node[0])].head<3>();
+  const Vec3 origin = model.shell_stiffness.contains(index)
+                          ? Vec3::Zero()
+                          : Vec3(displacements[static_cast<std::size_t>(shell.node[0])].head<3>());
   for (int n = 0; n < 4; ++n) {
     u.segment<6>(6 * n) = displacements[static_cast<std::size_t>(shell.node[static_cast<std::size_t>(n)])];
     u.segment<3>(6 * n) -= origin;

@@ -148,6 +148,7 @@ Mat12 FrameSystem::beam_stiffness(int index) const {
 }
 
 const Mat24& FrameSystem::shell_node_stiffness(int index) const {
+  if (const auto given = model.shell_stiffness.find(index); given != model.shell_stiffness.end()) return given->second;
   const Shell& shell = model.shells[static_cast<std::size_t>(index)];
   const std::array<Vec3, 4> corners = corner_places(shell, model.nodes);
   const bool kept = kept_shell_.thickness == shell.thickness && kept_shell_.youngs_modulus == shell.youngs_modulus &&

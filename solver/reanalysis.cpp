@@ -55,6 +55,18 @@ void Reanalysis::restore_beam(int beam) {
 void Reanalysis::remove_shell(int shell) { state_->set_shell_removed(shell, true); }
 void Reanalysis::restore_shell(int shell) { state_->set_shell_removed(shell, false); }
 
+Eigen::Matrix<double, 24, 24> Reanalysis::shell_stiffness(int shell) const {
+  (void)state_->checked_shell(shell);
+  return state_->system->shell_node_stiffness(shell);
+}
+
+void Reanalysis::set_shell_stiffness(int shell, const Eigen::Matrix<double, 24, 24>& stiffness) {
+  (void)state_->checked_shell(shell);
+  if (!stiffness.allFinite())
+    throw std::invalid_argument("stiffness of shell " + std::to_string(shell) + " is not finite");
+  state_->given_stiffness[shell] = stiffness;
+}
+
 void Reanalysis::set_beam_stiffness_factor(int beam, double factor) {
   if (!(factor > 0) || !std::isfinite(factor)) throw std::invalid_argument("a stiffness factor must be above 0");
   double& target = state_->targets[state_->checked_beam(beam)].factor;

@@ -57,7 +57,7 @@ void Reanalysis::State::mark(int beam) { changed_beams.push_back(beam); }
 
 bool Reanalysis::State::pending() const {
   return !answered || !changed_beams.empty() || !changed_shells.empty() || node_loads_changed ||
-         !dropped_nodes.empty() || !changed_supports.empty();
+         !dropped_nodes.empty() || !changed_supports.empty() || !given_stiffness.empty();
 }
 
 void Reanalysis::State::apply_supports(std::vector<int>& touched) {
@@ -146,11 +146,25 @@ void Reanalysis::State::apply_beam(int index, std::vector<int>& touched) {
 }
 
 void Reanalysis::State::apply_shells(std::vector<int>& touched) {
+  if (!given_stiffness.empty()) {  // no correction knows the old ones
+    complete(nullptr);
+    restricted.reset();
+    standing.reset();
+  }
+  for (const auto& [index, stiffness] : given_stiffness) {
+    const auto& nodes = system->model.shells[static_cast<std::size_t>(index)].node;
+    system->model.shell_stiffness[index] = stiffness;
+    touched.insert(touched.end(), nodes.begin(), nodes.end());
+  }
+  given_stiffness.clear();
   for (int index : changed_shells) {
     const auto i = static_cast<std::size_t>(index);
     const auto& nodes = system->model.shells[i].node;
-    const bool on_standing_nodes = std::all_of(
-        nodes.begin(), nodes.end(), [&](int n) { return system->node_stands[static_cast<std::size_t>(n)] != 0; });
+    const auto node_stands = [&](int n) { return system->node_stands[static_cast<std::size_t>(n)] != 0; };
+    // A superelement goes on without a corner at which nothing of it is left.
+    const bool on_standing_nodes = system->model.shell_stiffness.contains(index)
+                                       ? std::any_of(nodes.begin(), nodes.end(), node_stands)
+                                       : std::all_of(nodes.begin(), nodes.end(), node_stands);
     const char stands = shell_removed[i] == 0 && on_standing_nodes ? 1 : 0;
     if (stands == system->shell_stands[i]) continue;
     if (standing) standing->remember_shell(index);

@@ -1,5 +1,6 @@
 #pragma once
 // What a Reanalysis holds: the system as it stands, what it is to become, the factor and the answer.
+#include <map>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -38,6 +39,7 @@ struct Reanalysis::State {
   std::vector<BeamTarget> targets;
   std::vector<int> changed_beams, changed_shells;
   std::vector<char> shell_removed;
+  std::map<int, Mat24> given_stiffness;  ///< that wait for the next solve()
   std::vector<Vec6> node_loads;
   bool node_loads_changed = false;
   std::vector<int> dropped_nodes;

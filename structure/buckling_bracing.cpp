@@ -181,10 +181,19 @@ std::optional<BuckledPost> BucklingBracing::judge(int c) const {
     members.push_back(member);
   }
   for (PanelId panel : statics_.membranes(c)) {
-    if (!bearings_.membrane(panel)) continue;
+    if (!statics_.stiff(panel)) continue;
     solver::Shell shell = statics_.shell(panel);
-    for (std::size_t corner = 0; corner < 4; ++corner)
-      shell.node[corner] = number[index_of(building_[panel].nodes[corner])];
+    for (std::size_t corner = 0; corner < 4; ++corner) {
+      const NodeId node = building_[panel].nodes[corner];
+      shell.node[corner] = number[index_of(node)];
+      if (shell.node[corner] >= 0) continue;
+      // Nothing of the panel is left there.
+      shell.node[corner] = static_cast<int>(model.nodes.size());
+      model.nodes.push_back(building_[node].position);
+      model.supports.push_back({shell.node[corner], Vec6::Constant(unlimited)});
+    }
+    if (const Mat24* stiffness = statics_.given_stiffness(panel))
+      model.shell_stiffness.emplace(static_cast<int>(model.shells.size()), *stiffness);
     model.shells.push_back(shell);
   }
   for (const solver::Support& support : statics_.supports(c)) {

@@ -73,7 +73,7 @@ void DuctileJoints::base_is_answer(int component) {
   }
   for (NodeId node : statics_.nodes(component)) displacement_[index_of(node)] = statics_.displacement(node);
   for (PanelId panel : statics_.membranes(component))
-    if (bearings_.membrane(panel)) corner_forces_[index_of(panel)] = statics_.corner_forces(panel);
+    if (statics_.stiff(panel)) corner_forces_[index_of(panel)] = statics_.corner_forces(panel);
 }
 
 std::vector<solver::BeamLoad> DuctileJoints::mixed_loads(MemberId member, double base, double now) const {
@@ -101,7 +101,7 @@ void DuctileJoints::move_base(int component, double part) {
     u += part * (statics_.displacement(node) - u);
   }
   for (PanelId panel : statics_.membranes(component)) {
-    if (!bearings_.membrane(panel)) continue;
+    if (!statics_.stiff(panel)) continue;
     const std::array<Vec6, 4> now = statics_.corner_forces(panel);
     for (std::size_t corner = 0; corner < 4; ++corner) {
       Vec6& force = corner_forces_[index_of(panel)][corner];
@@ -123,7 +123,7 @@ double DuctileJoints::difference_energy(int component) const {
         MemberShape(statics_.beam(member), force, solver::Vec12::Zero(), mixed_loads(member, -1, 1)).strain_energy();
   }
   for (PanelId panel : statics_.membranes(component)) {
-    if (!bearings_.membrane(panel)) continue;
+    if (!statics_.stiff(panel)) continue;
     const std::array<Vec6, 4> now = statics_.corner_forces(panel);
     for (std::size_t corner = 0; corner < 4; ++corner) {
       const NodeId node = building_[panel].nodes[corner];

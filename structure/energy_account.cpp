@@ -40,7 +40,7 @@ void EnergyAccount::remember(int number) {
       rest_slips_.erase(member);
   }
   for (PanelId panel : from_.statics.membranes(number))
-    if (from_.bearings.membrane(panel)) rest_corner_forces_[index(panel)] = from_.statics.corner_forces(panel);
+    if (from_.statics.stiff(panel)) rest_corner_forces_[index(panel)] = from_.statics.corner_forces(panel);
   rests_[static_cast<std::size_t>(number)].known = false;
   std::erase_if(rest_contacts_, [&](const auto& contact) { return component(contact.second) == number; });
   for (const auto& [key, placed] : from_.loads.contacts())
@@ -135,10 +135,21 @@ void EnergyAccount::lose_membrane(PanelId panel) {
   begin(from_.building[panel].nodes[0]).membranes.push_back({panel, rest_corner_forces_[index(panel)]});
 }
 
+void EnergyAccount::soften(PanelId panel, const Mat24& lost) {
+  Eigen::Matrix<double, 24, 1> at_rest;
+  for (int corner = 0; corner < 4; ++corner)
+    at_rest.segment<6>(6 * corner) = displacement(from_.building[panel].nodes[static_cast<std::size_t>(corner)]);
+  const Eigen::Matrix<double, 24, 1> force = lost * at_rest;
+  std::array<Vec6, 4> forces;
+  for (int corner = 0; corner < 4; ++corner) forces[static_cast<std::size_t>(corner)] = force.segment<6>(6 * corner);
+  begin(from_.building[panel].nodes[0]).membranes.push_back({panel, forces});
+  // What is lost later, in the same change, is what is left of it now.
+  for (std::size_t corner = 0; corner < 4; ++corner) rest_corner_forces_[index(panel)][corner] -= forces[corner];
+}
+
 void EnergyAccount::lose_support(NodeId node) {
   SupportLoss loss{node};
-  for (std::size_t s = 0; s < from_.building.supports.size(); ++s)
-    if (from_.building.supports[s].node == node) loss.reaction += from_.statics.reaction(s);
+  loss.reaction = from_.statics.reaction(node);
   begin(node).supports.push_back(loss);
 }
 
@@ -203,7 +214,7 @@ void EnergyAccount::lightened(PanelId panel, const HandOver& before, const HandO
 void EnergyAccount::settle_panels(Change& change) {
   for (const auto& [panel, handed] : change.handed) {
     const Shares own = shares(handed);
-    if (from_.bearings.stands(panel)) {
+    if (from_.bearings.serves(panel) ? from_.bearings.stands(panel) : from_.segments.label(panel) >= 0) {
       change.freed -= own.left.sum();
       continue;
     }

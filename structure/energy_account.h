@@ -42,6 +42,8 @@ class EnergyAccount {
   /// `told`: index of the joint's line among the breaks, -1 when it has none.
   void lose_joint(JointId joint, int told);
   void lose_membrane(PanelId panel);
+  /// It becomes softer: by how much, as its corners feel it.
+  void soften(PanelId panel, const Mat24& lost);
   void lose_support(NodeId node);
   void drop(NodeId node);
   void leave(MemberId member);

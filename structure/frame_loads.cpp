@@ -21,6 +21,24 @@ Vec3 resultant(const solver::BeamLoad& load) {
   }
 }
 
+/// Of the material of a panel, openings taken off.
+double area_of(const Building& building, const Panel& panel) {
+  const auto flat = [&](NodeId node) -> Vec2 {
+    return (panel.axes * (building[node].position - building[panel.nodes[0]].position)).head<2>();
+  };
+  const auto area = [](const std::vector<Vec2>& polygon) {
+    double doubled = 0;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const Vec2 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+      doubled += a.x() * b.y() - a.y() * b.x();
+    }
+    return std::abs(doubled) / 2;
+  };
+  double sum = area({flat(panel.nodes[0]), flat(panel.nodes[1]), flat(panel.nodes[2]), flat(panel.nodes[3])});
+  for (const auto& opening : panel.openings) sum -= area(opening);
+  return sum;
+}
+
 void insert(std::vector<int>& sorted, int value) {
   const auto place = std::lower_bound(sorted.begin(), sorted.end(), value);
   if (place == sorted.end() || *place != value) sorted.insert(place, value);
@@ -35,10 +53,13 @@ std::vector<T> sorted_unique(std::vector<T>& values) {
 
 }  // namespace
 
-FrameLoads::FrameLoads(const Building& building, PartLoads loads, const PanelBearings& bearings)
+FrameLoads::FrameLoads(const Building& building, PartLoads loads, const PanelBearings& bearings,
+                       const PanelSuperelements& shells)
     : building_(building),
       loads_(std::move(loads)),
       bearings_(bearings),
+      shells_(shells),
+      shell_gone_(building.panels.size(), 0),
       gravity_(0, 0, -building.gravity),
       handed_(building.panels.size()),
       handing_members_(building.members.size()),
@@ -60,9 +81,37 @@ FrameLoads::FrameLoads(const Building& building, PartLoads loads, const PanelBea
     hand_on_anew(PanelId(p));
     double down = 0;
     for (const Vec3& force : handed_[p].edge_force) down -= force.z();
+    if (!bearings.serves(PanelId(p))) down = -traction(PanelId(p)).z() * area_of(building, building.panels[p]);
     panel_mass_.push_back(down / g);
   }
   whole_panel_mass_ = panel_mass_;
+}
+
+/// What acts on a shell panel, condensed to its corners.
+void FrameLoads::hand_on_shell(PanelId panel) {
+  HandOver& handed = handed_[index_of(panel)];
+  mark(handed);
+  handed = {};
+  handed.edge_force.fill(Vec3::Zero());
+  const PanelSuperelement* shell = shells_.of(panel);
+  if (!shell || shell_gone_[index_of(panel)]) return;
+  const std::array<Vec6, 4> loads = shell->corner_loads({traction(panel), {}});
+  for (std::size_t corner = 0; corner < 4; ++corner) {
+    const int node = building_[panel].nodes[corner].index;
+    handed.nodes.push_back({node, loads[corner]});
+    insert(handing_nodes_[static_cast<std::size_t>(node)], panel.index);
+  }
+  mark(handed);
+}
+
+Vec3 FrameLoads::traction(PanelId panel) const {
+  const PanelAction action = under_gravity(panel, loads_.panels[index_of(panel)]);
+  return action.body_force - action.pressure * building_[panel].axes.row(2).transpose();
+}
+
+void FrameLoads::remove(PanelId shell) {
+  shell_gone_[index_of(shell)] = 1;
+  hand_on_anew(shell);
 }
 
 void FrameLoads::fracture(PanelId panel, const PanelRemains& remains) {
@@ -74,7 +123,7 @@ void FrameLoads::fracture(PanelId panel, const PanelRemains& remains) {
 void FrameLoads::hand_on_anew(PanelId panel) {
   const std::size_t p = index_of(panel);
   if (!bearings_.serves(panel)) {
-    handed_[p].edge_force.fill(Vec3::Zero());
+    hand_on_shell(panel);
     return;
   }
   mark(handed_[p]);
@@ -114,7 +163,7 @@ void FrameLoads::set_gravity(const Vec3& gravity) {
   for (std::size_t m = 0; m < building_.members.size(); ++m) changed_members_.push_back(MemberId(m));
   for (std::size_t n = 0; n < building_.nodes.size(); ++n) changed_nodes_.push_back(NodeId(n));
   for (std::size_t p = 0; p < building_.panels.size(); ++p)
-    if (bearings_.stands(PanelId(p))) hand_on_anew(PanelId(p));
+    if (bearings_.stands(PanelId(p)) || !bearings_.serves(PanelId(p))) hand_on_anew(PanelId(p));
 }
 
 void FrameLoads::add_load(NodeId node, const Vec6& load) {

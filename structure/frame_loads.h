@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "panel_bearings.h"
+#include "panel_superelements.h"
 #include "topple/structure/standing_frame.h"
 
 namespace topple::structure {
@@ -17,12 +18,14 @@ struct PlacedLoad {
   PanelId panel;
   std::array<Vec3, 4> edge_force{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
   double bending_compliance = 0;
+  PanelForce on_shell;  ///< the force itself, where the panel is a shell
 };
 
 class FrameLoads {
  public:
-  /// `bearings` must outlive this.
-  FrameLoads(const Building& building, PartLoads loads, const PanelBearings& bearings);
+  /// `bearings` and `shells` must outlive this.
+  FrameLoads(const Building& building, PartLoads loads, const PanelBearings& bearings,
+             const PanelSuperelements& shells);
 
   // Masses in the combination: downward load over gravity.
   [[nodiscard]] double mass(MemberId member) const { return member_mass_[static_cast<std::size_t>(member.index)]; }
@@ -33,6 +36,10 @@ class FrameLoads {
   void add_load(NodeId node, const Vec6& load);
   /// The panel's bearings changed, or it left.
   void hand_on_anew(PanelId panel);
+  /// A shell panel left: it brings no load any more.
+  void remove(PanelId shell);
+  /// What acts on all of a shell panel, contacts apart.
+  [[nodiscard]] Vec3 traction(PanelId panel) const;
   /// Only this remains of a panel that stands.
   void fracture(PanelId panel, const PanelRemains& remains);
   /// Returns false when nothing changes.
@@ -69,12 +76,15 @@ class FrameLoads {
   [[nodiscard]] solver::BeamLoad under_gravity(MemberId member, solver::BeamLoad load) const;
   [[nodiscard]] Vec6 under_gravity(const Vec6& load) const;
   [[nodiscard]] PanelAction under_gravity(PanelId panel, PanelAction action) const;
+  void hand_on_shell(PanelId panel);
   void mark(const HandOver& handed);
   void mark(const PlacedLoad& placed);
 
   const Building& building_;
   PartLoads loads_;
   const PanelBearings& bearings_;
+  const PanelSuperelements& shells_;
+  std::vector<char> shell_gone_;  ///< per panel
   bool usual_gravity_ = true;
   Vec3 gravity_;
   std::vector<HandOver> handed_;                                   ///< per panel

@@ -35,7 +35,8 @@ std::vector<int> components_of(const Building& building, const Frame& frame) {
 
 }  // namespace
 
-FrameStatics::FrameStatics(const Building& building, int threads) {
+FrameStatics::FrameStatics(const Building& building, const PanelSuperelements& shells, int threads)
+    : stiff_(building.panels.size(), 0) {
   const Frame frame = make_frame(building);
   std::vector<solver::FrameModel> models = split(building, frame);
   end_forces_.assign(building.members.size(), solver::Vec12::Zero());
@@ -48,6 +49,8 @@ FrameStatics::FrameStatics(const Building& building, int threads) {
     components_[c].analysis = std::make_unique<solver::Reanalysis>(std::move(models[c]), options);
   for (const Place& place : member_place_)
     stiffness_diagonal_.push_back(at(place).beam_stiffness_diagonal(place.local));
+  for (std::size_t p = 0; p < building.panels.size(); ++p)
+    if (const PanelSuperelement* shell = shells.of(PanelId(p))) set_stiffness(PanelId(p), shell->stiffness());
 }
 
 std::vector<solver::FrameModel> FrameStatics::split(const Building& building, const Frame& frame) {
@@ -75,8 +78,13 @@ std::vector<solver::FrameModel> FrameStatics::split(const Building& building, co
   }
   membrane_place_.resize(building.panels.size());
   for (std::size_t p = 0; p < building.panels.size(); ++p) {
-    if (frame.shell_of_panel[p] < 0) continue;
-    solver::Shell shell = frame.model.shells[static_cast<std::size_t>(frame.shell_of_panel[p])];
+    const bool meshed = building.panels[p].model == PanelModel::shell;
+    if (frame.shell_of_panel[p] < 0 && !meshed) continue;
+    // A shell panel is one element between its corners, with the stiffness of its superelement.
+    solver::Shell shell =
+        frame.model.shells[static_cast<std::size_t>(meshed ? frame.meshes[p].first_shell : frame.shell_of_panel[p])];
+    for (std::size_t corner = 0; corner < 4; ++corner) shell.node[corner] = building.panels[p].nodes[corner].index;
+    stiff_[p] = 1;
     const auto c = component(shell.node[0]);
     for (int& node : shell.node) node = local(node);
     membrane_place_[p] = {static_cast<int>(c), static_cast<int>(models[c].shells.size())};
@@ -84,6 +92,7 @@ std::vector<solver::FrameModel> FrameStatics::split(const Building& building, co
     components_[c].membranes.push_back(PanelId(p));
   }
   for (solver::Support support : frame.model.supports) {
+    if (static_cast<std::size_t>(support.node) >= building.nodes.size()) continue;  // inside a superelement
     const auto c = component(support.node);
     support_node_.push_back(NodeId(static_cast<std::size_t>(support.node)));
     support.node = local(support.node);
@@ -128,6 +137,17 @@ void FrameStatics::remove(MemberId member) {
 void FrameStatics::remove_membrane(PanelId panel) {
   const Place& place = membrane_place_[index(panel)];
   if (place.component >= 0) changing(place).remove_shell(place.local);
+  stiff_[index(panel)] = 0;
+}
+
+Mat24 FrameStatics::membrane_stiffness(PanelId panel) const {
+  const Place& place = membrane_place_[index(panel)];
+  return at(place).shell_stiffness(place.local);
+}
+
+void FrameStatics::set_stiffness(PanelId panel, const Mat24& stiffness) {
+  const Place& place = membrane_place_[index(panel)];
+  changing(place).set_shell_stiffness(place.local, stiffness);
 }
 
 void FrameStatics::remove_support(NodeId node) {
@@ -173,6 +193,13 @@ const solver::Shell& FrameStatics::shell(PanelId membrane) const {
   return at(place).model().shells[static_cast<std::size_t>(place.local)];
 }
 
+const Mat24* FrameStatics::given_stiffness(PanelId panel) const {
+  const Place& place = membrane_place_[index(panel)];
+  const auto& given = at(place).model().shell_stiffness;
+  const auto found = given.find(place.local);
+  return found == given.end() ? nullptr : &found->second;
+}
+
 std::optional<FrameMechanism> FrameStatics::solve(int number) {
   Component& component = components_[static_cast<std::size_t>(number)];
   const solver::ReanalysisAnswer& answer = component.analysis->solve();
@@ -214,6 +241,13 @@ std::array<Vec6, 4> FrameStatics::corner_forces(PanelId membrane) const {
 
 Vec6 FrameStatics::reaction(std::size_t support) const {
   return at(support_place_[support]).reaction(support_place_[support].local);
+}
+
+Vec6 FrameStatics::reaction(NodeId node) const {
+  Vec6 sum = Vec6::Zero();
+  for (std::size_t s = 0; s < support_node_.size(); ++s)
+    if (support_node_[s] == node) sum += reaction(s);
+  return sum;
 }
 
 Vec3 FrameStatics::point_displacement(MemberId member, double distance,

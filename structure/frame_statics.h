@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "panel_superelements.h"
 #include "topple/solver/reanalysis.h"
 #include "topple/structure/frame.h"
 
@@ -20,12 +21,16 @@ struct FrameMechanism {
 
 class FrameStatics {
  public:
-  FrameStatics(const Building& building, int threads);
+  FrameStatics(const Building& building, const PanelSuperelements& shells, int threads);
 
   // Changes; they take effect together in the next solve() of their component.
   void break_joint(MemberId member, int end);
   void remove(MemberId member);
   void remove_membrane(PanelId panel);
+  /// Of a membrane as it is while whole.
+  [[nodiscard]] Mat24 membrane_stiffness(PanelId panel) const;
+  /// Of a membrane or shell panel: what its corners feel of it from now on.
+  void set_stiffness(PanelId panel, const Mat24& stiffness);
   void remove_support(NodeId node);
   void drop(const std::vector<NodeId>& nodes);
   /// Loads in the member's local axes; BeamLoad::beam is set here.
@@ -47,6 +52,8 @@ class FrameStatics {
   [[nodiscard]] const std::vector<MemberId>& members(int component) const { return parts(component).members; }
   [[nodiscard]] const std::vector<NodeId>& nodes(int component) const { return parts(component).nodes; }
   [[nodiscard]] const std::vector<PanelId>& membranes(int component) const { return parts(component).membranes; }
+  /// A membrane or shell panel that has its stiffness.
+  [[nodiscard]] bool stiff(PanelId panel) const { return stiff_[index(panel)] != 0; }
 
   /// Brings one component up to date. A mechanism leaves the displacements as they were.
   /// With second order the answer is that of the displaced structure, iterated on the elastic factor with the geometric
@@ -64,6 +71,8 @@ class FrameStatics {
   [[nodiscard]] const solver::Vec12& end_forces(MemberId member) const { return end_forces_[index(member)]; }
   [[nodiscard]] const solver::Beam& beam(MemberId member) const;
   [[nodiscard]] const solver::Shell& shell(PanelId membrane) const;
+  /// What set_stiffness() gave the panel before the last solve(); null: its one element's own.
+  [[nodiscard]] const Mat24* given_stiffness(PanelId panel) const;
   /// As they are now, with the nodes numbered as in nodes().
   [[nodiscard]] const std::vector<solver::Support>& supports(int component) const {
     return parts(component).analysis->model().supports;
@@ -72,6 +81,8 @@ class FrameStatics {
   [[nodiscard]] std::array<Vec6, 4> corner_forces(PanelId membrane) const;
   /// Of the support at its index in Building::supports.
   [[nodiscard]] Vec6 reaction(std::size_t support) const;
+  /// Of all supports at a node, those of panel edges included.
+  [[nodiscard]] Vec6 reaction(NodeId node) const;
   /// Displacement of a point of a member's axis at this distance from its first end, `loads` being those on it.
   [[nodiscard]] Vec3 point_displacement(MemberId member, double distance,
                                         const std::vector<solver::BeamLoad>& loads) const;
@@ -116,7 +127,7 @@ class FrameStatics {
   struct Component {
     std::vector<NodeId> nodes;
     std::vector<MemberId> members;
-    std::vector<PanelId> membranes;
+    std::vector<PanelId> membranes;  ///< and shells
     std::unique_ptr<solver::Reanalysis> analysis;
     bool changed = true, gone = false, diverged = false;
   };
@@ -144,6 +155,7 @@ class FrameStatics {
 
   std::vector<Place> node_place_, member_place_, membrane_place_, support_place_;
   std::vector<NodeId> support_node_;
+  std::vector<char> stiff_;  ///< per panel
   std::vector<solver::Vec12> end_forces_, stiffness_diagonal_;
   std::vector<Component> components_;
   std::map<MemberId, Hinges> hinges_;

@@ -69,11 +69,8 @@ PanelBearings::Changes PanelBearings::break_edge(PanelId panel, int edge) {
   return changes;
 }
 
-PanelBearings::Changes PanelBearings::fracture(PanelId panel, const std::array<double, 4>& edge_length) {
-  Changes changes;
+void PanelBearings::fracture(PanelId panel, const std::array<double, 4>& edge_length) {
   state(panel).edge_length = edge_length;
-  lose_membrane(panel, changes);
-  return changes;
 }
 
 void PanelBearings::remove(PanelId panel) {

@@ -24,8 +24,8 @@ class PanelBearings {
   };
   /// One edge joint breaks. No effect on one that is broken already.
   Changes break_edge(PanelId panel, int edge);
-  /// A panel is broken in part: it lies on this length of each edge at most, and is no membrane any more.
-  Changes fracture(PanelId panel, const std::array<double, 4>& edge_length);
+  /// A panel is broken in part: it lies on this length of each edge at most.
+  void fracture(PanelId panel, const std::array<double, 4>& edge_length);
   /// A panel is taken away; its edge joints are gone.
   void remove(PanelId panel);
   /// Members and nodes that no longer stand, with the part (0 and up) that they left in, or -1: taken away.

@@ -1,6 +1,8 @@
 #include "panel_demand.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 
 #include "index_of.h"
 
@@ -36,14 +38,37 @@ Vec6 handed_edge_demand(const Building& building, const PanelBearings& bearings,
   return demand;
 }
 
-std::array<Vec6, 4> membrane_edge_demands(const Building& building, PanelId id,
-                                          const std::array<Vec6, 4>& corner_forces) {
-  const Panel& panel = building[id];
+namespace {
+
+/// Mean membrane force per length, global axes.
+Mat3 mean_membrane_force(const Building& building, const Panel& panel, const std::array<Vec6, 4>& corner_forces) {
   const Vec3 origin = building[panel.nodes[0]].position;
   Mat3 virial = Mat3::Zero();
   for (std::size_t corner = 0; corner < 4; ++corner)
     virial += corner_forces[corner].head<3>() * (building[panel.nodes[corner]].position - origin).transpose();
-  const Mat3 stress = 0.5 * (virial + virial.transpose()) / area(building, panel);
+  return 0.5 * (virial + virial.transpose()) / area(building, panel);
+}
+
+}  // namespace
+
+PanelStress mean_membrane_stress(const Building& building, PanelId id, const std::array<Vec6, 4>& corner_forces) {
+  const Panel& panel = building[id];
+  const Mat3 local =
+      panel.axes * mean_membrane_force(building, panel, corner_forces) * panel.axes.transpose() / panel.thickness;
+  const double mean = (local(0, 0) + local(1, 1)) / 2;
+  const double radius = std::hypot((local(0, 0) - local(1, 1)) / 2, local(0, 1));
+  PanelStress stress;
+  stress.tension = std::max(0.0, mean + radius);
+  stress.compression = std::max(0.0, radius - mean);
+  for (const NodeId node : panel.nodes) stress.tension_at += building[node].position / 4;
+  stress.compression_at = stress.tension_at;
+  return stress;
+}
+
+std::array<Vec6, 4> membrane_edge_demands(const Building& building, PanelId id,
+                                          const std::array<Vec6, 4>& corner_forces) {
+  const Panel& panel = building[id];
+  const Mat3 stress = mean_membrane_force(building, panel, corner_forces);
   std::array<Vec6, 4> demands;
   for (std::size_t edge = 0; edge < 4; ++edge) {
     const Mat3 axes = edge_axes(building, panel, edge);

@@ -17,6 +17,9 @@ namespace topple::structure {
 /// The same for the traction alone.
 [[nodiscard]] std::array<Vec6, 4> membrane_edge_demands(const Building& building, PanelId panel,
                                                         const std::array<Vec6, 4>& corner_forces);
+/// Principal values of the mean membrane stress (over the thickness), at the panel's centre.
+[[nodiscard]] PanelStress mean_membrane_stress(const Building& building, PanelId panel,
+                                               const std::array<Vec6, 4>& corner_forces);
 /// The same for a force that the panel hands to an edge, global axes.
 [[nodiscard]] Vec6 handed_edge_demand(const Building& building, const PanelBearings& bearings, PanelId panel, int edge,
                                       const Vec3& force);

@@ -25,13 +25,13 @@ Segmentation::Segmentation(const Building& building)
     }
   }
   first_edge_of_joint_.push_back(static_cast<int>(edges_.size()));
-  supported_.assign(building.nodes.size(), 0);
+  supported_.assign(static_cast<std::size_t>(nodes_ + members_) + shell_panels_.size(), 0);
   for (const NodeSupport& support : building.supports)
     if ((support.stiffness.array() > 0).any()) supported_[static_cast<std::size_t>(support.node.index)] = 1;
-  // A supported shell edge is held through its nodes.
   for (const EdgeSupport& support : building.edge_supports)
-    for (int corner : {support.edge, (support.edge + 1) % 4})
-      supported_[static_cast<std::size_t>(building[support.panel].nodes[static_cast<std::size_t>(corner)].index)] = 1;
+    if (const int shell = shell_vertex_[static_cast<std::size_t>(support.panel.index)];
+        shell >= 0 && (support.stiffness.array() > 0).any())
+      ++supported_[static_cast<std::size_t>(shell)];
   build_adjacency();
   label_all();
 }
@@ -62,7 +62,7 @@ void Segmentation::label_all() {
     segment.a_vertex = static_cast<int>(v);
     for (int w : walk(static_cast<int>(v))) {
       label_[static_cast<std::size_t>(w)] = label;
-      if (w < nodes_ && supported_[static_cast<std::size_t>(w)]) ++segment.supports;
+      segment.supports += supported_[static_cast<std::size_t>(w)];
     }
     if (segment.supports == 0) lost_support_.push_back(label);
   }
@@ -95,12 +95,18 @@ void Segmentation::remove(PanelId panel) {
   take_out(v);
 }
 
-void Segmentation::remove_support(NodeId node) {
-  const auto n = static_cast<std::size_t>(node.index);
-  if (!supported_[n]) return;
-  supported_[n] = 0;
-  if (label_[n] < 0) return;
-  if (--segments_[static_cast<std::size_t>(label_[n])].supports == 0) lost_support_.push_back(label_[n]);
+void Segmentation::remove_support(NodeId node) { lose_support(node.index); }
+
+void Segmentation::remove_support(PanelId panel) {
+  if (const int v = shell_vertex_[static_cast<std::size_t>(panel.index)]; v >= 0) lose_support(v);
+}
+
+void Segmentation::lose_support(int vertex_index) {
+  const auto v = static_cast<std::size_t>(vertex_index);
+  if (supported_[v] == 0) return;
+  --supported_[v];
+  if (label_[v] < 0) return;
+  if (--segments_[static_cast<std::size_t>(label_[v])].supports == 0) lost_support_.push_back(label_[v]);
 }
 
 /// A vertex whose joints are all broken is a segment of its own, which ends here.
@@ -159,7 +165,7 @@ void Segmentation::split_off(const std::vector<int>& side, int old_label, int st
   fresh.a_vertex = side.front();
   for (int v : side) {
     label_[static_cast<std::size_t>(v)] = label;
-    if (v < nodes_ && supported_[static_cast<std::size_t>(v)]) ++fresh.supports;
+    fresh.supports += supported_[static_cast<std::size_t>(v)];
   }
   Segment& old = segments_[static_cast<std::size_t>(old_label)];
   old.a_vertex = stays;

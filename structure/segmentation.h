@@ -29,6 +29,8 @@ class Segmentation {
   void remove(MemberId member);
   void remove(PanelId panel);
   void remove_support(NodeId node);
+  /// A supported edge of a shell panel holds it no more.
+  void remove_support(PanelId panel);
 
   /// Parts that have lost their last support since the last call, in order of their least vertex; they leave the graph.
   [[nodiscard]] std::vector<Part> take_unanchored();
@@ -78,7 +80,8 @@ class Segmentation {
   std::vector<char> joint_holds_;
   std::vector<int> first_incident_, incident_;
   std::vector<int> label_, degree_;
-  std::vector<char> supported_;  ///< per node
+  void lose_support(int vertex);
+  std::vector<int> supported_;  ///< per vertex: supports of a node (at most one), supported edges of a shell panel
   std::vector<Segment> segments_;
   std::vector<int> lost_support_;  ///< labels to hand out
   std::vector<std::uint64_t> mark_;

@@ -73,9 +73,14 @@ double StandingFrame::State::critical_energy(int c) const {
   double& least = critical_energies[static_cast<std::size_t>(c)];
   if (least >= 0) return least;
   least = unlimited;
-  for (JointId joint : checked_joints[static_cast<std::size_t>(c)])
-    if (building[joint].member.valid() && holds(joint) && label(joint) >= 0)
+  for (JointId joint : checked_joints[static_cast<std::size_t>(c)]) {
+    if (!holds(joint) || label(joint) < 0) continue;
+    const Joint& own = building[joint];
+    if (own.member.valid())
       least = std::min(least, critical_energy(joint));
+    else if (!bearings.serves(own.panel))
+      least = 0;  // a supported edge of a shell: no bound is known
+  }
   return least;
 }
 
@@ -91,7 +96,7 @@ const std::vector<double>& StandingFrame::State::certain_masses(int c) const {
     for (NodeId node : building[member].nodes) mass[index_of(node)] += std::max(0.0, loads.mass(member)) / 6;
   }
   for (PanelId panel : component_panels[static_cast<std::size_t>(c)])
-    if (stands(panel))
+    if (stands(panel) && bearings.serves(panel))
       for (NodeId node : building[panel].nodes) mass[index_of(node)] += loads.mass(panel) / 4;
   for (NodeId node : statics.nodes(c))
     if (stands(node)) mass[index_of(node)] += loads.mass(node);
@@ -115,7 +120,7 @@ double StandingFrame::State::least_mass(int c, const PlacedLoad& placed, const F
 }
 
 StandingFrame::UnitResponse StandingFrame::State::respond_near(const ContactPlace& place, const Vec3& direction) const {
-  const PlacedLoad placed = place_load(building, bearings, place, direction);
+  const PlacedLoad placed = this->place(place, direction);
   const int c = component(place);
   const FrameStatics::Response response = statics.respond_near(c, response_loads(placed));
   UnitResponse answer;
@@ -128,7 +133,7 @@ StandingFrame::UnitResponse StandingFrame::State::respond_near(const ContactPlac
   for (MemberId member : bearing_members(placed))
     for (int end = 0; end < 2; ++end)
       add(building.joint(member, end), member_joint_demand(response.end_forces(member), end));
-  if (placed.panel.valid())
+  if (placed.panel.valid() && bearings.serves(placed.panel))
     for (int edge = 0; edge < 4; ++edge)
       add(building.joint(placed.panel, edge), handed_edge_demand(building, bearings, placed.panel, edge,
                                                                  placed.edge_force[static_cast<std::size_t>(edge)]));

@@ -73,7 +73,7 @@ void StandingFrame::State::damage(JointId joint, int told) {
   if (bearings.serves(own.panel))
     take(bearings.break_edge(own.panel, own.end), nullptr);
   else
-    segments.break_joint(joint);
+    lose_shell_edge(own.panel, own.end);
 }
 
 /// Everything but segmentation, which knows already.
@@ -138,9 +138,16 @@ void StandingFrame::State::take(const PanelBearings::Changes& changes, std::vect
   }
 }
 
+/// A membrane keeps what stiffness its remains have while all of its edges hold.
 void StandingFrame::State::fracture(PanelId panel, const PanelRemains& remains) {
   account.lighten(panel);
-  take(bearings.fracture(panel, remains.edge_length), nullptr);
+  if (!bearings.serves(panel)) return fracture_shell(panel, remains);
+  if (bearings.membrane(panel)) {
+    const Mat24 before = shells.of(panel) ? shells.of(panel)->stiffness() : statics.membrane_stiffness(panel);
+    shells.make(panel).fracture(remains);
+    replace_stiffness(panel, before);
+  }
+  bearings.fracture(panel, remains.edge_length);
   const HandOver before = loads.handed(panel);
   loads.fracture(panel, remains);
   account.lightened(panel, before, loads.handed(panel));
@@ -172,6 +179,7 @@ void StandingFrame::State::remove(PanelId panel) {
   drop_contacts(panel);
   if (!bearings.serves(panel)) {
     segments.remove(panel);
+    leave_shell(panel);
     return;
   }
   if (bearings.membrane(panel)) {
@@ -203,8 +211,7 @@ template void StandingFrame::State::drop_contacts(const PanelId&);
 
 void StandingFrame::State::place_contacts_again(PanelId panel) {
   for (const auto& [key, contact] : contacts)
-    if (contact.place.panel == panel)
-      loads.set_contact(key, place_load(building, bearings, contact.place, contact.force));
+    if (contact.place.panel == panel) loads.set_contact(key, place(contact.place, contact.force));
 }
 
 }  // namespace topple::structure

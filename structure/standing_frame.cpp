@@ -30,8 +30,9 @@ StandingFrame::State::State(const Building& given, CombinationId combination, co
       edges(given),
       segments(given),
       bearings(given, edges),
-      loads(given, loads_to_stand(given, combination), bearings),
-      statics(given, threads),
+      shells(given),
+      loads(given, loads_to_stand(given, combination), bearings, shells),
+      statics(given, shells, threads),
       joints(given, failure.sudden),
       ductile(given, statics, segments, bearings, applied),
       node_solved(given.nodes.size(), 1),
@@ -121,6 +122,7 @@ Vec6 StandingFrame::State::solved_demand(JointId joint) const {
 }
 
 std::array<Vec6, 4> StandingFrame::State::edge_demands(PanelId panel) const {
+  if (!bearings.serves(panel)) return shell_edge_demands(panel, corner_displacements(panel), loading(panel));
   return panel_edge_demands(building, bearings, loads, panel,
                             bearings.membrane(panel) ? std::optional(statics.corner_forces(panel)) : std::nullopt);
 }
@@ -135,14 +137,16 @@ Vec3 StandingFrame::State::position(JointId joint) const {
 
 const std::vector<int>& StandingFrame::State::numbered_segments() const {
   if (!segment_numbers.empty()) return segment_numbers;
-  std::vector<char> has_member(static_cast<std::size_t>(segments.labels()), 0);
+  std::vector<char> has_part(static_cast<std::size_t>(segments.labels()), 0);
   for (std::size_t m = 0; m < building.members.size(); ++m)
-    if (const int label = segments.label(MemberId(m)); label >= 0) has_member[static_cast<std::size_t>(label)] = 1;
-  segment_numbers.assign(has_member.size() + 1, -1);  // the last entry counts
+    if (const int label = segments.label(MemberId(m)); label >= 0) has_part[static_cast<std::size_t>(label)] = 1;
+  for (std::size_t p = 0; p < building.panels.size(); ++p)  // shells; others belong to what bears them
+    if (const int label = segments.label(PanelId(p)); label >= 0) has_part[static_cast<std::size_t>(label)] = 1;
+  segment_numbers.assign(has_part.size() + 1, -1);  // the last entry counts
   int count = 0;
   for (std::size_t n = 0; n < building.nodes.size(); ++n) {
     const int label = segments.label(NodeId(n));
-    if (label < 0 || !has_member[static_cast<std::size_t>(label)]) continue;
+    if (label < 0 || !has_part[static_cast<std::size_t>(label)]) continue;
     int& number = segment_numbers[static_cast<std::size_t>(label)];
     if (number < 0) number = count++;
   }
@@ -162,6 +166,7 @@ bool StandingFrame::intact(JointId joint) const { return state_->holds(joint); }
 const Vec6& StandingFrame::displacement(NodeId node) const { return state_->account.displacement(node); }
 Vec6 StandingFrame::demand(JointId joint) const { return state_->demand(joint); }
 double StandingFrame::largest_utilisation_so_far(JointId joint) const { return state_->joints.largest(joint); }
+std::optional<PanelStress> StandingFrame::stress(PanelId panel) const { return state_->stress(panel); }
 double StandingFrame::elastic_energy() const { return state_->account.energy().elastic; }
 FrameEnergy StandingFrame::energy() const { return state_->account.energy(); }
 double StandingFrame::mass(MemberId member) const { return state_->loads.mass(member); }
@@ -238,8 +243,7 @@ void StandingFrame::set_contact_load(const ContactLoad& load) {
   State& state = *state_;
   if (!state.stands(load.place)) return;
   state.contacts[load.key] = load;
-  if (state.loads.set_contact(load.key, place_load(state.building, state.bearings, load.place, load.force)))
-    state.pending = true;
+  if (state.loads.set_contact(load.key, state.place(load.place, load.force))) state.pending = true;
 }
 
 void StandingFrame::remove_contact_load(std::int64_t key) {

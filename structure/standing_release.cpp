@@ -37,6 +37,11 @@ void StandingFrame::State::take_unanchored() {
       drop_node(node);
     }
   }
+  for (const Segmentation::Part& part : parts)
+    for (PanelId panel : part.panels) {
+      drop_contacts(panel);
+      leave_shell(panel);
+    }
   take(bearings.leave(left), &leaving);
   for (Detached& part : leaving) {
     std::sort(part.panels.begin(), part.panels.end());
@@ -75,6 +80,17 @@ void StandingFrame::State::release_mechanism(const FrameMechanism& mechanism) {
   const MovingPart part = find_moving_part(building, segments, mechanism);
   for (MemberId member : part.members) in_mechanism[index_of(member)] = 1;
   for (JointId joint : part.holds) break_joint(joint, BreakCause::overload);
+  // A shell that moves lets go of all that it hangs on.
+  for (std::size_t p = 0; p < building.panels.size(); ++p) {
+    const PanelId panel(p);
+    const auto& corners = building.panels[p].nodes;
+    if (bearings.serves(panel) || segments.label(panel) < 0) continue;
+    if (std::none_of(corners.begin(), corners.end(), [&](NodeId node) {
+          return std::find(part.nodes.begin(), part.nodes.end(), node) != part.nodes.end();
+        }))
+      continue;
+    for (int edge = 0; edge < 4; ++edge) break_joint(building.joint(panel, edge), BreakCause::overload);
+  }
   for (NodeId node : part.nodes) {
     if (node_solved[index_of(node)]) account.lose_support(node);
     segments.remove_support(node);

@@ -70,7 +70,7 @@ int StandingFrame::State::component(const ContactPlace& place) const {
 }
 
 StandingFrame::UnitResponse StandingFrame::State::respond(const ContactPlace& place, const Vec3& direction) const {
-  const PlacedLoad placed = place_load(building, bearings, place, direction);
+  const PlacedLoad placed = this->place(place, direction);
   const int c = component(place);
   const FrameStatics::Response response = statics.respond(c, response_loads(placed));
   UnitResponse answer;
@@ -98,6 +98,12 @@ std::vector<std::pair<JointId, Vec6>> StandingFrame::State::response_demands(
       if (own.member != member_read) end_forces = response.end_forces(own.member);
       member_read = own.member;
       demand = member_joint_demand(end_forces, own.end);
+    } else if (!bearings.serves(own.panel)) {
+      std::array<Vec6, 4> corners;
+      for (std::size_t n = 0; n < 4; ++n) corners[n] = response.displacement(building[own.panel].nodes[n]);
+      PanelLoading unit;
+      if (own.panel == placed.panel) unit.forces.push_back(placed.on_shell);
+      demand = shell_edge_demands(own.panel, corners, unit)[static_cast<std::size_t>(own.end)];
     } else if (own.panel == placed.panel) {
       demand = handed_edge_demand(building, bearings, own.panel, own.end,
                                   placed.edge_force[static_cast<std::size_t>(own.end)]);
@@ -133,16 +139,28 @@ double StandingFrame::State::rayleigh_mass(int c, const PlacedLoad& placed, cons
     if (stands(node)) sum += loads.mass(node) * response.displacement(node).head<3>().squaredNorm();
   for (PanelId panel : component_panels[static_cast<std::size_t>(c)]) {
     if (!stands(panel)) continue;
-    // A panel moves with its corners, and where it is hit with the contact itself.
-    double corners = 0;
-    for (NodeId node : building[panel].nodes) corners += response.displacement(node).head<3>().squaredNorm() / 4;
-    sum += loads.mass(panel) * corners;
+    sum += loads.mass(panel) * panel_mean_square(panel, placed, response);
   }
   return sum / (compliance * compliance);
 }
 
+/// A panel moves with its corners; of a shell all nodes are known.
+double StandingFrame::State::panel_mean_square(PanelId panel, const PlacedLoad& placed,
+                                               const FrameStatics::Response& response) const {
+  std::array<Vec6, 4> corners;
+  double mean = 0;
+  for (std::size_t n = 0; n < 4; ++n) {
+    corners[n] = response.displacement(building[panel].nodes[n]);
+    mean += corners[n].head<3>().squaredNorm() / 4;
+  }
+  if (bearings.serves(panel)) return mean;
+  PanelLoading unit;
+  if (panel == placed.panel) unit.forces.push_back(placed.on_shell);
+  return shells.of(panel)->mean_square_motion(corners, unit);
+}
+
 double StandingFrame::State::displacement_along(const ContactPlace& place, const Vec3& direction) const {
-  const PlacedLoad placed = place_load(building, bearings, place, direction);
+  const PlacedLoad placed = this->place(place, direction);
   double sum = 0;
   for (const auto& [member, load] : placed.members) {
     const Vec3 force = building[member].axes.transpose() * load.first.head<3>();

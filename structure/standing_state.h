@@ -12,6 +12,7 @@
 #include "frame_statics.h"
 #include "joint_states.h"
 #include "moving_part.h"
+#include "panel_superelements.h"
 #include "segmentation.h"
 #include "topple/structure/standing_frame.h"
 
@@ -49,6 +50,20 @@ struct StandingFrame::State {
   [[nodiscard]] Vec6 solved_demand(JointId joint) const;  ///< read from the solver; the joint must hold
   [[nodiscard]] Vec3 position(JointId joint) const;
   [[nodiscard]] std::array<Vec6, 4> edge_demands(PanelId panel) const;
+  [[nodiscard]] PlacedLoad place(const ContactPlace& place, const Vec3& force) const;
+
+  // Shell panels (standing_shells.cpp).
+  [[nodiscard]] PlacedLoad place_on_shell(const ContactPlace& place, const Vec3& force) const;
+  [[nodiscard]] PanelLoading loading(PanelId panel) const;
+  [[nodiscard]] std::array<Vec6, 4> corner_displacements(PanelId panel) const;
+  [[nodiscard]] std::array<Vec6, 4> shell_edge_demands(PanelId panel, const std::array<Vec6, 4>& corners,
+                                                       const PanelLoading& loading) const;
+  [[nodiscard]] std::optional<PanelStress> stress(PanelId panel) const;
+  void replace_stiffness(PanelId panel, const Mat24& before);
+  void fracture_shell(PanelId panel, const PanelRemains& remains);
+  void lose_shell_edge(PanelId panel, int edge);
+  void leave_shell(PanelId panel);
+  void drop_bare_corners(PanelId panel);
 
   /// Number of each label among the standing segments, in order of their least node.
   const std::vector<int>& numbered_segments() const;
@@ -129,6 +144,8 @@ struct StandingFrame::State {
   [[nodiscard]] double critical_energy(int component) const;
   [[nodiscard]] double critical_energy(JointId joint) const;
   void forget_bounds(int component);
+  [[nodiscard]] double panel_mean_square(PanelId panel, const PlacedLoad& placed,
+                                         const FrameStatics::Response& response) const;
   [[nodiscard]] double displacement_along(const ContactPlace& place, const Vec3& direction) const;
 
   const Building& building;
@@ -136,6 +153,7 @@ struct StandingFrame::State {
   EdgeMembers edges;
   Segmentation segments;
   PanelBearings bearings;
+  PanelSuperelements shells;
   FrameLoads loads;
   FrameStatics statics;
   JointStates joints;

@@ -14,6 +14,7 @@ LossyFrame::LossyFrame(const Building& building, const std::vector<MemberId>& ca
       edges_(building),
       whole_(building, edges_),
       bearings_(whole_),
+      shells_(building),
       members_at_node_(building.nodes.size(), 0),
       ground_(building.nodes.size(), -1) {
   for (const Member& member : building.members)
@@ -35,7 +36,7 @@ std::vector<NodeId> LossyFrame::nodes_left_bare(MemberId member) const {
 }
 
 void LossyFrame::load(const PartLoads& loads) {
-  loads_.emplace(building_, loads, bearings_);
+  loads_.emplace(building_, loads, bearings_, shells_);
   write_loads();
 }
 

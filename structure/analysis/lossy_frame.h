@@ -36,6 +36,7 @@ class LossyFrame {
   Frame frame_;
   EdgeMembers edges_;
   PanelBearings whole_, bearings_;
+  PanelSuperelements shells_;  ///< none: the building has no shells
   std::optional<FrameLoads> loads_;
   std::unique_ptr<solver::Reanalysis> analysis_;
   std::vector<int> members_at_node_;

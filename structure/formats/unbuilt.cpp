@@ -4,6 +4,7 @@
 #include <array>
 
 #include "topple/structure/error.h"
+#include "topple/structure/frame.h"
 
 namespace topple::structure {
 
@@ -55,10 +56,26 @@ namespace {
 
 // Each function refuses one feature; a feature that is built for one purpose is left out of that purpose's list below.
 
-void refuse_shells(const Building& building) {
-  for (const Panel& panel : building.panels)
-    if (panel.model == PanelModel::shell) refuse(building, "panels." + panel.name + ".model", "\"shell\"");
+/// What stands knows a shell by its four corners: along its edges it bends freely.
+void refuse_joined_shells(const Building& building) {
+  const EdgeMembers edges(building);
+  for (std::size_t p = 0; p < building.panels.size(); ++p) {
+    const Panel& panel = building.panels[p];
+    if (panel.model != PanelModel::shell) continue;
+    for (int edge = 0; edge < 4; ++edge)
+      if (!edges.of(PanelId(p), edge).empty())
+        refuse(building, "panels." + panel.name, "a member along an edge of a \"shell\"");
+    for (std::size_t other = 0; other < p; ++other) {
+      int shared = 0;
+      for (const NodeId node : panel.nodes)
+        shared +=
+            std::count(building.panels[other].nodes.begin(), building.panels[other].nodes.end(), node) > 0 ? 1 : 0;
+      if (building.panels[other].model == PanelModel::shell && shared > 1)
+        refuse(building, "panels." + panel.name, "an edge that two \"shell\" panels share");
+    }
+  }
 }
+/// A hole in the mesh of a membrane is made when it breaks; one that it has from the start is not.
 /// A membrane is one element and a cladding none.
 void refuse_meshes_of_panels(const Building& building) {
   for (const Panel& panel : building.panels)
@@ -73,10 +90,6 @@ void refuse_giving_edges(const Building& building) {
     if (joint.panel.valid() && (joint.stiffness.array() != unlimited).any())
       refuse(building, "joint " + joint.name, "`stiffness` of a shell's edge");
 }
-void refuse_openings(const Building& building) {
-  for (const Panel& panel : building.panels)
-    if (!panel.openings.empty()) refuse(building, "panels." + panel.name + ".openings", "`openings`");
-}
 /// What a cladding hands on takes its openings into account; the one element of a membrane has none.
 void refuse_openings_of_membranes(const Building& building) {
   for (const Panel& panel : building.panels)
@@ -89,11 +102,6 @@ void refuse_one_way_members(const Building& building) {
       refuse(building, "members." + member.name + ".axial",
              member.axial == AxialAction::tension ? "\"tension\"" : "\"compression\"");
 }
-void refuse_edge_supports(const Building& building) {
-  for (const EdgeSupport& support : building.edge_supports)
-    refuse(building, "supports." + building[support.panel].name + ":" + std::to_string(support.edge + 1),
-           "a support of a panel's edge");
-}
 void refuse_diaphragms(const Building& building) {
   for (const Diaphragm& diaphragm : building.diaphragms)
     refuse(building, "diaphragms." + diaphragm.name, "a diaphragm");
@@ -105,8 +113,9 @@ void refuse_unbuilt(const Building& building, Purpose purpose) {
   using Refusal = void (*)(const Building&);
   static constexpr std::array<Refusal, 3> analyse{refuse_meshes_of_panels, refuse_openings_of_membranes,
                                                   refuse_giving_edges};
-  static constexpr std::array<Refusal, 6> demolish{refuse_shells,          refuse_meshes_of_panels, refuse_openings,
-                                                   refuse_one_way_members, refuse_edge_supports,    refuse_diaphragms};
+  static constexpr std::array<Refusal, 5> demolish{refuse_joined_shells, refuse_meshes_of_panels,
+                                                   refuse_openings_of_membranes, refuse_one_way_members,
+                                                   refuse_diaphragms};
   switch (purpose) {
     case Purpose::analyse:
       for (const Refusal refusal : analyse) refusal(building);

@@ -46,7 +46,10 @@ bool Simulation::State::punch_at_once(Strike& hit, double force) {
 
 double Simulation::State::break_out(Strike& hit) {
   const PanelId panel = hit.part.panel;
-  const auto radius = hit.body->radius > 0 ? std::optional(hit.body->radius) : std::nullopt;
+  auto radius = hit.body->radius > 0 ? std::optional(hit.body->radius) : std::nullopt;
+  // Local damage has lengths of its own; only a larger body makes it larger.
+  const auto& settings = breakable_panels[static_cast<std::size_t>(panel.index)].settings;
+  if (radius && settings->method == fracture::Method::local && *radius < settings->local.length[1]) radius.reset();
   std::vector<PanelChunk> chunks = breaking(panel).hit(hit.place.point, radius);
   double plug = 0;
   for (const PanelChunk& chunk : chunks) plug += chunk.hit ? chunk.rest.mass : 0;
@@ -59,17 +62,66 @@ double Simulation::State::break_out(Strike& hit) {
 /// The panel as it is broken now, whole at first.
 BrokenPanel& Simulation::State::breaking(PanelId panel) {
   if (const auto found = broken_panels.find(panel); found != broken_panels.end()) return found->second;
+  const auto& settings = breakable_panels[static_cast<std::size_t>(panel.index)].settings;
   return broken_panels
       .emplace(panel, BrokenPanel(building, panel, masses.of(panel).mass, shapes.corners(panel),
-                                  *breakable_panels[static_cast<std::size_t>(panel.index)].settings, held(panel)))
+                                  settings.value_or(fracture::PanelSettings()), held(panel)))
       .first->second;
 }
 
+/// A joint holds an edge where something is there to hold it: of a shell, which joins at its corners and at supported
+/// edges, that is not so for every edge.
 std::array<bool, 4> Simulation::State::held(PanelId panel) const {
+  const auto supported = [&](int edge) {
+    return std::any_of(building.edge_supports.begin(), building.edge_supports.end(),
+                       [&](const EdgeSupport& support) { return support.panel == panel && support.edge == edge; });
+  };
+  const auto bears = [&](NodeId node) {
+    const auto at = [&](NodeId other) { return other == node; };
+    for (const NodeSupport& support : building.supports)
+      if (at(support.node)) return true;
+    for (std::size_t m = 0; m < building.members.size(); ++m)
+      for (int end = 0; end < 2; ++end)
+        if (at(building.members[m].nodes[static_cast<std::size_t>(end)]) &&
+            frame->intact(building.joint(MemberId(m), end)) && frame->stands(MemberId(m)))
+          return true;
+    return false;
+  };
   std::array<bool, 4> edges{};
-  for (int edge = 0; edge < 4; ++edge)
-    edges[static_cast<std::size_t>(edge)] = frame->intact(building.joint(panel, edge));
+  for (int edge = 0; edge < 4; ++edge) {
+    bool holds = frame->intact(building.joint(panel, edge));
+    if (holds && building[panel].model == PanelModel::shell)
+      holds = supported(edge) || bears(building[panel].nodes[static_cast<std::size_t>(edge)]) ||
+              bears(building[panel].nodes[static_cast<std::size_t>((edge + 1) % 4)]);
+    edges[static_cast<std::size_t>(edge)] = holds;
+  }
   return edges;
+}
+
+/// Panels that have openings from the start have the shape of what is there.
+void Simulation::State::open_panels() {
+  for (std::size_t p = 0; p < building.panels.size(); ++p)
+    if (!building.panels[p].openings.empty()) shapes.set_broken(PanelId(p), breaking(PanelId(p)).hulls());
+}
+
+/// Where the static stress passes what the material bears, a panel cracks at its largest; what that leaves is looked at
+/// in the next step.
+void Simulation::State::crack_panels() {
+  for (std::size_t p = 0; p < building.panels.size(); ++p) {
+    const BreakablePanel& breakable = breakable_panels[p];
+    const PanelId panel(p);
+    if (!breakable.settings || !frame->stands(panel)) continue;
+    const std::optional<PanelStress> stress = frame->stress(panel);
+    if (!stress) continue;
+    const double tension = stress->tension / breakable.tensile_strength;
+    const double compression = stress->compression / breakable.compressive_strength;
+    if (std::max(tension, compression) <= 1) continue;
+    const Vec3 at = tension >= compression ? stress->tension_at : stress->compression_at;
+    std::vector<PanelChunk> chunks = breaking(panel).hit(at, std::nullopt);
+    if (chunks.empty()) continue;
+    tell(SimulationEvent::Kind::panel_fractured, building[panel].name).position = at;
+    (void)break_standing(panel, std::move(chunks));
+  }
 }
 
 /// These chunks of a standing panel become bodies at rest; everybody hears of what remains. Returns the bodies of

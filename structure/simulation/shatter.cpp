@@ -32,6 +32,7 @@ void Simulation::State::find_breakable_panels() {
       // Where it is not given: that of concrete of this compressive strength (EN 1992-1-1, table 3.1).
       breakable.tensile_strength =
           material.tensile_strength.value_or(0.3e6 * std::pow(*material.compressive_strength / 1e6, 2.0 / 3.0));
+      breakable.compressive_strength = *material.compressive_strength;
       breakable.breaking_speed = *material.compressive_strength / std::sqrt(material.youngs_modulus * density);
     }
     breakable_panels.push_back(std::move(breakable));

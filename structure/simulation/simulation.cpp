@@ -71,6 +71,7 @@ Simulation::State::State(Building the_building, Scenario the_scenario, Simulatio
       body_of_part(part_count(building), -1),
       debris_broken(building.joints.size(), 0) {
   find_breakable_panels();
+  open_panels();
   world->set_gravity(gravity);
   world->set_ground(ground_height(building, scenario), scenario.debris.friction, scenario.debris.restitution);
 }

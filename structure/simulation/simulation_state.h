@@ -86,6 +86,8 @@ struct Simulation::State {
   [[nodiscard]] std::array<bool, 4> held(PanelId panel) const;
   std::vector<collision::BodyId> break_standing(PanelId panel, std::vector<PanelChunk> chunks);
   void drop_loose_pieces();
+  void crack_panels();
+  void open_panels();
 
   // break_up.cpp: bodies of several members that are hit hard fall apart.
   void break_up_landed();
@@ -135,9 +137,9 @@ struct Simulation::State {
   std::vector<std::int64_t> body_of_part;  ///< by part number; -1 stands, -2 gone
 
   struct BreakablePanel {
-    std::optional<fracture::PanelSettings> settings;  ///< none: it never breaks
-    double breaking_speed = unlimited;                ///< change of speed that breaks it, m/s
-    double tensile_strength = unlimited;              ///< Pa
+    std::optional<fracture::PanelSettings> settings;                        ///< none: it never breaks
+    double breaking_speed = unlimited;                                      ///< change of speed that breaks it, m/s
+    double tensile_strength = unlimited, compressive_strength = unlimited;  ///< Pa
   };
   std::vector<BreakablePanel> breakable_panels;  ///< per panel
   std::map<PanelId, BrokenPanel> broken_panels;  ///< those that are broken in part: standing, or whole bodies

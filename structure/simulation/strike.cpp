@@ -215,6 +215,7 @@ void Simulation::State::break_generations() {
     event.position = line.position;
   }
   for (const JointBreak& broken : breaks) tell(broken);
+  crack_panels();
 }
 
 }  // namespace topple::structure

@@ -167,7 +167,7 @@ TEST_CASE("what is not built yet is refused by its name for the purpose that nee
   CHECK(refusal("", "", Purpose::demolish) == "no error");
   CHECK(refusal("\"model\": \"membrane\"", "\"model\": \"shell\"", Purpose::analyse) == "no error");
   CHECK(refusal("\"model\": \"membrane\"", "\"model\": \"shell\"", Purpose::demolish) ==
-        "m.json, panels.S1.model: \"shell\" is not built yet; accepted: leave it out");
+        "m.json, panels.S1: a member along an edge of a \"shell\" is not built yet; accepted: leave it out");
   CHECK(refusal("\"model\": \"membrane\"", "\"mesh\": 2", Purpose::analyse) ==
         "m.json, panels.S1.mesh: found a mesh in a membrane; accepted: \"model\": \"shell\", or leave it out");
   CHECK(refusal("\"model\": \"membrane\"", "\"openings\": [[[1, 1], [2, 1], [2, 2]]]", Purpose::analyse) ==

@@ -3,6 +3,7 @@
 // members, joints, load cases and names are the business of the layer above. Units: any consistent set (Topple uses
 // SI).
 #include <array>
+#include <map>
 #include <vector>
 
 #include "topple/solver/types.h"
@@ -59,6 +60,9 @@ struct FrameModel {
   std::vector<Shell> shells;
   std::vector<Support> supports;
   std::vector<Diaphragm> diaphragms;
+  /// Of shells whose stiffness comes from elsewhere (a superelement condensed to their nodes), by index: symmetric,
+  /// positive semidefinite, in the global freedoms of the four nodes.
+  std::map<int, Eigen::Matrix<double, 24, 24>> shell_stiffness;
 };
 
 /// Load on one beam in its local axes. Distances are from the beam's first end (after its arm).

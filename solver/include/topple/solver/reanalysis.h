@@ -64,6 +64,11 @@ class Reanalysis {
   void restore_beam(int beam);
   void remove_shell(int shell);
   void restore_shell(int shell);
+  /// Of a shell that stands, in the global freedoms of its four nodes.
+  [[nodiscard]] Eigen::Matrix<double, 24, 24> shell_stiffness(int shell) const;
+  /// From now on the shell has this stiffness, in the global freedoms of its four nodes (a superelement condensed to
+  /// them): symmetric, positive semidefinite. The next answer needs a new factor.
+  void set_shell_stiffness(int shell, const Eigen::Matrix<double, 24, 24>& stiffness);
   /// Factor on the beam's E and G.
   void set_beam_stiffness_factor(int beam, double factor);
   /// Replaces the stiffness of the support at its index in FrameModel::supports (0: taken away).

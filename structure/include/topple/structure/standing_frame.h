@@ -62,6 +62,12 @@ struct PanelRemains {
   std::array<double, 4> edge_length{};   ///< along which it is still there, for each edge, m
 };
 
+/// Principal stresses of a panel at their largest, Pa, both positive, and where they are.
+struct PanelStress {
+  double tension = 0, compression = 0;
+  Vec3 tension_at = Vec3::Zero(), compression_at = Vec3::Zero();
+};
+
 struct FrameCounters {
   std::uint64_t solves = 0, low_rank = 0, refactorisations = 0, segmentations = 0, unchanged = 0;
   double operations = 0;                ///< predicted by the solver, for budgets
@@ -109,6 +115,9 @@ class StandingFrame {
   [[nodiscard]] int standing_segments() const;
   [[nodiscard]] double elastic_energy() const;
   [[nodiscard]] FrameEnergy energy() const;
+  /// Of a standing shell panel in either face (at the centres of its elements), or of a membrane by its mean stress, in
+  /// the static state solved last. Nothing for a panel that bears no stress.
+  [[nodiscard]] std::optional<PanelStress> stress(PanelId panel) const;
   /// Downward load of a part in the combination over gravity, node loads apart.
   [[nodiscard]] double mass(MemberId member) const;
   [[nodiscard]] double mass(PanelId panel) const;
@@ -147,8 +156,8 @@ class StandingFrame {
   /// `generations` of them), sudden loss and bracing by the rules, mechanisms released. Returns what broke, in order;
   /// pending() stays true when the limit cut it short.
   std::vector<JointBreak> settle(int generations);
-  /// Joints whose moment or torsion came to its capacity, and that have turned since, as they did; each sense of a joint
-  /// once. Handed out once.
+  /// Joints whose moment or torsion came to its capacity, and that have turned since, as they did; each sense of a
+  /// joint once. Handed out once.
   std::vector<JointBreak> take_yielded();
   /// What has left since the last call, each connected part apart.
   std::vector<Detached> take_detached();
@@ -177,8 +186,8 @@ class StandingFrame {
   double break_in_impact(std::span<const JointBreak> breaks, const ContactPlace& place, const Vec3& direction);
 
   /// A standing panel is broken in part, now: it hands on what remains of its weight by where that lies, its edge
-  /// joints bear over what remains of their length (told as broken by the next settle() when nothing does), and its
-  /// membrane gives way. Holes are all since it was whole.
+  /// joints bear over what remains of their length (told as broken by the next settle() when nothing does), and it
+  /// is as stiff as what remains. Holes are all since it was whole.
   void fracture(PanelId panel, const PanelRemains& remains);
 
   [[nodiscard]] const FrameCounters& counters() const;

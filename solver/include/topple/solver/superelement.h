@@ -1,0 +1,63 @@
+#pragma once
+// A patch of shells of which only a few nodes are seen from outside: everything else is condensed out, exactly (static
+// condensation, R. J. Guyan, AIAA Journal 3 (1965), 380; without mass there is no approximation). Elements can be taken
+// out; then this patch alone is condensed anew.
+#include <Eigen/Core>
+#include <array>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "topple/solver/frame_model.h"
+
+namespace topple::solver {
+
+class Superelement {
+ public:
+  /// A node that moves with two kept ones: (1 - share) of the first and share of the second (places in `kept`).
+  struct Tie {
+    int node = -1;
+    std::array<int, 2> kept{};
+    double share = 0;
+    bool turns = true;  ///< false: it turns as it likes
+  };
+  struct Patch {
+    std::vector<Vec3> nodes;
+    std::vector<Shell> shells;
+    std::vector<Support> supports;  ///< of nodes that are not kept
+    std::vector<int> kept;          ///< nodes seen from outside
+    std::vector<Tie> ties;
+  };
+  explicit Superelement(Patch patch);
+  ~Superelement();
+  Superelement(Superelement&&) noexcept;
+  Superelement& operator=(Superelement&&) noexcept;
+
+  /// Takes these shells out for good and condenses anew. So are shells that hang on nothing any more: on no kept, tied
+  /// or supported node.
+  void remove(std::span<const int> shells);
+  [[nodiscard]] bool stands(int shell) const;
+  /// True while a shell stands at a node.
+  [[nodiscard]] bool has_shells(int node) const;
+
+  /// In the six freedoms of each kept node, global.
+  [[nodiscard]] const Eigen::MatrixXd& stiffness() const;
+  /// Loads on all nodes of the patch as loads on the kept ones.
+  [[nodiscard]] Eigen::VectorXd condense(const std::vector<Vec6>& loads) const;
+  /// Displacements of all nodes; zero where nothing stands.
+  [[nodiscard]] std::vector<Vec6> recover(const Eigen::VectorXd& kept, const std::vector<Vec6>& loads) const;
+  /// What would have to act on each node, beside the loads, to keep it at these displacements: reactions of supports
+  /// and of what holds the kept nodes; rounding elsewhere.
+  [[nodiscard]] std::vector<Vec6> reactions(const std::vector<Vec6>& displacements,
+                                            const std::vector<Vec6>& loads) const;
+  [[nodiscard]] const Patch& patch() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Forces at a shell's nodes that do the work of a traction (global, per area).
+[[nodiscard]] std::array<Vec6, 4> traction_loads(const FrameModel& model, int shell, const Vec3& traction);
+
+}  // namespace topple::solver

@@ -1,0 +1,340 @@
+#include "panel_superelement.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "index_of.h"
+#include "topple/fracture/polygon.h"
+#include "topple/solver/shell_resultants.h"
+
+namespace topple::structure {
+
+namespace {
+
+/// Elements of a broken membrane: about this long, m, and at most so many along an edge.
+constexpr double membrane_element = 0.5;
+constexpr int most_elements = 12;
+/// An element with less of its area stands no more.
+constexpr double least_share = 0.5;
+
+Vec6 turned(const Mat3& turn, const Vec6& v) {
+  Vec6 result;
+  result << turn * v.head<3>(), turn * v.tail<3>();
+  return result;
+}
+
+/// Larger and smaller principal value of a plane symmetric tensor (xx, yy, xy).
+std::array<double, 2> principal(const Vec3& s) {
+  const double mean = (s(0) + s(1)) / 2, radius = std::hypot((s(0) - s(1)) / 2, s(2));
+  return {mean + radius, mean - radius};
+}
+
+}  // namespace
+
+PanelSuperelement::PanelSuperelement(const Building& building, const Frame& frame, PanelId id)
+    : axes_(building[id].axes),
+      origin_(building[building[id].nodes[0]].position),
+      turn_(Mat3::Identity()),
+      thickness_(building[id].thickness) {
+  const PanelMesh& mesh = frame.meshes[index_of(id)];
+  solver::Superelement::Patch patch;
+  std::map<int, int> place;
+  const auto local = [&](int node) {
+    const auto [entry, made] = place.emplace(node, static_cast<int>(patch.nodes.size()));
+    if (made) patch.nodes.push_back(frame.model.nodes[static_cast<std::size_t>(node)]);
+    return entry->second;
+  };
+  for (const NodeId node : building[id].nodes) patch.kept.push_back(local(node.index));
+  for (std::size_t k = 0; k < mesh.elements.size(); ++k) {
+    solver::Shell shell = frame.model.shells[static_cast<std::size_t>(mesh.first_shell) + k];
+    for (int& node : shell.node) node = local(node);
+    patch.shells.push_back(shell);
+  }
+  for (const EdgeSupport& support : building.edge_supports) {
+    if (support.panel != id) continue;
+    const auto edge = static_cast<std::size_t>(support.edge);
+    for (const int node : mesh.edge_nodes[edge]) {
+      supported_edge_[edge].push_back(local(node));
+      if (std::find(patch.kept.begin(), patch.kept.end(), local(node)) == patch.kept.end())
+        patch.supports.push_back({local(node), support.stiffness});
+    }
+  }
+  share_.assign(patch.shells.size(), 1);
+  patch_.emplace(std::move(patch));
+}
+
+PanelSuperelement::PanelSuperelement(const Building& building, PanelId id)
+    : axes_(building[id].axes),
+      origin_(building[building[id].nodes[0]].position),
+      turn_(building[id].axes),
+      thickness_(building[id].thickness) {
+  const Panel& panel = building[id];
+  std::array<Vec3, 4> corner;
+  for (std::size_t i = 0; i < 4; ++i) corner[i] = axes_ * (building[panel.nodes[i]].position - origin_);
+  const auto divisions = [&](std::size_t edge) {
+    const double length =
+        std::max((corner[edge + 1] - corner[edge]).norm(), (corner[(edge + 3) % 4] - corner[(edge + 2) % 4]).norm());
+    return std::clamp(static_cast<int>(std::ceil(length / membrane_element)), 1, most_elements);
+  };
+  const int columns = divisions(0), rows = divisions(1);
+  solver::Superelement::Patch patch;
+  const auto number = [&](int i, int j) { return j * (columns + 1) + i; };
+  for (int j = 0; j <= rows; ++j)
+    for (int i = 0; i <= columns; ++i) {
+      const double s = static_cast<double>(i) / columns, t = static_cast<double>(j) / rows;
+      patch.nodes.push_back((1 - t) * ((1 - s) * corner[0] + s * corner[1]) +
+                            t * ((1 - s) * corner[3] + s * corner[2]));
+      patch.nodes.back().z() = 0;  // as the one element of a whole membrane: its mean plane
+      const bool on_x = i == 0 || i == columns, on_y = j == 0 || j == rows;
+      if (on_x == on_y) continue;
+      const std::array<int, 2> kept =
+          on_y ? (j == 0 ? std::array{0, 1} : std::array{3, 2}) : (i == 0 ? std::array{0, 3} : std::array{1, 2});
+      patch.ties.push_back({number(i, j), kept, on_y ? s : t, false});
+    }
+  patch.kept = {number(0, 0), number(columns, 0), number(columns, rows), number(0, rows)};
+  solver::Shell shell;
+  shell.youngs_modulus = building[panel.material].youngs_modulus;
+  shell.poisson_ratio = building[panel.material].poisson_ratio;
+  shell.thickness = panel.thickness;
+  for (int j = 0; j < rows; ++j)
+    for (int i = 0; i < columns; ++i) {
+      shell.node = {number(i, j), number(i + 1, j), number(i + 1, j + 1), number(i, j + 1)};
+      patch.shells.push_back(shell);
+    }
+  share_.assign(patch.shells.size(), 1);
+  patch_.emplace(std::move(patch));
+}
+
+/// Place of a patch node in the panel's plane.
+Vec2 PanelSuperelement::flat(int node) const {
+  const Vec3& place = patch_->patch().nodes[static_cast<std::size_t>(node)];
+  if (turn_.isIdentity(0)) return (axes_ * (place - origin_)).head<2>();
+  return place.head<2>();
+}
+
+void PanelSuperelement::fracture(const PanelRemains& remains) {
+  std::vector<int> gone;
+  const auto& shells = patch_->patch().shells;
+  for (std::size_t k = 0; k < shells.size(); ++k) {
+    fracture::Polygon element;
+    for (const int node : shells[k].node) element.push_back(flat(node));
+    double lost = 0;
+    for (const std::vector<Vec2>& hole : remains.holes) {
+      fracture::LabelledPolygon both{hole, std::vector<int>(hole.size(), 0)};
+      for (std::size_t i = 0; i < 4 && !both.vertices.empty(); ++i) {
+        const Vec2 along = element[(i + 1) % 4] - element[i];
+        fracture::clip(both, element[i], Vec2(along.y(), -along.x()), 0);
+      }
+      if (both.vertices.size() > 2) lost += fracture::area(both.vertices);
+    }
+    share_[k] = std::max(0.0, 1 - lost / fracture::area(element));
+    if (share_[k] < least_share && patch_->stands(static_cast<int>(k))) gone.push_back(static_cast<int>(k));
+  }
+  if (!gone.empty()) patch_->remove(gone);
+}
+
+void PanelSuperelement::release_edge(int edge) {
+  const auto& nodes = supported_edge_[static_cast<std::size_t>(edge)];
+  solver::Superelement::Patch patch = patch_->patch();
+  std::erase_if(patch.supports, [&](const solver::Support& support) {
+    return std::find(nodes.begin(), nodes.end(), support.node) != nodes.end();
+  });
+  supported_edge_[static_cast<std::size_t>(edge)].clear();
+  std::vector<int> gone;
+  for (std::size_t k = 0; k < patch.shells.size(); ++k)
+    if (!patch_->stands(static_cast<int>(k))) gone.push_back(static_cast<int>(k));
+  patch_.emplace(std::move(patch));
+  patch_->remove(gone);
+}
+
+Mat24 PanelSuperelement::stiffness() const {
+  if (turn_.isIdentity(0)) return patch_->stiffness();
+  Mat24 global;
+  const Eigen::MatrixXd& local = patch_->stiffness();
+  for (int i = 0; i < 8; ++i)
+    for (int j = 0; j < 8; ++j)
+      global.block<3, 3>(3 * i, 3 * j) = turn_.transpose() * local.block<3, 3>(3 * i, 3 * j) * turn_;
+  return global;
+}
+
+bool PanelSuperelement::corner_stands(int corner) const {
+  return patch_->has_shells(patch_->patch().kept[static_cast<std::size_t>(corner)]);
+}
+
+solver::FrameModel PanelSuperelement::model() const {
+  solver::FrameModel model;
+  model.nodes = patch_->patch().nodes;
+  model.shells = patch_->patch().shells;
+  return model;
+}
+
+/// On the element that holds the point by its bilinear shapes; in a hole, on the nearest node that stands, with the
+/// moment that keeps its line of action.
+void PanelSuperelement::add_force(const PanelForce& one, std::vector<Vec6>& loads) const {
+  const Vec2 at = (axes_ * (one.point - origin_)).head<2>();
+  const Vec3 force = turn_ * one.force;
+  const auto& shells = patch_->patch().shells;
+  int nearest = -1;
+  double least = unlimited;
+  for (std::size_t k = 0; k < shells.size(); ++k) {
+    if (!patch_->stands(static_cast<int>(k))) continue;
+    fracture::Polygon corners;
+    for (const int node : shells[k].node) {
+      corners.push_back(flat(node));
+      const double away = (corners.back() - at).norm();
+      if (away < least) nearest = node;
+      least = std::min(least, away);
+    }
+    if (!fracture::contains(corners, at)) continue;
+    // Newton's method on the bilinear map; two steps are exact in a parallelogram.
+    Vec2 place = Vec2::Zero();
+    for (int i = 0; i < 20; ++i) {
+      const Vec2 a = corners[0] + corners[1] + corners[2] + corners[3],
+                 b = corners[1] + corners[2] - corners[0] - corners[3];
+      const Vec2 c = corners[2] + corners[3] - corners[0] - corners[1],
+                 d = corners[0] + corners[2] - corners[1] - corners[3];
+      const Vec2 residual = at - (a + place.x() * b + place.y() * c + place.x() * place.y() * d) / 4;
+      Eigen::Matrix2d slope;
+      slope << (b + place.y() * d) / 4, (c + place.x() * d) / 4;
+      const double determinant = slope(0, 0) * slope(1, 1) - slope(0, 1) * slope(1, 0);
+      const Vec2 step((slope(1, 1) * residual.x() - slope(0, 1) * residual.y()) / determinant,
+                      (slope(0, 0) * residual.y() - slope(1, 0) * residual.x()) / determinant);
+      place = (place + step).cwiseMax(-1).cwiseMin(1);
+      if (step.norm() < 1e-14) break;
+    }
+    constexpr std::array<std::array<double, 2>, 4> sign{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
+    for (std::size_t n = 0; n < 4; ++n)
+      loads[static_cast<std::size_t>(shells[k].node[n])].head<3>() +=
+          (1 + sign[n][0] * place.x()) * (1 + sign[n][1] * place.y()) / 4 * force;
+    return;
+  }
+  if (nearest < 0) return;
+  const Vec2 arm = at - flat(nearest);
+  const Vec3 lever = turn_ * (axes_.transpose() * Vec3(arm.x(), arm.y(), 0));
+  loads[static_cast<std::size_t>(nearest)].head<3>() += force;
+  loads[static_cast<std::size_t>(nearest)].tail<3>() += lever.cross(force);
+}
+
+std::vector<Vec6> PanelSuperelement::node_loads(const PanelLoading& loading) const {
+  std::vector<Vec6> loads(patch_->patch().nodes.size(), Vec6::Zero());
+  if (!loading.traction.isZero(0)) {
+    const solver::FrameModel patch = model();
+    for (std::size_t k = 0; k < patch.shells.size(); ++k) {
+      if (share_[k] <= 0) continue;
+      const std::array<Vec6, 4> own =
+          solver::traction_loads(patch, static_cast<int>(k), turn_ * loading.traction * share_[k]);
+      if (patch_->stands(static_cast<int>(k))) {
+        for (std::size_t n = 0; n < 4; ++n) loads[static_cast<std::size_t>(patch.shells[k].node[n])] += own[n];
+        continue;
+      }
+      Vec3 sum = Vec3::Zero(), centre = Vec3::Zero();
+      for (std::size_t n = 0; n < 4; ++n) {
+        const Vec2 corner = flat(patch.shells[k].node[n]);
+        sum += own[n].head<3>();
+        centre += Vec3(corner.x(), corner.y(), 0) / 4;
+      }
+      add_force({origin_ + axes_.transpose() * centre, turn_.transpose() * sum}, loads);
+    }
+  }
+  for (const PanelForce& one : loading.forces) add_force(one, loads);
+  return loads;
+}
+
+std::array<Vec6, 4> PanelSuperelement::corner_loads(const PanelLoading& loading) const {
+  const Eigen::VectorXd condensed = patch_->condense(node_loads(loading));
+  std::array<Vec6, 4> loads;
+  for (int c = 0; c < 4; ++c)
+    loads[static_cast<std::size_t>(c)] = turned(turn_.transpose(), condensed.segment<6>(6 * c));
+  return loads;
+}
+
+std::vector<Vec6> PanelSuperelement::recover(const std::array<Vec6, 4>& corners, const PanelLoading& loading) const {
+  Eigen::VectorXd kept(24);
+  for (int c = 0; c < 4; ++c) kept.segment<6>(6 * c) = turned(turn_, corners[static_cast<std::size_t>(c)]);
+  return patch_->recover(kept, node_loads(loading));
+}
+
+double PanelSuperelement::compliance(const PanelForce& unit) const {
+  PanelLoading loading;
+  loading.forces = {unit};
+  const std::vector<Vec6> loads = node_loads(loading);
+  const std::vector<Vec6> u = patch_->recover(Eigen::VectorXd::Zero(24), loads);
+  double work = 0;
+  for (std::size_t n = 0; n < u.size(); ++n) work += u[n].dot(loads[n]);
+  return work;
+}
+
+double PanelSuperelement::mean_square_motion(const std::array<Vec6, 4>& corners, const PanelLoading& loading) const {
+  const std::vector<Vec6> u = recover(corners, loading);
+  double sum = 0, area = 0;
+  for (std::size_t k = 0; k < share_.size(); ++k) {
+    if (!patch_->stands(static_cast<int>(k))) continue;
+    fracture::Polygon element;
+    double squares = 0;
+    for (const int node : patch_->patch().shells[k].node) {
+      element.push_back(flat(node));
+      squares += u[static_cast<std::size_t>(node)].head<3>().squaredNorm() / 4;
+    }
+    const double own = share_[k] * fracture::area(element);
+    sum += own * squares;
+    area += own;
+  }
+  return area > 0 ? sum / area : 0;
+}
+
+std::array<Vec6, 4> PanelSuperelement::edge_demands(const std::array<Vec6, 4>& corners, const PanelLoading& loading,
+                                                    const std::array<double, 4>& length) const {
+  std::array<Vec6, 4> demands{Vec6::Zero(), Vec6::Zero(), Vec6::Zero(), Vec6::Zero()};
+  if (std::all_of(supported_edge_.begin(), supported_edge_.end(), [](const auto& edge) { return edge.empty(); }))
+    return demands;
+  const std::vector<Vec6> reactions = patch_->reactions(recover(corners, loading), node_loads(loading));
+  std::vector<int> edges_at(reactions.size(), 0);  // a corner between two supported edges is shared
+  for (const auto& edge : supported_edge_)
+    for (const int node : edge) ++edges_at[static_cast<std::size_t>(node)];
+  const auto& kept = patch_->patch().kept;
+  for (std::size_t edge = 0; edge < 4; ++edge) {
+    if (supported_edge_[edge].empty() || !(length[edge] > 0)) continue;
+    const auto place = [&](std::size_t corner) { return flat(kept[corner % 4]); };
+    const Vec2 along = (place(edge + 1) - place(edge)).normalized();
+    Mat3 own;  // rows: outwards, along, normal
+    own << along.y(), -along.x(), 0, along.x(), along.y(), 0, 0, 0, 1;
+    const Mat3 to_edge = own * axes_ * turn_.transpose();
+    Vec6 sum = Vec6::Zero();
+    for (const int node : supported_edge_[edge]) {
+      const auto n = static_cast<std::size_t>(node);
+      sum += reactions[n] / edges_at[n];
+    }
+    demands[edge] = turned(to_edge, sum) / length[edge];
+  }
+  return demands;
+}
+
+PanelStress PanelSuperelement::worst_stress(const std::array<Vec6, 4>& corners, const PanelLoading& loading) const {
+  const std::vector<Vec6> u = recover(corners, loading);
+  const solver::FrameModel patch = model();
+  PanelStress worst;
+  for (std::size_t k = 0; k < patch.shells.size(); ++k) {
+    if (!patch_->stands(static_cast<int>(k))) continue;
+    const solver::ShellResultants r = solver::shell_resultants(patch, static_cast<int>(k), u);
+    for (const double face : {-1.0, 1.0}) {
+      const Vec3 stress = r.membrane / thickness_ + face * 6 * r.moments / (thickness_ * thickness_);
+      const auto [larger, smaller] = principal(stress);
+      Vec2 centre = Vec2::Zero();
+      for (const int node : patch.shells[k].node) centre += flat(node) / 4;
+      const Vec3 at = origin_ + axes_.transpose() * Vec3(centre.x(), centre.y(), 0);
+      if (larger > worst.tension) {
+        worst.tension = larger;
+        worst.tension_at = at;
+      }
+      if (-smaller > worst.compression) {
+        worst.compression = -smaller;
+        worst.compression_at = at;
+      }
+    }
+  }
+  return worst;
+}
+
+}  // namespace topple::structure
