@@ -106,6 +106,25 @@ TEST_CASE("without a window, the hit building shows failed joints that the stand
   CHECK(after.failed() > 0.002);
 }
 
+TEST_CASE("demolish draws pictures at even times, from the building that stands to the one that lost joints") {
+  if (!can_draw()) return;
+  const Folder folder;
+  std::ofstream(folder.file("hit.json")) << R"({"topple": 1, "model": "seed_building", "combination": "collapse",
+      "duration": 2.5, "events": [{"at": 0.2, "projectile":
+      {"from": [-20, 0, 2], "velocity": [60, 0, 0], "mass": 500, "radius": 0.4}}]})";
+  const std::string command = std::string(TOPPLE_PROGRAM) + " demolish " + folder.file("hit.json") + " -o " +
+                              folder.file("out") + " --images --rate 2 >" + folder.file("log") + " 2>&1";
+  REQUIRE(std::system(command.c_str()) == 0);
+  for (int i = 0; i <= 5; ++i) {
+    CAPTURE(i);
+    const Picture picture(folder.file("out/frame-0000" + std::to_string(i) + ".png"));
+    CHECK(picture.width > 0);
+    if (i == 0) CHECK(picture.failed() == 0);
+    if (i == 5) CHECK(picture.failed() > 0.0005);
+  }
+  CHECK_FALSE(std::filesystem::exists(folder.file("out/frame-00006.png")));
+}
+
 TEST_CASE("a script sets the camera, fires, pauses and takes pictures at its times") {
   if (!can_draw()) return;
   const Folder folder;
@@ -179,8 +198,8 @@ TEST_CASE("in a window, a person orbits, fires, sees joints fail, and pauses") {
   }
   REQUIRE(status == 0);
   const Picture start(folder.file("start.png")), orbited(folder.file("orbited.png")), picked(folder.file("picked.png")),
-      hit(folder.file("hit.png")), scrubbed(folder.file("scrubbed.png")),
-      paused1(folder.file("paused1.png")), paused2(folder.file("paused2.png"));
+      hit(folder.file("hit.png")), scrubbed(folder.file("scrubbed.png")), paused1(folder.file("paused1.png")),
+      paused2(folder.file("paused2.png"));
   CHECK(start.failed() == 0);
   CHECK(orbited.changed(start) > 0.1);
   CHECK(picked.orange() > orbited.orange());

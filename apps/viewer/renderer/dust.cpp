@@ -23,7 +23,7 @@ constexpr double merging_distance = 1.0;
 
 /// Discs for each puff.
 constexpr int discs = 5;
-constexpr float densest = 0.7F;
+constexpr float densest = 0.7F, dense_size = 1.5F;
 
 double energy_size(double energy) { return std::min(largest_size, size_per_root_joule * std::cbrt(energy)); }
 
@@ -121,7 +121,8 @@ void place_dust(const std::vector<DustPuff>& puffs, double time, const glm::dvec
     const glm::vec3 at(glm::dvec3(puff.position.x(), puff.position.y(), puff.position.z()) - origin);
     // Thrown out fast, held up by the air, thinned out as it spreads.
     const float spread = 1 - std::exp(-2.2F * age), left = 1 - age / static_cast<float>(dust_life);
-    const float opacity = densest * left * left * std::min(1.0F, age / 0.08F);
+    // What little there is of a small puff is thin.
+    const float opacity = densest * left * left * std::min(1.0F, age / 0.08F) * std::min(1.0F, puff.size / dense_size);
     for (int i = 0; i < discs; ++i) {
       const std::uint64_t word = static_cast<std::uint64_t>(puff.number * 4 * discs + 4 * i);
       const float angle = 6.2831853F * (static_cast<float>(i) + noise(word)) / discs;
