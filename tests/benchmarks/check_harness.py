@@ -1,5 +1,6 @@
 """The harness of the benchmarks: stored results are read back whole, and a comparison tells noise from a loss."""
 
+import math
 import os
 import sys
 import tempfile
@@ -7,10 +8,13 @@ import types
 import unittest
 
 sys.dont_write_bytecode = True
-sys.path.insert(0, os.path.join(sys.argv.pop(1), "benchmarks", "harness"))
+ROOT = sys.argv.pop(1)
+sys.path.insert(0, os.path.join(ROOT, "benchmarks", "harness"))
 
 import compare  # noqa: E402
+import labels  # noqa: E402
 import output  # noqa: E402
+import readme  # noqa: E402
 
 COLUMNS = [("method", "method"), ("milliseconds", "ms"), ("low", "low"), ("high", "high"), ("error", "error")]
 
@@ -67,6 +71,27 @@ class Comparison(unittest.TestCase):
 
     def test_what_became_faster_is_no_loss(self):
         self.assertEqual(self.drops(rows(1.0, 0.95, 1.05), rows(0.5, 0.45, 0.55)), [])
+
+
+class Readme(unittest.TestCase):
+    def test_every_number_of_the_table_is_that_of_the_stored_result(self):
+        stored = output.read_results(os.path.join(ROOT, "docs", "benchmarks", readme.STORED))
+        with open(os.path.join(ROOT, "README.md"), encoding="utf-8") as text:
+            shown = text.read()
+        self.assertEqual(shown, readme.in_text(shown, stored))
+        self.assertGreaterEqual(len(readme.table(stored)), 10)
+
+    def test_numbers_keep_two_digits(self):
+        self.assertEqual([readme.number(value) for value in (0.0789, 262.4, 1, 0, None)], ["0.079", "262", "1", "0", "-"])
+        self.assertEqual(readme.number(2.85e-15), "2.9·10<sup>-15</sup>")
+
+
+class Labels(unittest.TestCase):
+    def test_labels_of_points_at_one_place_do_not_cover_each_other(self):
+        x_range, y_range = (1e-3, 1e3), (1e-16, 1e2)
+        placed = labels.place([("one label", 1.0, 1e-3), ("another", 1.0, 1e-3), ("a third", 1.1, 1e-3)], x_range, y_range)
+        heights = sorted(labels.HEIGHT * math.log10(y / y_range[0]) / 18 for _, _, y, _, _ in placed)
+        self.assertTrue(all(b - a >= labels.LINE for a, b in zip(heights, heights[1:])), heights)
 
 
 if __name__ == "__main__":
