@@ -1,4 +1,5 @@
-"""Topple's whole process against CalculiX's (ccx) on regular steel frames: from the file read to the results written."""
+"""Topple's whole process against that of CalculiX (ccx), Frame3DD and OpenSees on regular steel frames: from the file read to the results
+written."""
 
 import json
 import math
@@ -8,6 +9,7 @@ import statistics
 import subprocess
 import time
 
+import other_peers
 import output
 
 COLUMNS = [("frame", "posts x storeys"), ("freedoms", "freedoms"), ("program", "program"), ("runs", "runs"),
@@ -22,6 +24,7 @@ COLUMN = {"area": OUTER**2 - (OUTER - 2 * WALL) ** 2, "Iy": (OUTER**4 - (OUTER -
 # CalculiX's U1 takes J = I11 + I22, so every program gets that J.
 COLUMN["J"] = COLUMN["Iy"] + COLUMN["Iz"]
 BEAM = {"area": 8.5e-3, "Iy": 1.6e-4, "Iz": 1.2e-5, "J": 1.6e-4 + 1.2e-5}
+FRAME3DD_FREEDOMS = 7000  # its matrices are dense: 24,000 freedoms take 4.6 GiB
 FRAMES = [(6, 6, 30, 7), (10, 10, 40, 5), (17, 17, 110, 3)]  # posts, posts, storeys, runs of each program
 
 
@@ -142,44 +145,65 @@ def roof_of_calculix(folder, frame):
     return -sum(found.values()) / len(found)
 
 
-def run(context):
+def contestants(context, frame, folder):
+    """(name, command, roof's sag, runs at most) of each program that is here; its input is written."""
+    sections = {"column": COLUMN, "beam": BEAM}
+    write_topple(frame, os.path.join(folder, "frame.json"))
+    found = [("Topple", [os.path.join(context.programs, "topple"), "analyse", "frame.json", "-o", "out"], lambda: roof_of_topple(folder, frame), 99)]
     ccx = shutil.which("ccx")
-    if ccx is None:
-        print("bench: ccx is not installed (Debian: calculix-ccx); Topple is measured alone")
+    if ccx is not None:
+        write_calculix(frame, os.path.join(folder, "frame.inp"))
+        found.append(("CalculiX", [ccx, "-i", "frame"], lambda: roof_of_calculix(folder, frame), 99))
+    if context.frame3dd and frame.freedoms <= FRAME3DD_FREEDOMS:
+        result = os.path.join(folder, "frame3dd.out")
+        other_peers.write_frame3dd(frame, sections, os.path.join(folder, "frame.3dd"), YOUNG, SHEAR, DENSITY)
+        found.append(("Frame3DD", [context.frame3dd, "-q", "-i", "frame.3dd", "-o", result],
+                      lambda: other_peers.roof_of_frame3dd(result, frame.roof), 3))
+    if context.opensees:
+        result = os.path.join(folder, "opensees.out")
+        other_peers.write_opensees(frame, sections, os.path.join(folder, "frame.tcl"), YOUNG, SHEAR, result)
+        found.append(("OpenSees", [context.opensees, "frame.tcl"], lambda: other_peers.roof_of_opensees(result, frame.roof), 5))
+    return found
+
+
+def tell_absent(context):
+    for name, present, how in (("ccx", shutil.which("ccx"), "Debian: calculix-ccx"), ("Frame3DD", context.frame3dd, "--frame3dd PATH"),
+                               ("OpenSees", context.opensees, "--opensees PATH")):
+        if not present:
+            print("bench: %s is not here (%s); it is left out" % (name, how))
+
+
+def run(context):
+    tell_absent(context)
     environment = dict(os.environ, OMP_NUM_THREADS="1", CCX_NPROC_EQUATION_SOLVER="1", CCX_NPROC_STIFFNESS="1")
     rows, lines = [], []
     for nx, ny, storeys, runs in FRAMES[:2] if context.quick else FRAMES:
         frame = Frame(nx, ny, storeys)
         folder = os.path.join(context.results, "peers", frame.name)
         os.makedirs(folder)
-        write_topple(frame, os.path.join(folder, "frame.json"))
-        programs = [("Topple", [os.path.join(context.programs, "topple"), "analyse", "frame.json", "-o", "out"], roof_of_topple)]
-        if ccx is not None:
-            write_calculix(frame, os.path.join(folder, "frame.inp"))
-            programs.append(("CalculiX", [ccx, "-i", "frame"], roof_of_calculix))
-        times = {name: [] for name, _, _ in programs}
-        processor = {name: [] for name, _, _ in programs}
-        memory = {name: 0.0 for name, _, _ in programs}
-        for _ in range(runs):  # in turn, so that what else the machine does meets both
-            for name, command, _ in programs:
-                seconds, work, peak = measured(command, folder, environment)
-                times[name].append(seconds)
-                processor[name].append(work)
-                memory[name] = max(memory[name], peak)
-        ours = roof_of_topple(folder, frame)
-        for name, _, roof in programs:
-            sag = roof(folder, frame)
-            rows.append({"frame": frame.name, "freedoms": frame.freedoms, "program": name, "runs": runs,
-                         "median": statistics.median(times[name]), "least": min(times[name]),
-                         "processor": statistics.median(processor[name]), "memory": memory[name], "roof": sag,
-                         "off": abs(sag / ours - 1)})
-        if ccx is not None:
-            for what, spent in (("as long", times), ("the processor time", processor)):
-                ratios = sorted(c / t for t, c in zip(spent["Topple"], spent["CalculiX"]))
-                lines.append("%s: CalculiX takes %.2f times %s (median of %d pairs; %.2f to %.2f)"
-                             % (frame.name, statistics.median(ratios), what, runs, ratios[0], ratios[-1]))
+        programs = contestants(context, frame, folder)
+        spent = {name: [] for name, _, _, _ in programs}  # seconds, processor seconds, MiB of each run
+        for turn in range(3 if context.quick else runs):  # in turn, so that what else the machine does meets all
+            for name, command, _, most in programs:
+                if turn < most:
+                    spent[name].append(measured(command, folder, environment))
+        output.progress(context, "peers: " + frame.name)
+        ours = programs[0][2]()
+        for name, _, roof, _ in programs:
+            sag = roof()
+            seconds, work, peak = zip(*spent[name])
+            rows.append({"frame": frame.name, "freedoms": frame.freedoms, "program": name, "runs": len(seconds),
+                         "median": statistics.median(seconds), "least": min(seconds), "processor": statistics.median(work), "memory": max(peak),
+                         "roof": sag, "off": abs(sag / ours - 1)})
+            if name == "Topple":
+                continue
+            for what, place in (("as long", 0), ("the processor time", 1)):
+                ratios = sorted(theirs[place] / own[place] for own, theirs in zip(spent["Topple"], spent[name]))
+                lines.append("%s: %s takes %.2f times %s (median of %d pairs; %.2f to %.2f)"
+                             % (frame.name, name, statistics.median(ratios), what, len(ratios), ratios[0], ratios[-1]))
                 print("bench: " + lines[-1])
+        shutil.rmtree(folder)
     output.print_table(rows, COLUMNS)
     output.write_results(context, "peers", rows, COLUMNS, ("frame", "program"), lines)
-    return [("Whole process against CalculiX", "Each program reads its file, solves and writes all displacements and forces; "
-             "run in turn on one thread; the roof's mean sag says whether they solved the same frame.", [], (rows, COLUMNS))]
+    return [("Whole process against others", "Each program reads its file, solves and writes its results; run in turn on one thread; the roof's mean sag says whether "
+             "they solved the same frame. Topple writes the end forces, extremes and deflections of every member besides; CalculiX and OpenSees displacements alone.", [], (rows, COLUMNS))]

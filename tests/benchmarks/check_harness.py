@@ -1,19 +1,23 @@
 """The harness of the benchmarks: stored results are read back whole, and a comparison tells noise from a loss."""
 
+import json
 import math
 import os
+import subprocess
 import sys
 import tempfile
 import types
 import unittest
 
 sys.dont_write_bytecode = True
-ROOT = sys.argv.pop(1)
+ROOT, TOPPLE = sys.argv.pop(1), sys.argv.pop(1)
 sys.path.insert(0, os.path.join(ROOT, "benchmarks", "harness"))
 
 import compare  # noqa: E402
 import labels  # noqa: E402
+import other_peers  # noqa: E402
 import output  # noqa: E402
+import peers  # noqa: E402
 import readme  # noqa: E402
 
 COLUMNS = [("method", "method"), ("milliseconds", "ms"), ("low", "low"), ("high", "high"), ("error", "error")]
@@ -84,6 +88,47 @@ class Readme(unittest.TestCase):
     def test_numbers_keep_two_digits(self):
         self.assertEqual([readme.number(value) for value in (0.0789, 262.4, 1, 0, None)], ["0.079", "262", "1", "0", "-"])
         self.assertEqual(readme.number(2.85e-15), "2.9·10<sup>-15</sup>")
+
+
+class Peers(unittest.TestCase):
+    """What other programs are given is the frame that Topple is given."""
+
+    FRAME = peers.Frame(3, 2, 3)
+    SECTIONS = {"column": peers.COLUMN, "beam": peers.BEAM}
+
+    def test_a_frame3dd_file_is_the_same_frame(self):
+        with tempfile.TemporaryDirectory() as folder:
+            peers.write_topple(self.FRAME, os.path.join(folder, "frame.json"))
+            other_peers.write_frame3dd(self.FRAME, self.SECTIONS, os.path.join(folder, "frame.3dd"), peers.YOUNG, peers.SHEAR, peers.DENSITY)
+            sags = []
+            for name, prefix in (("frame.json", "n"), ("frame.3dd", "")):
+                subprocess.run([TOPPLE, "analyse", name, "-o", "out"], cwd=folder, check=True, capture_output=True)
+                with open(os.path.join(folder, "out", "results.json"), encoding="utf-8") as stored:
+                    moved = next(iter(json.load(stored)["combinations"].values()))["displacements"]
+                sags.append(sum(moved["%s%d" % (prefix, node)][2] for node in self.FRAME.roof))
+            self.assertLess(abs(sags[0] / sags[1] - 1), 1e-12)  # rounding times the condition of a few storeys
+
+    def test_the_roof_is_read_from_what_frame3dd_writes(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "frame.out")
+            with open(path, "w", encoding="utf-8") as out:
+                out.write("N O D E   D I S P L A C E M E N T S  \t\t(global)\n  Node    X-dsp       Y-dsp       Z-dsp       X-rot       Y-rot       Z-rot\n"
+                          "     7    0.1         0.0        -0.25        0.0         0.0         0.0\n     8    0.1         0.0        -0.75        0.0         0.0         0.0\n"
+                          "F R A M E   E L E M E N T   E N D   F O R C E S\n     8    1.0         2.0         3.0         4.0         5.0         6.0\n")
+            self.assertEqual(other_peers.roof_of_frame3dd(path, [7, 8]), 0.5)
+            with self.assertRaises(RuntimeError):
+                other_peers.roof_of_frame3dd(path, [7, 8, 9])
+
+    def test_an_opensees_file_has_every_member_its_load_and_the_roof(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "frame.tcl")
+            other_peers.write_opensees(self.FRAME, self.SECTIONS, path, peers.YOUNG, peers.SHEAR, "roof.out")
+            with open(path, encoding="utf-8") as text:
+                lines = text.read().splitlines()
+            count = lambda word: sum(line.startswith(word) for line in lines)
+            members = len(self.FRAME.posts) + len(self.FRAME.beams)
+            self.assertEqual([count("node "), count("fix "), count("element "), count("eleLoad "), count("puts ")],
+                             [len(self.FRAME.nodes), self.FRAME.fixed, members, members, len(self.FRAME.roof)])
 
 
 class Labels(unittest.TestCase):

@@ -4,6 +4,6 @@ if(TOPPLE_BENCHMARKS)
   find_package(Python3 COMPONENTS Interpreter)
   if(Python3_FOUND)
     add_test(NAME benchmark_harness COMMAND "${Python3_EXECUTABLE}" "${CMAKE_CURRENT_LIST_DIR}/check_harness.py"
-             "${PROJECT_SOURCE_DIR}")
+             "${PROJECT_SOURCE_DIR}" "$<TARGET_FILE:topple>")
   endif()
 endif()
