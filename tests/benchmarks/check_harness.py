@@ -19,6 +19,7 @@ import other_peers  # noqa: E402
 import output  # noqa: E402
 import peers  # noqa: E402
 import readme  # noqa: E402
+import scaling  # noqa: E402
 
 COLUMNS = [("method", "method"), ("milliseconds", "ms"), ("low", "low"), ("high", "high"), ("error", "error")]
 
@@ -129,6 +130,18 @@ class Peers(unittest.TestCase):
             members = len(self.FRAME.posts) + len(self.FRAME.beams)
             self.assertEqual([count("node "), count("fix "), count("element "), count("eleLoad "), count("puts ")],
                              [len(self.FRAME.nodes), self.FRAME.fixed, members, members, len(self.FRAME.roof)])
+
+
+class Scaling(unittest.TestCase):
+    def test_the_exponent_of_a_power_is_found_and_small_sizes_do_not_count(self):
+        points = [(100, 7.0)] + [(n, 1e-6 * n**1.5) for n in (1000, 10000, 100000)]
+        self.assertAlmostEqual(scaling.exponent(points), 1.5, places=12)
+        self.assertIsNone(scaling.exponent(points[:3]))
+
+    def test_memory_is_foreseen_by_the_growth_of_the_last_two_sizes(self):
+        rows = [{"freedoms": n, "analysis_peak_mib": n**1.2, "simulation_peak_mib": 1.0} for n in (1000, 10000)]
+        self.assertAlmostEqual(scaling.needs(rows, 100000) / 100000**1.2, 1, places=9)
+        self.assertEqual(scaling.needs(rows[:1], 100000), 0.0)
 
 
 class Labels(unittest.TestCase):
