@@ -13,6 +13,7 @@ PUBLISHED = {
                "sequential impulse 1000": 0.017, "sequential impulse 20 x 10": 0.0058},
     "4x5x6": {"sequential impulse 10": 0.79, "sequential impulse 50": 0.154, "sequential impulse 200": 0.034,
               "sequential impulse 1000": 0.0030},
+    "3x3x12 frame only": {"sequential impulse 10": 0.226, "sequential impulse 50": 0.040, "sequential impulse 200": 0.0054},
 }
 MUST_COME_NEAR = ("sequential impulse 10", "sequential impulse 50", "sequential impulse 200")
 NEAR = 0.05
@@ -36,13 +37,14 @@ def methods(quick):
     return rows
 
 
-def scene(context, model, push=0.0):
-    """Writes the building as rigid bodies and joints, once. Path of the file."""
+def scene(context, model, push=0.0, frame_only=False):
+    """Writes the building as rigid bodies and joints, once; `frame_only`: without its panels and what acts on them. Path of the file."""
     name = os.path.basename(model)[:-len(".json")].replace("regular_", "")
-    path = os.path.join(context.results, "scene_%s%s.txt" % (name, "_pushed" if push else ""))
+    path = os.path.join(context.results, "scene_%s%s%s.txt" % (name, "_frame_only" if frame_only else "", "_pushed" if push else ""))
     if not os.path.exists(path):
         with open(path, "w", encoding="utf-8") as out:
-            subprocess.run([os.path.join(context.programs, "bench_scene"), model, "--push", repr(push)], stdout=out, check=True)
+            subprocess.run([os.path.join(context.programs, "bench_scene"), model, "--push", repr(push)]
+                           + (["--frame-only"] if frame_only else []), stdout=out, check=True)
     return path
 
 

@@ -14,9 +14,9 @@ ERRORS = ("sag_error", "reaction_error", "error", "backward_error")
 
 
 def load(folder):
-    """Rows by file and keys."""
+    """Rows by file and keys, of a folder of results or of one file."""
     found = {}
-    for path in sorted(glob.glob(os.path.join(folder, "*.json"))):
+    for path in [folder] if os.path.isfile(folder) else sorted(glob.glob(os.path.join(folder, "*.json"))):
         stored = output.read_results(path)
         if not isinstance(stored, dict) or "keys" not in stored:
             continue

@@ -71,6 +71,21 @@ def planned(quick):
             if precision == "double" or not quick or method[0] in short]
 
 
+def without_slabs(context):
+    """The frame alone, for the sags that were seen before. A section of the page."""
+    size = "3x3x12 frame only"
+    scene = baseline.scene(context, os.path.join(context.root, "benchmarks", "models", "regular_3x3x12.json"), frame_only=True)
+    rows = []
+    for method in baseline.methods(context.quick):
+        if method[0] in baseline.PUBLISHED[size]:
+            row = baseline.run(context, scene, method, "double")
+            row["published_sag"] = baseline.PUBLISHED[size][method[0]]
+            rows.append(row)
+    lines = baseline.nearness(size, rows)
+    output.write_results(context, "stiffness_3x3x12_frame_only", rows, COLUMNS, ("method", "precision"), lines)
+    return ("Stiffness: 3 x 3 posts, 12 storeys, without slabs", "The same without slabs: Bullet alone, beside the sags that were seen before.", [], (rows, COLUMNS))
+
+
 def run(context):
     """Returns sections of the page."""
     sections = []
@@ -97,4 +112,4 @@ def run(context):
         drawn = figure(os.path.join(context.results, "stiffness_%s.svg" % size), size.replace("x", " x "), rows)
         sections.append(("Stiffness: %s posts and storeys" % size.replace("x", " x "), TEXT + "".join(" In this run, " + line + "." for line in lines),
                          [drawn] if drawn else [], (rows, COLUMNS)))
-    return sections
+    return sections + [without_slabs(context)]

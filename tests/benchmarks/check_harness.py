@@ -49,6 +49,11 @@ class Results(unittest.TestCase):
                 self.assertEqual(text.read().splitlines()[:4], ["# commit: abc", "# processor: one", "method,milliseconds,low,high,error",
                                                                 "ours,1.0,0.9,1.1,1e-12"])
 
+    def test_one_file_can_be_compared_with_as_well_as_a_folder(self):
+        with tempfile.TemporaryDirectory() as folder:
+            whole = stored(folder, rows(1.0, 0.9, 1.1))
+            self.assertEqual(compare.load(os.path.join(folder, "suite.json")), whole)
+
     def test_a_folder_without_results_is_refused(self):
         with tempfile.TemporaryDirectory() as folder, self.assertRaises(SystemExit):
             compare.load(folder)
