@@ -50,6 +50,17 @@ class LoadsByBeam {
   const std::vector<BeamLoad>* loads_;
 };
 
+/// Of a stiffness that comes from elsewhere: what keeps it from swelling evenly.
+Vec24 fixed_forces_of_given(const Mat24& stiffness, const ShellLoad& load, const std::array<Vec3, 4>& corners) {
+  if (!load.traction.isZero(0))
+    throw std::invalid_argument("a traction on shell " + std::to_string(load.shell) +
+                                ", whose stiffness is given; accepted: forces on its nodes");
+  Vec24 free = Vec24::Zero();
+  for (int n = 1; n < 4; ++n)
+    free.segment<3>(6 * n) = load.strain * (corners[static_cast<std::size_t>(n)] - corners[0]);
+  return -stiffness * free;
+}
+
 }  // namespace
 
 /// Displacements of held freedoms. A diaphragm's held freedoms follow from those of its nodes; what a rigid floor
@@ -183,7 +194,11 @@ void FrameSystem::add_shell_loads(const std::vector<ShellLoad>& loads, LoadVecto
     const auto i = static_cast<std::size_t>(load.shell);
     if (shell_stands[i] == 0) continue;
     const Shell& shell = model.shells[i];
-    const Vec24 fixed = ShellElement(shell, corner_places(shell, model.nodes)).fixed_forces(load.traction, load.strain);
+    const auto given = model.shell_stiffness.find(load.shell);
+    const Vec24 fixed =
+        given != model.shell_stiffness.end()
+            ? fixed_forces_of_given(given->second, load, corner_places(shell, model.nodes))
+            : ShellElement(shell, corner_places(shell, model.nodes)).fixed_forces(load.traction, load.strain);
     result.shell_fixed[i] += fixed;
     for (int n = 0; n < 4; ++n) {
       dofs_.add_node_force(shell.node[static_cast<std::size_t>(n)], -fixed.segment<6>(6 * n), result.force.data());

@@ -23,7 +23,8 @@ struct Seen {
 }  // namespace
 
 struct Superelement::State {
-  explicit State(Patch given) : patch(std::move(given)), shell_stands(patch.shells.size(), 1) {
+  explicit State(Patch given)
+      : patch(std::move(given)), share(patch.shells.size(), 1), shell_stands(patch.shells.size(), 1) {
     for (std::size_t i = 0; i < patch.shells.size(); ++i) {
       check_shell(patch.shells[i], static_cast<int>(i), patch.nodes);
       const std::array<Vec3, 4> places = corner_places(patch.shells[i], patch.nodes);
@@ -46,7 +47,8 @@ struct Superelement::State {
   }
 
   Patch patch;
-  std::vector<Mat24> elements;
+  std::vector<Mat24> elements;  ///< whole
+  std::vector<double> share;    ///< of each that is left
   std::vector<char> shell_stands;
   std::vector<int> shells_at;  ///< per node: how many stand
   std::vector<Seen> freedoms;  ///< per node and component
@@ -140,7 +142,7 @@ void Superelement::State::assemble() {
       for (int j = 0; j < 24; ++j)
         if (elements[e](i, j) != 0)
           add(seen(patch.shells[e].node[static_cast<std::size_t>(i / 6)], i % 6),
-              seen(patch.shells[e].node[static_cast<std::size_t>(j / 6)], j % 6), elements[e](i, j));
+              seen(patch.shells[e].node[static_cast<std::size_t>(j / 6)], j % 6), share[e] * elements[e](i, j));
   }
   for (const Support& support : patch.supports)
     for (int c = 0; c < 6; ++c)
@@ -184,6 +186,18 @@ void Superelement::remove(std::span<const int> shells) {
   state_->condense();
 }
 
+void Superelement::keep(const std::vector<double>& share) {
+  State& s = *state_;
+  if (share.size() != s.share.size()) throw std::invalid_argument("a share is needed for each shell");
+  for (std::size_t i = 0; i < share.size(); ++i) {
+    if (!(share[i] >= 0 && share[i] <= 1))
+      throw std::invalid_argument("share of shell " + std::to_string(i) + "; accepted: 0 to 1");
+    if (share[i] == 0) s.shell_stands[i] = 0;
+  }
+  s.share = share;
+  s.condense();
+}
+
 bool Superelement::stands(int shell) const { return state_->shell_stands[static_cast<std::size_t>(shell)] != 0; }
 bool Superelement::has_shells(int node) const { return state_->shells_at[static_cast<std::size_t>(node)] > 0; }
 const Eigen::MatrixXd& Superelement::stiffness() const { return state_->stiffness; }
@@ -222,7 +236,7 @@ std::vector<Vec6> Superelement::reactions(const std::vector<Vec6>& displacements
     for (int n = 0; n < 4; ++n)
       u.segment<6>(6 * n) =
           displacements[static_cast<std::size_t>(s.patch.shells[e].node[static_cast<std::size_t>(n)])];
-    const Vec24 force = s.elements[e] * u;
+    const Vec24 force = s.share[e] * (s.elements[e] * u);
     for (int n = 0; n < 4; ++n)
       result[static_cast<std::size_t>(s.patch.shells[e].node[static_cast<std::size_t>(n)])] += force.segment<6>(6 * n);
   }

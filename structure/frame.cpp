@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "mesh/frame_mesh.h"
+#include "panel_area.h"
+#include "panel_superelement.h"
 
 namespace topple::structure {
 
@@ -51,6 +53,8 @@ solver::Shell make_membrane(const Building& building, const Panel& panel) {
   shell.poisson_ratio = material.poisson_ratio;
   shell.thickness = panel.thickness;
   shell.density = material.density;
+  if (!panel.openings.empty())  // of the one element that it stays for its mass
+    shell.density *= panel_area(building, panel, true) / panel_area(building, panel, false);
   return shell;
 }
 
@@ -68,6 +72,8 @@ Frame make_frame(const Building& building) {
     if (building.panels[i].model == PanelModel::membrane) {
       frame.shell_of_panel[i] = static_cast<int>(model.shells.size());
       model.shells.push_back(make_membrane(building, building.panels[i]));
+      if (!building.panels[i].openings.empty())
+        model.shell_stiffness.emplace(frame.shell_of_panel[i], PanelSuperelement(building, PanelId(i)).stiffness());
     }
   for (const NodeSupport& support : building.supports)
     model.supports.push_back({support.node.index, support.stiffness});

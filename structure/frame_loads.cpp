@@ -4,6 +4,7 @@
 
 #include "index_of.h"
 #include "loads/hand_over.h"
+#include "panel_area.h"
 
 namespace topple::structure {
 
@@ -19,24 +20,6 @@ Vec3 resultant(const solver::BeamLoad& load) {
     default:
       return Vec3::Zero();
   }
-}
-
-/// Of the material of a panel, openings taken off.
-double area_of(const Building& building, const Panel& panel) {
-  const auto flat = [&](NodeId node) -> Vec2 {
-    return (panel.axes * (building[node].position - building[panel.nodes[0]].position)).head<2>();
-  };
-  const auto area = [](const std::vector<Vec2>& polygon) {
-    double doubled = 0;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-      const Vec2 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-      doubled += a.x() * b.y() - a.y() * b.x();
-    }
-    return std::abs(doubled) / 2;
-  };
-  double sum = area({flat(panel.nodes[0]), flat(panel.nodes[1]), flat(panel.nodes[2]), flat(panel.nodes[3])});
-  for (const auto& opening : panel.openings) sum -= area(opening);
-  return sum;
 }
 
 void insert(std::vector<int>& sorted, int value) {
@@ -81,7 +64,7 @@ FrameLoads::FrameLoads(const Building& building, PartLoads loads, const PanelBea
     hand_on_anew(PanelId(p));
     double down = 0;
     for (const Vec3& force : handed_[p].edge_force) down -= force.z();
-    if (!bearings.serves(PanelId(p))) down = -traction(PanelId(p)).z() * area_of(building, building.panels[p]);
+    if (!bearings.serves(PanelId(p))) down = -traction(PanelId(p)).z() * panel_area(building, building.panels[p], true);
     panel_mass_.push_back(down / g);
   }
   whole_panel_mass_ = panel_mass_;

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "index_of.h"
+#include "mesh/panel_cells.h"
 #include "topple/fracture/polygon.h"
 #include "topple/solver/shell_resultants.h"
 
@@ -16,8 +17,44 @@ namespace {
 /// Elements of a broken membrane: about this long, m, and at most so many along an edge.
 constexpr double membrane_element = 0.5;
 constexpr int most_elements = 12;
+/// Nearer to a line of an opening than this share of their distance, they are left out.
+constexpr double least_gap = 0.4;
 /// An element with less of its area stands no more.
-constexpr double least_share = 0.5;
+constexpr double least_share = 0.05;
+/// Stress is looked at where so much of an element is there.
+constexpr double share_with_stress = 0.5;
+
+/// Lines of about this distance, and through the openings' vertices.
+PanelLines membrane_lines(const PanelSurface& surface, const Panel& panel, PanelId id) {
+  PanelLines lines{id, {}};
+  for (std::size_t way = 0; way < 2; ++way) {
+    const double length = std::max(surface.edge_length(way), surface.edge_length(way + 2));
+    const int count = std::clamp(static_cast<int>(std::ceil(length / membrane_element)), 1, most_elements);
+    std::vector<double>& at = lines.at[way];
+    at = {0, 1};
+    const auto add = [&](double line, double apart) {
+      if (std::none_of(at.begin(), at.end(), [&](double other) { return std::abs(other - line) < apart; }))
+        at.push_back(line);
+    };
+    for (const auto& opening : panel.openings)
+      for (const Vec2& vertex : opening) add(surface.parameters(vertex)(static_cast<Eigen::Index>(way)), same_line);
+    for (int i = 1; i < count; ++i) add(static_cast<double>(i) / count, least_gap / count);
+    std::sort(at.begin(), at.end());
+  }
+  return lines;
+}
+
+/// The edge on which a point of the mesh lies and how far along, from 0 to 1; -1 for one inside.
+std::pair<int, double> edge_place(const Vec2& st) {
+  constexpr double border = 1e-8;
+  const auto along = [&](double value) { return value < border ? 0.0 : value > 1 - border ? 1.0 : value; };
+  const double s = along(st.x()), t = along(st.y());
+  if (t == 0) return {0, s};
+  if (s == 1) return {1, t};
+  if (t == 1) return {2, 1 - s};
+  if (s == 0) return {3, 1 - t};
+  return {-1, 0};
+}
 
 Vec6 turned(const Mat3& turn, const Vec6& v) {
   Vec6 result;
@@ -71,38 +108,38 @@ PanelSuperelement::PanelSuperelement(const Building& building, PanelId id)
       turn_(building[id].axes),
       thickness_(building[id].thickness) {
   const Panel& panel = building[id];
-  std::array<Vec3, 4> corner;
-  for (std::size_t i = 0; i < 4; ++i) corner[i] = axes_ * (building[panel.nodes[i]].position - origin_);
-  const auto divisions = [&](std::size_t edge) {
-    const double length =
-        std::max((corner[edge + 1] - corner[edge]).norm(), (corner[(edge + 3) % 4] - corner[(edge + 2) % 4]).norm());
-    return std::clamp(static_cast<int>(std::ceil(length / membrane_element)), 1, most_elements);
-  };
-  const int columns = divisions(0), rows = divisions(1);
+  const PanelSurface surface(building, panel);
+  const PanelLines lines = membrane_lines(surface, panel, id);
+  const PanelCells cells = panel_cells(surface, panel, lines, cuts_cells(surface, panel, lines));
   solver::Superelement::Patch patch;
-  const auto number = [&](int i, int j) { return j * (columns + 1) + i; };
-  for (int j = 0; j <= rows; ++j)
-    for (int i = 0; i <= columns; ++i) {
-      const double s = static_cast<double>(i) / columns, t = static_cast<double>(j) / rows;
-      patch.nodes.push_back((1 - t) * ((1 - s) * corner[0] + s * corner[1]) +
-                            t * ((1 - s) * corner[3] + s * corner[2]));
-      patch.nodes.back().z() = 0;  // as the one element of a whole membrane: its mean plane
-      const bool on_x = i == 0 || i == columns, on_y = j == 0 || j == rows;
-      if (on_x == on_y) continue;
-      const std::array<int, 2> kept =
-          on_y ? (j == 0 ? std::array{0, 1} : std::array{3, 2}) : (i == 0 ? std::array{0, 3} : std::array{1, 2});
-      patch.ties.push_back({number(i, j), kept, on_y ? s : t, false});
+  // Its mean plane, as the one element of a whole membrane. The corners are there even where an opening takes them.
+  const auto add_node = [&](const Vec2& st) {
+    const Vec2 place = surface.local(st);
+    patch.nodes.emplace_back(place.x(), place.y(), 0);
+  };
+  for (int corner = 0; corner < 4; ++corner) {
+    patch.kept.push_back(corner);
+    add_node(PanelSurface::on_edge(static_cast<std::size_t>(corner), 0));
+  }
+  std::vector<int> number;
+  for (const Vec2& point : cells.points) {
+    const auto [edge, along] = edge_place(point);
+    if (edge >= 0 && (along == 0 || along == 1)) {
+      number.push_back((edge + (along == 1 ? 1 : 0)) % 4);
+      continue;
     }
-  patch.kept = {number(0, 0), number(columns, 0), number(columns, rows), number(0, rows)};
+    number.push_back(static_cast<int>(patch.nodes.size()));
+    add_node(point);
+    if (edge >= 0) patch.ties.push_back({number.back(), {edge, (edge + 1) % 4}, along, false});
+  }
   solver::Shell shell;
   shell.youngs_modulus = building[panel.material].youngs_modulus;
   shell.poisson_ratio = building[panel.material].poisson_ratio;
   shell.thickness = panel.thickness;
-  for (int j = 0; j < rows; ++j)
-    for (int i = 0; i < columns; ++i) {
-      shell.node = {number(i, j), number(i + 1, j), number(i + 1, j + 1), number(i, j + 1)};
-      patch.shells.push_back(shell);
-    }
+  for (const auto& cell : cells.quadrilaterals) {
+    for (std::size_t i = 0; i < 4; ++i) shell.node[i] = number[static_cast<std::size_t>(cell[i])];
+    patch.shells.push_back(shell);
+  }
   share_.assign(patch.shells.size(), 1);
   patch_.emplace(std::move(patch));
 }
@@ -115,7 +152,6 @@ Vec2 PanelSuperelement::flat(int node) const {
 }
 
 void PanelSuperelement::fracture(const PanelRemains& remains) {
-  std::vector<int> gone;
   const auto& shells = patch_->patch().shells;
   for (std::size_t k = 0; k < shells.size(); ++k) {
     fracture::Polygon element;
@@ -130,9 +166,15 @@ void PanelSuperelement::fracture(const PanelRemains& remains) {
       if (both.vertices.size() > 2) lost += fracture::area(both.vertices);
     }
     share_[k] = std::max(0.0, 1 - lost / fracture::area(element));
-    if (share_[k] < least_share && patch_->stands(static_cast<int>(k))) gone.push_back(static_cast<int>(k));
   }
-  if (!gone.empty()) patch_->remove(gone);
+  keep_shares();
+}
+
+void PanelSuperelement::keep_shares() {
+  std::vector<double> standing = share_;
+  for (std::size_t k = 0; k < standing.size(); ++k)
+    if (standing[k] < least_share || !patch_->stands(static_cast<int>(k))) standing[k] = 0;
+  patch_->keep(standing);
 }
 
 void PanelSuperelement::release_edge(int edge) {
@@ -147,6 +189,7 @@ void PanelSuperelement::release_edge(int edge) {
     if (!patch_->stands(static_cast<int>(k))) gone.push_back(static_cast<int>(k));
   patch_.emplace(std::move(patch));
   patch_->remove(gone);
+  keep_shares();
 }
 
 Mat24 PanelSuperelement::stiffness() const {
@@ -316,7 +359,7 @@ PanelStress PanelSuperelement::worst_stress(const std::array<Vec6, 4>& corners, 
   const solver::FrameModel patch = model();
   PanelStress worst;
   for (std::size_t k = 0; k < patch.shells.size(); ++k) {
-    if (!patch_->stands(static_cast<int>(k))) continue;
+    if (!patch_->stands(static_cast<int>(k)) || share_[k] < share_with_stress) continue;
     const solver::ShellResultants r = solver::shell_resultants(patch, static_cast<int>(k), u);
     for (const double face : {-1.0, 1.0}) {
       const Vec3 stress = r.membrane / thickness_ + face * 6 * r.moments / (thickness_ * thickness_);

@@ -2,8 +2,8 @@
 // The mesh of a shell panel, or of a membrane that is broken in part, condensed to the panel's four corners: what a
 // standing frame sees of it. A hole costs this panel's condensation and nothing else.
 //
-// An element stands while at least half of it is there; its share of the panel's load goes with its area. What is left
-// in elements that do not stand hangs on the nearest node that does. The edges of a membrane stay straight, as those of
+// An element's stiffness and its share of the panel's load go with its area that is there. What is left in elements of
+// which next to nothing is, hangs on the nearest node that stands. The edges of a membrane stay straight, as those of
 // the one element that it is while whole; those of a shell bend freely between the corners, and supports of an edge act
 // on all of its nodes.
 #include <array>
@@ -32,7 +32,7 @@ class PanelSuperelement {
  public:
   /// A shell panel as the frame meshes it.
   PanelSuperelement(const Building& building, const Frame& frame, PanelId id);
-  /// A membrane panel, meshed here.
+  /// A membrane panel, meshed here, less its openings.
   PanelSuperelement(const Building& building, PanelId id);
 
   /// Only this remains.
@@ -59,6 +59,7 @@ class PanelSuperelement {
   [[nodiscard]] PanelStress worst_stress(const std::array<Vec6, 4>& corners, const PanelLoading& loading) const;
 
  private:
+  void keep_shares();
   [[nodiscard]] Vec2 flat(int node) const;
   [[nodiscard]] std::vector<Vec6> node_loads(const PanelLoading& loading) const;
   void add_force(const PanelForce& one, std::vector<Vec6>& loads) const;

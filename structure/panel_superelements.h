@@ -1,5 +1,6 @@
 #pragma once
-// The superelements of a standing frame's panels: of its shells from the start, of membranes once they are broken.
+// The superelements of a standing frame's panels: of its shells and of membranes with
+// openings from the start, of other membranes once they are broken.
 #include <memory>
 
 #include "panel_superelement.h"
@@ -9,6 +10,8 @@ namespace topple::structure {
 class PanelSuperelements {
  public:
   explicit PanelSuperelements(const Building& building) : building_(building), of_panel_(building.panels.size()) {
+    for (std::size_t p = 0; p < building.panels.size(); ++p)
+      if (building.panels[p].model == PanelModel::membrane && !building.panels[p].openings.empty()) make(PanelId(p));
     bool any = false;
     for (const Panel& panel : building.panels) any = any || panel.model == PanelModel::shell;
     if (!any) return;

@@ -75,7 +75,6 @@ void refuse_joined_shells(const Building& building) {
     }
   }
 }
-/// A hole in the mesh of a membrane is made when it breaks; one that it has from the start is not.
 /// A membrane is one element and a cladding none.
 void refuse_meshes_of_panels(const Building& building) {
   for (const Panel& panel : building.panels)
@@ -89,12 +88,6 @@ void refuse_giving_edges(const Building& building) {
   for (const Joint& joint : building.joints)
     if (joint.panel.valid() && (joint.stiffness.array() != unlimited).any())
       refuse(building, "joint " + joint.name, "`stiffness` of a shell's edge");
-}
-/// What a cladding hands on takes its openings into account; the one element of a membrane has none.
-void refuse_openings_of_membranes(const Building& building) {
-  for (const Panel& panel : building.panels)
-    if (!panel.openings.empty() && panel.model == PanelModel::membrane)
-      refuse(building, "panels." + panel.name + ".openings", "`openings` in a membrane");
 }
 void refuse_one_way_members(const Building& building) {
   for (const Member& member : building.members)
@@ -111,11 +104,9 @@ void refuse_diaphragms(const Building& building) {
 
 void refuse_unbuilt(const Building& building, Purpose purpose) {
   using Refusal = void (*)(const Building&);
-  static constexpr std::array<Refusal, 3> analyse{refuse_meshes_of_panels, refuse_openings_of_membranes,
-                                                  refuse_giving_edges};
-  static constexpr std::array<Refusal, 5> demolish{refuse_joined_shells, refuse_meshes_of_panels,
-                                                   refuse_openings_of_membranes, refuse_one_way_members,
-                                                   refuse_diaphragms};
+  static constexpr std::array<Refusal, 2> analyse{refuse_meshes_of_panels, refuse_giving_edges};
+  static constexpr std::array<Refusal, 4> demolish{refuse_joined_shells, refuse_meshes_of_panels,
+                                                   refuse_one_way_members, refuse_diaphragms};
   switch (purpose) {
     case Purpose::analyse:
       for (const Refusal refusal : analyse) refusal(building);

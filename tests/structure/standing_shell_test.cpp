@@ -116,6 +116,33 @@ TEST_CASE("a shell panel that stands is its global mesh, whole and with a hole")
   CHECK(frame.counters().refactorisations >= 1);
 }
 
+TEST_CASE("a hole that fits no element is known to the mesh's fineness") {
+  // The same hole as an opening from the start, through whose vertices a global mesh has lines.
+  const std::vector<Vec2> odd{{1.63, 0.93}, {3.21, 0.93}, {3.21, 2.11}, {1.63, 2.11}};
+  std::string coarse = wall_text, open = wall_text;
+  coarse.replace(coarse.find("[12, 6]"), 7, "[24, 12]");
+  open.replace(open.find("\"mesh\": [12, 6]"), 15,
+               "\"mesh\": [24, 12], \"openings\": [[[1.63, 0.93], [3.21, 0.93], [3.21, 2.11], [1.63, 2.11]]]");
+  const Building b = wall(coarse);
+  StandingFrame frame(b, CombinationId(0u), FailureRules{});
+  const std::vector<Vec6> whole{frame.displacement(NodeId(2u)), frame.displacement(NodeId(3u))};
+  PanelRemains remains;
+  remains.share = 1 - 1.58 * 1.18 / 18;
+  remains.holes = {odd};
+  remains.edge_length = {6, 3, 6, 3};
+  frame.fracture(PanelId(0u), remains);
+  (void)frame.settle(1000);
+  Frame mesh;
+  const auto expected = global_answer(wall(open), false, mesh);
+  for (const std::size_t n : {2u, 3u}) {
+    const Vec6 right = expected.displacements[n], found = frame.displacement(NodeId(n));
+    // Elements of 0.25 m that the hole cuts keep the share of their stiffness that is there, wherever it lies in them:
+    // a part of what the hole itself changes.
+    CHECK((right - whole[n - 2]).head<3>().norm() > 0.05 * right.head<3>().norm());
+    CHECK((found - right).head<3>().norm() < 0.2 * (right - whole[n - 2]).head<3>().norm());
+  }
+}
+
 TEST_CASE("a push on a shell panel gives way as the global mesh does") {
   const Building b = wall();
   StandingFrame frame(b, CombinationId(0u), FailureRules{});

@@ -36,6 +36,10 @@ class Superelement {
   /// Takes these shells out for good and condenses anew. So are shells that hang on nothing any more: on no kept, tied
   /// or supported node.
   void remove(std::span<const int> shells);
+  /// Of each shell that stands only this share of its material is left, somewhere in it: its stiffness goes with it
+  /// (as in the finite cell method, J. Parvizian, A. Duester, E. Rank, Computational Mechanics 41 (2007), 121). 0 takes
+  /// it out.
+  void keep(const std::vector<double>& share);
   [[nodiscard]] bool stands(int shell) const;
   /// True while a shell stands at a node.
   [[nodiscard]] bool has_shells(int node) const;
