@@ -1,6 +1,7 @@
 #include "energy_account.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "index_of.h"
@@ -14,6 +15,7 @@ EnergyAccount::EnergyAccount(const Sources& sources)
       rest_loads_(sources.building.members.size()),
       rest_corner_forces_(sources.building.panels.size()),
       rest_holds_(sources.building.joints.size(), 1),
+      rest_stiffness_(sources.building.members.size(), 1.0),
       rests_(static_cast<std::size_t>(sources.statics.components())),
       changes_(rests_.size()) {}
 
@@ -38,6 +40,7 @@ void EnergyAccount::remember(int number) {
       rest_slips_[member] = slips;
     else
       rest_slips_.erase(member);
+    rest_stiffness_[index(member)] = from_.statics.stiffness(member);
   }
   for (PanelId panel : from_.statics.membranes(number))
     if (from_.statics.stiff(panel)) rest_corner_forces_[index(panel)] = from_.statics.corner_forces(panel);
@@ -90,6 +93,9 @@ const MemberShape& EnergyAccount::shape_at_rest(MemberId member) {
   auto& shapes = begin(member).before;
   if (const auto found = shapes.find(member); found != shapes.end()) return found->second;
   solver::Beam beam = from_.statics.beam(member);
+  const double stiffer = rest_stiffness_[index(member)] / from_.statics.stiffness(member);
+  beam.youngs_modulus *= stiffer;
+  beam.shear_modulus *= stiffer;
   for (int end = 0; end < 2; ++end) {
     const JointId joint = from_.building.joint(member, end);
     beam.end_stiffness[static_cast<std::size_t>(end)] =
@@ -145,6 +151,11 @@ void EnergyAccount::soften(PanelId panel, const Mat24& lost) {
   begin(from_.building[panel].nodes[0]).membranes.push_back({panel, forces});
   // What is lost later, in the same change, is what is left of it now.
   for (std::size_t corner = 0; corner < 4; ++corner) rest_corner_forces_[index(panel)][corner] -= forces[corner];
+}
+
+void EnergyAccount::soften(MemberId member) {
+  shape_at_rest(member);
+  begin(member).softened.push_back(member);
 }
 
 void EnergyAccount::lose_support(NodeId node) {
@@ -312,6 +323,20 @@ double EnergyAccount::load_changes(const Change& change) const {
   return sum;
 }
 
+/// 1/2 (1/k1 - 1/k0) s0.s1 over what became softer, s the internal forces before and after.
+double EnergyAccount::softening(const Change& change) const {
+  double sum = 0;
+  std::vector<MemberId> members = change.softened;
+  std::sort(members.begin(), members.end());
+  members.erase(std::unique(members.begin(), members.end()), members.end());
+  for (MemberId member : members) {
+    if (from_.segments.label(member) < 0) continue;
+    const double softer = rest_stiffness_[index(member)] / from_.statics.stiffness(member);
+    sum += (softer - 1) * change.before.at(member).mutual_energy(shape_now(member));
+  }
+  return sum;
+}
+
 /// Work that the joint's force could have done while its gap opened; a side that left stays where it was.
 double EnergyAccount::opened(const Opening& opening) const {
   const Joint& own = from_.building[opening.joint];
@@ -327,6 +352,7 @@ void EnergyAccount::finish(int number, bool slow, std::vector<JointBreak>& break
   Change& change = changes_[static_cast<std::size_t>(number)];
   if (!change.open) return;
   const double loads_changed = load_changes(change);
+  change.freed += softening(change);
   if (slow) {
     change.contact_left -= loads_changed;
   } else {

@@ -44,6 +44,8 @@ class EnergyAccount {
   void lose_membrane(PanelId panel);
   /// It becomes softer: by how much, as its corners feel it.
   void soften(PanelId panel, const Mat24& lost);
+  /// It is about to become softer.
+  void soften(MemberId member);
   void lose_support(NodeId node);
   void drop(NodeId node);
   void leave(MemberId member);
@@ -97,6 +99,7 @@ class EnergyAccount {
     std::vector<Opening> openings;
     std::vector<SupportLoss> supports;
     std::vector<MembraneLoss> membranes;
+    std::vector<MemberId> softened;
     std::map<MemberId, std::vector<solver::BeamLoad>> member_loads;
     std::map<NodeId, Vec6> node_loads;
     std::map<PanelId, HandOver> handed;  ///< by panels that hand on otherwise now
@@ -128,6 +131,7 @@ class EnergyAccount {
   [[nodiscard]] Vec3 local_gravity(MemberId member) const;
   [[nodiscard]] double opened(const Opening& opening) const;
   [[nodiscard]] double load_changes(const Change& change) const;
+  [[nodiscard]] double softening(const Change& change) const;
   [[nodiscard]] Vec6 after(NodeId node) const;
   [[nodiscard]] LoadWork load_work(int component) const;
   [[nodiscard]] double contact_work(int component) const;
@@ -156,6 +160,7 @@ class EnergyAccount {
   std::map<std::int64_t, PlacedLoad> rest_contacts_;
   std::vector<char> rest_holds_;                  ///< per joint of a member
   std::map<MemberId, solver::Vec12> rest_slips_;  ///< of members with plastic hinges
+  std::vector<double> rest_stiffness_;            ///< per member: factor
   mutable std::vector<Rest> rests_;
   std::vector<Change> changes_;
 };

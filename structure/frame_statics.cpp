@@ -43,6 +43,7 @@ FrameStatics::FrameStatics(const Building& building, const PanelSuperelements& s
   member_loads_.resize(building.members.size());
   node_loads_.assign(building.nodes.size(), Vec6::Zero());
   geometric_.assign(building.nodes.size(), Vec6::Zero());
+  member_stiffness_.assign(building.members.size(), 1.0);
   solver::AnalysisOptions options;
   options.threads = threads;
   for (std::size_t c = 0; c < models.size(); ++c)
@@ -156,6 +157,12 @@ void FrameStatics::remove_support(NodeId node) {
       changing(support_place_[s]).set_support_stiffness(support_place_[s].local, Vec6::Zero());
 }
 
+void FrameStatics::set_stiffness(MemberId member, double factor) {
+  const Place& place = member_place_[index(member)];
+  changing(place).set_beam_stiffness_factor(place.local, factor);
+  member_stiffness_[index(member)] = factor;
+}
+
 void FrameStatics::drop(const std::vector<NodeId>& nodes) {
   for (NodeId node : nodes) {
     const Place& place = node_place_[index(node)];
@@ -225,9 +232,12 @@ const Vec6& FrameStatics::displacement(NodeId node) const {
   return at(place).displacements()[static_cast<std::size_t>(place.local)];
 }
 
-const solver::Beam& FrameStatics::beam(MemberId member) const {
+solver::Beam FrameStatics::beam(MemberId member) const {
   const Place& place = member_place_[index(member)];
-  return at(place).model().beams[static_cast<std::size_t>(place.local)];
+  solver::Beam beam = at(place).model().beams[static_cast<std::size_t>(place.local)];
+  beam.youngs_modulus *= stiffness(member);
+  beam.shear_modulus *= stiffness(member);
+  return beam;
 }
 
 double FrameStatics::strain_energy(int component) const {

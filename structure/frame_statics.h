@@ -32,6 +32,8 @@ class FrameStatics {
   /// Of a membrane or shell panel: what its corners feel of it from now on.
   void set_stiffness(PanelId panel, const Mat24& stiffness);
   void remove_support(NodeId node);
+  /// Factor on E and G, above 0.
+  void set_stiffness(MemberId member, double factor);
   void drop(const std::vector<NodeId>& nodes);
   /// Loads in the member's local axes; BeamLoad::beam is set here.
   void set_loads(MemberId member, std::vector<solver::BeamLoad> loads);
@@ -69,7 +71,9 @@ class FrameStatics {
   [[nodiscard]] const Vec6& displacement(NodeId node) const;
   /// What flowing hinges hold included. They outlive a mechanism that solve() finds later.
   [[nodiscard]] const solver::Vec12& end_forces(MemberId member) const { return end_forces_[index(member)]; }
-  [[nodiscard]] const solver::Beam& beam(MemberId member) const;
+  /// As it is now, weakened E and G included.
+  [[nodiscard]] solver::Beam beam(MemberId member) const;
+  [[nodiscard]] double stiffness(MemberId member) const { return member_stiffness_[index(member)]; }
   [[nodiscard]] const solver::Shell& shell(PanelId membrane) const;
   /// What set_stiffness() gave the panel before the last solve(); null: its one element's own.
   [[nodiscard]] const Mat24* given_stiffness(PanelId panel) const;
@@ -157,6 +161,7 @@ class FrameStatics {
   std::vector<NodeId> support_node_;
   std::vector<char> stiff_;  ///< per panel
   std::vector<solver::Vec12> end_forces_, stiffness_diagonal_;
+  std::vector<double> member_stiffness_;  ///< factors
   std::vector<Component> components_;
   std::map<MemberId, Hinges> hinges_;
   std::vector<std::vector<solver::BeamLoad>> member_loads_;  ///< as given

@@ -73,22 +73,33 @@ LoadWork MemberShape::work(std::span<const solver::BeamLoad> loads, const Vec3& 
   return sum;
 }
 
-double MemberShape::strain_energy() const {
-  using Quantity = solver::BeamDiagram::Quantity;
+Vec6 MemberShape::stiffness() const {
   const double E = beam_.youngs_modulus, G = beam_.shear_modulus;
-  const std::array<double, 6> stiffness{E * beam_.area, G * beam_.shear_area_y, G * beam_.shear_area_z,
-                                        G * beam_.J,    E * beam_.Iy,           E * beam_.Iz};
+  Vec6 stiffness;
+  stiffness << E * beam_.area, G * beam_.shear_area_y, G * beam_.shear_area_z, G * beam_.J, E * beam_.Iy, E * beam_.Iz;
+  return stiffness;
+}
+
+double MemberShape::mutual_energy(const MemberShape& other) const {
+  using Quantity = solver::BeamDiagram::Quantity;
+  const Vec6 stiff = stiffness();
   double energy = 0;
-  const std::vector<double> places = cuts({});
+  const std::vector<double> places = cuts(other.loads_);
   for (std::size_t i = 0; i + 1 < places.size(); ++i) {
     const double length = places[i + 1] - places[i];
     for (const auto& [place, weight] : gauss)
       for (int k = 0; k < 6; ++k) {
-        if (!(stiffness[static_cast<std::size_t>(k)] > 0)) continue;
-        const double force = diagram_.value(static_cast<Quantity>(k), places[i] + place * length);
-        energy += weight * length * force * force / (2 * stiffness[static_cast<std::size_t>(k)]);
+        if (!(stiff(k) > 0)) continue;
+        const double x = places[i] + place * length;
+        energy += weight * length * diagram_.value(static_cast<Quantity>(k), x) *
+                  other.diagram_.value(static_cast<Quantity>(k), x) / (2 * stiff(k));
       }
   }
+  return energy;
+}
+
+double MemberShape::strain_energy() const {
+  double energy = mutual_energy(*this);
   for (int f = 0; f < 12; ++f) {
     const double spring = beam_.end_stiffness[static_cast<std::size_t>(f / 6)](f % 6);
     if (spring > 0 && std::isfinite(spring)) energy += end_forces_(f) * end_forces_(f) / (2 * spring);

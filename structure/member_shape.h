@@ -36,9 +36,13 @@ class MemberShape {
   [[nodiscard]] LoadWork work(std::span<const solver::BeamLoad> loads, const Vec3& gravity) const;
   /// Of the member and its end springs.
   [[nodiscard]] double strain_energy() const;
+  /// Internal forces of this state through the strains that those of another state make in this member, halved; without
+  /// end springs.
+  [[nodiscard]] double mutual_energy(const MemberShape& other) const;
 
  private:
   [[nodiscard]] std::vector<double> cuts(std::span<const solver::BeamLoad> loads) const;
+  [[nodiscard]] Vec6 stiffness() const;
 
   solver::Beam beam_;
   solver::Vec12 end_forces_, hubs_;

@@ -1,6 +1,8 @@
 #include "topple/structure/standing_frame.h"
 
 #include <algorithm>
+#include <cmath>
+#include <stdexcept>
 
 #include "index_of.h"
 #include "panel_demand.h"
@@ -179,6 +181,20 @@ Utilisation StandingFrame::utilisation(JointId joint) const {
   return counts ? state_->joints.utilisation(joint) : Utilisation{};
 }
 
+Eigen::Matrix<double, 12, 1> StandingFrame::end_forces(MemberId member) const {
+  if (!state_->stands(member)) return Eigen::Matrix<double, 12, 1>::Zero();
+  return state_->statics.end_forces(member);
+}
+
+Vec6 StandingFrame::reaction(NodeId node) const {
+  Vec6 sum = Vec6::Zero();
+  if (!state_->node_solved[index_of(node)]) return sum;
+  const auto& supports = state_->building.supports;
+  for (std::size_t s = 0; s < supports.size(); ++s)
+    if (supports[s].node == node) sum += state_->statics.reaction(s);
+  return sum;
+}
+
 int StandingFrame::segment(MemberId member) const {
   const int label = state_->segments.label(member);
   return label < 0 ? -1 : state_->numbered_segments()[static_cast<std::size_t>(label)];
@@ -239,6 +255,15 @@ void StandingFrame::set_strength_factor(JointId joint, double factor) {
   state.pending = true;
 }
 
+void StandingFrame::set_stiffness_factor(MemberId member, double factor) {
+  if (!(factor > 0) || !std::isfinite(factor)) throw std::invalid_argument("a stiffness factor must be above 0");
+  State& state = *state_;
+  if (!state.stands(member) || state.statics.stiffness(member) == factor) return;
+  state.account.soften(member);
+  state.statics.set_stiffness(member, factor);
+  state.softened = state.pending = true;
+}
+
 void StandingFrame::set_contact_load(const ContactLoad& load) {
   State& state = *state_;
   if (!state.stands(load.place)) return;
@@ -253,13 +278,14 @@ void StandingFrame::remove_contact_load(std::int64_t key) {
 
 bool StandingFrame::pending() const { return state_->pending; }
 
-std::vector<JointBreak> StandingFrame::settle(int generations) {
+std::vector<JointBreak> StandingFrame::settle(int generations, double operations) {
   State& state = *state_;
   if (!state.pending) {
     ++state.idle_settles;
     return {};
   }
   state.generation = 0;
+  const double before = state.statics.operations();
   state.lay_contacts();
   for (const State::Change& change : std::exchange(state.queue, {})) state.apply(change);
   state.bring_up_to_date();
@@ -267,7 +293,7 @@ std::vector<JointBreak> StandingFrame::settle(int generations) {
   for (;; ++state.generation) {
     const std::vector<JointId> next = state.next_generation();
     if (next.empty() && state.buckled.empty()) break;
-    if (state.generation >= generations) {
+    if (state.generation >= generations || state.statics.operations() - before >= operations) {
       state.buckled.clear();  // found again
       state.pending = true;
       break;

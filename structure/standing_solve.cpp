@@ -1,5 +1,6 @@
 // Bringing a standing frame's statics up to date, and reading from it what its joints bear.
 #include <algorithm>
+#include <utility>
 
 #include "index_of.h"
 #include "placed_load.h"
@@ -7,9 +8,11 @@
 
 namespace topple::structure {
 
-/// Contact loads come on slowly: their change moves R0 as much as R, so that no sudden-loss factor acts on them.
+/// Contact loads and softening come on slowly: their change moves R0 as much as R, so that no sudden-loss factor acts
+/// on them.
 void StandingFrame::State::lay_contacts() {
-  if (!loads.changed()) return;
+  if (!loads.changed() && !std::exchange(softened, false)) return;
+  softened = false;
   write_loads();
   for (int c = 0; c < statics.components(); ++c) {
     if (!statics.changed(c)) continue;

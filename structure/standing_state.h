@@ -177,6 +177,7 @@ struct StandingFrame::State {
 
   std::vector<Change> queue;
   bool pending = false;
+  bool softened = false;  ///< stiffness factors changed since the last solve
   std::map<std::int64_t, ContactLoad> contacts;
   std::vector<char> in_mechanism;   ///< per member: it moves, and is about to leave
   std::vector<MemberId> half_held;  ///< members that have just lost one end

@@ -1,17 +1,21 @@
 // topple demolish SCENARIO: runs a collapse without a window, as fast as it can.
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <sstream>
 
 #include "command.h"
 #include "image_sequence.h"
+#include "topple/structure/collapse_animation.h"
 #include "topple/structure/collapse_report.h"
 #include "topple/structure/drawn_model.h"
 #include "topple/structure/error.h"
 #include "topple/structure/files.h"
+#include "topple/structure/snapshot.h"
 #include "write_files.h"
 
 namespace topple::app {
@@ -21,8 +25,10 @@ namespace {
 struct DemolishOptions {
   std::string scenario, folder;
   int threads = 1;
-  bool images = false;
+  bool images = false, gltf = false;
   double rate = 30;
+  std::vector<double> save;
+  std::string resume;
 };
 
 /// A line on a terminal, rewritten every so many steps; nothing when standard error goes elsewhere.
@@ -41,8 +47,53 @@ class Progress {
   bool terminal_ = isatty(STDERR_FILENO) != 0;
 };
 
+void resume(structure::Simulation& simulation, const std::string& file) {
+  const structure::Snapshot snapshot = structure::read_snapshot(file);
+  try {
+    simulation.restore(snapshot);
+  } catch (const structure::InputError& error) {
+    throw structure::InputError(file + ": " + error.what());
+  }
+}
+
+/// The snapshots of --save, each at the end of the first step that reaches its time.
+class Saves {
+ public:
+  Saves(const DemolishOptions& options, const structure::Simulation& simulation)
+      : folder_(options.folder), due_(options.save) {
+    std::sort(due_.begin(), due_.end());
+    due_.erase(std::unique(due_.begin(), due_.end()), due_.end());
+    if (simulation.steps() > 0)  // those before a resumed moment are past
+      std::erase_if(due_, [&](double at) { return at < simulation.time(); });
+    else
+      write_due(simulation);
+  }
+
+  void write_due(const structure::Simulation& simulation) {
+    constexpr double rounding = 1e-9;  // s: a time counts as reached this much early
+    for (; next_ < due_.size() && due_[next_] <= simulation.time() + rounding; ++next_) {
+      std::ostringstream name;
+      name << "snapshot-" << due_[next_] << ".topple";
+      write_files(folder_, {{name.str(), structure::snapshot_bytes(simulation.save())}});
+    }
+  }
+
+  void tell_missed(const structure::Simulation& simulation) const {
+    for (std::size_t i = next_; i < due_.size(); ++i)
+      std::fprintf(stderr, "topple: --save %g: the run ended before, at %g s\n", due_[i], simulation.time());
+  }
+
+ private:
+  std::filesystem::path folder_;
+  std::vector<double> due_;
+  std::size_t next_ = 0;
+};
+
 int demolish(const DemolishOptions& options) {
-  if (options.images && options.folder.empty()) throw structure::InputError("--images: -o DIR must say where");
+  const std::pair<bool, const char*> into_folder[] = {
+      {options.images, "--images"}, {options.gltf, "--gltf"}, {!options.save.empty(), "--save"}};
+  for (const auto& [asked, name] : into_folder)
+    if (asked && options.folder.empty()) throw structure::InputError(std::string(name) + ": -o DIR must say where");
   const std::filesystem::path file = structure::find_scenario(options.scenario);
   auto [building, scenario] = structure::read_scenario(file);
   structure::Simulation simulation(std::move(building), std::move(scenario), {options.threads, {}});
@@ -53,24 +104,34 @@ int demolish(const DemolishOptions& options) {
             simulation.building(), structure::find_model(simulation.scenario().model, file.parent_path()));
         !meshes.empty())
       drawn.emplace(simulation.building(), std::move(meshes));
+  if (!options.resume.empty()) resume(simulation, options.resume);
+  Saves saves(options, simulation);
   structure::StepTimes times;
   std::optional<ImageSequence> images;
   if (options.images) images.emplace(simulation, options.folder, options.rate);
   if (images) images->write_due(simulation);
+  std::optional<structure::CollapseAnimation> animation;
+  if (options.gltf) animation.emplace(simulation, options.rate);
   {
     Progress progress;
     while (!simulation.finished()) {
       simulation.skip_idle();
       if (images) images->write_due(simulation);
+      if (animation) animation->add_due(simulation);
+      saves.write_due(simulation);
       simulation.step();
       if (drawn) drawn->update(simulation);
       if (images) images->write_due(simulation);
+      if (animation) animation->add_due(simulation);
+      saves.write_due(simulation);
       times.add(simulation);
       progress.show(simulation);
     }
   }
   if (!options.folder.empty()) structure::write_collapse(options.folder, simulation, times, roof_sag);
   if (drawn) write_files(options.folder, {{"meshes.glb", structure::drawn_model_glb(*drawn, simulation)}});
+  if (animation) write_files(options.folder, {{"collapse.glb", animation->glb()}});
+  saves.tell_missed(simulation);
   std::fputs(structure::collapse_text(simulation, times).c_str(), stdout);
   return success;
 }
@@ -81,7 +142,12 @@ const Registration registration{
        app.add_option("SCENARIO", options->scenario, "Scenario: a shipped one's name, or a file")->required();
        app.add_option("-o,--output", options->folder, "Folder for events.jsonl, summary.json and standing.json");
        app.add_flag("--images", options->images, "Draw frame-00000.png and so on into the folder");
-       app.add_option("--rate", options->rate, "Pictures for each simulated second")->check(CLI::PositiveNumber);
+       app.add_flag("--gltf", options->gltf, "Write the collapse as an animation, collapse.glb, into the folder");
+       app.add_option("--rate", options->rate, "Frames for each simulated second of both")->check(CLI::PositiveNumber);
+       app.add_option("--save", options->save, "Write snapshot-SECONDS.topple into the folder at this time")
+           ->allow_extra_args(false)
+           ->check(CLI::NonNegativeNumber);
+       app.add_option("--resume", options->resume, "Go on from a snapshot of the same scenario");
        app.add_option("--threads", options->threads, "Threads of the solver")->check(CLI::Range(1, 256));
        return [options] { return demolish(*options); };
      }}};

@@ -3,6 +3,7 @@
 
 #include "formats/generator_plan.h"
 #include "formats/model_reader.h"
+#include "formats/plan_generator.h"
 
 namespace topple::structure::formats {
 
@@ -221,10 +222,16 @@ class Generator {
 }  // namespace
 
 void generate_buildings(const JsonValue& root, ModelDraft& draft) {
-  if (const auto building = root.find("building")) Generator(*building, draft).run();
+  const auto generate = [&](const JsonValue& building) {
+    if (building.is_object() && building.find("places"))
+      generate_from_plan(building, draft);
+    else
+      Generator(building, draft).run();
+  };
+  if (const auto building = root.find("building")) generate(*building);
   if (const auto buildings = root.find("buildings")) {
     buildings->expect_array(1, ~std::size_t{0});
-    for (const JsonValue building : *buildings) Generator(building, draft).run();
+    for (const JsonValue building : *buildings) generate(building);
   }
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <set>
 
+#include "formats/divide_cut_members.h"
 #include "formats/json_document.h"
 #include "formats/model_reader.h"
 #include "formats/read_fracture.h"
@@ -31,8 +32,8 @@ bool boolean(const JsonValue& value) { return value.boolean(); }
 
 class ScenarioReader {
  public:
-  ScenarioReader(const JsonValue& root, const Building& building)
-      : root_(root), building_(building), names_(building) {}
+  ScenarioReader(const JsonValue& root, const Building& building, CutPlaces cuts)
+      : root_(root), building_(building), names_(building), cuts_(std::move(cuts)) {}
 
   Scenario read() {
     scenario_.combination = read_combination();
@@ -117,13 +118,13 @@ class ScenarioReader {
     for (const JsonValue value : events) {
       value.expect_object();
       refuse_unbuilt_keys(value, UnbuiltPlace::event);
-      value.only({"at", "projectile", "cut", "remove", "charge", "gravity", "load"});
+      value.only({"at", "projectile", "cut", "remove", "charge", "weaken", "wrecking_ball", "gravity", "load"});
       Event event;
       event.at = value.require("at").not_negative();
       if (value.size() != 2)
-        value.fail(
-            "found " + std::to_string(value.size() - 1) +
-            " tools; accepted: `at` and one of \"projectile\", \"cut\", \"remove\", \"charge\", \"gravity\", \"load\"");
+        value.fail("found " + std::to_string(value.size() - 1) +
+                   " tools; accepted: `at` and one of \"projectile\", \"cut\", \"remove\", \"charge\", \"weaken\", "
+                   "\"wrecking_ball\", \"gravity\", \"load\"");
       for (const JsonValue tool : value)
         if (tool.key() != "at") event.tool = read_tool(tool);
       scenario_.events.push_back(std::move(event));
@@ -140,6 +141,8 @@ class ScenarioReader {
     if (key == "cut") return read_cut(value);
     if (key == "remove") return read_remove(value);
     if (key == "charge") return read_charge(value);
+    if (key == "weaken") return read_weaken(value);
+    if (key == "wrecking_ball") return read_wrecking_ball(value);
     value.only({"nodes"});
     LoadTool load;
     for (const JsonValue entry : value.require("nodes")) {
@@ -160,13 +163,34 @@ class ScenarioReader {
     return projectile;
   }
 
+  static WreckingBall read_wrecking_ball(const JsonValue& value) {
+    value.only({"anchor", "cable", "from", "mass", "radius"});
+    WreckingBall ball;
+    ball.anchor = read_point(value.require("anchor"), 1);
+    ball.from = read_point(value.require("from"), 1);
+    ball.cable = value.require("cable").positive();
+    take(value, "mass", ball.mass, positive);
+    take(value, "radius", ball.radius, positive);
+    const double away = (ball.from - ball.anchor).norm();
+    if (away > ball.cable)
+      value.require("cable").fail("the ball begins " + std::to_string(away) +
+                                  " m from the anchor; accepted: a cable that reaches it");
+    return ball;
+  }
+
   CutTool read_cut(const JsonValue& value) const {
-    refuse_unbuilt_keys(value, UnbuiltPlace::cut);
-    value.only({"joints"});
+    value.only({"joints", "members"});
     CutTool cut;
     read_list(value, "joints", "joint", cut.joints,
               [&](const std::string& name) { return names_.joints_matching(name); });
-    if (cut.joints.empty()) value.fail("nothing to cut; accepted: \"joints\" with at least one name");
+    if (const auto members = value.find("members"))
+      for (const JsonValue entry : *members)
+        for (const MemberId id : names_.members_matching(std::string(entry.require("member").text()))) {
+          const auto place = cuts_.find({building_[id].name, entry.require("where").number()});
+          if (place != cuts_.end()) cut.joints.push_back(*names_.joint(place->second));
+        }
+    sort_unique(cut.joints);
+    if (cut.joints.empty()) value.fail("nothing to cut; accepted: \"joints\" or \"members\" with at least one name");
     return cut;
   }
 
@@ -174,25 +198,28 @@ class ScenarioReader {
     value.only({"members", "panels", "supports", "groups"});
     RemoveTool remove;
     read_list(value, "members", "member", remove.members,
-              [&](const std::string& name) { return names_.members_matching(name); });
+              [&](const std::string& name) { return all_pieces(names_.members_matching(name)); });
     read_list(value, "panels", "panel", remove.panels,
               [&](const std::string& name) { return names_.panels_matching(name); });
     read_list(value, "supports", "supported node", remove.supports,
               [&](const std::string& name) { return supported_nodes(name); });
-    if (const auto groups = value.find("groups")) {
-      for (const std::string& name : read_names(*groups)) {
-        const NameIndex::Group* group = names_.group(name);
-        if (group == nullptr) groups->fail("there is no group " + in_quotes(name) + "; accepted: a group of the model");
-        remove.members.insert(remove.members.end(), group->members.begin(), group->members.end());
-        remove.panels.insert(remove.panels.end(), group->panels.begin(), group->panels.end());
-      }
-    }
-    sort_unique(remove.members);
-    sort_unique(remove.panels);
+    if (const auto groups = value.find("groups")) read_groups(*groups, remove.members, remove.panels);
     if (remove.members.empty() && remove.panels.empty() && remove.supports.empty())
       value.fail(
           "nothing to remove; accepted: \"members\", \"panels\", \"supports\", \"groups\" with at least one name");
     return remove;
+  }
+
+  /// With a member that is divided, its later pieces (divide_member.h).
+  [[nodiscard]] std::vector<MemberId> all_pieces(std::vector<MemberId> members) const {
+    const std::size_t given = members.size();
+    for (std::size_t m = 0; m < given; ++m)
+      for (int n = 2;; ++n) {
+        const auto piece = names_.member(building_[members[m]].name + "/" + std::to_string(n));
+        if (!piece || names_.node(building_[members[m]].name + "/cut-1") == std::nullopt) break;
+        members.push_back(*piece);
+      }
+    return members;
   }
 
   std::vector<NodeId> supported_nodes(const std::string& pattern) const {
@@ -200,6 +227,43 @@ class ScenarioReader {
     for (const NodeSupport& support : building_.supports)
       if (matches_pattern(pattern, building_[support.node].name)) found.push_back(support.node);
     return found;
+  }
+
+  /// All members and panels of the groups, in order of id, beside those that are there.
+  void read_groups(const JsonValue& groups, std::vector<MemberId>& members, std::vector<PanelId>& panels) const {
+    for (const std::string& name : read_names(groups)) {
+      const NameIndex::Group* group = names_.group(name);
+      if (group == nullptr) groups.fail("there is no group " + in_quotes(name) + "; accepted: a group of the model");
+      members.insert(members.end(), group->members.begin(), group->members.end());
+      panels.insert(panels.end(), group->panels.begin(), group->panels.end());
+    }
+    sort_unique(members);
+    sort_unique(panels);
+  }
+
+  WeakenTool read_weaken(const JsonValue& value) const {
+    value.only({"groups", "members", "joints", "strength", "stiffness", "over", "stages"});
+    WeakenTool weaken;
+    std::vector<PanelId> panels;  // they lose strength alone
+    if (const auto groups = value.find("groups")) read_groups(*groups, weaken.members, panels);
+    read_list(value, "members", "member", weaken.members,
+              [&](const std::string& name) { return all_pieces(names_.members_matching(name)); });
+    read_list(value, "joints", "joint", weaken.joints,
+              [&](const std::string& name) { return names_.joints_matching(name); });
+    for (const MemberId member : weaken.members)
+      for (int end = 0; end < 2; ++end) weaken.joints.push_back(building_.joint(member, end));
+    for (const PanelId panel : panels)
+      for (int edge = 0; edge < 4; ++edge) weaken.joints.push_back(building_.joint(panel, edge));
+    sort_unique(weaken.joints);
+    if (weaken.joints.empty())
+      value.fail("nothing is named; accepted: \"groups\", \"members\" or \"joints\" with at least one name");
+    if (!value.find("strength") && !value.find("stiffness"))
+      value.fail("nothing weakens; accepted: \"strength\", \"stiffness\", or both");
+    take(value, "strength", weaken.strength, [](const JsonValue& v) { return v.not_negative(); });
+    take(value, "stiffness", weaken.stiffness, positive);
+    take(value, "over", weaken.over, [](const JsonValue& v) { return v.not_negative(); });
+    take(value, "stages", weaken.stages, [](const JsonValue& v) { return static_cast<int>(v.whole(1, 1'000'000)); });
+    return weaken;
   }
 
   static ChargeTool read_charge(const JsonValue& value) {
@@ -241,6 +305,7 @@ class ScenarioReader {
   JsonValue root_;
   const Building& building_;
   NameIndex names_;
+  CutPlaces cuts_;
   Scenario scenario_;
 };
 
@@ -261,7 +326,8 @@ std::pair<Building, Scenario> read_document(const JsonDocument& document, const 
     model.fail(error.what());
   }
   Building building = read_model(file, Purpose::demolish);
-  Scenario scenario = ScenarioReader(root, building).read();
+  CutPlaces cuts = divide_cut_members(root, building);
+  Scenario scenario = ScenarioReader(root, building, std::move(cuts)).read();
   scenario.file = document.name();
   scenario.model = name;
   return {std::move(building), std::move(scenario)};

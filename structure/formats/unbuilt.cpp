@@ -12,16 +12,6 @@ namespace formats {
 
 namespace {
 
-struct UnbuiltKey {
-  UnbuiltPlace place;
-  std::string_view key;
-};
-constexpr std::array unbuilt_keys{
-    UnbuiltKey{UnbuiltPlace::cut, "members"},
-    UnbuiltKey{UnbuiltPlace::event, "weaken"},
-    UnbuiltKey{UnbuiltPlace::event, "wrecking_ball"},
-};
-
 struct UnbuiltValue {
   std::string_view key, value;  ///< value as JsonValue::found() tells it
   std::string_view accepted;
@@ -31,14 +21,6 @@ constexpr std::array unbuilt_values{
 };
 
 }  // namespace
-
-void refuse_unbuilt_keys(const JsonValue& object, UnbuiltPlace place) {
-  object.expect_object();
-  for (const UnbuiltKey& unbuilt : unbuilt_keys)
-    if (unbuilt.place == place)
-      if (const auto value = object.find(unbuilt.key))
-        value->fail("`" + std::string(unbuilt.key) + "` is not built yet; accepted: leave the key out");
-}
 
 void refuse_unbuilt_value(const JsonValue& value) {
   for (const UnbuiltValue& unbuilt : unbuilt_values)

@@ -7,11 +7,6 @@
 
 namespace topple::structure::formats {
 
-/// Where keys stand that the reader has nowhere to keep.
-enum class UnbuiltPlace { model, material, panel, scenario, failure, cut, event };
-
-/// Throws at a key of this object whose meaning is not built.
-void refuse_unbuilt_keys(const JsonValue& object, UnbuiltPlace place);
 /// Throws when this value's meaning is not built at its key ("bracing": "buckling").
 void refuse_unbuilt_value(const JsonValue& value);
 

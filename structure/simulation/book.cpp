@@ -1,5 +1,6 @@
 // Move and book: the collision world integrates what is awake; then energies, events and counters.
 #include <algorithm>
+#include <utility>
 
 #include "simulation/simulation_state.h"
 #include "simulation/step_clock.h"
@@ -20,12 +21,14 @@ void Simulation::State::book() {
                [&](collision::BodyId id) { return body(id) && !world->state(id).asleep; });
   shatter_landed();
   break_up_landed();
+  keep_limit();  // some may have fallen asleep
   update_views();
 }
 
 /// The collision world measures what each contact took from the bodies, in the same reading of velocities.
 void Simulation::State::book_contacts() {
   for (const collision::Contact& contact : world->contacts()) ledger.lost_in_contacts += contact.work_lost;
+  for (const auto& [id, hung] : cables) ledger.lost_in_contacts += world->cable_pull(hung.cable).work_lost;
 }
 
 void Simulation::State::book_body(Body& one) {
@@ -46,17 +49,37 @@ void Simulation::State::book_body(Body& one) {
 }
 
 void Simulation::State::update_views() {
-  views.clear();
+  std::vector<BodyView> before = std::exchange(views, {});
+  poses.clear();
   for (const auto& [id, one] : bodies) {
     const collision::BodyState state = world->state(one.id);
-    views.push_back({one.id, state.pose, one.rest.centre, one.rest.mass, one.radius, state.asleep, one.members,
-                     one.panels, one.mesh, one.chunk_of});
+    views.push_back({one.id, one.name, state.pose, one.rest.centre, one.rest.mass, one.radius, state.asleep,
+                     one.members, one.panels, one.mesh, one.chunk_of, std::nullopt});
+    if (const auto hung = cables.find(id); hung != cables.end()) views.back().cable_anchor = hung->second.anchor;
+    const Vec3& at = state.pose.position;
+    const Eigen::Vector4d turn = state.pose.orientation.coeffs();
+    poses.insert(poses.end(), {at.x(), at.y(), at.z(), turn[0], turn[1], turn[2], turn[3]});
   }
+  tell_changes(before);
+}
+
+/// Both lists of bodies are in order of id.
+void Simulation::State::tell_changes(const std::vector<BodyView>& before) {
+  auto old = before.begin();
+  for (const BodyView& view : views) {
+    for (; old != before.end() && old->id < view.id; ++old) changes.gone.push_back(old->id.value);
+    if (old != before.end() && old->id == view.id)
+      ++old;
+    else
+      changes.made.push_back(view.id.value);
+    if (!view.asleep) changes.moved.push_back(view.id.value);
+  }
+  for (; old != before.end(); ++old) changes.gone.push_back(old->id.value);
 }
 
 bool Simulation::State::rests() const {
-  return step > 0 && world->awake_count() == 0 && !frame->pending() && next_event == scenario.events.size() &&
-         asked.empty();
+  return step > 0 && world->awake_count() == 0 && !frame->pending() && asked.empty() && touches.empty() &&
+         next_instant() == unlimited;
 }
 
 bool Simulation::State::finished() const {

@@ -1,4 +1,5 @@
 // events.jsonl, summary.json and standing.json.
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -121,8 +122,10 @@ std::string event_line(const Building& building, const SimulationEvent& event) {
       line["speed_out"] = event.speed_out;
       line["position"] = array(event.position);
       break;
-    case Kind::tool:
     case Kind::panel_fractured:
+      line["position"] = array(event.position);
+      break;
+    case Kind::tool:
     case Kind::at_rest:
     case Kind::done:
       break;
@@ -160,6 +163,33 @@ std::string summary_json(const Simulation& simulation, const StepTimes& times, d
   return summary.dump(2) + "\n";
 }
 
+namespace {
+
+Json standing_reactions(const Building& building, const StandingFrame& frame) {
+  Json reactions = Json::object();
+  for (const NodeSupport& support : building.supports)
+    if (frame.stands(support.node)) reactions[building[support.node].name] = array(frame.reaction(support.node));
+  return reactions;
+}
+
+/// Those that stand; a member's utilisation is that of its joint nearer to its capacity.
+Json standing_members(const Building& building, const StandingFrame& frame) {
+  Json members = Json::object();
+  for (std::size_t i = 0; i < building.members.size(); ++i) {
+    const MemberId id(i);
+    if (!frame.stands(id)) continue;
+    Json forces = Json::array();
+    const auto end_forces = frame.end_forces(id);
+    for (int f = 0; f < 12; ++f) forces.push_back(end_forces(f));
+    const double used =
+        std::max(frame.utilisation(building.joint(id, 0)).value, frame.utilisation(building.joint(id, 1)).value);
+    members[building[id].name] = {{"end_forces", std::move(forces)}, {"utilisation", used}};
+  }
+  return members;
+}
+
+}  // namespace
+
 std::string standing_json(const Simulation& simulation) {
   const Building& building = simulation.building();
   const StandingFrame& frame = simulation.frame();
@@ -187,6 +217,8 @@ std::string standing_json(const Simulation& simulation) {
                    {"units", {{"length", "m"}, {"force", "N"}, {"mass", "kg"}, {"angle", "rad"}}},
                    {"time", simulation.time()},
                    {"displacements", std::move(displacements)},
+                   {"reactions", standing_reactions(building, frame)},
+                   {"members", standing_members(building, frame)},
                    {"joints", std::move(joints)}};
   return standing.dump() + "\n";
 }

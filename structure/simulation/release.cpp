@@ -1,6 +1,7 @@
 // Release: what lost its hold on the frame becomes rigid bodies with true mass, centre and inertia.
 #include <algorithm>
 
+#include "simulation/momentum.h"
 #include "simulation/simulation_state.h"
 
 namespace topple::structure {
@@ -17,7 +18,42 @@ std::string name_of(const Building& building, const Detached& part) {
   if (!part.panels.empty()) return building[part.panels.front()].name;
   return building[part.nodes.front()].name;
 }
+
+bool belongs(const Detached& part, Part one) {
+  const auto has = [](const auto& list, auto id) { return std::find(list.begin(), list.end(), id) != list.end(); };
+  return one.member.valid() ? has(part.members, one.member) : has(part.panels, one.panel);
+}
 }  // namespace
+
+/// What lies where its body was dropped goes on weighing, and falls with what it lies on.
+void Simulation::State::freeze(const std::vector<RestingLoads::Kept>& lying) {
+  const double g = gravity.norm();
+  if (g == 0) return;
+  for (const RestingLoads::Kept& one : lying)
+    if (const double mass = one.force.dot(gravity) / (g * g); mass > 0)
+      frozen.push_back({one.on, point_mass(one.point, mass)});
+}
+
+/// A part too small to be a body comes down on what stands under it, and its weight stays there.
+void Simulation::State::leave_weight(const MassProperties& rest) {
+  const double g = gravity.norm();
+  if (g == 0) return;
+  const Vec3 down = gravity / g;
+  Part under;
+  double nearest = unlimited;
+  for (std::size_t i = 0; i < part_count(building); ++i) {
+    const Part part = part_of_number(building, static_cast<std::int64_t>(i));
+    if (!stands(part)) continue;
+    const auto distance = shapes.ray(part, rest.centre, down);
+    if (!distance || *distance >= nearest) continue;
+    nearest = *distance;
+    under = part;
+  }
+  if (!under.valid()) return;
+  const RestingLoads::Kept weight{under, rest.mass * gravity, rest.centre + nearest * down};
+  resting.lay_for_good(weight, *frame);
+  freeze({weight});
+}
 
 void Simulation::State::part_is_gone(Part part) {
   obstacles.remove(part, *world);
@@ -45,6 +81,8 @@ Body Simulation::State::describe(const Detached& part) const {
   one.panels = part.panels;
   one.nodes = part.nodes;
   one.rest = masses.of(part);
+  for (const Frozen& lying : frozen)
+    if (belongs(part, lying.on)) one.rest.add(lying.mass);
   for (const MemberId member : part.members) {
     one.volume += member_volume(building, building[member]);
     one.bounds.add(shapes.bounds(Part(member)));
@@ -76,6 +114,7 @@ void Simulation::State::release(const Detached& part) {
   if (displacement.norm() > largest_start) displacement *= largest_start / displacement.norm();
   for (const MemberId member : part.members) part_is_gone(Part(member));
   for (const PanelId panel : part.panels) part_is_gone(Part(panel));
+  std::erase_if(frozen, [&](const Frozen& lying) { return belongs(part, lying.on); });
 
   if (part.mechanism) tell(SimulationEvent::Kind::mechanism, one.name).mass = one.rest.mass;
   const bool small = one.volume < scenario.debris.smallest_volume;
@@ -89,6 +128,7 @@ void Simulation::State::release(const Detached& part) {
     for (const MemberId member : part.members) body_of_part[static_cast<std::size_t>(member.index)] = nowhere;
     for (const PanelId panel : part.panels)
       body_of_part[static_cast<std::size_t>(part_number(building, Part(panel)))] = nowhere;
+    leave_weight(one.rest);
     return;
   }
   Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();
@@ -101,6 +141,7 @@ void Simulation::State::release(const Detached& part) {
   knock(one, velocity, spin);
   const std::vector<collision::BodyId> passing = breakers_of(one);
   const collision::BodyId id = add_body(std::move(one), velocity, spin, displacement);
+  check_momentum(bodies.at(id.value));
   collision::Touched broken;
   broken.kind = collision::Touched::Kind::body;
   broken.body = id;
@@ -137,6 +178,24 @@ void Simulation::State::knock(const Body& one, Vec3& velocity, Vec3& spin) {
     spin += inverse * r.cross(impulse);
     ledger.lost_in_impacts -= impulse.squaredNorm() / mass / 2;
   }
+}
+
+/// A part that detaches was at rest: all the momentum that the world's body has must be what knocks gave it.
+void Simulation::State::check_momentum(const Body& one) {
+  collision::BodyState state = world->state(one.id);
+  state.velocity = reading().true_velocity(state.velocity);
+  Momentum measured{state.pose.position}, given{state.pose.position};
+  measured.add(one, state);
+  const Mat3 inverse = one.rest.inertia.inverse();
+  for (const Knock& blow : knocks)
+    if (was_struck(blow, one)) {
+      const double size = blow.impulse.norm();
+      if (size == 0) continue;
+      const Vec3 r = blow.point - one.rest.centre, n = blow.impulse / size;
+      const Vec3 impulse = std::min(size, effective_mass(one.rest.mass, inverse, r, n) * blow.speed) * n;
+      given.add_impulse(impulse, state.pose.position + r);
+    }
+  ledger.momentum_error = std::max(ledger.momentum_error, measured.error(given));
 }
 
 collision::BodyId Simulation::State::add_body(Body one, const Vec3& velocity, const Vec3& spin,
@@ -192,9 +251,10 @@ void Simulation::State::remove_body(collision::BodyId id, bool keep_weight) {
   ledger.removed += kinetic.translation + kinetic.rotation;
   for (std::int64_t& of_part : body_of_part)
     if (of_part == id.value) of_part = -2;
-  resting.forget(id, *frame, keep_weight);
+  freeze(resting.forget(id, *frame, keep_weight));
   world->remove_body(id);
   free_segments.erase(id.value);
+  cables.erase(id.value);
   bodies.erase(found);
 }
 

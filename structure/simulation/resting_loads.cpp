@@ -134,15 +134,19 @@ std::vector<collision::BodyId> RestingLoads::on(Part part) const {
   return bodies;
 }
 
-void RestingLoads::forget(collision::BodyId body, StandingFrame& frame, bool keep) {
+std::vector<RestingLoads::Kept> RestingLoads::forget(collision::BodyId body, StandingFrame& frame, bool keep) {
+  std::vector<Kept> kept;
   for (auto entry = resting_.begin(); entry != resting_.end();) {
     if (entry->first.body != body.value) {
       ++entry;
       continue;
     }
     if (entry->second.laid && !keep) frame.remove_contact_load(entry->second.load_key);
+    if (entry->second.laid && keep)
+      kept.push_back({entry->first.part, entry->second.applied, entry->second.applied_at});
     entry = resting_.erase(entry);
   }
+  return kept;
 }
 
 }  // namespace topple::structure

@@ -22,8 +22,17 @@ class RestingLoads {
   std::vector<collision::BodyId> drop(Part part, StandingFrame& frame);
   /// The bodies that lie on a part.
   [[nodiscard]] std::vector<collision::BodyId> on(Part part) const;
-  /// The body is gone. `keep`: its weight stays where it lay.
-  void forget(collision::BodyId body, StandingFrame& frame, bool keep);
+  /// What lies on a part for good.
+  struct Kept {
+    Part on;
+    Vec3 force, point;
+  };
+  /// The body is gone. `keep`: its weight stays where it lay, and is told.
+  std::vector<Kept> forget(collision::BodyId body, StandingFrame& frame, bool keep);
+  /// A weight that stays.
+  void lay_for_good(const Kept& weight, StandingFrame& frame) {
+    frame.set_contact_load({next_key_++, {weight.on.member, weight.on.panel, weight.point}, weight.force});
+  }
   [[nodiscard]] std::size_t size() const { return resting_.size(); }
 
  private:

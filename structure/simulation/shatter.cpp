@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulation/momentum.h"
 #include "simulation/panel_chunks.h"
 #include "simulation/simulation_state.h"
 #include "topple/structure/error.h"
@@ -83,12 +84,14 @@ std::vector<collision::BodyId> Simulation::State::shatter(collision::BodyId id, 
   out = 0;
   if (chunks.empty()) return {};
   tell(SimulationEvent::Kind::panel_fractured, building[panel].name).position = point;
-  resting.forget(id, *frame, false);
+  (void)resting.forget(id, *frame, false);
   world->remove_body(id);
   bodies.erase(id.value);
   body_of_part[static_cast<std::size_t>(part_number(building, Part(panel)))] = -2;
 
   std::vector<collision::BodyId> made;
+  Momentum carried{state.pose.position}, handed_on{state.pose.position};
+  carried.add(one, state);
   double dust = 0;
   for (std::size_t i = 0; i < chunks.size(); ++i) {
     const bool of_hit = chunks[i].hit;
@@ -100,12 +103,18 @@ std::vector<collision::BodyId> Simulation::State::shatter(collision::BodyId id, 
     if (piece.volume < scenario.debris.smallest_volume) {
       const Kinetic lost = kinetic_energy(piece, moving, reading());
       ledger.removed += lost.translation + lost.rotation;
+      handed_on.add(piece, moving);
       dust += piece.rest.mass;
       continue;
     }
     if (of_hit) ++out;
     made.push_back(add_body(std::move(piece), moving));
   }
+  for (const collision::BodyId piece : made) {
+    handed_on.add(bodies.at(piece.value), world->state(piece));
+    changes.split.push_back({id.value, piece.value});
+  }
+  ledger.momentum_error = std::max(ledger.momentum_error, carried.error(handed_on));
   if (dust > 0) tell(SimulationEvent::Kind::limited, building[panel].name).mass = dust;
   return made;
 }

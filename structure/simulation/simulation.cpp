@@ -15,6 +15,8 @@ void Simulation::step() {
   State& s = *state_;
   ++s.step;
   s.timer.start_step();
+  s.changes = {};
+  s.host_impulses.clear();
   if (s.nothing_to_do()) {
     ++s.counters.steps_idle;
   } else {
@@ -25,6 +27,7 @@ void Simulation::step() {
     const auto contacts = timed(Stage::sense, [&] { return s.sense(); });
     timed(Stage::load, [&] { s.load(); });
     timed(Stage::break_, [&] {
+      s.strike_by_host();
       s.strike_all(contacts);
       s.break_generations();
     });
@@ -69,16 +72,25 @@ Simulation::State::State(Building the_building, Scenario the_scenario, Simulatio
       obstacles(building, shapes, grid, scenario.debris.friction, scenario.debris.restitution),
       strength_factors(building.joints.size(), 1.0),
       body_of_part(part_count(building), -1),
-      debris_broken(building.joints.size(), 0) {
+      debris_broken(building.joints.size(), 0),
+      stiffness_factors(building.members.size(), 1.0) {
   find_breakable_panels();
   open_panels();
+  operations_booked = frame->counters().operations;
   world->set_gravity(gravity);
   world->set_ground(ground_height(building, scenario), scenario.debris.friction, scenario.debris.restitution);
 }
 
 bool Simulation::State::nothing_to_do() const {
-  if (step <= 1 || !asked.empty() || frame->pending() || world->awake_count() > 0) return false;
-  return next_event == scenario.events.size() || step_of(scenario.events[next_event].at, scenario.step) > step;
+  if (step <= 1 || !asked.empty() || !touches.empty() || frame->pending() || world->awake_count() > 0) return false;
+  const double next = next_instant();
+  return next == unlimited || step_of(next, scenario.step) > step;
+}
+
+double Simulation::State::next_instant() const {
+  double next = next_event == scenario.events.size() ? unlimited : scenario.events[next_event].at;
+  for (const Weakening& weakening : weakenings) next = std::min(next, weakening.next());
+  return next;
 }
 
 Body* Simulation::State::body(collision::BodyId id) {
@@ -127,13 +139,17 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
 std::int64_t Simulation::skip_idle() {
+  return skip_idle_before(step_of(state_->scenario.duration, state_->scenario.step));
+}
+
+/// Passes over idle steps, at most to the one before `end`.
+std::int64_t Simulation::skip_idle_before(std::int64_t end) {
   State& s = *state_;
   std::int64_t passed = 0;
-  const std::int64_t end = step_of(s.scenario.duration, s.scenario.step);
-  if (s.step < 1 || !s.asked.empty() || s.frame->pending() || s.world->awake_count() > 0) return 0;
-  const std::int64_t next = s.next_event == s.scenario.events.size()
-                                ? end
-                                : std::min(end, step_of(s.scenario.events[s.next_event].at, s.scenario.step));
+  if (s.step < 1 || !s.asked.empty() || !s.touches.empty() || s.frame->pending() || s.world->awake_count() > 0)
+    return 0;
+  const double instant = s.next_instant();
+  const std::int64_t next = instant < unlimited ? std::min(end, step_of(instant, s.scenario.step)) : end;
   passed = std::max<std::int64_t>(0, next - 1 - s.step);
   s.step += passed;
   s.counters.steps_idle += static_cast<std::uint64_t>(passed);
@@ -144,7 +160,10 @@ bool Simulation::finished() const { return state_->finished(); }
 double Simulation::time() const { return state_->time(); }
 std::int64_t Simulation::steps() const { return state_->step; }
 bool Simulation::at_rest() const { return state_->rests(); }
-void Simulation::apply(const Tool& tool) { state_->asked.push_back(tool); }
+void Simulation::apply(const Tool& tool) {
+  state_->asked.push_back(tool);
+  state_->actions.push_back({state_->step, tool});
+}
 void Simulation::on_event(std::function<void(const SimulationEvent&)> listener) {
   state_->listeners.push_back(std::move(listener));
 }
@@ -153,6 +172,8 @@ const Building& Simulation::building() const { return state_->building; }
 const Scenario& Simulation::scenario() const { return state_->scenario; }
 const StandingFrame& Simulation::frame() const { return *state_->frame; }
 std::span<const BodyView> Simulation::bodies() const { return state_->views; }
+std::span<const double> Simulation::poses() const { return state_->poses; }
+const PieceChanges& Simulation::changes() const { return state_->changes; }
 
 collision::BodyId Simulation::body_of(MemberId member) const {
   return {state_->body_of_part[static_cast<std::size_t>(member.index)]};

@@ -19,13 +19,30 @@ struct Simulation::State {
 
   // tools.cpp: what acts in this step, before anything else.
   void use_tools();
-  void use(const Tool& tool);
+  void use_at(double instant, const Tool& tool);
   void use(const Projectile& projectile);
+  void use(const WreckingBall& ball);
+  collision::BodyId launch(const std::string& kind, const Vec3& from, double mass, double radius, const Vec3& velocity);
   void use(const CutTool& cut);
   void use(const RemoveTool& remove);
   void use(const ChargeTool& charge);
+  void use(const WeakenTool& tool);
   void use(const GravityTool& tool);
   void use(const LoadTool& load);
+
+  // weakening.cpp: what loses strength and stiffness over time.
+  struct Weakening {
+    WeakenTool tool;
+    double begin = 0;
+    int stage = 0;  ///< stages that have come
+    [[nodiscard]] bool over() const { return stage == tool.stages; }
+    [[nodiscard]] double next() const { return begin + tool.over * (stage + 1) / tool.stages; }
+    /// Factor after some stages, `last` being the one after all of them.
+    [[nodiscard]] double after(int stages, double last) const { return 1 + (last - 1) * stages / tool.stages; }
+  };
+  void use_stages();
+  void use_stage(Weakening& weakening);
+  void weaken(JointId joint, double change);
 
   // sense.cpp
   [[nodiscard]] std::vector<collision::Contact> sense();
@@ -42,7 +59,9 @@ struct Simulation::State {
   void push_in(Strike& hit);
   static void tell_loss(Strike& hit);
   void send_on(const Strike& hit);
+  void check_momentum(const Strike& hit, const Vec3& impulse);
   void break_generations();
+  [[nodiscard]] bool may_compute();
 
   /// Momentum that an impact gave to what it broke off, handed over when that part becomes a body.
   struct Knock {
@@ -59,11 +78,14 @@ struct Simulation::State {
   [[nodiscard]] Body describe(const Detached& part) const;
   collision::BodyId add_body(Body body, const Vec3& velocity, const Vec3& spin, const Vec3& displacement);
   void knock(const Body& body, Vec3& velocity, Vec3& spin);
+  void check_momentum(const Body& body);
   [[nodiscard]] static bool was_struck(const Knock& given, const Body& one);
   [[nodiscard]] std::vector<collision::BodyId> breakers_of(const Body& one) const;
   collision::BodyId add_body(Body body, const collision::BodyState& state);
   void remove_body(collision::BodyId id, bool keep_weight);
   void keep_limit();
+  void freeze(const std::vector<RestingLoads::Kept>& lying);
+  void leave_weight(const MassProperties& rest);
 
   // shatter.cpp: panels that came off break into chunks.
   void find_breakable_panels();
@@ -103,12 +125,26 @@ struct Simulation::State {
   void book_body(Body& body);
   void book_contacts();
   void update_views();
+  void tell_changes(const std::vector<BodyView>& before);
   [[nodiscard]] bool rests() const;
   void tell_rest_and_end();
   void account_now();
 
+  // save_and_restore.cpp
+  void require_parts(const Snapshot::Action& action) const;
+
+  // host_contacts.cpp: bodies that the host owns.
+  void strike_by_host();
+  void strike_by_host(const HostContact& contact, Part part, HostImpulse& felt);
+  void push_debris(const HostContact& contact, HostImpulse& felt);
+
+  // queries.cpp
+  [[nodiscard]] std::vector<Carrier> what_carries(const ContactPlace& place) const;
+
   // Small things.
   [[nodiscard]] bool nothing_to_do() const;
+  /// When the next event or stage acts; unlimited when none is to come.
+  [[nodiscard]] double next_instant() const;
   [[nodiscard]] bool finished() const;
   [[nodiscard]] double time() const { return static_cast<double>(step) * scenario.step; }
   [[nodiscard]] VelocityReading reading() const { return {gravity * scenario.step / 2}; }
@@ -132,6 +168,12 @@ struct Simulation::State {
   PartGrid grid;
   Obstacles obstacles;
   RestingLoads resting;
+  /// Debris that is no body any more and lies as dead weight.
+  struct Frozen {
+    Part on;
+    MassProperties mass;
+  };
+  std::vector<Frozen> frozen;
   std::vector<double> strength_factors;  ///< per joint
   std::map<std::int64_t, Body> bodies;
   std::vector<std::int64_t> body_of_part;  ///< by part number; -1 stands, -2 gone
@@ -157,8 +199,20 @@ struct Simulation::State {
 
   std::int64_t step = 0;
   std::size_t next_event = 0;
+  std::vector<Weakening> weakenings;      ///< those with stages to come
+  std::vector<double> stiffness_factors;  ///< per member
+  double used_at = 0;                     ///< the instant of the tool that acts
   std::vector<Tool> asked;
-  std::int64_t projectiles = 0;
+  std::vector<Snapshot::Action> actions;              ///< all that was asked for so far
+  std::map<JointId, JointCapacity> given_capacities;  ///< of joints that were given others, as the building had them
+  std::vector<HostContact> touches;                   ///< to come in the next step
+  std::vector<HostImpulse> host_impulses;
+  std::map<std::string, int> launched;  ///< balls by kind
+  struct HungBall {
+    collision::CableId cable;
+    Vec3 anchor;
+  };
+  std::map<std::int64_t, HungBall> cables;  ///< by body
   bool was_at_rest = false, done_told = false;
 
   std::vector<SimulationEvent> events;
@@ -167,8 +221,11 @@ struct Simulation::State {
   Ledger ledger;
   double body_gravity_work = 0, body_work_put_in = 0;
   SimulationCounters counters;
+  double operations_booked = 0, operations_owed = 0;  ///< of the solver: counted so far, spent beyond the budget
   StageTimer timer;
   std::vector<BodyView> views;
+  std::vector<double> poses;
+  PieceChanges changes;
 };
 
 }  // namespace topple::structure

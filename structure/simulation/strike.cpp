@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "simulation/first_failure.h"
+#include "simulation/momentum.h"
 #include "simulation/step_clock.h"
 #include "simulation/strike.h"
 
@@ -183,13 +184,6 @@ void Simulation::State::send_on(const Strike& hit) {
     knocks.push_back(
         {hit.part, hit.structure_mass * hit.speed_out * hit.normal, hit.place.point, hit.speed_out, one.id});
 
-  const Vec3 change = one.rest.mass * (after.velocity - hit.state.velocity) - impulse;
-  const Vec3 turn = inertia * (after.angular_velocity - hit.state.angular_velocity) - r.cross(impulse);
-  const double scale = impulse.norm() + one.rest.mass * hit.state.velocity.norm();
-  if (scale > 0)
-    ledger.momentum_error =
-        std::max({ledger.momentum_error, change.norm() / scale, turn.norm() / (scale * std::max(r.norm(), 1e-3))});
-
   StruckClock& clock = struck[one.id.value];
   clock.at = hit.sensed_at;
   clock.base = hit.through ? hit.own_time : 0;
@@ -203,12 +197,26 @@ void Simulation::State::send_on(const Strike& hit) {
   after.velocity = reading().to_world(after.velocity);
   after.asleep = false;
   world->set_state(one.id, after);
+  check_momentum(hit, impulse);
+}
+
+/// The momentum that the world's body has at the instant of the impact must be what it had before and the impulse.
+void Simulation::State::check_momentum(const Strike& hit, const Vec3& impulse) {
+  Momentum given{hit.state.pose.position}, measured{hit.state.pose.position};
+  given.add(*hit.body, hit.state);
+  given.add_impulse(impulse, hit.place.point);
+  collision::BodyState now = world->state(hit.body->id);
+  now.velocity = reading().true_velocity(now.velocity);
+  if (hit.through) now.velocity += gravity * hit.own_time;
+  now.pose = hit.state.pose;
+  measured.add(*hit.body, now);
+  ledger.momentum_error = std::max(ledger.momentum_error, measured.error(given));
 }
 
 void Simulation::State::break_generations() {
-  if (!frame->pending() && step > 1) return;
+  if (!may_compute() || (!frame->pending() && step > 1)) return;
   const int generations = generations_of(step, scenario.step, scenario.failure.generations_per_second);
-  const std::vector<JointBreak> breaks = frame->settle(generations);
+  const std::vector<JointBreak> breaks = frame->settle(generations, scenario.operations_budget.value_or(unlimited));
   for (const JointBreak& line : frame->take_yielded()) {
     SimulationEvent& event = tell(SimulationEvent::Kind::joint_yielded, building[line.joint].name);
     event.joint = line;

@@ -7,8 +7,10 @@
 namespace topple::structure {
 
 void Simulation::set_capacities(std::span<const std::pair<JointId, JointCapacity>> capacities) {
+  state_->actions.push_back({state_->step, CapacityChange{{capacities.begin(), capacities.end()}}});
   for (const auto& [joint, capacity] : capacities) {
     JointCapacity& own = state_->building.joints[static_cast<std::size_t>(joint.index)].capacity;
+    state_->given_capacities.try_emplace(joint, own);
     const JointCapacity before = std::exchange(own, capacity);
     // Hinges are made where a ductile sense has a capacity from the start; one that gets it later breaks at once.
     for (std::size_t sense = 0; sense < 7; ++sense)
@@ -20,27 +22,39 @@ void Simulation::set_capacities(std::span<const std::pair<JointId, JointCapacity
 void Simulation::State::use_tools() {
   for (; next_event < scenario.events.size() && step_of(scenario.events[next_event].at, scenario.step) <= step;
        ++next_event)
-    use(scenario.events[next_event].tool);
-  for (const Tool& tool : std::exchange(asked, {})) use(tool);
+    use_at(scenario.events[next_event].at, scenario.events[next_event].tool);
+  for (const Tool& tool : std::exchange(asked, {})) use_at(time(), tool);
+  use_stages();
 }
 
-void Simulation::State::use(const Tool& tool) {
+void Simulation::State::use_at(double instant, const Tool& tool) {
+  used_at = instant;
   std::visit([&](const auto& one) { use(one); }, tool);
 }
 
 void Simulation::State::use(const Projectile& projectile) {
+  launch("projectile", projectile.from, projectile.mass, projectile.radius, projectile.velocity);
+}
+
+collision::BodyId Simulation::State::launch(const std::string& kind, const Vec3& from, double mass, double radius,
+                                            const Vec3& velocity) {
   Body sphere;
-  sphere.name = "projectile " + std::to_string(++projectiles);
-  sphere.rest = sphere_mass(projectile.from, projectile.mass, projectile.radius);
-  sphere.radius = projectile.radius;
-  sphere.volume = 4.0 / 3.0 * M_PI * projectile.radius * projectile.radius * projectile.radius;
-  sphere.bounds.add(Vec3::Constant(-projectile.radius));
-  sphere.bounds.add(Vec3::Constant(projectile.radius));
-  body_work_put_in += projectile.mass * projectile.velocity.squaredNorm() / 2;
-  SimulationEvent& event = tell(SimulationEvent::Kind::tool, "projectile");
-  event.mass = projectile.mass;
-  event.position = projectile.from;
-  add_body(std::move(sphere), projectile.velocity, Vec3::Zero(), Vec3::Zero());
+  sphere.name = kind + " " + std::to_string(++launched[kind]);
+  sphere.rest = sphere_mass(from, mass, radius);
+  sphere.radius = radius;
+  sphere.volume = 4.0 / 3.0 * M_PI * radius * radius * radius;
+  sphere.bounds.add(Vec3::Constant(-radius));
+  sphere.bounds.add(Vec3::Constant(radius));
+  body_work_put_in += mass * velocity.squaredNorm() / 2;
+  SimulationEvent& event = tell(SimulationEvent::Kind::tool, kind);
+  event.mass = mass;
+  event.position = from;
+  return add_body(std::move(sphere), velocity, Vec3::Zero(), Vec3::Zero());
+}
+
+void Simulation::State::use(const WreckingBall& ball) {
+  const collision::BodyId id = launch("wrecking ball", ball.from, ball.mass, ball.radius, Vec3::Zero());
+  cables[id.value] = {world->add_cable({id, ball.anchor, ball.cable}), ball.anchor};
 }
 
 void Simulation::State::use(const CutTool& cut) {
@@ -75,12 +89,7 @@ void Simulation::State::use(const ChargeTool& charge) {
     if (distance > charge.radius) continue;
     const double factor =
         charge.strength_at_centre + (charge.strength_at_radius - charge.strength_at_centre) * distance / charge.radius;
-    if (factor > 0) {
-      strength_factors[i] *= factor;
-      frame->set_strength_factor(joint, strength_factors[i]);
-    } else {
-      frame->break_joint(joint, BreakCause::tool);
-    }
+    weaken(joint, factor);
   }
 }
 

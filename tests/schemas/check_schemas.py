@@ -70,7 +70,7 @@ def set_at(value, path, new):
     return changed
 
 
-for name in ["model", "scenario", "results", "events", "summary", "panel", "actions"]:
+for name in ["model", "scenario", "results", "events", "summary", "standing", "panel", "actions"]:
     jsonschema.Draft202012Validator.check_schema(schema(name))
 
 examples = {}
@@ -81,7 +81,7 @@ for document, kind, text in documented_examples():
     else:
         examples[kind] = value
     expect_valid(kind, value, f"the example in {document}")
-for kind in ["model", "scenario", "results", "events", "summary", "panel", "actions"]:
+for kind in ["model", "scenario", "results", "events", "summary", "standing", "panel", "actions"]:
     if kind not in examples:
         failures.append(f"docs/ shows no example of {kind}")
 
@@ -112,6 +112,8 @@ scenario_mistakes = [
     (["model"], None), (["step"], 0), (["failure", "bracing"], "strong"), (["failure", "sudden"], 0.5),
     (["impact", "restitution"], 2), (["debris", "limit"], 1.5), (["events", 0, "at"], None),
     (["events", 0, "gravity"], [0, 0, 0]), (["events", 0, "projectile", "mass"], 0), (["events", 3, "charge", "radius"], None),
+    (["events", 4, "weaken", "stiffness"], 0), (["events", 5, "wrecking_ball", "anchor"], None),
+    (["events", 1, "cut", "members", 0, "where"], 1.5),
 ]
 with tempfile.TemporaryDirectory() as folder:
     file = pathlib.Path(folder) / "model.json"
@@ -144,7 +146,7 @@ with tempfile.TemporaryDirectory() as folder:
     for command, files in [(["analyse", "tower"], ["results.json"]),
                            (["analyse", "tower", "--code", "en1993", "--stations", "3"], ["results.json"]),
                            (["analyse", "tower", "--lose", "P-1-1-1", "--lose-each", "storey-2"], ["results.json"]),
-                           (["demolish", str(place / "collapse.json")], ["events.jsonl", "summary.json"])]:
+                           (["demolish", str(place / "collapse.json")], ["events.jsonl", "summary.json", "standing.json"])]:
         run = subprocess.run([topple, *command, "-o", folder], capture_output=True, text=True)
         if run.returncode != 0:
             failures.append(f"topple {command[0]} ends with {run.returncode}: {run.stderr}")

@@ -1,4 +1,5 @@
 // The scenario reader takes in every tool and rule that is built, and refuses the others by their name.
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "example_model.h"
@@ -116,13 +117,51 @@ TEST_CASE("what is not built yet is refused by its name") {
   CHECK(error("\"detach\"", "\"hinge\"") ==
         "s.json, line 4, failure.mechanism: \"hinge\" is not built yet; accepted: \"detach\"");
   CHECK(error("\"second_order\": false", "\"second_order\": true") == "no error");
-  CHECK(error("\"joints\": [", "\"members\": [], \"joints\": [") ==
-        "s.json, line 10, events[2].cut.members: `members` is not built yet; accepted: leave the key out");
   CHECK(error("\"impact\"", "\"fracture\": {\"method\": \"voronoi\"}, \"impact\"") == "no error");
   CHECK(error("\"impact\"", "\"fracture\": {\"method\": \"saw\"}, \"impact\"") ==
         "s.json, line 5, fracture.method: found \"saw\"; accepted: \"voronoi\", \"quadrilateral\" or \"local\"");
-  for (const std::string tool : {"weaken", "wrecking_ball"})
-    CHECK(error("\"gravity\"", "\"" + tool + "\"").find("`" + tool + "` is not built yet") != std::string::npos);
+}
+
+TEST_CASE("tools over time, on a cable and inside members are read") {
+  const auto [building, scenario] =
+      read(R"({"topple": 1, "model": "seed_building", "combination": "collapse", "events": [
+    {"at": 1, "weaken": {"groups": ["storey-3", "storey-4"], "joints": ["P-1-1-1:*"], "strength": 0.4, "stiffness": 0.6, "over": 1800, "stages": 60}},
+    {"at": 2, "wrecking_ball": {"anchor": [10, -4, 30], "cable": 22, "from": [10, -24, 20.84], "mass": 2000, "radius": 0.7}},
+    {"at": 3, "cut": {"members": [{"member": "P-2-1-1", "where": 0.5}, {"member": "P-3-1-*", "where": 0}]}},
+    {"at": 4, "remove": {"members": ["P-2-1-1"]}}]})");
+  REQUIRE(scenario.events.size() == 4);
+  const auto& weaken = std::get<WeakenTool>(scenario.events[0].tool);
+  const NameIndex names(building);
+  const std::size_t members = 2 * (20 + 31),
+                    panels = names.group("storey-3")->panels.size() + names.group("storey-4")->panels.size();
+  CHECK(weaken.members.size() == members);
+  CHECK(weaken.joints.size() == 2 * members + 4 * panels + 2);
+  CHECK(weaken.strength == 0.4);
+  CHECK(weaken.stiffness == 0.6);
+  CHECK(weaken.over == 1800);
+  CHECK(weaken.stages == 60);
+  const auto& ball = std::get<WreckingBall>(scenario.events[1].tool);
+  CHECK(ball.cable == 22);
+  CHECK(ball.mass == 2000);
+  const auto& cut = std::get<CutTool>(scenario.events[2].tool);
+  REQUIRE(cut.joints.size() == 1 + 6);  // one inside, six storeys at the foot
+  CHECK(std::count_if(cut.joints.begin(), cut.joints.end(),
+                      [&](JointId id) { return building[id].name == "P-2-1-1/cut-1:1"; }) == 1);
+  CHECK(std::get<RemoveTool>(scenario.events[3].tool).members.size() == 2);  // both pieces
+
+  const auto error = [](const std::string& tool) {
+    return error_of(R"({"topple": 1, "model": "seed_building", "combination": "collapse", "events": [{"at": 1, )" +
+                    tool + "}]}");
+  };
+  CHECK(
+      error(R"("cut": {"members": [{"member": "P-2-1-1", "where": 0.999}]})") ==
+      "s.json, line 1, events[0].cut.members[0].where: found 0.999; accepted: a fraction of the member's length from 0 "
+      "to 1, within 0.01 of an end only 0 or 1");
+  CHECK(error(R"("weaken": {"groups": ["storey-3"]})").find("nothing weakens") != std::string::npos);
+  CHECK(error(R"("weaken": {"groups": ["storey-33"], "strength": 0})").find("no group \"storey-33\"") !=
+        std::string::npos);
+  CHECK(error(R"("wrecking_ball": {"anchor": [0, 0, 30], "cable": 5, "from": [0, -24, 20]})")
+            .find("events[0].wrecking_ball.cable: the ball begins 26") != std::string::npos);
 }
 
 TEST_CASE("every shipped scenario is read") {

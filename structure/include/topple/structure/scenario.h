@@ -34,6 +34,12 @@ struct Projectile {
   Vec3 from = Vec3::Zero(), velocity = Vec3::Zero();
   double mass = 500, radius = 0.4;
 };
+/// A ball on a cable that starts at rest.
+struct WreckingBall {
+  Vec3 anchor = Vec3::Zero(), from = Vec3::Zero();
+  double cable = 0;  ///< length, at least the distance between them
+  double mass = 3000, radius = 0.8;
+};
 struct CutTool {
   std::vector<JointId> joints;
 };
@@ -47,6 +53,16 @@ struct ChargeTool {
   double radius = 0;
   double strength_at_centre = 0, strength_at_radius = 1;
 };
+/// A fire, or rot: joints lose strength and members stiffness in equal stages, stage i of n at `over` i / n after the
+/// event. Several act together by their product.
+struct WeakenTool {
+  std::vector<JointId> joints;
+  std::vector<MemberId> members;
+  double strength = 1;   ///< factor at the last stage; 0: the joints break
+  double stiffness = 1;  ///< factor on E and G at the last stage, above 0
+  double over = 0;       ///< s
+  int stages = 1;
+};
 struct GravityTool {
   Vec3 gravity = Vec3::Zero();
 };
@@ -54,7 +70,7 @@ struct LoadTool {
   std::vector<NodeLoad> nodes;
 };
 /// Each event's tool; alternatives are added as tools are built.
-using Tool = std::variant<Projectile, CutTool, RemoveTool, ChargeTool, GravityTool, LoadTool>;
+using Tool = std::variant<Projectile, WreckingBall, CutTool, RemoveTool, ChargeTool, WeakenTool, GravityTool, LoadTool>;
 
 struct Event {
   double at = 0;

@@ -6,14 +6,18 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "topple/collision/world.h"
 #include "topple/fracture/mesh.h"
 #include "topple/structure/building.h"
+#include "topple/structure/host_contact.h"
 #include "topple/structure/scenario.h"
+#include "topple/structure/snapshot.h"
 #include "topple/structure/standing_frame.h"
 
 namespace topple::structure {
@@ -69,6 +73,7 @@ struct SimulationCounters {
 /// A moving body: debris of the building, or a projectile.
 struct BodyView {
   collision::BodyId id;
+  std::string_view name;            ///< of its first member, else panel, chunk, ball; until the next step
   collision::Pose pose;             ///< of its centre of mass, now
   Vec3 rest_centre = Vec3::Zero();  ///< where the centre of mass was in the undeformed building: a point p of a member
                                     ///< moves to pose.position + pose.orientation * (p - rest_centre)
@@ -80,6 +85,22 @@ struct BodyView {
   std::shared_ptr<const fracture::Mesh>
       chunk;                             ///< of a broken panel: about its centre of mass, turned by the pose alone
   PanelKind chunk_of = PanelKind::slab;  ///< what it is a piece of
+  std::optional<Vec3> cable_anchor;      ///< a wrecking ball: where its cable hangs
+};
+
+/// What happened to the moving pieces in a step, by handles (BodyId::value) that are never used again.
+struct PieceChanges {
+  std::vector<std::int64_t> made, gone, moved;  ///< in order; `moved`: awake at the step's end
+  struct Split {
+    std::int64_t from, to;
+  };
+  std::vector<Split> split;  ///< a piece that is gone, and one that it became
+};
+
+/// A joint through which part of a load goes.
+struct Carrier {
+  JointId joint;
+  double share = 0;  ///< of a vertical force in the middle of what is carried
 };
 
 struct SimulationOptions {
@@ -111,6 +132,17 @@ class Simulation {
   /// Gives joints other capacities, at once: utilisations follow without solving anything, and what is then over
   /// capacity breaks in the next step. Part of the run: the same calls before the same steps give the same bits.
   void set_capacities(std::span<const std::pair<JointId, JointCapacity>> capacities);
+
+  /// The moment as it is now (snapshot.h).
+  [[nodiscard]] Snapshot save() const;
+  /// Comes back to a moment of a simulation of the same building and scenario; listeners stay and are not called on the
+  /// way. Throws InputError when the way does not lead there, and is then as it was before.
+  void restore(const Snapshot& snapshot);
+  /// A body of the host comes to touch something: acts in the next step. Throws InputError for a contact that is not
+  /// sound; one with what stands no more does nothing.
+  void touch(const HostContact& contact);
+  /// What those of the last step felt, in the order of touch().
+  [[nodiscard]] std::span<const HostImpulse> host_impulses() const;
   void on_event(std::function<void(const SimulationEvent&)> listener);
   [[nodiscard]] std::span<const SimulationEvent> events() const;
 
@@ -119,6 +151,10 @@ class Simulation {
   [[nodiscard]] const Scenario& scenario() const;
   [[nodiscard]] const StandingFrame& frame() const;
   [[nodiscard]] std::span<const BodyView> bodies() const;
+  /// Of all bodies in their order, seven numbers each: position x y z, orientation as a quaternion x y z w.
+  [[nodiscard]] std::span<const double> poses() const;
+  /// Of the last step.
+  [[nodiscard]] const PieceChanges& changes() const;
   /// Body that a member (panel) is part of; value -1: it stands, -2: it is gone.
   [[nodiscard]] collision::BodyId body_of(MemberId member) const;
   [[nodiscard]] collision::BodyId body_of(PanelId panel) const;
@@ -134,6 +170,13 @@ class Simulation {
   };
   [[nodiscard]] std::optional<RayHit> ray_cast(const Vec3& from, const Vec3& direction) const;
 
+  /// What carries this? Joints with a capacity through which at least 1 % of its load goes, the largest share first;
+  /// empty for what does not stand.
+  [[nodiscard]] std::vector<Carrier> what_carries(MemberId member) const;
+  [[nodiscard]] std::vector<Carrier> what_carries(PanelId panel) const;
+  /// What would break next? Joints nearest to their capacity under the loads as they are, the nearest first.
+  [[nodiscard]] std::vector<std::pair<JointId, Utilisation>> next_to_break(std::size_t count) const;
+
   // Accounts.
   [[nodiscard]] const Ledger& ledger() const;
   [[nodiscard]] const SimulationCounters& counters() const;
@@ -144,6 +187,9 @@ class Simulation {
   [[nodiscard]] std::uint64_t hash() const;
 
  private:
+  std::int64_t skip_idle_before(std::int64_t last);
+  void run_to(std::int64_t last);
+
   struct State;
   std::unique_ptr<State> state_;
 };

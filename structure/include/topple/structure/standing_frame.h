@@ -107,6 +107,10 @@ class StandingFrame {
   [[nodiscard]] Vec6 demand(JointId joint) const;
   /// Of the static demand; zero value for a joint without capacity or one that no longer holds.
   [[nodiscard]] Utilisation utilisation(JointId joint) const;
+  /// As solved last: what the nodes' hubs do to a member (local axes, first end then second), what all supports of a
+  /// node do to the structure (global axes). Zero for what does not stand.
+  [[nodiscard]] Eigen::Matrix<double, 12, 1> end_forces(MemberId member) const;
+  [[nodiscard]] Vec6 reaction(NodeId node) const;
   /// Over all states that were checked, peaks of sudden losses included.
   [[nodiscard]] double largest_utilisation_so_far(JointId joint) const;
   /// Segment number of a standing member (segments are numbered from 0 in order of their least node; lone hubs are
@@ -145,6 +149,9 @@ class StandingFrame {
   /// The owner of the building changed this joint's capacity in place: its utilisation follows at once (no statics are
   /// solved), and if it is over capacity it breaks in the next generations.
   void capacity_changed(JointId joint);
+  /// Factor on E and G, above 0, from now on instead of the one before. It comes on slowly, as in a fire: no
+  /// sudden-loss factor acts on it.
+  void set_stiffness_factor(MemberId member, double factor);
   void set_gravity(const Vec3& gravity);
   void add_load(NodeId node, const Vec6& load);
   void set_contact_load(const ContactLoad& load);
@@ -154,8 +161,9 @@ class StandingFrame {
   [[nodiscard]] bool pending() const;
   /// Brings the state up to date: solve, break what is over capacity (one generation after the other, at most
   /// `generations` of them), sudden loss and bracing by the rules, mechanisms released. Returns what broke, in order;
-  /// pending() stays true when the limit cut it short.
-  std::vector<JointBreak> settle(int generations);
+  /// pending() stays true when the limit cut it short. `operations`: no further generation begins once the solver has
+  /// spent so many.
+  std::vector<JointBreak> settle(int generations, double operations = unlimited);
   /// Joints whose moment or torsion came to its capacity, and that have turned since, as they did; each sense of a
   /// joint once. Handed out once.
   std::vector<JointBreak> take_yielded();

@@ -1,0 +1,29 @@
+#pragma once
+// A collapse as a glTF animation: one node for each member, panel, chunk and ball, by its name.
+#include <memory>
+#include <string>
+
+#include "topple/structure/simulation.h"
+
+namespace topple::structure {
+
+/// Records poses frame by frame. Standing parts are drawn where their ends are displaced to, straight between them.
+class CollapseAnimation {
+ public:
+  /// `rate`: frames for each simulated second, above 0. Records the first frame.
+  CollapseAnimation(const Simulation& simulation, double rate);
+  ~CollapseAnimation();
+
+  /// Records the frames that are due up to the simulation's time; call after every step and after steps were skipped.
+  void add_due(const Simulation& simulation);
+  [[nodiscard]] int frames() const;
+  /// glTF 2.0 in its binary form, y up, m and s. Poses are keyed where they change, so that linear interpolation gives
+  /// every frame's own; a node has scale 1 from its birth to its removal, else 0.
+  [[nodiscard]] std::string glb() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace topple::structure

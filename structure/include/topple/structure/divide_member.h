@@ -1,0 +1,16 @@
+#pragma once
+// A member in pieces that hold together rigidly, so that it can be cut inside.
+#include <vector>
+
+#include "topple/structure/building.h"
+
+namespace topple::structure {
+
+/// Divides a member "M" at fractions of its length from its first end (each above 0 and below 1, ascending). The first
+/// piece stays "M", later ones are "M/2", "M/3" ... in its groups; place i is the node "M/cut-i", held by the joints
+/// "M/cut-i:1" and "M/cut-i:2", which never break under load. The joints "M:1" and "M:2" stay those of the ends.
+/// Loads and masses go to the pieces they act on. Joint ids of panels change: divide before anything asks for them.
+/// Returns the cuts' first joints. Throws InputError for a name that is taken, std::invalid_argument for other places.
+std::vector<JointId> divide_member(Building& building, MemberId member, const std::vector<double>& places);
+
+}  // namespace topple::structure

@@ -1,0 +1,89 @@
+// Snapshots: what was done, and doing it again.
+#include "simulation/simulation_state.h"
+#include "simulation/step_clock.h"
+#include "topple/structure/error.h"
+
+namespace topple::structure {
+
+Snapshot Simulation::save() const { return {state_->step, hash(), state_->actions}; }
+
+/// Steps over idle time at once, but no farther than `last`.
+void Simulation::run_to(std::int64_t last) {
+  while (state_->step < last) {
+    skip_idle_before(last);
+    step();
+  }
+}
+
+void Simulation::restore(const Snapshot& snapshot) {
+  State& now = *state_;
+  // What another building would refuse by a crash is refused here by its name.
+  for (const Snapshot::Action& action : snapshot.actions) now.require_parts(action);
+  auto listeners = std::move(now.listeners);
+  std::unique_ptr<State> left = std::move(state_);
+  try {
+    Building start = left->building;
+    for (const auto& [joint, capacity] : left->given_capacities)
+      start.joints[static_cast<std::size_t>(joint.index)].capacity = capacity;
+    state_ = std::make_unique<State>(std::move(start), left->scenario, left->options);
+    for (const Snapshot::Action& action : snapshot.actions) {
+      run_to(action.step);
+      if (const Tool* tool = std::get_if<Tool>(&action.what))
+        apply(*tool);
+      else if (const auto* change = std::get_if<CapacityChange>(&action.what))
+        set_capacities(change->joints);
+      else
+        touch(std::get<HostContact>(action.what));
+    }
+    run_to(snapshot.step);
+    if (hash() != snapshot.hash)
+      throw InputError("the snapshot is not of this model and scenario: they come to another state at step " +
+                       std::to_string(snapshot.step));
+  } catch (...) {
+    state_ = std::move(left);
+    state_->listeners = std::move(listeners);
+    throw;
+  }
+  state_->listeners = std::move(listeners);
+  state_->events_heard = state_->events.size();
+}
+
+namespace {
+
+template <class Id>
+void require(const std::vector<Id>& ids, std::size_t count) {
+  for (const Id id : ids)
+    if (!id.valid() || static_cast<std::size_t>(id.index) >= count)
+      throw InputError("the snapshot is not of this model: it names parts that the model does not have");
+}
+
+}  // namespace
+
+void Simulation::State::require_parts(const Snapshot::Action& action) const {
+  const std::size_t members = building.members.size(), panels = building.panels.size();
+  const std::size_t joints = building.joints.size(), nodes = building.nodes.size();
+  if (const auto* contact = std::get_if<HostContact>(&action.what)) {
+    if (contact->member.valid()) require(std::vector{contact->member}, members);
+    if (contact->panel.valid()) require(std::vector{contact->panel}, panels);
+    return;
+  }
+  if (const auto* change = std::get_if<CapacityChange>(&action.what)) {
+    for (const auto& [joint, capacity] : change->joints) require(std::vector{joint}, joints);
+    return;
+  }
+  const Tool& tool = std::get<Tool>(action.what);
+  if (const auto* cut = std::get_if<CutTool>(&tool)) require(cut->joints, joints);
+  if (const auto* remove = std::get_if<RemoveTool>(&tool)) {
+    require(remove->members, members);
+    require(remove->panels, panels);
+    require(remove->supports, nodes);
+  }
+  if (const auto* weaken = std::get_if<WeakenTool>(&tool)) {
+    require(weaken->joints, joints);
+    require(weaken->members, members);
+  }
+  if (const auto* load = std::get_if<LoadTool>(&tool))
+    for (const NodeLoad& one : load->nodes) require(std::vector{one.node}, nodes);
+}
+
+}  // namespace topple::structure
