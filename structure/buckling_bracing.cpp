@@ -27,9 +27,10 @@ constexpr int iterations = 12;
 constexpr double settled = 1e-3;
 constexpr double pi = 3.14159265358979323846;
 
-double least_euler(const Building& building, const Member& member, double length) {
-  const Section& section = building[member.section];
-  return pi * pi * building[member.material].youngs_modulus * std::min(section.Iy, section.Iz) / (length * length);
+double least_euler(const Building& building, const FrameStatics& statics, MemberId member, double length) {
+  const Section& section = building[building[member].section];
+  const double modulus = building[building[member].material].youngs_modulus * statics.stiffness(member);
+  return pi * pi * modulus * std::min(section.Iy, section.Iz) / (length * length);
 }
 
 }  // namespace
@@ -98,9 +99,9 @@ bool BucklingBracing::suspicious(int c) {
     const double compression = std::max(force(0), -force(6));
     // Without any walk: the bound is no higher than that of the post alone.
     if (!(compression > 0)) continue;
-    const double alone = compression / least_euler(building_, own, 2 * own.length);
+    const double alone = compression / least_euler(building_, statics_, member, 2 * own.length);
     if (alone < tested_share / 400) continue;  // twenty storeys without bracing would still bear it
-    const double share = compression / least_euler(building_, own, 2 * unbraced_length(member));
+    const double share = compression / least_euler(building_, statics_, member, 2 * unbraced_length(member));
     if (share < tested_share) continue;
     used.emplace_back(member, share);
     found = found || share > tested_again * tested_[index_of(member)];
@@ -221,7 +222,7 @@ std::optional<BuckledPost> BucklingBracing::judge(int c) const {
     const solver::Vec12 pushed = geometric_forces(beam, -compression * mode.factor, hubs);
     // Between nodes at rest nothing tells the joints apart: the post that uses most of its own Euler load.
     const bool at_rest = hubs.isZero(0);
-    const double inside = 1e-9 * compression / least_euler(building_, own, own.length);
+    const double inside = 1e-9 * compression / least_euler(building_, statics_, members[i], own.length);
     const JointId joints[] = {building_.joint(members[i], 0), building_.joint(members[i], 1)};
     JointId joint;
     double bends = -1;
@@ -267,7 +268,7 @@ std::optional<BuckledPost> BucklingBracing::find(int c, bool certain) {
     if (segments_.label(member) < 0) continue;
     const solver::Vec12& force = statics_.end_forces(member);
     inner = inner || (force(0) - force(6)) / 2 >
-                         inner_share * least_euler(building_, building_[member], building_[member].length);
+                         inner_share * least_euler(building_, statics_, member, building_[member].length);
   }
   if (!inner && iterate(c) < suspicious_quotient) return std::nullopt;
   ++counters_.judged;

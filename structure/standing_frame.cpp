@@ -256,7 +256,7 @@ void StandingFrame::set_strength_factor(JointId joint, double factor) {
 }
 
 void StandingFrame::set_stiffness_factor(MemberId member, double factor) {
-  if (!(factor > 0) || !std::isfinite(factor)) throw std::invalid_argument("a stiffness factor must be above 0");
+  if (!(factor > 0 && factor <= 1)) throw std::invalid_argument("a stiffness factor must be above 0 and at most 1");
   State& state = *state_;
   if (!state.stands(member) || state.statics.stiffness(member) == factor) return;
   state.account.soften(member);

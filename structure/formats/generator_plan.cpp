@@ -5,7 +5,6 @@
 
 #include "formats/model_reader.h"
 #include "formats/read_fracture.h"
-#include "formats/unbuilt.h"
 
 namespace topple::structure::formats {
 
@@ -137,7 +136,6 @@ class PlanReader {
   }
 
   PanelRule read_panel_rule(const JsonValue& value, PanelKind kind) const {
-    refuse_unbuilt_keys(value, UnbuiltPlace::panel);
     if (kind == PanelKind::wall)
       value.only({"storeys", "thickness", "material", "joint", "model", "span", "mesh", "openings", "pressure",
                   "groups", "sides", "fracture"});

@@ -21,7 +21,6 @@ Building read_document(const JsonDocument& document) {
   using namespace formats;
   const JsonValue root = document.root();
   if (!root.is_object()) root.refuse("an object");
-  refuse_unbuilt_keys(root, UnbuiltPlace::model);
   root.only({"topple", "title", "units", "gravity", "materials", "sections", "joints", "nodes", "members", "panels",
              "supports", "diaphragms", "masses", "loads", "combinations", "building", "buildings", "joint_changes",
              "analyses", "frame3dd", "meshes"});

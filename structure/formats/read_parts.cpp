@@ -1,7 +1,6 @@
 // Nodes, members and panels that the file lists one by one.
 #include "formats/model_reader.h"
 #include "formats/read_fracture.h"
-#include "formats/unbuilt.h"
 
 namespace topple::structure::formats {
 
@@ -138,7 +137,6 @@ void read_member(const JsonValue& value, ModelDraft& draft) {
 }
 
 void read_panel(const JsonValue& value, ModelDraft& draft) {
-  refuse_unbuilt_keys(value, UnbuiltPlace::panel);
   value.only(
       {"kind", "nodes", "thickness", "material", "model", "span", "mesh", "openings", "joint", "groups", "fracture"});
   PanelDraft draft_panel;

@@ -4,7 +4,6 @@
 
 #include "formats/model_reader.h"
 #include "formats/read_fracture.h"
-#include "formats/unbuilt.h"
 #include "sections/catalogue.h"
 #include "sections/shape_properties.h"
 
@@ -41,7 +40,6 @@ void read_unit(const JsonValue& units, const char* key, const std::array<Unit, N
 }
 
 void read_material(const JsonValue& value, ModelDraft& draft) {
-  refuse_unbuilt_keys(value, UnbuiltPlace::material);
   value.only({"youngs_modulus", "poisson_ratio", "shear_modulus", "density", "yield_strength", "compressive_strength",
               "tensile_strength", "thermal_expansion", "fracture"});
   const double stress = draft.scale.stress();

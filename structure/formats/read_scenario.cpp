@@ -117,7 +117,6 @@ class ScenarioReader {
     if (!events.is_array()) events.refuse("an array of events");
     for (const JsonValue value : events) {
       value.expect_object();
-      refuse_unbuilt_keys(value, UnbuiltPlace::event);
       value.only({"at", "projectile", "cut", "remove", "charge", "weaken", "wrecking_ball", "gravity", "load"});
       Event event;
       event.at = value.require("at").not_negative();
@@ -260,7 +259,10 @@ class ScenarioReader {
     if (!value.find("strength") && !value.find("stiffness"))
       value.fail("nothing weakens; accepted: \"strength\", \"stiffness\", or both");
     take(value, "strength", weaken.strength, [](const JsonValue& v) { return v.not_negative(); });
-    take(value, "stiffness", weaken.stiffness, positive);
+    take(value, "stiffness", weaken.stiffness, [](const JsonValue& v) {
+      if (!(v.positive() <= 1)) v.refuse("a number above 0 and at most 1");
+      return v.number();
+    });
     take(value, "over", weaken.over, [](const JsonValue& v) { return v.not_negative(); });
     take(value, "stages", weaken.stages, [](const JsonValue& v) { return static_cast<int>(v.whole(1, 1'000'000)); });
     return weaken;
@@ -312,7 +314,6 @@ class ScenarioReader {
 std::pair<Building, Scenario> read_document(const JsonDocument& document, const std::filesystem::path& folder) {
   const JsonValue root = document.root();
   if (!root.is_object()) root.refuse("an object");
-  refuse_unbuilt_keys(root, UnbuiltPlace::scenario);
   root.only({"topple", "title", "model", "combination", "step", "duration", "until_rest", "seed", "ground", "failure",
              "impact", "debris", "fracture", "budget", "events"});
   const JsonValue version = root.require("topple");

@@ -5,6 +5,7 @@
 // One analysis answers for a body, however many members it has, and its factor is kept until the body breaks.
 #include <algorithm>
 
+#include "simulation/momentum.h"
 #include "simulation/simulation_state.h"
 #include "simulation/step_clock.h"
 #include "topple/structure/joint_check.h"
@@ -28,8 +29,14 @@ FreeSegmentParts Simulation::State::parts_of(const Body& one) const {
   parts.members = one.members;
   parts.panels = one.panels;
   parts.nodes = one.nodes;
-  for (const MemberId member : one.members) parts.member_mass.push_back(masses.of(member).mass);
-  for (const PanelId panel : one.panels) parts.panel_mass.push_back(masses.of(panel).mass);
+  // What lies frozen on a part is of its mass.
+  const auto of = [&](Part part, double own) {
+    for (const Frozen& lying : frozen)
+      if (lying.on == part) own += lying.mass.mass;
+    return own;
+  };
+  for (const MemberId member : one.members) parts.member_mass.push_back(of(Part(member), masses.of(member).mass));
+  for (const PanelId panel : one.panels) parts.panel_mass.push_back(of(Part(panel), masses.of(panel).mass));
   for (const NodeId node : one.nodes) parts.node_mass.push_back(masses.of(node).mass);
   return parts;
 }
@@ -135,15 +142,14 @@ std::vector<collision::BodyId> Simulation::State::split(collision::BodyId id,
   const Body whole = bodies.at(id.value);
   const collision::BodyState state = world->state(id);
   const Mat3 turn = state.pose.orientation.toRotationMatrix();
-  resting.forget(id, *frame, false);
+  (void)resting.forget(id, *frame, false);
   world->remove_body(id);
   bodies.erase(id.value);
   free_segments.erase(id.value);
 
   std::vector<collision::BodyId> made;
-  const Vec3 velocity = reading().true_velocity(state.velocity);
-  Vec3 momentum = -whole.rest.mass * velocity;
-  Vec3 turning = -(world_inertia(whole, state.pose.orientation) * state.angular_velocity);
+  Momentum carried{state.pose.position}, handed_on{state.pose.position};
+  carried.add(whole, state);
   for (const FreeSegmentParts& part : parts) {
     Detached piece;
     piece.members = part.members;
@@ -157,10 +163,6 @@ std::vector<collision::BodyId> Simulation::State::split(collision::BodyId id,
     moving.pose.position += arm;
     moving.velocity += state.angular_velocity.cross(arm);
     moving.asleep = false;
-    const Vec3 own_velocity = reading().true_velocity(moving.velocity);
-    momentum += own.rest.mass * own_velocity;
-    turning += world_inertia(own, moving.pose.orientation) * state.angular_velocity +
-               own.rest.mass * arm.cross(Vec3(own_velocity - velocity));
     SimulationEvent& event = tell(SimulationEvent::Kind::split, own.name);
     event.members = own.members;
     event.panels = own.panels;
@@ -173,14 +175,15 @@ std::vector<collision::BodyId> Simulation::State::split(collision::BodyId id,
       for (const PanelId panel : own.panels)
         body_of_part[static_cast<std::size_t>(part_number(building, Part(panel)))] = -2;
       tell(SimulationEvent::Kind::limited, own.name).mass = own.rest.mass;
+      handed_on.add(own, moving);
       continue;
     }
     made.push_back(add_body(std::move(own), moving));
     bodies.at(made.back().value).step_start = moving.pose.position;
+    handed_on.add(bodies.at(made.back().value), world->state(made.back()));
+    changes.split.push_back({id.value, made.back().value});
   }
-  const double scale = whole.rest.mass * (velocity.norm() + state.angular_velocity.norm() + 1e-3);
-  ledger.momentum_error = std::max({ledger.momentum_error, momentum.norm() / scale,
-                                    turning.norm() / (scale * (whole.bounds.high - whole.bounds.low).norm())});
+  ledger.momentum_error = std::max(ledger.momentum_error, carried.error(handed_on));
   // Parts are born inside each other where they were joined.
   for (std::size_t i = 0; i < made.size(); ++i)
     for (std::size_t j = i + 1; j < made.size(); ++j) {

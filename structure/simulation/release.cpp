@@ -114,7 +114,6 @@ void Simulation::State::release(const Detached& part) {
   if (displacement.norm() > largest_start) displacement *= largest_start / displacement.norm();
   for (const MemberId member : part.members) part_is_gone(Part(member));
   for (const PanelId panel : part.panels) part_is_gone(Part(panel));
-  std::erase_if(frozen, [&](const Frozen& lying) { return belongs(part, lying.on); });
 
   if (part.mechanism) tell(SimulationEvent::Kind::mechanism, one.name).mass = one.rest.mass;
   const bool small = one.volume < scenario.debris.smallest_volume;

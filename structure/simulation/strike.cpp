@@ -14,6 +14,10 @@ namespace {
 /// When a break would move the unloaded contact place by more than this, m, the statics are on their way to a mechanism
 /// that the structure has had no time to reach: the push ends there, and the body keeps the speed it has.
 constexpr double largest_shift = 0.1;
+
+/// Speed with which a body goes on. It goes on from where it touched: where its weight did more on the way in than what
+/// broke took, it does that work on the way that follows, and not twice.
+double let_through(double speed_in, const Indentation& pushing) { return std::min(pushing.speed(), speed_in); }
 }  // namespace
 
 void Simulation::State::load() {
@@ -137,7 +141,7 @@ void Simulation::State::push_in(Strike& hit) {
     if (punches) {
       if (const double plug = break_out(hit); plug > 0) {
         hit.through = true;
-        hit.speed_out = pushing.speed() * hit.mass / (hit.mass + plug);  // it takes along what it broke out
+        hit.speed_out = let_through(hit.speed, pushing) * hit.mass / (hit.mass + plug);  // it takes along what it broke out
         break;
       }
       punching = unlimited;
@@ -158,7 +162,7 @@ void Simulation::State::push_in(Strike& hit) {
       hit.breaks.push_back(broken);
     }
     if (ends) {
-      hit.speed_out = pushing.speed();
+      hit.speed_out = let_through(hit.speed, pushing);
       break;
     }
   }

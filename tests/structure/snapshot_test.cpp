@@ -1,4 +1,5 @@
 // Snapshots: what is saved and resumed goes on to the same bits as what was never interrupted.
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "topple/structure/error.h"
@@ -43,6 +44,65 @@ TEST_CASE("a collapse saved in its middle and resumed ends like one that ran thr
   CHECK(resumed.hash() == through.hash());
   CHECK(resumed.events().size() == through.events().size());
   CHECK(resumed.ledger().residual() == through.ledger().residual());
+}
+
+TEST_CASE("plastic hinges and debris that broke further come back with a snapshot") {
+  const auto ductile = [] {
+    auto [building, scenario] = read_scenario(find_scenario("seed_hit"));
+    for (Joint& joint : building.joints)
+      if (joint.member.valid() && building[joint.member].kind == MemberKind::beam && joint.capacity.breakable)
+        for (const std::size_t sense : {5u, 6u}) joint.capacity.ductility[sense] = 0.03;
+    scenario.duration = 4;
+    return Simulation(std::move(building), std::move(scenario), {1, {}});
+  };
+  const auto count = [](const Simulation& one, SimulationEvent::Kind kind) {
+    return std::count_if(one.events().begin(), one.events().end(),
+                         [&](const SimulationEvent& event) { return event.kind == kind; });
+  };
+  Simulation through = ductile();
+  run_to(through, 2.5);
+  const Snapshot snapshot = through.save();
+  REQUIRE(count(through, SimulationEvent::Kind::joint_yielded) > 0);
+  REQUIRE(count(through, SimulationEvent::Kind::split) > 0);
+  Simulation resumed = ductile();
+  resumed.restore(parse_snapshot(snapshot_bytes(snapshot), "snapshot"));
+  run_to(through, 4);
+  run_to(resumed, 4);
+  CHECK(resumed.hash() == through.hash());
+  CHECK(resumed.ledger().dissipated_in_joints == through.ledger().dissipated_in_joints);
+}
+
+TEST_CASE("a panel that is broken in part comes back with a snapshot, and breaks on in the same way") {
+  const auto panels = [] {
+    auto [building, scenario] = read_scenario(find_scenario("seed_hit_fracture"));
+    scenario.duration = 3;
+    return Simulation(std::move(building), std::move(scenario), {1, {}});
+  };
+  const auto shoot = [](Simulation& one, double x) {
+    Projectile ball;
+    ball.from = Vec3(x, 9, 40);
+    ball.velocity = Vec3(0, 0, -70);
+    one.apply(ball);
+  };
+  const auto broken = [](const Simulation& one) {
+    std::size_t standing = 0;
+    for (std::size_t p = 0; p < one.building().panels.size(); ++p)
+      standing += one.frame().stands(PanelId(p)) && one.broken_panel(PanelId(p)) != nullptr;
+    return standing;
+  };
+  Simulation through = panels(), resumed = panels();
+  shoot(through, 15);
+  run_to(through, 1.5);
+  const Snapshot snapshot = through.save();
+  REQUIRE(broken(through) > 0);
+  resumed.restore(parse_snapshot(snapshot_bytes(snapshot), "snapshot"));
+  CHECK(broken(resumed) == broken(through));
+  for (Simulation* one : {&through, &resumed}) {
+    shoot(*one, 14.3);  // beside the first hole
+    run_to(*one, 3);
+  }
+  CHECK(resumed.hash() == through.hash());
+  CHECK(resumed.bodies().size() == through.bodies().size());
 }
 
 TEST_CASE("what a person did is in the snapshot, and going back undoes it") {
