@@ -9,6 +9,7 @@
 #include "topple/structure/simulation.h"
 
 using namespace topple::structure;
+namespace collision = topple::collision;
 using topple::test::BallisticWorld;
 using topple::test::FrameBuilder;
 using topple::test::same_capacity;
