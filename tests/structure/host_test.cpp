@@ -1,6 +1,7 @@
 // What a host sees and does: its own bodies, its own collision world, what changed, what carries what.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <set>
 
 #include "ballistic_world.h"
 #include "frame_builder.h"
@@ -171,16 +172,20 @@ TEST_CASE("a host's own collision world is asked in the order of the step, and i
   CHECK(log == expected);
 }
 
-TEST_CASE("what carries a post's load is the post under it, and what is weakest would break next") {
+TEST_CASE("what carries a post's load is its foot and the post under it, and what is weakest would break next") {
   FrameBuilder f = topple::test::grid_building(2, 2, 2, 5, 3, same_capacity(1e6), same_capacity(5e5));
   for (std::size_t m = 0; m < f.building.members.size(); ++m) f.load(MemberId(m), -3000);
   Simulation simulation(f.building, quiet());
   const NameIndex names(simulation.building());
   const auto carriers = simulation.what_carries(*names.member("P-1-1-2"));
-  REQUIRE(!carriers.empty());
-  CHECK(simulation.building()[carriers[0].joint].name == "P-1-1-1:1");  // all of it comes down here
-  CHECK(carriers[0].share > 0.9);
-  CHECK(carriers[0].share <= 1 + 1e-9);
+  REQUIRE(carriers.size() >= 2);
+  std::set<std::string> most;
+  for (std::size_t i = 0; i < 2; ++i) {
+    most.insert(simulation.building()[carriers[i].joint].name);
+    CHECK(carriers[i].share > 0.9);  // beams take the little that the post's shortening brings them
+    CHECK(carriers[i].share <= 1 + 1e-9);
+  }
+  CHECK(most == std::set<std::string>{"P-1-1-1:1", "P-1-1-2:1"});
 
   const auto next = simulation.next_to_break(3);
   REQUIRE(next.size() == 3);
