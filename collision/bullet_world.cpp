@@ -333,7 +333,7 @@ void BulletWorld::step(double dt) {
   resist_rolling();
   keep_swinging();
   let_settled_sleep(dt);
-  for (auto& [id, hinge] : hinges_) read_hinge(*hinge);
+  for (auto& [id, hinge] : hinges_) read_hinge(*hinge, dt);
   read_cables(dt);
 }
 

@@ -49,6 +49,7 @@ struct Hinge {
   btVector3 point_in_body{0, 0, 0};  ///< the joint's point in the body's Bullet frame
   Mat3 axes_in_holder = Mat3::Identity();
   Eigen::Matrix<double, 6, 1> force = Eigen::Matrix<double, 6, 1>::Zero();
+  double work_lost = 0;
 };
 
 struct HungCable {
@@ -83,6 +84,7 @@ class BulletWorld final : public World {
   HingeId add_hinge(const HingeDescription& description) override;
   void remove_hinge(HingeId hinge) override;
   [[nodiscard]] Eigen::Matrix<double, 6, 1> hinge_force(HingeId hinge) const override;
+  [[nodiscard]] double hinge_work_lost(HingeId hinge) const override;
   CableId add_cable(const CableDescription& description) override;
   void remove_cable(CableId cable) override;
   [[nodiscard]] CablePull cable_pull(CableId cable) const override;
@@ -135,7 +137,7 @@ class BulletWorld final : public World {
   void sweep_standing(const Mover& mover, Sweep what, double dt, std::vector<Contact>& found) const;
   void sweep_movers(const std::vector<Mover>& movers, double dt, std::vector<Contact>& found) const;
 
-  void read_hinge(Hinge& hinge) const;
+  void read_hinge(Hinge& hinge, double dt) const;
   std::unique_ptr<btTypedConstraint> make_constraint(const HingeDescription& description, Body& body,
                                                      Body* other) const;
 

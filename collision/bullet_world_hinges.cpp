@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <tuple>
 
 #include "bullet_world.h"
 
@@ -96,8 +97,9 @@ void BulletWorld::remove_hinge(HingeId id) {
   hinges_.erase(id.value);
 }
 
-void BulletWorld::read_hinge(Hinge& read) const {
+void BulletWorld::read_hinge(Hinge& read, double dt) const {
   const Body& held_body = body(read.body);
+  read.work_lost = 0;
   if (!held_body.rigid->isActive()) return;  // asleep: it pulls as it did
   const Body* other = read.other < 0 ? nullptr : &body(read.other);
   const bool body_is_first = &read.constraint->getRigidBodyA() == held_body.rigid.get();
@@ -110,7 +112,21 @@ void BulletWorld::read_hinge(Hinge& read) const {
   // What the holder does to the body, its torque about the centre of mass; turned round, about the joint.
   read.force.head<3>() = -(axes * force);
   read.force.tail<3>() = -(axes * (torque - arm.cross(force)));
+
+  // An impulse times the mean of the velocities before and after it is the energy that it brings in.
+  const auto brought = [&](const Body& one, const btVector3& push, const btVector3& turn) {
+    const SolverVelocities& v = one.velocities;
+    return dt * (push.dot(v.linear_before + v.linear_after) + turn.dot(v.angular_before + v.angular_after)) / 2;
+  };
+  const auto& [force_a, torque_a, force_b, torque_b] =
+      std::tie(read.feedback.m_appliedForceBodyA, read.feedback.m_appliedTorqueBodyA, read.feedback.m_appliedForceBodyB,
+               read.feedback.m_appliedTorqueBodyB);
+  read.work_lost -= body_is_first ? brought(held_body, force_a, torque_a) : brought(held_body, force_b, torque_b);
+  if (other && other->rigid->isActive())
+    read.work_lost -= body_is_first ? brought(*other, force_b, torque_b) : brought(*other, force_a, torque_a);
 }
+
+double BulletWorld::hinge_work_lost(HingeId id) const { return hinge(id.value).work_lost; }
 
 Eigen::Matrix<double, 6, 1> BulletWorld::hinge_force(HingeId id) const { return hinge(id.value).force; }
 

@@ -237,6 +237,7 @@ void EnergyAccount::settle_panels(Change& change) {
 
 int EnergyAccount::component(const PlacedLoad& placed) const {
   if (placed.panel.valid()) return from_.statics.component(from_.building[placed.panel].nodes[0]);
+  if (placed.members.empty()) return from_.statics.component(placed.nodes.front().first);
   return from_.statics.component(placed.members.front().first);
 }
 

@@ -118,11 +118,17 @@ Vec3 on_axis(const Building& building, MemberId member, double distance) {
 }
 
 PlacedLoad place_load(const Building& building, const PanelBearings& bearings, const ContactPlace& place,
-                      const Vec3& force) {
+                      const Vec3& force, const Vec3& moment) {
   if (place.panel.valid()) return place_on_panel(building, bearings, place.panel, place.point, force);
   PlacedLoad placed;
+  if (place.node.valid()) {
+    Vec6 load;
+    load << force, moment + (place.point - building[place.node].position).cross(force);
+    placed.nodes.emplace_back(place.node, load);
+    return placed;
+  }
   const double distance = nearest_on_axis(building, place.member, place.point);
-  placed.members.emplace_back(place.member, point_load(building, place.member, distance, force, Vec3::Zero()));
+  placed.members.emplace_back(place.member, point_load(building, place.member, distance, force, moment));
   return placed;
 }
 

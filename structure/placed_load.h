@@ -9,7 +9,7 @@ namespace topple::structure {
 /// strip, x^2 (L - x)^2 / (3 E' I L) with E' = E/(1 - nu^2) and the effective width 2.4 x (1 - x/L) that slab design
 /// gives a point load at x (not below the thickness, not above the panel's width).
 [[nodiscard]] PlacedLoad place_load(const Building& building, const PanelBearings& bearings, const ContactPlace& place,
-                                    const Vec3& force);
+                                    const Vec3& force, const Vec3& moment = Vec3::Zero());
 
 /// Distance of the point of a member's axis nearest to `point` from its first end, within the member.
 [[nodiscard]] double nearest_on_axis(const Building& building, MemberId member, const Vec3& point);

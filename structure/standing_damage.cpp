@@ -100,6 +100,7 @@ void StandingFrame::State::lose_member_joint(JointId joint, int told) {
 
 void StandingFrame::State::drop_node(NodeId node) {
   if (!node_solved[index_of(node)]) return;
+  drop_contacts(node);
   node_solved[index_of(node)] = 0;
   --solved_nodes[static_cast<std::size_t>(statics.component(node))];
   statics.drop({node});
@@ -199,6 +200,8 @@ void StandingFrame::State::drop_contacts(const Gone& gone) {
     const auto& [key, load] = contact;
     if constexpr (std::is_same_v<Gone, MemberId>) {
       if (load.place.member != gone) return false;
+    } else if constexpr (std::is_same_v<Gone, NodeId>) {
+      if (load.place.node != gone) return false;
     } else {
       if (load.place.panel != gone) return false;
     }
@@ -207,6 +210,7 @@ void StandingFrame::State::drop_contacts(const Gone& gone) {
   });
 }
 template void StandingFrame::State::drop_contacts(const MemberId&);
+template void StandingFrame::State::drop_contacts(const NodeId&);
 template void StandingFrame::State::drop_contacts(const PanelId&);
 
 void StandingFrame::State::place_contacts_again(PanelId panel) {

@@ -87,6 +87,7 @@ bool StandingFrame::State::stands(PanelId panel) const {
 }
 
 bool StandingFrame::State::stands(const ContactPlace& place) const {
+  if (place.node.valid()) return stands(place.node) && node_solved[index_of(place.node)] != 0;
   return place.member.valid() ? stands(place.member) : place.panel.valid() && stands(place.panel);
 }
 
@@ -268,7 +269,7 @@ void StandingFrame::set_contact_load(const ContactLoad& load) {
   State& state = *state_;
   if (!state.stands(load.place)) return;
   state.contacts[load.key] = load;
-  if (state.loads.set_contact(load.key, state.place(load.place, load.force))) state.pending = true;
+  if (state.loads.set_contact(load.key, state.place(load.place, load.force, load.moment))) state.pending = true;
 }
 
 void StandingFrame::remove_contact_load(std::int64_t key) {

@@ -17,6 +17,18 @@ void StandingFrame::State::take_unanchored() {
   const std::vector<Segmentation::Part> parts = segments.take_unanchored();
   if (parts.empty()) return;
   std::vector<Detached> leaving(parts.size());
+  const auto in = [](const auto& list, auto id) { return std::binary_search(list.begin(), list.end(), id); };
+  const auto hang = [&](JointId joint) {
+    const Joint& own = building[joint];
+    const NodeId hub = building[own.member].nodes[static_cast<std::size_t>(own.end)];
+    for (std::size_t p = 0; p < parts.size(); ++p)
+      if (in(parts[p].members, own.member) || in(parts[p].nodes, hub)) {
+        leaving[p].hinges.push_back(joint);
+        return true;
+      }
+    return false;  // not yet
+  };
+  std::erase_if(hanging, hang);
   PanelBearings::Left left;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     leaving[p].members = parts[p].members;
@@ -58,7 +70,7 @@ bool StandingFrame::State::release_loose_members() {
     if (!hangs_loose(building, segments, member)) continue;
     in_mechanism[index_of(member)] = 1;
     const JointId first = building.joint(member, 0), second = building.joint(member, 1);
-    break_joint(segments.holds(first) ? first : second, BreakCause::overload);
+    let_hang(segments.holds(first) ? first : second);
     found = true;
   }
   return found;
@@ -76,10 +88,20 @@ bool StandingFrame::State::snap_unbraced() {
   return found;
 }
 
+/// A joint by which what moves still hangs: the frame lets go of it. By the rule it goes on as a hinge, or breaks.
+void StandingFrame::State::let_hang(JointId joint) {
+  const Joint& own = building[joint];
+  const bool turns = own.member.valid() && (own.stiffness.array() == 0).any() && (own.stiffness.array() != 0).any();
+  if (rules.mechanism != MechanismRule::hinge || !turns) return break_joint(joint, BreakCause::overload);
+  if (!holds(joint) || label(joint) < 0) return;
+  hanging.push_back(joint);
+  damage(joint, -1);
+}
+
 void StandingFrame::State::release_mechanism(const FrameMechanism& mechanism) {
   const MovingPart part = find_moving_part(building, segments, mechanism);
   for (MemberId member : part.members) in_mechanism[index_of(member)] = 1;
-  for (JointId joint : part.holds) break_joint(joint, BreakCause::overload);
+  for (JointId joint : part.holds) let_hang(joint);
   // A shell that moves lets go of all that it hangs on.
   for (std::size_t p = 0; p < building.panels.size(); ++p) {
     const PanelId panel(p);

@@ -66,6 +66,7 @@ FrameStatics::ResponseLoads StandingFrame::State::response_loads(const PlacedLoa
 }
 
 int StandingFrame::State::component(const ContactPlace& place) const {
+  if (place.node.valid()) return statics.component(place.node);
   return place.member.valid() ? statics.component(place.member) : statics.component(building[place.panel].nodes[0]);
 }
 

@@ -8,9 +8,9 @@
 
 namespace topple::structure {
 
-PlacedLoad StandingFrame::State::place(const ContactPlace& place, const Vec3& force) const {
+PlacedLoad StandingFrame::State::place(const ContactPlace& place, const Vec3& force, const Vec3& moment) const {
   if (place.panel.valid() && !bearings.serves(place.panel)) return place_on_shell(place, force);
-  return place_load(building, bearings, place, force);
+  return place_load(building, bearings, place, force, moment);
 }
 
 /// What the corners get of a force on the panel; the panel's own give is that with its corners held.

@@ -50,7 +50,7 @@ struct StandingFrame::State {
   [[nodiscard]] Vec6 solved_demand(JointId joint) const;  ///< read from the solver; the joint must hold
   [[nodiscard]] Vec3 position(JointId joint) const;
   [[nodiscard]] std::array<Vec6, 4> edge_demands(PanelId panel) const;
-  [[nodiscard]] PlacedLoad place(const ContactPlace& place, const Vec3& force) const;
+  [[nodiscard]] PlacedLoad place(const ContactPlace& place, const Vec3& force, const Vec3& moment = Vec3::Zero()) const;
 
   // Shell panels (standing_shells.cpp).
   [[nodiscard]] PlacedLoad place_on_shell(const ContactPlace& place, const Vec3& force) const;
@@ -91,6 +91,7 @@ struct StandingFrame::State {
   bool release_loose_members();
   bool snap_unbraced();
   void release_mechanism(const FrameMechanism& mechanism);
+  void let_hang(JointId joint);
 
   // Solve.
   void lay_contacts();
@@ -182,6 +183,7 @@ struct StandingFrame::State {
   std::vector<char> in_mechanism;   ///< per member: it moves, and is about to leave
   std::vector<MemberId> half_held;  ///< members that have just lost one end
   std::vector<JointId> unbraced;
+  std::vector<JointId> hanging;  ///< joints that let go of what moves, to be handed out with it
   std::vector<Detached> detached;
   std::vector<JointBreak> yielded;  ///< to hand out
   std::vector<JointBreak> breaks;   ///< of the settle() or impact that runs

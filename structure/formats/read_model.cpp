@@ -6,7 +6,6 @@
 #include "formats/model_forms.h"
 #include "formats/model_reader.h"
 #include "formats/read_meshes.h"
-#include "formats/unbuilt.h"
 #include "topple/structure/error.h"
 #include "topple/structure/files.h"
 
@@ -21,9 +20,9 @@ Building read_document(const JsonDocument& document) {
   using namespace formats;
   const JsonValue root = document.root();
   if (!root.is_object()) root.refuse("an object");
-  root.only({"topple", "title", "units", "gravity", "materials", "sections", "joints", "nodes", "members", "panels",
-             "supports", "diaphragms", "masses", "loads", "combinations", "building", "buildings", "joint_changes",
-             "analyses", "frame3dd", "meshes"});
+  root.only({"topple",       "title",    "units",     "gravity",       "materials",  "sections", "joints",
+             "nodes",        "members",  "panels",    "supports",      "diaphragms", "masses",   "loads",
+             "combinations", "building", "buildings", "joint_changes", "analyses",   "frame3dd", "meshes"});
   const JsonValue version = root.require("topple");
   if (!version.is_number() || version.number() != 1) version.refuse("1, the version of the format");
   ModelDraft draft;

@@ -6,7 +6,6 @@
 #include "formats/json_document.h"
 #include "formats/model_reader.h"
 #include "formats/read_fracture.h"
-#include "formats/unbuilt.h"
 #include "topple/structure/error.h"
 #include "topple/structure/files.h"
 
@@ -75,7 +74,6 @@ class ScenarioReader {
   void read_failure(const JsonValue& failure) {
     failure.only({"bracing", "mechanism", "generations_per_second", "second_order", "sudden"});
     FailureRules& rules = scenario_.failure;
-    for (const JsonValue value : failure) refuse_unbuilt_value(value);
     take(failure, "bracing", rules.bracing, [](const JsonValue& v) {
       const std::string_view rule = v.text("\"buckling\", \"classic\" or \"none\"");
       if (rule == "buckling") return BracingRule::buckling;

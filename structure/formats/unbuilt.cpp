@@ -1,34 +1,11 @@
-#include "formats/unbuilt.h"
-
 #include <algorithm>
 #include <array>
 
 #include "topple/structure/error.h"
+#include "topple/structure/files.h"
 #include "topple/structure/frame.h"
 
 namespace topple::structure {
-
-namespace formats {
-
-namespace {
-
-struct UnbuiltValue {
-  std::string_view key, value;  ///< value as JsonValue::found() tells it
-  std::string_view accepted;
-};
-constexpr std::array unbuilt_values{
-    UnbuiltValue{"mechanism", "\"hinge\"", "\"detach\""},
-};
-
-}  // namespace
-
-void refuse_unbuilt_value(const JsonValue& value) {
-  for (const UnbuiltValue& unbuilt : unbuilt_values)
-    if (value.key() == unbuilt.key && value.found() == unbuilt.value)
-      value.fail(std::string(unbuilt.value) + " is not built yet; accepted: " + std::string(unbuilt.accepted));
-}
-
-}  // namespace formats
 
 namespace {
 

@@ -16,6 +16,7 @@ void Simulation::State::move() {
 
 void Simulation::State::book() {
   book_contacts();
+  pull_hinges();
   for (auto& [id, one] : bodies) book_body(one);
   resting.read(world->contacts(), obstacles, scenario.step,
                [&](collision::BodyId id) { return body(id) && !world->state(id).asleep; });

@@ -143,6 +143,7 @@ std::vector<collision::BodyId> Simulation::State::split(collision::BodyId id,
   const collision::BodyState state = world->state(id);
   const Mat3 turn = state.pose.orientation.toRotationMatrix();
   (void)resting.forget(id, *frame, false);
+  const std::vector<JointId> hung = take_off(id);
   world->remove_body(id);
   bodies.erase(id.value);
   free_segments.erase(id.value);
@@ -184,6 +185,7 @@ std::vector<collision::BodyId> Simulation::State::split(collision::BodyId id,
     changes.split.push_back({id.value, made.back().value});
   }
   ledger.momentum_error = std::max(ledger.momentum_error, carried.error(handed_on));
+  hang_again(hung);
   // Parts are born inside each other where they were joined.
   for (std::size_t i = 0; i < made.size(); ++i)
     for (std::size_t j = i + 1; j < made.size(); ++j) {

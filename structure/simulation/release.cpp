@@ -70,6 +70,7 @@ void Simulation::State::release() {
     });
     release(part);
   }
+  hang_on_what_left();
   drop_loose_pieces();
   keep_limit();
 }
@@ -141,6 +142,7 @@ void Simulation::State::release(const Detached& part) {
   const std::vector<collision::BodyId> passing = breakers_of(one);
   const collision::BodyId id = add_body(std::move(one), velocity, spin, displacement);
   check_momentum(bodies.at(id.value));
+  hang_on(part.hinges, id);
   collision::Touched broken;
   broken.kind = collision::Touched::Kind::body;
   broken.body = id;
@@ -251,6 +253,7 @@ void Simulation::State::remove_body(collision::BodyId id, bool keep_weight) {
   for (std::int64_t& of_part : body_of_part)
     if (of_part == id.value) of_part = -2;
   freeze(resting.forget(id, *frame, keep_weight));
+  (void)take_off(id);
   world->remove_body(id);
   free_segments.erase(id.value);
   cables.erase(id.value);

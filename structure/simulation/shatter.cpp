@@ -85,6 +85,7 @@ std::vector<collision::BodyId> Simulation::State::shatter(collision::BodyId id, 
   if (chunks.empty()) return {};
   tell(SimulationEvent::Kind::panel_fractured, building[panel].name).position = point;
   (void)resting.forget(id, *frame, false);
+  (void)take_off(id);
   world->remove_body(id);
   bodies.erase(id.value);
   body_of_part[static_cast<std::size_t>(part_number(building, Part(panel)))] = -2;

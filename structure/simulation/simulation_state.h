@@ -87,6 +87,31 @@ struct Simulation::State {
   void freeze(const std::vector<RestingLoads::Kept>& lying);
   void leave_weight(const MassProperties& rest);
 
+  // hinges.cpp: what moves as a mechanism hangs on.
+  struct Hung {
+    JointId joint;
+    collision::HingeId hinge;
+    collision::BodyId body, holder;  ///< holder -1: what stands
+    bool member_hangs = true;        ///< the joint's member is of the body, else its hub
+    Mat3 axes = Mat3::Identity();    ///< of the joint, in the holder's own frame
+    std::int64_t load_key = 0;
+    Vec3 force = Vec3::Zero(), moment = Vec3::Zero();  ///< on the holder about the joint, smoothed
+    Vec3 applied = Vec3::Zero(), moment_applied = Vec3::Zero();
+  };
+  bool hang(JointId joint, collision::BodyId id);
+  void hang_on(const std::vector<JointId>& joints, collision::BodyId id);
+  void hang_on_what_left();
+  void hang_again(const std::vector<JointId>& joints);
+  void take_off(const Hung& hung);
+  std::vector<JointId> take_off(collision::BodyId id);
+  void pass_what_holds(collision::BodyId id, const Vec3& point, collision::BodyId holder);
+  void pull_hinges();
+  void load_by(Hung& hung, const Vec3& force, const Vec3& moment);
+  [[nodiscard]] Utilisation utilisation_of(const Hung& hung, const Vec3& force, const Vec3& moment) const;
+  [[nodiscard]] ContactPlace hold_of(JointId joint, bool member_hangs) const;
+  [[nodiscard]] collision::BodyId body_with(const ContactPlace& place) const;
+  [[nodiscard]] Mat3 turned_with(collision::BodyId id) const;
+
   // shatter.cpp: panels that came off break into chunks.
   void find_breakable_panels();
   [[nodiscard]] const BrokenPanel* broken_panel(PanelId panel) const;
@@ -213,6 +238,8 @@ struct Simulation::State {
     Vec3 anchor;
   };
   std::map<std::int64_t, HungBall> cables;  ///< by body
+  std::map<std::int64_t, Hung> hinges;      ///< by hinge
+  std::int64_t last_hinge_load = 0;         ///< keys of their loads go down from -1
   bool was_at_rest = false, done_told = false;
 
   std::vector<SimulationEvent> events;

@@ -38,10 +38,13 @@ class BallisticWorld : public collision::World {
     throw std::logic_error("no hinges here");
   }
   void remove_hinge(collision::HingeId) override {}
+  [[nodiscard]] double hinge_work_lost(collision::HingeId) const override { return 0; }
   [[nodiscard]] Eigen::Matrix<double, 6, 1> hinge_force(collision::HingeId) const override {
     return Eigen::Matrix<double, 6, 1>::Zero();
   }
-  collision::CableId add_cable(const collision::CableDescription&) override { throw std::logic_error("no cables here"); }
+  collision::CableId add_cable(const collision::CableDescription&) override {
+    throw std::logic_error("no cables here");
+  }
   void remove_cable(collision::CableId) override {}
   [[nodiscard]] collision::CablePull cable_pull(collision::CableId) const override { return {}; }
   [[nodiscard]] collision::BodyState state(collision::BodyId id) const override { return bodies_.at(id.value).state; }

@@ -163,6 +163,8 @@ class World {
   virtual void remove_hinge(HingeId hinge) = 0;
   /// Force and moment about the point (joint axes, mean of the last step) that the body exerts on what holds it.
   [[nodiscard]] virtual Eigen::Matrix<double, 6, 1> hinge_force(HingeId hinge) const = 0;
+  /// Energy that it took out of what it joins in the last step (velocities read at mid-step), J.
+  [[nodiscard]] virtual double hinge_work_lost(HingeId hinge) const = 0;
 
   /// Throws std::invalid_argument when its length is not above zero or the body is farther away than that.
   virtual CableId add_cable(const CableDescription& description) = 0;
@@ -176,8 +178,8 @@ class World {
   virtual void apply_impulse(BodyId body, const Vec3& impulse, const Vec3& point) = 0;
   virtual void wake(BodyId body) = 0;
   /// Contacts between this body and that other (body or obstacle) are left out of sweeps and steps until they have come
-  /// apart and are not about to meet as an impact: a body that goes through what it broke, or is born inside what it was
-  /// joined to.
+  /// apart and are not about to meet as an impact: a body that goes through what it broke, or is born inside what it
+  /// was joined to.
   virtual void ignore_until_separated(BodyId body, const Touched& other) = 0;
   /// Live bodies in order of id.
   [[nodiscard]] virtual std::span<const BodyId> bodies() const = 0;

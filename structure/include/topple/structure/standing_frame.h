@@ -48,11 +48,13 @@ struct ContactPlace {
   MemberId member;  ///< valid: on a member ...
   PanelId panel;    ///< ... or on a panel
   Vec3 point = Vec3::Zero();
+  NodeId node{};  ///< ... or on a node's hub
 };
 struct ContactLoad {
   std::int64_t key = 0;  ///< chosen by the caller; a later load with the same key replaces it
   ContactPlace place;
   Vec3 force = Vec3::Zero();
+  Vec3 moment = Vec3::Zero();  ///< about the point, on members and nodes alone
 };
 
 /// What a panel that was broken in part still is.
@@ -149,8 +151,8 @@ class StandingFrame {
   /// The owner of the building changed this joint's capacity in place: its utilisation follows at once (no statics are
   /// solved), and if it is over capacity it breaks in the next generations.
   void capacity_changed(JointId joint);
-  /// Factor on E and G, above 0, from now on instead of the one before. It comes on slowly, as in a fire: no
-  /// sudden-loss factor acts on it.
+  /// Factor on E and G, above 0 and at most 1, from now on instead of the one before. It comes on slowly, as in a fire:
+  /// no sudden-loss factor acts on it.
   void set_stiffness_factor(MemberId member, double factor);
   void set_gravity(const Vec3& gravity);
   void add_load(NodeId node, const Vec6& load);

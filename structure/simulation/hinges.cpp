@@ -1,0 +1,208 @@
+// Hinges: a part that moves as a mechanism hangs on by the joints that still hold it. They turn freely in what is
+// released and hold in the rest; what they hold with loads what they hang on, and one that comes to its capacity
+// breaks.
+#include <algorithm>
+#include <cmath>
+
+#include "simulation/simulation_state.h"
+#include "topple/structure/joint_check.h"
+
+namespace topple::structure {
+
+namespace {
+/// Time over which a hinge's pull on what stands is averaged, s (as that of what lies on it: resting_loads.cpp).
+constexpr double smoothing_time = 0.1;
+/// A change of the pull below this share of the body's weight is not told to the frame.
+constexpr double band_of_weight = 0.05;
+/// What stands so near to a hinge, m, is passed by what hangs on it.
+constexpr double joint_room = 0.3;
+
+template <class Id>
+bool has(const std::vector<Id>& list, Id id) {
+  return std::find(list.begin(), list.end(), id) != list.end();
+}
+}  // namespace
+
+/// The other side of a joint whose member (or else its hub) hangs.
+ContactPlace Simulation::State::hold_of(JointId joint, bool member_hangs) const {
+  const Joint& own = building[joint];
+  ContactPlace place;
+  place.point = joint_position(joint);
+  if (member_hangs)
+    place.node = building[own.member].nodes[static_cast<std::size_t>(own.end)];
+  else
+    place.member = own.member;
+  return place;
+}
+
+/// The body that a member or node is part of; -1: none.
+collision::BodyId Simulation::State::body_with(const ContactPlace& place) const {
+  if (place.member.valid())
+    return {std::max<std::int64_t>(-1, body_of_part[static_cast<std::size_t>(place.member.index)])};
+  for (const auto& [id, one] : bodies)
+    if (has(one.nodes, place.node)) return {id};
+  return {};
+}
+
+Mat3 Simulation::State::turned_with(collision::BodyId id) const {
+  return id.value < 0 ? Mat3(Mat3::Identity()) : world->state(id).pose.orientation.toRotationMatrix();
+}
+
+/// Hangs a body by a joint on what stands or on another body. False when there is nothing to hang it on.
+bool Simulation::State::hang(JointId joint, collision::BodyId id) {
+  const Body& one = bodies.at(id.value);
+  const Member& member = building[building[joint].member];
+  Hung hung;
+  hung.joint = joint;
+  hung.body = id;
+  hung.member_hangs = has(one.members, building[joint].member);
+  const ContactPlace on = hold_of(joint, hung.member_hangs);
+  const bool on_frame = on.member.valid() ? frame->stands(on.member) : frame->stands(on.node);
+  if (!on_frame) hung.holder = body_with(on);
+  if (!on_frame && (hung.holder.value < 0 || hung.holder == id)) return false;
+
+  collision::HingeDescription description;
+  description.body = id;
+  if (!on_frame) description.other = hung.holder;
+  description.point = world->state(id).pose * Vec3(joint_position(joint) - one.rest.centre);
+  description.axes = member.axes * turned_with(hung.member_hangs ? id : hung.holder).transpose();
+  for (int c = 0; c < 6; ++c) description.held[static_cast<std::size_t>(c)] = building[joint].stiffness(c) != 0;
+  if (std::find(description.held.begin(), description.held.end(), true) == description.held.end()) return false;
+  hung.axes = description.axes * turned_with(hung.holder);
+  hung.hinge = world->add_hinge(description);
+  hung.load_key = --last_hinge_load;
+  pass_what_holds(id, on.point, hung.holder);
+  hinges.emplace(hung.hinge.value, hung);
+  return true;
+}
+
+/// A part that hangs on begins inside what it was joined to, and turns through it.
+void Simulation::State::pass_what_holds(collision::BodyId id, const Vec3& point, collision::BodyId holder) {
+  collision::Touched touched;
+  if (holder.value >= 0) {
+    touched.kind = collision::Touched::Kind::body;
+    touched.body = holder;
+    world->ignore_until_separated(id, touched);
+    return;
+  }
+  Bounds around;
+  around.add(point - Vec3::Constant(joint_room));
+  around.add(point + Vec3::Constant(joint_room));
+  obstacles.approach(around, *frame, *world);
+  touched.kind = collision::Touched::Kind::obstacle;
+  for (const Part part : grid.near(around)) {
+    touched.obstacle = obstacles.obstacle_of(part);
+    if (touched.obstacle.value >= 0) world->ignore_until_separated(id, touched);
+  }
+}
+
+/// The joints by which a part that left hangs on; those that find nothing to hang on have lost their hold.
+void Simulation::State::hang_on(const std::vector<JointId>& joints, collision::BodyId id) {
+  for (const JointId joint : joints) {
+    if (hang(joint, id)) continue;
+    JointBreak lost;
+    lost.joint = joint;
+    lost.position = joint_position(joint);
+    tell(lost);
+  }
+}
+
+/// What held some of them has left: they hang on the body that it became.
+void Simulation::State::hang_on_what_left() {
+  std::vector<Hung> loose;
+  for (const auto& [key, hung] : hinges) {
+    if (hung.holder.value >= 0) continue;
+    const ContactPlace on = hold_of(hung.joint, hung.member_hangs);
+    if (!(on.member.valid() ? frame->stands(on.member) : frame->stands(on.node))) loose.push_back(hung);
+  }
+  for (const Hung& hung : loose) {
+    take_off(hung);
+    hang_on({hung.joint}, hung.body);
+  }
+}
+
+void Simulation::State::take_off(const Hung& hung) {
+  frame->remove_contact_load(hung.load_key);
+  world->remove_hinge(hung.hinge);
+  hinges.erase(hung.hinge.value);
+}
+
+/// The body is about to go: it hangs on nothing any more, and nothing on it. Returns the joints of both kinds.
+std::vector<JointId> Simulation::State::take_off(collision::BodyId id) {
+  std::vector<Hung> its;
+  for (const auto& [key, hung] : hinges)
+    if (hung.body == id || hung.holder == id) its.push_back(hung);
+  std::vector<JointId> joints;
+  for (const Hung& hung : its) {
+    joints.push_back(hung.joint);
+    take_off(hung);
+  }
+  return joints;
+}
+
+/// After a body fell apart into others: what it hung by, and what hung on it, goes on with the piece that has its side.
+void Simulation::State::hang_again(const std::vector<JointId>& joints) {
+  for (const JointId joint : joints) {
+    const collision::BodyId of_member = body_with(hold_of(joint, false));
+    const collision::BodyId of_hub = body_with(hold_of(joint, true));
+    const collision::BodyId hanging = of_member.value >= 0 ? of_member : of_hub;
+    if (hanging.value >= 0) hang_on({joint}, hanging);
+  }
+}
+
+/// After the world has moved: what each hinge held with, whether it bears that, and what it does to what stands.
+void Simulation::State::pull_hinges() {
+  std::vector<std::pair<Hung, Utilisation>> over;
+  for (auto& [key, hung] : hinges) {
+    if (world->state(hung.body).asleep) continue;
+    ledger.lost_in_contacts += world->hinge_work_lost(hung.hinge);
+    const Vec6 held = world->hinge_force(hung.hinge);  // of the body on its holder
+    const Mat3 to_global = (hung.axes * turned_with(hung.holder).transpose()).transpose();
+    const Vec3 force = to_global * held.head<3>(), moment = to_global * held.tail<3>();
+    const Utilisation used = utilisation_of(hung, force, moment);
+    if (used.value > 1)
+      over.emplace_back(hung, used);
+    else if (hung.holder.value < 0)
+      load_by(hung, force, moment);
+  }
+  for (const auto& [hung, used] : over) {
+    JointBreak line;
+    line.joint = hung.joint;
+    line.sense = used.sense;
+    line.demand = used.demand;
+    line.capacity = used.capacity;
+    const Body& one = bodies.at(hung.body.value);
+    line.position = world->state(hung.body).pose * Vec3(joint_position(hung.joint) - one.rest.centre);
+    tell(line);
+    take_off(hung);
+  }
+}
+
+/// `force` and `moment` of the body on its holder, global axes.
+Utilisation Simulation::State::utilisation_of(const Hung& hung, const Vec3& force, const Vec3& moment) const {
+  const Joint& joint = building[hung.joint];
+  const Mat3 axes = building[joint.member].axes * turned_with(hung.member_hangs ? hung.body : hung.holder).transpose();
+  // End forces are what the hub does to the member.
+  const double sign = hung.member_hangs ? -1 : 1;
+  Eigen::Matrix<double, 12, 1> end_forces = Eigen::Matrix<double, 12, 1>::Zero();
+  end_forces.segment<3>(6 * joint.end) = sign * axes * force;
+  end_forces.segment<3>(6 * joint.end + 3) = sign * axes * moment;
+  return utilisation(joint.capacity, member_joint_demand(end_forces, joint.end),
+                     strength_factors[static_cast<std::size_t>(hung.joint.index)]);
+}
+
+/// The smoothed pull on what stands, told when it has changed beyond a band.
+void Simulation::State::load_by(Hung& hung, const Vec3& force, const Vec3& moment) {
+  const double share = std::min(1.0, scenario.step / smoothing_time);
+  hung.force += share * (force - hung.force);
+  hung.moment += share * (moment - hung.moment);
+  const double band = band_of_weight * bodies.at(hung.body.value).rest.mass * building.gravity;
+  const double arm = building[building[hung.joint].member].length;
+  const double changed = (hung.force - hung.applied).norm() + (hung.moment - hung.moment_applied).norm() / arm;
+  if (changed <= band) return;
+  hung.applied = hung.force;
+  hung.moment_applied = hung.moment;
+  frame->set_contact_load({hung.load_key, hold_of(hung.joint, hung.member_hangs), hung.force, hung.moment});
+}
+
+}  // namespace topple::structure
