@@ -155,6 +155,7 @@ void Simulation::State::pull_hinges() {
   std::vector<std::pair<Hung, Utilisation>> over;
   for (auto& [key, hung] : hinges) {
     if (world->state(hung.body).asleep) continue;
+    pass_what_holds(hung.body, joint_position(hung.joint), hung.holder);  // it may have turned clear of it and back
     ledger.lost_in_contacts += world->hinge_work_lost(hung.hinge);
     const Vec6 held = world->hinge_force(hung.hinge);  // of the body on its holder
     const Mat3 to_global = (hung.axes * turned_with(hung.holder).transpose()).transpose();
