@@ -172,3 +172,50 @@ TEST_CASE("a tied edge stays straight: the patch is no softer than with free edg
   for (int c = 0; c < 4; ++c) u(6 * c + 1) = 1;
   CHECK((stiff.stiffness() * u).norm() < 1e-9 * stiff.stiffness().norm());
 }
+
+TEST_CASE("of a shell's stiffness as much is left as of its material") {
+  Superelement::Patch free = patch();
+  free.supports.clear();
+  const Superelement whole(free);
+  Superelement half(free), holed(free), by_share(free);
+  half.keep(std::vector<double>(free.shells.size(), 0.5));
+  CHECK((half.stiffness() - 0.5 * whole.stiffness()).norm() < 1e-10 * whole.stiffness().norm());
+  std::vector<double> share(free.shells.size(), 1);
+  for (const int shell : hole()) share[static_cast<std::size_t>(shell)] = 0;
+  by_share.keep(share);
+  holed.remove(hole());
+  CHECK((by_share.stiffness() - holed.stiffness()).norm() == 0);
+  share[0] = 1.5;
+  CHECK_THROWS_AS(by_share.keep(share), std::invalid_argument);
+}
+
+TEST_CASE("a given stiffness swells when heated as the element it was taken from") {
+  // A sheet of 3 m x 2 m held at one corner and on rollers at the others, which springs hold back.
+  FrameModel plain;
+  plain.nodes = {Vec3(0, 0, 0), Vec3(3, 0, 0), Vec3(3, 2, 0), Vec3(0, 2, 0)};
+  Shell sheet;
+  sheet.node = {0, 1, 2, 3};
+  sheet.youngs_modulus = 30e9;
+  sheet.poisson_ratio = 0.2;
+  sheet.thickness = 0.1;
+  plain.shells = {sheet};
+  plain.supports.push_back({0, Vec6::Constant(rigid)});
+  for (int n = 1; n < 4; ++n) {
+    Vec6 held = Vec6::Constant(rigid);
+    held(0) = held(1) = 2e9;
+    plain.supports.push_back({n, held});
+  }
+  FrameModel given = plain;
+  given.shell_stiffness.emplace(0, Reanalysis(plain).shell_stiffness(0));
+  LoadSet heat;
+  heat.shells = {{0, Vec3::Zero(), 1e-3}};
+  const StaticSolution expected = solve_one(plain, heat), found = solve_one(given, heat);
+  CHECK(expected.displacements[2].norm() > 1e-4);
+  for (std::size_t n = 0; n < 4; ++n) {
+    CHECK((found.displacements[n] - expected.displacements[n]).norm() < 1e-10 * 1e-3);
+    CHECK((found.shell_corner_forces[0][n] - expected.shell_corner_forces[0][n]).norm() <
+          1e-9 * expected.shell_corner_forces[0][2].norm());
+  }
+  heat.shells = {{0, Vec3(0, 0, 1), 0}};
+  CHECK_THROWS_AS(solve_one(given, heat), std::invalid_argument);
+}
