@@ -64,7 +64,11 @@ Contact point_contact(const Solid& first, const Solid& second, const btManifoldP
   contact.impulse = from_bullet(on_first) * (forward ? -1 : 1);
   contact.approach_speed =
       (from_bullet(velocity_now(body, at)) - from_bullet(velocity_now(other, at))).dot(contact.normal);
-  contact.work_lost = contact.impulse.dot(from_bullet(mean_velocity(body, at)) - from_bullet(mean_velocity(other, at)));
+  // The solver takes each body at its own point: deep or not yet touching, friction's arms are not the same.
+  const btVector3 &own = forward ? point.getPositionWorldOnA() : at,
+                  &others = forward ? at : point.getPositionWorldOnA();
+  contact.work_lost =
+      contact.impulse.dot(from_bullet(mean_velocity(body, own)) - from_bullet(mean_velocity(other, others)));
   return contact;
 }
 
