@@ -7,7 +7,7 @@ import os
 import shutil
 import statistics
 import subprocess
-import time
+import sys
 
 import other_peers
 import output
@@ -116,14 +116,12 @@ def write_calculix(frame, path):
 
 def measured(command, folder, environment):
     """Seconds, processor seconds and peak MiB of a whole process; its output when it fails."""
-    begin = time.monotonic()
-    process = subprocess.Popen(command, cwd=folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-    text = process.stdout.read().decode(errors="replace")
-    _, status, usage = os.wait4(process.pid, 0)
-    process.returncode = os.waitstatus_to_exitcode(status)
-    if process.returncode != 0:
-        raise RuntimeError("%s ended with %d:\n%s" % (command[0], process.returncode, text[-2000:]))
-    return time.monotonic() - begin, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024
+    runner = os.path.join(os.path.dirname(os.path.abspath(__file__)), "spent.py")
+    done = subprocess.run([sys.executable, "-I", runner] + command, cwd=folder, env=environment, capture_output=True, text=True, check=True)
+    spent = json.loads(done.stdout)
+    if spent["status"] != 0:
+        raise RuntimeError("%s ended with %d:\n%s" % (command[0], spent["status"], spent["text"]))
+    return spent["seconds"], spent["processor"], spent["mib"]
 
 
 def roof_of_topple(folder, frame):

@@ -114,6 +114,14 @@ class Peers(unittest.TestCase):
                 sags.append(sum(moved["%s%d" % (prefix, node)][2] for node in self.FRAME.roof))
             self.assertLess(abs(sags[0] / sags[1] - 1), 1e-12)  # rounding times the condition of a few storeys
 
+    def test_the_memory_of_a_command_is_its_own(self):
+        weight = bytearray(200 << 20)
+        weight[::4096] = b"x" * len(weight[::4096])  # every page is there
+        _, _, mib = peers.measured([sys.executable, "-I", "-c", "pass"], "/", dict(os.environ))
+        self.assertLess(mib, 100)  # an interpreter takes some 10
+        with self.assertRaisesRegex(RuntimeError, "ended with 3"):
+            peers.measured([sys.executable, "-I", "-c", "raise SystemExit(3)"], "/", dict(os.environ))
+
     def test_the_roof_is_read_from_what_frame3dd_writes(self):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "frame.out")
