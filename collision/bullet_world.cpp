@@ -174,7 +174,7 @@ BodyId BulletWorld::add_body(const BodyDescription& description) {
   body->id = next_body_;
   body->turned = inertia.turned;
   body->principal.setRotation(to_bullet(inertia.axes));
-  make_parts(description.parts, body->principal.inverse(), owner, *body);
+  make_parts(description.parts, body->principal.inverse(), owner, polyhedra_, *body);
   for (const SolidPart& part : body->parts) body->inner_radius = std::max(body->inner_radius, inner_radius(part));
 
   btRigidBody::btRigidBodyConstructionInfo info(description.mass, nullptr, body->shape(), to_bullet(inertia.moments));
@@ -221,7 +221,7 @@ ObstacleId BulletWorld::add_obstacle(const ObstacleDescription& description) {
   auto obstacle = std::make_unique<Obstacle>();
   obstacle->kind = Touched::Kind::obstacle;
   obstacle->id = next_obstacle_;
-  make_parts(description.parts, btTransform::getIdentity(), owner, *obstacle);
+  make_parts(description.parts, btTransform::getIdentity(), owner, polyhedra_, *obstacle);
   obstacle->fixed = std::make_unique<btCollisionObject>();
   btCollisionObject& fixed = *obstacle->fixed;
   set_surface(fixed, description.friction, description.restitution, owner);

@@ -158,6 +158,7 @@ class BulletWorld final : public World {
   std::int64_t next_body_ = 0, next_obstacle_ = 0, next_hinge_ = 0, next_cable_ = 0;
 
   Solid ground_;
+  PolyhedronStore polyhedra_;
   std::unique_ptr<btStaticPlaneShape> ground_shape_;
   std::unique_ptr<btCollisionObject> ground_object_;
   double ground_height_ = 0;

@@ -34,13 +34,13 @@ bool is_flat(const std::vector<Vec3>& points, double thin) {
   return !(from_plane(farthest(from_plane)) > thin);
 }
 
-std::unique_ptr<btConvexShape> make_box(const ConvexPart& part, const std::string& owner) {
+std::unique_ptr<btConvexShape> make_box(const ConvexPart& part, const std::string& owner, PolyhedronStore& polyhedra) {
   if (!part.half_extents.allFinite() || !(part.half_extents.minCoeff() > 0)) {
     refuse(owner, part, "a box needs half extents above zero");
   }
   auto box = std::make_unique<btBoxShape>(to_bullet(part.half_extents));
   box->setMargin(std::min(kSkin, 0.1 * part.half_extents.minCoeff()));
-  box->initializePolyhedralFeatures();
+  polyhedra.give_features(*box, {part.half_extents.x(), part.half_extents.y(), part.half_extents.z()});
   return box;
 }
 
@@ -51,7 +51,7 @@ std::unique_ptr<btConvexShape> make_sphere(const ConvexPart& part, const std::st
   return std::make_unique<btSphereShape>(part.half_extents.x());
 }
 
-std::unique_ptr<btConvexShape> make_hull(const ConvexPart& part, const std::string& owner) {
+std::unique_ptr<btConvexShape> make_hull(const ConvexPart& part, const std::string& owner, PolyhedronStore& polyhedra) {
   for (const Vec3& point : part.points) {
     if (!point.allFinite()) refuse(owner, part, "a hull needs finite points");
   }
@@ -60,23 +60,28 @@ std::unique_ptr<btConvexShape> make_hull(const ConvexPart& part, const std::stri
     refuse(owner, part, "a hull needs four points that do not lie in one plane");
   }
   auto hull = std::make_unique<btConvexHullShape>();
-  for (const Vec3& point : part.points) hull->addPoint(to_bullet(point), false);
+  std::vector<double> numbers;
+  for (const Vec3& point : part.points) {
+    hull->addPoint(to_bullet(point), false);
+    numbers.insert(numbers.end(), point.begin(), point.end());
+  }
   hull->setMargin(kSkin);
   hull->recalcLocalAabb();
-  hull->initializePolyhedralFeatures();
+  polyhedra.give_features(*hull, numbers);
   return hull;
 }
 
-std::unique_ptr<btConvexShape> make_shape(const ConvexPart& part, const std::string& owner) {
+std::unique_ptr<btConvexShape> make_shape(const ConvexPart& part, const std::string& owner,
+                                          PolyhedronStore& polyhedra) {
   if (!part.pose.position.allFinite() || !is_rotation(part.pose.orientation))
     refuse(owner, part, "its pose is not finite");
   switch (part.kind) {
     case ConvexPart::Kind::box:
-      return make_box(part, owner);
+      return make_box(part, owner, polyhedra);
     case ConvexPart::Kind::sphere:
       return make_sphere(part, owner);
     case ConvexPart::Kind::hull:
-      return make_hull(part, owner);
+      return make_hull(part, owner, polyhedra);
   }
   refuse(owner, part, "its kind is none of box, sphere, hull");
 }
@@ -98,11 +103,11 @@ bool fills_frame(const SolidPart& part) { return part.local == btTransform::getI
 }  // namespace
 
 void make_parts(const std::vector<ConvexPart>& description, const btTransform& frame, const std::string& owner,
-                Solid& solid) {
+                PolyhedronStore& polyhedra, Solid& solid) {
   if (description.empty()) throw std::invalid_argument(owner + ": it has no part; at least one is needed");
   for (const ConvexPart& given : description) {
     SolidPart part;
-    part.shape = make_shape(given, owner);
+    part.shape = make_shape(given, owner, polyhedra);
     part.local = frame * to_bullet(given.pose);
     part.tag = given.tag;
     part.reach = reach_of(part);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bullet_types.h"
+#include "polyhedron_store.h"
 
 class btCollisionObject;
 
@@ -45,7 +46,7 @@ struct Solid {
 /// Parts given in a frame whose pose in the solid's Bullet frame is `frame`. Throws std::invalid_argument naming
 /// `owner` and the part's tag for a part of no volume or with a number that is not finite, and for no part at all.
 void make_parts(const std::vector<ConvexPart>& description, const btTransform& frame, const std::string& owner,
-                Solid& solid);
+                PolyhedronStore& polyhedra, Solid& solid);
 
 /// The number of a child from a ray or contact of a solid with several parts; the part nearest to a global point.
 [[nodiscard]] int nearest_part(const Solid& solid, const btTransform& pose, const btVector3& point);
