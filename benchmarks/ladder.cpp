@@ -27,7 +27,8 @@ Times break_at_once(const RegularFrame& frame, solver::Factor& whole, const std:
   (void)whole.factorise(system.matrix());
   solver::Factor anew(system.matrix(), system.elimination_order(), solver::Factorisation::automatic);
   (void)anew.factorise(system.matrix());
-  solver::StandingFactor standing(system, whole);
+  solver::StandingFactor standing(system);
+  standing.serve(whole);
   std::vector<int> nodes;
   for (const int member : members) {
     solver::Beam& beam = system.model.beams[static_cast<std::size_t>(member)];

@@ -1,5 +1,6 @@
 #include "low_rank.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <limits>
 
@@ -53,9 +54,9 @@ int LowRankCorrection::add(std::span<const int> rows, const Eigen::MatrixXd& B) 
   return static_cast<int>(places_.size()) - 1;
 }
 
-void LowRankCorrection::finish_adding() {
-  if (finished_ == places_.size()) return;
-  std::vector<PathColumns> groups;
+void LowRankCorrection::finish_adding(std::span<const PathColumns> also) {
+  if (finished_ == places_.size() && also.empty()) return;
+  std::vector<PathColumns> groups(also.begin(), also.end());
   for (std::size_t p = finished_; p < places_.size(); ++p) groups.push_back({&places_[p].path, &places_[p].W});
   solver_.forward(groups);
   for (; finished_ < places_.size(); ++finished_) orthonormalise(places_[finished_].W, places_[finished_].R);
@@ -97,11 +98,10 @@ void LowRankCorrection::set(int place, const Eigen::Ref<const Eigen::MatrixXd>& 
   p.active = (D.array() != 0).any();
 }
 
-std::vector<int> LowRankCorrection::forget_unchanged() {
-  constexpr Eigen::Index always_kept = 96;  // columns; to break and restore the same few joints makes nothing anew
+std::vector<int> LowRankCorrection::forget_unchanged(Eigen::Index kept_columns) {
   Eigen::Index unchanged = 0;
   for (const Place& place : places_) unchanged += place.active ? 0 : place.W.cols();
-  if (unchanged <= always_kept || 2 * unchanged <= gram_size_) return {};
+  if (unchanged <= kept_columns || 2 * unchanged <= gram_size_) return {};
   std::vector<int> number(places_.size(), -1);
   std::vector<Place> kept;
   for (std::size_t p = 0; p < places_.size(); ++p) {
@@ -131,6 +131,18 @@ std::vector<int> LowRankCorrection::forget_unchanged() {
   finished_ = kept.size();
   places_ = std::move(kept);
   return number;
+}
+
+bool LowRankCorrection::correct_alone(int place, const Eigen::Ref<const Eigen::MatrixXd>& given,
+                                      Eigen::VectorXd& on_path) const {
+  const Place& p = places_[static_cast<std::size_t>(place)];
+  const Eigen::MatrixXd D = p.R * given * p.R.transpose();
+  Eigen::MatrixXd A = D * (p.W.transpose() * p.W);
+  A.diagonal().array() += 1;
+  const Eigen::VectorXd c = A.partialPivLu().solve(D * (p.W.transpose() * on_path));
+  if (!c.allFinite()) return false;
+  on_path.noalias() -= p.W * c;
+  return true;
 }
 
 void LowRankCorrection::update() {

@@ -23,13 +23,19 @@ class LowRankCorrection {
   /// A place that may change: the rows of the matrix (an element's: they lie on one elimination path; one may come
   /// twice) and B there, one row each. Returns its number; its D is zero.
   int add(std::span<const int> rows, const Eigen::MatrixXd& B);
-  /// Finds W of all places added since the last call, together. To be called before set() of any of them.
-  void finish_adding();
+  /// Finds W of all places added since the last call, together; L^-1 of `also` in the same pass. To be called before
+  /// set() of any of them.
+  void finish_adding(std::span<const PathColumns> also = {});
   /// Replaces the place's D (symmetric; zero: unchanged).
   void set(int place, const Eigen::Ref<const Eigen::MatrixXd>& D);
-  /// Forgets places whose D is zero when they have become the greater part. Returns for each place so far its new
-  /// number, -1 when forgotten; empty when nothing was.
-  [[nodiscard]] std::vector<int> forget_unchanged();
+  /// Forgets places whose D is zero when they have become the greater part, and have more than `kept` columns. Returns
+  /// for each place so far its new number, -1 when forgotten; empty when nothing was.
+  [[nodiscard]] std::vector<int> forget_unchanged(Eigen::Index kept = always_kept);
+  /// What correct() would do to a y that is zero outside of the place's path, if this place alone had a D, and this
+  /// one. False: the changed structure is a mechanism.
+  [[nodiscard]] bool correct_alone(int place, const Eigen::Ref<const Eigen::MatrixXd>& D,
+                                   Eigen::VectorXd& on_path) const;
+  [[nodiscard]] const EliminationPath& path(int place) const { return places_[static_cast<std::size_t>(place)].path; }
   /// Brings the correction up to date with all D. To be called before what follows.
   void update();
 
@@ -49,6 +55,8 @@ class LowRankCorrection {
   [[nodiscard]] Eigen::VectorXd softest_motion() const;
 
  private:
+  /// Columns; to break and restore the same few joints makes nothing anew.
+  static constexpr Eigen::Index always_kept = 96;
   struct Place {
     EliminationPath path;
     Eigen::MatrixXd W;  ///< orthonormal columns on the path

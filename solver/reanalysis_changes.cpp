@@ -77,6 +77,7 @@ void Reanalysis::State::apply_supports(std::vector<int>& touched) {
 void Reanalysis::State::rebuild() {
   complete(nullptr);
   restricted.reset();
+  drop_refresh();
   auto fresh = std::make_unique<FrameSystem>(system->model);
   fresh->beam_factor = system->beam_factor;
   fresh->beam_stands = system->beam_stands;
@@ -96,7 +97,7 @@ void Reanalysis::State::apply_dropped_nodes(std::vector<int>& touched) {
     char& stands = system->node_stands[static_cast<std::size_t>(node)];
     if (stands == 0) continue;
     stands = 0;
-    if (standing) standing->drop_node(node);
+    tell_standing([&](StandingFactor& one) { one.drop_node(node); });
     // Corrections leave it alone from now on: the answer that they start from must have it at rest.
     const auto& first = system->dofs().first_equation;
     for (int e = first[static_cast<std::size_t>(node)]; e < first[static_cast<std::size_t>(node) + 1]; ++e)
@@ -129,7 +130,7 @@ void Reanalysis::State::apply_beam(int index, std::vector<int>& touched) {
       stands != system->beam_stands[i] ||
       (stands != 0 && (beam.end_stiffness[0] != target.end_stiffness[0] ||
                        beam.end_stiffness[1] != target.end_stiffness[1] || system->beam_factor[i] != target.factor));
-  if (stiffness_changed && standing) standing->remember_beam(index);
+  if (stiffness_changed) tell_standing([&](StandingFactor& one) { one.remember_beam(index); });
   if (stiffness_changed && restricted && may_be_stiffer(beam, system->beam_stands[i], system->beam_factor[i], target))
     restricted->forget_uses();
   beam.end_stiffness = target.end_stiffness;
@@ -150,6 +151,7 @@ void Reanalysis::State::apply_shells(std::vector<int>& touched) {
     complete(nullptr);
     restricted.reset();
     standing.reset();
+    drop_refresh();
   }
   for (const auto& [index, stiffness] : given_stiffness) {
     const auto& nodes = system->model.shells[static_cast<std::size_t>(index)].node;
@@ -167,7 +169,7 @@ void Reanalysis::State::apply_shells(std::vector<int>& touched) {
                                        : std::all_of(nodes.begin(), nodes.end(), node_stands);
     const char stands = shell_removed[i] == 0 && on_standing_nodes ? 1 : 0;
     if (stands == system->shell_stands[i]) continue;
-    if (standing) standing->remember_shell(index);
+    tell_standing([&](StandingFactor& one) { one.remember_shell(index); });
     system->shell_stands[i] = stands;
     if (stands != 0 && restricted) restricted->forget_uses();
     touched.insert(touched.end(), nodes.begin(), nodes.end());

@@ -81,15 +81,18 @@ std::optional<Defect> Reanalysis::State::update_structure(const std::vector<int>
   } else {
     defect = system->defect();
   }
-  if (standing) standing->touch(touched);
+  tell_standing([&](StandingFactor& one) { one.touch(touched); });
   stale_nodes.insert(stale_nodes.end(), touched.begin(), touched.end());
   if (defect) return defect;
   if (system->dofs().equations == 0) {  // everything is held: nothing to factorise, every answer is exact
     structure_stands = factor_valid = true;
     return std::nullopt;
   }
-  if (correct_factor(touched, defect)) {
+  if (refresh && refresh_paid >= refresh_due) (void)take_refreshed();
+  // Beyond what a correction can do, a factor that is under way comes sooner than one begun now.
+  if (correct_factor(touched, defect) || (refresh && take_refreshed() && correct_factor(touched, defect))) {
     structure_stands = !defect;
+    if (structure_stands) begin_refresh_if_due();
     return defect;
   }
   defect = refactorise();
@@ -100,8 +103,7 @@ std::optional<Defect> Reanalysis::State::update_structure(const std::vector<int>
 bool Reanalysis::State::correct_factor(const std::vector<int>& touched, std::optional<Defect>& defect) {
   if (!standing || condition > ill_conditioned) return false;
   const StandingFactor::Plan plan = standing->plan();
-  const double anew = factor->operations() + solves_with_factor * solve_cost * static_cast<double>(factor->entries());
-  if (!plan.possible || plan.rank > most_columns || plan.operations > anew) return false;
+  if (!plan.possible || plan.rank > most_columns || plan.operations > factor_operations()) return false;
   standing->update();
   operations += plan.operations;
   answer.nearly_unstable = false;
@@ -120,15 +122,20 @@ bool Reanalysis::State::correct_factor(const std::vector<int>& touched, std::opt
   return true;
 }
 
+double Reanalysis::State::factor_operations() const {
+  return factor->operations() + solves_with_factor * solve_cost * static_cast<double>(factor->entries());
+}
+
 std::optional<Defect> Reanalysis::State::refactorise() {
   complete(nullptr);
+  drop_refresh();
   factor_valid = false;
   restricted.reset();
   standing.reset();
   first_solution.resize(0);
   if (!factor) {
-    factor =
-        std::make_unique<Factor>(system->matrix(), system->elimination_order(), options.factorisation, options.threads);
+    order = system->elimination_order();
+    factor = std::make_unique<Factor>(system->matrix(), order, options.factorisation, options.threads);
     rows = std::make_unique<MatrixRows>(system->matrix());
     ++counters.orderings;
   } else {
@@ -140,7 +147,11 @@ std::optional<Defect> Reanalysis::State::refactorise() {
   factor_valid = true;
   condition = stability.condition > 0 ? stability.condition : estimate_condition(system->matrix(), linear_solve());
   answer.nearly_unstable = stability.nearly_unstable || 1 / condition < options.warning_limit;
-  if (!answer.nearly_unstable) standing = std::make_unique<StandingFactor>(*system, *factor);
+  refresh_failed = answer.nearly_unstable;
+  if (!answer.nearly_unstable) {
+    standing = std::make_unique<StandingFactor>(*system);
+    standing->serve(*factor);
+  }
   return std::nullopt;
 }
 
@@ -222,7 +233,8 @@ void Reanalysis::State::find_changed_rows(const Eigen::VectorXd& force) {
 }
 
 /// From the last answer on: what does not fit any longer is solved for and added, until the error is at rounding level.
-void Reanalysis::State::refine(const Eigen::VectorXd& force) {
+int Reanalysis::State::refine(const Eigen::VectorXd& force) {
+  if (take_expected(force)) return answer.quality.refinements;
   const SparseSymmetric& K = system->matrix();
   if (solution.size() != force.size()) {
     solution = Eigen::VectorXd::Zero(force.size());
@@ -237,6 +249,7 @@ void Reanalysis::State::refine(const Eigen::VectorXd& force) {
     }
   }
   improve(force, true);
+  return 1 + answer.quality.refinements;
 }
 
 /// Solves for the residual in `correction` and adds it, again and again. On the `first` step there is no error known
@@ -288,8 +301,7 @@ bool Reanalysis::State::solve_loads() {
     answer.quality = refined.quality[0];
   } else {
     if (as_factorised && first_solution.size() != n) solution.resize(0);  // a new factor starts anew
-    refine(force);
-    const double passes = 1 + answer.quality.refinements;
+    const double passes = refine(force);
     operations += passes * (standing->solve_operations() + 8.0 * static_cast<double>(system->matrix().row.size()));
     if (as_factorised && first_solution.size() != n) {
       first_solution = solution;
@@ -325,6 +337,7 @@ void Reanalysis::State::apply_changes() {
 const ReanalysisAnswer& Reanalysis::solve() { return state_->solve(nullptr); }
 
 const ReanalysisAnswer& Reanalysis::State::solve(UseWatch* watch) {
+  refresh_paid += operations;
   operations = 0;
   if (!pending()) {
     ++counters.unchanged;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "factor.h"
+#include "factor_refresh.h"
 #include "frame_system.h"
 #include "matrix_rows.h"
 #include "mechanism.h"
@@ -28,10 +29,16 @@ struct BeamTarget {
 struct Reanalysis::State {
   std::unique_ptr<FrameSystem> system;
   AnalysisOptions options;
+  std::vector<int> order;  ///< of elimination
   std::unique_ptr<Factor> factor;
   std::unique_ptr<MatrixRows> rows;              ///< of the system's matrix; made with its order
   std::unique_ptr<StandingFactor> standing;      ///< none while there is no valid factor
   std::unique_ptr<RestrictedAnswer> restricted;  ///< over the standing factor; made when first asked for
+  RefreshRules refresh_rules;
+  std::unique_ptr<StandingFactor> next;      ///< remembers the changes since the refresh was begun
+  std::unique_ptr<FactorRefresh> refresh;    ///< the factor that `next` is to serve with
+  double refresh_paid = 0, refresh_due = 0;  ///< operations of answers since then; those after which it takes over
+  bool refresh_failed = false;               ///< not to be tried again before there is another factor
   bool assembled = false, factor_valid = false;
   bool structure_stands = false;  ///< the structure as it is was judged, and is stable
 
@@ -68,6 +75,8 @@ struct Reanalysis::State {
   mutable std::vector<Vec6> reactions;
   ReanalysisCounters counters;
   double operations = 0;
+  /// Answers found beforehand: as everything stands (beam -1), and without one beam.
+  std::vector<std::pair<int, Eigen::VectorXd>> expected;
   // Scratch of solve(): once grown, an answer asks for no memory.
   std::vector<int> touched_nodes, rows_to_change;
   Eigen::VectorXd scaled_force, correction, improved, eliminated;
@@ -88,12 +97,28 @@ struct Reanalysis::State {
   /// The rung below a new factor. False: not worth it, or it cannot decide.
   [[nodiscard]] bool correct_factor(const std::vector<int>& touched, std::optional<Defect>& defect);
   [[nodiscard]] std::optional<Defect> refactorise();
+  /// Operations of a new factor with the estimate of its condition.
+  [[nodiscard]] double factor_operations() const;
+  void begin_refresh_if_due();
+  /// The new factor takes over. False: there is none.
+  [[nodiscard]] bool take_refreshed();
+  void drop_refresh();
+  template <class Tell>
+  void tell_standing(const Tell& tell) {
+    if (standing) tell(*standing);
+    if (next) tell(*next);
+  }
   void update_load();
   void sum_up_load();
   void sum_up_load_at(int node);
   /// False when refinement does not reach rounding level.
   [[nodiscard]] bool solve_loads();
-  void refine(const Eigen::VectorXd& force);
+  /// Returns how often the factor was gone through.
+  int refine(const Eigen::VectorXd& force);
+  /// Starts from the answer that was found beforehand for what stands now. False: there is none.
+  [[nodiscard]] bool take_expected(const Eigen::VectorXd& force);
+  void expect_losses(std::span<const int> beams);
+  [[nodiscard]] StandingFactor::Loss residual_without(int beam);
   void improve(const Eigen::VectorXd& force, bool first);
   void find_changed_rows(const Eigen::VectorXd& force);
   void add_rows_of(const std::vector<int>& nodes);

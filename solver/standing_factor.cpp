@@ -19,8 +19,7 @@ void sort_unique(std::vector<int>& values) {
 
 }  // namespace
 
-StandingFactor::StandingFactor(const FrameSystem& system, const Factor& factor)
-    : system_(system), solver_(factor), correction_(solver_) {
+StandingFactor::StandingFactor(const FrameSystem& system) : system_(system) {
   for (int node = 0; node < static_cast<int>(system.model.nodes.size()); ++node) {
     if (system.dofs().diaphragm_of_node[static_cast<std::size_t>(node)] >= 0) {
       diaphragm_node_before_.emplace(node, system.supports_and_inert_rotations(node));
@@ -29,6 +28,11 @@ StandingFactor::StandingFactor(const FrameSystem& system, const Factor& factor)
     const auto own = system.own_stiffness(node);
     if ((own.array() != 0).any()) node_before_.emplace(node, own);
   }
+}
+
+void StandingFactor::serve(const Factor& factor) {
+  solver_.emplace(factor);
+  correction_.emplace(*solver_);
 }
 
 void StandingFactor::remember_beam(int beam) {
@@ -169,23 +173,23 @@ StandingFactor::Plan StandingFactor::plan() {
     plan.rank += static_cast<int>(wanted.D.cols());
     if (place_.contains(key)) continue;
     const ElementModes m = modes(key);
-    const EliminationPath path = solver_.path(m.rows);
+    const EliminationPath path = solver_->path(m.rows);
     const auto columns = static_cast<double>(wanted.D.cols());
-    path_cost += column_cost * columns * solver_.entries(path);
+    path_cost += column_cost * columns * solver_->entries(path);
     path_cost += product_cost * columns * path.rows() * (plan.rank + columns);
     new_rows.insert(new_rows.end(), m.rows.begin(), m.rows.end());
     new_columns += columns;
   }
   // Blocks that several paths share are read once.
-  if (new_columns > 0) path_cost += entry_cost * solver_.entries_on_paths(new_rows, marked_);
+  if (new_columns > 0) path_cost += entry_cost * solver_->entries_on_paths(new_rows, marked_);
   const double rank = plan.rank;
   plan.operations = path_cost + dense_cost * rank * rank * rank + solve_operations();
   return plan;
 }
 
 /// What was restored is as the factor has it: no need to look at it again until it changes again.
-void StandingFactor::forget_unchanged() {
-  const std::vector<int> number = correction_.forget_unchanged();
+void StandingFactor::forget_unchanged(std::optional<Eigen::Index> kept) {
+  const std::vector<int> number = kept ? correction_->forget_unchanged(*kept) : correction_->forget_unchanged();
   if (number.empty()) return;
   for (auto place = place_.begin(); place != place_.end();) {
     place->second = number[static_cast<std::size_t>(place->second)];
@@ -205,35 +209,35 @@ void StandingFactor::forget_unchanged() {
 void StandingFactor::update() {
   for (const auto& [key, place] : place_) {
     Wanted& wanted = wanted_.at(key);
-    if (!wanted.set) correction_.set(place, wanted.D);
+    if (!wanted.set) correction_->set(place, wanted.D);
     wanted.set = true;
   }
   forget_unchanged();
   for (const auto& [key, wanted] : wanted_) {
     if (wanted.set || !wanted.active()) continue;
     const ElementModes m = modes(key);
-    place_.emplace(key, correction_.add(m.rows, m.B));
+    place_.emplace(key, correction_->add(m.rows, m.B));
   }
-  correction_.finish_adding();
+  correction_->finish_adding();
   for (const auto& [key, place] : place_) {
     Wanted& wanted = wanted_.at(key);
-    if (!wanted.set) correction_.set(place, wanted.D);
+    if (!wanted.set) correction_->set(place, wanted.D);
     wanted.set = true;
   }
-  correction_.update();
+  correction_->update();
 }
 
 void StandingFactor::solve(Eigen::VectorXd& x, const std::vector<int>* rows) const {
-  solver_.permute(x, eliminated_);
+  solver_->permute(x, eliminated_);
   if (rows != nullptr) {
-    solver_.mark_paths(*rows, marked_);
-    solver_.forward(eliminated_, &marked_);
+    solver_->mark_paths(*rows, marked_);
+    solver_->forward(eliminated_, &marked_);
   } else {
-    solver_.forward(eliminated_);
+    solver_->forward(eliminated_);
   }
-  correction_.correct(eliminated_);
-  solver_.backward(eliminated_);
-  solver_.restore(eliminated_, x);
+  correction_->correct(eliminated_);
+  solver_->backward(eliminated_);
+  solver_->restore(eliminated_, x);
   forget_dropped(x);
 }
 
@@ -245,37 +249,80 @@ void StandingFactor::forget_dropped(Eigen::VectorXd& x) const {
 }
 
 void StandingFactor::solve_on_paths(Eigen::VectorXd& x, const std::vector<int>& rows, std::vector<char>& known) const {
-  solver_.permute(x, eliminated_);
-  solver_.mark_paths(rows, marked_);
-  solver_.forward(eliminated_, &marked_);
-  correction_.correct(eliminated_);
-  solver_.backward(eliminated_, &marked_);
-  solver_.restore(eliminated_, x);
+  solver_->permute(x, eliminated_);
+  solver_->mark_paths(rows, marked_);
+  solver_->forward(eliminated_, &marked_);
+  correction_->correct(eliminated_);
+  solver_->backward(eliminated_, &marked_);
+  solver_->restore(eliminated_, x);
   known.resize(static_cast<std::size_t>(x.size()));
   for (Eigen::Index row = 0; row < x.size(); ++row) {
-    known[static_cast<std::size_t>(row)] = marked_[static_cast<std::size_t>(solver_.block_of(static_cast<int>(row)))];
+    known[static_cast<std::size_t>(row)] = marked_[static_cast<std::size_t>(solver_->block_of(static_cast<int>(row)))];
     if (known[static_cast<std::size_t>(row)] == 0) x(row) = 0;
   }
   forget_dropped(x);
 }
 
 void StandingFactor::forward(const Eigen::VectorXd& x, const std::vector<char>& marked, Eigen::VectorXd& y) const {
-  solver_.permute(x, y);
-  solver_.forward(y, &marked);
-  correction_.correct(y);
+  solver_->permute(x, y);
+  solver_->forward(y, &marked);
+  correction_->correct(y);
+}
+
+Eigen::MatrixXd StandingFactor::solve_without(std::span<const Loss> losses) {
+  forget_unchanged(0);
+  std::vector<int> places;
+  std::vector<Eigen::MatrixXd> y;
+  for (const Loss& loss : losses) {
+    ElementModes m = beam_modes(system_, loss.beam);
+    // Every row of the residual on one path with those of the modes.
+    const auto own = m.B.rows();
+    m.B.conservativeResize(own + static_cast<Eigen::Index>(loss.rows.size()), Eigen::NoChange);
+    m.B.bottomRows(static_cast<Eigen::Index>(loss.rows.size())).setZero();
+    m.rows.insert(m.rows.end(), loss.rows.begin(), loss.rows.end());
+    places.push_back(correction_->add(m.rows, m.B));
+    const Key key{Kind::beam, loss.beam};
+    place_.emplace(key, places.back());
+    wanted_.insert_or_assign(key, Wanted{Mat6::Zero(), true});
+    const EliminationPath& path = correction_->path(places.back());
+    Eigen::MatrixXd column = Eigen::MatrixXd::Zero(path.rows(), 1);
+    for (std::size_t i = 0; i < loss.rows.size(); ++i)
+      column(solver_->row_on_path(path, loss.rows[i])) = loss.residual(static_cast<Eigen::Index>(i));
+    y.push_back(std::move(column));
+  }
+  std::vector<PathColumns> also;
+  for (std::size_t j = 0; j < losses.size(); ++j) also.push_back({&correction_->path(places[j]), &y[j]});
+  correction_->finish_adding(also);
+  Eigen::MatrixXd Y = Eigen::MatrixXd::Zero(solver_->size(), std::ssize(losses));
+  Eigen::VectorXd on_path, whole;
+  for (std::size_t j = 0; j < losses.size(); ++j) {
+    on_path = y[j].col(0);
+    if (!correction_->correct_alone(places[j], -beam_mode_stiffness(system_, losses[j].beam), on_path)) continue;
+    whole.setZero(solver_->size());
+    on_path = -on_path;
+    solver_->subtract(correction_->path(places[j]), on_path.data(), whole);
+    Y.col(static_cast<Eigen::Index>(j)) = whole;
+  }
+  solver_->backward(Y);
+  for (Eigen::Index j = 0; j < Y.cols(); ++j) {
+    on_path = Y.col(j);
+    solver_->restore(on_path, whole);
+    Y.col(j) = whole;
+  }
+  return Y;
 }
 
 Eigen::VectorXd StandingFactor::softest_motion() const {
-  Eigen::VectorXd y = correction_.softest_motion(), x;
-  solver_.backward(y);
-  solver_.restore(y, x);
+  Eigen::VectorXd y = correction_->softest_motion(), x;
+  solver_->backward(y);
+  solver_->restore(y, x);
   const double norm = x.norm();
   if (norm > 0) x /= norm;
   return x;
 }
 
 double StandingFactor::solve_operations() const {
-  return 2 * entry_cost * solver_.entries() + 4 * correction_.entries();
+  return 2 * entry_cost * solver_->entries() + 4 * correction_->entries();
 }
 
 }  // namespace topple::solver

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,8 +22,11 @@ namespace topple::solver {
 
 class StandingFactor {
  public:
-  /// `factor` holds the system's matrix as it is now. Both must outlive this.
-  StandingFactor(const FrameSystem& system, const Factor& factor);
+  /// From now on it can be told of changes; the factor of the system's matrix as it is now may come later. The system
+  /// must outlive this.
+  explicit StandingFactor(const FrameSystem& system);
+  /// That factor, which must outlive this. Only now it can plan and solve.
+  void serve(const Factor& factor);
 
   // To be told before the system changes.
   void remember_beam(int beam);
@@ -52,14 +56,24 @@ class StandingFactor {
   /// The same up to the backward solve: y, in elimination order, of which L^-T makes the answer. Rows as above, the
   /// blocks on their paths in `marked`.
   void forward(const Eigen::VectorXd& x, const std::vector<char>& marked, Eigen::VectorXd& y) const;
-  [[nodiscard]] const TriangularSolver& triangles() const { return solver_; }
+  /// A beam that will be taken away, and a right-hand side for the matrix without it: zero outside of these rows, those
+  /// of the beam's nodes.
+  struct Loss {
+    int beam;
+    std::vector<int> rows;
+    Eigen::VectorXd residual;
+  };
+  /// The answers to all of them, a column each (zero where the matrix without the beam is singular), the factor gone
+  /// through together. Only while nothing differs from when it was made; the corrections are kept for what follows.
+  [[nodiscard]] Eigen::MatrixXd solve_without(std::span<const Loss> losses);
+  [[nodiscard]] const TriangularSolver& triangles() const { return *solver_; }
   /// The softest motion of the changed structure relative to that of the factor (scaled equations), and by what factor
   /// it is softer than there.
   [[nodiscard]] Eigen::VectorXd softest_motion() const;
-  [[nodiscard]] double softening() const { return correction_.softening(); }
+  [[nodiscard]] double softening() const { return correction_->softening(); }
   /// Whether anything differs from when the factor was made.
-  [[nodiscard]] bool changed() const { return correction_.active_rank() > 0 || !dropped_.empty(); }
-  [[nodiscard]] int rank() const { return correction_.active_rank(); }
+  [[nodiscard]] bool changed() const { return correction_->active_rank() > 0 || !dropped_.empty(); }
+  [[nodiscard]] int rank() const { return correction_->active_rank(); }
   /// Operations of one answer.
   [[nodiscard]] double solve_operations() const;
 
@@ -76,14 +90,14 @@ class StandingFactor {
   bool plan_nodes();
   void plan_grounds();
   void want(Key key, const Eigen::Ref<const Eigen::MatrixXd>& D);
-  void forget_unchanged();
+  void forget_unchanged(std::optional<Eigen::Index> kept = {});
   void forget_dropped(Eigen::VectorXd& x) const;
   [[nodiscard]] bool inside_dropped(std::span<const int> nodes) const;
   [[nodiscard]] ElementModes modes(Key key) const;
 
   const FrameSystem& system_;
-  TriangularSolver solver_;
-  LowRankCorrection correction_;
+  std::optional<TriangularSolver> solver_;
+  std::optional<LowRankCorrection> correction_;
   std::map<int, Mat6> beam_before_;
   std::map<int, char> shell_before_;
   std::map<int, Mat24> shell_stiffness_;

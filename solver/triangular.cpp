@@ -274,6 +274,35 @@ void TriangularSolver::backward(Eigen::VectorXd& y, const std::vector<char>* mar
   }
 }
 
+void TriangularSolver::backward(Eigen::MatrixXd& y) const {
+  const int count = static_cast<int>(y.cols());
+  const std::ptrdiff_t stride = y.rows();
+  const std::size_t needed = below_.size() * static_cast<std::size_t>(count);
+  std::vector<double> right(needed);
+  for (std::size_t b = parent_.size(); b-- > 0;) {
+    const Block block{value_.data() + value_start_[b], static_cast<int>(first_[b + 1] - first_[b]),
+                      static_cast<int>(row_start_[b + 1] - row_start_[b])};
+    const std::int64_t* rows = row_.data() + row_start_[b] + block.columns;
+    const int below_rows = block.below();
+    for (int c = 0; c < count; ++c) {
+      const double* from = y.data() + c * stride;
+      double* to = right.data() + static_cast<std::ptrdiff_t>(c) * below_rows;
+      for (int i = 0; i < below_rows; ++i) to[i] = from[rows[i]];
+    }
+    double* x = y.data() + first_[b];
+    const int ld = static_cast<int>(stride);
+    if (block.small()) {
+      for (int c = 0; c < count; ++c)
+        backward_block(block, x + c * stride, right.data() + static_cast<std::ptrdiff_t>(c) * below_rows);
+      continue;
+    }
+    if (below_rows > 0)
+      dgemm_("T", "N", &block.columns, &count, &below_rows, &minus, block.value + block.columns, &block.rows,
+             right.data(), &below_rows, &plus, x, &ld);
+    dtrsm_("L", "L", "T", "N", &block.columns, &count, &plus, block.value, &block.rows, x, &ld);
+  }
+}
+
 void TriangularSolver::forward(std::span<const PathColumns> groups) const {
   next_.assign(groups.size(), 0);
   for (;;) {

@@ -69,6 +69,8 @@ class TriangularSolver {
   /// y := L^-T y. With `marked`: these blocks alone, which are right whatever the rest of y holds when each one's
   /// parent is marked too.
   void backward(Eigen::VectorXd& y, const std::vector<char>* marked = nullptr) const;
+  /// The same for several columns, the factor gone through once.
+  void backward(Eigen::MatrixXd& y) const;
   /// B := L^-1 B for each B. Blocks that several paths share are gone through once, with all their columns together.
   void forward(std::span<const PathColumns> groups) const;
   /// The row of the path at which an equation of the matrix stands.

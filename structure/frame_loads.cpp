@@ -47,7 +47,8 @@ FrameLoads::FrameLoads(const Building& building, PartLoads loads, const PanelBea
       handed_(building.panels.size()),
       handing_members_(building.members.size()),
       handing_nodes_(building.nodes.size()),
-      events_(building.nodes.size(), Vec6::Zero()) {
+      events_(building.nodes.size(), Vec6::Zero()),
+      edges_version_(building.panels.size(), 0) {
   const double g = building.gravity;
   for (std::size_t m = 0; m < building.members.size(); ++m) {
     double down = 0;
@@ -105,6 +106,7 @@ void FrameLoads::fracture(PanelId panel, const PanelRemains& remains) {
 
 void FrameLoads::hand_on_anew(PanelId panel) {
   const std::size_t p = index_of(panel);
+  ++edges_version_[p];
   if (!bearings_.serves(panel)) {
     hand_on_shell(panel);
     return;
@@ -137,6 +139,7 @@ void FrameLoads::mark(const HandOver& handed) {
 void FrameLoads::mark(const PlacedLoad& placed) {
   for (const auto& [member, load] : placed.members) changed_members_.push_back(member);
   for (const auto& [node, load] : placed.nodes) changed_nodes_.push_back(node);
+  if (placed.panel.valid()) ++edges_version_[index_of(placed.panel)];
 }
 
 void FrameLoads::set_gravity(const Vec3& gravity) {

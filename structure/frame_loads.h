@@ -71,6 +71,8 @@ class FrameLoads {
   [[nodiscard]] const std::map<std::int64_t, PlacedLoad>& contacts() const { return contacts_; }
   /// Force that a panel hands to one of its edges, contacts on it included, global axes.
   [[nodiscard]] Vec3 edge_force(PanelId panel, int edge) const;
+  /// Another number whenever what the panel hands to its edges, or the edges that bear it, may have changed.
+  [[nodiscard]] int edges_version(PanelId panel) const { return edges_version_[static_cast<std::size_t>(panel.index)]; }
 
  private:
   [[nodiscard]] solver::BeamLoad under_gravity(MemberId member, solver::BeamLoad load) const;
@@ -94,6 +96,7 @@ class FrameLoads {
   std::map<PanelId, std::vector<std::vector<Vec2>>> holes_;  ///< of broken panels
   std::vector<double> whole_panel_mass_;
   std::vector<double> member_mass_, panel_mass_, node_mass_;
+  std::vector<int> edges_version_;
   std::vector<MemberId> changed_members_;
   std::vector<NodeId> changed_nodes_;
 };

@@ -187,14 +187,6 @@ void FrameStatics::forget(int number) {
   component.gone = true;
 }
 
-void FrameStatics::read_end_forces(int number) {
-  const Component& component = components_[static_cast<std::size_t>(number)];
-  for (MemberId member : component.members)
-    end_forces_[index(member)] = component.analysis->beam_end_forces(member_place_[index(member)].local);
-  for (const auto& [member, hinges] : hinges_)
-    if (member_place_[index(member)].component == number) end_forces_[index(member)] += hinges.held;
-}
-
 const solver::Shell& FrameStatics::shell(PanelId membrane) const {
   const Place& place = membrane_place_[index(membrane)];
   return at(place).model().shells[static_cast<std::size_t>(place.local)];
@@ -207,17 +199,98 @@ const Mat24* FrameStatics::given_stiffness(PanelId panel) const {
   return found == given.end() ? nullptr : &found->second;
 }
 
+/// A component's beams and shells as members and membranes.
+class FrameStatics::Adapter : public solver::UseWatch {
+ public:
+  Adapter(FrameStatics& statics, const Component& component, MemberWatch& watch)
+      : statics_(statics), component_(component), watch_(watch) {}
+  double beam_use(int beam) override {
+    const MemberId member = component_.members[static_cast<std::size_t>(beam)];
+    statics_.read_end_forces(component_, member);
+    return watch_.member_use(member, statics_.end_forces_[index(member)]);
+  }
+  double shell_use(int shell) override {
+    return watch_.membrane_use(component_.membranes[static_cast<std::size_t>(shell)],
+                               component_.analysis->shell_corner_forces(shell));
+  }
+  double beam_growth(int beam, const double (&root)[12]) override {
+    return watch_.member_growth(component_.members[static_cast<std::size_t>(beam)],
+                                Eigen::Map<const solver::Vec12>(root));
+  }
+  double shell_growth(int shell, const double (&root)[24]) override {
+    std::array<Vec6, 4> corners;
+    for (std::size_t corner = 0; corner < 4; ++corner) corners[corner] = Eigen::Map<const Vec6>(root + 6 * corner);
+    return watch_.membrane_growth(component_.membranes[static_cast<std::size_t>(shell)], corners);
+  }
+
+ private:
+  FrameStatics& statics_;
+  const Component& component_;
+  MemberWatch& watch_;
+};
+
 std::optional<FrameMechanism> FrameStatics::solve(int number) {
   Component& component = components_[static_cast<std::size_t>(number)];
   const solver::ReanalysisAnswer& answer = component.analysis->solve();
-  operations_ += component.analysis->last_operations();
-  component.changed = false;
   if (answer.stable) {
-    read_end_forces(number);
+    read_end_forces(component);
+    operations_ += component.analysis->last_operations();
     if (second_order_) component.diverged = !displace(number);
     component.changed = false;
     return std::nullopt;
   }
+  return told(number, answer);
+}
+
+std::optional<FrameMechanism> FrameStatics::solve(int number, MemberWatch& watch) {
+  Component& component = components_[static_cast<std::size_t>(number)];
+  Adapter adapter(*this, component, watch);
+  const solver::ReanalysisAnswer& answer = component.analysis->solve(adapter);
+  if (answer.stable) {
+    component.partial = component.analysis->restricted_effort().restricted;
+    // A factor in the warning band serves no restricted answers, and nothing was read.
+    if (!component.partial && !component.analysis->uses_known()) {
+      for (std::size_t beam = 0; beam < component.members.size(); ++beam)
+        (void)adapter.beam_use(static_cast<int>(beam));
+      for (std::size_t shell = 0; shell < component.membranes.size(); ++shell)
+        (void)adapter.shell_use(static_cast<int>(shell));
+    }
+  }
+  return told(number, answer);
+}
+
+void FrameStatics::complete(int number, MemberWatch& watch) {
+  Component& component = components_[static_cast<std::size_t>(number)];
+  if (!component.partial) return;
+  Adapter adapter(*this, component, watch);
+  component.analysis->complete(&adapter);
+  component.partial = false;
+}
+
+void FrameStatics::read_end_forces(const Component& component, MemberId member) const {
+  end_forces_[index(member)] = component.analysis->beam_end_forces(member_place_[index(member)].local);
+  const auto found = hinges_.find(member);
+  if (found != hinges_.end()) end_forces_[index(member)] += found->second.held;
+}
+
+void FrameStatics::read_end_forces(int number) { read_end_forces(parts(number)); }
+
+void FrameStatics::read_end_forces(const Component& component) const {
+  for (MemberId member : component.members) read_end_forces(component, member);
+  component.partial = false;
+}
+
+const solver::Vec12& FrameStatics::end_forces(MemberId member) const {
+  const Component& component = parts(member_place_[index(member)].component);
+  if (component.partial) read_end_forces(component);
+  return end_forces_[index(member)];
+}
+
+std::optional<FrameMechanism> FrameStatics::told(int number, const solver::ReanalysisAnswer& answer) {
+  Component& component = components_[static_cast<std::size_t>(number)];
+  operations_ += component.analysis->last_operations();
+  component.changed = false;
+  if (answer.stable) return std::nullopt;
   component.changed = true;
   FrameMechanism mechanism;
   mechanism.motion.assign(node_place_.size(), Vec6::Zero());
@@ -321,6 +394,11 @@ solver::ReanalysisCounters FrameStatics::counters() const {
     sum.low_rank += one.low_rank;
     sum.refactorisations += one.refactorisations;
     sum.orderings += one.orderings;
+    sum.background_factors += one.background_factors;
+    sum.late_factors += one.late_factors;
+    sum.restricted += one.restricted;
+    sum.beams_visited += one.beams_visited;
+    sum.beams_left += one.beams_left;
   }
   return sum;
 }

@@ -19,6 +19,19 @@ struct FrameMechanism {
   std::vector<Vec6> motion;
 };
 
+/// What a restricted answer must not leave out (solver::UseWatch), in the building's ids.
+class MemberWatch {
+ public:
+  virtual ~MemberWatch() = default;
+  /// The member's end forces (the membrane's corner forces) were brought up to date: reads them; the largest use. No
+  /// other may be asked for meanwhile.
+  [[nodiscard]] virtual double member_use(MemberId member, const solver::Vec12& end_forces) = 0;
+  [[nodiscard]] virtual double membrane_use(PanelId membrane, const std::array<Vec6, 4>& corner_forces) = 0;
+  /// As UseWatch's growths.
+  [[nodiscard]] virtual double member_growth(MemberId member, const solver::Vec12& root) = 0;
+  [[nodiscard]] virtual double membrane_growth(PanelId membrane, const std::array<Vec6, 4>& root) = 0;
+};
+
 class FrameStatics {
  public:
   FrameStatics(const Building& building, const PanelSuperelements& shells, int threads);
@@ -64,13 +77,21 @@ class FrameStatics {
   [[nodiscard]] std::optional<FrameMechanism> solve(int component);
   void use_second_order() { second_order_ = true; }
   [[nodiscard]] bool diverged(int component) const { return parts(component).diverged; }
+  /// The same where the watch's uses may matter. What is asked for later makes the answer whole.
+  [[nodiscard]] std::optional<FrameMechanism> solve(int component, MemberWatch& watch);
+  /// Makes the answer whole; the watch reads what was left out.
+  void complete(int component, MemberWatch& watch);
+  /// Something was left out of the component's answer.
+  [[nodiscard]] bool partial(int component) const { return parts(component).partial; }
+  /// Capacities changed, or what uses are counted from.
+  void forget_uses(int component) { components_[static_cast<std::size_t>(component)].analysis->forget_uses(); }
   /// Nothing of the component stands: there is nothing to solve.
   void forget(int component);
 
   // The answer as solved last.
   [[nodiscard]] const Vec6& displacement(NodeId node) const;
   /// What flowing hinges hold included. They outlive a mechanism that solve() finds later.
-  [[nodiscard]] const solver::Vec12& end_forces(MemberId member) const { return end_forces_[index(member)]; }
+  [[nodiscard]] const solver::Vec12& end_forces(MemberId member) const;
   /// As it is now, weakened E and G included.
   [[nodiscard]] solver::Beam beam(MemberId member) const;
   [[nodiscard]] double stiffness(MemberId member) const { return member_stiffness_[index(member)]; }
@@ -134,6 +155,7 @@ class FrameStatics {
     std::vector<PanelId> membranes;  ///< and shells
     std::unique_ptr<solver::Reanalysis> analysis;
     bool changed = true, gone = false, diverged = false;
+    mutable bool partial = false;  ///< end_forces_ of some members are behind
   };
   template <class Tag>
   static std::size_t index(Id<Tag> id) {
@@ -155,12 +177,17 @@ class FrameStatics {
   [[nodiscard]] std::vector<solver::BeamLoad> with_hinges(MemberId member, std::vector<solver::BeamLoad> loads) const;
   void set_hinge(MemberId member, int end, int axis, double stiffness, double held, double slip);
   [[nodiscard]] const solver::Reanalysis& at(const Place& place) const;
+  class Adapter;
+  std::optional<FrameMechanism> told(int component, const solver::ReanalysisAnswer& answer);
+  void read_end_forces(const Component& component, MemberId member) const;
+  void read_end_forces(const Component& component) const;
   std::vector<solver::FrameModel> split(const Building& building, const Frame& frame);
 
   std::vector<Place> node_place_, member_place_, membrane_place_, support_place_;
   std::vector<NodeId> support_node_;
-  std::vector<char> stiff_;  ///< per panel
-  std::vector<solver::Vec12> end_forces_, stiffness_diagonal_;
+  std::vector<char> stiff_;                        ///< per panel
+  mutable std::vector<solver::Vec12> end_forces_;  ///< of a partial answer, as far as they were asked for
+  std::vector<solver::Vec12> stiffness_diagonal_;
   std::vector<double> member_stiffness_;  ///< factors
   std::vector<Component> components_;
   std::map<MemberId, Hinges> hinges_;

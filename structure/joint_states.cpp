@@ -10,11 +10,14 @@ JointStates::JointStates(const Building& building, double sudden)
       demand_(building.joints.size(), Vec6::Zero()),
       reference_(building.joints.size(), Vec6::Zero()),
       strength_(building.joints.size(), 1.0),
-      largest_(building.joints.size(), 0.0) {
+      largest_(building.joints.size(), 0.0),
+      felt_(building.joints.size()),
+      felt_known_(building.joints.size(), 0) {
   for (std::size_t j = 0; j < building.joints.size(); ++j) capacity_changed(JointId(j));
 }
 
 void JointStates::capacity_changed(JointId joint) {
+  forget(joint);
   const JointCapacity& all = building_[joint].capacity;
   JointCapacity brittle = all;
   for (std::size_t sense = 0; sense < brittle.value.size(); ++sense)
@@ -45,20 +48,27 @@ void JointStates::set_slow_demand(JointId joint, const Vec6& demand) {
   // With equal R and R0 the two stay the same to the bit.
   reference_[j] = reference_[j] == demand_[j] ? demand : Vec6(reference_[j] + (demand - demand_[j]));
   demand_[j] = demand;
+  forget(joint);
 }
 
 void JointStates::lose(JointId joint) {
   demand_[index(joint)].setZero();
   reference_[index(joint)].setZero();
+  forget(joint);
 }
 
 Utilisation JointStates::utilisation(JointId joint) const { return used(joint, demand_[index(joint)]); }
 
-Utilisation JointStates::check(JointId joint) {
+const Utilisation& JointStates::felt(JointId joint) const {
   const std::size_t j = index(joint);
+  if (felt_known_[j] != 0) return felt_[j];
   const bool settled = sudden_ == 1.0 || reference_[j] == demand_[j];
-  const Utilisation now =
-      used(joint, settled ? demand_[j] : Vec6(reference_[j] + sudden_ * (demand_[j] - reference_[j])));
+  felt_known_[j] = 1;
+  return felt_[j] = used(joint, settled ? demand_[j] : Vec6(reference_[j] + sudden_ * (demand_[j] - reference_[j])));
+}
+
+Utilisation JointStates::check(JointId joint) {
+  const Utilisation now = felt(joint);
   remember(joint, now.value);
   return now;
 }

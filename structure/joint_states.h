@@ -15,19 +15,27 @@ class JointStates {
   JointStates(const Building& building, double sudden);
 
   /// Static demand as solved now.
-  void set_demand(JointId joint, const Vec6& demand) { demand_[index(joint)] = demand; }
+  void set_demand(JointId joint, const Vec6& demand) {
+    if (demand_[index(joint)] == demand) return;
+    demand_[index(joint)] = demand;
+    forget(joint);
+  }
   /// Static demand that came on slowly: the reference moves along with it.
   void set_slow_demand(JointId joint, const Vec6& demand);
   /// R0 moves by `part` of the way to R.
   void move_reference(JointId joint, double part) {
     Vec6& from = reference_[index(joint)];
     from += part * (demand_[index(joint)] - from);
+    forget(joint);
   }
   /// The joint transmits nothing from now on.
   void lose(JointId joint);
   /// The building's capacity of this joint is another one.
   void capacity_changed(JointId joint);
-  void set_strength(JointId joint, double factor) { strength_[index(joint)] = factor; }
+  void set_strength(JointId joint, double factor) {
+    strength_[index(joint)] = factor;
+    forget(joint);
+  }
 
   [[nodiscard]] const Vec6& demand(JointId joint) const { return demand_[index(joint)]; }
   [[nodiscard]] const Vec6& reference(JointId joint) const { return reference_[index(joint)]; }
@@ -41,20 +49,29 @@ class JointStates {
   [[nodiscard]] double strength(JointId joint) const { return strength_[index(joint)]; }
   /// Of the static demand.
   [[nodiscard]] Utilisation utilisation(JointId joint) const;
-  /// Of the demand that counts for breaking; remembers the largest.
+  /// Of the demand that counts for breaking. Found anew only when that or the capacity changed.
+  [[nodiscard]] const Utilisation& felt(JointId joint) const;
+  /// The same; remembers the largest.
   [[nodiscard]] Utilisation check(JointId joint);
   [[nodiscard]] double largest(JointId joint) const { return largest_[index(joint)]; }
   /// Nothing broke around this joint: R becomes R0.
-  void accept(JointId joint) { reference_[index(joint)] = demand_[index(joint)]; }
+  void accept(JointId joint) {
+    if (reference_[index(joint)] == demand_[index(joint)]) return;
+    reference_[index(joint)] = demand_[index(joint)];
+    forget(joint);
+  }
 
  private:
   static std::size_t index(JointId joint) { return static_cast<std::size_t>(joint.index); }
+  void forget(JointId joint) { felt_known_[index(joint)] = 0; }
 
   const Building& building_;
   double sudden_;
   std::vector<Vec6> demand_, reference_;
   std::vector<double> strength_, largest_;
   std::map<JointId, JointCapacity> brittle_;  ///< of ductile joints
+  mutable std::vector<Utilisation> felt_;
+  mutable std::vector<char> felt_known_;
 };
 
 }  // namespace topple::structure

@@ -65,17 +65,34 @@ PanelStress mean_membrane_stress(const Building& building, PanelId id, const std
   return stress;
 }
 
-std::array<Vec6, 4> membrane_edge_demands(const Building& building, PanelId id,
-                                          const std::array<Vec6, 4>& corner_forces) {
+PanelEdges panel_edges(const Building& building, PanelId id) {
   const Panel& panel = building[id];
-  const Mat3 stress = mean_membrane_force(building, panel, corner_forces);
+  PanelEdges edges;
+  for (std::size_t i = 0; i < 4; ++i) {
+    edges.corner[i] = building[panel.nodes[i]].position - building[panel.nodes[0]].position;
+    edges.axes[i] = edge_axes(building, panel, i);
+  }
+  edges.area = area(building, panel);
+  return edges;
+}
+
+std::array<Vec6, 4> membrane_edge_demands(const PanelEdges& edges, const std::array<Vec6, 4>& corner_forces) {
+  Mat3 virial = Mat3::Zero();
+  for (std::size_t corner = 0; corner < 4; ++corner)
+    virial += corner_forces[corner].head<3>() * edges.corner[corner].transpose();
+  const Mat3 stress = 0.5 * (virial + virial.transpose()) / edges.area;
   std::array<Vec6, 4> demands;
   for (std::size_t edge = 0; edge < 4; ++edge) {
-    const Mat3 axes = edge_axes(building, panel, edge);
+    const Mat3& axes = edges.axes[edge];
     const Vec3 traction = axes * (stress * axes.row(0).transpose());
     demands[edge] << traction(0), traction(1), 0, 0, 0, 0;
   }
   return demands;
+}
+
+std::array<Vec6, 4> membrane_edge_demands(const Building& building, PanelId id,
+                                          const std::array<Vec6, 4>& corner_forces) {
+  return membrane_edge_demands(panel_edges(building, id), corner_forces);
 }
 
 std::array<Vec6, 4> panel_edge_demands(const Building& building, const PanelBearings& bearings, const FrameLoads& loads,

@@ -14,7 +14,18 @@ namespace topple::structure {
                                                      const FrameLoads& loads, PanelId panel,
                                                      const std::optional<std::array<Vec6, 4>>& corner_forces);
 
+/// What the traction on a panel's edges is found from: corners seen from the first one, axes of the edges (rows:
+/// outwards, along, normal), area.
+struct PanelEdges {
+  std::array<Vec3, 4> corner;
+  std::array<Mat3, 4> axes;
+  double area = 0;
+};
+[[nodiscard]] PanelEdges panel_edges(const Building& building, PanelId panel);
+
 /// The same for the traction alone.
+[[nodiscard]] std::array<Vec6, 4> membrane_edge_demands(const PanelEdges& edges,
+                                                        const std::array<Vec6, 4>& corner_forces);
 [[nodiscard]] std::array<Vec6, 4> membrane_edge_demands(const Building& building, PanelId panel,
                                                         const std::array<Vec6, 4>& corner_forces);
 /// Principal values of the mean membrane stress (over the thickness), at the panel's centre.

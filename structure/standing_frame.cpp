@@ -34,6 +34,7 @@ StandingFrame::State::State(const Building& given, CombinationId combination, co
       bearings(given, edges),
       shells(given),
       loads(given, loads_to_stand(given, combination), bearings, shells),
+      edge_loads(given, bearings, loads),
       statics(given, shells, threads),
       joints(given, failure.sudden),
       ductile(given, statics, segments, bearings, applied),
@@ -42,6 +43,7 @@ StandingFrame::State::State(const Building& given, CombinationId combination, co
       node_applied(given.nodes.size(), Vec6::Zero()),
       account({given, segments, bearings, loads, statics, node_solved, applied}),
       checked_joints(static_cast<std::size_t>(statics.components())),
+      checked_edges(checked_joints.size()),
       component_panels(checked_joints.size()),
       to_check(checked_joints.size(), 1),
       critical_energies(checked_joints.size(), -1.0),
@@ -52,9 +54,12 @@ StandingFrame::State::State(const Building& given, CombinationId combination, co
   if (rules.bracing == BracingRule::buckling)
     buckling.emplace(building, statics, segments, bearings, applied, node_applied, node_solved);
   if (rules.second_order) statics.use_second_order();
-  for (std::size_t j = 0; j < building.joints.size(); ++j)
-    if (building.joints[j].capacity.breakable)
-      checked_joints[static_cast<std::size_t>(component(JointId(j)))].push_back(JointId(j));
+  for (std::size_t j = 0; j < building.joints.size(); ++j) {
+    if (!building.joints[j].capacity.breakable) continue;
+    const auto c = static_cast<std::size_t>(component(JointId(j)));
+    checked_joints[c].push_back(JointId(j));
+    if (!building.joints[j].member.valid()) checked_edges[c].push_back(JointId(j));
+  }
   for (std::size_t n = 0; n < building.nodes.size(); ++n)
     ++solved_nodes[static_cast<std::size_t>(statics.component(NodeId(n)))];
   for (std::size_t p = 0; p < building.panels.size(); ++p)
@@ -251,6 +256,7 @@ void StandingFrame::set_strength_factor(JointId joint, double factor) {
   if (!state.building[joint].capacity.breakable || state.joints.strength(joint) == factor) return;
   if (!(factor > 0)) return break_joint(joint, BreakCause::tool);
   state.joints.set_strength(joint, factor);
+  state.statics.forget_uses(state.component(joint));
   state.to_check[static_cast<std::size_t>(state.component(joint))] = 1;
   state.forget_bounds(state.component(joint));
   state.pending = true;
@@ -276,6 +282,8 @@ void StandingFrame::remove_contact_load(std::int64_t key) {
   state_->contacts.erase(key);
   if (state_->loads.remove_contact(key)) state_->pending = true;
 }
+
+void StandingFrame::restrict_answers_from(int nodes) { state_->restricted_from = nodes; }
 
 bool StandingFrame::pending() const { return state_->pending; }
 
@@ -303,6 +311,7 @@ std::vector<JointBreak> StandingFrame::settle(int generations, double operations
     state.snap_buckled();
     state.bring_up_to_date();
   }
+  state.complete();
   state.generation = 0;
   state.account.lines_are_out();
   return std::exchange(state.breaks, {});
@@ -332,6 +341,7 @@ double StandingFrame::break_in_impact(std::span<const JointBreak> breaks, const 
   for (const JointBreak& one : breaks) broken.push_back(one.joint);
   state.break_joints(broken, BreakCause::impact);
   state.bring_up_to_date();
+  state.complete();
   state.account.lines_are_out();
   // The caller knows its own breaks; what they brought with them is told by the next settle().
   std::erase_if(state.breaks, [](const JointBreak& one) { return one.cause == BreakCause::impact; });
@@ -353,6 +363,9 @@ const FrameCounters& StandingFrame::counters() const {
   counters.solves = solved.solves;
   counters.low_rank = solved.low_rank;
   counters.refactorisations = solved.refactorisations;
+  counters.restricted = solved.restricted;
+  counters.background_factors = solved.background_factors;
+  counters.late_factors = solved.late_factors;
   counters.unchanged = solved.unchanged + state_->idle_settles;
   counters.segmentations = state_->segments.searches();
   counters.vertices_searched = state_->segments.vertices_searched();

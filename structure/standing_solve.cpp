@@ -4,7 +4,7 @@
 
 #include "index_of.h"
 #include "placed_load.h"
-#include "standing_state.h"
+#include "standing_watch.h"
 
 namespace topple::structure {
 
@@ -70,38 +70,101 @@ bool StandingFrame::State::solve_changed() {
       statics.forget(c);
       continue;
     }
-    if (const auto mechanism = statics.solve(c)) {
+    if (const auto mechanism = solve(c)) {
       if (!swing(c, *mechanism)) release_mechanism(*mechanism);
       found = true;
       continue;
     }
-    read_demands(c, false);
     to_check[static_cast<std::size_t>(c)] = 1;
   }
   return found;
 }
 
+/// True when all that stands of the component is one segment, so that its largest use decides what breaks next.
+bool StandingFrame::State::one_segment(int c) const {
+  int only = -1;
+  for (const MemberId member : statics.members(c)) {
+    const int label = segments.label(member);
+    if (label < 0 || label == only) continue;
+    if (only >= 0) return false;
+    only = label;
+  }
+  return true;
+}
+
+/// What their edges bear follows from the displacements of all corners, which a restricted answer does not know.
+bool StandingFrame::State::has_shells(int c) const {
+  const std::vector<PanelId>& all = component_panels[static_cast<std::size_t>(c)];
+  return std::any_of(all.begin(), all.end(), [&](PanelId panel) { return !bearings.serves(panel) && stands(panel); });
+}
+
+/// Solves where it may matter to what breaks next, and reads what the joints there bear. A way on which joints yield
+/// needs all of them; where few nodes stand, telling them apart costs more than a whole answer.
+std::optional<FrameMechanism> StandingFrame::State::solve(int c) {
+  const bool large = static_cast<int>(statics.nodes(c).size()) >= restricted_from;
+  if (!large || rules.second_order || ductile.any(c) || has_shells(c) || !one_segment(c)) {
+    auto mechanism = statics.solve(c);
+    if (!mechanism) read_demands(c, false);
+    return mechanism;
+  }
+  forget_bounds(c);
+  Watch watch(*this);
+  auto mechanism = statics.solve(c, watch);
+  if (!mechanism) read_panel_demands(c, false);
+  return mechanism;
+}
+
+/// What is read from outside is whole.
+void StandingFrame::State::complete() {
+  for (int c = 0; c < statics.components(); ++c) complete(c);
+}
+
+/// The rest of what solve() read.
+void StandingFrame::State::complete(int c) {
+  if (!statics.partial(c)) return;
+  Watch watch(*this);
+  statics.complete(c, watch);
+  read_panel_demands(c, false);
+  for (const JointId joint : checked_joints[static_cast<std::size_t>(c)])
+    if (holds(joint) && label(joint) >= 0) (void)joints.check(joint);
+}
+
 void StandingFrame::State::read_demands(int c, bool slow) {
   forget_bounds(c);
-  const auto set = [&](JointId joint, const Vec6& demand) {
-    slow ? joints.set_slow_demand(joint, demand) : joints.set_demand(joint, demand);
-  };
   MemberId member_read;
   solver::Vec12 end_forces;
-  PanelId panel_read;
-  std::array<Vec6, 4> of_edges;
   for (JointId joint : checked_joints[static_cast<std::size_t>(c)]) {
-    if (!holds(joint) || label(joint) < 0) continue;
     const Joint& own = building[joint];
-    if (own.member.valid()) {
-      if (own.member != member_read) end_forces = statics.end_forces(own.member);
-      member_read = own.member;
-      set(joint, member_joint_demand(end_forces, own.end));
-    } else {
-      if (own.panel != panel_read) of_edges = edge_demands(own.panel);
-      panel_read = own.panel;
-      set(joint, of_edges[static_cast<std::size_t>(own.end)]);
+    if (!own.member.valid() || !holds(joint) || label(joint) < 0) continue;
+    if (own.member != member_read) end_forces = statics.end_forces(own.member);
+    member_read = own.member;
+    const Vec6 demand = member_joint_demand(end_forces, own.end);
+    slow ? joints.set_slow_demand(joint, demand) : joints.set_demand(joint, demand);
+  }
+  for (const PanelId panel : statics.membranes(c))
+    if (bearings.membrane(panel)) edge_loads.set_corner_forces(panel, statics.corner_forces(panel));
+  read_panel_demands(c, slow);
+}
+
+/// Loads that panels hand on change without anything moving. Shells are read from what their corners do.
+void StandingFrame::State::read_panel_demands(int c, bool slow) {
+  PanelId panel_read;
+  std::array<Vec6, 4> shell;
+  const std::array<Vec6, 4>* of_edges = nullptr;
+  for (JointId joint : checked_edges[static_cast<std::size_t>(c)]) {
+    const Joint& own = building[joint];
+    if (own.panel != panel_read) {
+      of_edges = nullptr;
+      if (!bearings.serves(own.panel)) {
+        of_edges = &(shell = edge_demands(own.panel));
+      } else if (edge_loads.changed(own.panel)) {
+        of_edges = &edge_loads.read(own.panel);
+      }
     }
+    panel_read = own.panel;
+    if (of_edges == nullptr || !holds(joint) || label(joint) < 0) continue;
+    const Vec6& demand = (*of_edges)[static_cast<std::size_t>(own.end)];
+    slow ? joints.set_slow_demand(joint, demand) : joints.set_demand(joint, demand);
   }
 }
 
@@ -131,6 +194,7 @@ std::vector<JointId> StandingFrame::State::next_generation() {
       over.emplace_back(joint, used);
       largest[static_cast<std::size_t>(segment)] = std::max(largest[static_cast<std::size_t>(segment)], used);
     }
+    if (over.empty()) complete(c);
     for (JointId joint : all) {
       const int segment = label(joint);
       if (segment >= 0 && largest[static_cast<std::size_t>(segment)] == 0) joints.accept(joint);
@@ -167,8 +231,10 @@ void StandingFrame::State::snap_buckled() {
 
 /// The static answer is borne: R becomes R0.
 void StandingFrame::State::come_to_rest(int c) {
+  complete(c);
   for (JointId joint : checked_joints[static_cast<std::size_t>(c)])
     if (label(joint) >= 0) joints.accept(joint);
+  if (rules.sudden != 1) statics.forget_uses(c);  // they count from another state now
   to_check[static_cast<std::size_t>(c)] = 0;
   account.finish(c, false, breaks);
   if (ductile.any(c)) ductile.base_is_answer(c);

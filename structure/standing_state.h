@@ -7,6 +7,7 @@
 #include "bracing.h"
 #include "buckling_bracing.h"
 #include "ductile_joints.h"
+#include "edge_demands.h"
 #include "energy_account.h"
 #include "frame_loads.h"
 #include "frame_statics.h"
@@ -36,6 +37,7 @@ struct StandingFrame::State {
   struct Gravity {
     Vec3 gravity;
   };
+  class Watch;  ///< reads joints while they are brought up to date
   using Change = std::variant<BreakJoint, MemberId, PanelId, RemoveSupport, EventLoad, Gravity>;
 
   // Queries.
@@ -99,7 +101,13 @@ struct StandingFrame::State {
   void bring_up_to_date();
   void write_loads();
   [[nodiscard]] bool solve_changed();
+  [[nodiscard]] std::optional<FrameMechanism> solve(int component);
+  [[nodiscard]] bool one_segment(int component) const;
+  [[nodiscard]] bool has_shells(int component) const;
+  void complete();
+  void complete(int component);
   void read_demands(int component, bool slow);
+  void read_panel_demands(int component, bool slow);
 
   // Yield: the way of a component whose joints turn before they break.
   enum class Way {
@@ -156,6 +164,7 @@ struct StandingFrame::State {
   PanelBearings bearings;
   PanelSuperelements shells;
   FrameLoads loads;
+  EdgeDemands edge_loads;
   FrameStatics statics;
   JointStates joints;
   DuctileJoints ductile;
@@ -168,6 +177,7 @@ struct StandingFrame::State {
   EnergyAccount account;
 
   std::vector<std::vector<JointId>> checked_joints;    ///< per component: joints with a capacity
+  std::vector<std::vector<JointId>> checked_edges;     ///< those of them that are edges of panels
   std::vector<std::vector<PanelId>> component_panels;  ///< per component
   std::vector<char> to_check;                          ///< per component
   /// Per component, of its state as solved last: critical energy (below 0: to be found), and per node the mass that
@@ -188,6 +198,7 @@ struct StandingFrame::State {
   std::vector<JointBreak> yielded;  ///< to hand out
   std::vector<JointBreak> breaks;   ///< of the settle() or impact that runs
   int generation = 0;
+  int restricted_from = default_restricted_from;  ///< nodes of a component
   std::uint64_t idle_settles = 0;
   mutable FrameCounters counters;
   mutable std::vector<int> segment_numbers;  ///< per label, made when asked for; empty: to be made

@@ -33,6 +33,9 @@ void refuse_loads_that_are_not_built(const Building& building, CombinationId com
       refuse(building, "a heated membrane (" + building.panels[p].name + ")" + place, "a combination without it");
 }
 
+/// Losses whose answers are found together: more would not fit the caches beside a block of the factor.
+constexpr std::size_t together = 16;
+
 /// R0 of one combination.
 struct Reference {
   std::vector<Vec6> displacements, demand;
@@ -57,7 +60,9 @@ class Losses {
       if (!frame_.solve().stable)
         throw UnstableModel(building_.file + ": the model is unstable before anything is lost");
       keep_reference();
-      for (MemberLoss& loss : result_.losses) {
+      for (std::size_t i = 0; i < result_.losses.size(); ++i) {
+        MemberLoss& loss = result_.losses[i];
+        if (i % together == 0) frame_.expect(std::span(members_).subspan(i, std::min(together, members_.size() - i)));
         frame_.lose(loss.member);
         loss.states.push_back(state_after(loss.named));
         loss.states.back().combination = combination;

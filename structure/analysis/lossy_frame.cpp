@@ -93,6 +93,12 @@ void LossyFrame::restore() {
   lost_ = MemberId();
 }
 
+void LossyFrame::expect(std::span<const MemberId> members) {
+  std::vector<int> beams;
+  for (const MemberId member : members) beams.push_back(member.index);
+  analysis_->expect_losses(beams);
+}
+
 void LossyFrame::read_demands(std::vector<Vec6>& demand, std::vector<JointId>& holding) const {
   demand.resize(building_.joints.size());
   holding.clear();

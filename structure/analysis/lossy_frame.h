@@ -2,6 +2,7 @@
 // A building's frame under one combination that loses a member and gets it back. What a loss means for its panels
 // (edges that no longer hold, membranes that are load alone, load that goes another way) is as in a running collapse.
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "frame_loads.h"
@@ -20,6 +21,8 @@ class LossyFrame {
   void lose(MemberId member);
   /// Gives back what was lost last; takes effect with the next solve().
   void restore();
+  /// These are going to be lost next, one after the other: their answers are found together.
+  void expect(std::span<const MemberId> members);
   [[nodiscard]] const solver::ReanalysisAnswer& solve() { return analysis_->solve(); }
 
   [[nodiscard]] const solver::Reanalysis& analysis() const { return *analysis_; }

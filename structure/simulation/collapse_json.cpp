@@ -156,7 +156,10 @@ std::string summary_json(const Simulation& simulation, const StepTimes& times, d
                     {"segmentations", work.segmentations},
                     {"collision_steps", work.collision_steps},
                     {"contacts_ignored", work.contacts_ignored},
-                    {"impacts_bounded", work.impacts_bounded}}},
+                    {"impacts_bounded", work.impacts_bounded},
+                    {"restricted", work.restricted},
+                    {"background_factors", work.background_factors},
+                    {"late_factors", work.late_factors}}},
                   {"step_milliseconds", times_json(times)},
                   {"ledger", ledger_json(simulation.ledger())},
                   {"roof_sag_at_start", roof_sag}};

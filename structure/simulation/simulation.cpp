@@ -228,6 +228,9 @@ const SimulationCounters& Simulation::counters() const {
   counters.low_rank = frame.low_rank;
   counters.refactorisations = frame.refactorisations;
   counters.segmentations = frame.segmentations;
+  counters.restricted = frame.restricted;
+  counters.background_factors = frame.background_factors;
+  counters.late_factors = frame.late_factors;
   return counters;
 }
 

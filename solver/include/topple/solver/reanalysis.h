@@ -3,6 +3,7 @@
 // nothing computed; loads changed, triangular solves only; few joints, an exact low-rank (Woodbury) correction over the
 // standing factor; more, a new factor. The choice is by operation counts with constants that ship.
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -23,9 +24,11 @@ struct ReanalysisCounters {
   std::uint64_t low_rank = 0;          ///< answered by a low-rank correction
   std::uint64_t refactorisations = 0;  ///< new numeric factor on the same ordering
   std::uint64_t orderings = 0;
-  std::uint64_t restricted = 0;     ///< answers that left out what could not matter
-  std::uint64_t beams_visited = 0;  ///< by restricted answers
-  std::uint64_t beams_left = 0;     ///< left out by them
+  std::uint64_t background_factors = 0;  ///< new factors made on another thread while the old one served
+  std::uint64_t late_factors = 0;        ///< of them: those that had to be waited for
+  std::uint64_t restricted = 0;          ///< answers that left out what could not matter
+  std::uint64_t beams_visited = 0;       ///< by restricted answers
+  std::uint64_t beams_left = 0;          ///< left out by them
 };
 
 /// What a restricted answer went through and left out.
@@ -45,6 +48,16 @@ struct ReanalysisAnswer {
   Mechanism mechanism;
   bool nearly_unstable = false;
   SolveQuality quality;
+};
+
+/// When a new factor is made on another thread while the old one serves. It takes over at the first answer after the
+/// answers since then took `share` of the operations that it takes: a number of answers fixed by counts, whatever the
+/// clock says; if it is late, that answer waits. So the bits do not depend on how fast the other thread is.
+struct RefreshRules {
+  int columns = 240;              ///< begun when the correction has more than so many
+  double least_operations = 1e9;  ///< and a new factor takes at least so many; smaller ones are made at once
+  double share = 0.5;
+  std::function<void()> on_worker;  ///< runs on the other thread before it begins (tests slow it down)
 };
 
 class Reanalysis {
@@ -93,6 +106,12 @@ class Reanalysis {
   void complete(UseWatch* watch = nullptr);
   /// To be called when capacities changed: the next solve(watch) reads everything again.
   void forget_uses();
+  /// These beams will be removed one at a time, each restored before the next, with the loads as they are: the factor
+  /// is gone through once for all of them (a dozen or two at a time serve best), and each answer then only checks, and
+  /// refines if it must, what was found for it. No effect when anything is removed or broken now; whatever happens
+  /// otherwise is answered as ever.
+  void expect_losses(std::span<const int> beams);
+  void set_refresh(RefreshRules rules);
   /// The uses that the last solve(watch) counts on were all read. False while the structure is in the warning band:
   /// its answers are full, and nothing is read.
   [[nodiscard]] bool uses_known() const;

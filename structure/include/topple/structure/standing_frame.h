@@ -72,8 +72,10 @@ struct PanelStress {
 
 struct FrameCounters {
   std::uint64_t solves = 0, low_rank = 0, refactorisations = 0, segmentations = 0, unchanged = 0;
-  double operations = 0;                ///< predicted by the solver, for budgets
-  std::uint64_t vertices_searched = 0;  ///< nodes and members that segmentation looked at
+  std::uint64_t restricted = 0;                            ///< answers that left out what could not break
+  std::uint64_t background_factors = 0, late_factors = 0;  ///< as solver::ReanalysisCounters
+  double operations = 0;                                   ///< predicted by the solver, for budgets
+  std::uint64_t vertices_searched = 0;                     ///< nodes and members that segmentation looked at
 };
 
 /// Energies of the standing frame in J, in the last state of rest. The works are sums over the changes since
@@ -158,6 +160,13 @@ class StandingFrame {
   void add_load(NodeId node, const Vec6& load);
   void set_contact_load(const ContactLoad& load);
   void remove_contact_load(std::int64_t key);
+
+  /// While joints break, components of at least this many nodes are brought up to date only where a joint may break
+  /// next (bounded by strain energy); what is asked for afterwards is whole. The joints that break are the same,
+  /// numbers differ by rounding; what a joint bore in between, where it could not break, may be missing from its
+  /// largest_utilisation_so_far(). Below, telling the two apart costs more than a whole answer.
+  void restrict_answers_from(int nodes);
+  static constexpr int default_restricted_from = 1000;
 
   /// True when a load or joint changed and the answer is not yet settled.
   [[nodiscard]] bool pending() const;
