@@ -65,27 +65,23 @@ void add(const double* L, int ld, int width, const Coefficients& coefficient, do
     add_one(L, ld, width, coefficient.data() + c, target + static_cast<std::ptrdiff_t>(c) * stride, rows);
 }
 
-/// At most six columns.
-void eliminate(const double* L, int columns, int rows, double* x, int count, double* below) {
-  const int below_rows = rows - columns;
+/// One strip of columns of L, at most six right-hand sides.
+void eliminate(const double* L, int columns, int rows, int first, double* x, int count, double* below) {
+  const int below_rows = rows - columns, width = std::min(strip, columns - first), next = first + width;
   Coefficients minus{}, plus{};
-  for (int first = 0; first < columns; first += strip) {
-    const int width = std::min(strip, columns - first);
-    const double* block = L + static_cast<std::ptrdiff_t>(first) * rows;
-    for (int c = 0; c < count; ++c) {
-      double* own = x + static_cast<std::ptrdiff_t>(c) * columns + first;
-      for (int k = 0; k < width; ++k) {
-        const double* column = block + static_cast<std::ptrdiff_t>(k) * rows + first;
-        const double value = own[k] /= column[k];
-        for (int i = k + 1; i < width; ++i) own[i] -= column[i] * value;
-        plus[static_cast<std::size_t>(k * six + c)] = value;
-        minus[static_cast<std::size_t>(k * six + c)] = -value;
-      }
+  const double* block = L + static_cast<std::ptrdiff_t>(first) * rows;
+  for (int c = 0; c < count; ++c) {
+    double* own = x + static_cast<std::ptrdiff_t>(c) * columns + first;
+    for (int k = 0; k < width; ++k) {
+      const double* column = block + static_cast<std::ptrdiff_t>(k) * rows + first;
+      const double value = own[k] /= column[k];
+      for (int i = k + 1; i < width; ++i) own[i] -= column[i] * value;
+      plus[static_cast<std::size_t>(k * six + c)] = value;
+      minus[static_cast<std::size_t>(k * six + c)] = -value;
     }
-    const int next = first + width;
-    add(block + next, rows, width, minus, x + next, columns, columns - next, count);
-    add(block + columns, rows, width, plus, below, below_rows, below_rows, count);
   }
+  add(block + next, rows, width, minus, x + next, columns, columns - next, count);
+  add(block + columns, rows, width, plus, below, below_rows, below_rows, count);
 }
 
 }  // namespace
@@ -93,9 +89,11 @@ void eliminate(const double* L, int columns, int rows, double* x, int count, dou
 void eliminate_few_columns(const double* L, int columns, int rows, double* x, int count, double* below) {
   const int below_rows = rows - columns;
   std::fill(below, below + static_cast<std::ptrdiff_t>(below_rows) * count, 0.0);
-  for (int c = 0; c < count; c += six)
-    eliminate(L, columns, rows, x + static_cast<std::ptrdiff_t>(c) * columns, std::min(six, count - c),
-              below + static_cast<std::ptrdiff_t>(c) * below_rows);
+  // Strip by strip for all right-hand sides: a strip stays in the cache, the panel comes from memory once.
+  for (int first = 0; first < columns; first += strip)
+    for (int c = 0; c < count; c += six)
+      eliminate(L, columns, rows, first, x + static_cast<std::ptrdiff_t>(c) * columns, std::min(six, count - c),
+                below + static_cast<std::ptrdiff_t>(c) * below_rows);
 }
 
 }  // namespace topple::solver

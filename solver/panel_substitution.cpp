@@ -84,22 +84,19 @@ void subtract_products(const double* L, std::ptrdiff_t ld, int width, const doub
     }
 }
 
-/// At most four right-hand sides.
-void substitute(const double* L, int columns, int rows, double* x, int count, const double* below) {
-  const int below_rows = rows - columns;
-  for (int first = (columns - 1) / strip * strip; first >= 0; first -= strip) {
-    const int width = std::min(strip, columns - first), next = first + width;
-    const double* block = L + static_cast<std::ptrdiff_t>(first) * rows;
-    subtract_products(block + columns, rows, width, below, below_rows, below_rows, x + first, columns, count);
-    subtract_products(block + next, rows, width, x + next, columns, columns - next, x + first, columns, count);
-    for (int c = 0; c < count; ++c) {
-      double* own = x + static_cast<std::ptrdiff_t>(c) * columns + first;
-      for (int k = width; k-- > 0;) {
-        const double* column = block + static_cast<std::ptrdiff_t>(k) * rows + first;
-        double sum = own[k];
-        for (int i = k + 1; i < width; ++i) sum -= column[i] * own[i];
-        own[k] = sum / column[k];
-      }
+/// One strip of columns of L, at most four right-hand sides.
+void substitute(const double* L, int columns, int rows, int first, double* x, int count, const double* below) {
+  const int below_rows = rows - columns, width = std::min(strip, columns - first), next = first + width;
+  const double* block = L + static_cast<std::ptrdiff_t>(first) * rows;
+  subtract_products(block + columns, rows, width, below, below_rows, below_rows, x + first, columns, count);
+  subtract_products(block + next, rows, width, x + next, columns, columns - next, x + first, columns, count);
+  for (int c = 0; c < count; ++c) {
+    double* own = x + static_cast<std::ptrdiff_t>(c) * columns + first;
+    for (int k = width; k-- > 0;) {
+      const double* column = block + static_cast<std::ptrdiff_t>(k) * rows + first;
+      double sum = own[k];
+      for (int i = k + 1; i < width; ++i) sum -= column[i] * own[i];
+      own[k] = sum / column[k];
     }
   }
 }
@@ -107,9 +104,11 @@ void substitute(const double* L, int columns, int rows, double* x, int count, co
 }  // namespace
 
 void substitute_back(const double* L, int columns, int rows, double* x, int count, const double* below) {
-  for (int c = 0; c < count; c += most_together)
-    substitute(L, columns, rows, x + static_cast<std::ptrdiff_t>(c) * columns, std::min(most_together, count - c),
-               below + static_cast<std::ptrdiff_t>(c) * (rows - columns));
+  // Strip by strip for all right-hand sides: a strip stays in the cache, the panel comes from memory once.
+  for (int first = (columns - 1) / strip * strip; first >= 0; first -= strip)
+    for (int c = 0; c < count; c += most_together)
+      substitute(L, columns, rows, first, x + static_cast<std::ptrdiff_t>(c) * columns,
+                 std::min(most_together, count - c), below + static_cast<std::ptrdiff_t>(c) * (rows - columns));
 }
 
 }  // namespace topple::solver

@@ -98,7 +98,8 @@ TEST_CASE("a loss is found by correction, once for each, and leaves no trace in 
   REQUIRE(all.losses.size() == posts.size());
   CHECK(all.counters.orderings == 1);
   CHECK(all.counters.refactorisations == 0);
-  CHECK(all.counters.solves == posts.size() + 1);
+  // Once as it stands, and again before each further sixteen, which are found together.
+  CHECK(all.counters.solves == posts.size() + 1 + (posts.size() - 1) / 16);
   for (std::size_t k = 0; k + 1 < all.losses.size(); ++k)
     CHECK(all.losses[k].states[0].use.value >= all.losses[k + 1].states[0].use.value);
   for (const std::size_t k : {std::size_t{0}, posts.size() / 2, posts.size() - 1}) {
