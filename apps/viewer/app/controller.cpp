@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
+#include <fstream>
 #include <functional>
+#include <future>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <map>
+#include <stdexcept>
 
 #include "renderer/instances.h"
 
@@ -74,6 +78,10 @@ void Controller::use(const Pick& found) {
     case ToolKind::charge:
       driver_.apply(structure::ChargeTool{to_eigen(found.point), charge_radius, 0, 1});
       return said("charge at " + building_[found.joint].name);
+    case ToolKind::swing:
+      return swing_at(found);
+    case ToolKind::burn:
+      return burn_at(found);
     case ToolKind::path: {
       const structure::ContactPlace place{found.member, found.panel, to_eigen(found.point)};
       driver_.order_and_show([place](Session& session) { session.find_path(place); });
@@ -101,6 +109,69 @@ void Controller::remove_support_at(const Pick& found) {
     return;
   }
   message = "remove support: " + building_[found.member].name + " stands on none";
+}
+
+/// The ball is lowest, and fastest, where it meets the place; it comes from the side of the eye.
+void Controller::swing_at(const Pick& found) {
+  glm::dvec2 way(found.point.x - camera.eye.x, found.point.y - camera.eye.y);
+  way = glm::length(way) > 1e-9 ? glm::normalize(way) : glm::dvec2(1, 0);
+  const glm::dvec3 ahead(way, 0);
+  const glm::dvec3 lowest = found.point - swing.radius * ahead;
+  const glm::dvec3 anchor = lowest + glm::dvec3(0, 0, swing.cable);
+  structure::WreckingBall ball;
+  ball.anchor = to_eigen(anchor);
+  ball.from =
+      to_eigen(anchor - swing.cable * (std::sin(swing.angle) * ahead + glm::dvec3(0, 0, std::cos(swing.angle))));
+  ball.cable = swing.cable;
+  ball.mass = swing.mass;
+  ball.radius = swing.radius;
+  driver_.apply(ball);
+  message = "a ball swings at " + building_[found.joint].name;
+}
+
+void Controller::burn_at(const Pick& found) {
+  structure::WeakenTool fire;
+  const structure::Vec3 place = to_eigen(found.point);
+  const auto near = [&](const structure::Vec3& p) { return (p - place).norm() <= burning.reach; };
+  for (std::size_t m = 0; m < building_.members.size(); ++m) {
+    const structure::Member& member = building_.members[m];
+    const structure::Vec3 ends[] = {building_[member.nodes[0]].position, building_[member.nodes[1]].position};
+    if (near((ends[0] + ends[1]) / 2)) fire.members.emplace_back(m);
+    for (int end = 0; end < 2; ++end)
+      if (near(ends[end])) fire.joints.push_back(building_.joint(structure::MemberId(m), end));
+  }
+  std::sort(fire.joints.begin(), fire.joints.end());
+  if (fire.members.empty() && fire.joints.empty()) {
+    message = "burn: nothing is within " + std::to_string(burning.reach) + " m";
+    return;
+  }
+  fire.strength = burning.strength;
+  fire.stiffness = burning.stiffness;
+  fire.over = burning.over;
+  fire.stages = burning_stages;
+  message = std::to_string(fire.members.size()) + " members and " + std::to_string(fire.joints.size()) +
+            " joints burn around " + building_[found.joint].name;
+  driver_.apply(fire);
+}
+
+void Controller::save(const std::string& file) {
+  const auto bytes = std::make_shared<std::promise<std::string>>();
+  auto saved = bytes->get_future();
+  driver_.order([bytes](Session& session) { bytes->set_value(session.save()); });
+  // A run that has stopped with an error carries out no orders.
+  if (saved.wait_for(std::chrono::seconds(30)) != std::future_status::ready)
+    throw std::runtime_error("the run does not answer: nothing is saved");
+  std::ofstream stream(file, std::ios::binary);
+  stream << saved.get();
+  if (!stream.flush()) throw std::runtime_error("cannot write " + file);
+  message = "saved to " + file;
+}
+
+void Controller::load(const std::string& file) {
+  const structure::Snapshot saved = structure::read_snapshot(file);
+  look_at_present();
+  driver_.order_and_show([saved](Session& session) { session.load(saved); });
+  message = "taken up from " + file;
 }
 
 void Controller::fire(glm::dvec2 pixel) {
@@ -143,11 +214,11 @@ const char* Controller::key_help() {
          "K                 charge                  L             load path\n"
          "T                 remove a support        V             select\n"
          "C                 next colouring          X             panels clear or not\n"
-         "F                 frame the building      I             next diagram\n"
+         "Z                 burn                    I             next diagram\n"
          "1 2 3 4           posts, beams, slabs, walls\n"
          "O                 loads and reactions     Y             back to the present\n"
-         "P                 save a picture          H             this help\n"
-         "Esc               leave";
+         "F                 frame the building      P             save a picture\n"
+         "H                 this help               Esc           leave";
 }
 
 bool Controller::key(const std::string& name) {
@@ -177,11 +248,8 @@ bool Controller::key(const std::string& name) {
          tool = ToolKind::fire;
          shot = Shot();
        }},
-      {"b",
-       [&] {
-         tool = ToolKind::fire;
-         shot = wrecking_ball;
-       }},
+      {"b", hold(ToolKind::swing)},
+      {"z", hold(ToolKind::burn)},
       {"j", hold(ToolKind::cut)},
       {"m", hold(ToolKind::remove)},
       {"k", hold(ToolKind::charge)},

@@ -18,12 +18,22 @@ namespace topple::viewer {
 struct Shot {
   double speed = 60, mass = 500, radius = 0.4;  ///< m/s, kg, m
 };
-inline constexpr Shot wrecking_ball{12, 5000, 0.9};
+/// A ball on a cable that swings into what is clicked on: let go with the cable taut, at this angle from straight down.
+struct Swing {
+  double cable = 12, angle = 1.2;  ///< m; rad, up to a quarter turn
+  double mass = 5000, radius = 0.9;
+};
+/// A fire around what is clicked on: what is left of the joints' strength and of the members' stiffness at its end.
+struct Burning {
+  double reach = 4, over = 30;  ///< m; s
+  double strength = 0.15, stiffness = 0.2;
+};
+inline constexpr int burning_stages = 10;
 
 /// What a click does.
-enum class ToolKind { fire, cut, remove, support, charge, path, select };
-inline constexpr std::array<const char*, 7> tool_names{"fire",   "cut joint", "remove part", "remove support",
-                                                       "charge", "load path", "select"};
+enum class ToolKind { fire, swing, cut, remove, support, charge, burn, path, select };
+inline constexpr std::array<const char*, 9> tool_names{"fire",   "wrecking ball", "cut joint", "remove part",
+                                                       "remove support", "charge", "burn", "load path", "select"};
 
 class Controller {
  public:
@@ -33,6 +43,8 @@ class Controller {
   ViewOptions options;
   ModeView mode;
   Shot shot;
+  Swing swing;
+  Burning burning;
   ToolKind tool = ToolKind::fire;
   double charge_radius = 3;  ///< m; within it joints lose strength, all of it at the centre
   bool help = false;
@@ -45,6 +57,10 @@ class Controller {
   /// A projectile from the eye that meets what is seen at the pixel (gravity allowed for); along the view when nothing
   /// is.
   void fire(glm::dvec2 pixel);
+  /// Writes the moment of the run, or takes the run up again where such a file was written. Throw
+  /// structure::InputError, std::runtime_error.
+  void save(const std::string& file);
+  void load(const std::string& file);
   void drag(glm::dvec2 from, glm::dvec2 to);  ///< orbits
   void drag_to_pan(glm::dvec2 from, glm::dvec2 to);
   void scroll(double clicks);
@@ -95,6 +111,8 @@ class Controller {
   [[nodiscard]] std::optional<Pick> pick_at(glm::dvec2 pixel) const;
   void use(const Pick& pick);
   void remove_support_at(const Pick& pick);
+  void swing_at(const Pick& pick);
+  void burn_at(const Pick& pick);
   Driver& driver_;
   const Scene& scene_;
   const structure::Building& building_;

@@ -105,6 +105,10 @@ class HeadlessRun {
         stage_(scene, {size[0], size[1]}, options.panel, options.scale),
         controller_(driver_, scene, ground_height(*scene.building, scene.scenario), stage_.scene_size()),
         script_(std::move(script)) {
+    if (options.load) {
+      controller_.load(*options.load);
+      frames_ = session_.simulation().steps();
+    }
     for (const std::string& words : options.show) controller_.show(words);
     controller_.update(0);
   }
@@ -127,6 +131,7 @@ class HeadlessRun {
     write_png(draw(), file);
     std::printf("%s at %.3f s\n", file.c_str(), driver_.moment().later->time);
   }
+  void save(const std::string& file) { controller_.save(file); }
   [[nodiscard]] const Recording& recording() const { return driver_.recording(); }
   [[nodiscard]] const Snapshot& present() { return *(now_ = driver_.moment().later); }
 
@@ -212,6 +217,7 @@ void run_headless(const Scene& scene, const HeadlessOptions& options) {
   if (options.screenshot) run.write(*options.screenshot);
   if (options.replay) write_html_replay(*scene.building, run.recording(), *options.replay);
   if (options.usd) write_usd(*scene.building, run.recording(), *options.usd);
+  if (options.save) run.save(*options.save);
   if (options.model) write_tuned_model(scene, run.present(), *options.model);
 }
 

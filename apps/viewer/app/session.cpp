@@ -1,5 +1,6 @@
 #include "app/session.h"
 
+#include <cmath>
 #include <utility>
 
 #include "app/event_text.h"
@@ -44,12 +45,47 @@ void Session::tune(const structure::JointChange& change) {
 
 void Session::carry_out(const Action& action) {
   if (const auto* tool = std::get_if<structure::Tool>(&action.what)) return simulation_->apply(*tool);
+  if (const auto* change = std::get_if<structure::CapacityChange>(&action.what)) return carry_out(*change);
   std::vector<std::pair<structure::JointId, structure::JointCapacity>> capacities;
   for (const structure::JointId joint : tuning_->apply(std::get<structure::JointChange>(action.what)))
     capacities.emplace_back(joint, tuning_->capacity(joint));
   simulation_->set_capacities(capacities);
   tell_capacities();
   taker_.forget_answer();
+}
+
+/// As a saved run tells it: capacities that are set already. What is shown and written names joint after joint.
+void Session::carry_out(const structure::CapacityChange& change) {
+  simulation_->set_capacities(change.joints);
+  for (const auto& [joint, capacity] : change.joints) {
+    structure::JointChange one;
+    one.joints = (*building_)[joint].name;
+    one.strength = 1;
+    for (std::size_t s = 0; s < capacity.value.size(); ++s)
+      if (std::isfinite(capacity.value[s]))
+        one.capacity[s] =
+            capacity.value[s] / structure::capacity_unit(*building_, joint, static_cast<structure::Sense>(s));
+    (void)tuning_->apply(one);
+  }
+  tell_capacities();
+  taker_.forget_answer();
+}
+
+std::string Session::save() const { return structure::snapshot_bytes(simulation_->save()); }
+
+void Session::load(const structure::Snapshot& saved) {
+  actions_.clear();
+  recording_->clear();
+  for (const auto& action : saved.actions) {
+    if (const auto* tool = std::get_if<structure::Tool>(&action.what)) actions_.push_back({action.step, *tool});
+    if (const auto* change = std::get_if<structure::CapacityChange>(&action.what))
+      actions_.push_back({action.step, *change});
+  }
+  run_again(saved.step);
+  if (simulation_->hash() == saved.hash) return;
+  restart();
+  recording_->add_event({0, structure::SimulationEvent::Kind::tool,
+                         "the saved run was one of another model, scenario or rules: begun anew"});
 }
 
 /// What joints bear, for those who know the building only as it was given.

@@ -41,6 +41,11 @@ class Session {
   bool undo();
   /// Back to a step that has been made; later actions are forgotten.
   void return_to(std::int64_t step);
+  /// The moment as bytes of structure::Snapshot; the scene's own model and scenario have to be there to load it.
+  [[nodiscard]] std::string save() const;
+  /// Takes the run up where it was saved. When what was done then does not lead there (another model, other rules), the
+  /// run begins anew and its events say so.
+  void load(const structure::Snapshot& saved);
   /// Finds which share of a downward force put here goes through each joint; snapshots carry it from now on.
   void find_path(const structure::ContactPlace& place);
 
@@ -57,11 +62,12 @@ class Session {
  private:
   struct Action {
     std::int64_t step;
-    std::variant<structure::Tool, structure::JointChange> what;
+    std::variant<structure::Tool, structure::JointChange, structure::CapacityChange> what;
   };
   void begin();
   void tell_capacities();
   void carry_out(const Action& action);
+  void carry_out(const structure::CapacityChange& change);
   void run_again(std::int64_t until);
   void record_events();
 

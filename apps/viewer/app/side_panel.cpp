@@ -177,10 +177,32 @@ void SidePanel::run_bar(Controller& controller) {
     slider("mass", controller.shot.mass, 10, 20000, "%.0f kg");
     slider("radius", controller.shot.radius, 0.1, 2, "%.2f m");
     if (ImGui::Button("Usual shot")) controller.shot = Shot();
-    ImGui::SameLine();
-    if (ImGui::Button("Wrecking ball")) controller.shot = wrecking_ball;
+  }
+  if (controller.tool == ToolKind::swing) {
+    slider("cable", controller.swing.cable, 2, 60, "%.1f m");
+    slider("angle", controller.swing.angle, 0.1, 1.57, "%.2f rad", ImGuiSliderFlags_None);
+    slider("mass", controller.swing.mass, 100, 20000, "%.0f kg");
+    slider("radius", controller.swing.radius, 0.2, 2, "%.2f m");
+  }
+  if (controller.tool == ToolKind::burn) {
+    slider("reach", controller.burning.reach, 0.5, 30, "%.1f m");
+    slider("over", controller.burning.over, 1, 7200, "%.0f s");
+    slider("strength left", controller.burning.strength, 0, 1, "x %.2f", ImGuiSliderFlags_None);
+    slider("stiffness left", controller.burning.stiffness, 0.01, 1, "x %.2f", ImGuiSliderFlags_None);
   }
   if (controller.tool == ToolKind::charge) slider("reach", controller.charge_radius, 0.5, 20, "%.1f m");
+  ImGui::InputText("##saved", saved_.data(), saved_.size());
+  const auto with_file = [&](const char* label, void (Controller::*what)(const std::string&)) {
+    ImGui::SameLine();
+    if (!ImGui::Button(label)) return;
+    try {
+      (controller.*what)(saved_.data());
+    } catch (const std::exception& failed) {
+      controller.message = failed.what();
+    }
+  };
+  with_file("Save", &Controller::save);
+  with_file("Load", &Controller::load);
 }
 
 void SidePanel::view(Controller& controller, const Snapshot& moment, const SceneInstances& scene) {

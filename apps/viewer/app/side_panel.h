@@ -30,6 +30,7 @@ class SidePanel {
   std::array<std::vector<float>, 7> history_;         ///< milliseconds by stage, and of the whole
   std::int64_t last_step_ = -1;
   std::array<char, 64> search_{};
+  std::array<char, 256> saved_{"run.topple"};
 };
 
 /// Play, pause, scrub, and the events as marks; below the scene.

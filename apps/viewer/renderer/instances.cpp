@@ -323,6 +323,15 @@ void SceneInstances::draw_marks(const Snapshot& snapshot, const ViewOptions& opt
   mark_panel(options.selected_panel, selected);
 }
 
+void SceneInstances::draw_cables(const Snapshot& snapshot) {
+  constexpr Rgba steel = rgba(40, 42, 46);
+  for (const BodyPose& body : snapshot.bodies) {
+    if (!body.cable_anchor) continue;
+    for (const Eigen::Vector3d& end : {*body.cable_anchor, body.position})
+      marks_.lines.push_back({glm::vec3(glm::dvec3(end.x(), end.y(), end.z()) - origin_), steel});
+  }
+}
+
 MemberInstance SceneInstances::moved_member(std::size_t index, const Motion& motion) const {
   MemberInstance instance = member_parts_[index].rest;
   const glm::vec4 q = instance.rotation;
@@ -422,6 +431,7 @@ void SceneInstances::update(const Snapshot& snapshot, const ViewOptions& options
   append_moving(snapshot);
   place_chunks(snapshot);
   draw_marks(snapshot, options);
+  draw_cables(snapshot);
   place_broken_panels(snapshot);
   dust_.clear();
   if (options.dust && snapshot.dust) place_dust(*snapshot.dust, snapshot.time, origin_, dust_);

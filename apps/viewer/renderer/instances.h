@@ -98,6 +98,7 @@ class SceneInstances {
   void draw_arrows(const Snapshot& snapshot, const ViewOptions& options);
   void append_moving(const Snapshot& snapshot);
   void draw_marks(const Snapshot& snapshot, const ViewOptions& options);
+  void draw_cables(const Snapshot& snapshot);
   [[nodiscard]] MemberInstance standing_member(std::size_t index, const Snapshot& snapshot,
                                                const ViewOptions& options) const;
   [[nodiscard]] PanelInstance standing_panel(std::size_t index, const Snapshot& snapshot,

@@ -40,6 +40,7 @@ BodyPose BodyTrack::pose(std::int32_t frame) const {
   body.radius = radius;
   body.chunk = chunk;
   body.chunk_of = chunk_of;
+  body.cable_anchor = cable_anchor;
   auto next = std::upper_bound(keys.begin(), keys.end(), frame,
                                [](std::int32_t f, const PoseKey& key) { return f < key.frame; });
   const PoseKey& here = next == keys.begin() ? keys.front() : *(next - 1);
@@ -116,7 +117,7 @@ void Recording::add(const Snapshot& snapshot) {
       track.keys.push_back(key);
     } else {
       still.push_back(tracks_.size());
-      tracks_.push_back({body.id, body.rest_centre, body.radius, body.chunk, body.chunk_of, number, -1, {key}});
+      tracks_.push_back({body.id, body.rest_centre, body.radius, body.chunk, body.chunk_of, body.cable_anchor, number, -1, {key}});
     }
     news = true;
   }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "topple/structure/joint_tuning.h"
@@ -71,6 +72,7 @@ struct BodyPose {
   bool asleep = false;
   std::shared_ptr<const fracture::Mesh> chunk;  ///< of a broken panel: about its centre of mass
   structure::PanelKind chunk_of = structure::PanelKind::slab;
+  std::optional<Eigen::Vector3d> cable_anchor;  ///< of a wrecking ball
 };
 
 /// Dust thrown up at an instant: see dust.h.

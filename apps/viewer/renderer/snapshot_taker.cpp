@@ -160,7 +160,7 @@ std::shared_ptr<const Membership> read_membership(const Simulation& simulation) 
 
 BodyPose pose_of(const structure::BodyView& body) {
   return {body.id.value, body.pose.position, body.rest_centre, body.pose.orientation,
-          body.radius,   body.asleep,        body.chunk,       body.chunk_of};
+          body.radius,   body.asleep,        body.chunk,       body.chunk_of, body.cable_anchor};
 }
 
 bool same(const structure::FrameCounters& a, const structure::FrameCounters& b) {
