@@ -63,7 +63,7 @@ def collect(root, build, blas_kernel):
         "processor": _processor(),
         "cores": str(os.cpu_count()),
         "threads": "1",
-        "scheduling": _scheduling(),
+        "scheduling_at_start": _scheduling(),
         "blas_kernel": blas_kernel,
         "load_at_start": "%.2f" % os.getloadavg()[0],
         "libbullet, single precision": _package("libbullet3.24"),

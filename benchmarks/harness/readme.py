@@ -56,8 +56,8 @@ def table(stored):
     for name, row in chosen(stored):
         lines.append("| %s | %s | %s | %s | %s |" % (name, number(row["milliseconds"]), number(row["sag_error"]), number(row["reaction_error"]), number(row["beam_moment_error"])))
     origin = stored["provenance"]
-    lines += ["", "Medians of one run on one thread of %s (%s), commit %s, %s; [every number](docs/benchmarks/%s)."
-              % (origin["processor"].replace("(R)", ""), "%s scheduling" % origin["scheduling"].split(",")[0], origin["commit"][:7], origin["date"][:10], STORED)]
+    lines += ["", "Medians of one run on one thread of %s, beside other work (load %s at its start), commit %s, %s; [every number](docs/benchmarks/%s)."
+              % (origin["processor"].replace("(R)", ""), origin["load_at_start"], origin["commit"][:7], origin["date"][:10], STORED)]
     return lines
 
 
