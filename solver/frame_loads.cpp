@@ -227,7 +227,7 @@ void FrameSystem::add_settlement_forces(LoadVector& result) const {
   }
 }
 
-std::optional<Defect> FrameSystem::unbalanced_load(const LoadVector& load) const {
+std::optional<Defect> FrameSystem::unbalanced_load(const LoadVector& load, double lever_share) const {
   if (load.unbalanced_beams.empty() && inert_hubs_ == 0) return std::nullopt;
   Defect result;
   result.motion.motion.assign(model.nodes.size(), Vec6::Zero());
@@ -237,7 +237,7 @@ std::optional<Defect> FrameSystem::unbalanced_load(const LoadVector& load) const
                      " is loaded in a direction in which the releases at its ends let it move";
     return result;
   }
-  double largest = 0;
+  double largest = 0, lever_moment = 0;
   const auto moment_at = [&](std::size_t node) {
     Vec3 m = Vec3::Zero();
     for (std::size_t c = 3; c < 6; ++c) {
@@ -247,11 +247,20 @@ std::optional<Defect> FrameSystem::unbalanced_load(const LoadVector& load) const
     return m;
   };
   for (std::size_t node = 0; node < inert_.size(); ++node) largest = std::max(largest, moment_at(node).norm());
+  if (lever_share > 0) {
+    double longest = 0, force = 0;
+    for (const Beam& beam : model.beams) longest = std::max(longest, beam.length);
+    for (const auto& numbers : dofs_.number)
+      for (std::size_t c = 0; c < 3; ++c)
+        if (numbers[c] < dofs_.equations) force = std::max(force, std::abs(load.force(numbers[c])));
+    lever_moment = lever_share * longest * force;
+  }
   constexpr double rounding = 1e-10;  // of the largest moment on any node
+  const double nothing = std::max(rounding * largest, lever_moment);
   for (std::size_t node = 0; node < inert_.size(); ++node) {
     for (int k = 0; k < inert_[node].count; ++k) {
       const Vec3 axis = inert_[node].directions.col(k);
-      if (std::abs(axis.dot(moment_at(node))) <= rounding * largest) continue;
+      if (std::abs(axis.dot(moment_at(node))) <= nothing) continue;
       result.motion.nodes.push_back(static_cast<int>(node));
       result.motion.motion[node].tail<3>() = axis;
     }

@@ -89,8 +89,9 @@ class FrameSystem {
   [[nodiscard]] LoadVector load_vector(const LoadSet& loads) const;
   /// Several at once: what they share of the elements is worked out once.
   [[nodiscard]] std::vector<LoadVector> load_vectors(std::span<const LoadSet> sets) const;
-  /// A moment on a hub that nothing keeps from turning, or a load on a loose part; empty when there is none.
-  [[nodiscard]] std::optional<Defect> unbalanced_load(const LoadVector& load) const;
+  /// A moment on a hub that nothing keeps from turning, or a load on a loose part; empty when there is none. A moment
+  /// counts as none when the largest force would make it with a lever of this share of the longest beam.
+  [[nodiscard]] std::optional<Defect> unbalanced_load(const LoadVector& load, double lever_share = 0) const;
 
   [[nodiscard]] FixedEndForces fixed_end_forces(int beam, std::span<const BeamLoad> loads) const;
   /// Adds the reverse of a beam's fixed-end forces to the right-hand side of the equations.

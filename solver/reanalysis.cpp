@@ -192,7 +192,7 @@ LoadVector Reanalysis::State::force_on_standing(const LoadSet& loads) const {
   if (!answer.stable || !structure_stands)
     throw Instability("the structure does not stand: it has no response", answer.mechanism);
   LoadVector result = system->load_vector(loads);
-  if (const auto defect = system->unbalanced_load(result)) throw Instability(defect->message, defect->motion);
+  if (const auto defect = system->unbalanced_load(result, negligible_lever)) throw Instability(defect->message, defect->motion);
   return result;
 }
 

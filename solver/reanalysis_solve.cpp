@@ -363,7 +363,7 @@ const ReanalysisAnswer& Reanalysis::State::solve(UseWatch* watch) {
   } else {
     ++counters.load_solves;
   }
-  if (const auto defect = system->unbalanced_load(load)) {
+  if (const auto defect = system->unbalanced_load(load, negligible_lever)) {
     give_up(*defect);
     return answer;
   }

@@ -18,6 +18,10 @@
 
 namespace topple::solver {
 
+/// Contacts act where a collision engine found them: a moment that the largest force makes by less than this share of
+/// the longest beam, on a hub that nothing keeps from turning, is none (FrameSystem::unbalanced_load).
+inline constexpr double negligible_lever = 1e-6;
+
 /// What a beam is to be after the next solve().
 struct BeamTarget {
   std::array<Vec6, 2> end_stiffness;

@@ -32,8 +32,8 @@ inline constexpr int burning_stages = 10;
 
 /// What a click does.
 enum class ToolKind { fire, swing, cut, remove, support, charge, burn, path, select };
-inline constexpr std::array<const char*, 9> tool_names{"fire",   "wrecking ball", "cut joint", "remove part",
-                                                       "remove support", "charge", "burn", "load path", "select"};
+inline constexpr std::array<const char*, 9> tool_names{
+    "fire", "wrecking ball", "cut joint", "remove part", "remove support", "charge", "burn", "load path", "select"};
 
 class Controller {
  public:
