@@ -2,6 +2,7 @@
 // solve with its factor ("pair"), all on the same matrix in one run. Errors beside times.
 //   bench_reanalysis [posts_x posts_y storeys breaks]      (default 10 10 40 50)
 #include <cstdlib>
+#include <limits>
 #include <map>
 #include <memory>
 
@@ -174,6 +175,9 @@ int main(int argc, char** argv) {
       100 * part.beams / static_cast<double>(frame.model.beams.size()), part.left);
 
   structure = stand(frame);
+  solver::RefreshRules never;
+  never.columns = std::numeric_limits<int>::max();
+  structure->set_refresh(never);
   const Steps steps = break_one_by_one(*structure, members);
   const auto& c = structure->counters();
   const std::size_t window = std::min<std::size_t>(5, steps.time.size());
