@@ -130,7 +130,10 @@ class BulletWorld final : public World {
   [[nodiscard]] bool is_awake(const Contact& contact) const;
 
   [[nodiscard]] Motion motion_of(const Body& body, double dt) const;
+  [[nodiscard]] static Mover mover_of(const Body& body, const Motion& motion, double duration);
   [[nodiscard]] std::vector<Mover> movers(double dt) const;
+  static void find_touches(const Mover& mover, const Solid& other, const Motion& other_motion, double dt,
+                           std::vector<Contact>& found);
   void sweep_pair(const Mover& mover, const Solid& other, const Motion& other_motion, double dt,
                   std::vector<Contact>& found) const;
   void sweep_ground(const Mover& mover, double dt, std::vector<Contact>& found) const;

@@ -69,20 +69,24 @@ Motion BulletWorld::motion_of(const Body& body, double dt) const {
   return motion;
 }
 
+BulletWorld::Mover BulletWorld::mover_of(const Body& body, const Motion& motion, double duration) {
+  Mover mover;
+  mover.body = &body;
+  mover.motion = motion;
+  for (const SolidPart& part : body.parts) mover.parts.push_back(swept_bounds(part, motion, duration));
+  mover.whole = mover.parts.front();
+  for (const Bounds& part : mover.parts) {
+    mover.whole.low.setMin(part.low);
+    mover.whole.high.setMax(part.high);
+  }
+  return mover;
+}
+
 std::vector<BulletWorld::Mover> BulletWorld::movers(double dt) const {
   std::vector<Mover> result;
   for (const auto& [id, body] : bodies_) {
     if (!body->rigid->isActive()) continue;
-    Mover mover;
-    mover.body = body.get();
-    mover.motion = motion_of(*body, dt);
-    for (const SolidPart& part : body->parts) mover.parts.push_back(swept_bounds(part, mover.motion, dt));
-    mover.whole = mover.parts.front();
-    for (const Bounds& part : mover.parts) {
-      mover.whole.low.setMin(part.low);
-      mover.whole.high.setMax(part.high);
-    }
-    result.push_back(std::move(mover));
+    result.push_back(mover_of(*body, motion_of(*body, dt), dt));
   }
   return result;
 }
@@ -119,6 +123,12 @@ void BulletWorld::sweep_pair(const Mover& mover, const Solid& other, const Motio
                              std::vector<Contact>& found) const {
   if (!mover.body->object->checkCollideWith(other.object) || !other.object->checkCollideWith(mover.body->object))
     return;
+  find_touches(mover, other, other_motion, dt, found);
+}
+
+/// Of each part of the one with each part of the other.
+void BulletWorld::find_touches(const Mover& mover, const Solid& other, const Motion& other_motion, double dt,
+                               std::vector<Contact>& found) {
   for (const SolidPart& other_part : other.parts) {
     const Bounds other_bounds = swept_bounds(other_part, other_motion, dt);
     if (!other_bounds.meets(mover.whole)) continue;
@@ -135,20 +145,14 @@ void BulletWorld::sweep_pair(const Mover& mover, const Solid& other, const Motio
 /// other. (This step alone would not do: who is told at the end of a step to pass has yet to arrive.)
 bool BulletWorld::still_to_pass(const Body& first, const Solid& other, bool other_moves, double dt) const {
   const double ahead = 2 * dt;
-  const Motion motion = motion_of(first, dt);
   Motion other_motion;
   other_motion.start = other.object->getWorldTransform();
   if (other_moves) other_motion = motion_of(static_cast<const Body&>(other), dt);
   const double resting_speed = 2 * world_.getGravity().length() * dt;
-  for (const SolidPart& part : first.parts) {
-    const Bounds bounds = swept_bounds(part, motion, ahead);
-    for (const SolidPart& other_part : other.parts) {
-      if (!bounds.meets(swept_bounds(other_part, other_motion, ahead))) continue;
-      const std::optional<Touch> touch = first_touch(part, motion, other_part, other_motion, ahead);
-      if (touch && touch->approach_speed > resting_speed) return true;
-    }
-  }
-  return false;
+  std::vector<Contact> found;
+  find_touches(mover_of(first, motion_of(first, dt), ahead), other, other_motion, ahead, found);
+  return std::any_of(found.begin(), found.end(),
+                     [&](const Contact& contact) { return contact.approach_speed > resting_speed; });
 }
 
 void BulletWorld::sweep_ground(const Mover& mover, double dt, std::vector<Contact>& found) const {

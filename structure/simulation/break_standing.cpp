@@ -29,18 +29,23 @@ double Simulation::State::punching_force(const Strike& hit) const {
   return breakable.tensile_strength * M_PI * t * (2 * r + t);
 }
 
-/// True when it went through.
-bool Simulation::State::punch_at_once(Strike& hit, double force) {
+/// Speed that the punch leaves a blow that is fast enough to feel the panel alone; 0 for one that is not.
+double Simulation::State::speed_through(const Strike& hit, double force) const {
+  if (force == unlimited) return 0;
   const std::size_t panel = static_cast<std::size_t>(hit.part.panel.index);
   const double work = force * building.panels[panel].thickness / 2;
   const double left = hit.speed * hit.speed - 2 * work / hit.mass;
-  if (hit.speed <= breakable_panels[panel].breaking_speed || left <= 0) return false;
+  return hit.speed > breakable_panels[panel].breaking_speed && left > 0 ? std::sqrt(left) : 0;
+}
+
+/// With the speed that is left. True when it went through.
+bool Simulation::State::punch_at_once(Strike& hit, double force, double left) {
   const double plug = break_out(hit);
   if (!(plug > 0)) return false;
   hit.through = true;
   hit.structure_mass = 0;
   hit.peak_force = force;
-  hit.speed_out = std::sqrt(left) * hit.mass / (hit.mass + plug);
+  hit.speed_out = left * hit.mass / (hit.mass + plug);
   return true;
 }
 

@@ -55,7 +55,7 @@ struct Simulation::State {
   void strike(const collision::Contact& contact);
   [[nodiscard]] std::optional<Strike> aim(const collision::Contact& contact);
   [[nodiscard]] double rebound(const Indentation& pushing) const;
-  [[nodiscard]] bool bears(Strike& hit, double weight);
+  [[nodiscard]] bool bears(Strike& hit, double weight, double punching);
   void push_in(Strike& hit);
   static void tell_loss(Strike& hit);
   void send_on(const Strike& hit);
@@ -125,7 +125,8 @@ struct Simulation::State {
 
   // break_standing.cpp: panels that break where they stand.
   [[nodiscard]] double punching_force(const Strike& hit) const;
-  bool punch_at_once(Strike& hit, double force);
+  [[nodiscard]] double speed_through(const Strike& hit, double force) const;
+  bool punch_at_once(Strike& hit, double force, double left);
   /// Returns the mass that the hit broke out; 0 when nothing can break there.
   double break_out(Strike& hit);
   void push_chunks(const Strike& hit);

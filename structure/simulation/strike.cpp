@@ -100,14 +100,8 @@ double Simulation::State::rebound(const Indentation& pushing) const {
 /// Whether what is hit provably bears the push: the joints that bear it directly do not fail, and the energy is less
 /// than any other joint fails at. A lower bound of the mass that takes part makes the push harder than it is, so what
 /// is told of it (peak force, speed out) is a bound as well. Most impacts of debris end here, at a part of the cost.
-bool Simulation::State::bears(Strike& hit, double weight) {
+bool Simulation::State::bears(Strike& hit, double weight, double punching) {
   constexpr double rounding = 1e-6;
-  const double punching = punching_force(hit);
-  if (punching < unlimited) {  // a fast blow goes through whatever the joints bear (break_standing.cpp)
-    const auto panel = static_cast<std::size_t>(hit.part.panel.index);
-    const double work = punching * building.panels[panel].thickness / 2;
-    if (hit.speed > breakable_panels[panel].breaking_speed && hit.mass * hit.speed * hit.speed / 2 > work) return false;
-  }
   const StandingFrame::UnitResponse near = frame->respond_near(hit.place, hit.normal);
   const double mass = scenario.impact.structure_mass ? near.rayleigh_mass : 0;
   Indentation pushing(hit.mass, hit.speed, weight, mass);
@@ -124,12 +118,16 @@ bool Simulation::State::bears(Strike& hit, double weight) {
 /// The pushing, break after break, until the body stops or nothing is left to push.
 void Simulation::State::push_in(Strike& hit) {
   const double weight = hit.mass * gravity.dot(hit.normal);
-  if (bears(hit, weight)) return tell_loss(hit);
+  double punching = punching_force(hit);
+  // A fast blow goes through whatever the joints bear.
+  if (const double left = speed_through(hit, punching); left > 0) {
+    if (punch_at_once(hit, punching, left)) return tell_loss(hit);
+  } else if (bears(hit, weight, punching)) {
+    return tell_loss(hit);
+  }
   StandingFrame::UnitResponse response = frame->respond(hit.place, hit.normal);
   hit.structure_mass = scenario.impact.structure_mass ? response.rayleigh_mass : 0;
   Indentation pushing(hit.mass, hit.speed, weight, hit.structure_mass);
-  double punching = punching_force(hit);
-  if (punching < unlimited && punch_at_once(hit, punching)) return tell_loss(hit);
   for (;;) {
     const FirstFailure first = first_failure(*frame, response, strength_factors, unlimited);
     const bool punches = punching < unlimited && punching <= first.force;
@@ -141,7 +139,8 @@ void Simulation::State::push_in(Strike& hit) {
     if (punches) {
       if (const double plug = break_out(hit); plug > 0) {
         hit.through = true;
-        hit.speed_out = let_through(hit.speed, pushing) * hit.mass / (hit.mass + plug);  // it takes along what it broke out
+        hit.speed_out =
+            let_through(hit.speed, pushing) * hit.mass / (hit.mass + plug);  // it takes along what it broke out
         break;
       }
       punching = unlimited;

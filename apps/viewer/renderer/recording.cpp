@@ -117,7 +117,8 @@ void Recording::add(const Snapshot& snapshot) {
       track.keys.push_back(key);
     } else {
       still.push_back(tracks_.size());
-      tracks_.push_back({body.id, body.rest_centre, body.radius, body.chunk, body.chunk_of, body.cable_anchor, number, -1, {key}});
+      tracks_.push_back(
+          {body.id, body.rest_centre, body.radius, body.chunk, body.chunk_of, body.cable_anchor, number, -1, {key}});
     }
     news = true;
   }
@@ -149,9 +150,10 @@ std::size_t Recording::frame_at(double time) const {
 }
 
 std::shared_ptr<const std::vector<DustPuff>> Recording::dust_at(double time) const {
-  std::vector<DustPuff> there;
-  for (const DustPuff& puff : dust_)
-    if (puff.time <= time && time < puff.time + dust_life) there.push_back(puff);
+  const auto first = std::partition_point(dust_.begin(), dust_.end(),
+                                          [=](const DustPuff& puff) { return puff.time + dust_life <= time; });
+  const auto end = std::partition_point(first, dust_.end(), [=](const DustPuff& puff) { return puff.time <= time; });
+  std::vector<DustPuff> there(first, end);
   return there.empty() ? nullptr : std::make_shared<const std::vector<DustPuff>>(std::move(there));
 }
 

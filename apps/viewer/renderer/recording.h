@@ -77,7 +77,7 @@ class Recording {
   std::vector<BodyTrack> tracks_;   ///< in order of id
   std::vector<std::size_t> alive_;  ///< tracks that have not ended, in order of id
   std::vector<Event> events_;
-  std::vector<DustPuff> dust_;  ///< all there was, in order of number
+  std::vector<DustPuff> dust_;  ///< all there was, in order of time
   bool resting_ = false;        ///< the last frame brought nothing new
 };
 
