@@ -59,8 +59,11 @@ def read_results(path):
         return json.load(stored)
 
 
+LOGARITHMIC = "set logscale xy\nset format y '10^{%L}'\nset format x '10^{%L}'\nset grid\n"
+
+
 def plot(path, script, data):
-    """Runs a gnuplot script with `data` (name to rows of numbers) as its data blocks. None when gnuplot is not there."""
+    """Runs a gnuplot script on logarithmic axes with `data` (name to rows of numbers) as its data blocks. None when gnuplot is not there."""
     if shutil.which("gnuplot") is None:
         print("bench: gnuplot is not installed (Debian: gnuplot-nox); no figure")
         return None
@@ -69,7 +72,7 @@ def plot(path, script, data):
         lines = "\n".join(" ".join('"%s"' % item if isinstance(item, str) else "%.9g" % item for item in row) for row in rows)
         blocks.append("$%s << END_OF_BLOCK\n%s\nEND_OF_BLOCK\n" % (name, lines))
     head = "set terminal svg size 860,560 font 'sans,13' background 'white'\nset output '%s'\n" % os.path.basename(path)
-    done = subprocess.run(["gnuplot"], input=head + "".join(blocks) + script, text=True, capture_output=True,
+    done = subprocess.run(["gnuplot"], input=head + LOGARITHMIC + "".join(blocks) + script, text=True, capture_output=True,
                           cwd=os.path.dirname(path))
     if done.returncode != 0:
         raise RuntimeError("gnuplot: " + done.stderr.strip())

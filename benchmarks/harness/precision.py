@@ -35,14 +35,10 @@ TEXT = ("Errors are relative, of the mean roof sag and root mean square over all
         "solvers, whose matrices are dense, and the slowest others are left out. What is not shown: debris and contacts; that elastic joints are what is wanted; memory.")
 
 FIGURE = """
-set logscale xy
-set format y '10^{%%L}'
-set format x '10^{%%L}'
 set xlabel '%s'
 set ylabel 'relative error of the reactions'
 set title 'Standing %s: error against time'
 set key outside below horizontal
-set grid
 set xrange [%g:%g]
 set yrange [%g:%g]
 plot $labels using 4:5:($2-$4):($3-$5) with vectors nohead lw 0.4 lc rgb '#bbbbbb' notitle, \\

@@ -19,13 +19,9 @@ ROWS = [(NOTHING, "sequential impulse 10", "Bullet, sequential impulse, 10 itera
         ("a joint breaks", "Topple, restricted", "Topple, a joint breaks, which is next"), (FIRST, "Topple, standing", "Topple, from nothing")]
 
 FIGURE = """
-set logscale xy
-set format y '10^{%%L}'
-set format x '10^{%%L}'
 set xlabel 'milliseconds a step, one thread'
 set ylabel 'relative error of the reactions'
 set key off
-set grid
 set xrange [%g:%g]
 set yrange [%g:%g]
 plot $labels using 4:5:($2-$4):($3-$5) with vectors nohead lw 0.4 lc rgb '#bbbbbb' notitle, \\

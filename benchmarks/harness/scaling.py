@@ -36,14 +36,10 @@ TEXT = ("Regular frames, bulky (as high as wide) and wide (six storeys), self we
         "debris in numbers, more threads." % FITTED_FROM)
 
 FIGURE = """
-set logscale xy
-set format y '10^{%%L}'
-set format x '10^{%%L}'
 set xlabel 'freedoms'
 set ylabel '%s'
 set title '%s'
 set key outside right
-set grid
 plot %s
 """
 COLOURS = ("#c0392b", "#2471a3", "#1e8449", "#b7950b", "#7d3c98", "#d35400", "#17a589", "#566573", "#000000")

@@ -17,14 +17,10 @@ TEXT = ("Errors against solutions in quadruple precision that share no code with
         "three seconds, over its height. What is not shown: errors of the model itself.")
 
 FIGURE = """
-set logscale xy
-set format y '10^{%%L}'
-set format x '10^{%%L}'
 set xlabel '%s'
 set ylabel 'relative error of the displacements'
 set title '%s: error, and the bound that the answer states'
 set key outside below horizontal
-set grid
 set yrange [1e-17:1e2]
 plot %s
 """

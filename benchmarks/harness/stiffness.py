@@ -27,14 +27,10 @@ TEXT = ("Each part of the frame is a rigid body and each joint a fixed constrain
 SIZES = ("3x3x12", "4x5x6")
 
 FIGURE = """
-set logscale xy
-set format y '10^{%%L}'
-set format x '10^{%%L}'
 set xlabel 'milliseconds a step'
 set ylabel 'relative error'
 set title 'Standing %s: error against time'
 set key outside below horizontal
-set grid
 set xrange [%g:%g]
 set yrange [%g:%g]
 plot $labels using 4:5:($2-$4):($3-$5) with vectors nohead lw 0.4 lc rgb '#bbbbbb' notitle, \\

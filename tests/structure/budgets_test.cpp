@@ -4,11 +4,14 @@
 #include <set>
 
 #include "frame_builder.h"
+#include "simulation_run.h"
 #include "topple/structure/simulation.h"
 
 using namespace topple::structure;
 using topple::test::FrameBuilder;
 using topple::test::grid_building;
+using topple::test::of_kind;
+using topple::test::run;
 using topple::test::same_capacity;
 
 namespace {
@@ -22,20 +25,6 @@ Scenario scenario_with(std::vector<Event> events, double duration = 60) {
   scenario.ground = 0;
   scenario.events = std::move(events);
   return scenario;
-}
-
-void run(Simulation& simulation) {
-  while (!simulation.finished()) {
-    simulation.skip_idle();
-    simulation.step();
-  }
-}
-
-std::vector<SimulationEvent> of_kind(const Simulation& simulation, SimulationEvent::Kind kind) {
-  std::vector<SimulationEvent> found;
-  for (const SimulationEvent& event : simulation.events())
-    if (event.kind == kind) found.push_back(event);
-  return found;
 }
 
 double weight_on_supports(const Simulation& simulation) {

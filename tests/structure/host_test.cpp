@@ -5,6 +5,7 @@
 
 #include "ballistic_world.h"
 #include "frame_builder.h"
+#include "struck_beam.h"
 #include "topple/structure/error.h"
 #include "topple/structure/files.h"
 #include "topple/structure/simulation.h"
@@ -20,13 +21,7 @@ namespace {
 constexpr double length = 6;
 
 FrameBuilder beam_between_walls(const JointCapacity& joint = {}) {
-  FrameBuilder f;
-  const NodeId a = f.node("A", 0, 0, 5), b = f.node("B", length, 0, 5);
-  f.member("AB", MemberKind::beam, a, b, joint, joint);
-  f.support(a);
-  f.support(b);
-  f.load(MemberId(0u), -1000);
-  return f;
+  return topple::test::beam_between_walls(length, -1000, joint);
 }
 
 Scenario quiet(bool structure_mass = false) {

@@ -4,6 +4,7 @@
 
 #include "ballistic_world.h"
 #include "frame_builder.h"
+#include "struck_beam.h"
 #include "topple/structure/error.h"
 #include "topple/structure/simulation.h"
 
@@ -18,13 +19,7 @@ constexpr double g = 10, length = 6;
 
 /// A beam between two fixed ends; its own weight is small against the bodies that hit it.
 FrameBuilder beam_between_walls(const JointCapacity& joint = {}) {
-  FrameBuilder f;
-  const NodeId a = f.node("A", 0, 0, 5), b = f.node("B", length, 0, 5);
-  f.member("AB", MemberKind::beam, a, b, joint, joint);
-  f.support(a);
-  f.support(b);
-  f.load(MemberId(0u), -10);
-  return f;
+  return topple::test::beam_between_walls(length, -10, joint);
 }
 
 Scenario dropping(double step, double height, double mass, bool structure_mass = false) {

@@ -3,11 +3,14 @@
 #include <cmath>
 
 #include "frame_builder.h"
+#include "simulation_run.h"
 #include "topple/structure/divide_member.h"
 #include "topple/structure/simulation.h"
 
 using namespace topple::structure;
 using topple::test::FrameBuilder;
+using topple::test::of_kind;
+using topple::test::run;
 using topple::test::same_capacity;
 
 namespace {
@@ -31,20 +34,6 @@ Scenario with(const Tool& tool, double at = 1, double duration = 20) {
   scenario.ground = 0;
   scenario.events = {{at, tool}};
   return scenario;
-}
-
-void run(Simulation& simulation) {
-  while (!simulation.finished()) {
-    simulation.skip_idle();
-    simulation.step();
-  }
-}
-
-std::vector<SimulationEvent> of_kind(const Simulation& simulation, SimulationEvent::Kind kind) {
-  std::vector<SimulationEvent> found;
-  for (const SimulationEvent& event : simulation.events())
-    if (event.kind == kind) found.push_back(event);
-  return found;
 }
 
 }  // namespace
