@@ -13,6 +13,8 @@ namespace topple::solver {
 namespace {
 
 constexpr const char* variable = "OPENBLAS_CORETYPE";
+/// BLAS runs on one thread in any case; told so before it is loaded, it starts none that spin for a while.
+constexpr const char* threads = "OPENBLAS_NUM_THREADS";
 
 /// Kernels for this processor's instruction set; empty when OpenBLAS's own choice cannot be bettered.
 std::string kernel_for_processor() {
@@ -52,6 +54,7 @@ void restart_with_better_blas_kernel([[maybe_unused]] char** argv) {
   if (!wanted) return;
   // The variable, once set, also keeps the restarted program from starting again.
   if (setenv(variable, wanted->c_str(), 1) != 0) return;
+  setenv(threads, "1", 0);
   execv("/proc/self/exe", argv);
   unsetenv(variable);  // the restart was refused: go on with what there is
 #endif

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <condition_variable>
 #include <exception>
+#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -36,6 +38,48 @@ void side_by_side(std::size_t count, int threads, const std::function<void(std::
   for (std::thread& thread : threads_beside) thread.join();
   for (const std::exception_ptr& failure : failures)
     if (failure) std::rethrow_exception(failure);
+}
+
+void in_order(std::size_t count, int threads, const std::function<void(std::size_t, std::string& text)>& make,
+              const std::function<void(std::string_view)>& take) {
+  std::atomic<std::size_t> next{0};
+  std::mutex mutex;
+  std::condition_variable changed;
+  std::size_t turn = 0;
+  std::exception_ptr failure;
+  const auto hand_on = [&](std::size_t i, const std::string& text, std::exception_ptr own) {
+    std::unique_lock lock(mutex);
+    changed.wait(lock, [&] { return turn == i; });
+    if (!failure && !own) {
+      lock.unlock();  // the others make theirs meanwhile, and wait for this turn to end
+      try {
+        take(text);
+      } catch (...) {
+        own = std::current_exception();
+      }
+      lock.lock();
+    }
+    if (!failure) failure = own;
+    ++turn;
+    changed.notify_all();
+  };
+  const auto run = [&] {
+    std::string text;
+    for (std::size_t i = next++; i < count; i = next++) {
+      std::exception_ptr own;
+      try {
+        make(i, text);
+      } catch (...) {
+        own = std::current_exception();
+      }
+      hand_on(i, text, own);
+    }
+  };
+  std::vector<std::thread> threads_beside;
+  for (std::size_t t = 1; t < workers_for(count, threads); ++t) threads_beside.emplace_back(run);
+  run();
+  for (std::thread& thread : threads_beside) thread.join();
+  if (failure) std::rethrow_exception(failure);
 }
 
 }  // namespace topple::structure

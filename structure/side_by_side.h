@@ -3,6 +3,8 @@
 // number of threads.
 #include <cstddef>
 #include <functional>
+#include <string>
+#include <string_view>
 
 namespace topple::structure {
 
@@ -11,5 +13,11 @@ namespace topple::structure {
 
 /// Calls work(0) ... work(count - 1), in any order and at once; throws what the first of them in order threw.
 void side_by_side(std::size_t count, int threads, const std::function<void(std::size_t)>& work);
+
+/// Calls make(0, text) ... make(count - 1, text) in any order and at once, and take() with each of the texts in their
+/// order, one at a time, while later ones are made. `text` arrives with the storage of an earlier one, to be written
+/// over. Throws what the first of them in order threw; nothing is taken after that.
+void in_order(std::size_t count, int threads, const std::function<void(std::size_t, std::string& text)>& make,
+              const std::function<void(std::string_view)>& take);
 
 }  // namespace topple::structure

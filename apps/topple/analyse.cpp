@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <iterator>
 #include <memory>
+#include <thread>
 
 #include "command.h"
 #include "html_report.h"
@@ -98,6 +99,8 @@ solver::SecondOrder second_order(const std::string& asked, const Building& build
   return solver::SecondOrder::none;
 }
 
+int processors() { return static_cast<int>(std::thread::hardware_concurrency()); }
+
 /// The smallest multiple of `stations` that is not below `wanted`.
 int whole_multiple(int stations, int wanted) {
   return stations == 0 ? wanted : stations * std::max(1, (wanted + stations - 1) / stations);
@@ -147,7 +150,7 @@ int run(const Options& options) {
   request.combinations = chosen(building, options.combinations);
   request.stations = options.stations;
   request.workers = options.threads;
-  request.solver.threads = std::max(options.threads, 1);
+  request.solver.threads = options.threads > 0 ? options.threads : std::max(1, processors());
   request.second_order = second_order(options.p_delta, building);
   request.buckling = options.buckling;
   request.losses = losses(options, building);
@@ -205,9 +208,7 @@ std::function<int()> declare(CLI::App& app) {
       ->take_all();
   app.add_option("--stations", options->stations, "Stations along each member in results.json")
       ->check(CLI::Range(1, 10000));
-  app.add_option("--threads", options->threads,
-                 "Threads (else one for the factorisation, and one for each processor where combinations are recovered "
-                 "and written)")
+  app.add_option("--threads", options->threads, "Threads (else one for each processor); they change no number")
       ->check(CLI::Range(1, 1024));
   app.add_flag("--p-delta{exact}", options->p_delta,
                "Second order: exact (stability functions) or, with =cubic, the cubic geometric stiffness")

@@ -36,7 +36,12 @@ void write_files(const std::filesystem::path& folder, const std::vector<std::pai
   };
   for (const auto& [name, text] : files) write(name, [&](const auto& sink) { sink(text); });
   for (const StreamedFile& file : streamed) write(file.name, file.write);
-  for (const std::string& name : names) std::filesystem::rename(temporary(folder / name), folder / name);
+  for (const std::string& name : names) {
+    // A file that takes another one's name is put on the disk at once by some file systems (ext4), which takes longer
+    // than all of an analysis. Both are whole at all times: results need no more.
+    std::filesystem::remove(folder / name);
+    std::filesystem::rename(temporary(folder / name), folder / name);
+  }
 }
 
 }  // namespace topple::app

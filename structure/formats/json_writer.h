@@ -4,26 +4,20 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
+
+#include "formats/shortest_number.h"
 
 namespace topple::structure {
 
 class JsonWriter {
  public:
-  /// Takes the text in pieces, in order.
-  using Sink = std::function<void(std::string_view)>;
-
   JsonWriter() = default;
-  /// Hands its text on at the end of lines, so that it never holds much of it. Call finish() at the end.
-  explicit JsonWriter(Sink sink) : sink_(std::move(sink)) {}
-
   /// Writes over the storage of an earlier text.
   explicit JsonWriter(std::string storage) : text_(std::move(storage)) {}
 
@@ -58,33 +52,7 @@ class JsonWriter {
   }
   JsonWriter& value(double number) {
     separate();
-    char* at = room(longest_number);
-    // JSON has no infinities; null says that there is no finite value.
-    if (!std::isfinite(number)) {
-      std::memcpy(at, "null", 4);
-      used_ += 4;
-      return *this;
-    }
-    if (number == 0) {
-      *at = '0';
-      ++used_;
-      return *this;
-    }
-    const auto bits = std::bit_cast<std::uint64_t>(number);
-    constexpr std::uint64_t sign = std::uint64_t{1} << 63, golden = 0x9e3779b97f4a7c15;
-    if ((bits & sign) != 0) {
-      *at++ = '-';
-      ++used_;
-    }
-    Number& kept = numbers_[((bits & ~sign) * golden) >> (64 - kept_bits)];
-    if (kept.bits != (bits & ~sign)) {
-      kept.bits = bits & ~sign;
-      const char* end = std::to_chars(kept.text, kept.text + sizeof kept.text, std::abs(number)).ptr;
-      kept.length = static_cast<std::uint8_t>(end - kept.text);
-    }
-    std::memcpy(at, kept.text, sizeof kept.text);
-    used_ += kept.length;
-    return *this;
+    return compose(number_room, [&](char* at) { return write(number, at); });
   }
   JsonWriter& value(std::size_t number) {
     separate();
@@ -104,44 +72,62 @@ class JsonWriter {
     fresh_ = text.back() != ']' && text.back() != '}';
     return *this;
   }
-  /// Items of a list or an object as another writer made them: they begin with a line's end.
-  JsonWriter& item(std::string_view text) {
-    separate();
-    if (sink_) {
-      hand_on();
-      sink_(text);
-    } else {
-      put(text);
+  /// What compose(at) writes from `at` on, at most so many characters; it returns their end. As it stands, with no
+  /// comma before it, and nothing is put between it and what follows but after newline().
+  template <class Compose>
+  JsonWriter& compose(std::size_t most, Compose compose) {
+    char* at = room(most);
+    used_ += static_cast<std::size_t>(compose(at) - at);
+    return *this;
+  }
+  /// For compose(): writes a number and returns its end. Needs number_room characters to write on.
+  char* write(double number, char* at) {
+    // JSON has no infinities; null says that there is no finite value.
+    if (!std::isfinite(number)) return static_cast<char*>(std::memcpy(at, "null", 4)) + 4;
+    if (number == 0) {
+      *at = '0';
+      return at + 1;
     }
+    const auto bits = std::bit_cast<std::uint64_t>(number);
+    constexpr std::uint64_t sign = std::uint64_t{1} << 63, golden = 0x9e3779b97f4a7c15;
+    *at = '-';
+    at += bits >> 63;
+    Number& kept = numbers_[((bits & ~sign) * golden) >> (64 - kept_bits)];
+    if (kept.bits != (bits & ~sign)) {
+      kept.bits = bits & ~sign;
+      kept.length = static_cast<std::uint8_t>(write_shortest(std::abs(number), at) - at);
+      std::memcpy(kept.text, at, sizeof kept.text);
+    } else {
+      std::memcpy(at, kept.text, sizeof kept.text);
+    }
+    return at + kept.length;
+  }
+  /// What comes next follows an item of the same list or object, which another writer wrote.
+  JsonWriter& follow() {
+    fresh_ = false;
+    started_ = true;
     return *this;
   }
   /// A line's end inside the text, for a person's eyes.
   JsonWriter& newline() {
     if (!fresh_ && started_) put(',');
-    if (sink_ && used_ >= handed_on_at_once) hand_on();
     put('\n');
     fresh_ = true;
     return *this;
   }
-  /// All of the text, of a writer without a sink.
+  /// All of the text.
   [[nodiscard]] std::string take() {
     text_.resize(used_);
     used_ = 0;
     return std::move(text_);
   }
-  /// Ends the last line and hands on what is left.
-  void finish() {
-    put('\n');
-    hand_on();
-  }
 
  private:
-  static constexpr std::size_t longest_number = 32, handed_on_at_once = std::size_t{1} << 19;
   static constexpr int kept_bits = 7;
   struct Number {
     std::uint64_t bits = 0;
     std::uint8_t length = 0;
-    char text[24]{};
+    char text[longest_number]{};
   };
 
   /// Space for so many characters behind what is there.
@@ -158,10 +144,6 @@ class JsonWriter {
   void put(std::string_view text) {
     std::memcpy(room(text.size()), text.data(), text.size());
     used_ += text.size();
-  }
-  void hand_on() {
-    sink_(std::string_view(text_).substr(0, used_));
-    used_ = 0;
   }
   void separate() {
     if (!fresh_) put(',');
@@ -191,7 +173,6 @@ class JsonWriter {
     put('"');
   }
 
-  Sink sink_;
   std::string text_;  ///< as large as it may become before it grows; the first `used_` characters count
   std::size_t used_ = 0;
   bool fresh_ = true, started_ = false;
@@ -201,8 +182,10 @@ class JsonWriter {
 /// A number by itself, as JsonWriter has it.
 [[nodiscard]] inline std::string json_number(double number) {
   if (!std::isfinite(number)) return "null";
-  char text[32];
-  return {text, std::to_chars(text, text + sizeof text, number == 0 ? 0.0 : number).ptr};
+  if (number == 0) return "0";
+  char text[number_room + 1] = {'-'};
+  const char *begin = number < 0 ? text : text + 1, *end = write_shortest(std::abs(number), text + 1);
+  return {begin, end};
 }
 
 /// A name as the key of an object, for raw_key().
