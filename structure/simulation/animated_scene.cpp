@@ -1,4 +1,4 @@
-#include "simulation/animated_scene.h"
+#include "topple/structure/animated_scene.h"
 
 #include <cmath>
 

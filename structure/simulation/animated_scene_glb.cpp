@@ -5,7 +5,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "simulation/animated_scene.h"
+#include "topple/structure/animated_scene.h"
 
 namespace topple::structure {
 

@@ -3,10 +3,10 @@
 #include <map>
 #include <set>
 
-#include "simulation/animated_scene.h"
 #include "simulation/mass_properties.h"
 #include "simulation/part.h"
 #include "simulation/part_shapes.h"
+#include "topple/structure/animated_scene.h"
 
 namespace topple::structure {
 

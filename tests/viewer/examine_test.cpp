@@ -122,6 +122,20 @@ TEST_CASE("words choose the view, and wrong ones are refused with those accepted
   show("buckling 2", options, mode);
   CHECK(mode.kind == ModeKind::buckling);
   CHECK(mode.number == 1);
+  show("no slabs", options, mode);
+  show("uncoloured beams", options, mode);
+  show("no shadows", options, mode);
+  show("wall-opacity 0.3", options, mode);
+  CHECK_FALSE(options.shown.slabs);
+  CHECK(options.shown.walls);
+  CHECK_FALSE(options.coloured.beams);
+  CHECK(options.shown.beams);
+  CHECK_FALSE(options.shadows);
+  CHECK(options.wall_opacity == 0.3F);
+  show("slabs", options, mode);
+  show("coloured beams", options, mode);
+  CHECK(options.shown == PartSwitches());
+  CHECK(options.coloured == PartSwitches());
   const auto refused = [&](const std::string& words) {
     try {
       show(words, options, mode);

@@ -1,12 +1,17 @@
 // What leaves the viewer: USD, the replay page, videos; and the panels without a window.
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <iostream>
+#include <map>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "app/gltf_scene.h"
 #include "app/headless.h"
 #include "app/html_replay.h"
 #include "app/part_motion.h"
@@ -64,6 +69,37 @@ TEST_CASE("USD holds each part once, its motion as samples, and balanced braces"
   CHECK(usd.find("def Mesh \"P_1_1_1\"") != std::string::npos);
   CHECK(count(usd, "\"invisible\"") >= 2);  // what was removed
   CHECK(count(usd, "xformOp:translate.timeSamples") > 0);
+}
+
+TEST_CASE("glTF holds a node for each part by its name, moved as its body moves") {
+  const ScratchFolder folder;
+  const Fall fall;
+  const std::string file = (folder / "fall.glb").string();
+  write_gltf(*fall.scene.building, *fall.session.recording(), file);
+  const std::string bytes = text_of(file);
+  REQUIRE(bytes.size() > 20);
+  CHECK(bytes.substr(0, 4) == "glTF");
+  std::uint32_t whole = 0, chunk = 0;
+  std::memcpy(&whole, bytes.data() + 8, 4);
+  std::memcpy(&chunk, bytes.data() + 12, 4);
+  CHECK(whole == bytes.size());
+  const auto gltf = nlohmann::json::parse(bytes.substr(20, chunk));
+  std::map<std::string, int> nodes;
+  for (const auto& node : gltf["nodes"])
+    if (node.contains("name")) ++nodes[node["name"].get<std::string>()];
+  for (const auto& member : fall.scene.building->members) CHECK(nodes[member.name] == 1);
+  for (const auto& panel : fall.scene.building->panels) CHECK(nodes[panel.name] == 1);
+  // As many shapes as members of different section, kind and length, and one for each panel.
+  CHECK(gltf["meshes"].size() < fall.scene.building->members.size() + fall.scene.building->panels.size());
+  // What moves has a channel of places; what stands has none.
+  int moving = 0;
+  for (const auto& places : part_places(*fall.scene.building, *fall.session.recording()))
+    moving += std::any_of(places.begin(), places.end(), [](const PlaceChange& p) { return p.track >= 0; }) ? 1 : 0;
+  int moved = 0;
+  for (const auto& channel : gltf["animations"][0]["channels"])
+    moved += channel["target"]["path"] == "translation" ? 1 : 0;
+  CHECK(moving > 0);
+  CHECK(moved == moving);
 }
 
 TEST_CASE("what remains of a panel that breaks where it stands is in every export, from the frame on where it broke") {

@@ -264,6 +264,12 @@ TEST_CASE("a saved run is taken up where it was, tuning and tools with it, and u
   other.controller.load(file);
   CHECK(other.session.simulation().hash() == hash);
   CHECK(other.now().step == person.now().step);
+  // The way there can be looked back at.
+  const Recording& way = other.driver.recording();
+  CHECK(way.span()[0] == 0);
+  CHECK(way.at(3 * person.scene.scenario.step).membership->members_standing ==
+        static_cast<int>(person.scene.building->members.size()));
+  CHECK(way.events().size() == person.driver.recording().events().size());
   REQUIRE(other.now().tuned);
   const auto post = static_cast<std::size_t>(other.joint("P-2-2-1:1").index);
   CHECK(other.now().tuned->capacity[post].value == person.now().tuned->capacity[post].value);

@@ -182,6 +182,14 @@ TEST_CASE("a script's mistakes are named with their place") {
   CHECK(refused(R"({"topple": 1, "actions": [{"at": 0, "click": [1]}]})").find("actions[0].click") !=
         std::string::npos);
   CHECK(refused(R"({"topple": 1, "actions": [{"click": [1, 2]}]})").find("'at' is missing") != std::string::npos);
+  CHECK(refused(R"({"topple": 1, "actions": [{"at": 0, "key": "n", "zoom": 1}]})").find("accepted: camera, click") !=
+        std::string::npos);
+  CHECK(refused(R"({"topple": 1, "actions": [{"at": 0, "tool": {"name": "saw"}}]})")
+            .find("accepted: fire, wrecking ball") != std::string::npos);
+  CHECK(refused(R"({"topple": 1, "actions": [{"at": 0, "restart": {"bracing": "some"}}]})")
+            .find("accepted: buckling, classic, none") != std::string::npos);
+  CHECK(refused(R"({"topple": 1, "actions": [{"at": 0, "look_at": "past"}]})").find("accepted: present") !=
+        std::string::npos);
   CHECK(refused(R"({"topple": 2, "actions": []})").find("format 1") != std::string::npos);
   CHECK(refused(R"({"topple": 1, "actions": [)").find("not JSON") != std::string::npos);
   CHECK(refused(R"({"topple": 1, "actions": [{"at": 0, "quit": true}]})").empty());

@@ -1,8 +1,11 @@
 #include "app/actions.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
+#include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -48,6 +51,26 @@ class Value {
   [[nodiscard]] double positive() const {
     if (number() <= 0) refuse("not above zero");
     return number();
+  }
+  [[nodiscard]] bool yes_or_no() const {
+    if (!value_.is_boolean()) refuse("not true or false");
+    return value_.get<bool>();
+  }
+  [[nodiscard]] bool is_text() const { return value_.is_string(); }
+  [[nodiscard]] std::vector<std::string> keys() const {
+    if (!value_.is_object()) refuse("not an object");
+    std::vector<std::string> names;
+    for (const auto& [key, unused] : value_.items()) names.push_back(key);
+    return names;
+  }
+  /// Which of the names it is.
+  template <std::size_t n>
+  [[nodiscard]] std::size_t choice(const std::array<const char*, n>& names) const {
+    const auto found = std::find(names.begin(), names.end(), text());
+    if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+    std::string accepted;
+    for (const char* name : names) accepted += (accepted.empty() ? "" : ", ") + std::string(name);
+    refuse("'" + text() + "': accepted: " + accepted);
   }
   [[nodiscard]] std::string text() const {
     if (!value_.is_string()) refuse("not a text");
@@ -99,32 +122,100 @@ structure::JointChange change_of(const Value& value) {
   return change;
 }
 
+std::pair<glm::dvec2, glm::dvec2> pixels_of(const Value& value) {
+  (void)value.count(2);
+  return {value.item(0).pixel(), value.item(1).pixel()};
+}
+
+ToolAction tool_of(const Value& value) {
+  const std::size_t kind = value["name"].choice(tool_names);
+  ToolAction tool{static_cast<ToolKind>(kind), {}};
+  for (const std::string& key : value.keys())
+    if (key != "name") tool.settings.emplace_back(key, value[key].positive());
+  return tool;
+}
+
+RestartAction restart_of(const Value& value) {
+  constexpr std::array bracings{"buckling", "classic", "none"};
+  constexpr std::array methods{"voronoi", "quadrilateral", "local", "none"};
+  constexpr std::array mechanisms{"hinge", "detach"};
+  value.only(
+      {"bracing", "mechanism", "sudden", "generations_per_second", "second_order", "fracture", "cell", "materials"});
+  RestartAction restart;
+  if (value.has("bracing")) restart.bracing = static_cast<structure::BracingRule>(value["bracing"].choice(bracings));
+  if (value.has("mechanism"))
+    restart.mechanism = static_cast<structure::MechanismRule>(value["mechanism"].choice(mechanisms));
+  if (value.has("sudden")) restart.sudden = value["sudden"].positive();
+  if (value.has("generations_per_second")) restart.generations_per_second = value["generations_per_second"].positive();
+  if (value.has("second_order")) restart.second_order = value["second_order"].yes_or_no();
+  if (value.has("fracture")) {
+    const std::size_t method = value["fracture"].choice(methods);
+    restart.panels_stay_whole = method + 1 == methods.size();
+    if (!restart.panels_stay_whole) restart.fracture = static_cast<fracture::Method>(method);
+  }
+  if (value.has("cell")) restart.cell = value["cell"].positive();
+  if (value.has("materials"))
+    for (const std::string& name : value["materials"].keys())
+      restart.materials.push_back({name, value["materials"][name].positive()});
+  return restart;
+}
+
+LookAction look_of(const Value& value) {
+  if (!value.is_text()) return {value.number()};
+  constexpr std::array accepted{"present"};
+  (void)value.choice(accepted);
+  return {};
+}
+
+using Meaning = decltype(Action::what);
+const std::map<std::string, std::function<Meaning(const Value&)>>& meanings() {
+  static const std::map<std::string, std::function<Meaning(const Value&)>> all{
+      {"camera", [](const Value& v) { return CameraAction{camera_of(v)}; }},
+      {"click", [](const Value& v) { return ClickAction{v.pixel()}; }},
+      {"fire", fire_of},
+      {"key", [](const Value& v) { return KeyAction{v.text()}; }},
+      {"drag",
+       [](const Value& v) {
+         const auto [from, to] = pixels_of(v);
+         return DragAction{from, to};
+       }},
+      {"pan",
+       [](const Value& v) {
+         const auto [from, to] = pixels_of(v);
+         return PanAction{from, to};
+       }},
+      {"zoom", [](const Value& v) { return ZoomAction{v.number()}; }},
+      {"fly", [](const Value& v) { return FlyAction{v.point()}; }},
+      {"select", [](const Value& v) { return SelectAction{v.text()}; }},
+      {"tool", tool_of},
+      {"gravity", [](const Value& v) { return GravityAction{v.number()}; }},
+      {"look_at", look_of},
+      {"go_on", [](const Value&) { return GoOnAction{}; }},
+      {"restart", restart_of},
+      {"save", [](const Value& v) { return SaveAction{v.text()}; }},
+      {"load", [](const Value& v) { return LoadAction{v.text()}; }},
+      {"export", [](const Value& v) { return ExportAction{v.text()}; }},
+      {"set", change_of},
+      {"show", [](const Value& v) { return ShowAction{v.text()}; }},
+      {"screenshot", [](const Value& v) { return ScreenshotAction{v.text()}; }},
+      {"quit", [](const Value&) { return QuitAction{}; }}};
+  return all;
+}
+
 Action action_of(const Value& value) {
-  value.only({"at", "camera", "click", "fire", "key", "drag", "set", "show", "screenshot", "quit"});
+  std::set<std::string> keys{"at"};
+  std::string accepted;
+  for (const auto& [name, unused] : meanings()) {
+    keys.insert(name);
+    accepted += (accepted.empty() ? "" : ", ") + name;
+  }
+  value.only(keys);
   Action action;
   action.at = value["at"].number();
-  if (value.has("camera"))
-    action.what = CameraAction{camera_of(value["camera"])};
-  else if (value.has("click"))
-    action.what = ClickAction{value["click"].pixel()};
-  else if (value.has("fire"))
-    action.what = fire_of(value["fire"]);
-  else if (value.has("key"))
-    action.what = KeyAction{value["key"].text()};
-  else if (value.has("set"))
-    action.what = change_of(value["set"]);
-  else if (value.has("show"))
-    action.what = ShowAction{value["show"].text()};
-  else if (value.has("screenshot"))
-    action.what = ScreenshotAction{value["screenshot"].text()};
-  else if (value.has("drag")) {
-    const Value drag = value["drag"];
-    (void)drag.count(2);
-    action.what = DragAction{drag.item(0).pixel(), drag.item(1).pixel()};
-  } else if (value.has("quit"))
-    action.what = QuitAction{};
-  else
-    value.refuse("no action; accepted: one of camera, click, fire, key, drag, set, show, screenshot, quit");
+  const std::vector<std::string> given = value.keys();
+  if (given.size() != 2) value.refuse("one action beside 'at' is needed; accepted: " + accepted);
+  const std::string& name = given[0] == "at" ? given[1] : given[0];
+  action.what = meanings().at(name)(value[name]);
   return action;
 }
 

@@ -2,6 +2,7 @@
 // Scripts of what a person would do, for runs without a window (docs: actions of topple-viewer).
 #include <array>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 #include <variant>
@@ -34,12 +35,58 @@ struct ShowAction {
 struct ScreenshotAction {
   std::string file;
 };
+struct PanAction {
+  glm::dvec2 from, to;
+};
+struct ZoomAction {
+  double clicks;  ///< of the wheel, nearer above 0
+};
+struct FlyAction {
+  glm::dvec3 way;  ///< ahead, to the right, up; m
+};
+struct SelectAction {
+  std::string name;
+};
+/// A tool taken in hand, with settings.
+struct ToolAction {
+  ToolKind kind;
+  std::vector<std::pair<std::string, double>> settings;
+};
+void take(const ToolAction& tool, Controller& controller);
+struct GravityAction {
+  double downwards;
+};
+struct LookAction {
+  std::optional<double> time;  ///< none: the present
+};
+struct GoOnAction {};
+/// The run begins anew by other rules: the scene's with these changes.
+struct RestartAction {
+  std::optional<structure::BracingRule> bracing;
+  std::optional<structure::MechanismRule> mechanism;
+  std::optional<double> sudden, generations_per_second, cell;
+  std::optional<bool> second_order;
+  bool panels_stay_whole = false;
+  std::optional<fracture::Method> fracture;
+  std::vector<structure::MaterialChange> materials;
+};
+[[nodiscard]] RunRules rules_of(const RestartAction& restart, const Scene& scene);
+struct SaveAction {
+  std::string file;
+};
+struct LoadAction {
+  std::string file;
+};
+struct ExportAction {
+  std::string file;
+};
 struct QuitAction {};
 
 struct Action {
   double at = 0;  ///< seconds since the start, pauses counted
-  std::variant<CameraAction, ClickAction, FireAction, KeyAction, DragAction, structure::JointChange, ShowAction,
-               ScreenshotAction, QuitAction>
+  std::variant<CameraAction, ClickAction, FireAction, KeyAction, DragAction, PanAction, ZoomAction, FlyAction,
+               SelectAction, ToolAction, GravityAction, LookAction, GoOnAction, RestartAction, SaveAction, LoadAction,
+               ExportAction, structure::JointChange, ShowAction, ScreenshotAction, QuitAction>
       what;
 };
 struct Script {

@@ -4,6 +4,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <future>
@@ -12,7 +13,11 @@
 #include <map>
 #include <stdexcept>
 
+#include "app/gltf_scene.h"
+#include "app/html_replay.h"
+#include "app/usd_scene.h"
 #include "renderer/instances.h"
+#include "topple/structure/error.h"
 
 namespace topple::viewer {
 namespace {
@@ -24,6 +29,17 @@ constexpr double zoom_per_click = 0.88;
 constexpr double mode_share = 0.05, swings_per_second = 0.5;
 
 structure::Vec3 to_eigen(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+
+using Export = std::function<void(const structure::Building&, const Recording&, const std::string&)>;
+Export export_for(const std::string& file) {
+  const std::string ending = std::filesystem::path(file).extension().string();
+  if (ending == ".html") return write_html_replay;
+  if (ending == ".usda")
+    return [](const auto& building, const auto& run, const auto& to) { write_usd(building, run, to); };
+  if (ending == ".glb")
+    return [](const auto& building, const auto& run, const auto& to) { write_gltf(building, run, to); };
+  throw structure::InputError("export to '" + file + "': accepted endings: .html, .usda, .glb");
+}
 
 }  // namespace
 
@@ -174,6 +190,31 @@ void Controller::load(const std::string& file) {
   message = "taken up from " + file;
 }
 
+void Controller::export_run(const std::string& file) {
+  const Export write = export_for(file);
+  if (exporting_.valid()) finish_export();
+  const auto written = std::make_shared<std::promise<std::string>>();
+  exporting_ = written->get_future();
+  message = "writing " + file + " ...";
+  // Between two steps: nothing is added to the recording meanwhile.
+  driver_.order([written, write, file](Session& session) {
+    try {
+      write(session.building(), *session.recording(), file);
+      written->set_value(file);
+    } catch (...) {
+      written->set_exception(std::current_exception());
+    }
+  });
+}
+
+void Controller::finish_export() {
+  if (exporting_.valid()) message = "run written to " + exporting_.get();
+}
+
+void Controller::set_gravity(double downwards) {
+  driver_.apply(structure::GravityTool{structure::Vec3(0, 0, -downwards)});
+}
+
 void Controller::fire(glm::dvec2 pixel) {
   const Ray ray = camera.ray(pixel, size_);
   const auto target = pick_at(pixel);
@@ -215,61 +256,65 @@ const char* Controller::key_help() {
          "T                 remove a support        V             select\n"
          "C                 next colouring          X             panels clear or not\n"
          "Z                 burn                    I             next diagram\n"
-         "1 2 3 4           posts, beams, slabs, walls\n"
+         "1 2 3 4 5         posts, beams, slabs, walls, braces\n"
          "O                 loads and reactions     Y             back to the present\n"
          "F                 frame the building      P             save a picture\n"
          "H                 this help               Esc           leave";
 }
 
 bool Controller::key(const std::string& name) {
-  const auto hold = [this](ToolKind kind) { return [this, kind] { tool = kind; }; };
-  const std::map<std::string, std::function<void()>> meanings{
-      {"space",
-       [&] {
-         if (looking_at_)
-           replaying_ = !replaying_;
-         else
-           driver_.set_paused(!driver_.paused());
-       }},
-      {"n", [&] { driver_.single_step(); }},
-      {"r",
-       [&] {
-         look_at_present();
-         driver_.restart();
-       }},
-      {"u",
-       [&] {
-         look_at_present();
-         driver_.undo();
-       }},
-      {"f", [&] { frame_building(); }},
-      {"g",
-       [&] {
-         tool = ToolKind::fire;
-         shot = Shot();
-       }},
-      {"b", hold(ToolKind::swing)},
-      {"z", hold(ToolKind::burn)},
-      {"j", hold(ToolKind::cut)},
-      {"m", hold(ToolKind::remove)},
-      {"k", hold(ToolKind::charge)},
-      {"l", hold(ToolKind::path)},
-      {"t", hold(ToolKind::support)},
-      {"v", hold(ToolKind::select)},
-      {"x", [&] { show(options.slab_opacity < 0.5F ? "panels" : "frame"); }},
-      {"c", [&] { options.colouring = static_cast<Colouring>((static_cast<int>(options.colouring) + 1) % 5); }},
-      {"i", [&] { options.diagram = options.diagram == 5 ? -1 : options.diagram + 1; }},
-      {"o", [&] { options.loads = options.reactions = options.contacts = !options.loads; }},
-      {"y", [&] { look_at_present(); }},
-      {"1", [&] { options.shown.posts = !options.shown.posts; }},
-      {"2", [&] { options.shown.beams = !options.shown.beams; }},
-      {"3", [&] { options.shown.slabs = !options.shown.slabs; }},
-      {"4", [&] { options.shown.walls = !options.shown.walls; }},
-      {"h", [&] { help = !help; }}};
+  const auto meanings = key_meanings();
   const auto meaning = meanings.find(name);
   if (meaning == meanings.end()) return false;
   meaning->second();
   return true;
+}
+
+std::map<std::string, std::function<void()>> Controller::key_meanings() {
+  const auto hold = [this](ToolKind kind) { return [this, kind] { tool = kind; }; };
+  return {{"space",
+           [this] {
+             if (looking_at_)
+               replaying_ = !replaying_;
+             else
+               driver_.set_paused(!driver_.paused());
+           }},
+          {"n", [this] { driver_.single_step(); }},
+          {"r",
+           [this] {
+             look_at_present();
+             driver_.restart();
+           }},
+          {"u",
+           [this] {
+             look_at_present();
+             driver_.undo();
+           }},
+          {"f", [this] { frame_building(); }},
+          {"g",
+           [this] {
+             tool = ToolKind::fire;
+             shot = Shot();
+           }},
+          {"b", hold(ToolKind::swing)},
+          {"z", hold(ToolKind::burn)},
+          {"j", hold(ToolKind::cut)},
+          {"m", hold(ToolKind::remove)},
+          {"k", hold(ToolKind::charge)},
+          {"l", hold(ToolKind::path)},
+          {"t", hold(ToolKind::support)},
+          {"v", hold(ToolKind::select)},
+          {"x", [this] { show(options.slab_opacity < 0.5F ? "panels" : "frame"); }},
+          {"c", [this] { options.colouring = static_cast<Colouring>((static_cast<int>(options.colouring) + 1) % 5); }},
+          {"i", [this] { options.diagram = options.diagram == 5 ? -1 : options.diagram + 1; }},
+          {"o", [this] { options.loads = options.reactions = options.contacts = !options.loads; }},
+          {"y", [this] { look_at_present(); }},
+          {"1", [this] { options.shown.posts = !options.shown.posts; }},
+          {"2", [this] { options.shown.beams = !options.shown.beams; }},
+          {"3", [this] { options.shown.slabs = !options.shown.slabs; }},
+          {"4", [this] { options.shown.walls = !options.shown.walls; }},
+          {"5", [this] { options.shown.braces = !options.shown.braces; }},
+          {"h", [this] { help = !help; }}};
 }
 
 void Controller::show(const std::string& words) { viewer::show(words, options, mode); }
@@ -305,6 +350,13 @@ void Controller::select(const Pick& found) {
   if (found.joint.valid()) select(found.joint);
 }
 
+void Controller::select(const std::string& name) {
+  if (const auto joint = names_.joint(name)) return select(*joint);
+  if (const auto member = names_.member(name)) return select(building_.joint(*member, 0));
+  if (const auto panel = names_.panel(name)) return select(building_.joint(*panel, 0));
+  throw structure::InputError("select \"" + name + "\": no joint, member or panel has this name");
+}
+
 std::vector<structure::JointId> Controller::search(const std::string& text, std::size_t most) const {
   std::vector<structure::JointId> found;
   if (text.empty()) return found;
@@ -322,6 +374,13 @@ std::vector<structure::JointId> Controller::search(const std::string& text, std:
 
 void Controller::update(double seconds) {
   swing_ += seconds;
+  if (exporting_.valid() && exporting_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
+    try {
+      finish_export();
+    } catch (const std::exception& failed) {
+      message = failed.what();
+    }
+  }
   if (looking_at_ && replaying_) {
     const auto span = driver_.recording().span();
     looking_at_ = *looking_at_ + seconds * driver_.speed();

@@ -1,6 +1,9 @@
 #pragma once
 // What a person does, whether by hand in the window or by a script without one: camera, switches, tools, keys, looking
 // back.
+#include <functional>
+#include <future>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -49,6 +52,8 @@ class Controller {
   double charge_radius = 3;  ///< m; within it joints lose strength, all of it at the centre
   bool help = false;
   std::optional<std::string> message;  ///< for the person, one line
+  /// Files that pictures are to be written to (outputs.h); empty: none is wanted.
+  std::string picture_wanted, sequence_wanted;
 
   void resize(glm::dvec2 size) { size_ = size; }
   [[nodiscard]] glm::dvec2 size() const { return size_; }
@@ -61,14 +66,21 @@ class Controller {
   /// structure::InputError, std::runtime_error.
   void save(const std::string& file);
   void load(const std::string& file);
+  /// Writes the run so far for other programs, by the file's ending: .html, .usda or .glb. The simulation waits for it,
+  /// drawing does not; `message` tells when it is there. Throws structure::InputError for another ending.
+  void export_run(const std::string& file);
+  /// Waits for what is being exported. Throws what went wrong.
+  void finish_export();
   void drag(glm::dvec2 from, glm::dvec2 to);  ///< orbits
   void drag_to_pan(glm::dvec2 from, glm::dvec2 to);
   void scroll(double clicks);
   /// The keys of key_help(), as their letters and "space". False when the key has no meaning.
   bool key(const std::string& name);
   [[nodiscard]] static const char* key_help();
+  [[nodiscard]] std::map<std::string, std::function<void()>> key_meanings();
   /// Words of show_words.h. Throws structure::InputError.
   void show(const std::string& words);
+  void set_gravity(double downwards);  ///< m/s2
   /// Changes capacities; seen at once. Throws structure::InputError.
   void tune(const structure::JointChange& change);
   /// Starts the run again by other rules. Throws structure::InputError when the building cannot be run by them; then
@@ -79,6 +91,8 @@ class Controller {
   [[nodiscard]] const std::optional<Pick>& hovered() const { return hovered_; }
   void select(structure::JointId joint);
   void select(const Pick& pick);
+  /// A joint, or the first of a member's or panel's. Throws structure::InputError when there is none of this name.
+  void select(const std::string& name);
   /// Joints, members and panels whose name holds the text or matches it as a pattern, at most `most`; joints only when
   /// the text holds a colon.
   [[nodiscard]] std::vector<structure::JointId> search(const std::string& text, std::size_t most) const;
@@ -124,7 +138,8 @@ class Controller {
   std::optional<Pick> hovered_;
   std::optional<double> looking_at_;
   bool replaying_ = false;
-  double swing_ = 0;  ///< s, of a mode
+  std::future<std::string> exporting_;  ///< the file, when it is whole
+  double swing_ = 0;                    ///< s, of a mode
 };
 
 }  // namespace topple::viewer

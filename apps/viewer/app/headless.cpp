@@ -6,12 +6,14 @@
 #include <utility>
 
 #include "app/actions.h"
+#include "app/gltf_scene.h"
 #include "app/html_replay.h"
 #include "app/interface.h"
+#include "app/outputs.h"
 #include "app/side_panel.h"
 #include "app/usd_scene.h"
-#include "app/video.h"
 #include "renderer/frame_composer.h"
+#include "renderer/gl_errors.h"
 #include "renderer/headless_context.h"
 #include "renderer/picture_renderer.h"
 #include "topple/structure/error.h"
@@ -41,9 +43,11 @@ class Stage {
     return interface_ ? glm::dvec2(glm::ivec2(SidePanel::scene_size(size_))) : glm::dvec2(size_);
   }
   [[nodiscard]] Image draw(Controller& controller) {
+    outputs_.before_picture(controller);
     const Snapshot moment = controller.shown(true);
     instances_.update(moment, controller.options);
     renderer_.draw(instances_, controller.camera, controller.options, glm::ivec2(scene_size()));
+    outputs_.after_picture(controller, renderer_);
     Image image;
     if (interface_) {
       composer_->begin(renderer_);
@@ -57,12 +61,16 @@ class Stage {
     } else {
       image = renderer_.read();
     }
-    Renderer::check_errors();
+    check_gl_errors();
     return image;
   }
   /// True when the panels take what the pointer does there.
   bool panel_at(glm::dvec2 pixel) const {
     return interface_ && (pixel.x >= scene_size().x || pixel.y >= scene_size().y);
+  }
+  /// Where the pointer stays: what is told of a part is written there.
+  void point(glm::dvec2 pixel) {
+    if (interface_) interface_->point(pixel);
   }
   /// Presses at one place, moves to the other, and lets go: frames as a window would draw them in between.
   void drag_in_panel(Controller& controller, glm::dvec2 from, glm::dvec2 to) {
@@ -72,6 +80,9 @@ class Stage {
     for (int i = 0; i <= ways; ++i) frame(controller, from + (to - from) * (static_cast<double>(i) / ways), true);
     frame(controller, to, false);
     frame(controller, {-1, -1}, false);
+    // What the panel was asked for is done when the next action comes.
+    while (outputs_.busy()) (void)draw(controller);
+    controller.finish_export();
   }
 
  private:
@@ -94,6 +105,7 @@ class Stage {
   std::optional<Interface> interface_;
   std::optional<FrameComposer> composer_;
   SidePanel panel_;
+  Outputs outputs_;
   bool laid_out_ = false;
 };
 
@@ -148,6 +160,7 @@ class HeadlessRun {
   void click(glm::dvec2 pixel) {
     if (stage_.panel_at(pixel)) return stage_.drag_in_panel(controller_, pixel, pixel);
     controller_.hover(pixel);
+    stage_.point(pixel);
     controller_.click(pixel);
   }
   void drag(const DragAction& a) {
@@ -163,11 +176,32 @@ class HeadlessRun {
                      controller_.fire(a.pixel);
                    },
                    [&](const KeyAction& a) {
-                     if (!controller_.key(a.key)) throw structure::InputError("no such key: '" + a.key + "'");
+                     if (controller_.key(a.key)) return;
+                     std::string accepted;
+                     for (const auto& [name, unused] : controller_.key_meanings())
+                       accepted += (accepted.empty() ? "" : ", ") + name;
+                     throw structure::InputError("no such key: '" + a.key + "'; accepted: " + accepted);
                    },
-                   [&](const DragAction& a) { drag(a); }, [&](const structure::JointChange& a) { controller_.tune(a); },
+                   [&](const DragAction& a) { drag(a); },
+                   [&](const structure::JointChange& a) { controller_.tune(a); },
                    [&](const ShowAction& a) { controller_.show(a.what); },
-                   [&](const ScreenshotAction& a) { write(a.file); }, [&](const QuitAction&) { quit_ = true; }},
+                   [&](const PanAction& a) { controller_.drag_to_pan(a.from, a.to); },
+                   [&](const ZoomAction& a) { controller_.scroll(a.clicks); },
+                   [&](const FlyAction& a) { controller_.camera.fly(a.way.x, a.way.y, a.way.z); },
+                   [&](const SelectAction& a) { controller_.select(a.name); },
+                   [&](const ToolAction& a) { take(a, controller_); },
+                   [&](const GravityAction& a) { controller_.set_gravity(a.downwards); },
+                   [&](const LookAction& a) { a.time ? controller_.look_at(*a.time) : controller_.look_at_present(); },
+                   [&](const GoOnAction&) { controller_.go_on_from_here(); },
+                   [&](const RestartAction& a) { controller_.restart(rules_of(a, controller_.scene())); },
+                   [&](const SaveAction& a) { controller_.save(a.file); },
+                   [&](const LoadAction& a) { controller_.load(a.file); },
+                   [&](const ExportAction& a) {
+                     controller_.export_run(a.file);
+                     controller_.finish_export();
+                   },
+                   [&](const ScreenshotAction& a) { write(a.file); },
+                   [&](const QuitAction&) { quit_ = true; }},
         action.what);
     controller_.update(0);
   }
@@ -185,24 +219,20 @@ class HeadlessRun {
 
 /// Pictures at even times, into a folder, a video, or both.
 void record(HeadlessRun& run, const HeadlessOptions& options, double until) {
-  std::optional<VideoWriter> video;
-  if (options.record) std::filesystem::create_directories(*options.record);
+  std::vector<PictureSequence> sequences;
+  sequences.reserve(2);
+  if (options.record) sequences.emplace_back(*options.record, options.rate, PictureSequence::Kind::folder);
+  if (options.video) sequences.emplace_back(*options.video, options.rate, PictureSequence::Kind::video);
   const auto count = static_cast<int>(std::floor(until * options.rate + 1e-6)) + 1;
   for (int i = 0; i < count; ++i) {
     if (!run.run_until(i / options.rate)) break;
     const Image image = run.draw();
-    if (options.record) {
-      char name[32];
-      std::snprintf(name, sizeof name, "frame-%05d.png", i);
-      write_png(image, (std::filesystem::path(*options.record) / name).string());
-    }
-    if (!options.video) continue;
-    if (!video) video.emplace(*options.video, glm::ivec2(image.width, image.height), options.rate);
-    video->add(image);
+    for (PictureSequence& sequence : sequences) sequence.add(image);
   }
-  if (video) video->finish();
-  if (options.record) std::printf("%s: pictures\n", options.record->c_str());
-  if (options.video) std::printf("%s: video\n", options.video->c_str());
+  for (PictureSequence& sequence : sequences) {
+    sequence.finish();
+    std::printf("%s: %d pictures\n", sequence.target().c_str(), sequence.count());
+  }
 }
 
 }  // namespace
@@ -217,6 +247,7 @@ void run_headless(const Scene& scene, const HeadlessOptions& options) {
   if (options.screenshot) run.write(*options.screenshot);
   if (options.replay) write_html_replay(*scene.building, run.recording(), *options.replay);
   if (options.usd) write_usd(*scene.building, run.recording(), *options.usd);
+  if (options.gltf) write_gltf(*scene.building, run.recording(), *options.gltf);
   if (options.save) run.save(*options.save);
   if (options.model) write_tuned_model(scene, run.present(), *options.model);
 }

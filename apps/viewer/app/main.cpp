@@ -47,6 +47,7 @@ int run(int argc, char** argv) {
   app.add_option("--video", pictures.video, "file of a video (.mp4, .webm); needs ffmpeg");
   app.add_option("--replay", pictures.replay, "file of a page that shows the run again (.html)");
   app.add_option("--usd", pictures.usd, "file of the run as an animation (.usda)");
+  app.add_option("--gltf", pictures.gltf, "file of the run as an animation (.glb)");
   app.add_option("--model", pictures.model, "file of the model as the run's actions have tuned it (.json)");
   app.add_option("--load", pictures.load, "saved run to take up (of this scene)");
   app.add_option("--save", pictures.save, "file that the run is saved to at its end");
@@ -60,9 +61,10 @@ int run(int argc, char** argv) {
   }
   if (!size.empty()) pictures.size = parse_size(size);
   const bool output = pictures.screenshot || pictures.record || pictures.actions || pictures.video || pictures.replay ||
-                      pictures.usd || pictures.model || pictures.save;
+                      pictures.usd || pictures.gltf || pictures.model || pictures.save;
   if (headless && !output)
-    return report("--headless needs --screenshot, --record, --actions, --video, --replay, --usd, --model or --save", 2);
+    return report(
+        "--headless needs --screenshot, --record, --actions, --video, --replay, --usd, --gltf, --model or --save", 2);
   const Scene scene = open_scene(name);
   if (headless) {
     run_headless(scene, pictures);

@@ -4,6 +4,19 @@
 
 namespace topple::viewer {
 
+std::vector<ExportSample> export_samples(const Recording& recording, double rate) {
+  constexpr double rounding = 1e-9;  // s
+  const auto& frames = recording.frames();
+  std::vector<ExportSample> samples;
+  std::size_t frame = 0;
+  const double begin = frames.front().time;
+  for (int code = 0; begin + code / rate <= frames.back().time + rounding; ++code) {
+    while (frame + 1 < frames.size() && frames[frame + 1].time <= begin + code / rate + rounding) ++frame;
+    samples.push_back({code, static_cast<std::int32_t>(frame)});
+  }
+  return samples;
+}
+
 std::vector<std::vector<PlaceChange>> part_places(const structure::Building& building, const Recording& recording) {
   const auto& frames = recording.frames();
   const auto& tracks = recording.tracks();

@@ -8,6 +8,14 @@
 
 namespace topple::viewer {
 
+/// A frame of an exported file and the frame of the recording that it shows.
+struct ExportSample {
+  int code;
+  std::int32_t frame;
+};
+/// `rate`: frames of the file for each simulated second.
+[[nodiscard]] std::vector<ExportSample> export_samples(const Recording& recording, double rate);
+
 /// From a frame on, a member or panel belongs to this track; part_stands or part_gone otherwise.
 struct PlaceChange {
   std::int32_t frame = 0;

@@ -81,7 +81,7 @@ void Session::load(const structure::Snapshot& saved) {
     if (const auto* change = std::get_if<structure::CapacityChange>(&action.what))
       actions_.push_back({action.step, *change});
   }
-  run_again(saved.step);
+  run_again(saved.step, true);
   if (simulation_->hash() == saved.hash) return;
   restart();
   recording_->add_event({0, structure::SimulationEvent::Kind::tool,
@@ -127,13 +127,17 @@ void Session::return_to(std::int64_t step) {
   run_again(step);
 }
 
-void Session::run_again(std::int64_t until) {
+void Session::run_again(std::int64_t until, bool record) {
   begin();
   auto next = actions_.begin();
   const auto act = [&] {
     for (; next != actions_.end() && next->step == simulation_->steps(); ++next) carry_out(*next);
   };
-  for (act(); simulation_->steps() < until; act()) simulation_->step();
+  for (act(); simulation_->steps() < until; act()) {
+    if (record) (void)snapshot();
+    simulation_->step();
+  }
+  if (record) return;
   events_recorded_ = simulation_->events().size();
 }
 

@@ -43,7 +43,7 @@ class Session {
   void return_to(std::int64_t step);
   /// The moment as bytes of structure::Snapshot; the scene's own model and scenario have to be there to load it.
   [[nodiscard]] std::string save() const;
-  /// Takes the run up where it was saved. When what was done then does not lead there (another model, other rules), the
+  /// Takes the run up where it was saved; the way there can be looked back at. When what was done then does not lead there (another model, other rules), the
   /// run begins anew and its events say so.
   void load(const structure::Snapshot& saved);
   /// Finds which share of a downward force put here goes through each joint; snapshots carry it from now on.
@@ -68,7 +68,8 @@ class Session {
   void tell_capacities();
   void carry_out(const Action& action);
   void carry_out(const structure::CapacityChange& change);
-  void run_again(std::int64_t until);
+  /// `record`: what is passed on the way is not in the recording yet.
+  void run_again(std::int64_t until, bool record = false);
   void record_events();
 
   std::shared_ptr<const structure::Building> building_, given_;  ///< given_: with the strengths that it came with

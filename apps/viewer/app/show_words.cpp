@@ -1,5 +1,6 @@
 #include "app/show_words.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <functional>
@@ -27,36 +28,66 @@ double number(const std::string& text, const std::string& words) {
 }
 
 using Plain = std::function<void(ViewOptions&, ModeView&)>;
+/// "posts", "no posts": drawn or not; "coloured posts", "uncoloured posts": with their joints' colours or not.
+void add_part_words(std::map<std::string, Plain>& words) {
+  const std::pair<const char*, bool PartSwitches::*> parts[] = {{"posts", &PartSwitches::posts},
+                                                                {"beams", &PartSwitches::beams},
+                                                                {"braces", &PartSwitches::braces},
+                                                                {"slabs", &PartSwitches::slabs},
+                                                                {"walls", &PartSwitches::walls}};
+  for (const auto& [name, part] : parts) {
+    const auto set = [part = part](PartSwitches ViewOptions::*which, bool on) {
+      return [=](ViewOptions& o, ModeView&) { o.*which.*part = on; };
+    };
+    words[name] = set(&ViewOptions::shown, true);
+    words[std::string("no ") + name] = set(&ViewOptions::shown, false);
+    words[std::string("coloured ") + name] = set(&ViewOptions::coloured, true);
+    words[std::string("uncoloured ") + name] = set(&ViewOptions::coloured, false);
+  }
+}
+
 const std::map<std::string, Plain>& plain_words() {
   const auto colour = [](Colouring c) { return [c](ViewOptions& o, ModeView&) { o.colouring = c; }; };
   const auto flag = [](bool ViewOptions::*what, bool on) { return [=](ViewOptions& o, ModeView&) { o.*what = on; }; };
-  static const std::map<std::string, Plain> words{
-      {"plain", colour(Colouring::plain)},
-      {"joints", colour(Colouring::joints)},
-      {"utilisation", colour(Colouring::utilisation)},
-      {"segments", colour(Colouring::segments)},
-      {"path", colour(Colouring::path)},
-      {"capacity", [](ViewOptions& o, ModeView&) { o.scale = Scale::capacity; }},
-      {"largest", [](ViewOptions& o, ModeView&) { o.scale = Scale::largest_in_view; }},
-      {"loads", flag(&ViewOptions::loads, true)},
-      {"no loads", flag(&ViewOptions::loads, false)},
-      {"reactions", flag(&ViewOptions::reactions, true)},
-      {"no reactions", flag(&ViewOptions::reactions, false)},
-      {"contacts", flag(&ViewOptions::contacts, true)},
-      {"no contacts", flag(&ViewOptions::contacts, false)},
-      {"dust", flag(&ViewOptions::dust, true)},
-      {"no dust", flag(&ViewOptions::dust, false)},
-      {"failed", flag(&ViewOptions::failed_joints, true)},
-      {"no failed", flag(&ViewOptions::failed_joints, false)},
-      {"colour-blind safe", flag(&ViewOptions::colour_blind_safe, true)},
-      {"usual colours", flag(&ViewOptions::colour_blind_safe, false)},
-      {"no diagram", [](ViewOptions& o, ModeView&) { o.diagram = -1; }},
-      {"no mode", [](ViewOptions&, ModeView& m) { m.kind.reset(); }},
-      {"frame", [](ViewOptions& o, ModeView&) { o.slab_opacity = o.wall_opacity = 0.06F; }},
-      {"panels", [](ViewOptions& o, ModeView&) {
-         o.slab_opacity = ViewOptions().slab_opacity;
-         o.wall_opacity = ViewOptions().wall_opacity;
-       }}};
+  static const std::map<std::string, Plain> words = [&] {
+    std::map<std::string, Plain> all{
+        {"plain", colour(Colouring::plain)},
+        {"joints", colour(Colouring::joints)},
+        {"utilisation", colour(Colouring::utilisation)},
+        {"segments", colour(Colouring::segments)},
+        {"path", colour(Colouring::path)},
+        {"capacity", [](ViewOptions& o, ModeView&) { o.scale = Scale::capacity; }},
+        {"largest", [](ViewOptions& o, ModeView&) { o.scale = Scale::largest_in_view; }},
+        {"loads", flag(&ViewOptions::loads, true)},
+        {"no loads", flag(&ViewOptions::loads, false)},
+        {"reactions", flag(&ViewOptions::reactions, true)},
+        {"no reactions", flag(&ViewOptions::reactions, false)},
+        {"contacts", flag(&ViewOptions::contacts, true)},
+        {"no contacts", flag(&ViewOptions::contacts, false)},
+        {"dust", flag(&ViewOptions::dust, true)},
+        {"no dust", flag(&ViewOptions::dust, false)},
+        {"debris", flag(&ViewOptions::debris, true)},
+        {"no debris", flag(&ViewOptions::debris, false)},
+        {"shadows", flag(&ViewOptions::shadows, true)},
+        {"no shadows", flag(&ViewOptions::shadows, false)},
+        {"occlusion", flag(&ViewOptions::ambient_occlusion, true)},
+        {"no occlusion", flag(&ViewOptions::ambient_occlusion, false)},
+        {"grid", flag(&ViewOptions::grid, true)},
+        {"no grid", flag(&ViewOptions::grid, false)},
+        {"failed", flag(&ViewOptions::failed_joints, true)},
+        {"no failed", flag(&ViewOptions::failed_joints, false)},
+        {"colour-blind safe", flag(&ViewOptions::colour_blind_safe, true)},
+        {"usual colours", flag(&ViewOptions::colour_blind_safe, false)},
+        {"no diagram", [](ViewOptions& o, ModeView&) { o.diagram = -1; }},
+        {"no mode", [](ViewOptions&, ModeView& m) { m.kind.reset(); }},
+        {"frame", [](ViewOptions& o, ModeView&) { o.slab_opacity = o.wall_opacity = 0.06F; }},
+        {"panels", [](ViewOptions& o, ModeView&) {
+           o.slab_opacity = ViewOptions().slab_opacity;
+           o.wall_opacity = ViewOptions().wall_opacity;
+         }}};
+    add_part_words(all);
+    return all;
+  }();
   return words;
 }
 
@@ -72,6 +103,10 @@ const std::map<std::string, WithNumber>& numbered_words() {
       {"deflection", [](ViewOptions& o, ModeView&, double n) { o.deflection_scale = static_cast<float>(n); }},
       {"diagram-scale", [](ViewOptions& o, ModeView&, double n) { o.diagram_scale = static_cast<float>(n); }},
       {"arrow-scale", [](ViewOptions& o, ModeView&, double n) { o.arrow_scale = static_cast<float>(n); }},
+      {"slab-opacity",
+       [](ViewOptions& o, ModeView&, double n) { o.slab_opacity = std::min(1.0F, static_cast<float>(n)); }},
+      {"wall-opacity",
+       [](ViewOptions& o, ModeView&, double n) { o.wall_opacity = std::min(1.0F, static_cast<float>(n)); }},
       {"mode-scale", [](ViewOptions&, ModeView& m, double n) { m.scale = static_cast<float>(n); }},
       {"vibration", mode(ModeKind::vibration)},
       {"buckling", mode(ModeKind::buckling)}};

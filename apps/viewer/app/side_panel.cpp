@@ -66,7 +66,7 @@ void legend(const ViewOptions& options, const SceneInstances& scene) {
     default:
       break;
   }
-  legend_entry("failed", palette.failed);
+  legend_entry("failed", failed_colour(options));
 }
 
 void switches(const char* title, PartSwitches& parts) {
@@ -353,6 +353,7 @@ void SidePanel::draw(Controller& controller, const Snapshot& moment, const Scene
     tab("View", [&] { view(controller, moment, scene); });
     tab("Part", [&] { part(controller, moment); });
     tab("Tune", [&] { tuning_.draw(controller, moment); });
+    tab("Files", [&] { output_.draw(controller); });
     tab("Times", [&] { performance(moment); });
     ImGui::EndTabBar();
   }

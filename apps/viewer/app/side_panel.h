@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/controller.h"
+#include "app/output_panel.h"
 #include "app/tuning_panel.h"
 #include "renderer/instances.h"
 
@@ -26,6 +27,7 @@ class SidePanel {
   void performance(const Snapshot& moment);
   void joints(Controller& controller, const Snapshot& moment);
   TuningPanel tuning_;
+  OutputPanel output_;
   static constexpr std::size_t history_length = 240;  ///< steps drawn: four seconds
   std::array<std::vector<float>, 7> history_;         ///< milliseconds by stage, and of the whole
   std::int64_t last_step_ = -1;

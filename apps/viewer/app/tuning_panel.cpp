@@ -79,8 +79,7 @@ void TuningPanel::capacities(Controller& controller, const Snapshot& moment) {
 void TuningPanel::gravity(Controller& controller) {
   if (gravity_ < 0) gravity_ = controller.building().gravity;
   slider("gravity", gravity_, 0, 30, "%.2f m/s2", ImGuiSliderFlags_None);
-  if (ImGui::IsItemDeactivatedAfterEdit())
-    controller.driver().apply(structure::GravityTool{structure::Vec3(0, 0, -gravity_)});
+  if (ImGui::IsItemDeactivatedAfterEdit()) controller.set_gravity(gravity_);
 }
 
 /// How panels break that say nothing of their own.
@@ -127,6 +126,11 @@ void TuningPanel::rules(Controller& controller) {
   constexpr const char* bracings[] = {"buckling", "classic", "none"};
   if (ImGui::Combo("bracing", &bracing, bracings, IM_ARRAYSIZE(bracings)))
     failure.bracing = static_cast<structure::BracingRule>(bracing);
+  int mechanism = static_cast<int>(failure.mechanism);
+  constexpr const char* mechanisms[] = {"hinge", "detach"};
+  if (ImGui::Combo("mechanisms", &mechanism, mechanisms, IM_ARRAYSIZE(mechanisms)))
+    failure.mechanism = static_cast<structure::MechanismRule>(mechanism);
+  ImGui::Checkbox("second order", &failure.second_order);
   panels();
   materials(controller);
   if (ImGui::Button("Restart by these rules")) restart(controller);

@@ -42,18 +42,10 @@ class PrimNames {
   std::set<std::string> used_;
 };
 
-/// A frame of the file and the frame of the recording that it shows.
-struct Sample {
-  int code;
-  std::int32_t frame;
-};
-
 class UsdWriter {
  public:
   UsdWriter(const structure::Building& building, const Recording& recording, std::ofstream& out, double rate)
-      : building_(building), recording_(recording), out_(out), rate_(rate) {
-    find_samples();
-  }
+      : building_(building), recording_(recording), out_(out), rate_(rate), samples_(export_samples(recording, rate)) {}
 
   void write() {
     out_ << "#usda 1.0\n(\n    defaultPrim = \"Building\"\n    upAxis = \"Z\"\n    metersPerUnit = 1\n"
@@ -85,19 +77,6 @@ class UsdWriter {
   }
 
  private:
-  void find_samples() {
-    const auto& frames = recording_.frames();
-    std::int32_t frame = 0;
-    const double begin = frames.front().time;
-    for (int code = 0; begin + code / rate_ <= frames.back().time + 1e-9; ++code) {
-      const double time = begin + code / rate_;
-      while (static_cast<std::size_t>(frame) + 1 < frames.size() &&
-             frames[static_cast<std::size_t>(frame) + 1].time <= time + 1e-9)
-        ++frame;
-      samples_.push_back({code, frame});
-    }
-  }
-
   void mesh(const std::string& name, const Mesh& mesh, Rgba colour, const std::string& more) {
     out_ << "        def Mesh \"" << name << "\"\n        {\n            int[] faceVertexCounts = [";
     for (std::size_t i = 0; i < mesh.indices.size() / 3; ++i) out_ << (i > 0 ? ", 3" : "3");
@@ -178,7 +157,7 @@ class UsdWriter {
     Motion motion;
     std::vector<std::pair<int, bool>> visible;
     std::size_t next = 0;
-    for (const Sample& sample : samples_) {
+    for (const ExportSample& sample : samples_) {
       while (next + 1 < places.size() && places[next + 1].frame <= sample.frame) ++next;
       const bool there = lasts.first <= sample.frame && sample.frame < lasts.second;
       const int track = there ? places[next].track : part_gone;
@@ -196,7 +175,7 @@ class UsdWriter {
     if (!track.chunk && !(track.radius > 0)) return;
     Motion motion;
     std::vector<std::pair<int, bool>> visible;
-    for (const Sample& sample : samples_) {
+    for (const ExportSample& sample : samples_) {
       const bool here = track.first <= sample.frame && (track.end < 0 || sample.frame < track.end);
       if (visible.empty() || visible.back().second != here) visible.emplace_back(sample.code, here);
       if (!here) continue;
@@ -217,7 +196,7 @@ class UsdWriter {
   std::ofstream& out_;
   double rate_;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
-  std::vector<Sample> samples_;
+  std::vector<ExportSample> samples_;
 };
 
 }  // namespace

@@ -15,8 +15,10 @@
 
 #include "app/driver.h"
 #include "app/interface.h"
+#include "app/outputs.h"
 #include "app/side_panel.h"
 #include "renderer/frame_composer.h"
+#include "renderer/gl_errors.h"
 #include "renderer/picture_renderer.h"
 
 namespace topple::viewer {
@@ -128,8 +130,6 @@ class Input {
                            way * held(GLFW_KEY_E, GLFW_KEY_Q));
   }
   [[nodiscard]] glm::dvec2 pointer() const { return pointer_; }
-  /// File to write the next picture to; empty: none is wanted.
-  [[nodiscard]] std::string take_screenshot() { return std::exchange(screenshot_wanted_, {}); }
 
  private:
   static Input& of(GLFWwindow* window) { return *static_cast<Input*>(glfwGetWindowUserPointer(window)); }
@@ -157,15 +157,15 @@ class Input {
   }
   void key(int key) {
     if (key == GLFW_KEY_ESCAPE) glfwSetWindowShouldClose(window_, GLFW_TRUE);
-    if (key == GLFW_KEY_P) screenshot_wanted_ = screenshot_file_;
+    if (key == GLFW_KEY_P) controller_.picture_wanted = screenshot_file_;
     if (key == GLFW_KEY_SPACE) controller_.key("space");
-    if ((key >= GLFW_KEY_1 && key <= GLFW_KEY_4) || (key >= GLFW_KEY_A && key <= GLFW_KEY_Z))
+    if ((key >= GLFW_KEY_1 && key <= GLFW_KEY_5) || (key >= GLFW_KEY_A && key <= GLFW_KEY_Z))
       controller_.key(std::string(1, static_cast<char>(key >= GLFW_KEY_A ? key - GLFW_KEY_A + 'a' : key)));
   }
 
   GLFWwindow* window_;
   Controller& controller_;
-  std::string screenshot_file_, screenshot_wanted_;
+  std::string screenshot_file_;
   glm::dvec2 pointer_{0}, pressed_at_{0};
   int held_ = -1;
   bool dragged_ = false;
@@ -188,6 +188,7 @@ void run_window(const Scene& scene, const WindowOptions& options) {
   Input input(window.get(), controller, options.screenshot);
   const WindowInterface interface(window.get());
   SidePanel panel;
+  Outputs outputs;
   controller.resize(scene_size(window));
   controller.frame_building();
   for (const std::string& words : options.show) controller.show(words);
@@ -201,19 +202,17 @@ void run_window(const Scene& scene, const WindowOptions& options) {
     controller.update(now - before);
     before = now;
     if (input.pointer() != hovered_at && !Interface::wants_pointer()) controller.hover(hovered_at = input.pointer());
+    outputs.before_picture(controller);
     const Snapshot moment = controller.shown(false);
     instances.update(moment, controller.options);
     renderer.draw(instances, controller.camera, controller.options, scene_pixels(window));
-    if (const std::string file = input.take_screenshot(); !file.empty()) {
-      write_png(renderer.read(), file);
-      controller.message = "picture written to " + file;
-    }
+    outputs.after_picture(controller, renderer);
     copy_scene(renderer, 0, window.pixels());
     WindowInterface::begin_frame();
     panel.draw(controller, moment, instances, driver.error());
     draw_hover_text(controller, moment);
     Interface::end_frame();
-    Renderer::check_errors();
+    check_gl_errors();
     glfwSwapBuffers(window.get());
   }
 }

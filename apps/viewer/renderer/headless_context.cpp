@@ -4,6 +4,9 @@
 
 #include <stdexcept>
 #include <string>
+#include <vector>
+
+#include "renderer/gl_errors.h"
 
 namespace topple::viewer {
 
@@ -38,12 +41,17 @@ HeadlessContext::HeadlessContext() : state_(std::make_unique<State>()) {
   if (state_->display == EGL_NO_DISPLAY || eglInitialize(state_->display, &major, &minor) != EGL_TRUE)
     refuse("EGL cannot be initialised");
   if (eglBindAPI(EGL_OPENGL_API) != EGL_TRUE) refuse("EGL has no desktop OpenGL");
-  const EGLint attributes[] = {
-      EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 3, EGL_CONTEXT_OPENGL_PROFILE_MASK,
-      EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
-  state_->context = eglCreateContext(state_->display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
+  std::vector<EGLint> attributes{EGL_CONTEXT_MAJOR_VERSION,       3,
+                                 EGL_CONTEXT_MINOR_VERSION,       3,
+                                 EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT};
+#ifndef NDEBUG
+  attributes.insert(attributes.end(), {EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE});  // EGL 1.5
+#endif
+  attributes.push_back(EGL_NONE);
+  state_->context = eglCreateContext(state_->display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
   if (state_->context == EGL_NO_CONTEXT) refuse("the driver has no OpenGL 3.3 core context");
   make_current();
+  listen_for_gl_errors();
 }
 HeadlessContext::~HeadlessContext() = default;
 

@@ -97,6 +97,13 @@ Rgba segment_colour(std::int64_t number, bool colour_blind_safe) {
   return rgba(glm::vec4(channel(2), channel(0), channel(4), 1));
 }
 
+Rgba failed_colour(const ViewOptions& options) {
+  // Blue already says something in these views.
+  const bool map = options.colouring == Colouring::component || options.colouring == Colouring::utilisation ||
+                   options.colouring == Colouring::path || options.colouring == Colouring::segments;
+  return map ? rgba(20, 20, 20) : joint_palette(options.colour_blind_safe).failed;
+}
+
 double joint_value(const FrameAnswer::Joint& joint, const ViewOptions& options) {
   if (options.colouring == Colouring::component)
     return std::abs(joint.demand[static_cast<std::size_t>(options.component)]);
@@ -106,7 +113,7 @@ double joint_value(const FrameAnswer::Joint& joint, const ViewOptions& options) 
 Rgba joint_colour(const FrameAnswer::Joint& joint, const structure::JointCapacity& capacity, const ViewOptions& options,
                   double largest) {
   const JointPalette palette = joint_palette(options.colour_blind_safe);
-  if (!joint.intact) return options.failed_joints ? palette.failed : with_alpha(palette.failed, 0);
+  if (!joint.intact) return with_alpha(failed_colour(options), options.failed_joints ? 1 : 0);
   if (options.colouring == Colouring::plain || options.colouring == Colouring::segments ||
       options.colouring == Colouring::path || !joint.standing)
     return 0;

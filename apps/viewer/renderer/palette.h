@@ -40,6 +40,8 @@ inline constexpr Rgba load_colour = rgba(126, 60, 190), reaction_colour = rgba(1
 /// Colour of a joint; `largest` is the largest value in view that Scale::largest_in_view refers to.
 [[nodiscard]] Rgba joint_colour(const FrameAnswer::Joint& joint, const structure::JointCapacity& capacity,
                                 const ViewOptions& options, double largest);
+/// Of joints that failed, in this view.
+[[nodiscard]] Rgba failed_colour(const ViewOptions& options);
 /// The value that joint_colour compares with `largest`.
 [[nodiscard]] double joint_value(const FrameAnswer::Joint& joint, const ViewOptions& options);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "renderer/gl_errors.h"
 #include "renderer/headless_context.h"
 
 namespace topple::viewer {
@@ -30,7 +31,7 @@ Image PictureRenderer::draw(const Snapshot& snapshot, const Camera& camera, cons
   state_->scene.update(snapshot, options);
   state_->renderer.draw(state_->scene, camera, options, state_->size, overlay);
   Image image = state_->renderer.read();
-  Renderer::check_errors();
+  check_gl_errors();
   return image;
 }
 

@@ -306,9 +306,4 @@ Image read_framebuffer(unsigned framebuffer, glm::ivec2 size) {
 
 Image Renderer::read() const { return read_framebuffer(framebuffer(), size()); }
 
-void Renderer::check_errors() {
-  if (const GLenum error = glGetError(); error != GL_NO_ERROR)
-    throw std::runtime_error("OpenGL reports error " + std::to_string(error));
-}
-
 }  // namespace topple::viewer

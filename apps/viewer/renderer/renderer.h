@@ -42,8 +42,6 @@ class Renderer {
   [[nodiscard]] unsigned framebuffer() const;
   [[nodiscard]] glm::ivec2 size() const;
   [[nodiscard]] Image read() const;
-  /// Throws std::runtime_error when OpenGL has an error pending.
-  static void check_errors();
 
  private:
   struct State;
