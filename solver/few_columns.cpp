@@ -23,46 +23,44 @@ using Coefficients = std::array<double, strip * six>;
 const Vector& vector_at(const double* p) { return *reinterpret_cast<const Vector*>(p); }
 Vector& vector_at(double* p) { return *reinterpret_cast<Vector*>(p); }
 
-/// target(i, c) += sum over k < width of L(i, k) coefficient[k six + c], for six columns of the target.
-TOPPLE_VECTOR_VERSIONS
-void add_six(const double* L, std::ptrdiff_t ld, int width, const double* coefficient, double* target,
-             std::ptrdiff_t stride, int rows) {
+/// target(i, c) += sum over k < width of L(i, k) coefficient[k six + c], for N columns of the target.
+template <int N>
+[[gnu::always_inline]] inline void add_columns(const double* L, std::ptrdiff_t ld, int width, const double* coefficient,
+                                               double* target, std::ptrdiff_t stride, int rows) {
   int i = 0;
   for (; i + lanes <= rows; i += lanes) {
-    Vector sum[six];
-    for (int c = 0; c < six; ++c) sum[c] = vector_at(target + c * stride + i);
+    Vector sum[N];
+    for (int c = 0; c < N; ++c) sum[c] = vector_at(target + c * stride + i);
     for (int k = 0; k < width; ++k) {
       const Vector l = vector_at(L + k * ld + i);
-      for (int c = 0; c < six; ++c) sum[c] += l * coefficient[k * six + c];
+      for (int c = 0; c < N; ++c) sum[c] += l * coefficient[k * six + c];
     }
-    for (int c = 0; c < six; ++c) vector_at(target + c * stride + i) = sum[c];
+    for (int c = 0; c < N; ++c) vector_at(target + c * stride + i) = sum[c];
   }
   for (; i < rows; ++i)
-    for (int c = 0; c < six; ++c)
+    for (int c = 0; c < N; ++c)
       for (int k = 0; k < width; ++k) target[c * stride + i] += L[k * ld + i] * coefficient[k * six + c];
 }
 
-TOPPLE_VECTOR_VERSIONS
-void add_one(const double* L, std::ptrdiff_t ld, int width, const double* coefficient, double* target, int rows) {
-  int i = 0;
-  for (; i + lanes <= rows; i += lanes) {
-    Vector sum = vector_at(target + i);
-    for (int k = 0; k < width; ++k) sum += vector_at(L + k * ld + i) * coefficient[k * six];
-    vector_at(target + i) = sum;
+using Add = void (*)(const double*, std::ptrdiff_t, int, const double*, double*, std::ptrdiff_t, int);
+#define TOPPLE_ADD_COLUMNS(N)                                                                            \
+  TOPPLE_VECTOR_VERSIONS                                                                                 \
+  void add_##N(const double* L, std::ptrdiff_t ld, int width, const double* coefficient, double* target, \
+               std::ptrdiff_t stride, int rows) {                                                        \
+    add_columns<N>(L, ld, width, coefficient, target, stride, rows);                                     \
   }
-  for (; i < rows; ++i)
-    for (int k = 0; k < width; ++k) target[i] += L[k * ld + i] * coefficient[k * six];
-}
+TOPPLE_ADD_COLUMNS(1)
+TOPPLE_ADD_COLUMNS(2)
+TOPPLE_ADD_COLUMNS(3)
+TOPPLE_ADD_COLUMNS(4)
+TOPPLE_ADD_COLUMNS(5)
+TOPPLE_ADD_COLUMNS(6)
+#undef TOPPLE_ADD_COLUMNS
+constexpr Add add_of[six] = {add_1, add_2, add_3, add_4, add_5, add_6};
 
 void add(const double* L, int ld, int width, const Coefficients& coefficient, double* target, int stride, int rows,
          int count) {
-  if (rows <= 0) return;
-  if (count == six) {
-    add_six(L, ld, width, coefficient.data(), target, stride, rows);
-    return;
-  }
-  for (int c = 0; c < count; ++c)
-    add_one(L, ld, width, coefficient.data() + c, target + static_cast<std::ptrdiff_t>(c) * stride, rows);
+  if (rows > 0) add_of[count - 1](L, ld, width, coefficient.data(), target, stride, rows);
 }
 
 /// One strip of columns of L, at most six right-hand sides.

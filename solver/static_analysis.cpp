@@ -2,11 +2,14 @@
 
 #include <chrono>
 #include <cmath>
+#include <optional>
+#include <stdexcept>
 
 #include "factor.h"
 #include "frame_system.h"
 #include "mechanism.h"
 #include "refinement.h"
+#include "topple/solver/case_sums.h"
 
 namespace topple::solver {
 namespace {
@@ -28,33 +31,34 @@ void require_stable(const std::optional<Defect>& defect) {
   if (defect) throw Instability(defect->message, defect->motion);
 }
 
-}  // namespace
-
-struct StaticAnalysis::State {
+/// A frame's equations with their factor.
+struct Prepared {
   FrameSystem system;
   AnalysisOptions options;
   AnalysisStatistics statistics;
   Stability stability;
   std::unique_ptr<Factor> factor;
 
-  State(FrameModel model, const AnalysisOptions& given) : system(std::move(model)), options(given) {}
+  Prepared(FrameModel model, const AnalysisOptions& given) : system(std::move(model)), options(given) {}
   void assemble();
   void order();
   void factorise();
   void estimate();
+  [[nodiscard]] Eigen::MatrixXd right_hand_sides(std::span<const LoadVector> vectors) const;
+  [[nodiscard]] std::vector<StaticSolution> answers(std::span<const LoadVector> vectors, RefinedSolution refined) const;
   [[nodiscard]] LinearSolve linear_solve() const {
     return [this](Eigen::Ref<Eigen::MatrixXd> b) { factor->solve(b); };
   }
 };
 
-void StaticAnalysis::State::assemble() {
+void Prepared::assemble() {
   const Stopwatch watch(statistics.assemble_seconds);
   system.assemble();
   statistics.freedoms = static_cast<std::size_t>(system.dofs().equations);
   statistics.matrix_entries = system.matrix().row.size();
 }
 
-void StaticAnalysis::State::order() {
+void Prepared::order() {
   const Stopwatch watch(statistics.order_seconds);
   factor =
       std::make_unique<Factor>(system.matrix(), system.elimination_order(), options.factorisation, options.threads);
@@ -64,13 +68,13 @@ void StaticAnalysis::State::order() {
   statistics.factor_operations = factor->operations();
 }
 
-void StaticAnalysis::State::factorise() {
+void Prepared::factorise() {
   const Stopwatch watch(statistics.factor_seconds);
   stability = factorise_and_judge(system, *factor, options);
   require_stable(stability.defect);
 }
 
-void StaticAnalysis::State::estimate() {
+void Prepared::estimate() {
   if (stability.condition == 0 && factor) {
     const Stopwatch watch(statistics.condition_seconds);
     judge_condition(options, estimate_condition(system.matrix(), linear_solve()), stability);
@@ -81,53 +85,172 @@ void StaticAnalysis::State::estimate() {
   }
 }
 
-StaticAnalysis::StaticAnalysis(FrameModel model, const AnalysisOptions& options) {
-  double map_seconds = 0;  // numbering the freedoms and building the scatter map
-  {
-    const Stopwatch watch(map_seconds);
-    state_ = std::make_unique<State>(std::move(model), options);
-  }
-  state_->statistics.assemble_seconds = map_seconds;
-  state_->assemble();
-  require_stable(state_->system.defect());
-  if (state_->system.dofs().equations == 0) return;
-  state_->order();
-  state_->factorise();
-}
-StaticAnalysis::~StaticAnalysis() = default;
-StaticAnalysis::StaticAnalysis(StaticAnalysis&&) noexcept = default;
-StaticAnalysis& StaticAnalysis::operator=(StaticAnalysis&&) noexcept = default;
-
-std::vector<StaticSolution> StaticAnalysis::solve(std::span<const LoadSet> loads) {
-  State& state = *state_;
-  state.estimate();
-  const Stopwatch watch(state.statistics.solve_seconds);
-  const std::vector<LoadVector> vectors = state.system.load_vectors(loads);
-  for (const LoadVector& vector : vectors) require_stable(state.system.unbalanced_load(vector));
-  const Eigen::Index n = state.system.dofs().equations;
-  const Eigen::Map<const Eigen::VectorXd> scale(state.system.scale().data(), n);
-  Eigen::MatrixXd b(n, static_cast<Eigen::Index>(loads.size()));
+/// Scaled; each in a column.
+Eigen::MatrixXd Prepared::right_hand_sides(std::span<const LoadVector> vectors) const {
+  const Eigen::Index n = system.dofs().equations;
+  const Eigen::Map<const Eigen::VectorXd> scale(system.scale().data(), n);
+  Eigen::MatrixXd b(n, static_cast<Eigen::Index>(vectors.size()));
   for (std::size_t j = 0; j < vectors.size(); ++j)
     b.col(static_cast<Eigen::Index>(j)) = vectors[j].force.head(n).cwiseProduct(scale);
-  RefinedSolution refined;
-  if (n > 0) {
-    refined = solve_refined(state.system.matrix(), state.linear_solve(), b);
-  } else {
-    refined.x = b;
-    refined.quality.resize(loads.size());
-  }
-  refined.x.array().colwise() *= scale.array();
-  std::vector<StaticSolution> solutions = state.system.recover(vectors, refined.x);
-  for (std::size_t j = 0; j < loads.size(); ++j) {
+  return b;
+}
+
+/// From the scaled displacements.
+std::vector<StaticSolution> Prepared::answers(std::span<const LoadVector> vectors, RefinedSolution refined) const {
+  refined.x.array().colwise() *= Eigen::Map<const Eigen::ArrayXd>(system.scale().data(), system.dofs().equations);
+  std::vector<StaticSolution> solutions = system.recover(vectors, refined.x);
+  for (std::size_t j = 0; j < vectors.size(); ++j) {
     SolveQuality& quality = solutions[j].quality;
     quality = refined.quality[j];
-    quality.condition = std::max(state.stability.condition, 1.0);
+    quality.condition = std::max(stability.condition, 1.0);
     quality.error_bound = forward_error_bound(quality.condition, quality.backward_error);
   }
   return solutions;
 }
 
-const FrameModel& StaticAnalysis::model() const { return state_->system.model; }
-const AnalysisStatistics& StaticAnalysis::statistics() const { return state_->statistics; }
+std::unique_ptr<Prepared> prepare(FrameModel model, const AnalysisOptions& options) {
+  double map_seconds = 0;  // numbering the freedoms and building the scatter map
+  std::unique_ptr<Prepared> prepared;
+  {
+    const Stopwatch watch(map_seconds);
+    prepared = std::make_unique<Prepared>(std::move(model), options);
+  }
+  prepared->statistics.assemble_seconds = map_seconds;
+  prepared->assemble();
+  require_stable(prepared->system.defect());
+  if (prepared->system.dofs().equations == 0) return prepared;
+  prepared->order();
+  prepared->factorise();
+  return prepared;
+}
+
+std::vector<StaticSolution> solve_each(Prepared& prepared, std::span<const LoadSet> loads) {
+  prepared.estimate();
+  const Stopwatch watch(prepared.statistics.solve_seconds);
+  const std::vector<LoadVector> vectors = prepared.system.load_vectors(loads);
+  for (const LoadVector& vector : vectors) require_stable(prepared.system.unbalanced_load(vector));
+  const Eigen::MatrixXd b = prepared.right_hand_sides(vectors);
+  if (b.rows() == 0) return prepared.answers(vectors, {b, b, std::vector<SolveQuality>(loads.size())});
+  return prepared.answers(vectors, solve_refined(prepared.system.matrix(), prepared.linear_solve(), b));
+}
+
+LoadSet sum_of(std::span<const LoadSet> cases, const Eigen::VectorXd& factors) {
+  LoadSet sum;
+  for (std::size_t c = 0; c < cases.size(); ++c) {
+    const double factor = factors(static_cast<Eigen::Index>(c));
+    if (factor == 0) continue;
+    for (NodeLoad load : cases[c].nodes) {
+      load.load *= factor;
+      sum.nodes.push_back(load);
+    }
+    for (BeamLoad load : cases[c].beams) {
+      load.first *= factor;
+      load.last *= factor;
+      load.strain *= factor;
+      load.curvature_y *= factor;
+      load.curvature_z *= factor;
+      sum.beams.push_back(load);
+    }
+    for (ShellLoad load : cases[c].shells) {
+      load.traction *= factor;
+      load.strain *= factor;
+      sum.shells.push_back(load);
+    }
+    for (Settlement settlement : cases[c].settlements) {
+      settlement.value *= factor;
+      sum.settlements.push_back(settlement);
+    }
+  }
+  return sum;
+}
+
+/// What recovery needs of a sum; none of the cases acts on a loose part.
+LoadVector sum_of(std::span<const LoadVector> cases, const Eigen::VectorXd& factors) {
+  LoadVector sum;
+  sum.force = Eigen::VectorXd::Zero(cases.front().force.size());
+  sum.held_displacement = Eigen::VectorXd::Zero(cases.front().held_displacement.size());
+  const auto add = [](auto& to, const auto& from, double factor) {
+    if (from.empty()) return;
+    if (to.empty()) to.assign(from.size(), std::decay_t<decltype(from[0])>::Zero());
+    for (std::size_t i = 0; i < from.size(); ++i) to[i] += factor * from[i];
+  };
+  for (std::size_t c = 0; c < cases.size(); ++c) {
+    const double factor = factors(static_cast<Eigen::Index>(c));
+    if (factor == 0) continue;
+    sum.force += factor * cases[c].force;
+    sum.held_displacement += factor * cases[c].held_displacement;
+    add(sum.beam_fixed_end, cases[c].beam_fixed_end, factor);
+    add(sum.shell_fixed, cases[c].shell_fixed, factor);
+    add(sum.node_load, cases[c].node_load, factor);
+  }
+  return sum;
+}
+
+/// In more digits than the answers have: where cases cancel, what is left is right to its own last digit.
+Eigen::MatrixXd sums_of(const RefinedSolution& cases, const Eigen::MatrixXd& factors) {
+  Eigen::MatrixXd sums(cases.x.rows(), factors.cols());
+  for (Eigen::Index j = 0; j < factors.cols(); ++j)
+    for (Eigen::Index i = 0; i < sums.rows(); ++i) {
+      long double sum = 0;
+      for (Eigen::Index c = 0; c < factors.rows(); ++c)
+        if (const double factor = factors(c, j); factor != 0)
+          sum += factor * (static_cast<long double>(cases.x(i, c)) + cases.rest(i, c));
+      sums(i, j) = static_cast<double>(sum);
+    }
+  return sums;
+}
+
+/// None where a case by itself acts on what gives way: the sums, in which it may cancel, have to be solved.
+std::optional<std::vector<StaticSolution>> add_up(Prepared& prepared, std::span<const LoadSet> cases,
+                                                  const Eigen::MatrixXd& factors) {
+  prepared.estimate();
+  const Stopwatch watch(prepared.statistics.solve_seconds);
+  const FrameSystem& system = prepared.system;
+  const std::vector<LoadVector> vectors = system.load_vectors(cases);
+  for (const LoadVector& vector : vectors)
+    if (system.unbalanced_load(vector)) return std::nullopt;
+  std::vector<LoadVector> sums;
+  for (Eigen::Index j = 0; j < factors.cols(); ++j) sums.push_back(sum_of(vectors, factors.col(j)));
+  const RefinedSolution of_cases =
+      solve_refined(system.matrix(), prepared.linear_solve(), prepared.right_hand_sides(vectors));
+  return prepared.answers(sums, refine(system.matrix(), prepared.linear_solve(), prepared.right_hand_sides(sums),
+                                       sums_of(of_cases, factors)));
+}
+
+}  // namespace
+
+struct StaticAnalysis::State {
+  std::unique_ptr<Prepared> prepared;
+};
+
+StaticAnalysis::StaticAnalysis(FrameModel model, const AnalysisOptions& options)
+    : state_(std::make_unique<State>(State{prepare(std::move(model), options)})) {}
+StaticAnalysis::~StaticAnalysis() = default;
+StaticAnalysis::StaticAnalysis(StaticAnalysis&&) noexcept = default;
+StaticAnalysis& StaticAnalysis::operator=(StaticAnalysis&&) noexcept = default;
+
+std::vector<StaticSolution> StaticAnalysis::solve(std::span<const LoadSet> loads) {
+  return solve_each(*state_->prepared, loads);
+}
+
+const FrameModel& StaticAnalysis::model() const { return state_->prepared->system.model; }
+const AnalysisStatistics& StaticAnalysis::statistics() const { return state_->prepared->statistics; }
+
+CaseSums solve_case_sums(FrameModel model, std::span<const LoadSet> cases, const Eigen::MatrixXd& factors,
+                         const AnalysisOptions& options) {
+  if (factors.rows() != static_cast<Eigen::Index>(cases.size()))
+    throw std::invalid_argument("sums of load cases: " + std::to_string(factors.rows()) + " factors for " +
+                                std::to_string(cases.size()) + " cases");
+  const std::unique_ptr<Prepared> prepared = prepare(std::move(model), options);
+  std::optional<std::vector<StaticSolution>> solutions;
+  if (!cases.empty() && factors.rows() < factors.cols() && prepared->system.dofs().equations > 0)
+    solutions = add_up(*prepared, cases, factors);
+  if (!solutions) {
+    std::vector<LoadSet> sums;
+    for (Eigen::Index j = 0; j < factors.cols(); ++j) sums.push_back(sum_of(cases, factors.col(j)));
+    solutions = solve_each(*prepared, sums);
+  }
+  return {std::move(*solutions), prepared->statistics};
+}
 
 }  // namespace topple::solver

@@ -15,10 +15,12 @@
 #include "analysis/second_order_member.h"
 #include "analysis/shell_results.h"
 #include "analysis/storeys.h"
+#include "loads/case_loads.h"
 #include "panel_bearings.h"
 #include "panel_demand.h"
 #include "side_by_side.h"
 #include "topple/solver/beam_diagram.h"
+#include "topple/solver/case_sums.h"
 #include "topple/structure/analysis.h"
 #include "topple/structure/error.h"
 #include "topple/structure/frame.h"
@@ -40,13 +42,17 @@ class Analysis {
     combinations_ = request.combinations;
     if (combinations_.empty())
       for (std::size_t i = 0; i < building.combinations.size(); ++i) combinations_.emplace_back(i);
-    for (const CombinationId id : combinations_) {
-      parts_.push_back(part_loads(building, id));
-      loads_.push_back(load_set(building, edges_, parts_.back()));
-      if (!has_meshes(frame_)) continue;
-      whole_.push_back(std::move(loads_.back()));
-      loads_.back() = on_frame(building, frame_, parts_.back(), whole_.back());
-    }
+    const std::size_t count = combinations_.size();
+    parts_.resize(count);
+    loads_.resize(count);
+    if (has_meshes(frame_)) whole_.resize(count);
+    side_by_side(count, request.workers, [&](std::size_t k) {
+      parts_[k] = part_loads(building, combinations_[k]);
+      loads_[k] = load_set(building, edges_, parts_[k]);
+      if (whole_.empty()) return;
+      whole_[k] = std::move(loads_[k]);
+      loads_[k] = on_frame(building, frame_, parts_[k], whole_[k]);
+    });
   }
 
   AnalysisResult run() {
@@ -95,6 +101,15 @@ class Analysis {
 
   /// The factor, by far the largest thing there is, goes with the analysis: nothing that follows needs it.
   [[nodiscard]] std::vector<solver::StaticSolution> solve_linear(solver::AnalysisStatistics& statistics) const {
+    if (loads_.size() > 1) {
+      const CaseLoads cases = case_loads(building_, frame_, edges_, combinations_);
+      if (cases.sets.size() < loads_.size()) {
+        solver::CaseSums sums =
+            solver::solve_case_sums(carrying_both(frame_.model), cases.sets, cases.factors, request_.solver);
+        statistics = sums.statistics;
+        return std::move(sums.solutions);
+      }
+    }
     solver::StaticAnalysis analysis(carrying_both(frame_.model), request_.solver);
     std::vector<solver::StaticSolution> solutions = analysis.solve(loads_);
     statistics = analysis.statistics();

@@ -1,6 +1,7 @@
 // Loads of one combination, by the part that carries them.
 #include <cmath>
 
+#include "loads/case_loads.h"
 #include "topple/structure/error.h"
 #include "topple/structure/frame.h"
 
@@ -104,8 +105,9 @@ void add_case(const Building& building, const LoadCase& load_case, double factor
 
 }  // namespace
 
-PartLoads part_loads(const Building& building, CombinationId id) {
-  const Combination& combination = building[id];
+PartLoads part_loads(const Building& building, CombinationId id) { return part_loads(building, building[id]); }
+
+PartLoads part_loads(const Building& building, const Combination& combination) {
   PartLoads loads;
   loads.members.resize(building.members.size());
   loads.panels.resize(building.panels.size());
