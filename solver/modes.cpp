@@ -8,23 +8,31 @@
 #include "ldl_factor.h"
 #include "mass_matrix.h"
 #include "mechanism.h"
+#include "topple/solver/shifted_modes.h"
 
 namespace topple::solver {
 namespace {
 
 class Modes {
  public:
-  Modes(const FrameModel& model, const MassModel& masses, const AnalysisOptions& options, const AxialState* tangent)
-      : system_(model) {
+  Modes(const FrameModel& model, const MassModel& masses, double shift, const AnalysisOptions& options,
+        const AxialState* tangent)
+      : system_(model), shift_(shift) {
     system_.second_order = tangent;
     system_.assemble();
-    if (const auto defect = system_.defect()) throw Instability(defect->message, defect->motion);
+    if (shift_ == 0) require_none(system_.defect());
     order_ = system_.elimination_order();
     mass_ = std::make_unique<MassMatrix>(system_, masses);
+    stiffness_ = system_.matrix();
+    for (std::size_t k = 0; shift_ != 0 && k < stiffness_.value.size(); ++k)
+      stiffness_.value[k] += shift_ * mass_->matrix().value[k];
     if (order_.empty()) return;
-    factor_ = std::make_unique<Factor>(system_.matrix(), order_, options.factorisation, options.threads);
-    const Stability stability = factorise_and_judge(system_, *factor_, options);
-    if (stability.defect) throw Instability(stability.defect->message, stability.defect->motion);
+    factor_ = std::make_unique<Factor>(stiffness_, order_, options.factorisation, options.threads);
+    if (shift_ == 0) {
+      require_none(factorise_and_judge(system_, *factor_, options).defect);
+    } else {
+      factorise_shifted(options);
+    }
   }
 
   ModalAnswer find(int count) {
@@ -49,7 +57,19 @@ class Modes {
  private:
   static constexpr int least_extra = 4, most_extra = 4096;
 
-  /// Counts the eigenvalues of K x = s M x below a shift behind the last one asked for.
+  static void require_none(const std::optional<Defect>& defect) {
+    if (defect) throw Instability(defect->message, defect->motion);
+  }
+
+  void factorise_shifted(const AnalysisOptions& options) {
+    const Factor::Outcome outcome = factor_->factorise(stiffness_);
+    if (outcome.positive_definite && outcome.worst_pivot >= options.singular_limit) return;
+    Defect defect = find_mechanism(system_, *factor_, outcome.worst_row);
+    require_none(Defect{defect.message + ", and the shift of the eigenvalue finds no mass in this motion to hold it by",
+                        defect.motion});
+  }
+
+  /// Counts the eigenvalues of (K + shift M) x = s M x below a place s behind the last one asked for.
   [[nodiscard]] bool none_missing(const KrylovAnswer& found, int count) const {
     constexpr double apart = 1e-3, beyond = 1e-2;
     const Eigen::Index known = found.values.size();
@@ -58,10 +78,10 @@ class Modes {
     const auto eigenvalue = [&](Eigen::Index i) { return 1 / found.values(i); };
     const auto gap = [&](Eigen::Index i) { return i + 1 < known ? eigenvalue(i + 1) / eigenvalue(i) - 1 : 2 * beyond; };
     while (last + 1 < known && gap(last) < apart && last + 1 < found.converged) ++last;
-    const double shift = eigenvalue(last) * (1 + std::min(beyond, gap(last) / 2));
-    SparseSymmetric shifted = system_.matrix();
+    const double place = eigenvalue(last) * (1 + std::min(beyond, gap(last) / 2));
+    SparseSymmetric shifted = stiffness_;
     const SparseSymmetric& M = mass_->matrix();
-    for (std::size_t k = 0; k < shifted.value.size(); ++k) shifted.value[k] -= shift * M.value[k];
+    for (std::size_t k = 0; k < shifted.value.size(); ++k) shifted.value[k] -= place * M.value[k];
     return LdlFactor(shifted, order_).factorise(shifted, false) == static_cast<int>(last) + 1;
   }
 
@@ -78,7 +98,9 @@ class Modes {
     }
     for (Eigen::Index m = 0; m < count; ++m) {
       VibrationMode mode;
-      mode.angular_frequency = 1 / std::sqrt(found.values(m));
+      constexpr double rounding = 1e-8;  // of the shift: what is left where it is taken off again
+      const double square = 1 / found.values(m) - shift_;
+      mode.angular_frequency = square <= rounding * shift_ ? 0 : std::sqrt(square);
       const Eigen::VectorXd x =
           found.vectors.col(m) / std::sqrt(found.vectors.col(m).dot(mass_->times(found.vectors.col(m)).col(0)));
       for (std::size_t c = 0; c < 6; ++c)
@@ -89,6 +111,8 @@ class Modes {
   }
 
   FrameSystem system_;
+  double shift_;
+  SparseSymmetric stiffness_;  ///< with the shift's share of the mass
   std::vector<int> order_;
   std::unique_ptr<MassMatrix> mass_;
   std::unique_ptr<Factor> factor_;
@@ -98,7 +122,14 @@ class Modes {
 
 ModalAnswer natural_modes(const FrameModel& model, const MassModel& masses, int count, const AnalysisOptions& options,
                           const AxialState* tangent) {
-  return Modes(model, masses, options, tangent).find(count);
+  return Modes(model, masses, 0, options, tangent).find(count);
+}
+
+ModalAnswer shifted_modes(const FrameModel& model, const MassModel& masses, int count, double shift,
+                          const AnalysisOptions& options, const AxialState* tangent) {
+  if (!(shift > 0) || !std::isfinite(shift))
+    throw std::invalid_argument("the shift of natural modes is " + std::to_string(shift) + "; accepted: above 0");
+  return Modes(model, masses, shift, options, tangent).find(count);
 }
 
 }  // namespace topple::solver

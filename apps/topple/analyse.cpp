@@ -167,6 +167,9 @@ int run(const Options& options) {
     throw;
   }
   clock.stop("analyse");
+  if (result.combinations.empty() && (options.html || options.vtu || !options.code.empty()))
+    throw InputError(building.file + ": " + result.warnings.back() +
+                     "; accepted: no --html, --vtu and --code, which are about combinations");
   if (!options.code.empty()) {
     const DesignCode code = options.code == "en1993" ? DesignCode::en1993 : DesignCode::aisc360;
     check_design(building, code, 1 / options.drift_limit, result);

@@ -21,6 +21,7 @@
 #include "side_by_side.h"
 #include "topple/solver/beam_diagram.h"
 #include "topple/solver/case_sums.h"
+#include "topple/solver/shifted_modes.h"
 #include "topple/structure/analysis.h"
 #include "topple/structure/error.h"
 #include "topple/structure/frame.h"
@@ -58,8 +59,7 @@ class Analysis {
   AnalysisResult run() {
     AnalysisResult result;
     try {
-      const std::vector<solver::StaticSolution> solutions = solve_linear(result.statistics);
-      recover(solutions, result);
+      solve_and_recover(result);
       if (request_.modes > 0) find_modes(result);
     } catch (const solver::Instability& unstable) {
       const std::string message = building_.file + ": " + describe_instability(building_, frame_, unstable);
@@ -81,6 +81,19 @@ class Analysis {
   }
 
  private:
+  /// A structure that floats, whose modes are asked for with a shift, bears no loads: it has modes all the same.
+  void solve_and_recover(AnalysisResult& result) {
+    try {
+      recover(solve_linear(result.statistics), result);
+    } catch (const solver::Instability& unstable) {
+      if (request_.modes == 0 || building_.requested.frequency_shift <= 0) throw;
+      floats_ = true;
+      result.combinations.clear();
+      result.warnings.push_back("no combination is solved: " + describe_instability(building_, frame_, unstable) +
+                                "; the shift that the file gives is for its modes alone");
+    }
+  }
+
   /// Combinations that are linear to the end stand alone; others share an ordering, and what one leaves behind.
   void recover(const std::vector<solver::StaticSolution>& solutions, AnalysisResult& result) {
     result.combinations.resize(solutions.size());
@@ -216,9 +229,12 @@ class Analysis {
                              modal_masses(building_, frame_, edges_)};
     solver::FrameModel model = carrying_both(frame_.model);
     const bool loaded = request_.second_order != solver::SecondOrder::none;
-    if (loaded) model.beams = tangent_beams_;
+    if (loaded && !floats_) model.beams = tangent_beams_;
+    const solver::AxialState* tangent = loaded && !floats_ ? &tangent_ : nullptr;
     solver::ModalAnswer answer =
-        solver::natural_modes(model, masses, request_.modes, request_.solver, loaded ? &tangent_ : nullptr);
+        floats_ ? solver::shifted_modes(model, masses, request_.modes, building_.requested.frequency_shift,
+                                        request_.solver, tangent)
+                : solver::natural_modes(model, masses, request_.modes, request_.solver, tangent);
     result.modes = std::move(answer.modes);
     result.moving_mass = answer.moving_mass;
     if (static_cast<int>(result.modes.size()) < request_.modes)
@@ -382,6 +398,7 @@ class Analysis {
   std::vector<PartLoads> parts_;
   std::vector<solver::LoadSet> loads_;  ///< per combination, on the frame
   std::vector<solver::LoadSet> whole_;  ///< the same on whole members; empty where a mesh divides none
+  bool floats_ = false;                 ///< nothing but the shift of the modes keeps it in place
   std::optional<solver::SecondOrderAnalysis> second_order_;
   solver::AxialState tangent_;  ///< of the last combination
   std::vector<solver::Beam> tangent_beams_;

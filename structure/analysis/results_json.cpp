@@ -103,12 +103,13 @@ std::vector<ResultsWriter::Piece> ResultsWriter::pieces() const {
   }
   all.push_back(
       [](ResultsWriter& to) { to.w_.close('}').newline().key("envelope").open('{').key("members").open('{'); });
-  add_items(all, b_.members.size(), [](ResultsWriter& to, std::size_t i) { to.member_envelope(i); });
+  const bool any = !result_.combinations.empty();  // a structure that floats has modes alone
+  add_items(all, any ? b_.members.size() : 0, [](ResultsWriter& to, std::size_t i) { to.member_envelope(i); });
   all.push_back([](ResultsWriter& to) {
     to.joint_envelope();
     to.w_.newline().key("displacements").open('{');
   });
-  add_items(all, b_.nodes.size(), [](ResultsWriter& to, std::size_t i) { to.node_envelope(i); });
+  add_items(all, any ? b_.nodes.size() : 0, [](ResultsWriter& to, std::size_t i) { to.node_envelope(i); });
   all.push_back([](ResultsWriter& to) {
     to.w_.close('}').close('}').newline();
     if (to.request_.losses.any()) to.losses();

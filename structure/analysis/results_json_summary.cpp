@@ -55,7 +55,7 @@ void ResultsWriter::member_envelope(std::size_t m) {
 void ResultsWriter::joint_envelope() {
   const std::vector<CombinationResult>& all = result_.combinations;
   w_.close('}').newline().key("joints").open('{');
-  for (std::size_t j = 0; j < b_.joints.size(); ++j) {
+  for (std::size_t j = 0; j < b_.joints.size() && !all.empty(); ++j) {
     if (!b_.joints[j].capacity.breakable) continue;
     const std::size_t worst =
         least_and_largest(all.size(), [&](std::size_t k) { return all[k].joints[j].value; }).second;

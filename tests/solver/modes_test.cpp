@@ -6,6 +6,7 @@
 #include "frame_system.h"
 #include "mass_matrix.h"
 #include "topple/solver/modes.h"
+#include "topple/solver/shifted_modes.h"
 
 using namespace topple::solver;
 
@@ -261,4 +262,52 @@ TEST_CASE("every mode of a frame with many equal ones is that of a dense solver,
     CHECK(along == Approx(1).epsilon(1e-9));
     CHECK(about == Approx(1).epsilon(1e-9));
   }
+}
+
+TEST_CASE("a beam that floats has six frequencies of zero, then those of free ends") {
+  const double L = 4;
+  const Beam b = steel(L);
+  FrameModel model = cantilever(L, 24);
+  model.supports.clear();
+  CHECK_THROWS_AS(natural_modes(model, {}, 8), Instability);
+  const ModalAnswer answer = shifted_modes(model, {}, 14, 1e4);
+  REQUIRE(answer.modes.size() == 14);
+  for (std::size_t m = 0; m < 6; ++m) CHECK(answer.modes[m].angular_frequency == 0);
+  // Roots of cos a cosh a = 1 (Blevins, table 8-1), both ways; along and about the axis n pi. Cubic shapes converge as
+  // (a/parts)^4/720, linear ones as (n pi/parts)^2/24.
+  constexpr double parts = 24;
+  std::vector<std::pair<double, double>> expected;  // and what the parts leave of the error
+  for (const double root : {4.730040744862704, 7.853204624095838, 10.995607838001671})
+    for (const double I : {b.Iy, b.Iz})
+      expected.emplace_back(root * root / (L * L) * std::sqrt(b.youngs_modulus * I / (b.density * b.area)),
+                            std::pow(root / parts, 4) / 720);
+  for (int n = 1; n <= 6; ++n)
+    for (const double speed : {std::sqrt(b.youngs_modulus / b.density),
+                               std::sqrt(b.shear_modulus * b.J / (b.density * (b.Iy + b.Iz)))})
+      expected.emplace_back(n * pi / L * speed, std::pow(n * pi / parts, 2) / 24);
+  std::sort(expected.begin(), expected.end());
+  for (std::size_t m = 6; m < 14; ++m) {
+    const auto [frequency, error] = expected[m - 6];
+    CHECK(answer.modes[m].angular_frequency >= frequency * (1 - 1e-9));  // a Ritz answer lies above
+    CHECK(answer.modes[m].angular_frequency <= frequency * (1 + 1.1 * error + 1e-9));
+  }
+  // The rigid motions take all of the mass, the elastic ones none.
+  for (std::size_t c = 0; c < 6; ++c) {
+    double rigid_share = 0;
+    for (std::size_t m = 0; m < 6; ++m) rigid_share += answer.modes[m].mass_share[c];
+    CHECK(rigid_share == Approx(1).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("a shift changes no frequency of a structure that stands") {
+  const FrameModel model = cantilever(4, 6);
+  const auto plain = frequencies(natural_modes(model, {}, 6)), shifted = frequencies(shifted_modes(model, {}, 6, 5000));
+  for (std::size_t m = 0; m < 6; ++m) CHECK(shifted[m] == Approx(plain[m]).epsilon(1e-10));
+}
+
+TEST_CASE("a motion without mass and stiffness is told whatever the shift") {
+  FrameModel model = cantilever(4, 2);
+  model.nodes.push_back(Vec3(1, 0, 0));  // nothing reaches it
+  CHECK_THROWS_AS(shifted_modes(model, {}, 3, 1e4), Instability);
+  CHECK_THROWS_WITH(shifted_modes(model, {}, 3, 0), Catch::Contains("above 0"));
 }

@@ -22,7 +22,8 @@ Building mast(const std::string& rest, const std::string& units = R"("consistent
     "nodes": {"A": [0, 0, 0], "B": [0, 0, 3], "C": [2, 0, 3]},
     "members": {"P": {"kind": "post", "nodes": ["A", "B"], "section": "s", "material": "light"},
                 "M": {"nodes": ["B", "C"], "section": "s", "material": "light"}},
-    "supports": {"A": "fixed"})" + rest + "}",
+    "supports": {"A": "fixed"})" +
+                         rest + "}",
                      "mast.json");
 }
 
@@ -61,8 +62,9 @@ TEST_CASE("mass comes from nodes, from members by halves, and from vertical load
     "masses": {"loads": {"live": 0.5}})";
   CHECK(moving(mast(loads)) == Approx(0.5 * 200 / 10).epsilon(1e-12));
   CHECK_THROWS_WITH(mast(R"(, "masses": {"loads": {"live": -1}})"), Catch::Contains("masses"));
-  CHECK_THROWS_WITH(modes(mast(R"(, "loads": {"lift": {"nodes": {"C": {"z": 40}}}}, "masses": {"loads": {"lift": 1}})"), 1),
-                    Catch::Contains("node C upwards"));
+  CHECK_THROWS_WITH(
+      modes(mast(R"(, "loads": {"lift": {"nodes": {"C": {"z": 40}}}}, "masses": {"loads": {"lift": 1}})"), 1),
+      Catch::Contains("node C upwards"));
   CHECK_THROWS_WITH(modes(mast(""), 1), Catch::Contains("mass"));
 }
 
@@ -86,4 +88,49 @@ TEST_CASE("results.json has frequencies in Hz and rad/s, mass shares and shapes,
   const double E = 2e11, G = 8e10, L = 3, a = 2;
   const double flexibility = L * L * L / (3 * E * 2e-5) + a * a * L / (G * 1e-5) + a * a * a / (3 * E * 2e-5);
   CHECK(json["modes"][0]["angular_frequency"].get<double>() == Approx(1 / std::sqrt(50 * flexibility)).epsilon(1e-9));
+}
+
+namespace {
+
+/// A bar of 4 m without supports, in eight parts; `shift` as the file gives it.
+std::string floating_bar(const std::string& analyses) {
+  std::string nodes, members;
+  for (int i = 0; i <= 8; ++i)
+    nodes += (i > 0 ? ", " : "") + ("\"n" + std::to_string(i) + "\": [" + std::to_string(0.5 * i) + ", 0, 0]");
+  for (int i = 0; i < 8; ++i)
+    members +=
+        (i > 0 ? ", " : "") + ("\"m" + std::to_string(i) + "\": {\"nodes\": [\"n" + std::to_string(i) + "\", \"n" +
+                               std::to_string(i + 1) + "\"], \"section\": \"s\", \"material\": \"steel\"}");
+  return R"({"topple": 1, "materials": {"steel": {"youngs_modulus": 2e11, "shear_modulus": 8e10, "density": 7800}},
+    "sections": {"s": {"area": 0.01, "Iy": 1e-4, "Iz": 2e-5, "J": 1e-5}}, "nodes": {)" +
+         nodes + R"(}, "members": {)" + members + R"(}, "analyses": )" + analyses + "}";
+}
+
+}  // namespace
+
+TEST_CASE("a structure that floats has modes where its file gives a shift, and bears no loads") {
+  const Building bar = parse_model(floating_bar(R"({"modes": 8, "shift": 1000})"), "bar.json");
+  AnalysisRequest request;
+  request.modes = bar.requested.modes;
+  const AnalysisResult result = analyse(bar, request);
+  CHECK(result.combinations.empty());
+  CHECK_THAT(result.warnings.back(), Catch::Contains("no combination is solved") && Catch::Contains("unstable"));
+  REQUIRE(result.modes.size() == 8);
+  for (std::size_t m = 0; m < 6; ++m) CHECK(result.modes[m].angular_frequency == 0);
+  // 4.730^2/L^2 sqrt(E Iz/(density A)) with free ends; eight parts leave (4.73/8)^4/720 of an error.
+  const double first = 4.730040744862704 * 4.730040744862704 / 16 * std::sqrt(2e11 * 2e-5 / (7800 * 0.01));
+  CHECK(result.modes[6].angular_frequency == Approx(first).epsilon(2e-4));
+  const Json file = Json::parse(results_json(bar, request, result, {}));
+  CHECK(file["combinations"].empty());
+  CHECK(file["envelope"]["members"].empty());
+  CHECK(file["modes"].size() == 8);
+}
+
+TEST_CASE("a structure that floats is unstable where its file gives no shift") {
+  AnalysisRequest request;
+  request.modes = 8;
+  CHECK_THROWS_AS(analyse(parse_model(floating_bar(R"({"modes": 8})"), "bar.json"), request), UnstableModel);
+  request.modes = 0;
+  CHECK_THROWS_AS(analyse(parse_model(floating_bar(R"({"modes": 8, "shift": 1000})"), "bar.json"), request),
+                  UnstableModel);
 }
