@@ -1,11 +1,16 @@
 // What is drawn upon the structure to examine it: diagrams, arrows, segments, modes.
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <fstream>
+#include <glm/geometric.hpp>
 
 #include "app/open_scene.h"
 #include "app/session.h"
 #include "app/show_words.h"
 #include "renderer/arrows.h"
 #include "renderer/diagram.h"
+#include "renderer/instances.h"
+#include "support/scratch_folder.h"
 #include "topple/structure/error.h"
 
 namespace {
@@ -148,4 +153,49 @@ TEST_CASE("words choose the view, and wrong ones are refused with those accepted
   CHECK(refused("deflection far").find("'far' is no number") != std::string::npos);
   CHECK(refused("vibration 99").find("from 1 to 8") != std::string::npos);
   CHECK(refused("diagram stress").find("no such view") != std::string::npos);
+}
+
+TEST_CASE("a post between nodes that rest bulges in its buckling mode") {
+  // Two posts over each other, fixed at foot and head, held sideways between: each buckles inside.
+  const topple::test::ScratchFolder folder;
+  const std::string file = (folder / "posts.json").string();
+  std::ofstream(file)
+      << R"({"topple": 1, "materials": {"steel": {"youngs_modulus": 210e9, "poisson_ratio": 0.3, "density": 7850}},
+    "sections": {"post": {"shape": "box", "depth": 0.1, "width": 0.1, "thickness": 0.005}},
+    "joints": {"full": {"capacity": {"tension": 1e6, "compression": 1e6, "shear_y": 1e6, "shear_z": 1e6, "torsion": 1e6,
+                                     "moment_y": 1e6, "moment_z": 1e6}}},
+    "nodes": {"A": [0, 0, 0], "B": [0, 0, 4], "C": [0, 0, 8]},
+    "members": {"P1": {"kind": "post", "nodes": ["A", "B"], "section": "post", "material": "steel", "joints": ["full", "full"]},
+                "P2": {"kind": "post", "nodes": ["B", "C"], "section": "post", "material": "steel", "joints": ["full", "full"]}},
+    "supports": {"A": {"x": true, "y": true, "z": true, "rx": true, "ry": true, "rz": true},
+                 "B": {"x": true, "y": true, "rx": true, "ry": true}, "C": {"x": true, "y": true, "rx": true, "ry": true, "rz": true}},
+    "loads": {"push": {"nodes": {"C": {"z": -1e5}}}}, "combinations": {"service": {"push": 1}}})";
+  const Scene scene = open_scene(file);
+  ModeShapes modes(scene.building, topple::structure::CombinationId(0u));
+  const auto& found = modes.wait(ModeKind::buckling);
+  INFO(modes.error(ModeKind::buckling));
+  REQUIRE(found.size() >= 2);
+  // Euler, fixed at both ends: 4 pi2 E I / L2, I = (0.1^4 - 0.09^4) / 12; less by what shear gives, about two percent.
+  const double euler = 4 * 9.8696044 * 210e9 * (1e-4 - 0.6561e-4) / 12 / 16 / 1e5;
+  CHECK(found[0].value == Approx(euler).epsilon(0.03));
+  REQUIRE(found[0].bulge);
+  float most = 0;
+  for (const auto& node : *found[0].shape) CHECK(node.norm() < 1e-6F);  // the nodes rest
+  for (const Eigen::Vector3f& bulge : *found[0].bulge) {
+    CHECK(std::abs(bulge.z()) < 1e-6F);
+    most = std::max(most, bulge.norm());
+  }
+  // The largest translation, 1, is asked for at 0.45 of the height: in the middle (1 - cos) / 2 is 2.5 % more.
+  CHECK(most == Approx(1.0).epsilon(0.04));
+  // And it is drawn.
+  Snapshot snapshot = undeformed(*scene.building);
+  snapshot.shape = found[0].shape;
+  snapshot.shape_bulge = found[0].bulge;
+  snapshot.shape_scale = 0.5F;
+  SceneInstances instances(*scene.building);
+  instances.update(snapshot, ViewOptions());
+  float drawn = 0;
+  for (const auto& batch : instances.members())
+    for (const auto& member : batch.instances) drawn = std::max(drawn, glm::length(member.bulge));
+  CHECK(drawn == Approx(0.5F * most).epsilon(1e-4));
 }

@@ -402,6 +402,7 @@ Snapshot Controller::shown(bool wait) {
   if (known == nullptr || known->empty()) return moment;
   const auto number = std::min(static_cast<std::size_t>(mode.number), known->size() - 1);
   moment.shape = (*known)[number].shape;
+  moment.shape_bulge = (*known)[number].bulge;
   const double phase = std::cos(glm::two_pi<double>() * swing_ * swings_per_second);
   moment.shape_scale = static_cast<float>(mode_share * bounds_of(building_).radius() * phase) * mode.scale;
   return moment;

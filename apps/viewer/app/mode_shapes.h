@@ -16,6 +16,7 @@ enum class ModeKind { vibration, buckling };
 struct ModeShape {
   double value = 0;  ///< frequency in Hz, or the factor on the loads
   std::shared_ptr<const std::vector<Eigen::Matrix<float, 6, 1>>> shape;  ///< per node; largest translation 1
+  std::shared_ptr<const std::vector<Eigen::Vector3f>> bulge;             ///< per member, as Snapshot has it; null: none
 };
 
 class ModeShapes {

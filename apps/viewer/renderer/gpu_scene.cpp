@@ -12,8 +12,9 @@ const Attributes& member_attributes() {
       {3, GL_FLOAT, offsetof(MemberInstance, first_end)},    {4, GL_FLOAT, offsetof(MemberInstance, rotation)},
       {1, GL_FLOAT, offsetof(MemberInstance, length)},       {3, GL_FLOAT, offsetof(MemberInstance, displacement1)},
       {3, GL_FLOAT, offsetof(MemberInstance, rotation1)},    {3, GL_FLOAT, offsetof(MemberInstance, displacement2)},
-      {3, GL_FLOAT, offsetof(MemberInstance, rotation2)},    {4, GL_UNSIGNED_BYTE, offsetof(MemberInstance, base)},
-      {4, GL_UNSIGNED_BYTE, offsetof(MemberInstance, end1)}, {4, GL_UNSIGNED_BYTE, offsetof(MemberInstance, end2)}};
+      {3, GL_FLOAT, offsetof(MemberInstance, rotation2)},    {3, GL_FLOAT, offsetof(MemberInstance, bulge)},
+      {4, GL_UNSIGNED_BYTE, offsetof(MemberInstance, base)}, {4, GL_UNSIGNED_BYTE, offsetof(MemberInstance, end1)},
+      {4, GL_UNSIGNED_BYTE, offsetof(MemberInstance, end2)}};
   return list;
 }
 const Attributes& panel_attributes() {

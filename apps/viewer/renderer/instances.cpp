@@ -186,6 +186,9 @@ MemberInstance SceneInstances::standing_member(std::size_t index, const Snapshot
   };
   end(0, instance.displacement1, instance.rotation1);
   end(1, instance.displacement2, instance.rotation2);
+  instance.bulge = glm::vec3(0);
+  if (snapshot.shape && snapshot.shape_bulge)
+    instance.bulge = snapshot.shape_scale * to_glm((*snapshot.shape_bulge)[index]);
   return instance;
 }
 

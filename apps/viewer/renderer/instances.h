@@ -26,6 +26,7 @@ struct MemberInstance {
   glm::vec4 rotation;  ///< quaternion x, y, z, w: member axes to global
   float length;
   glm::vec3 displacement1, rotation1, displacement2, rotation2;  ///< of the two ends, global, scaled
+  glm::vec3 bulge;  ///< of the middle beside that, global, scaled; the ends keep their turns
   Rgba base, end1, end2;
 };
 struct PanelInstance {

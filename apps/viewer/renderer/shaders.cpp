@@ -63,9 +63,10 @@ layout(location = 5) in vec3 displacement1;
 layout(location = 6) in vec3 rotation1;
 layout(location = 7) in vec3 displacement2;
 layout(location = 8) in vec3 rotation2;
-layout(location = 9) in vec4 base;
-layout(location = 10) in vec4 end1;
-layout(location = 11) in vec4 end2;
+layout(location = 9) in vec3 bulge;
+layout(location = 10) in vec4 base;
+layout(location = 11) in vec4 end1;
+layout(location = 12) in vec4 end2;
 out vec3 point, surface_normal;
 out vec3 plain;
 out vec4 colour1, colour2;
@@ -79,6 +80,10 @@ void bend(float s, vec3 x, out vec3 axis_moves, out vec3 section_turns) {
   vec3 stretch = x * dot(chord, x) * s;
   axis_moves = displacement1 + stretch + (3.0 * s2 - 2.0 * s3) * across + span * ((s - 2.0 * s2 + s3) * slope1 + (s3 - s2) * slope2);
   vec3 slope = (6.0 * s - 6.0 * s2) * across / span + (1.0 - 4.0 * s + 3.0 * s2) * slope1 + (3.0 * s2 - 2.0 * s) * slope2;
+  // The shape of a bar that is fixed at both ends and pushed in the middle, as a power.
+  float rest = 1.0 - s;
+  axis_moves += 16.0 * s2 * rest * rest * bulge;
+  slope += 32.0 * s * rest * (1.0 - 2.0 * s) * bulge / span;
   section_turns = cross(x, slope) + x * mix(dot(rotation1, x), dot(rotation2, x), s);
 }
 void main() {

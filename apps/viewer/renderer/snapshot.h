@@ -95,6 +95,8 @@ struct Snapshot {
   std::shared_ptr<const std::vector<DustPuff>> dust;  ///< in order of time; null: none
   /// When there is one, what stands is drawn in this shape times the scale instead of its displacements (a mode).
   std::shared_ptr<const std::vector<Eigen::Matrix<float, 6, 1>>> shape;
+  /// Per member: how far its middle moves, global, beside where the ends' displacements and turns bend it to; null: not.
+  std::shared_ptr<const std::vector<Eigen::Vector3f>> shape_bulge;
   float shape_scale = 0;
   structure::SimulationCounters counters;
   std::array<double, 6> stage_seconds{};
