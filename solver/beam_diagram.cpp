@@ -124,12 +124,24 @@ struct BeamDiagram::State {
                     double& slope) const;
 };
 
+void BeamDiagram::Free::operator()(State* state) const {
+  // The last one is kept for the next on the same thread: diagrams come one after the other by the hundred thousand.
+  spare().reset(state);
+}
+
+std::unique_ptr<BeamDiagram::State>& BeamDiagram::spare() {
+  thread_local std::unique_ptr<State> kept;
+  return kept;
+}
+
 BeamDiagram::BeamDiagram(const Beam& beam, const Vec12& end_forces, std::span<const BeamLoad> loads,
                          double stiffness_factor)
-    : state_(std::make_unique<State>()) {
+    : state_(spare() ? spare().release() : new State) {
   state_->beam = beam;
   state_->end_forces = end_forces;
-  state_->forces = internal_forces(beam.length, end_forces.head<6>(), loads);
+  state_->deformed.clear();
+  state_->slip.setZero();
+  find_internal_forces(beam.length, end_forces.head<6>(), loads, state_->forces);
   state_->tip = integrate_deformation(beam, stiffness_factor, state_->forces, &state_->deformed);
   for (const BeamLoad& load : loads) {
     if (load.kind != BeamLoad::Kind::temperature) continue;
@@ -167,8 +179,9 @@ BeamDiagram::Range BeamDiagram::extremes(Quantity quantity) const {
     const BeamPiece& piece = state_->forces.pieces[i];
     const Polynomial p = state_->curve(i, quantity);
     consider(p[0], piece.start);
-    for (const double root : sign_changes(derivative(p), piece.length))
-      consider(polynomial(p, root), piece.start + root);
+    if (terms(p) > 2)
+      for (const double root : sign_changes(derivative(p), piece.length))
+        consider(polynomial(p, root), piece.start + root);
     consider(polynomial(p, piece.length), piece.start + piece.length);
   }
   return range;

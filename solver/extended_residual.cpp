@@ -4,6 +4,7 @@
 #include <limits>
 #include <numeric>
 
+#include "each_on_threads.h"
 #include "large_buffer.h"
 #include "refinement.h"
 
@@ -99,7 +100,7 @@ void subtract_products_8(const MatrixRows& K, const double* x, double* sums) { s
 
 }  // namespace
 
-ExtendedResidual::ExtendedResidual(const SparseSymmetric& K) : K_(K) {
+ExtendedResidual::ExtendedResidual(const SparseSymmetric& K, int threads) : K_(K), threads_(threads) {
   const auto n = static_cast<std::size_t>(K.size);
   left_start_.assign(n + 1, 0);
   row_sum_.assign(n, 0.0);
@@ -126,41 +127,49 @@ ExtendedResidual::ExtendedResidual(const SparseSymmetric& K) : K_(K) {
 
 std::vector<double> ExtendedResidual::operator()(const Eigen::Ref<const Eigen::MatrixXd>& b,
                                                  const Eigen::Ref<const Eigen::MatrixXd>& x, Eigen::MatrixXd& r) const {
-  const Eigen::Index n = K_.size;
-  r.resize(n, b.cols());
+  constexpr Eigen::Index most = 8;
+  r.resize(K_.size, b.cols());
   std::vector<double> errors(static_cast<std::size_t>(b.cols()), 0.0);
+  const auto groups = static_cast<int>((b.cols() + most - 1) / most);
+  const auto group = [&](int g) {
+    const Eigen::Index first = g * b.cols() / groups, end = (g + 1) * b.cols() / groups;
+    columns(first, end - first, b, x, r, errors.data() + first);
+  };
+  each_on_threads(groups, threads_, group);
+  return errors;
+}
+
+/// At most eight, together.
+void ExtendedResidual::columns(Eigen::Index first, Eigen::Index count, const Eigen::Ref<const Eigen::MatrixXd>& b,
+                               const Eigen::Ref<const Eigen::MatrixXd>& x, Eigen::MatrixXd& r, double* errors) const {
+  const Eigen::Index n = K_.size, lanes = count == 1 ? 1 : count <= 4 ? 4 : 8;
   const MatrixRows rows{K_.size,         K_.start.data(),    left_start_.data(), K_.row.data(),
                         K_.value.data(), left_place_.data(), left_column_.data()};
-  for (Eigen::Index first = 0, count = 0; first < b.cols(); first += count) {
-    const Eigen::Index left = b.cols() - first, lanes = left == 1 ? 1 : left <= 4 ? 4 : 8;
-    count = std::min(left, lanes);
-    const LargeBuffer own_memory(static_cast<std::size_t>(lanes * n)),
-        sums_memory(static_cast<std::size_t>(3 * lanes * n));
-    Eigen::Map<Eigen::MatrixXd> own(own_memory.data(), lanes, n), sums(sums_memory.data(), 3 * lanes, n);
-    own.setZero();
-    sums.setZero();
-    own.topRows(count) = x.middleCols(first, count).transpose();
-    sums.topRows(count) = b.middleCols(first, count).transpose();
-    sums.middleRows(2 * lanes, count) = sums.topRows(count).cwiseAbs();
-    (lanes == 1   ? subtract_products_1
-     : lanes == 4 ? subtract_products_4
-                  : subtract_products_8)(rows, own.data(), sums.data());
-    for (Eigen::Index c = 0; c < count; ++c) {
-      const double largest = n > 0 ? own.row(c).cwiseAbs().maxCoeff() : 0;
-      double worst = 0;
-      for (Eigen::Index i = 0; i < n; ++i) {
-        const double residual = sums(c, i) + sums(lanes + c, i), row_sum = row_sum_[static_cast<std::size_t>(i)];
-        double denominator = sums(2 * lanes + c, i);
-        // A row whose terms are themselves rounding of the others' is measured against the row's norm.
-        if (denominator <= static_cast<double>(n) * epsilon * row_sum * largest) denominator += row_sum * largest;
-        if (std::abs(residual) > 0) worst = std::max(worst, std::abs(residual) / denominator);
-        r(i, first + c) = residual;
-      }
-      const bool finite = std::isfinite(worst) && r.col(first + c).allFinite();
-      errors[static_cast<std::size_t>(first + c)] = finite ? worst : std::numeric_limits<double>::infinity();
+  const LargeBuffer own_memory(static_cast<std::size_t>(lanes * n)),
+      sums_memory(static_cast<std::size_t>(3 * lanes * n));
+  Eigen::Map<Eigen::MatrixXd> own(own_memory.data(), lanes, n), sums(sums_memory.data(), 3 * lanes, n);
+  own.setZero();
+  sums.setZero();
+  own.topRows(count) = x.middleCols(first, count).transpose();
+  sums.topRows(count) = b.middleCols(first, count).transpose();
+  sums.middleRows(2 * lanes, count) = sums.topRows(count).cwiseAbs();
+  (lanes == 1   ? subtract_products_1
+   : lanes == 4 ? subtract_products_4
+                : subtract_products_8)(rows, own.data(), sums.data());
+  for (Eigen::Index c = 0; c < count; ++c) {
+    const double largest = n > 0 ? x.col(first + c).cwiseAbs().maxCoeff() : 0;
+    double worst = 0;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const double residual = sums(c, i) + sums(lanes + c, i), row_sum = row_sum_[static_cast<std::size_t>(i)];
+      double denominator = sums(2 * lanes + c, i);
+      // A row whose terms are themselves rounding of the others' is measured against the row's norm.
+      if (denominator <= static_cast<double>(n) * epsilon * row_sum * largest) denominator += row_sum * largest;
+      if (std::abs(residual) > 0) worst = std::max(worst, std::abs(residual) / denominator);
+      r(i, first + c) = residual;
     }
+    const bool finite = std::isfinite(worst) && r.col(first + c).allFinite();
+    errors[c] = finite ? worst : std::numeric_limits<double>::infinity();
   }
-  return errors;
 }
 
 }  // namespace topple::solver

@@ -4,6 +4,7 @@
 #include <limits>
 #include <numeric>
 
+#include "each_on_threads.h"
 #include "few_columns.h"
 #include "panel_substitution.h"
 #include "task_team.h"
@@ -262,10 +263,16 @@ void MultifrontalFactor::drop_updates(std::size_t f, Worker& worker) {
 
 void MultifrontalFactor::solve(Eigen::Ref<Eigen::MatrixXd> right_hand_sides) const {
   const auto n = static_cast<Eigen::Index>(fronts_.order.size());
-  // So many together: more would not fit the caches beside a panel.
-  constexpr Eigen::Index together = 12;
-  for (Eigen::Index first = 0; first < right_hand_sides.cols(); first += together) {
-    const Eigen::Index count = std::min(together, right_hand_sides.cols() - first);
+  // So many together: more would not fit the caches beside a panel. Several threads go through the factor side by side,
+  // each with columns of its own.
+  constexpr Eigen::Index most_together = 12;
+  constexpr std::int64_t worth_a_thread = 1000000;  // entries of the factor: less is done before a thread has started
+  const int threads = fronts_.value_start.back() >= worth_a_thread ? threads_ : 1;
+  const Eigen::Index columns = right_hand_sides.cols();
+  const auto groups = static_cast<int>(
+      std::max<Eigen::Index>((columns + most_together - 1) / most_together, std::min<Eigen::Index>(threads, columns)));
+  each_on_threads(groups, threads, [&](int g) {
+    const Eigen::Index first = g * columns / groups, count = (g + 1) * columns / groups - first;
     Eigen::MatrixXd y(n, count);
     for (Eigen::Index j = 0; j < count; ++j)
       for (Eigen::Index i = 0; i < n; ++i)
@@ -274,7 +281,7 @@ void MultifrontalFactor::solve(Eigen::Ref<Eigen::MatrixXd> right_hand_sides) con
     for (Eigen::Index j = 0; j < count; ++j)
       for (Eigen::Index i = 0; i < n; ++i)
         right_hand_sides(fronts_.order[static_cast<std::size_t>(i)], first + j) = y(i, j);
-  }
+  });
 }
 
 /// In the order of elimination: y := L^-T L^-1 y.

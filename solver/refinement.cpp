@@ -17,15 +17,23 @@ constexpr double worthwhile = 0.5;
 RefinedSolution solve_refined(const SparseSymmetric& K, const LinearSolve& solve, const Eigen::MatrixXd& b) {
   Eigen::MatrixXd x = b;
   solve(x);
-  return refine(K, solve, b, std::move(x));
+  return refine(ExtendedResidual(K), solve, b, std::move(x));
 }
 
-RefinedSolution refine(const SparseSymmetric& K, const LinearSolve& solve, const Eigen::MatrixXd& b,
+OnceRefined refine_once(const ExtendedResidual& residual, const LinearSolve& solve, const Eigen::MatrixXd& b) {
+  Eigen::MatrixXd x = b, step;
+  solve(x);
+  (void)residual(b, x, step);
+  solve(step);
+  OnceRefined result{x + step, {}};
+  result.rest = (x - result.x) + step;
+  return result;
+}
+
+RefinedSolution refine(const ExtendedResidual& residual, const LinearSolve& solve, const Eigen::MatrixXd& b,
                        Eigen::MatrixXd x) {
-  const ExtendedResidual residual(K);
   RefinedSolution result;
   result.x = std::move(x);
-  result.rest.setZero(b.rows(), b.cols());
   result.quality.resize(static_cast<std::size_t>(b.cols()));
   Eigen::MatrixXd r;
   const std::vector<double> first = residual(b, result.x, r);
@@ -34,11 +42,11 @@ RefinedSolution refine(const SparseSymmetric& K, const LinearSolve& solve, const
     result.quality[static_cast<std::size_t>(j)].backward_error = first[static_cast<std::size_t>(j)];
     if (first[static_cast<std::size_t>(j)] > backward_error_limit) open.push_back(j);
   }
-  Eigen::MatrixXd step_taken, better, right, better_residual;
+  Eigen::MatrixXd better, right, better_residual;
   for (int step = 0; step < most_refinements && !open.empty(); ++step) {
-    step_taken = r(Eigen::all, open);
-    solve(step_taken);
-    better = result.x(Eigen::all, open) + step_taken;
+    better = r(Eigen::all, open);
+    solve(better);
+    better += result.x(Eigen::all, open);
     right = b(Eigen::all, open);
     const std::vector<double> errors = residual(right, better, better_residual);
     std::vector<Eigen::Index> still_open;
@@ -47,7 +55,6 @@ RefinedSolution refine(const SparseSymmetric& K, const LinearSolve& solve, const
       SolveQuality& quality = result.quality[static_cast<std::size_t>(j)];
       const bool go_on = errors[k] <= worthwhile * quality.backward_error;
       if (errors[k] < quality.backward_error) {
-        result.rest.col(j) = (result.x.col(j) - better.col(column)) + step_taken.col(column);
         result.x.col(j) = better.col(column);
         r.col(j) = better_residual.col(column);
         quality.backward_error = errors[k];

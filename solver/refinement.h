@@ -21,15 +21,20 @@ inline constexpr double backward_error_limit = 1e-14;
 /// r = b - K x for all columns together, in one pass over the matrix for eight of them, accumulated in twice the
 /// precision (Ogita, Rump and Oishi 2005, Dot2; products split as Dekker 1971 does, so that the bits are the same with
 /// and without fused multiply-add). The pattern is analysed once for any number of residuals; the matrix is borrowed.
+/// Groups of columns go to several threads, which changes no bit.
 class ExtendedResidual {
  public:
-  explicit ExtendedResidual(const SparseSymmetric& K);
+  explicit ExtendedResidual(const SparseSymmetric& K, int threads = 1);
   /// Sets r and returns max |r_i| / (|K| |x| + |b|)_i of each column; infinite where anything is not finite.
   std::vector<double> operator()(const Eigen::Ref<const Eigen::MatrixXd>& b, const Eigen::Ref<const Eigen::MatrixXd>& x,
                                  Eigen::MatrixXd& r) const;
 
  private:
+  void columns(Eigen::Index first, Eigen::Index count, const Eigen::Ref<const Eigen::MatrixXd>& b,
+               const Eigen::Ref<const Eigen::MatrixXd>& x, Eigen::MatrixXd& r, double* errors) const;
+
   const SparseSymmetric& K_;
+  int threads_;
   std::vector<std::int64_t> left_start_;
   /// Entries left of the diagonal, row by row: where they are stored, and their columns.
   std::vector<std::int64_t> left_place_;
@@ -39,16 +44,22 @@ class ExtendedResidual {
 
 struct RefinedSolution {
   Eigen::MatrixXd x;
-  /// What the last refinement knows of x beyond its last digit: where answers that cancel are added up, it counts.
-  Eigen::MatrixXd rest;
   std::vector<SolveQuality> quality;  ///< per column; condition and bound are not filled in
 };
 /// Refines each column until its backward error is below the limit or stops falling.
 [[nodiscard]] RefinedSolution solve_refined(const SparseSymmetric& K, const LinearSolve& solve,
                                             const Eigen::MatrixXd& b);
 /// The same from answers that are there already: those whose error is small enough stay as they are.
-[[nodiscard]] RefinedSolution refine(const SparseSymmetric& K, const LinearSolve& solve, const Eigen::MatrixXd& b,
-                                     Eigen::MatrixXd x);
+[[nodiscard]] RefinedSolution refine(const ExtendedResidual& residual, const LinearSolve& solve,
+                                     const Eigen::MatrixXd& b, Eigen::MatrixXd x);
+/// Answers after one refinement, whose errors nobody has looked at.
+struct OnceRefined {
+  Eigen::MatrixXd x;
+  /// What the refinement knows of x beyond its last digit: where answers that cancel are added up, it counts.
+  Eigen::MatrixXd rest;
+};
+[[nodiscard]] OnceRefined refine_once(const ExtendedResidual& residual, const LinearSolve& solve,
+                                      const Eigen::MatrixXd& b);
 
 /// The 1-norm.
 [[nodiscard]] double matrix_norm(const SparseSymmetric& K);

@@ -130,7 +130,7 @@ std::vector<StaticSolution> solve_each(Prepared& prepared, std::span<const LoadS
   const std::vector<LoadVector> vectors = prepared.system.load_vectors(loads);
   for (const LoadVector& vector : vectors) require_stable(prepared.system.unbalanced_load(vector));
   const Eigen::MatrixXd b = prepared.right_hand_sides(vectors);
-  if (b.rows() == 0) return prepared.answers(vectors, {b, b, std::vector<SolveQuality>(loads.size())});
+  if (b.rows() == 0) return prepared.answers(vectors, {b, std::vector<SolveQuality>(loads.size())});
   return prepared.answers(vectors, solve_refined(prepared.system.matrix(), prepared.linear_solve(), b));
 }
 
@@ -187,7 +187,7 @@ LoadVector sum_of(std::span<const LoadVector> cases, const Eigen::VectorXd& fact
 }
 
 /// In more digits than the answers have: where cases cancel, what is left is right to its own last digit.
-Eigen::MatrixXd sums_of(const RefinedSolution& cases, const Eigen::MatrixXd& factors) {
+Eigen::MatrixXd sums_of(const OnceRefined& cases, const Eigen::MatrixXd& factors) {
   Eigen::MatrixXd sums(cases.x.rows(), factors.cols());
   for (Eigen::Index j = 0; j < factors.cols(); ++j)
     for (Eigen::Index i = 0; i < sums.rows(); ++i) {
@@ -211,10 +211,10 @@ std::optional<std::vector<StaticSolution>> add_up(Prepared& prepared, std::span<
     if (system.unbalanced_load(vector)) return std::nullopt;
   std::vector<LoadVector> sums;
   for (Eigen::Index j = 0; j < factors.cols(); ++j) sums.push_back(sum_of(vectors, factors.col(j)));
-  const RefinedSolution of_cases =
-      solve_refined(system.matrix(), prepared.linear_solve(), prepared.right_hand_sides(vectors));
-  return prepared.answers(sums, refine(system.matrix(), prepared.linear_solve(), prepared.right_hand_sides(sums),
-                                       sums_of(of_cases, factors)));
+  const ExtendedResidual residual(system.matrix(), prepared.options.threads);
+  const OnceRefined of_cases = refine_once(residual, prepared.linear_solve(), prepared.right_hand_sides(vectors));
+  return prepared.answers(
+      sums, refine(residual, prepared.linear_solve(), prepared.right_hand_sides(sums), sums_of(of_cases, factors)));
 }
 
 }  // namespace

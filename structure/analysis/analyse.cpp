@@ -6,6 +6,7 @@
 #include <numeric>
 #include <optional>
 #include <set>
+#include <span>
 
 #include "analysis/divided_member.h"
 #include "analysis/equilibrium.h"
@@ -30,6 +31,30 @@ namespace topple::structure {
 
 namespace {
 
+/// The loads of each member together: those given where they lie in the members' order, as mostly they do.
+class LoadsByMember {
+ public:
+  LoadsByMember(std::size_t members, const std::vector<solver::BeamLoad>& loads)
+      : start_(members + 1, 0), loads_(&loads) {
+    for (const solver::BeamLoad& load : loads) ++start_[static_cast<std::size_t>(load.beam) + 1];
+    std::partial_sum(start_.begin(), start_.end(), start_.begin());
+    const auto before = [](const solver::BeamLoad& a, const solver::BeamLoad& b) { return a.beam < b.beam; };
+    if (std::is_sorted(loads.begin(), loads.end(), before)) return;
+    sorted_ = loads;
+    std::stable_sort(sorted_.begin(), sorted_.end(), before);
+    loads_ = &sorted_;
+  }
+  LoadsByMember(LoadsByMember&&) = delete;
+  [[nodiscard]] std::span<const solver::BeamLoad> on(std::size_t member) const {
+    return {loads_->data() + start_[member], start_[member + 1] - start_[member]};
+  }
+
+ private:
+  std::vector<std::size_t> start_;
+  std::vector<solver::BeamLoad> sorted_;
+  const std::vector<solver::BeamLoad>* loads_;
+};
+
 /// Everything that the combinations share.
 class Analysis {
  public:
@@ -50,6 +75,7 @@ class Analysis {
     side_by_side(count, request.workers, [&](std::size_t k) {
       parts_[k] = part_loads(building, combinations_[k]);
       loads_[k] = load_set(building, edges_, parts_[k]);
+      parts_[k].members = {};  // all of them are in the set
       if (whole_.empty()) return;
       whole_[k] = std::move(loads_[k]);
       loads_[k] = on_frame(building, frame_, parts_[k], whole_[k]);
@@ -315,14 +341,20 @@ class Analysis {
 
   [[nodiscard]] std::vector<MemberResult> members(const solver::LoadSet& loads, const OneWayAnswer& answer) const {
     const std::vector<solver::Beam>& beams = answer.beams.empty() ? frame_.model.beams : answer.beams;
-    std::vector<std::vector<solver::BeamLoad>> on(building_.members.size());
-    for (const solver::BeamLoad& load : loads.beams) on[static_cast<std::size_t>(load.beam)].push_back(load);
+    const std::vector<solver::Vec12>& end_forces = answer.solution.beam_end_forces;
+    const LoadsByMember by_member(building_.members.size(), loads.beams);
     std::vector<MemberResult> all(building_.members.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
       MemberResult& member = all[i];
-      const WholeMember whole = whole_member(frame_, i, beams, answer.solution.beam_end_forces, std::move(on[i]));
-      member.end_forces = whole.end_forces;
       member.active = answer.active.empty() || answer.active[i] != 0;
+      const std::span<const solver::BeamLoad> on = by_member.on(i);
+      if (frame_.pieces[i].empty() && answer.axial.mode == solver::SecondOrder::none) {
+        member.end_forces = end_forces[i];
+        fill(member, beams[i].length, solver::BeamDiagram(beams[i], member.end_forces, on));
+        continue;
+      }
+      const WholeMember whole = whole_member(frame_, i, beams, end_forces, {on.begin(), on.end()});
+      member.end_forces = whole.end_forces;
       if (answer.axial.mode == solver::SecondOrder::none)
         fill(member, whole.beam.length, solver::BeamDiagram(whole.beam, member.end_forces, whole.loads));
       else
@@ -395,7 +427,7 @@ class Analysis {
   PanelBearings bearings_;
   Storeys storeys_;
   std::vector<CombinationId> combinations_;
-  std::vector<PartLoads> parts_;
+  std::vector<PartLoads> parts_;        ///< per combination, but for the members' loads
   std::vector<solver::LoadSet> loads_;  ///< per combination, on the frame
   std::vector<solver::LoadSet> whole_;  ///< the same on whole members; empty where a mesh divides none
   bool floats_ = false;                 ///< nothing but the shift of the modes keeps it in place

@@ -42,7 +42,11 @@ class BeamDiagram {
 
  private:
   struct State;
-  std::unique_ptr<State> state_;
+  struct Free {
+    void operator()(State* state) const;
+  };
+  static std::unique_ptr<State>& spare();
+  std::unique_ptr<State, Free> state_;
 };
 
 }  // namespace topple::solver

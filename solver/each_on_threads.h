@@ -1,0 +1,9 @@
+#pragma once
+#include <functional>
+
+namespace topple::solver {
+
+/// Calls work(0) ... work(count - 1), which must not throw, on up to `threads` threads, each with neighbouring ones.
+void each_on_threads(int count, int threads, const std::function<void(int)>& work);
+
+}  // namespace topple::solver
