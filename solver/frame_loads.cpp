@@ -209,7 +209,7 @@ void FrameSystem::add_shell_loads(const std::vector<ShellLoad>& loads, LoadVecto
 /// What elements with imposed displacements at their held freedoms do to the others.
 void FrameSystem::add_settlement_forces(LoadVector& result) const {
   const std::size_t beams = model.beams.size();
-  for (std::size_t element = 0; element < beams + model.shells.size(); ++element) {
+  for (std::size_t element = 0; element < element_of_patch(0) + model.patches.size(); ++element) {
     const auto freedoms = scatter_.freedoms(element);
     Eigen::VectorXd u = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(freedoms.size()));
     for (std::size_t k = 0; k < freedoms.size(); ++k) {
@@ -221,7 +221,7 @@ void FrameSystem::add_settlement_forces(LoadVector& result) const {
     if (element < beams) {
       force = beam_stiffness(static_cast<int>(element)) * u;
     } else {
-      force = shell_stiffness(static_cast<int>(element - beams)) * u;
+      force = plate_stiffness(element) * u;
     }
     for (std::size_t k = 0; k < freedoms.size(); ++k) result.force(freedoms[k]) -= force(static_cast<Eigen::Index>(k));
   }

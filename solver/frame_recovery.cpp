@@ -140,6 +140,17 @@ std::array<Vec6, 4> FrameSystem::corner_forces(int index, const std::vector<Vec6
   return result;
 }
 
+std::vector<Vec6> FrameSystem::patch_forces(int index, const std::vector<Vec6>& displacements) const {
+  const std::vector<int>& nodes = model.patches[static_cast<std::size_t>(index)].node;
+  Eigen::VectorXd u(static_cast<Eigen::Index>(6 * nodes.size()));
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+    u.segment<6>(static_cast<Eigen::Index>(6 * n)) = displacements[static_cast<std::size_t>(nodes[n])];
+  const Eigen::VectorXd force = patch_node_stiffness(static_cast<std::size_t>(index)) * u;
+  std::vector<Vec6> result(nodes.size());
+  for (std::size_t n = 0; n < nodes.size(); ++n) result[n] = force.segment<6>(static_cast<Eigen::Index>(6 * n));
+  return result;
+}
+
 /// Held components of a diaphragm's nodes share what the floor needs; where rigid supports of one rigid floor leave the
 /// shares undetermined, the least ones (sum of squares) are taken.
 void FrameSystem::add_diaphragm_reactions(const std::vector<Vec6>& residual, std::vector<Vec6>& held_reaction) const {
@@ -194,6 +205,11 @@ std::vector<Vec6> FrameSystem::reactions(const std::vector<Vec6>& displacements,
     for (std::size_t n = 0; n < 4; ++n) {
       residual[static_cast<std::size_t>(model.shells[i].node[n])] += shell_corner_forces[i][n];
     }
+  }
+  for (std::size_t i = 0; i < model.patches.size(); ++i) {
+    const std::vector<Vec6> forces = patch_forces(static_cast<int>(i), displacements);
+    for (std::size_t n = 0; n < forces.size(); ++n)
+      residual[static_cast<std::size_t>(model.patches[i].node[n])] += forces[n];
   }
   for (std::size_t n = 0; n < node_loads.size(); ++n) residual[n] -= node_loads[n];
 

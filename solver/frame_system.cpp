@@ -13,6 +13,16 @@
 namespace topple::solver {
 namespace {
 
+void check_patch(const Patch& patch, std::size_t index, int nodes) {
+  const std::string name = "patch " + std::to_string(index);
+  const auto size = static_cast<Eigen::Index>(6 * patch.node.size());
+  for (const int node : patch.node)
+    if (node < 0 || node >= nodes)
+      throw std::invalid_argument(name + ": node " + std::to_string(node) + " does not exist");
+  if (patch.stiffness.rows() != size || patch.stiffness.cols() != size || !patch.stiffness.allFinite())
+    throw std::invalid_argument(name + ": its stiffness is not a finite matrix of six freedoms for each node");
+}
+
 FrameModel checked(FrameModel model) {
   const int nodes = static_cast<int>(model.nodes.size());
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
@@ -22,6 +32,7 @@ FrameModel checked(FrameModel model) {
   for (std::size_t i = 0; i < model.shells.size(); ++i) {
     check_shell(model.shells[i], static_cast<int>(i), model.nodes);
   }
+  for (std::size_t i = 0; i < model.patches.size(); ++i) check_patch(model.patches[i], i, nodes);
   return model;
 }
 
@@ -37,6 +48,7 @@ ScatterMap make_scatter(const FrameModel& model, const DofMap& dofs) {
   };
   for (const Beam& beam : model.beams) add(beam.node);
   for (const Shell& shell : model.shells) add(shell.node);
+  for (const Patch& patch : model.patches) add(patch.node);
   // A node without elements still couples with its diaphragm; in one element of its own it keeps its place.
   for (const Diaphragm& diaphragm : model.diaphragms) {
     for (int node : diaphragm.nodes) add(std::span(&node, 1));
@@ -76,6 +88,7 @@ FrameSystem::FrameSystem(FrameModel given)
   };
   for (const Beam& beam : model.beams) belongs(beam.node);
   for (const Shell& shell : model.shells) belongs(shell.node);
+  for (const Patch& patch : model.patches) belongs(patch.node);
   for (const Diaphragm& diaphragm : model.diaphragms) {
     for (int node : diaphragm.nodes) belongs(std::span(&node, 1));
   }
@@ -96,14 +109,22 @@ void FrameSystem::elements_of_vertex(int vertex, std::vector<int>& elements) con
   for (const int node : model.diaphragms[v - model.nodes.size()].nodes) append(static_cast<std::size_t>(node));
 }
 
-std::vector<int> FrameSystem::shells_of_node(int node) const {
-  std::vector<int> shells;
-  const std::size_t beams = model.beams.size();
+/// Of the node's elements those from `first` on, `count` of that kind, counted from 0.
+std::vector<int> FrameSystem::numbers_of_node(int node, std::size_t first, std::size_t count) const {
+  std::vector<int> numbers;
   for (int element : elements_of_node_[static_cast<std::size_t>(node)]) {
     const auto e = static_cast<std::size_t>(element);
-    if (e >= beams && e < beams + model.shells.size()) shells.push_back(static_cast<int>(e - beams));
+    if (e >= first && e < first + count) numbers.push_back(static_cast<int>(e - first));
   }
-  return shells;
+  return numbers;
+}
+
+std::vector<int> FrameSystem::shells_of_node(int node) const {
+  return numbers_of_node(node, element_of_shell(0), model.shells.size());
+}
+
+std::vector<int> FrameSystem::patches_of_node(int node) const {
+  return numbers_of_node(node, element_of_patch(0), model.patches.size());
 }
 
 std::vector<int> FrameSystem::elimination_order() const {
@@ -167,8 +188,36 @@ Mat24 FrameSystem::shell_stiffness(int index) const {
   if (shell_stands[i] == 0) return Mat24::Zero();
   Mat24 K = shell_node_stiffness(index);
   if (shells_pushed()) K += shell_geometric_stiffness(index);
-  add_diaphragm_arms(index, K);
+  add_diaphragm_arms(model.shells[i].node, K);
   return K;
+}
+
+Eigen::MatrixXd FrameSystem::patch_node_stiffness(std::size_t patch) const {
+  Eigen::MatrixXd K = model.patches[patch].stiffness;
+  const std::vector<int>& nodes = model.patches[patch].node;
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    if (node_stands[static_cast<std::size_t>(nodes[n])] != 0) continue;
+    K.middleRows<6>(static_cast<Eigen::Index>(6 * n)).setZero();
+    K.middleCols<6>(static_cast<Eigen::Index>(6 * n)).setZero();
+  }
+  return K;
+}
+
+Eigen::MatrixXd FrameSystem::patch_stiffness(int index) const {
+  const auto i = static_cast<std::size_t>(index);
+  Eigen::MatrixXd K = patch_node_stiffness(i);
+  add_diaphragm_arms(model.patches[i].node, K);
+  return K;
+}
+
+Eigen::MatrixXd FrameSystem::plate_stiffness(std::size_t element) const {
+  if (element < element_of_patch(0)) return shell_stiffness(static_cast<int>(element - element_of_shell(0)));
+  return patch_stiffness(static_cast<int>(element - element_of_patch(0)));
+}
+
+std::span<const int> FrameSystem::plate_nodes(std::size_t element) const {
+  if (element < element_of_patch(0)) return model.shells[element - element_of_shell(0)].node;
+  return model.patches[element - element_of_patch(0)].node;
 }
 
 Mat24 FrameSystem::shell_geometric_stiffness(int index) const {
@@ -186,14 +235,13 @@ Mat24 FrameSystem::shell_geometric_stiffness(int index) const {
          ShellElement(shell, corner_places(shell, model.nodes)).geometric_stiffness(u, strain);
 }
 
-void FrameSystem::add_diaphragm_arms(int index, Mat24& K) const {
-  const Shell& shell = model.shells[static_cast<std::size_t>(index)];
-  for (int n = 0; n < 4; ++n) {
-    const int node = shell.node[static_cast<std::size_t>(n)];
-    if (dofs_.diaphragm_of_node[static_cast<std::size_t>(node)] < 0) continue;
-    const Mat3 C = dofs_.diaphragm_arm(node);
-    K.middleRows<3>(6 * n + 3) += C.transpose() * K.middleRows<3>(6 * n);
-    K.middleCols<3>(6 * n + 3) += K.middleCols<3>(6 * n) * C;
+void FrameSystem::add_diaphragm_arms(std::span<const int> nodes, Eigen::Ref<Eigen::MatrixXd> K) const {
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    if (dofs_.diaphragm_of_node[static_cast<std::size_t>(nodes[k])] < 0) continue;
+    const Mat3 C = dofs_.diaphragm_arm(nodes[k]);
+    const auto n = static_cast<Eigen::Index>(6 * k);
+    K.middleRows<3>(n + 3) += C.transpose() * K.middleRows<3>(n);
+    K.middleCols<3>(n + 3) += K.middleCols<3>(n) * C;
   }
 }
 
@@ -205,6 +253,9 @@ void FrameSystem::add_element(std::size_t element, const std::vector<char>& want
     scatter_.add(element, K.data(), scale_, wanted, matrix_);
   } else if (element < beams + model.shells.size() && shell_stands[element - beams] != 0) {
     const Mat24 K = shell_stiffness(static_cast<int>(element - beams));
+    scatter_.add(element, K.data(), scale_, wanted, matrix_);
+  } else if (element >= element_of_patch(0) && element < element_of_patch(0) + model.patches.size()) {
+    const Eigen::MatrixXd K = patch_stiffness(static_cast<int>(element - element_of_patch(0)));
     scatter_.add(element, K.data(), scale_, wanted, matrix_);
   }
 }
@@ -336,7 +387,7 @@ void FrameSystem::set_support(int support, const Vec6& stiffness) {
 void FrameSystem::assemble() {
   std::fill(matrix_.value.begin(), matrix_.value.end(), 0.0);
   std::fill(scale_.begin(), scale_.end(), 1.0);
-  for (std::size_t i = 0; i < model.beams.size() + model.shells.size(); ++i) add_element(i, {});
+  for (std::size_t i = 0; i < element_of_patch(0) + model.patches.size(); ++i) add_element(i, {});
   for (std::size_t node = 0; node < model.nodes.size(); ++node) finish_node(static_cast<int>(node));
   finish_diaphragms({});
   set_scale();

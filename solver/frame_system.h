@@ -57,6 +57,7 @@ class FrameSystem {
   /// Beams that reach a node, standing or not, in order.
   [[nodiscard]] std::span<const int> beams_of_node(int node) const;
   [[nodiscard]] std::vector<int> shells_of_node(int node) const;
+  [[nodiscard]] std::vector<int> patches_of_node(int node) const;
   /// Elements (numbers of the scatter map) that reach a vertex: those of a node, of all nodes of a diaphragm.
   void elements_of_vertex(int vertex, std::vector<int>& elements) const;
   /// Elimination order of the equations: nodes by nested dissection, the equations of a node together.
@@ -77,8 +78,21 @@ class FrameSystem {
   [[nodiscard]] Mat24 shell_stiffness(int shell) const;
   /// K of a shell in the global freedoms of its nodes. Floors repeat one panel: the last one is kept.
   [[nodiscard]] const Mat24& shell_node_stiffness(int shell) const;
-  /// Takes a shell's matrix from the freedoms of its nodes to those of their diaphragms.
-  void add_diaphragm_arms(int shell, Mat24& K) const;
+  /// The same for a patch, 6 freedoms for each of its nodes; a node that has left takes its rows along.
+  [[nodiscard]] Eigen::MatrixXd patch_stiffness(int patch) const;
+  /// Takes a matrix from the freedoms of these nodes to those of their diaphragms.
+  void add_diaphragm_arms(std::span<const int> nodes, Eigen::Ref<Eigen::MatrixXd> K) const;
+  /// K of an element that is no beam, by its number in the scatter map, in its freedoms; zero where it does not stand.
+  [[nodiscard]] Eigen::MatrixXd plate_stiffness(std::size_t element) const;
+  /// Numbers in the scatter map.
+  [[nodiscard]] std::size_t element_of_shell(int shell) const {
+    return model.beams.size() + static_cast<std::size_t>(shell);
+  }
+  [[nodiscard]] std::size_t element_of_patch(int patch) const {
+    return model.beams.size() + model.shells.size() + static_cast<std::size_t>(patch);
+  }
+  /// Nodes of an element that is no beam.
+  [[nodiscard]] std::span<const int> plate_nodes(std::size_t element) const;
   /// What a node has besides its elements (support springs, held inert rotations), scaled, in its own equations. For
   /// nodes of no diaphragm.
   /// The same in the six components of the node, not scaled.
@@ -117,6 +131,8 @@ class FrameSystem {
   /// Per corner: what the node does to the shell, global; `fixed` as in LoadVector.
   [[nodiscard]] std::array<Vec6, 4> corner_forces(int shell, const std::vector<Vec6>& displacements,
                                                   const Vec24& fixed) const;
+  /// Per node of the patch: what the node does to it, global.
+  [[nodiscard]] std::vector<Vec6> patch_forces(int patch, const std::vector<Vec6>& displacements) const;
   /// Per support: what it does to the structure.
   [[nodiscard]] std::vector<Vec6> reactions(const std::vector<Vec6>& displacements,
                                             const std::vector<Vec12>& beam_end_forces,
@@ -140,6 +156,9 @@ class FrameSystem {
   [[nodiscard]] std::optional<Defect> loose_beams(std::span<const int> beams) const;
   /// Of the membrane forces in the second-order state; global freedoms of the nodes.
   [[nodiscard]] Mat24 shell_geometric_stiffness(int shell) const;
+  /// K of a patch in the global freedoms of its nodes.
+  [[nodiscard]] Eigen::MatrixXd patch_node_stiffness(std::size_t patch) const;
+  [[nodiscard]] std::vector<int> numbers_of_node(int node, std::size_t first, std::size_t count) const;
   [[nodiscard]] bool shells_pushed() const {
     return second_order != nullptr && !second_order->shell_displacements.empty();
   }

@@ -41,7 +41,7 @@ MassMatrix::MassMatrix(const FrameSystem& system, const MassModel& masses)
     const Shell& shell = model.shells[i];
     if (shell.density == 0) continue;
     Mat24 M = ShellElement(shell, corner_places(shell, model.nodes)).mass(shell.density * shell.thickness, lumped);
-    system.add_diaphragm_arms(static_cast<int>(i), M);
+    system.add_diaphragm_arms(shell.node, M);
     system.scatter().add(model.beams.size() + i, M.data(), system.scale(), {}, matrix_);
   }
   for (const NodeMass& mass : masses.nodes) add_node(mass);

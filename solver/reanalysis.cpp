@@ -67,6 +67,23 @@ void Reanalysis::set_shell_stiffness(int shell, const Eigen::Matrix<double, 24, 
   state_->given_stiffness[shell] = stiffness;
 }
 
+void Reanalysis::set_patch_stiffness(int patch, Eigen::MatrixXd stiffness) {
+  const Patch& own = model().patches[state_->checked_patch(patch)];
+  if (stiffness.rows() != own.stiffness.rows() || stiffness.cols() != own.stiffness.cols() || !stiffness.allFinite())
+    throw std::invalid_argument("stiffness of patch " + std::to_string(patch) + " is not a finite matrix of its size");
+  state_->given_to_patch[patch] = std::move(stiffness);
+}
+
+const Eigen::MatrixXd& Reanalysis::patch_stiffness(int patch) const {
+  return model().patches[state_->checked_patch(patch)].stiffness;
+}
+
+std::vector<Vec6> Reanalysis::patch_forces(int patch) const {
+  (void)state_->checked_patch(patch);
+  state_->complete(nullptr);
+  return state_->system->patch_forces(patch, state_->displacements);
+}
+
 void Reanalysis::set_beam_stiffness_factor(int beam, double factor) {
   if (!(factor > 0) || !std::isfinite(factor)) throw std::invalid_argument("a stiffness factor must be above 0");
   double& target = state_->targets[state_->checked_beam(beam)].factor;
@@ -179,6 +196,11 @@ double Reanalysis::strain_energy() const {
       energy += corners[n].dot(state_->displacements[static_cast<std::size_t>(system.model.shells[i].node[n])]) / 2;
     }
   }
+  for (std::size_t i = 0; i < system.model.patches.size(); ++i) {
+    const std::vector<Vec6> forces = patch_forces(static_cast<int>(i));
+    for (std::size_t n = 0; n < forces.size(); ++n)
+      energy += forces[n].dot(state_->displacements[static_cast<std::size_t>(system.model.patches[i].node[n])]) / 2;
+  }
   for (const Support& support : system.model.supports) {
     const Vec6& u = state_->displacements[static_cast<std::size_t>(support.node)];
     for (int c = 0; c < 6; ++c) {
@@ -192,7 +214,8 @@ LoadVector Reanalysis::State::force_on_standing(const LoadSet& loads) const {
   if (!answer.stable || !structure_stands)
     throw Instability("the structure does not stand: it has no response", answer.mechanism);
   LoadVector result = system->load_vector(loads);
-  if (const auto defect = system->unbalanced_load(result, negligible_lever)) throw Instability(defect->message, defect->motion);
+  if (const auto defect = system->unbalanced_load(result, negligible_lever))
+    throw Instability(defect->message, defect->motion);
   return result;
 }
 

@@ -46,6 +46,13 @@ std::size_t Reanalysis::State::checked_shell(int shell) const {
   return static_cast<std::size_t>(shell);
 }
 
+std::size_t Reanalysis::State::checked_patch(int patch) const {
+  if (patch < 0 || static_cast<std::size_t>(patch) >= system->model.patches.size()) {
+    throw std::invalid_argument("patch " + std::to_string(patch) + " does not exist");
+  }
+  return static_cast<std::size_t>(patch);
+}
+
 void Reanalysis::State::set_shell_removed(int shell, bool removed) {
   char& target = shell_removed[checked_shell(shell)];
   if ((target != 0) == removed) return;
@@ -57,7 +64,7 @@ void Reanalysis::State::mark(int beam) { changed_beams.push_back(beam); }
 
 bool Reanalysis::State::pending() const {
   return !answered || !changed_beams.empty() || !changed_shells.empty() || node_loads_changed ||
-         !dropped_nodes.empty() || !changed_supports.empty() || !given_stiffness.empty();
+         !dropped_nodes.empty() || !changed_supports.empty() || !given_stiffness.empty() || !given_to_patch.empty();
 }
 
 void Reanalysis::State::apply_supports(std::vector<int>& touched) {
@@ -96,6 +103,11 @@ void Reanalysis::State::apply_dropped_nodes(std::vector<int>& touched) {
   for (int node : dropped_nodes) {
     char& stands = system->node_stands[static_cast<std::size_t>(node)];
     if (stands == 0) continue;
+    for (int patch : system->patches_of_node(node)) {
+      remember_plate(system->element_of_patch(patch));
+      const auto& nodes = system->model.patches[static_cast<std::size_t>(patch)].node;
+      touched.insert(touched.end(), nodes.begin(), nodes.end());
+    }
     stands = 0;
     tell_standing([&](StandingFactor& one) { one.drop_node(node); });
     // Corrections leave it alone from now on: the answer that they start from must have it at rest.
@@ -146,19 +158,40 @@ void Reanalysis::State::apply_beam(int index, std::vector<int>& touched) {
   unbalanced[i] = fixed.unbalanced > 0 ? 1 : 0;
 }
 
-void Reanalysis::State::apply_shells(std::vector<int>& touched) {
-  if (!given_stiffness.empty()) {  // no correction knows the old ones
-    complete(nullptr);
-    restricted.reset();
-    standing.reset();
-    drop_refresh();
-  }
+/// To be told before the element changes.
+void Reanalysis::State::remember_plate(std::size_t element) {
+  const auto remembers = [&](std::unique_ptr<StandingFactor>& one) { return !one || one->remember_plate(element); };
+  if (!remembers(next)) drop_refresh();
+  if (remembers(standing)) return;
+  complete(nullptr);
+  restricted.reset();
+  standing.reset();
+  drop_refresh();
+}
+
+void Reanalysis::State::apply_given_stiffness(std::vector<int>& touched) {
+  if (given_stiffness.empty() && given_to_patch.empty()) return;
+  // What uses can grow by was read from other matrices.
+  complete(nullptr);
+  if (restricted) restricted->forget_uses();
   for (const auto& [index, stiffness] : given_stiffness) {
+    remember_plate(system->element_of_shell(index));
     const auto& nodes = system->model.shells[static_cast<std::size_t>(index)].node;
     system->model.shell_stiffness[index] = stiffness;
     touched.insert(touched.end(), nodes.begin(), nodes.end());
   }
+  for (const auto& [index, stiffness] : given_to_patch) {
+    remember_plate(system->element_of_patch(index));
+    Patch& patch = system->model.patches[static_cast<std::size_t>(index)];
+    patch.stiffness = stiffness;
+    touched.insert(touched.end(), patch.node.begin(), patch.node.end());
+  }
   given_stiffness.clear();
+  given_to_patch.clear();
+}
+
+void Reanalysis::State::apply_shells(std::vector<int>& touched) {
+  apply_given_stiffness(touched);
   for (int index : changed_shells) {
     const auto i = static_cast<std::size_t>(index);
     const auto& nodes = system->model.shells[i].node;
@@ -169,7 +202,10 @@ void Reanalysis::State::apply_shells(std::vector<int>& touched) {
                                        : std::all_of(nodes.begin(), nodes.end(), node_stands);
     const char stands = shell_removed[i] == 0 && on_standing_nodes ? 1 : 0;
     if (stands == system->shell_stands[i]) continue;
-    tell_standing([&](StandingFactor& one) { one.remember_shell(index); });
+    if (system->model.shell_stiffness.contains(index))
+      remember_plate(system->element_of_shell(index));
+    else
+      tell_standing([&](StandingFactor& one) { one.remember_shell(index); });
     system->shell_stands[i] = stands;
     if (stands != 0 && restricted) restricted->forget_uses();
     touched.insert(touched.end(), nodes.begin(), nodes.end());

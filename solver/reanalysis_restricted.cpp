@@ -1,4 +1,6 @@
 // Answers restricted to where they may matter, and what makes them whole again.
+#include <stdexcept>
+
 #include "reanalysis_state.h"
 
 namespace topple::solver {
@@ -80,7 +82,10 @@ void Reanalysis::State::complete(UseWatch* watch) {
 }
 
 bool Reanalysis::uses_known() const { return state_->restricted && state_->restricted->uses_known(); }
-const ReanalysisAnswer& Reanalysis::solve(UseWatch& watch) { return state_->solve(&watch); }
+const ReanalysisAnswer& Reanalysis::solve(UseWatch& watch) {
+  if (!model().patches.empty()) throw std::invalid_argument("patches have no uses to watch: call solve()");
+  return state_->solve(&watch);
+}
 void Reanalysis::complete(UseWatch* watch) { state_->complete(watch); }
 void Reanalysis::forget_uses() {
   if (state_->restricted) state_->restricted->forget_uses();

@@ -50,7 +50,8 @@ struct Reanalysis::State {
   std::vector<BeamTarget> targets;
   std::vector<int> changed_beams, changed_shells;
   std::vector<char> shell_removed;
-  std::map<int, Mat24> given_stiffness;  ///< that wait for the next solve()
+  std::map<int, Mat24> given_stiffness;           ///< of shells, that wait for the next solve()
+  std::map<int, Eigen::MatrixXd> given_to_patch;  ///< of patches
   std::vector<Vec6> node_loads;
   bool node_loads_changed = false;
   std::vector<int> dropped_nodes;
@@ -94,6 +95,8 @@ struct Reanalysis::State {
   void apply_beams(std::vector<int>& touched);
   void apply_beam(int beam, std::vector<int>& touched);
   void apply_shells(std::vector<int>& touched);
+  void apply_given_stiffness(std::vector<int>& touched);
+  void remember_plate(std::size_t element);
   void rebuild();
 
   /// Brings matrix, factor and correction up to date; a defect when the structure does not stand.
@@ -149,6 +152,7 @@ struct Reanalysis::State {
   [[nodiscard]] Eigen::VectorXd solve_sparse(const Eigen::VectorXd& force, double& backward_error) const;
   [[nodiscard]] std::size_t checked_beam(int beam) const;
   [[nodiscard]] std::size_t checked_shell(int shell) const;
+  [[nodiscard]] std::size_t checked_patch(int patch) const;
   void set_shell_removed(int shell, bool removed);
 };
 

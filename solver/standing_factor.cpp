@@ -46,6 +46,14 @@ void StandingFactor::remember_shell(int shell) {
     shell_stiffness_.emplace(shell, system_.shell_stiffness(shell));
 }
 
+bool StandingFactor::remember_plate(std::size_t element) {
+  if (element < system_.element_of_patch(0) &&
+      shell_before_.contains(static_cast<int>(element - system_.element_of_shell(0))))
+    return false;
+  if (!plate_before_.contains(element)) plate_before_.emplace(element, system_.plate_stiffness(element));
+  return true;
+}
+
 bool StandingFactor::inside_dropped(std::span<const int> nodes) const {
   return std::all_of(nodes.begin(), nodes.end(),
                      [&](int n) { return std::binary_search(dropped_.begin(), dropped_.end(), n); });
@@ -89,6 +97,36 @@ void StandingFactor::plan_shells() {
     if (change == 0 && known == wanted_.end()) continue;
     const Eigen::Index count = shell_modes(system_, shell_stiffness_.at(shell), shell).B.cols();
     want({Kind::shell, shell}, change * Eigen::MatrixXd::Identity(count, count));
+  }
+}
+
+/// Places among an element's freedoms of those that are equations.
+std::vector<int> StandingFactor::equations_of(std::size_t element) const {
+  const auto freedoms = system_.scatter().freedoms(element);
+  std::vector<int> kept;
+  for (std::size_t k = 0; k < freedoms.size(); ++k)
+    if (freedoms[k] < system_.dofs().equations) kept.push_back(static_cast<int>(k));
+  return kept;
+}
+
+/// A change of any shape is one of all the element's freedoms, each a column of its own.
+void StandingFactor::plan_plates() {
+  for (const auto& [element, before] : plate_before_) {
+    const std::vector<int> kept = equations_of(element);
+    const auto freedoms = system_.scatter().freedoms(element);
+    const auto size = static_cast<Eigen::Index>(kept.size());
+    Eigen::MatrixXd D = Eigen::MatrixXd::Zero(size, size);
+    if (!inside_dropped(system_.plate_nodes(element))) {
+      const Eigen::MatrixXd change = system_.plate_stiffness(element) - before;
+      const auto scale = [&](Eigen::Index i) {
+        const int place = kept[static_cast<std::size_t>(i)];
+        return system_.scale()[static_cast<std::size_t>(freedoms[static_cast<std::size_t>(place)])];
+      };
+      for (Eigen::Index i = 0; i < size; ++i)
+        for (Eigen::Index j = 0; j < size; ++j)
+          D(i, j) = change(kept[static_cast<std::size_t>(i)], kept[static_cast<std::size_t>(j)]) * scale(i) * scale(j);
+    }
+    want({Kind::plate, static_cast<int>(element)}, D);
   }
 }
 
@@ -143,6 +181,8 @@ void StandingFactor::plan_grounds() {
     const auto& nodes = system_.model.shells[static_cast<std::size_t>(shell)].node;
     if (before != 0 && inside_dropped(nodes)) join(nodes);
   }
+  for (const auto& [element, before] : plate_before_)
+    if ((before.array() != 0).any() && inside_dropped(system_.plate_nodes(element))) join(system_.plate_nodes(element));
   for (std::size_t i = 0; i < dropped_.size(); ++i) {
     if (find(static_cast<int>(i)) != static_cast<int>(i)) continue;
     const auto n = static_cast<std::size_t>(dropped_[i]);
@@ -154,6 +194,15 @@ void StandingFactor::plan_grounds() {
 ElementModes StandingFactor::modes(Key key) const {
   if (key.kind == Kind::beam) return beam_modes(system_, key.index);
   if (key.kind == Kind::shell) return shell_modes(system_, shell_stiffness_.at(key.index), key.index);
+  if (key.kind == Kind::plate) {
+    const auto element = static_cast<std::size_t>(key.index);
+    ElementModes own;
+    for (const int place : equations_of(element))
+      own.rows.push_back(system_.scatter().freedoms(element)[static_cast<std::size_t>(place)]);
+    const auto count = static_cast<Eigen::Index>(own.rows.size());
+    own.B = Eigen::MatrixXd::Identity(count, count);
+    return own;
+  }
   return node_modes(system_, key.index);
 }
 
@@ -162,6 +211,7 @@ StandingFactor::Plan StandingFactor::plan() {
   sort_unique(dropped_);
   plan_beams();
   plan_shells();
+  plan_plates();
   if (!plan_nodes()) return plan;
   if (dropped_more_) plan_grounds();
   dropped_more_ = false;

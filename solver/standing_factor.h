@@ -31,6 +31,9 @@ class StandingFactor {
   // To be told before the system changes.
   void remember_beam(int beam);
   void remember_shell(int shell);
+  /// An element that is no beam gets another stiffness, not only none or its own: a patch, or a shell whose stiffness
+  /// is given. False: it was remembered as a shell that comes and goes, and only a new factor takes the change.
+  [[nodiscard]] bool remember_plate(std::size_t element);
   void drop_node(int node) {
     dropped_.push_back(node);
     dropped_more_ = true;
@@ -78,7 +81,7 @@ class StandingFactor {
   [[nodiscard]] double solve_operations() const;
 
  private:
-  enum class Kind { beam, shell, node, ground };
+  enum class Kind { beam, shell, plate, node, ground };
   struct Key {
     Kind kind;
     int index;
@@ -87,6 +90,8 @@ class StandingFactor {
   void plan_beam(int beam, const Mat6& before);
   void plan_beams();
   void plan_shells();
+  void plan_plates();
+  [[nodiscard]] std::vector<int> equations_of(std::size_t element) const;
   bool plan_nodes();
   void plan_grounds();
   void want(Key key, const Eigen::Ref<const Eigen::MatrixXd>& D);
@@ -101,6 +106,7 @@ class StandingFactor {
   std::map<int, Mat6> beam_before_;
   std::map<int, char> shell_before_;
   std::map<int, Mat24> shell_stiffness_;
+  std::map<std::size_t, Eigen::MatrixXd> plate_before_;
   std::map<int, Eigen::MatrixXd> node_before_;  ///< own stiffness, of nodes that have any
   std::map<int, Mat6> diaphragm_node_before_;   ///< the same, of nodes in diaphragms
   std::vector<int> dropped_;

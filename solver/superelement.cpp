@@ -23,7 +23,7 @@ struct Seen {
 }  // namespace
 
 struct Superelement::State {
-  explicit State(Patch given)
+  State(Patch given, std::span<const int> gone)
       : patch(std::move(given)), share(patch.shells.size(), 1), shell_stands(patch.shells.size(), 1) {
     for (std::size_t i = 0; i < patch.shells.size(); ++i) {
       check_shell(patch.shells[i], static_cast<int>(i), patch.nodes);
@@ -33,6 +33,7 @@ struct Superelement::State {
     for (const int node : patch.kept)
       if (node < 0 || static_cast<std::size_t>(node) >= patch.nodes.size())
         throw std::invalid_argument("node " + std::to_string(node) + " does not exist");
+    for (const int shell : gone) shell_stands[static_cast<std::size_t>(shell)] = 0;
     condense();
   }
 
@@ -176,7 +177,8 @@ Eigen::VectorXd Superelement::State::gathered(const std::vector<Vec6>& loads) co
   return force;
 }
 
-Superelement::Superelement(Patch patch) : state_(std::make_unique<State>(std::move(patch))) {}
+Superelement::Superelement(Patch patch, std::span<const int> gone)
+    : state_(std::make_unique<State>(std::move(patch), gone)) {}
 Superelement::~Superelement() = default;
 Superelement::Superelement(Superelement&&) noexcept = default;
 Superelement& Superelement::operator=(Superelement&&) noexcept = default;

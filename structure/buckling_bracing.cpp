@@ -47,14 +47,14 @@ BucklingBracing::BucklingBracing(const Building& building, const FrameStatics& s
       node_applied_(node_applied),
       node_solved_(node_solved),
       members_at_(building.nodes.size()),
-      membranes_at_(building.nodes.size()),
+      plates_at_(building.nodes.size()),
       supported_(building.nodes.size(), 0),
       tested_(building.members.size(), 0.0) {
   for (std::size_t m = 0; m < building.members.size(); ++m)
     for (NodeId node : building.members[m].nodes) members_at_[index_of(node)].push_back(MemberId(m));
   for (std::size_t p = 0; p < building.panels.size(); ++p)
-    if (building.panels[p].model == PanelModel::membrane)
-      for (NodeId node : building.panels[p].nodes) membranes_at_[index_of(node)].push_back(PanelId(p));
+    if (building.panels[p].model != PanelModel::cladding)
+      for (NodeId node : building.panels[p].nodes) plates_at_[index_of(node)].push_back(PanelId(p));
   for (const NodeSupport& support : building.supports) supported_[index_of(support.node)] = 1;
 }
 
@@ -64,8 +64,9 @@ bool BucklingBracing::braced(NodeId node) const {
     if (building_[member].kind == MemberKind::post || segments_.label(member) < 0) continue;
     if (segments_.holds(building_.joint(member, 0)) && segments_.holds(building_.joint(member, 1))) return true;
   }
-  return std::any_of(membranes_at_[index_of(node)].begin(), membranes_at_[index_of(node)].end(),
-                     [&](PanelId panel) { return bearings_.membrane(panel); });
+  return std::any_of(plates_at_[index_of(node)].begin(), plates_at_[index_of(node)].end(), [&](PanelId panel) {
+    return bearings_.serves(panel) ? bearings_.membrane(panel) : segments_.label(panel) >= 0;
+  });
 }
 
 double BucklingBracing::unbraced_length(MemberId post) const {
@@ -196,6 +197,20 @@ std::optional<BuckledPost> BucklingBracing::judge(int c) const {
     if (const Mat24* stiffness = statics_.given_stiffness(panel))
       model.shell_stiffness.emplace(static_cast<int>(model.shells.size()), *stiffness);
     model.shells.push_back(shell);
+  }
+  for (PanelId panel : statics_.shells(c)) {
+    if (!statics_.stiff(panel)) continue;
+    const std::vector<NodeId> nodes = building_[panel].all_nodes();
+    const Eigen::MatrixXd& stiffness = statics_.shell_stiffness(panel);
+    std::vector<int> kept;  // of its nodes: those that stand
+    solver::Patch patch;
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+      if (number[index_of(nodes[n])] < 0) continue;
+      patch.node.push_back(number[index_of(nodes[n])]);
+      for (int c6 = 0; c6 < 6; ++c6) kept.push_back(static_cast<int>(6 * n) + c6);
+    }
+    patch.stiffness = stiffness(kept, kept);
+    model.patches.push_back(std::move(patch));
   }
   for (const solver::Support& support : statics_.supports(c)) {
     solver::Support own = support;

@@ -59,7 +59,7 @@ class BucklingBracing {
   const std::vector<Vec6>& node_applied_;
   const std::vector<char>& node_solved_;
   std::vector<std::vector<MemberId>> members_at_;  ///< per node
-  std::vector<std::vector<PanelId>> membranes_at_;
+  std::vector<std::vector<PanelId>> plates_at_;
   std::vector<char> supported_;  ///< per node
   std::vector<double> tested_;   ///< per member: utilisation of the lower bound when it was tested last
   Counters counters_;

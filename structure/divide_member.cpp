@@ -42,8 +42,8 @@ std::vector<MemberLoad> on_piece(const MemberLoad& load, double begin, double en
 
 class Division {
  public:
-  Division(Building& building, MemberId id, const std::vector<double>& places)
-      : building_(building), id_(id), whole_(building[id]), places_{0} {
+  Division(Building& building, MemberId id, const std::vector<double>& places, const std::vector<Vec3>& at)
+      : building_(building), id_(id), whole_(building[id]), places_{0}, at_(at) {
     places_.insert(places_.end(), places.begin(), places.end());
     places_.push_back(1);
     for (std::size_t i = 0; i + 1 < places_.size(); ++i)
@@ -64,14 +64,15 @@ class Division {
  private:
   [[nodiscard]] std::string cut_name(std::size_t i) const { return whole_.name + "/cut-" + std::to_string(i); }
 
-  /// On the line between the member's nodes, so that edges of panels find the pieces between their corners.
+  /// Unless they are given, on the line between the member's nodes, so that edges of panels find the pieces between
+  /// their corners.
   void add_nodes() {
     const Vec3 first = building_[whole_.nodes[0]].position, second = building_[whole_.nodes[1]].position;
     nodes_.push_back(whole_.nodes[0]);
     for (std::size_t i = 1; i + 1 < places_.size(); ++i) {
       refuse_taken(building_, cut_name(i));
       nodes_.emplace_back(building_.nodes.size());
-      building_.nodes.push_back({cut_name(i), first + places_[i] * (second - first)});
+      building_.nodes.push_back({cut_name(i), at_.empty() ? first + places_[i] * (second - first) : at_[i - 1]});
     }
     nodes_.push_back(whole_.nodes[1]);
   }
@@ -160,14 +161,18 @@ class Division {
   MemberId id_;
   Member whole_;
   std::vector<double> places_;
+  std::vector<Vec3> at_;
   std::vector<NodeId> nodes_;
   std::vector<MemberId> pieces_;
 };
 
 }  // namespace
 
-std::vector<JointId> divide_member(Building& building, MemberId member, const std::vector<double>& places) {
-  return Division(building, member, places).carry_out();
+std::vector<JointId> divide_member(Building& building, MemberId member, const std::vector<double>& places,
+                                   const std::vector<Vec3>& nodes) {
+  if (!nodes.empty() && nodes.size() != places.size())
+    throw std::invalid_argument("a member is divided with a node for each place, or none");
+  return Division(building, member, places, nodes).carry_out();
 }
 
 }  // namespace topple::structure

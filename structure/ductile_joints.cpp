@@ -57,8 +57,9 @@ DuctileJoints::DuctileJoints(const Building& building, const FrameStatics& stati
   end_forces_.assign(building.members.size(), solver::Vec12::Zero());
   loads_.resize(building.members.size());
   displacement_.assign(building.nodes.size(), Vec6::Zero());
-  corner_forces_.resize(building.panels.size());
-  for (std::array<Vec6, 4>& corners : corner_forces_) corners.fill(Vec6::Zero());
+  plate_forces_.resize(building.panels.size());
+  for (std::size_t p = 0; p < building.panels.size(); ++p)
+    plate_forces_[p].assign(building.panels[p].all_nodes().size(), Vec6::Zero());
 }
 
 void DuctileJoints::lose(JointId joint, int component) {
@@ -72,8 +73,8 @@ void DuctileJoints::base_is_answer(int component) {
     loads_[index_of(member)] = applied_[index_of(member)];
   }
   for (NodeId node : statics_.nodes(component)) displacement_[index_of(node)] = statics_.displacement(node);
-  for (PanelId panel : statics_.membranes(component))
-    if (statics_.stiff(panel)) corner_forces_[index_of(panel)] = statics_.corner_forces(panel);
+  for (PanelId panel : statics_.plates(component))
+    if (statics_.stiff(panel)) plate_forces_[index_of(panel)] = statics_.node_forces(panel);
 }
 
 std::vector<solver::BeamLoad> DuctileJoints::mixed_loads(MemberId member, double base, double now) const {
@@ -100,12 +101,12 @@ void DuctileJoints::move_base(int component, double part) {
     Vec6& u = displacement_[index_of(node)];
     u += part * (statics_.displacement(node) - u);
   }
-  for (PanelId panel : statics_.membranes(component)) {
+  for (PanelId panel : statics_.plates(component)) {
     if (!statics_.stiff(panel)) continue;
-    const std::array<Vec6, 4> now = statics_.corner_forces(panel);
-    for (std::size_t corner = 0; corner < 4; ++corner) {
-      Vec6& force = corner_forces_[index_of(panel)][corner];
-      force += part * (now[corner] - force);
+    const std::vector<Vec6> now = statics_.node_forces(panel);
+    for (std::size_t n = 0; n < now.size(); ++n) {
+      Vec6& force = plate_forces_[index_of(panel)][n];
+      force += part * (now[n] - force);
     }
   }
 }
@@ -122,14 +123,13 @@ double DuctileJoints::difference_energy(int component) const {
     energy +=
         MemberShape(statics_.beam(member), force, solver::Vec12::Zero(), mixed_loads(member, -1, 1)).strain_energy();
   }
-  for (PanelId panel : statics_.membranes(component)) {
+  for (PanelId panel : statics_.plates(component)) {
     if (!statics_.stiff(panel)) continue;
-    const std::array<Vec6, 4> now = statics_.corner_forces(panel);
-    for (std::size_t corner = 0; corner < 4; ++corner) {
-      const NodeId node = building_[panel].nodes[corner];
-      energy += 0.5 * (now[corner] - corner_forces_[index_of(panel)][corner])
-                          .dot(statics_.displacement(node) - displacement_[index_of(node)]);
-    }
+    const std::vector<Vec6> now = statics_.node_forces(panel);
+    const std::vector<NodeId> nodes = building_[panel].all_nodes();
+    for (std::size_t n = 0; n < now.size(); ++n)
+      energy += 0.5 * (now[n] - plate_forces_[index_of(panel)][n])
+                          .dot(statics_.displacement(nodes[n]) - displacement_[index_of(nodes[n])]);
   }
   for (const NodeSupport& support : building_.supports) {
     if (statics_.component(support.node) != component || segments_.label(support.node) < 0) continue;

@@ -69,7 +69,7 @@ class DuctileJoints {
   std::vector<solver::Vec12> end_forces_;
   std::vector<std::vector<solver::BeamLoad>> loads_;
   std::vector<Vec6> displacement_;
-  std::vector<std::array<Vec6, 4>> corner_forces_;
+  std::vector<std::vector<Vec6>> plate_forces_;  ///< per panel, at its nodes
 };
 
 }  // namespace topple::structure

@@ -13,7 +13,7 @@ EnergyAccount::EnergyAccount(const Sources& sources)
       rest_displacement_(sources.building.nodes.size(), Vec6::Zero()),
       rest_end_forces_(sources.building.members.size(), solver::Vec12::Zero()),
       rest_loads_(sources.building.members.size()),
-      rest_corner_forces_(sources.building.panels.size()),
+      rest_plate_forces_(sources.building.panels.size()),
       rest_holds_(sources.building.joints.size(), 1),
       rest_stiffness_(sources.building.members.size(), 1.0),
       rests_(static_cast<std::size_t>(sources.statics.components())),
@@ -42,8 +42,8 @@ void EnergyAccount::remember(int number) {
       rest_slips_.erase(member);
     rest_stiffness_[index(member)] = from_.statics.stiffness(member);
   }
-  for (PanelId panel : from_.statics.membranes(number))
-    if (from_.statics.stiff(panel)) rest_corner_forces_[index(panel)] = from_.statics.corner_forces(panel);
+  for (PanelId panel : from_.statics.plates(number))
+    if (from_.statics.stiff(panel)) rest_plate_forces_[index(panel)] = from_.statics.node_forces(panel);
   rests_[static_cast<std::size_t>(number)].known = false;
   std::erase_if(rest_contacts_, [&](const auto& contact) { return component(contact.second) == number; });
   for (const auto& [key, placed] : from_.loads.contacts())
@@ -138,19 +138,20 @@ double EnergyAccount::turned(int component) const {
 }
 
 void EnergyAccount::lose_membrane(PanelId panel) {
-  begin(from_.building[panel].nodes[0]).membranes.push_back({panel, rest_corner_forces_[index(panel)]});
+  begin(from_.building[panel].nodes[0]).membranes.push_back({panel, rest_plate_forces_[index(panel)]});
 }
 
-void EnergyAccount::soften(PanelId panel, const Mat24& lost) {
-  Eigen::Matrix<double, 24, 1> at_rest;
-  for (int corner = 0; corner < 4; ++corner)
-    at_rest.segment<6>(6 * corner) = displacement(from_.building[panel].nodes[static_cast<std::size_t>(corner)]);
-  const Eigen::Matrix<double, 24, 1> force = lost * at_rest;
-  std::array<Vec6, 4> forces;
-  for (int corner = 0; corner < 4; ++corner) forces[static_cast<std::size_t>(corner)] = force.segment<6>(6 * corner);
-  begin(from_.building[panel].nodes[0]).membranes.push_back({panel, forces});
+void EnergyAccount::soften(PanelId panel, const Eigen::MatrixXd& lost) {
+  const std::vector<NodeId> nodes = from_.building[panel].all_nodes();
+  Eigen::VectorXd at_rest(lost.rows());
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+    at_rest.segment<6>(static_cast<Eigen::Index>(6 * n)) = displacement(nodes[n]);
+  const Eigen::VectorXd force = lost * at_rest;
+  std::vector<Vec6> forces(nodes.size());
+  for (std::size_t n = 0; n < nodes.size(); ++n) forces[n] = force.segment<6>(static_cast<Eigen::Index>(6 * n));
   // What is lost later, in the same change, is what is left of it now.
-  for (std::size_t corner = 0; corner < 4; ++corner) rest_corner_forces_[index(panel)][corner] -= forces[corner];
+  for (std::size_t n = 0; n < nodes.size(); ++n) rest_plate_forces_[index(panel)][n] -= forces[n];
+  begin(nodes[0]).membranes.push_back({panel, std::move(forces)});
 }
 
 void EnergyAccount::soften(MemberId member) {
@@ -158,10 +159,8 @@ void EnergyAccount::soften(MemberId member) {
   begin(member).softened.push_back(member);
 }
 
-void EnergyAccount::lose_support(NodeId node) {
-  SupportLoss loss{node};
-  loss.reaction = from_.statics.reaction(node);
-  begin(node).supports.push_back(loss);
+void EnergyAccount::lose_support(NodeId node, const Vec6& reaction) {
+  begin(node).supports.push_back({node, reaction});
 }
 
 void EnergyAccount::drop(NodeId node) {
@@ -361,9 +360,10 @@ void EnergyAccount::finish(int number, bool slow, std::vector<JointBreak>& break
     settle_contacts(number, change);
     change.freed += loads_changed + turned(number) - change.dissipated;
     for (const SupportLoss& loss : change.supports) change.freed -= 0.5 * loss.reaction.dot(after(loss.node));
-    for (const MembraneLoss& loss : change.membranes)
-      for (std::size_t corner = 0; corner < 4; ++corner)
-        change.freed += 0.5 * loss.forces[corner].dot(after(from_.building[loss.panel].nodes[corner]));
+    for (const MembraneLoss& loss : change.membranes) {
+      const std::vector<NodeId> nodes = from_.building[loss.panel].all_nodes();
+      for (std::size_t n = 0; n < nodes.size(); ++n) change.freed += 0.5 * loss.forces[n].dot(after(nodes[n]));
+    }
     int told = 0;
     double own = 0;
     for (const Opening& opening : change.openings) {

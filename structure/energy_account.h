@@ -42,11 +42,13 @@ class EnergyAccount {
   /// `told`: index of the joint's line among the breaks, -1 when it has none.
   void lose_joint(JointId joint, int told);
   void lose_membrane(PanelId panel);
-  /// It becomes softer: by how much, as its corners feel it.
-  void soften(PanelId panel, const Mat24& lost);
+  /// It becomes softer: by how much, as its nodes feel it.
+  void soften(PanelId panel, const Eigen::MatrixXd& lost);
   /// It is about to become softer.
   void soften(MemberId member);
-  void lose_support(NodeId node);
+  void lose_support(NodeId node) { lose_support(node, from_.statics.reaction(node)); }
+  /// One of its supports, that bears this.
+  void lose_support(NodeId node, const Vec6& reaction);
   void drop(NodeId node);
   void leave(MemberId member);
   void leave(NodeId node);
@@ -90,7 +92,7 @@ class EnergyAccount {
   };
   struct MembraneLoss {
     PanelId panel;
-    std::array<Vec6, 4> forces;
+    std::vector<Vec6> forces;  ///< at its nodes
   };
   /// What happened in one component since it rested last.
   struct Change {
@@ -156,7 +158,7 @@ class EnergyAccount {
   std::vector<Vec6> rest_displacement_;
   std::vector<solver::Vec12> rest_end_forces_;
   std::vector<std::vector<solver::BeamLoad>> rest_loads_;
-  std::vector<std::array<Vec6, 4>> rest_corner_forces_;
+  std::vector<std::vector<Vec6>> rest_plate_forces_;  ///< per panel, at its nodes
   std::map<std::int64_t, PlacedLoad> rest_contacts_;
   std::vector<char> rest_holds_;                  ///< per joint of a member
   std::map<MemberId, solver::Vec12> rest_slips_;  ///< of members with plastic hinges

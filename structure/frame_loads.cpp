@@ -71,7 +71,7 @@ FrameLoads::FrameLoads(const Building& building, PartLoads loads, const PanelBea
   whole_panel_mass_ = panel_mass_;
 }
 
-/// What acts on a shell panel, condensed to its corners.
+/// What acts on a shell panel, condensed to its nodes.
 void FrameLoads::hand_on_shell(PanelId panel) {
   HandOver& handed = handed_[index_of(panel)];
   mark(handed);
@@ -79,10 +79,11 @@ void FrameLoads::hand_on_shell(PanelId panel) {
   handed.edge_force.fill(Vec3::Zero());
   const PanelSuperelement* shell = shells_.of(panel);
   if (!shell || shell_gone_[index_of(panel)]) return;
-  const std::array<Vec6, 4> loads = shell->corner_loads({traction(panel), {}});
-  for (std::size_t corner = 0; corner < 4; ++corner) {
-    const int node = building_[panel].nodes[corner].index;
-    handed.nodes.push_back({node, loads[corner]});
+  const std::vector<Vec6> loads = shell->loads_at_nodes({traction(panel), {}});
+  const std::vector<NodeId> nodes = building_[panel].all_nodes();
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    const int node = nodes[n].index;
+    handed.nodes.push_back({node, loads[n]});
     insert(handing_nodes_[static_cast<std::size_t>(node)], panel.index);
   }
   mark(handed);

@@ -20,7 +20,7 @@ std::vector<int> components_of(const Building& building, const Frame& frame) {
   for (const solver::Beam& beam : frame.model.beams) join(beam.node[0], beam.node[1]);
   // Any panel: what lies on it goes to all of its edges.
   for (const Panel& panel : building.panels)
-    for (std::size_t corner = 1; corner < 4; ++corner) join(panel.nodes[0].index, panel.nodes[corner].index);
+    for (const NodeId node : panel.all_nodes()) join(panel.nodes[0].index, node.index);
   for (const solver::Diaphragm& diaphragm : frame.model.diaphragms)
     for (int node : diaphragm.nodes) join(diaphragm.nodes.front(), node);
   std::vector<int> number(parent.size(), -1), answer(parent.size());
@@ -36,7 +36,7 @@ std::vector<int> components_of(const Building& building, const Frame& frame) {
 }  // namespace
 
 FrameStatics::FrameStatics(const Building& building, const PanelSuperelements& shells, int threads)
-    : stiff_(building.panels.size(), 0) {
+    : stiff_(building.panels.size(), 0), patch_(building.panels.size(), 0) {
   const Frame frame = make_frame(building);
   std::vector<solver::FrameModel> models = split(building, frame);
   end_forces_.assign(building.members.size(), solver::Vec12::Zero());
@@ -79,12 +79,21 @@ std::vector<solver::FrameModel> FrameStatics::split(const Building& building, co
   }
   membrane_place_.resize(building.panels.size());
   for (std::size_t p = 0; p < building.panels.size(); ++p) {
-    const bool meshed = building.panels[p].model == PanelModel::shell;
-    if (frame.shell_of_panel[p] < 0 && !meshed) continue;
-    // A shell panel is one element between its corners, with the stiffness of its superelement.
-    solver::Shell shell =
-        frame.model.shells[static_cast<std::size_t>(meshed ? frame.meshes[p].first_shell : frame.shell_of_panel[p])];
-    for (std::size_t corner = 0; corner < 4; ++corner) shell.node[corner] = building.panels[p].nodes[corner].index;
+    if (building.panels[p].model == PanelModel::shell) {
+      // One element between its nodes, with the stiffness that its superelement gives it.
+      solver::Patch patch;
+      for (const NodeId node : building.panels[p].all_nodes()) patch.node.push_back(local(node.index));
+      const auto size = static_cast<Eigen::Index>(6 * patch.node.size());
+      patch.stiffness = Eigen::MatrixXd::Zero(size, size);
+      stiff_[p] = patch_[p] = 1;
+      const auto c = component(building.panels[p].nodes[0].index);
+      membrane_place_[p] = {static_cast<int>(c), static_cast<int>(models[c].patches.size())};
+      models[c].patches.push_back(std::move(patch));
+      components_[c].shells.push_back(PanelId(p));
+      continue;
+    }
+    if (frame.shell_of_panel[p] < 0) continue;
+    solver::Shell shell = frame.model.shells[static_cast<std::size_t>(frame.shell_of_panel[p])];
     stiff_[p] = 1;
     const auto c = component(shell.node[0]);
     for (int& node : shell.node) node = local(node);
@@ -92,8 +101,13 @@ std::vector<solver::FrameModel> FrameStatics::split(const Building& building, co
     models[c].shells.push_back(shell);
     components_[c].membranes.push_back(PanelId(p));
   }
-  for (solver::Support support : frame.model.supports) {
+  std::vector<int> edge_of(frame.model.supports.size(), -1);
+  for (std::size_t e = 0; e < frame.edge_supports.size(); ++e)
+    for (const int s : frame.edge_supports[e]) edge_of[static_cast<std::size_t>(s)] = static_cast<int>(e);
+  for (std::size_t s = 0; s < frame.model.supports.size(); ++s) {
+    solver::Support support = frame.model.supports[s];
     if (static_cast<std::size_t>(support.node) >= building.nodes.size()) continue;  // inside a superelement
+    support_edge_.push_back(edge_of[s]);
     const auto c = component(support.node);
     support_node_.push_back(NodeId(static_cast<std::size_t>(support.node)));
     support.node = local(support.node);
@@ -137,8 +151,11 @@ void FrameStatics::remove(MemberId member) {
 
 void FrameStatics::remove_membrane(PanelId panel) {
   const Place& place = membrane_place_[index(panel)];
-  if (place.component >= 0) changing(place).remove_shell(place.local);
   stiff_[index(panel)] = 0;
+  if (place.component < 0) return;
+  if (patch_[index(panel)] == 0) return changing(place).remove_shell(place.local);
+  const Eigen::Index size = at(place).patch_stiffness(place.local).rows();
+  changing(place).set_patch_stiffness(place.local, Eigen::MatrixXd::Zero(size, size));
 }
 
 Mat24 FrameStatics::membrane_stiffness(PanelId panel) const {
@@ -146,14 +163,28 @@ Mat24 FrameStatics::membrane_stiffness(PanelId panel) const {
   return at(place).shell_stiffness(place.local);
 }
 
-void FrameStatics::set_stiffness(PanelId panel, const Mat24& stiffness) {
+void FrameStatics::set_stiffness(PanelId panel, const Eigen::MatrixXd& stiffness) {
   const Place& place = membrane_place_[index(panel)];
-  changing(place).set_shell_stiffness(place.local, stiffness);
+  if (patch_[index(panel)] != 0)
+    changing(place).set_patch_stiffness(place.local, stiffness);
+  else
+    changing(place).set_shell_stiffness(place.local, stiffness);
+}
+
+const Eigen::MatrixXd& FrameStatics::shell_stiffness(PanelId shell) const {
+  const Place& place = membrane_place_[index(shell)];
+  return at(place).patch_stiffness(place.local);
 }
 
 void FrameStatics::remove_support(NodeId node) {
   for (std::size_t s = 0; s < support_node_.size(); ++s)
     if (support_node_[s] == node)
+      changing(support_place_[s]).set_support_stiffness(support_place_[s].local, Vec6::Zero());
+}
+
+void FrameStatics::remove_support(NodeId node, std::size_t edge_support) {
+  for (std::size_t s = 0; s < support_node_.size(); ++s)
+    if (support_node_[s] == node && support_edge_[s] == static_cast<int>(edge_support))
       changing(support_place_[s]).set_support_stiffness(support_place_[s].local, Vec6::Zero());
 }
 
@@ -322,6 +353,13 @@ std::array<Vec6, 4> FrameStatics::corner_forces(PanelId membrane) const {
   return at(place).shell_corner_forces(place.local);
 }
 
+std::vector<Vec6> FrameStatics::node_forces(PanelId panel) const {
+  const Place& place = membrane_place_[index(panel)];
+  if (patch_[index(panel)] != 0) return at(place).patch_forces(place.local);
+  const std::array<Vec6, 4> corners = at(place).shell_corner_forces(place.local);
+  return {corners.begin(), corners.end()};
+}
+
 Vec6 FrameStatics::reaction(std::size_t support) const {
   return at(support_place_[support]).reaction(support_place_[support].local);
 }
@@ -330,6 +368,13 @@ Vec6 FrameStatics::reaction(NodeId node) const {
   Vec6 sum = Vec6::Zero();
   for (std::size_t s = 0; s < support_node_.size(); ++s)
     if (support_node_[s] == node) sum += reaction(s);
+  return sum;
+}
+
+Vec6 FrameStatics::reaction(NodeId node, std::size_t edge_support) const {
+  Vec6 sum = Vec6::Zero();
+  for (std::size_t s = 0; s < support_node_.size(); ++s)
+    if (support_node_[s] == node && support_edge_[s] == static_cast<int>(edge_support)) sum += reaction(s);
   return sum;
 }
 

@@ -42,9 +42,11 @@ class FrameStatics {
   void remove_membrane(PanelId panel);
   /// Of a membrane as it is while whole.
   [[nodiscard]] Mat24 membrane_stiffness(PanelId panel) const;
-  /// Of a membrane or shell panel: what its corners feel of it from now on.
-  void set_stiffness(PanelId panel, const Mat24& stiffness);
+  /// Of a membrane (24 freedoms) or shell panel: what its nodes (Panel::all_nodes()) feel of it from now on.
+  void set_stiffness(PanelId panel, const Eigen::MatrixXd& stiffness);
   void remove_support(NodeId node);
+  /// That of a panel's edge alone, by its index in Building::edge_supports.
+  void remove_support(NodeId node, std::size_t edge_support);
   /// Factor on E and G, above 0.
   void set_stiffness(MemberId member, double factor);
   void drop(const std::vector<NodeId>& nodes);
@@ -67,6 +69,13 @@ class FrameStatics {
   [[nodiscard]] const std::vector<MemberId>& members(int component) const { return parts(component).members; }
   [[nodiscard]] const std::vector<NodeId>& nodes(int component) const { return parts(component).nodes; }
   [[nodiscard]] const std::vector<PanelId>& membranes(int component) const { return parts(component).membranes; }
+  [[nodiscard]] const std::vector<PanelId>& shells(int component) const { return parts(component).shells; }
+  /// Both, membranes first.
+  [[nodiscard]] std::vector<PanelId> plates(int component) const {
+    std::vector<PanelId> all = membranes(component);
+    all.insert(all.end(), shells(component).begin(), shells(component).end());
+    return all;
+  }
   /// A membrane or shell panel that has its stiffness.
   [[nodiscard]] bool stiff(PanelId panel) const { return stiff_[index(panel)] != 0; }
 
@@ -96,18 +105,22 @@ class FrameStatics {
   [[nodiscard]] solver::Beam beam(MemberId member) const;
   [[nodiscard]] double stiffness(MemberId member) const { return member_stiffness_[index(member)]; }
   [[nodiscard]] const solver::Shell& shell(PanelId membrane) const;
-  /// What set_stiffness() gave the panel before the last solve(); null: its one element's own.
-  [[nodiscard]] const Mat24* given_stiffness(PanelId panel) const;
+  /// What set_stiffness() gave the membrane before the last solve(); null: its one element's own.
+  [[nodiscard]] const Mat24* given_stiffness(PanelId membrane) const;
+  [[nodiscard]] const Eigen::MatrixXd& shell_stiffness(PanelId shell) const;
   /// As they are now, with the nodes numbered as in nodes().
   [[nodiscard]] const std::vector<solver::Support>& supports(int component) const {
     return parts(component).analysis->model().supports;
   }
   [[nodiscard]] double strain_energy(int component) const;
   [[nodiscard]] std::array<Vec6, 4> corner_forces(PanelId membrane) const;
+  /// What the panel's nodes (Panel::all_nodes()) do to a membrane or shell panel, global.
+  [[nodiscard]] std::vector<Vec6> node_forces(PanelId panel) const;
   /// Of the support at its index in Building::supports.
   [[nodiscard]] Vec6 reaction(std::size_t support) const;
   /// Of all supports at a node, those of panel edges included.
   [[nodiscard]] Vec6 reaction(NodeId node) const;
+  [[nodiscard]] Vec6 reaction(NodeId node, std::size_t edge_support) const;
   /// Displacement of a point of a member's axis at this distance from its first end, `loads` being those on it.
   [[nodiscard]] Vec3 point_displacement(MemberId member, double distance,
                                         const std::vector<solver::BeamLoad>& loads) const;
@@ -152,7 +165,7 @@ class FrameStatics {
   struct Component {
     std::vector<NodeId> nodes;
     std::vector<MemberId> members;
-    std::vector<PanelId> membranes;  ///< and shells
+    std::vector<PanelId> membranes, shells;  ///< shells and patches of the model, in order
     std::unique_ptr<solver::Reanalysis> analysis;
     bool changed = true, gone = false, diverged = false;
     mutable bool partial = false;  ///< end_forces_ of some members are behind
@@ -185,7 +198,8 @@ class FrameStatics {
 
   std::vector<Place> node_place_, member_place_, membrane_place_, support_place_;
   std::vector<NodeId> support_node_;
-  std::vector<char> stiff_;                        ///< per panel
+  std::vector<int> support_edge_;                  ///< per support: index in Building::edge_supports, -1: of a node
+  std::vector<char> stiff_, patch_;                ///< per panel: it has stiffness; it is a patch of the model
   mutable std::vector<solver::Vec12> end_forces_;  ///< of a partial answer, as far as they were asked for
   std::vector<solver::Vec12> stiffness_diagonal_;
   std::vector<double> member_stiffness_;  ///< factors

@@ -62,6 +62,22 @@ Vec6 turned(const Mat3& turn, const Vec6& v) {
   return result;
 }
 
+struct Box2 {
+  Vec2 low, high;
+  [[nodiscard]] bool overlaps(const Box2& other) const {
+    return (other.high - low).minCoeff() > 0 && (high - other.low).minCoeff() > 0;
+  }
+};
+
+Box2 box_of(const std::vector<Vec2>& polygon) {
+  Box2 box{polygon.front(), polygon.front()};
+  for (const Vec2& corner : polygon) {
+    box.low = box.low.cwiseMin(corner);
+    box.high = box.high.cwiseMax(corner);
+  }
+  return box;
+}
+
 /// Larger and smaller principal value of a plane symmetric tensor (xx, yy, xy).
 std::array<double, 2> principal(const Vec3& s) {
   const double mean = (s(0) + s(1)) / 2, radius = std::hypot((s(0) - s(1)) / 2, s(2));
@@ -83,23 +99,31 @@ PanelSuperelement::PanelSuperelement(const Building& building, const Frame& fram
     if (made) patch.nodes.push_back(frame.model.nodes[static_cast<std::size_t>(node)]);
     return entry->second;
   };
-  for (const NodeId node : building[id].nodes) patch.kept.push_back(local(node.index));
+  for (const NodeId node : building[id].all_nodes()) node_.push_back(local(node.index));
   for (std::size_t k = 0; k < mesh.elements.size(); ++k) {
     solver::Shell shell = frame.model.shells[static_cast<std::size_t>(mesh.first_shell) + k];
     for (int& node : shell.node) node = local(node);
     patch.shells.push_back(shell);
   }
+  for (std::size_t edge = 0; edge < 4; ++edge)
+    if (building[id].joined[edge])
+      for (const int node : mesh.edge_nodes[edge]) bearing_edge_[edge].push_back(local(node));
   for (const EdgeSupport& support : building.edge_supports) {
     if (support.panel != id) continue;
-    const auto edge = static_cast<std::size_t>(support.edge);
-    for (const int node : mesh.edge_nodes[edge]) {
-      supported_edge_[edge].push_back(local(node));
-      if (std::find(patch.kept.begin(), patch.kept.end(), local(node)) == patch.kept.end())
+    std::vector<int>& bearing = bearing_edge_[static_cast<std::size_t>(support.edge)];
+    bearing.clear();
+    for (const int node : mesh.edge_nodes[static_cast<std::size_t>(support.edge)]) {
+      bearing.push_back(local(node));
+      if (std::find(node_.begin(), node_.end(), local(node)) == node_.end())
         patch.supports.push_back({local(node), support.stiffness});
     }
   }
+  take_nodes(building[id]);
+  for (std::size_t n = 0; n < node_.size(); ++n)
+    if (held_at(n)) patch.kept.push_back(node_[n]);
   share_.assign(patch.shells.size(), 1);
   patch_.emplace(std::move(patch));
+  find_places();
 }
 
 PanelSuperelement::PanelSuperelement(const Building& building, PanelId id)
@@ -118,6 +142,7 @@ PanelSuperelement::PanelSuperelement(const Building& building, PanelId id)
     patch.nodes.emplace_back(place.x(), place.y(), 0);
   };
   for (int corner = 0; corner < 4; ++corner) {
+    node_.push_back(corner);
     patch.kept.push_back(corner);
     add_node(PanelSurface::on_edge(static_cast<std::size_t>(corner), 0));
   }
@@ -140,8 +165,36 @@ PanelSuperelement::PanelSuperelement(const Building& building, PanelId id)
     for (std::size_t i = 0; i < 4; ++i) shell.node[i] = number[static_cast<std::size_t>(cell[i])];
     patch.shells.push_back(shell);
   }
+  take_nodes(panel);
   share_.assign(patch.shells.size(), 1);
   patch_.emplace(std::move(patch));
+  find_places();
+}
+
+/// The edges on which the panel's nodes lie.
+void PanelSuperelement::take_nodes(const Panel& panel) {
+  edge_.assign(4, -1);
+  if (panel.model != PanelModel::shell) return;
+  for (std::size_t edge = 0; edge < 4; ++edge)
+    edge_.insert(edge_.end(), panel.edge_nodes[edge].size(), static_cast<int>(edge));
+}
+
+void PanelSuperelement::find_places() {
+  const std::vector<int>& kept = patch_->patch().kept;
+  place_.clear();
+  for (const int node : node_) {
+    const auto found = std::find(kept.begin(), kept.end(), node);
+    place_.push_back(found == kept.end() ? -1 : static_cast<int>(found - kept.begin()));
+  }
+}
+
+/// By its edge; at a corner by either of its edges that something lies along, where there is none by either.
+bool PanelSuperelement::held_at(std::size_t node) const {
+  if (edge_[node] >= 0) return holds_[static_cast<std::size_t>(edge_[node])];
+  const std::array<std::size_t, 2> edges{node, (node + 3) % 4};
+  const bool bears = !bearing_edge_[edges[0]].empty() || !bearing_edge_[edges[1]].empty();
+  return std::any_of(edges.begin(), edges.end(),
+                     [&](std::size_t edge) { return holds_[edge] && (!bears || !bearing_edge_[edge].empty()); });
 }
 
 /// Place of a patch node in the panel's plane.
@@ -153,20 +206,29 @@ Vec2 PanelSuperelement::flat(int node) const {
 
 void PanelSuperelement::fracture(const PanelRemains& remains) {
   const auto& shells = patch_->patch().shells;
-  for (std::size_t k = 0; k < shells.size(); ++k) {
-    fracture::Polygon element;
-    for (const int node : shells[k].node) element.push_back(flat(node));
-    double lost = 0;
-    for (const std::vector<Vec2>& hole : remains.holes) {
+  lost_.resize(shells.size(), 0);
+  std::vector<fracture::Polygon> elements;
+  std::vector<Box2> boxes;
+  for (const solver::Shell& shell : shells) {
+    fracture::Polygon& element = elements.emplace_back();
+    for (const int node : shell.node) element.push_back(flat(node));
+    boxes.push_back(box_of(element));
+  }
+  // Holes come in the order in which they were made: those of earlier hits are counted.
+  for (; holes_counted_ < remains.holes.size(); ++holes_counted_) {
+    const std::vector<Vec2>& hole = remains.holes[holes_counted_];
+    const Box2 box = box_of(hole);
+    for (std::size_t k = 0; k < shells.size(); ++k) {
+      if (!box.overlaps(boxes[k])) continue;
       fracture::LabelledPolygon both{hole, std::vector<int>(hole.size(), 0)};
       for (std::size_t i = 0; i < 4 && !both.vertices.empty(); ++i) {
-        const Vec2 along = element[(i + 1) % 4] - element[i];
-        fracture::clip(both, element[i], Vec2(along.y(), -along.x()), 0);
+        const Vec2 along = elements[k][(i + 1) % 4] - elements[k][i];
+        fracture::clip(both, elements[k][i], Vec2(along.y(), -along.x()), 0);
       }
-      if (both.vertices.size() > 2) lost += fracture::area(both.vertices);
+      if (both.vertices.size() > 2) lost_[k] += fracture::area(both.vertices);
     }
-    share_[k] = std::max(0.0, 1 - lost / fracture::area(element));
   }
+  for (std::size_t k = 0; k < shells.size(); ++k) share_[k] = std::max(0.0, 1 - lost_[k] / fracture::area(elements[k]));
   keep_shares();
 }
 
@@ -178,32 +240,45 @@ void PanelSuperelement::keep_shares() {
 }
 
 void PanelSuperelement::release_edge(int edge) {
-  const auto& nodes = supported_edge_[static_cast<std::size_t>(edge)];
+  holds_[static_cast<std::size_t>(edge)] = false;
+  const auto& nodes = bearing_edge_[static_cast<std::size_t>(edge)];
   solver::Superelement::Patch patch = patch_->patch();
   std::erase_if(patch.supports, [&](const solver::Support& support) {
     return std::find(nodes.begin(), nodes.end(), support.node) != nodes.end();
   });
-  supported_edge_[static_cast<std::size_t>(edge)].clear();
+  patch.kept.clear();
+  for (std::size_t n = 0; n < node_.size(); ++n)
+    if (held_at(n)) patch.kept.push_back(node_[n]);
   std::vector<int> gone;
   for (std::size_t k = 0; k < patch.shells.size(); ++k)
     if (!patch_->stands(static_cast<int>(k))) gone.push_back(static_cast<int>(k));
-  patch_.emplace(std::move(patch));
-  patch_->remove(gone);
+  patch_.emplace(std::move(patch), gone);
+  find_places();
   keep_shares();
 }
 
-Mat24 PanelSuperelement::stiffness() const {
-  if (turn_.isIdentity(0)) return patch_->stiffness();
-  Mat24 global;
-  const Eigen::MatrixXd& local = patch_->stiffness();
-  for (int i = 0; i < 8; ++i)
-    for (int j = 0; j < 8; ++j)
-      global.block<3, 3>(3 * i, 3 * j) = turn_.transpose() * local.block<3, 3>(3 * i, 3 * j) * turn_;
+Eigen::MatrixXd PanelSuperelement::stiffness() const {
+  const auto size = static_cast<Eigen::Index>(6 * node_.size());
+  Eigen::MatrixXd global = Eigen::MatrixXd::Zero(size, size);
+  const Eigen::MatrixXd& kept = patch_->stiffness();
+  const bool turned = !turn_.isIdentity(0);
+  for (std::size_t i = 0; i < 2 * node_.size(); ++i)
+    for (std::size_t j = 0; j < 2 * node_.size(); ++j) {
+      const int row = place_[i / 2], column = place_[j / 2];
+      if (row < 0 || column < 0) continue;
+      const auto at = [](std::size_t half, int node) { return static_cast<Eigen::Index>(6 * node + 3 * (half % 2)); };
+      const Mat3 own = kept.block<3, 3>(at(i, row), at(j, column));
+      auto block = global.block<3, 3>(static_cast<Eigen::Index>(3 * i), static_cast<Eigen::Index>(3 * j));
+      if (turned)
+        block = turn_.transpose() * own * turn_;
+      else
+        block = own;
+    }
   return global;
 }
 
-bool PanelSuperelement::corner_stands(int corner) const {
-  return patch_->has_shells(patch_->patch().kept[static_cast<std::size_t>(corner)]);
+bool PanelSuperelement::stands_at(std::size_t node) const {
+  return place_[node] >= 0 && patch_->has_shells(node_[node]);
 }
 
 solver::FrameModel PanelSuperelement::model() const {
@@ -285,17 +360,18 @@ std::vector<Vec6> PanelSuperelement::node_loads(const PanelLoading& loading) con
   return loads;
 }
 
-std::array<Vec6, 4> PanelSuperelement::corner_loads(const PanelLoading& loading) const {
+std::vector<Vec6> PanelSuperelement::loads_at_nodes(const PanelLoading& loading) const {
   const Eigen::VectorXd condensed = patch_->condense(node_loads(loading));
-  std::array<Vec6, 4> loads;
-  for (int c = 0; c < 4; ++c)
-    loads[static_cast<std::size_t>(c)] = turned(turn_.transpose(), condensed.segment<6>(6 * c));
+  std::vector<Vec6> loads(node_.size(), Vec6::Zero());
+  for (std::size_t n = 0; n < loads.size(); ++n)
+    if (place_[n] >= 0) loads[n] = turned(turn_.transpose(), condensed.segment<6>(6 * place_[n]));
   return loads;
 }
 
-std::vector<Vec6> PanelSuperelement::recover(const std::array<Vec6, 4>& corners, const PanelLoading& loading) const {
-  Eigen::VectorXd kept(24);
-  for (int c = 0; c < 4; ++c) kept.segment<6>(6 * c) = turned(turn_, corners[static_cast<std::size_t>(c)]);
+std::vector<Vec6> PanelSuperelement::recover(const std::vector<Vec6>& at_nodes, const PanelLoading& loading) const {
+  Eigen::VectorXd kept(static_cast<Eigen::Index>(6 * patch_->patch().kept.size()));
+  for (std::size_t n = 0; n < node_.size(); ++n)
+    if (place_[n] >= 0) kept.segment<6>(6 * place_[n]) = turned(turn_, at_nodes[n]);
   return patch_->recover(kept, node_loads(loading));
 }
 
@@ -303,14 +379,15 @@ double PanelSuperelement::compliance(const PanelForce& unit) const {
   PanelLoading loading;
   loading.forces = {unit};
   const std::vector<Vec6> loads = node_loads(loading);
-  const std::vector<Vec6> u = patch_->recover(Eigen::VectorXd::Zero(24), loads);
+  const std::vector<Vec6> u =
+      patch_->recover(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(6 * patch_->patch().kept.size())), loads);
   double work = 0;
   for (std::size_t n = 0; n < u.size(); ++n) work += u[n].dot(loads[n]);
   return work;
 }
 
-double PanelSuperelement::mean_square_motion(const std::array<Vec6, 4>& corners, const PanelLoading& loading) const {
-  const std::vector<Vec6> u = recover(corners, loading);
+double PanelSuperelement::mean_square_motion(const std::vector<Vec6>& at_nodes, const PanelLoading& loading) const {
+  const std::vector<Vec6> u = recover(at_nodes, loading);
   double sum = 0, area = 0;
   for (std::size_t k = 0; k < share_.size(); ++k) {
     if (!patch_->stands(static_cast<int>(k))) continue;
@@ -327,25 +404,25 @@ double PanelSuperelement::mean_square_motion(const std::array<Vec6, 4>& corners,
   return area > 0 ? sum / area : 0;
 }
 
-std::array<Vec6, 4> PanelSuperelement::edge_demands(const std::array<Vec6, 4>& corners, const PanelLoading& loading,
+std::array<Vec6, 4> PanelSuperelement::edge_demands(const std::vector<Vec6>& at_nodes, const PanelLoading& loading,
                                                     const std::array<double, 4>& length) const {
   std::array<Vec6, 4> demands{Vec6::Zero(), Vec6::Zero(), Vec6::Zero(), Vec6::Zero()};
-  if (std::all_of(supported_edge_.begin(), supported_edge_.end(), [](const auto& edge) { return edge.empty(); }))
-    return demands;
-  const std::vector<Vec6> reactions = patch_->reactions(recover(corners, loading), node_loads(loading));
-  std::vector<int> edges_at(reactions.size(), 0);  // a corner between two supported edges is shared
-  for (const auto& edge : supported_edge_)
-    for (const int node : edge) ++edges_at[static_cast<std::size_t>(node)];
-  const auto& kept = patch_->patch().kept;
+  const auto bears = [&](std::size_t edge) { return holds_[edge] && !bearing_edge_[edge].empty(); };
+  if (!bears(0) && !bears(1) && !bears(2) && !bears(3)) return demands;
+  const std::vector<Vec6> reactions = patch_->reactions(recover(at_nodes, loading), node_loads(loading));
+  std::vector<int> edges_at(reactions.size(), 0);  // a corner between two edges that bear is shared
+  for (std::size_t edge = 0; edge < 4; ++edge)
+    if (bears(edge))
+      for (const int node : bearing_edge_[edge]) ++edges_at[static_cast<std::size_t>(node)];
   for (std::size_t edge = 0; edge < 4; ++edge) {
-    if (supported_edge_[edge].empty() || !(length[edge] > 0)) continue;
-    const auto place = [&](std::size_t corner) { return flat(kept[corner % 4]); };
+    if (!bears(edge) || !(length[edge] > 0)) continue;
+    const auto place = [&](std::size_t corner) { return flat(node_[corner % 4]); };
     const Vec2 along = (place(edge + 1) - place(edge)).normalized();
     Mat3 own;  // rows: outwards, along, normal
     own << along.y(), -along.x(), 0, along.x(), along.y(), 0, 0, 0, 1;
     const Mat3 to_edge = own * axes_ * turn_.transpose();
     Vec6 sum = Vec6::Zero();
-    for (const int node : supported_edge_[edge]) {
+    for (const int node : bearing_edge_[edge]) {
       const auto n = static_cast<std::size_t>(node);
       sum += reactions[n] / edges_at[n];
     }
@@ -354,8 +431,8 @@ std::array<Vec6, 4> PanelSuperelement::edge_demands(const std::array<Vec6, 4>& c
   return demands;
 }
 
-PanelStress PanelSuperelement::worst_stress(const std::array<Vec6, 4>& corners, const PanelLoading& loading) const {
-  const std::vector<Vec6> u = recover(corners, loading);
+PanelStress PanelSuperelement::worst_stress(const std::vector<Vec6>& at_nodes, const PanelLoading& loading) const {
+  const std::vector<Vec6> u = recover(at_nodes, loading);
   const solver::FrameModel patch = model();
   PanelStress worst;
   for (std::size_t k = 0; k < patch.shells.size(); ++k) {

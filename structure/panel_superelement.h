@@ -1,11 +1,12 @@
 #pragma once
-// The mesh of a shell panel, or of a membrane that is broken in part, condensed to the panel's four corners: what a
+// The mesh of a shell panel, or of a membrane that is broken in part, condensed to the nodes of the building that it
+// hangs on: its corners and, of a shell, the nodes that it shares along its edges (join_shells.h). That is what a
 // standing frame sees of it. A hole costs this panel's condensation and nothing else.
 //
 // An element's stiffness and its share of the panel's load go with its area that is there. What is left in elements of
 // which next to nothing is, hangs on the nearest node that stands. The edges of a membrane stay straight, as those of
-// the one element that it is while whole; those of a shell bend freely between the corners, and supports of an edge act
-// on all of its nodes.
+// the one element that it is while whole; those of a shell bend with what they are joined to, freely where that is
+// nothing, and supports of an edge act on all of its nodes.
 #include <array>
 #include <optional>
 #include <vector>
@@ -35,35 +36,40 @@ class PanelSuperelement {
   /// A membrane panel, meshed here, less its openings.
   PanelSuperelement(const Building& building, PanelId id);
 
-  /// Only this remains.
+  /// Only this remains; its holes begin with those of earlier calls.
   void fracture(const PanelRemains& remains);
-  /// The supports of an edge hold it no more.
+  /// An edge is held no more, neither by its supports nor by what lies along it.
   void release_edge(int edge);
 
-  /// Corners in order, global axes.
-  [[nodiscard]] Mat24 stiffness() const;
-  [[nodiscard]] std::array<Vec6, 4> corner_loads(const PanelLoading& loading) const;
-  /// False when nothing of the panel is left at a corner.
-  [[nodiscard]] bool corner_stands(int corner) const;
-  /// How far the place of a unit force gives way along it while the corners are held, m/N.
+  // Of the panel's nodes in the order of Panel::all_nodes(), global axes. A node that the panel let go of, or at which
+  // nothing of it is left, has zeros.
+  [[nodiscard]] Eigen::MatrixXd stiffness() const;
+  [[nodiscard]] std::vector<Vec6> loads_at_nodes(const PanelLoading& loading) const;
+  /// True while the panel is held at this node and something of it stands there.
+  [[nodiscard]] bool stands_at(std::size_t node) const;
+  [[nodiscard]] std::size_t nodes() const { return node_.size(); }
+
+  // `at_nodes`: displacements of the panel's nodes, as above.
+  /// How far the place of a unit force gives way along it while the panel's nodes are held, m/N.
   [[nodiscard]] double compliance(const PanelForce& unit) const;
-
   /// Mean of the squared translation over what is there.
-  [[nodiscard]] double mean_square_motion(const std::array<Vec6, 4>& corners, const PanelLoading& loading) const;
-
-  /// Mean over each edge of what its supports do to the panel, per `length`, in the axes of the edge; zero for an edge
-  /// without supports. `corners`: displacements; `corner_reactions`: of the supports at the corners themselves.
-  [[nodiscard]] std::array<Vec6, 4> edge_demands(const std::array<Vec6, 4>& corners, const PanelLoading& loading,
+  [[nodiscard]] double mean_square_motion(const std::vector<Vec6>& at_nodes, const PanelLoading& loading) const;
+  /// Mean over each edge of what its supports, and members and panels along it, do to the panel, per `length`, in the
+  /// axes of the edge; zero for an edge without any. A corner between two such edges is shared equally.
+  [[nodiscard]] std::array<Vec6, 4> edge_demands(const std::vector<Vec6>& at_nodes, const PanelLoading& loading,
                                                  const std::array<double, 4>& length) const;
   /// In either face, at the centres of the elements that stand.
-  [[nodiscard]] PanelStress worst_stress(const std::array<Vec6, 4>& corners, const PanelLoading& loading) const;
+  [[nodiscard]] PanelStress worst_stress(const std::vector<Vec6>& at_nodes, const PanelLoading& loading) const;
 
  private:
   void keep_shares();
+  void take_nodes(const Panel& panel);
+  void find_places();
+  [[nodiscard]] bool held_at(std::size_t node) const;
   [[nodiscard]] Vec2 flat(int node) const;
   [[nodiscard]] std::vector<Vec6> node_loads(const PanelLoading& loading) const;
   void add_force(const PanelForce& one, std::vector<Vec6>& loads) const;
-  [[nodiscard]] std::vector<Vec6> recover(const std::array<Vec6, 4>& corners, const PanelLoading& loading) const;
+  [[nodiscard]] std::vector<Vec6> recover(const std::vector<Vec6>& at_nodes, const PanelLoading& loading) const;
   [[nodiscard]] solver::FrameModel model() const;
 
   Mat3 axes_;  ///< of the panel
@@ -71,8 +77,14 @@ class PanelSuperelement {
   Mat3 turn_;  ///< rows: axes of the patch in global components
   double thickness_;
   std::optional<solver::Superelement> patch_;
-  std::vector<double> share_;                       ///< per element: of its area that is there
-  std::array<std::vector<int>, 4> supported_edge_;  ///< patch nodes of edges with supports, corners included
+  std::vector<double> lost_;  ///< per element: of its area, m2
+  std::size_t holes_counted_ = 0;
+  std::vector<double> share_;  ///< per element: of its area that is there
+  std::vector<int> node_;      ///< per node of the panel: that of the patch
+  std::vector<int> edge_;      ///< the edge it is on; -1: a corner
+  std::vector<int> place_;     ///< among those that the patch keeps; -1: let go of
+  std::array<bool, 4> holds_{true, true, true, true};
+  std::array<std::vector<int>, 4> bearing_edge_;  ///< patch nodes of edges that something holds, corners included
 };
 
 }  // namespace topple::structure

@@ -2,6 +2,7 @@
 // The superelements of a standing frame's panels: of its shells and of membranes with
 // openings from the start, of other membranes once they are broken.
 #include <memory>
+#include <stdexcept>
 
 #include "panel_superelement.h"
 
@@ -16,6 +17,7 @@ class PanelSuperelements {
     for (const Panel& panel : building.panels) any = any || panel.model == PanelModel::shell;
     if (!any) return;
     const Frame frame = make_frame(building);
+    refuse_unready(building, frame);
     for (std::size_t p = 0; p < building.panels.size(); ++p)
       if (building.panels[p].model == PanelModel::shell)
         of_panel_[p] = std::make_unique<PanelSuperelement>(building, frame, PanelId(p));
@@ -32,6 +34,22 @@ class PanelSuperelements {
   }
 
  private:
+  /// Members along edges that are not divided at the mesh would be left out.
+  static void refuse_unready(const Building& building, const Frame& frame) {
+    std::vector<std::size_t> panel_at(frame.model.nodes.size(), building.panels.size());
+    for (std::size_t p = 0; p < building.panels.size(); ++p)
+      for (const auto& edge : frame.meshes[p].edge_nodes)
+        for (const int node : edge) {
+          std::size_t& other = panel_at[static_cast<std::size_t>(node)];
+          if (static_cast<std::size_t>(node) >= building.nodes.size() && other < building.panels.size() && other != p)
+            throw std::invalid_argument("shells that share edges stand once the building is readied: join_shells()");
+          other = p;
+        }
+    for (const auto& pieces : frame.pieces)
+      if (!pieces.empty())
+        throw std::invalid_argument("members along shells stand once the building is readied: join_shells()");
+  }
+
   const Building& building_;
   std::vector<std::unique_ptr<PanelSuperelement>> of_panel_;
 };

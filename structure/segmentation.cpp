@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "shell_edges.h"
+
 namespace topple::structure {
 
 Segmentation::Segmentation(const Building& building)
@@ -20,8 +22,8 @@ Segmentation::Segmentation(const Building& building)
       const NodeId node = building[joint.member].nodes[static_cast<std::size_t>(joint.end)];
       edges_.push_back({node.index, vertex(joint.member), true});
     } else if (const int shell = shell_vertex_[static_cast<std::size_t>(joint.panel.index)]; shell >= 0) {
-      for (int corner : {joint.end, (joint.end + 1) % 4})
-        edges_.push_back({building[joint.panel].nodes[static_cast<std::size_t>(corner)].index, shell, true});
+      for (const NodeId node : nodes_of_edge(building, joint.panel, joint.end))
+        edges_.push_back({node.index, shell, true});
     }
   }
   first_edge_of_joint_.push_back(static_cast<int>(edges_.size()));
@@ -76,9 +78,19 @@ int Segmentation::label(PanelId panel) const {
 void Segmentation::break_joint(JointId joint) {
   const auto j = static_cast<std::size_t>(joint.index);
   if (!joint_holds_[j]) return;
-  if (first_edge_of_joint_[j] == first_edge_of_joint_[j + 1]) return;
+  const std::size_t first_of_panels = 2 * static_cast<std::size_t>(members_);
+  if (j >= first_of_panels && shell_vertex_[(j - first_of_panels) / 4] < 0) return;
   joint_holds_[j] = 0;
-  for (int e = first_edge_of_joint_[j]; e < first_edge_of_joint_[j + 1]; ++e) cut(e);
+  for (int e = first_edge_of_joint_[j]; e < first_edge_of_joint_[j + 1]; ++e)
+    if (edges_[static_cast<std::size_t>(e)].holds) cut(e);
+}
+
+void Segmentation::detach(PanelId shell, NodeId node) {
+  for (std::size_t edge = 0; edge < 4; ++edge) {
+    const std::size_t j = 2 * static_cast<std::size_t>(members_) + 4 * static_cast<std::size_t>(shell.index) + edge;
+    for (int e = first_edge_of_joint_[j]; e < first_edge_of_joint_[j + 1]; ++e)
+      if (const Edge& own = edges_[static_cast<std::size_t>(e)]; own.holds && own.first == node.index) cut(e);
+  }
 }
 
 void Segmentation::remove(MemberId member) {

@@ -31,6 +31,8 @@ class Segmentation {
   void remove_support(NodeId node);
   /// A supported edge of a shell panel holds it no more.
   void remove_support(PanelId panel);
+  /// Nothing of a shell panel is left at one of its nodes.
+  void detach(PanelId shell, NodeId node);
 
   /// Parts that have lost their last support since the last call, in order of their least vertex; they leave the graph.
   [[nodiscard]] std::vector<Part> take_unanchored();

@@ -144,7 +144,8 @@ void StandingFrame::State::fracture(PanelId panel, const PanelRemains& remains) 
   account.lighten(panel);
   if (!bearings.serves(panel)) return fracture_shell(panel, remains);
   if (bearings.membrane(panel)) {
-    const Mat24 before = shells.of(panel) ? shells.of(panel)->stiffness() : statics.membrane_stiffness(panel);
+    const Eigen::MatrixXd before =
+        shells.of(panel) ? shells.of(panel)->stiffness() : Eigen::MatrixXd(statics.membrane_stiffness(panel));
     shells.make(panel).fracture(remains);
     replace_stiffness(panel, before);
   }

@@ -130,7 +130,7 @@ Vec6 StandingFrame::State::solved_demand(JointId joint) const {
 }
 
 std::array<Vec6, 4> StandingFrame::State::edge_demands(PanelId panel) const {
-  if (!bearings.serves(panel)) return shell_edge_demands(panel, corner_displacements(panel), loading(panel));
+  if (!bearings.serves(panel)) return shell_edge_demands(panel, node_displacements(panel), loading(panel));
   return panel_edge_demands(building, bearings, loads, panel,
                             bearings.membrane(panel) ? std::optional(statics.corner_forces(panel)) : std::nullopt);
 }
@@ -355,6 +355,10 @@ void StandingFrame::fracture(PanelId panel, const PanelRemains& remains) {
   state.lay_contacts();
   state.fracture(panel, remains);
   state.pending = true;
+}
+
+Eigen::MatrixXd StandingFrame::shell_stiffness(PanelId shell) const {
+  return state_->shells.of(shell)->stiffness();
 }
 
 const FrameCounters& StandingFrame::counters() const {

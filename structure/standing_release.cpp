@@ -102,17 +102,7 @@ void StandingFrame::State::release_mechanism(const FrameMechanism& mechanism) {
   const MovingPart part = find_moving_part(building, segments, mechanism);
   for (MemberId member : part.members) in_mechanism[index_of(member)] = 1;
   for (JointId joint : part.holds) let_hang(joint);
-  // A shell that moves lets go of all that it hangs on.
-  for (std::size_t p = 0; p < building.panels.size(); ++p) {
-    const PanelId panel(p);
-    const auto& corners = building.panels[p].nodes;
-    if (bearings.serves(panel) || segments.label(panel) < 0) continue;
-    if (std::none_of(corners.begin(), corners.end(), [&](NodeId node) {
-          return std::find(part.nodes.begin(), part.nodes.end(), node) != part.nodes.end();
-        }))
-      continue;
-    for (int edge = 0; edge < 4; ++edge) break_joint(building.joint(panel, edge), BreakCause::overload);
-  }
+  release_moving_shells(part.nodes);
   for (NodeId node : part.nodes) {
     if (node_solved[index_of(node)]) account.lose_support(node);
     segments.remove_support(node);

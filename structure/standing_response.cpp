@@ -91,6 +91,8 @@ std::vector<std::pair<JointId, Vec6>> StandingFrame::State::response_demands(
   Vec6 largest = Vec6::Zero();
   MemberId member_read;
   solver::Vec12 end_forces;
+  PanelId panel_read;  // a shell
+  std::array<Vec6, 4> of_edges;
   for (JointId joint : checked_joints[static_cast<std::size_t>(c)]) {
     if (!holds(joint) || label(joint) < 0) continue;
     const Joint& own = building[joint];
@@ -100,11 +102,13 @@ std::vector<std::pair<JointId, Vec6>> StandingFrame::State::response_demands(
       member_read = own.member;
       demand = member_joint_demand(end_forces, own.end);
     } else if (!bearings.serves(own.panel)) {
-      std::array<Vec6, 4> corners;
-      for (std::size_t n = 0; n < 4; ++n) corners[n] = response.displacement(building[own.panel].nodes[n]);
-      PanelLoading unit;
-      if (own.panel == placed.panel) unit.forces.push_back(placed.on_shell);
-      demand = shell_edge_demands(own.panel, corners, unit)[static_cast<std::size_t>(own.end)];
+      if (own.panel != panel_read) {
+        PanelLoading unit;
+        if (own.panel == placed.panel) unit.forces.push_back(placed.on_shell);
+        of_edges = shell_edge_demands(own.panel, node_displacements(own.panel, response), unit);
+      }
+      panel_read = own.panel;
+      demand = of_edges[static_cast<std::size_t>(own.end)];
     } else if (own.panel == placed.panel) {
       demand = handed_edge_demand(building, bearings, own.panel, own.end,
                                   placed.edge_force[static_cast<std::size_t>(own.end)]);
@@ -148,16 +152,14 @@ double StandingFrame::State::rayleigh_mass(int c, const PlacedLoad& placed, cons
 /// A panel moves with its corners; of a shell all nodes are known.
 double StandingFrame::State::panel_mean_square(PanelId panel, const PlacedLoad& placed,
                                                const FrameStatics::Response& response) const {
-  std::array<Vec6, 4> corners;
-  double mean = 0;
-  for (std::size_t n = 0; n < 4; ++n) {
-    corners[n] = response.displacement(building[panel].nodes[n]);
-    mean += corners[n].head<3>().squaredNorm() / 4;
+  if (bearings.serves(panel)) {
+    double mean = 0;
+    for (const NodeId node : building[panel].nodes) mean += response.displacement(node).head<3>().squaredNorm() / 4;
+    return mean;
   }
-  if (bearings.serves(panel)) return mean;
   PanelLoading unit;
   if (panel == placed.panel) unit.forces.push_back(placed.on_shell);
-  return shells.of(panel)->mean_square_motion(corners, unit);
+  return shells.of(panel)->mean_square_motion(node_displacements(panel, response), unit);
 }
 
 double StandingFrame::State::displacement_along(const ContactPlace& place, const Vec3& direction) const {

@@ -1,4 +1,5 @@
-// Shell panels in a standing frame: one element between four corners, with the stiffness of the panel's superelement.
+// Shell panels in a standing frame: one element between the nodes that a panel hangs on, with the stiffness of its
+// superelement.
 #include <algorithm>
 
 #include "index_of.h"
@@ -13,7 +14,7 @@ PlacedLoad StandingFrame::State::place(const ContactPlace& place, const Vec3& fo
   return place_load(building, bearings, place, force, moment);
 }
 
-/// What the corners get of a force on the panel; the panel's own give is that with its corners held.
+/// What the panel's nodes get of a force on it; its own give is that with its nodes held.
 PlacedLoad StandingFrame::State::place_on_shell(const ContactPlace& place, const Vec3& force) const {
   const PanelSuperelement& shell = *shells.of(place.panel);
   PanelLoading loading;
@@ -21,9 +22,10 @@ PlacedLoad StandingFrame::State::place_on_shell(const ContactPlace& place, const
   PlacedLoad placed;
   placed.panel = place.panel;
   placed.on_shell = {place.point, force};
-  const std::array<Vec6, 4> corners = shell.corner_loads(loading);
-  for (std::size_t corner = 0; corner < 4; ++corner)
-    placed.nodes.emplace_back(building[place.panel].nodes[corner], corners[corner]);
+  const std::vector<Vec6> loads = shell.loads_at_nodes(loading);
+  const std::vector<NodeId> nodes = building[place.panel].all_nodes();
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+    if (!loads[n].isZero(0)) placed.nodes.emplace_back(nodes[n], loads[n]);
   placed.bending_compliance = shell.compliance(loading.forces.front());
   return placed;
 }
@@ -37,30 +39,37 @@ PanelLoading StandingFrame::State::loading(PanelId panel) const {
   return loading;
 }
 
-std::array<Vec6, 4> StandingFrame::State::corner_displacements(PanelId panel) const {
-  std::array<Vec6, 4> corners;
-  for (std::size_t n = 0; n < 4; ++n) corners[n] = statics.displacement(building[panel].nodes[n]);
-  return corners;
+std::vector<Vec6> StandingFrame::State::node_displacements(PanelId panel) const {
+  std::vector<Vec6> all;
+  for (const NodeId node : building[panel].all_nodes()) all.push_back(statics.displacement(node));
+  return all;
 }
 
-std::array<Vec6, 4> StandingFrame::State::shell_edge_demands(PanelId panel, const std::array<Vec6, 4>& corners,
+std::vector<Vec6> StandingFrame::State::node_displacements(PanelId panel,
+                                                           const FrameStatics::Response& response) const {
+  std::vector<Vec6> all;
+  for (const NodeId node : building[panel].all_nodes()) all.push_back(response.displacement(node));
+  return all;
+}
+
+std::array<Vec6, 4> StandingFrame::State::shell_edge_demands(PanelId panel, const std::vector<Vec6>& at_nodes,
                                                              const PanelLoading& loading) const {
   std::array<double, 4> length;
   for (int edge = 0; edge < 4; ++edge) length[static_cast<std::size_t>(edge)] = bearings.intact_length(panel, edge);
-  return shells.of(panel)->edge_demands(corners, loading, length);
+  return shells.of(panel)->edge_demands(at_nodes, loading, length);
 }
 
 std::optional<PanelStress> StandingFrame::State::stress(PanelId panel) const {
   if (!stands(panel) || !statics.stiff(panel)) return std::nullopt;
   if (const PanelSuperelement* shell = shells.of(panel)) {
     const PanelLoading all = bearings.serves(panel) ? PanelLoading{} : loading(panel);
-    return shell->worst_stress(corner_displacements(panel), all);
+    return shell->worst_stress(node_displacements(panel), all);
   }
   return mean_membrane_stress(building, panel, statics.corner_forces(panel));
 }
 
-void StandingFrame::State::replace_stiffness(PanelId panel, const Mat24& before) {
-  const Mat24 now = shells.of(panel)->stiffness();
+void StandingFrame::State::replace_stiffness(PanelId panel, const Eigen::MatrixXd& before) {
+  const Eigen::MatrixXd now = shells.of(panel)->stiffness();
   account.soften(panel, before - now);
   statics.set_stiffness(panel, now);
 }
@@ -68,13 +77,13 @@ void StandingFrame::State::replace_stiffness(PanelId panel, const Mat24& before)
 void StandingFrame::State::fracture_shell(PanelId panel, const PanelRemains& remains) {
   bearings.fracture(panel, remains.edge_length);
   const HandOver before = loads.handed(panel);
-  const Mat24 stiffness = shells.of(panel)->stiffness();
+  const Eigen::MatrixXd stiffness = shells.of(panel)->stiffness();
   shells.of(panel)->fracture(remains);
   replace_stiffness(panel, stiffness);
   loads.fracture(panel, remains);
   account.lightened(panel, before, loads.handed(panel));
   place_contacts_again(panel);
-  drop_bare_corners(panel);
+  let_go_of_bare_nodes(panel);
   to_check[static_cast<std::size_t>(statics.component(building[panel].nodes[0]))] = 1;
   std::vector<JointId> bare;
   for (int edge = 0; edge < 4; ++edge)
@@ -83,21 +92,32 @@ void StandingFrame::State::fracture_shell(PanelId panel, const PanelRemains& rem
   break_joints(bare, BreakCause::impact);
 }
 
-/// A supported edge lets go of its supports.
+/// Those of the edge at nodes of the building; what lies between them is within the panel.
+void StandingFrame::State::lose_edge_supports(PanelId panel, int edge) {
+  const auto e = static_cast<std::size_t>(edge);
+  for (std::size_t s = 0; s < building.edge_supports.size(); ++s) {
+    if (building.edge_supports[s].panel != panel || building.edge_supports[s].edge != edge) continue;
+    segments.remove_support(panel);
+    std::vector<NodeId> held = building[panel].edge_nodes[e];
+    for (const std::size_t corner : {e, (e + 1) % 4}) held.push_back(building[panel].nodes[corner]);
+    for (const NodeId node : held) {
+      if (node_solved[index_of(node)]) account.lose_support(node, statics.reaction(node, s));
+      statics.remove_support(node, s);
+    }
+  }
+}
+
+/// An edge lets go of its supports, and of the members and panels along it.
 void StandingFrame::State::lose_shell_edge(PanelId panel, int edge) {
   segments.break_joint(building.joint(panel, edge));
-  for (const EdgeSupport& support : building.edge_supports) {
-    if (support.panel != panel || support.edge != edge) continue;
-    segments.remove_support(panel);
-    const Mat24 before = shells.of(panel)->stiffness();
+  lose_edge_supports(panel, edge);
+  if (segments.label(panel) >= 0 && statics.stiff(panel)) {
+    const Eigen::MatrixXd before = shells.of(panel)->stiffness();
     shells.of(panel)->release_edge(edge);
     replace_stiffness(panel, before);
-    for (const int corner : {edge, (edge + 1) % 4}) {
-      const NodeId node = building[panel].nodes[static_cast<std::size_t>(corner)];
-      if (node_solved[index_of(node)]) account.lose_support(node);
-      statics.remove_support(node);
-    }
     hand_on_anew(panel);
+    place_contacts_again(panel);
+    let_go_of_bare_nodes(panel);
   }
   to_check[static_cast<std::size_t>(statics.component(building[panel].nodes[0]))] = 1;
 }
@@ -108,25 +128,53 @@ void StandingFrame::State::leave_shell(PanelId panel) {
     account.lose_membrane(panel);
     statics.remove_membrane(panel);
   }
+  for (int edge = 0; edge < 4; ++edge) lose_edge_supports(panel, edge);
   account.hand_on(panel);
   loads.remove(panel);
   for (int edge = 0; edge < 4; ++edge) joints.lose(building.joint(panel, edge));
-  drop_bare_corners(panel);
+  let_go_of_bare_nodes(panel);
   to_check[static_cast<std::size_t>(statics.component(building[panel].nodes[0]))] = 1;
 }
 
-/// Corners at which nothing of the panel is left, nor anything else: the solver has no stiffness for them.
-void StandingFrame::State::drop_bare_corners(PanelId panel) {
-  for (int corner = 0; corner < 4; ++corner) {
-    const NodeId node = building[panel].nodes[static_cast<std::size_t>(corner)];
-    const bool here = segments.label(panel) >= 0 && shells.of(panel)->corner_stands(corner);
-    if (here || !node_solved[index_of(node)]) continue;
-    int others = segments.degree(node);
-    for (int edge = 0; edge < 4; ++edge)
-      if ((edge == corner || (edge + 1) % 4 == corner) && segments.holds(building.joint(panel, edge))) --others;
-    if (others > 0) continue;
-    account.drop(node);
-    drop_node(node);
+/// Where nothing of the panel is left it holds nothing together; nodes without anything else leave the solver, which
+/// has no stiffness for them.
+void StandingFrame::State::let_go_of_bare_nodes(PanelId panel) {
+  const std::vector<NodeId> nodes = building[panel].all_nodes();
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    if (statics.stiff(panel) && shells.of(panel)->stands_at(n)) continue;
+    segments.detach(panel, nodes[n]);
+    if (!node_solved[index_of(nodes[n])] || segments.degree(nodes[n]) > 0) continue;
+    take(bearings.bare(nodes[n]), nullptr);
+    account.drop(nodes[n]);
+    drop_node(nodes[n]);
+  }
+}
+
+/// A shell between what moves and what stands lets go of what moves; one of which all moves lets go of what stands.
+void StandingFrame::State::release_moving_shells(const std::vector<NodeId>& moving) {
+  std::vector<char> moves(building.nodes.size(), 0);
+  for (const NodeId node : moving) moves[index_of(node)] = 1;
+  for (std::size_t p = 0; p < building.panels.size(); ++p) {
+    const PanelId panel(p);
+    if (bearings.serves(panel) || segments.label(panel) < 0) continue;
+    const std::vector<NodeId> nodes = building.panels[p].all_nodes();
+    bool any = false, all = true;
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+      if (!shells.of(panel)->stands_at(n)) continue;
+      any = any || moves[index_of(nodes[n])];
+      all = all && moves[index_of(nodes[n])];
+    }
+    if (!any) continue;
+    for (int edge = 0; edge < 4; ++edge) {
+      const auto e = static_cast<std::size_t>(edge);
+      std::vector<NodeId> on_edge = building.panels[p].edge_nodes[e];
+      for (const std::size_t corner : {e, (e + 1) % 4}) on_edge.push_back(building.panels[p].nodes[corner]);
+      if (std::any_of(on_edge.begin(), on_edge.end(), [&](NodeId node) { return (moves[index_of(node)] != 0) != all; }))
+        break_joint(building.joint(panel, edge), BreakCause::overload);
+    }
+    if (!all) continue;
+    for (const EdgeSupport& support : building.edge_supports)  // what moves stands on nothing
+      if (support.panel == panel) break_joint(building.joint(panel, support.edge), BreakCause::overload);
   }
 }
 

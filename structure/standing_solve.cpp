@@ -92,17 +92,12 @@ bool StandingFrame::State::one_segment(int c) const {
   return true;
 }
 
-/// What their edges bear follows from the displacements of all corners, which a restricted answer does not know.
-bool StandingFrame::State::has_shells(int c) const {
-  const std::vector<PanelId>& all = component_panels[static_cast<std::size_t>(c)];
-  return std::any_of(all.begin(), all.end(), [&](PanelId panel) { return !bearings.serves(panel) && stands(panel); });
-}
-
 /// Solves where it may matter to what breaks next, and reads what the joints there bear. A way on which joints yield
-/// needs all of them; where few nodes stand, telling them apart costs more than a whole answer.
+/// needs all of them, as do shells, whose edges bear what all of their nodes do; where few nodes stand, telling them
+/// apart costs more than a whole answer.
 std::optional<FrameMechanism> StandingFrame::State::solve(int c) {
   const bool large = static_cast<int>(statics.nodes(c).size()) >= restricted_from;
-  if (!large || rules.second_order || ductile.any(c) || has_shells(c) || !one_segment(c)) {
+  if (!large || rules.second_order || ductile.any(c) || !statics.shells(c).empty() || !one_segment(c)) {
     auto mechanism = statics.solve(c);
     if (!mechanism) read_demands(c, false);
     return mechanism;

@@ -57,15 +57,19 @@ struct StandingFrame::State {
   // Shell panels (standing_shells.cpp).
   [[nodiscard]] PlacedLoad place_on_shell(const ContactPlace& place, const Vec3& force) const;
   [[nodiscard]] PanelLoading loading(PanelId panel) const;
-  [[nodiscard]] std::array<Vec6, 4> corner_displacements(PanelId panel) const;
-  [[nodiscard]] std::array<Vec6, 4> shell_edge_demands(PanelId panel, const std::array<Vec6, 4>& corners,
+  /// Of a panel's nodes (Panel::all_nodes()).
+  [[nodiscard]] std::vector<Vec6> node_displacements(PanelId panel) const;
+  [[nodiscard]] std::vector<Vec6> node_displacements(PanelId panel, const FrameStatics::Response& response) const;
+  [[nodiscard]] std::array<Vec6, 4> shell_edge_demands(PanelId panel, const std::vector<Vec6>& at_nodes,
                                                        const PanelLoading& loading) const;
   [[nodiscard]] std::optional<PanelStress> stress(PanelId panel) const;
-  void replace_stiffness(PanelId panel, const Mat24& before);
+  void replace_stiffness(PanelId panel, const Eigen::MatrixXd& before);
   void fracture_shell(PanelId panel, const PanelRemains& remains);
   void lose_shell_edge(PanelId panel, int edge);
+  void lose_edge_supports(PanelId panel, int edge);
   void leave_shell(PanelId panel);
-  void drop_bare_corners(PanelId panel);
+  void let_go_of_bare_nodes(PanelId panel);
+  void release_moving_shells(const std::vector<NodeId>& moving);
 
   /// Number of each label among the standing segments, in order of their least node.
   const std::vector<int>& numbered_segments() const;
@@ -103,7 +107,6 @@ struct StandingFrame::State {
   [[nodiscard]] bool solve_changed();
   [[nodiscard]] std::optional<FrameMechanism> solve(int component);
   [[nodiscard]] bool one_segment(int component) const;
-  [[nodiscard]] bool has_shells(int component) const;
   void complete();
   void complete(int component);
   void read_demands(int component, bool slow);

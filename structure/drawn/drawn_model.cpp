@@ -49,6 +49,7 @@ struct DrawnModel::State {
   void follow(Source source, const Simulation& simulation, std::vector<Source>& result);
   [[nodiscard]] fracture::Plane between(Part first, Part second, const Simulation& simulation) const;
   [[nodiscard]] std::map<Part, std::size_t> samples(const fracture::Mesh& mesh, const std::vector<Part>& among) const;
+  [[nodiscard]] std::vector<Part> pieces_of(MemberId member) const;
   void list();
 
   const Building& building;
@@ -59,6 +60,19 @@ struct DrawnModel::State {
   std::size_t events_seen = static_cast<std::size_t>(-1);
   std::vector<std::int64_t> bodies_seen;
 };
+
+/// A member with its later pieces, where it is divided (divide_member.h).
+std::vector<Part> DrawnModel::State::pieces_of(MemberId member) const {
+  std::vector<Part> parts{Part(member)};
+  const NameIndex names(building);
+  const std::string& name = building[member].name;
+  for (int n = 2; names.node(name + "/cut-1"); ++n) {
+    const auto piece = names.member(name + "/" + std::to_string(n));
+    if (!piece) break;
+    parts.emplace_back(*piece);
+  }
+  return parts;
+}
 
 /// How many places of a mesh lie nearest to each part.
 std::map<Part, std::size_t> DrawnModel::State::samples(const fracture::Mesh& mesh,
@@ -177,7 +191,7 @@ DrawnModel::DrawnModel(const Building& building, std::vector<DrawnMesh> meshes)
     s.volume += source.piece.volume;
     source.piece.mesh = std::make_shared<const fracture::Mesh>(std::move(drawn.mesh));
     if (drawn.member.valid())
-      source.parts = {Part(drawn.member)};
+      source.parts = s.pieces_of(drawn.member);
     else if (drawn.panel.valid())
       source.parts = {Part(drawn.panel)};
     else

@@ -90,22 +90,48 @@ bool PartPlaces::touches(Part part, NodeId node) const {
   return std::find(nodes.begin(), nodes.end(), node) != nodes.end();
 }
 
-Vec3 PartPlaces::displacement(Part part, const Vec3& point, const StandingFrame& frame) const {
-  if (part.member.valid()) {
-    const Member& member = building_[part.member];
-    const Line own = line(part);
-    const double s = along(own, point);
-    Vec3 sum = Vec3::Zero();
-    for (std::size_t end = 0; end < 2; ++end) {
-      const Vec6& u = frame.displacement(member.nodes[end]);
-      // The axis between the ends is taken straight; what hangs beside it turns with the ends.
-      const Vec3 beside = point - (own[0] + s * (own[1] - own[0]));
-      const double share = end == 0 ? 1 - s : s;
-      const Vec3 turn = u.tail<3>();
-      sum += share * (u.head<3>() + turn.cross(member.offsets[end] + beside));
-    }
-    return sum;
+/// A member bends as the cubic beam between its ends; one that is free to turn at an end has no curvature there.
+Vec3 PartPlaces::bent(MemberId id, const Vec3& point, const StandingFrame& frame) const {
+  const Member& member = building_[id];
+  const Line own = line(Part(id));
+  const double s = along(own, point), length = member.length;
+  std::array<Vec3, 2> u, turn;  // of the ends, local axes
+  for (std::size_t end = 0; end < 2; ++end) {
+    const Vec6& hub = frame.displacement(member.nodes[end]);
+    turn[end] = hub.tail<3>();
+    u[end] = member.axes * (hub.head<3>() + turn[end].cross(member.offsets[end]));
+    turn[end] = member.axes * turn[end];
   }
+  // Slopes of the axis towards y (turning about z) and towards z (about -y).
+  std::array<Vec2, 2> slope;
+  const Vec2 chord = (u[1] - u[0]).tail<2>() / length;
+  const std::array<Vec2, 2> hub_slope{Vec2(turn[0].z(), -turn[0].y()), Vec2(turn[1].z(), -turn[1].y())};
+  for (int way = 0; way < 2; ++way) {
+    const int turns_about = way == 0 ? 5 : 4;
+    const auto free = [&](int end) {
+      const JointId joint = building_.joint(id, end);
+      return !frame.intact(joint) || building_[joint].stiffness(turns_about) == 0;
+    };
+    for (int end = 0; end < 2; ++end) {
+      const auto e = static_cast<std::size_t>(end);
+      if (!free(end))
+        slope[e](way) = hub_slope[e](way);
+      else
+        slope[e](way) = free(1 - end) ? chord(way) : 1.5 * chord(way) - 0.5 * hub_slope[1 - e](way);
+    }
+  }
+  const double a = (1 - s) * (1 - s) * (1 + 2 * s), b = s * (1 - s) * (1 - s) * length, d = s * s * (s - 1) * length;
+  const Vec2 across = a * u[0].tail<2>() + b * slope[0] + (1 - a) * u[1].tail<2>() + d * slope[1];
+  const Vec2 turned = 6 * s * (1 - s) * chord + (1 - s) * (1 - 3 * s) * slope[0] + s * (3 * s - 2) * slope[1];
+  const Vec3 axis(u[0].x() + s * (u[1].x() - u[0].x()), across.x(), across.y());
+  const Vec3 rotation(turn[0].x() + s * (turn[1].x() - turn[0].x()), -turned.y(), turned.x());
+  // What hangs beside the axis turns with it.
+  const Vec3 beside = member.axes * (point - (own[0] + s * (own[1] - own[0])));
+  return member.axes.transpose() * (axis + rotation.cross(beside));
+}
+
+Vec3 PartPlaces::displacement(Part part, const Vec3& point, const StandingFrame& frame) const {
+  if (part.member.valid()) return bent(part.member, point, frame);
   Vec3 sum = Vec3::Zero();
   double weights = 0;
   for (const NodeId node : building_[part.panel].nodes) {

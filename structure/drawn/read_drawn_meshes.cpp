@@ -1,5 +1,6 @@
 // The `meshes` of a model: what the key holds, and the glTF files that it names.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <stdexcept>
 
@@ -10,6 +11,13 @@
 #include "topple/structure/error.h"
 
 namespace topple::structure {
+
+bool has_drawn_weight(const std::filesystem::path& file) {
+  if (file.extension() != ".json") return false;
+  const formats::JsonDocument document = formats::JsonDocument::from_file(file);
+  const std::vector<formats::MeshEntry> entries = formats::read_meshes(document.root());
+  return std::any_of(entries.begin(), entries.end(), [](const formats::MeshEntry& entry) { return entry.density > 0; });
+}
 
 std::vector<DrawnMesh> read_drawn_meshes(const Building& building, const std::filesystem::path& file) {
   if (file.extension() != ".json") return {};
@@ -25,7 +33,8 @@ std::vector<DrawnMesh> read_drawn_meshes(const Building& building, const std::fi
       throw InputError(building.file + ", meshes." + entry.name + ".file: " + error.what());
     }
     for (fracture::NamedMesh& one : drawn) {
-      DrawnMesh mesh{one.name, std::move(one.mesh), {}, {}};
+      const double unit = building.units.mass / std::pow(building.units.length, 3);
+      DrawnMesh mesh{one.name, std::move(one.mesh), {}, {}, entry.density * unit};
       if (const auto bound = entry.bind.find(mesh.name); bound != entry.bind.end()) {
         mesh.member = names.member(bound->second).value_or(MemberId());
         mesh.panel = names.panel(bound->second).value_or(PanelId());

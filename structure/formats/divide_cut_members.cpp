@@ -1,9 +1,7 @@
 #include "formats/divide_cut_members.h"
 
-#include <set>
-
 #include "formats/model_reader.h"
-#include "topple/structure/divide_member.h"
+#include "topple/structure/join_shells.h"
 
 namespace topple::structure::formats {
 
@@ -24,10 +22,10 @@ double read_place(const JsonValue& value) {
 
 CutPlaces divide_cut_members(const JsonValue& root, Building& building) {
   CutPlaces cuts;
-  std::map<std::string, std::set<double>> places;
-  const auto events = root.find("events");
-  if (!events || !events->is_array()) return cuts;
+  MemberPlaces places;
   const NameIndex names(building);
+  const auto events = root.find("events");
+  if (!events || !events->is_array()) return join_shells(building);
   for (const JsonValue event : *events) {
     const auto cut = event.is_object() ? event.find("cut") : std::nullopt;
     const auto members = cut && cut->is_object() ? cut->find("members") : std::nullopt;
@@ -50,11 +48,7 @@ CutPlaces divide_cut_members(const JsonValue& root, Building& building) {
       }
     }
   }
-  for (const auto& [name, at] : places) {
-    const std::vector<double> ascending(at.begin(), at.end());
-    const std::vector<JointId> joints = divide_member(building, *names.member(name), ascending);
-    for (std::size_t i = 0; i < joints.size(); ++i) cuts[{name, ascending[i]}] = building[joints[i]].name;
-  }
+  cuts.merge(join_shells(building, places));
   return cuts;
 }
 

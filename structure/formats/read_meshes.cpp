@@ -12,8 +12,7 @@ std::vector<MeshEntry> read_meshes(const JsonValue& root) {
     MeshEntry& entry = entries.emplace_back();
     entry.name = item.key();
     entry.file = item.require("file").text("the path of a glTF file, from the model's folder");
-    if (const auto density = item.find("density"); density && density->not_negative() > 0)
-      density->fail("a density above 0 is not built yet; accepted: 0, or leave the key out");
+    if (const auto density = item.find("density")) entry.density = density->not_negative();
     if (const auto material = item.find("material")) {
       entry.material = material->text();
       const auto materials = root.find("materials");

@@ -10,6 +10,7 @@ namespace topple::structure::formats {
 
 struct MeshEntry {
   std::string name, file, material;
+  double density = 0;                       ///< in the model's units
   std::map<std::string, std::string> bind;  ///< glTF node to member or panel; empty: nearest
 };
 

@@ -1,6 +1,7 @@
 // A model from its file: the stages of reading in their order.
 #include <system_error>
 
+#include "drawn/drawn_weight.h"
 #include "formats/frame3dd.h"
 #include "formats/model_files.h"
 #include "formats/model_forms.h"
@@ -82,6 +83,7 @@ Building read_model(const std::filesystem::path& file, Purpose purpose) {
     throw InputError(file.string() +
                      ": a model of unknown format; accepted: a file that ends in .json or .3dd, or a folder of tables");
   refuse_unbuilt(building, purpose);
+  if (purpose != Purpose::inspect) add_drawn_weight(building, file);
   return building;
 }
 

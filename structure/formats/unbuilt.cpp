@@ -15,25 +15,6 @@ namespace {
 
 // Each function refuses one feature; a feature that is built for one purpose is left out of that purpose's list below.
 
-/// What stands knows a shell by its four corners: along its edges it bends freely.
-void refuse_joined_shells(const Building& building) {
-  const EdgeMembers edges(building);
-  for (std::size_t p = 0; p < building.panels.size(); ++p) {
-    const Panel& panel = building.panels[p];
-    if (panel.model != PanelModel::shell) continue;
-    for (int edge = 0; edge < 4; ++edge)
-      if (!edges.of(PanelId(p), edge).empty())
-        refuse(building, "panels." + panel.name, "a member along an edge of a \"shell\"");
-    for (std::size_t other = 0; other < p; ++other) {
-      int shared = 0;
-      for (const NodeId node : panel.nodes)
-        shared +=
-            std::count(building.panels[other].nodes.begin(), building.panels[other].nodes.end(), node) > 0 ? 1 : 0;
-      if (building.panels[other].model == PanelModel::shell && shared > 1)
-        refuse(building, "panels." + panel.name, "an edge that two \"shell\" panels share");
-    }
-  }
-}
 /// A membrane is one element and a cladding none.
 void refuse_meshes_of_panels(const Building& building) {
   for (const Panel& panel : building.panels)
@@ -64,8 +45,7 @@ void refuse_diaphragms(const Building& building) {
 void refuse_unbuilt(const Building& building, Purpose purpose) {
   using Refusal = void (*)(const Building&);
   static constexpr std::array<Refusal, 2> analyse{refuse_meshes_of_panels, refuse_giving_edges};
-  static constexpr std::array<Refusal, 4> demolish{refuse_joined_shells, refuse_meshes_of_panels,
-                                                   refuse_one_way_members, refuse_diaphragms};
+  static constexpr std::array<Refusal, 3> demolish{refuse_meshes_of_panels, refuse_one_way_members, refuse_diaphragms};
   switch (purpose) {
     case Purpose::analyse:
       for (const Refusal refusal : analyse) refusal(building);

@@ -25,11 +25,14 @@ std::vector<std::vector<int>> neighbours(const Building& building) {
   return of;
 }
 
+/// `given`: nodes on the edge that were found before.
 std::vector<EdgeNode> nodes_on(const Building& building, const std::vector<std::vector<int>>& neighbours, NodeId a,
-                               NodeId b) {
+                               NodeId b, const std::vector<NodeId>& given) {
   const Vec3 start = building[a].position, edge = building[b].position - start;
   const double length = edge.norm();
   std::vector<EdgeNode> found{{0, a.index}, {1, b.index}};
+  for (const NodeId node : given)
+    found.push_back({(building[node].position - start).dot(edge) / (length * length), node.index});
   for (std::size_t next = 0; next < found.size(); ++next)
     for (const int node : neighbours[static_cast<std::size_t>(found[next].node)]) {
       const auto same = [&](const EdgeNode& known) { return known.node == node; };
@@ -52,7 +55,8 @@ PanelEdges::PanelEdges(const Building& building) : nodes_(4 * building.panels.si
     const Panel& panel = building.panels[p];
     if (panel.model != PanelModel::shell) continue;
     for (std::size_t edge = 0; edge < 4; ++edge)
-      nodes_[4 * p + edge] = nodes_on(building, joined, panel.nodes[edge], panel.nodes[(edge + 1) % 4]);
+      nodes_[4 * p + edge] =
+          nodes_on(building, joined, panel.nodes[edge], panel.nodes[(edge + 1) % 4], panel.edge_nodes[edge]);
   }
 }
 

@@ -58,7 +58,9 @@ bool take_lines(const PanelEdges& edges, const SegmentLines& segments, PanelLine
     const auto& nodes = edges.nodes(lines.panel, edge);
     for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
       const EdgeSegment segment = std::minmax(nodes[i].node, nodes[i + 1].node);
-      for (const double at : segments.at(segment)) {
+      const auto on_it = segments.find(segment);
+      if (on_it == segments.end()) continue;  // rounding put the lines at its ends on its neighbours
+      for (const double at : on_it->second) {
         const double along = edges.along(lines.panel, edge, {segment, at});
         changed = add_line(lines.at[edge % 2], PanelSurface::line_of(edge, along)) || changed;
       }

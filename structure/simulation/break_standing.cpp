@@ -55,7 +55,9 @@ double Simulation::State::break_out(Strike& hit) {
   // Local damage has lengths of its own; only a larger body makes it larger.
   const auto& settings = breakable_panels[static_cast<std::size_t>(panel.index)].settings;
   if (radius && settings->method == fracture::Method::local && *radius < settings->local.length[1]) radius.reset();
-  std::vector<PanelChunk> chunks = breaking(panel).hit(hit.place.point, radius);
+  std::vector<PanelChunk> chunks = hit.body->radius > 0
+                                       ? breaking(panel).hit_through(hit.place.point, radius, hit.body->radius)
+                                       : breaking(panel).hit(hit.place.point, radius);
   double plug = 0;
   for (const PanelChunk& chunk : chunks) plug += chunk.hit ? chunk.rest.mass : 0;
   if (chunks.empty()) return 0;
@@ -74,8 +76,19 @@ BrokenPanel& Simulation::State::breaking(PanelId panel) {
       .first->second;
 }
 
-/// A joint holds an edge where something is there to hold it: of a shell, which joins at its corners and at supported
-/// edges, that is not so for every edge.
+namespace {
+
+bool lies_on_edge(const Panel& panel, int edge, NodeId node) {
+  const auto e = static_cast<std::size_t>(edge);
+  const std::vector<NodeId>& inside = panel.edge_nodes[e];
+  return panel.nodes[e] == node || panel.nodes[(e + 1) % 4] == node ||
+         std::find(inside.begin(), inside.end(), node) != inside.end();
+}
+
+}  // namespace
+
+/// A joint holds an edge where something is there to hold it: of a shell, which joins at its corners, at supported
+/// edges and where members or other shells lie along it, that is not so for every edge.
 std::array<bool, 4> Simulation::State::held(PanelId panel) const {
   const auto supported = [&](int edge) {
     return std::any_of(building.edge_supports.begin(), building.edge_supports.end(),
@@ -90,6 +103,12 @@ std::array<bool, 4> Simulation::State::held(PanelId panel) const {
         if (at(building.members[m].nodes[static_cast<std::size_t>(end)]) &&
             frame->intact(building.joint(MemberId(m), end)) && frame->stands(MemberId(m)))
           return true;
+    for (std::size_t p = 0; p < building.panels.size(); ++p) {
+      const Panel& other = building.panels[p];
+      if (PanelId(p) == panel || other.model != PanelModel::shell || !frame->stands(PanelId(p))) continue;
+      for (int edge = 0; edge < 4; ++edge)
+        if (frame->intact(building.joint(PanelId(p), edge)) && lies_on_edge(other, edge, node)) return true;
+    }
     return false;
   };
   std::array<bool, 4> edges{};
@@ -97,7 +116,9 @@ std::array<bool, 4> Simulation::State::held(PanelId panel) const {
     bool holds = frame->intact(building.joint(panel, edge));
     if (holds && building[panel].model == PanelModel::shell)
       holds = supported(edge) || bears(building[panel].nodes[static_cast<std::size_t>(edge)]) ||
-              bears(building[panel].nodes[static_cast<std::size_t>((edge + 1) % 4)]);
+              bears(building[panel].nodes[static_cast<std::size_t>((edge + 1) % 4)]) ||
+              std::any_of(building[panel].edge_nodes[static_cast<std::size_t>(edge)].begin(),
+                          building[panel].edge_nodes[static_cast<std::size_t>(edge)].end(), bears);
     edges[static_cast<std::size_t>(edge)] = holds;
   }
   return edges;

@@ -103,7 +103,9 @@ std::vector<collision::BodyId> Simulation::State::fall_apart(collision::BodyId i
   const Mat3 turn = state.pose.orientation.toRotationMatrix();
   std::unique_ptr<FreeSegment>& segment = free_segments[id.value];
   const auto holds = [&](JointId joint) { return holds_in_debris(joint); };
-  if (!segment) segment = std::make_unique<FreeSegment>(building, parts_of(one), holds);
+  if (!segment)
+    segment = std::make_unique<FreeSegment>(building, parts_of(one), holds,
+                                            [&](PanelId shell) { return frame->shell_stiffness(shell); });
   if (!segment->can_break()) return {};
   const FreeSegment::Answer answer =
       segment->bear(pushes, turn.transpose() * state.angular_velocity, turn.transpose() * gravity);

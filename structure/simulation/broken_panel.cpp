@@ -39,6 +39,18 @@ fracture::Polygon shape_within(const fracture::Polygon& outline, const fracture:
   return kept;
 }
 
+/// Something of the panel is nearer to a point than this.
+bool reaches_into(const fracture::BreakablePanel& panel, const Vec2& centre, double radius) {
+  const auto near_side = [&](const Vec2& a, const Vec2& b) {
+    const Vec2 way = b - a;
+    const double along = std::clamp((centre - a).dot(way) / way.squaredNorm(), 0.0, 1.0);
+    return (a + along * way - centre).norm() < radius;
+  };
+  for (const auto& [a, b, c] : panel.triangles())
+    if (near_side(a, b) || near_side(b, c) || near_side(c, a) || fracture::contains({a, b, c}, centre)) return true;
+  return false;
+}
+
 }  // namespace
 
 fracture::PanelShape BrokenPanel::shape_of(const Building& building, const Panel& panel, const Plane& plane,
@@ -64,6 +76,21 @@ BrokenPanel::BrokenPanel(const Building& building, PanelId id, double mass, cons
 
 std::vector<PanelChunk> BrokenPanel::hit(const Vec3& at, std::optional<double> radius) {
   return take(panel_.hit(plane_.flat(at), radius));
+}
+
+std::vector<PanelChunk> BrokenPanel::hit_through(const Vec3& at, std::optional<double> first, double radius) {
+  // Grazing a cell by less than this share of its radius a body pushes past.
+  constexpr double grazed = 0.05, growth = 1.25;
+  const double most = radius + (space_[2] - space_[0]).norm();
+  std::optional<double> wanted = first;
+  // Tried out on copies: the one hit that is carried out then leaves no slivers of others.
+  for (double reach = std::max(radius, first.value_or(radius)); reach < most; reach *= growth) {
+    if (reach > std::max(radius, first.value_or(radius))) wanted = reach;
+    fracture::BreakablePanel trial(panel_);
+    if (trial.hit(plane_.flat(at), wanted).chunks.empty()) return {};
+    if (!reaches_into(trial, plane_.flat(at), (1 - grazed) * radius)) break;
+  }
+  return hit(at, wanted);
 }
 
 std::vector<PanelChunk> BrokenPanel::hold(const std::array<bool, 4>& held) {

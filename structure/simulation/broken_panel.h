@@ -31,6 +31,9 @@ class BrokenPanel {
 
   /// What a hit at a point breaks out and what then hangs on nothing. Empty when nothing can break there.
   [[nodiscard]] std::vector<PanelChunk> hit(const Vec3& at, std::optional<double> radius);
+  /// The same for a body of this radius that goes through: the hit is as much larger as it takes for nothing of the
+  /// panel to be left within the radius, for cells break by where their sites lie. `first`: as without the body.
+  [[nodiscard]] std::vector<PanelChunk> hit_through(const Vec3& at, std::optional<double> first, double radius);
   /// Other edges hold it from now on: what hangs on nothing leaves.
   [[nodiscard]] std::vector<PanelChunk> hold(const std::array<bool, 4>& held);
   /// All that remains, as chunks.

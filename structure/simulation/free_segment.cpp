@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "index_of.h"
+#include "shell_edges.h"
 #include "topple/structure/frame.h"
 #include "topple/structure/joint_check.h"
 
@@ -39,7 +40,8 @@ Vec3 start_of(const Building& building, const Member& member) {
 
 }  // namespace
 
-FreeSegment::FreeSegment(const Building& building, FreeSegmentParts parts, const std::function<bool(JointId)>& holds)
+FreeSegment::FreeSegment(const Building& building, FreeSegmentParts parts, const std::function<bool(JointId)>& holds,
+                         const std::function<Eigen::MatrixXd(PanelId)>& shell_stiffness)
     : building_(building), parts_(std::move(parts)), node_number_(building.nodes.size(), -1) {
   int held_at = -1;
   bool breakable = false;
@@ -51,7 +53,7 @@ FreeSegment::FreeSegment(const Building& building, FreeSegmentParts parts, const
       const auto e = static_cast<std::size_t>(end);
       const JointId joint = building.joint(id, end);
       if (holds(joint)) {
-        beam.node[e] = node_at(id, end);
+        beam.node[e] = node_at(member.nodes[e]);
         beam.end_stiffness[e] = building[joint].stiffness;
         if (building[joint].capacity.breakable) {
           joints_.push_back(joint);
@@ -73,6 +75,8 @@ FreeSegment::FreeSegment(const Building& building, FreeSegmentParts parts, const
       add_mass(first + place * along, parts_.member_mass[i] / 2);
   }
   std::sort(joints_.begin(), joints_.end());
+  for (const PanelId panel : parts_.panels)
+    if (shell_stiffness && building[panel].model == PanelModel::shell) add_shell(panel, shell_stiffness(panel));
   for (std::size_t i = 0; i < parts_.nodes.size(); ++i) {
     const int number = node_number_[index_of(parts_.nodes[i])];
     if (number < 0) continue;
@@ -102,8 +106,22 @@ FreeSegment::FreeSegment(const Building& building, FreeSegmentParts parts, const
   }
 }
 
-int FreeSegment::node_at(MemberId member, int end) {
-  const NodeId node = building_[member].nodes[static_cast<std::size_t>(end)];
+/// By the nodes at which it has any stiffness.
+void FreeSegment::add_shell(PanelId panel, const Eigen::MatrixXd& stiffness) {
+  const std::vector<NodeId> nodes = building_[panel].all_nodes();
+  solver::Patch patch;
+  std::vector<int> kept;
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    const auto first = static_cast<Eigen::Index>(6 * n);
+    if (stiffness.block<6, 6>(first, first).isZero(0)) continue;
+    patch.node.push_back(node_at(nodes[n]));
+    for (int c = 0; c < 6; ++c) kept.push_back(static_cast<int>(first) + c);
+  }
+  patch.stiffness = stiffness(kept, kept);
+  model_.patches.push_back(std::move(patch));
+}
+
+int FreeSegment::node_at(NodeId node) {
   int& number = node_number_[index_of(node)];
   if (number < 0) {
     number = static_cast<int>(model_.nodes.size());
@@ -225,11 +243,11 @@ FreeSegment::Answer FreeSegment::bear(std::span<const FreePush> pushes, const Ve
 
 std::vector<FreeSegmentParts> connected_parts(const Building& building, const FreeSegmentParts& whole,
                                               const std::function<bool(JointId)>& holds) {
-  // Vertices: members, then nodes.
-  const std::size_t members = whole.members.size();
+  // Vertices: members, then nodes, then panels, of which only shells are joined to anything.
+  const std::size_t members = whole.members.size(), first_panel = members + whole.nodes.size();
   std::map<NodeId, std::size_t> node_vertex;
   for (std::size_t n = 0; n < whole.nodes.size(); ++n) node_vertex[whole.nodes[n]] = members + n;
-  std::vector<std::size_t> parent(members + whole.nodes.size());
+  std::vector<std::size_t> parent(first_panel + whole.panels.size());
   std::iota(parent.begin(), parent.end(), std::size_t{0});
   const auto find = [&](std::size_t v) {
     while (parent[v] != v) v = parent[v] = parent[parent[v]];
@@ -242,6 +260,17 @@ std::vector<FreeSegmentParts> connected_parts(const Building& building, const Fr
       if (vertex == node_vertex.end() || !holds(building.joint(whole.members[m], end))) continue;
       const std::size_t a = find(m), b = find(vertex->second);
       parent[std::max(a, b)] = std::min(a, b);
+    }
+  const auto is_shell = [&](std::size_t p) { return building[whole.panels[p]].model == PanelModel::shell; };
+  for (std::size_t p = 0; p < whole.panels.size(); ++p)
+    for (int edge = 0; edge < 4 && is_shell(p); ++edge) {
+      if (!holds(building.joint(whole.panels[p], edge))) continue;
+      for (const NodeId node : nodes_of_edge(building, whole.panels[p], edge)) {
+        const auto vertex = node_vertex.find(node);
+        if (vertex == node_vertex.end()) continue;
+        const std::size_t a = find(first_panel + p), b = find(vertex->second);
+        parent[std::max(a, b)] = std::min(a, b);
+      }
     }
   std::vector<FreeSegmentParts> parts;
   std::vector<int> part_of(parent.size(), -1);
@@ -264,6 +293,12 @@ std::vector<FreeSegmentParts> connected_parts(const Building& building, const Fr
     own.node_mass.push_back(whole.node_mass[n]);
   }
   for (std::size_t p = 0; p < whole.panels.size(); ++p) {
+    if (is_shell(p)) {
+      FreeSegmentParts& own = part(first_panel + p);
+      own.panels.push_back(whole.panels[p]);
+      own.panel_mass.push_back(whole.panel_mass[p]);
+      continue;
+    }
     std::vector<int> corners(parts.size(), 0);
     for (NodeId node : building[whole.panels[p]].nodes)
       if (const auto vertex = node_vertex.find(node); vertex != node_vertex.end())

@@ -33,8 +33,10 @@ struct FreePush {
 
 class FreeSegment {
  public:
-  /// `holds`: whether a joint of the members is intact.
-  FreeSegment(const Building& building, FreeSegmentParts parts, const std::function<bool(JointId)>& holds);
+  /// `holds`: whether a joint of the members is intact. `shell_stiffness`: of a shell panel as its nodes
+  /// (Panel::all_nodes()) feel it; without it shells are mass alone.
+  FreeSegment(const Building& building, FreeSegmentParts parts, const std::function<bool(JointId)>& holds,
+              const std::function<Eigen::MatrixXd(PanelId)>& shell_stiffness = nullptr);
 
   /// False when no joint inside it could break, or when it can move within itself: then nothing is asked of it.
   [[nodiscard]] bool can_break() const { return analysis_ != nullptr; }
@@ -49,7 +51,8 @@ class FreeSegment {
   [[nodiscard]] Answer bear(std::span<const FreePush> pushes, const Vec3& spin, const Vec3& gravity);
 
  private:
-  [[nodiscard]] int node_at(MemberId member, int end);
+  [[nodiscard]] int node_at(NodeId node);
+  void add_shell(PanelId panel, const Eigen::MatrixXd& stiffness);
   [[nodiscard]] double polar(MemberId member) const;
   void add_mass(const Vec3& at, double mass);
   [[nodiscard]] solver::LoadSet place(std::span<const FreePush> pushes) const;
@@ -68,9 +71,9 @@ class FreeSegment {
   std::unique_ptr<solver::StaticAnalysis> analysis_;
 };
 
-/// The connected parts that a body falls into when only these joints still hold: members and nodes by joints, each
-/// panel with the part that has most of its corners (of equal ones the first). In order of their least member, node or
-/// panel.
+/// The connected parts that a body falls into when only these joints still hold: members, shell panels and nodes by
+/// joints, each other panel with the part that has most of its corners (of equal ones the first). In order of their
+/// least member, node or panel.
 [[nodiscard]] std::vector<FreeSegmentParts> connected_parts(const Building& building, const FreeSegmentParts& whole,
                                                             const std::function<bool(JointId)>& holds);
 

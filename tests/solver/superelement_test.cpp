@@ -219,3 +219,162 @@ TEST_CASE("a given stiffness swells when heated as the element it was taken from
   heat.shells = {{0, Vec3(0, 0, 1), 0}};
   CHECK_THROWS_AS(solve_one(given, heat), std::invalid_argument);
 }
+
+namespace {
+
+/// Posts and a beam around a wall, node for node along its sides and its top, and a storey upon them: with the wall's
+/// mesh, and with its superelement in the mesh's place.
+struct FramedWall {
+  FrameModel meshed, condensed;
+  std::vector<int> kept;  ///< of the wall: nodes that posts and beams have too, by their number in the patch
+  Superelement::Patch patch;
+};
+
+FramedWall framed_wall() {
+  FramedWall both;
+  FrameModel& model = both.meshed;
+  model = wall();
+  model.supports = {{number(0, 0), fixed()}, {number(columns, 0), fixed()}};
+  for (int i = 0; i < columns; ++i) add_beam(model, number(i, rows), number(i + 1, rows));
+  for (int j = 0; j < rows; ++j) {
+    add_beam(model, number(0, j), number(0, j + 1));
+    add_beam(model, number(columns, j), number(columns, j + 1));
+  }
+  // A storey above it, so that there is more than the wall.
+  const Vec3 up(0, 0, 3);
+  const std::array<int, 3> feet{number(0, rows), number(4, rows), number(columns, rows)};
+  for (const int foot : feet) {
+    model.nodes.push_back(model.nodes[static_cast<std::size_t>(foot)] + up);
+    add_beam(model, foot, static_cast<int>(model.nodes.size()) - 1);
+  }
+  const int top = static_cast<int>(model.nodes.size());
+  add_beam(model, top - 3, top - 2);
+  add_beam(model, top - 2, top - 1);
+  for (int j = 0; j <= rows; ++j)
+    for (int i = 0; i <= columns; ++i)
+      if (j == rows || i == 0 || i == columns) both.kept.push_back(number(i, j));
+  both.patch.nodes.assign(model.nodes.begin(), model.nodes.begin() + number(columns, rows) + 1);
+  both.patch.shells = model.shells;
+  both.patch.kept = both.kept;
+  both.condensed = model;
+  both.condensed.shells.clear();
+  both.condensed.patches = {{both.kept, Superelement(both.patch).stiffness()}};
+  return both;
+}
+
+}  // namespace
+
+TEST_CASE("a patch that shares its edges with beams moves as its mesh does, and changes as a fresh one is") {
+  const FramedWall walls = framed_wall();
+  // Nodes inside the wall have no stiffness of their own in the condensed model.
+  std::vector<int> inner;
+  for (int n = 0; n <= number(columns, rows); ++n)
+    if (std::find(walls.kept.begin(), walls.kept.end(), n) == walls.kept.end()) inner.push_back(n);
+  Superelement element(walls.patch);
+  Reanalysis standing(walls.condensed);
+  standing.drop_nodes(inner);
+  const int top = static_cast<int>(walls.meshed.nodes.size()) - 2;
+  const auto compare = [&](const std::vector<int>& gone) {
+    const std::vector<Vec6> own = loads_on(wall(), gone);
+    FrameModel left = walls.meshed;
+    left.shells.clear();
+    std::vector<char> has(left.nodes.size(), 0);
+    for (std::size_t k = 0; k < walls.meshed.shells.size(); ++k) {
+      if (std::find(gone.begin(), gone.end(), static_cast<int>(k)) != gone.end()) continue;
+      left.shells.push_back(walls.meshed.shells[k]);
+      for (const int node : left.shells.back().node) has[static_cast<std::size_t>(node)] = 1;
+    }
+    LoadSet set;
+    set.nodes.push_back({top, unit(1, 4e4)});
+    for (std::size_t n = 0; n < own.size(); ++n) {
+      set.nodes.push_back({static_cast<int>(n), own[n]});
+      if (!has[n] && std::find(inner.begin(), inner.end(), static_cast<int>(n)) != inner.end())
+        left.supports.push_back({static_cast<int>(n), fixed()});
+    }
+    const StaticSolution expected = solve_one(left, set);
+    standing.set_node_load(top, unit(1, 4e4));
+    const Eigen::VectorXd condensed = element.condense(own);
+    for (std::size_t k = 0; k < walls.kept.size(); ++k)
+      standing.set_node_load(walls.kept[k], condensed.segment<6>(static_cast<Eigen::Index>(6 * k)));
+    REQUIRE(standing.solve().stable);
+    double largest = 0, difference = 0, force = 0, off = 0;
+    for (const int node : walls.kept) {
+      const auto n = static_cast<std::size_t>(node);
+      largest = std::max(largest, expected.displacements[n].norm());
+      difference = std::max(difference, (standing.displacements()[n] - expected.displacements[n]).norm());
+    }
+    for (int s = 0; s < 2; ++s) {
+      force = std::max(force, expected.reactions[static_cast<std::size_t>(s)].norm());
+      off = std::max(off, (standing.reaction(s) - expected.reactions[static_cast<std::size_t>(s)]).norm());
+    }
+    CHECK(largest > 1e-4);
+    CHECK(difference < 1e-9 * largest);  // rounding of a condition of about 1e6
+    CHECK(off < 1e-8 * force);
+  };
+  compare({});
+  const std::uint64_t factors = standing.counters().refactorisations;
+  element.remove(hole());
+  standing.set_patch_stiffness(0, element.stiffness());
+  compare(hole());
+  // Broken away from its right edge altogether.
+  std::vector<int> most = hole();
+  for (int j = 0; j < rows; ++j) most.push_back(j * columns + columns - 1);
+  std::sort(most.begin(), most.end());
+  element.remove(most);
+  standing.set_patch_stiffness(0, element.stiffness());
+  compare(most);
+  CHECK(standing.counters().refactorisations <= factors + 2);
+  CHECK_THROWS_AS(standing.set_patch_stiffness(0, Eigen::MatrixXd::Zero(6, 6)), std::invalid_argument);
+  CHECK_THROWS_AS(standing.set_patch_stiffness(1, Eigen::MatrixXd::Zero(6, 6)), std::invalid_argument);
+}
+
+TEST_CASE("a sheet among many that is softened by little is corrected for, without a new factor") {
+  // Twelve by twelve bays of posts with a floor of sheets: a change of one is a small part of it.
+  FrameModel model;
+  constexpr int bays = 12;
+  const auto at = [](int i, int j, int k) { return (k * (bays + 1) + j) * (bays + 1) + i; };
+  for (int k = 0; k < 2; ++k)
+    for (int j = 0; j <= bays; ++j)
+      for (int i = 0; i <= bays; ++i) model.nodes.emplace_back(4.0 * i, 4.0 * j, 3.0 * k);
+  for (int j = 0; j <= bays; ++j)
+    for (int i = 0; i <= bays; ++i) {
+      add_beam(model, at(i, j, 0), at(i, j, 1));
+      model.supports.push_back({at(i, j, 0), fixed()});
+      if (i < bays) add_beam(model, at(i, j, 1), at(i + 1, j, 1));
+      if (j < bays) add_beam(model, at(i, j, 1), at(i, j + 1, 1));
+    }
+  Shell sheet;
+  sheet.youngs_modulus = 30e9;
+  sheet.poisson_ratio = 0.2;
+  sheet.thickness = 0.2;
+  for (int j = 0; j < bays; ++j)
+    for (int i = 0; i < bays; ++i) {
+      sheet.node = {at(i, j, 1), at(i + 1, j, 1), at(i + 1, j + 1, 1), at(i, j + 1, 1)};
+      model.shells.push_back(sheet);
+    }
+  Reanalysis standing(model);
+  standing.set_node_load(at(6, 6, 1), unit(0, 5e5));
+  REQUIRE(standing.solve().stable);
+  const auto factors = standing.counters().refactorisations;
+  const auto K = standing.shell_stiffness(70);
+  for (const double left : {0.4, 0.1}) {
+    standing.set_shell_stiffness(70, left * K);
+    REQUIRE(standing.solve().stable);
+    FrameModel softer = model;
+    softer.shell_stiffness.emplace(70, left * K);
+    LoadSet set;
+    set.nodes.push_back({at(6, 6, 1), unit(0, 5e5)});
+    const StaticSolution expected = solve_one(softer, set);
+    double largest = 0, difference = 0;
+    for (std::size_t n = 0; n < model.nodes.size(); ++n) {
+      largest = std::max(largest, expected.displacements[n].norm());
+      difference = std::max(difference, (standing.displacements()[n] - expected.displacements[n]).norm());
+    }
+    CHECK(difference < 1e-10 * largest);
+  }
+  CHECK(standing.counters().refactorisations == factors);
+  // Taken away, as one that was whole before would be.
+  standing.remove_shell(70);
+  REQUIRE(standing.solve().stable);
+  CHECK(standing.shell_corner_forces(70)[0].norm() == 0);
+}

@@ -132,3 +132,76 @@ TEST_CASE("the drawn facade of the seed building comes down with it, closed and 
   CHECK(model.pieces().size() > 108);
   CHECK(check_pieces(model) == Approx(model.volume()).epsilon(1e-11));
 }
+
+TEST_CASE("a mesh with a density weighs on the parts that carry it") {
+  const topple::test::ScratchFolder folder;
+  write_bar(folder / "lintel.glb");
+  const auto with = [&](const std::string& bind, const std::string& more) {
+    std::ofstream(folder / "bay.json") << replaced(bay_text, "BIND}", bind + more + "}");
+    return read_model(folder / "bay.json", Purpose::demolish);
+  };
+  const double bar = 7 * 0.4 * 0.6 * 800;  // kg
+  const Building plain = with("\"nearest\"", ", \"density\": 0"), bound = with(R"({"bar": "T"})", ", \"density\": 800"),
+                 nearest = with("\"nearest\"", ", \"density\": 800");
+  CHECK(plain.materials.size() == 1);
+  const StandingFrame light(plain, CombinationId(0u), {}), heavy(bound, CombinationId(0u), {}),
+      shared(nearest, CombinationId(0u), {});
+  CHECK(heavy.mass(MemberId(2u)) == Approx(light.mass(MemberId(2u)) + bar).epsilon(1e-6));
+  CHECK(heavy.mass(MemberId(0u)) == light.mass(MemberId(0u)));
+  double before = 0, after = 0, reaction = 0;
+  for (std::size_t m = 0; m < 3; ++m) {
+    before += light.mass(MemberId(m));
+    after += shared.mass(MemberId(m));
+  }
+  CHECK(after == Approx(before + bar).epsilon(1e-6));
+  // Half a metre of seven beyond either post, and what is nearer to a post than to the beam.
+  CHECK(shared.mass(MemberId(2u)) > light.mass(MemberId(2u)) + 0.8 * bar);
+  CHECK(shared.mass(MemberId(0u)) == Approx(shared.mass(MemberId(1u))).epsilon(1e-3));
+  for (const NodeId foot : {NodeId(0u), NodeId(3u)}) reaction += shared.reaction(foot)(2);
+  CHECK(reaction == Approx(9.80665 * after).epsilon(1e-9));
+  std::ofstream(folder / "bad.json") << replaced(bay_text, "BIND", "\"nearest\", \"density\": \"much\"");
+  CHECK_THROWS_AS(read_model(folder / "bad.json", Purpose::demolish), InputError);
+}
+
+TEST_CASE("a drawn model is bent with its members") {
+  // A cantilever of 4 m with a load at its end, and the same with a pinned prop there.
+  const auto cantilever = [](const std::string& joint, const std::string& more) {
+    return parse_model(R"({"topple": 1, "title": "Arm",
+ "materials": {"S": {"youngs_modulus": 210e9, "poisson_ratio": 0.3, "density": 1e-3}},
+ "sections": {"s": {"area": 0.01, "Iy": 1e-4, "Iz": 2e-5, "J": 1e-6}},
+ "joints": {"pin": {"stiffness": {"ry": 0, "rz": 0}}},
+ "nodes": {"A": [0, 0, 0], "B": [4, 0, 0], "C": [4, 0, 3]},
+ "members": {"AB": {"nodes": ["A", "B"], "section": "s", "material": "S", "joints": [null, )" +
+                           joint + R"(]},
+             "BC": {"nodes": ["B", "C"], "section": "s", "material": "S"}},
+ "supports": {"A": "fixed")" +
+                           more +
+                           R"(}, "loads": {"dead": {"self_weight": 1.0, "nodes": {"B": {"z": -5e3, "y": 1e3}}}}})",
+                       "arm.json", Purpose::demolish);
+  };
+  for (const bool pinned : {false, true}) {
+    const Building b =
+        pinned ? cantilever("\"pin\"", R"(, "C": {"rx": true, "ry": true, "rz": true})") : cantilever("null", "");
+    fracture::Mesh bar = fracture::prism_mesh({{0, -0.2}, {4, -0.2}, {4, 0.2}, {0, 0.2}}, {{0, 1, 2}, {0, 2, 3}}, 0.4);
+    std::vector<DrawnMesh> meshes(1);
+    meshes[0].name = "bar";
+    meshes[0].mesh = bar;
+    meshes[0].member = MemberId(0u);
+    DrawnModel model(b, std::move(meshes));
+    Scenario scenario;
+    scenario.model = "arm";
+    scenario.combination = CombinationId(0u);
+    Simulation simulation(b, scenario);
+    const double EIy = 210e9 * 1e-4, EIz = 210e9 * 2e-5, L = 4;
+    // A load P at the free end: w = P x^2 (3 L - x) / 6 EI, its slope P x (2 L - x) / 2 EI. With the moment released at
+    // B and nothing else that turns there, the same: the end has no moment either way.
+    for (const double x : {1.0, 2.5, 4.0}) {
+      const auto shape = [&](double EI) { return x * x * (3 * L - x) / (6 * EI); };
+      const auto slope = [&](double EI) { return x * (2 * L - x) / (2 * EI); };
+      const Vec3 moved = model.displacement(model.pieces().front(), Vec3(x, 0, 0.15), simulation);
+      CHECK(moved.z() == Approx(-5e3 * shape(EIy)).epsilon(1e-3));  // the member's own weight is next to nothing
+      CHECK(moved.y() == Approx(1e3 * shape(EIz)).epsilon(1e-3));
+      CHECK(moved.x() == Approx(0.15 * 5e3 * slope(EIy)).epsilon(1e-3));  // above the axis, back as it droops
+    }
+  }
+}

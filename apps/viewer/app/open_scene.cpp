@@ -8,6 +8,7 @@
 #include "topple/structure/convert.h"
 #include "topple/structure/error.h"
 #include "topple/structure/files.h"
+#include "topple/structure/join_shells.h"
 
 namespace topple::viewer {
 namespace {
@@ -46,17 +47,20 @@ Scene open_scene(const std::string& name) {
     return {std::make_shared<const structure::Building>(std::move(building)), std::move(scenario), model};
   }
   const std::filesystem::path model = structure::find_model(name);
-  auto building = std::make_shared<const structure::Building>(structure::read_model(model));
-  structure::Scenario scenario = structure::idle_scenario(*building);
-  return {std::move(building), std::move(scenario), model};
+  structure::Building building = structure::read_model(model);
+  structure::join_shells(building);
+  structure::Scenario scenario = structure::idle_scenario(building);
+  return {std::make_shared<const structure::Building>(std::move(building)), std::move(scenario), model};
 }
 
 std::shared_ptr<const structure::Building> building_with_strengths(
     const Scene& scene, const std::vector<structure::MaterialChange>& changes) {
   if (changes.empty()) return scene.building;
   const std::string text = structure::convert_model(scene.model, structure::ModelForm::json).files.at(0).second;
-  return std::make_shared<const structure::Building>(
-      structure::parse_model(structure::model_with_strengths(text, changes), scene.model.string()));
+  structure::Building building =
+      structure::parse_model(structure::model_with_strengths(text, changes), scene.model.string());
+  structure::join_shells(building);
+  return std::make_shared<const structure::Building>(std::move(building));
 }
 
 }  // namespace topple::viewer

@@ -54,6 +54,13 @@ struct Diaphragm {
   std::vector<int> nodes;
 };
 
+/// Stiffness between any number of nodes, made elsewhere (a superelement condensed to the nodes that others see):
+/// symmetric, positive semidefinite, in the six global freedoms of each node in order. It bears no loads of its own.
+struct Patch {
+  std::vector<int> node;
+  Eigen::MatrixXd stiffness;
+};
+
 struct FrameModel {
   std::vector<Vec3> nodes;
   std::vector<Beam> beams;
@@ -63,6 +70,7 @@ struct FrameModel {
   /// Of shells whose stiffness comes from elsewhere (a superelement condensed to their nodes), by index: symmetric,
   /// positive semidefinite, in the global freedoms of the four nodes.
   std::map<int, Eigen::Matrix<double, 24, 24>> shell_stiffness;
+  std::vector<Patch> patches;
 };
 
 /// Load on one beam in its local axes. Distances are from the beam's first end (after its arm).

@@ -80,8 +80,11 @@ class Reanalysis {
   /// Of a shell that stands, in the global freedoms of its four nodes.
   [[nodiscard]] Eigen::Matrix<double, 24, 24> shell_stiffness(int shell) const;
   /// From now on the shell has this stiffness, in the global freedoms of its four nodes (a superelement condensed to
-  /// them): symmetric, positive semidefinite. The next answer needs a new factor.
+  /// them): symmetric, positive semidefinite.
   void set_shell_stiffness(int shell, const Eigen::Matrix<double, 24, 24>& stiffness);
+  /// The same for a patch, in the freedoms of its nodes. Zero takes it away.
+  void set_patch_stiffness(int patch, Eigen::MatrixXd stiffness);
+  [[nodiscard]] const Eigen::MatrixXd& patch_stiffness(int patch) const;
   /// Factor on the beam's E and G.
   void set_beam_stiffness_factor(int beam, double factor);
   /// Replaces the stiffness of the support at its index in FrameModel::supports (0: taken away).
@@ -99,7 +102,7 @@ class Reanalysis {
   /// The same, brought up to date only where the watch's uses may matter: no use that was not read anew lies above
   /// (1 - margin) max(1, the largest use). Nothing else may be concluded about what was left out; asking for its
   /// displacements or forces makes the answer whole (as complete() does). The first call reads every use, as does one
-  /// that needs a full answer.
+  /// that needs a full answer. Patches have no uses: with any, call solve().
   [[nodiscard]] const ReanalysisAnswer& solve(UseWatch& watch);
   /// Makes a restricted answer whole, with the backward error of a full one; the watch reads the uses of what was left
   /// out.
@@ -122,6 +125,7 @@ class Reanalysis {
   [[nodiscard]] const std::vector<Vec6>& displacements() const;
   [[nodiscard]] Vec12 beam_end_forces(int beam) const;  ///< local, as in StaticSolution
   [[nodiscard]] std::array<Vec6, 4> shell_corner_forces(int shell) const;
+  [[nodiscard]] std::vector<Vec6> patch_forces(int patch) const;  ///< per node: what it does to the patch, global
   [[nodiscard]] Vec6 reaction(int support) const;
   [[nodiscard]] double strain_energy() const;  ///< 1/2 f.u of what stands (with the loads as they are)
 

@@ -28,7 +28,8 @@ class Superelement {
     std::vector<int> kept;          ///< nodes seen from outside
     std::vector<Tie> ties;
   };
-  explicit Superelement(Patch patch);
+  /// `gone`: shells that are not there from the beginning.
+  explicit Superelement(Patch patch, std::span<const int> gone = {});
   ~Superelement();
   Superelement(Superelement&&) noexcept;
   Superelement& operator=(Superelement&&) noexcept;

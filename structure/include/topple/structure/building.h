@@ -131,6 +131,17 @@ struct Panel {
   Mat3 axes = Mat3::Identity();             ///< rows: local x (node 1 to 2), y, z (normal)
   std::vector<std::string> groups;
   std::optional<fracture::PanelSettings> fracture;  ///< none: its material's
+  // Of a shell that is readied for demolition (join_shells.h):
+  /// Per edge: nodes of the building between its corners that are nodes of the panel's mesh, from node i to i + 1.
+  std::array<std::vector<NodeId>, 4> edge_nodes;
+  std::array<bool, 4> joined{};  ///< per edge: a member or another shell lies along it
+
+  /// Corners, then edge_nodes edge by edge.
+  [[nodiscard]] std::vector<NodeId> all_nodes() const {
+    std::vector<NodeId> all(nodes.begin(), nodes.end());
+    for (const auto& on_edge : edge_nodes) all.insert(all.end(), on_edge.begin(), on_edge.end());
+    return all;
+  }
 };
 
 /// Per component: 0 free, `unlimited` held, else a spring stiffness; global axes.

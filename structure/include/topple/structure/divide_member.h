@@ -10,7 +10,9 @@ namespace topple::structure {
 /// piece stays "M", later ones are "M/2", "M/3" ... in its groups; place i is the node "M/cut-i", held by the joints
 /// "M/cut-i:1" and "M/cut-i:2", which never break under load. The joints "M:1" and "M:2" stay those of the ends.
 /// Loads and masses go to the pieces they act on. Joint ids of panels change: divide before anything asks for them.
-/// Returns the cuts' first joints. Throws InputError for a name that is taken, std::invalid_argument for other places.
-std::vector<JointId> divide_member(Building& building, MemberId member, const std::vector<double>& places);
+/// `nodes`: where they lie; none: on the line between the member's nodes. Returns the cuts' first joints. Throws
+/// InputError for a name that is taken, std::invalid_argument for other places.
+std::vector<JointId> divide_member(Building& building, MemberId member, const std::vector<double>& places,
+                                   const std::vector<Vec3>& nodes = {});
 
 }  // namespace topple::structure

@@ -23,11 +23,15 @@ struct DrawnMesh {
   fracture::Mesh mesh;
   MemberId member;  ///< what it is bound to by name, if it is
   PanelId panel;
+  double density = 0;  ///< kg/m3; 0: it weighs nothing
 };
 
 /// The `meshes` of the file that the building was read from, from their glTF files; empty when it has none. Throws
 /// InputError.
 [[nodiscard]] std::vector<DrawnMesh> read_drawn_meshes(const Building& building, const std::filesystem::path& file);
+
+/// Whether any of them has a density above 0.
+[[nodiscard]] bool has_drawn_weight(const std::filesystem::path& file);
 
 class DrawnModel {
  public:

@@ -208,6 +208,8 @@ class StandingFrame {
   /// joints bear over what remains of their length (told as broken by the next settle() when nothing does), and it
   /// is as stiff as what remains. Holes are all since it was whole.
   void fracture(PanelId panel, const PanelRemains& remains);
+  /// Of a shell panel as it is, or was when it left: in the freedoms of its nodes (Panel::all_nodes()), global.
+  [[nodiscard]] Eigen::MatrixXd shell_stiffness(PanelId shell) const;
 
   [[nodiscard]] const FrameCounters& counters() const;
   [[nodiscard]] const Building& building() const;
