@@ -128,6 +128,34 @@ TEST_CASE("the effect of a changed capacity is seen at once while paused, and un
   CHECK_THROWS_AS(person.controller.tune(wrong), topple::structure::InputError);
 }
 
+TEST_CASE("capacities in all seven senses are tuned for all joints, a group, or one") {
+  Person person;
+  const auto& building = *person.scene.building;
+  const JointId one = person.joint("P-2-2-1:1"), post = person.joint("P-3-3-2:1"), beam = person.joint("BX-1-1-1:1");
+  const auto value = [&](JointId joint, std::size_t sense) {
+    return joint_capacity(building, person.now(), joint).value[sense];
+  };
+  for (std::size_t sense = 0; sense < 7; ++sense) {
+    CAPTURE(topple::structure::sense_names[sense]);
+    const double before[] = {value(one, sense), value(post, sense), value(beam, sense)};
+    const auto set = [&](const char* joints, double to) {
+      topple::structure::JointChange change;
+      change.joints = joints;
+      change.capacity[sense] = to;
+      person.controller.tune(change);
+    };
+    set("P-2-2-1:1", 1e5);
+    CHECK(value(one, sense) == 1e5);
+    CHECK(value(post, sense) == before[1]);
+    set("posts", 2e5);
+    CHECK(value(one, sense) == 2e5);
+    CHECK(value(post, sense) == 2e5);
+    CHECK(value(beam, sense) == before[2]);
+    set("*", 3e5);
+    CHECK(value(beam, sense) == 3e5);
+  }
+}
+
 TEST_CASE("a tuned model is written and reads back as it was tuned") {
   const topple::test::ScratchFolder folder;
   Person person;

@@ -48,19 +48,8 @@ class Stage {
     instances_.update(moment, controller.options);
     renderer_.draw(instances_, controller.camera, controller.options, glm::ivec2(scene_size()));
     outputs_.after_picture(controller, renderer_);
-    Image image;
-    if (interface_) {
-      composer_->begin(renderer_);
-      // The first frame only finds out how large everything is.
-      for (int i = laid_out_ ? 1 : 0; i < 2; ++i) {
-        lay_out(controller, moment);
-        Interface::end_frame();
-      }
-      laid_out_ = true;
-      image = composer_->read();
-    } else {
-      image = renderer_.read();
-    }
+    if (interface_) draw_interface(controller, moment);
+    Image image = interface_ ? composer_->read() : renderer_.read();
     check_gl_errors();
     return image;
   }
@@ -81,16 +70,30 @@ class Stage {
     frame(controller, to, false);
     frame(controller, {-1, -1}, false);
     // What the panel was asked for is done when the next action comes.
-    while (outputs_.busy()) (void)draw(controller);
+    do (void)draw(controller);
+    while (outputs_.busy());
     controller.finish_export();
   }
 
  private:
+  /// The panels alone: the scene behind them stays as it was drawn last.
   void frame(Controller& controller, glm::dvec2 pointer, bool pressed) {
     interface_->point(pointer);
     interface_->press(pressed);
     controller.update(0);
-    (void)draw(controller);
+    const Snapshot moment = controller.shown(true);
+    instances_.update(moment, controller.options);
+    if (!laid_out_) (void)draw(controller);
+    draw_interface(controller, moment);
+  }
+  void draw_interface(Controller& controller, const Snapshot& moment) {
+    composer_->begin(renderer_);
+    // The first frame only finds out how large everything is.
+    for (int i = laid_out_ ? 1 : 0; i < 2; ++i) {
+      lay_out(controller, moment);
+      Interface::end_frame();
+    }
+    laid_out_ = true;
   }
   void lay_out(Controller& controller, const Snapshot& moment) {
     interface_->begin_frame(size_, 1.0 / 60);
