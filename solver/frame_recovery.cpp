@@ -1,7 +1,9 @@
 // From the solution of the equations back to nodes, beams and supports.
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 
+#include "each_on_threads.h"
 #include "frame_system.h"
 
 namespace topple::solver {
@@ -81,16 +83,17 @@ Vec12 FrameSystem::end_forces(int index, const std::vector<Vec6>& displacements,
 }
 
 std::vector<StaticSolution> FrameSystem::recover(std::span<const LoadVector> loads,
-                                                 const Eigen::MatrixXd& displacements) const {
+                                                 const Eigen::MatrixXd& displacements, int threads) const {
   std::vector<StaticSolution> solutions(loads.size());
-  for (std::size_t k = 0; k < loads.size(); ++k) {
+  const auto count = static_cast<int>(loads.size());
+  each_on_threads(count, threads, [&](int set) {
+    const auto k = static_cast<std::size_t>(set);
     solutions[k].displacements =
         node_displacements(displacements.col(static_cast<Eigen::Index>(k)), loads[k].held_displacement);
     solutions[k].beam_end_forces.resize(model.beams.size(), Vec12::Zero());
     solutions[k].shell_corner_forces.resize(model.shells.size());
-  }
-  for (std::size_t i = 0; i < model.beams.size(); ++i) {
-    if (beam_stands[i] == 0) continue;
+  });
+  const auto recover_beam = [&](std::size_t i) {
     const Beam& beam = model.beams[i];
     std::optional<BeamStrainStiffness> stiffness;
     if (second_order == nullptr) stiffness = strain_stiffness(CondensedBeam(beam, beam_factor[i]));
@@ -105,15 +108,24 @@ std::vector<StaticSolution> FrameSystem::recover(std::span<const LoadVector> loa
           hub_displacements(beam, u[static_cast<std::size_t>(beam.node[0])], u[static_cast<std::size_t>(beam.node[1])]);
       solutions[k].beam_end_forces[i] = *stiffness * relative_motion(beam.length, hubs) + fixed;
     }
-  }
+  };
+  constexpr std::size_t together = 1024;
+  const std::size_t beams = model.beams.size();
+  each_on_threads(static_cast<int>((beams + together - 1) / together), count > 1 ? threads : 1, [&](int chunk) {
+    const std::size_t first = static_cast<std::size_t>(chunk) * together;
+    for (std::size_t i = first; i < std::min(beams, first + together); ++i)
+      if (beam_stands[i] != 0) recover_beam(i);
+  });
   for (std::size_t i = 0; i < model.shells.size(); ++i)
     for (std::size_t k = 0; k < loads.size(); ++k) {
       const Vec24 fixed = loads[k].shell_fixed.empty() ? Vec24::Zero() : loads[k].shell_fixed[i];
       solutions[k].shell_corner_forces[i] = corner_forces(static_cast<int>(i), solutions[k].displacements, fixed);
     }
-  for (std::size_t k = 0; k < loads.size(); ++k)
+  each_on_threads(count, threads, [&](int set) {
+    const auto k = static_cast<std::size_t>(set);
     solutions[k].reactions = reactions(solutions[k].displacements, solutions[k].beam_end_forces,
                                        solutions[k].shell_corner_forces, loads[k].node_load);
+  });
   return solutions;
 }
 

@@ -127,7 +127,7 @@ class FrameSystem {
   /// Displacements, forces and reactions of several right-hand sides, the solution of each (not scaled) in a column.
   /// Their quality is left to the caller.
   [[nodiscard]] std::vector<StaticSolution> recover(std::span<const LoadVector> loads,
-                                                    const Eigen::MatrixXd& displacements) const;
+                                                    const Eigen::MatrixXd& displacements, int threads = 1) const;
   /// Per corner: what the node does to the shell, global; `fixed` as in LoadVector.
   [[nodiscard]] std::array<Vec6, 4> corner_forces(int shell, const std::vector<Vec6>& displacements,
                                                   const Vec24& fixed) const;

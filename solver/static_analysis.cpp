@@ -5,6 +5,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "each_on_threads.h"
 #include "factor.h"
 #include "frame_system.h"
 #include "mechanism.h"
@@ -98,7 +99,7 @@ Eigen::MatrixXd Prepared::right_hand_sides(std::span<const LoadVector> vectors) 
 /// From the scaled displacements.
 std::vector<StaticSolution> Prepared::answers(std::span<const LoadVector> vectors, RefinedSolution refined) const {
   refined.x.array().colwise() *= Eigen::Map<const Eigen::ArrayXd>(system.scale().data(), system.dofs().equations);
-  std::vector<StaticSolution> solutions = system.recover(vectors, refined.x);
+  std::vector<StaticSolution> solutions = system.recover(vectors, refined.x, options.threads);
   for (std::size_t j = 0; j < vectors.size(); ++j) {
     SolveQuality& quality = solutions[j].quality;
     quality = refined.quality[j];
@@ -187,9 +188,9 @@ LoadVector sum_of(std::span<const LoadVector> cases, const Eigen::VectorXd& fact
 }
 
 /// In more digits than the answers have: where cases cancel, what is left is right to its own last digit.
-Eigen::MatrixXd sums_of(const OnceRefined& cases, const Eigen::MatrixXd& factors) {
+Eigen::MatrixXd sums_of(const OnceRefined& cases, const Eigen::MatrixXd& factors, int threads) {
   Eigen::MatrixXd sums(cases.x.rows(), factors.cols());
-  for (Eigen::Index j = 0; j < factors.cols(); ++j)
+  each_on_threads(static_cast<int>(factors.cols()), threads, [&](int j) {
     for (Eigen::Index i = 0; i < sums.rows(); ++i) {
       long double sum = 0;
       for (Eigen::Index c = 0; c < factors.rows(); ++c)
@@ -197,6 +198,7 @@ Eigen::MatrixXd sums_of(const OnceRefined& cases, const Eigen::MatrixXd& factors
           sum += factor * (static_cast<long double>(cases.x(i, c)) + cases.rest(i, c));
       sums(i, j) = static_cast<double>(sum);
     }
+  });
   return sums;
 }
 
@@ -209,12 +211,14 @@ std::optional<std::vector<StaticSolution>> add_up(Prepared& prepared, std::span<
   const std::vector<LoadVector> vectors = system.load_vectors(cases);
   for (const LoadVector& vector : vectors)
     if (system.unbalanced_load(vector)) return std::nullopt;
-  std::vector<LoadVector> sums;
-  for (Eigen::Index j = 0; j < factors.cols(); ++j) sums.push_back(sum_of(vectors, factors.col(j)));
-  const ExtendedResidual residual(system.matrix(), prepared.options.threads);
+  const int threads = prepared.options.threads;
+  std::vector<LoadVector> sums(static_cast<std::size_t>(factors.cols()));
+  each_on_threads(static_cast<int>(factors.cols()), threads,
+                  [&](int j) { sums[static_cast<std::size_t>(j)] = sum_of(vectors, factors.col(j)); });
+  const ExtendedResidual residual(system.matrix(), threads);
   const OnceRefined of_cases = refine_once(residual, prepared.linear_solve(), prepared.right_hand_sides(vectors));
-  return prepared.answers(
-      sums, refine(residual, prepared.linear_solve(), prepared.right_hand_sides(sums), sums_of(of_cases, factors)));
+  return prepared.answers(sums, refine(residual, prepared.linear_solve(), prepared.right_hand_sides(sums),
+                                       sums_of(of_cases, factors, threads)));
 }
 
 }  // namespace

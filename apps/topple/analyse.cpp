@@ -159,7 +159,8 @@ int run(const Options& options) {
   const int wanted = std::max({options.html ? report_stations : 0, options.vtu ? drawing_stations : 0,
                                options.code.empty() ? 0 : design_stations});
   wider.stations = whole_multiple(request.stations, wanted);
-  AnalysisResult result;
+  // Kept to the end of the process, which gives it back at once: piece by piece that takes longer than a solve.
+  static AnalysisResult result;
   try {
     result = analyse(building, wider);
   } catch (const UnstableAnalysis& unstable) {

@@ -2,6 +2,7 @@
 // model is not stable.
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 
@@ -53,7 +54,10 @@ int main(int argc, char** argv) {
   using namespace topple::app;
   topple::solver::restart_with_better_blas_kernel(argv);
   try {
-    return run(argc, argv);
+    const int status = run(argc, argv);
+    std::cout.flush();
+    std::fflush(nullptr);
+    std::quick_exit(status);  // what lives to the end goes with the process
   } catch (const topple::structure::InputError& error) {
     return report(error.what(), bad_input);
   } catch (const topple::structure::UnstableModel& error) {

@@ -90,12 +90,30 @@ constexpr int floor_log10_of_power(int e, bool three_quarters) {
   return (e * 1262611 - (three_quarters ? 524031 : 0)) >> 22;
 }
 
-/// The upper part of power x factor, its last bit set where anything lies below.
-std::uint64_t round_to_odd(const Power& power, std::uint64_t factor) {
+/// A product of a power and a factor: 192 bits.
+struct Product {
+  std::uint64_t high;
+  Wide low;
+};
+Product product(const Power& power, std::uint64_t factor) {
   const Wide lower = static_cast<Wide>(power.low) * factor;
   const Wide upper = static_cast<Wide>(power.high) * factor + static_cast<std::uint64_t>(lower >> 64);
-  return static_cast<std::uint64_t>(upper >> 64) | (static_cast<std::uint64_t>(upper) > 1 ? 1 : 0);
+  return {static_cast<std::uint64_t>(upper >> 64), (upper << 64) | static_cast<std::uint64_t>(lower)};
 }
+/// power x 2^bits, for few bits.
+Product shifted(const Power& power, int bits) {
+  const Wide whole = (static_cast<Wide>(power.high) << 64) | power.low;
+  return {power.high >> (64 - bits), whole << bits};
+}
+Product sum(const Product& a, const Product& b) {
+  const Wide low = a.low + b.low;
+  return {a.high + b.high + (low < a.low ? 1 : 0), low};
+}
+Product difference(const Product& a, const Product& b) {
+  return {a.high - b.high - (a.low < b.low ? 1 : 0), a.low - b.low};
+}
+/// The upper part, its last bit set where anything but the last bit below it lies there.
+std::uint64_t round_to_odd(const Product& p) { return p.high | (static_cast<std::uint64_t>(p.low >> 64) > 1 ? 1 : 0); }
 
 struct Decimal {
   std::uint64_t digits;
@@ -113,11 +131,12 @@ Decimal shortest(double number) {
   const bool uneven = fraction == 0 && raw > 1;
   const int k = floor_log10_of_power(q, uneven), h = q + floor_log2_of_power(-k) + 1;
   const Power& power = powers[static_cast<std::size_t>(-k - least_power)];
-  const std::uint64_t middle = round_to_odd(power, (4 * c) << h);
+  const Product at_middle = product(power, (4 * c) << h);
+  const std::uint64_t middle = round_to_odd(at_middle);
   // A bound of the interval itself reads back to the number when that is even.
   const std::uint64_t odd = c & 1;
-  const std::uint64_t lower = round_to_odd(power, (4 * c - 2 + (uneven ? 1 : 0)) << h) + odd;
-  const std::uint64_t upper = round_to_odd(power, (4 * c + 2) << h) - odd;
+  const std::uint64_t lower = round_to_odd(difference(at_middle, shifted(power, uneven ? h : h + 1))) + odd;
+  const std::uint64_t upper = round_to_odd(sum(at_middle, shifted(power, h + 1))) - odd;
   const std::uint64_t s = middle / 4;
   if (s >= 10) {
     const std::uint64_t ten = s / 10;
