@@ -92,11 +92,14 @@ double rolling_radius(const std::vector<ConvexPart>& parts) {
   return parts.size() == 1 && parts[0].kind == ConvexPart::Kind::sphere ? parts[0].half_extents.x() : 0;
 }
 
+[[noreturn]] void not_in_the_world(std::int64_t id, const char* what) {
+  throw std::out_of_range(std::string(what) + " " + std::to_string(id) + " is not in the world");
+}
+
 template <typename Map>
 auto& find(Map& map, std::int64_t id, const char* what) {
   const auto found = map.find(id);
-  if (found == map.end())
-    throw std::out_of_range(std::string(what) + " " + std::to_string(id) + " is not in the world");
+  if (found == map.end()) not_in_the_world(id, what);
   return *found->second;
 }
 
@@ -130,8 +133,11 @@ BulletWorld::~BulletWorld() {
   remove_ground();
 }
 
-Body& BulletWorld::body(std::int64_t id) { return find(bodies_, id, "body"); }
-const Body& BulletWorld::body(std::int64_t id) const { return find(bodies_, id, "body"); }
+Body& BulletWorld::body(std::int64_t id) {
+  if (id < 0 || id >= next_body_ || !body_by_id_[static_cast<std::size_t>(id)]) not_in_the_world(id, "body");
+  return *body_by_id_[static_cast<std::size_t>(id)];
+}
+const Body& BulletWorld::body(std::int64_t id) const { return const_cast<BulletWorld*>(this)->body(id); }
 Obstacle& BulletWorld::obstacle(std::int64_t id) { return find(obstacles_, id, "obstacle"); }
 Hinge& BulletWorld::hinge(std::int64_t id) { return find(hinges_, id, "hinge"); }
 const Hinge& BulletWorld::hinge(std::int64_t id) const { return find(hinges_, id, "hinge"); }
@@ -188,11 +194,13 @@ BodyId BulletWorld::add_body(const BodyDescription& description) {
   body->object = &rigid;
   set_continuous(*body);
 
-  bodies_.emplace(next_body_, std::move(body));
-  order_.push_back({next_body_});
-  set_state({next_body_}, {description.pose, description.velocity, description.angular_velocity, false});
+  const BodyId id{next_body_++};
+  body_by_id_.push_back(body.get());
+  bodies_.emplace(id.value, std::move(body));
+  order_.push_back(id);
+  set_state(id, {description.pose, description.velocity, description.angular_velocity, false});
   world_.addRigidBody(&rigid, kBodies, btBroadphaseProxy::AllFilter);
-  return {next_body_++};
+  return id;
 }
 
 void BulletWorld::set_continuous(Body& body) {
@@ -212,6 +220,7 @@ void BulletWorld::remove_body(BodyId id) {
   forget_ignored_of(Touched::Kind::body, id.value);
   forget_contacts_of(Touched::Kind::body, id.value);
   world_.removeRigidBody(gone.rigid.get());
+  body_by_id_[static_cast<std::size_t>(id.value)] = nullptr;
   bodies_.erase(id.value);
   order_.erase(std::lower_bound(order_.begin(), order_.end(), id));
 }

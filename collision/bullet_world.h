@@ -153,6 +153,7 @@ class BulletWorld final : public World {
   FreeSpinWorld world_;
 
   std::map<std::int64_t, std::unique_ptr<Body>> bodies_;
+  std::vector<Body*> body_by_id_;  ///< null where it is gone: ids are never used again
   std::map<std::int64_t, std::unique_ptr<Obstacle>> obstacles_;
   std::map<std::int64_t, std::unique_ptr<Hinge>> hinges_;
   std::map<std::int64_t, std::unique_ptr<HungCable>> cables_;

@@ -121,14 +121,19 @@ Touched touched(const Solid& solid, std::int64_t tag) {
 }
 
 void BulletWorld::gather_contacts() {
-  std::vector<Contact> points;
+  std::vector<Contact> found;
   for (int i = 0; i < dispatcher_.getNumManifolds(); ++i)
-    add_manifold(*dispatcher_.getManifoldByIndexInternal(i), points);
-  const auto by_place = [](const Contact& a, const Contact& b) {
-    return std::make_tuple(parts_of(a), a.point.x(), a.point.y(), a.point.z()) <
-           std::make_tuple(parts_of(b), b.point.x(), b.point.y(), b.point.z());
+    add_manifold(*dispatcher_.getManifoldByIndexInternal(i), found);
+  const auto by_place = [](const Contact* a, const Contact* b) {
+    return std::make_tuple(parts_of(*a), a->point.x(), a->point.y(), a->point.z()) <
+           std::make_tuple(parts_of(*b), b->point.x(), b->point.y(), b->point.z());
   };
-  std::sort(points.begin(), points.end(), by_place);
+  std::vector<const Contact*> order;  // contacts are large: what is sorted is where they are
+  for (const Contact& contact : found) order.push_back(&contact);
+  std::sort(order.begin(), order.end(), by_place);
+  std::vector<Contact> points;
+  points.reserve(order.size());
+  for (const Contact* contact : order) points.push_back(*contact);
   std::vector<Contact> now;
   for (std::size_t begin = 0, end = 0; begin < points.size(); begin = end) {
     while (end < points.size() && same_parts(points[begin], points[end])) ++end;

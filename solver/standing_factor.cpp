@@ -42,8 +42,13 @@ void StandingFactor::remember_beam(int beam) {
 
 void StandingFactor::remember_shell(int shell) {
   shell_before_.emplace(shell, system_.shell_stands[static_cast<std::size_t>(shell)]);
-  if (system_.shell_stands[static_cast<std::size_t>(shell)] != 0 && !shell_stiffness_.contains(shell))
-    shell_stiffness_.emplace(shell, system_.shell_stiffness(shell));
+  know_modes(shell);
+}
+
+/// What it strains by does not change: found once, while it stands.
+void StandingFactor::know_modes(int shell) {
+  if (system_.shell_stands[static_cast<std::size_t>(shell)] != 0 && !shell_modes_.contains(shell))
+    shell_modes_.emplace(shell, shell_modes(system_, system_.shell_stiffness(shell), shell));
 }
 
 bool StandingFactor::remember_plate(std::size_t element) {
@@ -90,12 +95,11 @@ void StandingFactor::plan_shells() {
   for (const auto& [shell, before] : shell_before_) {
     const auto s = static_cast<std::size_t>(shell);
     const bool inside = inside_dropped(system_.model.shells[s].node);
-    if (system_.shell_stands[s] != 0 && !shell_stiffness_.contains(shell))
-      shell_stiffness_.emplace(shell, system_.shell_stiffness(shell));
+    know_modes(shell);
     const double change = inside ? 0.0 : (system_.shell_stands[s] != 0 ? 1.0 : 0.0) - (before != 0 ? 1.0 : 0.0);
     const auto known = wanted_.find({Kind::shell, shell});
     if (change == 0 && known == wanted_.end()) continue;
-    const Eigen::Index count = shell_modes(system_, shell_stiffness_.at(shell), shell).B.cols();
+    const Eigen::Index count = shell_modes_.at(shell).B.cols();
     want({Kind::shell, shell}, change * Eigen::MatrixXd::Identity(count, count));
   }
 }
@@ -193,7 +197,7 @@ void StandingFactor::plan_grounds() {
 
 ElementModes StandingFactor::modes(Key key) const {
   if (key.kind == Kind::beam) return beam_modes(system_, key.index);
-  if (key.kind == Kind::shell) return shell_modes(system_, shell_stiffness_.at(key.index), key.index);
+  if (key.kind == Kind::shell) return shell_modes_.at(key.index);
   if (key.kind == Kind::plate) {
     const auto element = static_cast<std::size_t>(key.index);
     ElementModes own;

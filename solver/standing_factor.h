@@ -98,6 +98,7 @@ class StandingFactor {
   void forget_unchanged(std::optional<Eigen::Index> kept = {});
   void forget_dropped(Eigen::VectorXd& x) const;
   [[nodiscard]] bool inside_dropped(std::span<const int> nodes) const;
+  void know_modes(int shell);
   [[nodiscard]] ElementModes modes(Key key) const;
 
   const FrameSystem& system_;
@@ -105,7 +106,7 @@ class StandingFactor {
   std::optional<LowRankCorrection> correction_;
   std::map<int, Mat6> beam_before_;
   std::map<int, char> shell_before_;
-  std::map<int, Mat24> shell_stiffness_;
+  std::map<int, ElementModes> shell_modes_;
   std::map<std::size_t, Eigen::MatrixXd> plate_before_;
   std::map<int, Eigen::MatrixXd> node_before_;  ///< own stiffness, of nodes that have any
   std::map<int, Mat6> diaphragm_node_before_;   ///< the same, of nodes in diaphragms

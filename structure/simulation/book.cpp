@@ -1,6 +1,5 @@
 // Move and book: the collision world integrates what is awake; then energies, events and counters.
 #include <algorithm>
-#include <utility>
 
 #include "simulation/simulation_state.h"
 #include "simulation/step_clock.h"
@@ -50,7 +49,10 @@ void Simulation::State::book_body(Body& one) {
 }
 
 void Simulation::State::update_views() {
-  std::vector<BodyView> before = std::exchange(views, {});
+  std::vector<std::int64_t> before;
+  before.reserve(views.size());
+  for (const BodyView& view : views) before.push_back(view.id.value);
+  views.clear();
   poses.clear();
   for (const auto& [id, one] : bodies) {
     const collision::BodyState state = world->state(one.id);
@@ -65,17 +67,17 @@ void Simulation::State::update_views() {
 }
 
 /// Both lists of bodies are in order of id.
-void Simulation::State::tell_changes(const std::vector<BodyView>& before) {
+void Simulation::State::tell_changes(std::span<const std::int64_t> before) {
   auto old = before.begin();
   for (const BodyView& view : views) {
-    for (; old != before.end() && old->id < view.id; ++old) changes.gone.push_back(old->id.value);
-    if (old != before.end() && old->id == view.id)
+    for (; old != before.end() && *old < view.id.value; ++old) changes.gone.push_back(*old);
+    if (old != before.end() && *old == view.id.value)
       ++old;
     else
       changes.made.push_back(view.id.value);
     if (!view.asleep) changes.moved.push_back(view.id.value);
   }
-  for (; old != before.end(); ++old) changes.gone.push_back(old->id.value);
+  for (; old != before.end(); ++old) changes.gone.push_back(*old);
 }
 
 bool Simulation::State::rests() const {

@@ -41,17 +41,42 @@ FreeSegmentParts Simulation::State::parts_of(const Body& one) const {
   return parts;
 }
 
-/// What contacts did to each body of several members in this step, in its own undeformed axes.
-std::map<std::int64_t, std::vector<FreePush>> Simulation::State::blows() {
+/// Bodies of several members that contacts pushed hard, or that spin fast.
+std::vector<collision::BodyId> Simulation::State::hit_hard() {
+  std::map<std::int64_t, double> force;  // sum over contacts of their size
+  for (const auto& [id, one] : bodies)
+    if (one.members.size() > 1 && !one.asleep) force.emplace(id, 0.0);
+  if (force.empty()) return {};
+  const auto feel = [&](collision::BodyId id, const collision::Contact& contact, std::int64_t tag) {
+    if (tag < 0) return;
+    if (const auto felt = force.find(id.value); felt != force.end())
+      felt->second += contact.impulse.norm() / scenario.step;
+  };
+  for (const collision::Contact& contact : world->contacts()) {
+    feel(contact.body, contact, contact.part_tag);
+    if (contact.other.kind == collision::Touched::Kind::body) feel(contact.other.body, contact, contact.other.part_tag);
+  }
+  std::vector<collision::BodyId> hit;
+  for (const auto& [id, size] : force) {
+    const Body& one = bodies.at(id);
+    const double spin = world->state(one.id).angular_velocity.norm();
+    const double pull = spin * spin * (one.bounds.high - one.bounds.low).norm() / 2;
+    if (size > hard * one.rest.mass * building.gravity || pull > hard * building.gravity) hit.push_back({id});
+  }
+  return hit;
+}
+
+/// What contacts did to these bodies in this step, in their own undeformed axes.
+std::map<std::int64_t, std::vector<FreePush>> Simulation::State::blows(const std::vector<collision::BodyId>& on) {
   std::map<std::int64_t, std::vector<FreePush>> all;
   const auto feel = [&](collision::BodyId id, std::int64_t tag, const Vec3& impulse, const Vec3& point) {
-    const Body* one = body(id);
-    if (!one || one->members.size() < 2 || tag < 0 || impulse.isZero(0)) return;
+    if (tag < 0 || impulse.isZero(0) || !std::binary_search(on.begin(), on.end(), id)) return;
+    const Body& one = bodies.at(id.value);
     const collision::Pose pose = world->state(id).pose;
     const Mat3 back = pose.orientation.toRotationMatrix().transpose();
     const Part part = part_of_number(building, tag);
     all[id.value].push_back(
-        {part.member, part.panel, one->rest.centre + back * (point - pose.position), back * impulse / scenario.step});
+        {part.member, part.panel, one.rest.centre + back * (point - pose.position), back * impulse / scenario.step});
   };
   for (const collision::Contact& contact : world->contacts()) {
     feel(contact.body, contact.part_tag, -contact.impulse, contact.point);
@@ -63,18 +88,10 @@ std::map<std::int64_t, std::vector<FreePush>> Simulation::State::blows() {
 
 void Simulation::State::break_up_landed() {
   if (world->awake_count() == 0) return;
-  std::map<std::int64_t, std::vector<FreePush>> pushes = blows();
+  std::vector<collision::BodyId> hit = hit_hard();
+  if (hit.empty()) return;
+  std::map<std::int64_t, std::vector<FreePush>> pushes = blows(hit);
   const int generations = generations_of(step, scenario.step, scenario.failure.generations_per_second);
-  std::vector<collision::BodyId> hit;
-  for (const auto& [id, one] : bodies) {
-    if (one.members.size() < 2 || one.asleep) continue;
-    double force = 0;
-    if (const auto found = pushes.find(id); found != pushes.end())
-      for (const FreePush& push : found->second) force += push.force.norm();
-    const double spin = world->state(one.id).angular_velocity.norm();
-    const double pull = spin * spin * (one.bounds.high - one.bounds.low).norm() / 2;
-    if (force > hard * one.rest.mass * building.gravity || pull > hard * building.gravity) hit.push_back({id});
-  }
   for (int generation = 0; generation < generations && !hit.empty(); ++generation) {
     std::vector<collision::BodyId> pieces;
     for (const collision::BodyId id : hit)
@@ -91,7 +108,6 @@ void Simulation::State::break_up_landed() {
       }
     hit = std::move(pieces);
   }
-  keep_limit();
 }
 
 /// One generation of a body's breaks. Returns what it is now: itself when joints broke and it still hangs together,

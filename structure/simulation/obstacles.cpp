@@ -9,14 +9,15 @@ Obstacles::Obstacles(const Building& building, const PartShapes& shapes, const P
       grid_(grid),
       friction_(friction),
       restitution_(restitution),
-      obstacle_of_part_(part_count(building)) {}
+      obstacle_of_part_(part_count(building)),
+      settled_(part_count(building), 0) {}
 
 void Obstacles::approach(const Bounds& box, const StandingFrame& frame, collision::World& world) {
-  for (const Part part : grid_.near(box)) {
-    collision::ObstacleId& obstacle = obstacle_of_part_[static_cast<std::size_t>(part_number(building_, part))];
-    if (obstacle.value >= 0) continue;
+  for (const Part part : grid_.near(box, settled_)) {
+    const auto number = static_cast<std::size_t>(part_number(building_, part));
+    settled_[number] = 1;
     if (part.member.valid() ? !frame.stands(part.member) : !frame.stands(part.panel)) continue;
-    obstacle = make(part, world);
+    obstacle_of_part_[number] = make(part, world);
   }
 }
 

@@ -31,6 +31,7 @@ class Obstacles {
   const PartGrid& grid_;
   double friction_, restitution_;
   std::vector<collision::ObstacleId> obstacle_of_part_;
+  std::vector<char> settled_;  ///< by part number: has a shape, or has been seen to be gone
   std::map<std::int64_t, Part> part_of_obstacle_;
 };
 

@@ -47,10 +47,13 @@ void PartGrid::visit(const Range& range, const Visit& visit) const {
         visit(static_cast<std::size_t>((i * counts_[1] + j) * counts_[2] + k));
 }
 
-std::vector<Part> PartGrid::near(const Bounds& box) const {
+std::vector<Part> PartGrid::near(const Bounds& box, std::span<const char> passed_over) const {
   if (!bounds_.meets(box)) return {};
   std::vector<std::int32_t> found;
-  visit(cells_of(box), [&](std::size_t cell) { found.insert(found.end(), cells_[cell].begin(), cells_[cell].end()); });
+  visit(cells_of(box), [&](std::size_t cell) {
+    for (const std::int32_t number : cells_[cell])
+      if (passed_over.empty() || passed_over[static_cast<std::size_t>(number)] == 0) found.push_back(number);
+  });
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   std::vector<Part> parts;

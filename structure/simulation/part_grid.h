@@ -1,5 +1,6 @@
 #pragma once
 // Which parts of the building lie near a place: a uniform grid over their bounds, built once.
+#include <span>
 #include <vector>
 
 #include "simulation/part_shapes.h"
@@ -10,8 +11,9 @@ class PartGrid {
  public:
   PartGrid(const Building& building, const PartShapes& shapes);
 
-  /// Parts whose bounds meet the box, in order of number.
-  [[nodiscard]] std::vector<Part> near(const Bounds& box) const;
+  /// Parts whose bounds meet the box, in order of number; `passed_over` (by number, or empty): those that are not asked
+  /// for.
+  [[nodiscard]] std::vector<Part> near(const Bounds& box, std::span<const char> passed_over = {}) const;
   /// Bounds of everything.
   [[nodiscard]] const Bounds& bounds() const { return bounds_; }
 

@@ -6,10 +6,11 @@ namespace topple::structure {
 namespace {
 /// Room around a body's swept bounds, m: what its shapes' skins and a step's turn may add.
 constexpr double sense_margin = 0.25;
+/// Room more that is looked over when a body comes somewhere, m: one that lies or rolls there is not looked after again.
+constexpr double look_ahead = 0.25;
 }  // namespace
 
-Bounds Simulation::State::swept_bounds(const Body& body) const {
-  const collision::BodyState state = world->state(body.id);
+Bounds Simulation::State::swept_bounds(const Body& body, const collision::BodyState& state) const {
   const double dt = scenario.step;
   const Mat3 turn = state.pose.orientation.toRotationMatrix();
   const Vec3 middle = state.pose.position + turn * ((body.bounds.low + body.bounds.high) / 2);
@@ -25,13 +26,25 @@ Bounds Simulation::State::swept_bounds(const Body& body) const {
   return swept;
 }
 
+/// Parts never come to stand where none stood: a box that was looked over needs no second look.
+void Simulation::State::approach(Body& one, const collision::BodyState& state) {
+  Bounds swept = swept_bounds(one, state);
+  if (one.approached.holds(swept)) return;
+  swept.add(Vec3(swept.low - Vec3::Constant(look_ahead)));
+  swept.add(Vec3(swept.high + Vec3::Constant(look_ahead)));
+  obstacles.approach(swept, *frame, *world);
+  one.approached = swept;
+}
+
 std::vector<collision::Contact> Simulation::State::sense() {
   struck.clear();
   knocks.clear();
-  for (auto& [id, one] : bodies) one.step_start = world->state(one.id).pose.position;
+  for (auto& [id, one] : bodies) {
+    const collision::BodyState state = world->state(one.id);
+    one.step_start = state.pose.position;
+    if (!state.asleep) approach(one, state);
+  }
   if (world->awake_count() == 0) return {};
-  for (auto& [id, one] : bodies)
-    if (!world->state(one.id).asleep) obstacles.approach(swept_bounds(one), *frame, *world);
   return timer.engine([&] { return world->sweep(scenario.step, collision::Sweep::obstacles); });
 }
 

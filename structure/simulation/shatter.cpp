@@ -26,6 +26,7 @@ void Simulation::State::find_breakable_panels() {
                          ".compressive_strength: missing; expected, because panel \"" + panel.name +
                          "\" of this material can break (fracture)");
       breakable.settings = *settings;
+      any_breakable = true;
       // Every panel has a pattern of its own (splitmix64's increment keeps their seeds far apart).
       breakable.settings->seed = scenario.seed + (i + 1) * 0x9e3779b97f4a7c15u;
       const double density =
@@ -168,6 +169,7 @@ void Simulation::State::shatter_struck(collision::BodyId id) {
 
 /// Panels that came down hard in this step.
 void Simulation::State::shatter_landed() {
+  if (!any_breakable) return;
   std::map<std::int64_t, std::pair<double, Vec3>> blows;  // the hardest of each body: change of speed and place
   const auto feel = [&](collision::BodyId id, const collision::Contact& contact) {
     const Body* one = body(id);

@@ -46,7 +46,8 @@ struct Simulation::State {
 
   // sense.cpp
   [[nodiscard]] std::vector<collision::Contact> sense();
-  [[nodiscard]] Bounds swept_bounds(const Body& body) const;
+  [[nodiscard]] Bounds swept_bounds(const Body& body, const collision::BodyState& state) const;
+  void approach(Body& one, const collision::BodyState& state);
 
   // strike.cpp: the law of impact for one contact with what stands.
   void load();
@@ -139,7 +140,8 @@ struct Simulation::State {
 
   // break_up.cpp: bodies of several members that are hit hard fall apart.
   void break_up_landed();
-  [[nodiscard]] std::map<std::int64_t, std::vector<FreePush>> blows();
+  [[nodiscard]] std::vector<collision::BodyId> hit_hard();
+  [[nodiscard]] std::map<std::int64_t, std::vector<FreePush>> blows(const std::vector<collision::BodyId>& on);
   std::vector<collision::BodyId> fall_apart(collision::BodyId id, const std::vector<FreePush>& pushes, int generation);
   std::vector<collision::BodyId> split(collision::BodyId id, const std::vector<FreeSegmentParts>& parts);
   [[nodiscard]] bool holds_in_debris(JointId joint) const;
@@ -151,7 +153,7 @@ struct Simulation::State {
   void book_body(Body& body);
   void book_contacts();
   void update_views();
-  void tell_changes(const std::vector<BodyView>& before);
+  void tell_changes(std::span<const std::int64_t> before);
   [[nodiscard]] bool rests() const;
   void tell_rest_and_end();
   void account_now();
@@ -210,6 +212,7 @@ struct Simulation::State {
     double tensile_strength = unlimited, compressive_strength = unlimited;  ///< Pa
   };
   std::vector<BreakablePanel> breakable_panels;  ///< per panel
+  bool any_breakable = false;
   std::map<PanelId, BrokenPanel> broken_panels;  ///< those that are broken in part: standing, or whole bodies
 
   std::vector<char> debris_broken;                                     ///< per joint: broke after it had left the frame
