@@ -31,7 +31,8 @@ struct Body {
   bool asleep = false;                         ///< as booked last
   collision::BodyState before;                 ///< at the start of this step's motion, after its impacts
   Vec3 step_start = Vec3::Zero();              ///< where its centre was when the step began
-  Bounds approached;                           ///< what may stand in here has shapes in the collision world
+  Bounds looked_over;                          ///< a place that it is in
+  std::vector<Part> near;                      ///< what may stand there and had no shape in the collision world
 };
 
 /// Inertia about the centre, global axes, as the body lies.

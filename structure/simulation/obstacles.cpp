@@ -13,12 +13,21 @@ Obstacles::Obstacles(const Building& building, const PartShapes& shapes, const P
       settled_(part_count(building), 0) {}
 
 void Obstacles::approach(const Bounds& box, const StandingFrame& frame, collision::World& world) {
-  for (const Part part : grid_.near(box, settled_)) {
+  std::vector<Part> near = without_shape(box);
+  approach(near, box, frame, world);
+}
+
+void Obstacles::approach(std::vector<Part>& near, const Bounds& box, const StandingFrame& frame,
+                         collision::World& world) {
+  std::erase_if(near, [&](Part part) {
     const auto number = static_cast<std::size_t>(part_number(building_, part));
+    if (settled_[number] == 0 && !shapes_.bounds(part).meets(box)) return false;
+    if (settled_[number] != 0) return true;
     settled_[number] = 1;
-    if (part.member.valid() ? !frame.stands(part.member) : !frame.stands(part.panel)) continue;
-    obstacle_of_part_[number] = make(part, world);
-  }
+    if (part.member.valid() ? frame.stands(part.member) : frame.stands(part.panel))
+      obstacle_of_part_[number] = make(part, world);
+    return true;
+  });
 }
 
 collision::ObstacleId Obstacles::make(Part part, collision::World& world) {

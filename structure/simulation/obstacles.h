@@ -16,6 +16,10 @@ class Obstacles {
 
   /// Makes shapes for the standing parts that reach into the box.
   void approach(const Bounds& box, const StandingFrame& frame, collision::World& world);
+  /// The same for those of `near`, out of which those are taken that need none any longer.
+  void approach(std::vector<Part>& near, const Bounds& box, const StandingFrame& frame, collision::World& world);
+  /// Parts at the box that have no shape in the world, in order of number; some may be gone.
+  [[nodiscard]] std::vector<Part> without_shape(const Bounds& box) const { return grid_.near(box, settled_); }
   /// The part has another shape now. What was sensed against the old one still tells the part.
   void renew(Part part, collision::World& world);
   /// The part stands no more.

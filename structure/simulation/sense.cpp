@@ -6,8 +6,9 @@ namespace topple::structure {
 namespace {
 /// Room around a body's swept bounds, m: what its shapes' skins and a step's turn may add.
 constexpr double sense_margin = 0.25;
-/// Room more that is looked over when a body comes somewhere, m: one that lies or rolls there is not looked after again.
-constexpr double look_ahead = 0.25;
+/// Room around that which is looked over with it, m: a body that lies or rolls stays in it, one that falls for some
+/// steps.
+constexpr double look_ahead = 1;
 }  // namespace
 
 Bounds Simulation::State::swept_bounds(const Body& body, const collision::BodyState& state) const {
@@ -26,14 +27,17 @@ Bounds Simulation::State::swept_bounds(const Body& body, const collision::BodySt
   return swept;
 }
 
-/// Parts never come to stand where none stood: a box that was looked over needs no second look.
+/// Parts never come to stand where none stood: what may stand around a body is looked up again only when it leaves the
+/// place that was looked over.
 void Simulation::State::approach(Body& one, const collision::BodyState& state) {
-  Bounds swept = swept_bounds(one, state);
-  if (one.approached.holds(swept)) return;
-  swept.add(Vec3(swept.low - Vec3::Constant(look_ahead)));
-  swept.add(Vec3(swept.high + Vec3::Constant(look_ahead)));
-  obstacles.approach(swept, *frame, *world);
-  one.approached = swept;
+  const Bounds swept = swept_bounds(one, state);
+  if (!one.looked_over.holds(swept)) {
+    one.looked_over = swept;
+    one.looked_over.add(Vec3(swept.low - Vec3::Constant(look_ahead)));
+    one.looked_over.add(Vec3(swept.high + Vec3::Constant(look_ahead)));
+    one.near = obstacles.without_shape(one.looked_over);
+  }
+  if (!one.near.empty()) obstacles.approach(one.near, swept, *frame, *world);
 }
 
 std::vector<collision::Contact> Simulation::State::sense() {
