@@ -2,7 +2,7 @@
 """use_everything.py VIEWER SOURCE [--replay]: headless runs that use everything the viewer has: every word of its views, every key, every
 action, the panels, what it writes and what it takes up again. The lists are those with which the viewer refuses a wrong word, so
 that nothing new is left out. The viewer itself ends with an error when OpenGL reports one; built with the address sanitizer it
-also ends with one when it leaks (leaks.supp names what drivers keep, with the reasons)."""
+also ends with one when it leaks."""
 import json
 import os
 import pathlib
@@ -18,7 +18,6 @@ scratch = tempfile.TemporaryDirectory()
 folder = pathlib.Path(scratch.name)
 environment = dict(os.environ, TOPPLE_MODELS=str(source / "models"), PATH=f"{folder}/bin:{os.environ['PATH']}")
 environment["ASAN_OPTIONS"] = "detect_leaks=1:" + os.environ.get("ASAN_OPTIONS", "")
-environment["LSAN_OPTIONS"] = f"suppressions={source}/tests/viewer/leaks.supp:print_suppressions=0"
 
 
 def run(*words, status=0):
