@@ -193,6 +193,30 @@ TEST_CASE("the wall is shot through with each method, where the ball touches it,
   }
 }
 
+TEST_CASE("a ball leaves a hole that it fits through, however coarse the cells") {
+  for (const auto method :
+       {topple::fracture::Method::voronoi, topple::fracture::Method::quadrilateral, topple::fracture::Method::local}) {
+    CAPTURE(static_cast<int>(method));
+    const auto [model, scenario] = read_scenario(TOPPLE_SOURCE_DIR "/models/scenarios/wall_hit.json");
+    Scenario coarse = scenario;
+    coarse.fracture->method = method;
+    coarse.fracture->cell = 1.3;
+    coarse.fracture->local.length = {0.05, 0.4};
+    Simulation simulation(model, coarse);
+    while (!simulation.finished() && !find(simulation, SimulationEvent::Kind::panel_fractured)) simulation.step();
+    const SimulationEvent* fractured = find(simulation, SimulationEvent::Kind::panel_fractured);
+    REQUIRE(fractured);
+    const double radius = 0.3;
+    for (int i = 0; i < 24; ++i) {
+      const double angle = 2 * M_PI * i / 24;
+      const Vec3 beside = 0.94 * radius * Vec3(std::cos(angle), 0, std::sin(angle));
+      const auto met = simulation.ray_cast(fractured->position + beside - Vec3(0, 0.05, 0), Vec3::UnitY());
+      CHECK((!met || met->panel != PanelId(0u)));
+    }
+    CHECK(simulation.frame().stands(PanelId(0u)));
+  }
+}
+
 TEST_CASE("a click breaks the wall where its ray meets it") {
   const auto [model, scenario] = read_scenario(std::string(TOPPLE_SOURCE_DIR "/models/scenarios/wall_hit.json"));
   Scenario quiet = scenario;
