@@ -168,8 +168,9 @@ void compare_factors(const solver::FrameSystem& system, DirectCholmod& direct, c
                                                                     ours->solve(x);
                                                                   },
                                                                   [&] { y = direct.solve(load); }});
-  Eigen::VectorXd r;
-  const double our_error = solver::residual(K, load, x.col(0), r), their_error = solver::residual(K, load, y, r);
+  const solver::ExtendedResidual residual(K);
+  Eigen::MatrixXd r;
+  const double our_error = residual(load, x, r).front(), their_error = residual(load, y, r).front();
   std::printf("                       order+analyse  factor      solve     GF/s   backward error\n");
   std::printf("  ours (%-12s)  %8.1f ms  %8.1f ms  %7.2f ms  %5.1f   %.1e\n", ours->name(), 1e3 * analysis[0],
               1e3 * time[0], 1e3 * time[2], ours->operations() / time[0] / 1e9, our_error);

@@ -15,7 +15,7 @@ class MatrixRows {
  public:
   explicit MatrixRows(const SparseSymmetric& pattern);
 
-  /// r = b - K x and max |r_i| / (|K| |x| + |b|)_i (Oettli and Prager), as residual() of refinement.h has it.
+  /// r = b - K x and max |r_i| / (|K| |x| + |b|)_i (Oettli and Prager), as ExtendedResidual of refinement.h has it.
   double residual(const SparseSymmetric& K, const Eigen::VectorXd& b, const Eigen::VectorXd& x, Eigen::VectorXd& r);
   /// r = b - K x in these rows, 0 in all others.
   void residual(const SparseSymmetric& K, const Eigen::VectorXd& b, const Eigen::VectorXd& x, std::span<const int> rows,
