@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <numeric>
 
 #include "buckling_start.h"
 #include "factor.h"
@@ -153,7 +154,8 @@ class Buckling {
   std::vector<Vec6> shape(double factor, std::vector<Eigen::VectorXd>& known) {
     std::vector<Vec6> shape(system_.model.nodes.size(), Vec6::Zero());
     if (!ldl_) return shape;
-    below(factor, true);
+    assemble_in_unloaded_scale(factor);
+    ldl_->factorise(system_.matrix(), true);
     Eigen::VectorXd x = start();
     double growth = 0;
     for (int k = 0; k < inverse_iterations; ++k) {
@@ -178,6 +180,17 @@ class Buckling {
   }
 
  private:
+  /// The tangent, each freedom scaled by what its stiffness is without load: by its own in the tangent, a freedom that
+  /// buckles alone (the middle of a post between held ends) would look as stiff as any other.
+  void assemble_in_unloaded_scale(double factor) {
+    set_factor(0);
+    system_.assemble();
+    set_factor(factor);
+    std::vector<int> nodes(system_.model.nodes.size());
+    std::iota(nodes.begin(), nodes.end(), 0);
+    system_.reassemble(nodes);
+  }
+
   /// A vector without any symmetry of its own.
   [[nodiscard]] Eigen::VectorXd start() const {
     Eigen::VectorXd x(system_.dofs().equations);

@@ -188,3 +188,39 @@ TEST_CASE("columns that buckle at hardly different loads are told apart, as far 
   // Where Newton's method cannot tell shapes apart, factors are enclosed to 2e-9 of themselves.
   for (std::size_t k = 0; k < modes.size(); ++k) CHECK(modes[k].factor == Approx(expected[k]).epsilon(4e-9));
 }
+
+TEST_CASE("a post between held ends bulges in its middle, a freedom that buckles alone") {
+  FrameModel model;
+  const double length = 6, EI = 2e11 * 1e-5;
+  model.nodes = {Vec3(0, 0, 0), Vec3(0, 0, length / 2), Vec3(0, 0, length)};
+  for (const int from : {0, 1}) {
+    Beam beam;
+    beam.node = {from, from + 1};
+    beam.length = length / 2;
+    beam.axes << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+    beam.youngs_modulus = 2e11;
+    beam.shear_modulus = 8e10;
+    beam.area = 0.01;
+    beam.Iy = 1e-5;
+    beam.Iz = 3e-5;
+    beam.J = 1e-5;
+    model.beams.push_back(beam);
+  }
+  model.supports = {{0, fixed}, {2, held({0, 1, 3, 4, 5})}};
+  LoadSet loads;
+  loads.nodes = {{2, Vec6::Unit(2) * -1000}};
+  const auto modes = buckling_modes(model, loads, 2, {});
+  REQUIRE(modes.size() == 2);
+  // 4 pi2 EI / L2, then with a turning middle at the first root of tan x = x, 4 x2 EI / L2. To some enclosures' width
+  // (1e-11).
+  const double turning = 4.4934094579090642;
+  CHECK(modes[0].factor == Approx(4 * pi * pi * EI / (length * length) / 1000).epsilon(1e-10));
+  CHECK(modes[1].factor == Approx(4 * turning * turning * EI / (length * length) / 1000).epsilon(1e-10));
+  // About the weak axis, global x: the middle moves along global y without turning, then turns without moving.
+  const Vec6 &first = modes[0].shape[1], &second = modes[1].shape[1];
+  CHECK(std::abs(first(1)) > 0);
+  CHECK(std::abs(first(0)) < 1e-6 * std::abs(first(1)));
+  CHECK(std::abs(first(3)) * length < 1e-6 * std::abs(first(1)));
+  CHECK(std::abs(second(3)) > 0);
+  CHECK(second.head<3>().norm() < 1e-6 * length * std::abs(second(3)));
+}

@@ -15,9 +15,7 @@ using structure::AnalysisResult;
 
 /// Posts are divided to see them bulge between nodes that rest, unless that makes too much of the building.
 constexpr std::size_t most_divided = 3000;
-/// Near the middle, not in it: there a post's symmetry would hide the shape from an analysis that scales each freedom
-/// by its own stiffness, which alone vanishes.
-constexpr double divided_at = 0.45;
+constexpr double divided_at = 0.5;
 
 ModeShape mode(double value, const std::vector<structure::Vec6>& shape) {
   auto drawn = std::make_shared<std::vector<Eigen::Matrix<float, 6, 1>>>();
@@ -25,7 +23,7 @@ ModeShape mode(double value, const std::vector<structure::Vec6>& shape) {
   return {value, std::move(drawn), nullptr};
 }
 
-/// A building whose posts have a node near their middle, behind all nodes of the whole one.
+/// A building whose posts have a node in their middle, behind all nodes of the whole one.
 struct DividedPosts {
   structure::Building building;
   std::vector<std::pair<std::size_t, std::size_t>> middles;  ///< member, node
@@ -38,7 +36,7 @@ struct DividedPosts {
   }
 };
 
-/// What the middle does beside the cubic between the ends, across the member, by what a place near it does.
+/// What the middle does beside the cubic between the ends, across the member, by what the node there does.
 structure::Vec3 bulge_of(const structure::Member& member, const std::vector<structure::Vec6>& shape,
                          const structure::Vec3& moves) {
   constexpr double s = divided_at, r = 1 - s;
