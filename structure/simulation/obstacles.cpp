@@ -21,8 +21,8 @@ void Obstacles::approach(std::vector<Part>& near, const Bounds& box, const Stand
                          collision::World& world) {
   std::erase_if(near, [&](Part part) {
     const auto number = static_cast<std::size_t>(part_number(building_, part));
-    if (settled_[number] == 0 && !shapes_.bounds(part).meets(box)) return false;
     if (settled_[number] != 0) return true;
+    if (!shapes_.bounds(part).meets(box)) return false;
     settled_[number] = 1;
     if (part.member.valid() ? frame.stands(part.member) : frame.stands(part.panel))
       obstacle_of_part_[number] = make(part, world);
