@@ -128,14 +128,14 @@ BulletWorld::BulletWorld()
 BulletWorld::~BulletWorld() {
   for (auto& [id, hinge] : hinges_) world_.removeConstraint(hinge->constraint.get());
   for (auto& [id, cable] : cables_) world_.removeConstraint(&cable->constraint);
-  for (auto& [id, body] : bodies_) world_.removeRigidBody(body->rigid.get());
+  for (const BodyId id : order_) world_.removeRigidBody(body(id.value).rigid.get());
   for (auto& [id, obstacle] : obstacles_) world_.removeCollisionObject(obstacle->fixed.get());
   remove_ground();
 }
 
 Body& BulletWorld::body(std::int64_t id) {
-  if (id < 0 || id >= next_body_ || !body_by_id_[static_cast<std::size_t>(id)]) not_in_the_world(id, "body");
-  return *body_by_id_[static_cast<std::size_t>(id)];
+  if (id < 0 || id >= std::ssize(bodies_) || !bodies_[static_cast<std::size_t>(id)]) not_in_the_world(id, "body");
+  return *bodies_[static_cast<std::size_t>(id)];
 }
 const Body& BulletWorld::body(std::int64_t id) const { return const_cast<BulletWorld*>(this)->body(id); }
 Obstacle& BulletWorld::obstacle(std::int64_t id) { return find(obstacles_, id, "obstacle"); }
@@ -170,14 +170,15 @@ void BulletWorld::set_ground(double height, double friction, double restitution)
 }
 
 BodyId BulletWorld::add_body(const BodyDescription& description) {
-  const std::string owner = "body " + std::to_string(next_body_);
+  const BodyId id{std::ssize(bodies_)};
+  const std::string owner = "body " + std::to_string(id.value);
   if (!std::isfinite(description.mass) || !(description.mass > 0)) {
     throw std::invalid_argument(owner + ": mass " + std::to_string(description.mass) + "; it must be above zero");
   }
   const PrincipalInertia inertia = principal_inertia(description.inertia, owner);
   auto body = std::make_unique<Body>();
   body->kind = Touched::Kind::body;
-  body->id = next_body_;
+  body->id = id.value;
   body->turned = inertia.turned;
   body->principal.setRotation(to_bullet(inertia.axes));
   make_parts(description.parts, body->principal.inverse(), owner, polyhedra_, *body);
@@ -194,9 +195,7 @@ BodyId BulletWorld::add_body(const BodyDescription& description) {
   body->object = &rigid;
   set_continuous(*body);
 
-  const BodyId id{next_body_++};
-  body_by_id_.push_back(body.get());
-  bodies_.emplace(id.value, std::move(body));
+  bodies_.push_back(std::move(body));
   order_.push_back(id);
   set_state(id, {description.pose, description.velocity, description.angular_velocity, false});
   world_.addRigidBody(&rigid, kBodies, btBroadphaseProxy::AllFilter);
@@ -220,8 +219,7 @@ void BulletWorld::remove_body(BodyId id) {
   forget_ignored_of(Touched::Kind::body, id.value);
   forget_contacts_of(Touched::Kind::body, id.value);
   world_.removeRigidBody(gone.rigid.get());
-  body_by_id_[static_cast<std::size_t>(id.value)] = nullptr;
-  bodies_.erase(id.value);
+  bodies_[static_cast<std::size_t>(id.value)].reset();
   order_.erase(std::lower_bound(order_.begin(), order_.end(), id));
 }
 
@@ -326,7 +324,7 @@ void BulletWorld::wake_touching(const btCollisionObject& object) {
 
 std::size_t BulletWorld::awake_count() const {
   return static_cast<std::size_t>(
-      std::count_if(bodies_.begin(), bodies_.end(), [](const auto& entry) { return entry.second->rigid->isActive(); }));
+      std::count_if(order_.begin(), order_.end(), [&](BodyId id) { return body(id.value).rigid->isActive(); }));
 }
 
 void BulletWorld::step(double dt) {
@@ -375,26 +373,28 @@ void BulletWorld::let_settled_sleep(double dt) {
     double mass = 0, sum = 0, farthest = 0;
   };
   std::map<int, Island> islands;
-  for (const auto& [id, one] : bodies_) {
-    if (!one->rigid->isActive()) continue;
-    const btTransform& now = one->rigid->getWorldTransform();
-    const double turned = now.getRotation().angleShortestPath(one->watched_at.getRotation());
-    const double away = (now.getOrigin() - one->watched_at.getOrigin()).length();
-    const double moved = away + one->reach * turned;
-    const double mass = 1 / one->rigid->getInvMass();
-    Island& island = islands[one->rigid->getIslandTag()];
+  for (const BodyId id : order_) {
+    const Body& one = body(id.value);
+    if (!one.rigid->isActive()) continue;
+    const btTransform& now = one.rigid->getWorldTransform();
+    const double turned = now.getRotation().angleShortestPath(one.watched_at.getRotation());
+    const double away = (now.getOrigin() - one.watched_at.getOrigin()).length();
+    const double moved = away + one.reach * turned;
+    const double mass = 1 / one.rigid->getInvMass();
+    Island& island = islands[one.rigid->getIslandTag()];
     island.mass += mass;
     island.sum += mass * moved * moved;
-    island.farthest = std::max(island.farthest, one->watched ? away : BT_LARGE_FLOAT);
+    island.farthest = std::max(island.farthest, one.watched ? away : BT_LARGE_FLOAT);
   }
-  for (const auto& [id, one] : bodies_) {
-    one->watched = one->rigid->isActive();
-    if (!one->watched || one->swings) continue;
-    one->watched_at = one->rigid->getWorldTransform();
-    const Island& island = islands[one->rigid->getIslandTag()];
+  for (const BodyId id : order_) {
+    Body& one = body(id.value);
+    one.watched = one.rigid->isActive();
+    if (!one.watched || one.swings) continue;
+    one.watched_at = one.rigid->getWorldTransform();
+    const Island& island = islands[one.rigid->getIslandTag()];
     if (island.sum < kSettings.settled_mean * kSettings.settled_mean * island.mass &&
         island.farthest < kSettings.settled_single)
-      one->rigid->setActivationState(WANTS_DEACTIVATION);
+      one.rigid->setActivationState(WANTS_DEACTIVATION);
   }
 }
 

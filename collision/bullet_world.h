@@ -152,14 +152,13 @@ class BulletWorld final : public World {
   btSequentialImpulseConstraintSolver solver_;
   FreeSpinWorld world_;
 
-  std::map<std::int64_t, std::unique_ptr<Body>> bodies_;
-  std::vector<Body*> body_by_id_;  ///< null where it is gone: ids are never used again
+  std::vector<std::unique_ptr<Body>> bodies_;  ///< by id, which is never used again: null where one is gone
   std::map<std::int64_t, std::unique_ptr<Obstacle>> obstacles_;
   std::map<std::int64_t, std::unique_ptr<Hinge>> hinges_;
   std::map<std::int64_t, std::unique_ptr<HungCable>> cables_;
-  std::vector<BodyId> order_;
-  double watched_for_ = 0;  ///< s since the last look
-  std::int64_t next_body_ = 0, next_obstacle_ = 0, next_hinge_ = 0, next_cable_ = 0;
+  std::vector<BodyId> order_;  ///< of the bodies that are there, ascending
+  double watched_for_ = 0;     ///< s since the last look
+  std::int64_t next_obstacle_ = 0, next_hinge_ = 0, next_cable_ = 0;
 
   Solid ground_;
   PolyhedronStore polyhedra_;

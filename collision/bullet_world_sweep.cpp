@@ -84,9 +84,9 @@ BulletWorld::Mover BulletWorld::mover_of(const Body& body, const Motion& motion,
 
 std::vector<BulletWorld::Mover> BulletWorld::movers(double dt) const {
   std::vector<Mover> result;
-  for (const auto& [id, body] : bodies_) {
-    if (!body->rigid->isActive()) continue;
-    result.push_back(mover_of(*body, motion_of(*body, dt), dt));
+  for (const BodyId id : order_) {
+    const Body& one = body(id.value);
+    if (one.rigid->isActive()) result.push_back(mover_of(one, motion_of(one, dt), dt));
   }
   return result;
 }
