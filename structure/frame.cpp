@@ -68,12 +68,14 @@ Frame make_frame(const Building& building) {
   model.beams.reserve(building.members.size());
   for (std::size_t i = 0; i < building.members.size(); ++i) model.beams.push_back(make_beam(building, MemberId(i)));
   frame.shell_of_panel.assign(building.panels.size(), -1);
+  const auto operators = std::make_shared<ShellOperators>();
   for (std::size_t i = 0; i < building.panels.size(); ++i)
     if (building.panels[i].model == PanelModel::membrane) {
       frame.shell_of_panel[i] = static_cast<int>(model.shells.size());
       model.shells.push_back(make_membrane(building, building.panels[i]));
       if (!building.panels[i].openings.empty())
-        model.shell_stiffness.emplace(frame.shell_of_panel[i], PanelSuperelement(building, PanelId(i)).stiffness());
+        model.shell_stiffness.emplace(frame.shell_of_panel[i],
+                                      PanelSuperelement(building, PanelId(i), operators).stiffness());
     }
   for (const NodeSupport& support : building.supports)
     model.supports.push_back({support.node.index, support.stiffness});

@@ -8,7 +8,6 @@
 #include "index_of.h"
 #include "mesh/panel_cells.h"
 #include "topple/fracture/polygon.h"
-#include "topple/solver/shell_resultants.h"
 
 namespace topple::structure {
 
@@ -86,11 +85,13 @@ std::array<double, 2> principal(const Vec3& s) {
 
 }  // namespace
 
-PanelSuperelement::PanelSuperelement(const Building& building, const Frame& frame, PanelId id)
+PanelSuperelement::PanelSuperelement(const Building& building, const Frame& frame, PanelId id,
+                                     std::shared_ptr<ShellOperators> operators)
     : axes_(building[id].axes),
       origin_(building[building[id].nodes[0]].position),
       turn_(Mat3::Identity()),
-      thickness_(building[id].thickness) {
+      thickness_(building[id].thickness),
+      operators_(std::move(operators)) {
   const PanelMesh& mesh = frame.meshes[index_of(id)];
   solver::Superelement::Patch patch;
   std::map<int, int> place;
@@ -121,16 +122,24 @@ PanelSuperelement::PanelSuperelement(const Building& building, const Frame& fram
   take_nodes(building[id]);
   for (std::size_t n = 0; n < node_.size(); ++n)
     if (held_at(n)) patch.kept.push_back(node_[n]);
-  share_.assign(patch.shells.size(), 1);
-  patch_.emplace(std::move(patch));
-  find_places();
+  begin(std::move(patch));
 }
 
-PanelSuperelement::PanelSuperelement(const Building& building, PanelId id)
+void PanelSuperelement::begin(solver::Superelement::Patch patch) {
+  share_.assign(patch.shells.size(), 1);
+  patch_.emplace(std::move(patch));
+  for (const solver::Shell& shell : patch_->patch().shells)
+    element_.push_back(&operators_->of(shell, patch_->patch().nodes));
+  find_places();
+  load_evenly();
+}
+
+PanelSuperelement::PanelSuperelement(const Building& building, PanelId id, std::shared_ptr<ShellOperators> operators)
     : axes_(building[id].axes),
       origin_(building[building[id].nodes[0]].position),
       turn_(building[id].axes),
-      thickness_(building[id].thickness) {
+      thickness_(building[id].thickness),
+      operators_(std::move(operators)) {
   const Panel& panel = building[id];
   const PanelSurface surface(building, panel);
   const PanelLines lines = membrane_lines(surface, panel, id);
@@ -166,9 +175,7 @@ PanelSuperelement::PanelSuperelement(const Building& building, PanelId id)
     patch.shells.push_back(shell);
   }
   take_nodes(panel);
-  share_.assign(patch.shells.size(), 1);
-  patch_.emplace(std::move(patch));
-  find_places();
+  begin(std::move(patch));
 }
 
 /// The edges on which the panel's nodes lie.
@@ -237,6 +244,35 @@ void PanelSuperelement::keep_shares() {
   for (std::size_t k = 0; k < standing.size(); ++k)
     if (standing[k] < least_share || !patch_->stands(static_cast<int>(k))) standing[k] = 0;
   patch_->keep(standing);
+  load_evenly();
+}
+
+/// What each node gets of a unit traction along each axis of the patch.
+void PanelSuperelement::load_evenly() {
+  const auto& shells = patch_->patch().shells;
+  unit_traction_.assign(patch_->patch().nodes.size(), Eigen::Matrix<double, 6, 3>::Zero());
+  for (std::size_t k = 0; k < shells.size(); ++k) {
+    if (share_[k] <= 0) continue;
+    const Eigen::Matrix<double, 24, 3> own = share_[k] * element_[k]->loads;
+    if (patch_->stands(static_cast<int>(k))) {
+      for (int n = 0; n < 4; ++n)
+        unit_traction_[static_cast<std::size_t>(shells[k].node[static_cast<std::size_t>(n)])] +=
+            own.middleRows<6>(6 * n);
+      continue;
+    }
+    Vec3 centre = Vec3::Zero();
+    for (const int node : shells[k].node) {
+      const Vec2 corner = flat(node);
+      centre += Vec3(corner.x(), corner.y(), 0) / 4;
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      Vec3 sum = Vec3::Zero();
+      for (int n = 0; n < 4; ++n) sum += own.block<3, 1>(6 * n, axis);
+      std::vector<Vec6> loads(unit_traction_.size(), Vec6::Zero());
+      add_force({origin_ + axes_.transpose() * centre, turn_.transpose() * sum}, loads);
+      for (std::size_t n = 0; n < loads.size(); ++n) unit_traction_[n].col(axis) += loads[n];
+    }
+  }
 }
 
 void PanelSuperelement::release_edge(int edge) {
@@ -279,13 +315,6 @@ Eigen::MatrixXd PanelSuperelement::stiffness() const {
 
 bool PanelSuperelement::stands_at(std::size_t node) const {
   return place_[node] >= 0 && patch_->has_shells(node_[node]);
-}
-
-solver::FrameModel PanelSuperelement::model() const {
-  solver::FrameModel model;
-  model.nodes = patch_->patch().nodes;
-  model.shells = patch_->patch().shells;
-  return model;
 }
 
 /// On the element that holds the point by its bilinear shapes; in a hole, on the nearest node that stands, with the
@@ -337,25 +366,9 @@ void PanelSuperelement::add_force(const PanelForce& one, std::vector<Vec6>& load
 
 std::vector<Vec6> PanelSuperelement::node_loads(const PanelLoading& loading) const {
   std::vector<Vec6> loads(patch_->patch().nodes.size(), Vec6::Zero());
-  if (!loading.traction.isZero(0)) {
-    const solver::FrameModel patch = model();
-    for (std::size_t k = 0; k < patch.shells.size(); ++k) {
-      if (share_[k] <= 0) continue;
-      const std::array<Vec6, 4> own =
-          solver::traction_loads(patch, static_cast<int>(k), turn_ * loading.traction * share_[k]);
-      if (patch_->stands(static_cast<int>(k))) {
-        for (std::size_t n = 0; n < 4; ++n) loads[static_cast<std::size_t>(patch.shells[k].node[n])] += own[n];
-        continue;
-      }
-      Vec3 sum = Vec3::Zero(), centre = Vec3::Zero();
-      for (std::size_t n = 0; n < 4; ++n) {
-        const Vec2 corner = flat(patch.shells[k].node[n]);
-        sum += own[n].head<3>();
-        centre += Vec3(corner.x(), corner.y(), 0) / 4;
-      }
-      add_force({origin_ + axes_.transpose() * centre, turn_.transpose() * sum}, loads);
-    }
-  }
+  const Vec3 traction = turn_ * loading.traction;
+  if (!traction.isZero(0))
+    for (std::size_t n = 0; n < loads.size(); ++n) loads[n] = unit_traction_[n] * traction;
   for (const PanelForce& one : loading.forces) add_force(one, loads);
   return loads;
 }
@@ -433,16 +446,20 @@ std::array<Vec6, 4> PanelSuperelement::edge_demands(const std::vector<Vec6>& at_
 
 PanelStress PanelSuperelement::worst_stress(const std::vector<Vec6>& at_nodes, const PanelLoading& loading) const {
   const std::vector<Vec6> u = recover(at_nodes, loading);
-  const solver::FrameModel patch = model();
+  const auto& shells = patch_->patch().shells;
   PanelStress worst;
-  for (std::size_t k = 0; k < patch.shells.size(); ++k) {
+  for (std::size_t k = 0; k < shells.size(); ++k) {
     if (!patch_->stands(static_cast<int>(k)) || share_[k] < share_with_stress) continue;
-    const solver::ShellResultants r = solver::shell_resultants(patch, static_cast<int>(k), u);
+    Eigen::Matrix<double, 24, 1> own;
+    for (int n = 0; n < 4; ++n)
+      own.segment<6>(6 * n) = u[static_cast<std::size_t>(shells[k].node[static_cast<std::size_t>(n)])];
+    const Vec6 r = element_[k]->resultants * own;
     for (const double face : {-1.0, 1.0}) {
-      const Vec3 stress = r.membrane / thickness_ + face * 6 * r.moments / (thickness_ * thickness_);
+      const Vec3 stress = r.head<3>() / thickness_ + face * 6 * r.tail<3>() / (thickness_ * thickness_);
       const auto [larger, smaller] = principal(stress);
+      if (larger <= worst.tension && -smaller <= worst.compression) continue;
       Vec2 centre = Vec2::Zero();
-      for (const int node : patch.shells[k].node) centre += flat(node) / 4;
+      for (const int node : shells[k].node) centre += flat(node) / 4;
       const Vec3 at = origin_ + axes_.transpose() * Vec3(centre.x(), centre.y(), 0);
       if (larger > worst.tension) {
         worst.tension = larger;

@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "shell_operators.h"
 #include "topple/solver/superelement.h"
 #include "topple/structure/frame.h"
 #include "topple/structure/standing_frame.h"
@@ -31,10 +32,12 @@ struct PanelLoading {
 
 class PanelSuperelement {
  public:
-  /// A shell panel as the frame meshes it.
-  PanelSuperelement(const Building& building, const Frame& frame, PanelId id);
+  /// A shell panel as the frame meshes it. `operators`: those of elements met before, to be added to.
+  PanelSuperelement(const Building& building, const Frame& frame, PanelId id,
+                    std::shared_ptr<ShellOperators> operators = std::make_shared<ShellOperators>());
   /// A membrane panel, meshed here, less its openings.
-  PanelSuperelement(const Building& building, PanelId id);
+  PanelSuperelement(const Building& building, PanelId id,
+                    std::shared_ptr<ShellOperators> operators = std::make_shared<ShellOperators>());
 
   /// Only this remains; its holes begin with those of earlier calls.
   void fracture(const PanelRemains& remains);
@@ -63,6 +66,8 @@ class PanelSuperelement {
 
  private:
   void keep_shares();
+  void begin(solver::Superelement::Patch patch);
+  void load_evenly();
   void take_nodes(const Panel& panel);
   void find_places();
   [[nodiscard]] bool held_at(std::size_t node) const;
@@ -70,14 +75,15 @@ class PanelSuperelement {
   [[nodiscard]] std::vector<Vec6> node_loads(const PanelLoading& loading) const;
   void add_force(const PanelForce& one, std::vector<Vec6>& loads) const;
   [[nodiscard]] std::vector<Vec6> recover(const std::vector<Vec6>& at_nodes, const PanelLoading& loading) const;
-  [[nodiscard]] solver::FrameModel model() const;
-
   Mat3 axes_;  ///< of the panel
   Vec3 origin_;
   Mat3 turn_;  ///< rows: axes of the patch in global components
   double thickness_;
   std::optional<solver::Superelement> patch_;
-  std::vector<double> lost_;  ///< per element: of its area, m2
+  std::shared_ptr<ShellOperators> operators_;
+  std::vector<const ShellOperators::Element*> element_;     ///< per element
+  std::vector<Eigen::Matrix<double, 6, 3>> unit_traction_;  ///< per node: its loads, axes of the patch
+  std::vector<double> lost_;                                ///< per element: of its area, m2
   std::size_t holes_counted_ = 0;
   std::vector<double> share_;  ///< per element: of its area that is there
   std::vector<int> node_;      ///< per node of the panel: that of the patch

@@ -20,7 +20,7 @@ class PanelSuperelements {
     refuse_unready(building, frame);
     for (std::size_t p = 0; p < building.panels.size(); ++p)
       if (building.panels[p].model == PanelModel::shell)
-        of_panel_[p] = std::make_unique<PanelSuperelement>(building, frame, PanelId(p));
+        of_panel_[p] = std::make_unique<PanelSuperelement>(building, frame, PanelId(p), operators_);
   }
 
   /// Null for a panel that is one element, or none.
@@ -29,7 +29,7 @@ class PanelSuperelements {
   }
   PanelSuperelement& make(PanelId panel) {
     auto& own = of_panel_[static_cast<std::size_t>(panel.index)];
-    if (!own) own = std::make_unique<PanelSuperelement>(building_, panel);
+    if (!own) own = std::make_unique<PanelSuperelement>(building_, panel, operators_);
     return *own;
   }
 
@@ -51,6 +51,7 @@ class PanelSuperelements {
   }
 
   const Building& building_;
+  std::shared_ptr<ShellOperators> operators_ = std::make_shared<ShellOperators>();
   std::vector<std::unique_ptr<PanelSuperelement>> of_panel_;
 };
 

@@ -20,7 +20,9 @@ void Simulation::State::book() {
   resting.read(world->contacts(), obstacles, scenario.step,
                [&](collision::BodyId id) { return body(id) && !world->state(id).asleep; });
   shatter_landed();
+  const std::map<PanelId, PanelBlow> blows = blows_on_panels();
   break_up_landed();
+  crumble(blows);
   keep_limit();  // some may have fallen asleep
   update_views();
 }

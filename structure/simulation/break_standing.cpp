@@ -20,13 +20,15 @@ constexpr double steepest = 0.5;
 constexpr double largest_start = 0.05;
 }  // namespace
 
+double Simulation::State::punching_force(PanelId id, const Vec3& along, double radius) const {
+  const Panel& panel = building[id];
+  const BreakablePanel& breakable = breakable_panels[static_cast<std::size_t>(id.index)];
+  if (!breakable.settings || std::abs(panel.axes.row(2).dot(along)) < steepest) return unlimited;
+  return breakable.tensile_strength * M_PI * panel.thickness * (2 * radius + panel.thickness);
+}
+
 double Simulation::State::punching_force(const Strike& hit) const {
-  if (!hit.part.panel.valid()) return unlimited;
-  const Panel& panel = building[hit.part.panel];
-  const BreakablePanel& breakable = breakable_panels[static_cast<std::size_t>(hit.part.panel.index)];
-  if (!breakable.settings || std::abs(panel.axes.row(2).dot(hit.normal)) < steepest) return unlimited;
-  const double t = panel.thickness, r = hit.body->radius;
-  return breakable.tensile_strength * M_PI * t * (2 * r + t);
+  return hit.part.panel.valid() ? punching_force(hit.part.panel, hit.normal, hit.body->radius) : unlimited;
 }
 
 /// Speed that the punch leaves a blow that is fast enough to feel the panel alone; 0 for one that is not.

@@ -156,7 +156,8 @@ std::vector<collision::BodyId> Simulation::State::fall_apart(collision::BodyId i
 
 /// Replaces the body by its parts, each with the velocity of its centre in the whole.
 std::vector<collision::BodyId> Simulation::State::split(collision::BodyId id,
-                                                        const std::vector<FreeSegmentParts>& parts) {
+                                                        const std::vector<FreeSegmentParts>& parts,
+                                                        std::vector<Body> chunks) {
   const Body whole = bodies.at(id.value);
   const collision::BodyState state = world->state(id);
   const Mat3 turn = state.pose.orientation.toRotationMatrix();
@@ -169,24 +170,17 @@ std::vector<collision::BodyId> Simulation::State::split(collision::BodyId id,
   std::vector<collision::BodyId> made;
   Momentum carried{state.pose.position}, handed_on{state.pose.position};
   carried.add(whole, state);
-  for (const FreeSegmentParts& part : parts) {
-    Detached piece;
-    piece.members = part.members;
-    piece.panels = part.panels;
-    piece.nodes = part.nodes;
-    const double mass = masses.of(piece).mass;
-    if (piece.members.empty() && piece.panels.empty() && mass <= 0) continue;  // a bare hub
-    Body own = describe(piece);
+  const auto motion_of = [&](const Body& own) {
     const Vec3 arm = turn * (own.rest.centre - whole.rest.centre);
     collision::BodyState moving = state;
     moving.pose.position += arm;
     moving.velocity += state.angular_velocity.cross(arm);
     moving.asleep = false;
-    SimulationEvent& event = tell(SimulationEvent::Kind::split, own.name);
-    event.members = own.members;
-    event.panels = own.panels;
-    event.mass = own.rest.mass;
-    event.position = moving.pose.position;
+    return moving;
+  };
+  // One that is too small to be a body takes its energy with it.
+  const auto go_on = [&](Body own) {
+    const collision::BodyState moving = motion_of(own);
     if (own.volume < scenario.debris.smallest_volume) {
       const Kinetic lost = kinetic_energy(own, moving, reading());
       ledger.removed += lost.translation + lost.rotation;
@@ -195,18 +189,37 @@ std::vector<collision::BodyId> Simulation::State::split(collision::BodyId id,
         body_of_part[static_cast<std::size_t>(part_number(building, Part(panel)))] = -2;
       tell(SimulationEvent::Kind::limited, own.name).mass = own.rest.mass;
       handed_on.add(own, moving);
-      continue;
+      return;
     }
     made.push_back(add_body(std::move(own), moving));
     bodies.at(made.back().value).step_start = moving.pose.position;
     handed_on.add(bodies.at(made.back().value), world->state(made.back()));
     changes.split.push_back({id.value, made.back().value});
+  };
+  for (const FreeSegmentParts& part : parts) {
+    Detached piece;
+    piece.members = part.members;
+    piece.panels = part.panels;
+    piece.nodes = part.nodes;
+    const double mass = masses.of(piece).mass;
+    if (piece.members.empty() && piece.panels.empty() && mass <= 0) continue;  // a bare hub
+    Body own = describe(piece);
+    if (parts.size() > 1) {
+      SimulationEvent& event = tell(SimulationEvent::Kind::split, own.name);
+      event.members = own.members;
+      event.panels = own.panels;
+      event.mass = own.rest.mass;
+      event.position = motion_of(own).pose.position;
+    }
+    go_on(std::move(own));
   }
+  const std::size_t parts_made = made.size();
+  for (Body& chunk : chunks) go_on(std::move(chunk));
   ledger.momentum_error = std::max(ledger.momentum_error, carried.error(handed_on));
   hang_again(hung);
   // Parts are born inside each other where they were joined.
-  for (std::size_t i = 0; i < made.size(); ++i)
-    for (std::size_t j = i + 1; j < made.size(); ++j) {
+  for (std::size_t i = 0; i < parts_made; ++i)
+    for (std::size_t j = i + 1; j < parts_made; ++j) {
       collision::Touched other;
       other.kind = collision::Touched::Kind::body;
       other.body = made[j];

@@ -124,7 +124,20 @@ struct Simulation::State {
   void shatter_struck(collision::BodyId id);
   void shatter_landed();
 
+  // crumble.cpp: panels of bodies with other parts break where these come down hard on them.
+  struct PanelBlow {
+    double force = 0;        ///< N
+    Vec3 at = Vec3::Zero();  ///< in the undeformed building
+    double radius = 0;       ///< of the ball that hit it
+  };
+  [[nodiscard]] std::map<PanelId, PanelBlow> blows_on_panels() const;
+  void crumble(const std::map<PanelId, PanelBlow>& blows);
+  std::vector<Body> break_out_in_flight(PanelId panel, const PanelBlow& blow);
+  [[nodiscard]] std::array<bool, 4> held_in_flight(PanelId panel, const Body& one) const;
+
   // break_standing.cpp: panels that break where they stand.
+  /// Of a panel that can break, for a body of this radius; `along` in the axes of the undeformed building.
+  [[nodiscard]] double punching_force(PanelId panel, const Vec3& along, double radius) const;
   [[nodiscard]] double punching_force(const Strike& hit) const;
   [[nodiscard]] double speed_through(const Strike& hit, double force) const;
   bool punch_at_once(Strike& hit, double force, double left);
@@ -143,7 +156,9 @@ struct Simulation::State {
   [[nodiscard]] std::vector<collision::BodyId> hit_hard();
   [[nodiscard]] std::map<std::int64_t, std::vector<FreePush>> blows(const std::vector<collision::BodyId>& on);
   std::vector<collision::BodyId> fall_apart(collision::BodyId id, const std::vector<FreePush>& pushes, int generation);
-  std::vector<collision::BodyId> split(collision::BodyId id, const std::vector<FreeSegmentParts>& parts);
+  /// `chunks`: of panels that broke out of it, which move on with it.
+  std::vector<collision::BodyId> split(collision::BodyId id, const std::vector<FreeSegmentParts>& parts,
+                                       std::vector<Body> chunks = {});
   [[nodiscard]] bool holds_in_debris(JointId joint) const;
   [[nodiscard]] FreeSegmentParts parts_of(const Body& one) const;
 

@@ -5,6 +5,7 @@
 #include "simulation/panel_chunks.h"
 #include "simulation/part_shapes.h"
 #include "support/scratch_folder.h"
+#include "topple/fracture/mesh.h"
 #include "topple/structure/error.h"
 #include "topple/structure/files.h"
 #include "topple/structure/simulation.h"
@@ -109,6 +110,75 @@ TEST_CASE("a slab that falls a storey breaks where it lands, and nothing is lost
       CHECK(body.pose.position.z() > -0.05);
       CHECK(body.pose.position.z() < 4);
     }
+  }
+}
+
+TEST_CASE("a slab that comes down with its beams breaks where they land, and what its edges hold stays with them") {
+  // The posts are taken away: slab and beams fall as one body, which a boulder of 20 t meets from below in the middle
+  // of the slab.
+  const char* const drop_bay =
+      R"({"at": 0.1, "remove": {"panels": ["WY-1-1-1"], "members": ["P*"]}},
+         {"at": 0.1, "projectile": {"from": [3, 3, 1.2], "velocity": [0, 0, 9], "mass": 20000, "radius": 0.8}})";
+  for (const std::string method : {"voronoi", "quadrilateral", "local"}) {
+    CAPTURE(method);
+    Simulation simulation(building(), scenario(drop_bay, method));
+    const PanelId slab = simulation.building().panels[0].kind == PanelKind::slab ? PanelId(0) : PanelId(1);
+    const SimulationEvent* broken = nullptr;
+    double rest_before = 0;
+    while (!simulation.finished() && !broken) {
+      rest_before = 0;
+      for (const BodyView& body : simulation.bodies())
+        if (body.members.size() == 4) rest_before = body.mass;
+      simulation.step();
+      for (const SimulationEvent& event : simulation.events())
+        if (event.kind == SimulationEvent::Kind::panel_fractured) broken = &event;
+    }
+    REQUIRE(broken != nullptr);
+    CHECK(simulation.building()[slab].name == broken->name);
+    // What the ball touched is no part of the slab any more; the beams still hold the rest.
+    CHECK(std::hypot(broken->position.x() - 3, broken->position.y() - 3) < 0.3);
+    const topple::collision::BodyId with_beams = simulation.body_of(MemberId(4));
+    REQUIRE(with_beams.value >= 0);
+    CHECK(simulation.body_of(slab) == with_beams);
+    double rest = 0, chunks = 0;
+    for (const BodyView& body : simulation.bodies()) {
+      if (body.id == with_beams) rest = body.mass;
+      if (body.chunk) chunks += body.mass;
+    }
+    CHECK(chunks > 0.1 * 0.2 * 2400);
+    CHECK(rest + chunks == Approx(rest_before).epsilon(1e-12));
+    CHECK(simulation.ledger().momentum_error < 1e-10);
+    const std::shared_ptr<const topple::fracture::Mesh> drawn = simulation.broken_panel(slab);
+    REQUIRE(drawn);
+    const double volume = topple::fracture::audit(*drawn, 1e-9).volume;
+    CHECK(volume * 2400 + chunks == Approx(6 * 6 * 0.2 * 2400).epsilon(1e-12));
+
+    // Whatever breaks where the bay comes down on the ball and the ground: nothing of it is lost.
+    while (!simulation.finished()) simulation.step();
+    double all = 0;
+    for (const BodyView& body : simulation.bodies())
+      if (body.radius == 0) all += body.mass;
+    double built = 6 * 6 * 0.2 * 2400;
+    for (const Member& member : simulation.building().members)
+      if (member.name[0] == 'B') built += member.length * 7850 * simulation.building()[member.section].area;
+    CHECK(all == Approx(built).epsilon(1e-12));
+    CHECK(simulation.ledger().momentum_error < 1e-10);
+    CHECK(std::abs(simulation.ledger().residual()) < 0.02);
+  }
+}
+
+TEST_CASE("a bay that comes down softly, or whose slab cannot break, keeps its slab whole") {
+  for (const bool soft : {true, false}) {
+    Scenario plain = scenario(R"({"at": 0.1, "remove": {"panels": ["WY-1-1-1"], "members": ["P*"]}})", "voronoi");
+    if (soft)
+      plain.ground = 3.75;  // just below the beams
+    else
+      plain.fracture.reset();
+    Simulation simulation(building(), plain);
+    while (!simulation.finished()) simulation.step();
+    CHECK(count(simulation, SimulationEvent::Kind::panel_fractured) == 0);
+    CHECK(chunk_mass(simulation) == 0);
+    CHECK(simulation.bodies().size() == 1);
   }
 }
 

@@ -1,0 +1,124 @@
+// Crumble: a panel of a body that has other parts as well breaks where the body comes down hard on it. What the blow
+// breaks out, and what then hangs on nothing, leaves as chunks; what its edges still hold stays with the body. All move
+// on as the body did, so that momentum and kinetic energy go over exactly.
+//
+// Hard is a blow that punches the panel as it would where it stands (break_standing.cpp), the contact's impulse taken
+// as a force that lasts the step, or one that is faster than what crushes the material (shatter.cpp). What lies on a
+// panel presses on it without a blow.
+#include <algorithm>
+
+#include "simulation/simulation_state.h"
+
+namespace topple::structure {
+
+/// Of the contacts of the last step: the hardest on each panel. Taken before bodies break up, so that each is felt by
+/// the body that had it.
+std::map<PanelId, Simulation::State::PanelBlow> Simulation::State::blows_on_panels() const {
+  std::map<PanelId, PanelBlow> blows;
+  if (!any_breakable) return blows;
+  const auto feel = [&](collision::BodyId id, std::int64_t tag, const collision::Contact& contact,
+                        collision::BodyId other) {
+    if (tag < 0) return;
+    const PanelId panel = part_of_number(building, tag).panel;
+    if (!panel.valid() || !breakable_panels[static_cast<std::size_t>(panel.index)].settings) return;
+    const auto found = bodies.find(id.value);
+    if (found == bodies.end() || found->second.asleep || breakable_of(found->second).valid()) return;
+    const Body& one = found->second;
+    const collision::BodyState state = world->state(id);
+    const Vec3 arm = contact.point - state.pose.position;
+    const double impulse = std::abs(contact.impulse.dot(contact.normal));
+    const Mat3 turn = state.pose.orientation.toRotationMatrix();
+    const Mat3 inverse = world_inertia(one, state.pose.orientation).inverse();
+    const double change = impulse / effective_mass(one.rest.mass, inverse, arm, contact.normal);
+    const auto by = bodies.find(other.value);
+    PanelBlow blow;
+    blow.force = impulse / scenario.step;
+    blow.at = one.rest.centre + turn.transpose() * arm;
+    blow.radius = by == bodies.end() ? 0 : by->second.radius;
+    const bool crushes = change >= breakable_panels[static_cast<std::size_t>(panel.index)].breaking_speed;
+    const double bears = punching_force(panel, turn.transpose() * contact.normal, blow.radius);
+    if (!crushes && (contact.persistent || blow.force < bears)) return;
+    PanelBlow& hardest = blows[panel];
+    if (blow.force > hardest.force) hardest = blow;
+  };
+  for (const collision::Contact& contact : world->contacts()) {
+    const bool two = contact.other.kind == collision::Touched::Kind::body;
+    feel(contact.body, contact.part_tag, contact, two ? contact.other.body : collision::BodyId());
+    if (two) feel(contact.other.body, contact.other.part_tag, contact, contact.body);
+  }
+  return blows;
+}
+
+/// An edge holds by what the body still has at its nodes.
+std::array<bool, 4> Simulation::State::held_in_flight(PanelId panel, const Body& one) const {
+  const Panel& own = building[panel];
+  const auto bears = [&](NodeId node) {
+    for (const MemberId member : one.members)
+      for (int end = 0; end < 2; ++end)
+        if (building[member].nodes[static_cast<std::size_t>(end)] == node &&
+            holds_in_debris(building.joint(member, end)))
+          return true;
+    for (const PanelId other : one.panels) {
+      if (other == panel || building[other].model != PanelModel::shell) continue;
+      const std::vector<NodeId> nodes = building[other].all_nodes();
+      if (std::find(nodes.begin(), nodes.end(), node) != nodes.end()) return true;
+    }
+    return false;
+  };
+  std::array<bool, 4> edges{};
+  for (std::size_t edge = 0; edge < 4; ++edge)
+    edges[edge] = holds_in_debris(building.joint(panel, static_cast<int>(edge))) &&
+                  (bears(own.nodes[edge]) || bears(own.nodes[(edge + 1) % 4]) ||
+                   std::any_of(own.edge_nodes[edge].begin(), own.edge_nodes[edge].end(), bears));
+  return edges;
+}
+
+/// The chunks that leave the panel, as bodies where they were in the undeformed building.
+std::vector<Body> Simulation::State::break_out_in_flight(PanelId panel, const PanelBlow& blow) {
+  const Body& one = bodies.at(body_of_part[static_cast<std::size_t>(part_number(building, Part(panel)))]);
+  const std::array<bool, 4> holding = held_in_flight(panel, one);
+  BrokenPanel& left = breaking(panel);
+  const int before = left.chunks_out();
+  std::vector<PanelChunk> chunks = left.hit(blow.at, blow.radius > 0 ? std::optional(blow.radius) : std::nullopt);
+  if (chunks.empty()) return {};
+  if (holding != left.held())
+    for (PanelChunk& loose : left.hold(holding)) chunks.push_back(std::move(loose));
+  std::vector<Body> pieces;
+  for (PanelChunk& chunk : chunks)
+    pieces.push_back(chunk_body(panel, std::move(chunk), before + static_cast<int>(pieces.size()) + 1));
+  masses.set(panel, left.rest());
+  shapes.set_broken(panel, left.hulls());
+  return pieces;
+}
+
+void Simulation::State::crumble(const std::map<PanelId, PanelBlow>& blows) {
+  std::map<std::int64_t, std::vector<Body>> chunks;  // by the body that they leave
+  for (const auto& [panel, blow] : blows) {
+    const std::int64_t id = body_of_part[static_cast<std::size_t>(part_number(building, Part(panel)))];
+    if (!bodies.contains(id)) continue;
+    // What lies frozen on it could not go with any one chunk.
+    if (std::any_of(frozen.begin(), frozen.end(), [&](const Frozen& lying) { return lying.on == Part(panel); }))
+      continue;
+    const Body& one = bodies.at(id);
+    const collision::BodyState state = world->state(one.id);
+    const Vec3 at = state.pose * (blow.at - one.rest.centre);
+    std::vector<Body> pieces = break_out_in_flight(panel, blow);
+    if (pieces.empty()) continue;
+    tell(SimulationEvent::Kind::panel_fractured, building[panel].name).position = at;
+    for (Body& piece : pieces) chunks[id].push_back(std::move(piece));
+  }
+  for (auto& [id, pieces] : chunks) {
+    FreeSegmentParts left = parts_of(bodies.at(id));
+    for (std::size_t p = left.panels.size(); p-- > 0;) {
+      const BrokenPanel* broken = broken_panel(left.panels[p]);
+      if (!broken || !broken->hulls().empty()) continue;
+      body_of_part[static_cast<std::size_t>(part_number(building, Part(left.panels[p])))] = -2;
+      left.panels.erase(left.panels.begin() + static_cast<std::ptrdiff_t>(p));
+      left.panel_mass.erase(left.panel_mass.begin() + static_cast<std::ptrdiff_t>(p));
+    }
+    (void)split({id}, connected_parts(building, left, [&](JointId joint) { return holds_in_debris(joint); }),
+                std::move(pieces));
+  }
+}
+
+}  // namespace topple::structure
