@@ -1,8 +1,11 @@
 #include "topple/structure/convert.h"
 
+#include <algorithm>
+
 #include "formats/json_document.h"
 #include "formats/model_files.h"
 #include "formats/model_forms.h"
+#include "formats/written_out.h"
 #include "topple/structure/error.h"
 #include "topple/structure/files.h"
 
@@ -22,8 +25,14 @@ formats::JsonDocument json_model(const std::filesystem::path& in) {
       ModelOfTables model = model_of_tables(formats::read_tables(in), in.string());
       return formats::JsonDocument::from_text(model.json, in.string(), {}, std::move(model.places));
     }
-    default:
-      return formats::JsonDocument::from_file(in);
+    default: {
+      formats::JsonDocument model = formats::JsonDocument::from_file(in);
+      if (!formats::has_generator(model)) return model;
+      const std::string text = formats::written_out(model);
+      std::vector<std::string> places(static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1,
+                                      model.name() + ", its building written out");
+      return formats::JsonDocument::from_text(text, model.name(), {}, std::move(places));
+    }
   }
 }
 
@@ -52,12 +61,12 @@ ModelForm model_form(const std::filesystem::path& path) {
 }
 
 ConvertedModel convert_model(const std::filesystem::path& in, ModelForm to) {
-  (void)read_model(in, Purpose::inspect);  // whatever is wrong with it is told here
+  const Building building = read_model(in, Purpose::inspect);  // whatever is wrong with it is told here
   switch (to) {
     case ModelForm::json:
       return {{{"", json_text(in)}}};
     case ModelForm::frame3dd:
-      return {{{"", frame3dd_text(frame3dd_of_model(json_model(in)))}}};
+      return {{{"", frame3dd_text(frame3dd_of_model(json_model(in), building))}}};
     default:
       return {tables_of_model(json_model(in))};
   }

@@ -64,6 +64,7 @@ struct Frame3ddFile {
     std::array<std::array<double, 2>, 2> faces{};  ///< Ty+ Ty-, Tz+ Tz-
   };
   struct LoadCase {
+    std::string remark;
     Vec3 gravity = Vec3::Zero();  ///< acceleration
     std::vector<NodeNumbers> nodes;
     std::vector<Uniform> uniform;

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <unordered_map>
 
+#include "formats/frame3dd_of_model.h"
 #include "formats/geometry.h"
 #include "formats/model_forms.h"
 #include "formats/model_reader.h"
@@ -18,22 +19,9 @@ namespace {
 using formats::JsonDocument;
 using formats::JsonValue;
 
-constexpr double standard_gravity = 9.80665;  // of the format, m/s2
-
-[[noreturn]] void refuse(const JsonValue& value, const std::string& instead) {
-  value.fail("a .3dd file cannot hold it; accepted for it: " + instead);
-}
-
-/// Refuses the first key that is not among those.
-void hold_only(const JsonValue& object, std::initializer_list<std::string_view> keys, const std::string& instead) {
-  for (const JsonValue value : object)
-    if (std::find(keys.begin(), keys.end(), value.key()) == keys.end()) refuse(value, instead);
-}
-
-double number_or(const JsonValue& object, const char* key, double otherwise) {
-  const auto value = object.find(key);
-  return value ? value->number() : otherwise;
-}
+using frame3dd_model::hold_only;
+using frame3dd_model::number_or;
+using frame3dd_model::refuse;
 
 Vec3 three(const JsonValue& value) { return formats::read_point(value, 1); }
 
@@ -54,7 +42,7 @@ std::optional<double> shortest(double value, Same same) {
 
 class FileMaker {
  public:
-  explicit FileMaker(const JsonDocument& model) : root_(model.root()) {}
+  FileMaker(const JsonDocument& model, const Building& building) : root_(model.root()), building_(building) {}
 
   Frame3ddFile make() {
     hold_only(root_,
@@ -65,7 +53,7 @@ class FileMaker {
       for (const JsonValue panel : *panels) refuse(panel, "members only");
     title();
     check_units();
-    gravity_ = number_or(root_, "gravity", standard_gravity);
+    gravity_ = number_or(root_, "gravity", building_.gravity / building_.units.length);
     nodes();
     members();
     supports();
@@ -83,12 +71,12 @@ class FileMaker {
     if (file_.title.find_first_of("\n\r") != std::string::npos) refuse(*title, "one line");
   }
 
-  /// A .3dd file names no units: those of the model must go together by themselves.
+  /// A .3dd file names no units: those of the model must go together by themselves (force = mass x length / s2).
   void check_units() const {
-    const auto units = root_.find("units");
-    if (!units || units->is_text()) return;
-    for (const JsonValue unit : *units)
-      if (unit.text() != "m" && unit.text() != "N" && unit.text() != "kg") refuse(unit, "\"consistent\", or m, N, kg");
+    const Units& units = building_.units;
+    constexpr double rounding = 1e-12;
+    if (std::abs(units.force - units.mass * units.length) <= rounding * units.force) return;
+    refuse(root_.require("units"), "\"consistent\", or units that go together, such as m, N, kg; m, kN, t; mm, N, t");
   }
 
   /// Numbers of parts: their names where these are 1 to n in any order, else their order in the file.
@@ -135,7 +123,9 @@ class FileMaker {
     member_numbers_ = numbers_of(members);
     file_.elements.resize(members.size());
     materials_.resize(members.size());
-    for (const JsonValue value : members) member(value);
+    axes_.resize(members.size());
+    std::size_t position = 0;
+    for (const JsonValue value : members) member(value, building_.members[position++]);
     // Radii are of nodes: every element at a node must have the same.
     for (const JsonValue value : members) {
       const auto& element = file_.elements[static_cast<std::size_t>(member_numbers_.at(std::string(value.key())))];
@@ -148,30 +138,33 @@ class FileMaker {
     }
   }
 
-  void member(const JsonValue& value) {
-    hold_only(value, {"kind", "nodes", "section", "material", "up", "roll", "joints", "offsets", "axial"},
+  /// Kind and groups go into the comment beside the element: they change no result.
+  void member(const JsonValue& value, const Member& known) {
+    hold_only(value, {"kind", "nodes", "section", "material", "up", "roll", "joints", "offsets", "axial", "groups"},
               "nodes, section, material, up, roll");
     const int index = member_numbers_.at(std::string(value.key()));
     Frame3ddFile::Element& element = file_.elements[static_cast<std::size_t>(index)];
     element.remark = remark(value, index);
+    if (const auto groups = value.find("groups"))
+      for (const JsonValue group : *groups)
+        element.remark += (element.remark.empty() ? "" : " ") + std::string(group.text());
+    axes_[static_cast<std::size_t>(index)] = known.axes;
     std::size_t end = 0;
     for (const JsonValue node : value.require("nodes")) element.nodes[end++] = node_of(node.text());
     if (const auto axial = value.find("axial"); axial && axial->text() != "both") refuse(*axial, "\"both\"");
     if (const auto joints = value.find("joints"); joints && joints->is_array())
       for (const JsonValue joint : *joints)
         if (!joint.is_null()) refuse(joint, "null");
-    section(value, element);
+    section(value, known, element);
     material(value, element, index);
     roll(value, element);
     offsets(value, element);
   }
 
-  void section(const JsonValue& value, Frame3ddFile::Element& element) {
+  void section(const JsonValue& value, const Member& member, Frame3ddFile::Element& element) {
     const JsonValue section = root_.require("sections").require(value.require("section").text());
-    hold_only(section, {"area", "Iy", "Iz", "J", "shear_area_y", "shear_area_z", "shear_deformation"},
-              "a section as numbers: area, shear_area_y, shear_area_z, J, Iy, Iz");
-    constexpr std::array<const char*, 6> keys{"area", "shear_area_y", "shear_area_z", "J", "Iy", "Iz"};
-    for (std::size_t k = 0; k < keys.size(); ++k) element.section[k] = number_or(section, keys[k], 0);
+    const bool by_shape = section.find("shape") || section.find("catalogue");
+    by_shape ? shaped_section(building_[member.section], element) : numbered_section(section, element);
     const auto deforms = section.find("shear_deformation");
     const bool areas = element.section[1] > 0 || element.section[2] > 0;
     const bool shear = areas && (!deforms || deforms->boolean());
@@ -181,14 +174,28 @@ class FileMaker {
     if (*shear_ != shear) refuse(section, "shear deformation in all sections, or in none");
   }
 
+  static void numbered_section(const JsonValue& section, Frame3ddFile::Element& element) {
+    hold_only(section, {"area", "Iy", "Iz", "J", "shear_area_y", "shear_area_z", "shear_deformation"},
+              "a section as numbers: area, shear_area_y, shear_area_z, J, Iy, Iz; or one by shape");
+    constexpr std::array<const char*, 6> keys{"area", "shear_area_y", "shear_area_z", "J", "Iy", "Iz"};
+    for (std::size_t k = 0; k < keys.size(); ++k) element.section[k] = number_or(section, keys[k], 0);
+  }
+
+  /// What the shape or the catalogue says, in the units of the file.
+  void shaped_section(const Section& section, Frame3ddFile::Element& element) const {
+    const double length = building_.units.length, area = length * length, inertia = area * area;
+    element.section = {section.area / area, section.shear_area_y / area, section.shear_area_z / area,
+                       section.J / inertia, section.Iy / inertia,        section.Iz / inertia};
+  }
+
   void material(const JsonValue& value, Frame3ddFile::Element& element, int index) {
     const JsonValue material = root_.require("materials").require(value.require("material").text());
     hold_only(material, {"youngs_modulus", "shear_modulus", "poisson_ratio", "density", "thermal_expansion"},
-              "youngs_modulus, shear_modulus, density, thermal_expansion");
+              "youngs_modulus, shear_modulus or poisson_ratio, density, thermal_expansion");
     const auto shear = material.find("shear_modulus"), poisson = material.find("poisson_ratio");
-    if (poisson) refuse(*poisson, "shear_modulus");
+    if (shear && poisson) refuse(*poisson, "shear_modulus alone");
     element.E = material.require("youngs_modulus").number();
-    element.G = shear->number();
+    element.G = shear ? shear->number() : element.E / (2 * (1 + poisson->number()));
     element.density = number_or(material, "density", 0);
     materials_[static_cast<std::size_t>(index)] = number_or(material, "thermal_expansion", 0);
   }
@@ -269,123 +276,11 @@ class FileMaker {
     }
   }
 
-  // Loads. A .3dd file analyses each case by itself.
+  // Loads.
 
   void loads() {
-    const auto loads = root_.find("loads");
-    if (!loads || loads->size() == 0) root_.fail("no `loads`; accepted in a .3dd file: at least one load case");
-    if (const auto combinations = root_.find("combinations")) {
-      auto load_case = loads->begin();
-      for (const JsonValue combination : *combinations) {
-        const bool same = load_case != loads->end() && combination.size() == 1 &&
-                          combination.find((*load_case).key()) && (*combination.begin()).number() == 1;
-        if (!same) refuse(combination, "each load case by itself, in their order");
-        ++load_case;
-      }
-      if (load_case != loads->end()) refuse(*load_case, "each load case as a combination by itself");
-    }
-    for (const JsonValue value : *loads) load_case(value);
-  }
-
-  void load_case(const JsonValue& value) {
-    hold_only(value, {"self_weight", "nodes", "members", "settlements"},
-              "self weight, loads of nodes and members, settlements");
-    Frame3ddFile::LoadCase& made = file_.cases.emplace_back();
-    if (const auto weight = value.find("self_weight"))
-      made.gravity = weight->is_array() ? Vec3(gravity_ * three(*weight)) : Vec3(0, 0, -gravity_ * weight->number());
-    if (const auto nodes = value.find("nodes"))
-      for (const JsonValue entry : *nodes) made.nodes.push_back(six(entry));
-    if (const auto settlements = value.find("settlements"))
-      for (const JsonValue entry : *settlements) made.displacements.push_back(six(entry));
-    if (const auto members = value.find("members"))
-      for (const JsonValue list : *members)
-        for (const JsonValue entry : list) member_load(entry, member_numbers_.at(std::string(list.key())), made);
-  }
-
-  [[nodiscard]] Frame3ddFile::NodeNumbers six(const JsonValue& entry) const {
-    return {node_of(entry.key()), formats::read_components(entry, [](int) { return 1.0; })};
-  }
-
-  void member_load(const JsonValue& value, int element, Frame3ddFile::LoadCase& made) {
-    const auto temperature = value.find("temperature");
-    if (temperature) return this->temperature(*temperature, element, made);
-    const auto frame = value.find("frame");
-    if (!frame) refuse(value, "\"frame\": \"local\"");
-    if (frame->text() != "local") refuse(*frame, "\"local\"");
-    if (const auto uniform = value.find("uniform")) {
-      if (!value.find("from") && !value.find("to")) {
-        made.uniform.push_back({element, forces(*uniform)});
-        return;
-      }
-      Frame3ddFile::Trapezoid part{element, {}};
-      const auto [from, to] = extent(value, element);
-      const Vec3 load = forces(*uniform);
-      for (std::size_t i = 0; i < 3; ++i)
-        if (const double w = load[static_cast<int>(i)]; w != 0) part.axes[i] = {from, to, w, w};
-      made.trapezoids.push_back(part);
-      last_axis_ = 2;
-    } else if (const auto trapezoid = value.find("trapezoid")) {
-      this->trapezoid(value, *trapezoid, element, made);
-    } else if (const auto point = value.find("point")) {
-      made.points.push_back({element, forces(*point), value.require("at").number()});
-    }
-  }
-
-  [[nodiscard]] Vec3 forces(const JsonValue& components) const {
-    hold_only(components, {"x", "y", "z"}, "forces x, y, z");
-    return formats::read_components(components, [](int) { return 1.0; }).head<3>();
-  }
-
-  /// `from` and `to`, which default to the ends.
-  [[nodiscard]] std::array<double, 2> extent(const JsonValue& value, int element) const {
-    const Frame3ddFile::Element& e = file_.elements[static_cast<std::size_t>(element)];
-    const auto node = [&](std::size_t end) { return file_.nodes[static_cast<std::size_t>(e.nodes[end])]; };
-    const double length = (node(1).place - node(0).place).norm() - node(0).radius - node(1).radius;
-    return {number_or(value, "from", 0), number_or(value, "to", length)};
-  }
-
-  /// Loads on following axes of one element are one load of the file, as they came from one.
-  void trapezoid(const JsonValue& value, const JsonValue& components, int element, Frame3ddFile::LoadCase& made) {
-    hold_only(components, {"x", "y", "z"}, "forces x, y, z");
-    const auto [from, to] = extent(value, element);
-    int first = 3, last = -1;
-    for (const JsonValue pair : components) {
-      first = std::min(first, formats::component_of(pair.key()));
-      last = std::max(last, formats::component_of(pair.key()));
-    }
-    if (made.trapezoids.empty() || made.trapezoids.back().element != element || first <= last_axis_)
-      made.trapezoids.push_back({element, {}});
-    for (const JsonValue pair : components) {
-      auto number = pair.begin();
-      const double w1 = (*number).number();
-      ++number;
-      made.trapezoids.back().axes[static_cast<std::size_t>(formats::component_of(pair.key()))] = {from, to, w1,
-                                                                                                  (*number).number()};
-    }
-    last_axis_ = last;
-  }
-
-  void temperature(const JsonValue& value, int element, Frame3ddFile::LoadCase& made) {
-    Frame3ddFile::Temperature heat;
-    heat.element = element;
-    if (value.find("faces_y") || value.find("faces_z")) {
-      heat.expansion = number_or(value, "expansion", materials_[static_cast<std::size_t>(element)]);
-      constexpr std::array<const char*, 2> depths{"depth_y", "depth_z"}, faces{"faces_y", "faces_z"};
-      for (std::size_t i = 0; i < 2; ++i) {
-        heat.depth[i] = value.require(depths[i]).number();
-        std::size_t k = 0;
-        for (const JsonValue face : value.require(faces[i])) heat.faces[i][k++] = face.number();
-      }
-    } else {
-      // Only an even temperature needs no depth.
-      for (const char* key : {"gradient_y", "gradient_z"})
-        if (const auto gradient = value.find(key); gradient && gradient->number() != 0)
-          refuse(*gradient, "`faces_y`, `faces_z` with their depths");
-      heat.expansion = materials_[static_cast<std::size_t>(element)];
-      const double even = number_or(value, "uniform", 0);
-      heat.faces = {{{even, even}, {even, even}}};
-    }
-    made.temperatures.push_back(heat);
+    const Frame3ddNumbers numbers{node_numbers_, member_numbers_, axes_, materials_, gravity_};
+    frame3dd_load_cases(root_, numbers, file_);
   }
 
   void modes() {
@@ -453,18 +348,21 @@ class FileMaker {
   }
 
   JsonValue root_;
+  const Building& building_;
   Frame3ddFile file_;
   double gravity_ = 1;
   std::unordered_map<std::string, int> node_numbers_, member_numbers_;  // looked up only
   std::vector<bool> radius_given_;
   std::vector<double> materials_;  ///< thermal expansion by element
+  std::vector<Mat3> axes_;         ///< of each element
   std::vector<std::array<bool, 6>> held_;
   std::optional<bool> shear_;
-  int last_axis_ = -1;
 };
 
 }  // namespace
 
-Frame3ddFile frame3dd_of_model(const JsonDocument& model) { return FileMaker(model).make(); }
+Frame3ddFile frame3dd_of_model(const JsonDocument& model, const Building& building) {
+  return FileMaker(model, building).make();
+}
 
 }  // namespace topple::structure

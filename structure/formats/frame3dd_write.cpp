@@ -78,7 +78,9 @@ void write_node_numbers(Text& text, const std::vector<Frame3ddFile::NodeNumbers>
 }
 
 void write_case(Text& text, const Frame3ddFile::LoadCase& load_case, std::size_t index) {
-  text.numbers(load_case.gravity).end("case " + std::to_string(index + 1) + ": gravity X, Y, Z");
+  text.numbers(load_case.gravity)
+      .end("case " + std::to_string(index + 1) + (load_case.remark.empty() ? "" : " (" + load_case.remark + ")") +
+           ": gravity X, Y, Z");
   write_node_numbers(text, load_case.nodes, "loaded nodes");
   text.number(count(load_case.uniform.size())).end("uniform loads (local axes)");
   for (const auto& load : load_case.uniform) text.number(load.element + 1).numbers(load.load).end();

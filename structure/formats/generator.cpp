@@ -155,50 +155,60 @@ class Generator {
     return own;
   }
 
-  void add_member(const MemberDraft& rule, const std::string& name, const std::array<Cell, 2>& ends, int k) {
+  void add_member(const MemberDraft& rule, const JsonValue& place, const std::string& name,
+                  const std::array<Cell, 2>& ends, int k) {
     if (!built(name)) return;
     MemberDraft member = rule;
     member.name = full_name(name);
     member.nodes = {at(ends[0]), at(ends[1])};
     member.groups = groups(std::move(member.groups), k);
-    draft_.add_member(member, place_.require(member.kind == MemberKind::post ? "post" : "beam"));
+    draft_.add_member(member, place);
   }
 
-  void add_panel(const PanelRule& rule, const std::string& name, const std::array<Cell, 4>& corners, int k) {
+  void add_panel(const PanelRule& rule, const JsonValue& place, const std::string& name,
+                 const std::array<Cell, 4>& corners, int k) {
     if (!built(name)) return;
     PanelDraft panel = rule.draft;
     panel.panel.name = full_name(name);
     for (std::size_t n = 0; n < 4; ++n) panel.panel.nodes[n] = at(corners[n]);
     panel.panel.groups = groups(std::move(panel.panel.groups), k);
-    const PanelId id = draft_.add_panel(panel, place_.require(panel.panel.kind == PanelKind::slab ? "slab" : "wall"));
+    const PanelId id = draft_.add_panel(panel, place);
     for (const auto& [load_case, pressure] : rule.pressures)
       draft_.building.cases[static_cast<std::size_t>(load_case.index)].panels.push_back({id, pressure, 0});
   }
 
   void add_posts() {
-    for (int k = 1; k <= plan_.storeys; ++k)
+    for (int k = 1; k <= plan_.storeys; ++k) {
+      const auto storey = static_cast<std::size_t>(k);
       for_each_post(k, [&](int i, int j) {
-        add_member(*plan_.post[static_cast<std::size_t>(k)], numbered("P", i, j, k), {Cell{i, j, k - 1}, Cell{i, j, k}},
-                   k);
+        add_member(*plan_.post[storey], *plan_.post_value[storey], numbered("P", i, j, k),
+                   {Cell{i, j, k - 1}, Cell{i, j, k}}, k);
       });
+    }
   }
   void add_beams() {
-    for (int k = 1; k <= plan_.storeys; ++k)
+    for (int k = 1; k <= plan_.storeys; ++k) {
+      const auto storey = static_cast<std::size_t>(k);
       for_each_beam(k, [&](const std::string& name, const std::array<Cell, 2>& ends) {
-        add_member(*plan_.beam[static_cast<std::size_t>(k)], name, ends, k);
+        add_member(*plan_.beam[storey], *plan_.beam_value[storey], name, ends, k);
       });
+    }
   }
   void add_slabs() {
-    for (int k = 1; k <= plan_.storeys; ++k)
+    for (int k = 1; k <= plan_.storeys; ++k) {
+      const auto storey = static_cast<std::size_t>(k);
       for_each_slab(k, [&](const std::string& name, const std::array<Cell, 4>& corners) {
-        add_panel(*plan_.slab[static_cast<std::size_t>(k)], name, corners, k);
+        add_panel(*plan_.slab[storey], *plan_.slab_value[storey], name, corners, k);
       });
+    }
   }
   void add_walls() {
-    for (int k = 1; k <= plan_.storeys; ++k)
+    for (int k = 1; k <= plan_.storeys; ++k) {
+      const auto storey = static_cast<std::size_t>(k);
       for_each_wall(k, [&](const std::string& name, const std::array<Cell, 4>& corners) {
-        add_panel(*plan_.wall[static_cast<std::size_t>(k)], name, corners, k);
+        add_panel(*plan_.wall[storey], *plan_.wall_value[storey], name, corners, k);
       });
+    }
   }
 
   void add_base() {

@@ -75,19 +75,20 @@ class PlanReader {
   // Rules.
 
   void read_rules() {
-    plan_.post = read_by_storey<MemberDraft>("post", true,
+    plan_.post = read_by_storey<MemberDraft>("post", true, plan_.post_value,
                                              [&](const JsonValue& v) { return read_member_rule(v, MemberKind::post); });
-    plan_.beam = read_by_storey<MemberDraft>("beam", true,
+    plan_.beam = read_by_storey<MemberDraft>("beam", true, plan_.beam_value,
                                              [&](const JsonValue& v) { return read_member_rule(v, MemberKind::beam); });
-    plan_.slab = read_by_storey<PanelRule>("slab", false,
+    plan_.slab = read_by_storey<PanelRule>("slab", false, plan_.slab_value,
                                            [&](const JsonValue& v) { return read_panel_rule(v, PanelKind::slab); });
-    plan_.wall = read_by_storey<PanelRule>("wall", false,
+    plan_.wall = read_by_storey<PanelRule>("wall", false, plan_.wall_value,
                                            [&](const JsonValue& v) { return read_panel_rule(v, PanelKind::wall); });
   }
 
   template <class Rule, class Read>
-  ByStorey<Rule> read_by_storey(const char* key, bool everywhere, Read read) const {
+  ByStorey<Rule> read_by_storey(const char* key, bool everywhere, ByStorey<JsonValue>& values, Read read) const {
     ByStorey<Rule> rules(static_cast<std::size_t>(plan_.storeys) + 1);
+    values.resize(rules.size());
     if (!everywhere && !place_.find(key)) return rules;
     const JsonValue value = place_.require(key);
     const auto take = [&](const JsonValue& object) {
@@ -106,6 +107,7 @@ class PlanReader {
         if (slot)
           object.fail("storey " + std::to_string(k) + " has a " + key + " already; accepted: one for each storey");
         slot = rule;
+        values[static_cast<std::size_t>(k)] = object;
       }
     };
     if (value.is_array())

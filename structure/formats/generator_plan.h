@@ -26,6 +26,7 @@ struct BuildingPlan {
   std::vector<double> x, y, z;      ///< places of lines and levels, SI
   ByStorey<MemberDraft> post, beam;
   ByStorey<PanelRule> slab, wall;
+  ByStorey<JsonValue> post_value, beam_value, slab_value, wall_value;  ///< where the rules stand
 
   /// Number of an inner line such as "x2"; 0: it is none.
   [[nodiscard]] int inner_line(const std::string& side) const;

@@ -73,6 +73,7 @@ NodeId ModelDraft::add_node(const std::string& name, const Vec3& position, const
 MemberId ModelDraft::add_member(const MemberDraft& draft, const JsonValue& place) {
   check_part_name(draft.name, place);
   check_groups(draft.groups, place);
+  if (keep_descriptions) member_descriptions.push_back(place);
   Member member;
   member.name = draft.name;
   member.kind = draft.kind;
@@ -115,6 +116,7 @@ PanelId ModelDraft::add_panel(PanelDraft draft, const JsonValue& place) {
   Panel& panel = draft.panel;
   check_part_name(panel.name, place);
   check_groups(panel.groups, place);
+  if (keep_descriptions) panel_descriptions.push_back(place);
   std::array<Vec3, 4> corners;
   for (std::size_t i = 0; i < 4; ++i) corners[i] = building[panel.nodes[i]].position;
   const PanelGeometry geometry = panel_geometry(corners);

@@ -94,6 +94,11 @@ class ModelDraft {
   Scale scale;
   std::vector<JointType> joint_types;
 
+  /// Where each member and panel is described, in their order (a generator's rule stands for all that it makes); filled
+  /// when it is asked for before they are added.
+  bool keep_descriptions = false;
+  std::vector<JsonValue> member_descriptions, panel_descriptions;
+
   /// Room for so many more, so that large models do not move what is there again and again.
   void reserve(std::size_t nodes, std::size_t members);
 

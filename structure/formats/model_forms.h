@@ -16,8 +16,9 @@ using TextsByName = std::vector<std::pair<std::string, std::string>>;
 /// The JSON model of a .3dd file: consistent units, parts named by their numbers, the flags as `analyses`, and what has
 /// no meaning for Topple as `frame3dd`.
 [[nodiscard]] std::string model_of_frame3dd(const Frame3ddFile& file);
-/// Throws InputError that names what a .3dd file cannot hold.
-[[nodiscard]] Frame3ddFile frame3dd_of_model(const formats::JsonDocument& model);
+/// `building` is what the model describes: what a .3dd file holds as numbers only (sections by shape, moduli, loads in
+/// global axes) comes from there. Throws InputError that names what a .3dd file cannot hold.
+[[nodiscard]] Frame3ddFile frame3dd_of_model(const formats::JsonDocument& model, const Building& building);
 
 /// A JSON model in which each row of the tables has a line of its own, and where that row stands ("members.csv, line
 /// 5").

@@ -44,6 +44,7 @@ class ModelMaker {
     each("sections.csv", ",\"sections\":{", [this](const CsvTable& t, std::size_t r) {
       plain_object(t, r, 1, {"shape", "catalogue"});
     });
+    find_edge_joints();
     each("joints.csv", ",\"joints\":{", [this](const CsvTable& t, std::size_t r) { joint(t, r); });
     each("nodes.csv", ",\"nodes\":{", [this](const CsvTable& t, std::size_t r) { node(t, r); });
     each("members.csv", ",\"members\":{", [this](const CsvTable& t, std::size_t r) { member(t, r); });
@@ -172,20 +173,41 @@ class ModelMaker {
     throw std::logic_error("a table that is none");
   }
 
+  /// Capacities of joints that panels have are per length of edge.
+  void find_edge_joints() {
+    const auto found = tables_.find("panels.csv");
+    if (found == tables_.end()) return;
+    constexpr std::size_t joint_column = 10;
+    for (std::size_t row = 0; row < found->second.rows(); ++row)
+      edge_joints_.insert(found->second.cell(row, joint_column));
+  }
+
   void joint(const CsvTable& table, std::size_t row) {
-    constexpr std::size_t first_capacity = 2, first_stiffness = 9, end = 15;
+    constexpr std::size_t first_capacity = 2, first_stiffness = 9, from_column = 15, interaction = 17, end = 21;
     line_ += '{';
     bool first = true;
     if (const auto strength = table.number(row, 1)) add(first, "strength", digits(*strength));
-    const auto block = [&](const char* key, std::size_t begin, std::size_t stop) {
+    const auto numbers = [&](std::size_t begin, std::size_t stop, std::size_t prefix = 0) {
       std::string inside;
       for (std::size_t c = begin; c < stop; ++c)
         if (const auto number = table.number(row, c))
-          inside += (inside.empty() ? "" : ",") + quoted(model_tables::joints[c]) + ":" + digits(*number);
+          inside +=
+              (inside.empty() ? "" : ",") + quoted(model_tables::joints[c].substr(prefix)) + ":" + digits(*number);
+      return inside;
+    };
+    std::string capacity = numbers(first_capacity, first_stiffness);
+    if (const std::string_view source = table.cell(row, from_column); !source.empty())
+      capacity += (capacity.empty() ? "" : ",") + std::string("\"from\":") + quoted(source);
+    if (const std::string ratio = numbers(from_column + 1, interaction); !ratio.empty())
+      capacity += (capacity.empty() ? "" : ",") + ratio;
+    const auto object = [&](const char* key, const std::string& inside) {
       if (!inside.empty()) add(first, key, "{" + inside + "}");
     };
-    block("capacity", first_capacity, first_stiffness);
-    block("stiffness", first_stiffness, end);
+    object(edge_joints_.contains(table.cell(row, 0)) ? "capacity_per_length" : "capacity", capacity);
+    object("stiffness", numbers(first_stiffness, from_column));
+    if (const std::string_view cell = table.cell(row, interaction); !cell.empty())
+      add(first, "interaction", quoted(cell));
+    object("ductility", numbers(interaction + 1, end, std::string_view("ductility_").size()));
     line_ += '}';
   }
 
@@ -218,6 +240,16 @@ class ModelMaker {
     if (!table.cell(row, 10).empty() || !table.cell(row, 11).empty())
       add(first, "joints", "[" + joint(10) + "," + joint(11) + "]");
     if (const std::string_view groups = table.cell(row, 12); !groups.empty()) add(first, "groups", group_list(groups));
+    text(13, "axial");
+    constexpr std::size_t first_offset = 14, end_of_offsets = 20;
+    bool any_offset = false;
+    for (std::size_t c = first_offset; c < end_of_offsets; ++c) any_offset = any_offset || !table.cell(row, c).empty();
+    if (any_offset) {
+      std::string arms;
+      for (std::size_t c = first_offset; c < end_of_offsets; ++c)
+        arms += (c == first_offset ? "[[" : c == first_offset + 3 ? "],[" : ",") + needed(table, row, c);
+      add(first, "offsets", arms + "]]");
+    }
     line_ += '}';
   }
 
@@ -248,6 +280,8 @@ class ModelMaker {
     if (const std::string_view mesh = table.cell(row, 9); !mesh.empty())
       add(first, "mesh", mesh_value(table, row, mesh));
     text(10, "joint");
+    text(11, "span");
+    if (const std::string_view groups = table.cell(row, 12); !groups.empty()) add(first, "groups", group_list(groups));
     line_ += '}';
   }
 
@@ -509,6 +543,7 @@ class ModelMaker {
 
   std::string folder_, line_;
   std::map<std::string, CsvTable> tables_;
+  std::set<std::string_view, std::less<>> edge_joints_;
   ModelOfTables made_;
 };
 

@@ -35,13 +35,32 @@ inline const Columns sections{"name",
                               "plastic_modulus_z",
                               "torsion_modulus",
                               "shear_deformation"};
-inline const Columns joints{"name",    "strength", "tension",  "compression", "shear_y",
-                            "shear_z", "torsion",  "moment_y", "moment_z",    "x",
-                            "y",       "z",        "rx",       "ry",          "rz"};
-inline const Columns members{"name", "kind", "node1", "node2",  "section", "material", "upx",
-                             "upy",  "upz",  "roll",  "joint1", "joint2",  "groups"};
-inline const Columns panels{"name",      "kind",     "node1", "node2", "node3", "node4",
-                            "thickness", "material", "model", "mesh",  "joint"};
+inline const Columns joints{"name",
+                            "strength",
+                            "tension",
+                            "compression",
+                            "shear_y",
+                            "shear_z",
+                            "torsion",
+                            "moment_y",
+                            "moment_z",
+                            "x",
+                            "y",
+                            "z",
+                            "rx",
+                            "ry",
+                            "rz",
+                            "from",
+                            "ratio",
+                            "interaction",
+                            "ductility_torsion",
+                            "ductility_moment_y",
+                            "ductility_moment_z"};
+inline const Columns members{"name",     "kind",     "node1",    "node2",    "section",  "material", "upx",
+                             "upy",      "upz",      "roll",     "joint1",   "joint2",   "groups",   "axial",
+                             "offset1x", "offset1y", "offset1z", "offset2x", "offset2y", "offset2z"};
+inline const Columns panels{"name",     "kind",  "node1", "node2", "node3", "node4", "thickness",
+                            "material", "model", "mesh",  "joint", "span",  "groups"};
 inline const Columns supports{"node", "x", "y", "z", "rx", "ry", "rz"};
 inline const Columns loads{"case", "on", "name", "type", "component", "value", "value2", "from", "to", "frame"};
 inline const Columns combinations{"name", "case", "factor"};

@@ -1,6 +1,7 @@
 // A JSON model as tables. What they cannot hold is refused by its name; numbers go over as they stand.
 #include <algorithm>
 #include <charconv>
+#include <set>
 
 #include "formats/model_forms.h"
 #include "formats/model_tables.h"
@@ -24,8 +25,8 @@ void hold_only(const JsonValue& object, const std::vector<std::string_view>& key
 /// A table as it is written: cells by column name.
 class TableText {
  public:
-  explicit TableText(const model_tables::Columns& columns) : columns_(columns), cells_(columns.size()) {
-    for (const std::string_view column : columns) text_ += (text_.empty() ? "" : ",") + std::string(column);
+  explicit TableText(model_tables::Columns columns) : columns_(std::move(columns)), cells_(columns_.size()) {
+    for (const std::string_view column : columns_) text_ += (text_.empty() ? "" : ",") + std::string(column);
     text_ += '\n';
   }
   TableText& set(std::string_view column, std::string_view text) {
@@ -64,7 +65,7 @@ class TableText {
   [[nodiscard]] std::size_t index(std::string_view column) const {
     return static_cast<std::size_t>(std::find(columns_.begin(), columns_.end(), column) - columns_.begin());
   }
-  const model_tables::Columns& columns_;
+  model_tables::Columns columns_;
   std::vector<std::string> cells_;
   std::string text_;
   std::size_t rows_ = 0;
@@ -82,12 +83,14 @@ class TableMaker {
     model();
     plain("materials.csv", "materials", model_tables::materials);
     plain("sections.csv", "sections", model_tables::sections);
-    each("joints.csv", "joints", model_tables::joints, [](TableText& t, const JsonValue& v) { joint(t, v); });
+    find_edge_joints();
+    each("joints.csv", "joints", joint_columns(), [this](TableText& t, const JsonValue& v) { joint(t, v); });
     each("nodes.csv", "nodes", model_tables::nodes, [](TableText& t, const JsonValue& v) { node(t, v); });
-    each("members.csv", "members", model_tables::members, [](TableText& t, const JsonValue& v) { member(t, v); });
-    each("panels.csv", "panels", model_tables::panels, [](TableText& t, const JsonValue& v) { panel(t, v); });
-    each("supports.csv", "supports", model_tables::supports,
-         [this](TableText& t, const JsonValue& v) { support(t, v); });
+    each("members.csv", "members", used(model_tables::members, "members", {{"axial", "axial"}, {"offsets", "offset"}}),
+         [](TableText& t, const JsonValue& v) { member(t, v); });
+    each("panels.csv", "panels", used(model_tables::panels, "panels", {{"span", "span"}, {"groups", "groups"}}),
+         [](TableText& t, const JsonValue& v) { panel(t, v); });
+    each("supports.csv", "supports", model_tables::supports, [](TableText& t, const JsonValue& v) { support(t, v); });
     loads();
     combinations();
     return std::move(files_);
@@ -96,6 +99,18 @@ class TableMaker {
  private:
   void keep(std::string_view file, TableText& table) {
     if (table.rows() > 0 || file == "nodes.csv") files_.emplace_back(file, table.take());
+  }
+
+  /// Columns (by how their names begin) that are written only where some part has their key.
+  using Optional = std::vector<std::pair<std::string_view, std::string_view>>;
+
+  [[nodiscard]] model_tables::Columns used(model_tables::Columns columns, const char* parts, Optional keys) const {
+    if (const auto object = root_.find(parts))
+      for (const JsonValue part : *object)
+        std::erase_if(keys, [&](const auto& key) { return part.find(key.first).has_value(); });
+    for (const auto& [key, column] : keys)
+      std::erase_if(columns, [&](std::string_view name) { return name.starts_with(column); });
+    return columns;
   }
 
   /// A table with a row for each value of an object, whose key is the first cell.
@@ -137,19 +152,74 @@ class TableMaker {
     keep("model.csv", table);
   }
 
-  static void joint(TableText& table, const JsonValue& value) {
-    hold_only(value, {"strength", "capacity", "stiffness"}, "strength, capacity, stiffness");
+  // Joints. Whether a joint's capacities are those of a member's end or of an edge, per length, is told by who has it.
+
+  void find_edge_joints() {
+    if (const auto panels = root_.find("panels"))
+      for (const JsonValue panel : *panels)
+        if (const auto joint = panel.find("joint"); joint && !joint->is_null()) edge_joints_.emplace(joint->text());
+    if (const auto members = root_.find("members"))
+      for (const JsonValue member : *members)
+        if (const auto joints = member.find("joints"); joints && joints->is_array())
+          for (const JsonValue joint : *joints)
+            if (!joint.is_null()) member_joints_.emplace(joint.text());
+  }
+
+  /// How capacities are derived and combined, and how far a joint turns: only where some joint says so.
+  [[nodiscard]] model_tables::Columns joint_columns() const {
+    model_tables::Columns columns =
+        used(model_tables::joints, "joints", {{"interaction", "interaction"}, {"ductility", "ductility"}});
+    if (const auto joints = root_.find("joints"))
+      for (const JsonValue joint : *joints)
+        if (const auto capacity = joint.find("capacity"); capacity && capacity->find("from")) return columns;
+    std::erase_if(columns, [](std::string_view name) { return name == "from" || name == "ratio"; });
+    return columns;
+  }
+
+  void joint(TableText& table, const JsonValue& value) const {
+    hold_only(value, {"strength", "capacity", "capacity_per_length", "stiffness", "interaction", "ductility"},
+              "strength, capacity, stiffness, interaction, ductility");
+    if (const auto interaction = value.find("interaction")) table.set("interaction", *interaction);
+    if (const auto ductility = value.find("ductility")) {
+      if (ductility->size() == 0) refuse(*ductility, "at least one sense");
+      for (const JsonValue number : *ductility) table.set("ductility_" + std::string(number.key()), number);
+    }
     if (const auto strength = value.find("strength")) table.set("strength", *strength);
+    const bool of_edges = edge_joints_.contains(value.key()), of_members = member_joints_.contains(value.key());
     if (const auto capacity = value.find("capacity")) {
-      hold_only(*capacity, {"tension", "compression", "shear_y", "shear_z", "torsion", "moment_y", "moment_z"},
-                "capacities as seven numbers");
-      if (capacity->size() == 0) refuse(*capacity, "at least one capacity");
-      for (const JsonValue number : *capacity) table.set(number.key(), number);
+      if (of_edges && !of_members) refuse(*capacity, "`capacity_per_length` of a joint that panels have");
+      capacities(table, *capacity);
+    }
+    if (const auto capacity = value.find("capacity_per_length")) {
+      if (!of_edges || of_members) refuse(*capacity, "joints that panels alone have");
+      capacities(table, *capacity);
     }
     if (const auto stiffness = value.find("stiffness")) {
       if (stiffness->size() == 0) refuse(*stiffness, "at least one stiffness");
       for (const JsonValue number : *stiffness) table.set(number.key(), number);
     }
+  }
+
+  /// Seven numbers, or the original program's thresholds of forces and moments, which are seven numbers too.
+  static void capacities(TableText& table, const JsonValue& capacity) {
+    if (capacity.size() == 0) refuse(capacity, "at least one capacity");
+    hold_only(capacity,
+              {"tension", "compression", "shear_y", "shear_z", "torsion", "moment_y", "moment_z", "force", "moment",
+               "from", "ratio"},
+              "capacities as numbers");
+    for (const JsonValue value : capacity)
+      if (value.key() == "force") {
+        auto number = value.begin();
+        table.set("tension", *number).set("compression", *number);
+        ++number;
+        table.set("shear_y", *number);
+        ++number;
+        table.set("shear_z", *number);
+      } else if (value.key() == "moment") {
+        list(table, std::array<const char*, 3>{"torsion", "moment_y", "moment_z"}, value);
+      }
+    for (const JsonValue value : capacity)
+      if (value.is_number() || value.key() == "from") table.set(value.key(), value);
   }
 
   template <std::size_t N>
@@ -164,10 +234,10 @@ class TableMaker {
   }
 
   static void member(TableText& table, const JsonValue& value) {
-    hold_only(value, {"kind", "nodes", "section", "material", "up", "roll", "joints", "groups"},
-              "kind, nodes, section, material, up, roll, joints, groups");
+    hold_only(value, {"kind", "nodes", "section", "material", "up", "roll", "joints", "groups", "axial", "offsets"},
+              "kind, nodes, section, material, up, roll, joints, groups, axial, offsets");
     list(table, std::array<const char*, 2>{"node1", "node2"}, value.require("nodes"));
-    for (const char* key : {"kind", "section", "material", "roll"})
+    for (const char* key : {"kind", "section", "material", "roll", "axial"})
       if (const auto entry = value.find(key)) table.set(key, *entry);
     if (const auto up = value.find("up")) list(table, std::array<const char*, 3>{"upx", "upy", "upz"}, *up);
     if (const auto joints = value.find("joints"); joints && joints->is_array()) {
@@ -177,23 +247,35 @@ class TableMaker {
         column = "joint2";
       }
     }
-    if (const auto groups = value.find("groups")) {
-      std::string cell;
-      for (const JsonValue group : *groups) {
-        if (group.text().empty() || group.text().find(model_tables::group_separator) != std::string_view::npos)
-          refuse(group, "names of groups without \";\"");
-        cell += (cell.empty() ? "" : std::string(1, model_tables::group_separator)) + std::string(group.text());
+    if (const auto offsets = value.find("offsets")) {
+      std::array<const char*, 3> columns{"offset1x", "offset1y", "offset1z"};
+      for (const JsonValue arm : *offsets) {
+        list(table, columns, arm);
+        columns = {"offset2x", "offset2y", "offset2z"};
       }
-      table.set("groups", cell);
     }
+    groups(table, value);
+  }
+
+  static void groups(TableText& table, const JsonValue& value) {
+    const auto groups = value.find("groups");
+    if (!groups) return;
+    std::string cell;
+    for (const JsonValue group : *groups) {
+      if (group.text().empty() || group.text().find(model_tables::group_separator) != std::string_view::npos)
+        refuse(group, "names of groups without \";\"");
+      cell += (cell.empty() ? "" : std::string(1, model_tables::group_separator)) + std::string(group.text());
+    }
+    if (!cell.empty()) table.set("groups", cell);
   }
 
   static void panel(TableText& table, const JsonValue& value) {
-    hold_only(value, {"kind", "nodes", "thickness", "material", "model", "mesh", "joint"},
-              "kind, nodes, thickness, material, model, mesh, joint");
+    hold_only(value, {"kind", "nodes", "thickness", "material", "model", "mesh", "joint", "span", "groups"},
+              "kind, nodes, thickness, material, model, mesh, joint, span, groups");
     list(table, std::array<const char*, 4>{"node1", "node2", "node3", "node4"}, value.require("nodes"));
-    for (const char* key : {"kind", "thickness", "material", "model"})
+    for (const char* key : {"kind", "thickness", "material", "model", "span"})
       if (const auto entry = value.find(key)) table.set(key, *entry);
+    groups(table, value);
     if (const auto joint = value.find("joint"); joint && !joint->is_null()) table.set("joint", *joint);
     if (const auto mesh = value.find("mesh")) {
       std::string cell;
@@ -205,9 +287,8 @@ class TableMaker {
     }
   }
 
-  void support(TableText& table, const JsonValue& value) const {
-    const auto nodes = root_.find("nodes");
-    if (!nodes || !has(*nodes, value.key())) refuse(value, "supports of nodes");
+  /// Of a node, or of a shell's edge by its joint's name.
+  static void support(TableText& table, const JsonValue& value) {
     constexpr std::array<const char*, 6> components{"x", "y", "z", "rx", "ry", "rz"};
     if (value.is_text()) {
       const std::size_t held = value.text() == "fixed" ? 6 : value.text() == "pinned" ? 3 : 0;
@@ -221,13 +302,6 @@ class TableMaker {
       else
         table.set(entry.key(), entry);
   }
-  bool has(const JsonValue& nodes, std::string_view name) const {
-    if (node_names_.empty())
-      for (const JsonValue node : nodes) node_names_.push_back(node.key());
-    if (!std::is_sorted(node_names_.begin(), node_names_.end())) std::sort(node_names_.begin(), node_names_.end());
-    return std::binary_search(node_names_.begin(), node_names_.end(), name);
-  }
-
   // Loads.
 
   struct Row {
@@ -325,7 +399,7 @@ class TableMaker {
 
   JsonValue root_;
   TextsByName files_;
-  mutable std::vector<std::string_view> node_names_;
+  std::set<std::string_view, std::less<>> edge_joints_, member_joints_;
 };
 
 }  // namespace
