@@ -111,7 +111,8 @@ int demolish(const DemolishOptions& options) {
   if (options.images) images.emplace(simulation, options.folder, options.rate);
   if (images) images->write_due(simulation);
   std::optional<structure::CollapseAnimation> animation;
-  if (options.gltf) animation.emplace(simulation, options.rate);
+  if (drawn) drawn->update(simulation);
+  if (options.gltf) animation.emplace(simulation, options.rate, drawn ? &*drawn : nullptr);
   {
     Progress progress;
     while (!simulation.finished()) {

@@ -60,19 +60,6 @@ SceneMesh box_mesh(const Vec3& half, int material) {
   return mesh;
 }
 
-SceneMesh plate_mesh(const std::array<Vec3, 4>& corners, const Vec3& centre, const Vec3& normal, double thickness,
-                     int material) {
-  SceneMesh mesh;
-  mesh.material = material;
-  std::array<Vec3, 4> bottom, top;
-  for (std::size_t i = 0; i < 4; ++i) {
-    bottom[i] = corners[i] - centre - normal * (thickness / 2);
-    top[i] = corners[i] - centre + normal * (thickness / 2);
-  }
-  add_block(mesh, bottom, top);
-  return mesh;
-}
-
 SceneMesh sphere_mesh(double radius, int material) {
   constexpr int rings = 12, sectors = 24;
   SceneMesh mesh;

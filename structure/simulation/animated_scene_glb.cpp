@@ -104,11 +104,15 @@ class GlbWriter {
     const int position = add_accessor(positions, float_type, "VEC3", vertex_target);
     add_bounds(position, positions);
     const int normal = add_accessor(normals, float_type, "VEC3", vertex_target);
+    Json attributes = {{"POSITION", position}, {"NORMAL", normal}};
+    if (!mesh.texture.empty()) {
+      std::vector<std::array<float, 2>> texture;
+      for (const Vec2& at : mesh.texture) texture.push_back({static_cast<float>(at.x()), static_cast<float>(at.y())});
+      attributes["TEXCOORD_0"] = add_accessor(texture, float_type, "VEC2", vertex_target);
+    }
     const int index = add_accessor(indices, index_type, "SCALAR", index_target);
-    root_["meshes"].push_back({{"primitives",
-                                {{{"attributes", {{"POSITION", position}, {"NORMAL", normal}}},
-                                  {"indices", index},
-                                  {"material", mesh.material}}}}});
+    root_["meshes"].push_back(
+        {{"primitives", {{{"attributes", std::move(attributes)}, {"indices", index}, {"material", mesh.material}}}}});
   }
 
   /// Key times are shared by all nodes with the same frames.

@@ -30,6 +30,7 @@ struct AnimatedNode {
 
 struct SceneMesh {
   std::vector<Vec3> positions, normals;
+  std::vector<Vec2> texture;  ///< coordinates; empty: none
   std::vector<std::array<int, 3>> triangles;
   int material = 0;
 };
@@ -43,10 +44,6 @@ struct AnimatedScene {
 
 [[nodiscard]] SceneMesh box_mesh(const Vec3& half, int material);
 [[nodiscard]] SceneMesh sphere_mesh(double radius, int material);
-/// A plate between its corners, about `centre`.
-[[nodiscard]] SceneMesh plate_mesh(const std::array<Vec3, 4>& corners, const Vec3& centre, const Vec3& normal,
-                                   double thickness, int material);
-
 [[nodiscard]] std::string glb_of(const AnimatedScene& scene);
 
 }  // namespace topple::structure

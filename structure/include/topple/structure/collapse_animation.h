@@ -1,17 +1,21 @@
 #pragma once
-// A collapse as a glTF animation: one node for each member, panel, chunk and ball, by its name.
+// A collapse as a glTF animation: one node for each member, panel, chunk and ball, by its name, for what remains of a
+// panel after each break, and for each piece of a drawn model.
 #include <memory>
 #include <string>
 
+#include "topple/structure/drawn_model.h"
 #include "topple/structure/simulation.h"
 
 namespace topple::structure {
 
-/// Records poses frame by frame. Standing parts are drawn where their ends are displaced to, straight between them.
+/// Records poses frame by frame. Standing parts are drawn where their ends are displaced to, straight between them;
+/// pieces of a drawn model as they were drawn, moved with their bodies.
 class CollapseAnimation {
  public:
-  /// `rate`: frames for each simulated second, above 0. Records the first frame.
-  CollapseAnimation(const Simulation& simulation, double rate);
+  /// `rate`: frames for each simulated second, above 0. `drawn`: recorded as it is when frames are added; it has to
+  /// outlive this. Records the first frame.
+  CollapseAnimation(const Simulation& simulation, double rate, const DrawnModel* drawn = nullptr);
   ~CollapseAnimation();
 
   /// Records the frames that are due up to the simulation's time; call after every step and after steps were skipped.
