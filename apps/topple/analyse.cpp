@@ -73,6 +73,7 @@ std::vector<CombinationId> chosen(const Building& building, const std::vector<st
 LossRequest losses(const Options& options, const Building& building) {
   LossRequest request;
   request.sudden = options.sudden;
+  if (options.lose.empty() && options.lose_each.empty()) return request;
   const NameIndex names(building);
   for (const std::string& name : options.lose) {
     const std::vector<MemberId> found = names.members_matching(name);

@@ -68,18 +68,12 @@ class Analysis {
     combinations_ = request.combinations;
     if (combinations_.empty())
       for (std::size_t i = 0; i < building.combinations.size(); ++i) combinations_.emplace_back(i);
-    const std::size_t count = combinations_.size();
-    parts_.resize(count);
-    loads_.resize(count);
-    if (has_meshes(frame_)) whole_.resize(count);
-    side_by_side(count, request.workers, [&](std::size_t k) {
-      parts_[k] = part_loads(building, combinations_[k]);
-      loads_[k] = load_set(building, edges_, parts_[k]);
-      parts_[k].members = {};  // all of them are in the set
-      if (whole_.empty()) return;
-      whole_[k] = std::move(loads_[k]);
-      loads_[k] = on_frame(building, frame_, parts_[k], whole_[k]);
-    });
+    if (combinations_.size() > 1) cases_ = case_loads(building, frame_, edges_, combinations_);
+    linear_ = request.second_order == solver::SecondOrder::none && request.buckling == 0 &&
+              !OneWayMembers(frame_.model).any();
+    if (linear_ && of_cases()) return;
+    loads_.resize(combinations_.size());
+    side_by_side(loads_.size(), request.workers, [&](std::size_t k) { loads_[k] = loads_of(k); });
   }
 
   AnalysisResult run() {
@@ -123,34 +117,34 @@ class Analysis {
   /// Combinations that are linear to the end stand alone; others share an ordering, and what one leaves behind.
   void recover(const std::vector<solver::StaticSolution>& solutions, AnalysisResult& result) {
     result.combinations.resize(solutions.size());
-    const bool linear = request_.second_order == solver::SecondOrder::none && request_.buckling == 0 &&
-                        !OneWayMembers(frame_.model).any();
     const auto one = [&](std::size_t k) { result.combinations[k] = analysed(k, solutions[k]); };
-    if (linear) {
+    if (linear_) {
       side_by_side(solutions.size(), request_.workers, one);
     } else {
       for (std::size_t k = 0; k < solutions.size(); ++k) one(k);
     }
   }
 
-  static bool has_meshes(const Frame& frame) {
-    return std::any_of(frame.meshes.begin(), frame.meshes.end(),
-                       [](const PanelMesh& mesh) { return !mesh.elements.empty(); });
+  /// Fewer cases than combinations: these are found as sums.
+  [[nodiscard]] bool of_cases() const { return !cases_.sets.empty() && cases_.sets.size() < combinations_.size(); }
+
+  [[nodiscard]] CombinationLoads loads_of(std::size_t k) const {
+    return combination_loads(building_, frame_, edges_, building_[combinations_[k]]);
   }
 
   /// The factor, by far the largest thing there is, goes with the analysis: nothing that follows needs it.
-  [[nodiscard]] std::vector<solver::StaticSolution> solve_linear(solver::AnalysisStatistics& statistics) const {
-    if (loads_.size() > 1) {
-      const CaseLoads cases = case_loads(building_, frame_, edges_, combinations_);
-      if (cases.sets.size() < loads_.size()) {
-        solver::CaseSums sums =
-            solver::solve_case_sums(carrying_both(frame_.model), cases.sets, cases.factors, request_.solver);
-        statistics = sums.statistics;
-        return std::move(sums.solutions);
-      }
+  [[nodiscard]] std::vector<solver::StaticSolution> solve_linear(solver::AnalysisStatistics& statistics) {
+    if (of_cases()) {
+      solver::CaseSums sums =
+          solver::solve_case_sums(carrying_both(frame_.model), cases_.sets, cases_.factors, request_.solver);
+      statistics = sums.statistics;
+      return std::move(sums.solutions);
     }
+    std::vector<solver::LoadSet> sets;
+    for (CombinationLoads& loads : loads_) sets.push_back(std::move(loads.set));
     solver::StaticAnalysis analysis(carrying_both(frame_.model), request_.solver);
-    std::vector<solver::StaticSolution> solutions = analysis.solve(loads_);
+    std::vector<solver::StaticSolution> solutions = analysis.solve(sets);
+    for (std::size_t k = 0; k < sets.size(); ++k) loads_[k].set = std::move(sets[k]);
     statistics = analysis.statistics();
     return solutions;
   }
@@ -176,10 +170,10 @@ class Analysis {
     if (!one_way.any()) return {solution, {}, {}, 0, {}};
     const auto linear = [&](const solver::FrameModel& model, OneWayAnswer& answer) {
       solver::StaticAnalysis analysis(model, request_.solver);
-      answer.solution = std::move(analysis.solve({&loads_[k], 1}).front());
+      answer.solution = std::move(analysis.solve({&loads_[k].set, 1}).front());
     };
     try {
-      return one_way.settle(loads_[k], one_way.all_taut(solution), linear, member_names());
+      return one_way.settle(loads_[k].set, one_way.all_taut(solution), linear, member_names());
     } catch (const solver::Instability& unstable) {
       const std::string message = building_.file + ", combination " + building_[combinations_[k]].name +
                                   ", with members slack: " + describe_instability(building_, frame_, unstable);
@@ -194,16 +188,17 @@ class Analysis {
   [[nodiscard]] CombinationResult analysed(std::size_t k, const solver::StaticSolution& linear) {
     OneWayAnswer answer = settled(k, linear);
     const bool second_order = request_.second_order != solver::SecondOrder::none;
-    if (!second_order && request_.buckling == 0) return gather(k, answer);
+    if (!second_order && request_.buckling == 0)
+      return gather(k, answer, loads_.empty() ? loads_of(k) : std::move(loads_[k]));
     const int iterations = second_order ? turn_to_second_order(k, answer) : 0;
     solver::FrameModel model = carrying_both(frame_.model);
     if (!answer.beams.empty()) model.beams = answer.beams;
-    CombinationResult result = gather(k, answer);
+    CombinationResult result = gather(k, answer, loads_[k]);
     tangent_ = answer.axial;
     tangent_beams_ = model.beams;
     result.second_order_iterations = iterations;
     if (request_.buckling > 0)
-      result.buckling = solver::buckling_modes(model, loads_[k], request_.buckling, request_.solver);
+      result.buckling = solver::buckling_modes(model, loads_[k].set, request_.buckling, request_.solver);
     return result;
   }
 
@@ -218,23 +213,23 @@ class Analysis {
       model.beams = state.beams;
       // Combinations with the same members taut share an ordering.
       if (!second_order_ || one_way.any()) second_order_.emplace(model, request_.second_order, request_.solver);
-      solver::SecondOrderSolution solution = second_order_->solve(loads_[k], found.solution);
+      solver::SecondOrderSolution solution = second_order_->solve(loads_[k].set, found.solution);
       found.solution = std::move(solution.solution);
       found.axial = std::move(solution.axial);
       iterations = solution.iterations;
     };
     const auto solve_anew = [&](const solver::FrameModel& state, OneWayAnswer& found) {
       solver::StaticAnalysis linear(state, request_.solver);
-      found.solution = std::move(linear.solve({&loads_[k], 1}).front());
+      found.solution = std::move(linear.solve({&loads_[k].set, 1}).front());
       solve(state, found);
     };
     try {
       if (!answer.beams.empty()) model.beams = answer.beams;
       solve(solver::FrameModel(model), answer);
-      if (one_way.any()) answer = one_way.settle(loads_[k], std::move(answer), solve_anew, member_names());
+      if (one_way.any()) answer = one_way.settle(loads_[k].set, std::move(answer), solve_anew, member_names());
       return iterations;
     } catch (const solver::Buckled& buckled) {
-      const auto modes = solver::buckling_modes(model, loads_[k], 1, request_.solver);
+      const auto modes = solver::buckling_modes(model, loads_[k].set, 1, request_.solver);
       const std::string factor = modes.empty() ? "" : " (critical factor " + short_number(modes[0].factor) + ")";
       const std::string message = place + ": the loads are beyond what the structure bears before it buckles" + factor +
                                   "; " + describe_instability(building_, frame_, buckled);
@@ -272,8 +267,8 @@ class Analysis {
   void warn_of_frame3dd(AnalysisResult& result) const {
     if (request_.second_order != solver::SecondOrder::frame3dd) return;
     std::set<int> heated;
-    for (const solver::LoadSet& loads : loads_)
-      for (const solver::BeamLoad& load : loads.beams)
+    for (const CombinationLoads& loads : loads_)
+      for (const solver::BeamLoad& load : loads.set.beams)
         if (load.kind == solver::BeamLoad::Kind::temperature) heated.insert(load.beam);
     if (heated.empty()) return;
     result.warnings.push_back(
@@ -289,7 +284,7 @@ class Analysis {
     return text;
   }
 
-  [[nodiscard]] CombinationResult gather(std::size_t k, const OneWayAnswer& answer) const {
+  [[nodiscard]] CombinationResult gather(std::size_t k, const OneWayAnswer& answer, CombinationLoads loads) const {
     const solver::StaticSolution& solution = answer.solution;
     CombinationResult result;
     result.combination = combinations_[k];
@@ -297,15 +292,14 @@ class Analysis {
     result.displacements.assign(solution.displacements.begin(), of_mesh);
     result.mesh_displacements.assign(of_mesh, solution.displacements.end());
     result.reactions = solution.reactions;
-    solver::LoadSet acting = loads_[k];
-    turn_pushes_into_reactions(parts_[k], acting, result.reactions);
     result.quality = solution.quality;
-    result.members = members(whole_.empty() ? loads_[k] : whole_[k], answer);
-    result.panels = panels(parts_[k], solution);
-    result.joints = joints(parts_[k], solution, result);
+    result.members = members(loads.whole ? *loads.whole : loads.set, answer);
+    result.panels = panels(loads.parts, solution);
+    result.joints = joints(loads.parts, solution, result);
     result.storeys = storeys_.results(result.displacements, result.members);
+    turn_pushes_into_reactions(loads.parts, loads.set, result.reactions);
     const Equilibrium balance =
-        equilibrium(frame_.model, acting, result.reactions, answer.axial.mode != solver::SecondOrder::none);
+        equilibrium(frame_.model, loads.set, result.reactions, answer.axial.mode != solver::SecondOrder::none);
     result.edge_reactions = edge_reactions(building_, frame_, result.reactions);
     result.reactions.resize(building_.supports.size());
     result.total_load = balance.load;
@@ -427,10 +421,10 @@ class Analysis {
   PanelBearings bearings_;
   Storeys storeys_;
   std::vector<CombinationId> combinations_;
-  std::vector<PartLoads> parts_;        ///< per combination, but for the members' loads
-  std::vector<solver::LoadSet> loads_;  ///< per combination, on the frame
-  std::vector<solver::LoadSet> whole_;  ///< the same on whole members; empty where a mesh divides none
-  bool floats_ = false;                 ///< nothing but the shift of the modes keeps it in place
+  CaseLoads cases_;                      ///< where there are several combinations
+  bool linear_ = false;                  ///< to the end: no second order, no buckling, no one-way members
+  std::vector<CombinationLoads> loads_;  ///< per combination; empty where each is made when it is its turn
+  bool floats_ = false;                  ///< nothing but the shift of the modes keeps it in place
   std::optional<solver::SecondOrderAnalysis> second_order_;
   solver::AxialState tangent_;  ///< of the last combination
   std::vector<solver::Beam> tangent_beams_;

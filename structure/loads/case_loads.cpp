@@ -14,8 +14,8 @@ CaseLoads case_loads(const Building& building, const Frame& frame, const EdgeMem
   for (Eigen::Index c = 0; c < of_all.rows(); ++c) {
     if (of_all.row(c).isZero(0)) continue;
     used.push_back(c);
-    const PartLoads parts = part_loads(building, Combination{{}, {{LoadCaseId(static_cast<std::size_t>(c)), 1.0}}});
-    result.sets.push_back(on_frame(building, frame, parts, load_set(building, edges, parts)));
+    const Combination alone{{}, {{LoadCaseId(static_cast<std::size_t>(c)), 1.0}}};
+    result.sets.push_back(combination_loads(building, frame, edges, alone).set);
   }
   result.factors = of_all(used, Eigen::all);
   return result;

@@ -1,6 +1,7 @@
 #pragma once
 // Load cases as sets of their own, of which combinations are sums.
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "topple/structure/frame.h"
@@ -11,6 +12,19 @@ struct CaseLoads {
   std::vector<solver::LoadSet> sets;  ///< of the cases that any of the combinations has, with a factor of 1
   Eigen::MatrixXd factors;            ///< of each of these (rows) in each combination (columns)
 };
+
+/// One combination, everything standing.
+struct CombinationLoads {
+  PartLoads parts;                       ///< but for what acts on members, which is in the sets
+  solver::LoadSet set;                   ///< on the frame
+  std::optional<solver::LoadSet> whole;  ///< on whole members, where a mesh divides some
+};
+[[nodiscard]] CombinationLoads combination_loads(const Building& building, const Frame& frame, const EdgeMembers& edges,
+                                                 const Combination& combination);
+
+/// load_set() with the loads of members apart, in their order.
+[[nodiscard]] solver::LoadSet load_set(const Building& building, const EdgeMembers& edges, const PartLoads& loads,
+                                       std::vector<solver::BeamLoad> on_members);
 
 /// Everything standing, on the frame.
 [[nodiscard]] CaseLoads case_loads(const Building& building, const Frame& frame, const EdgeMembers& edges,

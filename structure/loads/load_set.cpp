@@ -1,5 +1,6 @@
 // A combination as one right-hand side of the frame, everything standing.
 #include "index_of.h"
+#include "loads/case_loads.h"
 #include "topple/structure/frame.h"
 
 namespace topple::structure {
@@ -39,8 +40,15 @@ void add_settlements(const Building& building, const PartLoads& loads, solver::L
 }  // namespace
 
 solver::LoadSet load_set(const Building& building, const EdgeMembers& edges, const PartLoads& loads) {
+  std::vector<solver::BeamLoad> beams;
+  for (const auto& member : loads.members) beams.insert(beams.end(), member.begin(), member.end());
+  return load_set(building, edges, loads, std::move(beams));
+}
+
+solver::LoadSet load_set(const Building& building, const EdgeMembers& edges, const PartLoads& loads,
+                         std::vector<solver::BeamLoad> on_members) {
   solver::LoadSet set;
-  for (const auto& member : loads.members) set.beams.insert(set.beams.end(), member.begin(), member.end());
+  set.beams = std::move(on_members);
   for (std::size_t n = 0; n < loads.nodes.size(); ++n)
     if (!loads.nodes[n].isZero(0)) set.nodes.push_back({static_cast<int>(n), loads.nodes[n]});
   add_panels(building, edges, loads, set);

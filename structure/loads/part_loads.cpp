@@ -1,5 +1,7 @@
 // Loads of one combination, by the part that carries them.
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "loads/case_loads.h"
 #include "topple/structure/error.h"
@@ -69,28 +71,45 @@ Vec3 self_weight(const Building& building, const Combination& combination) {
   return sum * building.gravity;
 }
 
-void add_self_weight(const Building& building, const Vec3& acceleration, PartLoads& loads) {
-  if (acceleration.isZero(0)) return;
-  for (std::size_t i = 0; i < building.members.size(); ++i) {
+double mass_per_length(const Building& building, const Member& member) {
+  return building[member.material].density * building[member.section].area;
+}
+
+/// Calls use(member, make) for all that acts on members: their own weight, then what each case brings. make() is the
+/// load.
+template <class Use>
+void for_each_member_load(const Building& building, const Combination& combination, Use use) {
+  const Vec3 acceleration = self_weight(building, combination);
+  for (std::size_t i = 0; i < building.members.size() && !acceleration.isZero(0); ++i) {
     const Member& member = building.members[i];
-    const double mass = building[member.material].density * building[member.section].area;
+    const double mass = mass_per_length(building, member);
     if (mass == 0) continue;
-    solver::BeamLoad load;
-    load.beam = static_cast<int>(i);
-    load.to = member.length;
-    load.first.head<3>() = member.axes * (mass * acceleration);
-    load.last = load.first;
-    loads.members[i].push_back(load);
+    use(i, [&] {
+      solver::BeamLoad load;
+      load.beam = static_cast<int>(i);
+      load.to = member.length;
+      load.first.head<3>() = member.axes * (mass * acceleration);
+      load.last = load.first;
+      return load;
+    });
   }
+  for (const auto& [id, factor] : combination.factors) {
+    if (factor == 0) continue;
+    for (const MemberLoad& load : building[id].members)
+      use(static_cast<std::size_t>(load.member.index), [&] { return member_load(building, load, factor); });
+  }
+}
+
+void add_weight_of_panels(const Building& building, const Vec3& acceleration, PartLoads& loads) {
+  if (acceleration.isZero(0)) return;
   for (std::size_t i = 0; i < building.panels.size(); ++i) {
     const Panel& panel = building.panels[i];
     loads.panels[i].body_force = building[panel.material].density * panel.thickness * acceleration;
   }
 }
 
+/// But for its loads on members.
 void add_case(const Building& building, const LoadCase& load_case, double factor, PartLoads& loads) {
-  for (const MemberLoad& load : load_case.members)
-    loads.members[static_cast<std::size_t>(load.member.index)].push_back(member_load(building, load, factor));
   for (const PanelLoad& load : load_case.panels) {
     PanelAction& action = loads.panels[static_cast<std::size_t>(load.panel.index)];
     action.pressure += factor * load.pressure;
@@ -103,18 +122,48 @@ void add_case(const Building& building, const LoadCase& load_case, double factor
     loads.settlements.push_back({settlement.node.index, settlement.component, factor * settlement.value});
 }
 
+PartLoads loads_beside_members(const Building& building, const Combination& combination) {
+  PartLoads loads;
+  loads.panels.resize(building.panels.size());
+  loads.nodes.assign(building.nodes.size(), Vec6::Zero());
+  add_weight_of_panels(building, self_weight(building, combination), loads);
+  for (const auto& [case_id, factor] : combination.factors)
+    if (factor != 0) add_case(building, building[case_id], factor, loads);
+  return loads;
+}
+
+/// In the members' order, and for each in the order in which they come.
+std::vector<solver::BeamLoad> member_loads(const Building& building, const Combination& combination) {
+  std::vector<std::size_t> next(building.members.size() + 1, 0);
+  for_each_member_load(building, combination, [&](std::size_t member, const auto&) { ++next[member + 1]; });
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  std::vector<solver::BeamLoad> loads(next.back());
+  for_each_member_load(building, combination,
+                       [&](std::size_t member, const auto& make) { loads[next[member]++] = make(); });
+  return loads;
+}
+
 }  // namespace
 
 PartLoads part_loads(const Building& building, CombinationId id) { return part_loads(building, building[id]); }
 
 PartLoads part_loads(const Building& building, const Combination& combination) {
-  PartLoads loads;
+  PartLoads loads = loads_beside_members(building, combination);
   loads.members.resize(building.members.size());
-  loads.panels.resize(building.panels.size());
-  loads.nodes.assign(building.nodes.size(), Vec6::Zero());
-  add_self_weight(building, self_weight(building, combination), loads);
-  for (const auto& [case_id, factor] : combination.factors)
-    if (factor != 0) add_case(building, building[case_id], factor, loads);
+  for_each_member_load(building, combination,
+                       [&](std::size_t member, const auto& make) { loads.members[member].push_back(make()); });
+  return loads;
+}
+
+CombinationLoads combination_loads(const Building& building, const Frame& frame, const EdgeMembers& edges,
+                                   const Combination& combination) {
+  CombinationLoads loads{loads_beside_members(building, combination), {}, {}};
+  loads.set = load_set(building, edges, loads.parts, member_loads(building, combination));
+  const bool divided = std::any_of(frame.meshes.begin(), frame.meshes.end(),
+                                   [](const PanelMesh& mesh) { return !mesh.elements.empty(); });
+  if (!divided) return loads;
+  loads.whole = std::move(loads.set);
+  loads.set = on_frame(building, frame, loads.parts, *loads.whole);
   return loads;
 }
 
