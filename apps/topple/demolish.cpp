@@ -108,11 +108,12 @@ int demolish(const DemolishOptions& options) {
   Saves saves(options, simulation);
   structure::StepTimes times;
   std::optional<ImageSequence> images;
-  if (options.images) images.emplace(simulation, options.folder, options.rate);
+  structure::DrawnModel* const around = drawn ? &*drawn : nullptr;
+  if (around) around->update(simulation);
+  if (options.images) images.emplace(simulation, options.folder, options.rate, around);
   if (images) images->write_due(simulation);
   std::optional<structure::CollapseAnimation> animation;
-  if (drawn) drawn->update(simulation);
-  if (options.gltf) animation.emplace(simulation, options.rate, drawn ? &*drawn : nullptr);
+  if (options.gltf) animation.emplace(simulation, options.rate, around);
   {
     Progress progress;
     while (!simulation.finished()) {

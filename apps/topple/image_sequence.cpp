@@ -15,7 +15,7 @@ namespace {
 constexpr int width = 1280, height = 720;
 
 bool same_picture(const viewer::Snapshot& a, const viewer::Snapshot& b) {
-  return a.answer == b.answer && a.membership == b.membership &&
+  return a.answer == b.answer && a.membership == b.membership && a.drawn == b.drawn &&
          std::equal(a.bodies.begin(), a.bodies.end(), b.bodies.begin(), b.bodies.end(),
                     [](const viewer::BodyPose& p, const viewer::BodyPose& q) {
                       return p.id == q.id && p.position == q.position &&
@@ -30,17 +30,20 @@ struct ImageSequence::State {
   double rate;
   viewer::PictureRenderer renderer;
   viewer::Camera camera;
+  structure::DrawnModel* drawn_model;
   viewer::SnapshotTaker taker;
   viewer::Snapshot drawn;
   std::filesystem::path last;
   int next = 0;
 
-  State(const structure::Simulation& simulation, std::filesystem::path where, double per_second)
+  State(const structure::Simulation& simulation, std::filesystem::path where, double per_second,
+        structure::DrawnModel* model)
       : folder(std::move(where)),
         rate(per_second),
         renderer(simulation.building(), viewer::ground_height(simulation.building(), simulation.scenario()), width,
                  height),
-        camera(renderer.default_camera()) {
+        camera(renderer.default_camera()),
+        drawn_model(model) {
     std::filesystem::create_directories(folder);
   }
 
@@ -58,13 +61,14 @@ struct ImageSequence::State {
   }
 };
 
-ImageSequence::ImageSequence(const structure::Simulation& simulation, std::filesystem::path folder, double rate)
-    : state_(std::make_unique<State>(simulation, std::move(folder), rate)) {}
+ImageSequence::ImageSequence(const structure::Simulation& simulation, std::filesystem::path folder, double rate,
+                             structure::DrawnModel* drawn)
+    : state_(std::make_unique<State>(simulation, std::move(folder), rate, drawn)) {}
 
 void ImageSequence::write_due(const structure::Simulation& simulation) {
   const double due = simulation.time() * state_->rate + 1e-6;
   if (state_->next > due) return;
-  const viewer::Snapshot now = state_->taker.take(simulation);
+  const viewer::Snapshot now = state_->taker.take(simulation, state_->drawn_model);
   while (state_->next <= due) state_->write(now);
 }
 
@@ -75,7 +79,7 @@ void ImageSequence::write_due(const structure::Simulation& simulation) {
 namespace topple::app {
 
 struct ImageSequence::State {};
-ImageSequence::ImageSequence(const structure::Simulation&, std::filesystem::path, double) {
+ImageSequence::ImageSequence(const structure::Simulation&, std::filesystem::path, double, structure::DrawnModel*) {
   throw std::runtime_error("--images: this program was built without its renderer (TOPPLE_VIEWER=OFF)");
 }
 void ImageSequence::write_due(const structure::Simulation&) {}

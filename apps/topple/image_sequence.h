@@ -3,14 +3,17 @@
 #include <filesystem>
 #include <memory>
 
+#include "topple/structure/drawn_model.h"
 #include "topple/structure/simulation.h"
 
 namespace topple::app {
 
 class ImageSequence {
  public:
-  /// Throws std::runtime_error when this program or machine cannot draw.
-  ImageSequence(const structure::Simulation& simulation, std::filesystem::path folder, double rate);
+  /// `drawn`: around the building, null for nothing; it has to outlive this. Throws std::runtime_error when this
+  /// program or machine cannot draw.
+  ImageSequence(const structure::Simulation& simulation, std::filesystem::path folder, double rate,
+                structure::DrawnModel* drawn = nullptr);
   ~ImageSequence();
   /// Writes the pictures that are due up to the simulation's time.
   void write_due(const structure::Simulation& simulation);

@@ -9,13 +9,15 @@ std::string drawn_model_glb(const DrawnModel& model, const Simulation& simulatio
   std::vector<fracture::Mesh> meshes;
   meshes.reserve(model.pieces().size());  // the list below points into it
   std::vector<fracture::PlacedMesh> placed;
+  const BentBuilding bent = bent_as(simulation.frame());
   for (const DrawnModel::Piece& piece : model.pieces()) {
     const auto body = bodies.find(piece.body.value);
     if (piece.body.value != -1 && body == bodies.end()) continue;
     fracture::PlacedMesh one;
     fracture::Mesh mesh = *piece.mesh;
     if (piece.body.value == -1) {
-      for (Vec3& position : mesh.positions) position += model.displacement(piece, position, simulation);
+      for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+        mesh.positions[v] += displacement_with(simulation.building(), (*piece.bones)[v], mesh.positions[v], bent);
     } else {
       const BodyView& view = *body->second;
       for (Vec3& position : mesh.positions) position -= view.rest_centre;

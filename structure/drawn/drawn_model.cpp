@@ -51,6 +51,7 @@ struct DrawnModel::State {
   [[nodiscard]] std::map<Part, std::size_t> samples(const fracture::Mesh& mesh, const std::vector<Part>& among) const;
   [[nodiscard]] std::vector<Part> pieces_of(MemberId member) const;
   void list();
+  void find_bones(Source& source) const;
 
   const Building& building;
   PartPlaces places;
@@ -59,6 +60,7 @@ struct DrawnModel::State {
   double volume = 0;
   std::size_t events_seen = static_cast<std::size_t>(-1);
   std::vector<std::int64_t> bodies_seen;
+  std::uint64_t revision = 0;
 };
 
 /// A member with its later pieces, where it is divided (divide_member.h).
@@ -133,6 +135,7 @@ void DrawnModel::State::follow(Source source, const Simulation& simulation, std:
   const auto settle = [&] {
     source.parts = owners[order[0].second];
     source.piece.body = {order[0].second};
+    source.piece.bones = nullptr;
     result.push_back(std::move(source));
   };
   if (source.cuts >= most_cuts || static_cast<double>(order[1].first) < least_share * static_cast<double>(total))
@@ -166,8 +169,20 @@ void DrawnModel::State::follow(Source source, const Simulation& simulation, std:
     }
 }
 
+void DrawnModel::State::find_bones(Source& source) const {
+  if (source.piece.body.value != stands) source.piece.bones = nullptr;
+  if (source.piece.body.value != stands || source.piece.bones) return;
+  std::vector<std::int32_t> bones;
+  bones.reserve(source.piece.mesh->positions.size());
+  for (const Vec3& position : source.piece.mesh->positions)
+    bones.push_back(static_cast<std::int32_t>(part_number(building, places.nearest(position, source.parts))));
+  source.piece.bones = std::make_shared<const std::vector<std::int32_t>>(std::move(bones));
+}
+
 /// Pieces of one mesh are numbered in their order.
 void DrawnModel::State::list() {
+  ++revision;
+  for (Source& source : sources) find_bones(source);
   std::map<std::string, int> of_name, number;
   for (const Source& source : sources) ++of_name[source.piece.name];
   pieces.clear();
@@ -196,6 +211,7 @@ DrawnModel::DrawnModel(const Building& building, std::vector<DrawnMesh> meshes)
       source.parts = {Part(drawn.panel)};
     else
       for (const auto& [part, count] : s.samples(*source.piece.mesh, s.places.all())) source.parts.push_back(part);
+    source.piece.body = {stands};
     s.sources.push_back(std::move(source));
   }
   s.list();
@@ -218,13 +234,6 @@ void DrawnModel::update(const Simulation& simulation) {
 
 const std::vector<DrawnModel::Piece>& DrawnModel::pieces() const { return state_->pieces; }
 double DrawnModel::volume() const { return state_->volume; }
-
-Vec3 DrawnModel::displacement(const Piece& piece, const Vec3& point, const Simulation& simulation) const {
-  const auto same = [&](const Piece& other) { return &other == &piece; };
-  const auto at = std::find_if(state_->pieces.begin(), state_->pieces.end(), same);
-  if (at == state_->pieces.end()) return Vec3::Zero();
-  const auto& parts = state_->sources[static_cast<std::size_t>(at - state_->pieces.begin())].parts;
-  return state_->places.displacement(state_->places.nearest(point, parts), point, simulation.frame());
-}
+std::uint64_t DrawnModel::revision() const { return state_->revision; }
 
 }  // namespace topple::structure

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "topple/structure/drawn_model.h"
+
 namespace topple::structure {
 
 namespace {
@@ -19,6 +21,28 @@ double along(const std::array<Vec3, 2>& line, const Vec3& point) {
 PartPlaces::PartPlaces(const Building& building) : building_(building) {
   for (std::size_t i = 0; i < part_count(building); ++i)
     all_.push_back(part_of_number(building, static_cast<std::int64_t>(i)));
+  for (const Part part : all_) {
+    Sphere& sphere = around_.emplace_back();
+    std::vector<Vec3> corners;
+    if (part.member.valid()) {
+      const Line own = line(part);
+      corners.assign(own.begin(), own.end());
+    } else {
+      // The box of its nodes in the panel's axes, which is what distances are measured to.
+      const Panel& panel = building[part.panel];
+      const Vec3 origin = building[panel.nodes[0]].position;
+      Vec3 low = Vec3::Zero(), high = Vec3::Zero();
+      for (const NodeId node : panel.nodes) {
+        const Vec3 local = panel.axes * (building[node].position - origin);
+        low = low.cwiseMin(local), high = high.cwiseMax(local);
+      }
+      for (const Vec3& corner : {Vec3(low.x(), low.y(), 0), Vec3(high.x(), low.y(), 0), Vec3(high.x(), high.y(), 0),
+                                 Vec3(low.x(), high.y(), 0)})
+        corners.push_back(origin + panel.axes.transpose() * corner);
+    }
+    for (const Vec3& corner : corners) sphere.centre += corner / static_cast<double>(corners.size());
+    for (const Vec3& corner : corners) sphere.radius = std::max(sphere.radius, (corner - sphere.centre).norm());
+  }
 }
 
 PartPlaces::Line PartPlaces::line(Part part) const {
@@ -55,7 +79,11 @@ double PartPlaces::distance(Part part, const Vec3& point) const {
 Part PartPlaces::nearest(const Vec3& point, const std::vector<Part>& among) const {
   Part best = among.front();
   double least = unlimited;
+  constexpr double rounding = 1e-6;  // m
   for (const Part part : among) {
+    const Sphere& sphere = around_[static_cast<std::size_t>(part_number(building_, part))];
+    const double reach = least + sphere.radius + rounding;
+    if ((sphere.centre - point).squaredNorm() > reach * reach) continue;
     const double away = distance(part, point);
     if (away >= least) continue;
     least = away;
@@ -90,14 +118,17 @@ bool PartPlaces::touches(Part part, NodeId node) const {
   return std::find(nodes.begin(), nodes.end(), node) != nodes.end();
 }
 
+namespace {
+
 /// A member bends as the cubic beam between its ends; one that is free to turn at an end has no curvature there.
-Vec3 PartPlaces::bent(MemberId id, const Vec3& point, const StandingFrame& frame) const {
-  const Member& member = building_[id];
-  const Line own = line(Part(id));
+Vec3 bent_with(const Building& building, MemberId id, const Vec3& point, const BentBuilding& bent) {
+  const Member& member = building[id];
+  const std::array<Vec3, 2> own{building[member.nodes[0]].position + member.offsets[0],
+                                building[member.nodes[1]].position + member.offsets[1]};
   const double s = along(own, point), length = member.length;
   std::array<Vec3, 2> u, turn;  // of the ends, local axes
   for (std::size_t end = 0; end < 2; ++end) {
-    const Vec6& hub = frame.displacement(member.nodes[end]);
+    const Vec6 hub = bent.displacement(member.nodes[end]);
     turn[end] = hub.tail<3>();
     u[end] = member.axes * (hub.head<3>() + turn[end].cross(member.offsets[end]));
     turn[end] = member.axes * turn[end];
@@ -109,8 +140,8 @@ Vec3 PartPlaces::bent(MemberId id, const Vec3& point, const StandingFrame& frame
   for (int way = 0; way < 2; ++way) {
     const int turns_about = way == 0 ? 5 : 4;
     const auto free = [&](int end) {
-      const JointId joint = building_.joint(id, end);
-      return !frame.intact(joint) || building_[joint].stiffness(turns_about) == 0;
+      const JointId joint = building.joint(id, end);
+      return !bent.holds(joint) || building[joint].stiffness(turns_about) == 0;
     };
     for (int end = 0; end < 2; ++end) {
       const auto e = static_cast<std::size_t>(end);
@@ -130,16 +161,24 @@ Vec3 PartPlaces::bent(MemberId id, const Vec3& point, const StandingFrame& frame
   return member.axes.transpose() * (axis + rotation.cross(beside));
 }
 
-Vec3 PartPlaces::displacement(Part part, const Vec3& point, const StandingFrame& frame) const {
-  if (part.member.valid()) return bent(part.member, point, frame);
+}  // namespace
+
+Vec3 displacement_with(const Building& building, std::int32_t number, const Vec3& point, const BentBuilding& bent) {
+  const Part part = part_of_number(building, number);
+  if (part.member.valid()) return bent_with(building, part.member, point, bent);
   Vec3 sum = Vec3::Zero();
   double weights = 0;
-  for (const NodeId node : building_[part.panel].nodes) {
-    const double weight = 1 / (1e-3 + (building_[node].position - point).norm());
-    sum += weight * frame.displacement(node).head<3>();
+  for (const NodeId node : building[part.panel].nodes) {
+    const double weight = 1 / (1e-3 + (building[node].position - point).norm());
+    sum += weight * bent.displacement(node).head<3>();
     weights += weight;
   }
   return sum / weights;
+}
+
+BentBuilding bent_as(const StandingFrame& frame) {
+  return {[&frame](NodeId node) { return frame.displacement(node); },
+          [&frame](JointId joint) { return frame.intact(joint); }};
 }
 
 }  // namespace topple::structure

@@ -19,18 +19,20 @@ class PartPlaces {
   [[nodiscard]] std::pair<Vec3, Vec3> closest(Part first, Part second) const;
   [[nodiscard]] Vec3 centre(Part part) const;
   [[nodiscard]] bool touches(Part part, NodeId node) const;
-  /// Of a point that hangs on a standing part: its foot on the part moves and turns with the part, a member as it
-  /// bends.
-  [[nodiscard]] Vec3 displacement(Part part, const Vec3& point, const StandingFrame& frame) const;
 
  private:
   using Line = std::array<Vec3, 2>;
   [[nodiscard]] Line line(Part part) const;
   [[nodiscard]] double distance(Part part, const Vec3& point) const;
-  [[nodiscard]] Vec3 bent(MemberId member, const Vec3& point, const StandingFrame& frame) const;
 
   const Building& building_;
   std::vector<Part> all_;
+  /// A sphere around each part, by its number: what is farther away than the nearest so far is not looked at.
+  struct Sphere {
+    Vec3 centre = Vec3::Zero();
+    double radius = 0;
+  };
+  std::vector<Sphere> around_;
 };
 
 }  // namespace topple::structure

@@ -1,10 +1,12 @@
 #include "app/gltf_scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <limits>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -38,6 +40,7 @@ class GltfWriter {
     for (std::size_t p = 0; p < building_.panels.size(); ++p)
       panel(building_.panels[p], states[p], places[building_.members.size() + p]);
     for (const BodyTrack& track : recording_.tracks()) body(track);
+    drawn();
     return structure::glb_of(scene_);
   }
 
@@ -136,6 +139,37 @@ class GltfWriter {
       for (Vertex& v : mesh.vertices) v.position *= static_cast<float>(track.radius);
     node.mesh = add(mesh, track.chunk ? panel_colour(track.chunk_of) : projectile_colour);
     scene_.nodes.push_back(std::move(node));
+  }
+
+  /// Pieces of a model around the building, each while it is one; those that stand as they were drawn.
+  void drawn() {
+    std::map<std::shared_ptr<const fracture::Mesh>, std::size_t> nodes;
+    for (const ExportSample& sample : samples_) {
+      const auto& pieces = recording_.frames()[static_cast<std::size_t>(sample.frame)].drawn;
+      if (!pieces) continue;
+      std::set<std::shared_ptr<const fracture::Mesh>> seen;
+      for (const DrawnPiece& piece : *pieces) {
+        AnimatedPose now;
+        if (piece.body != part_stands) {
+          const auto track = std::lower_bound(recording_.tracks().begin(), recording_.tracks().end(), piece.body,
+                                              [](const BodyTrack& one, std::int64_t id) { return one.id < id; });
+          if (track == recording_.tracks().end() || track->id != piece.body) continue;
+          const PartMotion motion = motion_of(*track, sample.frame, Eigen::Vector3d::Zero());
+          now = {motion.shift, motion.turn};
+        }
+        const auto [found, made] = nodes.try_emplace(piece.mesh, scene_.nodes.size());
+        if (made) {
+          scene_.nodes.emplace_back();
+          scene_.nodes.back().name = "drawn " + std::to_string(nodes.size());
+          scene_.nodes.back().mesh = add(chunk_mesh(*piece.mesh), drawn_colour);
+        }
+        scene_.nodes[found->second].show(sample.code, true);
+        scene_.nodes[found->second].pose(sample.code, now);
+        seen.insert(piece.mesh);
+      }
+      for (const auto& [mesh, node] : nodes)
+        if (!seen.contains(mesh)) scene_.nodes[node].show(sample.code, false);
+    }
   }
 
   const structure::Building& building_;

@@ -115,7 +115,7 @@ class Stage {
 class HeadlessRun {
  public:
   HeadlessRun(const Scene& scene, Script script, std::array<int, 2> size, const HeadlessOptions& options)
-      : session_(scene.building, scene.scenario),
+      : session_(scene.building, scene.scenario, scene.drawn),
         driver_(session_),
         stage_(scene, {size[0], size[1]}, options.panel, options.scale),
         controller_(driver_, scene, ground_height(*scene.building, scene.scenario), stage_.scene_size()),

@@ -40,17 +40,27 @@ std::optional<std::filesystem::path> scenario_file(const std::string& name) {
 
 }  // namespace
 
+namespace {
+
+Scene scene_of(structure::Building building, structure::Scenario scenario, const std::filesystem::path& model) {
+  auto drawn = std::make_shared<const std::vector<structure::DrawnMesh>>(structure::read_drawn_meshes(building, model));
+  return {std::make_shared<const structure::Building>(std::move(building)), std::move(scenario), model,
+          std::move(drawn)};
+}
+
+}  // namespace
+
 Scene open_scene(const std::string& name) {
   if (const auto file = scenario_file(name)) {
     auto [building, scenario] = structure::read_scenario(*file);
     const std::filesystem::path model = structure::find_model(scenario.model, file->parent_path());
-    return {std::make_shared<const structure::Building>(std::move(building)), std::move(scenario), model};
+    return scene_of(std::move(building), std::move(scenario), model);
   }
   const std::filesystem::path model = structure::find_model(name);
   structure::Building building = structure::read_model(model);
   structure::join_shells(building);
   structure::Scenario scenario = structure::idle_scenario(building);
-  return {std::make_shared<const structure::Building>(std::move(building)), std::move(scenario), model};
+  return scene_of(std::move(building), std::move(scenario), model);
 }
 
 std::shared_ptr<const structure::Building> building_with_strengths(

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "topple/structure/building.h"
+#include "topple/structure/drawn_model.h"
 #include "topple/structure/material_tuning.h"
 #include "topple/structure/scenario.h"
 
@@ -12,7 +13,8 @@ namespace topple::viewer {
 struct Scene {
   std::shared_ptr<const structure::Building> building;
   structure::Scenario scenario;
-  std::filesystem::path model;  ///< file or folder that the building was read from
+  std::filesystem::path model;                                     ///< file or folder that the building was read from
+  std::shared_ptr<const std::vector<structure::DrawnMesh>> drawn;  ///< around the building; may be empty
 };
 
 /// A shipped scenario's or model's name, or a file of either kind. Throws structure::InputError.

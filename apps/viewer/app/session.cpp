@@ -13,8 +13,12 @@ constexpr double endless = 1e9;
 
 }  // namespace
 
-Session::Session(std::shared_ptr<const structure::Building> building, structure::Scenario scenario)
-    : building_(std::move(building)), given_(building_), scenario_(std::move(scenario)) {
+Session::Session(std::shared_ptr<const structure::Building> building, structure::Scenario scenario,
+                 std::shared_ptr<const std::vector<structure::DrawnMesh>> drawn)
+    : building_(std::move(building)),
+      given_(building_),
+      scenario_(std::move(scenario)),
+      drawn_meshes_(std::move(drawn)) {
   scenario_.duration = endless;
   scenario_.until_rest = false;
   begin();
@@ -22,6 +26,9 @@ Session::Session(std::shared_ptr<const structure::Building> building, structure:
 
 void Session::begin() {
   simulation_ = std::make_unique<structure::Simulation>(*building_, scenario_);
+  drawn_.reset();
+  if (drawn_meshes_ && !drawn_meshes_->empty())
+    drawn_ = std::make_unique<structure::DrawnModel>(*building_, *drawn_meshes_);
   taker_ = SnapshotTaker();
   taker_.want(wanted_);
   tuning_ = std::make_unique<structure::JointTuning>(*building_);
@@ -110,6 +117,7 @@ void Session::restart(const RunRules& rules) {
   scenario_.fracture = rules.fracture;
   simulation_.reset();
   tuning_.reset();
+  drawn_.reset();
   if (rules.building) building_ = rules.building;
   restart();
 }
@@ -161,7 +169,7 @@ void Session::record_events() {
 }
 
 std::shared_ptr<const Snapshot> Session::snapshot() {
-  auto snapshot = std::make_shared<Snapshot>(taker_.take(*simulation_));
+  auto snapshot = std::make_shared<Snapshot>(taker_.take(*simulation_, drawn_.get()));
   snapshot->tuned = tuned_;
   snapshot->path = path_;
   recording_->add(*snapshot);

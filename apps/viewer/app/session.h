@@ -25,8 +25,10 @@ struct RunRules {
 
 class Session {
  public:
-  /// The scenario's end is put off: a person may act at any time. Throws as structure::Simulation does.
-  Session(std::shared_ptr<const structure::Building> building, structure::Scenario scenario);
+  /// The scenario's end is put off: a person may act at any time. `drawn`: around the building; null: nothing. Throws
+  /// as structure::Simulation and structure::DrawnModel do.
+  Session(std::shared_ptr<const structure::Building> building, structure::Scenario scenario,
+          std::shared_ptr<const std::vector<structure::DrawnMesh>> drawn = nullptr);
 
   void step();
   void apply(const structure::Tool& tool);
@@ -43,8 +45,8 @@ class Session {
   void return_to(std::int64_t step);
   /// The moment as bytes of structure::Snapshot; the scene's own model and scenario have to be there to load it.
   [[nodiscard]] std::string save() const;
-  /// Takes the run up where it was saved; the way there can be looked back at. When what was done then does not lead there (another model, other rules), the
-  /// run begins anew and its events say so.
+  /// Takes the run up where it was saved; the way there can be looked back at. When what was done then does not lead
+  /// there (another model, other rules), the run begins anew and its events say so.
   void load(const structure::Snapshot& saved);
   /// Finds which share of a downward force put here goes through each joint; snapshots carry it from now on.
   void find_path(const structure::ContactPlace& place);
@@ -74,7 +76,9 @@ class Session {
 
   std::shared_ptr<const structure::Building> building_, given_;  ///< given_: with the strengths that it came with
   structure::Scenario scenario_;
+  std::shared_ptr<const std::vector<structure::DrawnMesh>> drawn_meshes_;
   std::unique_ptr<structure::Simulation> simulation_;
+  std::unique_ptr<structure::DrawnModel> drawn_;
   std::unique_ptr<structure::JointTuning> tuning_;
   std::shared_ptr<const TunedJoints> tuned_;
   std::shared_ptr<const std::vector<float>> path_;

@@ -68,6 +68,8 @@ const std::map<std::string, Plain>& plain_words() {
         {"no dust", flag(&ViewOptions::dust, false)},
         {"debris", flag(&ViewOptions::debris, true)},
         {"no debris", flag(&ViewOptions::debris, false)},
+        {"drawn", flag(&ViewOptions::drawn, true)},
+        {"no drawn", flag(&ViewOptions::drawn, false)},
         {"shadows", flag(&ViewOptions::shadows, true)},
         {"no shadows", flag(&ViewOptions::shadows, false)},
         {"occlusion", flag(&ViewOptions::ambient_occlusion, true)},

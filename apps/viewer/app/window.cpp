@@ -183,7 +183,7 @@ void run_window(const Scene& scene, const WindowOptions& options) {
   const double ground = ground_height(*scene.building, scene.scenario);
   SceneInstances instances(*scene.building);
   Renderer renderer(instances, ground);
-  ThreadDriver driver(std::make_unique<Session>(scene.building, scene.scenario));
+  ThreadDriver driver(std::make_unique<Session>(scene.building, scene.scenario, scene.drawn));
   Controller controller(driver, scene, ground, window.size());
   Input input(window.get(), controller, options.screenshot);
   const WindowInterface interface(window.get());

@@ -71,6 +71,10 @@ GpuBatch::GpuBatch(const Mesh& mesh, const Attributes& attributes, std::size_t s
   glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.indices.size() * sizeof(std::uint32_t)),
                mesh.indices.data(), GL_STATIC_DRAW);
   glBindVertexArray(0);
+  send(mesh);
+}
+
+void GpuBatch::send(const Mesh& mesh) {
   glBindBuffer(GL_ARRAY_BUFFER, vertices_.get());
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.vertices.size() * sizeof(Vertex)), mesh.vertices.data(),
                GL_STATIC_DRAW);
@@ -110,9 +114,13 @@ void GpuScene::update(const SceneInstances& scene) {
   projectiles_[0].update(scene.projectiles());
   arrows_[0].update(scene.arrows());
   arrows_[1].update(scene.buried_arrows());
-  for (std::size_t i = chunks_.size(); i < scene.chunks().size(); ++i)
-    chunks_.emplace_back(scene.chunks()[i].mesh, rigid_attributes(), sizeof(RigidInstance));
-  update_all(chunks_, scene.chunks());
+  const auto follow = [](std::vector<GpuBatch>& gpu, const std::vector<InstanceBatch<RigidInstance>>& batches) {
+    for (std::size_t i = gpu.size(); i < batches.size(); ++i)
+      gpu.emplace_back(batches[i].mesh, rigid_attributes(), sizeof(RigidInstance));
+    update_all(gpu, batches);
+  };
+  follow(chunks_, scene.chunks());
+  follow(drawn_, scene.drawn());
 }
 
 }  // namespace topple::viewer

@@ -23,18 +23,21 @@ class GpuBatch {
     const std::size_t moving = batch.instances.size() - batch.standing;
     if (batch.revision != revision_) send(0, batch.instances.data(), batch.standing, sizeof(Instance));
     revision_ = batch.revision;
+    if (batch.mesh_revision != mesh_revision_) send(batch.mesh);
+    mesh_revision_ = batch.mesh_revision;
     if (moving + counts_[1] > 0) send(1, batch.instances.data() + batch.standing, moving, sizeof(Instance));
   }
   void draw() const;
 
  private:
   void send(std::size_t which, const void* data, std::size_t count, std::size_t size);
+  void send(const Mesh& mesh);
   GlBuffer vertices_, indices_;
   GlBuffer instances_[2];
   GlVertexArray arrays_[2];
   std::size_t counts_[2] = {0, 0};
   GLsizei index_count_ = 0;
-  std::uint64_t revision_ = 0;
+  std::uint64_t revision_ = 0, mesh_revision_ = 0;
 };
 
 class GpuScene {
@@ -43,10 +46,11 @@ class GpuScene {
   void update(const SceneInstances& scene);
   void draw_members() const { draw(members_); }
   void draw_panels(structure::PanelKind kind) const { draw(kind == structure::PanelKind::slab ? slabs_ : walls_); }
-  /// Projectiles and the chunks of broken panels.
+  /// Projectiles, the chunks of broken panels, and what is drawn around the building.
   void draw_rigid() const {
     draw(projectiles_);
     draw(chunks_);
+    draw(drawn_);
   }
   void draw_arrows() const { arrows_[0].draw(); }
   void draw_buried_arrows() const { arrows_[1].draw(); }
@@ -55,7 +59,7 @@ class GpuScene {
   static void draw(const std::vector<GpuBatch>& batches) {
     for (const GpuBatch& batch : batches) batch.draw();
   }
-  std::vector<GpuBatch> members_, slabs_, walls_, projectiles_, chunks_, arrows_;
+  std::vector<GpuBatch> members_, slabs_, walls_, projectiles_, chunks_, drawn_, arrows_;
 };
 
 }  // namespace topple::viewer

@@ -8,6 +8,7 @@
 
 #include "renderer/arrows.h"
 #include "renderer/diagram.h"
+#include "topple/structure/drawn_model.h"
 
 namespace topple::viewer {
 namespace {
@@ -418,6 +419,57 @@ void SceneInstances::place_broken_panels(const Snapshot& snapshot) {
   }
 }
 
+/// Its vertices follow the parts that they hang on, as these are drawn.
+void SceneInstances::bend_drawn(const DrawnPiece& piece, const Snapshot& snapshot,
+                                InstanceBatch<RigidInstance>& batch) const {
+  const DrawnShape shape(snapshot, built_options_);
+  const structure::BentBuilding bent{
+      [&](structure::NodeId node) -> structure::Vec6 { return shape.at(node).cast<double>(); },
+      [&](structure::JointId joint) { return snapshot.answer->joints[static_cast<std::size_t>(joint.index)].intact; }};
+  for (std::size_t v = 0; v < piece.mesh->positions.size(); ++v) {
+    const Eigen::Vector3d& at = piece.mesh->positions[v];
+    const Eigen::Vector3f now =
+        (at + structure::displacement_with(building_, (*piece.bones)[v], at, bent)).cast<float>();
+    batch.mesh.vertices[v].position = {now.x(), now.y(), now.z()};
+  }
+  ++batch.mesh_revision;
+}
+
+/// A model that is drawn around the building. `bend`: what stands is bent otherwise than before.
+void SceneInstances::place_drawn(const Snapshot& snapshot, bool bend) {
+  for (auto& batch : drawn_) batch.instances.clear();
+  if (!snapshot.drawn || !built_options_.drawn) return;
+  for (const DrawnPiece& piece : *snapshot.drawn) {
+    const auto body = std::lower_bound(snapshot.bodies.begin(), snapshot.bodies.end(), piece.body,
+                                       [](const BodyPose& pose, std::int64_t id) { return pose.id < id; });
+    const bool stands = piece.body == part_stands;
+    if (!stands && (!built_options_.debris || body == snapshot.bodies.end() || body->id != piece.body)) continue;
+    const auto [found, is_new] = batch_of_drawn_.try_emplace(piece.mesh, DrawnBatch{drawn_.size(), false});
+    if (is_new) {
+      drawn_.emplace_back();
+      drawn_.back().mesh = chunk_mesh(*piece.mesh);
+    }
+    DrawnBatch& own = found->second;
+    InstanceBatch<RigidInstance>& batch = drawn_[own.batch];
+    if (stands && piece.bones && (bend || !own.bent)) {
+      bend_drawn(piece, snapshot, batch);
+      own.bent = true;
+    } else if (!stands && own.bent) {
+      batch.mesh = chunk_mesh(*piece.mesh);
+      ++batch.mesh_revision;
+      own.bent = false;
+    }
+    glm::dvec3 position(0);
+    glm::dquat turn(1, 0, 0, 0);
+    if (!stands) {
+      const Motion motion(*body);
+      position = motion(glm::dvec3(0));
+      turn = motion.turn;
+    }
+    batch.instances.push_back({glm::vec3(position - origin_), packed(turn), glm::vec3(1), drawn_colour});
+  }
+}
+
 void SceneInstances::update(const Snapshot& snapshot, const ViewOptions& options) {
   const bool changed = built_answer_ != snapshot.answer || built_membership_ != snapshot.membership ||
                        !built_options_.same_but_marks(options) || built_shape_ != snapshot.shape ||
@@ -436,6 +488,7 @@ void SceneInstances::update(const Snapshot& snapshot, const ViewOptions& options
   draw_marks(snapshot, options);
   draw_cables(snapshot);
   place_broken_panels(snapshot);
+  place_drawn(snapshot, changed);
   dust_.clear();
   if (options.dust && snapshot.dust) place_dust(*snapshot.dust, snapshot.time, origin_, dust_);
 }

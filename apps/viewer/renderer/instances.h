@@ -47,7 +47,8 @@ struct InstanceBatch {
   Mesh mesh;
   std::vector<Instance> instances;
   std::size_t standing = 0;
-  std::uint64_t revision = 0;  ///< counts changes of the standing ones
+  std::uint64_t revision = 0;       ///< counts changes of the standing ones
+  std::uint64_t mesh_revision = 0;  ///< counts changes of the mesh's vertices, whose number stays
 };
 
 class SceneInstances {
@@ -64,6 +65,8 @@ class SceneInstances {
   /// Each chunk of a broken panel, and each state of what remains of it, has a mesh of its own; batches are only ever
   /// added. One that is gone has no instance.
   [[nodiscard]] const std::vector<InstanceBatch<RigidInstance>>& chunks() const { return chunks_; }
+  /// The same of a model that is drawn around the building: a batch for each piece, bent while it stands.
+  [[nodiscard]] const std::vector<InstanceBatch<RigidInstance>>& drawn() const { return drawn_; }
 
   /// Loads and contacts; reactions, which come from below the ground.
   [[nodiscard]] const InstanceBatch<RigidInstance>& arrows() const { return arrows_; }
@@ -106,6 +109,8 @@ class SceneInstances {
                                              const ViewOptions& options) const;
   void place_chunks(const Snapshot& snapshot);
   void place_broken_panels(const Snapshot& snapshot);
+  void place_drawn(const Snapshot& snapshot, bool bend);
+  void bend_drawn(const DrawnPiece& piece, const Snapshot& snapshot, InstanceBatch<RigidInstance>& batch) const;
   void colour_member(std::size_t index, const Snapshot& snapshot, const ViewOptions& options);
   void colour_panel(std::size_t index, const Snapshot& snapshot, const ViewOptions& options);
   [[nodiscard]] MemberInstance moved_member(std::size_t index, const Motion& motion) const;
@@ -131,6 +136,12 @@ class SceneInstances {
   std::array<double, 2> diagram_range_{};
   /// Batches of standing panels that are broken in part, by panel, with the mesh that they draw.
   std::map<std::size_t, std::pair<std::shared_ptr<const fracture::Mesh>, std::size_t>> chunk_of_panel_;
+  std::vector<InstanceBatch<RigidInstance>> drawn_;
+  struct DrawnBatch {
+    std::size_t batch = 0;
+    bool bent = false;
+  };
+  std::map<std::shared_ptr<const fracture::Mesh>, DrawnBatch> batch_of_drawn_;
   double largest_ = 0;
   // What the standing instances were built for.
   std::shared_ptr<const FrameAnswer> built_answer_;

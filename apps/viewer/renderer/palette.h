@@ -19,7 +19,8 @@ using Rgba = std::uint32_t;  ///< red in the lowest byte, as OpenGL reads it
 
 [[nodiscard]] Rgba member_colour(structure::MemberKind kind);
 [[nodiscard]] Rgba panel_colour(structure::PanelKind kind);
-inline constexpr Rgba projectile_colour = rgba(58, 52, 54), plain_member = rgba(150, 155, 160);
+inline constexpr Rgba projectile_colour = rgba(58, 52, 54), drawn_colour = rgba(214, 200, 176),
+                      plain_member = rgba(150, 155, 160);
 
 struct JointPalette {
   Rgba force, torque, both, failed;

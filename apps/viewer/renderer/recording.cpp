@@ -84,14 +84,15 @@ void Recording::add(const Snapshot& snapshot) {
   // Events of this very step stay: they led to it.
   std::erase_if(events_, [&](const Event& event) { return event.time > snapshot.time + 1e-9; });
   Frame frame{snapshot.time,       snapshot.step,  snapshot.at_rest, snapshot.answer,
-              snapshot.membership, snapshot.tuned, snapshot.counters};
+              snapshot.membership, snapshot.tuned, snapshot.drawn,   snapshot.counters};
   bool news = frames_.empty();
   if (!news) {
     const Frame& last = frames_.back();
     const bool too_soon = snapshot.answer != last.answer && snapshot.answer->joints.size() > large_building &&
                           std::fmod(last.time, answer_interval) <= std::fmod(snapshot.time, answer_interval);
     if (too_soon) frame.answer = last.answer;
-    news = frame.answer != last.answer || frame.membership != last.membership || frame.tuned != last.tuned || too_soon;
+    news = frame.answer != last.answer || frame.membership != last.membership || frame.tuned != last.tuned ||
+           frame.drawn != last.drawn || too_soon;
   }
   if (snapshot.dust)
     for (const DustPuff& puff : *snapshot.dust)
@@ -166,6 +167,7 @@ Snapshot Recording::frame_snapshot(std::size_t number) const {
   snapshot.answer = frame.answer;
   snapshot.membership = frame.membership;
   snapshot.tuned = frame.tuned;
+  snapshot.drawn = frame.drawn;
   snapshot.counters = frame.counters;
   snapshot.dust = dust_at(frame.time);
   const auto at = static_cast<std::int32_t>(number);

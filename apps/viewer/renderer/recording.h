@@ -47,6 +47,7 @@ class Recording {
     std::shared_ptr<const FrameAnswer> answer;
     std::shared_ptr<const Membership> membership;
     std::shared_ptr<const TunedJoints> tuned;
+    std::shared_ptr<const std::vector<DrawnPiece>> drawn;
     structure::SimulationCounters counters;
   };
 

@@ -75,6 +75,13 @@ struct BodyPose {
   std::optional<Eigen::Vector3d> cable_anchor;  ///< of a wrecking ball
 };
 
+/// A piece of a model that is drawn around the building.
+struct DrawnPiece {
+  std::shared_ptr<const fracture::Mesh> mesh;              ///< where it was in the undeformed building
+  std::shared_ptr<const std::vector<std::int32_t>> bones;  ///< of one that stands: structure::DrawnModel::Piece::bones
+  std::int64_t body = part_stands;                         ///< id of the body that it moves with; or part_stands
+};
+
 /// Dust thrown up at an instant: see dust.h.
 struct DustPuff {
   std::int64_t number = 0;  ///< tells puffs of one time apart
@@ -89,13 +96,15 @@ struct Snapshot {
   bool at_rest = false, finished = false;
   std::shared_ptr<const FrameAnswer> answer;
   std::shared_ptr<const Membership> membership;
-  std::shared_ptr<const TunedJoints> tuned;           ///< null: as in the model
-  std::shared_ptr<const std::vector<float>> path;     ///< per joint: share of a chosen force that goes through it
-  std::vector<BodyPose> bodies;                       ///< in order of id
-  std::shared_ptr<const std::vector<DustPuff>> dust;  ///< in order of time; null: none
+  std::shared_ptr<const TunedJoints> tuned;              ///< null: as in the model
+  std::shared_ptr<const std::vector<float>> path;        ///< per joint: share of a chosen force that goes through it
+  std::vector<BodyPose> bodies;                          ///< in order of id
+  std::shared_ptr<const std::vector<DustPuff>> dust;     ///< in order of time; null: none
+  std::shared_ptr<const std::vector<DrawnPiece>> drawn;  ///< those that are there; null: nothing is drawn around it
   /// When there is one, what stands is drawn in this shape times the scale instead of its displacements (a mode).
   std::shared_ptr<const std::vector<Eigen::Matrix<float, 6, 1>>> shape;
-  /// Per member: how far its middle moves, global, beside where the ends' displacements and turns bend it to; null: not.
+  /// Per member: how far its middle moves, global, beside where the ends' displacements and turns bend it to; null:
+  /// not.
   std::shared_ptr<const std::vector<Eigen::Vector3f>> shape_bulge;
   float shape_scale = 0;
   structure::SimulationCounters counters;

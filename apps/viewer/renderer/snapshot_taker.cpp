@@ -159,8 +159,15 @@ std::shared_ptr<const Membership> read_membership(const Simulation& simulation) 
 }
 
 BodyPose pose_of(const structure::BodyView& body) {
-  return {body.id.value, body.pose.position, body.rest_centre, body.pose.orientation,
-          body.radius,   body.asleep,        body.chunk,       body.chunk_of, body.cable_anchor};
+  return {body.id.value, body.pose.position, body.rest_centre, body.pose.orientation, body.radius,
+          body.asleep,   body.chunk,         body.chunk_of,    body.cable_anchor};
+}
+
+std::shared_ptr<const std::vector<DrawnPiece>> read_drawn(const structure::DrawnModel& model) {
+  auto drawn = std::make_shared<std::vector<DrawnPiece>>();
+  for (const structure::DrawnModel::Piece& piece : model.pieces())
+    if (piece.body.value >= part_stands) drawn->push_back({piece.mesh, piece.bones, piece.body.value});
+  return drawn;
 }
 
 bool same(const structure::FrameCounters& a, const structure::FrameCounters& b) {
@@ -175,7 +182,7 @@ bool SnapshotTaker::answer_is_old(const Simulation& simulation) const {
          seen_events_ != simulation.events().size();
 }
 
-Snapshot SnapshotTaker::take(const Simulation& simulation) {
+Snapshot SnapshotTaker::take(const Simulation& simulation, structure::DrawnModel* drawn) {
   std::vector<std::int64_t> ids;
   for (const structure::BodyView& body : simulation.bodies()) ids.push_back(body.id.value);
   const bool old = answer_is_old(simulation);
@@ -196,6 +203,12 @@ Snapshot SnapshotTaker::take(const Simulation& simulation) {
   snapshot.membership = membership_;
   for (const structure::BodyView& body : simulation.bodies()) snapshot.bodies.push_back(pose_of(body));
   snapshot.dust = dust_.watch(simulation);
+  if (drawn) {
+    drawn->update(simulation);
+    if (!drawn_ || drawn_revision_ != drawn->revision()) drawn_ = read_drawn(*drawn);
+    drawn_revision_ = drawn->revision();
+    snapshot.drawn = drawn_;
+  }
   snapshot.counters = simulation.counters();
   snapshot.stage_seconds = simulation.stage_seconds();
   snapshot.collision_engine_seconds = simulation.collision_engine_seconds();

@@ -3,13 +3,15 @@
 
 #include "renderer/dust.h"
 #include "renderer/snapshot.h"
+#include "topple/structure/drawn_model.h"
 
 namespace topple::viewer {
 
 /// Takes snapshots of one simulation, sharing what did not change since the last one. Used on the simulation's thread.
 class SnapshotTaker {
  public:
-  [[nodiscard]] Snapshot take(const structure::Simulation& simulation);
+  /// `drawn`: cut where its parts have come apart since, and seen.
+  [[nodiscard]] Snapshot take(const structure::Simulation& simulation, structure::DrawnModel* drawn = nullptr);
   /// From the next snapshot on.
   void want(Wanted wanted) { wanted_ = wanted; }
   /// Joints were given other capacities: the next snapshot reads their utilisations anew.
@@ -25,6 +27,8 @@ class SnapshotTaker {
   DustWatcher dust_;
   std::shared_ptr<const FrameAnswer> answer_;
   std::shared_ptr<const Membership> membership_;
+  std::shared_ptr<const std::vector<DrawnPiece>> drawn_;
+  std::uint64_t drawn_revision_ = 0;
 };
 
 }  // namespace topple::viewer

@@ -34,6 +34,7 @@ struct ViewOptions {
   bool loads = false, reactions = false, contacts = false;  ///< as arrows
   float arrow_scale = 1;
   bool shadows = true, ambient_occlusion = true, grid = true, debris = true, dust = true;
+  bool drawn = true;  ///< a model that is drawn around the building
   structure::JointId selected_joint;
   structure::MemberId hovered_member, selected_member;
   structure::PanelId hovered_panel, selected_panel;

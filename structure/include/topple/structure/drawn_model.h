@@ -6,7 +6,9 @@
 // name). While the parts of a piece stand or move together, the piece is whole; standing, its vertices follow the
 // members as bones. When they part, it is cut by planes: through the joints that broke between them, across the member;
 // else half way between the parts. Cuts are capped, so pieces stay closed and their volumes add up.
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -47,17 +49,31 @@ class DrawnModel {
     std::shared_ptr<const fracture::Mesh> mesh;  ///< where it was in the undeformed building
     double volume = 0;                           ///< m3
     collision::BodyId body;                      ///< that it follows; -1: it stands, -2: it is gone
+    /// Of a standing piece: the part that each vertex hangs on, members first, then panels; null: it does not stand.
+    std::shared_ptr<const std::vector<std::int32_t>> bones;
   };
   [[nodiscard]] const std::vector<Piece>& pieces() const;
+  /// Changes whenever pieces() may have.
+  [[nodiscard]] std::uint64_t revision() const;
   /// Volume of all meshes as they were read, m3.
   [[nodiscard]] double volume() const;
-  /// How far a point of a standing piece has moved with its bones, as the frame is bent at rest now.
-  [[nodiscard]] Vec3 displacement(const Piece& piece, const Vec3& point, const Simulation& simulation) const;
 
  private:
   struct State;
   std::unique_ptr<State> state_;
 };
+
+/// A building as it is bent.
+struct BentBuilding {
+  std::function<Vec6(NodeId)> displacement;  ///< of a node's hub, global
+  std::function<bool(JointId)> holds;
+};
+/// How far a point of the undeformed building moves with the part that it hangs on (numbered as in Piece::bones): its
+/// foot on the part moves and turns with the part, a member as it bends.
+[[nodiscard]] Vec3 displacement_with(const Building& building, std::int32_t part, const Vec3& point,
+                                     const BentBuilding& bent);
+/// As a frame is bent at rest now; it has to outlive what is returned.
+[[nodiscard]] BentBuilding bent_as(const StandingFrame& frame);
 
 /// All pieces that are there, as a binary glTF file (y up): those that stand bent with their members, the others as
 /// they lie. Each node tells its volume.
