@@ -247,17 +247,20 @@ EnergyAccount::Shares EnergyAccount::shares(const PlacedLoad& placed) {
   return sum;
 }
 
-/// The same for contact loads: those of parts that left are gone, with the work that they have done.
+/// The same for contact loads: those of parts that left are gone, with the work that they have done. What comes, goes or
+/// changes in a sudden change does so at the displacements that were there, without doing work.
 void EnergyAccount::settle_contacts(int number, Change& change) {
   for (const auto& [key, placed] : rest_contacts_) {
     if (component(placed) != number) continue;
     const Shares own = shares(placed);
-    if (from_.loads.contacts().contains(key)) {
-      change.freed -= own.left.sum();
-      continue;
-    }
     change.contact_left += own.standing.sum() + own.left.sum();
     change.freed += own.standing.sum();
+  }
+  for (const auto& [key, placed] : from_.loads.contacts()) {
+    if (component(placed) != number) continue;
+    const double own = shares(placed).standing.sum();
+    change.contact_left -= own;
+    change.freed -= own;
   }
 }
 
