@@ -35,11 +35,12 @@ btVector3 velocity_now(const Solid& solid, const btVector3& point) {
   return body.rigid->getVelocityInLocalPoint(point - body.rigid->getCenterOfMassPosition());
 }
 
-std::int64_t tag_of(const Solid& solid, int index, const btVector3& point) {
-  if (solid.kind == Touched::Kind::ground) return -1;
+/// Null for the ground.
+const SolidPart* part_at(const Solid& solid, int index, const btVector3& point) {
+  if (solid.kind == Touched::Kind::ground) return nullptr;
   // Contacts that Bullet predicts for fast bodies carry no index.
   if (index < 0 && solid.parts.size() > 1) index = nearest_part(solid, solid.object->getWorldTransform(), point);
-  return solid.part(index).tag;
+  return &solid.part(index);
 }
 
 /// The solid that a contact names first is the body with the lower id.
@@ -57,8 +58,12 @@ Contact point_contact(const Solid& first, const Solid& second, const btManifoldP
   const Solid& other = forward ? second : first;
   Contact contact;
   contact.body.value = body.id;
-  contact.part_tag = tag_of(body, forward ? point.m_index0 : point.m_index1, at);
-  contact.other = touched(other, tag_of(other, forward ? point.m_index1 : point.m_index0, at));
+  const SolidPart& part = *part_at(body, forward ? point.m_index0 : point.m_index1, at);
+  const SolidPart* others_part = part_at(other, forward ? point.m_index1 : point.m_index0, at);
+  contact.part_tag = part.tag;
+  contact.other = touched(other, others_part ? others_part->tag : -1);
+  contact.depth = std::max(0.0, -point.getDistance());
+  contact.thickness = others_part ? std::min(part.thickness, others_part->thickness) : part.thickness;
   contact.point = from_bullet(at);
   contact.normal = from_bullet(point.m_normalWorldOnB) * (forward ? -1 : 1);
   contact.impulse = from_bullet(on_first) * (forward ? -1 : 1);
@@ -99,6 +104,7 @@ Contact merged(std::span<const Contact> points) {
     sum.approach_speed += share * point.approach_speed;
     sum.impulse += point.impulse;
     sum.work_lost += point.work_lost;
+    sum.depth = std::max(sum.depth, point.depth);
     if (sum.corner_count < 4) sum.corners[static_cast<std::size_t>(sum.corner_count++)] = point.point;
   }
   if (sum.normal.norm() < 1e-9) sum.normal = points.front().normal;  // squeezed from both sides

@@ -2,6 +2,7 @@
 
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
 #include <BulletCollision/CollisionShapes/btConvexHullShape.h>
+#include <BulletCollision/CollisionShapes/btConvexPolyhedron.h>
 #include <BulletCollision/CollisionShapes/btSphereShape.h>
 
 #include <algorithm>
@@ -86,6 +87,23 @@ std::unique_ptr<btConvexShape> make_shape(const ConvexPart& part, const std::str
   refuse(owner, part, "its kind is none of box, sphere, hull");
 }
 
+double thickness_of(const btConvexShape& shape) {
+  if (!shape.isPolyhedral()) return 2 * shape.getMargin();  // a sphere is all margin
+  const btConvexPolyhedron* faces = static_cast<const btPolyhedralConvexShape&>(shape).getConvexPolyhedron();
+  if (faces == nullptr) return 0;
+  double thickness = BT_LARGE_FLOAT;
+  for (int f = 0; f < faces->m_faces.size(); ++f) {
+    const btScalar* plane = faces->m_faces[f].m_plane;  // unit outward normal and offset: n x + d = 0
+    double across = 0;
+    for (int v = 0; v < faces->m_vertices.size(); ++v) {
+      const btVector3& vertex = faces->m_vertices[v];
+      across = std::max<double>(across, -(btVector3(plane[0], plane[1], plane[2]).dot(vertex) + plane[3]));
+    }
+    thickness = std::min(thickness, across);
+  }
+  return thickness;
+}
+
 double reach_of(const SolidPart& part) {
   btVector3 low, high;
   part.shape->getAabb(btTransform::getIdentity(), low, high);
@@ -111,6 +129,7 @@ void make_parts(const std::vector<ConvexPart>& description, const btTransform& f
     part.local = frame * to_bullet(given.pose);
     part.tag = given.tag;
     part.reach = reach_of(part);
+    part.thickness = thickness_of(*part.shape);
     solid.reach = std::max(solid.reach, part.reach);
     solid.parts.push_back(std::move(part));
   }

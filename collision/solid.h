@@ -23,7 +23,8 @@ struct SolidPart {
   std::unique_ptr<btConvexShape> shape;
   btTransform local = btTransform::getIdentity();
   std::int64_t tag = -1;
-  double reach = 0;  ///< no point of it is farther from the solid's origin, m
+  double reach = 0;      ///< no point of it is farther from the solid's origin, m
+  double thickness = 0;  ///< least width across any of its faces, m
 };
 
 struct Solid {

@@ -7,7 +7,7 @@ import statistics
 import output
 import peers
 
-COLUMNS = [("frame", "posts x storeys"), ("combinations", "combinations"), ("runs", "runs"), ("median", "median s"), ("least", "least s"),
+COLUMNS = [("frame", "posts x storeys"), ("combinations", "combinations"), ("runs", "runs"), ("median", "median s"), ("low", "lower quartile"), ("high", "upper quartile"), ("least", "least s"),
            ("processor", "processor s"), ("solve", "solve stage s"), ("memory", "peak MiB")]
 SOLVE_ASKED, WHOLE_ASKED = 3.0, 1.5
 
@@ -58,8 +58,9 @@ def run(context):
                 figures[name].append((seconds, work, solve_seconds(folder), peak))
         for name, measured in figures.items():
             seconds, work, solve, peak = zip(*measured)
+            low, high = output.quartiles(seconds)
             rows.append({"frame": frame.name, "combinations": {"one": 1, "ten": 10}[name], "runs": len(measured),
-                         "median": statistics.median(seconds), "least": min(seconds), "processor": statistics.median(work),
+                         "median": statistics.median(seconds), "low": low, "high": high, "least": min(seconds), "processor": statistics.median(work),
                          "solve": statistics.median(solve), "memory": max(peak)})
         for what, place, asked in (("the whole process", 0, WHOLE_ASKED), ("the processor time", 1, None), ("the solve stage", 2, SOLVE_ASKED)):
             ratios = sorted(ten[place] / one[place] for one, ten in zip(figures["one"], figures["ten"]))

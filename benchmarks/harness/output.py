@@ -1,11 +1,13 @@
 """Tables on the terminal, CSV, gnuplot figures and the one page that holds them all."""
 
 import csv
+import glob
 import html
 import json
 import os
 import re
 import shutil
+import statistics
 import subprocess
 import time
 
@@ -77,6 +79,31 @@ def plot(path, script, data):
     if done.returncode != 0:
         raise RuntimeError("gnuplot: " + done.stderr.strip())
     return path
+
+
+def sign_figure(path, provenance):
+    """Says in a figure where it comes from, unless it does already."""
+    with open(path, encoding="utf-8") as svg:
+        content = svg.read()
+    if "<metadata>" in content:
+        return
+    told = html.escape("".join("%s: %s\n" % item for item in provenance.items()))
+    opened = re.search(r"<svg\b[^>]*>", content).end()
+    with open(path, "w", encoding="utf-8") as svg:
+        svg.write(content[:opened] + "\n<metadata>" + told + "</metadata>" + content[opened:])
+
+
+def sign_figures(context):
+    for path in sorted(glob.glob(os.path.join(context.results, "*.svg"))):
+        sign_figure(path, context.provenance)
+
+
+def quartiles(values):
+    """Lower and upper quartile of repeated runs."""
+    if len(values) < 2:
+        return values[0], values[0]
+    cuts = statistics.quantiles(values, n=4, method="inclusive")
+    return cuts[0], cuts[2]
 
 
 STYLE = ("body{font:15px/1.5 system-ui,sans-serif;max-width:1100px;margin:2em auto;padding:0 1em;color:#222;background:#fff}"

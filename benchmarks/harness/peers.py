@@ -13,7 +13,7 @@ import other_peers
 import output
 
 COLUMNS = [("frame", "posts x storeys"), ("freedoms", "freedoms"), ("program", "program"), ("runs", "runs"),
-           ("median", "median s"), ("least", "least s"), ("processor", "processor s"), ("memory", "peak MiB"), ("roof", "roof sag m"), ("off", "roof sag off by")]
+           ("median", "median s"), ("low", "lower quartile"), ("high", "upper quartile"), ("least", "least s"), ("processor", "processor s"), ("memory", "peak MiB"), ("roof", "roof sag m"), ("off", "roof sag off by")]
 
 # The frames of docs/verification's peers: bay, storey height, outer box of the columns, beams; no shear deformation.
 BAY, HEIGHT = 6.0, 3.5
@@ -190,8 +190,9 @@ def run(context):
         for name, _, roof, _ in programs:
             sag = roof()
             seconds, work, peak = zip(*spent[name])
+            low, high = output.quartiles(seconds)
             rows.append({"frame": frame.name, "freedoms": frame.freedoms, "program": name, "runs": len(seconds),
-                         "median": statistics.median(seconds), "least": min(seconds), "processor": statistics.median(work), "memory": max(peak),
+                         "median": statistics.median(seconds), "low": low, "high": high, "least": min(seconds), "processor": statistics.median(work), "memory": max(peak),
                          "roof": sag, "off": abs(sag / ours - 1)})
             if name == "Topple":
                 continue

@@ -87,7 +87,9 @@ def publish(root, results):
             with open(path, encoding="utf-8") as source, open(os.path.join(kept, name), "w", encoding="utf-8") as copy:
                 copy.write(source.read())
     stored = output.read_results(os.path.join(kept, STORED))
-    figure(os.path.join(root, "docs", "pictures", FIGURE_FILE), stored)
+    drawn = figure(os.path.join(root, "docs", "pictures", FIGURE_FILE), stored)
+    if drawn:
+        output.sign_figure(drawn, stored["provenance"])
     readme = os.path.join(root, "README.md")
     with open(readme, encoding="utf-8") as text:
         new = in_text(text.read(), stored)

@@ -4,6 +4,7 @@ can do."""
 import json
 import math
 import os
+import statistics
 import subprocess
 import time
 
@@ -21,19 +22,24 @@ COLUMNS = [("shape", "shape"), ("frame", "posts x storeys"), ("freedoms", "freed
            ("reading_peak_mib", "reading MiB"), ("analysis_peak_mib", "analysis MiB"), ("standing_peak_mib", "reanalysis MiB"), ("simulation_peak_mib", "simulation MiB"),
            ("factor_entries", "factor entries"), ("product_share", "factor, share of matrix product"), ("bandwidth_share", "load change, share of bandwidth"),
            ("error_bound", "stated bound"), ("note", "note")]
+# Stored beside each time: quartiles within a run, or the least and the largest of several runs.
+SPREADS = [(key.replace("_seconds", "_" + end), title.replace(" s", "", -1) + ", " + name) for key, title in COLUMNS if key.endswith("_seconds")
+           for end, name in (("low", "low"), ("high", "high"))] + [("runs", "runs")]
+REPEATED, QUICK_RUN = 3, 4.0  # processes for a size of which one takes less than so many seconds
 TIMED = [("reading_seconds", "reading"), ("analysis_seconds", "analysis"), ("factor_seconds", "factor"), ("joint_breaks_seconds", "a joint breaks"), ("load_changes_seconds", "a load changes"),
          ("segmentation_seconds", "segmentation of a cut"), ("cut_step_seconds", "step with a cut"), ("flight_step_seconds", "step with a flight"), ("idle_step_seconds", "idle step")]
 KEPT = [("analysis_peak_mib", "memory of the analysis"), ("standing_peak_mib", "memory of the reanalysis"), ("simulation_peak_mib", "memory of the simulation")]
 FITTED_FROM = 900  # freedoms: below, everything is too quick to tell
 MEMORY_SHARE = 0.6  # of what is free: a size that would need more is left out
 
-TEXT = ("Regular frames, bulky (as high as wide) and wide (six storeys), self weight and floor loads, each in a process of its own, one thread. "
+TEXT = ("Regular frames, bulky (as high as wide) and wide (six storeys), self weight and floor loads, each in a process of its own, one thread; medians of %d "
+        "processes where one takes less than %g s (the spread of each time is in scaling.csv). "
         "Reading: text to checked building. Analysis: ordering, factor, solution and its checks. A joint breaks, a load changes: the new answer of a standing frame "
         "(medians of 9). Segmentation: one joint cut, which parts hang together (median of 49). Step with a cut: a tool cuts a beam's joint, everything that "
         "follows is checked (median of 5); with a flight: one body in the air (51); idle: nothing moves (101). Exponents p of size^p are fitted to %d freedoms and "
         "more. Shares: operations of the factorisation over its time, of the rate of the matrix product on one thread; two passes over the factor over the time of a load "
         "change, of the memory's bandwidth on one thread (small factors lie in caches, and can exceed it). Memory is the peak of the process during that stage. What is not shown: panels, "
-        "debris in numbers, more threads." % FITTED_FROM)
+        "debris in numbers, more threads." % (REPEATED, QUICK_RUN, FITTED_FROM))
 
 FIGURE = """
 set xlabel 'freedoms'
@@ -86,6 +92,26 @@ def needs(earlier, freedoms):
     return y * (freedoms / b) ** power
 
 
+def together(runs):
+    """One row of several runs of the same size: medians of what each told; of a time that a run measured once, the least and the largest;
+    of one with quartiles, the outermost of them."""
+    row = {"runs": len(runs)}
+    for key, first in runs[0].items():
+        values = [run[key] for run in runs]
+        if not isinstance(first, (int, float)):
+            row[key] = first
+        elif key.endswith("_low"):
+            row[key] = min(values)
+        elif key.endswith("_high"):
+            row[key] = max(values)
+        else:
+            row[key] = statistics.median(values)
+            low, high = key.replace("_seconds", "_low"), key.replace("_seconds", "_high")
+            if key.endswith("_seconds") and low not in runs[0] and len(runs) > 1:
+                row[low], row[high] = min(values), max(values)
+    return row
+
+
 def measured(context, shape, size, earlier):
     frame = "%dx%dx%d" % size
     freedoms = 6 * size[0] * size[1] * size[2]
@@ -96,12 +122,20 @@ def measured(context, shape, size, earlier):
         return row
     path = os.path.join(context.results, "scaling_%s.json" % frame)
     write_model(*size, path)
-    done = subprocess.run([os.path.join(context.programs, "bench_scaling"), path], capture_output=True, text=True)
+    found = []
+    for _ in range(REPEATED):
+        start = time.time()
+        done = subprocess.run([os.path.join(context.programs, "bench_scaling"), path], capture_output=True, text=True)
+        if done.returncode != 0:
+            row["note"] = "failed: " + (done.stderr.strip().split("\n")[-1] or "signal %d" % -done.returncode)
+            break
+        found.append(json.loads(done.stdout))
+        if time.time() - start > QUICK_RUN:
+            break
     os.remove(path)
-    if done.returncode != 0:
-        row["note"] = "failed: " + (done.stderr.strip().split("\n")[-1] or "signal %d" % -done.returncode)
+    if not found or row.get("note"):
         return row
-    row.update(json.loads(done.stdout))
+    row.update(together(found))
     row["freedoms"] = int(row["freedoms"])
     row["product_share"] = row["factor_operations"] / row["factor_seconds"] / (1e9 * context.machine["product_gflops"])
     row["bandwidth_share"] = 16 * row["factor_entries"] / row["load_changes_seconds"] / (1e9 * context.machine["bandwidth_gbytes"])
@@ -141,5 +175,5 @@ def run(context):
             print("bench: " + lines[-1])
         figures += [figure(context, shape, mine, TIMED, "seconds", "seconds"), figure(context, shape, mine, KEPT, "memory", "MiB")]
         rows += mine
-    output.write_results(context, "scaling", rows, COLUMNS, ("shape", "frame"), lines)
+    output.write_results(context, "scaling", rows, COLUMNS + SPREADS, ("shape", "frame"), lines)
     return [("Scaling", TEXT, [drawn for drawn in figures if drawn], (rows, COLUMNS))]

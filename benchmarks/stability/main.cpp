@@ -69,11 +69,14 @@ void judge_chance(int frames) {
 }
 
 void print(const DebrisVerdict& v) {
-  std::cout << "{\"family\": \"debris\", \"what\": \"heavy box on a light one\", \"way\": \"collision engine\"";
+  std::cout << "{\"family\": \"debris\", \"what\": \"heavy box on a light one, side " << v.side
+            << " m\", \"way\": \"collision engine\"";
   number("parameter", v.mass_ratio);
-  number("error", v.overlap);
+  number("error", v.error);
+  number("bound", v.bound);
   number("force_error", v.force_error);
-  std::cout << "}" << std::endl;
+  std::cout << ", \"warned\": " << word(v.warned) << ", \"count\": 1"
+            << ", \"false_confidence\": " << int{v.false_confidence()} << "}" << std::endl;
 }
 
 }  // namespace

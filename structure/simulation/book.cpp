@@ -10,6 +10,7 @@ void Simulation::State::move() {
   for (auto& [id, one] : bodies) one.before = world->state(one.id);
   if (world->awake_count() == 0) return;
   timer.engine([&] { world->step(scenario.step); });
+  watch_overlaps();
   ++counters.collision_steps;
 }
 

@@ -67,6 +67,15 @@ Json ledger_json(const Ledger& ledger) {
   return {{"energy", std::move(energy)}, {"momentum_error", ledger.momentum_error}};
 }
 
+Json overlaps_json(const BodyOverlaps& overlaps) {
+  Json json = {{"deep", overlaps.deep}, {"depth", overlaps.depth}};
+  if (overlaps.depth == 0) return json;
+  json["thickness"] = overlaps.thickness;
+  json["time"] = overlaps.time;
+  json["parts"] = {overlaps.body, overlaps.with};
+  return json;
+}
+
 Json times_json(const StepTimes& times) {
   Json all = percentiles(times.whole());
   Json stages = Json::object();
@@ -162,6 +171,7 @@ std::string summary_json(const Simulation& simulation, const StepTimes& times, d
                     {"late_factors", work.late_factors}}},
                   {"step_milliseconds", times_json(times)},
                   {"ledger", ledger_json(simulation.ledger())},
+                  {"overlaps", overlaps_json(simulation.overlaps())},
                   {"roof_sag_at_start", roof_sag}};
   return summary.dump(2) + "\n";
 }

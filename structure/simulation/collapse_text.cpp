@@ -31,6 +31,17 @@ void add_first_breaks(std::string& text, const Simulation& simulation) {
   }
 }
 
+void add_overlaps(std::string& text, const BodyOverlaps& overlaps) {
+  if (overlaps.depth == 0) return;
+  append(text, "  inside: %s stayed %.3g m inside %s (the thinner is %.3g m thick), the deepest; told at %.6g s\n",
+         overlaps.body.c_str(), overlaps.depth, overlaps.with.c_str(), overlaps.thickness, overlaps.time);
+  if (overlaps.deep == 0) return;
+  append(text,
+         "  warning: %llu times two pieces stayed inside each other by more than %g %% of the thinner one:\n"
+         "           what lies on what is right there, how high and how the weight is shared is not\n",
+         static_cast<unsigned long long>(overlaps.deep), 100 * collision::OverlapWatch::deep_share);
+}
+
 double fallen_mass(const Simulation& simulation) {
   double mass = 0;
   for (const SimulationEvent& event : simulation.events())
@@ -63,6 +74,7 @@ std::string collapse_text(const Simulation& simulation, const StepTimes& times) 
          ledger.lost_in_contacts);
   append(text, "          moving %.4g J, elastic %.4g J, residual %.3g %%\n",
          ledger.kinetic_translation + ledger.kinetic_rotation, ledger.elastic, 100 * ledger.residual());
+  add_overlaps(text, simulation.overlaps());
   return text;
 }
 

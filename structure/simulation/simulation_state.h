@@ -167,6 +167,8 @@ struct Simulation::State {
   void book();
   void book_body(Body& body);
   void book_contacts();
+  void watch_overlaps();
+  [[nodiscard]] std::string touched_name(collision::BodyId body, std::int64_t part_tag) const;
   void update_views();
   void tell_changes(std::span<const std::int64_t> before);
   [[nodiscard]] bool rests() const;
@@ -267,6 +269,8 @@ struct Simulation::State {
   Ledger ledger;
   double body_gravity_work = 0, body_work_put_in = 0;
   SimulationCounters counters;
+  collision::OverlapWatch overlap_watch;
+  BodyOverlaps overlaps;
   double operations_booked = 0, operations_owed = 0;  ///< of the solver: counted so far, spent beyond the budget
   StageTimer timer;
   std::vector<BodyView> views;

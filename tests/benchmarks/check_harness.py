@@ -8,6 +8,7 @@ import sys
 import tempfile
 import types
 import unittest
+import xml.etree.ElementTree
 
 sys.dont_write_bytecode = True
 ROOT, TOPPLE = sys.argv.pop(1), sys.argv.pop(1)
@@ -49,6 +50,16 @@ class Results(unittest.TestCase):
                 self.assertEqual(text.read().splitlines()[:4], ["# commit: abc", "# processor: one", "method,milliseconds,low,high,error",
                                                                 "ours,1.0,0.9,1.1,1e-12"])
 
+    def test_a_figure_says_where_it_comes_from_once(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "drawn.svg")
+            with open(path, "w", encoding="utf-8") as out:
+                out.write("<?xml version='1.0'?>\n<svg width='1'\n height='1'><g/></svg>\n")
+            for _ in range(2):
+                output.sign_figures(context(folder))
+            root = xml.etree.ElementTree.parse(path).getroot()
+            self.assertEqual([(child.tag, child.text) for child in root], [("metadata", "commit: abc\nprocessor: one\n"), ("g", None)])
+
     def test_one_file_can_be_compared_with_as_well_as_a_folder(self):
         with tempfile.TemporaryDirectory() as folder:
             whole = stored(folder, rows(1.0, 0.9, 1.1))
@@ -78,6 +89,27 @@ class Comparison(unittest.TestCase):
         same = (1.0, 0.9, 1.1)
         self.assertEqual(len(self.drops(rows(*same, error=1e-12), rows(*same, error=2e-11))), 1)
         self.assertEqual(self.drops(rows(*same, error=1e-17), rows(*same, error=5e-15)), [])
+
+    def test_stages_of_scaling_their_memory_and_false_confidence_are_compared(self):
+        columns = [("frame", "frame"), ("cut_step_seconds", "s"), ("cut_step_low", "low"), ("cut_step_high", "high"), ("factor_seconds", "s"), ("analysis_peak_mib", "MiB"),
+                   ("false_confidence", "false")]
+        before = {"frame": "2x2x4", "cut_step_seconds": 1.0, "cut_step_low": 0.9, "cut_step_high": 1.2, "factor_seconds": 1.0, "analysis_peak_mib": 100.0, "false_confidence": 0}
+
+        def told(**changed):
+            with tempfile.TemporaryDirectory() as one, tempfile.TemporaryDirectory() as other:
+                for folder, row in ((one, before), (other, dict(before, **changed))):
+                    output.write_results(context(folder), "scaling", [row], columns, ("frame",))
+                return [line.split(":")[0] for line in compare.drops(compare.load(one), compare.load(other))[0]]
+        self.assertEqual(told(), [])
+        self.assertEqual(told(cut_step_seconds=1.4, cut_step_low=1.3, cut_step_high=1.5), ["slower"])
+        self.assertEqual(told(cut_step_seconds=1.4, cut_step_low=1.1, cut_step_high=1.5), [])
+        self.assertEqual(told(factor_seconds=1.2), [])
+        self.assertEqual(told(factor_seconds=1.4), ["slower"])
+        self.assertEqual(told(analysis_peak_mib=120.0), ["larger"])
+        self.assertEqual(told(false_confidence=1), ["false confidence"])
+
+    def test_a_run_on_another_processor_is_told(self):
+        self.assertEqual(compare.differences({"processor": "one", "commit": "abc"}, {"processor": "two", "commit": "def"}), ["not alike: processor is two, was one"])
 
     def test_what_became_faster_is_no_loss(self):
         self.assertEqual(self.drops(rows(1.0, 0.95, 1.05), rows(0.5, 0.45, 0.55)), [])
@@ -150,6 +182,13 @@ class Scaling(unittest.TestCase):
         points = [(100, 7.0)] + [(n, 1e-6 * n**1.5) for n in (1000, 10000, 100000)]
         self.assertAlmostEqual(scaling.exponent(points), 1.5, places=12)
         self.assertIsNone(scaling.exponent(points[:3]))
+
+    def test_several_runs_of_a_size_become_medians_with_their_spread(self):
+        run = lambda once, often: {"kernel": "x", "factor_seconds": once, "idle_step_seconds": often, "idle_step_low": often / 2, "idle_step_high": 2 * often, "freedoms": 96}
+        row = scaling.together([run(1.0, 5.0), run(3.0, 4.0), run(2.0, 6.0)])
+        self.assertEqual(row, {"runs": 3, "kernel": "x", "factor_seconds": 2.0, "factor_low": 1.0, "factor_high": 3.0, "idle_step_seconds": 5.0, "idle_step_low": 2.0,
+                               "idle_step_high": 12.0, "freedoms": 96})
+        self.assertNotIn("factor_low", scaling.together([run(1.0, 5.0)]))
 
     def test_memory_is_foreseen_by_the_growth_of_the_last_two_sizes(self):
         rows = [{"freedoms": n, "analysis_peak_mib": n**1.2, "simulation_peak_mib": 1.0} for n in (1000, 10000)]

@@ -91,8 +91,10 @@ struct Contact {
   double time = 0;  ///< sweep: time of impact from now; step: 0
   Vec3 impulse = Vec3::Zero();  ///< step: what the body did to the other during the last step, friction included, N s
   double work_lost = 0;         ///< step: energy that it took out of the bodies (velocities read at mid-step), J
-  bool persistent = false;      ///< it was there in the step before as well
-  int corner_count = 0;         ///< corners of the area of contact, 1 to 4: a slab that falls flat has 4
+  double depth = 0;         ///< step: how far the two were inside each other when it began (m; a hull's skin counts)
+  double thickness = 0;     ///< step: of the thinner of the two parts (the ground has none), m
+  bool persistent = false;  ///< it was there in the step before as well
+  int corner_count = 0;     ///< corners of the area of contact, 1 to 4: a slab that falls flat has 4
   std::array<Vec3, 4> corners{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
 };
 

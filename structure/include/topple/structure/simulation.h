@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "topple/collision/overlap_watch.h"
 #include "topple/collision/world.h"
 #include "topple/fracture/mesh.h"
 #include "topple/structure/building.h"
@@ -72,6 +73,18 @@ struct SimulationCounters {
   /// Factors made on another thread while the old one served; those of them that had to be waited for (it depends on
   /// the machine, and changes nothing else).
   std::uint64_t background_factors = 0, late_factors = 0;
+};
+
+/// What the collision engine did not keep apart: pieces that stayed inside each other, which is where a heavy one lies
+/// on a light one (from a hundred times its mass on). Drawn, they show; a load path through them is right in its sum
+/// only.
+struct BodyOverlaps {
+  std::uint64_t deep = 0;  ///< how often two parts lay inside each other by more than OverlapWatch::deep_share
+  // The deepest of all, if `depth` is above zero.
+  double depth = 0;        ///< m, all through OverlapWatch::lasting
+  double thickness = 0;    ///< of the thinner of the two, m
+  double time = 0;         ///< when it had lasted, s
+  std::string body, with;  ///< parts, chunks or balls by name; "ground"
 };
 
 /// A moving body: debris of the building, or a projectile.
@@ -184,6 +197,7 @@ class Simulation {
   // Accounts.
   [[nodiscard]] const Ledger& ledger() const;
   [[nodiscard]] const SimulationCounters& counters() const;
+  [[nodiscard]] const BodyOverlaps& overlaps() const;
   /// Seconds of the last step by stage, and of these in the collision engine itself.
   [[nodiscard]] const std::array<double, 6>& stage_seconds() const;
   [[nodiscard]] double collision_engine_seconds() const;

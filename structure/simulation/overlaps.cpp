@@ -1,0 +1,37 @@
+// What stays inside each other is told by name, when it is seen: bodies split and go.
+#include "simulation/simulation_state.h"
+
+namespace topple::structure {
+
+/// Of a part of the building, or of the chunk or ball that the body is.
+std::string Simulation::State::touched_name(collision::BodyId body, std::int64_t part_tag) const {
+  if (part_tag >= 0) return part_name(building, part_of_number(building, part_tag));
+  const auto found = bodies.find(body.value);
+  return found == bodies.end() ? std::string() : found->second.name;
+}
+
+void Simulation::State::watch_overlaps() {
+  overlap_watch.read(world->contacts(), scenario.step);
+  overlaps.deep = overlap_watch.deep_count();
+  const std::optional<collision::Overlap>& deepest = overlap_watch.deepest();
+  if (!deepest || deepest->depth == overlaps.depth) return;
+  overlaps.depth = deepest->depth;
+  overlaps.thickness = deepest->thickness;
+  overlaps.time = static_cast<double>(step) * scenario.step;
+  overlaps.body = touched_name(deepest->body, deepest->part_tag);
+  switch (deepest->other.kind) {
+    case collision::Touched::Kind::ground:
+      overlaps.with = "ground";
+      break;
+    case collision::Touched::Kind::obstacle:
+      overlaps.with = part_name(building, obstacles.part_of(deepest->other.obstacle));
+      break;
+    case collision::Touched::Kind::body:
+      overlaps.with = touched_name(deepest->other.body, deepest->other.part_tag);
+      break;
+  }
+}
+
+const BodyOverlaps& Simulation::overlaps() const { return state_->overlaps; }
+
+}  // namespace topple::structure
