@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mesh/frame_mesh.h"
+#include "mesh/giving_edges.h"
 #include "panel_area.h"
 #include "panel_superelement.h"
 
@@ -86,6 +87,7 @@ Frame make_frame(const Building& building) {
   add_shell_panels(building, frame);
   divide_members(building, frame);
   add_edge_supports(building, frame);
+  add_giving_edges(building, frame);
   return frame;
 }
 

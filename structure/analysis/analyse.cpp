@@ -17,6 +17,7 @@
 #include "analysis/shell_results.h"
 #include "analysis/storeys.h"
 #include "loads/case_loads.h"
+#include "mesh/giving_edges.h"
 #include "panel_bearings.h"
 #include "panel_demand.h"
 #include "side_by_side.h"
@@ -77,6 +78,7 @@ class Analysis {
   }
 
   AnalysisResult run() {
+    refuse_what_giving_edges_do_not_know();
     AnalysisResult result;
     try {
       solve_and_recover(result);
@@ -101,6 +103,17 @@ class Analysis {
   }
 
  private:
+  void refuse_what_giving_edges_do_not_know() const {
+    if (frame_.giving_nodes.empty()) return;
+    const std::string edges = building_.file + ": a shell's edge joint has `stiffness`";
+    if (request_.losses.any()) throw InputError(edges + "; accepted: no losses of members with it");
+    const bool displaced = request_.second_order != solver::SecondOrder::none || request_.buckling > 0;
+    if (edges_slide(frame_) && (displaced || request_.modes > 0))
+      throw InputError(edges +
+                       " in x, y or z; accepted: no second order, buckling and modes with it (with rx, ry, rz " +
+                       "they are known)");
+  }
+
   /// A structure that floats, whose modes are asked for with a shift, bears no loads: it has modes all the same.
   void solve_and_recover(AnalysisResult& result) {
     try {
@@ -199,6 +212,7 @@ class Analysis {
     result.second_order_iterations = iterations;
     if (request_.buckling > 0)
       result.buckling = solver::buckling_modes(model, loads_[k].set, request_.buckling, request_.solver);
+    for (solver::BucklingMode& mode : result.buckling) make_absolute(frame_, mode.shape);
     return result;
   }
 
@@ -257,6 +271,7 @@ class Analysis {
                                         request_.solver, tangent)
                 : solver::natural_modes(model, masses, request_.modes, request_.solver, tangent);
     result.modes = std::move(answer.modes);
+    for (solver::VibrationMode& mode : result.modes) make_absolute(frame_, mode.shape);
     result.moving_mass = answer.moving_mass;
     if (static_cast<int>(result.modes.size()) < request_.modes)
       result.warnings.push_back("the masses have " + std::to_string(result.modes.size()) + " modes, " +
@@ -285,7 +300,12 @@ class Analysis {
   }
 
   [[nodiscard]] CombinationResult gather(std::size_t k, const OneWayAnswer& answer, CombinationLoads loads) const {
-    const solver::StaticSolution& solution = answer.solution;
+    solver::StaticSolution absolute;
+    if (!frame_.giving_nodes.empty()) {
+      absolute = answer.solution;
+      make_absolute(frame_, absolute.displacements);
+    }
+    const solver::StaticSolution& solution = frame_.giving_nodes.empty() ? answer.solution : absolute;
     CombinationResult result;
     result.combination = combinations_[k];
     const auto of_mesh = solution.displacements.begin() + static_cast<std::ptrdiff_t>(building_.nodes.size());
@@ -298,6 +318,7 @@ class Analysis {
     result.joints = joints(loads.parts, solution, result);
     result.storeys = storeys_.results(result.displacements, result.members);
     turn_pushes_into_reactions(loads.parts, loads.set, result.reactions);
+    leave_out_giving_sides(frame_, loads.set, result.reactions);
     const Equilibrium balance =
         equilibrium(frame_.model, loads.set, result.reactions, answer.axial.mode != solver::SecondOrder::none);
     result.edge_reactions = edge_reactions(building_, frame_, result.reactions);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "index_of.h"
+#include "mesh/giving_edges.h"
 #include "topple/solver/shell_resultants.h"
 
 namespace topple::structure {
@@ -41,8 +42,7 @@ class PanelReader {
   }
   /// In axes whose x lies along `x`, a direction in the panel; at a place of the element (-1 to 1 both ways).
   [[nodiscard]] ShellResultants resultants(std::size_t element, const Vec3& x, const Vec2& at = Vec2::Zero()) const {
-    const ShellResultants own = solver::shell_resultants(frame_.model, mesh_.first_shell + static_cast<int>(element),
-                                                         solution_.displacements, strain_, at);
+    const ShellResultants own = own_axes(element, at);
     const Vec3 normal = panel_.axes.row(2);
     const Vec3 from = (place(element, 1) - place(element, 0)).normalized();
     const double c = from.dot(x), s = normal.dot(from.cross(x)), length = std::hypot(c, s);
@@ -50,6 +50,21 @@ class PanelReader {
   }
 
  private:
+  [[nodiscard]] ShellResultants own_axes(std::size_t element, const Vec2& at) const {
+    const int shell = mesh_.first_shell + static_cast<int>(element);
+    if (giving_element(frame_, shell) == nullptr)
+      return solver::shell_resultants(frame_.model, shell, solution_.displacements, strain_, at);
+    solver::FrameModel alone;  // with the displacements of its own side of the joints
+    std::vector<Vec6> displacements;
+    for (std::size_t c = 0; c < 4; ++c) {
+      alone.nodes.push_back(place(element, c));
+      displacements.push_back(solution_.displacements[static_cast<std::size_t>(mesh_.elements[element][c])]);
+    }
+    alone.shells = {frame_.model.shells[static_cast<std::size_t>(shell)]};
+    alone.shells.front().node = {0, 1, 2, 3};
+    return solver::shell_resultants(alone, 0, displacements, strain_, at);
+  }
+
   const Panel& panel_;
   const PanelMesh& mesh_;
   const Frame& frame_;
@@ -97,15 +112,21 @@ PanelResult shell_panel_result(const Building& building, const Frame& frame, Pan
   const Panel& panel = building[id];
   const PanelMesh& mesh = frame.meshes[index_of(id)];
   const PanelReader reader(building, frame, id, loads.panels[index_of(id)].strain, solution);
+  const PanelAction& action = loads.panels[index_of(id)];
+  const Vec3 traction = action.body_force - action.pressure * Vec3(panel.axes.row(2));
   PanelResult result;
   result.corner_forces.fill(Vec6::Zero());
   for (std::size_t k = 0; k < mesh.elements.size(); ++k) {
     result.elements.push_back(element_of(reader.resultants(k, panel.axes.row(0)), mesh.elements[k]));
+    const int shell = mesh.first_shell + static_cast<int>(k);
+    const GivingElement* giving = giving_element(frame, shell);
+    const std::array<Vec6, 4> forces =
+        giving == nullptr ? solution.shell_corner_forces[static_cast<std::size_t>(shell)]
+                          : element_corner_forces(frame, *giving, solution.displacements, traction, action.strain);
+    const auto& nodes = frame.model.shells[static_cast<std::size_t>(shell)].node;
     for (std::size_t c = 0; c < 4; ++c)
       for (std::size_t corner = 0; corner < 4; ++corner)
-        if (mesh.elements[k][c] == panel.nodes[corner].index)
-          result.corner_forces[corner] +=
-              solution.shell_corner_forces[static_cast<std::size_t>(mesh.first_shell) + k][c];
+        if (nodes[c] == panel.nodes[corner].index) result.corner_forces[corner] += forces[c];
   }
   Vec3 centre = Vec3::Zero();
   for (const NodeId node : panel.nodes) centre += building[node].position / 4;

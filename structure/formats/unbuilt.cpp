@@ -23,7 +23,6 @@ void refuse_meshes_of_panels(const Building& building) {
                        std::string(panel.model == PanelModel::membrane ? "membrane" : "cladding") +
                        "; accepted: \"model\": \"shell\", or leave it out");
 }
-/// A shell is one with its members and supports along its edges: whether that may give is told by stiffness.
 void refuse_giving_edges(const Building& building) {
   for (const Joint& joint : building.joints)
     if (joint.panel.valid() && (joint.stiffness.array() != unlimited).any())
@@ -44,8 +43,9 @@ void refuse_diaphragms(const Building& building) {
 
 void refuse_unbuilt(const Building& building, Purpose purpose) {
   using Refusal = void (*)(const Building&);
-  static constexpr std::array<Refusal, 2> analyse{refuse_meshes_of_panels, refuse_giving_edges};
-  static constexpr std::array<Refusal, 3> demolish{refuse_meshes_of_panels, refuse_one_way_members, refuse_diaphragms};
+  static constexpr std::array<Refusal, 1> analyse{refuse_meshes_of_panels};
+  static constexpr std::array<Refusal, 4> demolish{refuse_meshes_of_panels, refuse_giving_edges, refuse_one_way_members,
+                                                   refuse_diaphragms};
   switch (purpose) {
     case Purpose::analyse:
       for (const Refusal refusal : analyse) refusal(building);

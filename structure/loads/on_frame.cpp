@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "index_of.h"
+#include "mesh/giving_edges.h"
 #include "topple/structure/frame.h"
 
 namespace topple::structure {
@@ -78,8 +79,13 @@ solver::LoadSet on_frame(const Building& building, const Frame& frame, const Par
     const Vec3 normal = building.panels[p].axes.row(2);
     const Vec3 traction = action.body_force - action.pressure * normal;
     if (traction.isZero(0) && action.strain == 0) continue;
-    for (std::size_t k = 0; k < mesh.elements.size(); ++k)
-      set.shells.push_back({mesh.first_shell + static_cast<int>(k), traction, action.strain});
+    for (std::size_t k = 0; k < mesh.elements.size(); ++k) {
+      const int shell = mesh.first_shell + static_cast<int>(k);
+      if (const GivingElement* giving = giving_element(frame, shell))
+        add_element_loads(frame, *giving, traction, action.strain, set);
+      else
+        set.shells.push_back({shell, traction, action.strain});
+    }
   }
   return set;
 }

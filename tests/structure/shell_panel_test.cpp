@@ -281,14 +281,6 @@ TEST_CASE("the format's own example, with a wall of shells, is analysed and in e
   }
 }
 
-TEST_CASE("an edge joint that gives is refused by name") {
-  CHECK_THROWS_WITH(model(R"("nodes": {"A": [0, 0, 0], "B": [4, 0, 0], "C": [4, 4, 0], "D": [0, 4, 0]},
-    "joints": {"hinge": {"stiffness": {"ry": 0}}}, "supports": {"S:1": "fixed"},
-    "panels": {"S": {"nodes": ["A", "B", "C", "D"], "thickness": 0.2, "material": "c", "model": "shell",
-                     "joint": "hinge"}})"),
-                    Catch::Contains("joint S:1: `stiffness` of a shell's edge"));
-}
-
 TEST_CASE("a shell that nothing holds across its plane names the nodes that move") {
   const Building b = model(R"("nodes": {"A": [0, 0, 0], "B": [4, 0, 0], "C": [4, 4, 0], "D": [0, 4, 0]},
     "panels": {"S": {"nodes": ["A", "B", "C", "D"], "thickness": 0.2, "material": "c", "model": "shell", "mesh": 2}},

@@ -22,6 +22,21 @@ struct PanelMesh {
   std::array<std::vector<int>, 4> edge_nodes;  ///< frame nodes along edge i, from the panel's node i to i + 1
 };
 
+/// The panel's side of a joint that gives at one node of an edge. Its six freedoms are its motion against `hub`, along
+/// the columns of `translations` and about those of `rotations`.
+struct GivingNode {
+  int node = -1, hub = -1;
+  Mat3 translations = Mat3::Identity(), rotations = Mat3::Identity();
+  bool slides = false;  ///< gives in a translation
+};
+/// An element of a shell panel with a corner at a joint that gives: a patch over its four nodes and `giving` ones. The
+/// shell of the same number is left for its mass.
+struct GivingElement {
+  int shell = -1;
+  std::array<int, 4> giving{-1, -1, -1, -1};  ///< of each corner, in Frame::giving_nodes
+  Eigen::Matrix<double, 24, 24> stiffness;    ///< in the absolute freedoms of its corners
+};
+
 /// Node i of the building is node i of the frame, support i is support i; nodes of meshes and supports of panel edges
 /// come after them. Member i is beam i, or the first of its pieces. Panels of model `membrane` become shells without
 /// bending while all four edge joints hold: `shell_of_panel` gives their index, or -1.
@@ -31,6 +46,8 @@ struct Frame {
   std::vector<PanelMesh> meshes;                 ///< per panel; without elements when it is no shell
   std::vector<std::vector<MemberPiece>> pieces;  ///< per member, in order; empty when it is one beam
   std::vector<std::vector<int>> edge_supports;   ///< per Building::edge_supports: supports of the frame
+  std::vector<GivingNode> giving_nodes;          ///< their nodes and supports come last
+  std::vector<GivingElement> giving_elements;    ///< in order of their shells
 };
 /// Throws InputError for openings that leave nothing of a shell panel.
 [[nodiscard]] Frame make_frame(const Building& building);
