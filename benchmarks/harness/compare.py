@@ -11,7 +11,7 @@ WORSE = 10.0  # errors at rounding level move by less
 
 GREW = 1.1  # peaks of memory are nearly the same in every run
 
-TIMES = ("milliseconds", "median", "processor", "seconds", "settled", "solve", "instructions")
+TIMES = ("milliseconds", "median", "processor", "seconds", "solve", "instructions")
 ORIGIN = ("processor", "cores", "compiler", "flags", "blas_kernel", "scheduling_at_start")  # what makes times differ by itself
 
 

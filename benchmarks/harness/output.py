@@ -12,6 +12,22 @@ import subprocess
 import time
 
 
+MARK = ".written-by-bench"  # in a folder of results: a later run may replace it
+
+
+def may_replace(folder, known=False):
+    """Whether a folder is new, empty, or one of results. `known`: the project's own place for them."""
+    return known or not os.path.exists(folder) or (os.path.isdir(folder) and (not os.listdir(folder) or os.path.exists(os.path.join(folder, MARK))))
+
+
+def fresh_folder(folder):
+    """The folder, empty but for its mark. Only for one that may be replaced."""
+    shutil.rmtree(folder, ignore_errors=True)
+    os.makedirs(folder)
+    with open(os.path.join(folder, MARK), "w", encoding="utf-8"):
+        pass
+
+
 def progress(context, text):
     print("bench: %5.0f s  %s" % (time.time() - context.start, text), flush=True)
 
@@ -113,13 +129,18 @@ STYLE = ("body{font:15px/1.5 system-ui,sans-serif;max-width:1100px;margin:2em au
          "nav a{margin-right:1em}li{margin:.2em 0}")
 
 
+FOLDED_FROM = 30  # rows: longer tables are opened by the reader
+
+
 def _table(rows, columns):
     text = {key for key, _ in columns if all(isinstance(row.get(key), (str, type(None))) for row in rows)}
     mark = lambda key: " class='text'" if key in text else ""
-    lines = ["<div class='wide'><table><tr>" + "".join("<th>%s</th>" % html.escape(name) for _, name in columns) + "</tr>"]
+    folded = len(rows) >= FOLDED_FROM
+    lines = ["<details><summary>All %d rows</summary>" % len(rows)] if folded else []
+    lines += ["<div class='wide'><table><tr>" + "".join("<th>%s</th>" % html.escape(name) for _, name in columns) + "</tr>"]
     for row in rows:
         lines.append("<tr>" + "".join("<td%s>%s</td>" % (mark(key), html.escape(cell(row.get(key)))) for key, _ in columns) + "</tr>")
-    return lines + ["</table></div>"]
+    return lines + ["</table></div>" + ("</details>" if folded else "")]
 
 
 def _figure(path, number):

@@ -38,7 +38,7 @@ FIGURE = """
 set xlabel '%s'
 set ylabel 'relative error of the reactions'
 set title 'Standing %s: error against time'
-set key outside below horizontal
+set key tmargin center horizontal Left reverse
 set xrange [%g:%g]
 set yrange [%g:%g]
 plot $labels using 4:5:($2-$4):($3-$5) with vectors nohead lw 0.4 lc rgb '#bbbbbb' notitle, \\

@@ -45,7 +45,7 @@ FIGURE = """
 set xlabel 'freedoms'
 set ylabel '%s'
 set title '%s'
-set key outside right
+set key tmargin center vertical maxrows 3 Left reverse font ',10'
 plot %s
 """
 COLOURS = ("#c0392b", "#2471a3", "#1e8449", "#b7950b", "#7d3c98", "#d35400", "#17a589", "#566573", "#000000")

@@ -30,7 +30,7 @@ FIGURE = """
 set xlabel 'milliseconds a step'
 set ylabel 'relative error'
 set title 'Standing %s: error against time'
-set key outside below horizontal
+set key tmargin center horizontal Left reverse
 set xrange [%g:%g]
 set yrange [%g:%g]
 plot $labels using 4:5:($2-$4):($3-$5) with vectors nohead lw 0.4 lc rgb '#bbbbbb' notitle, \\

@@ -60,6 +60,19 @@ class Results(unittest.TestCase):
             root = xml.etree.ElementTree.parse(path).getroot()
             self.assertEqual([(child.tag, child.text) for child in root], [("metadata", "commit: abc\nprocessor: one\n"), ("g", None)])
 
+    def test_only_a_folder_of_results_is_ever_replaced(self):
+        with tempfile.TemporaryDirectory() as parent:
+            folder = os.path.join(parent, "results")
+            self.assertTrue(output.may_replace(folder))
+            output.fresh_folder(folder)
+            with open(os.path.join(folder, "own.json"), "w", encoding="utf-8"):
+                pass
+            self.assertTrue(output.may_replace(folder))
+            output.fresh_folder(folder)
+            self.assertEqual(os.listdir(folder), [output.MARK])
+            self.assertFalse(output.may_replace(parent))  # it holds something that no run has written
+            self.assertTrue(output.may_replace(parent, known=True))
+
     def test_one_file_can_be_compared_with_as_well_as_a_folder(self):
         with tempfile.TemporaryDirectory() as folder:
             whole = stored(folder, rows(1.0, 0.9, 1.1))
