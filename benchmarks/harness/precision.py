@@ -52,7 +52,7 @@ plot $labels using 4:5:($2-$4):($3-$5) with vectors nohead lw 0.4 lc rgb '#bbbbb
 def sizes(context):
     """Name and model of each frame; the largest is written here."""
     found = [(size, os.path.join(context.root, "benchmarks", "models", "regular_%s.json" % size)) for size in ("3x3x12", "4x5x6")]
-    for posts_x, posts_y, storeys in ((5, 6, 12),) if context.quick else ((6, 6, 30),):
+    for posts_x, posts_y, storeys in ((5, 5, 9),) if context.quick else ((6, 6, 30),):
         name = "%dx%dx%d" % (posts_x, posts_y, storeys)
         path = os.path.join(context.results, "regular_%s.json" % name)
         regular_model.write(found[0][1], path, posts_x, posts_y, storeys)

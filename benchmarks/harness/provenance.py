@@ -1,11 +1,15 @@
 """What a result must carry so that it can be traced: commit, compiler, flags, machine, libraries, date."""
 
 import datetime
+import json
 import os
 import platform
+import re
+import shlex
 import subprocess
 
 
+MEASURED = "/solver/multifrontal.cpp"  # whose flags are told
 MISSING = "not a package here"
 
 
@@ -38,6 +42,25 @@ def _processor():
     return platform.processor() or "unknown"
 
 
+def _flags(build):
+    """With which the solver was compiled, warnings and places left out: what a preset names may be overridden by the project."""
+    try:
+        with open(os.path.join(build, "compile_commands.json"), encoding="utf-8") as stored:
+            commands = {command["file"]: command["command"] for command in json.load(stored)}
+    except OSError:
+        return "unknown"
+    for file, command in sorted(commands.items()):
+        if file.endswith(MEASURED):
+            words = shlex.split(command)
+            kept = [word for word in words if re.fullmatch(r"-(O\w+|DNDEBUG|m[\w=.+-]+|f(?!PI)[\w=-]+|std=.*|g\d?)", word)]
+            return " ".join(dict.fromkeys(kept))
+    return "unknown"
+
+
+def _memory_gib():
+    return "%.1f GiB" % (os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30)
+
+
 def _package(name):
     return _output("dpkg-query", "-W", "-f", "${Version}", name) or MISSING
 
@@ -52,16 +75,15 @@ def collect(root, build, blas_kernel):
     """Ordered pairs of name and value."""
     cache = _cache(build)
     changed = _output("git", "status", "--porcelain", "--untracked-files=no", cwd=root)
-    kind = cache.get("CMAKE_BUILD_TYPE", "")
-    flags = [cache.get("CMAKE_CXX_FLAGS", ""), cache.get("CMAKE_CXX_FLAGS_" + kind.upper(), ""), "-ffp-contract=off"]
     compiler = cache.get("CMAKE_CXX_COMPILER", "c++")
     return {
         "commit": _output("git", "rev-parse", "HEAD", cwd=root) + (" with local changes" if changed else ""),
         "date": datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds"),
         "compiler": _output(compiler, "--version").split("\n")[0],
-        "flags": " ".join(flag for flag in flags if flag),
+        "flags": _flags(build),
         "processor": _processor(),
         "cores": str(os.cpu_count()),
+        "memory": _memory_gib(),
         "threads": "1",
         "scheduling_at_start": _scheduling(),
         "blas_kernel": blas_kernel,
@@ -72,4 +94,6 @@ def collect(root, build, blas_kernel):
         "libopenblas": _package("libopenblas0-pthread"),
         "libmetis": _package("libmetis5"),
         "eigen": _package("libeigen3-dev"),
+        "calculix": _package("calculix-ccx"),
+        "valgrind": _package("valgrind"),
     }

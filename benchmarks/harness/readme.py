@@ -50,6 +50,7 @@ def number(value):
 def table(stored):
     lines = ["| 4 x 5 posts, 6 storeys | ms a step | error of the sag | of the reactions | of the beams' moments |", "|---|---|---|---|---|"]
     for name, row in chosen(stored):
+        name += " (still moves)" if "still moves" in (row.get("note") or "") else ""
         lines.append("| %s | %s | %s | %s | %s |" % (name, number(row["milliseconds"]), number(row["sag_error"]), number(row["reaction_error"]), number(row["beam_moment_error"])))
     origin = stored["provenance"]
     lines += ["", "Medians of one run on one thread of %s, beside other work (load %s at its start), commit %s, %s; [every number](docs/benchmarks/%s)."

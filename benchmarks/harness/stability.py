@@ -118,6 +118,9 @@ def of_debris(rows):
 def run(context):
     rows, families = measured(context)
     lines = verdict(rows)
+    wrong = sum(row.get("false_confidence", 0) for row in rows)
+    if wrong:
+        context.broken.append("stability: %d answers of false confidence" % wrong)
     output.write_results(context, "stability", rows, COLUMNS, ("family", "what", "way", "parameter"), lines)
     figures = [figure(context, family, [row for row in rows if row["family"] == family]) for family in families if family in AXES]
     return [("Stability", TEXT + "".join(" In this run, " + line + "." for line in lines), [drawn for drawn in figures if drawn], (rows, COLUMNS))]

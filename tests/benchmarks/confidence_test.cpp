@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "debris.h"
 #include "judge.h"
 
 namespace {
@@ -50,5 +51,16 @@ TEST_CASE("a reanalysis stays within its bounds through a sequence of damage") {
     CAPTURE(verdict.parameter, verdict.error, verdict.bound);
     CHECK_FALSE(verdict.false_confidence());
     CHECK(verdict.error < 1e-10);
+  }
+}
+
+TEST_CASE("a box that does not hold a heavy one is warned of, and one that holds it is not") {
+  for (const DebrisVerdict& verdict : judge_debris()) {
+    CAPTURE(verdict.side, verdict.mass_ratio, verdict.error, verdict.bound);
+    CHECK_FALSE(verdict.false_confidence());
+    // Up to ten times the mass nothing may be told; squeezed out is down by the height of a box.
+    if (verdict.mass_ratio <= 10) CHECK_FALSE(verdict.warned);
+    if (verdict.error > 0.5) CHECK(verdict.warned);
+    if (verdict.mass_ratio >= 100) CHECK(verdict.error > 0.5);  // when this changes, so may docs/benchmarks.md
   }
 }
