@@ -30,6 +30,7 @@ class Builder {
     add_load_cases();
     add_materials();
     if (file_.modes) add_modes(*file_.modes);
+    warn_of_radii();
     return std::move(building_);
   }
 
@@ -208,6 +209,18 @@ class Builder {
       }
       building_.members[i].material = found->second;
     }
+  }
+
+  /// What lies within a radius is rigid, and part of the node: an element begins behind it.
+  void warn_of_radii() {
+    const bool radii =
+        std::any_of(file_.nodes.begin(), file_.nodes.end(), [](const auto& node) { return node.radius > 0; });
+    const bool heavy =
+        std::any_of(file_.elements.begin(), file_.elements.end(), [](const auto& e) { return e.density > 0; });
+    const bool weighed =
+        std::any_of(file_.cases.begin(), file_.cases.end(), [](const auto& c) { return !c.gravity.isZero(0); });
+    if (radii && heavy && (weighed || building_.requested.modes > 0))
+      building_.warnings.push_back(frame3dd_radius_warning);
   }
 
   void add_modes(const Frame3ddFile::Modes& modes) {

@@ -40,7 +40,7 @@ class Parser {
       Frame3ddFile::Node& node = file_.nodes[static_cast<std::size_t>(n)];
       const std::string of = " of node " + std::to_string(n + 1);
       for (std::size_t i = 0; i < 3; ++i) node.place[static_cast<int>(i)] = tokens_.number(freedom_names[i] + of);
-      node.radius = tokens_.number_from("the radius" + of, 0);
+      node.radius = std::abs(tokens_.number("the radius" + of));  // Frame3DD takes the size of it
     }
   }
 

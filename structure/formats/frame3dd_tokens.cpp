@@ -13,6 +13,7 @@ namespace topple::structure {
 namespace {
 
 constexpr std::string_view separators = " \t\r\v\f,;\"";
+constexpr std::string_view comment_signs = "#%?";
 
 std::string shown(std::string_view text) {
   constexpr std::size_t longest = 40;  // of what is repeated in a message
@@ -40,7 +41,8 @@ Frame3ddTokens::Frame3ddTokens(std::string_view text, std::string file) : file_(
       title_ = std::string(content.substr(0, content.find_last_not_of(" \t\r") + 1));
       continue;
     }
-    content = content.substr(0, content.find_first_of("#%"));
+    content = content.substr(0, content.find_first_of(comment_signs));
+    if (content.starts_with('_')) break;  // the end of the data, whatever follows
     for (std::size_t at = content.find_first_not_of(separators); at != std::string_view::npos;) {
       const std::size_t stop = std::min(content.find_first_of(separators, at), content.size());
       tokens_.push_back({content.substr(at, stop - at), line});
