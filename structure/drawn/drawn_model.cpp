@@ -5,8 +5,10 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <tuple>
 
+#include "drawn/chunk_prism.h"
 #include "drawn/part_places.h"
 #include "topple/fracture/solid_cut.h"
 #include "topple/structure/error.h"
@@ -42,6 +44,7 @@ struct DrawnModel::State {
     Piece piece;
     std::vector<Part> parts;  ///< that it follows; one when it is bound by name
     int cuts = 0;             ///< so far
+    std::int64_t chunk = -1;  ///< of a broken panel, by its body: followed instead
   };
 
   explicit State(const Building& given) : building(given), places(given) {}
@@ -50,6 +53,9 @@ struct DrawnModel::State {
   [[nodiscard]] fracture::Plane between(Part first, Part second, const Simulation& simulation) const;
   [[nodiscard]] std::map<Part, std::size_t> samples(const fracture::Mesh& mesh, const std::vector<Part>& among) const;
   [[nodiscard]] std::vector<Part> pieces_of(MemberId member) const;
+  [[nodiscard]] std::vector<Source> pieces_in(const Source& whole, const fracture::Mesh& solid) const;
+  void follow_chunks(const Simulation& simulation);
+  [[nodiscard]] bool cut_out_chunk(const Source& source, const ChunkPrism& chunk, std::vector<Source>& result) const;
   void list();
   void find_bones(Source& source) const;
 
@@ -57,9 +63,10 @@ struct DrawnModel::State {
   PartPlaces places;
   std::vector<Source> sources;
   std::vector<Piece> pieces;
+  std::set<std::int64_t> chunks_followed;
   double volume = 0;
   std::size_t events_seen = static_cast<std::size_t>(-1);
-  std::vector<std::int64_t> bodies_seen;
+  std::vector<std::int64_t> bodies_seen;  ///< in order of id
   std::uint64_t revision = 0;
 };
 
@@ -113,6 +120,12 @@ fracture::Plane DrawnModel::State::between(Part first, Part second, const Simula
 }
 
 void DrawnModel::State::follow(Source source, const Simulation& simulation, std::vector<Source>& result) {
+  if (source.chunk >= 0) {
+    const bool there = std::binary_search(bodies_seen.begin(), bodies_seen.end(), source.chunk);
+    source.piece.body = {there ? source.chunk : -2};
+    result.push_back(std::move(source));
+    return;
+  }
   std::map<std::int64_t, std::vector<Part>> owners;
   for (const Part part : source.parts) owners[owner_of(simulation, part)].push_back(part);
   source.piece.body = {owners.begin()->first};
@@ -158,15 +171,81 @@ void DrawnModel::State::follow(Source source, const Simulation& simulation, std:
   }
   if (halves.below.triangles.empty() || halves.above.triangles.empty()) return settle();
   for (const fracture::Mesh* half : {&halves.below, &halves.above})
-    for (fracture::Mesh& solid : fracture::connected_parts(*half)) {
-      Source part;
-      part.cuts = source.cuts + 1;
-      part.piece.name = source.piece.name;
-      part.piece.volume = fracture::solid_properties(solid, 1).volume;
-      part.piece.mesh = std::make_shared<const fracture::Mesh>(std::move(solid));
-      for (const auto& [near, count] : samples(*part.piece.mesh, source.parts)) part.parts.push_back(near);
+    for (Source& part : pieces_in(source, *half)) {
+      ++part.cuts;
       follow(std::move(part), simulation, result);
     }
+}
+
+/// The connected parts of what was cut off a piece, each with those of its parts that it lies nearest to.
+std::vector<DrawnModel::State::Source> DrawnModel::State::pieces_in(const Source& whole,
+                                                                    const fracture::Mesh& solid) const {
+  std::vector<Source> found;
+  for (fracture::Mesh& one : fracture::connected_parts(solid)) {
+    Source& piece = found.emplace_back();
+    piece.cuts = whole.cuts;
+    piece.piece.name = whole.piece.name;
+    piece.piece.body = whole.piece.body;
+    piece.piece.volume = fracture::solid_properties(one, 1).volume;
+    piece.piece.mesh = std::make_shared<const fracture::Mesh>(std::move(one));
+    for (const auto& [near, count] : samples(*piece.piece.mesh, whole.parts)) piece.parts.push_back(near);
+  }
+  return found;
+}
+
+/// What of a piece lies on the chunk's panel, over the chunk, goes with it. False when that is nothing.
+bool DrawnModel::State::cut_out_chunk(const Source& source, const ChunkPrism& chunk,
+                                      std::vector<Source>& result) const {
+  constexpr double margin = 0.02;  // m
+  if (source.chunk >= 0 || std::find(source.parts.begin(), source.parts.end(), Part(chunk.panel)) == source.parts.end())
+    return false;
+  // How far from the panel it reaches.
+  double low = unlimited, high = -unlimited;
+  for (const Vec3& at : source.piece.mesh->positions) {
+    if (places.nearest(at, source.parts) != Part(chunk.panel)) continue;
+    low = std::min(low, height_over(building, chunk.panel, at) - margin);
+    high = std::max(high, height_over(building, chunk.panel, at) + margin);
+  }
+  if (!(low < high)) return false;
+  const CutOut cut = cut_out(*source.piece.mesh, building, chunk, low, high);
+  if (cut.inside.triangles.empty()) return false;
+  for (Source& piece : pieces_in(source, cut.inside)) {
+    piece.chunk = chunk.body;
+    piece.piece.body = {chunk.body};
+    result.push_back(std::move(piece));
+  }
+  for (const fracture::Mesh& outside : cut.outside)
+    for (Source& piece : pieces_in(source, outside)) result.push_back(std::move(piece));
+  return true;
+}
+
+/// Chunks of panels take along what is drawn over them; what is left of a panel that shattered goes with the nearest.
+void DrawnModel::State::follow_chunks(const Simulation& simulation) {
+  const NameIndex names(building);
+  std::vector<ChunkPrism> fresh;
+  for (const BodyView& body : simulation.bodies()) {
+    if (!body.chunk || chunks_followed.contains(body.id.value)) continue;
+    chunks_followed.insert(body.id.value);
+    if (auto prism = chunk_prism(building, names, body)) fresh.push_back(std::move(*prism));
+  }
+  for (const ChunkPrism& chunk : fresh) {
+    std::vector<Source> now;
+    for (Source& source : sources)
+      if (!cut_out_chunk(source, chunk, now)) now.push_back(std::move(source));
+    sources = std::move(now);
+  }
+  for (Source& source : sources) {
+    if (source.piece.body.value != -2 || source.chunk >= 0 || source.parts.size() != 1) continue;
+    const Vec3 middle = fracture::solid_properties(*source.piece.mesh, 1).centre;
+    double least = unlimited;
+    for (const ChunkPrism& chunk : fresh) {
+      const double away = (chunk.centre(building) - middle).norm();
+      if (Part(chunk.panel) != source.parts.front() || away >= least) continue;
+      least = away;
+      source.chunk = chunk.body;
+      source.piece.body = {chunk.body};
+    }
+  }
 }
 
 void DrawnModel::State::find_bones(Source& source) const {
@@ -229,6 +308,7 @@ void DrawnModel::update(const Simulation& simulation) {
   std::vector<State::Source> now;
   for (State::Source& source : s.sources) s.follow(std::move(source), simulation, now);
   s.sources = std::move(now);
+  s.follow_chunks(simulation);
   s.list();
 }
 

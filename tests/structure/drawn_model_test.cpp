@@ -163,6 +163,47 @@ TEST_CASE("a mesh with a density weighs on the parts that carry it") {
   CHECK_THROWS_AS(read_model(folder / "bad.json", Purpose::demolish), InputError);
 }
 
+TEST_CASE("what is drawn over a chunk of a panel goes with it, standing or shattered") {
+  for (const std::string method : {"wall_hit", "wall_hit_quadrilateral", "wall_hit_local"}) {
+    for (const bool falls : {false, true}) {
+      CAPTURE(method, falls);
+      auto [building, scenario] = read_scenario(find_scenario(method));
+      if (falls) {  // the wall falls down a storey and shatters on the ground
+        scenario.ground = -4;
+        scenario.events.clear();
+        CutTool cut;
+        cut.joints = {building.joint(PanelId(0u), 0)};
+        scenario.events.push_back({0.1, cut});
+      }
+      scenario.debris.smallest_volume = 1e-9;
+      Simulation simulation(std::move(building), std::move(scenario));
+      // Plaster of 0.3 m around the wall of 6 m x 3 m x 0.2 m in the plane y = 0.
+      fracture::Mesh around = fracture::prism_mesh({{0, 0}, {6, 0}, {6, 3}, {0, 3}}, {{0, 1, 2}, {0, 2, 3}}, 0.3);
+      for (auto* all : {&around.positions, &around.normals})
+        for (Vec3& v : *all) v = Vec3(v.x(), -v.z(), v.y());
+      std::vector<DrawnMesh> meshes(1);
+      meshes[0].name = "plaster";
+      meshes[0].mesh = around;
+      DrawnModel model(simulation.building(), std::move(meshes));
+      while (!simulation.finished()) {
+        simulation.step();
+        model.update(simulation);
+      }
+      CHECK(check_pieces(model) == Approx(6 * 3 * 0.3).epsilon(1e-9));
+      std::map<std::int64_t, double> followed;
+      for (const DrawnModel::Piece& piece : model.pieces()) followed[piece.body.value] += piece.volume;
+      std::size_t chunks = 0;
+      for (const BodyView& body : simulation.bodies()) {
+        if (!body.chunk) continue;
+        ++chunks;
+        // Half as thick again as the wall.
+        CHECK(followed[body.id.value] == Approx(1.5 * fracture::audit(*body.chunk, 1e-9).volume).epsilon(1e-6));
+      }
+      CHECK(chunks > 3);
+    }
+  }
+}
+
 TEST_CASE("a drawn model is bent with its members") {
   // A cantilever of 4 m with a load at its end, and the same with a pinned prop there.
   const auto cantilever = [](const std::string& joint, const std::string& more) {

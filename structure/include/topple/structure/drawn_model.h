@@ -5,7 +5,8 @@
 // Each place of a mesh belongs to the member or panel nearest to it (or to the one that its glTF node is bound to by
 // name). While the parts of a piece stand or move together, the piece is whole; standing, its vertices follow the
 // members as bones. When they part, it is cut by planes: through the joints that broke between them, across the member;
-// else half way between the parts. Cuts are capped, so pieces stay closed and their volumes add up.
+// else half way between the parts. What is drawn over a chunk of a broken panel is cut out along the chunk's sides and
+// goes with it. Cuts are capped, so pieces stay closed and their volumes add up.
 #include <cstdint>
 #include <filesystem>
 #include <functional>
