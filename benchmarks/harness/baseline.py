@@ -111,6 +111,11 @@ def _row(row, found):
     return row
 
 
+def label(row):
+    """In a figure: what was stopped before its time is said."""
+    return row["method"].replace("sequential impulse", "SI") + (", stopped" if "timed out" in (row.get("note") or "") else "")
+
+
 def nearness(size, rows):
     """Lines that say how near the sags come to what was seen before."""
     lines, worst = [], 0.0

@@ -122,22 +122,32 @@ def quartiles(values):
     return cuts[0], cuts[2]
 
 
-STYLE = ("body{font:15px/1.5 system-ui,sans-serif;max-width:1100px;margin:2em auto;padding:0 1em;color:#222;background:#fff}"
-         "h2{margin-top:2.2em;border-bottom:1px solid #ddd}table{border-collapse:collapse;font-size:12.5px;margin:1em 0}"
-         "td,th{border:1px solid #ccc;padding:2px 7px;text-align:right}th{background:#f4f4f4}"
-         "td{white-space:nowrap}td:first-child,th:first-child,td.text{text-align:left}.wide{overflow-x:auto}svg{max-width:100%;height:auto}"
+STYLE = ("body{font:15px/1.5 system-ui,sans-serif;max-width:1280px;margin:2em auto;padding:0 1em;color:#222;background:#fff}"
+         "h2{margin-top:2.2em;border-bottom:1px solid #ddd}table{border-collapse:collapse;font-size:12px;margin:1em 0}"
+         "td,th{border:1px solid #ccc;padding:2px 5px;text-align:right}th{background:#f4f4f4}"
+         "p,li{max-width:68em}td{white-space:nowrap}td.note{white-space:normal;min-width:11em;text-align:left}th{vertical-align:bottom}td:first-child,th:first-child,.text,th.note{text-align:left}.wide{overflow-x:auto}svg{max-width:100%;height:auto}"
          "nav a{margin-right:1em}li{margin:.2em 0}")
 
 
 FOLDED_FROM = 30  # rows: longer tables are opened by the reader
 
 
+def _readable(rows, columns):
+    """Columns that say something; notes stand in front, where nobody misses them."""
+    shown = [column for column in columns if any(row.get(column[0]) not in (None, "") for row in rows)]
+    notes = [column for column in shown if column[0] == "note"]
+    shown = [column for column in shown if column[0] != "note"]
+    names = next((i for i, (key, _) in enumerate(shown) if not all(isinstance(row.get(key), (str, type(None))) for row in rows)), len(shown))
+    return shown[:names] + notes + shown[names:]
+
+
 def _table(rows, columns):
+    columns = _readable(rows, columns)
     text = {key for key, _ in columns if all(isinstance(row.get(key), (str, type(None))) for row in rows)}
-    mark = lambda key: " class='text'" if key in text else ""
+    mark = lambda key: " class='note'" if key == "note" else " class='text'" if key in text else ""
     folded = len(rows) >= FOLDED_FROM
     lines = ["<details><summary>All %d rows</summary>" % len(rows)] if folded else []
-    lines += ["<div class='wide'><table><tr>" + "".join("<th>%s</th>" % html.escape(name) for _, name in columns) + "</tr>"]
+    lines += ["<div class='wide'><table><tr>" + "".join("<th%s>%s</th>" % (mark(key), html.escape(name)) for key, name in columns) + "</tr>"]
     for row in rows:
         lines.append("<tr>" + "".join("<td%s>%s</td>" % (mark(key), html.escape(cell(row.get(key)))) for key, _ in columns) + "</tr>")
     return lines + ["</table></div>" + ("</details>" if folded else "")]

@@ -32,7 +32,7 @@ TEXT = ("Errors are relative, of the mean roof sag and root mean square over all
         "favours it, Topple by its last step. Settled: until the sag stays within 5 % of where it ends (steps times the time of one); for Topple "
         "the step is the settled answer. Restricted answers are timed until it is known which joint would break next, and measured after they "
         "were made whole. Fresh ways with a changed load keep their factor and refine, recover and check everything at each step. On the largest frame direct "
-        "solvers, whose matrices are dense, and the slowest others are left out. What is not shown: debris and contacts; that elastic joints are what is wanted; memory.")
+        "solvers, whose matrices are dense, and the slowest others are left out. A method that was stopped at its time limit is drawn where it was then, and its note says so. What is not shown: debris and contacts; that elastic joints are what is wanted; memory.")
 
 FIGURE = """
 set xlabel '%s'
@@ -111,7 +111,7 @@ def figure(context, size, rows, key, axis, name):
             continue
         own = row["method"].startswith("Topple")
         block = "topple" if own else "bullet_idle" if row["load"] == IDLE else "bullet_changing"
-        label = row["method"].replace("sequential impulse", "SI").replace("Topple, ", "").replace("fresh, ", "")
+        label = baseline.label(row).replace("Topple, ", "").replace("fresh, ", "")
         data[block].append((label + (": " + row["load"] if own else ""), row[key], max(1e-16, row["reaction_error"])))
     if not all(data.values()):
         return None

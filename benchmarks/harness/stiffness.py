@@ -22,7 +22,7 @@ TEXT = ("Each part of the frame is a rigid body and each joint a fixed constrain
         "the reaction of a post over its elastic one. Bullet's rigid joints have no stiffness that an engineer could give, so even "
         "when they are converged their split of forces is not that of the elastic frame. Featherstone's multi-body is a tree of rigid "
         "links: it has no sag at all, and leaves out the joints that close loops. Milliseconds are processor time for "
-        "Bullet and wall time for Topple, on one thread; this machine may be shared. What is not shown: contacts and debris.")
+        "Bullet and wall time for Topple, on one thread; this machine may be shared. A method that was stopped at its time limit is drawn where it was then, and its note says so. What is not shown: contacts and debris.")
 
 SIZES = ("3x3x12", "4x5x6")
 
@@ -50,7 +50,7 @@ def figure(path, size, rows):
         if row.get("sag_error") is None or not row.get("milliseconds"):
             continue
         kind = "topple" if row["method"].startswith("Topple") else "bullet"
-        data[kind].append((row["method"].replace("sequential impulse", "SI") + ("" if row["precision"] == "double" else " single"),
+        data[kind].append((baseline.label(row) + ("" if row["precision"] == "double" else " single"),
                            row["milliseconds"], max(FLOOR, row["sag_error"]), max(FLOOR, row["reaction_error"] or FLOOR)))
     if not all(data.values()):
         return None
