@@ -176,8 +176,10 @@ std::string summary_text(const Building& building, const AnalysisResult& result,
                          const std::map<std::string, double>& seconds) {
   Text text;
   text.line("%s", building.title.empty() ? building.file.c_str() : building.title.c_str());
-  text.line("  %zu nodes, %zu members, %zu panels, %zu equations", building.nodes.size(), building.members.size(),
-            building.panels.size(), result.statistics.freedoms);
+  const bool solved = !result.combinations.empty();  // what floats has modes alone
+  text.line("  %zu nodes, %zu members, %zu panels%s", building.nodes.size(), building.members.size(),
+            building.panels.size(),
+            solved ? (", " + std::to_string(result.statistics.freedoms) + " equations").c_str() : "");
   for (const CombinationResult& c : result.combinations) combination(text, building, result, c);
   losses(text, building, result.losses);
   if (!result.modes.empty()) modes(text, building, result);
@@ -187,8 +189,9 @@ std::string summary_text(const Building& building, const AnalysisResult& result,
     std::snprintf(part, sizeof part, "%s%s %.3f s", times.empty() ? "" : ", ", stage.c_str(), time);
     times += part;
   }
-  text.line("%s factor, %zu entries; %s", result.statistics.factorisation.c_str(), result.statistics.factor_entries,
-            times.c_str());
+  const std::string factor =
+      result.statistics.factorisation + " factor, " + std::to_string(result.statistics.factor_entries) + " entries; ";
+  text.line("%s%s", solved ? factor.c_str() : "", times.c_str());
   for (const std::string& warning : result.warnings) text.line("warning: %s", warning.c_str());
   return text.take();
 }
