@@ -28,7 +28,8 @@ def collected(program, name, count):
 
 def run(context):
     if shutil.which("valgrind") is None:
-        print("bench: valgrind is not installed (Debian: valgrind); instructions are not counted")
+        context.lines.append("kernels: valgrind is not installed (Debian: valgrind); instructions are not counted")
+        print("bench: " + context.lines[-1])
         return []
     program = os.path.join(context.programs, "bench_kernels")
     rows = []

@@ -153,22 +153,41 @@ def contestants(context, frame, folder):
         write_calculix(frame, os.path.join(folder, "frame.inp"))
         found.append(("CalculiX", [ccx, "-i", "frame"], lambda: roof_of_calculix(folder, frame), 99))
     if context.frame3dd and frame.freedoms <= FRAME3DD_FREEDOMS:
-        result = os.path.join(folder, "frame3dd.out")
+        frame3dd_out = os.path.join(folder, "frame3dd.out")
         other_peers.write_frame3dd(frame, sections, os.path.join(folder, "frame.3dd"), YOUNG, SHEAR, DENSITY)
-        found.append(("Frame3DD", [context.frame3dd, "-q", "-i", "frame.3dd", "-o", result],
-                      lambda: other_peers.roof_of_frame3dd(result, frame.roof), 3))
+        found.append(("Frame3DD", [context.frame3dd, "-q", "-i", "frame.3dd", "-o", frame3dd_out],
+                      lambda: other_peers.roof_of_frame3dd(frame3dd_out, frame.roof), 3))
     if context.opensees:
-        result = os.path.join(folder, "opensees.out")
-        other_peers.write_opensees(frame, sections, os.path.join(folder, "frame.tcl"), YOUNG, SHEAR, result)
-        found.append(("OpenSees", [context.opensees, "frame.tcl"], lambda: other_peers.roof_of_opensees(result, frame.roof), 5))
+        opensees_out = os.path.join(folder, "opensees.out")
+        other_peers.write_opensees(frame, sections, os.path.join(folder, "frame.tcl"), YOUNG, SHEAR, opensees_out)
+        found.append(("OpenSees", [context.opensees, "frame.tcl"], lambda: other_peers.roof_of_opensees(opensees_out, frame.roof), 5))
     return found
+
+
+def taken(programs, turns, folder, environment, lines):
+    """Seconds, processor seconds and MiB of each run, by program. A peer that fails is left out, and a line says why; Topple must not."""
+    spent = {name: [] for name, _, _, _ in programs}
+    for turn in range(turns):  # in turn, so that what else the machine does meets all
+        for name, command, _, most in programs:
+            if turn >= most or name not in spent:
+                continue
+            try:
+                spent[name].append(measured(command, folder, environment))
+            except RuntimeError as error:
+                if name == "Topple":
+                    raise
+                del spent[name]
+                lines.append("%s: %s" % (name, " ".join(str(error).split())[:300]))
+                print("bench: " + lines[-1])
+    return spent
 
 
 def tell_absent(context):
     for name, present, how in (("ccx", shutil.which("ccx"), "Debian: calculix-ccx"), ("Frame3DD", context.frame3dd, "--frame3dd PATH"),
                                ("OpenSees", context.opensees, "--opensees PATH")):
         if not present:
-            print("bench: %s is not here (%s); it is left out" % (name, how))
+            context.lines.append("peers: %s is not here (%s); it is left out" % (name, how))
+            print("bench: " + context.lines[-1])
 
 
 def run(context):
@@ -180,15 +199,20 @@ def run(context):
         folder = os.path.join(context.results, "peers", frame.name)
         os.makedirs(folder)
         programs = contestants(context, frame, folder)
-        spent = {name: [] for name, _, _, _ in programs}  # seconds, processor seconds, MiB of each run
-        for turn in range(3 if context.quick else runs):  # in turn, so that what else the machine does meets all
-            for name, command, _, most in programs:
-                if turn < most:
-                    spent[name].append(measured(command, folder, environment))
+        spent = taken(programs, 3 if context.quick else runs, folder, environment, lines)
         output.progress(context, "peers: " + frame.name)
         ours = programs[0][2]()
         for name, _, roof, _ in programs:
-            sag = roof()
+            if name not in spent:
+                continue
+            try:
+                sag = roof()
+            except (RuntimeError, OSError, ValueError) as error:
+                if name == "Topple":
+                    raise
+                lines.append("%s: %s: no answer that can be read: %s" % (frame.name, name, error))
+                print("bench: " + lines[-1])
+                continue
             seconds, work, peak = zip(*spent[name])
             low, high = output.quartiles(seconds)
             rows.append({"frame": frame.name, "freedoms": frame.freedoms, "program": name, "runs": len(seconds),

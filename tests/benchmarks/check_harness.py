@@ -167,6 +167,27 @@ class Peers(unittest.TestCase):
         with self.assertRaisesRegex(RuntimeError, "ended with 3"):
             peers.measured([sys.executable, "-I", "-c", "raise SystemExit(3)"], "/", dict(os.environ))
 
+    def test_each_peer_is_read_from_its_own_answer(self):
+        with tempfile.TemporaryDirectory() as folder:
+            here = types.SimpleNamespace(programs="", frame3dd="frame3dd", opensees="opensees")
+            roofs = {name: roof for name, _, roof, _ in peers.contestants(here, self.FRAME, folder)}
+            nodes = list(self.FRAME.roof)
+            with open(os.path.join(folder, "frame3dd.out"), "w", encoding="utf-8") as out:
+                out.write("N O D E   D I S P L A C E M E N T S\n  Node    X-dsp\n" + "".join("%d 0 0 -0.25 0 0 0\n" % node for node in nodes) + "F R A M E\n")
+            self.assertEqual(roofs["Frame3DD"](), 0.25)
+            with self.assertRaises(OSError):
+                roofs["OpenSees"]()
+
+    def test_a_peer_that_fails_is_left_out_and_says_why(self):
+        good, bad = [sys.executable, "-I", "-c", "pass"], [sys.executable, "-I", "-c", "raise SystemExit('no such element')"]
+        lines = []
+        spent = peers.taken([("Topple", good, None, 99), ("other", bad, None, 99), ("once", good, None, 1)], 2, "/", dict(os.environ), lines)
+        self.assertEqual({name: len(runs) for name, runs in spent.items()}, {"Topple": 2, "once": 1})
+        self.assertEqual(len(lines), 1)
+        self.assertIn("no such element", lines[0])
+        with self.assertRaises(RuntimeError):
+            peers.taken([("Topple", bad, None, 99)], 1, "/", dict(os.environ), lines)
+
     def test_the_roof_is_read_from_what_frame3dd_writes(self):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "frame.out")
