@@ -23,9 +23,11 @@ void Simulation::State::watch_overlaps() {
     case collision::Touched::Kind::ground:
       overlaps.with = "ground";
       break;
-    case collision::Touched::Kind::obstacle:
-      overlaps.with = part_name(building, obstacles.part_of(deepest->other.obstacle));
+    case collision::Touched::Kind::obstacle: {
+      const Part part = obstacles.part_of(deepest->other.obstacle);
+      overlaps.with = part.valid() ? part_name(building, part) : std::string();
       break;
+    }
     case collision::Touched::Kind::body:
       overlaps.with = touched_name(deepest->other.body, deepest->other.part_tag);
       break;
