@@ -62,9 +62,9 @@ class Builder {
       member.nodes = {node_id(element.nodes[0]), node_id(element.nodes[1])};
       const Vec3 along = second.place - first.place;
       member.axes = frame3dd_axes(along, element.roll);
-      const Vec3 x = member.axes.row(0).transpose();
+      // As there, a radius makes the element shorter without an arm between its end and the node.
       member.length = along.norm() - first.radius - second.radius;
-      member.offsets = {Vec3(first.radius * x), Vec3(-second.radius * x)};
+      stretch_.push_back(along.norm() / member.length);
       building_.members.push_back(std::move(member));
     }
     for (std::size_t m = 0; m < building_.members.size(); ++m)
@@ -106,6 +106,7 @@ class Builder {
       load_case.name = "case " + numbered(building_.cases.size());
       load_case.self_weight = given.gravity;
       for (const auto& load : given.nodes) load_case.nodes.push_back({node_id(load.node), load.values});
+      add_moments_of_weight(given.gravity, load_case);
       add_uniform_loads(given, load_case);
       add_trapezoidal_loads(given, load_case);
       add_point_loads(given, load_case);
@@ -117,6 +118,25 @@ class Builder {
       building_.cases.push_back(std::move(load_case));
     }
     scale_self_weight();
+  }
+
+  /// Weight acts over the whole distance L between the nodes: what its end moments q L2/12 are more than those of the
+  /// same weight on the shorter element.
+  void add_moments_of_weight(const Vec3& gravity, LoadCase& load_case) const {
+    if (gravity.isZero(0)) return;
+    for (std::size_t i = 0; i < file_.elements.size(); ++i) {
+      if (stretch_[i] == 1) continue;
+      const Frame3ddFile::Element& element = file_.elements[i];
+      const Member& member = building_.members[i];
+      const double whole = member.length * stretch_[i];
+      const Vec3 moment = element.density * element.section[0] * whole * (whole - member.length) / 12 *
+                          Vec3(member.axes.row(0)).cross(gravity);
+      for (std::size_t end = 0; end < 2; ++end) {
+        NodeLoad load{member.nodes[end], Vec6::Zero()};
+        load.load.tail<3>() = end == 0 ? moment : Vec3(-moment);
+        load_case.nodes.push_back(load);
+      }
+    }
   }
 
   /// So far self_weight is an acceleration; the building's gravity is the first one found, the cases are multiples of
@@ -194,7 +214,8 @@ class Builder {
     std::map<std::array<double, 5>, MaterialId> known;
     for (std::size_t i = 0; i < file_.elements.size(); ++i) {
       const Frame3ddFile::Element& element = file_.elements[i];
-      const std::array<double, 5> key{element.E, element.G, element.density, expansion_[i].value_or(0),
+      const double density = element.density * stretch_[i];  // the whole element's mass on what is left of it
+      const std::array<double, 5> key{element.E, element.G, density, expansion_[i].value_or(0),
                                       expansion_[i] ? 1.0 : 0.0};
       const auto [found, is_new] = known.try_emplace(key, MaterialId(building_.materials.size()));
       if (is_new) {
@@ -203,7 +224,7 @@ class Builder {
         material.youngs_modulus = element.E;
         material.shear_modulus = element.G;
         material.poisson_ratio = element.E / (2 * element.G) - 1;
-        material.density = element.density;
+        material.density = density;
         material.thermal_expansion = expansion_[i];
         building_.materials.push_back(material);
       }
@@ -211,15 +232,8 @@ class Builder {
     }
   }
 
-  /// What lies within a radius is rigid, and part of the node: an element begins behind it.
   void warn_of_radii() {
-    const bool radii =
-        std::any_of(file_.nodes.begin(), file_.nodes.end(), [](const auto& node) { return node.radius > 0; });
-    const bool heavy =
-        std::any_of(file_.elements.begin(), file_.elements.end(), [](const auto& e) { return e.density > 0; });
-    const bool weighed =
-        std::any_of(file_.cases.begin(), file_.cases.end(), [](const auto& c) { return !c.gravity.isZero(0); });
-    if (radii && heavy && (weighed || building_.requested.modes > 0))
+    if (std::any_of(file_.nodes.begin(), file_.nodes.end(), [](const auto& node) { return node.radius > 0; }))
       building_.warnings.push_back(frame3dd_radius_warning);
   }
 
@@ -240,6 +254,7 @@ class Builder {
   const Frame3ddFile& file_;
   Building building_;
   std::vector<std::optional<double>> expansion_;
+  std::vector<double> stretch_;  ///< of each element: distance of its nodes over its length
 };
 
 }  // namespace

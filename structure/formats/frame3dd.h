@@ -13,10 +13,10 @@ namespace topple::structure {
 inline constexpr const char* frame3dd_condensation_warning =
     "the file asks for matrix condensation, which is not carried out (no result depends on it)";
 
-/// Elements begin behind the radii of their nodes; Frame3DD lets their weight and mass begin at the nodes.
+/// What a radius is to Frame3DD, and where JSON differs.
 inline constexpr const char* frame3dd_radius_warning =
-    "nodes have radii: weight and mass of elements are those between the radii, where Frame3DD counts the whole "
-    "distance between nodes";
+    "nodes have radii: as in Frame3DD they make elements shorter, with no arm between element and node, so that moments "
+    "do not balance over them; in modes the whole mass lies on the shorter element. `offsets` of a JSON model are arms";
 
 /// Throws InputError with file, line, what was found and what is accepted.
 [[nodiscard]] Building parse_frame3dd(std::string_view text, const std::string& name);

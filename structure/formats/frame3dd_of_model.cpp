@@ -229,6 +229,8 @@ class FileMaker {
   void offsets(const JsonValue& value, const Frame3ddFile::Element& element) {
     const auto given = value.find("offsets");
     if (!given) return;
+    // A radius is no arm to Frame3DD: only what came from such a file goes back into one.
+    if (!root_.find("frame3dd")) refuse(*given, "members without rigid arms");
     const Vec3 along = file_.nodes[static_cast<std::size_t>(element.nodes[1])].place -
                        file_.nodes[static_cast<std::size_t>(element.nodes[0])].place;
     const Vec3 x = along / along.norm();

@@ -115,7 +115,27 @@ TEST_CASE("comments, separators and the end of the data are Frame3DD's own") {
   CHECK(stout.members[0].length == 2960);
 }
 
-TEST_CASE("radii are told where weight or mass depends on them") {
+TEST_CASE("a radius makes an element shorter without an arm, as in Frame3DD, and leaves its weight whole") {
+  const auto tip = [](double force, double gravity) {
+    std::ostringstream text;
+    text << "A cantilever\n2\n1 0 0 0 0\n2 4 0 0 1\n1\n1 1 1 1 1 1 1\n1\n1 1 2 2 1 1 5 3 7 1000 400 0 6\n0 0 1 1 "
+            "-1\n1\n0 0 "
+         << gravity << "\n1\n2 0 0 " << force << " 0 0 0\n0 0 0 0 0\n0\n";
+    return analyse(parse_frame3dd(text.str(), "f.3dd"));
+  };
+  constexpr double EI = 1000 * 3, L = 4, Le = 3, q = 6 * 2 * 0.1;
+  const Vec6 pushed = tip(-2, 0).combinations[0].displacements[1];
+  CHECK(pushed.z() == Approx(-2 * Le * Le * Le / (3 * EI)).epsilon(1e-12));
+  CHECK(pushed(4) == Approx(2 * Le * Le / (2 * EI)).epsilon(1e-12));
+  // Half the weight of the distance between the nodes and its end moment q L2/12 on the tip of the shorter element.
+  const CombinationResult heavy = tip(0, -0.1).combinations[0];
+  const double force = q * L / 2, moment = q * L * L / 12;
+  CHECK(heavy.displacements[1].z() ==
+        Approx(-force * Le * Le * Le / (3 * EI) + moment * Le * Le / (2 * EI)).epsilon(1e-12));
+  CHECK(heavy.reactions[0].z() == Approx(q * L).epsilon(1e-12));
+}
+
+TEST_CASE("radii are told") {
   const Building stout = parse_frame3dd(replaced(two_posts, "1  0 0 0   0", "1  0 0 0  40"), "f.3dd");
   REQUIRE(stout.warnings.size() == 1);
   CHECK(stout.warnings[0] == frame3dd_radius_warning);
