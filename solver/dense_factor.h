@@ -1,6 +1,7 @@
 #pragma once
-// L U of a small dense matrix with partial pivoting (LAPACK), in storage that only grows: a correction is factorised
-// anew with each break, and must not ask for memory each time.
+// L U of a small dense matrix that grows by a border of rows and columns, in storage that only grows: a correction gets
+// a border with each break, and what was factorised before it stays. Pivots are sought inside of what was added
+// together, so that the leading part keeps its factor.
 #include <Eigen/Core>
 #include <vector>
 
@@ -8,8 +9,14 @@ namespace topple::solver {
 
 class DenseFactor {
  public:
-  /// Makes room for size x size and returns it to be filled in (what it holds is undefined).
-  [[nodiscard]] Eigen::Map<Eigen::MatrixXd> matrix(int size);
+  using Matrix = Eigen::Map<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
+
+  /// Keeps the factor of a leading part, of `size` rows or fewer: whole borders, of a matrix that was far enough from
+  /// singular to build on. Returns how many.
+  int keep(int size);
+  /// Makes room for size x size, at least what is kept, and returns it: the rows and columns behind what is kept are to
+  /// be filled in (what they hold is undefined), the kept part is not to be touched.
+  [[nodiscard]] Matrix grow(int size);
   /// Factorises what was filled in.
   void factorise();
   /// Estimates of the inverse's 1-norm (Hager, Higham; LAPACK's dgecon); infinite when the matrix is singular.
@@ -21,7 +28,13 @@ class DenseFactor {
   [[nodiscard]] int size() const { return size_; }
 
  private:
-  int size_ = 0;
+  [[nodiscard]] int kept() const;
+  struct Part {
+    int rows = 0;  ///< up to its end
+    double inverse_norm = 1;
+  };
+  int size_ = 0, capacity_ = 0;
+  std::vector<Part> parts_;  ///< added together, each
   std::vector<double> value_, work_;
   std::vector<int> pivot_, integer_work_;
   double inverse_norm_ = 1;

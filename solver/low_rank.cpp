@@ -96,6 +96,7 @@ void LowRankCorrection::set(int place, const Eigen::Ref<const Eigen::MatrixXd>& 
   RD.noalias() = p.R * D;
   p.D.noalias() = RD * p.R.transpose();
   p.active = (D.array() != 0).any();
+  p.factorised = false;
 }
 
 std::vector<int> LowRankCorrection::forget_unchanged(Eigen::Index kept_columns) {
@@ -130,6 +131,17 @@ std::vector<int> LowRankCorrection::forget_unchanged(Eigen::Index kept_columns) 
   }
   finished_ = kept.size();
   places_ = std::move(kept);
+  // What is forgotten and was factorised is no longer: the order before it stays.
+  for (std::size_t i = 0; i < active_.size(); ++i) {
+    active_[i] = number[static_cast<std::size_t>(active_[i])];
+    if (active_[i] < 0) {
+      for (std::size_t j = i + 1; j < active_.size(); ++j)
+        if (const int later = number[static_cast<std::size_t>(active_[j])]; later >= 0)
+          places_[static_cast<std::size_t>(later)].factorised = false;
+      active_.resize(i);
+      break;
+    }
+  }
   return number;
 }
 
@@ -145,36 +157,61 @@ bool LowRankCorrection::correct_alone(int place, const Eigen::Ref<const Eigen::M
   return true;
 }
 
-void LowRankCorrection::update() {
-  active_.clear();
+int LowRankCorrection::rank_before(int place) const {
+  int rank = 0;
+  for (const int p : active_) {
+    if (p == place) break;
+    rank += static_cast<int>(places_[static_cast<std::size_t>(p)].W.cols());
+  }
+  return rank;
+}
+
+/// Active places in an order that keeps as many in front as are factorised as they are; the others in order of number.
+void LowRankCorrection::order_active() {
+  std::size_t same = 0;
+  int columns = 0;
+  while (same < active_.size() && places_[static_cast<std::size_t>(active_[same])].factorised)
+    columns += static_cast<int>(places_[static_cast<std::size_t>(active_[same++])].W.cols());
+  const int kept = capacitance_.keep(columns);
+  while (columns > kept) columns -= static_cast<int>(places_[static_cast<std::size_t>(active_[--same])].W.cols());
+  active_.resize(same);
+  for (Place& place : places_) place.factorised = false;
+  for (const int p : active_) places_[static_cast<std::size_t>(p)].factorised = true;
+  for (std::size_t p = 0; p < places_.size(); ++p)
+    if (places_[p].active && !places_[p].factorised) active_.push_back(static_cast<int>(p));
   active_rank_ = 0;
-  for (std::size_t p = 0; p < places_.size(); ++p) {
-    if (!places_[p].active) continue;
-    active_.push_back(static_cast<int>(p));
-    active_rank_ += static_cast<int>(places_[p].W.cols());
-  }
-  softening_ = 1;
-  if (active_.empty()) return;
-  for (const int i : active_) {
-    for (const int j : active_) {
-      if (j <= i) know_gram(places_[static_cast<std::size_t>(i)], places_[static_cast<std::size_t>(j)]);
-    }
-  }
-  Eigen::Map<Eigen::MatrixXd> A = capacitance_.matrix(active_rank_);
-  A.setIdentity();
+  for (const int p : active_) active_rank_ += static_cast<int>(places_[static_cast<std::size_t>(p)].W.cols());
+}
+
+/// What of I + D G lies behind its first `kept` rows and columns.
+void LowRankCorrection::fill_capacitance(int kept) {
+  DenseFactor::Matrix A = capacitance_.grow(active_rank_);
   Eigen::Index row = 0;
   for (const int i : active_) {
-    const Place& p = places_[static_cast<std::size_t>(i)];
+    Place& p = places_[static_cast<std::size_t>(i)];
     const Eigen::Index rows = p.W.cols();
     Eigen::Index column = 0;
     for (const int j : active_) {
-      const Place& q = places_[static_cast<std::size_t>(j)];
-      A.block(row, column, rows, q.W.cols()).noalias() += p.D * gram_.block(p.first, q.first, rows, q.W.cols());
+      Place& q = places_[static_cast<std::size_t>(j)];
+      if (row >= kept || column >= kept) {
+        i < j ? know_gram(q, p) : know_gram(p, q);
+        auto block = A.block(row, column, rows, q.W.cols());
+        block.noalias() = p.D * gram_.block(p.first, q.first, rows, q.W.cols());
+        if (i == j) block.diagonal().array() += 1;
+      }
       column += q.W.cols();
     }
     row += rows;
   }
+}
+
+void LowRankCorrection::update() {
+  order_active();
+  softening_ = 1;
+  if (active_.empty()) return;
+  fill_capacitance(capacitance_.keep(active_rank_));
   capacitance_.factorise();
+  for (const int p : active_) places_[static_cast<std::size_t>(p)].factorised = true;
   softening_ = capacitance_.inverse_norm();
 }
 

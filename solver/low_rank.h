@@ -42,6 +42,8 @@ class LowRankCorrection {
   /// Columns of all places with a D, of all places.
   [[nodiscard]] int active_rank() const { return active_rank_; }
   [[nodiscard]] int rank() const { return static_cast<int>(gram_size_); }
+  /// Columns of the active places before this one, which need no work when it changes; all columns when it is not one.
+  [[nodiscard]] int rank_before(int place) const;
   [[nodiscard]] int places() const { return static_cast<int>(places_.size()); }
   /// Norm of the inverse of I + D G: how much the change has softened the structure in its softest motion.
   [[nodiscard]] double softening() const { return softening_; }
@@ -64,8 +66,11 @@ class LowRankCorrection {
     Eigen::MatrixXd D;  ///< R (the given D) R'
     int first = 0;      ///< its first row in gram_
     bool active = false;
+    bool factorised = false;       ///< with this D
     std::vector<char> gram_known;  ///< per place up to itself: whether gram_ has their product
   };
+  void order_active();
+  void fill_capacitance(int kept);
   [[nodiscard]] Eigen::MatrixXd product(const Place& a, const Place& b) const;
   void know_gram(Place& place, const Place& other);
   /// c := W' y of the active places, and y -= W c.
@@ -77,7 +82,7 @@ class LowRankCorrection {
   Eigen::MatrixXd gram_;  ///< W'W of pairs of places that were active together
   Eigen::Index gram_size_ = 0;
   std::size_t finished_ = 0;  ///< places before this one have their W
-  std::vector<int> active_;   ///< places with a D, in order
+  std::vector<int> active_;   ///< places with a D, in the capacitance's order: what changed last comes last
   int active_rank_ = 0;
   DenseFactor capacitance_;
   double softening_ = 1;

@@ -9,6 +9,8 @@ namespace {
 /// Operations that one entry of the factor costs in a triangular solve of one column, where memory sets the pace, and
 /// for each further column; and those of a small dense solver, which runs at a fraction of the factorisation's rate.
 constexpr double entry_cost = 10, column_cost = 3, dense_cost = 2;
+/// For each entry of the small dense solver, whose condition is estimated by a few solves.
+constexpr double condition_cost = 20;
 /// For each row that two columns share on their paths, when their product is made.
 constexpr double product_cost = 3;
 
@@ -236,8 +238,13 @@ StandingFactor::Plan StandingFactor::plan() {
   }
   // Blocks that several paths share are read once.
   if (new_columns > 0) path_cost += entry_cost * solver_->entries_on_paths(new_rows, marked_);
+  double kept = correction_->active_rank();
+  for (const auto& [key, place] : place_)
+    if (!wanted_.at(key).set) kept = std::min<double>(kept, correction_->rank_before(place));
   const double rank = plan.rank;
-  plan.operations = path_cost + dense_cost * rank * rank * rank + solve_operations();
+  kept = std::min(kept, rank);
+  plan.operations = path_cost + dense_cost * (rank * rank * rank - kept * kept * kept) + condition_cost * rank * rank +
+                    solve_operations();
   return plan;
 }
 
