@@ -22,7 +22,9 @@ constexpr int most_refinements = 12;
 constexpr double worthwhile = 0.5;  ///< a step that does not cut the error to this share of the last one is the last
 /// Solves that the estimate of a new factor's condition takes, with the first answer's.
 constexpr double solves_with_factor = 12;
-constexpr double solve_cost = 20;  ///< operations for each entry of the factor in one solve (memory sets the pace)
+/// Operations for each entry of the factor in one solve: where memory sets the pace, and where the factor is in cache.
+constexpr double solve_cost = 20, cached_solve_cost = 6;
+constexpr double cached_entries = 250000;
 
 /// Rows in which v is not zero.
 std::vector<int> rows_in(const Eigen::VectorXd& v) {
@@ -104,6 +106,11 @@ bool Reanalysis::State::correct_factor(const std::vector<int>& touched, std::opt
   if (!standing || condition > ill_conditioned) return false;
   const StandingFactor::Plan plan = standing->plan();
   if (!plan.possible || plan.rank > most_columns || plan.operations > factor_operations()) return false;
+  if (factor_operations() < refresh_rules.least_operations) {
+    const double excess = plan.operations - standing->plain_operations();
+    if (excess + correction_paid > factor_operations()) return false;
+    correction_paid += excess;
+  }
   standing->update();
   operations += plan.operations;
   answer.nearly_unstable = false;
@@ -123,7 +130,9 @@ bool Reanalysis::State::correct_factor(const std::vector<int>& touched, std::opt
 }
 
 double Reanalysis::State::factor_operations() const {
-  return factor->operations() + solves_with_factor * solve_cost * static_cast<double>(factor->entries());
+  const auto entries = static_cast<double>(factor->entries());
+  return factor->operations() +
+         solves_with_factor * (entries < cached_entries ? cached_solve_cost : solve_cost) * entries;
 }
 
 std::optional<Defect> Reanalysis::State::refactorise() {
@@ -132,6 +141,7 @@ std::optional<Defect> Reanalysis::State::refactorise() {
   factor_valid = false;
   restricted.reset();
   standing.reset();
+  correction_paid = 0;
   first_solution.resize(0);
   if (!factor) {
     order = system->elimination_order();

@@ -382,8 +382,8 @@ Eigen::VectorXd StandingFactor::softest_motion() const {
   return x;
 }
 
-double StandingFactor::solve_operations() const {
-  return 2 * entry_cost * solver_->entries() + 4 * correction_->entries();
-}
+double StandingFactor::plain_operations() const { return 2 * entry_cost * solver_->entries(); }
+
+double StandingFactor::solve_operations() const { return plain_operations() + 4 * correction_->entries(); }
 
 }  // namespace topple::solver

@@ -79,6 +79,8 @@ class StandingFactor {
   [[nodiscard]] int rank() const { return correction_->active_rank(); }
   /// Operations of one answer.
   [[nodiscard]] double solve_operations() const;
+  /// Operations of one answer over the factor alone.
+  [[nodiscard]] double plain_operations() const;
 
  private:
   enum class Kind { beam, shell, plate, node, ground };
