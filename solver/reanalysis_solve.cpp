@@ -107,9 +107,10 @@ bool Reanalysis::State::correct_factor(const std::vector<int>& touched, std::opt
   const StandingFactor::Plan plan = standing->plan();
   if (!plan.possible || plan.rank > most_columns || plan.operations > factor_operations()) return false;
   if (factor_operations() < refresh_rules.least_operations) {
-    const double excess = plan.operations - standing->plain_operations();
-    if (excess + correction_paid > factor_operations()) return false;
-    correction_paid += excess;
+    // What earlier changes go on to cost is borne until it has cost as much as a new factor (to rent or to buy).
+    if (plan.carried == 0) correction_paid = 0;
+    correction_paid += plan.carried;
+    if (correction_paid > factor_operations()) return false;
   }
   standing->update();
   operations += plan.operations;

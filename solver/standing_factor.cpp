@@ -11,6 +11,8 @@ namespace {
 constexpr double entry_cost = 10, column_cost = 3, dense_cost = 2;
 /// For each entry of the small dense solver, whose condition is estimated by a few solves.
 constexpr double condition_cost = 20;
+/// For each entry of the changes' columns in one solve.
+constexpr double correction_cost = 4;
 /// For each row that two columns share on their paths, when their product is made.
 constexpr double product_cost = 3;
 
@@ -243,8 +245,13 @@ StandingFactor::Plan StandingFactor::plan() {
     if (!wanted_.at(key).set) kept = std::min<double>(kept, correction_->rank_before(place));
   const double rank = plan.rank;
   kept = std::min(kept, rank);
-  plan.operations = path_cost + dense_cost * (rank * rank * rank - kept * kept * kept) + condition_cost * rank * rank +
-                    solve_operations();
+  const auto dense = [](double columns) {
+    return dense_cost * columns * columns * columns + condition_cost * columns * columns;
+  };
+  plan.operations = path_cost + dense(rank) - dense_cost * kept * kept * kept + solve_operations();
+  if (kept > 0)
+    plan.carried = dense(rank) - dense_cost * kept * kept * kept - dense(rank - kept) +
+                   correction_cost * correction_->entries() * kept / rank;
   return plan;
 }
 
@@ -382,8 +389,8 @@ Eigen::VectorXd StandingFactor::softest_motion() const {
   return x;
 }
 
-double StandingFactor::plain_operations() const { return 2 * entry_cost * solver_->entries(); }
-
-double StandingFactor::solve_operations() const { return plain_operations() + 4 * correction_->entries(); }
+double StandingFactor::solve_operations() const {
+  return 2 * entry_cost * solver_->entries() + correction_cost * correction_->entries();
+}
 
 }  // namespace topple::solver

@@ -46,6 +46,7 @@ class StandingFactor {
     bool possible = false;  ///< false: the change is of a kind that only a new factor takes
     int rank = 0;           ///< columns of the correction
     double operations = 0;  ///< to bring it up to date and for one answer
+    double carried = 0;     ///< of them, those for changes from before, which a new factor would have in it
   };
   [[nodiscard]] Plan plan();
   /// Carries the last plan out.
@@ -79,8 +80,6 @@ class StandingFactor {
   [[nodiscard]] int rank() const { return correction_->active_rank(); }
   /// Operations of one answer.
   [[nodiscard]] double solve_operations() const;
-  /// Operations of one answer over the factor alone.
-  [[nodiscard]] double plain_operations() const;
 
  private:
   enum class Kind { beam, shell, plate, node, ground };
