@@ -30,7 +30,7 @@ bool Reanalysis::State::take_refreshed() {
   standing = std::move(taking_over);
   factor = std::move(made.factor);
   standing->serve(*factor);
-  correction_paid = 0;
+  correction_paid = looked_at_softening = 0;
   condition = made.condition;
   first_solution.resize(0);
   ++counters.background_factors;

@@ -10,6 +10,8 @@ namespace {
 /// A structure that became this much softer than the factor's in one motion may be a mechanism: rounding leaves a
 /// singular correction at 1e10 and more.
 constexpr double suspicious_softening = 1e7;
+/// From one softening to the next: the softest motion is the same, and about as stiff.
+constexpr double alike = 1.25;
 /// And from here on it is looked at whether the correction brought it into the warning band.
 constexpr double remarkable_softening = 1e3;
 /// Factors of a matrix of this condition and worse are made anew rather than corrected.
@@ -114,13 +116,18 @@ bool Reanalysis::State::correct_factor(const std::vector<int>& touched, std::opt
   }
   standing->update();
   operations += plan.operations;
-  answer.nearly_unstable = false;
   const double softening = standing->softening();
-  if (softening > remarkable_softening && softening * condition * options.warning_limit > 1) {
+  const bool remarkable = softening > remarkable_softening && softening * condition * options.warning_limit > 1;
+  if (!remarkable) answer.nearly_unstable = false;
+  // What was looked at when it was as soft, and is far from a mechanism, need not be looked at again.
+  const bool known = softening < suspicious_softening && softening > looked_at_softening / alike &&
+                     softening < looked_at_softening * alike;
+  if (remarkable && !known) {
     const Eigen::VectorXd motion = standing->softest_motion();
     if (!motion.allFinite() || !(motion.squaredNorm() > 0)) return false;
     const double stiffness = rayleigh_quotient(system->matrix(), motion);
     answer.nearly_unstable = stiffness < options.warning_limit * matrix_norm(system->matrix());
+    looked_at_softening = softening;
     if (softening > suspicious_softening) {
       if (!(stiffness < options.singular_limit)) return false;
       defect = motion_defect(*system, motion);
@@ -142,7 +149,7 @@ std::optional<Defect> Reanalysis::State::refactorise() {
   factor_valid = false;
   restricted.reset();
   standing.reset();
-  correction_paid = 0;
+  correction_paid = looked_at_softening = 0;
   first_solution.resize(0);
   if (!factor) {
     order = system->elimination_order();

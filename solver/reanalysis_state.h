@@ -43,6 +43,7 @@ struct Reanalysis::State {
   std::unique_ptr<FactorRefresh> refresh;    ///< the factor that `next` is to serve with
   double refresh_paid = 0, refresh_due = 0;  ///< operations of answers since then; those after which it takes over
   double correction_paid = 0;                ///< operations for changes from before, since the factor was made
+  double looked_at_softening = 0;  ///< at which the softest motion was looked at last
   bool refresh_failed = false;               ///< not to be tried again before there is another factor
   bool assembled = false, factor_valid = false;
   bool structure_stands = false;  ///< the structure as it is was judged, and is stable

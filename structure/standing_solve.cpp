@@ -182,17 +182,21 @@ std::vector<JointId> StandingFrame::State::next_generation() {
     over.clear();
     const std::vector<JointId>& all = checked_joints[static_cast<std::size_t>(c)];
     for (JointId joint : all) {
+      const double used = joints.felt(joint).value;
+      if (!(used > 1 || used > joints.largest(joint))) continue;
       const int segment = label(joint);
       if (segment < 0 || !holds(joint)) continue;
-      const double used = joints.check(joint).value;
+      joints.remember(joint, used);
       if (!(used > 1)) continue;
       over.emplace_back(joint, used);
       largest[static_cast<std::size_t>(segment)] = std::max(largest[static_cast<std::size_t>(segment)], used);
     }
     if (over.empty()) complete(c);
-    for (JointId joint : all) {
-      const int segment = label(joint);
-      if (segment >= 0 && largest[static_cast<std::size_t>(segment)] == 0) joints.accept(joint);
+    if (over.empty() || !one_segment(c)) {
+      for (JointId joint : all) {
+        const int segment = label(joint);
+        if (segment >= 0 && largest[static_cast<std::size_t>(segment)] == 0) joints.accept(joint);
+      }
     }
     for (const auto& [joint, used] : over)
       if (used >= (1 - same_time) * largest[static_cast<std::size_t>(label(joint))]) next.push_back(joint);
