@@ -77,7 +77,54 @@ void eliminate(const double* L, int columns, int rows, int first, double* x, int
   add(block + columns, rows, width, plus, below, below_rows, below_rows, count);
 }
 
+/// c(k) += W(:, k) . y for N columns.
+template <int N>
+[[gnu::always_inline]] inline void multiply_columns(const double* W, std::ptrdiff_t stride, const double* y, int rows,
+                                                    double* c) {
+  Vector sum[N] = {};
+  int i = 0;
+  for (; i + lanes <= rows; i += lanes) {
+    const Vector own = vector_at(y + i);
+    for (int k = 0; k < N; ++k) sum[k] += vector_at(W + k * stride + i) * own;
+  }
+  for (int k = 0; k < N; ++k) {
+    double last = 0;
+    for (int j = i; j < rows; ++j) last += W[k * stride + j] * y[j];
+    for (int lane = 0; lane < lanes; ++lane) last += sum[k][lane];
+    c[k] += last;
+  }
+}
+
+using Multiply = void (*)(const double*, std::ptrdiff_t, const double*, int, double*);
+#define TOPPLE_MULTIPLY_COLUMNS(N)                                                                  \
+  TOPPLE_VECTOR_VERSIONS                                                                            \
+  void multiply_##N(const double* W, std::ptrdiff_t stride, const double* y, int rows, double* c) { \
+    multiply_columns<N>(W, stride, y, rows, c);                                                     \
+  }
+TOPPLE_MULTIPLY_COLUMNS(1)
+TOPPLE_MULTIPLY_COLUMNS(2)
+TOPPLE_MULTIPLY_COLUMNS(3)
+TOPPLE_MULTIPLY_COLUMNS(4)
+TOPPLE_MULTIPLY_COLUMNS(5)
+TOPPLE_MULTIPLY_COLUMNS(6)
+#undef TOPPLE_MULTIPLY_COLUMNS
+constexpr Multiply multiply_of[six] = {multiply_1, multiply_2, multiply_3, multiply_4, multiply_5, multiply_6};
+
 }  // namespace
+
+void add_products(const double* W, int stride, int rows, int columns, const double* y, double* c) {
+  for (int k = 0; k < columns; k += six)
+    multiply_of[std::min(six, columns - k) - 1](W + static_cast<std::ptrdiff_t>(k) * stride, stride, y, rows, c + k);
+}
+
+void subtract_combination(const double* W, int stride, int rows, int columns, const double* c, double* y) {
+  Coefficients minus{};
+  for (int k = 0; k < columns; k += strip) {
+    const int width = std::min(strip, columns - k);
+    for (int i = 0; i < width; ++i) minus[static_cast<std::size_t>(i * six)] = -c[k + i];
+    add_1(W + static_cast<std::ptrdiff_t>(k) * stride, stride, width, minus.data(), y, 0, rows);
+  }
+}
 
 void eliminate_few_columns(const double* L, int columns, int rows, double* x, int count, double* below) {
   const int below_rows = rows - columns;

@@ -1,6 +1,7 @@
 #pragma once
 // Elimination with a dense block of a factor for a handful of right-hand sides (an element has six): BLAS packs the
-// block for such calls, which costs more than the arithmetic; here it is read once, eight columns at a time.
+// block for such calls, which costs more than the arithmetic; here it is read once, eight columns at a time. The same
+// goes for a handful of columns that meet one vector.
 
 namespace topple::solver {
 
@@ -8,5 +9,10 @@ namespace topple::solver {
 /// ((rows - columns) x count) := rectangle x. Every entry is summed in order of L's columns, by itself: the bits do not
 /// depend on the processor's vectors.
 void eliminate_few_columns(const double* L, int columns, int rows, double* x, int count, double* below);
+
+/// W: `columns` columns of `rows` entries, one every `stride`. c(k) += W(:, k) . y, always in the same order.
+void add_products(const double* W, int stride, int rows, int columns, const double* y, double* c);
+/// y -= W c.
+void subtract_combination(const double* W, int stride, int rows, int columns, const double* c, double* y);
 
 }  // namespace topple::solver

@@ -225,9 +225,7 @@ void LowRankCorrection::gather(const Eigen::VectorXd& y, Eigen::Ref<Eigen::Vecto
   Eigen::Index row = 0;
   for (const int i : active_) {
     const Place& p = places_[static_cast<std::size_t>(i)];
-    Eigen::Map<Eigen::MatrixXd> local = scratch(on_path_, p.W.rows(), 1);
-    solver_.gather(p.path, y, local.data());
-    c.segment(row, p.W.cols()).noalias() = p.W.transpose() * local.col(0);
+    solver_.multiply(p.path, p.W, y, c.data() + row);
     row += p.W.cols();
   }
 }
@@ -236,9 +234,7 @@ void LowRankCorrection::subtract(const Eigen::Ref<const Eigen::VectorXd>& c, Eig
   Eigen::Index row = 0;
   for (const int i : active_) {
     const Place& p = places_[static_cast<std::size_t>(i)];
-    Eigen::Map<Eigen::MatrixXd> local = scratch(on_path_, p.W.rows(), 1);
-    local.col(0).noalias() = p.W * c.segment(row, p.W.cols());
-    solver_.subtract(p.path, local.data(), y);
+    solver_.subtract(p.path, p.W, c.data() + row, y);
     row += p.W.cols();
   }
 }

@@ -87,7 +87,6 @@ class LowRankCorrection {
   DenseFactor capacitance_;
   double softening_ = 1;
   // Scratch; grows only.
-  mutable std::vector<double> on_path_;
   mutable std::vector<double> coefficients_, product_;
 };
 

@@ -236,6 +236,7 @@ Reanalysis::Response Reanalysis::respond(const LoadSet& loads) const {
   const LoadVector load = state.force_on_standing(loads);
   Response response;
   const Eigen::VectorXd u = state.solve_sparse(load.force, response.backward_error);
+  state_->count_response(1);
   response.displacements = state.system->node_displacements(u, load.held_displacement);
   response.fixed_end = fixed_end_of(loads, load);
   return response;
@@ -247,6 +248,7 @@ Reanalysis::Response Reanalysis::respond_near(const LoadSet& loads, std::vector<
   std::vector<char> equation_known;
   Response response;
   const Eigen::VectorXd u = state.solve_on_paths(load.force, equation_known);
+  state_->count_response(0.5);  // the paths are about half of it
   response.displacements = state.system->node_displacements(u, load.held_displacement);
   response.fixed_end = fixed_end_of(loads, load);
   const DofMap& dofs = state.system->dofs();
@@ -287,5 +289,10 @@ const ReanalysisCounters& Reanalysis::counters() const { return state_->counters
 const FrameModel& Reanalysis::model() const { return state_->system->model; }
 const RestrictedEffort& Reanalysis::restricted_effort() const { return state_->effort; }
 double Reanalysis::last_operations() const { return state_->operations; }
+double Reanalysis::response_operations() const { return state_->response_operations; }
+
+void Reanalysis::State::count_response(double share) {
+  if (standing) response_operations += share * standing->solve_operations();
+}
 
 }  // namespace topple::solver

@@ -21,6 +21,8 @@ constexpr int most_columns = 600;
 /// An answer over a correction that refinement leaves above this is found again over a new factor.
 constexpr double acceptable_error = 1e-12;
 constexpr int most_refinements = 12;
+/// Answers to unit forces weigh blows, which are known far less well.
+constexpr double response_error = 1e-11;
 constexpr double worthwhile = 0.5;  ///< a step that does not cut the error to this share of the last one is the last
 /// Solves that the estimate of a new factor's condition takes, with the first answer's.
 constexpr double solves_with_factor = 12;
@@ -197,7 +199,7 @@ Eigen::VectorXd Reanalysis::State::solve_sparse(const Eigen::VectorXd& force, do
   standing->solve(x, &loaded);
   Eigen::VectorXd r, better;
   backward_error = rows->residual(system->matrix(), right_hand_side, x, r);
-  for (int step = 0; step < most_refinements && backward_error > backward_error_limit; ++step) {
+  for (int step = 0; step < most_refinements && backward_error > response_error; ++step) {
     standing->solve(r);
     better = x + r;
     const double error = rows->residual(system->matrix(), right_hand_side, better, r);

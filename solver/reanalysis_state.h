@@ -81,7 +81,8 @@ struct Reanalysis::State {
   std::vector<char> unbalanced;  ///< per beam: loaded in a loose direction
   mutable std::vector<Vec6> reactions;
   ReanalysisCounters counters;
-  double operations = 0;
+  double operations = 0;           ///< of the last solve()
+  double response_operations = 0;  ///< of all responses
   /// Answers found beforehand: as everything stands (beam -1), and without one beam.
   std::vector<std::pair<int, Eigen::VectorXd>> expected;
   // Scratch of solve(): once grown, an answer asks for no memory.
@@ -148,7 +149,8 @@ struct Reanalysis::State {
   [[nodiscard]] Vec12 end_forces(std::size_t beam, const std::vector<Vec6>& displacements, const Vec12& fixed) const;
   [[nodiscard]] LinearSolve linear_solve() const;
   void scale_force(const Eigen::VectorXd& force, Eigen::VectorXd& result) const;
-  /// Answer to a force that few equations feel; refined to rounding level.
+  void count_response(double share);
+  /// Answer to a force that few equations feel; refined to response_error.
   /// The force that loads make, of a structure that stands; throws Instability.
   [[nodiscard]] LoadVector force_on_standing(const LoadSet& loads) const;
   [[nodiscard]] Eigen::VectorXd solve_sparse(const Eigen::VectorXd& force, double& backward_error) const;

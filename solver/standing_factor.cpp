@@ -367,8 +367,8 @@ Eigen::MatrixXd StandingFactor::solve_without(std::span<const Loss> losses) {
     on_path = y[j].col(0);
     if (!correction_->correct_alone(places[j], -beam_mode_stiffness(system_, losses[j].beam), on_path)) continue;
     whole.setZero(solver_->size());
-    on_path = -on_path;
-    solver_->subtract(correction_->path(places[j]), on_path.data(), whole);
+    const double minus = -1;
+    solver_->subtract(correction_->path(places[j]), on_path, &minus, whole);
     Y.col(static_cast<Eigen::Index>(j)) = whole;
   }
   solver_->backward(Y);

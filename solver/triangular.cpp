@@ -213,18 +213,19 @@ int TriangularSolver::row_on_path(const EliminationPath& path, int row) const {
          static_cast<int>(first_[static_cast<std::size_t>(block)]);
 }
 
-void TriangularSolver::gather(const EliminationPath& path, const Eigen::VectorXd& y, double* on_path) const {
-  for (std::size_t k = 0; k < path.block.size(); ++k) {
-    const double* from = y.data() + first_[static_cast<std::size_t>(path.block[k])];
-    std::copy(from, from + path.offset[k + 1] - path.offset[k], on_path + path.offset[k]);
-  }
+void TriangularSolver::multiply(const EliminationPath& path, const Eigen::MatrixXd& W, const Eigen::VectorXd& y,
+                                double* product) const {
+  std::fill(product, product + W.cols(), 0.0);
+  for (std::size_t k = 0; k < path.block.size(); ++k)
+    add_products(W.data() + path.offset[k], static_cast<int>(W.rows()), path.offset[k + 1] - path.offset[k],
+                 static_cast<int>(W.cols()), y.data() + first_[static_cast<std::size_t>(path.block[k])], product);
 }
 
-void TriangularSolver::subtract(const EliminationPath& path, const double* on_path, Eigen::VectorXd& y) const {
-  for (std::size_t k = 0; k < path.block.size(); ++k) {
-    double* to = y.data() + first_[static_cast<std::size_t>(path.block[k])];
-    for (int i = path.offset[k]; i < path.offset[k + 1]; ++i) *to++ -= on_path[i];
-  }
+void TriangularSolver::subtract(const EliminationPath& path, const Eigen::MatrixXd& W, const double* c,
+                                Eigen::VectorXd& y) const {
+  for (std::size_t k = 0; k < path.block.size(); ++k)
+    subtract_combination(W.data() + path.offset[k], static_cast<int>(W.rows()), path.offset[k + 1] - path.offset[k],
+                         static_cast<int>(W.cols()), c, y.data() + first_[static_cast<std::size_t>(path.block[k])]);
 }
 
 void TriangularSolver::mark_paths(std::span<const int> rows, std::vector<char>& marked) const {

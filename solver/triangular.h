@@ -75,9 +75,9 @@ class TriangularSolver {
   void forward(std::span<const PathColumns> groups) const;
   /// The row of the path at which an equation of the matrix stands.
   [[nodiscard]] int row_on_path(const EliminationPath& path, int row) const;
-  /// The path's rows of a whole vector; and y -= a vector on the path.
-  void gather(const EliminationPath& path, const Eigen::VectorXd& y, double* on_path) const;
-  void subtract(const EliminationPath& path, const double* on_path, Eigen::VectorXd& y) const;
+  /// W' y with columns W on the path and a whole vector y; and y -= W c.
+  void multiply(const EliminationPath& path, const Eigen::MatrixXd& W, const Eigen::VectorXd& y, double* product) const;
+  void subtract(const EliminationPath& path, const Eigen::MatrixXd& W, const double* c, Eigen::VectorXd& y) const;
 
  private:
   void take_supernodal(const FactorView& view);

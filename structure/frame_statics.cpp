@@ -260,6 +260,12 @@ class FrameStatics::Adapter : public solver::UseWatch {
   MemberWatch& watch_;
 };
 
+double FrameStatics::operations() const {
+  double sum = operations_;
+  for (const Component& component : components_) sum += component.analysis->response_operations();
+  return sum;
+}
+
 std::optional<FrameMechanism> FrameStatics::solve(int number) {
   Component& component = components_[static_cast<std::size_t>(number)];
   const solver::ReanalysisAnswer& answer = component.analysis->solve();

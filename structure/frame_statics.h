@@ -156,7 +156,7 @@ class FrameStatics {
   }
 
   [[nodiscard]] solver::ReanalysisCounters counters() const;
-  [[nodiscard]] double operations() const { return operations_; }
+  [[nodiscard]] double operations() const;
 
  private:
   struct Place {

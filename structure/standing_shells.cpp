@@ -22,10 +22,10 @@ PlacedLoad StandingFrame::State::place_on_shell(const ContactPlace& place, const
   PlacedLoad placed;
   placed.panel = place.panel;
   placed.on_shell = {place.point, force};
-  const std::vector<Vec6> loads = shell.loads_at_nodes(loading);
+  const std::vector<Vec6> at_nodes = shell.loads_at_nodes(loading);
   const std::vector<NodeId> nodes = building[place.panel].all_nodes();
   for (std::size_t n = 0; n < nodes.size(); ++n)
-    if (!loads[n].isZero(0)) placed.nodes.emplace_back(nodes[n], loads[n]);
+    if (!at_nodes[n].isZero(0)) placed.nodes.emplace_back(nodes[n], at_nodes[n]);
   placed.bending_compliance = shell.compliance(loading.forces.front());
   return placed;
 }

@@ -31,6 +31,8 @@ struct Body {
   bool asleep = false;                         ///< as booked last
   collision::BodyState before;                 ///< at the start of this step's motion, after its impacts
   Vec3 step_start = Vec3::Zero();              ///< where its centre was when the step began
+  Part pushed;                                 ///< what it was pushing when a budget cut the push,
+  std::int64_t pushed_in_step = -1;            ///< and the step in which that was
   Bounds looked_over;                          ///< a place that it is in
   std::vector<Part> near;                      ///< what may stand there and had no shape in the collision world
 };

@@ -18,6 +18,7 @@ void Simulation::State::book() {
   book_contacts();
   pull_hinges();
   for (auto& [id, one] : bodies) book_body(one);
+  let_go_held_back();
   resting.read(world->contacts(), obstacles, scenario.step,
                [&](collision::BodyId id) { return body(id) && !world->state(id).asleep; });
   shatter_landed();

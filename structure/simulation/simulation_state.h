@@ -57,12 +57,20 @@ struct Simulation::State {
   [[nodiscard]] std::optional<Strike> aim(const collision::Contact& contact);
   [[nodiscard]] double rebound(const Indentation& pushing) const;
   [[nodiscard]] bool bears(Strike& hit, double weight, double punching);
+  [[nodiscard]] bool pushes_on(const Strike& hit) const;
+  [[nodiscard]] bool takes_share(const Strike& hit) const;
   void push_in(Strike& hit);
   static void tell_loss(Strike& hit);
   void send_on(const Strike& hit);
   void check_momentum(const Strike& hit, const Vec3& impulse);
   void break_generations();
+
+  // operations_budget.cpp
+  [[nodiscard]] double operations_beyond_budget() const;
   [[nodiscard]] bool may_compute();
+  [[nodiscard]] bool may_push() const;
+  void hold_back(collision::BodyId id, collision::BodyState at);
+  void let_go_held_back();
 
   /// Momentum that an impact gave to what it broke off, handed over when that part becomes a body.
   struct Knock {
@@ -242,6 +250,11 @@ struct Simulation::State {
     double base = 0;  ///< the same in the body's own time since its state
   };
   std::map<std::int64_t, StruckClock> struck;
+
+  struct HeldBack {
+    Vec3 velocity, angular_velocity;  ///< with which it goes on, as the world reads them
+  };
+  std::map<std::int64_t, HeldBack> held_back;  ///< bodies whose blows wait for the next step
 
   std::int64_t step = 0;
   std::size_t next_event = 0;

@@ -38,6 +38,10 @@ void Simulation::State::strike_all(const std::vector<collision::Contact>& contac
 void Simulation::State::strike(const collision::Contact& contact) {
   std::optional<Strike> hit = aim(contact);
   if (!hit) return;
+  if (!may_push()) {
+    if (pushes_on(*hit)) hit->body->pushed_in_step = step;
+    return hold_back(hit->body->id, hit->state);
+  }
   push_in(*hit);
   send_on(*hit);
   push_chunks(*hit);
@@ -57,7 +61,7 @@ void Simulation::State::strike(const collision::Contact& contact) {
 std::optional<Simulation::State::Strike> Simulation::State::aim(const collision::Contact& contact) {
   const Part part = obstacles.part_of(contact.other.obstacle);
   Body* hitting = body(contact.body);
-  if (!part.valid() || !hitting || !stands(part)) return std::nullopt;
+  if (!part.valid() || !hitting || !stands(part) || held_back.contains(hitting->id.value)) return std::nullopt;
   // What was sensed may have been broken out since.
   if (const BrokenPanel* left = part.panel.valid() ? broken_panel(part.panel) : nullptr)
     if (obstacles.obstacle_of(part) != contact.other.obstacle && !left->holds(contact.point)) return std::nullopt;
@@ -97,13 +101,23 @@ double Simulation::State::rebound(const Indentation& pushing) const {
   return -scenario.impact.restitution * pushing.elastic_rebound_speed();
 }
 
+/// A push that a budget cut in two and that goes on here.
+bool Simulation::State::pushes_on(const Strike& hit) const {
+  return hit.body->pushed == hit.part && hit.body->pushed_in_step == step - 1;
+}
+
+/// What is hit takes its share of the speed once.
+bool Simulation::State::takes_share(const Strike& hit) const {
+  return scenario.impact.structure_mass && !pushes_on(hit);
+}
+
 /// Whether what is hit provably bears the push: the joints that bear it directly do not fail, and the energy is less
 /// than any other joint fails at. A lower bound of the mass that takes part makes the push harder than it is, so what
 /// is told of it (peak force, speed out) is a bound as well. Most impacts of debris end here, at a part of the cost.
 bool Simulation::State::bears(Strike& hit, double weight, double punching) {
   constexpr double rounding = 1e-6;
   const StandingFrame::UnitResponse near = frame->respond_near(hit.place, hit.normal);
-  const double mass = scenario.impact.structure_mass ? near.rayleigh_mass : 0;
+  const double mass = takes_share(hit) ? near.rayleigh_mass : 0;
   Indentation pushing(hit.mass, hit.speed, weight, mass);
   const FirstFailure own = first_failure(*frame, near, strength_factors, unlimited);
   if (pushing.push(near.compliance, std::min(own.force, punching)) != Indentation::Stop::stood) return false;
@@ -126,7 +140,7 @@ void Simulation::State::push_in(Strike& hit) {
     return tell_loss(hit);
   }
   StandingFrame::UnitResponse response = frame->respond(hit.place, hit.normal);
-  hit.structure_mass = scenario.impact.structure_mass ? response.rayleigh_mass : 0;
+  hit.structure_mass = takes_share(hit) ? response.rayleigh_mass : 0;
   Indentation pushing(hit.mass, hit.speed, weight, hit.structure_mass);
   for (;;) {
     const FirstFailure first = first_failure(*frame, response, strength_factors, unlimited);
@@ -149,7 +163,9 @@ void Simulation::State::push_in(Strike& hit) {
     const double stored = pushing.stored(response.compliance);
     const double shift = frame->break_in_impact(first.joints, hit.place, hit.normal);
     hit.through = !stands(hit.part);
-    const bool ends = hit.through || std::abs(shift) > largest_shift;
+    const bool slips = std::abs(shift) > largest_shift;
+    hit.waits = !hit.through && !slips && !may_push();
+    const bool ends = hit.through || slips || hit.waits;
     if (!ends) {
       pushing.shift(shift);
       response = frame->respond(hit.place, hit.normal);
@@ -197,9 +213,15 @@ void Simulation::State::send_on(const Strike& hit) {
     after.pose.position -= after.velocity * t + gravity * (t * t / 2);
     after.pose.orientation = turned(after.pose.orientation, -after.angular_velocity * t);
   }
-  after.velocity = reading().to_world(after.velocity);
-  after.asleep = false;
-  world->set_state(one.id, after);
+  if (hit.waits) {
+    hit.body->pushed = hit.part;
+    hit.body->pushed_in_step = step;
+    hold_back(one.id, after);
+  } else {
+    after.velocity = reading().to_world(after.velocity);
+    after.asleep = false;
+    world->set_state(one.id, after);
+  }
   check_momentum(hit, impulse);
 }
 
@@ -209,6 +231,11 @@ void Simulation::State::check_momentum(const Strike& hit, const Vec3& impulse) {
   given.add(*hit.body, hit.state);
   given.add_impulse(impulse, hit.place.point);
   collision::BodyState now = world->state(hit.body->id);
+  if (hit.waits) {
+    const HeldBack& goes_on = held_back.at(hit.body->id.value);
+    now.velocity = goes_on.velocity;
+    now.angular_velocity = goes_on.angular_velocity;
+  }
   now.velocity = reading().true_velocity(now.velocity);
   if (hit.through) now.velocity += gravity * hit.own_time;
   now.pose = hit.state.pose;

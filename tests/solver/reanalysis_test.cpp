@@ -269,7 +269,7 @@ TEST_CASE("the response to one more load is that load's alone, and reciprocal") 
   LoadSet both = c.loads;
   both.nodes.push_back(at_node.nodes[0]);
   const StaticSolution together = solve_one(c.model, both);
-  CHECK(a.backward_error <= 1e-14);
+  CHECK(a.backward_error <= 1e-11);  // what a response is refined to
   const Vec6 sum = c.standing.displacements()[30] + a.displacements[30];
   CHECK((together.displacements[30] - sum).norm() < 1e-10 * sum.norm());
   // End forces add up too: of the member that bears the load and of its neighbour.

@@ -133,6 +133,62 @@ TEST_CASE("a budget of operations spreads a collapse over steps and comes to the
   CHECK(ample_hash == free_hash);
 }
 
+TEST_CASE("a blow that a budget cuts in two waits where it touches and goes on with the speed that it has left") {
+  const auto fall = [](std::optional<double> budget) {
+    FrameBuilder f;
+    const NodeId a = f.node("A", 0, 0, 5), b = f.node("B", 6, 0, 5), c = f.node("C", 0, 0, 0), d = f.node("D", 6, 0, 0);
+    f.member("CA", MemberKind::post, c, a);
+    f.member("DB", MemberKind::post, d, b);
+    f.member("AB", MemberKind::beam, a, b, same_capacity(2e4), same_capacity(2e4));
+    f.support(c);
+    f.support(d);
+    for (std::size_t m = 0; m < 3; ++m) f.load(MemberId(m), -10);
+    Projectile ball;
+    ball.radius = 0.25;
+    ball.mass = 300;
+    ball.from = Vec3(2, 0, 7);  // nearer to one end: its joint breaks first
+    ball.velocity = Vec3(0, 0, -6);
+    Scenario scenario = scenario_with({{0.1, ball}}, 5);
+    scenario.operations_budget = budget;
+    return std::make_unique<Simulation>(f.building, std::move(scenario));
+  };
+  const auto until = [](Simulation& simulation, SimulationEvent::Kind kind, std::size_t count) {
+    while (!simulation.finished() && of_kind(simulation, kind).size() < count) simulation.step();
+    REQUIRE(of_kind(simulation, kind).size() >= count);
+  };
+  const auto free = fall(std::nullopt);
+  until(*free, SimulationEvent::Kind::impact, 1);
+  // What the blow took in all, in four steps or more.
+  const auto tight = fall(free->frame().counters().operations / 4);
+  until(*tight, SimulationEvent::Kind::joint_broke, 1);
+  CHECK(of_kind(*free, SimulationEvent::Kind::joint_broke).size() == 2);
+  CHECK(of_kind(*tight, SimulationEvent::Kind::joint_broke).size() == 1);
+
+  // Where it touched, with the speed of its event; the joint that is left breaks in a later step.
+  const SimulationEvent impact = of_kind(*tight, SimulationEvent::Kind::impact).front();
+  CHECK(impact.speed_out > 0);
+  const auto height = [](const Simulation& simulation) {
+    for (const BodyView& view : simulation.bodies())
+      if (view.members.empty()) return view.pose.position.z();
+    FAIL("no ball");
+    return 0.0;
+  };
+  const double touched = height(*tight);
+  const double kinetic = 300 * impact.speed_out * impact.speed_out / 2;
+  CHECK(tight->ledger().kinetic_translation == Approx(kinetic).epsilon(1e-12));
+  tight->step();  // in which the solve is paid
+  CHECK(height(*tight) == Approx(touched).margin(1e-9));
+  CHECK(tight->ledger().kinetic_translation == Approx(kinetic).epsilon(1e-12));
+  until(*tight, SimulationEvent::Kind::joint_broke, 2);
+  CHECK(of_kind(*tight, SimulationEvent::Kind::impact).back().speed_in == Approx(impact.speed_out).epsilon(1e-9));
+
+  for (Simulation* simulation : {free.get(), tight.get()}) {
+    until(*simulation, SimulationEvent::Kind::detached, 1);
+    CHECK(simulation->ledger().momentum_error < 1e-10);
+    CHECK(std::abs(simulation->ledger().residual()) < 1e-2);
+  }
+}
+
 TEST_CASE("charges go off in the order of their delays") {
   FrameBuilder f = cantilevers();
   for (Joint& joint : f.building.joints) joint.capacity = same_capacity(1e6);

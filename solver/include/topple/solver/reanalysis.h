@@ -154,6 +154,8 @@ class Reanalysis {
   [[nodiscard]] const FrameModel& model() const;
   /// Predicted operations of the last solve(), for budgets.
   [[nodiscard]] double last_operations() const;
+  /// And of all responses so far.
+  [[nodiscard]] double response_operations() const;
 
  private:
   struct State;
