@@ -38,8 +38,14 @@ void Simulation::State::hold_back(collision::BodyId id, collision::BodyState at)
 
 void Simulation::State::let_go_held_back() {
   for (const auto& [id, moving] : held_back) {
-    if (!bodies.contains(id)) continue;
+    Body* one = body({id});
+    if (!one) continue;
     collision::BodyState state = world->state({id});
+    // The world measured what contacts did to a body that stood still; on the one that moves they did as much more.
+    ledger.lost_in_contacts -=
+        one->rest.mass * state.velocity.dot(moving.velocity) +
+        state.angular_velocity.dot(world_inertia(*one, state.pose.orientation) * moving.angular_velocity);
+    one->asleep = false;
     state.velocity += moving.velocity;
     state.angular_velocity += moving.angular_velocity;
     state.asleep = false;
