@@ -216,6 +216,7 @@ void BulletWorld::remove_body(BodyId id) {
     if (one->second->body == id.value) remove_cable({one->first});
   }
   wake_touching(*gone.object);
+  world_.forget_foreseen_contacts();
   forget_ignored_of(Touched::Kind::body, id.value);
   forget_contacts_of(Touched::Kind::body, id.value);
   world_.removeRigidBody(gone.rigid.get());
@@ -245,6 +246,7 @@ ObstacleId BulletWorld::add_obstacle(const ObstacleDescription& description) {
 void BulletWorld::remove_obstacle(ObstacleId id) {
   Obstacle& gone = obstacle(id.value);
   wake_touching(*gone.object);
+  world_.forget_foreseen_contacts();
   forget_ignored_of(Touched::Kind::obstacle, id.value);
   forget_contacts_of(Touched::Kind::obstacle, id.value);
   world_.removeCollisionObject(gone.fixed.get());

@@ -28,6 +28,8 @@ class FreeSpinWorld : public btDiscreteDynamicsWorld {
   /// Cables that the world holds taut when its solver is done.
   void hold_after_solving(Cable* cable) { cables_.push_back(cable); }
   void let_go(Cable* cable) { std::erase(cables_, cable); }
+  /// Contacts that Bullet foresaw for fast bodies stay until the next step, whether or not the bodies do.
+  void forget_foreseen_contacts() { releasePredictiveContacts(); }
 
  protected:
   void predictUnconstraintMotion(btScalar time_step) override;

@@ -234,6 +234,20 @@ TEST_CASE("a ball that is to go through what it is about to hit goes through it,
   CHECK(world->state(ball).pose.position.x() > 1);
 }
 
+TEST_CASE("nothing is left of a body that is taken away in the step in which it was about to hit another") {
+  const auto world = world_with_gravity();
+  const BodyId box = world->add_body(box_body({0.5, 0.5, 0.5}, 1000, {1.3, 0, 5}));
+  const BodyId ball = world->add_body(ball_body(0.4, 500, {0, 0, 5}));
+  BodyState state = world->state(ball);
+  state.velocity.x() = 40;  // 0.67 m in the step, with 0.4 m between them: the collision is foreseen
+  world->set_state(ball, state);
+  world->step(kStep);
+  world->remove_body(ball);
+  world->remove_body(box);  // looks for what touches it: the sanitizers see whether it looks at the ball
+  CHECK(world->awake_count() == 0);
+  CHECK(world->sweep(kStep).empty());
+}
+
 TEST_CASE("descriptions that mean nothing are refused with their name") {
   const auto world = make_bullet_world();
   BodyDescription body = box_body({1, 1, 1}, 10, Vec3::Zero());
