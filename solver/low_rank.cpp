@@ -131,17 +131,9 @@ std::vector<int> LowRankCorrection::forget_unchanged(Eigen::Index kept_columns) 
   }
   finished_ = kept.size();
   places_ = std::move(kept);
-  // What is forgotten and was factorised is no longer: the order before it stays.
-  for (std::size_t i = 0; i < active_.size(); ++i) {
-    active_[i] = number[static_cast<std::size_t>(active_[i])];
-    if (active_[i] < 0) {
-      for (std::size_t j = i + 1; j < active_.size(); ++j)
-        if (const int later = number[static_cast<std::size_t>(active_[j])]; later >= 0)
-          places_[static_cast<std::size_t>(later)].factorised = false;
-      active_.resize(i);
-      break;
-    }
-  }
+  // What stood before the first one that is forgotten stays in its order.
+  for (int& place : active_) place = number[static_cast<std::size_t>(place)];
+  active_.erase(std::find(active_.begin(), active_.end(), -1), active_.end());
   return number;
 }
 
@@ -167,7 +159,8 @@ int LowRankCorrection::rank_before(int place) const {
 }
 
 /// Active places in an order that keeps as many in front as are factorised as they are; the others in order of number.
-void LowRankCorrection::order_active() {
+/// Returns the columns of the former.
+int LowRankCorrection::order_active() {
   std::size_t same = 0;
   int columns = 0;
   while (same < active_.size() && places_[static_cast<std::size_t>(active_[same])].factorised)
@@ -181,6 +174,7 @@ void LowRankCorrection::order_active() {
     if (places_[p].active && !places_[p].factorised) active_.push_back(static_cast<int>(p));
   active_rank_ = 0;
   for (const int p : active_) active_rank_ += static_cast<int>(places_[static_cast<std::size_t>(p)].W.cols());
+  return kept;
 }
 
 /// What of I + D G lies behind its first `kept` rows and columns.
@@ -206,10 +200,10 @@ void LowRankCorrection::fill_capacitance(int kept) {
 }
 
 void LowRankCorrection::update() {
-  order_active();
+  const int kept = order_active();
   softening_ = 1;
   if (active_.empty()) return;
-  fill_capacitance(capacitance_.keep(active_rank_));
+  fill_capacitance(kept);
   capacitance_.factorise();
   for (const int p : active_) places_[static_cast<std::size_t>(p)].factorised = true;
   softening_ = capacitance_.inverse_norm();

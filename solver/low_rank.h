@@ -69,7 +69,7 @@ class LowRankCorrection {
     bool factorised = false;       ///< with this D
     std::vector<char> gram_known;  ///< per place up to itself: whether gram_ has their product
   };
-  void order_active();
+  int order_active();
   void fill_capacitance(int kept);
   [[nodiscard]] Eigen::MatrixXd product(const Place& a, const Place& b) const;
   void know_gram(Place& place, const Place& other);

@@ -10,10 +10,10 @@ namespace {
 /// A structure that became this much softer than the factor's in one motion may be a mechanism: rounding leaves a
 /// singular correction at 1e10 and more.
 constexpr double suspicious_softening = 1e7;
-/// From one softening to the next: the softest motion is the same, and about as stiff.
-constexpr double alike = 1.25;
 /// And from here on it is looked at whether the correction brought it into the warning band.
 constexpr double remarkable_softening = 1e3;
+/// From one softening to the next: the softest motion is the same, and about as stiff.
+constexpr double alike = 1.25;
 /// Factors of a matrix of this condition and worse are made anew rather than corrected.
 constexpr double ill_conditioned = 1e12;
 /// Columns that a correction may have at most.
@@ -120,7 +120,10 @@ bool Reanalysis::State::correct_factor(const std::vector<int>& touched, std::opt
   operations += plan.operations;
   const double softening = standing->softening();
   const bool remarkable = softening > remarkable_softening && softening * condition * options.warning_limit > 1;
-  if (!remarkable) answer.nearly_unstable = false;
+  if (!remarkable) {
+    answer.nearly_unstable = false;
+    looked_at_softening = 0;
+  }
   // What was looked at when it was as soft, and is far from a mechanism, need not be looked at again.
   const bool known = softening < suspicious_softening && softening > looked_at_softening / alike &&
                      softening < looked_at_softening * alike;

@@ -8,9 +8,6 @@
 
 namespace topple::structure {
 
-namespace {
-
-/// Rows: outwards across the edge, along it, normal.
 Mat3 edge_axes(const Building& building, const Panel& panel, std::size_t edge) {
   const Vec3 along =
       (building[panel.nodes[(edge + 1) % 4]].position - building[panel.nodes[edge]].position).normalized();
@@ -21,6 +18,8 @@ Mat3 edge_axes(const Building& building, const Panel& panel, std::size_t edge) {
   axes.row(2) = normal;
   return axes;
 }
+
+namespace {
 
 double area(const Building& building, const Panel& panel) {
   const auto corner = [&](std::size_t i) -> const Vec3& { return building[panel.nodes[i]].position; };

@@ -6,6 +6,9 @@
 
 namespace topple::structure {
 
+/// Of a panel's edge, as its joints see it. Rows: outwards across the edge, along it, normal.
+[[nodiscard]] Mat3 edge_axes(const Building& building, const Panel& panel, std::size_t edge);
+
 /// Demand of each edge joint per intact length, in the axes of the edge (x outwards, y along, z normal); zero for an
 /// edge that no longer holds. It is what the support does to the panel: the reaction to the load handed to that edge,
 /// plus the traction of the mean membrane stress, which follows from the corner forces c_i at x_i by the virial

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "index_of.h"
+#include "panel_demand.h"
 #include "topple/solver/superelement.h"
 
 namespace topple::structure {
@@ -139,13 +140,7 @@ class GivingEdges {
     std::map<int, Pair> joints;
     for (std::size_t edge = 0; edge < 4; ++edge) {
       const auto& nodes = mesh.edge_nodes[edge];
-      const Vec3 along =
-          (building_[panel.nodes[(edge + 1) % 4]].position - building_[panel.nodes[edge]].position).normalized();
-      const Vec3 normal = panel.axes.row(2);
-      Mat3 axes;
-      axes.col(0) = along.cross(normal).normalized();
-      axes.col(1) = along;
-      axes.col(2) = normal;
+      const Mat3 axes = edge_axes(building_, panel, edge).transpose();
       const std::vector<double> shares = shares_of(mesh, nodes);
       for (std::size_t i = 0; i < nodes.size(); ++i) {
         const int node = nodes[i];
