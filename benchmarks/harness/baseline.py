@@ -59,11 +59,12 @@ def run(context, scene_path, method, precision):
     done = context.baseline_runs
     key = (scene_path, method[0], precision)
     if key not in done:
-        done[key] = _run(context, scene_path, method, precision)
+        done[key] = measure(context, scene_path, method, precision)
     return dict(done[key])
 
 
-def _run(context, scene_path, method, precision):
+def measure(context, scene_path, method, precision):
+    """Like run(), without looking whether it was measured before."""
     name, options, seconds = method
     row = {"method": name, "precision": precision}
     program = os.path.join(context.programs, "bench_baseline_" + precision)

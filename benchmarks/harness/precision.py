@@ -1,6 +1,7 @@
 """Work against precision: run time, a step and to the settled answer, against error, for Bullet's solvers and for Topple's ways."""
 
 import os
+import statistics
 import time
 
 import baseline
@@ -21,6 +22,7 @@ NAMES = {"standing": "Topple, standing", "restricted": "Topple, restricted", "lo
 SITUATIONS = (("nothing changes", IDLE), ("a load changes", CHANGING), ("a joint breaks", BREAKS), ("from nothing", FIRST))
 ASKED = 1e6  # times smaller error than sequential impulse with 10 iterations, at no more time a step
 JUDGED = "4x5x6"
+JUDGED_METHOD = "sequential impulse 10"
 
 # On the frame that is larger than the seed's two: some methods take minutes there.
 LARGE_QUICK = ("sequential impulse 10", "Featherstone, tree")
@@ -88,17 +90,35 @@ def own_rows(context, model):
     return rows
 
 
-def verdict(size, rows):
+def turns(context, model):
+    """What a step costs with sequential impulse of 10 iterations and with Topple, in turns, so that what else the machine does meets both.
+    For nothing changing and for a changing load: the ratios of Bullet's milliseconds to Topple's, one for each turn."""
+    name, options, _ = next(method for method in baseline.methods(True) if method[0] == JUDGED_METHOD)
+    ratios = {IDLE: [], CHANGING: []}
+    for _ in range(3 if context.quick else 7):
+        ours = topple_rows.measure(context, model, 20 if context.quick else 100)
+        for load, situation, push in ((IDLE, "nothing changes", 0.0), (CHANGING, "a load changes", topple_rows.PUSH)):
+            theirs = baseline.measure(context, baseline.scene(context, model, push), (name, options, 2), "double")
+            ratios[load].append(theirs["milliseconds"] / ours[situation]["standing"]["milliseconds"])
+    output.progress(context, "%s: sequential impulse 10 and Topple in %d turns" % (JUDGED, len(ratios[IDLE])))
+    return ratios
+
+
+def verdict(context, size, model, rows):
     """Topple's standing answer against sequential impulse with 10 iterations."""
     lines = []
     if size != JUDGED:
         return lines
+    ratios_of_turns = turns(context, model)
     for load in (IDLE, CHANGING):
         at = {row["method"]: row for row in rows if row["load"] == load}
-        theirs, ours = at["sequential impulse 10"], at["Topple, standing"]
+        theirs, ours = at[JUDGED_METHOD], at["Topple, standing"]
         ratios = [theirs[key] / max(ours[key], 1e-17) for key in ("sag_error", "reaction_error")]
         lines.append("%s, %s: %.3g ms a step against %.3g ms of sequential impulse with 10 iterations, error %.1e times smaller in sag and %.1e in "
                      "reactions (asked: no more time, %.0e times)" % (size, "nothing changes" if load == IDLE else "a load changes at each step", ours["milliseconds"], theirs["milliseconds"], ratios[0], ratios[1], ASKED))
+        paired = ratios_of_turns[load]
+        lines[-1] += "; measured in %d turns of both, a step of Bullet takes %.3g times as long (%.3g to %.3g)" % (
+            len(paired), statistics.median(paired), min(paired), max(paired))
     for line in lines:
         print("bench: " + line)
     return lines
@@ -126,7 +146,7 @@ def run(context):
     sections = []
     for size, model in sizes(context):
         rows = bullet_rows(context, size, model) + own_rows(context, model)
-        lines = verdict(size, rows)
+        lines = verdict(context, size, model, rows)
         output.print_table(rows, COLUMNS)
         output.write_results(context, "precision_" + size, rows, COLUMNS, ("load", "method"), lines)
         figures = [figure(context, size, rows, "milliseconds", "milliseconds a step", "step"),
