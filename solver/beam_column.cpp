@@ -5,45 +5,74 @@
 namespace topple::solver {
 namespace {
 
-/// v, rotation, M, T, and the constants 1 and the distance from the start, which carry the loads. Scaled by the
-/// length h: v/h, M h/EI, T h2/EI, distance/h.
-using Transfer = Eigen::Matrix<double, 6, 6>;
+/// v, rotation, M, T at a point by those at the start (columns 0 to 3), and what the loads add (column 4). Scaled by
+/// the length h: v/h, M h/EI, T h2/EI.
+using Transfer = Eigen::Matrix<double, 4, 5>;
 
 struct Scaled {
   double h, EI;
   [[nodiscard]] Eigen::Vector4d scale() const { return {h, 1, EI / h, EI / (h * h)}; }
 };
 
-Transfer exponential(Transfer a) {
-  const double norm = a.cwiseAbs().rowwise().sum().maxCoeff();
-  int halvings = 0;
-  for (double n = norm; n > 0.5; n /= 2) ++halvings;
-  a /= std::ldexp(1.0, halvings);
-  constexpr int terms = 14;  // 0.5^14/14! is below rounding
-  Transfer result = Transfer::Identity();
-  for (int k = terms; k > 0; --k) result = Transfer::Identity() + a * result / k;
-  for (int k = 0; k < halvings; ++k) result = (result * result).eval();
-  return result;
-}
+/// Axial force in powers of the distance over h, times h2/EI; and the shear compliance over that of bending.
+struct ScaledColumn {
+  std::array<double, 3> n{};
+  double shear = 0;
 
-/// Over the distance x from the stretch's start, scaled by the stretch's length.
+  ScaledColumn(const ColumnPlane& plane, const ColumnStretch& stretch) {
+    const double h = stretch.length, EI = plane.bending_stiffness;
+    shear = plane.shear_compliance * EI / (h * h);
+    double power = h * h / EI;
+    for (std::size_t k = 0; k < n.size(); ++k, power *= h) n[k] = stretch.axial[k] * power;
+    // Where the axial force all but takes the shear stiffness away the series would diverge: far beyond any real load,
+    // but a trial factor may go there. Its mean serves then.
+    constexpr double far_from_singular = 0.25;
+    if (shear * (std::abs(n[1]) + std::abs(n[2])) > far_from_singular * std::abs(1 + n[0] * shear))
+      n = {n[0] + n[1] / 2 + n[2] / 3, 0, 0};
+  }
+};
+
+/// Over the distance x from the stretch's start. The series of v' = w is that of (rotation + shear T)/(1 + n shear).
 Transfer transfer(const ColumnPlane& plane, const ColumnStretch& stretch, double x) {
-  const double h = stretch.length, EI = plane.bending_stiffness;
-  const double n = stretch.axial * h * h / EI, shear = plane.shear_compliance * EI / (h * h);
-  const double slope = 1 / (1 + n * shear);
-  Transfer a = Transfer::Zero();
-  a(0, 1) = slope;
-  a(0, 3) = slope * shear;
-  a(1, 2) = 1;
-  a(1, 4) = plane.free_curvature * h;
-  a(2, 1) = n * slope;
-  a(2, 3) = n * slope * shear - 1;
-  a(2, 4) = -stretch.moment * h * h / EI;
-  a(2, 5) = -stretch.moment_slope * h * h * h / EI;
-  a(3, 4) = -stretch.force * h * h * h / EI;
-  a(3, 5) = -stretch.force_slope * h * h * h * h / EI;
-  a(5, 4) = 1;
-  return exponential(a * (x / h));
+  using Row = Eigen::Matrix<double, 1, 5>;
+  const auto& [n, shear] = ScaledColumn(plane, stretch);
+  const double h = stretch.length, EI = plane.bending_stiffness, moment = h * h / EI, to = x / h;
+  const std::array<double, 2> m{stretch.moment * moment, stretch.moment_slope * moment * h},
+      q{stretch.force * moment * h, stretch.force_slope * moment * h * h};
+  Transfer sum = Transfer::Zero();
+  sum.leftCols<4>().setIdentity();
+  Row rotation = sum.row(1), M = sum.row(2), T = sum.row(3), w = Row::Zero(), before = Row::Zero();
+  double power = 1;
+  int small = 0;
+  constexpr double rounding = 1e-18;  // the entries of unit columns are near 1
+  constexpr int most_terms = 200, in_turn = 4;
+  for (int k = 0; k < most_terms && small < in_turn; ++k) {
+    const Row next = (rotation + shear * T - shear * (n[1] * w + n[2] * before)) / (1 + n[0] * shear);
+    const Row pushed = n[0] * next + n[1] * w + n[2] * before;
+    before = w;
+    w = next;
+    const Row turned = M, sheared = T;
+    T.setZero();
+    M = pushed - sheared;
+    rotation = turned;
+    if (k == 0) rotation(4) += plane.free_curvature * h;
+    if (k < 2) {
+      M(4) -= m[static_cast<std::size_t>(k)];
+      T(4) -= q[static_cast<std::size_t>(k)];
+    }
+    const double share = 1.0 / (k + 1);
+    rotation *= share;
+    M *= share;
+    T *= share;
+    power *= to;
+    Transfer term;
+    term << w * share, rotation, M, T;
+    sum += power * term;
+    const double units = term.leftCols<4>().cwiseAbs().maxCoeff(), loads = term.col(4).cwiseAbs().maxCoeff();
+    const bool is_small = units * power < rounding && loads * power <= rounding * sum.col(4).cwiseAbs().maxCoeff();
+    small = is_small ? small + 1 : 0;
+  }
+  return sum;
 }
 
 int negative_pivots(const Eigen::Matrix2d& m) {
@@ -170,10 +199,10 @@ Eigen::Vector4d BeamColumn::Curve::at(double distance) const {
   while (i + 1 < parts_.size() && distance > parts_[i + 1].stretch.start) ++i;
   const Part& part = parts_[i];
   const Eigen::Vector4d scale = Scaled{part.stretch.length, plane_.bending_stiffness}.scale();
-  Eigen::Matrix<double, 6, 1> state;
-  state << part.start.cwiseQuotient(scale), 1, 0;
-  const Eigen::Matrix<double, 6, 1> there = transfer(plane_, part.stretch, distance - part.stretch.start) * state;
-  return there.head<4>().cwiseProduct(scale);
+  Eigen::Matrix<double, 5, 1> state;
+  state << part.start.cwiseQuotient(scale), 1;
+  const Eigen::Vector4d there = transfer(plane_, part.stretch, distance - part.stretch.start) * state;
+  return there.cwiseProduct(scale);
 }
 
 }  // namespace topple::solver

@@ -1,9 +1,9 @@
 #pragma once
 // One bending plane of a beam-column under its axial force, exactly: v' = (rotation + T/GA)/(1 + N/GA) (Engesser),
 // rotation' = M/EI + free curvature, M' = -T + N v' - m, T' = -q, with T the force across the undeformed axis. The beam
-// is cut into segments on which N is constant and the solution smooth; each segment's transfer matrix is an
-// exponential, its stiffness follows, and the inner joints are condensed. Timoshenko and Gere, Theory of Elastic
-// Stability, ch. 1-2.
+// is cut into segments on which N is a polynomial and the solution smooth; each segment's transfer matrix is a power
+// series summed to rounding, its stiffness follows, and the inner joints are condensed. Timoshenko and Gere, Theory of
+// Elastic Stability, ch. 1-2.
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <array>
@@ -15,7 +15,7 @@ namespace topple::solver {
 /// What acts on one stretch of the beam.
 struct ColumnStretch {
   double start = 0, length = 0;
-  double axial = 0;                     ///< tension, constant on the stretch
+  std::array<double, 3> axial{};        ///< tension, in powers of the distance from the start
   double force = 0, force_slope = 0;    ///< across, per length
   double moment = 0, moment_slope = 0;  ///< per length
   double point_force = 0,

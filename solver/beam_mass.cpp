@@ -11,10 +11,11 @@ struct PerLength {
   double mass, about_y, about_z, spin;
 };
 
-PerLength per_length(const Beam& beam, const MassModel& masses) {
+PerLength per_length(const Beam& beam, const MassModel& masses, double length) {
   const double polar = masses.torsional == TorsionalMass::polar ? beam.Iy + beam.Iz : beam.J;
-  const double rotary = masses.rotary_inertia ? beam.density : 0;
-  return {beam.density * beam.area, rotary * beam.Iy, rotary * beam.Iz, beam.density * polar};
+  const double density = beam.density * (beam.length / length);
+  const double rotary = masses.rotary_inertia ? density : 0;
+  return {density * beam.area, rotary * beam.Iy, rotary * beam.Iz, density * polar};
 }
 
 Mat12 lumped(const PerLength& m, double length) {
@@ -96,11 +97,11 @@ Mat12 ends_by_hubs(const Beam& beam) {
 
 }  // namespace
 
-Mat12 beam_mass_matrix(const Beam& beam, const MassModel& masses) {
-  const PerLength m = per_length(beam, masses);
-  if (masses.distribution == MassDistribution::lumped) return lumped(m, beam.length);
+Mat12 beam_mass_matrix(const Beam& beam, const MassModel& masses, double length) {
+  const PerLength m = per_length(beam, masses, length);
+  if (masses.distribution == MassDistribution::lumped) return lumped(m, length);
   const Mat12 follow = ends_by_hubs(beam);
-  return follow.transpose() * between_ends(m, beam.length) * follow;
+  return follow.transpose() * between_ends(m, length) * follow;
 }
 
 }  // namespace topple::solver

@@ -36,13 +36,16 @@ bool cannot_buckle_between_rigid_ends(const Beam& beam, double axial, const std:
 
 class Buckling {
  public:
-  Buckling(const FrameModel& model, const LoadSet& loads, const AnalysisOptions& options) : system_(model) {
+  Buckling(const FrameModel& model, const LoadSet& loads, const AnalysisOptions& options,
+           const std::vector<HangingShell>& hanging)
+      : system_(model) {
     StaticAnalysis linear(model, options);
     const std::vector<StaticSolution> solution = linear.solve({&loads, 1});
     for (const Vec12& forces : solution.front().beam_end_forces) first_axial_.push_back(-forces(0));
     loads_.resize(model.beams.size());
     for (const BeamLoad& load : loads.beams) loads_[static_cast<std::size_t>(load.beam)].push_back(load);
     axial_.mode = SecondOrder::exact;
+    axial_.hanging = hanging;
     if (!model.shells.empty()) {
       axial_.shell_displacements = solution.front().displacements;
       axial_.shell_strain = shell_strains(model, loads);
@@ -286,8 +289,9 @@ void count_around(Buckling& buckling, int k, const BucklingStart& start) {
 }  // namespace
 
 std::vector<BucklingMode> buckling_modes(const FrameModel& model, const LoadSet& loads, int count,
-                                         const AnalysisOptions& options, double largest_factor) {
-  Buckling buckling(model, loads, options);
+                                         const AnalysisOptions& options, double largest_factor,
+                                         const std::vector<HangingShell>& hanging) {
+  Buckling buckling(model, loads, options, hanging);
   std::vector<BucklingMode> modes;
   if (!buckling.has_compression()) return modes;
   double low = 0;

@@ -135,17 +135,11 @@ std::array<Vec6, 4> FrameSystem::corner_forces(int index, const std::vector<Vec6
   std::array<Vec6, 4> result;
   result.fill(Vec6::Zero());
   if (shell_stands[i] == 0) return result;
-  const Shell& shell = model.shells[i];
   // From the first corner's place: a rigid translation of the whole costs no digits. A given stiffness may hold on to
   // the ground.
-  Vec24 u;
-  const Vec3 origin = model.shell_stiffness.contains(index)
-                          ? Vec3::Zero()
-                          : Vec3(displacements[static_cast<std::size_t>(shell.node[0])].head<3>());
-  for (int n = 0; n < 4; ++n) {
-    u.segment<6>(6 * n) = displacements[static_cast<std::size_t>(shell.node[static_cast<std::size_t>(n)])];
-    u.segment<3>(6 * n) -= origin;
-  }
+  Vec24 u = corner_displacements(index, displacements);
+  const Vec3 origin = model.shell_stiffness.contains(index) ? Vec3::Zero() : Vec3(u.head<3>());
+  for (int n = 0; n < 4; ++n) u.segment<3>(6 * n) -= origin;
   Vec24 force = shell_node_stiffness(index) * u + fixed;
   if (shells_pushed()) force += shell_geometric_stiffness(index) * u;
   for (int n = 0; n < 4; ++n) result[static_cast<std::size_t>(n)] = force.segment<6>(6 * n);
@@ -214,6 +208,7 @@ std::vector<Vec6> FrameSystem::reactions(const std::vector<Vec6>& displacements,
     residual[static_cast<std::size_t>(model.beams[i].node[1])] += force.tail<6>();
   }
   for (std::size_t i = 0; i < model.shells.size(); ++i) {
+    if (hanging(static_cast<int>(i)) != nullptr) continue;  // its patch pulls
     for (std::size_t n = 0; n < 4; ++n) {
       residual[static_cast<std::size_t>(model.shells[i].node[n])] += shell_corner_forces[i][n];
     }

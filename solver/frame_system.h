@@ -72,6 +72,8 @@ class FrameSystem {
   [[nodiscard]] std::optional<Defect> defect() const;
   [[nodiscard]] std::optional<Defect> defect(std::span<const int> nodes) const;
 
+  /// Distance of the places where a beam's ends hang: its length, but for beams that are shorter (Frame3DD's radii).
+  [[nodiscard]] double ends_apart(int beam) const;
   /// K of a beam in the 12 freedoms of its element (diaphragm arms included); zero where it does not stand.
   [[nodiscard]] Mat12 beam_stiffness(int beam) const;
   /// The same for a shell, 24 freedoms.
@@ -128,7 +130,8 @@ class FrameSystem {
   /// Their quality is left to the caller.
   [[nodiscard]] std::vector<StaticSolution> recover(std::span<const LoadVector> loads,
                                                     const Eigen::MatrixXd& displacements, int threads = 1) const;
-  /// Per corner: what the node does to the shell, global; `fixed` as in LoadVector.
+  /// Per corner: what the node does to the shell, global; `fixed` as in LoadVector. Of a hanging shell only the part
+  /// that its membrane forces have in the second order.
   [[nodiscard]] std::array<Vec6, 4> corner_forces(int shell, const std::vector<Vec6>& displacements,
                                                   const Vec24& fixed) const;
   /// Per node of the patch: what the node does to it, global.
@@ -154,8 +157,12 @@ class FrameSystem {
   [[nodiscard]] std::optional<Defect> defect(std::span<const int> nodes, std::span<const int> beams) const;
   [[nodiscard]] std::optional<Defect> unheld_freedoms(std::span<const int> nodes) const;
   [[nodiscard]] std::optional<Defect> loose_beams(std::span<const int> beams) const;
-  /// Of the membrane forces in the second-order state; global freedoms of the nodes.
+  /// Of the membrane forces in the second-order state; global freedoms of its corners.
   [[nodiscard]] Mat24 shell_geometric_stiffness(int shell) const;
+  /// In the second-order state: null for a shell whose corners are its nodes.
+  [[nodiscard]] const HangingShell* hanging(int shell) const;
+  /// Of a shell's corners, global, by those of all nodes.
+  [[nodiscard]] Vec24 corner_displacements(int shell, const std::vector<Vec6>& displacements) const;
   /// K of a patch in the global freedoms of its nodes.
   [[nodiscard]] Eigen::MatrixXd patch_node_stiffness(std::size_t patch) const;
   [[nodiscard]] std::vector<int> numbers_of_node(int node, std::size_t first, std::size_t count) const;

@@ -24,7 +24,7 @@ void multiply_symmetric(const SparseSymmetric& A, const Eigen::Ref<const Eigen::
 }
 
 MassMatrix::MassMatrix(const FrameSystem& system, const MassModel& masses)
-    : system_(system), matrix_(system.scatter().empty_matrix()) {
+    : system_(system), hanging_(masses.hanging), matrix_(system.scatter().empty_matrix()) {
   const FrameModel& model = system.model;
   const DofMap& dofs = system.dofs();
   for (std::size_t i = 0; i < model.beams.size(); ++i) {
@@ -33,18 +33,29 @@ MassMatrix::MassMatrix(const FrameSystem& system, const MassModel& masses)
     std::array<Mat3, 2> arm;
     for (std::size_t end = 0; end < 2; ++end)
       arm[end] = arm_matrix(beam.offset[end]) + dofs.diaphragm_arm(beam.node[end]);
-    const Mat12 M = to_node_freedoms(beam.axes, beam_mass_matrix(beam, masses), arm);
+    const double spread = i < masses.beam_lengths.size() ? masses.beam_lengths[i] : 0;
+    const Mat12 M = to_node_freedoms(beam.axes, beam_mass_matrix(beam, masses, spread > 0 ? spread : beam.length), arm);
     system.scatter().add(i, M.data(), system.scale(), {}, matrix_);
   }
-  const bool lumped = masses.distribution == MassDistribution::lumped;
-  for (std::size_t i = 0; i < model.shells.size(); ++i) {
-    const Shell& shell = model.shells[i];
-    if (shell.density == 0) continue;
-    Mat24 M = ShellElement(shell, corner_places(shell, model.nodes)).mass(shell.density * shell.thickness, lumped);
-    system.add_diaphragm_arms(shell.node, M);
-    system.scatter().add(model.beams.size() + i, M.data(), system.scale(), {}, matrix_);
-  }
+  for (std::size_t i = 0; i < model.shells.size(); ++i)
+    if (model.shells[i].density != 0) add_shell(static_cast<int>(i), masses);
   for (const NodeMass& mass : masses.nodes) add_node(mass);
+}
+
+void MassMatrix::add_shell(int index, const MassModel& masses) {
+  const FrameModel& model = system_.model;
+  const Shell& shell = model.shells[static_cast<std::size_t>(index)];
+  const bool lumped = masses.distribution == MassDistribution::lumped;
+  Mat24 M = ShellElement(shell, corner_places(shell, model.nodes)).mass(shell.density * shell.thickness, lumped);
+  const HangingShell* hung = hanging_shell(hanging_, index);
+  if (hung == nullptr) {
+    system_.add_diaphragm_arms(shell.node, M);
+    system_.scatter().add(system_.element_of_shell(index), M.data(), system_.scale(), {}, matrix_);
+    return;
+  }
+  Eigen::MatrixXd all = hung->corners.transpose() * M * hung->corners;
+  system_.add_diaphragm_arms(model.patches[static_cast<std::size_t>(hung->patch)].node, all);
+  system_.scatter().add(system_.element_of_patch(hung->patch), all.data(), system_.scale(), {}, matrix_);
 }
 
 void MassMatrix::add_node(const NodeMass& given) {
@@ -94,6 +105,23 @@ Eigen::VectorXd MassMatrix::rigid_motion(int component, const Vec3& centre) cons
     const bool bound = dofs.diaphragm_of_node[n] >= 0;
     for (int c = 0; c < 6; ++c)
       if (!bound || (c != 0 && c != 1 && c != 5)) set(dofs.number[n][static_cast<std::size_t>(c)], moved(c));
+  }
+  // A corner that hangs on a held node moves with the whole as far as its joint gives; on others it goes along.
+  for (const HangingShell& shell : hanging_) {
+    const std::vector<int>& nodes = system_.model.patches[static_cast<std::size_t>(shell.patch)].node;
+    for (std::size_t k = 4; k < nodes.size(); ++k)
+      for (std::size_t corner = 0; corner < 4; ++corner) {
+        const Mat6 axes =
+            shell.corners.block<6, 6>(static_cast<Eigen::Index>(6 * corner), static_cast<Eigen::Index>(6 * k));
+        if (axes.isZero(0)) continue;
+        const auto hub = static_cast<std::size_t>(nodes[corner]);
+        Vec6 gap = at(system_.model.nodes[hub]);
+        for (int c = 0; c < 6; ++c)
+          if (dofs.number[hub][static_cast<std::size_t>(c)] < dofs.equations) gap(c) = 0;
+        const Vec6 own = axes.transpose() * gap;
+        for (int c = 0; c < 6; ++c)
+          set(dofs.number[static_cast<std::size_t>(nodes[k])][static_cast<std::size_t>(c)], own(c));
+      }
   }
   for (std::size_t d = 0; d < dofs.diaphragm_number.size(); ++d) {
     const double height = system_.model.nodes[static_cast<std::size_t>(system_.model.diaphragms[d].nodes.front())].z();

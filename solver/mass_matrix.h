@@ -20,8 +20,10 @@ class MassMatrix {
   [[nodiscard]] Vec3 centre() const;
 
  private:
+  void add_shell(int shell, const MassModel& masses);
   void add_node(const NodeMass& mass);
   const FrameSystem& system_;
+  std::vector<HangingShell> hanging_;
   SparseSymmetric matrix_;
 };
 

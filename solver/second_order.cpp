@@ -31,8 +31,10 @@ std::vector<double> shell_strains(const FrameModel& model, const LoadSet& loads)
 
 struct SecondOrderAnalysis::State {
  public:
-  State(const FrameModel& model, SecondOrder mode, const AnalysisOptions& options) : system_(model), options_(options) {
+  State(const FrameModel& model, SecondOrder mode, const AnalysisOptions& options, std::vector<HangingShell> hanging)
+      : system_(model), options_(options) {
     axial_.mode = mode;
+    axial_.hanging = std::move(hanging);
     system_.assemble();
     if (const auto defect = system_.defect()) throw Instability(defect->message, defect->motion);
     const auto start = std::chrono::steady_clock::now();
@@ -154,7 +156,8 @@ struct SecondOrderAnalysis::State {
     for (std::size_t i = 0; i < system_.model.beams.size(); ++i) {
       const Vec12 fixed = load.beam_fixed_end.empty() ? Vec12::Zero() : load.beam_fixed_end[i];
       solution.beam_end_forces[i] = frame3dd_end_forces(
-          system_.model.beams[i], beam_hub_displacements(system_.model.beams[i], solution.displacements), fixed);
+          system_.model.beams[i], beam_hub_displacements(system_.model.beams[i], solution.displacements), fixed,
+          system_.ends_apart(static_cast<int>(i)));
     }
   }
 
@@ -164,8 +167,9 @@ struct SecondOrderAnalysis::State {
   std::unique_ptr<Factor> factor_;
 };
 
-SecondOrderAnalysis::SecondOrderAnalysis(const FrameModel& model, SecondOrder mode, const AnalysisOptions& options)
-    : state_(std::make_unique<State>(model, mode, options)) {}
+SecondOrderAnalysis::SecondOrderAnalysis(const FrameModel& model, SecondOrder mode, const AnalysisOptions& options,
+                                         std::vector<HangingShell> hanging)
+    : state_(std::make_unique<State>(model, mode, options, std::move(hanging))) {}
 SecondOrderAnalysis::~SecondOrderAnalysis() = default;
 SecondOrderAnalysis::SecondOrderAnalysis(SecondOrderAnalysis&&) noexcept = default;
 SecondOrderAnalysis& SecondOrderAnalysis::operator=(SecondOrderAnalysis&&) noexcept = default;

@@ -20,17 +20,21 @@ ColumnPlane plane_of(const Beam& beam, double factor, const InternalForces& forc
   return plane;
 }
 
-/// Stretches on which the axial force may count as constant and the transfer matrix stays well conditioned.
+/// Stretches on which the series of the transfer matrix is short and well conditioned.
 int divisions(const BeamPiece& piece, double bending_stiffness) {
-  const double first = piece.force[0][0], last = polynomial(piece.force[0], piece.length);
-  const auto parameter = [&](double axial) { return piece.length * std::sqrt(std::abs(axial) / bending_stiffness); };
+  const std::array<double, 4>& axial = piece.force[0];
+  double most_axial = std::max(std::abs(axial[0]), std::abs(polynomial(axial, piece.length)));
+  if (const double turn = -axial[1] / (2 * axial[2]); turn > 0 && turn < piece.length)
+    most_axial = std::max(most_axial, std::abs(polynomial(axial, turn)));
   constexpr double longest = 1.5;  // of L sqrt(N/EI): far below 2 pi, where a held stretch would buckle
-  // By steps as fine as 12 L sqrt(change/EI) a column's own weight comes out at its critical height within 0.1 %.
-  constexpr double step = 1.0 / 12;
   constexpr double most = 4096;
-  const double need =
-      std::max(parameter(std::max(std::abs(first), std::abs(last))) / longest, parameter(last - first) / step);
+  const double need = piece.length * std::sqrt(most_axial / bending_stiffness) / longest;
   return static_cast<int>(std::clamp(std::ceil(need), 1.0, most));
+}
+
+/// The axial force, of degree 2 at most, in powers of the distance from a place further on.
+std::array<double, 3> from_place(const std::array<double, 4>& axial, double at) {
+  return {polynomial(axial, at), axial[1] + 2 * at * axial[2], axial[2]};
 }
 
 std::vector<ColumnStretch> stretches_of(const Beam& beam, double factor, const InternalForces& forces,
@@ -45,7 +49,7 @@ std::vector<ColumnStretch> stretches_of(const Beam& beam, double factor, const I
       ColumnStretch s;
       s.start = piece.start + piece.length * i / n;
       s.length = piece.length / n;
-      s.axial = polynomial(piece.force[0], piece.length * (i + 0.5) / n);
+      s.axial = from_place(piece.force[0], piece.length * i / n);
       for (const BeamLoad& load : loads) {
         if (load.kind == BeamLoad::Kind::point && i == 0 && !stretches.empty() &&
             std::clamp(load.from, 0.0, beam.length) == piece.start) {
@@ -135,7 +139,7 @@ Eigen::Vector4d plane_part(const Vec12& all, bool xz) {
 }
 
 SecondOrderBeam::SecondOrderBeam(const Beam& beam, double factor, SecondOrder mode, double first_axial,
-                                 std::span<const BeamLoad> loads)
+                                 std::span<const BeamLoad> loads, double ends_apart)
     : in_xy_(make_column(beam, factor, profile(beam, mode, first_axial, loads),
                          mode == SecondOrder::exact ? loads : std::span<const BeamLoad>{}, false)),
       in_xz_(make_column(beam, factor, profile(beam, mode, first_axial, loads),
@@ -145,14 +149,14 @@ SecondOrderBeam::SecondOrderBeam(const Beam& beam, double factor, SecondOrder mo
   fixed_ = linear.fixed_end_forces(loads);
   if (linear.absent()) return;
   if (mode == SecondOrder::frame3dd) {
-    make_cubic(beam, factor, first_axial);
+    make_cubic(beam, factor, first_axial, ends_apart > 0 ? ends_apart : beam.length);
     return;
   }
   if (mode == SecondOrder::cubic) {
     Vec6 first = Vec6::Zero();
     first(0) = -first_axial;
     const BeamPiece last = internal_forces(beam.length, first, loads).pieces.back();
-    make_cubic(beam, factor, 0.5 * (first_axial + polynomial(last.force[0], last.length)));
+    make_cubic(beam, factor, 0.5 * (first_axial + polynomial(last.force[0], last.length)), beam.length);
     return;
   }
   for (const bool xz : {false, true}) {
@@ -170,10 +174,11 @@ SecondOrderBeam::SecondOrderBeam(const Beam& beam, double factor, SecondOrder mo
   }
 }
 
-Vec12 frame3dd_end_forces(const Beam& beam, const Vec12& hubs, const Vec12& fixed_end) {
+Vec12 frame3dd_end_forces(const Beam& beam, const Vec12& hubs, const Vec12& fixed_end, double ends_apart) {
   const double strain = (hubs(6) - hubs(0)) / beam.length;
   const CondensedBeam linear(beam, 1);
-  const SecondOrderBeam displaced(beam, 1, SecondOrder::frame3dd, beam.youngs_modulus * beam.area * strain, {});
+  const SecondOrderBeam displaced(beam, 1, SecondOrder::frame3dd, beam.youngs_modulus * beam.area * strain, {},
+                                  ends_apart);
   const Vec12 first_order = beam_end_forces(linear, beam.length, hubs, fixed_end);
   Vec12 moved = hubs;
   for (const int end : {0, 6}) moved.segment<3>(end) -= hubs.head<3>();
@@ -182,7 +187,7 @@ Vec12 frame3dd_end_forces(const Beam& beam, const Vec12& hubs, const Vec12& fixe
   return first_order + geometric;
 }
 
-void SecondOrderBeam::make_cubic(const Beam& beam, double factor, double axial) {
+void SecondOrderBeam::make_cubic(const Beam& beam, double factor, double axial, double geometric_length) {
   Beam rigid_ends = beam;
   for (Vec6& end : rigid_ends.end_stiffness) end.setConstant(infinite);
   const Mat12 own = CondensedBeam(rigid_ends, factor).stiffness();
@@ -191,7 +196,7 @@ void SecondOrderBeam::make_cubic(const Beam& beam, double factor, double axial) 
     const double EI = factor * beam.youngs_modulus * (xz ? beam.Iy : beam.Iz), L = beam.length;
     const double phi =
         12 * EI / (L * L) * inverse_or_zero(factor * beam.shear_modulus * (xz ? beam.shear_area_z : beam.shear_area_y));
-    Eigen::Matrix4d K = axial * cubic_geometric_stiffness(L, phi);
+    Eigen::Matrix4d K = axial * cubic_geometric_stiffness(geometric_length, phi);
     const double sign = xz ? -1 : 1;
     for (std::size_t i = 0; i < 4; ++i)
       for (std::size_t j = 0; j < 4; ++j) {
@@ -205,7 +210,7 @@ void SecondOrderBeam::make_cubic(const Beam& beam, double factor, double axial) 
       for (std::size_t j = 0; j < 4; ++j)
         stiffness_(freedoms[i], freedoms[j]) = K(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
   }
-  const double G = factor * beam.shear_modulus + axial / beam.area;
+  const double G = factor * beam.shear_modulus + axial / beam.area * (beam.length / geometric_length);
   const AxialEnds torsion(beam.length / (G * beam.J), {beam.end_stiffness[0](3), beam.end_stiffness[1](3)});
   stiffness_(3, 3) = stiffness_(9, 9) = torsion.stiffness();
   stiffness_(3, 9) = stiffness_(9, 3) = -torsion.stiffness();

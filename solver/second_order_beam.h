@@ -9,8 +9,10 @@ namespace topple::solver {
 
 class SecondOrderBeam {
  public:
+  /// `ends_apart`: for Frame3DD, whose geometric stiffness is that of the whole distance between the nodes where radii
+  /// make the beam shorter; 0: the beam's length.
   SecondOrderBeam(const Beam& beam, double factor, SecondOrder mode, double first_axial,
-                  std::span<const BeamLoad> loads);
+                  std::span<const BeamLoad> loads, double ends_apart = 0);
   /// Local axes, freedoms of the hubs.
   [[nodiscard]] const Mat12& stiffness() const { return stiffness_; }
   [[nodiscard]] const FixedEndForces& fixed_end_forces() const { return fixed_; }
@@ -19,7 +21,7 @@ class SecondOrderBeam {
   [[nodiscard]] const BeamColumn& in_xz() const { return in_xz_; }
 
  private:
-  void make_cubic(const Beam& beam, double factor, double axial);
+  void make_cubic(const Beam& beam, double factor, double axial, double geometric_length);
   Mat12 stiffness_ = Mat12::Zero();
   FixedEndForces fixed_;
   BeamColumn in_xy_, in_xz_;
@@ -27,7 +29,8 @@ class SecondOrderBeam {
 
 /// The end forces that Frame3DD prints: its geometric part goes with the axial force of the elastic strain, E A times
 /// the change of length, which leaves out loads along the element and thermal strain; torsion has no such part.
-[[nodiscard]] Vec12 frame3dd_end_forces(const Beam& beam, const Vec12& hub_displacements, const Vec12& fixed_end);
+[[nodiscard]] Vec12 frame3dd_end_forces(const Beam& beam, const Vec12& hub_displacements, const Vec12& fixed_end,
+                                        double ends_apart);
 
 /// Free strain of each shell under these loads.
 [[nodiscard]] std::vector<double> shell_strains(const FrameModel& model, const LoadSet& loads);

@@ -63,6 +63,7 @@ class Analysis {
       : building_(building),
         request_(request),
         frame_(make_frame(building)),
+        hanging_(hanging_shells(frame_)),
         edges_(building),
         bearings_(building, edges_),
         storeys_(building) {
@@ -78,7 +79,6 @@ class Analysis {
   }
 
   AnalysisResult run() {
-    refuse_what_giving_edges_do_not_know();
     AnalysisResult result;
     try {
       solve_and_recover(result);
@@ -103,17 +103,6 @@ class Analysis {
   }
 
  private:
-  void refuse_what_giving_edges_do_not_know() const {
-    if (frame_.giving_nodes.empty()) return;
-    const std::string edges = building_.file + ": a shell's edge joint has `stiffness`";
-    if (request_.losses.any()) throw InputError(edges + "; accepted: no losses of members with it");
-    const bool displaced = request_.second_order != solver::SecondOrder::none || request_.buckling > 0;
-    if (edges_slide(frame_) && (displaced || request_.modes > 0))
-      throw InputError(edges +
-                       " in x, y or z; accepted: no second order, buckling and modes with it (with rx, ry, rz " +
-                       "they are known)");
-  }
-
   /// A structure that floats, whose modes are asked for with a shift, bears no loads: it has modes all the same.
   void solve_and_recover(AnalysisResult& result) {
     try {
@@ -186,7 +175,8 @@ class Analysis {
       answer.solution = std::move(analysis.solve({&loads_[k].set, 1}).front());
     };
     try {
-      return one_way.settle(loads_[k].set, one_way.all_taut(solution), linear, member_names());
+      return one_way.settle(loads_[k].set, one_way.all_taut(solution), linear, member_names(),
+                            OneWayMembers::Mechanisms::go_through);
     } catch (const solver::Instability& unstable) {
       const std::string message = building_.file + ", combination " + building_[combinations_[k]].name +
                                   ", with members slack: " + describe_instability(building_, frame_, unstable);
@@ -211,8 +201,9 @@ class Analysis {
     tangent_beams_ = model.beams;
     result.second_order_iterations = iterations;
     if (request_.buckling > 0)
-      result.buckling = solver::buckling_modes(model, loads_[k].set, request_.buckling, request_.solver);
-    for (solver::BucklingMode& mode : result.buckling) make_absolute(frame_, mode.shape);
+      result.buckling = solver::buckling_modes(model, loads_[k].set, request_.buckling, request_.solver,
+                                               largest_buckling_factor, hanging_);
+    for (solver::BucklingMode& mode : result.buckling) make_shape_absolute(frame_, mode.shape);
     return result;
   }
 
@@ -226,7 +217,8 @@ class Analysis {
     const auto solve = [&](const solver::FrameModel& state, OneWayAnswer& found) {
       model.beams = state.beams;
       // Combinations with the same members taut share an ordering.
-      if (!second_order_ || one_way.any()) second_order_.emplace(model, request_.second_order, request_.solver);
+      if (!second_order_ || one_way.any())
+        second_order_.emplace(model, request_.second_order, request_.solver, hanging_);
       solver::SecondOrderSolution solution = second_order_->solve(loads_[k].set, found.solution);
       found.solution = std::move(solution.solution);
       found.axial = std::move(solution.axial);
@@ -243,12 +235,15 @@ class Analysis {
       if (one_way.any()) answer = one_way.settle(loads_[k].set, std::move(answer), solve_anew, member_names());
       return iterations;
     } catch (const solver::Buckled& buckled) {
-      const auto modes = solver::buckling_modes(model, loads_[k].set, 1, request_.solver);
+      auto modes = solver::buckling_modes(model, loads_[k].set, 1, request_.solver, largest_buckling_factor, hanging_);
       const std::string factor = modes.empty() ? "" : " (critical factor " + short_number(modes[0].factor) + ")";
       const std::string message = place + ": the loads are beyond what the structure bears before it buckles" + factor +
                                   "; " + describe_instability(building_, frame_, buckled);
       Diagnosis diagnosis = diagnose(building_, frame_, buckled, "buckling", combinations_[k], message);
-      if (!modes.empty()) diagnosis.shape = modes.front().shape;
+      if (!modes.empty()) {
+        make_shape_absolute(frame_, modes.front().shape);
+        diagnosis.shape = modes.front().shape;
+      }
       throw UnstableAnalysis(std::move(diagnosis));
     } catch (const solver::Instability& unstable) {
       const std::string message = place + ", with members slack: " + describe_instability(building_, frame_, unstable);
@@ -260,8 +255,12 @@ class Analysis {
 
   /// Without load, all one-way members taut; with second order as the last combination has left the structure.
   void find_modes(AnalysisResult& result) const {
-    solver::MassModel masses{request_.mass, request_.torsional_mass, request_.rotary_inertia,
-                             modal_masses(building_, frame_, edges_)};
+    solver::MassModel masses{request_.mass,
+                             request_.torsional_mass,
+                             request_.rotary_inertia,
+                             modal_masses(building_, frame_, edges_),
+                             mass_lengths(building_, frame_),
+                             hanging_};
     solver::FrameModel model = carrying_both(frame_.model);
     const bool loaded = request_.second_order != solver::SecondOrder::none;
     if (loaded && !floats_) model.beams = tangent_beams_;
@@ -271,7 +270,7 @@ class Analysis {
                                         request_.solver, tangent)
                 : solver::natural_modes(model, masses, request_.modes, request_.solver, tangent);
     result.modes = std::move(answer.modes);
-    for (solver::VibrationMode& mode : result.modes) make_absolute(frame_, mode.shape);
+    for (solver::VibrationMode& mode : result.modes) make_shape_absolute(frame_, mode.shape);
     result.moving_mass = answer.moving_mass;
     if (static_cast<int>(result.modes.size()) < request_.modes)
       result.warnings.push_back("the masses have " + std::to_string(result.modes.size()) + " modes, " +
@@ -436,8 +435,12 @@ class Analysis {
   }
 
   const Building& building_;
+  /// Beyond it no factor is looked for.
+  static constexpr double largest_buckling_factor = 1e6;
+
   const AnalysisRequest& request_;
   Frame frame_;
+  std::vector<solver::HangingShell> hanging_;
   EdgeMembers edges_;
   PanelBearings bearings_;
   Storeys storeys_;

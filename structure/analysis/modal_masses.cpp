@@ -101,6 +101,21 @@ std::vector<double> mass_of_claddings(const Building& building, const Frame& fra
 
 }  // namespace
 
+std::vector<double> mass_lengths(const Building& building, const Frame& frame) {
+  std::vector<double> lengths;
+  constexpr double rounding = 1e-9;
+  for (std::size_t m = 0; m < building.members.size(); ++m) {
+    const Member& member = building.members[m];
+    const double apart = (building[member.nodes[1]].position + member.offsets[1] - building[member.nodes[0]].position -
+                          member.offsets[0])
+                             .norm();
+    if (apart <= (1 + rounding) * member.length) continue;
+    lengths.resize(frame.model.beams.size(), 0);
+    lengths[m] = apart;
+  }
+  return lengths;
+}
+
 std::vector<solver::NodeMass> modal_masses(const Building& building, const Frame& frame, const EdgeMembers& edges) {
   std::vector<double> point = mass_of_claddings(building, frame, edges);
   if (!building.masses.loads.empty()) {

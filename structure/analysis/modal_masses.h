@@ -15,4 +15,8 @@ namespace topple::structure {
 [[nodiscard]] std::vector<solver::NodeMass> modal_masses(const Building& building, const Frame& frame,
                                                          const EdgeMembers& edges);
 
+/// MassModel::beam_lengths: of members that are shorter than their ends lie apart, as a Frame3DD file's radii make
+/// them, that distance; empty where there are none.
+[[nodiscard]] std::vector<double> mass_lengths(const Building& building, const Frame& frame);
+
 }  // namespace topple::structure

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <set>
 #include <stdexcept>
 
@@ -70,10 +71,13 @@ OneWayMembers::OneWayMembers(const solver::FrameModel& model) : model_(model) {
     if (model.beams[i].axial != AxialAction::both) members_.push_back(i);
 }
 
-solver::FrameModel OneWayMembers::with_releases(const std::vector<char>& active) const {
+solver::FrameModel OneWayMembers::with_releases(const std::vector<char>& active, double trace) const {
   solver::FrameModel model = carrying_both(model_);
-  for (const std::size_t i : members_)
-    if (active[i] == 0) model.beams[i].end_stiffness[loose_end(model_.beams[i])](0) = 0;
+  for (const std::size_t i : members_) {
+    solver::Beam& beam = model.beams[i];
+    if (active[i] == 0)
+      beam.end_stiffness[loose_end(model_.beams[i])](0) = trace * beam.youngs_modulus * beam.area / beam.length;
+  }
   return model;
 }
 
@@ -99,20 +103,37 @@ OneWayAnswer OneWayMembers::all_taut(const solver::StaticSolution& solution) con
 }
 
 OneWayAnswer OneWayMembers::settle(const solver::LoadSet& loads, OneWayAnswer answer, const Solve& solve,
-                                   const std::vector<std::string>& names) const {
+                                   const std::vector<std::string>& names, Mechanisms mechanisms) const {
   std::vector<std::vector<solver::BeamLoad>> by_beam(model_.beams.size());
   for (const solver::BeamLoad& load : loads.beams) by_beam[static_cast<std::size_t>(load.beam)].push_back(load);
   std::set<std::vector<char>> seen{answer.active};
   // All at once is quick but may swing between two wrong states; then one by one in order of index, which ends for
   // every stable structure (Murty's least-index rule for linear complementarity).
   bool one_by_one = false;
+  // Of a slack member's stiffness while a mechanism is gone through; each time less, so that it ends.
+  constexpr std::array<double, 2> traces{1e-6, 1e-9};
+  std::size_t gone_through = 0;
+  double trace = 0;
+  const auto take = [&](const std::vector<char>& state) {
+    const solver::FrameModel model = with_releases(state, trace);
+    answer.active = state;
+    answer.beams = model.beams;
+    solve(model, answer);
+    ++answer.iterations;
+  };
   for (;;) {
-    constexpr double rounding = 1e-11;  // of the largest axial force
-    const double least = rounding * largest_axial_force(answer.solution);
+    // Of the largest axial force; a trace of stiffness costs digits.
+    const double rounding = trace > 0 ? 1e-6 : 1e-11, least = rounding * largest_axial_force(answer.solution);
     std::vector<std::size_t> violated;
     for (const std::size_t i : members_)
       if (violation(i, answer.active, by_beam, answer.beams, answer.solution) > least) violated.push_back(i);
-    if (violated.empty()) return answer;
+    if (violated.empty()) {
+      if (trace == 0) return answer;
+      trace = 0;
+      seen = {answer.active};
+      take(std::vector<char>(answer.active));
+      continue;
+    }
     std::vector<char> next = turned_over(answer.active, violated, one_by_one);
     if (seen.count(next) != 0) {
       if (one_by_one) report_cycle(violated, names);
@@ -121,11 +142,14 @@ OneWayAnswer OneWayMembers::settle(const solver::LoadSet& loads, OneWayAnswer an
       next = turned_over(answer.active, violated, true);
     }
     seen.insert(next);
-    const solver::FrameModel model = with_releases(next);
-    answer.active = std::move(next);
-    answer.beams = model.beams;
-    solve(model, answer);
-    ++answer.iterations;
+    try {
+      take(next);
+    } catch (const solver::Instability&) {
+      if (mechanisms == Mechanisms::end_it || trace > 0 || gone_through == traces.size()) throw;
+      trace = traces[gone_through++];
+      seen = {next};
+      take(next);
+    }
   }
 }
 

@@ -33,14 +33,20 @@ class OneWayMembers {
 
   /// All members active, with the solution for that.
   [[nodiscard]] OneWayAnswer all_taut(const solver::StaticSolution& solution) const;
+  /// What to do where a state on the way is a mechanism: pass the Instability on, or go through it by a trace of the
+  /// slack members' stiffness (for first order), which shows whom the mechanism pulls taut.
+  enum class Mechanisms { end_it, go_through };
   /// Turns members over until every one is as the solution wants it, from a state with its solution, by first order or
-  /// by second: `solve` decides. Passes on what `solve` throws in a state in which too much is slack; throws
-  /// std::runtime_error naming beams (by `names`) when the states repeat without an end.
+  /// by second: `solve` decides. The state that is found holds without any trace: passes on the Instability that
+  /// `solve` throws where it is a mechanism; throws std::runtime_error naming beams (by `names`) when the states repeat
+  /// without an end.
   [[nodiscard]] OneWayAnswer settle(const solver::LoadSet& loads, OneWayAnswer start, const Solve& solve,
-                                    const std::vector<std::string>& names) const;
+                                    const std::vector<std::string>& names,
+                                    Mechanisms mechanisms = Mechanisms::end_it) const;
 
  private:
-  [[nodiscard]] solver::FrameModel with_releases(const std::vector<char>& active) const;
+  /// `trace`: what slack members keep of their axial stiffness.
+  [[nodiscard]] solver::FrameModel with_releases(const std::vector<char>& active, double trace) const;
   [[nodiscard]] double violation(std::size_t member, const std::vector<char>& active,
                                  const std::vector<std::vector<solver::BeamLoad>>& loads,
                                  const std::vector<solver::Beam>& beams, const solver::StaticSolution& solution) const;

@@ -120,9 +120,9 @@ PanelResult shell_panel_result(const Building& building, const Frame& frame, Pan
     result.elements.push_back(element_of(reader.resultants(k, panel.axes.row(0)), mesh.elements[k]));
     const int shell = mesh.first_shell + static_cast<int>(k);
     const GivingElement* giving = giving_element(frame, shell);
-    const std::array<Vec6, 4> forces =
-        giving == nullptr ? solution.shell_corner_forces[static_cast<std::size_t>(shell)]
-                          : element_corner_forces(frame, *giving, solution.displacements, traction, action.strain);
+    const std::array<Vec6, 4> forces = giving == nullptr
+                                           ? solution.shell_corner_forces[static_cast<std::size_t>(shell)]
+                                           : element_corner_forces(frame, *giving, solution, traction, action.strain);
     const auto& nodes = frame.model.shells[static_cast<std::size_t>(shell)].node;
     for (std::size_t c = 0; c < 4; ++c)
       for (std::size_t corner = 0; corner < 4; ++corner)

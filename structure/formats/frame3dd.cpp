@@ -121,7 +121,7 @@ class Builder {
   }
 
   /// Weight acts over the whole distance L between the nodes: what its end moments q L2/12 are more than those of the
-  /// same weight on the shorter element.
+  /// same weight on the shorter element, as moments on its very ends.
   void add_moments_of_weight(const Vec3& gravity, LoadCase& load_case) const {
     if (gravity.isZero(0)) return;
     for (std::size_t i = 0; i < file_.elements.size(); ++i) {
@@ -129,12 +129,16 @@ class Builder {
       const Frame3ddFile::Element& element = file_.elements[i];
       const Member& member = building_.members[i];
       const double whole = member.length * stretch_[i];
-      const Vec3 moment = element.density * element.section[0] * whole * (whole - member.length) / 12 *
-                          Vec3(member.axes.row(0)).cross(gravity);
-      for (std::size_t end = 0; end < 2; ++end) {
-        NodeLoad load{member.nodes[end], Vec6::Zero()};
-        load.load.tail<3>() = end == 0 ? moment : Vec3(-moment);
-        load_case.nodes.push_back(load);
+      const Vec3 local = member.axes * gravity;
+      const Vec3 moment =
+          element.density * element.section[0] * whole * (whole - member.length) / 12 * Vec3::UnitX().cross(local);
+      if (moment.isZero(0)) continue;
+      for (const bool second : {false, true}) {
+        MemberLoad load = on_element(static_cast<int>(i));
+        load.kind = MemberLoad::Kind::point;
+        load.from = second ? member.length : 0;
+        load.first.tail<3>() = second ? Vec3(-moment) : moment;
+        load_case.members.push_back(load);
       }
     }
   }

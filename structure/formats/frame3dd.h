@@ -16,7 +16,7 @@ inline constexpr const char* frame3dd_condensation_warning =
 /// What a radius is to Frame3DD, and where JSON differs.
 inline constexpr const char* frame3dd_radius_warning =
     "nodes have radii: as in Frame3DD they make elements shorter, with no arm between element and node, so that moments "
-    "do not balance over them; in modes the whole mass lies on the shorter element. `offsets` of a JSON model are arms";
+    "do not balance over them, and with weight and mass of the whole distance. `offsets` of a JSON model are arms";
 
 /// Throws InputError with file, line, what was found and what is accepted.
 [[nodiscard]] Building parse_frame3dd(std::string_view text, const std::string& name);

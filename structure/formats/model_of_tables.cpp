@@ -2,6 +2,7 @@
 // wrong.
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 #include <unordered_map>
 
@@ -9,6 +10,7 @@
 #include "formats/json_writer.h"
 #include "formats/model_forms.h"
 #include "formats/model_tables.h"
+#include "formats/table_lists.h"
 #include "topple/structure/error.h"
 
 namespace topple::structure {
@@ -47,9 +49,15 @@ class ModelMaker {
     find_edge_joints();
     each("joints.csv", ",\"joints\":{", [this](const CsvTable& t, std::size_t r) { joint(t, r); });
     each("nodes.csv", ",\"nodes\":{", [this](const CsvTable& t, std::size_t r) { node(t, r); });
+    if (const CsvTable* table = table_of("restraints.csv")) restraints_ = formats::ListsByPart::of_restraints(*table);
     each("members.csv", ",\"members\":{", [this](const CsvTable& t, std::size_t r) { member(t, r); });
+    if (restraints_) restraints_->require_all_asked_for("member");
+    if (const CsvTable* table = table_of("openings.csv")) openings_ = formats::ListsByPart::of_openings(*table);
     each("panels.csv", ",\"panels\":{", [this](const CsvTable& t, std::size_t r) { panel(t, r); });
+    if (openings_) openings_->require_all_asked_for("panel");
     each("supports.csv", ",\"supports\":{", [this](const CsvTable& t, std::size_t r) { support(t, r); });
+    lines("diaphragms.csv", ",\"diaphragms\":{", formats::diaphragm_lines);
+    lines("masses.csv", ",\"masses\":{", formats::mass_lines);
     loads();
     combinations();
     put("}");
@@ -77,6 +85,21 @@ class ModelMaker {
     return result;
   }
   static std::string digits(double number) { return json_number(number); }
+
+  [[nodiscard]] const CsvTable* table_of(const std::string& file) const {
+    const auto found = tables_.find(file);
+    return found == tables_.end() || found->second.rows() == 0 ? nullptr : &found->second;
+  }
+
+  /// An object whose lines are made elsewhere.
+  template <class Make>
+  void lines(const std::string& file, const char* opening, Make lines_of) {
+    const CsvTable* table = table_of(file);
+    if (table == nullptr) return;
+    put(opening, table->name());
+    for (formats::MadeLine& line : lines_of(*table)) put(line.json, std::move(line.place));
+    put("}", table->name());
+  }
 
   /// One line for each row of a table, as the values of one object with the row's first cell as key.
   template <class Write>
@@ -250,7 +273,37 @@ class ModelMaker {
         arms += (c == first_offset ? "[[" : c == first_offset + 3 ? "],[" : ",") + needed(table, row, c);
       add(first, "offsets", arms + "]]");
     }
+    if (const std::string design = member_design(table, row); !design.empty()) add(first, "design", design);
     line_ += '}';
+  }
+
+  /// "none", or an object of the columns after it; distances of restraints from their own table.
+  std::string member_design(const CsvTable& table, std::size_t row) {
+    using model_tables::design_column, model_tables::restraints_column;
+    std::string distances = restraints_ ? restraints_->of(table.cell(row, 0)) : std::string();
+    std::string inside;
+    for (std::size_t c = design_column + 1; c < model_tables::members.size(); ++c) {
+      const std::string_view cell = table.cell(row, c);
+      if (c == restraints_column && !distances.empty()) {
+        if (!cell.empty())
+          table.fail(row, c,
+                     "found " + in_quotes(cell) + " beside distances in restraints.csv; accepted: one or the other");
+      } else if (cell.empty()) {
+        continue;
+      }
+      const std::string entry = c != restraints_column ? digits(*table.number(row, c))
+                                : distances.empty()    ? quoted(cell)
+                                                       : std::move(distances);
+      inside += (inside.empty() ? "" : ",") + quoted(model_tables::members[c]) + ":" + entry;
+    }
+    const std::string_view word = table.cell(row, design_column);
+    if (word.empty()) return inside.empty() ? "" : "{" + inside + "}";
+    if (word != "none")
+      table.fail(row, design_column, "found " + in_quotes(word) + "; accepted: \"none\", or an empty cell");
+    if (!inside.empty())
+      table.fail(row, design_column,
+                 "found \"none\" beside lengths, factors or restraints; accepted: one or the other");
+    return quoted(word);
   }
 
   static std::string group_list(std::string_view cell) {
@@ -282,6 +335,8 @@ class ModelMaker {
     text(10, "joint");
     text(11, "span");
     if (const std::string_view groups = table.cell(row, 12); !groups.empty()) add(first, "groups", group_list(groups));
+    if (openings_)
+      if (const std::string list = openings_->of(table.cell(row, 0)); !list.empty()) add(first, "openings", list);
     line_ += '}';
   }
 
@@ -544,6 +599,7 @@ class ModelMaker {
   std::string folder_, line_;
   std::map<std::string, CsvTable> tables_;
   std::set<std::string_view, std::less<>> edge_joints_;
+  std::optional<formats::ListsByPart> restraints_, openings_;
   ModelOfTables made_;
 };
 

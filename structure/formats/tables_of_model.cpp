@@ -1,75 +1,21 @@
 // A JSON model as tables. What they cannot hold is refused by its name; numbers go over as they stand.
 #include <algorithm>
-#include <charconv>
 #include <set>
 
 #include "formats/model_forms.h"
 #include "formats/model_tables.h"
+#include "formats/table_text.h"
+#include "formats/tables_of_lists.h"
 
 namespace topple::structure {
 
 namespace {
 
+using formats::hold_only;
 using formats::JsonDocument;
 using formats::JsonValue;
-
-[[noreturn]] void refuse(const JsonValue& value, const std::string& instead) {
-  value.fail("tables cannot hold it; accepted for them: " + instead);
-}
-
-void hold_only(const JsonValue& object, const std::vector<std::string_view>& keys, const std::string& instead) {
-  for (const JsonValue value : object)
-    if (std::find(keys.begin(), keys.end(), value.key()) == keys.end()) refuse(value, instead);
-}
-
-/// A table as it is written: cells by column name.
-class TableText {
- public:
-  explicit TableText(model_tables::Columns columns) : columns_(std::move(columns)), cells_(columns_.size()) {
-    for (const std::string_view column : columns_) text_ += (text_.empty() ? "" : ",") + std::string(column);
-    text_ += '\n';
-  }
-  TableText& set(std::string_view column, std::string_view text) {
-    std::string& cell = cells_[index(column)];
-    const bool plain =
-        text.find_first_of(",\"\n\r;\t") == std::string_view::npos && !text.starts_with(' ') && !text.ends_with(' ');
-    cell = plain ? text : "\"";
-    if (plain) return *this;
-    for (const char c : text) cell += c == '"' ? std::string("\"\"") : std::string(1, c);
-    cell += '"';
-    return *this;
-  }
-  TableText& set(std::string_view column, double number) {
-    char digits[32];
-    cells_[index(column)].assign(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
-    return *this;
-  }
-  TableText& set(std::string_view column, const JsonValue& value) {
-    if (value.is_number()) return set(column, value.number());
-    if (value.is_bool()) return set(column, std::string_view(value.boolean() ? "true" : "false"));
-    return set(column, value.text());
-  }
-  void end_row() {
-    for (std::size_t c = 0; c < cells_.size(); ++c) {
-      if (c > 0) text_ += ',';
-      text_ += cells_[c];
-      cells_[c].clear();
-    }
-    text_ += '\n';
-    ++rows_;
-  }
-  [[nodiscard]] std::size_t rows() const { return rows_; }
-  [[nodiscard]] std::string take() { return std::move(text_); }
-
- private:
-  [[nodiscard]] std::size_t index(std::string_view column) const {
-    return static_cast<std::size_t>(std::find(columns_.begin(), columns_.end(), column) - columns_.begin());
-  }
-  model_tables::Columns columns_;
-  std::vector<std::string> cells_;
-  std::string text_;
-  std::size_t rows_ = 0;
-};
+using formats::refuse;
+using formats::TableText;
 
 class TableMaker {
  public:
@@ -78,19 +24,22 @@ class TableMaker {
   TextsByName make() {
     hold_only(root_,
               {"topple", "title", "units", "gravity", "materials", "sections", "joints", "nodes", "members", "panels",
-               "supports", "loads", "combinations"},
-              "materials, sections, joints, nodes, members, panels, supports, loads, combinations");
+               "supports", "diaphragms", "masses", "loads", "combinations"},
+              "materials, sections, joints, nodes, members, panels, supports, diaphragms, masses, loads, combinations");
     model();
     plain("materials.csv", "materials", model_tables::materials);
     plain("sections.csv", "sections", model_tables::sections);
     find_edge_joints();
     each("joints.csv", "joints", joint_columns(), [this](TableText& t, const JsonValue& v) { joint(t, v); });
     each("nodes.csv", "nodes", model_tables::nodes, [](TableText& t, const JsonValue& v) { node(t, v); });
-    each("members.csv", "members", used(model_tables::members, "members", {{"axial", "axial"}, {"offsets", "offset"}}),
-         [](TableText& t, const JsonValue& v) { member(t, v); });
+    each("members.csv", "members", member_columns(), [](TableText& t, const JsonValue& v) { member(t, v); });
+    inner("restraints.csv", "members", model_tables::restraints, formats::restraint_rows);
     each("panels.csv", "panels", used(model_tables::panels, "panels", {{"span", "span"}, {"groups", "groups"}}),
          [](TableText& t, const JsonValue& v) { panel(t, v); });
+    inner("openings.csv", "panels", model_tables::openings, formats::opening_rows);
     each("supports.csv", "supports", model_tables::supports, [](TableText& t, const JsonValue& v) { support(t, v); });
+    inner("diaphragms.csv", "diaphragms", model_tables::diaphragms, formats::diaphragm_rows);
+    inner("masses.csv", "masses", model_tables::masses, formats::mass_rows);
     loads();
     combinations();
     return std::move(files_);
@@ -119,15 +68,26 @@ class TableMaker {
     TableText table(columns);
     if (const auto object = root_.find(key))
       for (const JsonValue value : *object) {
-        name_of_row(table, columns.front(), value);
+        check_name(value);
+        table.set(columns.front(), value.key());
         write(table, value);
         table.end_row();
       }
     keep(file, table);
   }
-  static void name_of_row(TableText& table, std::string_view column, const JsonValue& value) {
+  static void check_name(const JsonValue& value) {
     if (value.key().find('\0') != std::string_view::npos) refuse(value, "a name without a null character");
-    table.set(column, value.key());
+  }
+  /// A table whose rows come from within the values of an object.
+  template <class Write>
+  void inner(std::string_view file, const char* key, const model_tables::Columns& columns, Write write) {
+    TableText table(columns);
+    if (const auto object = root_.find(key))
+      for (const JsonValue value : *object) {
+        check_name(value);
+        write(table, value);
+      }
+    keep(file, table);
   }
   void plain(std::string_view file, const char* key, const model_tables::Columns& columns) {
     each(file, key, columns, [&](TableText& table, const JsonValue& value) {
@@ -173,6 +133,19 @@ class TableMaker {
       for (const JsonValue joint : *joints)
         if (const auto capacity = joint.find("capacity"); capacity && capacity->find("from")) return columns;
     std::erase_if(columns, [](std::string_view name) { return name == "from" || name == "ratio"; });
+    return columns;
+  }
+
+  /// Of what a check needs to know only the columns that some member has.
+  [[nodiscard]] model_tables::Columns member_columns() const {
+    model_tables::Columns columns = used(model_tables::members, "members", {{"axial", "axial"}, {"offsets", "offset"}});
+    std::set<std::string_view, std::less<>> keys;
+    if (const auto members = root_.find("members"))
+      for (const JsonValue member : *members)
+        if (const auto design = member.find("design")) formats::design_columns(*design, keys);
+    const auto& all = model_tables::members;
+    for (std::size_t c = model_tables::design_column; c < all.size(); ++c)
+      if (!keys.contains(all[c])) std::erase(columns, all[c]);
     return columns;
   }
 
@@ -234,8 +207,9 @@ class TableMaker {
   }
 
   static void member(TableText& table, const JsonValue& value) {
-    hold_only(value, {"kind", "nodes", "section", "material", "up", "roll", "joints", "groups", "axial", "offsets"},
-              "kind, nodes, section, material, up, roll, joints, groups, axial, offsets");
+    hold_only(value,
+              {"kind", "nodes", "section", "material", "up", "roll", "joints", "groups", "axial", "offsets", "design"},
+              "kind, nodes, section, material, up, roll, joints, groups, axial, offsets, design");
     list(table, std::array<const char*, 2>{"node1", "node2"}, value.require("nodes"));
     for (const char* key : {"kind", "section", "material", "roll", "axial"})
       if (const auto entry = value.find(key)) table.set(key, *entry);
@@ -255,6 +229,7 @@ class TableMaker {
       }
     }
     groups(table, value);
+    if (const auto design = value.find("design")) formats::design_cells(table, *design);
   }
 
   static void groups(TableText& table, const JsonValue& value) {
@@ -270,8 +245,8 @@ class TableMaker {
   }
 
   static void panel(TableText& table, const JsonValue& value) {
-    hold_only(value, {"kind", "nodes", "thickness", "material", "model", "mesh", "joint", "span", "groups"},
-              "kind, nodes, thickness, material, model, mesh, joint, span, groups");
+    hold_only(value, {"kind", "nodes", "thickness", "material", "model", "mesh", "joint", "span", "groups", "openings"},
+              "kind, nodes, thickness, material, model, mesh, joint, span, groups, openings");
     list(table, std::array<const char*, 4>{"node1", "node2", "node3", "node4"}, value.require("nodes"));
     for (const char* key : {"kind", "thickness", "material", "model", "span"})
       if (const auto entry = value.find(key)) table.set(key, *entry);

@@ -73,6 +73,25 @@ class Grounds {
   std::vector<std::array<Mat3, 2>> of_;
 };
 
+/// Nodes of an element's patch (those that it hangs on, then its own sides), and the displacements of its corners by
+/// their freedoms: those of the hubs and the motions against them.
+std::pair<std::vector<int>, Eigen::MatrixXd> corners_by_freedoms(const Frame& frame, const GivingElement& element) {
+  const auto& hubs = frame.model.shells[static_cast<std::size_t>(element.shell)].node;
+  std::vector<int> nodes(hubs.begin(), hubs.end());
+  Eigen::MatrixXd from = Eigen::MatrixXd::Identity(24, 24);
+  for (std::size_t c = 0; c < 4; ++c) {
+    if (element.giving[c] < 0) continue;
+    const GivingNode& giving = frame.giving_nodes[static_cast<std::size_t>(element.giving[c])];
+    nodes.push_back(giving.node);
+    from.conservativeResize(24, from.cols() + 6);
+    from.rightCols<6>().setZero();
+    const auto row = static_cast<Eigen::Index>(6 * c);
+    from.block<3, 3>(row, from.cols() - 6) = giving.translations;
+    from.block<3, 3>(row + 3, from.cols() - 3) = giving.rotations;
+  }
+  return {std::move(nodes), std::move(from)};
+}
+
 class GivingEdges {
  public:
   GivingEdges(const Building& building, Frame& frame) : building_(building), frame_(frame), members_(building) {}
@@ -258,21 +277,9 @@ class GivingEdges {
     alone.shells.front().node = {0, 1, 2, 3};
     alone.kept = {0, 1, 2, 3};
     element.stiffness = solver::Superelement(std::move(alone)).stiffness();
-    // Corner displacements from those of the hubs and the motions against them.
+    const auto [nodes, from] = corners_by_freedoms(frame_, element);
     solver::Patch patch;
-    patch.node.assign(shell.node.begin(), shell.node.end());
-    Eigen::MatrixXd from = Eigen::MatrixXd::Zero(24, 24);
-    from.setIdentity();
-    for (std::size_t c = 0; c < 4; ++c) {
-      if (element.giving[c] < 0) continue;
-      const GivingNode& giving = frame_.giving_nodes[static_cast<std::size_t>(element.giving[c])];
-      patch.node.push_back(giving.node);
-      from.conservativeResize(24, from.cols() + 6);
-      from.rightCols<6>().setZero();
-      const auto row = static_cast<Eigen::Index>(6 * c);
-      from.block<3, 3>(row, from.cols() - 6) = giving.translations;
-      from.block<3, 3>(row + 3, from.cols() - 3) = giving.rotations;
-    }
+    patch.node = nodes;
     patch.stiffness = from.transpose() * element.stiffness * from;
     patch.stiffness = ((patch.stiffness + patch.stiffness.transpose()) / 2).eval();
     frame_.model.patches.push_back(std::move(patch));
@@ -297,9 +304,16 @@ const GivingElement* giving_element(const Frame& frame, int shell) {
   return found != all.end() && found->shell == shell ? &*found : nullptr;
 }
 
-bool edges_slide(const Frame& frame) {
-  return std::any_of(frame.giving_nodes.begin(), frame.giving_nodes.end(),
-                     [](const GivingNode& giving) { return giving.slides; });
+std::vector<solver::HangingShell> hanging_shells(const Frame& frame) {
+  std::vector<solver::HangingShell> all;
+  int patch = 0;
+  for (const GivingElement& element : frame.giving_elements) {
+    // The patches of elements come in their order, with those of springs between them.
+    auto [nodes, corners] = corners_by_freedoms(frame, element);
+    while (frame.model.patches[static_cast<std::size_t>(patch)].node != nodes) ++patch;
+    all.push_back({element.shell, patch, std::move(corners)});
+  }
+  return all;
 }
 
 void make_absolute(const Frame& frame, std::vector<Vec6>& displacements) {
@@ -310,6 +324,16 @@ void make_absolute(const Frame& frame, std::vector<Vec6>& displacements) {
            hub.tail<3>() + giving.rotations * own.tail<3>())
               .finished();
   }
+}
+
+void make_shape_absolute(const Frame& frame, std::vector<Vec6>& shape) {
+  if (frame.giving_nodes.empty()) return;
+  make_absolute(frame, shape);
+  double largest = 0;
+  for (const Vec6& moved : shape) largest = std::max(largest, moved.head<3>().norm());
+  constexpr double turns_only = 1e-6;  // of a shape whose largest rotation is 1
+  if (largest < turns_only) return;
+  for (Vec6& moved : shape) moved /= largest;
 }
 
 namespace {
@@ -351,18 +375,19 @@ void add_element_loads(const Frame& frame, const GivingElement& element, const V
 }
 
 std::array<Vec6, 4> element_corner_forces(const Frame& frame, const GivingElement& element,
-                                          const std::vector<Vec6>& displacements, const Vec3& traction, double strain) {
+                                          const solver::StaticSolution& solution, const Vec3& traction, double strain) {
   const auto& nodes = frame.model.shells[static_cast<std::size_t>(element.shell)].node;
   Eigen::Matrix<double, 24, 1> u;
   for (std::size_t c = 0; c < 4; ++c) {
     const int node =
         element.giving[c] < 0 ? nodes[c] : frame.giving_nodes[static_cast<std::size_t>(element.giving[c])].node;
-    u.segment<6>(static_cast<Eigen::Index>(6 * c)) = displacements[static_cast<std::size_t>(node)];
+    u.segment<6>(static_cast<Eigen::Index>(6 * c)) = solution.displacements[static_cast<std::size_t>(node)];
   }
   const Eigen::Matrix<double, 24, 1> force = element.stiffness * u;
   const auto loads = corner_loads(frame, element, traction, strain);
-  std::array<Vec6, 4> result;
-  for (std::size_t c = 0; c < 4; ++c) result[c] = force.segment<6>(static_cast<Eigen::Index>(6 * c)) - loads[c];
+  // What the solver knows of the shell is what its membrane forces do to the displaced corners.
+  std::array<Vec6, 4> result = solution.shell_corner_forces[static_cast<std::size_t>(element.shell)];
+  for (std::size_t c = 0; c < 4; ++c) result[c] += force.segment<6>(static_cast<Eigen::Index>(6 * c)) - loads[c];
   return result;
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 // Edges of shell panels whose joint has `stiffness`: the panel's side of a joint moves against the nodes that it hangs
 // on, freely where the joint is released, against a spring where it has one, not at all elsewhere.
+#include "topple/solver/hanging_shell.h"
+#include "topple/solver/static_analysis.h"
 #include "topple/structure/frame.h"
 
 namespace topple::structure {
@@ -14,20 +16,21 @@ void add_giving_edges(const Building& building, Frame& frame);
 /// The element of that shell, or null where its corners do not give.
 [[nodiscard]] const GivingElement* giving_element(const Frame& frame, int shell);
 
-/// Some joint gives in a translation. Masses and pulls on displaced nodes (second order, buckling) are those of the
-/// nodes that a panel hangs on, so these analyses do not know such joints.
-[[nodiscard]] bool edges_slide(const Frame& frame);
+/// The elements whose corners give, for what acts on displaced nodes and for masses.
+[[nodiscard]] std::vector<solver::HangingShell> hanging_shells(const Frame& frame);
 
 /// Motions of the panel's sides as those of other nodes: global, against the ground.
 void make_absolute(const Frame& frame, std::vector<Vec6>& displacements);
+/// The same for a shape, whose largest translation is 1 afterwards too.
+void make_shape_absolute(const Frame& frame, std::vector<Vec6>& shape);
 
 /// Loads of an element whose side gives, as forces on its nodes; zero of `traction` and `strain` adds nothing.
 void add_element_loads(const Frame& frame, const GivingElement& element, const Vec3& traction, double strain,
                        solver::LoadSet& set);
 
-/// Forces of its nodes on such an element, global. `displacements`: absolute.
+/// Forces of its nodes on such an element, global. `solution`: with absolute displacements.
 [[nodiscard]] std::array<Vec6, 4> element_corner_forces(const Frame& frame, const GivingElement& element,
-                                                        const std::vector<Vec6>& displacements, const Vec3& traction,
+                                                        const solver::StaticSolution& solution, const Vec3& traction,
                                                         double strain);
 
 /// The loads without those on the panels' sides, which act on the other side as well, and likewise the reactions.

@@ -222,3 +222,57 @@ TEST_CASE("the published .3dd examples are read whole") {
   CHECK(h.members.size() == 295);
   CHECK(h.masses.members.size() == 163);
 }
+
+TEST_CASE("an element between radii has the mass of the whole distance between its nodes in the modes too") {
+  // A cantilever that is stiff over what the radii leave and heavy over the whole: two freedoms in each plane.
+  constexpr double L = 3000, Le = L - 200 - 300, E = 200000, area = 100, density = 7.85e-9;
+  const Building stub = parse_frame3dd(R"(A stub
+2
+1 0 0 0 200
+2 3000 0 0 300
+1
+1 1 1 1 1 1 1
+1
+1 1 2  100 50 60 10 20000 50000 200000 80000 0 7.85e-9
+0
+0
+1 1 -1
+1
+0 0 0
+0
+0
+0
+0
+0
+0
+2
+1
+0
+1e-9
+0
+1
+0
+0
+)",
+                                       "stub.3dd");
+  for (const bool lumped : {false, true}) {
+    AnalysisRequest request;
+    request.modes = 2;
+    request.mass = lumped ? topple::solver::MassDistribution::lumped : topple::solver::MassDistribution::consistent;
+    request.torsional_mass = topple::solver::TorsionalMass::torsion_constant;
+    request.rotary_inertia = true;
+    const AnalysisResult result = analyse(stub, request);
+    REQUIRE(result.modes.size() == 2);
+    for (std::size_t m = 0; m < 2; ++m) {
+      const double I = m == 0 ? 20000 : 50000, k = E * I / (Le * Le * Le);
+      const double t = density * area * L, r = density * I;
+      const double a = lumped ? t / 2 : 13 * t / 35 + 6 * r / (5 * L), b = lumped ? 0 : -11 * t * L / 210 - r / 10,
+                   c = lumped ? r * L / 2 : t * L * L / 105 + 2 * L * r / 15;
+      // Of det(K - q M) = 0 with K = k [12, -6 Le; -6 Le, 4 Le2] and M = [a, b; b, c].
+      const double two = a * c - b * b, one = -k * (12 * c + 4 * Le * Le * a + 12 * Le * b),
+                   zero = 12 * k * k * Le * Le;
+      const double square = 2 * zero / (-one + std::sqrt(one * one - 4 * two * zero));
+      CHECK(result.modes[m].angular_frequency == Approx(std::sqrt(square)).epsilon(1e-9));
+    }
+  }
+}

@@ -135,6 +135,11 @@ inline const Tables tables{
     {"panels.csv",
      "name,kind,node1,node2,node3,node4,thickness,material,model,mesh,joint\nS1,slab,A1,B1,\"C,1\",D1,0.2,S,membrane,"
      "2x3,\n"},
+    {"restraints.csv", "member,at\nPA,1.5\nPA,2.25\n"},
+    {"openings.csv", "panel,opening,x,y\nS1,1,1.5,1\nS1,1,2.5,1\nS1,1,2.5,2.25\nS1,b,3,3\nS1,b,4,3\nS1,b,4,4.5\n"},
+    {"diaphragms.csv", "name,node\nlevel,A1\nlevel,B*1\n"},
+    {"masses.csv",
+     "on,name,value,Ixx,Iyy,Izz\nnode,A1,1.5,,,\nnode,B1,2,1,1.5,2\nmember,AB,0.7,,,\nload,dead,0.5,,,\n"},
     {"supports.csv", "node,x,y,z,rx,ry,rz\nA0,fixed,fixed,fixed,fixed,fixed,fixed\nB0,fixed,free,5e4,,,\n"},
     {"loads.csv",
      "case,on,name,type,component,value,value2,from,to,frame\ndead,model,,self_weight,,1,,,,\ndead,panel,S1,pressure,,"

@@ -173,17 +173,7 @@ TEST_CASE("a strip on hinged edges buckles as Euler's column, one on rigid edges
   CHECK(factor("") == Approx(4 * euler).epsilon(0.03));
 }
 
-TEST_CASE("what a giving edge is not known to is refused") {
-  const auto sliding = [](AnalysisRequest request) {
-    const Building b = model(R"("nodes": {"A": [0, 0, 0], "B": [4, 0, 0], "C": [4, 4, 0], "D": [0, 4, 0]},
-      "joints": {"j": {"stiffness": {"z": 1e7}}}, "supports": {"S:1": "fixed"}, "panels": {"S": {"nodes": ["A", "B", "C", "D"],
-      "thickness": 0.2, "material": "c", "model": "shell", "joint": "j"}}, "loads": {"case": {"self_weight": 1}})");
-    return analyse(b, request);
-  };
-  AnalysisRequest request;
-  CHECK_NOTHROW(sliding(request));
-  request.modes = 1;
-  CHECK_THROWS_WITH(sliding(request), Catch::Contains("`stiffness` in x, y or z"));
+TEST_CASE("a demolition refuses edges that give") {
   CHECK_THROWS_WITH(
       parse_model(R"({"topple": 1, "materials": {"c": {"youngs_modulus": 30e9, "poisson_ratio": 0.2, "density": 2500}},
       "nodes": {"A": [0, 0, 0], "B": [4, 0, 0], "C": [4, 4, 0], "D": [0, 4, 0]},

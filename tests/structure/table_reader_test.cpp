@@ -119,3 +119,61 @@ TEST_CASE("what is wrong in tables is told by file and line") {
              Catch::StartsWith("m/model.csv, line 2, units.length"));
   CHECK_THAT(message(with("node.csv", nodes_header)), Catch::StartsWith("m: there is no table \"node.csv\""));
 }
+
+TEST_CASE("openings, diaphragms, masses and what a design check needs have tables and columns") {
+  Tables tables = frame();
+  for (auto& [name, content] : tables)
+    if (name == "members.csv")
+      content =
+          "name,kind,node1,node2,section,material,design,factor_y,length_z,restraints\n"
+          "P,post,A,B,col,S,,2,3.1,\nQ,post,A,C,col,S,none,,,\nR,,B,C,col,S,,,,continuous\n";
+    else if (name == "nodes.csv")
+      content = "name,x,y,z\nA,0,0,0\nB,0,0,3.5\nC,4,0,3.5\nD,4,0,0\n";
+  tables.emplace_back("restraints.csv", "member;at\nP;1,5\nP;2,5\n");
+  tables.emplace_back("panels.csv", "name,kind,node1,node2,node3,node4,thickness,material\nW,wall,A,D,C,B,0.2,S\n");
+  tables.emplace_back("openings.csv",
+                      "panel,opening,x,y\nW,door,1,0\nW,window,3,1\nW,door,2,0\nW,window,3.5,1\n"
+                      "W,door,2,2.1\nW,window,3.5,2\n");
+  tables.emplace_back("diaphragms.csv", "name,node\nroof,B\nroof,C\n");
+  tables.emplace_back("masses.csv", "on,name,value,Ixx,Iyy,Izz\nload,wind,0.3,,,\nnode,C,12,1,2,3\nmember,R,7,,,\n");
+  const Building b = parse_tables(tables, "m");
+  CHECK(b.members[0].design.restraints == std::vector<double>{1.5, 2.5});
+  CHECK(b.members[0].design.factors[0] == 2);
+  CHECK(b.members[0].design.lengths[1] == 3.1);
+  CHECK_FALSE(b.members[1].design.checked);
+  CHECK(b.members[2].design.restrained_throughout);
+  REQUIRE(b.panels[0].openings.size() == 2);
+  CHECK(b.panels[0].openings[0] == std::vector<Vec2>{{1, 0}, {2, 0}, {2, 2.1}});
+  CHECK(b.panels[0].openings[1] == std::vector<Vec2>{{3, 1}, {3.5, 1}, {3.5, 2}});
+  REQUIRE(b.diaphragms.size() == 1);
+  CHECK(b.diaphragms[0].nodes.size() == 2);
+  REQUIRE(b.masses.nodes.size() == 1);
+  CHECK(b.masses.nodes[0].mass == 12);
+  CHECK(b.masses.nodes[0].inertia == Vec3(1, 2, 3));
+  CHECK(b.masses.members[0].second == 7);
+  CHECK(b.masses.loads[0].second == 0.3);
+}
+
+TEST_CASE("rows of lists that belong to nothing are told by file and line") {
+  CHECK_THAT(message(with("restraints.csv", "member,at\nP,1\nX,2\n")),
+             Catch::StartsWith("m/restraints.csv, line 3, member: there is no member \"X\""));
+  CHECK_THAT(message(with("openings.csv", "panel,opening,x,y\nW,1,0,0\n")), Catch::Contains("openings.csv, line 2"));
+  CHECK_THAT(message(with("diaphragms.csv", "name,node\nd,A\nd,X\n")),
+             Catch::StartsWith("m/diaphragms.csv, line 3, diaphragms.d[1]: "));
+  CHECK_THAT(message(with("masses.csv", "on,name,value\nroof,A,1\n")),
+             Catch::StartsWith("m/masses.csv, line 2, on: found \"roof\""));
+  CHECK_THAT(message(with("masses.csv", "on,name,value\nnode,A,1\nnode,A,2\n")),
+             Catch::StartsWith("m/masses.csv, line 3, name: \"A\" stands twice"));
+  CHECK_THAT(message(with("masses.csv", "on,name,value,Ixx,Iyy,Izz\nmember,P,1,2,3,4\n")),
+             Catch::StartsWith("m/masses.csv, line 2, Ixx: the inertia of a member"));
+  CHECK_THAT(message(with("masses.csv", "on,name,value,Ixx,Iyy,Izz\nnode,A,1,2,,4\n")),
+             Catch::StartsWith("m/masses.csv, line 2, Iyy: the cell is empty"));
+  const std::string header = "name,kind,node1,node2,section,material,design,factor_y,restraints\nP,post,A,B,col,S,";
+  CHECK_THAT(message(with("members.csv", header + "none,2,\n")),
+             Catch::StartsWith("m/members.csv, line 2, design: found \"none\" beside"));
+  CHECK_THAT(message(with("members.csv", header + "some,,\n")),
+             Catch::StartsWith("m/members.csv, line 2, design: found \"some\""));
+  Tables both = with("members.csv", header + ",,none\n");
+  both.emplace_back("restraints.csv", "member,at\nP,1\n");
+  CHECK_THAT(message(both), Catch::StartsWith("m/members.csv, line 2, restraints: found \"none\" beside distances"));
+}

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "topple/solver/frame_model.h"
+#include "topple/solver/hanging_shell.h"
 #include "topple/solver/static_analysis.h"
 
 namespace topple::solver {
@@ -18,6 +19,7 @@ struct BucklingMode {
 /// and Williams 1971); each factor is then enclosed by counts and Newton's method. Shells bring the geometric stiffness
 /// of their membrane forces, which is as fine as their mesh.
 [[nodiscard]] std::vector<BucklingMode> buckling_modes(const FrameModel& model, const LoadSet& loads, int count,
-                                                       const AnalysisOptions& options, double largest_factor = 1e6);
+                                                       const AnalysisOptions& options, double largest_factor = 1e6,
+                                                       const std::vector<HangingShell>& hanging = {});
 
 }  // namespace topple::solver

@@ -7,6 +7,7 @@
 
 #include "topple/solver/beam_diagram.h"
 #include "topple/solver/frame_model.h"
+#include "topple/solver/hanging_shell.h"
 #include "topple/solver/static_analysis.h"
 
 namespace topple::solver {
@@ -35,6 +36,7 @@ struct AxialState {
   std::vector<Vec6> shell_displacements;
   std::vector<double> shell_strain;
   double shell_factor = 1;
+  std::vector<HangingShell> hanging;  ///< in order of shells and of patches
 };
 
 struct SecondOrderSolution {
@@ -53,7 +55,8 @@ class Buckled : public Instability {
 class SecondOrderAnalysis {
  public:
   /// Throws Instability where a freedom has no stiffness at all.
-  SecondOrderAnalysis(const FrameModel& model, SecondOrder mode, const AnalysisOptions& options = {});
+  SecondOrderAnalysis(const FrameModel& model, SecondOrder mode, const AnalysisOptions& options = {},
+                      std::vector<HangingShell> hanging = {});
   ~SecondOrderAnalysis();
   SecondOrderAnalysis(SecondOrderAnalysis&&) noexcept;
   SecondOrderAnalysis& operator=(SecondOrderAnalysis&&) noexcept;
