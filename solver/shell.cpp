@@ -152,6 +152,18 @@ Vec24 ShellElement::fixed_forces(const Vec3& traction, double strain) const {
       const Bilinear shape(xi, eta);
       const double dA = shape.jacobian(corners_).determinant();
       for (int n = 0; n < 4; ++n) local.segment<3>(6 * n) -= dA * shape.N(n) * local_traction;
+      // Edges bulge with the difference of their ends' drilling rotations (shell_membrane.h); inside, a bulge fades
+      // linearly towards the opposite edge. Without its work a column of elements would not stand under its own weight
+      // as a bar does.
+      const std::array<double, 4> bulge{(1 - xi * xi) * (1 - eta), (1 - eta * eta) * (1 + xi),
+                                        (1 - xi * xi) * (1 + eta), (1 - eta * eta) * (1 - xi)};
+      for (std::size_t i = 0; i < 4; ++i) {
+        const std::size_t j = (i + 1) % 4;
+        const Vec2 along = corners_[j] - corners_[i];
+        const double work = dA * bulge[i] / 16 * (along.y() * local_traction.x() - along.x() * local_traction.y());
+        local(static_cast<Eigen::Index>(6 * j + 5)) -= work;
+        local(static_cast<Eigen::Index>(6 * i + 5)) += work;
+      }
     }
   }
   return to_global(local);
