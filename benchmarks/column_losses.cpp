@@ -62,7 +62,7 @@ int main(int argc, char** argv) {
     for (int p = 0; p < nx * ny; ++p) posts.push_back(k * in_a_storey + p);
   SteelUses uses(standing);
   double worst = 0, largest_error = 0, largest_backward = 0, time = 0;
-  int last = -1;
+  int last = -1, refined = 0;
   constexpr std::size_t together = 16;
   for (std::size_t k = 0; k < posts.size(); ++k) {
     time += seconds([&] {
@@ -78,6 +78,7 @@ int main(int argc, char** argv) {
     });
     last = posts[k];
     largest_backward = std::max(largest_backward, standing.solve().quality.backward_error);
+    refined += standing.solve().quality.refinements > 0 ? 1 : 0;
     if (k == 0 || k == posts.size() / 2 || k + 1 == posts.size())
       largest_error = std::max(largest_error, error(frame, standing, last));
   }
@@ -90,7 +91,8 @@ int main(int argc, char** argv) {
   std::printf("  difference to a fresh analysis %.1e (first, middle and last), backward error at most %.1e\n",
               largest_error, largest_backward);
   const auto& c = standing.counters();
-  std::printf("  by correction %llu, by new factor %llu; worst use %.2f\n", static_cast<unsigned long long>(c.low_rank),
-              static_cast<unsigned long long>(c.refactorisations), worst);
+  std::printf("  by correction %llu, by new factor %llu; %d refined once more; worst use %.2f\n",
+              static_cast<unsigned long long>(c.low_rank), static_cast<unsigned long long>(c.refactorisations), refined,
+              worst);
   return 0;
 }

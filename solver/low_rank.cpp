@@ -2,32 +2,41 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <limits>
+#include <cmath>
 
-extern "C" void dgemm_(const char*, const char*, const int*, const int*, const int*, const double*, const double*,
-                       const int*, const double*, const int*, const double*, double*, const int*);
+#include "few_columns.h"
 
 namespace topple::solver {
 namespace {
 
-/// W = Q R by modified Gram-Schmidt; a column that depends on the earlier ones becomes zero in Q and R.
+/// W = Q R by Gram-Schmidt, done twice (Daniel, Gragg, Kaufman and Stewart 1976); a column that depends on the earlier
+/// ones becomes zero in Q and R.
 void orthonormalise(Eigen::MatrixXd& W, Eigen::MatrixXd& R) {
   constexpr double dependent = 1e-14;
-  const Eigen::Index n = W.cols();
-  R.setZero(n, n);
-  for (Eigen::Index j = 0; j < n; ++j) {
-    const double before = W.col(j).norm();
-    for (Eigen::Index i = 0; i < j; ++i) {
-      R(i, j) = W.col(i).dot(W.col(j));
-      W.col(j) -= R(i, j) * W.col(i);
+  const int rows = static_cast<int>(W.rows()), columns = static_cast<int>(W.cols());
+  const auto norm = [rows](const double* column) {
+    double square = 0;
+    add_products(column, rows, rows, 1, column, &square);
+    return std::sqrt(square);
+  };
+  R.setZero(columns, columns);
+  Eigen::VectorXd part(columns);
+  for (int j = 0; j < columns; ++j) {
+    double* own = W.col(j).data();
+    const double before = norm(own);
+    for (int pass = 0; pass < 2 && j > 0; ++pass) {
+      part.setZero();
+      add_products(W.data(), rows, rows, j, own, part.data());
+      subtract_combination(W.data(), rows, rows, j, part.data(), own);
+      R.col(j).head(j) += part.head(j);
     }
-    const double norm = W.col(j).norm();
-    if (norm <= dependent * before || before == 0) {
+    const double after = norm(own);
+    if (after <= dependent * before || before == 0) {
       W.col(j).setZero();
       continue;
     }
-    R(j, j) = norm;
-    W.col(j) /= norm;
+    R(j, j) = after;
+    W.col(j) /= after;
   }
 }
 
@@ -66,28 +75,24 @@ void LowRankCorrection::finish_adding(std::span<const PathColumns> also) {
   }
 }
 
-/// Paths to one root share their ends and nothing else.
-Eigen::MatrixXd LowRankCorrection::product(const Place& a, const Place& b) const {
-  std::size_t i = a.path.block.size(), j = b.path.block.size();
-  while (i > 0 && j > 0 && a.path.block[i - 1] == b.path.block[j - 1]) --i, --j;
-  const int shared = a.path.rows() - a.path.offset[i];
-  const int rows = static_cast<int>(a.W.cols()), columns = static_cast<int>(b.W.cols());
-  const int first_stride = static_cast<int>(a.W.rows()), second_stride = static_cast<int>(b.W.rows());
-  constexpr double one = 1, none = 0;
-  Eigen::MatrixXd result(rows, columns);
-  dgemm_("T", "N", &rows, &columns, &shared, &one, a.W.data() + a.W.rows() - shared, &first_stride,
-         b.W.data() + b.W.rows() - shared, &second_stride, &none, result.data(), &rows);
-  return result;
-}
-
-/// `other` comes before `place`, or is it.
+/// `other` comes before `place`, or is it. Paths to one root share their ends and nothing else.
 void LowRankCorrection::know_gram(Place& place, const Place& other) {
   char& known = place.gram_known[static_cast<std::size_t>(&other - places_.data())];
   if (known != 0) return;
   known = 1;
-  const Eigen::MatrixXd shared = product(other, place);
-  gram_.block(other.first, place.first, shared.rows(), shared.cols()) = shared;
-  gram_.block(place.first, other.first, shared.cols(), shared.rows()) = shared.transpose();
+  std::size_t i = other.path.block.size(), j = place.path.block.size();
+  while (i > 0 && j > 0 && other.path.block[i - 1] == place.path.block[j - 1]) --i, --j;
+  const int shared = other.path.rows() - other.path.offset[i];
+  const auto rows = static_cast<int>(other.W.cols());
+  for (Eigen::Index c = 0; c < place.W.cols(); ++c) {
+    double* product = gram_.col(place.first + c).data() + other.first;
+    std::fill(product, product + rows, 0.0);
+    add_products(other.W.data() + other.W.rows() - shared, static_cast<int>(other.W.rows()), shared, rows,
+                 place.W.col(c).data() + place.W.rows() - shared, product);
+  }
+  if (&other == &place) return;
+  gram_.block(place.first, other.first, place.W.cols(), rows) =
+      gram_.block(other.first, place.first, rows, place.W.cols()).transpose();
 }
 
 void LowRankCorrection::set(int place, const Eigen::Ref<const Eigen::MatrixXd>& D) {

@@ -71,7 +71,6 @@ class LowRankCorrection {
   };
   int order_active();
   void fill_capacitance(int kept);
-  [[nodiscard]] Eigen::MatrixXd product(const Place& a, const Place& b) const;
   void know_gram(Place& place, const Place& other);
   /// c := W' y of the active places, and y -= W c.
   void gather(const Eigen::VectorXd& y, Eigen::Ref<Eigen::VectorXd> c) const;

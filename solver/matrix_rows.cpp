@@ -4,37 +4,59 @@
 #include <cmath>
 #include <limits>
 
+#include "vector_versions.h"
+
 namespace topple::solver {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-/// What one column gives to its rows and takes from them: r -= k x_c, size += |k| |x_c|; the sums k x and |k| |x|.
-struct ColumnSums {
-  double value = 0, size = 0;
-};
-
-/// A whole node's rows at once.
-void add_six(const double* k, const double* x, const double* absolute_x, double xc, double axc, double* r, double* size,
-             ColumnSums& sums) {
-  using Six = Eigen::Matrix<double, 6, 1>;
-  const Eigen::Map<const Six> K(k), X(x), A(absolute_x);
-  Eigen::Map<Six> R(r), S(size);
-  const Six absolute = K.cwiseAbs();
-  R -= K * xc;
-  S += absolute * axc;
-  sums.value += K.dot(X);
-  sums.size += absolute.dot(A);
-}
-
-void add_run(const double* k, int count, const double* x, const double* absolute_x, double xc, double axc, double* r,
-             double* size, ColumnSums& sums) {
-  for (int i = 0; i < count; ++i) {
-    const double absolute = std::abs(k[i]);
-    r[i] -= k[i] * xc;
-    size[i] += absolute * axc;
-    sums.value += k[i] * x[i];
-    sums.size += absolute * absolute_x[i];
+/// r -= K x and size += |K| |x|, the diagonal left out. The rows of a node follow each other.
+TOPPLE_VECTOR_VERSIONS
+void subtract_products(const SparseSymmetric& K, const std::int64_t* run_start, const RowsOfColumn* all_runs,
+                       const double* x, const double* absolute_x, double* r, double* size) {
+  for (std::int32_t c = 0; c < K.size; ++c) {
+    const double xc = x[c], axc = absolute_x[c];
+    const double* k = K.value.data() + K.start[static_cast<std::size_t>(c)] + 1;
+    FourLanes::Vector value{}, sum{};
+    TwoLanes::Vector value_2{}, sum_2{};
+    double value_1 = 0, sum_1 = 0;
+    const RowsOfColumn* last = all_runs + run_start[c + 1];
+    for (const RowsOfColumn* run = all_runs + run_start[c]; run != last; ++run) {
+      const double *own_x = x + run->row, *own_size = absolute_x + run->row;
+      double *own_r = r + run->row, *to = size + run->row;
+      int i = 0;
+      for (; i + FourLanes::count <= run->count; i += FourLanes::count) {
+        const FourLanes::Vector entry = lanes_at<FourLanes>(k + i), large = entry < 0 ? -entry : entry;
+        lanes_at<FourLanes>(own_r + i) -= entry * xc;
+        lanes_at<FourLanes>(to + i) += large * axc;
+        value += entry * lanes_at<FourLanes>(own_x + i);
+        sum += large * lanes_at<FourLanes>(own_size + i);
+      }
+      if (run->count - i >= TwoLanes::count) {
+        const TwoLanes::Vector entry = lanes_at<TwoLanes>(k + i), large = entry < 0 ? -entry : entry;
+        lanes_at<TwoLanes>(own_r + i) -= entry * xc;
+        lanes_at<TwoLanes>(to + i) += large * axc;
+        value_2 += entry * lanes_at<TwoLanes>(own_x + i);
+        sum_2 += large * lanes_at<TwoLanes>(own_size + i);
+        i += TwoLanes::count;
+      }
+      if (i < run->count) {
+        const double entry = k[i], large = std::abs(entry);
+        own_r[i] -= entry * xc;
+        to[i] += large * axc;
+        value_1 += entry * own_x[i];
+        sum_1 += large * own_size[i];
+      }
+      k += run->count;
+    }
+    double parts[2 * FourLanes::count], parts_2[2 * TwoLanes::count];
+    lanes_at<FourLanes>(parts) = value;
+    lanes_at<FourLanes>(parts + FourLanes::count) = sum;
+    lanes_at<TwoLanes>(parts_2) = value_2;
+    lanes_at<TwoLanes>(parts_2 + TwoLanes::count) = sum_2;
+    r[c] -= ((parts[0] + parts[1]) + (parts[2] + parts[3])) + ((parts_2[0] + parts_2[1]) + value_1);
+    size[c] += ((parts[4] + parts[5]) + (parts[6] + parts[7])) + ((parts_2[2] + parts_2[3]) + sum_1);
   }
 }
 
@@ -49,7 +71,7 @@ MatrixRows::MatrixRows(const SparseSymmetric& pattern) {
       const std::int32_t row = pattern.row[static_cast<std::size_t>(k)];
       ++left_start_[static_cast<std::size_t>(row) + 1];
       const bool first = static_cast<std::size_t>(run_start_.back()) == run_.size();
-      if (!first && run_.back().row + run_.back().count == row && run_.back().count < 6) {
+      if (!first && run_.back().row + run_.back().count == row) {
         ++run_.back().count;
       } else {
         run_.push_back({row, 1});
@@ -76,23 +98,11 @@ double MatrixRows::residual(const SparseSymmetric& K, const Eigen::VectorXd& b, 
   r = b;
   size_ = b.cwiseAbs();
   absolute_x_ = x.cwiseAbs();
-  for (Eigen::Index column = 0; column < b.size(); ++column) {
-    const auto c = static_cast<std::size_t>(column);
-    const double xc = x(column), axc = absolute_x_(column);
-    const double* k = K.value.data() + K.start[c];
-    const double diagonal = *k++;
-    ColumnSums sums;
-    for (auto i = run_start_[c]; i < run_start_[c + 1]; ++i) {
-      const auto [row, count] = run_[static_cast<std::size_t>(i)];
-      if (count == 6) {
-        add_six(k, x.data() + row, absolute_x_.data() + row, xc, axc, r.data() + row, size_.data() + row, sums);
-      } else {
-        add_run(k, count, x.data() + row, absolute_x_.data() + row, xc, axc, r.data() + row, size_.data() + row, sums);
-      }
-      k += count;
-    }
-    r(column) -= sums.value + diagonal * xc;
-    size_(column) += sums.size + std::abs(diagonal) * axc;
+  subtract_products(K, run_start_.data(), run_.data(), x.data(), absolute_x_.data(), r.data(), size_.data());
+  for (Eigen::Index c = 0; c < b.size(); ++c) {
+    const double diagonal = K.value[static_cast<std::size_t>(K.start[static_cast<std::size_t>(c)])];
+    r(c) -= diagonal * x(c);
+    size_(c) += std::abs(diagonal) * absolute_x_(c);
   }
   const double largest = b.size() > 0 ? absolute_x_.maxCoeff() : 0;
   const double rounding = static_cast<double>(b.size()) * epsilon * largest;
@@ -108,9 +118,9 @@ double MatrixRows::residual(const SparseSymmetric& K, const Eigen::VectorXd& b, 
       const double sum = row_sum(K, static_cast<int>(i));
       if (denominator <= rounding * sum) denominator += sum * largest;
     }
-    worst = std::max(worst, error / denominator);
+    if (error > worst * denominator) worst = error / denominator;
   }
-  return std::isfinite(worst) && r.allFinite() ? worst : std::numeric_limits<double>::infinity();
+  return std::isfinite(worst) && std::isfinite(r.cwiseAbs().sum()) ? worst : std::numeric_limits<double>::infinity();
 }
 
 void MatrixRows::residual(const SparseSymmetric& K, const Eigen::VectorXd& b, const Eigen::VectorXd& x,

@@ -11,6 +11,11 @@
 
 namespace topple::solver {
 
+/// Consecutive rows below the diagonal of a column.
+struct RowsOfColumn {
+  std::int32_t row, count;
+};
+
 class MatrixRows {
  public:
   explicit MatrixRows(const SparseSymmetric& pattern);
@@ -26,14 +31,10 @@ class MatrixRows {
                              std::span<const int> rows) const;
 
  private:
-  /// Consecutive rows below the diagonal of a column.
-  struct Run {
-    std::int32_t row, count;
-  };
   [[nodiscard]] double row_sum(const SparseSymmetric& K, int row) const;
 
   std::vector<std::int64_t> run_start_;  ///< per column
-  std::vector<Run> run_;
+  std::vector<RowsOfColumn> run_;
   // Entries to the left of the diagonal, by rows.
   std::vector<std::int64_t> left_start_, left_position_;
   std::vector<std::int32_t> left_column_;

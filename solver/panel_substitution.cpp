@@ -8,75 +8,103 @@
 namespace topple::solver {
 namespace {
 
-constexpr int strip = 8, lanes = 8, most_together = 4;
-using Vector = double __attribute__((vector_size(lanes * sizeof(double)), aligned(sizeof(double)), may_alias));
+constexpr int strip = 8, lanes = EightLanes::count, most_together = 4;
 
-const Vector& vector_at(const double* p) { return *reinterpret_cast<const Vector*>(p); }
+/// Of the eight parts of a sum.
+[[gnu::always_inline]] inline double total(const double* p) {
+  return ((p[0] + p[4]) + (p[2] + p[6])) + ((p[1] + p[5]) + (p[3] + p[7]));
+}
 
-/// sum[k * most_together + c] := the product of column k of L and column c of b, k < 8, c < N.
-template <int N>
-[[gnu::always_inline]] inline void products(const double* L, std::ptrdiff_t ld, const double* b, std::ptrdiff_t stride,
-                                            int rows, double* sum) {
-  // Four columns of L at a time leave registers for the sums.
-  for (int half = 0; half < strip; half += 4) {
-    Vector part[4][N];
-    for (int k = 0; k < 4; ++k)
-      for (int c = 0; c < N; ++c) part[k][c] = Vector{};
-    const double* l = L + half * ld;
-    int i = 0;
-    for (; i + lanes <= rows; i += lanes)
-      for (int k = 0; k < 4; ++k) {
-        const Vector v = vector_at(l + k * ld + i);
-        for (int c = 0; c < N; ++c) part[k][c] += v * vector_at(b + c * stride + i);
-      }
-    for (int k = 0; k < 4; ++k)
-      for (int c = 0; c < N; ++c) {
-        for (int r = i; r < rows; ++r) part[k][c][r - i] += l[k * ld + r] * b[c * stride + r];
-        const Vector& p = part[k][c];
-        sum[(half + k) * most_together + c] = ((p[0] + p[4]) + (p[2] + p[6])) + ((p[1] + p[5]) + (p[3] + p[7]));
-      }
+/// Adds the products of fewer than eight rows to the parts of their sums.
+template <class Lanes, int K, int N>
+[[gnu::always_inline]] inline void add_tail(const double* L, std::ptrdiff_t ld, const double* b, std::ptrdiff_t stride,
+                                            double* parts) {
+  for (int k = 0; k < K; ++k)
+    for (int c = 0; c < N; ++c)
+      lanes_at<Lanes>(parts + (k * N + c) * lanes) += lanes_at<Lanes>(L + k * ld) * lanes_at<Lanes>(b + c * stride);
+}
+
+/// sum[k * N + c] := the product of column k of L and column c of b, k < K, c < N.
+template <int K, int N>
+[[gnu::always_inline]] inline void multiply_columns(const double* L, std::ptrdiff_t ld, const double* b,
+                                                    std::ptrdiff_t stride, int rows, double* sum) {
+  EightLanes::Vector part[K * N];
+  TOPPLE_UNROLLED
+  for (int p = 0; p < K * N; ++p) part[p] = EightLanes::Vector{};
+  int i = 0;
+  // One loop over all sums: the compiler unrolls no loop of loops before it gives arrays registers.
+  for (; i + lanes <= rows; i += lanes) {
+    TOPPLE_UNROLLED
+    for (int p = 0; p < K * N; ++p)
+      part[p] += lanes_at<EightLanes>(L + p / N * ld + i) * lanes_at<EightLanes>(b + p % N * stride + i);
   }
+  double parts[K * N * lanes];
+  TOPPLE_UNROLLED
+  for (int p = 0; p < K * N; ++p) lanes_at<EightLanes>(parts + p * lanes) = part[p];
+  if (rows - i >= FourLanes::count) {
+    add_tail<FourLanes, K, N>(L + i, ld, b + i, stride, parts);
+    i += FourLanes::count;
+  }
+  const int after_four = i % lanes;
+  if (rows - i >= TwoLanes::count) {
+    add_tail<TwoLanes, K, N>(L + i, ld, b + i, stride, parts + after_four);
+    i += TwoLanes::count;
+  }
+  if (i < rows) add_tail<OneLane, K, N>(L + i, ld, b + i, stride, parts + i % lanes);
+  for (int p = 0; p < K * N; ++p) sum[p] = total(parts + p * lanes);
 }
 
-using Products = void (*)(const double*, std::ptrdiff_t, const double*, std::ptrdiff_t, int, double*);
+/// sum[k * N + c] of `width` (at most 8) columns of L; as many at a time as leave registers for the sums.
+template <int N>
+[[gnu::always_inline]] inline void products(const double* L, std::ptrdiff_t ld, int width, const double* b,
+                                            std::ptrdiff_t stride, int rows, double* sum) {
+  if (width == strip) {
+    constexpr int group = N <= 2 ? 8 : 4;
+    for (int k = 0; k < strip; k += group) multiply_columns<group, N>(L + k * ld, ld, b, stride, rows, sum + k * N);
+    return;
+  }
+  int k = 0;
+  if (width >= 4) {
+    multiply_columns<4, N>(L, ld, b, stride, rows, sum);
+    k = 4;
+  }
+  if (width - k >= 2) {
+    multiply_columns<2, N>(L + k * ld, ld, b, stride, rows, sum + k * N);
+    k += 2;
+  }
+  if (k < width) multiply_columns<1, N>(L + k * ld, ld, b, stride, rows, sum + k * N);
+}
 
-TOPPLE_VECTOR_VERSIONS
-void products_1(const double* L, std::ptrdiff_t ld, const double* b, std::ptrdiff_t stride, int rows, double* sum) {
-  products<1>(L, ld, b, stride, rows, sum);
-}
-TOPPLE_VECTOR_VERSIONS
-void products_2(const double* L, std::ptrdiff_t ld, const double* b, std::ptrdiff_t stride, int rows, double* sum) {
-  products<2>(L, ld, b, stride, rows, sum);
-}
-TOPPLE_VECTOR_VERSIONS
-void products_3(const double* L, std::ptrdiff_t ld, const double* b, std::ptrdiff_t stride, int rows, double* sum) {
-  products<3>(L, ld, b, stride, rows, sum);
-}
-TOPPLE_VECTOR_VERSIONS
-void products_4(const double* L, std::ptrdiff_t ld, const double* b, std::ptrdiff_t stride, int rows, double* sum) {
-  products<4>(L, ld, b, stride, rows, sum);
-}
+using Products = void (*)(const double*, std::ptrdiff_t, int, const double*, std::ptrdiff_t, int, double*);
+#define TOPPLE_PRODUCTS(N)                                                                                           \
+  TOPPLE_VECTOR_VERSIONS                                                                                             \
+  void products_##N(const double* L, std::ptrdiff_t ld, int width, const double* b, std::ptrdiff_t stride, int rows, \
+                    double* sum) {                                                                                   \
+    products<N>(L, ld, width, b, stride, rows, sum);                                                                 \
+  }
+TOPPLE_PRODUCTS(1)
+TOPPLE_PRODUCTS(2)
+TOPPLE_PRODUCTS(3)
+TOPPLE_PRODUCTS(4)
+#undef TOPPLE_PRODUCTS
 constexpr Products products_of[most_together] = {products_1, products_2, products_3, products_4};
 
 /// x -= L' b for `width` (at most 8) columns of L.
 void subtract_products(const double* L, std::ptrdiff_t ld, int width, const double* b, std::ptrdiff_t stride, int rows,
                        double* x, std::ptrdiff_t x_stride, int count) {
   if (rows <= 0) return;
-  if (width == strip) {
-    double sum[strip * most_together];
-    products_of[count - 1](L, ld, b, stride, rows, sum);
-    for (int c = 0; c < count; ++c)
-      for (int k = 0; k < strip; ++k) x[c * x_stride + k] -= sum[k * most_together + c];
-    return;
-  }
-  // The same parts, column by column.
+  double sum[strip * most_together];
+  products_of[count - 1](L, ld, width, b, stride, rows, sum);
   for (int c = 0; c < count; ++c)
-    for (int k = 0; k < width; ++k) {
-      double part[lanes] = {};
-      const double *l = L + k * ld, *right = b + c * stride;
-      for (int i = 0; i < rows; ++i) part[i % lanes] += l[i] * right[i];
-      x[c * x_stride + k] -= ((part[0] + part[4]) + (part[2] + part[6])) + ((part[1] + part[5]) + (part[3] + part[7]));
-    }
+    for (int k = 0; k < width; ++k) x[c * x_stride + k] -= sum[k * count + c];
+}
+
+/// x := T^-T x for `width` columns of a lower triangle.
+void substitute_triangle(const double* T, std::ptrdiff_t ld, int width, double* x) {
+  for (int k = width; k-- > 0;) {
+    const double value = x[k] *= 1 / T[k * ld + k];
+    for (int j = 0; j < k; ++j) x[j] -= T[j * ld + k] * value;
+  }
 }
 
 /// One strip of columns of L, at most four right-hand sides.
@@ -85,15 +113,8 @@ void substitute(const double* L, int columns, int rows, int first, double* x, in
   const double* block = L + static_cast<std::ptrdiff_t>(first) * rows;
   subtract_products(block + columns, rows, width, below, below_rows, below_rows, x + first, columns, count);
   subtract_products(block + next, rows, width, x + next, columns, columns - next, x + first, columns, count);
-  for (int c = 0; c < count; ++c) {
-    double* own = x + static_cast<std::ptrdiff_t>(c) * columns + first;
-    for (int k = width; k-- > 0;) {
-      const double* column = block + static_cast<std::ptrdiff_t>(k) * rows + first;
-      double sum = own[k];
-      for (int i = k + 1; i < width; ++i) sum -= column[i] * own[i];
-      own[k] = sum / column[k];
-    }
-  }
+  for (int c = 0; c < count; ++c)
+    substitute_triangle(block + first, rows, width, x + static_cast<std::ptrdiff_t>(c) * columns + first);
 }
 
 }  // namespace

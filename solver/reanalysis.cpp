@@ -134,12 +134,12 @@ const std::vector<Vec6>& Reanalysis::displacements() const {
   return state_->displacements;
 }
 
-const Eigen::Matrix<double, 12, 6>& Reanalysis::State::end_stiffness_of(std::size_t i) const {
-  if (end_stiffness_known[i] == 0) {
-    end_stiffness[i] = CondensedBeam(system->model.beams[i], system->beam_factor[i]).stiffness().rightCols<6>();
-    end_stiffness_known[i] = 1;
+const BeamStrainForces& Reanalysis::State::strain_forces_of(std::size_t i) const {
+  if (strain_forces_known[i] == 0) {
+    strain_forces[i] = BeamStrainForces(CondensedBeam(system->model.beams[i], system->beam_factor[i]));
+    strain_forces_known[i] = 1;
   }
-  return end_stiffness[i];
+  return strain_forces[i];
 }
 
 Vec12 Reanalysis::State::end_forces(std::size_t i, const std::vector<Vec6>& u, const Vec12& fixed) const {
@@ -147,7 +147,7 @@ Vec12 Reanalysis::State::end_forces(std::size_t i, const std::vector<Vec6>& u, c
   const Beam& beam = system->model.beams[i];
   const Vec12 hubs =
       hub_displacements(beam, u[static_cast<std::size_t>(beam.node[0])], u[static_cast<std::size_t>(beam.node[1])]);
-  return end_stiffness_of(i) * relative_motion(beam.length, hubs) + fixed;
+  return strain_forces_of(i)(relative_motion(beam.length, hubs)) + fixed;
 }
 
 Vec12 Reanalysis::beam_end_forces(int beam) const {

@@ -27,8 +27,8 @@ Reanalysis::State::State(FrameModel model, const AnalysisOptions& given)
   displacements.assign(m.nodes.size(), Vec6::Zero());
   fixed_end.assign(m.beams.size(), Vec12::Zero());
   fixed_at_nodes.assign(m.beams.size(), Vec12::Zero());
-  end_stiffness.resize(m.beams.size());
-  end_stiffness_known.assign(m.beams.size(), 0);
+  strain_forces.resize(m.beams.size());
+  strain_forces_known.assign(m.beams.size(), 0);
   unbalanced.assign(m.beams.size(), 0);
 }
 
@@ -154,7 +154,7 @@ void Reanalysis::State::apply_beam(int index, std::vector<int>& touched) {
   fixed_at_nodes[i] = -node_forces(beam, fixed.force);
   stale_load_nodes.insert(stale_load_nodes.end(), beam.node.begin(), beam.node.end());
   if (restricted) loaded_nodes.insert(loaded_nodes.end(), beam.node.begin(), beam.node.end());
-  end_stiffness_known[i] = 0;
+  strain_forces_known[i] = 0;
   unbalanced[i] = fixed.unbalanced > 0 ? 1 : 0;
 }
 

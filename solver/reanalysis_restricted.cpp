@@ -1,5 +1,7 @@
 // Answers restricted to where they may matter, and what makes them whole again.
+#include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "reanalysis_state.h"
 
@@ -14,10 +16,9 @@ constexpr double acceptable_error = 1e-13;
 void Reanalysis::State::read_all_uses(UseWatch& watch) {
   if (!standing) return;
   if (!restricted)
-    restricted = std::make_unique<RestrictedAnswer>(*system, standing->triangles(),
-                                                    [this](int beam) -> const Eigen::Matrix<double, 12, 6>& {
-                                                      return end_stiffness_of(static_cast<std::size_t>(beam));
-                                                    });
+    restricted = std::make_unique<RestrictedAnswer>(
+        *system, standing->triangles(),
+        [this](int beam) -> const BeamStrainForces& { return strain_forces_of(static_cast<std::size_t>(beam)); });
   if (restricted->uses_known()) return;
   complete(nullptr);
   restricted->read_all(watch);
@@ -29,16 +30,20 @@ bool Reanalysis::State::answer_in_part(UseWatch& watch) {
   if (!standing->changed() && first_solution.size() != n) return false;
   scale_force(load.force, scaled_force);
   if ((scaled_force.array() == 0).all() || (!standing->changed() && first_force == scaled_force)) return false;
-  find_changed_rows(scaled_force);
-  if (rows_to_change.empty()) return false;
-  add_rows_of(loaded_nodes);
-  std::sort(rows_to_change.begin(), rows_to_change.end());
-  rows_to_change.erase(std::unique(rows_to_change.begin(), rows_to_change.end()), rows_to_change.end());
-
   const RestrictedAnswer::Answer whole{solution, displacements};
-  const std::vector<char>& paths = restricted->begin(rows_to_change, whole);
-  rows->residual(system->matrix(), scaled_force, solution, rows_to_change, correction);
-  standing->forward(correction, paths, eliminated);
+  if (std::exchange(eliminated_along, false)) {
+    (void)restricted->begin(rows_to_change, whole);
+    standing->forward_along(eliminated);
+  } else {
+    find_changed_rows(scaled_force);
+    if (rows_to_change.empty()) return false;
+    add_rows_of(loaded_nodes);
+    std::sort(rows_to_change.begin(), rows_to_change.end());
+    rows_to_change.erase(std::unique(rows_to_change.begin(), rows_to_change.end()), rows_to_change.end());
+    const std::vector<char>& paths = restricted->begin(rows_to_change, whole);
+    rows->residual(system->matrix(), scaled_force, solution, rows_to_change, correction);
+    standing->forward(correction, paths, eliminated);
+  }
   restricted->advance(rows_to_change, correction, eliminated, watch, whole);
   solved_force = scaled_force;
   stale_nodes.clear();
@@ -66,6 +71,7 @@ void Reanalysis::State::tell_effort() {
 /// The displacements of what was left out; where the structure stands, with the backward error of a full answer.
 void Reanalysis::State::complete(UseWatch* watch) {
   if (!restricted || !restricted->partial()) return;
+  eliminated_along = false;
   restricted->complete({solution, displacements}, watch);
   effort.restricted = false;
   reactions.clear();

@@ -1,34 +1,19 @@
-// The ladder: which rung a change takes, and the answer over it.
+// The answer over the rung that a change took.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "reanalysis_state.h"
 
 namespace topple::solver {
 namespace {
 
-/// A structure that became this much softer than the factor's in one motion may be a mechanism: rounding leaves a
-/// singular correction at 1e10 and more.
-constexpr double suspicious_softening = 1e7;
-/// And from here on it is looked at whether the correction brought it into the warning band.
-constexpr double remarkable_softening = 1e3;
-/// From one softening to the next: the softest motion is the same, and about as stiff.
-constexpr double alike = 1.25;
-/// Factors of a matrix of this condition and worse are made anew rather than corrected.
-constexpr double ill_conditioned = 1e12;
-/// Columns that a correction may have at most.
-constexpr int most_columns = 600;
 /// An answer over a correction that refinement leaves above this is found again over a new factor.
 constexpr double acceptable_error = 1e-12;
 constexpr int most_refinements = 12;
 /// Answers to unit forces weigh blows, which are known far less well.
 constexpr double response_error = 1e-11;
 constexpr double worthwhile = 0.5;  ///< a step that does not cut the error to this share of the last one is the last
-/// Solves that the estimate of a new factor's condition takes, with the first answer's.
-constexpr double solves_with_factor = 12;
-/// Operations for each entry of the factor in one solve: where memory sets the pace, and where the factor is in cache.
-constexpr double solve_cost = 20, cached_solve_cost = 6;
-constexpr double cached_entries = 250000;
 
 /// Rows in which v is not zero.
 std::vector<int> rows_in(const Eigen::VectorXd& v) {
@@ -36,19 +21,6 @@ std::vector<int> rows_in(const Eigen::VectorXd& v) {
   for (Eigen::Index row = 0; row < v.size(); ++row)
     if (v(row) != 0) rows.push_back(static_cast<int>(row));
   return rows;
-}
-
-/// v'Kv / v'v.
-double rayleigh_quotient(const SparseSymmetric& K, const Eigen::VectorXd& v) {
-  double energy = 0;
-  for (std::size_t column = 0; column < static_cast<std::size_t>(K.size); ++column) {
-    const double vc = v(static_cast<Eigen::Index>(column));
-    double sum = K.value[static_cast<std::size_t>(K.start[column])] * vc / 2;
-    for (auto k = K.start[column] + 1; k < K.start[column + 1]; ++k)
-      sum += K.value[static_cast<std::size_t>(k)] * v(K.row[static_cast<std::size_t>(k)]);
-    energy += 2 * vc * sum;
-  }
-  return energy / v.squaredNorm();
 }
 
 }  // namespace
@@ -70,112 +42,6 @@ LinearSolve Reanalysis::State::linear_solve() const {
 
 double Reanalysis::State::current_condition() const {
   return condition * (standing ? std::max(1.0, standing->softening()) : 1.0);
-}
-
-std::optional<Defect> Reanalysis::State::update_structure(const std::vector<int>& touched) {
-  const bool stood = structure_stands;
-  structure_stands = false;
-  if (!assembled) {
-    system->assemble();
-    assembled = true;
-  } else if (!touched.empty()) {
-    system->reassemble(touched);
-  }
-  std::optional<Defect> defect;
-  if (stood && standing) {
-    defect = system->defect(touched);
-  } else {
-    defect = system->defect();
-  }
-  tell_standing([&](StandingFactor& one) { one.touch(touched); });
-  stale_nodes.insert(stale_nodes.end(), touched.begin(), touched.end());
-  if (defect) return defect;
-  if (system->dofs().equations == 0) {  // everything is held: nothing to factorise, every answer is exact
-    structure_stands = factor_valid = true;
-    return std::nullopt;
-  }
-  if (refresh && refresh_paid >= refresh_due) (void)take_refreshed();
-  // Beyond what a correction can do, a factor that is under way comes sooner than one begun now.
-  if (correct_factor(touched, defect) || (refresh && take_refreshed() && correct_factor(touched, defect))) {
-    structure_stands = !defect;
-    if (structure_stands) begin_refresh_if_due();
-    return defect;
-  }
-  defect = refactorise();
-  structure_stands = !defect;
-  return defect;
-}
-
-bool Reanalysis::State::correct_factor(const std::vector<int>& touched, std::optional<Defect>& defect) {
-  if (!standing || condition > ill_conditioned) return false;
-  const StandingFactor::Plan plan = standing->plan();
-  if (!plan.possible || plan.rank > most_columns || plan.operations > factor_operations()) return false;
-  if (factor_operations() < refresh_rules.least_operations) {
-    // What earlier changes go on to cost is borne until it has cost as much as a new factor (to rent or to buy).
-    if (plan.carried == 0) correction_paid = 0;
-    correction_paid += plan.carried;
-    if (correction_paid > factor_operations()) return false;
-  }
-  standing->update();
-  operations += plan.operations;
-  const double softening = standing->softening();
-  const bool remarkable = softening > remarkable_softening && softening * condition * options.warning_limit > 1;
-  if (!remarkable) {
-    answer.nearly_unstable = false;
-    looked_at_softening = 0;
-  }
-  // What was looked at when it was as soft, and is far from a mechanism, need not be looked at again.
-  const bool known = softening < suspicious_softening && softening > looked_at_softening / alike &&
-                     softening < looked_at_softening * alike;
-  if (remarkable && !known) {
-    const Eigen::VectorXd motion = standing->softest_motion();
-    if (!motion.allFinite() || !(motion.squaredNorm() > 0)) return false;
-    const double stiffness = rayleigh_quotient(system->matrix(), motion);
-    answer.nearly_unstable = stiffness < options.warning_limit * matrix_norm(system->matrix());
-    looked_at_softening = softening;
-    if (softening > suspicious_softening) {
-      if (!(stiffness < options.singular_limit)) return false;
-      defect = motion_defect(*system, motion);
-    }
-  }
-  if (!touched.empty()) ++counters.low_rank;
-  return true;
-}
-
-double Reanalysis::State::factor_operations() const {
-  const auto entries = static_cast<double>(factor->entries());
-  return factor->operations() +
-         solves_with_factor * (entries < cached_entries ? cached_solve_cost : solve_cost) * entries;
-}
-
-std::optional<Defect> Reanalysis::State::refactorise() {
-  complete(nullptr);
-  drop_refresh();
-  factor_valid = false;
-  restricted.reset();
-  standing.reset();
-  correction_paid = looked_at_softening = 0;
-  first_solution.resize(0);
-  if (!factor) {
-    order = system->elimination_order();
-    factor = std::make_unique<Factor>(system->matrix(), order, options.factorisation, options.threads);
-    rows = std::make_unique<MatrixRows>(system->matrix());
-    ++counters.orderings;
-  } else {
-    ++counters.refactorisations;
-  }
-  operations += factor->operations();
-  const Stability stability = factorise_and_judge(*system, *factor, options);
-  if (stability.defect) return stability.defect;
-  factor_valid = true;
-  condition = stability.condition > 0 ? stability.condition : estimate_condition(system->matrix(), linear_solve());
-  answer.nearly_unstable = stability.nearly_unstable || 1 / condition < options.warning_limit;
-  refresh_failed = answer.nearly_unstable;
-  if (!answer.nearly_unstable) {
-    standing = std::make_unique<StandingFactor>(*system);
-    standing->serve(*factor);
-  }
-  return std::nullopt;
 }
 
 void Reanalysis::State::scale_force(const Eigen::VectorXd& force, Eigen::VectorXd& result) const {
@@ -264,11 +130,13 @@ int Reanalysis::State::refine(const Eigen::VectorXd& force) {
     correction = force;
     rows_to_change.clear();
   } else {
-    find_changed_rows(force);
-    if (rows_to_change.empty()) {
-      (void)rows->residual(K, force, solution, correction);
-    } else {
-      rows->residual(K, force, solution, rows_to_change, correction);
+    if (!eliminated_along) {
+      find_changed_rows(force);
+      if (rows_to_change.empty()) {
+        (void)rows->residual(K, force, solution, correction);
+      } else {
+        rows->residual(K, force, solution, rows_to_change, correction);
+      }
     }
   }
   improve(force, true);
@@ -281,7 +149,9 @@ void Reanalysis::State::improve(const Eigen::VectorXd& force, bool first) {
   const SparseSymmetric& K = system->matrix();
   SolveQuality& quality = answer.quality;
   for (int step = 0; step <= most_refinements; ++step) {
-    if (first && !rows_to_change.empty()) {
+    if (first && std::exchange(eliminated_along, false)) {
+      standing->solve_along(correction);
+    } else if (first && !rows_to_change.empty()) {
       standing->solve(correction, &rows_to_change);
     } else {
       standing->solve(correction);
@@ -371,6 +241,8 @@ const ReanalysisAnswer& Reanalysis::State::solve(UseWatch* watch) {
   // The uses of the present answer are what a restricted one starts from.
   if (watch != nullptr && restricted && !restricted->uses_known() && answered && answer.stable && structure_stands)
     read_all_uses(*watch);
+  watched = watch != nullptr;
+  eliminated_along = false;
   apply_changes();
   answered = true;
   const bool nearly_unstable = answer.nearly_unstable;  // a property of the factor, which may stay

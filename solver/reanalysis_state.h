@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "beam_strain_forces.h"
 #include "factor.h"
 #include "factor_refresh.h"
 #include "frame_system.h"
@@ -42,8 +43,8 @@ struct Reanalysis::State {
   std::unique_ptr<StandingFactor> next;      ///< remembers the changes since the refresh was begun
   std::unique_ptr<FactorRefresh> refresh;    ///< the factor that `next` is to serve with
   double refresh_paid = 0, refresh_due = 0;  ///< operations of answers since then; those after which it takes over
-  double correction_paid = 0;                ///< operations for changes from before, since the factor was made
-  double looked_at_softening = 0;  ///< at which the softest motion was looked at last
+  double correction_paid = 0;                ///< predicted cost of changes from before, since the factor was made
+  double looked_at_softening = 0;            ///< at which the softest motion was looked at last
   bool refresh_failed = false;               ///< not to be tried again before there is another factor
   bool assembled = false, factor_valid = false;
   bool structure_stands = false;  ///< the structure as it is was judged, and is stable
@@ -73,11 +74,10 @@ struct Reanalysis::State {
   std::vector<int> loaded_nodes;  ///< of beams that changed, and loaded otherwise, since then
   RestrictedEffort effort;
   std::vector<Vec6> displacements;
-  std::vector<Vec12> fixed_end;       ///< per beam, local
-  std::vector<Vec12> fixed_at_nodes;  ///< per beam: the same reversed, on its nodes, global
-  /// Per beam: its stiffness, local, as the second end sees it (rightmost columns); made when first asked for.
-  mutable std::vector<Eigen::Matrix<double, 12, 6>> end_stiffness;
-  mutable std::vector<char> end_stiffness_known;
+  std::vector<Vec12> fixed_end;                         ///< per beam, local
+  std::vector<Vec12> fixed_at_nodes;                    ///< per beam: the same reversed, on its nodes, global
+  mutable std::vector<BeamStrainForces> strain_forces;  ///< per beam, made when first asked for
+  mutable std::vector<char> strain_forces_known;
   std::vector<char> unbalanced;  ///< per beam: loaded in a loose direction
   mutable std::vector<Vec6> reactions;
   ReanalysisCounters counters;
@@ -85,6 +85,8 @@ struct Reanalysis::State {
   double response_operations = 0;  ///< of all responses
   /// Answers found beforehand: as everything stands (beam -1), and without one beam.
   std::vector<std::pair<int, Eigen::VectorXd>> expected;
+  bool watched = false;           ///< the answer under way may leave out what does not matter
+  bool eliminated_along = false;  ///< what it has to solve for is known, and eliminated with the changes' columns
   // Scratch of solve(): once grown, an answer asks for no memory.
   std::vector<int> touched_nodes, rows_to_change;
   Eigen::VectorXd scaled_force, correction, improved, eliminated;
@@ -107,6 +109,7 @@ struct Reanalysis::State {
   /// The rung below a new factor. False: not worth it, or it cannot decide.
   [[nodiscard]] bool correct_factor(const std::vector<int>& touched, std::optional<Defect>& defect);
   [[nodiscard]] std::optional<Defect> refactorise();
+  [[nodiscard]] FactorWork factor_work() const;
   /// Operations of a new factor with the estimate of its condition.
   [[nodiscard]] double factor_operations() const;
   void begin_refresh_if_due();
@@ -131,6 +134,9 @@ struct Reanalysis::State {
   [[nodiscard]] StandingFactor::Loss residual_without(int beam);
   void improve(const Eigen::VectorXd& force, bool first);
   void find_changed_rows(const Eigen::VectorXd& force);
+  /// Carries the plan out, the residual of the last answer going along when it can.
+  void update_correction(bool adds);
+  [[nodiscard]] bool know_residual();
   void add_rows_of(const std::vector<int>& nodes);
   /// Brings displacements up to date where the watch needs it. False: a full answer is needed.
   [[nodiscard]] bool answer_in_part(UseWatch& watch);
@@ -145,7 +151,7 @@ struct Reanalysis::State {
   /// The same on elimination paths, see StandingFactor::solve_on_paths().
   [[nodiscard]] Eigen::VectorXd solve_on_paths(const Eigen::VectorXd& force, std::vector<char>& known) const;
   [[nodiscard]] double current_condition() const;
-  [[nodiscard]] const Eigen::Matrix<double, 12, 6>& end_stiffness_of(std::size_t beam) const;
+  [[nodiscard]] const BeamStrainForces& strain_forces_of(std::size_t beam) const;
   [[nodiscard]] Vec12 end_forces(std::size_t beam, const std::vector<Vec6>& displacements, const Vec12& fixed) const;
   [[nodiscard]] LinearSolve linear_solve() const;
   void scale_force(const Eigen::VectorXd& force, Eigen::VectorXd& result) const;

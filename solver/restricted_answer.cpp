@@ -264,7 +264,7 @@ double RestrictedAnswer::twice_energy_of_beam(int index) const {
   const Beam& beam = system_.model.beams[i];
   const Vec6 strain =
       relative_motion(beam.length, hub_displacements(beam, node_change(beam.node[0]), node_change(beam.node[1])));
-  return strain.dot(beam_stiffness_(index).bottomRows<6>() * strain);
+  return beam_stiffness_(index).twice_energy(strain);
 }
 
 double RestrictedAnswer::twice_energy_of_shell(int index) const {

@@ -14,6 +14,7 @@
 #include <span>
 #include <vector>
 
+#include "beam_strain_forces.h"
 #include "frame_system.h"
 #include "topple/solver/use_watch.h"
 #include "triangular.h"
@@ -22,8 +23,7 @@ namespace topple::solver {
 
 class RestrictedAnswer {
  public:
-  /// A beam's stiffness as its second end sees it, local axes: the rightmost columns of its matrix.
-  using BeamStiffness = std::function<const Eigen::Matrix<double, 12, 6>&(int beam)>;
+  using BeamStiffness = std::function<const BeamStrainForces&(int beam)>;
   /// `solver` holds the factor of the system's matrix at some time; both must outlive this. The answer is whole.
   RestrictedAnswer(const FrameSystem& system, const TriangularSolver& solver, BeamStiffness stiffness);
 

@@ -1,6 +1,7 @@
 #include "scatter_map.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <stdexcept>
 
@@ -123,39 +124,46 @@ void ScatterMap::build_positions() {
 SparseSymmetric ScatterMap::empty_matrix() const { return pattern_; }
 
 bool ScatterMap::is_wanted(int equation, const std::vector<char>& wanted) const {
-  return wanted.empty() ||
-         wanted[static_cast<std::size_t>(dofs_.vertex_of_equation[static_cast<std::size_t>(equation)])] != 0;
+  return wanted[static_cast<std::size_t>(dofs_.vertex_of_equation[static_cast<std::size_t>(equation)])] != 0;
+}
+
+/// Calls visit(i, j, place) for the element's entries that belong to the matrix and are wanted, i >= j.
+template <class Visit>
+void ScatterMap::each_entry(std::size_t element, const std::vector<char>& wanted, const Visit& visit) const {
+  const auto numbers = freedoms(element);
+  const std::size_t n = numbers.size();
+  const std::int64_t* place = positions_.data() + position_start_[element];
+  constexpr std::size_t most_kept = 24;  // of beams and shells; those of larger patches are looked up each time
+  std::array<char, most_kept> kept{};
+  const auto look_up = [&](std::size_t i) { return numbers[i] < dofs_.equations && is_wanted(numbers[i], wanted); };
+  for (std::size_t i = 0; !wanted.empty() && i < std::min(n, most_kept); ++i) kept[i] = look_up(i) ? 1 : 0;
+  const auto wants = [&](std::size_t i) { return i < most_kept ? kept[i] != 0 : look_up(i); };
+  for (std::size_t j = 0; j < n; ++j) {
+    if (numbers[j] >= dofs_.equations) {
+      place += n - j;
+      continue;
+    }
+    const bool all = wanted.empty() || wants(j);
+    for (std::size_t i = j; i < n; ++i, ++place)
+      if (*place >= 0 && (all || wants(i))) visit(i, j, *place);
+  }
 }
 
 void ScatterMap::add(std::size_t element, const double* k, std::span<const double> scale,
                      const std::vector<char>& wanted, SparseSymmetric& matrix) const {
   const auto numbers = freedoms(element);
   const std::size_t n = numbers.size();
-  const std::int64_t* place = positions_.data() + position_start_[element];
-  for (std::size_t j = 0; j < n; ++j) {
-    if (numbers[j] >= dofs_.equations) {
-      place += n - j;
-      continue;
-    }
-    const double column_scale = scale[static_cast<std::size_t>(numbers[j])];
-    const bool column_wanted = is_wanted(numbers[j], wanted);
-    for (std::size_t i = j; i < n; ++i, ++place) {
-      if (*place < 0 || !(column_wanted || is_wanted(numbers[i], wanted))) continue;
-      const double value = k[j * n + i] * column_scale * scale[static_cast<std::size_t>(numbers[i])];
-      matrix.value[static_cast<std::size_t>(*place >> 1)] += (*place & 1) != 0 ? 2 * value : value;
-    }
-  }
+  each_entry(element, wanted, [&](std::size_t i, std::size_t j, std::int64_t place) {
+    const double value =
+        k[j * n + i] * scale[static_cast<std::size_t>(numbers[j])] * scale[static_cast<std::size_t>(numbers[i])];
+    matrix.value[static_cast<std::size_t>(place >> 1)] += (place & 1) != 0 ? 2 * value : value;
+  });
 }
 
 void ScatterMap::clear(std::size_t element, const std::vector<char>& wanted, SparseSymmetric& matrix) const {
-  const auto numbers = freedoms(element);
-  const std::int64_t* place = positions_.data() + position_start_[element];
-  for (std::size_t j = 0; j < numbers.size(); ++j) {
-    for (std::size_t i = j; i < numbers.size(); ++i, ++place) {
-      if (*place < 0 || !(is_wanted(numbers[j], wanted) || is_wanted(numbers[i], wanted))) continue;
-      matrix.value[static_cast<std::size_t>(*place >> 1)] = 0;
-    }
-  }
+  each_entry(element, wanted, [&](std::size_t, std::size_t, std::int64_t place) {
+    matrix.value[static_cast<std::size_t>(place >> 1)] = 0;
+  });
 }
 
 }  // namespace topple::solver

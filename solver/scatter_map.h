@@ -37,6 +37,8 @@ class ScatterMap {
   /// Rows between the triangle of vertex v and the rows of its neighbour w > v.
   [[nodiscard]] std::int32_t offset_of(int v, int w) const;
   [[nodiscard]] bool is_wanted(int equation, const std::vector<char>& wanted) const;
+  template <class Visit>
+  void each_entry(std::size_t element, const std::vector<char>& wanted, const Visit& visit) const;
   void build_pattern();
   void build_positions();
 

@@ -1,25 +1,12 @@
 #include "standing_factor.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace topple::solver {
 namespace {
 
-/// Operations that one entry of the factor costs in a triangular solve of one column, where memory sets the pace, and
-/// for each further column; and those of a small dense solver, which runs at a fraction of the factorisation's rate.
-constexpr double entry_cost = 10, column_cost = 3, dense_cost = 2;
-/// For each entry of the small dense solver, whose condition is estimated by a few solves.
-constexpr double condition_cost = 20;
-/// For each entry of the changes' columns in one solve.
-constexpr double correction_cost = 4;
-/// For each row that two columns share on their paths, when their product is made.
-constexpr double product_cost = 3;
-
-void sort_unique(std::vector<int>& values) {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-}
+/// Operations that one entry of the factor costs in a triangular solve, and one entry of the changes' columns.
+constexpr double entry_cost = 10, correction_cost = 4;
 
 }  // namespace
 
@@ -68,137 +55,6 @@ bool StandingFactor::inside_dropped(std::span<const int> nodes) const {
                      [&](int n) { return std::binary_search(dropped_.begin(), dropped_.end(), n); });
 }
 
-void StandingFactor::want(Key key, const Eigen::Ref<const Eigen::MatrixXd>& D) {
-  const auto known = wanted_.find(key);
-  if (known != wanted_.end()) {
-    if (known->second.D.size() == D.size() && known->second.D == D) return;
-    known->second.D = D;
-    known->second.set = false;
-  } else if ((D.array() != 0).any()) {
-    wanted_.emplace(key, Wanted{D, false});
-  }
-}
-
-void StandingFactor::plan_beam(int beam, const Mat6& before) {
-  const auto& nodes = system_.model.beams[static_cast<std::size_t>(beam)].node;
-  Mat6 D = Mat6::Zero();
-  if (!inside_dropped(nodes)) D = beam_mode_stiffness(system_, beam) - before;
-  want({Kind::beam, beam}, D);
-}
-
-void StandingFactor::plan_beams() {
-  if (dropped_more_) {
-    for (const auto& [beam, before] : beam_before_) plan_beam(beam, before);
-  } else {
-    for (const int beam : stale_beams_) plan_beam(beam, beam_before_.at(beam));
-  }
-  stale_beams_.clear();
-}
-
-void StandingFactor::plan_shells() {
-  for (const auto& [shell, before] : shell_before_) {
-    const auto s = static_cast<std::size_t>(shell);
-    const bool inside = inside_dropped(system_.model.shells[s].node);
-    know_modes(shell);
-    const double change = inside ? 0.0 : (system_.shell_stands[s] != 0 ? 1.0 : 0.0) - (before != 0 ? 1.0 : 0.0);
-    const auto known = wanted_.find({Kind::shell, shell});
-    if (change == 0 && known == wanted_.end()) continue;
-    const Eigen::Index count = shell_modes_.at(shell).B.cols();
-    want({Kind::shell, shell}, change * Eigen::MatrixXd::Identity(count, count));
-  }
-}
-
-/// Places among an element's freedoms of those that are equations.
-std::vector<int> StandingFactor::equations_of(std::size_t element) const {
-  const auto freedoms = system_.scatter().freedoms(element);
-  std::vector<int> kept;
-  for (std::size_t k = 0; k < freedoms.size(); ++k)
-    if (freedoms[k] < system_.dofs().equations) kept.push_back(static_cast<int>(k));
-  return kept;
-}
-
-/// A change of any shape is one of all the element's freedoms, each a column of its own.
-void StandingFactor::plan_plates() {
-  for (const auto& [element, before] : plate_before_) {
-    const std::vector<int> kept = equations_of(element);
-    const auto freedoms = system_.scatter().freedoms(element);
-    const auto size = static_cast<Eigen::Index>(kept.size());
-    Eigen::MatrixXd D = Eigen::MatrixXd::Zero(size, size);
-    if (!inside_dropped(system_.plate_nodes(element))) {
-      const Eigen::MatrixXd change = system_.plate_stiffness(element) - before;
-      const auto scale = [&](Eigen::Index i) {
-        const int place = kept[static_cast<std::size_t>(i)];
-        return system_.scale()[static_cast<std::size_t>(freedoms[static_cast<std::size_t>(place)])];
-      };
-      for (Eigen::Index i = 0; i < size; ++i)
-        for (Eigen::Index j = 0; j < size; ++j)
-          D(i, j) = change(kept[static_cast<std::size_t>(i)], kept[static_cast<std::size_t>(j)]) * scale(i) * scale(j);
-    }
-    want({Kind::plate, static_cast<int>(element)}, D);
-  }
-}
-
-/// What nodes have besides their elements: springs of supports, held rotations. False where a diaphragm shares it.
-bool StandingFactor::plan_nodes() {
-  sort_unique(touched_);
-  for (const int node : touched_) {
-    const auto n = static_cast<std::size_t>(node);
-    const bool dropped = inside_dropped(std::span(&node, 1));
-    if (system_.dofs().diaphragm_of_node[n] >= 0) {
-      // Its own equations alone: what it shares with the diaphragm is not corrected for.
-      if (dropped || diaphragm_node_before_.at(node) != system_.supports_and_inert_rotations(node)) return false;
-      continue;
-    }
-    FrameSystem::NodeMatrix D = system_.own_stiffness(node);
-    if (dropped) D.setZero();
-    const auto before = node_before_.find(node);
-    if (before != node_before_.end() && !dropped) D -= before->second;
-    want({Kind::node, node}, D);
-  }
-  touched_.clear();
-  return true;
-}
-
-/// One node of each dropped part that held together is held, so that the part is not loose.
-void StandingFactor::plan_grounds() {
-  for (auto& [key, wanted] : wanted_) {
-    if (key.kind != Kind::ground) continue;
-    wanted.D.setZero();
-    wanted.set = false;
-  }
-  std::vector<int> part(dropped_.size());
-  std::iota(part.begin(), part.end(), 0);
-  const auto index = [&](int node) {
-    return static_cast<int>(std::lower_bound(dropped_.begin(), dropped_.end(), node) - dropped_.begin());
-  };
-  const auto find = [&](int i) {
-    while (part[static_cast<std::size_t>(i)] != i) i = part[static_cast<std::size_t>(i)];
-    return i;
-  };
-  const auto join = [&](std::span<const int> nodes) {
-    for (const int node : nodes.subspan(1)) {
-      const int a = find(index(nodes[0])), b = find(index(node));
-      part[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-    }
-  };
-  for (const auto& [beam, before] : beam_before_) {
-    const auto& nodes = system_.model.beams[static_cast<std::size_t>(beam)].node;
-    if ((before.array() != 0).any() && inside_dropped(nodes)) join(nodes);
-  }
-  for (const auto& [shell, before] : shell_before_) {
-    const auto& nodes = system_.model.shells[static_cast<std::size_t>(shell)].node;
-    if (before != 0 && inside_dropped(nodes)) join(nodes);
-  }
-  for (const auto& [element, before] : plate_before_)
-    if ((before.array() != 0).any() && inside_dropped(system_.plate_nodes(element))) join(system_.plate_nodes(element));
-  for (std::size_t i = 0; i < dropped_.size(); ++i) {
-    if (find(static_cast<int>(i)) != static_cast<int>(i)) continue;
-    const auto n = static_cast<std::size_t>(dropped_[i]);
-    const Eigen::Index count = system_.dofs().first_equation[n + 1] - system_.dofs().first_equation[n];
-    want({Kind::ground, dropped_[i]}, Eigen::MatrixXd::Identity(count, count));
-  }
-}
-
 ElementModes StandingFactor::modes(Key key) const {
   if (key.kind == Kind::beam) return beam_modes(system_, key.index);
   if (key.kind == Kind::shell) return shell_modes_.at(key.index);
@@ -212,47 +68,6 @@ ElementModes StandingFactor::modes(Key key) const {
     return own;
   }
   return node_modes(system_, key.index);
-}
-
-StandingFactor::Plan StandingFactor::plan() {
-  Plan plan;
-  sort_unique(dropped_);
-  plan_beams();
-  plan_shells();
-  plan_plates();
-  if (!plan_nodes()) return plan;
-  if (dropped_more_) plan_grounds();
-  dropped_more_ = false;
-  plan.possible = true;
-  double new_columns = 0, path_cost = 0;
-  std::vector<int> new_rows;
-  for (const auto& [key, wanted] : wanted_) {
-    if (!wanted.active()) continue;
-    plan.rank += static_cast<int>(wanted.D.cols());
-    if (place_.contains(key)) continue;
-    const ElementModes m = modes(key);
-    const EliminationPath path = solver_->path(m.rows);
-    const auto columns = static_cast<double>(wanted.D.cols());
-    path_cost += column_cost * columns * solver_->entries(path);
-    path_cost += product_cost * columns * path.rows() * (plan.rank + columns);
-    new_rows.insert(new_rows.end(), m.rows.begin(), m.rows.end());
-    new_columns += columns;
-  }
-  // Blocks that several paths share are read once.
-  if (new_columns > 0) path_cost += entry_cost * solver_->entries_on_paths(new_rows, marked_);
-  double kept = correction_->active_rank();
-  for (const auto& [key, place] : place_)
-    if (!wanted_.at(key).set) kept = std::min<double>(kept, correction_->rank_before(place));
-  const double rank = plan.rank;
-  kept = std::min(kept, rank);
-  const auto dense = [](double columns) {
-    return dense_cost * columns * columns * columns + condition_cost * columns * columns;
-  };
-  plan.operations = path_cost + dense(rank) - dense_cost * kept * kept * kept + solve_operations();
-  if (kept > 0)
-    plan.carried = dense(rank) - dense_cost * kept * kept * kept - dense(rank - kept) +
-                   correction_cost * correction_->entries() * kept / rank;
-  return plan;
 }
 
 /// What was restored is as the factor has it: no need to look at it again until it changes again.
@@ -274,25 +89,66 @@ void StandingFactor::forget_unchanged(std::optional<Eigen::Index> kept) {
   }
 }
 
-void StandingFactor::update() {
-  for (const auto& [key, place] : place_) {
-    Wanted& wanted = wanted_.at(key);
-    if (!wanted.set) correction_->set(place, wanted.D);
-    wanted.set = true;
-  }
+/// Takes what changed over, and adds what changed for the first time; returns the latter's places.
+std::vector<int> StandingFactor::add_planned() {
+  set_wanted();
   forget_unchanged();
+  std::vector<int> added;
   for (const auto& [key, wanted] : wanted_) {
     if (wanted.set || !wanted.active()) continue;
-    const ElementModes m = modes(key);
-    place_.emplace(key, correction_->add(m.rows, m.B));
+    const ElementModes& m = planned_.at(key);
+    added.push_back(correction_->add(m.rows, m.B));
+    place_.emplace(key, added.back());
   }
-  correction_->finish_adding();
+  planned_.clear();
+  return added;
+}
+
+void StandingFactor::set_wanted() {
   for (const auto& [key, place] : place_) {
     Wanted& wanted = wanted_.at(key);
     if (!wanted.set) correction_->set(place, wanted.D);
     wanted.set = true;
   }
+}
+
+void StandingFactor::update() {
+  (void)add_planned();
+  correction_->finish_adding();
+  set_wanted();
   correction_->update();
+}
+
+/// Shares a vector out to the paths of these places, a column for each. False: not all of it lies on them.
+bool StandingFactor::on_paths(std::span<const int> places, std::span<const int> rows, const Eigen::VectorXd& vector,
+                              std::vector<Eigen::MatrixXd>& columns) const {
+  for (const int place : places) columns.emplace_back(Eigen::MatrixXd::Zero(correction_->path(place).rows(), 1));
+  for (const int row : rows) {
+    if (vector(row) == 0) continue;
+    std::size_t p = 0;
+    while (p < places.size() && !solver_->is_on_path(correction_->path(places[p]), row)) ++p;
+    if (p == places.size()) return false;
+    columns[p](solver_->row_on_path(correction_->path(places[p]), row)) = vector(row);
+  }
+  return true;
+}
+
+bool StandingFactor::update(std::span<const int> rows, const Eigen::VectorXd& right_hand_side) {
+  const std::vector<int> added = add_planned();
+  std::vector<Eigen::MatrixXd> columns;
+  std::vector<PathColumns> also;
+  const bool along = !added.empty() && on_paths(added, rows, right_hand_side, columns);
+  for (std::size_t p = 0; along && p < added.size(); ++p) also.push_back({&correction_->path(added[p]), &columns[p]});
+  correction_->finish_adding(also);
+  if (along) {
+    along_.setZero(solver_->size());
+    const double minus = -1;
+    for (std::size_t p = 0; p < added.size(); ++p)
+      solver_->subtract(correction_->path(added[p]), columns[p], &minus, along_);
+  }
+  set_wanted();
+  correction_->update();
+  return along;
 }
 
 void StandingFactor::solve(Eigen::VectorXd& x, const std::vector<int>* rows) const {
@@ -303,6 +159,21 @@ void StandingFactor::solve(Eigen::VectorXd& x, const std::vector<int>* rows) con
   } else {
     solver_->forward(eliminated_);
   }
+  finish_solve(x);
+}
+
+void StandingFactor::forward_along(Eigen::VectorXd& y) const {
+  y = along_;
+  correction_->correct(y);
+}
+
+void StandingFactor::solve_along(Eigen::VectorXd& x) const {
+  eliminated_ = along_;
+  finish_solve(x);
+}
+
+/// From the eliminated right-hand side to the answer.
+void StandingFactor::finish_solve(Eigen::VectorXd& x) const {
   correction_->correct(eliminated_);
   solver_->backward(eliminated_);
   solver_->restore(eliminated_, x);

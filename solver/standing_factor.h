@@ -15,6 +15,7 @@
 #include "element_modes.h"
 #include "factor.h"
 #include "frame_system.h"
+#include "ladder_costs.h"
 #include "low_rank.h"
 #include "triangular.h"
 
@@ -46,11 +47,15 @@ class StandingFactor {
     bool possible = false;  ///< false: the change is of a kind that only a new factor takes
     int rank = 0;           ///< columns of the correction
     double operations = 0;  ///< to bring it up to date and for one answer
-    double carried = 0;     ///< of them, those for changes from before, which a new factor would have in it
+    CorrectionWork work;    ///< the same by kind, as the rungs are compared by
   };
   [[nodiscard]] Plan plan();
   /// Carries the last plan out.
   void update();
+  /// The same; a right-hand side, zero outside of `rows`, is eliminated along with the new places when all of it lies
+  /// on their paths: their blocks of the factor are read once for both. True: forward_along() and solve_along() go on
+  /// from there.
+  [[nodiscard]] bool update(std::span<const int> rows, const Eigen::VectorXd& right_hand_side);
 
   /// x := K^-1 x of the matrix as it stands. `rows` (unless null): x is zero in all other rows.
   void solve(Eigen::VectorXd& x, const std::vector<int>* rows = nullptr) const;
@@ -60,6 +65,9 @@ class StandingFactor {
   /// The same up to the backward solve: y, in elimination order, of which L^-T makes the answer. Rows as above, the
   /// blocks on their paths in `marked`.
   void forward(const Eigen::VectorXd& x, const std::vector<char>& marked, Eigen::VectorXd& y) const;
+  /// What forward() makes of the right-hand side that was eliminated along; and solve().
+  void forward_along(Eigen::VectorXd& y) const;
+  void solve_along(Eigen::VectorXd& x) const;
   /// A beam that will be taken away, and a right-hand side for the matrix without it: zero outside of these rows, those
   /// of the beam's nodes.
   struct Loss {
@@ -101,6 +109,11 @@ class StandingFactor {
   [[nodiscard]] bool inside_dropped(std::span<const int> nodes) const;
   void know_modes(int shell);
   [[nodiscard]] ElementModes modes(Key key) const;
+  [[nodiscard]] std::vector<int> add_planned();
+  void set_wanted();
+  [[nodiscard]] bool on_paths(std::span<const int> places, std::span<const int> rows, const Eigen::VectorXd& vector,
+                              std::vector<Eigen::MatrixXd>& columns) const;
+  void finish_solve(Eigen::VectorXd& x) const;
 
   const FrameSystem& system_;
   std::optional<TriangularSolver> solver_;
@@ -123,6 +136,8 @@ class StandingFactor {
     [[nodiscard]] bool active() const { return (D.array() != 0).any(); }
   };
   std::map<Key, Wanted> wanted_;
+  std::map<Key, ElementModes> planned_;  ///< of places that the last plan adds
+  Eigen::VectorXd along_;                ///< in elimination order
   mutable Eigen::VectorXd eliminated_;
   mutable std::vector<char> marked_;
 };

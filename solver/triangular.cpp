@@ -4,11 +4,10 @@
 #include <cmath>
 
 #include "few_columns.h"
+#include "panel_substitution.h"
+#include "vector_versions.h"
 
 extern "C" {
-void dtrsv_(const char*, const char*, const char*, const int*, const double*, const int*, double*, const int*);
-void dgemv_(const char*, const int*, const int*, const double*, const double*, const int*, const double*, const int*,
-            const double*, double*, const int*);
 void dtrsm_(const char*, const char*, const char*, const char*, const int*, const int*, const double*, const double*,
             const int*, double*, const int*);
 void dgemm_(const char*, const char*, const int*, const int*, const int*, const double*, const double*, const int*,
@@ -18,12 +17,11 @@ void dgemm_(const char*, const char*, const int*, const int*, const int*, const 
 namespace topple::solver {
 namespace {
 
-/// Blocks with fewer entries than this are done by plain loops: a call of BLAS costs more than they do.
+/// Blocks with fewer entries than this are done by plain passes: a call of BLAS costs more than they do.
 constexpr int small_block = 1024;
 /// Up to so many right-hand sides BLAS loses to a plain pass over the block.
 constexpr int few_columns = 12;
-constexpr int one = 1;
-constexpr double plus = 1, minus = -1, none = 0;
+constexpr double plus = 1, none = 0;
 
 /// One block of the factor: `columns` dense columns of `rows` entries, the triangle first.
 struct Block {
@@ -33,43 +31,7 @@ struct Block {
   [[nodiscard]] bool small() const { return columns * rows < small_block; }
 };
 
-/// x (the block's own rows) := triangle^-1 x; below := rectangle x.
-void forward_block(const Block& b, double* x, double* below) {
-  if (b.small()) {
-    std::fill(below, below + b.below(), 0.0);
-    for (int j = 0; j < b.columns; ++j) {
-      const double* column = b.value + static_cast<std::ptrdiff_t>(j) * b.rows;
-      const double xj = x[j] /= column[j];
-      for (int i = j + 1; i < b.columns; ++i) x[i] -= column[i] * xj;
-      for (int i = 0; i < b.below(); ++i) below[i] += column[b.columns + i] * xj;
-    }
-    return;
-  }
-  dtrsv_("L", "N", "N", &b.columns, b.value, &b.rows, x, &one);
-  const int below_rows = b.below();
-  if (below_rows > 0)
-    dgemv_("N", &below_rows, &b.columns, &plus, b.value + b.columns, &b.rows, x, &one, &none, below, &one);
-}
-
-/// x := triangle^-T (x - rectangle' below).
-void backward_block(const Block& b, double* x, const double* below) {
-  if (b.small()) {
-    for (int j = b.columns - 1; j >= 0; --j) {
-      const double* column = b.value + static_cast<std::ptrdiff_t>(j) * b.rows;
-      double sum = x[j];
-      for (int i = j + 1; i < b.columns; ++i) sum -= column[i] * x[i];
-      for (int i = 0; i < b.below(); ++i) sum -= column[b.columns + i] * below[i];
-      x[j] = sum / column[j];
-    }
-    return;
-  }
-  const int below_rows = b.below();
-  if (below_rows > 0)
-    dgemv_("T", &below_rows, &b.columns, &minus, b.value + b.columns, &b.rows, below, &one, &plus, x, &one);
-  dtrsv_("L", "T", "N", &b.columns, b.value, &b.rows, x, &one);
-}
-
-/// The same as forward_block() for several columns.
+/// x (the block's own rows, a column each) := triangle^-1 x; below := rectangle x.
 void forward_block(const Block& b, double* x, int count, double* below) {
   const int below_rows = b.below();
   if (count <= few_columns || b.small()) {
@@ -80,6 +42,35 @@ void forward_block(const Block& b, double* x, int count, double* below) {
   if (below_rows > 0)
     dgemm_("N", "N", &below_rows, &count, &b.columns, &plus, b.value + b.columns, &b.rows, x, &b.columns, &none, below,
            &below_rows);
+}
+
+[[gnu::always_inline]] inline void subtract(const double* from, const RowsInLine& run, double* to) {
+  each_lanes(
+      run.count, [&]([[maybe_unused]] auto lanes, int i) __attribute__((always_inline)) {
+        lanes_at<decltype(lanes)>(to + i) -= lanes_at<decltype(lanes)>(from + run.from + i);
+      });
+}
+
+/// compact := the runs' rows of y.
+TOPPLE_VECTOR_VERSIONS
+void take_rows(std::span<const RowsInLine> runs, const double* y, double* compact) {
+  for (const RowsInLine& run : runs)
+    each_lanes(
+        run.count, [&]([[maybe_unused]] auto lanes, int i) __attribute__((always_inline)) {
+          lanes_at<decltype(lanes)>(compact + run.from + i) = lanes_at<decltype(lanes)>(y + run.row + i);
+        });
+}
+
+/// The runs' rows of y -= compact.
+TOPPLE_VECTOR_VERSIONS
+void subtract_rows(std::span<const RowsInLine> runs, const double* compact, double* y) {
+  for (const RowsInLine& run : runs) subtract(compact, run, y + run.row);
+}
+
+/// The same on a path that ends there.
+TOPPLE_VECTOR_VERSIONS
+void subtract_rows_from_end(std::span<const RowsInLine> runs, const double* compact, double* end) {
+  for (const RowsInLine& run : runs) subtract(compact, run, end - run.from_end);
 }
 
 }  // namespace
@@ -160,6 +151,30 @@ void TriangularSolver::finish() {
     rows_to_root_[b] = static_cast<int>(first_[b + 1] - first_[b]);
     if (parent_[b] >= 0) rows_to_root_[b] += rows_to_root_[static_cast<std::size_t>(parent_[b])];
   }
+  find_runs();
+}
+
+/// Rows that follow each other also do so on every path that both lie on: the next block is then the parent.
+void TriangularSolver::find_runs() {
+  run_start_.push_back(0);
+  for (std::size_t b = 0; b < parent_.size(); ++b) {
+    const std::span<const std::int64_t> below = block(static_cast<int>(b)).below;
+    for (std::size_t i = 0; i < below.size(); ++i) {
+      if (i > 0 && below[i] == below[i - 1] + 1) {
+        ++run_.back().count;
+        continue;
+      }
+      const int row = static_cast<int>(below[i]);
+      const auto of = static_cast<std::size_t>(block_of_[static_cast<std::size_t>(row)]);
+      run_.push_back({static_cast<int>(i), row, 1, rows_to_root_[of] - (row - static_cast<int>(first_[of]))});
+    }
+    run_start_.push_back(static_cast<std::int64_t>(run_.size()));
+  }
+}
+
+std::span<const RowsInLine> TriangularSolver::runs(std::size_t b) const {
+  return std::span(run_).subspan(static_cast<std::size_t>(run_start_[b]),
+                                 static_cast<std::size_t>(run_start_[b + 1] - run_start_[b]));
 }
 
 double TriangularSolver::entries(const EliminationPath& path) const {
@@ -206,6 +221,10 @@ EliminationPath TriangularSolver::path(std::span<const int> rows) const {
   return result;
 }
 
+bool TriangularSolver::is_on_path(const EliminationPath& path, int row) const {
+  return std::binary_search(path.block.begin(), path.block.end(), block_of(row));
+}
+
 int TriangularSolver::row_on_path(const EliminationPath& path, int row) const {
   const int at = position(row), block = block_of_[static_cast<std::size_t>(at)];
   const auto found = std::lower_bound(path.block.begin(), path.block.end(), block);
@@ -241,11 +260,9 @@ void TriangularSolver::forward(Eigen::VectorXd& y, const std::vector<char>* mark
   double* below = below_.data();
   for (std::size_t b = 0; b < parent_.size(); ++b) {
     if (marked != nullptr && (*marked)[b] == 0) continue;
-    const Block block{value_.data() + value_start_[b], static_cast<int>(first_[b + 1] - first_[b]),
-                      static_cast<int>(row_start_[b + 1] - row_start_[b])};
-    forward_block(block, y.data() + first_[b], below);
-    const std::int64_t* rows = row_.data() + row_start_[b] + block.columns;
-    for (int i = 0; i < block.below(); ++i) y(rows[i]) -= below[i];
+    eliminate_few_columns(value_.data() + value_start_[b], static_cast<int>(first_[b + 1] - first_[b]),
+                          static_cast<int>(row_start_[b + 1] - row_start_[b]), y.data() + first_[b], 1, below);
+    subtract_rows(runs(b), below, y.data());
   }
 }
 
@@ -256,51 +273,37 @@ TriangularSolver::BlockRows TriangularSolver::block(int block) const {
   return {static_cast<int>(first_[b]), static_cast<int>(columns), row_.subspan(start + columns, end - start - columns)};
 }
 
-void TriangularSolver::backward(int block, double* x, const double* below) const {
+void TriangularSolver::backward(int block, double* x, const double* below, int count) const {
   const auto b = static_cast<std::size_t>(block);
-  backward_block({value_.data() + value_start_[b], static_cast<int>(first_[b + 1] - first_[b]),
-                  static_cast<int>(row_start_[b + 1] - row_start_[b])},
-                 x, below);
+  substitute_back(value_.data() + value_start_[b], static_cast<int>(first_[b + 1] - first_[b]),
+                  static_cast<int>(row_start_[b + 1] - row_start_[b]), x, count, below);
 }
 
 void TriangularSolver::backward(Eigen::VectorXd& y, const std::vector<char>* marked) const {
   double* below = below_.data();
   for (std::size_t b = parent_.size(); b-- > 0;) {
     if (marked != nullptr && (*marked)[b] == 0) continue;
-    const Block block{value_.data() + value_start_[b], static_cast<int>(first_[b + 1] - first_[b]),
-                      static_cast<int>(row_start_[b + 1] - row_start_[b])};
-    const std::int64_t* rows = row_.data() + row_start_[b] + block.columns;
-    for (int i = 0; i < block.below(); ++i) below[i] = y(rows[i]);
-    backward_block(block, y.data() + first_[b], below);
+    take_rows(runs(b), y.data(), below);
+    backward(static_cast<int>(b), y.data() + first_[b], below);
   }
 }
 
 void TriangularSolver::backward(Eigen::MatrixXd& y) const {
-  const int count = static_cast<int>(y.cols());
-  const std::ptrdiff_t stride = y.rows();
-  const std::size_t needed = below_.size() * static_cast<std::size_t>(count);
-  std::vector<double> right(needed);
+  const auto count = static_cast<int>(y.cols());
+  std::vector<double> below, own;
   for (std::size_t b = parent_.size(); b-- > 0;) {
-    const Block block{value_.data() + value_start_[b], static_cast<int>(first_[b + 1] - first_[b]),
-                      static_cast<int>(row_start_[b + 1] - row_start_[b])};
-    const std::int64_t* rows = row_.data() + row_start_[b] + block.columns;
-    const int below_rows = block.below();
-    for (int c = 0; c < count; ++c) {
-      const double* from = y.data() + c * stride;
-      double* to = right.data() + static_cast<std::ptrdiff_t>(c) * below_rows;
-      for (int i = 0; i < below_rows; ++i) to[i] = from[rows[i]];
+    const BlockRows rows = block(static_cast<int>(b));
+    const std::size_t below_rows = rows.below.size(), columns = static_cast<std::size_t>(rows.columns);
+    below.resize(std::max(below.size(), below_rows * y.cols()));
+    own.resize(std::max(own.size(), columns * y.cols()));
+    for (std::size_t c = 0; c < static_cast<std::size_t>(count); ++c) {
+      const double* from = y.col(static_cast<Eigen::Index>(c)).data();
+      take_rows(runs(b), from, below.data() + c * below_rows);
+      std::copy_n(from + rows.first, columns, own.data() + c * columns);
     }
-    double* x = y.data() + first_[b];
-    const int ld = static_cast<int>(stride);
-    if (block.small()) {
-      for (int c = 0; c < count; ++c)
-        backward_block(block, x + c * stride, right.data() + static_cast<std::ptrdiff_t>(c) * below_rows);
-      continue;
-    }
-    if (below_rows > 0)
-      dgemm_("T", "N", &block.columns, &count, &below_rows, &minus, block.value + block.columns, &block.rows,
-             right.data(), &below_rows, &plus, x, &ld);
-    dtrsm_("L", "L", "T", "N", &block.columns, &count, &plus, block.value, &block.rows, x, &ld);
+    backward(static_cast<int>(b), own.data(), below.data(), count);
+    for (std::size_t c = 0; c < static_cast<std::size_t>(count); ++c)
+      std::copy_n(own.data() + c * columns, columns, y.col(static_cast<Eigen::Index>(c)).data() + rows.first);
   }
 }
 
@@ -352,21 +355,10 @@ void TriangularSolver::forward_block_of(std::size_t b, std::span<const PathColum
     std::copy(end - own, end - own + block.columns, x + static_cast<std::ptrdiff_t>(at) * block.columns);
   });
   forward_block(block, x, count, below_.data());
-  const std::int64_t* rows = row_.data() + row_start_[b] + block.columns;
-  const int below_rows = block.below();
   each_column([&](double* end, int at) {
     const double* from = x + static_cast<std::ptrdiff_t>(at) * block.columns;
     std::copy(from, from + block.columns, end - own);
-  });
-  if (from_end_.size() < static_cast<std::size_t>(below_rows)) from_end_.resize(static_cast<std::size_t>(below_rows));
-  for (int i = 0; i < below_rows; ++i) {
-    const auto of = static_cast<std::size_t>(block_of_[static_cast<std::size_t>(rows[i])]);
-    from_end_[static_cast<std::size_t>(i)] = rows_to_root_[of] - (rows[i] - first_[of]);
-  }
-  const std::int64_t* from_end = from_end_.data();
-  each_column([&](double* end, int at) {
-    const double* source = below_.data() + static_cast<std::ptrdiff_t>(at) * below_rows;
-    for (int i = 0; i < below_rows; ++i) *(end - from_end[i]) -= source[i];
+    subtract_rows_from_end(runs(b), below_.data() + static_cast<std::ptrdiff_t>(at) * block.below(), end);
   });
 }
 

@@ -26,6 +26,12 @@ struct PathColumns {
   Eigen::MatrixXd* columns;
 };
 
+/// Rows below a block that follow each other: among those below it from `from` on; in elimination order from `row` on;
+/// on a path, `from_end` rows from its end on.
+struct RowsInLine {
+  int from, row, count, from_end;
+};
+
 /// K = P' L L' P over the numbers of a Factor, which must outlive it and not be factorised again. (A simplicial L D L'
 /// is copied into blocks as L sqrt(D).)
 class TriangularSolver {
@@ -61,8 +67,8 @@ class TriangularSolver {
   };
   [[nodiscard]] BlockRows block(int block) const;
   [[nodiscard]] int parent(int block) const { return parent_[static_cast<std::size_t>(block)]; }
-  /// The backward step of one block: x (its own rows) := triangle^-T (x - rectangle' below).
-  void backward(int block, double* x, const double* below) const;
+  /// The backward step of one block: x (its own rows, `count` columns) := triangle^-T (x - rectangle' below).
+  void backward(int block, double* x, const double* below, int count = 1) const;
 
   /// y := L^-1 y in elimination order. With `marked` (per block): only these; the rest of y must be zero.
   void forward(Eigen::VectorXd& y, const std::vector<char>* marked = nullptr) const;
@@ -73,6 +79,7 @@ class TriangularSolver {
   void backward(Eigen::MatrixXd& y) const;
   /// B := L^-1 B for each B. Blocks that several paths share are gone through once, with all their columns together.
   void forward(std::span<const PathColumns> groups) const;
+  [[nodiscard]] bool is_on_path(const EliminationPath& path, int row) const;
   /// The row of the path at which an equation of the matrix stands.
   [[nodiscard]] int row_on_path(const EliminationPath& path, int row) const;
   /// W' y with columns W on the path and a whole vector y; and y -= W c.
@@ -83,6 +90,8 @@ class TriangularSolver {
   void take_supernodal(const FactorView& view);
   void take_simplicial(const FactorView& view);
   void finish();
+  void find_runs();
+  [[nodiscard]] std::span<const RowsInLine> runs(std::size_t block) const;
   void forward_block_of(std::size_t block, std::span<const PathColumns> groups) const;
 
   int size_ = 0;
@@ -96,10 +105,11 @@ class TriangularSolver {
   std::vector<double> own_value_;
   /// Per block: rows of a path from it to the root, its own included. A path's rows stand that far from its end.
   std::vector<int> rows_to_root_;
+  std::vector<std::int64_t> run_start_;  ///< per block
+  std::vector<RowsInLine> run_;
   // Scratch; grows only.
   mutable std::vector<double> below_, together_;
   mutable std::vector<std::size_t> next_, sharing_;
-  mutable std::vector<std::int64_t> from_end_;
 };
 
 }  // namespace topple::solver

@@ -393,3 +393,56 @@ TEST_CASE(
   CHECK(warned >= 2);
   CHECK(mechanisms >= 2);
 }
+
+TEST_CASE("the warning of a nearly unstable structure comes back with what caused it") {
+  // The posts of one storey of a tall frame become hinges with weak springs, at both ends and both ways.
+  const FrameModel model = tower(3, 20);
+  std::vector<int> posts;
+  for (int i = 0; i < static_cast<int>(model.beams.size()); ++i) {
+    const auto& node = model.beams[static_cast<std::size_t>(i)].node;
+    if (node[0] / 9 == 10 && node[1] - node[0] == 9) posts.push_back(i);
+  }
+  REQUIRE(posts.size() == 9);
+  const auto hinge = [&](Reanalysis& standing, double spring) {
+    for (const int post : posts)
+      for (int end = 0; end < 2; ++end)
+        standing.set_end_stiffness(post, end, components(rigid, rigid, rigid, rigid, spring, spring));
+  };
+  const auto stand = [&] {
+    Reanalysis standing(model);
+    standing.set_node_load(180, unit(0, 1000));
+    const ReanalysisAnswer& answer = standing.solve();
+    REQUIRE(answer.stable);
+    REQUIRE_FALSE(answer.nearly_unstable);
+    return standing;
+  };
+  // The first of weaker and weaker springs that is warned of: well above a mechanism, and found by the correction.
+  double spring = 40;
+  for (bool warned = false; !warned;) {
+    spring /= 1.1;
+    REQUIRE(spring > 1);
+    Reanalysis trial = stand();
+    hinge(trial, spring);
+    REQUIRE(trial.solve().stable);
+    warned = trial.solve().nearly_unstable;
+  }
+  Reanalysis standing = stand();
+  for (int round = 0; round < 3; ++round) {
+    INFO("round " << round);
+    hinge(standing, spring);
+    CHECK(standing.solve().nearly_unstable);
+    hinge(standing, rigid);
+    CHECK_FALSE(standing.solve().nearly_unstable);
+  }
+  CHECK(standing.counters().refactorisations == 0);
+  // The two measure the same smallest stiffness by other norms: half a decade is left to them.
+  FrameModel changed = model;
+  for (const int post : posts)
+    changed.beams[static_cast<std::size_t>(post)].end_stiffness.fill(
+        components(rigid, rigid, rigid, rigid, spring / 5, spring / 5));
+  LoadSet loads;
+  loads.nodes = {{180, unit(0, 1000)}};
+  StaticAnalysis fresh(changed);
+  (void)fresh.solve(std::span(&loads, 1));
+  CHECK(fresh.statistics().nearly_unstable);
+}

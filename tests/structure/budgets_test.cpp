@@ -158,8 +158,8 @@ TEST_CASE("a blow that a budget cuts in two waits where it touches and goes on w
   };
   const auto free = fall(std::nullopt);
   until(*free, SimulationEvent::Kind::impact, 1);
-  // What the blow took in all, in four steps or more.
-  const auto tight = fall(free->frame().counters().operations / 4);
+  // What the blow took in all, in six steps or more.
+  const auto tight = fall(free->frame().counters().operations / 6);
   until(*tight, SimulationEvent::Kind::joint_broke, 1);
   CHECK(of_kind(*free, SimulationEvent::Kind::joint_broke).size() == 2);
   CHECK(of_kind(*tight, SimulationEvent::Kind::joint_broke).size() == 1);

@@ -1,0 +1,39 @@
+#pragma once
+// What the rungs of the ladder cost, predicted from counts: the choice between a correction and a new factor is by
+// these, and the same on every machine. bench_ladder prints the counts beside measured times.
+
+namespace topple::solver {
+
+/// One forward and backward solve with a factor in blocks.
+struct SolveWork {
+  double entries = 0, blocks = 0;
+};
+
+/// A new factor with the estimate of its condition, taken into service, and one answer.
+struct FactorWork {
+  double operations = 0;  ///< of the elimination (squares of its columns' lengths)
+  double freedoms = 0;
+  SolveWork solve;
+};
+
+/// A low-rank correction brought up to date, and one answer over it.
+struct CorrectionWork {
+  double places = 0;          ///< elements changed for the first time
+  double path_blocks = 0;     ///< on the paths of all of these
+  double path_products = 0;   ///< entries of the blocks on each path, for each of its columns
+  double shared_entries = 0;  ///< entries of the blocks on any of the paths
+  double pairs = 0;           ///< of places whose columns are multiplied
+  double pair_products = 0;   ///< rows of both, for each pair of columns
+  double rank = 0, kept = 0;  ///< columns of the small dense matrix, of its part whose factor stays
+  double column_entries = 0;  ///< of all columns, new ones included
+  SolveWork solve;
+};
+
+/// Nanoseconds on the machine that the constants were measured on; only ratios count.
+[[nodiscard]] double predicted_cost(const SolveWork& work);
+[[nodiscard]] double predicted_cost(const FactorWork& work);
+[[nodiscard]] double predicted_cost(const CorrectionWork& work);
+/// Of it what changes from before go on to cost, which a new factor would have in it.
+[[nodiscard]] double carried_cost(const CorrectionWork& work);
+
+}  // namespace topple::solver
