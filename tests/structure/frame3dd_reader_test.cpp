@@ -276,3 +276,34 @@ TEST_CASE("an element between radii has the mass of the whole distance between i
     }
   }
 }
+
+TEST_CASE("between radii geometric stiffness and end moments of the weight are those of the whole distance") {
+  // As Frame3DD has it: stiff over what the radii leave, the axial force and the weight over the whole length.
+  constexpr double L = 3000, Le = L - 200 - 300, E = 200000, area = 100, density = 7.85e-9;
+  const auto element = [](const std::string& second_support, const std::string& geometric, const std::string& load) {
+    return analyse(parse_frame3dd("A stub\n2\n1 0 0 0 200\n2 3000 0 0 300\n" + second_support +
+                                      "1\n1 1 2  100 50 60 10 20000 50000 200000 80000 0 7.85e-9\n0\n" + geometric +
+                                      "\n1 1 -1\n1\n" + load + "0\n",
+                                  "stub.3dd"),
+                   [&] {
+                     AnalysisRequest request;
+                     if (geometric == "1") request.second_order = topple::solver::SecondOrder::frame3dd;
+                     return request;
+                   }())
+        .combinations.front();
+  };
+  constexpr double push = 3, pressed = 1000;
+  const CombinationResult leaning = element("1\n1 1 1 1 1 1 1\n", "1", "0 0 0\n1\n2 -1000 3 0 0 0 0\n0\n0\n0\n0\n0\n");
+  const double EI = E * 50000, T = -pressed;
+  const double a = 12 * EI / (Le * Le * Le) + 1.2 * T / L, b = -(6 * EI / (Le * Le) + T / 10),
+               c = 4 * EI / Le + T * L * 2 / 15;
+  CHECK(leaning.displacements[1].y() == Approx(push * c / (a * c - b * b)).epsilon(1e-9));
+  CHECK(leaning.displacements[1](5) == Approx(-push * b / (a * c - b * b)).epsilon(1e-9));
+
+  const CombinationResult held = element("2\n1 1 1 1 1 1 1\n2 1 1 1 1 1 1\n", "0", "0 0 -9806\n0\n0\n0\n0\n0\n0\n");
+  const double q = density * area * 9806;
+  CHECK(std::abs(held.members[0].end_forces(4)) == Approx(q * L * L / 12).epsilon(1e-9));
+  CHECK(std::abs(held.members[0].end_forces(10)) == Approx(q * L * L / 12).epsilon(1e-9));
+  CHECK(held.members[0].end_forces(2) == Approx(q * L / 2).epsilon(1e-9));
+  CHECK(std::abs(held.reactions[0](4)) == Approx(q * L * L / 12).epsilon(1e-9));
+}
