@@ -324,6 +324,11 @@ StandingFrame::UnitResponse StandingFrame::respond(const ContactPlace& place, co
   return state_->respond(place, direction);
 }
 
+StandingFrame::CoupledResponse StandingFrame::respond(std::span<const ContactPlace> places,
+                                                      std::span<const Vec3> directions) const {
+  return state_->respond(places, directions);
+}
+
 StandingFrame::UnitResponse StandingFrame::respond_near(const ContactPlace& place, const Vec3& direction) const {
   return state_->respond_near(place, direction);
 }
@@ -334,9 +339,17 @@ double StandingFrame::critical_energy(const ContactPlace& place) const {
 
 double StandingFrame::break_in_impact(std::span<const JointBreak> breaks, const ContactPlace& place,
                                       const Vec3& direction) {
+  return break_in_impact(breaks, std::span(&place, 1), std::span(&direction, 1))(0);
+}
+
+Eigen::VectorXd StandingFrame::break_in_impact(std::span<const JointBreak> breaks, std::span<const ContactPlace> places,
+                                               std::span<const Vec3> directions) {
   State& state = *state_;
   state.lay_contacts();
-  const double before = state.displacement_along(place, direction);
+  Eigen::VectorXd shift(static_cast<Eigen::Index>(places.size()));
+  for (std::size_t i = 0; i < places.size(); ++i)
+    shift(static_cast<Eigen::Index>(i)) =
+        state.stands(places[i]) ? state.displacement_along(places[i], directions[i]) : 0.0;
   std::vector<JointId> broken;
   for (const JointBreak& one : breaks) broken.push_back(one.joint);
   state.break_joints(broken, BreakCause::impact);
@@ -346,7 +359,11 @@ double StandingFrame::break_in_impact(std::span<const JointBreak> breaks, const 
   // The caller knows its own breaks; what they brought with them is told by the next settle().
   std::erase_if(state.breaks, [](const JointBreak& one) { return one.cause == BreakCause::impact; });
   state.pending = true;
-  return state.stands(place) ? state.displacement_along(place, direction) - before : 0.0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    double& by = shift(static_cast<Eigen::Index>(i));
+    by = state.stands(places[i]) ? state.displacement_along(places[i], directions[i]) - by : 0.0;
+  }
+  return shift;
 }
 
 void StandingFrame::fracture(PanelId panel, const PanelRemains& remains) {
@@ -357,9 +374,7 @@ void StandingFrame::fracture(PanelId panel, const PanelRemains& remains) {
   state.pending = true;
 }
 
-Eigen::MatrixXd StandingFrame::shell_stiffness(PanelId shell) const {
-  return state_->shells.of(shell)->stiffness();
-}
+Eigen::MatrixXd StandingFrame::shell_stiffness(PanelId shell) const { return state_->shells.of(shell)->stiffness(); }
 
 const FrameCounters& StandingFrame::counters() const {
   FrameCounters& counters = state_->counters;

@@ -22,21 +22,27 @@ std::vector<solver::BeamLoad> loads_on(const PlacedLoad& placed, MemberId member
   return own;
 }
 
-/// Work of the placed force through a response: the compliance where it is a unit force.
-double work(const Building& building, const PlacedLoad& placed, const FrameStatics::Response& response) {
+/// Work of a placed force through the response to another (or to itself).
+double work(const Building& building, const PlacedLoad& placed, const PlacedLoad& cause,
+            const FrameStatics::Response& response) {
   double sum = 0;
   for (const auto& [member, load] : placed.members) {
     const Vec3 force = building[member].axes.transpose() * load.first.head<3>();
-    sum += force.dot(response.point_displacement(member, load.from, loads_on(placed, member)));
+    sum += force.dot(response.point_displacement(member, load.from, loads_on(cause, member)));
   }
   for (const auto& [node, load] : placed.nodes) sum += load.dot(response.displacement(node));
   return sum;
 }
 
-/// Integral of the squared displacement along a member, per length: Gauss-Legendre with four points on each side of
-/// every load (exact for cubic shapes, those of a beam under point loads).
-double mean_square(const Building& building, MemberId member, const FrameStatics::Response& response,
-                   const std::vector<solver::BeamLoad>& own) {
+/// A response along one member, and the forces of it that act there.
+struct AlongMember {
+  const FrameStatics::Response& response;
+  std::vector<solver::BeamLoad> own;
+};
+
+/// Integral of the product of two displacements along a member, per length: Gauss-Legendre with four points on each
+/// side of every load (exact for cubic shapes, those of a beam under point loads).
+double mean_product(const Building& building, MemberId member, const AlongMember& a, const AlongMember& b) {
   constexpr double inner = 0.33998104358485626, outer = 0.86113631159405257;
   constexpr double inner_weight = 0.65214515486254614 / 2, outer_weight = 0.34785484513745386 / 2;
   constexpr std::array<std::pair<double, double>, 4> gauss{{{0.5 * (1 - outer), outer_weight},
@@ -45,13 +51,18 @@ double mean_square(const Building& building, MemberId member, const FrameStatics
                                                             {0.5 * (1 + outer), outer_weight}}};
   const double length = building[member].length;
   std::vector<double> cuts{0, length};
-  for (const solver::BeamLoad& load : own) cuts.push_back(load.from);
+  for (const AlongMember* one : {&a, &b})
+    for (const solver::BeamLoad& load : one->own) cuts.push_back(load.from);
   std::sort(cuts.begin(), cuts.end());
+  const bool same = &a.response == &b.response;
   double sum = 0;
   for (std::size_t i = 0; i + 1 < cuts.size(); ++i)
-    for (const auto& [at, weight] : gauss)
-      sum += weight * (cuts[i + 1] - cuts[i]) *
-             response.point_displacement(member, cuts[i] + at * (cuts[i + 1] - cuts[i]), own).squaredNorm();
+    for (const auto& [at, weight] : gauss) {
+      const double x = cuts[i] + at * (cuts[i + 1] - cuts[i]);
+      const Vec3 one = a.response.point_displacement(member, x, a.own);
+      const Vec3 other = same ? one : b.response.point_displacement(member, x, b.own);
+      sum += weight * (cuts[i + 1] - cuts[i]) * one.dot(other);
+    }
   return sum / length;
 }
 
@@ -82,7 +93,39 @@ StandingFrame::UnitResponse StandingFrame::State::respond(const ContactPlace& pl
 }
 
 double StandingFrame::State::compliance(const PlacedLoad& placed, const FrameStatics::Response& response) const {
-  return work(building, placed, response) + placed.bending_compliance;
+  return work(building, placed, placed, response) + placed.bending_compliance;
+}
+
+StandingFrame::CoupledResponse StandingFrame::State::respond(std::span<const ContactPlace> places,
+                                                             std::span<const Vec3> directions) const {
+  const auto n = static_cast<Eigen::Index>(places.size());
+  CoupledResponse answer;
+  answer.compliance = answer.inertia = Eigen::MatrixXd::Zero(n, n);
+  std::vector<PlacedLoad> placed;
+  std::vector<FrameStatics::Response> responses;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    placed.push_back(this->place(places[i], directions[i]));
+    responses.push_back(statics.respond(component(places[i]), response_loads(placed.back())));
+  }
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const int c = component(places[at]);
+    for (Eigen::Index j = 0; j <= i; ++j) {
+      const auto other = static_cast<std::size_t>(j);
+      if (component(places[other]) != c) continue;  // what is not joined does not feel each other
+      answer.compliance(i, j) =
+          i == j ? compliance(placed[at], responses[at]) : work(building, placed[at], placed[other], responses[other]);
+      answer.inertia(i, j) = shared_inertia(c, {placed[at], responses[at]}, {placed[other], responses[other]});
+      answer.compliance(j, i) = answer.compliance(i, j);
+      answer.inertia(j, i) = answer.inertia(i, j);
+    }
+    UnitResponse one;
+    one.compliance = answer.compliance(i, i);
+    one.rayleigh_mass = one.compliance > 0 ? answer.inertia(i, i) / (one.compliance * one.compliance) : 0;
+    one.demands = response_demands(c, placed[at], responses[at]);
+    answer.places.push_back(std::move(one));
+  }
+  return answer;
 }
 
 std::vector<std::pair<JointId, Vec6>> StandingFrame::State::response_demands(
@@ -127,39 +170,72 @@ std::vector<std::pair<JointId, Vec6>> StandingFrame::State::response_demands(
 double StandingFrame::State::rayleigh_mass(int c, const PlacedLoad& placed, const FrameStatics::Response& response,
                                            double compliance) const {
   if (!(compliance > 0)) return 0;
+  const Shape shape{placed, response};
+  return shared_inertia(c, shape, shape) / (compliance * compliance);
+}
+
+/// The product of two static shapes, integrated over the mass of the component.
+double StandingFrame::State::shared_inertia(int c, const Shape& a, const Shape& b) const {
+  const bool same = &a.response == &b.response;
   double sum = 0;
   for (MemberId member : statics.members(c)) {
     if (!stands(member) || loads.mass(member) <= 0) continue;
-    const std::vector<solver::BeamLoad> own = loads_on(placed, member);
+    AlongMember along_a{a.response, loads_on(a.placed, member)}, along_b{b.response, {}};
+    if (!same) along_b.own = loads_on(b.placed, member);
     const auto& nodes = building[member].nodes;
-    if (own.empty() && segments.holds(building.joint(member, 0)) && segments.holds(building.joint(member, 1))) {
+    if (along_a.own.empty() && along_b.own.empty() && segments.holds(building.joint(member, 0)) &&
+        segments.holds(building.joint(member, 1))) {
       // Far from the contact a straight line between the ends is near enough; the cost stays small.
-      const Vec3 a = response.displacement(nodes[0]).head<3>(), b = response.displacement(nodes[1]).head<3>();
-      sum += loads.mass(member) * (a.dot(a) + a.dot(b) + b.dot(b)) / 3;
+      const Vec3 a0 = a.response.displacement(nodes[0]).head<3>(), a1 = a.response.displacement(nodes[1]).head<3>();
+      if (same) {
+        sum += loads.mass(member) * (a0.dot(a0) + a0.dot(a1) + a1.dot(a1)) / 3;
+        continue;
+      }
+      const Vec3 b0 = b.response.displacement(nodes[0]).head<3>(), b1 = b.response.displacement(nodes[1]).head<3>();
+      sum += loads.mass(member) * (a0.dot(b0) + (a0.dot(b1) + a1.dot(b0)) / 2 + a1.dot(b1)) / 3;
     } else {
-      sum += loads.mass(member) * mean_square(building, member, response, own);
+      sum += loads.mass(member) * mean_product(building, member, along_a, along_b);
     }
   }
   for (NodeId node : statics.nodes(c))
-    if (stands(node)) sum += loads.mass(node) * response.displacement(node).head<3>().squaredNorm();
-  for (PanelId panel : component_panels[static_cast<std::size_t>(c)]) {
-    if (!stands(panel)) continue;
-    sum += loads.mass(panel) * panel_mean_square(panel, placed, response);
-  }
-  return sum / (compliance * compliance);
+    if (stands(node))
+      sum += loads.mass(node) * a.response.displacement(node).head<3>().dot(b.response.displacement(node).head<3>());
+  for (PanelId panel : component_panels[static_cast<std::size_t>(c)])
+    if (stands(panel)) sum += loads.mass(panel) * panel_mean_product(panel, a, b);
+  return sum;
 }
 
 /// A panel moves with its corners; of a shell all nodes are known.
-double StandingFrame::State::panel_mean_square(PanelId panel, const PlacedLoad& placed,
-                                               const FrameStatics::Response& response) const {
+double StandingFrame::State::panel_mean_product(PanelId panel, const Shape& a, const Shape& b) const {
   if (bearings.serves(panel)) {
     double mean = 0;
-    for (const NodeId node : building[panel].nodes) mean += response.displacement(node).head<3>().squaredNorm() / 4;
+    for (const NodeId node : building[panel].nodes)
+      mean += a.response.displacement(node).head<3>().dot(b.response.displacement(node).head<3>()) / 4;
     return mean;
   }
-  PanelLoading unit;
-  if (panel == placed.panel) unit.forces.push_back(placed.on_shell);
-  return shells.of(panel)->mean_square_motion(node_displacements(panel, response), unit);
+  const auto loading = [&](const PlacedLoad& placed, double factor) {
+    PanelLoading result;
+    if (panel == placed.panel) {
+      result.forces.push_back(placed.on_shell);
+      result.forces.back().force *= factor;
+    }
+    return result;
+  };
+  const PanelSuperelement& shell = *shells.of(panel);
+  const std::vector<Vec6> at_a = node_displacements(panel, a.response);
+  if (&a.response == &b.response) return shell.mean_square_motion(at_a, loading(a.placed, 1));
+  // By the squares of the sum and of the difference.
+  const std::vector<Vec6> at_b = node_displacements(panel, b.response);
+  double product = 0;
+  for (const double sign : {1.0, -1.0}) {
+    std::vector<Vec6> at = at_a;
+    for (std::size_t i = 0; i < at.size(); ++i) at[i] += sign * at_b[i];
+    PanelLoading both = loading(a.placed, 1);
+    const PanelLoading other = loading(b.placed, sign);
+    both.forces.insert(both.forces.end(), other.forces.begin(), other.forces.end());
+    product += sign * shell.mean_square_motion(at, both) / 4;
+  }
+  return product;
 }
 
 double StandingFrame::State::displacement_along(const ContactPlace& place, const Vec3& direction) const {

@@ -144,10 +144,17 @@ struct StandingFrame::State {
   [[nodiscard]] int component(const ContactPlace& place) const;
   [[nodiscard]] double compliance(const PlacedLoad& placed, const FrameStatics::Response& response) const;
   [[nodiscard]] UnitResponse respond(const ContactPlace& place, const Vec3& direction) const;
+  [[nodiscard]] CoupledResponse respond(std::span<const ContactPlace> places, std::span<const Vec3> directions) const;
   [[nodiscard]] std::vector<std::pair<JointId, Vec6>> response_demands(int component, const PlacedLoad& placed,
                                                                        const FrameStatics::Response& response) const;
   [[nodiscard]] double rayleigh_mass(int component, const PlacedLoad& placed, const FrameStatics::Response& response,
                                      double compliance) const;
+  /// Response to a force, and where the force is placed.
+  struct Shape {
+    const PlacedLoad& placed;
+    const FrameStatics::Response& response;
+  };
+  [[nodiscard]] double shared_inertia(int component, const Shape& a, const Shape& b) const;
   // Response, as far as it is known at little cost (standing_bound.cpp).
   [[nodiscard]] UnitResponse respond_near(const ContactPlace& place, const Vec3& direction) const;
   [[nodiscard]] double least_mass(int component, const PlacedLoad& placed, const FrameStatics::Response& response,
@@ -156,8 +163,7 @@ struct StandingFrame::State {
   [[nodiscard]] double critical_energy(int component) const;
   [[nodiscard]] double critical_energy(JointId joint) const;
   void forget_bounds(int component);
-  [[nodiscard]] double panel_mean_square(PanelId panel, const PlacedLoad& placed,
-                                         const FrameStatics::Response& response) const;
+  [[nodiscard]] double panel_mean_product(PanelId panel, const Shape& a, const Shape& b) const;
   [[nodiscard]] double displacement_along(const ContactPlace& place, const Vec3& direction) const;
 
   const Building& building;

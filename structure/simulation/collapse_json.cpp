@@ -166,6 +166,7 @@ std::string summary_json(const Simulation& simulation, const StepTimes& times, d
                     {"collision_steps", work.collision_steps},
                     {"contacts_ignored", work.contacts_ignored},
                     {"impacts_bounded", work.impacts_bounded},
+                    {"impacts_together", work.impacts_together},
                     {"restricted", work.restricted},
                     {"background_factors", work.background_factors},
                     {"late_factors", work.late_factors}}},

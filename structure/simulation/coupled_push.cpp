@@ -20,17 +20,16 @@ constexpr double free_motion = 1e-12;
 constexpr double no_force = 1e-12;
 }  // namespace
 
-CoupledPush::CoupledPush(const PushingBody& body, std::vector<PushedPlace> places, Eigen::MatrixXd compliance)
+CoupledPush::CoupledPush(const PushingBody& body, std::vector<PushedPlace> places, Eigen::MatrixXd compliance,
+                         const Eigen::MatrixXd& structure)
     : places_(std::move(places)), compliance_(std::move(compliance)) {
   const auto n = static_cast<Eigen::Index>(places_.size());
   if (n == 0 || compliance_.rows() != n || compliance_.cols() != n)
     throw std::invalid_argument("a push needs a place, and a row and a column of compliance for each");
+  if (structure.size() > 0 && (structure.rows() != n || structure.cols() != n))
+    throw std::invalid_argument("the structure's mass needs a row and a column for each place");
   if (!(body.mass > 0) || Eigen::LLT<Mat3>(body.inertia).info() != Eigen::Success)
     throw std::invalid_argument("a pushing body needs mass and inertia above zero");
-  inverse_mass_root_.setZero();
-  inverse_mass_root_.topLeftCorner<3, 3>() = Mat3::Identity() / std::sqrt(body.mass);
-  inverse_mass_root_.bottomRightCorner<3, 3>() =
-      Eigen::SelfAdjointEigenSolver<Mat3>(body.inertia).operatorInverseSqrt();
   jacobian_.resize(n, 6);
   for (Eigen::Index i = 0; i < n; ++i) {
     const PushedPlace& place = places_[static_cast<std::size_t>(i)];
@@ -39,8 +38,25 @@ CoupledPush::CoupledPush(const PushingBody& body, std::vector<PushedPlace> place
   touches_.assign(places_.size(), 1);
   weight_ << body.weight, Vec3::Zero();
   rate_ << body.velocity, body.spin;
+  inverse_mass_root_.setZero();
+  inverse_mass_root_.topLeftCorner<3, 3>() = Mat3::Identity() / std::sqrt(body.mass);
+  inverse_mass_root_.bottomRightCorner<3, 3>() =
+      Eigen::SelfAdjointEigenSolver<Mat3>(body.inertia).operatorInverseSqrt();
+  if (structure.size() > 0) take_share(structure);
+  rate_at_most_stored_ = rate_;
   shift_ = peak_ = Eigen::VectorXd::Zero(n);
   refresh();
+}
+
+/// In the body's own mass the first touch is q' -> (1 + S)^-1 q' and the mass 1 + S, S = R' J' A J R.
+void CoupledPush::take_share(const Eigen::MatrixXd& structure) {
+  const Eigen::MatrixXd shared = jacobian_ * inverse_mass_root_;
+  const Mat6 whole = Mat6::Identity() + Mat6(shared.transpose() * structure * shared);
+  const Eigen::SelfAdjointEigenSolver<Mat6> eigen(whole);
+  const Vec6 own = eigen.eigenvectors().transpose() * (inverse_mass_root_.inverse() * rate_);
+  inverse_mass_root_ = Mat6(inverse_mass_root_ * eigen.eigenvectors());
+  rate_ = inverse_mass_root_ * own.cwiseQuotient(eigen.eigenvalues());
+  inverse_mass_root_ = Mat6(inverse_mass_root_ * eigen.eigenvalues().cwiseSqrt().cwiseInverse().asDiagonal());
 }
 
 /// Stiffness of the places that touch: the others bear nothing, so that their compliances drop out of C.
@@ -60,6 +76,13 @@ void CoupledPush::refresh() {
 void CoupledPush::weaken(Eigen::MatrixXd compliance, const Eigen::VectorXd& shift) {
   compliance_ = std::move(compliance);
   shift_ += shift;
+  most_stored_ = 0;
+  rate_at_most_stored_ = rate_;
+  refresh();
+}
+
+void CoupledPush::let_go(std::size_t place) {
+  touches_[place] = 0;
   refresh();
 }
 
@@ -68,13 +91,32 @@ Eigen::VectorXd CoupledPush::force_at(const Vec6& coordinates) const {
 }
 Eigen::VectorXd CoupledPush::force() const { return force_at(coordinates_); }
 
-double CoupledPush::stored() const {
-  const Eigen::VectorXd depth = jacobian_ * coordinates_ - shift_;
+double CoupledPush::stored_at(const Vec6& coordinates) const {
+  const Eigen::VectorXd depth = jacobian_ * coordinates - shift_;
   return 0.5 * depth.dot(stiffness_ * depth);
+}
+double CoupledPush::stored() const { return stored_at(coordinates_); }
+
+/// Between two samples the energy has at most one extreme: golden section.
+void CoupledPush::note_most_stored(const Modes& modes, double from, double to) {
+  constexpr double golden = 0.6180339887498949;
+  const auto value = [&](double t) { return stored_at(coordinates(modes, t)); };
+  const double middle = value(from + (to - from) / 2), ends = std::max(value(from), value(to));
+  if (std::max(middle, ends) < 0.9 * most_stored_) return;
+  double a = from, b = to;
+  for (int k = 0; k < 80 && b - a > 1e-12 * b; ++k) {
+    const double x = b - golden * (b - a), y = a + golden * (b - a);
+    (value(x) < value(y) ? a : b) = value(x) < value(y) ? x : y;
+  }
+  const double at = a + (b - a) / 2;
+  if (value(at) <= most_stored_) return;
+  most_stored_ = value(at);
+  rate_at_most_stored_ = rates(modes, at);
 }
 
 CoupledPush::Modes CoupledPush::modes() const {
-  const Mat6 scaled = inverse_mass_root_ * (jacobian_.transpose() * stiffness_ * jacobian_) * inverse_mass_root_;
+  const Eigen::Matrix<double, Eigen::Dynamic, 6> scaled_places = jacobian_ * inverse_mass_root_;
+  const Mat6 scaled = scaled_places.transpose() * stiffness_ * scaled_places;
   const Eigen::SelfAdjointEigenSolver<Mat6> eigen(scaled);
   Modes result;
   result.shape = inverse_mass_root_ * eigen.eigenvectors();
@@ -82,11 +124,19 @@ CoupledPush::Modes CoupledPush::modes() const {
   const double least = free_motion * result.squared.maxCoeff();
   for (int i = 0; i < 6; ++i)
     if (result.squared(i) <= least) result.squared(i) = 0;
-  const Mat6 to_modes = eigen.eigenvectors().transpose() * inverse_mass_root_.inverse();
+  const Mat6 to_modes = result.shape.inverse();
   result.place = to_modes * coordinates_;
   result.speed = to_modes * rate_;
   result.weight = result.shape.transpose() * (weight_ + jacobian_.transpose() * (stiffness_ * shift_));
   return result;
+}
+
+double CoupledPush::fastest_over_slowest() const {
+  const Vec6 squared = modes().squared;
+  double slowest = squared.maxCoeff();
+  for (const double one : squared)
+    if (one > 0) slowest = std::min(slowest, one);
+  return slowest > 0 ? std::sqrt(squared.maxCoeff() / slowest) : 1;
 }
 
 CoupledPush::Vec6 CoupledPush::coordinates(const Modes& modes, double t) {
@@ -177,6 +227,7 @@ CoupledPush::Stop CoupledPush::push(const Utilisation& utilisation) {
         }
         peak_(i) = std::max({peak_(i), before(i), after(i)});
       }
+      note_most_stored(modes, at, to);
       at = to;
       if (failed) parted = false;
     }

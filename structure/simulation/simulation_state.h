@@ -54,6 +54,7 @@ struct Simulation::State {
   void strike_all(const std::vector<collision::Contact>& contacts);
   struct Strike;
   void strike(const collision::Contact& contact);
+  void strike(Strike& hit);
   [[nodiscard]] std::optional<Strike> aim(const collision::Contact& contact);
   [[nodiscard]] double rebound(const Indentation& pushing) const;
   [[nodiscard]] bool bears(Strike& hit, double weight, double punching);
@@ -62,7 +63,17 @@ struct Simulation::State {
   void push_in(Strike& hit);
   static void tell_loss(Strike& hit);
   void send_on(const Strike& hit);
-  void check_momentum(const Strike& hit, const Vec3& impulse);
+  void tell_impact(const Strike& hit);
+  struct PointImpulse;
+  void knock(const Strike& hit);
+  void move_on(const Strike& hit, collision::BodyState after, std::span<const PointImpulse> impulses);
+  void check_momentum(const Strike& hit, std::span<const PointImpulse> impulses);
+  // strike_together.cpp: several of them at one instant.
+  struct JointPush;
+  [[nodiscard]] bool strike_together(std::span<const collision::Contact* const> contacts);
+  void push_in(JointPush& pushed);
+  void go_on(JointPush& pushed, const Eigen::VectorXd& shift);
+  void send_on(JointPush& pushed);
   void break_generations();
 
   // operations_budget.cpp

@@ -27,33 +27,71 @@ void Simulation::State::load() {
   });
 }
 
+namespace {
+/// Contacts of a body that are no farther from touching than this, m, when the first of them touches, touch with it:
+/// collision shapes are no truer.
+constexpr double touching = 1e-3;
+
+/// The contacts from `from` on that strike with it: of the same body, on other standing parts.
+std::vector<const collision::Contact*> at_one_instant(std::span<const collision::Contact> contacts, std::size_t from) {
+  const collision::Contact& first = contacts[from];
+  std::vector<const collision::Contact*> found{&first};
+  for (std::size_t i = from + 1; i < contacts.size(); ++i) {
+    const collision::Contact& next = contacts[i];
+    if (next.body != first.body || next.other.kind != first.other.kind) continue;
+    if ((next.time - first.time) * next.approach_speed > touching) continue;
+    if (std::none_of(found.begin(), found.end(),
+                     [&](const collision::Contact* one) { return one->other.obstacle == next.other.obstacle; }))
+      found.push_back(&next);
+  }
+  return found;
+}
+}  // namespace
+
 void Simulation::State::strike_all(const std::vector<collision::Contact>& contacts) {
   const double resting_speed = 2 * gravity.norm() * scenario.step;
+  std::vector<collision::Contact> impacts;
   for (const collision::Contact& contact : contacts) {
     if (contact.other.kind != collision::Touched::Kind::obstacle) continue;
-    if (!contact.persistent || contact.approach_speed > resting_speed) strike(contact);
+    if (!contact.persistent || contact.approach_speed > resting_speed) impacts.push_back(contact);
+  }
+  std::vector<char> done(impacts.size(), 0);
+  for (std::size_t i = 0; i < impacts.size(); ++i) {
+    if (done[i] != 0) continue;
+    const std::vector<const collision::Contact*> together = at_one_instant(impacts, i);
+    if (together.size() > 1 && strike_together(together)) {
+      for (const collision::Contact* one : together) done[static_cast<std::size_t>(one - impacts.data())] = 1;
+    } else {
+      strike(impacts[i]);
+    }
   }
 }
 
 void Simulation::State::strike(const collision::Contact& contact) {
-  std::optional<Strike> hit = aim(contact);
-  if (!hit) return;
+  if (std::optional<Strike> hit = aim(contact)) strike(*hit);
+}
+
+void Simulation::State::strike(Strike& hit) {
   if (!may_push()) {
-    if (pushes_on(*hit)) hit->body->pushed_in_step = step;
-    return hold_back(hit->body->id, hit->state);
+    if (pushes_on(hit)) hit.body->pushed_in_step = step;
+    return hold_back(hit.body->id, hit.state);
   }
-  push_in(*hit);
-  send_on(*hit);
-  push_chunks(*hit);
-  SimulationEvent& event = tell(SimulationEvent::Kind::impact, part_name(building, hit->part));
-  event.body = hit->body->id;
-  event.body_name = hit->body->name;
-  event.mass = hit->mass;
-  event.peak_force = hit->peak_force;
-  event.speed_in = hit->speed;
-  event.speed_out = hit->speed_out;
-  event.position = hit->place.point;
-  for (const JointBreak& broken : hit->breaks) tell(broken);
+  push_in(hit);
+  send_on(hit);
+  push_chunks(hit);
+  tell_impact(hit);
+}
+
+void Simulation::State::tell_impact(const Strike& hit) {
+  SimulationEvent& event = tell(SimulationEvent::Kind::impact, part_name(building, hit.part));
+  event.body = hit.body->id;
+  event.body_name = hit.body->name;
+  event.mass = hit.mass;
+  event.peak_force = hit.peak_force;
+  event.speed_in = hit.speed;
+  event.speed_out = hit.speed_out;
+  event.position = hit.place.point;
+  for (const JointBreak& broken : hit.breaks) tell(broken);
 }
 
 /// Nothing when the contact is no impact any more: what it would hit has fallen, or an earlier impact of this step has
@@ -199,11 +237,20 @@ void Simulation::State::send_on(const Strike& hit) {
   after.velocity += impulse / one.rest.mass;
   after.angular_velocity += inertia.inverse() * r.cross(impulse);
   ledger.lost_in_impacts += hit.lost;
-  if (hit.through && hit.chunks.empty())
-    knocks.push_back(
-        {hit.part, hit.structure_mass * hit.speed_out * hit.normal, hit.place.point, hit.speed_out, one.id});
+  if (hit.through && hit.chunks.empty()) knock(hit);
+  const PointImpulse given{impulse, hit.place.point};
+  move_on(hit, after, std::span(&given, 1));
+}
 
-  StruckClock& clock = struck[one.id.value];
+/// What was hit and came off takes along its share of the momentum.
+void Simulation::State::knock(const Strike& hit) {
+  knocks.push_back(
+      {hit.part, hit.structure_mass * hit.speed_out * hit.normal, hit.place.point, hit.speed_out, hit.body->id});
+}
+
+/// `after`: where and how it moves at the instant of the impact, true velocities; `impulses`: what made it so.
+void Simulation::State::move_on(const Strike& hit, collision::BodyState after, std::span<const PointImpulse> impulses) {
+  StruckClock& clock = struck[hit.body->id.value];
   clock.at = hit.sensed_at;
   clock.base = hit.through ? hit.own_time : 0;
   if (hit.through) {
@@ -216,20 +263,20 @@ void Simulation::State::send_on(const Strike& hit) {
   if (hit.waits) {
     hit.body->pushed = hit.part;
     hit.body->pushed_in_step = step;
-    hold_back(one.id, after);
+    hold_back(hit.body->id, after);
   } else {
     after.velocity = reading().to_world(after.velocity);
     after.asleep = false;
-    world->set_state(one.id, after);
+    world->set_state(hit.body->id, after);
   }
-  check_momentum(hit, impulse);
+  check_momentum(hit, impulses);
 }
 
-/// The momentum that the world's body has at the instant of the impact must be what it had before and the impulse.
-void Simulation::State::check_momentum(const Strike& hit, const Vec3& impulse) {
+/// The momentum that the world's body has at the instant of the impact must be what it had before and the impulses.
+void Simulation::State::check_momentum(const Strike& hit, std::span<const PointImpulse> impulses) {
   Momentum given{hit.state.pose.position}, measured{hit.state.pose.position};
   given.add(*hit.body, hit.state);
-  given.add_impulse(impulse, hit.place.point);
+  for (const PointImpulse& one : impulses) given.add_impulse(one.impulse, one.point);
   collision::BodyState now = world->state(hit.body->id);
   if (hit.waits) {
     const HeldBack& goes_on = held_back.at(hit.body->id.value);

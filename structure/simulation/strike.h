@@ -22,4 +22,9 @@ struct Simulation::State::Strike {
   std::vector<collision::BodyId> chunks;  ///< that it broke out of a standing panel
 };
 
+/// N s at a global point, on the body.
+struct Simulation::State::PointImpulse {
+  Vec3 impulse, point;
+};
+
 }  // namespace topple::structure

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "simulation/coupled_push.h"
+#include "simulation/indentation.h"
 
 namespace {
 
@@ -129,4 +130,31 @@ TEST_CASE("a push without a place, a mass or a compliance is refused") {
   CHECK_THROWS_AS(CoupledPush(falling(Mat3::Identity()), {}, Eigen::MatrixXd()), std::invalid_argument);
   CHECK_THROWS_AS(CoupledPush(falling(Mat3::Zero()), {below(0, 0)}, springs({k})), std::invalid_argument);
   CHECK_THROWS_AS(CoupledPush(falling(Mat3::Identity()), {below(0, 0)}, springs({-k})), std::invalid_argument);
+}
+
+TEST_CASE("a push at one place that takes the structure's mass along is the law for one place") {
+  const double w = m * 9.81, share = 120;
+  CoupledPush push(falling(m * Mat3::Identity(), v, w), {below(0, 0)}, springs({k}),
+                   Eigen::MatrixXd::Constant(1, 1, share));
+  CHECK(push.push() == CoupledPush::Stop::left);
+  Indentation alone(m, v, w, share);
+  CHECK(alone.push(1 / k, unlimited) == Indentation::Stop::stood);
+  CHECK(push.peak_force()(0) == Approx(alone.peak_force()).epsilon(1e-9));
+  // It stands still where most is stored: the speed there is found to the square root of what the energy is.
+  CHECK(std::abs(push.speeds_at_most_stored()(0)) < 1e-6 * v);
+}
+
+TEST_CASE("masses that move with two places take their shares of a turning body at once") {
+  // A bar on two equal springs, a mass under each end: half of the bar's mass moves with each end, and they do not feel
+  // each other when the bar's inertia is that of two halves at its ends.
+  const double length = 5, share = 70;
+  const Mat3 dumbbell = Vec3(1, m * length * length / 4, m * length * length / 4).asDiagonal();
+  PushingBody body = falling(dumbbell);
+  body.spin = Vec3(0, 2 * v / length / 2, 0);  // one end comes with half of v more, the other with half less
+  CoupledPush push(body, {below(-length / 2, 0), below(length / 2, 0)}, springs({k, k}),
+                   Vec2(share, share).asDiagonal());
+  CHECK(push.push() == CoupledPush::Stop::left);
+  const double moving = m / 2 + share;
+  for (const auto& [end, speed] : {std::pair(0, 0.5 * v), std::pair(1, 1.5 * v)})
+    CHECK(push.peak_force()(end) == Approx(speed * (m / 2) / moving * std::sqrt(k * moving)).epsilon(1e-9));
 }

@@ -117,6 +117,87 @@ TEST_CASE("what an impact breaks off takes the momentum of the share that moved 
   for (const BodyView& body : simulation.bodies()) CHECK(body.mass > 0);
 }
 
+namespace {
+
+/// Two beams side by side, and a ball that falls into the gap between them: it touches both at once, 0.8 sideways and
+/// 0.6 down.
+struct TwoBeams {
+  explicit TwoBeams(const JointCapacity& joint) {
+    frame.load_case();
+    for (const double y : {-0.3, 0.3}) {
+      const std::string name = y < 0 ? "L" : "R";
+      const NodeId a = frame.node("A" + name, 0, y, 5), b = frame.node("B" + name, length, y, 5);
+      frame.load(frame.member(name, MemberKind::beam, a, b, joint, joint), -10);
+      frame.support(a);
+      frame.support(b);
+    }
+    scenario = dropping(1.0 / 60, height, mass);
+    std::get<Projectile>(scenario.events[0].tool).from = Vec3(length / 2, 0, 5.1 + 0.15 + height);
+  }
+  /// Along the normal, at mid-span.
+  [[nodiscard]] double compliance() const {
+    const Section& bar = frame.building.sections[0];
+    return length * length * length / (192 * frame.building.materials[0].youngs_modulus) *
+           (0.6 * 0.6 / bar.Iy + 0.8 * 0.8 / bar.Iz);
+  }
+  static constexpr double height = 2, mass = 400;
+  FrameBuilder frame;
+  Scenario scenario;
+};
+
+std::vector<SimulationEvent> impacts(const Simulation& simulation) {
+  std::vector<SimulationEvent> found;
+  for (const SimulationEvent& event : simulation.events())
+    if (event.kind == SimulationEvent::Kind::impact) found.push_back(event);
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("a ball that falls between two beams pushes both at once") {
+  const TwoBeams two({});
+  Simulation simulation(two.frame.building, two.scenario, ballistic());
+  run_to_impact(simulation);
+  const std::vector<SimulationEvent> found = impacts(simulation);
+  REQUIRE(found.size() == 2);
+  CHECK(simulation.counters().impacts_together == 1);
+  // The ball sinks by q, each beam gives way by 0.6 q: a weight on a spring of 2 x 0.36 / compliance.
+  const double soft = two.compliance() / 0.72, weight = two.mass * g, speed = std::sqrt(2 * g * two.height);
+  const double sinks = weight * soft + std::sqrt(weight * soft * weight * soft + two.mass * speed * speed * soft);
+  for (const SimulationEvent& one : found) {
+    CHECK(one.speed_in == Approx(0.6 * speed).epsilon(1e-9));
+    CHECK(one.peak_force == Approx(0.6 * sinks / two.compliance()).epsilon(1e-9));
+    CHECK(std::abs(one.speed_out) < 1e-6 * speed);  // where the energy is greatest, to the root of its rounding
+  }
+  CHECK(simulation.ledger().momentum_error < 1e-12);
+  CHECK(simulation.ledger().lost_in_impacts == Approx(two.mass * speed * speed / 2).epsilon(1e-9));
+}
+
+TEST_CASE("a ball goes on between the two beams that it breaks with the speed that energy leaves") {
+  const double limit = 5e4;
+  const TwoBeams two(same_capacity(limit));
+  Simulation simulation(two.frame.building, two.scenario, ballistic());
+  run_to_impact(simulation);
+  const std::vector<SimulationEvent> found = impacts(simulation);
+  REQUIRE(found.size() == 2);
+  // All four ends fail together, by the sideways moment 0.8 F L/8.
+  const double force = limit * 8 / (0.8 * length), sunk = force * two.compliance() / 0.6;
+  const double speed = std::sqrt(2 * g * two.height);
+  const double left = std::sqrt(speed * speed + 2 * g * sunk - 2 * force * force * two.compliance() / two.mass);
+  REQUIRE(left < speed);
+  for (const SimulationEvent& one : found) {
+    CHECK(one.peak_force == Approx(force).epsilon(1e-6));
+    CHECK(one.speed_out == Approx(0.6 * left).epsilon(1e-6));
+  }
+  int broken = 0;
+  for (const SimulationEvent& event : simulation.events())
+    if (event.kind == SimulationEvent::Kind::joint_broke) ++broken;
+  CHECK(broken == 4);
+  while (simulation.time() < 1) simulation.step();
+  CHECK(simulation.ledger().momentum_error < 1e-12);
+  CHECK(std::abs(simulation.ledger().residual()) < 1e-9);
+}
+
 TEST_CASE("free flight is exact at every step") {
   for (const double step : {1.0 / 60, 1.0 / 7}) {
     Scenario scenario = dropping(step, 100, 50);

@@ -133,3 +133,42 @@ TEST_CASE("only the building that is touched is solved") {
   CHECK(standing.segment(posts[4]) == 3);
   CHECK(standing.standing_segments() == 4);
 }
+
+TEST_CASE("two places of a cantilever give way together, and move its mass together") {
+  const double length = 6, half = 3, a = 2, mass = 100;  // kg/m
+  FrameBuilder frame;
+  const NodeId foot = frame.node("A", 0, 0, 3), middle = frame.node("B", half, 0, 3),
+               tip = frame.node("C", length, 0, 3);
+  const MemberId first = frame.member("AB", MemberKind::beam, foot, middle, same_capacity(1e12));
+  const MemberId second = frame.member("BC", MemberKind::beam, middle, tip);
+  frame.support(foot);
+  frame.load(first, -10 * mass);
+  frame.load(second, -10 * mass);
+  const StandingFrame standing(frame.building, CombinationId(0u), quiet());
+  const std::array<ContactPlace, 2> places{{{first, {}, Vec3(a, 0, 3.1)}, {second, {}, Vec3(length, 0, 3.1)}}};
+  const std::array<Vec3, 2> down{-Vec3::UnitZ(), -Vec3::UnitZ()};
+  const auto both = standing.respond(places, down);
+  CHECK(both.compliance(0, 0) == Approx(a * a * a / (3 * E * Iy)).epsilon(rounding));
+  CHECK(both.compliance(1, 1) == Approx(length * length * length / (3 * E * Iy)).epsilon(rounding));
+  CHECK(both.compliance(0, 1) == Approx(a * a * (3 * length - a) / (6 * E * Iy)).epsilon(rounding));
+  CHECK(both.compliance(1, 0) == both.compliance(0, 1));
+  // The shapes by the textbook, multiplied and summed in small steps (Simpson: exact to 1e-12 with a knot at a).
+  const auto under = [](double force_at, double x) {
+    return x < force_at ? x * x * (3 * force_at - x) / (6 * E * Iy)
+                        : force_at * force_at * (3 * x - force_at) / (6 * E * Iy);
+  };
+  const int steps = 6000;
+  const double h = length / steps;
+  double product = 0;
+  for (int i = 0; i < steps; ++i)
+    for (const auto& [at, weight] : {std::pair(0.0, 1.0), std::pair(0.5, 4.0), std::pair(1.0, 1.0)})
+      product += mass * h * weight / 6 * under(a, (i + at) * h) * under(length, (i + at) * h);
+  CHECK(both.inertia(0, 1) == Approx(product).epsilon(rounding));
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto alone = standing.respond(places[i], down[i]);
+    CHECK(both.places[i].compliance == Approx(alone.compliance).epsilon(1e-14));
+    CHECK(both.places[i].rayleigh_mass == Approx(alone.rayleigh_mass).epsilon(1e-14));
+    REQUIRE(both.places[i].demands.size() == alone.demands.size());
+    CHECK(both.places[i].demands[0].second.isApprox(alone.demands[0].second, 1e-14));
+  }
+}

@@ -192,6 +192,15 @@ class StandingFrame {
   /// The place must stand. A place on a member is taken at the nearest point of its axis, on a panel at the nearest
   /// point of its plane; a panel hands the force by the lever rule to two opposite edges along its shorter span.
   [[nodiscard]] UnitResponse respond(const ContactPlace& place, const Vec3& direction) const;
+  /// Response to unit forces at several places on different parts, each along its direction.
+  struct CoupledResponse {
+    std::vector<UnitResponse> places;
+    Eigen::MatrixXd compliance;  ///< m/N: by how much place i gives way under a unit force at place j; symmetric
+    /// kg (m/N)2: the product of the static shapes under unit forces at i and j, integrated over the structure's mass;
+    /// between the places Rayleigh's masses are compliance^-1 inertia compliance^-1.
+    Eigen::MatrixXd inertia;
+  };
+  [[nodiscard]] CoupledResponse respond(std::span<const ContactPlace> places, std::span<const Vec3> directions) const;
   /// The same as far as it is known at a part of the cost: the compliance, a lower bound of the Rayleigh mass, and the
   /// demands of the joints at the members and the panel that bear the force directly.
   [[nodiscard]] UnitResponse respond_near(const ContactPlace& place, const Vec3& direction) const;
@@ -203,6 +212,9 @@ class StandingFrame {
   /// `direction` (the shift D of the impact law). Ask stands() of the place's part afterwards: when it left, the shift
   /// is 0 and there is nothing left to push.
   double break_in_impact(std::span<const JointBreak> breaks, const ContactPlace& place, const Vec3& direction);
+  /// The same where several places are pushed at once: the shift of each.
+  Eigen::VectorXd break_in_impact(std::span<const JointBreak> breaks, std::span<const ContactPlace> places,
+                                  std::span<const Vec3> directions);
 
   /// A standing panel is broken in part, now: it hands on what remains of its weight by where that lies, its edge
   /// joints bear over what remains of their length (told as broken by the next settle() when nothing does), and it

@@ -1,0 +1,266 @@
+// One body that comes upon several standing parts at the same instant: it pushes them together (coupled_push.h), break
+// after break, until it has come to a stop, they have let go of it, or they are gone.
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "simulation/coupled_push.h"
+#include "simulation/first_failure.h"
+#include "simulation/momentum.h"
+#include "simulation/step_clock.h"
+#include "simulation/strike.h"
+
+namespace topple::structure {
+
+namespace {
+
+/// Places that give way alike to this share are one place (a beam and a post hit at their common node).
+constexpr double same_place = 1e-6;
+/// A stiff place among soft ones is over before they feel anything: they are pushed one after the other.
+constexpr double most_unlike = 30;
+/// As in strike.cpp: a break that moves an unloaded place farther, m, is on its way to a mechanism.
+constexpr double largest_shift = 0.1;
+/// Joints that come this near (relative) to failing fail with the first.
+constexpr double same_use = 1e-6;
+
+/// Whether each place gives way in a way of its own.
+bool independent(const Eigen::MatrixXd& compliance) {
+  Eigen::MatrixXd left = compliance;
+  for (Eigen::Index k = 0; k < left.rows(); ++k) {
+    if (!(left(k, k) > same_place * compliance(k, k))) return false;
+    const Eigen::VectorXd column = left.col(k) / left(k, k);
+    left -= (column * left.row(k)).eval();
+  }
+  return true;
+}
+
+/// Joints that may come to their capacity under forces up to `most`, with what each unit force adds to them. A joint's
+/// use is convex, so that it is at most the sum of its uses.
+struct Watched {
+  JointId joint;
+  double strength = 1;
+  Vec6 demand;                                    ///< without the push
+  Eigen::Matrix<double, 6, Eigen::Dynamic> step;  ///< per place, of a unit force
+};
+
+std::vector<Watched> may_fail(const StandingFrame& frame, const std::vector<StandingFrame::UnitResponse>& places,
+                              std::span<const double> strength_factors, const Eigen::VectorXd& most) {
+  const Building& building = frame.building();
+  std::map<std::int32_t, std::vector<std::pair<Eigen::Index, Vec6>>> at_joint;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    for (const auto& [joint, demand] : places[i].demands)
+      at_joint[joint.index].emplace_back(static_cast<Eigen::Index>(i), demand);
+  std::vector<Watched> found;
+  for (const auto& [index, steps] : at_joint) {
+    const JointId id(static_cast<std::size_t>(index));
+    const JointCapacity& capacity = building[id].capacity;
+    if (!capacity.breakable || !frame.intact(id)) continue;
+    Watched one{id, strength_factors[static_cast<std::size_t>(index)], frame.demand(id),
+                Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, most.size())};
+    double use = utilisation(capacity, one.demand, one.strength).value;
+    if (use >= 1) continue;  // left to the generations
+    for (const auto& [place, demand] : steps) {
+      one.step.col(place) = demand;
+      use += most(place) * utilisation(capacity, demand, one.strength).value;
+    }
+    if (use >= 1) found.push_back(std::move(one));
+  }
+  return found;
+}
+
+double use_of(const Building& building, const Watched& one, const Eigen::VectorXd& force) {
+  return utilisation(building[one.joint].capacity, one.demand + one.step * force, one.strength).value;
+}
+
+double worst_use(const Building& building, std::span<const Watched> watched, const Eigen::VectorXd& force) {
+  double worst = 0;
+  for (const Watched& one : watched) worst = std::max(worst, use_of(building, one, force));
+  return worst;
+}
+
+std::vector<JointBreak> failing(const Building& building, std::span<const Watched> watched,
+                                const Eigen::VectorXd& force) {
+  const double worst = worst_use(building, watched, force);
+  std::vector<JointBreak> found;
+  for (const Watched& one : watched) {
+    const Utilisation used = utilisation(building[one.joint].capacity, one.demand + one.step * force, one.strength);
+    if (used.value < worst * (1 - same_use)) continue;
+    JointBreak broken;
+    broken.joint = one.joint;
+    broken.cause = BreakCause::impact;
+    broken.sense = used.sense;
+    broken.demand = used.demand;
+    broken.capacity = used.capacity;
+    found.push_back(broken);
+  }
+  return found;
+}
+
+double kinetic_energy(const Body& body, const collision::BodyState& state) {
+  return body.rest.mass * state.velocity.squaredNorm() / 2 +
+         state.angular_velocity.dot(world_inertia(body, state.pose.orientation) * state.angular_velocity) / 2;
+}
+
+}  // namespace
+
+/// The push under way: its contacts, and what they are pushed against.
+struct Simulation::State::JointPush {
+  std::vector<Strike> hits;
+  std::vector<ContactPlace> places;
+  std::vector<Vec3> normals;
+  StandingFrame::CoupledResponse response;
+  std::optional<CoupledPush> push;
+  Eigen::VectorXd speeds_out;  ///< of the places, along their normals
+};
+
+/// False when they are better taken one after the other, or are no impacts any more; nothing has happened then.
+bool Simulation::State::strike_together(std::span<const collision::Contact* const> contacts) {
+  JointPush pushed;
+  for (const collision::Contact* contact : contacts) {
+    std::optional<Strike> hit = aim(*contact);
+    if (!hit) continue;
+    if (punching_force(*hit) < unlimited) return false;  // what breaks out of a panel leaves alone
+    pushed.hits.push_back(std::move(*hit));
+  }
+  std::vector<Strike>& hits = pushed.hits;
+  if (hits.size() < 2 || !may_push()) return false;
+  for (Strike& hit : hits) {
+    hit.state = hits.front().state;
+    hit.own_time = hits.front().own_time;
+    pushed.places.push_back(hit.place);
+    pushed.normals.push_back(hit.normal);
+  }
+  pushed.response = frame->respond(pushed.places, pushed.normals);
+  if (!independent(pushed.response.compliance)) return false;
+
+  const Body& one = *hits.front().body;
+  const collision::BodyState& state = hits.front().state;
+  const PushingBody body{one.rest.mass,          world_inertia(one, state.pose.orientation),
+                         state.pose.position,    state.velocity,
+                         state.angular_velocity, one.rest.mass * gravity};
+  std::vector<PushedPlace> places;
+  for (const Strike& hit : hits) places.push_back({hit.place.point, hit.normal});
+  Eigen::MatrixXd share;
+  if (takes_share(hits.front())) {
+    const Eigen::MatrixXd stiffness = pushed.response.compliance.inverse();
+    share = stiffness * pushed.response.inertia * stiffness;
+    for (std::size_t i = 0; i < hits.size(); ++i) hits[i].structure_mass = pushed.response.places[i].rayleigh_mass;
+  }
+  pushed.push.emplace(body, std::move(places), pushed.response.compliance, share);
+  if (pushed.push->fastest_over_slowest() > most_unlike) return false;
+  ++counters.impacts_together;
+  push_in(pushed);
+  send_on(pushed);
+  for (const Strike& hit : hits) tell_impact(hit);
+  return true;
+}
+
+void Simulation::State::push_in(JointPush& pushed) {
+  CoupledPush& push = *pushed.push;
+  for (;;) {
+    CoupledPush borne = push;
+    const CoupledPush::Stop end = borne.push();
+    const std::vector<Watched> watched = may_fail(*frame, pushed.response.places, strength_factors, borne.peak_force());
+    const auto used = [&](const Eigen::VectorXd& force) { return worst_use(building, watched, force); };
+    if (watched.empty() || push.push(used) != CoupledPush::Stop::failed) {
+      if (watched.empty()) push = std::move(borne);
+      // It leaves with the restitution's part of what the parts give back; one that its weight holds down stays.
+      pushed.speeds_out = push.speeds_at_most_stored();
+      if (end == CoupledPush::Stop::left)
+        pushed.speeds_out += scenario.impact.restitution * (push.speeds() - pushed.speeds_out);
+      return;
+    }
+    const std::vector<JointBreak> breaks = failing(building, watched, push.force());
+    const double stored = push.stored();
+    const Eigen::VectorXd shift = frame->break_in_impact(breaks, pushed.places, pushed.normals);
+    bool stays = false, slips = false;
+    for (std::size_t i = 0; i < pushed.hits.size(); ++i) {
+      Strike& hit = pushed.hits[i];
+      hit.through = !stands(hit.part);
+      if (hit.through) push.let_go(i);
+      stays = stays || push.touches(i);
+      slips = slips || std::abs(shift(static_cast<Eigen::Index>(i))) > largest_shift;
+    }
+    const bool waits = stays && !slips && !may_push();
+    const bool ends = !stays || slips || waits;
+    if (!ends) go_on(pushed, shift);
+    const double freed = ends ? stored : std::max(0.0, stored - push.stored());
+    for (JointBreak broken : breaks) {
+      broken.energy = freed / static_cast<double>(breaks.size());
+      broken.position = joint_position(broken.joint);
+      pushed.hits.front().breaks.push_back(broken);
+    }
+    if (ends) {
+      pushed.hits.front().waits = waits;
+      pushed.speeds_out = push.speeds();
+      return;
+    }
+  }
+}
+
+/// The structure as the breaks left it. Places that are gone keep a compliance that nothing reads.
+void Simulation::State::go_on(JointPush& pushed, const Eigen::VectorXd& shift) {
+  std::vector<Eigen::Index> left;
+  std::vector<ContactPlace> places;
+  std::vector<Vec3> normals;
+  for (std::size_t i = 0; i < pushed.hits.size(); ++i) {
+    if (pushed.hits[i].through) continue;
+    left.push_back(static_cast<Eigen::Index>(i));
+    places.push_back(pushed.places[i]);
+    normals.push_back(pushed.normals[i]);
+  }
+  StandingFrame::CoupledResponse now = frame->respond(places, normals);
+  for (StandingFrame::UnitResponse& one : pushed.response.places) one.demands.clear();
+  for (std::size_t k = 0; k < left.size(); ++k)
+    pushed.response.places[static_cast<std::size_t>(left[k])] = std::move(now.places[k]);
+  pushed.response.compliance(left, left) = now.compliance;
+  pushed.push->weaken(pushed.response.compliance, shift);
+}
+
+/// The impulses along the normals that leave the places with their speeds: the least ones where places depend on each
+/// other.
+void Simulation::State::send_on(JointPush& pushed) {
+  Strike& first = pushed.hits.front();
+  const Body& one = *first.body;
+  const Mat3 inertia = world_inertia(one, first.state.pose.orientation), inverse = inertia.inverse();
+  const auto n = static_cast<Eigen::Index>(pushed.hits.size());
+  Eigen::Matrix<double, Eigen::Dynamic, 6> jacobian(n, 6), moved(n, 6);  // moved: J M^-1
+  Eigen::VectorXd before(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Strike& hit = pushed.hits[static_cast<std::size_t>(i)];
+    const Vec3 turn = (hit.place.point - hit.state.pose.position).cross(hit.normal);
+    jacobian.row(i) << hit.normal.transpose(), turn.transpose();
+    moved.row(i) << hit.normal.transpose() / one.rest.mass, (inverse * turn).transpose();
+    before(i) = hit.normal.dot(first.state.velocity) + turn.dot(first.state.angular_velocity);
+  }
+  // What it went through pushes it no faster than it came.
+  Eigen::VectorXd after = pushed.speeds_out;
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (pushed.hits[static_cast<std::size_t>(i)].through) after(i) = std::min(after(i), before(i));
+  const Eigen::VectorXd impulses =
+      Eigen::MatrixXd(jacobian * moved.transpose()).completeOrthogonalDecomposition().solve(after - before);
+  collision::BodyState state = first.state;
+  const Eigen::Matrix<double, 6, 1> change = moved.transpose() * impulses;
+  state.velocity += change.head<3>();
+  state.angular_velocity += change.tail<3>();
+  ledger.lost_in_impacts += kinetic_energy(one, first.state) - kinetic_energy(one, state);
+  std::vector<PointImpulse> given;
+  bool through = true;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    Strike& hit = pushed.hits[static_cast<std::size_t>(i)];
+    hit.peak_force = pushed.push->peak_force()(i);
+    hit.speed = before(i);
+    hit.speed_out = after(i);
+    if (hit.through) knock(hit);
+    through = through && hit.through;
+    given.push_back({impulses(i) * hit.normal, hit.place.point});
+  }
+  // It is stopped where it is as long as one place stands.
+  Strike whole = first;
+  whole.through = through;
+  move_on(whole, state, given);
+}
+
+}  // namespace topple::structure
