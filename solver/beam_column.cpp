@@ -1,5 +1,6 @@
 #include "beam_column.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace topple::solver {
@@ -32,45 +33,67 @@ struct ScaledColumn {
   }
 };
 
-/// Over the distance x from the stretch's start. The series of v' = w is that of (rotation + shear T)/(1 + n shear).
-Transfer transfer(const ColumnPlane& plane, const ColumnStretch& stretch, double x) {
-  using Row = Eigen::Matrix<double, 1, 5>;
-  const auto& [n, shear] = ScaledColumn(plane, stretch);
-  const double h = stretch.length, EI = plane.bending_stiffness, moment = h * h / EI, to = x / h;
-  const std::array<double, 2> m{stretch.moment * moment, stretch.moment_slope * moment * h},
-      q{stretch.force * moment * h, stretch.force_slope * moment * h * h};
+/// The power series of v, rotation, M, T along a stretch, in the distance over h: that of v' = w is that of
+/// (rotation + shear T)/(1 + n shear). One column for each state at the start; the loads act on the last one.
+template <int columns>
+class Series {
+ public:
+  using Terms = Eigen::Matrix<double, 4, columns>;
+
+  Series(const ColumnPlane& plane, const ColumnStretch& stretch, const Terms& start)
+      : column_(plane, stretch), rotation_(start.row(1)), M_(start.row(2)), T_(start.row(3)) {
+    const double h = stretch.length, moment = h * h / plane.bending_stiffness;
+    turn_ = plane.free_curvature * h;
+    m_ = {stretch.moment * moment, stretch.moment_slope * moment * h};
+    q_ = {stretch.force * moment * h, stretch.force_slope * moment * h * h};
+  }
+
+  /// The coefficients of the next power, from the first on.
+  Terms next() {
+    const auto& n = column_.n;
+    const double shear = column_.shear, share = 1.0 / (power_ + 1);
+    const Row w = (rotation_ + shear * T_ - shear * (n[1] * w_ + n[2] * before_)) / (1 + n[0] * shear);
+    Row turned = M_, bent = n[0] * w + n[1] * w_ + n[2] * before_ - T_, sheared = Row::Zero();
+    before_ = w_;
+    w_ = w;
+    if (power_ == 0) turned(columns - 1) += turn_;
+    if (power_ < 2) {
+      bent(columns - 1) -= m_[static_cast<std::size_t>(power_)];
+      sheared(columns - 1) -= q_[static_cast<std::size_t>(power_)];
+    }
+    rotation_ = share * turned;
+    M_ = share * bent;
+    T_ = share * sheared;
+    ++power_;
+    Terms terms;
+    terms << w * share, rotation_, M_, T_;
+    return terms;
+  }
+
+ private:
+  using Row = Eigen::Matrix<double, 1, columns>;
+  ScaledColumn column_;
+  Row rotation_, M_, T_, w_ = Row::Zero(), before_ = Row::Zero();
+  double turn_ = 0;
+  std::array<double, 2> m_{}, q_{};
+  int power_ = 0;
+};
+
+/// Series end where so many terms in turn are rounding.
+constexpr double rounding = 1e-18;
+constexpr int most_terms = 200, in_turn = 4;
+
+/// Over a whole stretch.
+Transfer transfer(const ColumnPlane& plane, const ColumnStretch& stretch) {
   Transfer sum = Transfer::Zero();
   sum.leftCols<4>().setIdentity();
-  Row rotation = sum.row(1), M = sum.row(2), T = sum.row(3), w = Row::Zero(), before = Row::Zero();
-  double power = 1;
-  int small = 0;
-  constexpr double rounding = 1e-18;  // the entries of unit columns are near 1
-  constexpr int most_terms = 200, in_turn = 4;
-  for (int k = 0; k < most_terms && small < in_turn; ++k) {
-    const Row next = (rotation + shear * T - shear * (n[1] * w + n[2] * before)) / (1 + n[0] * shear);
-    const Row pushed = n[0] * next + n[1] * w + n[2] * before;
-    before = w;
-    w = next;
-    const Row turned = M, sheared = T;
-    T.setZero();
-    M = pushed - sheared;
-    rotation = turned;
-    if (k == 0) rotation(4) += plane.free_curvature * h;
-    if (k < 2) {
-      M(4) -= m[static_cast<std::size_t>(k)];
-      T(4) -= q[static_cast<std::size_t>(k)];
-    }
-    const double share = 1.0 / (k + 1);
-    rotation *= share;
-    M *= share;
-    T *= share;
-    power *= to;
-    Transfer term;
-    term << w * share, rotation, M, T;
-    sum += power * term;
-    const double units = term.leftCols<4>().cwiseAbs().maxCoeff(), loads = term.col(4).cwiseAbs().maxCoeff();
-    const bool is_small = units * power < rounding && loads * power <= rounding * sum.col(4).cwiseAbs().maxCoeff();
-    small = is_small ? small + 1 : 0;
+  Series<5> series(plane, stretch, sum);
+  for (int k = 0, small = 0; k < most_terms && small < in_turn; ++k) {
+    const Transfer terms = series.next();
+    sum += terms;
+    // The entries of unit states are near 1, those of the loads are not.
+    const double units = terms.leftCols<4>().cwiseAbs().maxCoeff(), loads = terms.col(4).cwiseAbs().maxCoeff();
+    small = units < rounding && loads <= rounding * sum.col(4).cwiseAbs().maxCoeff() ? small + 1 : 0;
   }
   return sum;
 }
@@ -86,7 +109,7 @@ BeamColumn::BeamColumn(const ColumnPlane& plane, std::span<const ColumnStretch> 
                        const std::array<double, 4>& end_stiffness)
     : plane_(plane) {
   for (const ColumnStretch& stretch : stretches) {
-    const Transfer t = transfer(plane, stretch, stretch.length);
+    const Transfer t = transfer(plane, stretch);
     const Eigen::Matrix2d to_force = t.block<2, 2>(0, 2).inverse();
     const Eigen::Matrix2d first_u = -to_force * t.block<2, 2>(0, 0);
     const Eigen::Vector2d first_g = -to_force * t.block<2, 1>(0, 4);
@@ -184,25 +207,45 @@ BeamColumn::Curve BeamColumn::curve(const Eigen::Vector4d& hubs) const {
     place[i + 1] = -joint.inverse * (joint.to_first * place.front() + joint.to_next * place[i + 2] + joint.load);
   }
   Curve curve;
-  curve.plane_ = plane_;
   for (std::size_t i = 0; i < segments_.size(); ++i) {
     Eigen::Vector4d u;
     u << place[i], place[i + 1];
     const Eigen::Vector4d force = segments_[i].stiffness * u + segments_[i].fixed;
-    curve.parts_.push_back({segments_[i].stretch, {u(0), u(1), -force(1), -force(0)}});
+    curve.parts_.push_back(along(plane_, segments_[i].stretch, {u(0), u(1), -force(1), -force(0)}));
   }
   return curve;
 }
 
+/// From v, rotation, M, T at the start of a stretch.
+BeamColumn::Curve::Part BeamColumn::along(const ColumnPlane& plane, const ColumnStretch& stretch,
+                                          const Eigen::Vector4d& start) {
+  const Eigen::Vector4d scale = Scaled{stretch.length, plane.bending_stiffness}.scale();
+  Curve::Part part{stretch.start, stretch.length, {start}};
+  const Eigen::Vector4d scaled = start.cwiseQuotient(scale);
+  Series<1> series(plane, stretch, scaled);
+  double largest = scaled.cwiseAbs().maxCoeff();
+  for (int k = 0, small = 0; k < most_terms && small < in_turn; ++k) {
+    const Eigen::Vector4d terms = series.next();
+    const double size = terms.cwiseAbs().maxCoeff();
+    part.series.emplace_back(terms.cwiseProduct(scale));
+    small = size <= rounding * largest ? small + 1 : 0;
+    largest = std::max(largest, size);
+  }
+  return part;
+}
+
 Eigen::Vector4d BeamColumn::Curve::at(double distance) const {
+  return {value(0, distance), value(1, distance), value(2, distance), value(3, distance)};
+}
+
+double BeamColumn::Curve::value(int component, double distance) const {
   std::size_t i = 0;
-  while (i + 1 < parts_.size() && distance > parts_[i + 1].stretch.start) ++i;
+  while (i + 1 < parts_.size() && distance > parts_[i + 1].start) ++i;
   const Part& part = parts_[i];
-  const Eigen::Vector4d scale = Scaled{part.stretch.length, plane_.bending_stiffness}.scale();
-  Eigen::Matrix<double, 5, 1> state;
-  state << part.start.cwiseQuotient(scale), 1;
-  const Eigen::Vector4d there = transfer(plane_, part.stretch, distance - part.stretch.start) * state;
-  return there.cwiseProduct(scale);
+  const double t = (distance - part.start) / part.length;
+  double value = 0;
+  for (std::size_t k = part.series.size(); k-- > 0;) value = value * t + part.series[k](component);
+  return value;
 }
 
 }  // namespace topple::solver

@@ -45,14 +45,15 @@ class BeamColumn {
   class Curve {
    public:
     [[nodiscard]] Eigen::Vector4d at(double distance) const;
+    /// One of the four.
+    [[nodiscard]] double value(int component, double distance) const;
 
    private:
     friend class BeamColumn;
     struct Part {
-      ColumnStretch stretch;
-      Eigen::Vector4d start;
+      double start = 0, length = 0;
+      std::vector<Eigen::Vector4d> series;  ///< in powers of the distance from its start over its length
     };
-    ColumnPlane plane_;
     std::vector<Part> parts_;
   };
   [[nodiscard]] Curve curve(const Eigen::Vector4d& hubs) const;
@@ -68,6 +69,7 @@ class BeamColumn {
     Eigen::Matrix2d inverse, to_first, to_next;
     Eigen::Vector2d load;
   };
+  static Curve::Part along(const ColumnPlane& plane, const ColumnStretch& stretch, const Eigen::Vector4d& start);
   void chain(std::span<const ColumnStretch> stretches);
   void add_springs(const std::array<double, 4>& end_stiffness);
 

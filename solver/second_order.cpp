@@ -191,21 +191,40 @@ struct SecondOrderDiagram::State {
   BeamColumn::Curve xy, xz;
   std::vector<double> marks;  ///< where curves may kink
 
-  [[nodiscard]] std::array<double, 8> values(double x) const {
-    std::array<double, 8> v = linear.values(x);
-    if (!exact) return v;
-    const Eigen::Vector4d y = xy.at(x), z = xz.at(x);
-    const double f = x / length;
-    const auto chord = [&](const BeamColumn::Curve& curve) {
-      return (1 - f) * curve.at(0)(0) + f * curve.at(length)(0);
+  /// In second order bending alone is another than the linear diagram's.
+  [[nodiscard]] bool bends(BeamDiagram::Quantity quantity) const {
+    return exact && quantity != BeamDiagram::axial && quantity != BeamDiagram::torsion;
+  }
+
+  [[nodiscard]] double value(BeamDiagram::Quantity quantity, double x) const {
+    enum { v, rotation, M, T };
+    const auto from_chord = [&](const BeamColumn::Curve& curve) {
+      const double f = x / length;
+      return curve.value(v, x) - (1 - f) * curve.value(v, 0) - f * curve.value(v, length);
     };
-    v[BeamDiagram::shear_y] = y(3);
-    v[BeamDiagram::shear_z] = z(3);
-    v[BeamDiagram::moment_z] = y(2);
-    v[BeamDiagram::moment_y] = -z(2);
-    v[BeamDiagram::deflection_y] = y(0) - chord(xy);
-    v[BeamDiagram::deflection_z] = z(0) - chord(xz);
-    return v;
+    if (!bends(quantity)) return linear.value(quantity, x);
+    switch (quantity) {
+      case BeamDiagram::shear_y:
+        return xy.value(T, x);
+      case BeamDiagram::shear_z:
+        return xz.value(T, x);
+      case BeamDiagram::moment_z:
+        return xy.value(M, x);
+      case BeamDiagram::moment_y:
+        return -xz.value(M, x);
+      case BeamDiagram::deflection_y:
+        return from_chord(xy);
+      default:
+        return from_chord(xz);
+    }
+  }
+
+  [[nodiscard]] std::array<double, 8> values(double x) const {
+    if (!exact) return linear.values(x);
+    std::array<double, 8> all{};
+    for (int q = 0; q < BeamDiagram::quantities; ++q)
+      all[static_cast<std::size_t>(q)] = value(static_cast<BeamDiagram::Quantity>(q), x);
+    return all;
   }
 };
 
@@ -260,9 +279,8 @@ std::array<double, 8> SecondOrderDiagram::values(double distance) const {
 /// section around it.
 BeamDiagram::Range SecondOrderDiagram::extremes(BeamDiagram::Quantity quantity) const {
   const State& s = *state_;
-  if (!s.exact || quantity == BeamDiagram::axial || quantity == BeamDiagram::torsion)
-    return s.linear.extremes(quantity);
-  const auto value = [&](double x) { return s.values(x)[static_cast<std::size_t>(quantity)]; };
+  if (!s.bends(quantity)) return s.linear.extremes(quantity);
+  const auto value = [&](double x) { return s.value(quantity, x); };
   constexpr int points = 24;
   constexpr double golden = 0.6180339887498949;
   BeamDiagram::Range range{{value(0), 0}, {value(0), 0}};
@@ -271,9 +289,21 @@ BeamDiagram::Range SecondOrderDiagram::extremes(BeamDiagram::Quantity quantity) 
     if (v > range.greatest.value) range.greatest = {v, x};
   };
   const auto sharpen = [&](double a, double b, double sign) {
+    double c = b - golden * (b - a), d = a + golden * (b - a), at_c = sign * value(c), at_d = sign * value(d);
     for (int k = 0; k < 40; ++k) {
-      const double c = b - golden * (b - a), d = a + golden * (b - a);
-      (sign * value(c) < sign * value(d) ? a : b) = sign * value(c) < sign * value(d) ? c : d;
+      if (at_c < at_d) {
+        a = c;
+        c = d;
+        at_c = at_d;
+        d = a + golden * (b - a);
+        at_d = sign * value(d);
+      } else {
+        b = d;
+        d = c;
+        at_d = at_c;
+        c = b - golden * (b - a);
+        at_c = sign * value(c);
+      }
     }
     consider((a + b) / 2, value((a + b) / 2));
   };
