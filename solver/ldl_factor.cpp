@@ -203,10 +203,17 @@ LdlFactor::LdlFactor(const SparseSymmetric& matrix, std::span<const int> order)
       row_[at] = static_cast<std::int32_t>(i);
       source_[at] = rows.source[k];
     }
-  // A column joins the one before it when their patterns are the same.
+  // A column joins the one before it when their patterns are the same, or nearly so for the first of the block: some
+  // zeros cost less than handing an update on.
+  constexpr double zeros = 0.35;  // of the first column
   const std::vector<std::int32_t> parent = elimination_tree(rows), count = column_counts(rows, parent);
   for (std::size_t j = 0; j < n; ++j) {
-    const bool joins = j > 0 && parent[j - 1] == static_cast<std::int32_t>(j) && count[j - 1] == count[j] + 1;
+    bool joins = j > 0 && parent[j - 1] == static_cast<std::int32_t>(j);
+    if (joins && count[j - 1] != count[j] + 1) {
+      const auto first = static_cast<std::size_t>(first_.back());
+      const auto joined = count[j] + static_cast<std::int32_t>(j - first);
+      joins = joined - count[first] <= zeros * joined;
+    }
     if (!joins) first_.push_back(static_cast<std::int32_t>(j));
     block_of_[j] = static_cast<std::int32_t>(first_.size()) - 1;
   }
@@ -234,7 +241,9 @@ int LdlFactor::factorise(const SparseSymmetric& matrix, bool keep) {
     const Eigen::Index pivots = first_[b + 1] - first_[b], rest = front.rows() - pivots;
     negative += eliminate(front, pivots);
     if (rest > 0) {
-      Update update{{rows.begin() + pivots, rows.end()}, front.bottomRightCorner(rest, rest)};
+      Update update{{rows.begin() + pivots, rows.end()}, Eigen::MatrixXd(rest, rest)};
+      for (Eigen::Index c = 0; c < rest; ++c)
+        update.values.col(c).tail(rest - c) = front.col(pivots + c).tail(rest - c);
       const auto parent = static_cast<std::size_t>(block_of_[static_cast<std::size_t>(update.rows.front())]);
       waiting[parent].push_back(std::move(update));
     }
@@ -260,7 +269,8 @@ std::vector<std::int32_t> LdlFactor::pattern(std::size_t b, const std::vector<Up
 
 Eigen::MatrixXd LdlFactor::assemble(std::size_t b, std::size_t size, const std::vector<Update>& children) const {
   const auto m = static_cast<Eigen::Index>(size);
-  Eigen::MatrixXd front = Eigen::MatrixXd::Zero(m, m);
+  Eigen::MatrixXd front(m, m);  // its lower triangle counts
+  for (Eigen::Index c = 0; c < m; ++c) front.col(c).tail(m - c).setZero();
   for (std::int32_t j = first_[b]; j < first_[b + 1]; ++j) {
     const auto c = static_cast<std::size_t>(j);
     const Eigen::Index column = j - first_[b];
@@ -270,10 +280,10 @@ Eigen::MatrixXd LdlFactor::assemble(std::size_t b, std::size_t size, const std::
   }
   for (const Update& child : children)
     for (std::size_t c = 0; c < child.rows.size(); ++c) {
-      const Eigen::Index column = local_[static_cast<std::size_t>(child.rows[c])];
+      double* column = front.col(local_[static_cast<std::size_t>(child.rows[c])]).data();
+      const double* update = child.values.col(static_cast<Eigen::Index>(c)).data();
       for (std::size_t r = c; r < child.rows.size(); ++r)
-        front(local_[static_cast<std::size_t>(child.rows[r])], column) +=
-            child.values(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c));
+        column[local_[static_cast<std::size_t>(child.rows[r])]] += update[r];
     }
   return front;
 }
@@ -281,20 +291,29 @@ Eigen::MatrixXd LdlFactor::assemble(std::size_t b, std::size_t size, const std::
 void LdlFactor::solve(Eigen::VectorXd& x) const {
   Eigen::VectorXd y(x.size());
   for (Eigen::Index i = 0; i < x.size(); ++i) y(place_[static_cast<std::size_t>(i)]) = x(i);
+  Eigen::VectorXd z;  // a block's own part of y, then what lies below it
+  const auto gather = [&](std::size_t b) {
+    const std::vector<std::int32_t>& rows = rows_[b];
+    z.resize(static_cast<Eigen::Index>(rows.size()));
+    for (std::size_t i = 0; i < rows.size(); ++i) z(static_cast<Eigen::Index>(i)) = y(rows[i]);
+  };
   for (std::size_t b = 0; b < panel_.size(); ++b) {
     const Eigen::MatrixXd& panel = panel_[b];
+    gather(b);
     for (Eigen::Index j = 0; j < panel.cols(); ++j) {
-      const double t = y(first_[b] + j) / panel(j, j);
-      for (Eigen::Index r = j + 1; r < panel.rows(); ++r) y(rows_[b][static_cast<std::size_t>(r)]) -= panel(r, j) * t;
+      const Eigen::Index below = panel.rows() - j - 1;
+      z.tail(below) -= z(j) / panel(j, j) * panel.col(j).tail(below);
     }
+    for (std::size_t i = 0; i < rows_[b].size(); ++i) y(rows_[b][i]) = z(static_cast<Eigen::Index>(i));
   }
   for (std::size_t b = panel_.size(); b-- > 0;) {
     const Eigen::MatrixXd& panel = panel_[b];
+    gather(b);
     for (Eigen::Index j = panel.cols(); j-- > 0;) {
-      double sum = y(first_[b] + j);
-      for (Eigen::Index r = j + 1; r < panel.rows(); ++r) sum -= panel(r, j) * y(rows_[b][static_cast<std::size_t>(r)]);
-      y(first_[b] + j) = sum / panel(j, j);
+      const Eigen::Index below = panel.rows() - j - 1;
+      z(j) = (z(j) - panel.col(j).tail(below).dot(z.tail(below))) / panel(j, j);
     }
+    y.segment(first_[b], panel.cols()) = z.head(panel.cols());
   }
   for (Eigen::Index i = 0; i < x.size(); ++i) x(i) = y(place_[static_cast<std::size_t>(i)]);
 }
