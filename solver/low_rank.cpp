@@ -63,11 +63,12 @@ int LowRankCorrection::add(std::span<const int> rows, const Eigen::MatrixXd& B) 
   return static_cast<int>(places_.size()) - 1;
 }
 
-void LowRankCorrection::finish_adding(std::span<const PathColumns> also) {
-  if (finished_ == places_.size() && also.empty()) return;
+void LowRankCorrection::finish_adding(std::span<const PathColumns> also, Eigen::VectorXd* y,
+                                      const std::vector<char>* marked) {
+  if (finished_ == places_.size() && also.empty() && y == nullptr) return;
   std::vector<PathColumns> groups(also.begin(), also.end());
   for (std::size_t p = finished_; p < places_.size(); ++p) groups.push_back({&places_[p].path, &places_[p].W});
-  solver_.forward(groups);
+  solver_.forward(groups, y, marked);
   for (; finished_ < places_.size(); ++finished_) orthonormalise(places_[finished_].W, places_[finished_].R);
   if (gram_.rows() < gram_size_) {
     const Eigen::Index room = std::max<Eigen::Index>(2 * gram_.rows(), gram_size_ + 48);

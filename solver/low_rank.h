@@ -23,9 +23,10 @@ class LowRankCorrection {
   /// A place that may change: the rows of the matrix (an element's: they lie on one elimination path; one may come
   /// twice) and B there, one row each. Returns its number; its D is zero.
   int add(std::span<const int> rows, const Eigen::MatrixXd& B);
-  /// Finds W of all places added since the last call, together; L^-1 of `also` in the same pass. To be called before
-  /// set() of any of them.
-  void finish_adding(std::span<const PathColumns> also = {});
+  /// Finds W of all places added since the last call, together; L^-1 of `also` and of y (as TriangularSolver::forward()
+  /// has it) in the same pass. To be called before set() of any of them.
+  void finish_adding(std::span<const PathColumns> also = {}, Eigen::VectorXd* y = nullptr,
+                     const std::vector<char>* marked = nullptr);
   /// Replaces the place's D (symmetric; zero: unchanged).
   void set(int place, const Eigen::Ref<const Eigen::MatrixXd>& D);
   /// Forgets places whose D is zero when they have become the greater part, and have more than `kept` columns. Returns

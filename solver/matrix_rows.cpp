@@ -11,52 +11,108 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-/// r -= K x and size += |K| |x|, the diagonal left out. The rows of a node follow each other.
-TOPPLE_VECTOR_VERSIONS
-void subtract_products(const SparseSymmetric& K, const std::int64_t* run_start, const RowsOfColumn* all_runs,
-                       const double* x, const double* absolute_x, double* r, double* size) {
-  for (std::int32_t c = 0; c < K.size; ++c) {
-    const double xc = x[c], axc = absolute_x[c];
-    const double* k = K.value.data() + K.start[static_cast<std::size_t>(c)] + 1;
-    FourLanes::Vector value{}, sum{};
-    TwoLanes::Vector value_2{}, sum_2{};
-    double value_1 = 0, sum_1 = 0;
-    const RowsOfColumn* last = all_runs + run_start[c + 1];
-    for (const RowsOfColumn* run = all_runs + run_start[c]; run != last; ++run) {
-      const double *own_x = x + run->row, *own_size = absolute_x + run->row;
-      double *own_r = r + run->row, *to = size + run->row;
-      int i = 0;
-      for (; i + FourLanes::count <= run->count; i += FourLanes::count) {
-        const FourLanes::Vector entry = lanes_at<FourLanes>(k + i), large = entry < 0 ? -entry : entry;
-        lanes_at<FourLanes>(own_r + i) -= entry * xc;
-        lanes_at<FourLanes>(to + i) += large * axc;
-        value += entry * lanes_at<FourLanes>(own_x + i);
-        sum += large * lanes_at<FourLanes>(own_size + i);
-      }
-      if (run->count - i >= TwoLanes::count) {
-        const TwoLanes::Vector entry = lanes_at<TwoLanes>(k + i), large = entry < 0 ? -entry : entry;
-        lanes_at<TwoLanes>(own_r + i) -= entry * xc;
-        lanes_at<TwoLanes>(to + i) += large * axc;
-        value_2 += entry * lanes_at<TwoLanes>(own_x + i);
-        sum_2 += large * lanes_at<TwoLanes>(own_size + i);
-        i += TwoLanes::count;
-      }
-      if (i < run->count) {
-        const double entry = k[i], large = std::abs(entry);
-        own_r[i] -= entry * xc;
-        to[i] += large * axc;
-        value_1 += entry * own_x[i];
-        sum_1 += large * own_size[i];
-      }
-      k += run->count;
+constexpr int six = 6;  // columns of a node
+
+struct Vectors {
+  const double *x, *absolute_x;
+  double *r, *size;
+};
+
+/// Sums of N columns' products with the rows below them: k x and |k| |x|.
+template <class Lanes, int N>
+struct Sums {
+  typename Lanes::Vector value[N] = {}, size[N] = {};
+};
+
+/// Some rows below N columns: r -= K x and size += |K| |x| both ways, the columns' in `sums`.
+template <class Lanes, int N>
+[[gnu::always_inline]] inline void multiply_rows(const double* const* column, int at, const double* x, const double* ax,
+                                                 std::int32_t row, const Vectors& v, Sums<Lanes, N>& sums) {
+  using Vector = typename Lanes::Vector;
+  const Vector own_x = lanes_at<Lanes>(v.x + row), own_size = lanes_at<Lanes>(v.absolute_x + row);
+  Vector r = lanes_at<Lanes>(v.r + row), size = lanes_at<Lanes>(v.size + row);
+  TOPPLE_UNROLLED
+  for (int c = 0; c < N; ++c) {
+    const Vector k = lanes_at<Lanes>(column[c] + at);
+    const Vector large = k < 0 ? -k : k;
+    r -= k * x[c];
+    size += large * ax[c];
+    sums.value[c] += k * own_x;
+    sums.size[c] += large * own_size;
+  }
+  lanes_at<Lanes>(v.r + row) = r;
+  lanes_at<Lanes>(v.size + row) = size;
+}
+
+/// The group's own triangle; `below` points behind it in each column.
+template <int N>
+[[gnu::always_inline]] inline void multiply_triangle(const double* const* below, const double* x, const double* ax,
+                                                     double* value, double* size) {
+  for (int c = 0; c < N; ++c) {
+    const double* k = below[c] - N;
+    value[c] += k[c] * x[c];
+    size[c] += std::abs(k[c]) * ax[c];
+    for (int i = c + 1; i < N; ++i) {
+      const double large = std::abs(k[i]);
+      value[c] += k[i] * x[i];
+      size[c] += large * ax[i];
+      value[i] += k[i] * x[c];
+      size[i] += large * ax[c];
     }
-    double parts[2 * FourLanes::count], parts_2[2 * TwoLanes::count];
-    lanes_at<FourLanes>(parts) = value;
-    lanes_at<FourLanes>(parts + FourLanes::count) = sum;
-    lanes_at<TwoLanes>(parts_2) = value_2;
-    lanes_at<TwoLanes>(parts_2 + TwoLanes::count) = sum_2;
-    r[c] -= ((parts[0] + parts[1]) + (parts[2] + parts[3])) + ((parts_2[0] + parts_2[1]) + value_1);
-    size[c] += ((parts[4] + parts[5]) + (parts[6] + parts[7])) + ((parts_2[2] + parts_2[3]) + sum_1);
+  }
+}
+
+template <int N>
+[[gnu::always_inline]] inline void multiply_group(const SparseSymmetric& K, const ColumnGroup& group,
+                                                  const RowsInRun* runs, const Vectors& v) {
+  const double* below[N];
+  double x[N], ax[N], value[N], size[N];
+  for (int c = 0; c < N; ++c) {
+    below[c] = K.value.data() + K.start[static_cast<std::size_t>(group.first + c)] + (N - c);
+    x[c] = v.x[group.first + c];
+    ax[c] = v.absolute_x[group.first + c];
+  }
+  Sums<FourLanes, N> four;
+  Sums<TwoLanes, N> two;
+  Sums<OneLane, N> one;
+  int at = 0;
+  for (auto run = group.first_run; run < group.last_run; ++run) {
+    const RowsInRun& rows = runs[run];
+    int i = 0;
+    for (; i + 4 <= rows.count; i += 4) multiply_rows(below, at + i, x, ax, rows.row + i, v, four);
+    if (rows.count - i >= 2) {
+      multiply_rows(below, at + i, x, ax, rows.row + i, v, two);
+      i += 2;
+    }
+    if (i < rows.count) multiply_rows(below, at + i, x, ax, rows.row + i, v, one);
+    at += rows.count;
+  }
+  TOPPLE_UNROLLED
+  for (int c = 0; c < N; ++c) {
+    double p[2 * FourLanes::count], q[2 * TwoLanes::count];
+    lanes_at<FourLanes>(p) = four.value[c];
+    lanes_at<FourLanes>(p + 4) = four.size[c];
+    lanes_at<TwoLanes>(q) = two.value[c];
+    lanes_at<TwoLanes>(q + 2) = two.size[c];
+    value[c] = ((p[0] + p[1]) + (p[2] + p[3])) + ((q[0] + q[1]) + one.value[c]);
+    size[c] = ((p[4] + p[5]) + (p[6] + p[7])) + ((q[2] + q[3]) + one.size[c]);
+  }
+  multiply_triangle<N>(below, x, ax, value, size);
+  for (int c = 0; c < N; ++c) {
+    v.r[group.first + c] -= value[c];
+    v.size[group.first + c] += size[c];
+  }
+}
+
+TOPPLE_VECTOR_VERSIONS
+void multiply_groups(const SparseSymmetric& K, std::span<const ColumnGroup> groups, const RowsInRun* runs,
+                     const Vectors& v) {
+  for (const ColumnGroup& group : groups) {
+    if (group.count == six) {
+      multiply_group<six>(K, group, runs, v);
+    } else {
+      multiply_group<1>(K, group, runs, v);
+    }
   }
 }
 
@@ -65,20 +121,9 @@ void subtract_products(const SparseSymmetric& K, const std::int64_t* run_start, 
 MatrixRows::MatrixRows(const SparseSymmetric& pattern) {
   const auto n = static_cast<std::size_t>(pattern.size);
   left_start_.assign(n + 1, 0);
-  run_start_.push_back(0);
-  for (std::size_t column = 0; column < n; ++column) {
-    for (auto k = pattern.start[column] + 1; k < pattern.start[column + 1]; ++k) {
-      const std::int32_t row = pattern.row[static_cast<std::size_t>(k)];
-      ++left_start_[static_cast<std::size_t>(row) + 1];
-      const bool first = static_cast<std::size_t>(run_start_.back()) == run_.size();
-      if (!first && run_.back().row + run_.back().count == row) {
-        ++run_.back().count;
-      } else {
-        run_.push_back({row, 1});
-      }
-    }
-    run_start_.push_back(static_cast<std::int64_t>(run_.size()));
-  }
+  for (std::size_t column = 0; column < n; ++column)
+    for (auto k = pattern.start[column] + 1; k < pattern.start[column + 1]; ++k)
+      ++left_start_[static_cast<std::size_t>(pattern.row[static_cast<std::size_t>(k)]) + 1];
   for (std::size_t i = 0; i < n; ++i) left_start_[i + 1] += left_start_[i];
   left_column_.resize(static_cast<std::size_t>(left_start_.back()));
   left_position_.resize(left_column_.size());
@@ -91,6 +136,35 @@ MatrixRows::MatrixRows(const SparseSymmetric& pattern) {
       left_position_[at] = k;
     }
   }
+  group_columns(pattern);
+}
+
+/// Six columns that share their pattern go together, others by themselves.
+void MatrixRows::group_columns(const SparseSymmetric& pattern) {
+  const auto joins = [&](std::int32_t c) {  // column c + 1 is column c without its diagonal
+    const auto at = static_cast<std::size_t>(c);
+    const auto begin = pattern.row.begin() + pattern.start[at], middle = pattern.row.begin() + pattern.start[at + 1],
+               end = pattern.row.begin() + pattern.start[at + 2];
+    return middle - begin == end - middle + 1 && std::equal(begin + 1, middle, middle);
+  };
+  for (std::int32_t column = 0; column < pattern.size;) {
+    std::int32_t count = 1;
+    while (count < six && column + count < pattern.size && joins(column + count - 1)) ++count;
+    if (count < six) count = 1;
+    const auto runs = static_cast<std::int64_t>(run_.size());
+    const auto at = static_cast<std::size_t>(column);
+    for (auto k = pattern.start[at] + count; k < pattern.start[at + 1]; ++k) {
+      const std::int32_t row = pattern.row[static_cast<std::size_t>(k)];
+      const bool first = static_cast<std::int64_t>(run_.size()) == runs;
+      if (!first && run_.back().row + run_.back().count == row) {
+        ++run_.back().count;
+      } else {
+        run_.push_back({row, 1});
+      }
+    }
+    group_.push_back({column, count, runs, static_cast<std::int64_t>(run_.size())});
+    column += count;
+  }
 }
 
 double MatrixRows::residual(const SparseSymmetric& K, const Eigen::VectorXd& b, const Eigen::VectorXd& x,
@@ -98,12 +172,7 @@ double MatrixRows::residual(const SparseSymmetric& K, const Eigen::VectorXd& b, 
   r = b;
   size_ = b.cwiseAbs();
   absolute_x_ = x.cwiseAbs();
-  subtract_products(K, run_start_.data(), run_.data(), x.data(), absolute_x_.data(), r.data(), size_.data());
-  for (Eigen::Index c = 0; c < b.size(); ++c) {
-    const double diagonal = K.value[static_cast<std::size_t>(K.start[static_cast<std::size_t>(c)])];
-    r(c) -= diagonal * x(c);
-    size_(c) += std::abs(diagonal) * absolute_x_(c);
-  }
+  multiply_groups(K, group_, run_.data(), {x.data(), absolute_x_.data(), r.data(), size_.data()});
   const double largest = b.size() > 0 ? absolute_x_.maxCoeff() : 0;
   const double rounding = static_cast<double>(b.size()) * epsilon * largest;
   // No row of the scaled matrix sums up to more than this; beyond, the row's own sum decides.

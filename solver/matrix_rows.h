@@ -11,8 +11,12 @@
 
 namespace topple::solver {
 
-/// Consecutive rows below the diagonal of a column.
-struct RowsOfColumn {
+/// Columns of one pattern (a node's), and in which runs the rows below them follow each other.
+struct ColumnGroup {
+  std::int32_t first, count;
+  std::int64_t first_run, last_run;
+};
+struct RowsInRun {
   std::int32_t row, count;
 };
 
@@ -33,8 +37,10 @@ class MatrixRows {
  private:
   [[nodiscard]] double row_sum(const SparseSymmetric& K, int row) const;
 
-  std::vector<std::int64_t> run_start_;  ///< per column
-  std::vector<RowsOfColumn> run_;
+  void group_columns(const SparseSymmetric& pattern);
+
+  std::vector<ColumnGroup> group_;
+  std::vector<RowsInRun> run_;
   // Entries to the left of the diagonal, by rows.
   std::vector<std::int64_t> left_start_, left_position_;
   std::vector<std::int32_t> left_column_;

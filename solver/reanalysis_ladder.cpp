@@ -92,8 +92,9 @@ bool Reanalysis::State::know_residual() {
 }
 
 void Reanalysis::State::update_correction(bool adds) {
-  if (adds && know_residual()) {
-    eliminated_along = standing->update(rows_to_change, correction);
+  eliminated_along = adds && know_residual();
+  if (eliminated_along) {
+    standing->update(rows_to_change, correction);
   } else {
     standing->update();
   }

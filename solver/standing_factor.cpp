@@ -89,19 +89,16 @@ void StandingFactor::forget_unchanged(std::optional<Eigen::Index> kept) {
   }
 }
 
-/// Takes what changed over, and adds what changed for the first time; returns the latter's places.
-std::vector<int> StandingFactor::add_planned() {
+/// Takes what changed over, and adds what changed for the first time.
+void StandingFactor::add_planned() {
   set_wanted();
   forget_unchanged();
-  std::vector<int> added;
   for (const auto& [key, wanted] : wanted_) {
     if (wanted.set || !wanted.active()) continue;
     const ElementModes& m = planned_.at(key);
-    added.push_back(correction_->add(m.rows, m.B));
-    place_.emplace(key, added.back());
+    place_.emplace(key, correction_->add(m.rows, m.B));
   }
   planned_.clear();
-  return added;
 }
 
 void StandingFactor::set_wanted() {
@@ -113,42 +110,19 @@ void StandingFactor::set_wanted() {
 }
 
 void StandingFactor::update() {
-  (void)add_planned();
+  add_planned();
   correction_->finish_adding();
   set_wanted();
   correction_->update();
 }
 
-/// Shares a vector out to the paths of these places, a column for each. False: not all of it lies on them.
-bool StandingFactor::on_paths(std::span<const int> places, std::span<const int> rows, const Eigen::VectorXd& vector,
-                              std::vector<Eigen::MatrixXd>& columns) const {
-  for (const int place : places) columns.emplace_back(Eigen::MatrixXd::Zero(correction_->path(place).rows(), 1));
-  for (const int row : rows) {
-    if (vector(row) == 0) continue;
-    std::size_t p = 0;
-    while (p < places.size() && !solver_->is_on_path(correction_->path(places[p]), row)) ++p;
-    if (p == places.size()) return false;
-    columns[p](solver_->row_on_path(correction_->path(places[p]), row)) = vector(row);
-  }
-  return true;
-}
-
-bool StandingFactor::update(std::span<const int> rows, const Eigen::VectorXd& right_hand_side) {
-  const std::vector<int> added = add_planned();
-  std::vector<Eigen::MatrixXd> columns;
-  std::vector<PathColumns> also;
-  const bool along = !added.empty() && on_paths(added, rows, right_hand_side, columns);
-  for (std::size_t p = 0; along && p < added.size(); ++p) also.push_back({&correction_->path(added[p]), &columns[p]});
-  correction_->finish_adding(also);
-  if (along) {
-    along_.setZero(solver_->size());
-    const double minus = -1;
-    for (std::size_t p = 0; p < added.size(); ++p)
-      solver_->subtract(correction_->path(added[p]), columns[p], &minus, along_);
-  }
+void StandingFactor::update(std::span<const int> rows, const Eigen::VectorXd& right_hand_side) {
+  add_planned();
+  solver_->permute(right_hand_side, along_);
+  solver_->mark_paths(rows, marked_);
+  correction_->finish_adding({}, &along_, &marked_);
   set_wanted();
   correction_->update();
-  return along;
 }
 
 void StandingFactor::solve(Eigen::VectorXd& x, const std::vector<int>* rows) const {

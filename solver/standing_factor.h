@@ -52,10 +52,9 @@ class StandingFactor {
   [[nodiscard]] Plan plan();
   /// Carries the last plan out.
   void update();
-  /// The same; a right-hand side, zero outside of `rows`, is eliminated along with the new places when all of it lies
-  /// on their paths: their blocks of the factor are read once for both. True: forward_along() and solve_along() go on
-  /// from there.
-  [[nodiscard]] bool update(std::span<const int> rows, const Eigen::VectorXd& right_hand_side);
+  /// The same; a right-hand side, zero outside of `rows`, is eliminated along with the new places: the blocks of the
+  /// factor are read once for both. forward_along() and solve_along() go on from there.
+  void update(std::span<const int> rows, const Eigen::VectorXd& right_hand_side);
 
   /// x := K^-1 x of the matrix as it stands. `rows` (unless null): x is zero in all other rows.
   void solve(Eigen::VectorXd& x, const std::vector<int>* rows = nullptr) const;
@@ -109,10 +108,8 @@ class StandingFactor {
   [[nodiscard]] bool inside_dropped(std::span<const int> nodes) const;
   void know_modes(int shell);
   [[nodiscard]] ElementModes modes(Key key) const;
-  [[nodiscard]] std::vector<int> add_planned();
+  void add_planned();
   void set_wanted();
-  [[nodiscard]] bool on_paths(std::span<const int> places, std::span<const int> rows, const Eigen::VectorXd& vector,
-                              std::vector<Eigen::MatrixXd>& columns) const;
   void finish_solve(Eigen::VectorXd& x) const;
 
   const FrameSystem& system_;

@@ -221,10 +221,6 @@ EliminationPath TriangularSolver::path(std::span<const int> rows) const {
   return result;
 }
 
-bool TriangularSolver::is_on_path(const EliminationPath& path, int row) const {
-  return std::binary_search(path.block.begin(), path.block.end(), block_of(row));
-}
-
 int TriangularSolver::row_on_path(const EliminationPath& path, int row) const {
   const int at = position(row), block = block_of_[static_cast<std::size_t>(at)];
   const auto found = std::lower_bound(path.block.begin(), path.block.end(), block);
@@ -307,33 +303,28 @@ void TriangularSolver::backward(Eigen::MatrixXd& y) const {
   }
 }
 
-void TriangularSolver::forward(std::span<const PathColumns> groups) const {
+void TriangularSolver::forward(std::span<const PathColumns> groups, Eigen::VectorXd* y,
+                               const std::vector<char>* marked) const {
   next_.assign(groups.size(), 0);
-  for (;;) {
-    // Paths ascend: the least block that is next on any of them, and all whose next it is.
-    int block = -1;
+  for (std::size_t b = 0; b < parent_.size(); ++b) {
+    // Paths ascend.
     sharing_.clear();
     for (std::size_t g = 0; g < groups.size(); ++g) {
       const std::vector<int>& path = groups[g].path->block;
-      if (next_[g] == path.size()) continue;
-      const int own = path[next_[g]];
-      if (block < 0 || own < block) {
-        block = own;
-        sharing_.clear();
-      }
-      if (own == block) sharing_.push_back(g);
+      if (next_[g] == path.size() || path[next_[g]] != static_cast<int>(b)) continue;
+      sharing_.push_back(g);
+      ++next_[g];
     }
-    if (block < 0) return;
-    for (const std::size_t g : sharing_) ++next_[g];
-    forward_block_of(static_cast<std::size_t>(block), groups);
+    const bool along = y != nullptr && (marked == nullptr || (*marked)[b] != 0);
+    if (along || !sharing_.empty()) forward_block_of(b, groups, along ? y : nullptr);
   }
 }
 
-/// One block, for the groups in sharing_.
-void TriangularSolver::forward_block_of(std::size_t b, std::span<const PathColumns> groups) const {
+/// One block, for the groups in sharing_ and y (unless null).
+void TriangularSolver::forward_block_of(std::size_t b, std::span<const PathColumns> groups, Eigen::VectorXd* y) const {
   const Block block{value_.data() + value_start_[b], static_cast<int>(first_[b + 1] - first_[b]),
                     static_cast<int>(row_start_[b + 1] - row_start_[b])};
-  int count = 0;
+  int count = y != nullptr ? 1 : 0;
   for (const std::size_t g : sharing_) count += static_cast<int>(groups[g].columns->cols());
   const auto grow = [](std::vector<double>& store, int rows, int columns) {
     const std::size_t size = static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns);
@@ -349,17 +340,26 @@ void TriangularSolver::forward_block_of(std::size_t b, std::span<const PathColum
       for (Eigen::Index c = 0; c < columns.cols(); ++c, ++at) work(columns.col(c).data() + columns.rows(), at);
     }
   };
-  double* x = together_.data();
+  double *x = together_.data(), *below = below_.data();
   const int own = rows_to_root_[b];
+  // That of y comes last.
+  double *last = x + static_cast<std::ptrdiff_t>(count - 1) * block.columns, *y_own = nullptr;
+  if (y != nullptr) {
+    y_own = y->data() + first_[b];
+    std::copy(y_own, y_own + block.columns, last);
+  }
   each_column([&](double* end, int at) {
     std::copy(end - own, end - own + block.columns, x + static_cast<std::ptrdiff_t>(at) * block.columns);
   });
-  forward_block(block, x, count, below_.data());
+  forward_block(block, x, count, below);
   each_column([&](double* end, int at) {
     const double* from = x + static_cast<std::ptrdiff_t>(at) * block.columns;
     std::copy(from, from + block.columns, end - own);
-    subtract_rows_from_end(runs(b), below_.data() + static_cast<std::ptrdiff_t>(at) * block.below(), end);
+    subtract_rows_from_end(runs(b), below + static_cast<std::ptrdiff_t>(at) * block.below(), end);
   });
+  if (y == nullptr) return;
+  std::copy(last, last + block.columns, y_own);
+  subtract_rows(runs(b), below + static_cast<std::ptrdiff_t>(count - 1) * block.below(), y->data());
 }
 
 }  // namespace topple::solver

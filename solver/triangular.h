@@ -78,8 +78,9 @@ class TriangularSolver {
   /// The same for several columns, the factor gone through once.
   void backward(Eigen::MatrixXd& y) const;
   /// B := L^-1 B for each B. Blocks that several paths share are gone through once, with all their columns together.
-  void forward(std::span<const PathColumns> groups) const;
-  [[nodiscard]] bool is_on_path(const EliminationPath& path, int row) const;
+  /// With `y` (unless null) also y := L^-1 y as above, in the same pass.
+  void forward(std::span<const PathColumns> groups, Eigen::VectorXd* y = nullptr,
+               const std::vector<char>* marked = nullptr) const;
   /// The row of the path at which an equation of the matrix stands.
   [[nodiscard]] int row_on_path(const EliminationPath& path, int row) const;
   /// W' y with columns W on the path and a whole vector y; and y -= W c.
@@ -92,7 +93,7 @@ class TriangularSolver {
   void finish();
   void find_runs();
   [[nodiscard]] std::span<const RowsInLine> runs(std::size_t block) const;
-  void forward_block_of(std::size_t block, std::span<const PathColumns> groups) const;
+  void forward_block_of(std::size_t block, std::span<const PathColumns> groups, Eigen::VectorXd* y) const;
 
   int size_ = 0;
   double entries_ = 0;
