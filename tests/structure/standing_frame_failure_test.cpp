@@ -14,6 +14,7 @@ constexpr double rounding = 1e-9;  // relative; statically determinate or closed
 FailureRules quiet(double sudden = 1) {
   FailureRules rules;
   rules.bracing = BracingRule::none;
+  rules.mechanism = MechanismRule::detach;
   rules.sudden = sudden;
   return rules;
 }

@@ -14,8 +14,8 @@ enum class BracingRule { buckling, classic, none };
 enum class MechanismRule { hinge, detach };
 
 struct FailureRules {
-  BracingRule bracing = BracingRule::classic;
-  MechanismRule mechanism = MechanismRule::detach;
+  BracingRule bracing = BracingRule::buckling;
+  MechanismRule mechanism = MechanismRule::hinge;
   double generations_per_second = 240;
   bool second_order = false;
   double sudden = 2.0;  ///< dynamic factor of a sudden loss; 1 is off
