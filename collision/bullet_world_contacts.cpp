@@ -82,7 +82,11 @@ void add_manifold(const btPersistentManifold& manifold, std::vector<Contact>& po
   const auto& second = *static_cast<const Solid*>(manifold.getBody1()->getUserPointer());
   for (int i = 0; i < manifold.getNumContacts(); ++i) {
     const btManifoldPoint& point = manifold.getContactPoint(i);
-    if (point.m_appliedImpulse <= 0 && point.getDistance() > kTouching) continue;
+    // A point may end without a normal impulse and keep the friction that it had while it still had one: Bullet's
+    // solver leaves it there, and the bodies have it.
+    const bool pushes =
+        point.m_appliedImpulse > 0 || point.m_appliedImpulseLateral1 != 0 || point.m_appliedImpulseLateral2 != 0;
+    if (!pushes && point.getDistance() > kTouching) continue;
     points.push_back(point_contact(first, second, point));
   }
 }

@@ -4,6 +4,7 @@
 #include <BulletCollision/CollisionShapes/btConvexPolyhedron.h>
 #include <BulletCollision/CollisionShapes/btPolyhedralConvexShape.h>
 
+#include <Eigen/Geometry>
 #include <map>
 #include <vector>
 
@@ -13,6 +14,9 @@ class PolyhedronStore {
  public:
   /// Gives the shape the faces and edges of all shapes that are made from these numbers.
   void give_features(btPolyhedralConvexShape& shape, const std::vector<double>& made_from);
+  /// The same where the points are seen to be those of a straight prism: each corner of the one end followed by its
+  /// opposite at the other, round a convex end. Then nothing needs to be sought, nor kept. False where they are not.
+  static bool give_prism(btPolyhedralConvexShape& shape, const std::vector<Eigen::Vector3d>& points);
 
  private:
   std::map<std::vector<double>, btConvexPolyhedron> known_;

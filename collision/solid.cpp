@@ -68,7 +68,7 @@ std::unique_ptr<btConvexShape> make_hull(const ConvexPart& part, const std::stri
   }
   hull->setMargin(kSkin);
   hull->recalcLocalAabb();
-  polyhedra.give_features(*hull, numbers);
+  if (!PolyhedronStore::give_prism(*hull, part.points)) polyhedra.give_features(*hull, numbers);
   return hull;
 }
 
@@ -125,8 +125,17 @@ void make_parts(const std::vector<ConvexPart>& description, const btTransform& f
   if (description.empty()) throw std::invalid_argument(owner + ": it has no part; at least one is needed");
   for (const ConvexPart& given : description) {
     SolidPart part;
-    part.shape = make_shape(given, owner, polyhedra);
-    part.local = frame * to_bullet(given.pose);
+    if (given.kind == ConvexPart::Kind::hull) {
+      // Its points take up the frame: a body of one hull is no compound then, which pairs cost several times as much.
+      ConvexPart placed = given;
+      const btTransform place = frame * to_bullet(given.pose);
+      for (Vec3& point : placed.points) point = from_bullet(place * to_bullet(point));
+      part.shape = make_shape(placed, owner, polyhedra);
+      part.local.setIdentity();
+    } else {
+      part.shape = make_shape(given, owner, polyhedra);
+      part.local = frame * to_bullet(given.pose);
+    }
     part.tag = given.tag;
     part.reach = reach_of(part);
     part.thickness = thickness_of(*part.shape);
