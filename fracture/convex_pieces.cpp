@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
+#include <utility>
 
 #include "predicates.h"
 
@@ -79,26 +79,33 @@ class Merger {
   }
 
   std::vector<Chunk> chunks() {
-    std::map<int, Chunk> by_group;
-    std::map<int, std::map<int, int>> numbers;
+    // A group is known by its first triangle.
+    std::vector<int> place(triangles_.size(), -1);
+    int count = 0;
+    for (int i = 0; i < static_cast<int>(triangles_.size()); ++i)
+      if (find(i) == i) place[index(i)] = count++;
+    std::vector<Chunk> result(index(count));
+    std::vector<std::vector<std::pair<int, int>>> numbers(index(count));  // of corners in the outline
     std::vector<bool> seen(next_.size(), false);
     for (int first = 0; first < static_cast<int>(next_.size()); ++first) {
       if (inner_[index(first)] || seen[index(first)]) continue;
-      const int group = find(first / 3);
+      const std::size_t group = index(place[index(find(first / 3))]);
+      Polygon& outline = result[group].outline;
       for (int edge = first; !seen[index(edge)]; edge = next_[index(edge)]) {
         seen[index(edge)] = true;
-        numbers[group].emplace(corner(edge), static_cast<int>(by_group[group].outline.size()));
-        by_group[group].outline.push_back(point(edge));
+        numbers[group].emplace_back(corner(edge), static_cast<int>(outline.size()));
+        outline.push_back(point(edge));
       }
     }
+    for (auto& list : numbers) std::sort(list.begin(), list.end());
     for (int i = 0; i < static_cast<int>(triangles_.size()); ++i) {
-      const int group = find(i);
-      const auto& number = numbers[group];
-      by_group[group].face.push_back(
-          {number.at(corner(3 * i)), number.at(corner(3 * i + 1)), number.at(corner(3 * i + 2))});
+      const std::size_t group = index(place[index(find(i))]);
+      const auto number_of = [&](int vertex) {
+        return std::lower_bound(numbers[group].begin(), numbers[group].end(), std::pair(vertex, 0))->second;
+      };
+      result[group].face.push_back(
+          {number_of(corner(3 * i)), number_of(corner(3 * i + 1)), number_of(corner(3 * i + 2))});
     }
-    std::vector<Chunk> result;
-    for (auto& [group, chunk] : by_group) result.push_back(std::move(chunk));
     return result;
   }
 

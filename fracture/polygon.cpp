@@ -1,5 +1,7 @@
 #include "topple/fracture/polygon.h"
 
+#include <array>
+
 #include "predicates.h"
 
 namespace topple::fracture {
@@ -82,7 +84,11 @@ bool is_simple(const Polygon& polygon) {
 
 void clip(LabelledPolygon& polygon, const Vec2& point, const Vec2& normal, int label) {
   const std::size_t n = polygon.vertices.size();
-  std::vector<double> beyond(n);
+  // Most polygons are small, and most cuts miss: no memory is asked for then.
+  constexpr std::size_t few = 32;
+  std::array<double, few> of_few;
+  std::vector<double> of_many(n > few ? n : 0);
+  double* const beyond = n > few ? of_many.data() : of_few.data();
   bool cuts = false;
   for (std::size_t i = 0; i < n; ++i) {
     beyond[i] = normal.dot(polygon.vertices[i] - point);
@@ -90,6 +96,8 @@ void clip(LabelledPolygon& polygon, const Vec2& point, const Vec2& normal, int l
   }
   if (!cuts) return;
   LabelledPolygon kept;
+  kept.vertices.reserve(n + 1);
+  kept.labels.reserve(n + 1);
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t next = (i + 1) % n;
     if (beyond[i] <= 0) {

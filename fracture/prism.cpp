@@ -36,6 +36,7 @@ Mesh prism_mesh(const Polygon& outline, const std::vector<std::array<int, 3>>& f
   mesh.positions.resize(6 * n);
   mesh.normals.resize(6 * n);
   mesh.texture.resize(6 * n);
+  mesh.triangles.reserve(2 * face.size() + 2 * n);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t upper = 0; upper < 2; ++upper) {
       mesh.positions[2 * i + upper] = Vec3(outline[i].x(), outline[i].y(), (upper ? 1 : -1) * thickness / 2);

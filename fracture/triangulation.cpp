@@ -117,6 +117,7 @@ double Triangulation::doubled_area(int triangle) const {
 
 std::vector<int> Triangulation::star(int vertex) const {
   std::vector<int> triangles;
+  triangles.reserve(8);  // six on average
   const int first = some_edge_[index(vertex)];
   int edge = first;
   do {

@@ -76,6 +76,13 @@ void Triangulation::connect(int from, int to) {
   int unused = to;
   int edge = first_crossed(from, to, unused);
   const Vec2 a = point(from), b = point(to);
+  if (edge == none) {  // it is there already
+    if (const int there = find_edge(from, to); there == none)
+      ++unfinished_;
+    else if (!fixed(there))
+      fix(there, none);
+    return;
+  }
   std::deque<std::pair<int, int>> crossed;
   while (edge != none) {
     crossed.emplace_back(origin(edge), target(edge));

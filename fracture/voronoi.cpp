@@ -37,6 +37,7 @@ VoronoiCell VoronoiGrid::make(int index, int& ring) const {
     grid_->each_in_ring(column, row, ring, [&](int c, int r) {
       const int other = r * columns() + c;
       const Vec2 away = site(other) - cell.site;
+      if (away.squaredNorm() > 4 * reach * reach) return;  // half way to it lies beyond all of the cell
       clip(cell.polygon, cell.site + away / 2, away, other);
     });
   }
