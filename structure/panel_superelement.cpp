@@ -265,12 +265,12 @@ void PanelSuperelement::load_evenly() {
       const Vec2 corner = flat(node);
       centre += Vec3(corner.x(), corner.y(), 0) / 4;
     }
+    const Grip held = grip(Vec2(centre.head<2>()));
     for (int axis = 0; axis < 3; ++axis) {
       Vec3 sum = Vec3::Zero();
       for (int n = 0; n < 4; ++n) sum += own.block<3, 1>(6 * n, axis);
-      std::vector<Vec6> loads(unit_traction_.size(), Vec6::Zero());
-      add_force({origin_ + axes_.transpose() * centre, turn_.transpose() * sum}, loads);
-      for (std::size_t n = 0; n < loads.size(); ++n) unit_traction_[n].col(axis) += loads[n];
+      held.each(sum,
+                [&](int node, const Vec6& load) { unit_traction_[static_cast<std::size_t>(node)].col(axis) += load; });
     }
   }
 }
@@ -319,19 +319,17 @@ bool PanelSuperelement::stands_at(std::size_t node) const {
 
 /// On the element that holds the point by its bilinear shapes; in a hole, on the nearest node that stands, with the
 /// moment that keeps its line of action.
-void PanelSuperelement::add_force(const PanelForce& one, std::vector<Vec6>& loads) const {
-  const Vec2 at = (axes_ * (one.point - origin_)).head<2>();
-  const Vec3 force = turn_ * one.force;
+PanelSuperelement::Grip PanelSuperelement::grip(const Vec2& at) const {
   const auto& shells = patch_->patch().shells;
-  int nearest = -1;
+  Grip held;
   double least = unlimited;
+  fracture::Polygon corners(4);
   for (std::size_t k = 0; k < shells.size(); ++k) {
     if (!patch_->stands(static_cast<int>(k))) continue;
-    fracture::Polygon corners;
-    for (const int node : shells[k].node) {
-      corners.push_back(flat(node));
-      const double away = (corners.back() - at).norm();
-      if (away < least) nearest = node;
+    for (std::size_t n = 0; n < 4; ++n) {
+      corners[n] = flat(shells[k].node[n]);
+      const double away = (corners[n] - at).norm();
+      if (away < least) held.node[0] = shells[k].node[n];
       least = std::min(least, away);
     }
     if (!fracture::contains(corners, at)) continue;
@@ -352,16 +350,24 @@ void PanelSuperelement::add_force(const PanelForce& one, std::vector<Vec6>& load
       if (step.norm() < 1e-14) break;
     }
     constexpr std::array<std::array<double, 2>, 4> sign{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
-    for (std::size_t n = 0; n < 4; ++n)
-      loads[static_cast<std::size_t>(shells[k].node[n])].head<3>() +=
-          (1 + sign[n][0] * place.x()) * (1 + sign[n][1] * place.y()) / 4 * force;
-    return;
+    for (std::size_t n = 0; n < 4; ++n) {
+      held.node[n] = shells[k].node[n];
+      held.share[n] = (1 + sign[n][0] * place.x()) * (1 + sign[n][1] * place.y()) / 4;
+    }
+    return held;
   }
-  if (nearest < 0) return;
-  const Vec2 arm = at - flat(nearest);
-  const Vec3 lever = turn_ * (axes_.transpose() * Vec3(arm.x(), arm.y(), 0));
-  loads[static_cast<std::size_t>(nearest)].head<3>() += force;
-  loads[static_cast<std::size_t>(nearest)].tail<3>() += lever.cross(force);
+  if (held.node[0] < 0) return held;
+  held.share[0] = 1;
+  const Vec2 arm = at - flat(held.node[0]);
+  held.lever = turn_ * (axes_.transpose() * Vec3(arm.x(), arm.y(), 0));
+  return held;
+}
+
+void PanelSuperelement::add_force(const PanelForce& one, std::vector<Vec6>& loads) const {
+  const Vec3 place = axes_ * (one.point - origin_);
+  grip(Vec2(place.head<2>())).each(turn_ * one.force, [&](int node, const Vec6& load) {
+    loads[static_cast<std::size_t>(node)] += load;
+  });
 }
 
 std::vector<Vec6> PanelSuperelement::node_loads(const PanelLoading& loading) const {

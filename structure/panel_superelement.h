@@ -7,6 +7,7 @@
 // which next to nothing is, hangs on the nearest node that stands. The edges of a membrane stay straight, as those of
 // the one element that it is while whole; those of a shell bend with what they are joined to, freely where that is
 // nothing, and supports of an edge act on all of its nodes.
+#include <Eigen/Geometry>
 #include <array>
 #include <optional>
 #include <vector>
@@ -44,6 +45,9 @@ class PanelSuperelement {
   /// An edge is held no more, neither by its supports nor by what lies along it.
   void release_edge(int edge);
 
+  /// Multiply-adds of one condensation, predicted.
+  [[nodiscard]] double operations() const { return patch_->operations(); }
+
   // Of the panel's nodes in the order of Panel::all_nodes(), global axes. A node that the panel let go of, or at which
   // nothing of it is left, has zeros.
   [[nodiscard]] Eigen::MatrixXd stiffness() const;
@@ -73,6 +77,23 @@ class PanelSuperelement {
   [[nodiscard]] bool held_at(std::size_t node) const;
   [[nodiscard]] Vec2 flat(int node) const;
   [[nodiscard]] std::vector<Vec6> node_loads(const PanelLoading& loading) const;
+  /// What takes up a force at a point: shares of it at nodes of the patch; `lever`: from the one node where it is no
+  /// element (axes of the patch).
+  struct Grip {
+    std::array<int, 4> node{-1, -1, -1, -1};
+    std::array<double, 4> share{};
+    Vec3 lever = Vec3::Zero();
+    /// Calls add(node, load) for a force in axes of the patch.
+    template <class Add>
+    void each(const Vec3& force, const Add& add) const {
+      for (std::size_t n = 0; n < 4 && node[n] >= 0; ++n) {
+        Vec6 load;
+        load << share[n] * force, lever.cross(force);
+        add(node[n], load);
+      }
+    }
+  };
+  [[nodiscard]] Grip grip(const Vec2& at) const;
   void add_force(const PanelForce& one, std::vector<Vec6>& loads) const;
   [[nodiscard]] std::vector<Vec6> recover(const std::vector<Vec6>& at_nodes, const PanelLoading& loading) const;
   Mat3 axes_;  ///< of the panel

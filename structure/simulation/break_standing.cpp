@@ -89,39 +89,48 @@ bool lies_on_edge(const Panel& panel, int edge, NodeId node) {
 
 }  // namespace
 
-/// A joint holds an edge where something is there to hold it: of a shell, which joins at its corners, at supported
-/// edges and where members or other shells lie along it, that is not so for every edge.
-std::array<bool, 4> Simulation::State::held(PanelId panel) const {
-  const auto supported = [&](int edge) {
-    return std::any_of(building.edge_supports.begin(), building.edge_supports.end(),
-                       [&](const EdgeSupport& support) { return support.panel == panel && support.edge == edge; });
-  };
-  const auto bears = [&](NodeId node) {
-    const auto at = [&](NodeId other) { return other == node; };
-    for (const NodeSupport& support : building.supports)
-      if (at(support.node)) return true;
+const std::array<Simulation::State::EdgeBearers, 4>& Simulation::State::bearers(PanelId shell) {
+  const auto [known, made] = edge_bearers.try_emplace(shell);
+  if (!made) return known->second;
+  for (int edge = 0; edge < 4; ++edge) {
+    EdgeBearers& own = known->second[static_cast<std::size_t>(edge)];
+    const auto on_edge = [&](NodeId node) { return lies_on_edge(building[shell], edge, node); };
+    for (const EdgeSupport& support : building.edge_supports)
+      own.supported = own.supported || (support.panel == shell && support.edge == edge);
+    for (const NodeSupport& support : building.supports) own.supported = own.supported || on_edge(support.node);
     for (std::size_t m = 0; m < building.members.size(); ++m)
       for (int end = 0; end < 2; ++end)
-        if (at(building.members[m].nodes[static_cast<std::size_t>(end)]) &&
-            frame->intact(building.joint(MemberId(m), end)) && frame->stands(MemberId(m)))
-          return true;
+        if (on_edge(building.members[m].nodes[static_cast<std::size_t>(end)]))
+          own.joints.push_back(building.joint(MemberId(m), end));
     for (std::size_t p = 0; p < building.panels.size(); ++p) {
       const Panel& other = building.panels[p];
-      if (PanelId(p) == panel || other.model != PanelModel::shell || !frame->stands(PanelId(p))) continue;
-      for (int edge = 0; edge < 4; ++edge)
-        if (frame->intact(building.joint(PanelId(p), edge)) && lies_on_edge(other, edge, node)) return true;
+      if (PanelId(p) == shell || other.model != PanelModel::shell) continue;
+      for (int of_other = 0; of_other < 4; ++of_other) {
+        const std::vector<NodeId> nodes = other.all_nodes();
+        if (std::any_of(nodes.begin(), nodes.end(),
+                        [&](NodeId node) { return lies_on_edge(other, of_other, node) && on_edge(node); }))
+          own.joints.push_back(building.joint(PanelId(p), of_other));
+      }
     }
-    return false;
-  };
+  }
+  return known->second;
+}
+
+/// A joint holds an edge where something is there to hold it: of a shell, which joins at its corners, at supported
+/// edges and where members or other shells lie along it, that is not so for every edge.
+std::array<bool, 4> Simulation::State::held(PanelId panel) {
+  const bool shell = building[panel].model == PanelModel::shell;
   std::array<bool, 4> edges{};
   for (int edge = 0; edge < 4; ++edge) {
-    bool holds = frame->intact(building.joint(panel, edge));
-    if (holds && building[panel].model == PanelModel::shell)
-      holds = supported(edge) || bears(building[panel].nodes[static_cast<std::size_t>(edge)]) ||
-              bears(building[panel].nodes[static_cast<std::size_t>((edge + 1) % 4)]) ||
-              std::any_of(building[panel].edge_nodes[static_cast<std::size_t>(edge)].begin(),
-                          building[panel].edge_nodes[static_cast<std::size_t>(edge)].end(), bears);
-    edges[static_cast<std::size_t>(edge)] = holds;
+    bool& holds = edges[static_cast<std::size_t>(edge)];
+    holds = frame->intact(building.joint(panel, edge));
+    if (!holds || !shell) continue;
+    const EdgeBearers& there = bearers(panel)[static_cast<std::size_t>(edge)];
+    holds = there.supported || std::any_of(there.joints.begin(), there.joints.end(), [&](JointId joint) {
+              const Joint& other = building[joint];
+              return frame->intact(joint) &&
+                     (other.member.valid() ? frame->stands(other.member) : frame->stands(other.panel));
+            });
   }
   return edges;
 }
@@ -215,8 +224,10 @@ void Simulation::State::push_chunks(const Strike& hit) {
 /// Where edges of broken panels have failed since, pieces that only they held leave.
 void Simulation::State::drop_loose_pieces() {
   for (auto& [panel, broken] : broken_panels) {
-    if (!frame->stands(panel) || held(panel) == broken.held()) continue;
-    std::vector<PanelChunk> loose = broken.hold(held(panel));
+    if (!frame->stands(panel)) continue;
+    const std::array<bool, 4> now = held(panel);
+    if (now == broken.held()) continue;
+    std::vector<PanelChunk> loose = broken.hold(now);
     if (loose.empty()) continue;
     tell(SimulationEvent::Kind::panel_fractured, building[panel].name).position = loose.front().rest.centre;
     (void)break_standing(panel, std::move(loose));

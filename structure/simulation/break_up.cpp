@@ -24,6 +24,25 @@ bool Simulation::State::holds_in_debris(JointId joint) const {
   return frame->intact(joint) && debris_broken[static_cast<std::size_t>(joint.index)] == 0;
 }
 
+/// Only where a panel can break: others come down whole, with what most of their corners are joined to.
+std::optional<std::array<double, 4>> Simulation::State::flying_edges(PanelId id) const {
+  if (!breakable_panels[static_cast<std::size_t>(id.index)].settings) return std::nullopt;
+  const Panel& panel = building[id];
+  const BrokenPanel* broken = broken_panel(id);
+  std::array<double, 4> length{};
+  for (std::size_t edge = 0; edge < 4; ++edge) {
+    if (!holds_in_debris(building.joint(id, static_cast<int>(edge)))) continue;
+    const Vec3 way = building[panel.nodes[(edge + 1) % 4]].position - building[panel.nodes[edge]].position;
+    length[edge] = broken ? broken->edge_length(edge) : way.norm();
+  }
+  return length;
+}
+
+/// Its joints are asked what they bear when it is hit hard.
+bool Simulation::State::may_fall_apart(const Body& one) const {
+  return one.members.size() > 1 || (any_breakable && one.members.size() == 1 && !one.panels.empty());
+}
+
 FreeSegmentParts Simulation::State::parts_of(const Body& one) const {
   FreeSegmentParts parts;
   parts.members = one.members;
@@ -41,11 +60,11 @@ FreeSegmentParts Simulation::State::parts_of(const Body& one) const {
   return parts;
 }
 
-/// Bodies of several members that contacts pushed hard, or that spin fast.
+/// Bodies of several parts that contacts pushed hard, or that spin fast.
 std::vector<collision::BodyId> Simulation::State::hit_hard() {
   std::map<std::int64_t, double> force;  // sum over contacts of their size
   for (const auto& [id, one] : bodies)
-    if (one.members.size() > 1 && !one.asleep) force.emplace(id, 0.0);
+    if (may_fall_apart(one) && !one.asleep) force.emplace(id, 0.0);
   if (force.empty()) return {};
   const auto feel = [&](collision::BodyId id, const collision::Contact& contact, std::int64_t tag) {
     if (tag < 0) return;
@@ -104,7 +123,7 @@ void Simulation::State::break_up_landed() {
                                : std::find(own.panels.begin(), own.panels.end(), push.panel) != own.panels.end();
           if (its && piece != id) pushes[piece.value].push_back(push);
         }
-        if (bodies.at(piece.value).members.size() > 1) pieces.push_back(piece);
+        if (may_fall_apart(bodies.at(piece.value))) pieces.push_back(piece);
       }
     hit = std::move(pieces);
   }
@@ -119,9 +138,10 @@ std::vector<collision::BodyId> Simulation::State::fall_apart(collision::BodyId i
   const Mat3 turn = state.pose.orientation.toRotationMatrix();
   std::unique_ptr<FreeSegment>& segment = free_segments[id.value];
   const auto holds = [&](JointId joint) { return holds_in_debris(joint); };
+  const FlyingEdges edges = [&](PanelId panel) { return flying_edges(panel); };
   if (!segment)
-    segment = std::make_unique<FreeSegment>(building, parts_of(one), holds,
-                                            [&](PanelId shell) { return frame->shell_stiffness(shell); });
+    segment = std::make_unique<FreeSegment>(
+        building, parts_of(one), holds, [&](PanelId shell) { return frame->shell_stiffness(shell); }, edges);
   if (!segment->can_break()) return {};
   const FreeSegment::Answer answer =
       segment->bear(pushes, turn.transpose() * state.angular_velocity, turn.transpose() * gravity);
@@ -149,7 +169,7 @@ std::vector<collision::BodyId> Simulation::State::fall_apart(collision::BodyId i
     tell(line);
   }
   segment.reset();
-  const std::vector<FreeSegmentParts> parts = connected_parts(building, parts_of(one), holds);
+  const std::vector<FreeSegmentParts> parts = connected_parts(building, parts_of(one), holds, edges);
   if (parts.size() == 1) return {id};
   return split(id, parts);
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 namespace topple::structure {
 
@@ -22,6 +23,31 @@ fracture::Polygon inside(const fracture::Polygon& outline, const fracture::Polyg
   return kept.vertices;
 }
 
+/// A corner nearer than this to the line between its neighbours, m, makes a collision shape no truer. What a pair of
+/// shapes costs goes with the product of their edges, so they have at most so many corners.
+constexpr double flat_corner = 0.005;
+constexpr std::size_t most_corners = 8;
+
+/// Leaves corners out of a convex outline, those first that take the least area with them.
+void leave_out_corners(fracture::Polygon& outline) {
+  while (outline.size() > 3) {
+    std::size_t least = 0;
+    double least_area = INFINITY, height = 0;
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+      const Vec2 &before = outline[(i + outline.size() - 1) % outline.size()],
+                 &after = outline[(i + 1) % outline.size()];
+      const Vec2 chord = after - before, arm = outline[i] - before;
+      const double doubled = std::abs(chord.x() * arm.y() - chord.y() * arm.x());
+      if (doubled >= least_area) continue;
+      least = i;
+      least_area = doubled;
+      height = doubled / std::max(chord.norm(), 1e-9);
+    }
+    if (outline.size() <= most_corners && height > flat_corner) return;
+    outline.erase(outline.begin() + static_cast<std::ptrdiff_t>(least));
+  }
+}
+
 /// The outline of a piece's collision shape.
 fracture::Polygon shape_within(const fracture::Polygon& outline, const fracture::Polygon& space) {
   fracture::Polygon kept = inside(outline, space);
@@ -30,6 +56,7 @@ fracture::Polygon shape_within(const fracture::Polygon& outline, const fracture:
     kept = outline;
     most = 1 - small_share;
   }
+  leave_out_corners(kept);
   const Vec2 middle = fracture::centroid(kept);
   for (Vec2& corner : kept) {
     const Vec2 out = corner - middle;
@@ -71,7 +98,6 @@ BrokenPanel::BrokenPanel(const Building& building, PanelId id, double mass, cons
       density_(mass / (panel_.intact_area() * thickness_)),
       held_(held) {
   for (std::size_t i = 0; i < space.size(); i += 2) space_.push_back(plane_.flat(space[i]));
-  describe_rest();
 }
 
 std::vector<PanelChunk> BrokenPanel::hit(const Vec3& at, std::optional<double> radius) {
@@ -110,7 +136,8 @@ std::vector<PanelChunk> BrokenPanel::take(const fracture::Fracture& fracture) {
     holes_.push_back(chunk.outline);
   }
   chunks_out_ += static_cast<int>(chunks.size());
-  describe_rest();
+  description_.reset();
+  mesh_.reset();
   return chunks;
 }
 
@@ -132,28 +159,33 @@ PanelChunk BrokenPanel::lift(const fracture::Chunk& chunk) const {
   return result;
 }
 
-void BrokenPanel::describe_rest() {
-  volume_ = 0;
-  rest_ = {};
-  hulls_.clear();
+const BrokenPanel::Description& BrokenPanel::described() const {
+  if (description_) return *description_;
+  Description& now = description_.emplace();
   for (const fracture::Chunk& piece : panel_.pieces()) {
     const fracture::MassProperties flat = properties_of(piece, thickness_, density_);
-    volume_ += flat.volume;
-    rest_.add({flat.mass, plane_.lift(flat.centre), plane_.axes.transpose() * flat.inertia * plane_.axes});
-    std::vector<Vec3>& hull = hulls_.emplace_back();
+    now.volume += flat.volume;
+    now.rest.add({flat.mass, plane_.lift(flat.centre), plane_.axes.transpose() * flat.inertia * plane_.axes});
+    std::vector<Vec3>& hull = now.hulls.emplace_back();
     for (const Vec2& corner : shape_within(piece.outline, space_))
       for (const double side : {-0.5, 0.5})
         hull.push_back(plane_.lift(Vec3(corner.x(), corner.y(), side * thickness_)));
   }
+  return now;
+}
+
+const std::shared_ptr<const fracture::Mesh>& BrokenPanel::mesh() const {
+  if (mesh_) return mesh_;
   fracture::Mesh mesh = compact(panel_.mesh());
   for (Vec3& position : mesh.positions) position = plane_.lift(position);
   for (Vec3& normal : mesh.normals) normal = plane_.axes.transpose() * normal;
   mesh_ = std::make_shared<const fracture::Mesh>(std::move(mesh));
+  return mesh_;
 }
 
 PanelRemains BrokenPanel::remains() const {
   PanelRemains remains;
-  remains.share = volume_ / (panel_.intact_area() * thickness_);
+  remains.share = volume() / (panel_.intact_area() * thickness_);
   remains.holes = holes_;
   for (std::size_t edge = 0; edge < 4; ++edge) remains.edge_length[edge] = panel_.intact_length(edge);
   return remains;
@@ -162,8 +194,9 @@ PanelRemains BrokenPanel::remains() const {
 /// T. Moeller and B. Trumbore, "Fast, minimum storage ray-triangle intersection" (1997), over all triangles.
 std::optional<double> BrokenPanel::ray(const Vec3& from, const Vec3& direction) const {
   std::optional<double> nearest;
-  for (const auto& [i, j, k] : mesh_->triangles) {
-    const auto at = [&](int v) -> const Vec3& { return mesh_->positions[static_cast<std::size_t>(v)]; };
+  const fracture::Mesh& surface = *mesh();
+  for (const auto& [i, j, k] : surface.triangles) {
+    const auto at = [&](int v) -> const Vec3& { return surface.positions[static_cast<std::size_t>(v)]; };
     const Vec3 a = at(j) - at(i), b = at(k) - at(i), across = direction.cross(b);
     const double determinant = a.dot(across);
     if (determinant == 0) continue;

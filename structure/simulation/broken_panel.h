@@ -15,8 +15,8 @@ namespace topple::structure {
 /// One convex chunk.
 struct PanelChunk {
   MassProperties rest;
-  double volume = 0;                           ///< m3
-  std::vector<Vec3> hull;                      ///< corners of its collision shape, about the centre of mass
+  double volume = 0;       ///< m3
+  std::vector<Vec3> hull;  ///< corners of its collision shape, a prism: each with its opposite, about the centre
   std::shared_ptr<const fracture::Mesh> mesh;  ///< about the centre of mass
   bool hit = false;                            ///< the hit broke it out; else it is of the rest
 };
@@ -42,14 +42,16 @@ class BrokenPanel {
   /// Whether the material at (the foot of) a point is still there.
   [[nodiscard]] bool holds(const Vec3& at) const;
   [[nodiscard]] const std::array<bool, 4>& held() const { return held_; }
+  /// Along which an edge of the panel is still there, m.
+  [[nodiscard]] double edge_length(std::size_t edge) const { return panel_.intact_length(edge); }
   /// Chunks that left so far: they are numbered from 1.
   [[nodiscard]] int chunks_out() const { return chunks_out_; }
 
-  // What remains.
-  [[nodiscard]] double volume() const { return volume_; }
-  [[nodiscard]] const MassProperties& rest() const { return rest_; }
-  [[nodiscard]] const std::vector<std::vector<Vec3>>& hulls() const { return hulls_; }
-  [[nodiscard]] const std::shared_ptr<const fracture::Mesh>& mesh() const { return mesh_; }
+  // What remains: described when it is first asked for after a change.
+  [[nodiscard]] double volume() const { return described().volume; }
+  [[nodiscard]] const MassProperties& rest() const { return described().rest; }
+  [[nodiscard]] const std::vector<std::vector<Vec3>>& hulls() const { return described().hulls; }
+  [[nodiscard]] const std::shared_ptr<const fracture::Mesh>& mesh() const;
   [[nodiscard]] PanelRemains remains() const;
   /// Distance along a ray (unit direction) to its surface.
   [[nodiscard]] std::optional<double> ray(const Vec3& from, const Vec3& direction) const;
@@ -65,7 +67,12 @@ class BrokenPanel {
                                        const std::array<bool, 4>& held);
   [[nodiscard]] std::vector<PanelChunk> take(const fracture::Fracture& fracture);
   [[nodiscard]] PanelChunk lift(const fracture::Chunk& chunk) const;
-  void describe_rest();
+  struct Description {
+    double volume = 0;
+    MassProperties rest;
+    std::vector<std::vector<Vec3>> hulls;
+  };
+  [[nodiscard]] const Description& described() const;
 
   Plane plane_;
   double thickness_;
@@ -75,10 +82,8 @@ class BrokenPanel {
   std::array<bool, 4> held_;
   std::vector<std::vector<Vec2>> holes_;
   int chunks_out_ = 0;
-  double volume_ = 0;
-  MassProperties rest_;
-  std::vector<std::vector<Vec3>> hulls_;
-  std::shared_ptr<const fracture::Mesh> mesh_;
+  mutable std::optional<Description> description_;
+  mutable std::shared_ptr<const fracture::Mesh> mesh_;
 };
 
 }  // namespace topple::structure

@@ -116,7 +116,10 @@ void Simulation::State::crumble(const std::map<PanelId, PanelBlow>& blows) {
       left.panels.erase(left.panels.begin() + static_cast<std::ptrdiff_t>(p));
       left.panel_mass.erase(left.panel_mass.begin() + static_cast<std::ptrdiff_t>(p));
     }
-    (void)split({id}, connected_parts(building, left, [&](JointId joint) { return holds_in_debris(joint); }),
+    (void)split({id},
+                connected_parts(
+                    building, left, [&](JointId joint) { return holds_in_debris(joint); },
+                    [&](PanelId panel) { return flying_edges(panel); }),
                 std::move(pieces));
   }
 }

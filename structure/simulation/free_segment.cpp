@@ -1,5 +1,6 @@
 #include "simulation/free_segment.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
@@ -7,6 +8,7 @@
 #include <numeric>
 
 #include "index_of.h"
+#include "panel_demand.h"
 #include "shell_edges.h"
 #include "topple/structure/frame.h"
 #include "topple/structure/joint_check.h"
@@ -41,7 +43,7 @@ Vec3 start_of(const Building& building, const Member& member) {
 }  // namespace
 
 FreeSegment::FreeSegment(const Building& building, FreeSegmentParts parts, const std::function<bool(JointId)>& holds,
-                         const std::function<Eigen::MatrixXd(PanelId)>& shell_stiffness)
+                         const std::function<Eigen::MatrixXd(PanelId)>& shell_stiffness, const FlyingEdges& edges)
     : building_(building), parts_(std::move(parts)), node_number_(building.nodes.size(), -1) {
   int held_at = -1;
   bool breakable = false;
@@ -76,7 +78,8 @@ FreeSegment::FreeSegment(const Building& building, FreeSegmentParts parts, const
   }
   std::sort(joints_.begin(), joints_.end());
   for (const PanelId panel : parts_.panels)
-    if (shell_stiffness && building[panel].model == PanelModel::shell) add_shell(panel, shell_stiffness(panel));
+    if (shell_stiffness && building[panel].model == PanelModel::shell) add_shell(panel, shell_stiffness(panel), holds);
+  if (edges) find_hung_panels(edges);
   for (std::size_t i = 0; i < parts_.nodes.size(); ++i) {
     const int number = node_number_[index_of(parts_.nodes[i])];
     if (number < 0) continue;
@@ -85,7 +88,7 @@ FreeSegment::FreeSegment(const Building& building, FreeSegmentParts parts, const
   for (std::size_t i = 0; i < parts_.panels.size(); ++i) {
     std::vector<int> corners;
     for (NodeId node : building[parts_.panels[i]].nodes)
-      if (const int number = node_number_[index_of(node)]; number >= 0) corners.push_back(number);
+      if (takes(parts_.panels[i], node)) corners.push_back(node_number_[index_of(node)]);
     for (int number : corners)
       point_mass_[static_cast<std::size_t>(number)] += parts_.panel_mass[i] / static_cast<double>(corners.size());
   }
@@ -97,7 +100,9 @@ FreeSegment::FreeSegment(const Building& building, FreeSegmentParts parts, const
   centre_ /= mass_;
   // So far about the origin.
   inertia_ -= mass_ * (centre_.squaredNorm() * Mat3::Identity() - centre_ * centre_.transpose());
-  if (!breakable || parts_.members.size() < 2 || held_at < 0) return;
+  const bool shell_asked = std::any_of(hung_.begin(), hung_.end(), [](const Hung& hung) { return hung.patch >= 0; });
+  const bool member_asked = breakable && parts_.members.size() > 1;
+  if (!(member_asked || shell_asked) || held_at < 0) return;
   model_.supports.push_back({held_at, Vec6::Constant(solver::rigid)});
   try {
     analysis_ = std::make_unique<solver::StaticAnalysis>(model_);
@@ -106,19 +111,113 @@ FreeSegment::FreeSegment(const Building& building, FreeSegmentParts parts, const
   }
 }
 
-/// By the nodes at which it has any stiffness.
-void FreeSegment::add_shell(PanelId panel, const Eigen::MatrixXd& stiffness) {
+/// By the nodes at which it has any stiffness and an edge that holds; what it let go of is condensed out.
+void FreeSegment::add_shell(PanelId panel, const Eigen::MatrixXd& stiffness,
+                            const std::function<bool(JointId)>& holds) {
+  std::vector<char> held(building_.nodes.size(), 0);
+  for (int edge = 0; edge < 4; ++edge)
+    if (holds(building_.joint(panel, edge)))
+      for (const NodeId node : nodes_of_edge(building_, panel, edge)) held[index_of(node)] = 1;
   const std::vector<NodeId> nodes = building_[panel].all_nodes();
   solver::Patch patch;
-  std::vector<int> kept;
+  std::vector<NodeId> at;
+  std::vector<int> kept, released;
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     const auto first = static_cast<Eigen::Index>(6 * n);
     if (stiffness.block<6, 6>(first, first).isZero(0)) continue;
+    const bool holds_here = held[index_of(nodes[n])] != 0;
+    for (int c = 0; c < 6; ++c) (holds_here ? kept : released).push_back(static_cast<int>(first) + c);
+    if (!holds_here) continue;
     patch.node.push_back(node_at(nodes[n]));
-    for (int c = 0; c < 6; ++c) kept.push_back(static_cast<int>(first) + c);
+    at.push_back(nodes[n]);
   }
+  if (kept.empty()) return;
   patch.stiffness = stiffness(kept, kept);
+  if (!released.empty()) {
+    const Eigen::MatrixXd between = stiffness(released, kept), inner = stiffness(released, released);
+    const Eigen::MatrixXd handed_on = between.transpose() * inner.ldlt().solve(between);
+    patch.stiffness -= 0.5 * (handed_on + handed_on.transpose());
+  }
   model_.patches.push_back(std::move(patch));
+  shells_.emplace_back(panel, std::move(at));
+}
+
+/// Those with an edge that holds and can break.
+void FreeSegment::find_hung_panels(const FlyingEdges& edges) {
+  for (std::size_t p = 0; p < parts_.panels.size(); ++p) {
+    const PanelId panel = parts_.panels[p];
+    const std::optional<std::array<double, 4>> length = edges(panel);
+    if (!length) continue;
+    Hung hung{panel, parts_.panel_mass[p], *length, -1, {}};
+    const bool shell = building_[panel].model == PanelModel::shell;
+    for (std::size_t s = 0; s < shells_.size(); ++s)
+      if (shells_[s].first == panel) {
+        hung.patch = static_cast<int>(s);
+        hung.nodes = shells_[s].second;
+      }
+    if (shell && hung.patch < 0) continue;
+    bool can_break = false;
+    for (std::size_t edge = 0; edge < 4; ++edge) {
+      const auto there = [&](std::size_t corner) {
+        return node_number_[index_of(building_[panel].nodes[corner % 4])] >= 0;
+      };
+      if (!shell && !(there(edge) && there(edge + 1))) hung.length[edge] = 0;
+      can_break = can_break || (hung.length[edge] > 0 &&
+                                building_[building_.joint(panel, static_cast<int>(edge))].capacity.breakable);
+    }
+    if (can_break) hung_.push_back(std::move(hung));
+  }
+}
+
+/// Its own weight and inertia at its corners, where its mass is, and what hits it.
+std::vector<PanelPush> FreeSegment::pushes_on(const Hung& hung, std::span<const FreePush> pushes, const Answer& motion,
+                                              const Vec3& spin, const Vec3& gravity) const {
+  std::vector<PanelPush> all;
+  for (const NodeId node : building_[hung.panel].nodes)
+    if (takes(hung.panel, node)) all.push_back({building_[node].position, Vec3::Zero()});
+  for (PanelPush& corner : all)
+    corner.force = hung.mass / static_cast<double>(all.size()) * on(corner.point, motion, spin, gravity);
+  for (const FreePush& push : pushes)
+    if (!push.member.valid() && push.panel == hung.panel) all.push_back({push.point, push.force});
+  return all;
+}
+
+/// What the nodes along an edge do to the shell: what its stiffness takes up of them, less what acts on it there. A
+/// corner between two edges that hold counts half for each.
+std::array<Vec6, 4> FreeSegment::shell_edge_demands(const Hung& hung, std::span<const PanelPush> pushes,
+                                                    const std::vector<Vec6>& displacements) const {
+  const auto count = static_cast<Eigen::Index>(hung.nodes.size());
+  Eigen::VectorXd moved(6 * count);
+  for (Eigen::Index n = 0; n < count; ++n)
+    moved.segment<6>(6 * n) =
+        displacements[static_cast<std::size_t>(node_number_[index_of(hung.nodes[static_cast<std::size_t>(n)])])];
+  Eigen::VectorXd force = model_.patches[static_cast<std::size_t>(hung.patch)].stiffness * moved;
+  const auto place_of = [&](NodeId node) { return std::find(hung.nodes.begin(), hung.nodes.end(), node); };
+  solver::LoadSet own;
+  for (const PanelPush& push : pushes) push_corners(hung.panel, push.point, push.force, own);
+  for (const solver::NodeLoad& load : own.nodes)
+    for (Eigen::Index n = 0; n < count; ++n)
+      if (node_number_[index_of(hung.nodes[static_cast<std::size_t>(n)])] == load.node)
+        force.segment<6>(6 * n) -= load.load;
+  std::array<std::vector<NodeId>, 4> along;
+  std::map<NodeId, int> edges_at;
+  for (std::size_t edge = 0; edge < 4; ++edge) {
+    if (!(hung.length[edge] > 0)) continue;
+    along[edge] = nodes_of_edge(building_, hung.panel, static_cast<int>(edge));
+    for (const NodeId node : along[edge]) ++edges_at[node];
+  }
+  std::array<Vec6, 4> demands{Vec6::Zero(), Vec6::Zero(), Vec6::Zero(), Vec6::Zero()};
+  for (std::size_t edge = 0; edge < 4; ++edge) {
+    if (!(hung.length[edge] > 0)) continue;
+    Vec6 sum = Vec6::Zero();
+    for (const NodeId node : along[edge])
+      if (const auto place = place_of(node); place != hung.nodes.end())
+        sum += force.segment<6>(6 * (place - hung.nodes.begin())) / edges_at[node];
+    const Mat3 axes = edge_axes(building_, building_[hung.panel], edge);
+    demands[edge] << axes * sum.head<3>(), axes * sum.tail<3>();
+    demands[edge] /= hung.length[edge];
+  }
+  return demands;
 }
 
 int FreeSegment::node_at(NodeId node) {
@@ -143,8 +242,21 @@ void FreeSegment::add_mass(const Vec3& at, double mass) {
   inertia_ += mass * (at.squaredNorm() * Mat3::Identity() - at * at.transpose());
 }
 
-/// Of the corners that are in the body, by bilinear shares.
-void FreeSegment::push_corners(const Panel& panel, const Vec3& point, const Vec3& force, solver::LoadSet& loads) const {
+/// Those that are in the body; of a shell those that it holds on to, if it does to any.
+bool FreeSegment::takes(PanelId panel, NodeId corner) const {
+  if (node_number_[index_of(corner)] < 0) return false;
+  const auto shell = std::find_if(shells_.begin(), shells_.end(), [&](const auto& one) { return one.first == panel; });
+  if (shell == shells_.end()) return true;
+  const auto holds = [&](NodeId node) {
+    return std::find(shell->second.begin(), shell->second.end(), node) != shell->second.end();
+  };
+  const auto& corners = building_[panel].nodes;
+  return holds(corner) || std::none_of(corners.begin(), corners.end(), holds);
+}
+
+/// By bilinear shares of those corners.
+void FreeSegment::push_corners(PanelId id, const Vec3& point, const Vec3& force, solver::LoadSet& loads) const {
+  const Panel& panel = building_[id];
   const Vec3 origin = building_[panel.nodes[0]].position;
   const Vec3 along = building_[panel.nodes[1]].position - origin, across = building_[panel.nodes[3]].position - origin;
   const double x = std::clamp((point - origin).dot(along) / along.squaredNorm(), 0.0, 1.0);
@@ -152,10 +264,10 @@ void FreeSegment::push_corners(const Panel& panel, const Vec3& point, const Vec3
   const std::array<double, 4> share{(1 - x) * (1 - y), x * (1 - y), x * y, (1 - x) * y};
   double held = 0;
   for (std::size_t corner = 0; corner < 4; ++corner)
-    if (node_number_[index_of(panel.nodes[corner])] >= 0) held += share[corner];
+    if (takes(id, panel.nodes[corner])) held += share[corner];
   for (std::size_t corner = 0; corner < 4; ++corner) {
     const int number = node_number_[index_of(panel.nodes[corner])];
-    if (number < 0 || !(held > 0)) continue;
+    if (!takes(id, panel.nodes[corner]) || !(held > 0)) continue;
     Vec6 load = Vec6::Zero();
     load.head<3>() = share[corner] / held * force;
     loads.nodes.push_back({number, load});
@@ -166,7 +278,7 @@ solver::LoadSet FreeSegment::place(std::span<const FreePush> pushes) const {
   solver::LoadSet loads;
   for (const FreePush& push : pushes) {
     if (!push.member.valid()) {
-      push_corners(building_[push.panel], push.point, push.force, loads);
+      push_corners(push.panel, push.point, push.force, loads);
       continue;
     }
     const auto found = std::find(parts_.members.begin(), parts_.members.end(), push.member);
@@ -231,18 +343,33 @@ FreeSegment::Answer FreeSegment::bear(std::span<const FreePush> pushes, const Ve
     load.head<3>() = point_mass_[n] * on(model_.nodes[n], answer, spin, gravity);
     loads.nodes.push_back({static_cast<int>(n), load});
   }
-  const solver::StaticSolution solution = analysis_->solve({&loads, 1}).front();
-  answer.imbalance = largest > 0 ? solution.reactions.front().head<3>().norm() / largest : 0;
-  std::map<MemberId, std::size_t> number;
-  for (std::size_t i = 0; i < parts_.members.size(); ++i) number[parts_.members[i]] = i;
-  for (JointId joint : joints_)
-    answer.demands.emplace_back(
-        joint, member_joint_demand(solution.beam_end_forces[number[building_[joint].member]], building_[joint].end));
+  std::optional<solver::StaticSolution> solution;
+  if (analysis_) {
+    solution = analysis_->solve({&loads, 1}).front();
+    answer.imbalance = largest > 0 ? solution->reactions.front().head<3>().norm() / largest : 0;
+    std::map<MemberId, std::size_t> number;
+    for (std::size_t i = 0; i < parts_.members.size(); ++i) number[parts_.members[i]] = i;
+    for (JointId joint : joints_)
+      answer.demands.emplace_back(
+          joint, member_joint_demand(solution->beam_end_forces[number[building_[joint].member]], building_[joint].end));
+  }
+  for (const Hung& hung : hung_) {
+    if (hung.patch >= 0 && !solution) continue;
+    const std::vector<PanelPush> own = pushes_on(hung, pushes, answer, spin, gravity);
+    const std::array<Vec6, 4> demands = hung.patch >= 0 ? shell_edge_demands(hung, own, solution->displacements)
+                                                        : flying_edge_demands(building_, hung.panel, hung.length, own);
+    for (int edge = 0; edge < 4; ++edge)
+      if (const JointId joint = building_.joint(hung.panel, edge);
+          hung.length[static_cast<std::size_t>(edge)] > 0 && building_[joint].capacity.breakable)
+        answer.demands.emplace_back(joint, demands[static_cast<std::size_t>(edge)]);
+  }
+  std::sort(answer.demands.begin(), answer.demands.end(),
+            [](const auto& a, const auto& b) { return a.first < b.first; });
   return answer;
 }
 
 std::vector<FreeSegmentParts> connected_parts(const Building& building, const FreeSegmentParts& whole,
-                                              const std::function<bool(JointId)>& holds) {
+                                              const std::function<bool(JointId)>& holds, const FlyingEdges& edges) {
   // Vertices: members, then nodes, then panels, of which only shells are joined to anything.
   const std::size_t members = whole.members.size(), first_panel = members + whole.nodes.size();
   std::map<NodeId, std::size_t> node_vertex;
@@ -295,6 +422,23 @@ std::vector<FreeSegmentParts> connected_parts(const Building& building, const Fr
   for (std::size_t p = 0; p < whole.panels.size(); ++p) {
     if (is_shell(p)) {
       FreeSegmentParts& own = part(first_panel + p);
+      own.panels.push_back(whole.panels[p]);
+      own.panel_mass.push_back(whole.panel_mass[p]);
+      continue;
+    }
+    const auto part_at = [&](std::size_t corner) {
+      const auto vertex = node_vertex.find(building[whole.panels[p]].nodes[corner % 4]);
+      return vertex == node_vertex.end() ? -1 : part_of[find(vertex->second)];
+    };
+    if (const auto length = edges ? edges(whole.panels[p]) : std::nullopt) {
+      const auto held_by = [&](std::size_t edge) {
+        return (*length)[edge] > 0 && part_at(edge) == part_at(edge + 1) ? part_at(edge) : -1;
+      };
+      int holder = -1;
+      for (const std::size_t edge : {std::size_t{1}, std::size_t{0}})
+        if (held_by(edge) >= 0 && held_by(edge) == held_by(edge + 2)) holder = held_by(edge);
+      if (holder < 0) parts.emplace_back();
+      FreeSegmentParts& own = holder < 0 ? parts.back() : parts[static_cast<std::size_t>(holder)];
       own.panels.push_back(whole.panels[p]);
       own.panel_mass.push_back(whole.panel_mass[p]);
       continue;

@@ -170,10 +170,14 @@ void Simulation::State::shatter_struck(collision::BodyId id) {
 /// Panels that came down hard in this step.
 void Simulation::State::shatter_landed() {
   if (!any_breakable) return;
+  std::vector<std::int64_t> awake;  // few: most bodies of a collapse are chunks
+  for (const auto& [id, one] : bodies)
+    if (!one.asleep && breakable_of(one).valid()) awake.push_back(id);
+  if (awake.empty()) return;
   std::map<std::int64_t, std::pair<double, Vec3>> blows;  // the hardest of each body: change of speed and place
   const auto feel = [&](collision::BodyId id, const collision::Contact& contact) {
+    if (!std::binary_search(awake.begin(), awake.end(), id.value)) return;
     const Body* one = body(id);
-    if (!one || one->asleep || !breakable_of(*one).valid()) return;
     const collision::BodyState state = world->state(id);
     const Mat3 inverse = world_inertia(*one, state.pose.orientation).inverse();
     const double mass = effective_mass(one->rest.mass, inverse, contact.point - state.pose.position, contact.normal);

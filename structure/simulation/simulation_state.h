@@ -164,7 +164,14 @@ struct Simulation::State {
   double break_out(Strike& hit);
   void push_chunks(const Strike& hit);
   BrokenPanel& breaking(PanelId panel);
-  [[nodiscard]] std::array<bool, 4> held(PanelId panel) const;
+  [[nodiscard]] std::array<bool, 4> held(PanelId panel);
+  /// What is there, in the whole building, to hold an edge of a shell: supports, and joints of members and other
+  /// shells.
+  struct EdgeBearers {
+    bool supported = false;
+    std::vector<JointId> joints;
+  };
+  const std::array<EdgeBearers, 4>& bearers(PanelId shell);
   std::vector<collision::BodyId> break_standing(PanelId panel, std::vector<PanelChunk> chunks);
   void drop_loose_pieces();
   void crack_panels();
@@ -179,6 +186,8 @@ struct Simulation::State {
   std::vector<collision::BodyId> split(collision::BodyId id, const std::vector<FreeSegmentParts>& parts,
                                        std::vector<Body> chunks = {});
   [[nodiscard]] bool holds_in_debris(JointId joint) const;
+  [[nodiscard]] std::optional<std::array<double, 4>> flying_edges(PanelId panel) const;
+  [[nodiscard]] bool may_fall_apart(const Body& one) const;
   [[nodiscard]] FreeSegmentParts parts_of(const Body& one) const;
 
   // book.cpp
@@ -250,6 +259,7 @@ struct Simulation::State {
   std::vector<BreakablePanel> breakable_panels;  ///< per panel
   bool any_breakable = false;
   std::map<PanelId, BrokenPanel> broken_panels;  ///< those that are broken in part: standing, or whole bodies
+  std::map<PanelId, std::array<EdgeBearers, 4>> edge_bearers;  ///< looked up when first asked for
 
   std::vector<char> debris_broken;                                     ///< per joint: broke after it had left the frame
   std::map<std::int64_t, std::unique_ptr<FreeSegment>> free_segments;  ///< by body, made when it is first hit hard

@@ -189,7 +189,10 @@ TEST_CASE("the wall is shot through with each method, where the ball touches it,
     while (!simulation.finished()) simulation.step();
     CHECK(simulation.at_rest());
     CHECK(simulation.frame().stands(PanelId(0u)));
-    CHECK(std::abs(simulation.ledger().residual()) < 0.02);
+    // Of the gravity work too, which is a thirtieth of what the ball brings in: what is left is rounding of free spins.
+    const Ledger& ledger = simulation.ledger();
+    CHECK(std::abs(ledger.residual()) * (std::abs(ledger.gravity_work) + ledger.work_put_in) <
+          0.001 * std::abs(ledger.gravity_work));
   }
 }
 
