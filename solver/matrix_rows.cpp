@@ -50,15 +50,17 @@ template <int N>
                                                      double* value, double* size) {
   for (int c = 0; c < N; ++c) {
     const double* k = below[c] - N;
-    value[c] += k[c] * x[c];
-    size[c] += std::abs(k[c]) * ax[c];
+    // By themselves: the compiler cannot know that the others are not these.
+    double own_value = value[c] + k[c] * x[c], own_size = size[c] + std::abs(k[c]) * ax[c];
     for (int i = c + 1; i < N; ++i) {
       const double large = std::abs(k[i]);
-      value[c] += k[i] * x[i];
-      size[c] += large * ax[i];
+      own_value += k[i] * x[i];
+      own_size += large * ax[i];
       value[i] += k[i] * x[c];
       size[i] += large * ax[c];
     }
+    value[c] = own_value;
+    size[c] = own_size;
   }
 }
 

@@ -9,7 +9,7 @@ namespace topple::solver {
 namespace {
 
 /// An answer over a correction that refinement leaves above this is found again over a new factor.
-constexpr double acceptable_error = 1e-12;
+constexpr double acceptable_error = 1e-13;
 constexpr int most_refinements = 12;
 /// Answers to unit forces weigh blows, which are known far less well.
 constexpr double response_error = 1e-11;
