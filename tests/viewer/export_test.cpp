@@ -143,6 +143,54 @@ TEST_CASE("what remains of a panel that breaks where it stands is in every expor
   CHECK(count(text_of(page), "\"frame\":") == states);
 }
 
+TEST_CASE("a model drawn around the building is in every export, its pieces from the cut that makes them on") {
+  const ScratchFolder folder;
+  const Scene scene = open_scene("seed_house_hit");
+  REQUIRE(scene.drawn);
+  Session session(scene.building, scene.scenario, scene.drawn);
+  while (session.simulation().time() < 2) {
+    session.step();
+    (void)session.snapshot();
+  }
+  const Recording& recording = *session.recording();
+  const std::vector<DrawnTrack> pieces = drawn_tracks(recording);
+  REQUIRE(pieces.size() > scene.drawn->size());
+  std::size_t at_first = 0, at_last = 0;
+  int moving = 0;
+  for (const DrawnTrack& piece : pieces) {
+    REQUIRE_FALSE(piece.places.empty());
+    CHECK(piece.places.front().frame == 0);
+    for (std::size_t k = 1; k < piece.places.size(); ++k) {
+      CHECK(piece.places[k].frame > piece.places[k - 1].frame);
+      CHECK(piece.places[k].track != piece.places[k - 1].track);
+    }
+    at_first += piece.places.front().track != part_gone;
+    at_last += piece.places.back().track != part_gone;
+    moving += piece.places.back().track >= 0;
+  }
+  CHECK(at_first == scene.drawn->size());
+  CHECK(at_last == recording.frames().back().drawn->size());
+  CHECK(moving > 0);
+  const Mesh placed = placed_mesh(*pieces[0].mesh, {1, 2, 3});
+  CHECK(placed.vertices[0].position.y == Approx(pieces[0].mesh->positions[0].y() - 2));
+
+  const std::string usd = (folder / "house.usda").string();
+  write_usd(*scene.building, recording, usd);
+  const std::string usd_text = text_of(usd);
+  CHECK(count(usd_text, "def Mesh \"drawn_") == pieces.size());
+  CHECK(count(usd_text, "{") == count(usd_text, "}"));
+  const std::string glb = (folder / "house.glb").string();
+  write_gltf(*scene.building, recording, glb, 60);  // as often as was recorded: none falls between two frames
+  CHECK(count(text_of(glb), "\"name\":\"drawn ") == pieces.size());
+  if (!can_write_replay()) return;
+  const std::string page = (folder / "house.html").string();
+  write_html_replay(*scene.building, recording, page);
+  const std::string html = text_of(page);
+  const std::size_t list = html.find("\"drawn\":[");
+  REQUIRE(list != std::string::npos);
+  CHECK(count(html.substr(list, html.find("\"failed\":", list) - list), "\"mesh\":") == pieces.size());
+}
+
 TEST_CASE("a part in a recording moves with its body") {
   const Fall fall;
   const auto& recording = *fall.session.recording();

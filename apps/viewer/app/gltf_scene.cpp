@@ -6,7 +6,6 @@
 #include <fstream>
 #include <limits>
 #include <map>
-#include <set>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -76,7 +75,7 @@ class GltfWriter {
   /// A part in its place, along the run; `lasts`: frames of the recording in which it is there at all.
   void part(const std::string& name, int mesh, const AnimatedPose& rest, const std::vector<PlaceChange>& places,
             std::pair<std::int32_t, std::int32_t> lasts = {0, never}) {
-    AnimatedNode& node = scene_.nodes.emplace_back();
+    AnimatedNode node;
     node.name = name;
     node.mesh = mesh;
     std::size_t next = 0;
@@ -94,6 +93,7 @@ class GltfWriter {
       }
       node.pose(sample.code, now);
     }
+    if (!node.poses.empty()) scene_.nodes.push_back(std::move(node));  // else it came and went between two frames
   }
 
   void member(const structure::Member& member, const std::vector<PlaceChange>& places) {
@@ -143,33 +143,9 @@ class GltfWriter {
 
   /// Pieces of a model around the building, each while it is one; those that stand as they were drawn.
   void drawn() {
-    std::map<std::shared_ptr<const fracture::Mesh>, std::size_t> nodes;
-    for (const ExportSample& sample : samples_) {
-      const auto& pieces = recording_.frames()[static_cast<std::size_t>(sample.frame)].drawn;
-      if (!pieces) continue;
-      std::set<std::shared_ptr<const fracture::Mesh>> seen;
-      for (const DrawnPiece& piece : *pieces) {
-        AnimatedPose now;
-        if (piece.body != part_stands) {
-          const auto track = std::lower_bound(recording_.tracks().begin(), recording_.tracks().end(), piece.body,
-                                              [](const BodyTrack& one, std::int64_t id) { return one.id < id; });
-          if (track == recording_.tracks().end() || track->id != piece.body) continue;
-          const PartMotion motion = motion_of(*track, sample.frame, Eigen::Vector3d::Zero());
-          now = {motion.shift, motion.turn};
-        }
-        const auto [found, made] = nodes.try_emplace(piece.mesh, scene_.nodes.size());
-        if (made) {
-          scene_.nodes.emplace_back();
-          scene_.nodes.back().name = "drawn " + std::to_string(nodes.size());
-          scene_.nodes.back().mesh = add(chunk_mesh(*piece.mesh), drawn_colour);
-        }
-        scene_.nodes[found->second].show(sample.code, true);
-        scene_.nodes[found->second].pose(sample.code, now);
-        seen.insert(piece.mesh);
-      }
-      for (const auto& [mesh, node] : nodes)
-        if (!seen.contains(mesh)) scene_.nodes[node].show(sample.code, false);
-    }
+    int number = 0;
+    for (const DrawnTrack& piece : drawn_tracks(recording_))
+      part("drawn " + std::to_string(++number), add(chunk_mesh(*piece.mesh), drawn_colour), {}, piece.places);
   }
 
   const structure::Building& building_;

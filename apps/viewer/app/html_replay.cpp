@@ -85,6 +85,7 @@ class ReplayData {
     data["panels"] = panels();
     data["places"] = places();
     data["tracks"] = tracks();
+    data["drawn"] = drawn();
     data["failed"] = failed();
     data["events"] = Json::array();
     for (const auto& event : recording_.events())
@@ -157,6 +158,17 @@ class ReplayData {
         one["kind"] = static_cast<int>(track.chunk_of);
       }
       list.push_back(std::move(one));
+    }
+    return list;
+  }
+
+  /// Pieces of a model around the building: [frame, track] for each change of place.
+  [[nodiscard]] Json drawn() const {
+    Json list = Json::array();
+    for (const DrawnTrack& piece : drawn_tracks(recording_)) {
+      std::vector<std::int32_t> places;
+      for (const PlaceChange& change : piece.places) places.insert(places.end(), {change.frame, change.track});
+      list.push_back({{"mesh", mesh_json(placed_mesh(*piece.mesh, origin_))}, {"places", base64(places)}});
     }
     return list;
   }

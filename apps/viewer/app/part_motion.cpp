@@ -1,6 +1,8 @@
 #include "app/part_motion.h"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
+#include <map>
 
 namespace topple::viewer {
 
@@ -52,6 +54,41 @@ std::vector<std::vector<PanelState>> panel_states(const structure::Building& bui
   return states;
 }
 
+std::vector<DrawnTrack> drawn_tracks(const Recording& recording) {
+  const auto& tracks = recording.tracks();
+  const auto track_of = [&](std::int64_t body) {
+    const auto found = std::lower_bound(tracks.begin(), tracks.end(), body,
+                                        [](const BodyTrack& one, std::int64_t id) { return one.id < id; });
+    return found == tracks.end() || found->id != body ? part_gone : static_cast<int>(found - tracks.begin());
+  };
+  std::vector<DrawnTrack> all;
+  std::map<const fracture::Mesh*, std::size_t> number;
+  std::shared_ptr<const std::vector<DrawnPiece>> seen;
+  for (std::size_t f = 0; f < recording.frames().size(); ++f) {
+    if (recording.frames()[f].drawn == seen) continue;
+    seen = recording.frames()[f].drawn;
+    const auto frame = static_cast<std::int32_t>(f);
+    std::vector<char> here(all.size(), 0);
+    const auto note = [&](DrawnTrack& one, int track) {
+      if (one.places.empty() && frame > 0) one.places.push_back({0, part_gone});
+      if (one.places.empty() || one.places.back().track != track) one.places.push_back({frame, track});
+    };
+    if (seen)
+      for (const DrawnPiece& piece : *seen) {
+        const auto [known, made] = number.try_emplace(piece.mesh.get(), all.size());
+        if (made) {
+          all.push_back({piece.mesh, {}});
+          here.push_back(0);
+        }
+        here[known->second] = 1;
+        note(all[known->second], piece.body == part_stands ? part_stands : track_of(piece.body));
+      }
+    for (std::size_t i = 0; i < here.size(); ++i)
+      if (here[i] == 0) note(all[i], part_gone);
+  }
+  return all;
+}
+
 Mesh placed_member_mesh(const structure::Building& building, const structure::Member& member,
                         const Eigen::Vector3d& origin) {
   Mesh mesh = section_mesh(building[member.section], 1);
@@ -91,10 +128,13 @@ Mesh placed_panel_mesh(const structure::Building& building, const structure::Pan
 
 Mesh placed_panel_mesh(const structure::Building& building, const structure::Panel& panel, const PanelState& state,
                        const Eigen::Vector3d& origin) {
-  if (!state.remains) return placed_panel_mesh(building, panel, origin);
-  Mesh mesh = chunk_mesh(*state.remains);
+  return state.remains ? placed_mesh(*state.remains, origin) : placed_panel_mesh(building, panel, origin);
+}
+
+Mesh placed_mesh(const fracture::Mesh& placed, const Eigen::Vector3d& origin) {
+  Mesh mesh = chunk_mesh(placed);
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    const Eigen::Vector3d p = state.remains->positions[i] - origin;
+    const Eigen::Vector3d p = placed.positions[i] - origin;
     mesh.vertices[i].position = glm::vec3(p.x(), p.y(), p.z());
   }
   return mesh;

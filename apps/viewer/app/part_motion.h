@@ -34,6 +34,14 @@ struct PanelState {
 [[nodiscard]] std::vector<std::vector<PanelState>> panel_states(const structure::Building& building,
                                                                 const Recording& recording);
 
+/// A piece of a model that is drawn around the building, from the cut that made it to the one that ends it.
+struct DrawnTrack {
+  std::shared_ptr<const fracture::Mesh> mesh;  ///< where it was in the undeformed building
+  std::vector<PlaceChange> places;             ///< in order of frame; the first is that of frame 0
+};
+/// In the order in which they come, those of one frame as the snapshot has them.
+[[nodiscard]] std::vector<DrawnTrack> drawn_tracks(const Recording& recording);
+
 /// Meshes in the undeformed building, global axes, double precision where it matters: positions relative to `origin`.
 [[nodiscard]] Mesh placed_member_mesh(const structure::Building& building, const structure::Member& member,
                                       const Eigen::Vector3d& origin);
@@ -42,6 +50,8 @@ struct PanelState {
 
 [[nodiscard]] Mesh placed_panel_mesh(const structure::Building& building, const structure::Panel& panel,
                                      const PanelState& state, const Eigen::Vector3d& origin);
+
+[[nodiscard]] Mesh placed_mesh(const fracture::Mesh& placed, const Eigen::Vector3d& origin);
 
 /// Rigid motion p -> turn p + shift of points of the undeformed building (about the same origin) at a frame.
 struct PartMotion {

@@ -73,6 +73,11 @@ class UsdWriter {
       }
     out_ << "    }\n    def Scope \"Bodies\"\n    {\n";
     for (const BodyTrack& track : recording_.tracks()) body(track);
+    // Pieces of a model around the building, each while it is one; those that stand as they were drawn.
+    out_ << "    }\n    def Scope \"Drawn\"\n    {\n";
+    int number = 0;
+    for (const DrawnTrack& piece : drawn_tracks(recording_))
+      part("drawn_" + std::to_string(++number), placed_mesh(*piece.mesh, origin_), piece.places, drawn_colour);
     out_ << "    }\n}\n";
   }
 

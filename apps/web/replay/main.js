@@ -3,7 +3,7 @@ import * as THREE from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { GONE, STANDS, Track, floats, geometry, integers, lastNotAbove } from './data.js';
 
-const MEMBER_COLOURS = [0x5c6a7a, 0x8c98a4, 0xa4785c], PANEL_COLOURS = [0xcec8be, 0xdecdb4], FAILED = new THREE.Color(0x1e4ee8);
+const MEMBER_COLOURS = [0x5c6a7a, 0x8c98a4, 0xa4785c], PANEL_COLOURS = [0xcec8be, 0xdecdb4], DRAWN_COLOUR = 0xd6c8b0, FAILED = new THREE.Color(0x1e4ee8);
 // tool, impact, yielded, broke, fractured, mechanism, detached, split, at rest, limited, done
 const EVENT_COLOURS = ['#d9822b', '#444', '#2f6fde', '#2f6fde', '#2f6fde', '#c23030', '#c23030', '#c23030', '#3a9a3a', '#999', '#3a9a3a'];
 const byId = (id) => document.getElementById(id);
@@ -17,6 +17,7 @@ class Replay {
     this.#members();
     this.#panels();
     this.#bodies();
+    this.#drawn();
     this.#places();
     this.#failed();
   }
@@ -104,6 +105,19 @@ class Replay {
     }
   }
 
+  /** Pieces of a model around the building, each with its places: [frame, track, frame, track ...]. */
+  #drawn() {
+    this.drawn = this.data.drawn.map(({ mesh, places }) => {
+      const piece = new THREE.Mesh(geometry(mesh), new THREE.MeshLambertMaterial({ color: DRAWN_COLOUR }));
+      piece.castShadow = piece.receiveShadow = true;
+      piece.matrixAutoUpdate = false;
+      piece.places = integers(places);
+      this.scene.add(piece);
+      return piece;
+    });
+    byId('drawn').parentElement.hidden = this.drawn.length === 0;
+  }
+
   /** Per part its places: [frame, track, frame, track ...], standing at first. */
   #places() {
     this.places = Array.from({ length: this.members.length + this.panels.length }, () => [-1, STANDS]);
@@ -159,6 +173,13 @@ class Replay {
       else panel.matrix.identity();
       panel.matrixWorldNeedsUpdate = true;
     });
+    for (const piece of this.drawn) {
+      const place = piece.places[2 * lastNotAbove(piece.places, whole, 2) + 1];
+      piece.visible = place !== GONE && byId('drawn').checked;
+      if (place >= 0) piece.matrix.copy(this.tracks[place].matrix);
+      else piece.matrix.identity();
+      piece.matrixWorldNeedsUpdate = true;
+    }
     byId('state').textContent = `${standing} of ${this.members.length} members stand`;
     this.draw();
   }
@@ -180,7 +201,7 @@ class Player {
     this.slider.max = replay.end;
     this.slider.addEventListener('input', () => this.#go(Number(this.slider.value)));
     byId('play').addEventListener('click', () => this.#toggle());
-    byId('panels').addEventListener('change', () => this.#go(this.time));
+    for (const shown of ['panels', 'drawn']) byId(shown).addEventListener('change', () => this.#go(this.time));
     addEventListener('keydown', (event) => {
       if (event.code !== 'Space' || event.target.tagName === 'BUTTON') return;
       event.preventDefault();
