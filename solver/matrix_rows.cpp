@@ -194,6 +194,12 @@ double MatrixRows::residual(const SparseSymmetric& K, const Eigen::VectorXd& b, 
   return std::isfinite(worst) && std::isfinite(r.cwiseAbs().sum()) ? worst : std::numeric_limits<double>::infinity();
 }
 
+void MatrixRows::find_rows_above(double error, const Eigen::VectorXd& r, std::vector<int>& rows) const {
+  rows.clear();
+  for (Eigen::Index i = 0; i < r.size(); ++i)
+    if (std::abs(r(i)) > error * size_(i)) rows.push_back(static_cast<int>(i));
+}
+
 void MatrixRows::residual(const SparseSymmetric& K, const Eigen::VectorXd& b, const Eigen::VectorXd& x,
                           std::span<const int> rows, Eigen::VectorXd& r) const {
   r.setZero(b.size());

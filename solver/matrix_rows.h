@@ -26,6 +26,8 @@ class MatrixRows {
 
   /// r = b - K x and max |r_i| / (|K| |x| + |b|)_i (Oettli and Prager), as ExtendedResidual of refinement.h has it.
   double residual(const SparseSymmetric& K, const Eigen::VectorXd& b, const Eigen::VectorXd& x, Eigen::VectorXd& r);
+  /// After that: the rows of r whose own error is above this.
+  void find_rows_above(double error, const Eigen::VectorXd& r, std::vector<int>& rows) const;
   /// r = b - K x in these rows, 0 in all others.
   void residual(const SparseSymmetric& K, const Eigen::VectorXd& b, const Eigen::VectorXd& x, std::span<const int> rows,
                 Eigen::VectorXd& r) const;

@@ -143,6 +143,21 @@ int Reanalysis::State::refine(const Eigen::VectorXd& force) {
   return 1 + answer.quality.refinements;
 }
 
+/// Solves for the residual in `correction`. When few rows are what refinement is for, for these alone: their
+/// elimination paths are a part of the factor.
+void Reanalysis::State::solve_for_rest(bool first) {
+  constexpr double share_of_limit = 0.1;
+  if (!first) rows->find_rows_above(share_of_limit * backward_error_limit, correction, rows_off);
+  if (first || rows_off.size() > static_cast<std::size_t>(correction.size()) / 16) {
+    standing->solve(correction);
+    return;
+  }
+  improved.setZero(correction.size());
+  for (const int row : rows_off) improved(row) = correction(row);
+  correction.swap(improved);
+  standing->solve(correction, &rows_off);
+}
+
 /// Solves for the residual in `correction` and adds it, again and again. On the `first` step there is no error known
 /// yet, and the residual is that of rows_to_change alone when there are any.
 void Reanalysis::State::improve(const Eigen::VectorXd& force, bool first) {
@@ -154,7 +169,7 @@ void Reanalysis::State::improve(const Eigen::VectorXd& force, bool first) {
     } else if (first && !rows_to_change.empty()) {
       standing->solve(correction, &rows_to_change);
     } else {
-      standing->solve(correction);
+      solve_for_rest(first);
     }
     improved = solution + correction;
     const double error = rows->residual(K, force, improved, correction);

@@ -88,7 +88,7 @@ struct Reanalysis::State {
   bool watched = false;           ///< the answer under way may leave out what does not matter
   bool eliminated_along = false;  ///< what it has to solve for is known, and eliminated with the changes' columns
   // Scratch of solve(): once grown, an answer asks for no memory.
-  std::vector<int> touched_nodes, rows_to_change;
+  std::vector<int> touched_nodes, rows_to_change, rows_off;
   Eigen::VectorXd scaled_force, correction, improved, eliminated;
 
   State(FrameModel model, const AnalysisOptions& given);
@@ -133,6 +133,7 @@ struct Reanalysis::State {
   void expect_losses(std::span<const int> beams);
   [[nodiscard]] StandingFactor::Loss residual_without(int beam);
   void improve(const Eigen::VectorXd& force, bool first);
+  void solve_for_rest(bool first);
   void find_changed_rows(const Eigen::VectorXd& force);
   /// Carries the plan out, the residual of the last answer going along when it can.
   void update_correction(bool adds);
