@@ -13,7 +13,12 @@ EnergyAccount::EnergyAccount(const Sources& sources)
       rest_displacement_(sources.building.nodes.size(), Vec6::Zero()),
       rest_end_forces_(sources.building.members.size(), solver::Vec12::Zero()),
       rest_loads_(sources.building.members.size()),
-      rest_plate_forces_(sources.building.panels.size()),
+      rest_own_(sources.building.members.size(), 0),
+      rest_node_loads_(sources.building.nodes.size(), Vec6::Zero()),
+      rest_event_loads_(sources.building.nodes.size(), Vec6::Zero()),
+      rest_member_stands_(sources.building.members.size(), 0),
+      rest_node_stands_(sources.building.nodes.size(), 0),
+      rest_springs_(static_cast<std::size_t>(sources.statics.components())),
       rest_holds_(sources.building.joints.size(), 1),
       rest_stiffness_(sources.building.members.size(), 1.0),
       rests_(static_cast<std::size_t>(sources.statics.components())),
@@ -22,47 +27,71 @@ EnergyAccount::EnergyAccount(const Sources& sources)
 void EnergyAccount::start() {
   started_ = true;
   for (int c = 0; c < from_.statics.components(); ++c) {
+    for (MemberId member : from_.statics.members(c)) remember_loads(member);
+    for (NodeId node : from_.statics.nodes(c)) remember_loads(node);
     remember(c);
     elastic_at_start_ += rest(c).elastic;
     start_ += rest(c).work;
   }
 }
 
-/// The component's state as solved is the one in which it rests.
+/// The component's state as solved is the one in which it rests. Loads are written down where they change.
 void EnergyAccount::remember(int number) {
-  for (NodeId node : from_.statics.nodes(number))
+  for (NodeId node : from_.statics.nodes(number)) {
+    rest_node_stands_[index(node)] = from_.node_solved[index(node)];
     if (from_.node_solved[index(node)]) rest_displacement_[index(node)] = from_.statics.displacement(node);
+  }
   for (MemberId member : from_.statics.members(number)) {
-    if (from_.segments.label(member) < 0) continue;
+    const bool stands = from_.segments.label(member) >= 0;
+    rest_member_stands_[index(member)] = stands;
+    if (!stands) continue;
     rest_end_forces_[index(member)] = from_.statics.end_forces(member);
-    rest_loads_[index(member)] = from_.applied[index(member)];
     if (const solver::Vec12 slips = from_.statics.slips(member); !slips.isZero(0))
       rest_slips_[member] = slips;
     else
       rest_slips_.erase(member);
     rest_stiffness_[index(member)] = from_.statics.stiffness(member);
   }
-  for (PanelId panel : from_.statics.plates(number))
-    if (from_.statics.stiff(panel)) rest_plate_forces_[index(panel)] = from_.statics.node_forces(panel);
+  std::vector<Spring>& springs = rest_springs_[static_cast<std::size_t>(number)];
+  springs.clear();
+  for (const solver::Support& support : from_.statics.supports(number))
+    if ((support.stiffness.array() > 0 && support.stiffness.array() < unlimited).any())
+      springs.push_back({from_.statics.nodes(number)[static_cast<std::size_t>(support.node)], support.stiffness});
   rests_[static_cast<std::size_t>(number)].known = false;
-  std::erase_if(rest_contacts_, [&](const auto& contact) { return component(contact.second) == number; });
-  for (const auto& [key, placed] : from_.loads.contacts())
-    if (component(placed) == number) rest_contacts_[key] = placed;
+  remember_contacts(number);
+}
+
+void EnergyAccount::remember_loads(MemberId member) {
+  rest_loads_[index(member)] = from_.applied[index(member)];
+  rest_own_[index(member)] = from_.loads.own_and_handed(member).size();
+}
+
+void EnergyAccount::remember_loads(NodeId node) {
+  rest_node_loads_[index(node)] = from_.loads.own_and_handed(node);
+  rest_event_loads_[index(node)] = from_.loads.event_load(node);
+}
+
+void EnergyAccount::remember_contacts(int number) {
+  const auto& contacts = from_.loads.contacts();
+  std::erase_if(rest_contacts_, [&](const auto& contact) {
+    return component(contact.second) == number && !contacts.contains(contact.first);
+  });
+  for (const auto& [key, placed] : contacts) {
+    if (component(placed) != number) continue;
+    const auto [at_rest, made] = rest_contacts_.try_emplace(key, placed);
+    if (!made && !same_load(at_rest->second, placed)) at_rest->second = placed;
+  }
 }
 
 const EnergyAccount::Rest& EnergyAccount::rest(int component) const {
   Rest& sums = rests_[static_cast<std::size_t>(component)];
-  if (sums.known || open(component)) return sums;
-  sums = {true, load_work(component), contact_work(component), from_.statics.strain_energy(component)};
+  if (!sums.known) sums = {true, rest_load_work(component), rest_contact_work(component), rest_elastic(component)};
   return sums;
 }
 
 EnergyAccount::Change& EnergyAccount::begin(int component) {
   Change& change = changes_[static_cast<std::size_t>(component)];
-  if (!change.open) {
-    (void)rest(component);
-    change.open = true;
-  }
+  change.open = true;
   return change;
 }
 
@@ -92,6 +121,10 @@ MemberShape EnergyAccount::shape_now(MemberId member) const {
 const MemberShape& EnergyAccount::shape_at_rest(MemberId member) {
   auto& shapes = begin(member).before;
   if (const auto found = shapes.find(member); found != shapes.end()) return found->second;
+  return shapes.emplace(member, rest_shape(member)).first->second;
+}
+
+MemberShape EnergyAccount::rest_shape(MemberId member) const {
   solver::Beam beam = from_.statics.beam(member);
   const double stiffer = rest_stiffness_[index(member)] / from_.statics.stiffness(member);
   beam.youngs_modulus *= stiffer;
@@ -103,8 +136,30 @@ const MemberShape& EnergyAccount::shape_at_rest(MemberId member) {
   }
   const auto& nodes = from_.building[member].nodes;
   const solver::Vec12 at = hubs(member, displacement(nodes[0]), displacement(nodes[1])) - rest_slips(member);
-  return shapes.emplace(member, MemberShape(beam, rest_end_forces_[index(member)], at, rest_loads_[index(member)]))
-      .first->second;
+  return {beam, rest_end_forces_[index(member)], at, rest_loads_[index(member)]};
+}
+
+/// FrameLoads::on() has the contacts last.
+std::span<const solver::BeamLoad> EnergyAccount::rest_own_loads(MemberId member) const {
+  return std::span(rest_loads_[index(member)]).first(rest_own_[index(member)]);
+}
+
+/// A change of stiffness is told before it is made, so that the first one finds the stiffness that the panel had at
+/// rest.
+EnergyAccount::Plate& EnergyAccount::plate_at_rest(PanelId panel) {
+  auto& plates = begin(from_.building[panel].nodes[0]).plates;
+  if (const auto found = plates.find(panel); found != plates.end()) return found->second;
+  return plates.emplace(panel, rest_plate(panel)).first->second;
+}
+
+EnergyAccount::Plate EnergyAccount::rest_plate(PanelId panel) const {
+  const std::vector<NodeId> nodes = from_.building[panel].all_nodes();
+  std::vector<Vec6> at_rest;
+  for (NodeId node : nodes) at_rest.push_back(displacement(node));
+  Plate plate;
+  plate.forces = from_.statics.node_forces(panel, at_rest);
+  for (std::size_t n = 0; n < nodes.size(); ++n) plate.energy += 0.5 * plate.forces[n].dot(at_rest[n]);
+  return plate;
 }
 
 void EnergyAccount::lose_joint(JointId joint, int told) {
@@ -138,7 +193,8 @@ double EnergyAccount::turned(int component) const {
 }
 
 void EnergyAccount::lose_membrane(PanelId panel) {
-  begin(from_.building[panel].nodes[0]).membranes.push_back({panel, rest_plate_forces_[index(panel)]});
+  const Plate& plate = plate_at_rest(panel);
+  begin(from_.building[panel].nodes[0]).membranes.push_back({panel, plate.forces});
 }
 
 void EnergyAccount::soften(PanelId panel, const Eigen::MatrixXd& lost) {
@@ -150,7 +206,8 @@ void EnergyAccount::soften(PanelId panel, const Eigen::MatrixXd& lost) {
   std::vector<Vec6> forces(nodes.size());
   for (std::size_t n = 0; n < nodes.size(); ++n) forces[n] = force.segment<6>(static_cast<Eigen::Index>(6 * n));
   // What is lost later, in the same change, is what is left of it now.
-  for (std::size_t n = 0; n < nodes.size(); ++n) rest_plate_forces_[index(panel)][n] -= forces[n];
+  Plate& plate = plate_at_rest(panel);
+  for (std::size_t n = 0; n < nodes.size(); ++n) plate.forces[n] -= forces[n];
   begin(nodes[0]).membranes.push_back({panel, std::move(forces)});
 }
 
@@ -240,6 +297,13 @@ int EnergyAccount::component(const PlacedLoad& placed) const {
   return from_.statics.component(placed.members.front().first);
 }
 
+/// All that bears it stands.
+bool EnergyAccount::stays(const PlacedLoad& placed) const {
+  const auto stands = [&](const auto& bearing) { return from_.segments.label(bearing.first) >= 0; };
+  return std::all_of(placed.members.begin(), placed.members.end(), stands) &&
+         std::all_of(placed.nodes.begin(), placed.nodes.end(), stands);
+}
+
 EnergyAccount::Shares EnergyAccount::shares(const PlacedLoad& placed) {
   Shares sum;
   for (const auto& [member, load] : placed.members) add_share(member, load, sum);
@@ -247,17 +311,22 @@ EnergyAccount::Shares EnergyAccount::shares(const PlacedLoad& placed) {
   return sum;
 }
 
-/// The same for contact loads: those of parts that left are gone, with the work that they have done. What comes, goes or
-/// changes in a sudden change does so at the displacements that were there, without doing work.
+/// The same for contact loads: those of parts that left are gone, with the work that they have done. What comes, goes
+/// or changes in a sudden change does so at the displacements that were there, without doing work.
 void EnergyAccount::settle_contacts(int number, Change& change) {
+  const auto& contacts = from_.loads.contacts();
+  const auto unchanged = [&](std::int64_t key, const PlacedLoad& placed, const auto& others) {
+    const auto other = others.find(key);
+    return other != others.end() && same_load(other->second, placed) && stays(placed);
+  };
   for (const auto& [key, placed] : rest_contacts_) {
-    if (component(placed) != number) continue;
+    if (component(placed) != number || unchanged(key, placed, contacts)) continue;
     const Shares own = shares(placed);
     change.contact_left += own.standing.sum() + own.left.sum();
     change.freed += own.standing.sum();
   }
-  for (const auto& [key, placed] : from_.loads.contacts()) {
-    if (component(placed) != number) continue;
+  for (const auto& [key, placed] : contacts) {
+    if (component(placed) != number || unchanged(key, placed, rest_contacts_)) continue;
     const double own = shares(placed).standing.sum();
     change.contact_left -= own;
     change.freed -= own;
@@ -273,7 +342,10 @@ void EnergyAccount::add_load(NodeId node, const Vec6& load) {
 }
 
 void EnergyAccount::turn_gravity() {
-  for (int c = 0; c < from_.statics.components(); ++c) begin(c);
+  for (int c = 0; c < from_.statics.components(); ++c) {
+    (void)rest(c);  // by the direction that gravity has had so far
+    begin(c);
+  }
 }
 
 void EnergyAccount::gravity_turned(const Vec3& gravity) {
@@ -288,20 +360,14 @@ void EnergyAccount::gravity_turned(const Vec3& gravity) {
   }
 }
 
-// Contact loads that are laid on slowly change no more than this: their state of rest is replaced at once, and its sums
-// are not worth making.
-void EnergyAccount::open_quietly(int component) { changes_[static_cast<std::size_t>(component)].open = true; }
-
 void EnergyAccount::write(MemberId member) {
   if (!started_) return;
-  open_quietly(from_.statics.component(member));
   shape_at_rest(member);
   begin(member).member_loads.emplace(member, rest_loads_[index(member)]);
 }
 
 void EnergyAccount::write(NodeId node, const Vec6& before) {
   if (!started_) return;
-  open_quietly(from_.statics.component(node));
   begin(node).node_loads.emplace(node, before);
 }
 
@@ -388,6 +454,8 @@ void EnergyAccount::finish(int number, bool slow, std::vector<JointBreak>& break
   contact_left_ += change.contact_left;
   freed_ += change.freed;
   dissipated_ += change.dissipated;
+  for (const auto& [member, loads] : change.member_loads) remember_loads(member);
+  for (const auto& [node, load] : change.node_loads) remember_loads(node);
   change = {};
   remember(number);
 }
@@ -413,16 +481,47 @@ LoadWork EnergyAccount::load_work(int component) const {
   return sum;
 }
 
-double EnergyAccount::contact_work(int component) const {
-  double sum = 0;
-  for (const auto& [key, placed] : from_.loads.contacts()) {
-    for (const auto& [member, load] : placed.members)
-      if (from_.statics.component(member) == component && from_.segments.label(member) >= 0)
-        sum += shape_now(member).work({&load, 1}, local_gravity(member)).sum();
-    for (const auto& [node, load] : placed.nodes)
-      if (from_.statics.component(node) == component && from_.node_solved[index(node)])
-        sum += load.dot(from_.statics.displacement(node));
+LoadWork EnergyAccount::rest_load_work(int component) const {
+  LoadWork sum;
+  for (MemberId member : from_.statics.members(component)) {
+    if (rest_member_stands_[index(member)] == 0) continue;
+    if (const auto loads = rest_own_loads(member); !loads.empty())
+      sum += rest_shape(member).work(loads, local_gravity(member));
   }
+  for (NodeId node : from_.statics.nodes(component)) {
+    if (rest_node_stands_[index(node)] == 0) continue;
+    sum += work(rest_node_loads_[index(node)], displacement(node), gravity_);
+    sum.other += rest_event_loads_[index(node)].dot(displacement(node));
+  }
+  return sum;
+}
+
+double EnergyAccount::rest_contact_work(int number) const {
+  double sum = 0;
+  for (const auto& [key, placed] : rest_contacts_) {
+    if (component(placed) != number) continue;
+    for (const auto& [member, load] : placed.members)
+      if (rest_member_stands_[index(member)] != 0)
+        sum += rest_shape(member).work({&load, 1}, local_gravity(member)).sum();
+    for (const auto& [node, load] : placed.nodes)
+      if (rest_node_stands_[index(node)] != 0) sum += load.dot(displacement(node));
+  }
+  return sum;
+}
+
+/// From internal forces.
+double EnergyAccount::rest_elastic(int component) const {
+  double sum = 0;
+  for (MemberId member : from_.statics.members(component))
+    if (rest_member_stands_[index(member)] != 0) sum += rest_shape(member).strain_energy();
+  const std::map<PanelId, Plate>& changed = changes_[static_cast<std::size_t>(component)].plates;
+  for (const auto& [panel, plate] : changed) sum += plate.energy;
+  for (PanelId panel : from_.statics.plates(component))
+    if (from_.statics.stiff(panel) && !changed.contains(panel)) sum += rest_plate(panel).energy;
+  for (const Spring& spring : rest_springs_[static_cast<std::size_t>(component)])
+    for (int c = 0; c < 6; ++c)
+      if (std::isfinite(spring.stiffness(c)))
+        sum += 0.5 * spring.stiffness(c) * std::pow(displacement(spring.node)(c), 2);
   return sum;
 }
 

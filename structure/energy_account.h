@@ -4,7 +4,8 @@
 // u displacements, a sudden change at which loads F0 become F1 and the cut forces s0 vanish frees
 //   1/2 (F1 - F0).(u0 + u1) - 1/2 s0.d1 + U of what left,   d1 the gap that opened (Clapeyron's theorem, twice),
 // corrected for loads that come or go at their present displacement without doing work. Everything in it is local to
-// the change. Works are loads times displacements, summed over what stands when somebody asks.
+// the change. Elastic energy and works (loads times displacements) are summed over what stood in the last state of rest
+// when somebody asks, and not before: the state is kept, what changes in it from one rest to the next is written anew.
 #include <map>
 #include <vector>
 
@@ -94,6 +95,16 @@ class EnergyAccount {
     PanelId panel;
     std::vector<Vec6> forces;  ///< at its nodes
   };
+  /// A panel that has stiffness, as it was at rest.
+  struct Plate {
+    std::vector<Vec6> forces;  ///< at its nodes, those of what is left of it
+    double energy = 0;         ///< of all that it was
+  };
+  /// A support that gives.
+  struct Spring {
+    NodeId node;
+    Vec6 stiffness = Vec6::Zero();  ///< infinite where it does not give
+  };
   /// What happened in one component since it rested last.
   struct Change {
     bool open = false;
@@ -105,10 +116,11 @@ class EnergyAccount {
     std::map<MemberId, std::vector<solver::BeamLoad>> member_loads;
     std::map<NodeId, Vec6> node_loads;
     std::map<PanelId, HandOver> handed;  ///< by panels that hand on otherwise now
+    std::map<PanelId, Plate> plates;     ///< those that were weakened or lost
     LoadWork left;  ///< works of what left, and corrections for loads that came or went without work
     double contact_left = 0, freed = 0, dissipated = 0;
   };
-  /// Sums over what stands in the state of rest, made when needed.
+  /// Sums over what stood in the state of rest, made when needed.
   struct Rest {
     bool known = false;
     LoadWork work;
@@ -123,10 +135,13 @@ class EnergyAccount {
     return static_cast<std::size_t>(id.index);
   }
   Change& begin(int component);
-  void open_quietly(int component);
   Change& begin(MemberId member) { return begin(from_.statics.component(member)); }
   Change& begin(NodeId node) { return begin(from_.statics.component(node)); }
   const MemberShape& shape_at_rest(MemberId member);
+  [[nodiscard]] MemberShape rest_shape(MemberId member) const;
+  [[nodiscard]] std::span<const solver::BeamLoad> rest_own_loads(MemberId member) const;
+  Plate& plate_at_rest(PanelId panel);
+  [[nodiscard]] Plate rest_plate(PanelId panel) const;
   [[nodiscard]] solver::Vec12 rest_slips(MemberId member) const;
   [[nodiscard]] double turned(int component) const;
   [[nodiscard]] Vec6 hub_now(MemberId member, int end) const;
@@ -136,12 +151,18 @@ class EnergyAccount {
   [[nodiscard]] double softening(const Change& change) const;
   [[nodiscard]] Vec6 after(NodeId node) const;
   [[nodiscard]] LoadWork load_work(int component) const;
-  [[nodiscard]] double contact_work(int component) const;
+  [[nodiscard]] double rest_contact_work(int component) const;
+  [[nodiscard]] double rest_elastic(int component) const;
+  [[nodiscard]] LoadWork rest_load_work(int component) const;
   const Rest& rest(int component) const;
   void remember(int component);
+  void remember_loads(MemberId member);
+  void remember_loads(NodeId node);
+  void remember_contacts(int component);
   void settle_panels(Change& change);
   void settle_contacts(int component, Change& change);
   [[nodiscard]] int component(const PlacedLoad& placed) const;
+  [[nodiscard]] bool stays(const PlacedLoad& placed) const;
   Shares shares(const PlacedLoad& placed);
   [[nodiscard]] Shares shares(const HandOver& handed);
   void add_share(MemberId member, const solver::BeamLoad& load, Shares& shares);
@@ -158,7 +179,10 @@ class EnergyAccount {
   std::vector<Vec6> rest_displacement_;
   std::vector<solver::Vec12> rest_end_forces_;
   std::vector<std::vector<solver::BeamLoad>> rest_loads_;
-  std::vector<std::vector<Vec6>> rest_plate_forces_;  ///< per panel, at its nodes
+  std::vector<std::size_t> rest_own_;                     ///< per member: of its loads those that are no contacts
+  std::vector<Vec6> rest_node_loads_, rest_event_loads_;  ///< per node, contacts apart; those of events
+  std::vector<char> rest_member_stands_, rest_node_stands_;
+  std::vector<std::vector<Spring>> rest_springs_;  ///< per component
   std::map<std::int64_t, PlacedLoad> rest_contacts_;
   std::vector<char> rest_holds_;                  ///< per joint of a member
   std::map<MemberId, solver::Vec12> rest_slips_;  ///< of members with plastic hinges

@@ -36,6 +36,14 @@ std::vector<T> sorted_unique(std::vector<T>& values) {
 
 }  // namespace
 
+bool same_load(const PlacedLoad& a, const PlacedLoad& b) {
+  const auto same_beam = [](const auto& x, const auto& y) {
+    return x.first == y.first && x.second.from == y.second.from && x.second.first == y.second.first;
+  };
+  return a.panel == b.panel && a.nodes == b.nodes &&
+         std::equal(a.members.begin(), a.members.end(), b.members.begin(), b.members.end(), same_beam);
+}
+
 FrameLoads::FrameLoads(const Building& building, PartLoads loads, const PanelBearings& bearings,
                        const PanelSuperelements& shells)
     : building_(building),
@@ -160,13 +168,6 @@ void FrameLoads::add_load(NodeId node, const Vec6& load) {
 }
 
 bool FrameLoads::set_contact(std::int64_t key, PlacedLoad load) {
-  const auto same_load = [](const PlacedLoad& a, const PlacedLoad& b) {
-    const auto same_beam = [](const auto& x, const auto& y) {
-      return x.first == y.first && x.second.from == y.second.from && x.second.first == y.second.first;
-    };
-    return a.panel == b.panel && a.nodes == b.nodes &&
-           std::equal(a.members.begin(), a.members.end(), b.members.begin(), b.members.end(), same_beam);
-  };
   PlacedLoad& own = contacts_[key];
   if (same_load(own, load)) return false;
   mark(own);

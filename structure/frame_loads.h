@@ -21,6 +21,9 @@ struct PlacedLoad {
   PanelForce on_shell;  ///< the force itself, where the panel is a shell
 };
 
+/// Both put the same on the same parts.
+[[nodiscard]] bool same_load(const PlacedLoad& a, const PlacedLoad& b);
+
 class FrameLoads {
  public:
   /// `bearings` and `shells` must outlive this.

@@ -366,6 +366,22 @@ std::vector<Vec6> FrameStatics::node_forces(PanelId panel) const {
   return {corners.begin(), corners.end()};
 }
 
+std::vector<Vec6> FrameStatics::node_forces(PanelId panel, const std::vector<Vec6>& displacements) const {
+  const bool patch = patch_[index(panel)] != 0;
+  // From the first node's place, where the ground has no hold: a rigid translation of the whole costs no digits.
+  const bool free = !patch && given_stiffness(panel) == nullptr;
+  const Vec3 origin = free ? Vec3(displacements.front().head<3>()) : Vec3(Vec3::Zero());
+  Eigen::VectorXd u(static_cast<Eigen::Index>(6 * displacements.size()));
+  for (std::size_t n = 0; n < displacements.size(); ++n) {
+    u.segment<6>(static_cast<Eigen::Index>(6 * n)) = displacements[n];
+    u.segment<3>(static_cast<Eigen::Index>(6 * n)) -= origin;
+  }
+  const Eigen::VectorXd force = patch ? Eigen::VectorXd(shell_stiffness(panel) * u) : membrane_stiffness(panel) * u;
+  std::vector<Vec6> forces(displacements.size());
+  for (std::size_t n = 0; n < forces.size(); ++n) forces[n] = force.segment<6>(static_cast<Eigen::Index>(6 * n));
+  return forces;
+}
+
 Vec6 FrameStatics::reaction(std::size_t support) const {
   return at(support_place_[support]).reaction(support_place_[support].local);
 }

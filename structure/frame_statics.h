@@ -116,6 +116,8 @@ class FrameStatics {
   [[nodiscard]] std::array<Vec6, 4> corner_forces(PanelId membrane) const;
   /// What the panel's nodes (Panel::all_nodes()) do to a membrane or shell panel, global.
   [[nodiscard]] std::vector<Vec6> node_forces(PanelId panel) const;
+  /// The same at other displacements of its nodes, by the stiffness that it has in the answer.
+  [[nodiscard]] std::vector<Vec6> node_forces(PanelId panel, const std::vector<Vec6>& displacements) const;
   /// Of the support at its index in Building::supports.
   [[nodiscard]] Vec6 reaction(std::size_t support) const;
   /// Of all supports at a node, those of panel edges included.
