@@ -97,21 +97,48 @@ double CoupledPush::stored_at(const Vec6& coordinates) const {
 }
 double CoupledPush::stored() const { return stored_at(coordinates_); }
 
-/// Between two samples the energy has at most one extreme: golden section.
-void CoupledPush::note_most_stored(const Modes& modes, double from, double to) {
-  constexpr double golden = 0.6180339887498949;
-  const auto value = [&](double t) { return stored_at(coordinates(modes, t)); };
-  const double middle = value(from + (to - from) / 2), ends = std::max(value(from), value(to));
-  if (std::max(middle, ends) < 0.9 * most_stored_) return;
-  double a = from, b = to;
-  for (int k = 0; k < 80 && b - a > 1e-12 * b; ++k) {
-    const double x = b - golden * (b - a), y = a + golden * (b - a);
-    (value(x) < value(y) ? a : b) = value(x) < value(y) ? x : y;
+namespace {
+/// Where a rate that is positive at `from` and negative at `to` passes through zero: by chords, halved where they
+/// tarry.
+template <typename Rate>
+double passes_zero(double from, double to, double at_from, double at_to, const Rate& rate) {
+  for (int k = 0; k < 100 && to - from > 1e-14 * to; ++k) {
+    const double chord = from + (to - from) * at_from / (at_from - at_to);
+    const double at = k % 3 == 2 || !(chord > from && chord < to) ? from + (to - from) / 2 : chord;
+    const double value = rate(at);
+    if (value == 0) return at;
+    (value > 0 ? from : to) = at;
+    (value > 0 ? at_from : at_to) = value;
   }
-  const double at = a + (b - a) / 2;
-  if (value(at) <= most_stored_) return;
-  most_stored_ = value(at);
-  rate_at_most_stored_ = rates(modes, at);
+  return from + (to - from) / 2;
+}
+}  // namespace
+
+/// Between two samples the energy has at most one extreme: where its rate, force times speed, passes through zero.
+void CoupledPush::note_most_stored(const Modes& modes, double from, double to) {
+  const auto rate = [&](double t) { return force_at(coordinates(modes, t)).dot(jacobian_ * rates(modes, t)); };
+  const auto note = [&](double t) {
+    const double stored = stored_at(coordinates(modes, t));
+    if (stored <= most_stored_) return;
+    most_stored_ = stored;
+    rate_at_most_stored_ = rates(modes, t);
+  };
+  const double at_from = rate(from), at_to = rate(to);
+  if (at_from > 0 && at_to < 0) note(passes_zero(from, to, at_from, at_to, rate));
+  note(to);
+}
+
+/// The peak of each force between two samples, likewise.
+void CoupledPush::note_peaks(const Modes& modes, double from, double to) {
+  const Eigen::VectorXd at_from = stiffness_ * (jacobian_ * rates(modes, from));
+  const Eigen::VectorXd at_to = stiffness_ * (jacobian_ * rates(modes, to));
+  peak_ = peak_.cwiseMax(force_at(coordinates(modes, to)));
+  for (Eigen::Index i = 0; i < peak_.size(); ++i) {
+    if (!(at_from(i) > 0 && at_to(i) < 0)) continue;
+    const auto rate = [&](double t) { return stiffness_.row(i).dot(jacobian_ * rates(modes, t)); };
+    const double at = passes_zero(from, to, at_from(i), at_to(i), rate);
+    peak_(i) = std::max(peak_(i), force_at(coordinates(modes, at))(i));
+  }
 }
 
 CoupledPush::Modes CoupledPush::modes() const {
@@ -212,21 +239,7 @@ CoupledPush::Stop CoupledPush::push(const Utilisation& utilisation) {
         failed = true;
         to = first(at, to, [&](double t) { return used(t) >= 1; });
       }
-      // The peak of each force in between, by golden section about the sample.
-      const Eigen::VectorXd before = force(at), after = force(to);
-      for (Eigen::Index i = 0; i < peak_.size(); ++i) {
-        double a = at, b = to;
-        const auto value = [&](double t) { return force(t)(i); };
-        if (value(a + (b - a) / 2) > std::max(before(i), after(i)) || std::max(before(i), after(i)) > 0.9 * peak_(i)) {
-          constexpr double golden = 0.6180339887498949;
-          for (int k = 0; k < 60 && b - a > 1e-9 * b; ++k) {
-            const double x = b - golden * (b - a), y = a + golden * (b - a);
-            (value(x) < value(y) ? a : b) = value(x) < value(y) ? x : y;
-          }
-          peak_(i) = std::max({peak_(i), before(i), after(i), value(a + (b - a) / 2)});
-        }
-        peak_(i) = std::max({peak_(i), before(i), after(i)});
-      }
+      note_peaks(modes, at, to);
       note_most_stored(modes, at, to);
       at = to;
       if (failed) parted = false;

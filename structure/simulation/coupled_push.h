@@ -80,6 +80,7 @@ class CoupledPush {
   [[nodiscard]] double stored_at(const Vec6& coordinates) const;
   void take_share(const Eigen::MatrixXd& structure);
   void note_most_stored(const Modes& modes, double from, double to);
+  void note_peaks(const Modes& modes, double from, double to);
   void drop_let_go(const Eigen::VectorXd& force);
   void refresh();
 

@@ -13,14 +13,16 @@ struct Momentum {
 
   void add_impulse(const Vec3& impulse, const Vec3& at) {
     add_linear(impulse);
-    add_angular((at - about).cross(impulse));
+    add_moment(at - about, impulse);
   }
   /// Velocities of `state` as they stand.
   void add(const Body& body, const collision::BodyState& state) {
     const Vec3 own = body.rest.mass * state.velocity;
     add_linear(own);
-    add_angular((state.pose.position - about).cross(own));
-    add_angular(world_inertia(body, state.pose.orientation) * state.angular_velocity);
+    add_moment(state.pose.position - about, own);
+    const Vec3 spin = world_inertia(body, state.pose.orientation) * state.angular_velocity;
+    angular += spin;
+    angular_size += spin.norm();
   }
   /// Relative to the larger of the two.
   [[nodiscard]] double error(const Momentum& other) const {
@@ -35,9 +37,10 @@ struct Momentum {
     linear += momentum;
     linear_size += momentum.norm();
   }
-  void add_angular(const Vec3& momentum) {
-    angular += momentum;
-    angular_size += momentum.norm();
+  /// Its size is that of the products: what points through `about` has rounding of that size and no moment.
+  void add_moment(const Vec3& arm, const Vec3& momentum) {
+    angular += arm.cross(momentum);
+    angular_size += arm.norm() * momentum.norm();
   }
 };
 

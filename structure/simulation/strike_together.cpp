@@ -36,63 +36,95 @@ bool independent(const Eigen::MatrixXd& compliance) {
   return true;
 }
 
-/// Joints that may come to their capacity under forces up to `most`, with what each unit force adds to them. A joint's
-/// use is convex, so that it is at most the sum of its uses.
+/// What unit forces at the places add to one joint.
 struct Watched {
   JointId joint;
   double strength = 1;
   Vec6 demand;                                    ///< without the push
-  Eigen::Matrix<double, 6, Eigen::Dynamic> step;  ///< per place, of a unit force
+  Eigen::Matrix<double, 6, Eigen::Dynamic> step;  ///< per place
 };
 
-std::vector<Watched> may_fail(const StandingFrame& frame, const std::vector<StandingFrame::UnitResponse>& places,
-                              std::span<const double> strength_factors, const Eigen::VectorXd& most) {
-  const Building& building = frame.building();
-  std::map<std::int32_t, std::vector<std::pair<Eigen::Index, Vec6>>> at_joint;
+/// Joints that may come to their capacity under forces up to `most`. A joint's use is convex, so that it is at most the
+/// sum of its uses: nearly all of them are told by that.
+class WatchedJoints {
+ public:
+  WatchedJoints(const StandingFrame& frame, const std::vector<StandingFrame::UnitResponse>& places,
+                std::span<const double> strength_factors, const Eigen::VectorXd& most);
+  [[nodiscard]] bool empty() const { return joints_.empty(); }
+  /// Exact from 1 on; below it at least what it is.
+  [[nodiscard]] double worst_use(const Eigen::VectorXd& force) const;
+  [[nodiscard]] std::vector<JointBreak> failing(const Eigen::VectorXd& force) const;
+
+ private:
+  [[nodiscard]] Utilisation use(const Watched& one, const Eigen::VectorXd& force) const {
+    return utilisation(building_[one.joint].capacity, one.demand + one.step * force, one.strength);
+  }
+  const Building& building_;
+  std::vector<Watched> joints_;
+  Eigen::VectorXd now_;     ///< their uses without the push
+  Eigen::MatrixXd slopes_;  ///< and what a unit force at each place adds at most
+};
+
+WatchedJoints::WatchedJoints(const StandingFrame& frame, const std::vector<StandingFrame::UnitResponse>& places,
+                             std::span<const double> strength_factors, const Eigen::VectorXd& most)
+    : building_(frame.building()) {
+  std::map<std::int32_t, std::vector<std::pair<Eigen::Index, const Vec6*>>> at_joint;
   for (std::size_t i = 0; i < places.size(); ++i)
     for (const auto& [joint, demand] : places[i].demands)
-      at_joint[joint.index].emplace_back(static_cast<Eigen::Index>(i), demand);
-  std::vector<Watched> found;
+      at_joint[joint.index].emplace_back(static_cast<Eigen::Index>(i), &demand);
+  std::vector<double> now;
+  std::vector<Eigen::VectorXd> slopes;
   for (const auto& [index, steps] : at_joint) {
     const JointId id(static_cast<std::size_t>(index));
-    const JointCapacity& capacity = building[id].capacity;
+    const JointCapacity& capacity = building_[id].capacity;
     if (!capacity.breakable || !frame.intact(id)) continue;
     Watched one{id, strength_factors[static_cast<std::size_t>(index)], frame.demand(id),
                 Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, most.size())};
-    double use = utilisation(capacity, one.demand, one.strength).value;
-    if (use >= 1) continue;  // left to the generations
+    const double used = utilisation(capacity, one.demand, one.strength).value;
+    if (used >= 1) continue;  // left to the generations
+    Eigen::VectorXd slope = Eigen::VectorXd::Zero(most.size());
     for (const auto& [place, demand] : steps) {
-      one.step.col(place) = demand;
-      use += most(place) * utilisation(capacity, demand, one.strength).value;
+      one.step.col(place) = *demand;
+      slope(place) = utilisation(capacity, *demand, one.strength).value;
     }
-    if (use >= 1) found.push_back(std::move(one));
+    if (used + slope.dot(most) < 1) continue;
+    joints_.push_back(std::move(one));
+    now.push_back(used);
+    slopes.push_back(std::move(slope));
   }
-  return found;
+  now_ = Eigen::Map<const Eigen::VectorXd>(now.data(), static_cast<Eigen::Index>(now.size()));
+  slopes_.resize(now_.size(), most.size());
+  for (std::size_t i = 0; i < slopes.size(); ++i) slopes_.row(static_cast<Eigen::Index>(i)) = slopes[i].transpose();
 }
 
-double use_of(const Building& building, const Watched& one, const Eigen::VectorXd& force) {
-  return utilisation(building[one.joint].capacity, one.demand + one.step * force, one.strength).value;
+double WatchedJoints::worst_use(const Eigen::VectorXd& force) const {
+  const Eigen::VectorXd most = now_ + slopes_ * force;
+  double below = 0, worst = 0;
+  for (Eigen::Index i = 0; i < most.size(); ++i) {
+    if (most(i) < 1)
+      below = std::max(below, most(i));
+    else
+      worst = std::max(worst, use(joints_[static_cast<std::size_t>(i)], force).value);
+  }
+  return worst >= 1 ? worst : std::max(below, worst);
 }
 
-double worst_use(const Building& building, std::span<const Watched> watched, const Eigen::VectorXd& force) {
+std::vector<JointBreak> WatchedJoints::failing(const Eigen::VectorXd& force) const {
+  std::vector<Utilisation> uses;
   double worst = 0;
-  for (const Watched& one : watched) worst = std::max(worst, use_of(building, one, force));
-  return worst;
-}
-
-std::vector<JointBreak> failing(const Building& building, std::span<const Watched> watched,
-                                const Eigen::VectorXd& force) {
-  const double worst = worst_use(building, watched, force);
+  for (const Watched& one : joints_) {
+    uses.push_back(use(one, force));
+    worst = std::max(worst, uses.back().value);
+  }
   std::vector<JointBreak> found;
-  for (const Watched& one : watched) {
-    const Utilisation used = utilisation(building[one.joint].capacity, one.demand + one.step * force, one.strength);
-    if (used.value < worst * (1 - same_use)) continue;
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    if (uses[i].value < worst * (1 - same_use)) continue;
     JointBreak broken;
-    broken.joint = one.joint;
+    broken.joint = joints_[i].joint;
     broken.cause = BreakCause::impact;
-    broken.sense = used.sense;
-    broken.demand = used.demand;
-    broken.capacity = used.capacity;
+    broken.sense = uses[i].sense;
+    broken.demand = uses[i].demand;
+    broken.capacity = uses[i].capacity;
     found.push_back(broken);
   }
   return found;
@@ -162,8 +194,8 @@ void Simulation::State::push_in(JointPush& pushed) {
   for (;;) {
     CoupledPush borne = push;
     const CoupledPush::Stop end = borne.push();
-    const std::vector<Watched> watched = may_fail(*frame, pushed.response.places, strength_factors, borne.peak_force());
-    const auto used = [&](const Eigen::VectorXd& force) { return worst_use(building, watched, force); };
+    const WatchedJoints watched(*frame, pushed.response.places, strength_factors, borne.peak_force());
+    const auto used = [&](const Eigen::VectorXd& force) { return watched.worst_use(force); };
     if (watched.empty() || push.push(used) != CoupledPush::Stop::failed) {
       if (watched.empty()) push = std::move(borne);
       // It leaves with the restitution's part of what the parts give back; one that its weight holds down stays.
@@ -172,7 +204,7 @@ void Simulation::State::push_in(JointPush& pushed) {
         pushed.speeds_out += scenario.impact.restitution * (push.speeds() - pushed.speeds_out);
       return;
     }
-    const std::vector<JointBreak> breaks = failing(building, watched, push.force());
+    const std::vector<JointBreak> breaks = watched.failing(push.force());
     const double stored = push.stored();
     const Eigen::VectorXd shift = frame->break_in_impact(breaks, pushed.places, pushed.normals);
     bool stays = false, slips = false;
