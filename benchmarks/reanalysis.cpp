@@ -117,9 +117,6 @@ Restricted first_break_in_part(solver::Reanalysis& standing, const std::vector<i
     visited.push_back(effort.visited_entries / std::max(1.0, effort.factor_entries));
     beams.push_back(effort.beams);
     left.push_back(effort.largest_left_out);
-    if (std::getenv("VERB"))
-      std::printf("    member %d: energy %g, left out %g, visited %.2f, beams %d left %.3f\n", member, effort.energy,
-                  effort.energy_left_out, visited.back(), effort.beams, left.back());
     standing.set_end_stiffness(member, 1, solver::Vec6::Constant(solver::rigid));
     (void)standing.solve();
     (void)standing.solve(uses);

@@ -246,7 +246,6 @@ class GivingEdges {
     giving.hub = hub;
     giving.translations = translations;
     giving.rotations = rotations;
-    giving.slides = held_translations < 3;
     frame_.model.nodes.push_back(place(hub));
     solver::Support support{giving.node, Vec6::Zero()};
     support.stiffness.head(held_translations).setConstant(unlimited);

@@ -60,11 +60,17 @@ struct VelocityReading {
 struct Kinetic {
   double translation = 0, rotation = 0;
 };
-[[nodiscard]] inline Kinetic kinetic_energy(const Body& body, const collision::BodyState& state,
+/// Of a state that tells true velocities.
+[[nodiscard]] inline Kinetic kinetic_energy(const Body& body, const collision::BodyState& state) {
+  return {body.rest.mass * state.velocity.squaredNorm() / 2,
+          state.angular_velocity.dot(world_inertia(body, state.pose.orientation) * state.angular_velocity) / 2};
+}
+/// Of a state as the collision world tells it.
+[[nodiscard]] inline Kinetic kinetic_energy(const Body& body, collision::BodyState state,
                                             const VelocityReading& reading) {
   if (state.asleep) return {};
-  return {body.rest.mass * reading.true_velocity(state.velocity).squaredNorm() / 2,
-          state.angular_velocity.dot(world_inertia(body, state.pose.orientation) * state.angular_velocity) / 2};
+  state.velocity = reading.true_velocity(state.velocity);
+  return kinetic_energy(body, state);
 }
 
 /// Turned about the global rotation vector `angle`.

@@ -5,6 +5,7 @@
 // One analysis answers for a body, however many members it has, and its factor is kept until the body breaks.
 #include <algorithm>
 
+#include "simulation/first_failure.h"
 #include "simulation/momentum.h"
 #include "simulation/simulation_state.h"
 #include "simulation/step_clock.h"
@@ -158,12 +159,7 @@ std::vector<collision::BodyId> Simulation::State::fall_apart(collision::BodyId i
   for (const auto& [joint, used] : over) {
     if (used.value < (1 - same_time) * largest) continue;
     debris_broken[static_cast<std::size_t>(joint.index)] = 1;
-    JointBreak line;
-    line.joint = joint;
-    line.cause = BreakCause::impact;
-    line.sense = used.sense;
-    line.demand = used.demand;
-    line.capacity = used.capacity;
+    JointBreak line = impact_break(joint, used);
     line.generation = generation;
     line.position = state.pose.position + turn * (joint_position(joint) - one.rest.centre);
     tell(line);

@@ -30,6 +30,16 @@ double failing_force(const JointCapacity& capacity, double strength, const Vec6&
   return high;
 }
 
+JointBreak impact_break(JointId joint, const Utilisation& used) {
+  JointBreak broken;
+  broken.joint = joint;
+  broken.cause = BreakCause::impact;
+  broken.sense = used.sense;
+  broken.demand = used.demand;
+  broken.capacity = used.capacity;
+  return broken;
+}
+
 FirstFailure first_failure(const StandingFrame& frame, const StandingFrame::UnitResponse& response,
                            std::span<const double> strength_factors, double limit) {
   struct Failing {
@@ -58,13 +68,7 @@ FirstFailure first_failure(const StandingFrame& frame, const StandingFrame::Unit
     if (one.force > least * (1 + same_force)) continue;
     const double strength = strength_factors[static_cast<std::size_t>(one.joint.index)];
     const Utilisation used = utilisation(building[one.joint].capacity, one.demand, strength);
-    JointBreak broken;
-    broken.joint = one.joint;
-    broken.cause = BreakCause::impact;
-    broken.sense = used.sense;
-    broken.demand = used.demand;
-    broken.capacity = used.capacity;
-    first.joints.push_back(broken);
+    first.joints.push_back(impact_break(one.joint, used));
   }
   std::sort(first.joints.begin(), first.joints.end(),
             [](const JointBreak& a, const JointBreak& b) { return a.joint < b.joint; });

@@ -18,6 +18,9 @@ struct FirstFailure {
 [[nodiscard]] double failing_force(const JointCapacity& capacity, double strength, const Vec6& demand,
                                    const Vec6& step);
 
+/// A joint that fails in an impact, by this use.
+[[nodiscard]] JointBreak impact_break(JointId joint, const Utilisation& used);
+
 /// Joints that are over capacity without the force are left to the generations. `limit`: forces above it do not matter.
 [[nodiscard]] FirstFailure first_failure(const StandingFrame& frame, const StandingFrame::UnitResponse& response,
                                          std::span<const double> strength_factors, double limit);

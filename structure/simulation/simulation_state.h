@@ -54,7 +54,6 @@ struct Simulation::State {
   void strike_all(const std::vector<collision::Contact>& contacts);
   struct Strike;
   void strike(const collision::Contact& contact);
-  void strike(Strike& hit);
   [[nodiscard]] std::optional<Strike> aim(const collision::Contact& contact);
   [[nodiscard]] double rebound(const Indentation& pushing) const;
   [[nodiscard]] bool bears(Strike& hit, double weight, double punching);

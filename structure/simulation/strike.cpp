@@ -1,5 +1,6 @@
 // Load and break: resting contacts load the frame; new contacts strike it by the law of impact (indentation.h), one
-// after the other by time of impact; then generations break what is over capacity.
+// after the other by time of impact, those of a body at one instant together (strike_together.cpp); then generations
+// break what is over capacity.
 #include <algorithm>
 #include <cmath>
 
@@ -11,23 +12,10 @@
 namespace topple::structure {
 
 namespace {
-/// When a break would move the unloaded contact place by more than this, m, the statics are on their way to a mechanism
-/// that the structure has had no time to reach: the push ends there, and the body keeps the speed it has.
-constexpr double largest_shift = 0.1;
-
 /// Speed with which a body goes on. It goes on from where it touched: where its weight did more on the way in than what
 /// broke took, it does that work on the way that follows, and not twice.
 double let_through(double speed_in, const Indentation& pushing) { return std::min(pushing.speed(), speed_in); }
-}  // namespace
 
-void Simulation::State::load() {
-  counters.contacts_ignored += resting.lay(*frame, strength_factors, [&](collision::BodyId id) {
-    const Body* one = body(id);
-    return one ? one->rest.mass * gravity.norm() : 0.0;
-  });
-}
-
-namespace {
 /// Contacts of a body that are no farther from touching than this, m, when the first of them touches, touch with it:
 /// collision shapes are no truer.
 constexpr double touching = 1e-3;
@@ -47,6 +35,13 @@ std::vector<const collision::Contact*> at_one_instant(std::span<const collision:
   return found;
 }
 }  // namespace
+
+void Simulation::State::load() {
+  counters.contacts_ignored += resting.lay(*frame, strength_factors, [&](collision::BodyId id) {
+    const Body* one = body(id);
+    return one ? one->rest.mass * gravity.norm() : 0.0;
+  });
+}
 
 void Simulation::State::strike_all(const std::vector<collision::Contact>& contacts) {
   const double resting_speed = 2 * gravity.norm() * scenario.step;
@@ -68,18 +63,16 @@ void Simulation::State::strike_all(const std::vector<collision::Contact>& contac
 }
 
 void Simulation::State::strike(const collision::Contact& contact) {
-  if (std::optional<Strike> hit = aim(contact)) strike(*hit);
-}
-
-void Simulation::State::strike(Strike& hit) {
+  std::optional<Strike> hit = aim(contact);
+  if (!hit) return;
   if (!may_push()) {
-    if (pushes_on(hit)) hit.body->pushed_in_step = step;
-    return hold_back(hit.body->id, hit.state);
+    if (pushes_on(*hit)) hit->body->pushed_in_step = step;
+    return hold_back(hit->body->id, hit->state);
   }
-  push_in(hit);
-  send_on(hit);
-  push_chunks(hit);
-  tell_impact(hit);
+  push_in(*hit);
+  send_on(*hit);
+  push_chunks(*hit);
+  tell_impact(*hit);
 }
 
 void Simulation::State::tell_impact(const Strike& hit) {

@@ -20,8 +20,6 @@ namespace {
 constexpr double same_place = 1e-6;
 /// A stiff place among soft ones is over before they feel anything: they are pushed one after the other.
 constexpr double most_unlike = 30;
-/// As in strike.cpp: a break that moves an unloaded place farther, m, is on its way to a mechanism.
-constexpr double largest_shift = 0.1;
 /// Joints that come this near (relative) to failing fail with the first.
 constexpr double same_use = 1e-6;
 
@@ -118,21 +116,9 @@ std::vector<JointBreak> WatchedJoints::failing(const Eigen::VectorXd& force) con
   }
   std::vector<JointBreak> found;
   for (std::size_t i = 0; i < joints_.size(); ++i) {
-    if (uses[i].value < worst * (1 - same_use)) continue;
-    JointBreak broken;
-    broken.joint = joints_[i].joint;
-    broken.cause = BreakCause::impact;
-    broken.sense = uses[i].sense;
-    broken.demand = uses[i].demand;
-    broken.capacity = uses[i].capacity;
-    found.push_back(broken);
+    if (uses[i].value >= worst * (1 - same_use)) found.push_back(impact_break(joints_[i].joint, uses[i]));
   }
   return found;
-}
-
-double kinetic_energy(const Body& body, const collision::BodyState& state) {
-  return body.rest.mass * state.velocity.squaredNorm() / 2 +
-         state.angular_velocity.dot(world_inertia(body, state.pose.orientation) * state.angular_velocity) / 2;
 }
 
 }  // namespace
@@ -277,7 +263,8 @@ void Simulation::State::send_on(JointPush& pushed) {
   const Eigen::Matrix<double, 6, 1> change = moved.transpose() * impulses;
   state.velocity += change.head<3>();
   state.angular_velocity += change.tail<3>();
-  ledger.lost_in_impacts += kinetic_energy(one, first.state) - kinetic_energy(one, state);
+  const Kinetic came = kinetic_energy(one, first.state), goes = kinetic_energy(one, state);
+  ledger.lost_in_impacts += (came.translation + came.rotation) - (goes.translation + goes.rotation);
   std::vector<PointImpulse> given;
   bool through = true;
   for (Eigen::Index i = 0; i < n; ++i) {

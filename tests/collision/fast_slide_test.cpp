@@ -44,7 +44,6 @@ TEST_CASE("what contacts take from a body that comes in fast is all told, fricti
       const double first = kinetic(body, world->state(id));
       double expected = first;
       for (int step = 0; step < 100 && !world->state(id).asleep; ++step) {
-        const BodyState before = world->state(id);
         world->step(kStep);
         const BodyState after = world->state(id);
         if (after.asleep) break;

@@ -6,22 +6,15 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
-#include <random>
 #include <vector>
 
 #include "panel_substitution.h"
+#include "random_values.h"
 
 using namespace topple::solver;
+using topple::test::random_values;
 
 namespace {
-
-std::vector<double> random_values(std::size_t count, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> value(-1, 1);
-  std::vector<double> values(count);
-  for (double& v : values) v = value(random);
-  return values;
-}
 
 /// Columns of a factor: a firm diagonal, and nothing that may be read above it.
 std::vector<double> block_of(int columns, int rows, unsigned seed) {

@@ -4,10 +4,12 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
-#include <random>
 #include <vector>
 
+#include "random_values.h"
+
 using namespace topple::solver;
+using topple::test::random_values;
 
 namespace {
 
@@ -16,14 +18,6 @@ std::vector<const FrontKernels*> available() {
   for (const FrontKernels* kernels : {avx2_front_kernels(), avx512_front_kernels()})
     if (kernels != nullptr) all.push_back(kernels);
   return all;
-}
-
-std::vector<double> random_values(std::size_t count, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> value(-1, 1);
-  std::vector<double> values(count);
-  for (double& v : values) v = value(random);
-  return values;
 }
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();

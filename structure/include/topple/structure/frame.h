@@ -27,7 +27,6 @@ struct PanelMesh {
 struct GivingNode {
   int node = -1, hub = -1;
   Mat3 translations = Mat3::Identity(), rotations = Mat3::Identity();
-  bool slides = false;  ///< gives in a translation
 };
 /// An element of a shell panel with a corner at a joint that gives: a patch over its four nodes and `giving` ones. The
 /// shell of the same number is left for its mass.
