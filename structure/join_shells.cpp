@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "index_of.h"
+#include "shell_edges.h"
 #include "topple/structure/divide_member.h"
 #include "topple/structure/error.h"
 #include "topple/structure/frame.h"
@@ -104,18 +105,6 @@ void add_nodes_between_shells(Building& building, const Frame& frame) {
     }
 }
 
-/// Two shells with two corners of an edge in common share it, whatever their mesh.
-bool borders_shell(const Building& building, std::size_t panel, std::size_t edge) {
-  const auto& own = building.panels[panel].nodes;
-  for (std::size_t p = 0; p < building.panels.size(); ++p) {
-    if (p == panel || building.panels[p].model != PanelModel::shell) continue;
-    const auto& nodes = building.panels[p].nodes;
-    const auto has = [&](NodeId node) { return std::find(nodes.begin(), nodes.end(), node) != nodes.end(); };
-    if (has(own[edge]) && has(own[(edge + 1) % 4])) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 MemberCuts join_shells(Building& building, const MemberPlaces& cuts) {
@@ -144,7 +133,7 @@ MemberCuts join_shells(Building& building, const MemberPlaces& cuts) {
       for (std::size_t edge = 0; edge < 4 && divided.panels[p].model == PanelModel::shell; ++edge)
         divided.panels[p].joined[edge] = !divided.panels[p].edge_nodes[edge].empty() ||
                                          !edges.of(PanelId(p), static_cast<int>(edge)).empty() ||
-                                         borders_shell(divided, p, edge);
+                                         borders_shell(divided, PanelId(p), static_cast<int>(edge));
   }
   building = std::move(divided);
   return joints;

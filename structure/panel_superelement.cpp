@@ -424,24 +424,34 @@ double PanelSuperelement::mean_square_motion(const std::vector<Vec6>& at_nodes, 
 }
 
 std::array<Vec6, 4> PanelSuperelement::edge_demands(const std::vector<Vec6>& at_nodes, const PanelLoading& loading,
-                                                    const std::array<double, 4>& length) const {
+                                                    const std::array<double, 4>& length,
+                                                    const std::array<bool, 4>& bear) const {
   std::array<Vec6, 4> demands{Vec6::Zero(), Vec6::Zero(), Vec6::Zero(), Vec6::Zero()};
-  const auto bears = [&](std::size_t edge) { return holds_[edge] && !bearing_edge_[edge].empty(); };
-  if (!bears(0) && !bears(1) && !bears(2) && !bears(3)) return demands;
+  const auto bears = [&](std::size_t edge) { return bear[edge] && holds_[edge] && !bearing_edge_[edge].empty(); };
   const std::vector<Vec6> reactions = patch_->reactions(recover(at_nodes, loading), node_loads(loading));
+  std::array<std::vector<int>, 4> of_edge;
   std::vector<int> edges_at(reactions.size(), 0);  // a corner between two edges that bear is shared
-  for (std::size_t edge = 0; edge < 4; ++edge)
-    if (bears(edge))
-      for (const int node : bearing_edge_[edge]) ++edges_at[static_cast<std::size_t>(node)];
   for (std::size_t edge = 0; edge < 4; ++edge) {
-    if (!bears(edge) || !(length[edge] > 0)) continue;
+    if (bears(edge)) of_edge[edge] = bearing_edge_[edge];
+    for (const int node : of_edge[edge]) ++edges_at[static_cast<std::size_t>(node)];
+  }
+  for (std::size_t corner = 0; corner < 4; ++corner) {  // and so is one where none does, a post's under a flat slab
+    if (edges_at[static_cast<std::size_t>(node_[corner])] > 0 || !stands_at(corner)) continue;
+    for (const std::size_t edge : {corner, (corner + 3) % 4}) {
+      if (!holds_[edge]) continue;
+      of_edge[edge].push_back(node_[corner]);
+      ++edges_at[static_cast<std::size_t>(node_[corner])];
+    }
+  }
+  for (std::size_t edge = 0; edge < 4; ++edge) {
+    if (of_edge[edge].empty() || !(length[edge] > 0)) continue;
     const auto place = [&](std::size_t corner) { return flat(node_[corner % 4]); };
     const Vec2 along = (place(edge + 1) - place(edge)).normalized();
     Mat3 own;  // rows: outwards, along, normal
     own << along.y(), -along.x(), 0, along.x(), along.y(), 0, 0, 0, 1;
     const Mat3 to_edge = own * axes_ * turn_.transpose();
     Vec6 sum = Vec6::Zero();
-    for (const int node : bearing_edge_[edge]) {
+    for (const int node : of_edge[edge]) {
       const auto n = static_cast<std::size_t>(node);
       sum += reactions[n] / edges_at[n];
     }

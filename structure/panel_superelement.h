@@ -62,9 +62,11 @@ class PanelSuperelement {
   /// Mean of the squared translation over what is there.
   [[nodiscard]] double mean_square_motion(const std::vector<Vec6>& at_nodes, const PanelLoading& loading) const;
   /// Mean over each edge of what its supports, and members and panels along it, do to the panel, per `length`, in the
-  /// axes of the edge; zero for an edge without any. A corner between two such edges is shared equally.
+  /// axes of the edge; zero for an edge without any, or that does not bear (`bear`). Corners are shared as edge_share()
+  /// says.
   [[nodiscard]] std::array<Vec6, 4> edge_demands(const std::vector<Vec6>& at_nodes, const PanelLoading& loading,
-                                                 const std::array<double, 4>& length) const;
+                                                 const std::array<double, 4>& length,
+                                                 const std::array<bool, 4>& bear = {true, true, true, true}) const;
   /// In either face, at the centres of the elements that stand.
   [[nodiscard]] PanelStress worst_stress(const std::vector<Vec6>& at_nodes, const PanelLoading& loading) const;
 

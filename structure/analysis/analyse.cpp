@@ -65,6 +65,7 @@ class Analysis {
         frame_(make_frame(building)),
         hanging_(hanging_shells(frame_)),
         edges_(building),
+        bearing_edges_(building, frame_, edges_),
         bearings_(building, edges_),
         storeys_(building) {
     combinations_ = request.combinations;
@@ -419,7 +420,7 @@ class Analysis {
       const PanelId panel(p);
       std::array<Vec6, 4> demand{Vec6::Zero(), Vec6::Zero(), Vec6::Zero(), Vec6::Zero()};
       const bool meshed = !frame_.meshes[p].elements.empty();
-      if (meshed) demand = shell_edge_demands(building_, frame_, panel, parts, solution);
+      if (meshed) demand = shell_edge_demands(building_, frame_, bearing_edges_, panel, parts, solution);
       if (frame_.shell_of_panel[p] >= 0)
         demand = membrane_edge_demands(building_, panel, result.panels[p].corner_forces);
       const HandOver given = hand_over(building_, edges_, panel, parts.panels[p], {true, true, true, true});
@@ -442,6 +443,7 @@ class Analysis {
   Frame frame_;
   std::vector<solver::HangingShell> hanging_;
   EdgeMembers edges_;
+  BearingEdges bearing_edges_;
   PanelBearings bearings_;
   Storeys storeys_;
   std::vector<CombinationId> combinations_;

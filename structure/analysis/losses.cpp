@@ -20,17 +20,17 @@ void refuse_what_is_not_built(const Building& building) {
   for (const Member& member : building.members)
     if (member.axial != AxialAction::both)
       refuse(building, "members of one sign (" + member.name + ")", "\"axial\": \"both\"");
-  for (const Panel& panel : building.panels)
-    if (panel.model == PanelModel::shell)
-      refuse(building, "shell panels (" + panel.name + ")", "\"model\": \"membrane\" or \"cladding\"");
+  for (const Joint& joint : building.joints)
+    if (joint.panel.valid() && (joint.stiffness.array() != unlimited).any())
+      refuse(building, "a shell's edge that gives (joint " + joint.name + ")", "an edge joint without `stiffness`");
 }
 
 void refuse_loads_that_are_not_built(const Building& building, CombinationId combination, const PartLoads& loads) {
   const std::string place = " in combination " + building[combination].name;
   if (!loads.settlements.empty()) refuse(building, "settlements" + place, "a combination without them");
   for (std::size_t p = 0; p < building.panels.size(); ++p)
-    if (loads.panels[p].strain != 0 && building.panels[p].model == PanelModel::membrane)
-      refuse(building, "a heated membrane (" + building.panels[p].name + ")" + place, "a combination without it");
+    if (loads.panels[p].strain != 0 && building.panels[p].model != PanelModel::cladding)
+      refuse(building, "a heated panel (" + building.panels[p].name + ")" + place, "a combination without it");
 }
 
 /// Losses whose answers are found together: more would not fit the caches beside a block of the factor.
@@ -45,7 +45,12 @@ struct Reference {
 class Losses {
  public:
   Losses(const Building& building, const LossRequest& request, const solver::AnalysisOptions& options)
-      : building_(building), request_(request), members_(all_of(request)), frame_(building, members_, options) {
+      : whole_(building),
+        divided_(building),
+        building_(divided_.building()),
+        request_(request),
+        members_(all_of(request)),
+        frame_(divided_, members_, options) {
     for (const MemberId member : members_) {
       const bool named = std::find(request.named.begin(), request.named.end(), member) != request.named.end();
       result_.losses.push_back({member, named, {}});
@@ -115,29 +120,39 @@ class Losses {
     for (const JointId joint : holding_) {
       const Vec6 felt = sudden(reference_.demand[index_of(joint)], demand_[index_of(joint)]);
       const Utilisation used = utilisation(building_[joint].capacity, felt);
-      if (in_full) state.joints.emplace_back(joint, used);
+      if (in_full) state.joints.emplace_back(divided_.joint(joint), used);
       if (state.worst.valid() && !(used.value > state.use.value)) continue;
-      state.worst = joint;
+      state.worst = divided_.joint(joint);
       state.use = used;
     }
   }
 
   void take_state(LossState& state) const {
     const std::vector<Vec6>& after = frame_.analysis().displacements();
-    for (std::size_t n = 0; n < building_.nodes.size(); ++n)
+    for (std::size_t n = 0; n < whole_.nodes.size(); ++n)
       state.displacements.push_back(sudden(reference_.displacements[n], after[n]));
-    for (std::size_t m = 0; m < building_.members.size(); ++m)
-      if (frame_.stands(MemberId(m)))
-        state.end_forces.emplace_back(
-            MemberId(m), sudden(reference_.end_forces[m], frame_.analysis().beam_end_forces(static_cast<int>(m))));
+    for (std::size_t m = 0; m < whole_.members.size(); ++m) {
+      if (!frame_.stands(MemberId(m))) continue;
+      const std::vector<MemberId>& pieces = divided_.pieces(MemberId(m));
+      const auto of_piece = [&](MemberId piece) {
+        return sudden(reference_.end_forces[index_of(piece)], frame_.analysis().beam_end_forces(piece.index));
+      };
+      solver::Vec12 forces = of_piece(pieces.front());
+      if (pieces.size() > 1) forces.tail<6>() = of_piece(pieces.back()).tail<6>();
+      state.end_forces.emplace_back(MemberId(m), forces);
+    }
   }
 
   void tell_mechanism(const solver::Mechanism& found, LossState& state) const {
     FrameMechanism named;
     for (const int node : found.nodes) named.nodes.emplace_back(static_cast<std::size_t>(node));
     named.motion = found.motion;
-    for (const NodeId node : named.nodes) state.motion.emplace_back(node, named.motion[index_of(node)]);
-    for (const int beam : found.beams) state.loose.emplace_back(static_cast<std::size_t>(beam));
+    for (const NodeId node : named.nodes)
+      if (divided_.given(node)) state.motion.emplace_back(node, named.motion[index_of(node)]);
+    for (const int beam : found.beams) {
+      const MemberId member = divided_.member(MemberId(static_cast<std::size_t>(beam)));
+      if (state.loose.empty() || state.loose.back() != member) state.loose.push_back(member);
+    }
     state.mechanism = describe_motion(building_, named);
     if (!named.nodes.empty()) return;
     state.mechanism = "a member is released too far to hold itself";
@@ -155,7 +170,9 @@ class Losses {
                      [&](const MemberLoss& a, const MemberLoss& b) { return badness(a) > badness(b); });
   }
 
-  const Building& building_;
+  const Building& whole_;
+  DividedBuilding divided_;
+  const Building& building_;  ///< the divided one
   const LossRequest& request_;
   std::vector<MemberId> members_;
   LossyFrame frame_;

@@ -2,23 +2,27 @@
 
 #include <algorithm>
 
+#include "analysis/shell_results.h"
 #include "index_of.h"
 #include "panel_demand.h"
+#include "shell_edges.h"
 
 namespace topple::structure {
 
-LossyFrame::LossyFrame(const Building& building, const std::vector<MemberId>& candidates,
+LossyFrame::LossyFrame(const DividedBuilding& divided, const std::vector<MemberId>& candidates,
                        const solver::AnalysisOptions& options)
-    : building_(building),
-      frame_(make_frame(building)),
-      edges_(building),
-      whole_(building, edges_),
+    : divided_(divided),
+      building_(divided.building()),
+      frame_(make_frame(building_)),
+      edges_(building_),
+      whole_(building_, edges_),
       bearings_(whole_),
-      shells_(building),
-      members_at_node_(building.nodes.size(), 0),
-      ground_(building.nodes.size(), -1) {
-  for (const Member& member : building.members)
-    for (const NodeId node : member.nodes) ++members_at_node_[index_of(node)];
+      shells_(building_),
+      hold_node_(building_.nodes.size(), 0),
+      ground_(building_.nodes.size(), -1) {
+  hang_shells();
+  for (const Member& member : building_.members)
+    for (const NodeId node : member.nodes) ++hold_node_[index_of(node)];
   for (const MemberId member : candidates)
     for (const NodeId node : nodes_left_bare(member)) {
       if (ground_[index_of(node)] >= 0) continue;
@@ -28,10 +32,41 @@ LossyFrame::LossyFrame(const Building& building, const std::vector<MemberId>& ca
   analysis_ = std::make_unique<solver::Reanalysis>(frame_.model, options);
 }
 
+/// One element for each, between the nodes that it hangs on, instead of its mesh.
+void LossyFrame::hang_shells() {
+  solver::FrameModel& model = frame_.model;
+  const std::size_t nodes = building_.nodes.size();
+  model.shells.resize(static_cast<std::size_t>(
+      std::count_if(frame_.shell_of_panel.begin(), frame_.shell_of_panel.end(), [](int shell) { return shell >= 0; })));
+  // Those of edges, inside a mesh, are within its superelement.
+  std::erase_if(model.supports, [&](const solver::Support& s) { return static_cast<std::size_t>(s.node) >= nodes; });
+  for (std::size_t p = 0; p < building_.panels.size(); ++p) {
+    if (building_.panels[p].model != PanelModel::shell) continue;
+    const PanelSuperelement& shell = *shells_.of(PanelId(p));
+    const std::vector<NodeId> at = building_.panels[p].all_nodes();
+    solver::Patch patch;
+    for (std::size_t n = 0; n < at.size(); ++n) {
+      patch.node.push_back(at[n].index);
+      hold_node_[index_of(at[n])] += shell.stands_at(n) ? 1 : 0;
+    }
+    patch.stiffness = shell.stiffness();
+    intact_[PanelId(p)] = intact_edges(frame_, PanelId(p));
+    model.patches.push_back(std::move(patch));
+  }
+  model.nodes.resize(nodes);
+}
+
+/// Nothing but this member holds them.
 std::vector<NodeId> LossyFrame::nodes_left_bare(MemberId member) const {
-  std::vector<NodeId> bare;
-  for (const NodeId node : building_[member].nodes)
-    if (members_at_node_[index_of(node)] == 1) bare.push_back(node);
+  std::vector<NodeId> ends, bare;
+  for (const MemberId piece : divided_.pieces(member))
+    ends.insert(ends.end(), building_[piece].nodes.begin(), building_[piece].nodes.end());
+  std::sort(ends.begin(), ends.end());
+  for (auto node = ends.begin(); node != ends.end();) {
+    const auto next = std::upper_bound(node, ends.end(), *node);
+    if (hold_node_[index_of(*node)] == next - node) bare.push_back(*node);
+    node = next;
+  }
   return bare;
 }
 
@@ -58,7 +93,7 @@ void LossyFrame::write_loads() {
 void LossyFrame::set_ground(NodeId node, bool held) {
   Vec6 spring = Vec6::Zero();
   if (held) {
-    const solver::Beam& beam = frame_.model.beams[index_of(lost_)];
+    const solver::Beam& beam = frame_.model.beams[index_of(lost_)];  // its first piece
     spring.head<3>().setConstant(beam.youngs_modulus * beam.area / beam.length);
     spring.tail<3>().setConstant(beam.youngs_modulus * std::max(beam.Iy, beam.Iz) / beam.length);
   }
@@ -69,10 +104,11 @@ void LossyFrame::set_ground(NodeId node, bool held) {
 void LossyFrame::lose(MemberId member) {
   lost_ = member;
   bare_ = nodes_left_bare(member);
-  PanelBearings::Left left{{{member, -1}}, {}};
+  PanelBearings::Left left;
+  for (const MemberId piece : divided_.pieces(member)) left.members.emplace_back(piece, -1);
   for (const NodeId node : bare_) left.nodes.emplace_back(node, -1);
   changes_ = bearings_.leave(left);
-  analysis_->remove_beam(member.index);
+  for (const MemberId piece : divided_.pieces(member)) analysis_->remove_beam(piece.index);
   for (const PanelId panel : changes_.lost_membrane) analysis_->remove_shell(frame_.shell_of_panel[index_of(panel)]);
   for (const PanelId panel : changes_.lost_edge) loads_->hand_on_anew(panel);
   for (const PanelId panel : changes_.fell) loads_->hand_on_anew(panel);
@@ -83,7 +119,7 @@ void LossyFrame::lose(MemberId member) {
 void LossyFrame::restore() {
   if (!lost_.valid()) return;
   bearings_.become(whole_);
-  analysis_->restore_beam(lost_.index);
+  for (const MemberId piece : divided_.pieces(lost_)) analysis_->restore_beam(piece.index);
   for (const PanelId panel : changes_.lost_membrane) analysis_->restore_shell(frame_.shell_of_panel[index_of(panel)]);
   for (const PanelId panel : changes_.lost_edge) loads_->hand_on_anew(panel);
   for (const PanelId panel : changes_.fell) loads_->hand_on_anew(panel);
@@ -95,15 +131,39 @@ void LossyFrame::restore() {
 
 void LossyFrame::expect(std::span<const MemberId> members) {
   std::vector<int> beams;
-  for (const MemberId member : members) beams.push_back(member.index);
+  for (const MemberId member : members)
+    if (divided_.pieces(member).size() == 1) beams.push_back(member.index);
   analysis_->expect_losses(beams);
+}
+
+/// What lies along them holds the panel: supports, members that stand, other shells.
+std::array<bool, 4> LossyFrame::edges_that_bear(PanelId shell) const {
+  std::array<bool, 4> bear{};
+  for (int edge = 0; edge < 4; ++edge) {
+    const std::vector<MemberId>& along = edges_.of(shell, edge);
+    const auto lost = [&](MemberId piece) { return !stands(piece); };
+    // An edge that bore by the lost member alone: no support, no other shell at its nodes.
+    bool other = std::any_of(building_.edge_supports.begin(), building_.edge_supports.end(),
+                             [&](const EdgeSupport& s) { return s.panel == shell && s.edge == edge; });
+    other = other || along.empty() || !std::all_of(along.begin(), along.end(), lost) ||
+            borders_shell(building_, shell, edge);
+    bear[static_cast<std::size_t>(edge)] = other && edge_bears(building_, shell, edge);
+  }
+  return bear;
+}
+
+std::array<Vec6, 4> LossyFrame::edge_demands(PanelId shell) const {
+  std::vector<Vec6> at_nodes;
+  for (const NodeId node : building_[shell].all_nodes()) at_nodes.push_back(analysis_->displacements()[index_of(node)]);
+  return shells_.of(shell)->edge_demands(at_nodes, {loads_->traction(shell), {}}, intact_.at(shell),
+                                         edges_that_bear(shell));
 }
 
 void LossyFrame::read_demands(std::vector<Vec6>& demand, std::vector<JointId>& holding) const {
   demand.resize(building_.joints.size());
   holding.clear();
   for (std::size_t m = 0; m < building_.members.size(); ++m) {
-    if (MemberId(m) == lost_) continue;
+    if (!stands(MemberId(m))) continue;
     const JointId first = building_.joint(MemberId(m), 0), second = building_.joint(MemberId(m), 1);
     if (!building_[first].capacity.breakable && !building_[second].capacity.breakable) continue;
     const solver::Vec12 forces = analysis_->beam_end_forces(static_cast<int>(m));
@@ -115,14 +175,17 @@ void LossyFrame::read_demands(std::vector<Vec6>& demand, std::vector<JointId>& h
   }
   for (std::size_t p = 0; p < building_.panels.size(); ++p) {
     const PanelId panel(p);
-    if (!bearings_.serves(panel) || !bearings_.stands(panel)) continue;
+    const bool shell = !bearings_.serves(panel);
+    if (!shell && !bearings_.stands(panel)) continue;
+    const std::array<bool, 4> holds = shell ? std::array{true, true, true, true} : bearings_.holds(panel);
     std::optional<std::array<Vec6, 4>> corners;
     if (bearings_.membrane(panel)) corners = analysis_->shell_corner_forces(frame_.shell_of_panel[p]);
-    const std::array<Vec6, 4> of_edges = panel_edge_demands(building_, bearings_, *loads_, panel, corners);
+    const std::array<Vec6, 4> of_edges =
+        shell ? edge_demands(panel) : panel_edge_demands(building_, bearings_, *loads_, panel, corners);
     for (int edge = 0; edge < 4; ++edge) {
       const JointId joint = building_.joint(panel, edge);
       const auto e = static_cast<std::size_t>(edge);
-      if (!building_[joint].capacity.breakable || !bearings_.holds(panel)[e]) continue;
+      if (!building_[joint].capacity.breakable || !holds[e]) continue;
       demand[index_of(joint)] = of_edges[e];
       holding.push_back(joint);
     }

@@ -1,10 +1,13 @@
 #pragma once
 // A building's frame under one combination that loses a member and gets it back. What a loss means for its panels
-// (edges that no longer hold, membranes that are load alone, load that goes another way) is as in a running collapse.
+// (edges that no longer hold, membranes that are load alone, load that goes another way) is as in a running collapse;
+// shell panels are superelements that hang on the building's nodes.
+#include <map>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "analysis/divided_building.h"
 #include "frame_loads.h"
 #include "topple/solver/reanalysis.h"
 
@@ -12,38 +15,46 @@ namespace topple::structure {
 
 class LossyFrame {
  public:
-  /// `candidates`: members that may be lost.
-  LossyFrame(const Building& building, const std::vector<MemberId>& candidates, const solver::AnalysisOptions& options);
+  /// `candidates`: members of the whole building that may be lost. Other ids here are those of the divided one, which
+  /// must outlive this.
+  LossyFrame(const DividedBuilding& divided, const std::vector<MemberId>& candidates,
+             const solver::AnalysisOptions& options);
   LossyFrame(const LossyFrame&) = delete;
   LossyFrame& operator=(const LossyFrame&) = delete;
 
   void load(const PartLoads& loads);
+  /// A member of the whole building, all of its pieces.
   void lose(MemberId member);
   /// Gives back what was lost last; takes effect with the next solve().
   void restore();
-  /// These are going to be lost next, one after the other: their answers are found together.
+  /// These are going to be lost next, one after the other: the answers of those in one piece are found together.
   void expect(std::span<const MemberId> members);
   [[nodiscard]] const solver::ReanalysisAnswer& solve() { return analysis_->solve(); }
 
   [[nodiscard]] const solver::Reanalysis& analysis() const { return *analysis_; }
-  [[nodiscard]] bool stands(MemberId member) const { return member != lost_; }
+  [[nodiscard]] bool stands(MemberId piece) const { return divided_.member(piece) != lost_; }
   /// Demand of each breakable joint that holds, in order; of all others nothing is written.
   void read_demands(std::vector<Vec6>& demand, std::vector<JointId>& holding) const;
 
  private:
   void write_loads();
   void set_ground(NodeId node, bool held);
+  void hang_shells();
   [[nodiscard]] std::vector<NodeId> nodes_left_bare(MemberId member) const;
+  [[nodiscard]] std::array<bool, 4> edges_that_bear(PanelId shell) const;
+  [[nodiscard]] std::array<Vec6, 4> edge_demands(PanelId shell) const;
 
+  const DividedBuilding& divided_;
   const Building& building_;
   Frame frame_;
   EdgeMembers edges_;
   PanelBearings whole_, bearings_;
-  PanelSuperelements shells_;  ///< none: the building has no shells
+  PanelSuperelements shells_;
+  std::map<PanelId, std::array<double, 4>> intact_;  ///< lengths of the edges of shells
   std::optional<FrameLoads> loads_;
   std::unique_ptr<solver::Reanalysis> analysis_;
-  std::vector<int> members_at_node_;
-  std::vector<int> ground_;  ///< per node: a support without stiffness that holds it once nothing else does; -1
+  std::vector<int> hold_node_;  ///< per node: ends of members there, and shells
+  std::vector<int> ground_;     ///< per node: a support without stiffness that holds it once nothing else does; -1
   // What was lost last.
   MemberId lost_;
   PanelBearings::Changes changes_;

@@ -3,9 +3,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "index_of.h"
 #include "mesh/giving_edges.h"
+#include "panel_demand.h"
+#include "shell_edges.h"
 #include "topple/solver/shell_resultants.h"
 
 namespace topple::structure {
@@ -72,6 +75,21 @@ class PanelReader {
   const solver::StaticSolution& solution_;
 };
 
+/// What the nodes of element `k` of a meshed panel do to it, global.
+std::array<Vec6, 4> corner_forces(const Building& building, const Frame& frame, PanelId id, std::size_t k,
+                                  const PartLoads& loads, const solver::StaticSolution& solution) {
+  const int shell = frame.meshes[index_of(id)].first_shell + static_cast<int>(k);
+  const GivingElement* giving = giving_element(frame, shell);
+  if (giving == nullptr) return solution.shell_corner_forces[static_cast<std::size_t>(shell)];
+  const PanelAction& action = loads.panels[index_of(id)];
+  const Vec3 traction = action.body_force - action.pressure * Vec3(building[id].axes.row(2));
+  return element_corner_forces(frame, *giving, solution, traction, action.strain);
+}
+
+bool contains(const std::vector<int>& nodes, int node) {
+  return std::find(nodes.begin(), nodes.end(), node) != nodes.end();
+}
+
 PanelElement element_of(const ShellResultants& r, const std::array<int, 4>& nodes) {
   PanelElement element;
   element.nodes = nodes;
@@ -112,18 +130,12 @@ PanelResult shell_panel_result(const Building& building, const Frame& frame, Pan
   const Panel& panel = building[id];
   const PanelMesh& mesh = frame.meshes[index_of(id)];
   const PanelReader reader(building, frame, id, loads.panels[index_of(id)].strain, solution);
-  const PanelAction& action = loads.panels[index_of(id)];
-  const Vec3 traction = action.body_force - action.pressure * Vec3(panel.axes.row(2));
   PanelResult result;
   result.corner_forces.fill(Vec6::Zero());
   for (std::size_t k = 0; k < mesh.elements.size(); ++k) {
     result.elements.push_back(element_of(reader.resultants(k, panel.axes.row(0)), mesh.elements[k]));
-    const int shell = mesh.first_shell + static_cast<int>(k);
-    const GivingElement* giving = giving_element(frame, shell);
-    const std::array<Vec6, 4> forces = giving == nullptr
-                                           ? solution.shell_corner_forces[static_cast<std::size_t>(shell)]
-                                           : element_corner_forces(frame, *giving, solution, traction, action.strain);
-    const auto& nodes = frame.model.shells[static_cast<std::size_t>(shell)].node;
+    const std::array<Vec6, 4> forces = corner_forces(building, frame, id, k, loads, solution);
+    const auto& nodes = frame.model.shells[static_cast<std::size_t>(mesh.first_shell) + k].node;
     for (std::size_t c = 0; c < 4; ++c)
       for (std::size_t corner = 0; corner < 4; ++corner)
         if (nodes[c] == panel.nodes[corner].index) result.corner_forces[corner] += forces[c];
@@ -134,30 +146,43 @@ PanelResult shell_panel_result(const Building& building, const Frame& frame, Pan
   return result;
 }
 
-std::array<Vec6, 4> shell_edge_demands(const Building& building, const Frame& frame, PanelId id, const PartLoads& loads,
-                                       const solver::StaticSolution& solution) {
+std::array<double, 4> intact_edges(const Frame& frame, PanelId panel) {
+  const PanelMesh& mesh = frame.meshes[index_of(panel)];
+  std::array<double, 4> intact{};
+  for (const std::array<int, 4>& element : mesh.elements)
+    for (std::size_t c = 0; c < 4; ++c) {
+      const int node = element[c], next = element[(c + 1) % 4];
+      const auto place = [&](int at) { return frame.model.nodes[static_cast<std::size_t>(at)]; };
+      for (std::size_t edge = 0; edge < 4; ++edge)
+        if (contains(mesh.edge_nodes[edge], node) && contains(mesh.edge_nodes[edge], next))
+          intact[edge] += (place(next) - place(node)).norm();
+    }
+  return intact;
+}
+
+std::array<Vec6, 4> shell_edge_demands(const Building& building, const Frame& frame, const BearingEdges& bearing,
+                                       PanelId id, const PartLoads& loads, const solver::StaticSolution& solution) {
   const Panel& panel = building[id];
   const PanelMesh& mesh = frame.meshes[index_of(id)];
-  const PanelReader reader(building, frame, id, loads.panels[index_of(id)].strain, solution);
-  static const std::array<Vec2, 4> middle{Vec2(0, -1), Vec2(1, 0), Vec2(0, 1), Vec2(-1, 0)};
-  std::array<Vec6, 4> demands;
+  std::map<int, Vec6> at_node;  // what each node of an edge does to the panel
+  for (const auto& on_edge : mesh.edge_nodes)
+    for (const int node : on_edge) at_node.emplace(node, Vec6::Zero());
+  for (std::size_t k = 0; k < mesh.elements.size(); ++k) {
+    const std::array<Vec6, 4> forces = corner_forces(building, frame, id, k, loads, solution);
+    for (std::size_t c = 0; c < 4; ++c)
+      if (const auto own = at_node.find(mesh.elements[k][c]); own != at_node.end()) own->second += forces[c];
+  }
+  const std::array<double, 4> intact = intact_edges(frame, id);
+  const std::array<bool, 4> bears = bearing.of(id);
+  std::array<Vec6, 4> demands{Vec6::Zero(), Vec6::Zero(), Vec6::Zero(), Vec6::Zero()};
   for (std::size_t edge = 0; edge < 4; ++edge) {
-    demands[edge].setZero();
-    const auto& on_edge = mesh.edge_nodes[edge];
-    const auto has = [&](int node) { return std::find(on_edge.begin(), on_edge.end(), node) != on_edge.end(); };
-    double intact = 0;
-    for (std::size_t k = 0; k < mesh.elements.size(); ++k)
-      for (std::size_t side = 0; side < 4; ++side) {
-        if (!has(mesh.elements[k][side]) || !has(mesh.elements[k][(side + 1) % 4])) continue;
-        const Vec3 along = reader.place(k, side + 1) - reader.place(k, side);
-        const Vec3 outwards = along.cross(Vec3(panel.axes.row(2))).normalized();
-        const ShellResultants r = reader.resultants(k, outwards, middle[side]);
-        Vec6 traction;
-        traction << r.membrane(0), r.membrane(2), r.shears(0), -r.moments(2), r.moments(0), 0;
-        demands[edge] += along.norm() * traction;
-        intact += along.norm();
-      }
-    if (intact > 0) demands[edge] /= intact;
+    if (!(intact[edge] > 0)) continue;
+    for (const int node : mesh.edge_nodes[edge]) {
+      const double share = edge_share(panel, bears, edge, NodeId(static_cast<std::size_t>(node)));
+      if (share > 0) demands[edge] += share * at_node.at(node);
+    }
+    const Mat3 axes = edge_axes(building, panel, edge);
+    demands[edge] << axes * demands[edge].head<3>() / intact[edge], axes * demands[edge].tail<3>() / intact[edge];
   }
   return demands;
 }

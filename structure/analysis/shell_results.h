@@ -2,6 +2,7 @@
 // What shell panels and the supports of their edges bear.
 #include <array>
 
+#include "analysis/bearing_edges.h"
 #include "topple/structure/analysis.h"
 #include "topple/structure/frame.h"
 
@@ -12,10 +13,15 @@ namespace topple::structure {
 [[nodiscard]] PanelResult shell_panel_result(const Building& building, const Frame& frame, PanelId panel,
                                              const PartLoads& loads, const solver::StaticSolution& solution);
 
-/// Mean traction of each edge per intact length, in the axes of the edge: what the support does to the panel. Zero
-/// where openings leave nothing of the edge.
-[[nodiscard]] std::array<Vec6, 4> shell_edge_demands(const Building& building, const Frame& frame, PanelId panel,
-                                                     const PartLoads& loads, const solver::StaticSolution& solution);
+/// What openings leave of the length of each edge of a meshed panel.
+[[nodiscard]] std::array<double, 4> intact_edges(const Frame& frame, PanelId panel);
+
+/// Resultant over each edge of what its supports, and members and panels along it, do to the panel (the forces of its
+/// nodes, in balance with the panel's loads), per intact length, in the axes of the edge. Corners are shared as
+/// edge_share() says. Zero for a free edge, and where openings leave nothing of it.
+[[nodiscard]] std::array<Vec6, 4> shell_edge_demands(const Building& building, const Frame& frame,
+                                                     const BearingEdges& bearing, PanelId panel, const PartLoads& loads,
+                                                     const solver::StaticSolution& solution);
 
 /// Resultant of each support of a panel's edge, moments about the middle of the edge, global axes.
 [[nodiscard]] std::vector<Vec6> edge_reactions(const Building& building, const Frame& frame,

@@ -48,7 +48,8 @@ struct LossResult {
   solver::ReanalysisCounters counters;
 };
 
-/// Throws InputError for what losses do not go with: members of one sign, settlements, shell panels, heated membranes.
+/// Throws InputError for what losses do not go with: members of one sign, settlements, edges of shells that give, heated
+/// membranes and shells.
 [[nodiscard]] LossResult find_losses(const Building& building, const std::vector<CombinationId>& combinations,
                                      const LossRequest& request, const solver::AnalysisOptions& options);
 
