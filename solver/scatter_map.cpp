@@ -10,7 +10,6 @@ namespace topple::solver {
 ScatterMap::ScatterMap(const DofMap& dofs, std::vector<int> freedoms, std::vector<std::int64_t> start)
     : dofs_(dofs), freedoms_(std::move(freedoms)), start_(std::move(start)) {
   build_pattern();
-  build_positions();
 }
 
 std::span<const int> ScatterMap::freedoms(std::size_t element) const {
@@ -62,7 +61,6 @@ void ScatterMap::build_pattern() {
       for (int r = dofs_.first_equation[w]; r < dofs_.first_equation[w + 1]; ++r) pattern_.row.push_back(r);
     }
   }
-  pattern_.value.assign(pattern_.row.size(), 0.0);
 }
 
 std::int32_t ScatterMap::offset_of(int v, int w) const {
@@ -83,69 +81,50 @@ std::int64_t ScatterMap::position(int equation, int other) const {
          dofs_.first_equation[static_cast<std::size_t>(w)];
 }
 
-void ScatterMap::build_positions() {
-  const std::size_t elements = start_.size() - 1;
-  position_start_.reserve(elements + 1);
-  position_start_.push_back(0);
-  for (std::size_t element = 0; element < elements; ++element) {
-    const auto n = start_[element + 1] - start_[element];
-    position_start_.push_back(position_start_.back() + n * (n + 1) / 2);
-  }
-  positions_.resize(static_cast<std::size_t>(position_start_.back()));
-  for (std::size_t element = 0; element < elements; ++element) {
-    const auto numbers = freedoms(element);
-    std::int64_t* place = positions_.data() + position_start_[element];
-    for (std::size_t j = 0; j < numbers.size(); ++j) {
-      // Freedoms of a node follow each other: the neighbour is looked up once for all of them.
-      int last_v = -1, last_w = -1;
-      std::int32_t offset = 0;
-      for (std::size_t i = j; i < numbers.size(); ++i, ++place) {
-        *place = -1;
-        if (numbers[i] >= dofs_.equations || numbers[j] >= dofs_.equations) continue;
-        const int column = std::min(numbers[i], numbers[j]), row = std::max(numbers[i], numbers[j]);
-        const int v = dofs_.vertex_of_equation[static_cast<std::size_t>(column)];
-        const int w = dofs_.vertex_of_equation[static_cast<std::size_t>(row)];
-        if (v != w && (v != last_v || w != last_w)) {
-          offset = offset_of(v, w);
-          last_v = v;
-          last_w = w;
-        }
-        std::int64_t at = pattern_.start[static_cast<std::size_t>(column)] + row - column;
-        if (v != w) {
-          at += dofs_.first_equation[static_cast<std::size_t>(v) + 1] + offset -
-                dofs_.first_equation[static_cast<std::size_t>(w)];
-        }
-        *place = 2 * at + (i != j && row == column ? 1 : 0);
-      }
-    }
-  }
+SparseSymmetric ScatterMap::empty_matrix() const {
+  SparseSymmetric matrix = pattern_;
+  matrix.value.assign(matrix.row.size(), 0.0);
+  return matrix;
 }
-
-SparseSymmetric ScatterMap::empty_matrix() const { return pattern_; }
 
 bool ScatterMap::is_wanted(int equation, const std::vector<char>& wanted) const {
   return wanted[static_cast<std::size_t>(dofs_.vertex_of_equation[static_cast<std::size_t>(equation)])] != 0;
 }
 
-/// Calls visit(i, j, place) for the element's entries that belong to the matrix and are wanted, i >= j.
+/// Calls visit(i, j, place, twice) for the element's entries that belong to the matrix and are wanted, i >= j; twice:
+/// two of its freedoms are the same equation, so that the entry and its mirror image meet.
 template <class Visit>
 void ScatterMap::each_entry(std::size_t element, const std::vector<char>& wanted, const Visit& visit) const {
   const auto numbers = freedoms(element);
   const std::size_t n = numbers.size();
-  const std::int64_t* place = positions_.data() + position_start_[element];
   constexpr std::size_t most_kept = 24;  // of beams and shells; those of larger patches are looked up each time
   std::array<char, most_kept> kept{};
   const auto look_up = [&](std::size_t i) { return numbers[i] < dofs_.equations && is_wanted(numbers[i], wanted); };
   for (std::size_t i = 0; !wanted.empty() && i < std::min(n, most_kept); ++i) kept[i] = look_up(i) ? 1 : 0;
   const auto wants = [&](std::size_t i) { return i < most_kept ? kept[i] != 0 : look_up(i); };
+  // Freedoms of a node follow each other: a neighbour is looked up once for all of them.
+  int last_v = -1, last_w = -1;
+  std::int32_t offset = 0;
   for (std::size_t j = 0; j < n; ++j) {
-    if (numbers[j] >= dofs_.equations) {
-      place += n - j;
-      continue;
-    }
+    if (numbers[j] >= dofs_.equations) continue;
     const bool all = wanted.empty() || wants(j);
-    for (std::size_t i = j; i < n; ++i, ++place)
-      if (*place >= 0 && (all || wants(i))) visit(i, j, *place);
+    for (std::size_t i = j; i < n; ++i) {
+      if (numbers[i] >= dofs_.equations || !(all || wants(i))) continue;
+      const int column = std::min(numbers[i], numbers[j]), row = std::max(numbers[i], numbers[j]);
+      const int v = dofs_.vertex_of_equation[static_cast<std::size_t>(column)];
+      const int w = dofs_.vertex_of_equation[static_cast<std::size_t>(row)];
+      std::int64_t at = pattern_.start[static_cast<std::size_t>(column)] + row - column;
+      if (v != w) {
+        if (v != last_v || w != last_w) {
+          offset = offset_of(v, w);
+          last_v = v;
+          last_w = w;
+        }
+        at += dofs_.first_equation[static_cast<std::size_t>(v) + 1] + offset -
+              dofs_.first_equation[static_cast<std::size_t>(w)];
+      }
+      visit(i, j, static_cast<std::size_t>(at), i != j && row == column);
+    }
   }
 }
 
@@ -153,17 +132,15 @@ void ScatterMap::add(std::size_t element, const double* k, std::span<const doubl
                      const std::vector<char>& wanted, SparseSymmetric& matrix) const {
   const auto numbers = freedoms(element);
   const std::size_t n = numbers.size();
-  each_entry(element, wanted, [&](std::size_t i, std::size_t j, std::int64_t place) {
+  each_entry(element, wanted, [&](std::size_t i, std::size_t j, std::size_t place, bool twice) {
     const double value =
         k[j * n + i] * scale[static_cast<std::size_t>(numbers[j])] * scale[static_cast<std::size_t>(numbers[i])];
-    matrix.value[static_cast<std::size_t>(place >> 1)] += (place & 1) != 0 ? 2 * value : value;
+    matrix.value[place] += twice ? 2 * value : value;
   });
 }
 
 void ScatterMap::clear(std::size_t element, const std::vector<char>& wanted, SparseSymmetric& matrix) const {
-  each_entry(element, wanted, [&](std::size_t, std::size_t, std::int64_t place) {
-    matrix.value[static_cast<std::size_t>(place >> 1)] = 0;
-  });
+  each_entry(element, wanted, [&](std::size_t, std::size_t, std::size_t place, bool) { matrix.value[place] = 0; });
 }
 
 }  // namespace topple::solver

@@ -1,6 +1,6 @@
 #pragma once
-// From elements to the entries of the sparse lower triangle: the pattern and every position are found once, adding an
-// element is then a loop over known places.
+// From elements to the entries of the sparse lower triangle: the pattern is found once; adding an element looks up
+// where each pair of its nodes meets, and the rest follows by counting.
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -40,7 +40,6 @@ class ScatterMap {
   template <class Visit>
   void each_entry(std::size_t element, const std::vector<char>& wanted, const Visit& visit) const;
   void build_pattern();
-  void build_positions();
 
   const DofMap& dofs_;
   std::vector<int> freedoms_;
@@ -48,11 +47,7 @@ class ScatterMap {
   std::vector<std::pair<int, int>> edges_;
   std::vector<std::int64_t> first_edge_;   ///< per vertex, into edges_
   std::vector<std::int32_t> edge_offset_;  ///< rows between the vertex's own triangle and the neighbour's rows
-  SparseSymmetric pattern_;
-  std::vector<std::int64_t> position_start_;
-  /// Lower triangle of each element by columns; -1: held; otherwise twice the place, plus 1 where two of its freedoms
-  /// are the same equation, so that the entry and its mirror image meet.
-  std::vector<std::int64_t> positions_;
+  SparseSymmetric pattern_;                ///< without values
 };
 
 }  // namespace topple::solver

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <future>
 #include <optional>
 #include <stdexcept>
 
@@ -44,9 +45,7 @@ struct Prepared {
   void assemble();
   void order();
   void factorise();
-  void estimate();
   [[nodiscard]] Eigen::MatrixXd right_hand_sides(std::span<const LoadVector> vectors) const;
-  [[nodiscard]] std::vector<StaticSolution> answers(std::span<const LoadVector> vectors, RefinedSolution refined) const;
   [[nodiscard]] LinearSolve linear_solve() const {
     return [this](Eigen::Ref<Eigen::MatrixXd> b) { factor->solve(b); };
   }
@@ -75,16 +74,33 @@ void Prepared::factorise() {
   require_stable(stability.defect);
 }
 
-void Prepared::estimate() {
-  if (stability.condition == 0 && factor) {
-    const Stopwatch watch(statistics.condition_seconds);
-    judge_condition(options, estimate_condition(system.matrix(), linear_solve()), stability);
+/// The estimate of the condition: solves one after the other that keep one processor busy, so that answers are found
+/// beside it where there is a second one.
+class ConditionBeside {
+ public:
+  explicit ConditionBeside(Prepared& prepared) : prepared_(prepared) {
+    if (prepared.stability.condition != 0 || !prepared.factor) return;
+    // CHOLMOD's factors have one workspace for all solves.
+    const bool beside = prepared.options.threads > 1 && prepared.factor->kind() == Factorisation::automatic;
+    condition_ = std::async(beside ? std::launch::async : std::launch::deferred, [this] {
+      const Stopwatch watch(prepared_.statistics.condition_seconds);
+      return estimate_condition(prepared_.system.matrix(), prepared_.linear_solve());
+    });
   }
-  statistics.nearly_unstable = stability.nearly_unstable;
-  if (stability.condition > 0) {
-    statistics.digits_left = std::clamp(16 - std::log10(stability.condition), 0.0, 16.0);
+
+  /// Brings it home.
+  void finish() {
+    Stability& stability = prepared_.stability;
+    if (condition_.valid()) judge_condition(prepared_.options, condition_.get(), stability);
+    prepared_.statistics.nearly_unstable = stability.nearly_unstable;
+    if (stability.condition > 0)
+      prepared_.statistics.digits_left = std::clamp(16 - std::log10(stability.condition), 0.0, 16.0);
   }
-}
+
+ private:
+  Prepared& prepared_;
+  std::future<double> condition_;
+};
 
 /// Scaled; each in a column.
 Eigen::MatrixXd Prepared::right_hand_sides(std::span<const LoadVector> vectors) const {
@@ -96,17 +112,23 @@ Eigen::MatrixXd Prepared::right_hand_sides(std::span<const LoadVector> vectors) 
   return b;
 }
 
-/// From the scaled displacements.
-std::vector<StaticSolution> Prepared::answers(std::span<const LoadVector> vectors, RefinedSolution refined) const {
+/// From the scaled displacements; condition and error bound are left to tell_condition().
+std::vector<StaticSolution> answers(const Prepared& prepared, std::span<const LoadVector> vectors,
+                                    RefinedSolution refined) {
+  const FrameSystem& system = prepared.system;
   refined.x.array().colwise() *= Eigen::Map<const Eigen::ArrayXd>(system.scale().data(), system.dofs().equations);
-  std::vector<StaticSolution> solutions = system.recover(vectors, refined.x, options.threads);
-  for (std::size_t j = 0; j < vectors.size(); ++j) {
-    SolveQuality& quality = solutions[j].quality;
-    quality = refined.quality[j];
-    quality.condition = std::max(stability.condition, 1.0);
+  std::vector<StaticSolution> solutions = system.recover(vectors, refined.x, prepared.options.threads);
+  for (std::size_t j = 0; j < vectors.size(); ++j) solutions[j].quality = refined.quality[j];
+  return solutions;
+}
+
+void tell_condition(const Prepared& prepared, ConditionBeside& condition, std::vector<StaticSolution>& solutions) {
+  condition.finish();
+  for (StaticSolution& solution : solutions) {
+    SolveQuality& quality = solution.quality;
+    quality.condition = std::max(prepared.stability.condition, 1.0);
     quality.error_bound = forward_error_bound(quality.condition, quality.backward_error);
   }
-  return solutions;
 }
 
 std::unique_ptr<Prepared> prepare(FrameModel model, const AnalysisOptions& options) {
@@ -117,22 +139,32 @@ std::unique_ptr<Prepared> prepare(FrameModel model, const AnalysisOptions& optio
     prepared = std::make_unique<Prepared>(std::move(model), options);
   }
   prepared->statistics.assemble_seconds = map_seconds;
+  // Ordering needs the pattern alone, which is there: it goes on beside the assembly.
+  const bool any = prepared->system.dofs().equations > 0;
+  std::future<void> ordering = std::async(options.threads > 1 ? std::launch::async : std::launch::deferred, [&] {
+    if (any) prepared->order();
+  });
   prepared->assemble();
   require_stable(prepared->system.defect());
-  if (prepared->system.dofs().equations == 0) return prepared;
-  prepared->order();
-  prepared->factorise();
+  ordering.get();
+  if (any) prepared->factorise();
   return prepared;
 }
 
 std::vector<StaticSolution> solve_each(Prepared& prepared, std::span<const LoadSet> loads) {
-  prepared.estimate();
-  const Stopwatch watch(prepared.statistics.solve_seconds);
-  const std::vector<LoadVector> vectors = prepared.system.load_vectors(loads);
-  for (const LoadVector& vector : vectors) require_stable(prepared.system.unbalanced_load(vector));
-  const Eigen::MatrixXd b = prepared.right_hand_sides(vectors);
-  if (b.rows() == 0) return prepared.answers(vectors, {b, std::vector<SolveQuality>(loads.size())});
-  return prepared.answers(vectors, solve_refined(prepared.system.matrix(), prepared.linear_solve(), b));
+  ConditionBeside condition(prepared);
+  std::vector<StaticSolution> solutions;
+  {
+    const Stopwatch watch(prepared.statistics.solve_seconds);
+    const std::vector<LoadVector> vectors = prepared.system.load_vectors(loads);
+    for (const LoadVector& vector : vectors) require_stable(prepared.system.unbalanced_load(vector));
+    const Eigen::MatrixXd b = prepared.right_hand_sides(vectors);
+    RefinedSolution refined{b, std::vector<SolveQuality>(loads.size())};
+    if (b.rows() > 0) refined = solve_refined(prepared.system.matrix(), prepared.linear_solve(), b);
+    solutions = answers(prepared, vectors, std::move(refined));
+  }
+  tell_condition(prepared, condition, solutions);
+  return solutions;
 }
 
 LoadSet sum_of(std::span<const LoadSet> cases, const Eigen::VectorXd& factors) {
@@ -205,20 +237,26 @@ Eigen::MatrixXd sums_of(const OnceRefined& cases, const Eigen::MatrixXd& factors
 /// None where a case by itself acts on what gives way: the sums, in which it may cancel, have to be solved.
 std::optional<std::vector<StaticSolution>> add_up(Prepared& prepared, std::span<const LoadSet> cases,
                                                   const Eigen::MatrixXd& factors) {
-  prepared.estimate();
-  const Stopwatch watch(prepared.statistics.solve_seconds);
-  const FrameSystem& system = prepared.system;
-  const std::vector<LoadVector> vectors = system.load_vectors(cases);
-  for (const LoadVector& vector : vectors)
-    if (system.unbalanced_load(vector)) return std::nullopt;
-  const int threads = prepared.options.threads;
-  std::vector<LoadVector> sums(static_cast<std::size_t>(factors.cols()));
-  each_on_threads(static_cast<int>(factors.cols()), threads,
-                  [&](int j) { sums[static_cast<std::size_t>(j)] = sum_of(vectors, factors.col(j)); });
-  const ExtendedResidual residual(system.matrix(), threads);
-  const OnceRefined of_cases = refine_once(residual, prepared.linear_solve(), prepared.right_hand_sides(vectors));
-  return prepared.answers(sums, refine(residual, prepared.linear_solve(), prepared.right_hand_sides(sums),
-                                       sums_of(of_cases, factors, threads)));
+  ConditionBeside condition(prepared);
+  std::vector<StaticSolution> solutions;
+  {
+    const Stopwatch watch(prepared.statistics.solve_seconds);
+    const FrameSystem& system = prepared.system;
+    const std::vector<LoadVector> vectors = system.load_vectors(cases);
+    for (const LoadVector& vector : vectors)
+      if (system.unbalanced_load(vector)) return std::nullopt;
+    const int threads = prepared.options.threads;
+    std::vector<LoadVector> sums(static_cast<std::size_t>(factors.cols()));
+    each_on_threads(static_cast<int>(factors.cols()), threads,
+                    [&](int j) { sums[static_cast<std::size_t>(j)] = sum_of(vectors, factors.col(j)); });
+    const ExtendedResidual residual(system.matrix(), threads);
+    const OnceRefined of_cases = refine_once(residual, prepared.linear_solve(), prepared.right_hand_sides(vectors));
+    solutions = answers(prepared, sums,
+                        refine(residual, prepared.linear_solve(), prepared.right_hand_sides(sums),
+                               sums_of(of_cases, factors, threads)));
+  }
+  tell_condition(prepared, condition, solutions);
+  return solutions;
 }
 
 }  // namespace

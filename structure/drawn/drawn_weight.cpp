@@ -77,7 +77,6 @@ void make_denser(Building& building, Part part, double mass) {
 }  // namespace
 
 void add_drawn_weight(Building& building, const std::filesystem::path& file) {
-  if (!has_drawn_weight(file)) return;
   const PartPlaces places(building);
   std::map<Part, double> carried;
   for (const DrawnMesh& drawn : read_drawn_meshes(building, file))

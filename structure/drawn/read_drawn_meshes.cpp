@@ -12,13 +12,6 @@
 
 namespace topple::structure {
 
-bool has_drawn_weight(const std::filesystem::path& file) {
-  if (file.extension() != ".json") return false;
-  const formats::JsonDocument document = formats::JsonDocument::from_file(file);
-  const std::vector<formats::MeshEntry> entries = formats::read_meshes(document.root());
-  return std::any_of(entries.begin(), entries.end(), [](const formats::MeshEntry& entry) { return entry.density > 0; });
-}
-
 std::vector<DrawnMesh> read_drawn_meshes(const Building& building, const std::filesystem::path& file) {
   if (file.extension() != ".json") return {};
   const formats::JsonDocument document = formats::JsonDocument::from_file(file);

@@ -1,4 +1,5 @@
 // A model from its file: the stages of reading in their order.
+#include <algorithm>
 #include <system_error>
 
 #include "drawn/drawn_weight.h"
@@ -17,7 +18,13 @@ namespace {
 using formats::JsonDocument;
 using formats::JsonValue;
 
-Building read_document(const JsonDocument& document) {
+/// A model, and whether drawn meshes add to its weight.
+struct ModelRead {
+  Building building;
+  bool drawn_weight = false;
+};
+
+ModelRead read_document(const JsonDocument& document) {
   using namespace formats;
   const JsonValue root = document.root();
   if (!root.is_object()) root.refuse("an object");
@@ -49,14 +56,15 @@ Building read_document(const JsonDocument& document) {
   read_combinations(root, draft);
   read_analyses(root, draft);
   read_frame3dd_remarks(root, draft);
-  (void)read_meshes(root);  // what they draw is read when somebody draws it
-  return std::move(draft.building);
+  const std::vector<MeshEntry> meshes = read_meshes(root);  // what they draw is read when somebody draws or weighs it
+  return {std::move(draft.building),
+          std::any_of(meshes.begin(), meshes.end(), [](const MeshEntry& mesh) { return mesh.density > 0; })};
 }
 
 }  // namespace
 
 Building parse_model(std::string_view text, const std::string& name, Purpose purpose) {
-  Building building = read_document(JsonDocument::from_text(text, name));
+  Building building = read_document(JsonDocument::from_text(text, name)).building;
   refuse_unbuilt(building, purpose);
   return building;
 }
@@ -64,7 +72,7 @@ Building parse_model(std::string_view text, const std::string& name, Purpose pur
 Building parse_tables(const std::vector<std::pair<std::string, std::string>>& tables, const std::string& folder,
                       Purpose purpose) {
   ModelOfTables model = model_of_tables(tables, folder);
-  Building building = read_document(JsonDocument::from_text(model.json, folder, {}, std::move(model.places)));
+  Building building = read_document(JsonDocument::from_text(model.json, folder, {}, std::move(model.places))).building;
   refuse_unbuilt(building, purpose);
   return building;
 }
@@ -72,9 +80,10 @@ Building parse_tables(const std::vector<std::pair<std::string, std::string>>& ta
 Building read_model(const std::filesystem::path& file, Purpose purpose) {
   using namespace formats;
   const std::string ending = ending_of(file);
-  Building building;
+  ModelRead read;
+  Building& building = read.building;
   if (ending == ".json")
-    building = read_document(JsonDocument::from_file(file));
+    read = read_document(JsonDocument::from_file(file));
   else if (ending == ".3dd")
     building = parse_frame3dd(whole_text(file), file.filename().string());
   else if (std::error_code ignored; std::filesystem::is_directory(file, ignored))
@@ -83,8 +92,8 @@ Building read_model(const std::filesystem::path& file, Purpose purpose) {
     throw InputError(file.string() +
                      ": a model of unknown format; accepted: a file that ends in .json or .3dd, or a folder of tables");
   refuse_unbuilt(building, purpose);
-  if (purpose != Purpose::inspect) add_drawn_weight(building, file);
-  return building;
+  if (read.drawn_weight && purpose != Purpose::inspect) add_drawn_weight(building, file);
+  return std::move(building);
 }
 
 }  // namespace topple::structure

@@ -33,9 +33,6 @@ struct DrawnMesh {
 /// InputError.
 [[nodiscard]] std::vector<DrawnMesh> read_drawn_meshes(const Building& building, const std::filesystem::path& file);
 
-/// Whether any of them has a density above 0.
-[[nodiscard]] bool has_drawn_weight(const std::filesystem::path& file);
-
 class DrawnModel {
  public:
   /// Throws InputError, naming the mesh, for one that is not closed.
