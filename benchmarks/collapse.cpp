@@ -1,8 +1,8 @@
 // Step times of a collapse by stage: percentiles with and without the collision engine's own time, and the slowest
 // steps with what they did.
-//   bench_collapse [SCENARIO] [--seconds S] [--steps FILE]
+//   bench_collapse [SCENARIO] [--seconds S] [--steps FILE] [--against OTHER]
 // SCENARIO: a shipped one's name, or a file (default seed_hit). --seconds: stop after so much simulated time. --steps:
-// every step that worked, as CSV.
+// every step that worked, as CSV. --against: only compares it with another scenario, whose steps are taken in turns.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -27,6 +27,7 @@ struct Step {
   std::array<double, 6> stages{};  ///< s
   double engine = 0;               ///< s, within the stages
   std::uint64_t solves = 0, low_rank = 0, refactorisations = 0, events = 0, impacts = 0;
+  double operations = 0;  ///< as a budget counts them
   [[nodiscard]] double whole() const { return std::accumulate(stages.begin(), stages.end(), 0.0); }
   [[nodiscard]] double own() const { return whole() - engine; }
 };
@@ -92,13 +93,38 @@ void print_slowest(std::vector<Step> steps) {
 
 void write_steps(const std::string& path, const std::vector<Step>& steps) {
   std::ofstream file(path);
-  file << "step,sense,load,break,release,move,book,engine,solves,low_rank,new_factors,impacts,events\n";
+  file << "step,sense,load,break,release,move,book,engine,solves,low_rank,new_factors,impacts,events,operations\n";
   for (const Step& step : steps) {
     file << step.number;
     for (double s : step.stages) file << ',' << s;
     file << ',' << step.engine << ',' << step.solves << ',' << step.low_rank << ',' << step.refactorisations << ','
-         << step.impacts << ',' << step.events << '\n';
+         << step.impacts << ',' << step.events << ',' << step.operations << '\n';
   }
+}
+
+structure::Simulation make(const std::string& name) {
+  auto [building, scenario] = structure::read_scenario(structure::find_scenario(name));
+  return structure::Simulation(std::move(building), std::move(scenario));
+}
+
+/// Time of the same steps of both, each pair in turn, so that what else the machine does falls on both.
+void compare(const std::string& name, const std::string& other, double seconds) {
+  std::array<structure::Simulation, 2> both{make(name), make(other)};
+  std::array<double, 2> whole{}, own{};
+  for (structure::Simulation& simulation : both) simulation.step();
+  const auto runs = [&](const structure::Simulation& one) { return !one.finished() && one.time() < seconds; };
+  while (runs(both[0]) || runs(both[1]))
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (!runs(both[i])) continue;
+      both[i].step();
+      const auto& stages = both[i].stage_seconds();
+      const double sum = std::accumulate(stages.begin(), stages.end(), 0.0);
+      whole[i] += sum;
+      own[i] += sum - both[i].collision_engine_seconds();
+    }
+  std::printf("                          %12s %12s  ratio\n", name.c_str(), other.c_str());
+  std::printf("all steps, ms             %12.2f %12.2f  %5.3f\n", 1e3 * whole[0], 1e3 * whole[1], whole[0] / whole[1]);
+  std::printf("without the engine, ms    %12.2f %12.2f  %5.3f\n", 1e3 * own[0], 1e3 * own[1], own[0] / own[1]);
 }
 
 std::vector<Step> run(structure::Simulation& simulation, double seconds) {
@@ -113,6 +139,7 @@ std::vector<Step> run(structure::Simulation& simulation, double seconds) {
       Step step{simulation.steps(), simulation.stage_seconds(), simulation.collision_engine_seconds()};
       step.solves = now.solves - before.solves;
       step.low_rank = now.low_rank - before.low_rank;
+      step.operations = now.operations - before.operations;
       step.refactorisations = now.refactorisations - before.refactorisations;
       step.events = simulation.events().size() - told;
       for (const auto& event : simulation.events().subspan(told))
@@ -128,7 +155,7 @@ std::vector<Step> run(structure::Simulation& simulation, double seconds) {
 
 int main(int argc, char** argv) {
   solver::restart_with_better_blas_kernel(argv);
-  std::string scenario_name = "seed_hit", steps_file;
+  std::string scenario_name = "seed_hit", steps_file, other;
   double seconds = structure::unlimited;
   for (int i = 1; i < argc; ++i) {
     const bool more = i + 1 < argc;
@@ -136,13 +163,18 @@ int main(int argc, char** argv) {
       seconds = std::atof(argv[++i]);
     else if (std::strcmp(argv[i], "--steps") == 0 && more)
       steps_file = argv[++i];
+    else if (std::strcmp(argv[i], "--against") == 0 && more)
+      other = argv[++i];
     else
       scenario_name = argv[i];
   }
   try {
-    auto [building, scenario] = structure::read_scenario(structure::find_scenario(scenario_name));
     bench::print_provenance(("Step times of " + scenario_name).c_str(), 1);
-    structure::Simulation simulation(std::move(building), std::move(scenario));
+    if (!other.empty()) {
+      compare(scenario_name, other, seconds);
+      return 0;
+    }
+    structure::Simulation simulation = make(scenario_name);
     const std::vector<Step> steps = run(simulation, seconds);
     if (steps.empty()) return 1;
     print_percentiles(steps);
@@ -153,6 +185,10 @@ int main(int argc, char** argv) {
       down += simulation.frame().stands(structure::MemberId(m)) ? 0 : 1;
     std::printf("%llu impacts were borne by a bound alone\n",
                 static_cast<unsigned long long>(simulation.counters().impacts_bounded));
+    double last = 0;
+    for (const auto& event : simulation.events())
+      if (event.kind == structure::SimulationEvent::Kind::detached) last = event.time;
+    std::printf("the last part came off at %.2f s\n", last);
     std::printf("%.3f s simulated, %s, %zu members down, hash %016llx\n", simulation.time(),
                 simulation.at_rest() ? "at rest" : "not at rest", down,
                 static_cast<unsigned long long>(simulation.hash()));

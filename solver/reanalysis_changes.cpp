@@ -144,7 +144,7 @@ void Reanalysis::State::apply_beam(int index, std::vector<int>& touched) {
                        beam.end_stiffness[1] != target.end_stiffness[1] || system->beam_factor[i] != target.factor));
   if (stiffness_changed) tell_standing([&](StandingFactor& one) { one.remember_beam(index); });
   if (stiffness_changed && restricted && may_be_stiffer(beam, system->beam_stands[i], system->beam_factor[i], target))
-    restricted->forget_uses();
+    restricted->forget_growths();
   beam.end_stiffness = target.end_stiffness;
   system->beam_factor[i] = target.factor;
   system->beam_stands[i] = stands;
@@ -173,7 +173,7 @@ void Reanalysis::State::apply_given_stiffness(std::vector<int>& touched) {
   if (given_stiffness.empty() && given_to_patch.empty()) return;
   // What uses can grow by was read from other matrices.
   complete(nullptr);
-  if (restricted) restricted->forget_uses();
+  if (restricted) restricted->forget_growths();
   for (const auto& [index, stiffness] : given_stiffness) {
     remember_plate(system->element_of_shell(index));
     const auto& nodes = system->model.shells[static_cast<std::size_t>(index)].node;
@@ -207,7 +207,7 @@ void Reanalysis::State::apply_shells(std::vector<int>& touched) {
     else
       tell_standing([&](StandingFactor& one) { one.remember_shell(index); });
     system->shell_stands[i] = stands;
-    if (stands != 0 && restricted) restricted->forget_uses();
+    if (stands != 0 && restricted) restricted->forget_growths();
     touched.insert(touched.end(), nodes.begin(), nodes.end());
   }
   changed_shells.clear();

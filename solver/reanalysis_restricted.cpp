@@ -94,6 +94,9 @@ const ReanalysisAnswer& Reanalysis::solve(UseWatch& watch) {
 }
 void Reanalysis::complete(UseWatch* watch) { state_->complete(watch); }
 void Reanalysis::forget_uses() {
+  if (state_->restricted) state_->restricted->forget_growths();
+}
+void Reanalysis::forget_references() {
   if (state_->restricted) state_->restricted->forget_uses();
 }
 

@@ -244,14 +244,16 @@ void Reanalysis::State::apply_changes() {
 
 const ReanalysisAnswer& Reanalysis::solve() { return state_->solve(nullptr); }
 
-const ReanalysisAnswer& Reanalysis::State::solve(UseWatch* watch) {
-  refresh_paid += operations;
-  operations = 0;
-  if (!pending()) {
-    ++counters.unchanged;
-    if (watch != nullptr && answer.stable) read_all_uses(*watch);
-    return answer;
-  }
+bool Reanalysis::prepare() { return state_->prepare(); }
+
+bool Reanalysis::State::prepare() {
+  refresh_paid += std::exchange(operations, 0.0);
+  if (pending()) take_changes(nullptr);
+  return !prepared || !mechanism;
+}
+
+/// From what is to become of the structure to its factor.
+void Reanalysis::State::take_changes(UseWatch* watch) {
   effort = {};
   // The uses of the present answer are what a restricted one starts from.
   if (watch != nullptr && restricted && !restricted->uses_known() && answered && answer.stable && structure_stands)
@@ -264,14 +266,27 @@ const ReanalysisAnswer& Reanalysis::State::solve(UseWatch* watch) {
   answer = ReanalysisAnswer();
   answer.nearly_unstable = nearly_unstable;
   reactions.clear();
+  mechanism.reset();
+  const bool same_structure = touched_nodes.empty() && assembled && structure_stands;
+  loads_alone = same_structure && !prepared;
+  if (!same_structure) mechanism = update_structure(touched_nodes);
+  prepared = true;
+}
+
+const ReanalysisAnswer& Reanalysis::State::solve(UseWatch* watch) {
+  refresh_paid += std::exchange(operations, 0.0);
+  if (!pending() && !prepared) {
+    ++counters.unchanged;
+    if (watch != nullptr && answer.stable) read_all_uses(*watch);
+    return answer;
+  }
+  if (pending()) take_changes(watch);
+  prepared = false;
   ++counters.solves;
-  if (!touched_nodes.empty() || !assembled || !structure_stands) {
-    if (const auto defect = update_structure(touched_nodes)) {
-      give_up(*defect);
-      return answer;
-    }
-  } else {
-    ++counters.load_solves;
+  if (loads_alone) ++counters.load_solves;
+  if (mechanism) {
+    give_up(*std::exchange(mechanism, std::nullopt));
+    return answer;
   }
   if (const auto defect = system->unbalanced_load(load, negligible_lever)) {
     give_up(*defect);

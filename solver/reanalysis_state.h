@@ -62,6 +62,9 @@ struct Reanalysis::State {
 
   // The answer.
   bool answered = false;
+  bool prepared = false;            ///< the structure is up to date, the answer is not
+  bool loads_alone = false;         ///< changed since the answer
+  std::optional<Defect> mechanism;  ///< of the structure as prepared
   ReanalysisAnswer answer;
   double condition = 0;                         ///< of the factorised matrix
   LoadVector load;                              ///< of what stands now
@@ -147,6 +150,8 @@ struct Reanalysis::State {
   void bring_up_to_date(UseWatch* watch);
   void read_all_uses(UseWatch& watch);
   [[nodiscard]] const ReanalysisAnswer& solve(UseWatch* watch);
+  [[nodiscard]] bool prepare();
+  void take_changes(UseWatch* watch);
   void apply_changes();
   void give_up(const Defect& defect);
   /// The same on elimination paths, see StandingFactor::solve_on_paths().

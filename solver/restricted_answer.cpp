@@ -177,6 +177,8 @@ void RestrictedAnswer::read_all(UseWatch& watch) {
 }
 
 void RestrictedAnswer::read_growths(UseWatch& watch) {
+  if (growths_known_) return;
+  growths_known_ = true;
   for (int block = 0; block < solver_.blocks(); ++block) {
     double& growth = growth_[static_cast<std::size_t>(block)];
     growth = 0;

@@ -39,6 +39,8 @@ class RestrictedAnswer {
   void read_all(UseWatch& watch);
   [[nodiscard]] bool uses_known() const { return uses_known_; }
   void forget_uses() { uses_known_ = false; }
+  /// What they can grow by may be more than it was.
+  void forget_growths() { uses_known_ = growths_known_ = false; }
   /// Something is not up to date.
   [[nodiscard]] bool partial() const { return partial_; }
   [[nodiscard]] bool beam_is_current(int beam) const { return is_current(beam_block_[static_cast<std::size_t>(beam)]); }
@@ -110,7 +112,7 @@ class RestrictedAnswer {
   std::vector<int> visits_, open_, left_out_, near_rows_, elements_;
   std::vector<double> below_;
   BeamStiffness beam_stiffness_;
-  bool partial_ = false, uses_known_ = false;
+  bool partial_ = false, uses_known_ = false, growths_known_ = false;
   double remaining_ = 0;  ///< twice the energy that the change may have left in what was not visited
   double worst_ = 0, bound_left_out_ = 0;
   Effort effort_;

@@ -266,6 +266,13 @@ double FrameStatics::operations() const {
   return sum;
 }
 
+bool FrameStatics::prepare(int number) {
+  solver::Reanalysis& analysis = *components_[static_cast<std::size_t>(number)].analysis;
+  const bool stands = analysis.prepare();
+  operations_ += analysis.last_operations();
+  return stands;
+}
+
 std::optional<FrameMechanism> FrameStatics::solve(int number) {
   Component& component = components_[static_cast<std::size_t>(number)];
   const solver::ReanalysisAnswer& answer = component.analysis->solve();

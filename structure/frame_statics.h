@@ -84,6 +84,8 @@ class FrameStatics {
   /// forces as loads, K u' = F - Kg(N) u; where that does not settle (the loads are near or beyond what it bears before
   /// it buckles) the first-order answer stands, and diverged() says so.
   [[nodiscard]] std::optional<FrameMechanism> solve(int component);
+  /// The first part of it (Reanalysis::prepare()). False: there is a mechanism, which solve() will tell.
+  bool prepare(int component);
   void use_second_order() { second_order_ = true; }
   [[nodiscard]] bool diverged(int component) const { return parts(component).diverged; }
   /// The same where the watch's uses may matter. What is asked for later makes the answer whole.
@@ -92,8 +94,12 @@ class FrameStatics {
   void complete(int component, MemberWatch& watch);
   /// Something was left out of the component's answer.
   [[nodiscard]] bool partial(int component) const { return parts(component).partial; }
-  /// Capacities changed, or what uses are counted from.
+  /// Capacities changed.
   void forget_uses(int component) { components_[static_cast<std::size_t>(component)].analysis->forget_uses(); }
+  /// What uses are counted from changed.
+  void forget_references(int component) {
+    components_[static_cast<std::size_t>(component)].analysis->forget_references();
+  }
   /// Nothing of the component stands: there is nothing to solve.
   void forget(int component);
 

@@ -54,11 +54,12 @@ class JointStates {
   /// The same; remembers the largest.
   [[nodiscard]] Utilisation check(JointId joint);
   [[nodiscard]] double largest(JointId joint) const { return largest_[index(joint)]; }
-  /// Nothing broke around this joint: R becomes R0.
-  void accept(JointId joint) {
-    if (reference_[index(joint)] == demand_[index(joint)]) return;
+  /// Nothing broke around this joint: R becomes R0. False when it was so already.
+  bool accept(JointId joint) {
+    if (reference_[index(joint)] == demand_[index(joint)]) return false;
     reference_[index(joint)] = demand_[index(joint)];
     forget(joint);
+    return true;
   }
 
  private:

@@ -294,28 +294,44 @@ std::vector<JointBreak> StandingFrame::settle(int generations, double operations
     return {};
   }
   state.generation = 0;
-  const double before = state.statics.operations();
-  state.lay_contacts();
-  for (const State::Change& change : std::exchange(state.queue, {})) state.apply(change);
-  state.bring_up_to_date();
-  state.pending = false;
-  for (;; ++state.generation) {
-    const std::vector<JointId> next = state.next_generation();
-    if (next.empty() && state.buckled.empty()) break;
-    if (state.generation >= generations || state.statics.operations() - before >= operations) {
-      state.buckled.clear();  // found again
-      state.pending = true;
-      break;
-    }
-    state.break_joints(next, BreakCause::overload);
-    state.snap_buckled();
-    state.bring_up_to_date();
+  if (state.settle(generations, state.statics.operations() + operations)) {
+    state.progress = State::Progress::none;
+    state.complete();
   }
-  state.complete();
   state.generation = 0;
   state.account.lines_are_out();
   return std::exchange(state.breaks, {});
 }
+
+/// False when it was cut short before what stands is solved for.
+bool StandingFrame::State::settle(int generations, double until) {
+  if (progress == Progress::none) {
+    lay_contacts();
+    progress = Progress::laid;
+    if (statics.operations() >= until) return false;
+  }
+  progress = Progress::applied;
+  for (const Change& change : std::exchange(queue, {})) apply(change);
+  if (!bring_up_to_date(until)) return false;
+  pending = false;
+  for (;; ++generation) {
+    const std::vector<JointId> next = next_generation();
+    if (next.empty() && buckled.empty()) return true;
+    if (generation >= generations || statics.operations() >= until) {
+      buckled.clear();  // found again
+      pending = true;
+      return true;
+    }
+    break_joints(next, BreakCause::overload);
+    snap_buckled();
+    if (!bring_up_to_date(until)) {
+      pending = true;
+      return false;
+    }
+  }
+}
+
+bool StandingFrame::answering() const { return state_->progress == State::Progress::applied; }
 
 std::vector<JointBreak> StandingFrame::take_yielded() { return std::exchange(state_->yielded, {}); }
 std::vector<Detached> StandingFrame::take_detached() { return std::exchange(state_->detached, {}); }
@@ -345,6 +361,7 @@ double StandingFrame::break_in_impact(std::span<const JointBreak> breaks, const 
 Eigen::VectorXd StandingFrame::break_in_impact(std::span<const JointBreak> breaks, std::span<const ContactPlace> places,
                                                std::span<const Vec3> directions) {
   State& state = *state_;
+  state.finish();
   state.lay_contacts();
   Eigen::VectorXd shift(static_cast<Eigen::Index>(places.size()));
   for (std::size_t i = 0; i < places.size(); ++i)
@@ -366,9 +383,25 @@ Eigen::VectorXd StandingFrame::break_in_impact(std::span<const JointBreak> break
   return shift;
 }
 
+void StandingFrame::begin_break_in_impact(std::span<const JointBreak> breaks) {
+  State& state = *state_;
+  state.finish();
+  state.lay_contacts();
+  std::vector<JointId> broken;
+  for (const JointBreak& one : breaks) broken.push_back(one.joint);
+  state.break_joints(broken, BreakCause::impact);
+  state.segment_numbers.clear();
+  state.release();
+  state.account.lines_are_out();
+  std::erase_if(state.breaks, [](const JointBreak& one) { return one.cause == BreakCause::impact; });
+  state.progress = State::Progress::applied;
+  state.pending = true;
+}
+
 void StandingFrame::fracture(PanelId panel, const PanelRemains& remains) {
   State& state = *state_;
   if (!state.stands(panel)) return;
+  state.finish();
   state.lay_contacts();
   state.fracture(panel, remains);
   state.pending = true;

@@ -66,6 +66,21 @@ double mean_product(const Building& building, MemberId member, const AlongMember
   return sum / length;
 }
 
+/// Displacements of the ends of a member that bears nothing of the force. One that hangs by one end moves with it as it
+/// is.
+std::pair<Vec3, Vec3> straight_line(const Building& building, MemberId id, const std::array<bool, 2>& holds,
+                                    const FrameStatics::Response& response) {
+  const Member& member = building[id];
+  const auto& nodes = member.nodes;
+  if (holds[0] && holds[1])
+    return {response.displacement(nodes[0]).head<3>(), response.displacement(nodes[1]).head<3>()};
+  const std::size_t end = holds[0] ? 0 : 1;
+  const Vec6& hub = response.displacement(nodes[end]);
+  const Vec3 turn = hub.tail<3>(), held = hub.head<3>() + turn.cross(member.offsets[end]);
+  const Vec3 along = (end == 0 ? member.length : -member.length) * member.axes.row(0).transpose();
+  return {held, held + turn.cross(along)};
+}
+
 }  // namespace
 
 FrameStatics::ResponseLoads StandingFrame::State::response_loads(const PlacedLoad& placed) const {
@@ -182,20 +197,20 @@ double StandingFrame::State::shared_inertia(int c, const Shape& a, const Shape& 
     if (!stands(member) || loads.mass(member) <= 0) continue;
     AlongMember along_a{a.response, loads_on(a.placed, member)}, along_b{b.response, {}};
     if (!same) along_b.own = loads_on(b.placed, member);
-    const auto& nodes = building[member].nodes;
-    if (along_a.own.empty() && along_b.own.empty() && segments.holds(building.joint(member, 0)) &&
-        segments.holds(building.joint(member, 1))) {
-      // Far from the contact a straight line between the ends is near enough; the cost stays small.
-      const Vec3 a0 = a.response.displacement(nodes[0]).head<3>(), a1 = a.response.displacement(nodes[1]).head<3>();
-      if (same) {
-        sum += loads.mass(member) * (a0.dot(a0) + a0.dot(a1) + a1.dot(a1)) / 3;
-        continue;
-      }
-      const Vec3 b0 = b.response.displacement(nodes[0]).head<3>(), b1 = b.response.displacement(nodes[1]).head<3>();
-      sum += loads.mass(member) * (a0.dot(b0) + (a0.dot(b1) + a1.dot(b0)) / 2 + a1.dot(b1)) / 3;
-    } else {
+    if (!along_a.own.empty() || !along_b.own.empty()) {
       sum += loads.mass(member) * mean_product(building, member, along_a, along_b);
+      continue;
     }
+    // Far from the contact a straight line between the ends is near enough; the cost stays small.
+    const std::array<bool, 2> holds{segments.holds(building.joint(member, 0)),
+                                    segments.holds(building.joint(member, 1))};
+    const auto [a0, a1] = straight_line(building, member, holds, a.response);
+    if (same) {
+      sum += loads.mass(member) * (a0.dot(a0) + a0.dot(a1) + a1.dot(a1)) / 3;
+      continue;
+    }
+    const auto [b0, b1] = straight_line(building, member, holds, b.response);
+    sum += loads.mass(member) * (a0.dot(b0) + (a0.dot(b1) + a1.dot(b0)) / 2 + a1.dot(b1)) / 3;
   }
   for (NodeId node : statics.nodes(c))
     if (stands(node))

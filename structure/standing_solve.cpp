@@ -17,8 +17,7 @@ void StandingFrame::State::lay_contacts() {
   for (int c = 0; c < statics.components(); ++c) {
     if (!statics.changed(c)) continue;
     // Loads alone make no mechanism in a structure that was stable before.
-    if (statics.solve(c)) continue;
-    read_demands(c, true);
+    if (solve_slow(c)) continue;
     // On the way to rest, what lies on it is part of that way. So is what the structure cannot bear: that state,
     // however far it lies, is never reached.
     if (!to_check[static_cast<std::size_t>(c)] && bears(c)) {
@@ -37,12 +36,38 @@ bool StandingFrame::State::bears(int c) const {
   });
 }
 
-void StandingFrame::State::bring_up_to_date() {
+void StandingFrame::State::bring_up_to_date() { (void)bring_up_to_date(unlimited); }
+
+std::size_t StandingFrame::State::parts_leaving() const {
+  std::size_t sum = 0;
+  for (const Detached& part : detached) sum += part.members.size() + part.panels.size();
+  return sum;
+}
+
+/// Where many parts leave they are handed out before anything is solved for; factors and answers are found one after
+/// the other. Where there is a mechanism, the structure as it is has no answer to stop at.
+bool StandingFrame::State::bring_up_to_date(double until) {
+  constexpr std::size_t many = 6;  // to make bodies of them takes about as long as to solve
   segment_numbers.clear();
-  do {
+  for (;;) {
+    const std::size_t left = parts_leaving();
     release();
     write_loads();
-  } while (solve_changed());
+    if (parts_leaving() > left + many && until < unlimited) return false;
+    bool stands = true;
+    for (int c = 0; c < statics.components(); ++c)
+      if (statics.changed(c) && solved_nodes[static_cast<std::size_t>(c)] > 0 && !may_restrict(c))
+        stands = statics.prepare(c) && stands;
+    if (stands && statics.operations() >= until) return false;
+    if (!solve_changed()) return true;
+    if (statics.operations() >= until) return false;  // what moves is cut free, and leaves next
+  }
+}
+
+/// What a settle() that was cut short left to do.
+void StandingFrame::State::finish() {
+  if (progress == Progress::applied) bring_up_to_date();
+  progress = Progress::none;
 }
 
 void StandingFrame::State::write_loads() {
@@ -92,12 +117,9 @@ bool StandingFrame::State::one_segment(int c) const {
   return true;
 }
 
-/// Solves where it may matter to what breaks next, and reads what the joints there bear. A way on which joints yield
-/// needs all of them, as do shells, whose edges bear what all of their nodes do; where few nodes stand, telling them
-/// apart costs more than a whole answer.
+/// Solves where it may matter to what breaks next, and reads what the joints there bear.
 std::optional<FrameMechanism> StandingFrame::State::solve(int c) {
-  const bool large = static_cast<int>(statics.nodes(c).size()) >= restricted_from;
-  if (!large || rules.second_order || ductile.any(c) || !statics.shells(c).empty() || !one_segment(c)) {
+  if (!may_restrict(c)) {
     auto mechanism = statics.solve(c);
     if (!mechanism) read_demands(c, false);
     return mechanism;
@@ -107,6 +129,34 @@ std::optional<FrameMechanism> StandingFrame::State::solve(int c) {
   auto mechanism = statics.solve(c, watch);
   if (!mechanism) read_panel_demands(c, false);
   return mechanism;
+}
+
+/// After contact loads or stiffness changed slowly; the answer is whole.
+std::optional<FrameMechanism> StandingFrame::State::solve_slow(int c) {
+  if (!may_restrict(c)) {
+    auto mechanism = statics.solve(c);
+    if (!mechanism) read_demands(c, true);
+    return mechanism;
+  }
+  forget_bounds(c);
+  Watch watch(*this, true);
+  auto mechanism = statics.solve(c, watch);
+  if (mechanism) return mechanism;
+  statics.complete(c, watch);
+  read_panel_demands(c, true);
+  return std::nullopt;
+}
+
+/// Uses after a sudden loss count from them.
+void StandingFrame::State::references_moved(int c) {
+  if (rules.sudden != 1) statics.forget_references(c);
+}
+
+/// A way on which joints yield needs all of an answer, as do shells, whose edges bear what all of their nodes do; where
+/// few nodes stand, telling apart what may matter costs more than a whole answer.
+bool StandingFrame::State::may_restrict(int c) const {
+  return static_cast<int>(statics.nodes(c).size()) >= restricted_from && !rules.second_order && !ductile.any(c) &&
+         statics.shells(c).empty() && one_segment(c);
 }
 
 /// What is read from outside is whole.
@@ -193,10 +243,12 @@ std::vector<JointId> StandingFrame::State::next_generation() {
     }
     if (over.empty()) complete(c);
     if (over.empty() || !one_segment(c)) {
+      bool moved = false;
       for (JointId joint : all) {
         const int segment = label(joint);
-        if (segment >= 0 && largest[static_cast<std::size_t>(segment)] == 0) joints.accept(joint);
+        if (segment >= 0 && largest[static_cast<std::size_t>(segment)] == 0) moved = joints.accept(joint) || moved;
       }
+      if (moved) references_moved(c);
     }
     for (const auto& [joint, used] : over)
       if (used >= (1 - same_time) * largest[static_cast<std::size_t>(label(joint))]) next.push_back(joint);
@@ -231,9 +283,10 @@ void StandingFrame::State::snap_buckled() {
 /// The static answer is borne: R becomes R0.
 void StandingFrame::State::come_to_rest(int c) {
   complete(c);
+  bool moved = false;
   for (JointId joint : checked_joints[static_cast<std::size_t>(c)])
-    if (label(joint) >= 0) joints.accept(joint);
-  if (rules.sudden != 1) statics.forget_uses(c);  // they count from another state now
+    if (label(joint) >= 0) moved = joints.accept(joint) || moved;
+  if (moved) references_moved(c);
   to_check[static_cast<std::size_t>(c)] = 0;
   account.finish(c, false, breaks);
   if (ductile.any(c)) ductile.base_is_answer(c);

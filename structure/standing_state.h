@@ -103,9 +103,17 @@ struct StandingFrame::State {
   void lay_contacts();
   [[nodiscard]] bool bears(int component) const;
   void bring_up_to_date();
+  /// The same in parts: none begins once the solver has spent so many operations in all. False: there is more to do.
+  [[nodiscard]] bool bring_up_to_date(double until);
+  [[nodiscard]] bool settle(int generations, double until);
+  void finish();
+  [[nodiscard]] std::size_t parts_leaving() const;
   void write_loads();
   [[nodiscard]] bool solve_changed();
   [[nodiscard]] std::optional<FrameMechanism> solve(int component);
+  [[nodiscard]] std::optional<FrameMechanism> solve_slow(int component);
+  void references_moved(int component);
+  [[nodiscard]] bool may_restrict(int component) const;
   [[nodiscard]] bool one_segment(int component) const;
   void complete();
   void complete(int component);
@@ -197,6 +205,10 @@ struct StandingFrame::State {
 
   std::vector<Change> queue;
   bool pending = false;
+  /// How far a settle() came that operations limit: contact loads are laid; what changed is applied, and what stands
+  /// is not solved for.
+  enum class Progress { none, laid, applied };
+  Progress progress = Progress::none;
   bool softened = false;  ///< stiffness factors changed since the last solve
   std::map<std::int64_t, ContactLoad> contacts;
   std::vector<char> in_mechanism;   ///< per member: it moves, and is about to leave

@@ -9,7 +9,7 @@ namespace topple::structure {
 
 double StandingFrame::State::Watch::read(JointId joint, const Vec6& demand) {
   if (!frame_.building[joint].capacity.breakable || !frame_.holds(joint) || frame_.label(joint) < 0) return 0;
-  frame_.joints.set_demand(joint, demand);
+  slow_ ? frame_.joints.set_slow_demand(joint, demand) : frame_.joints.set_demand(joint, demand);
   return frame_.joints.felt(joint).value;
 }
 
@@ -48,12 +48,13 @@ double StandingFrame::State::Watch::member_growth(MemberId member, const solver:
 
 /// Edge demands are linear in the corner forces: the sum of what each of their components can do.
 double StandingFrame::State::Watch::membrane_growth(PanelId membrane, const std::array<Vec6, 4>& root) {
+  const PanelEdges edges = panel_edges(frame_.building, membrane);
   std::array<Vec6, 4> most{Vec6::Zero(), Vec6::Zero(), Vec6::Zero(), Vec6::Zero()};
   for (std::size_t corner = 0; corner < 4; ++corner) {
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       std::array<Vec6, 4> force{Vec6::Zero(), Vec6::Zero(), Vec6::Zero(), Vec6::Zero()};
       force[corner](axis) = root[corner](axis);
-      const std::array<Vec6, 4> demands = membrane_edge_demands(frame_.building, membrane, force);
+      const std::array<Vec6, 4> demands = membrane_edge_demands(edges, force);
       for (std::size_t edge = 0; edge < 4; ++edge) most[edge] += demands[edge].cwiseAbs();
     }
   }

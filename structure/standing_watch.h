@@ -6,7 +6,8 @@ namespace topple::structure {
 
 class StandingFrame::State::Watch : public MemberWatch {
  public:
-  explicit Watch(State& frame) : frame_(frame) {}
+  /// `slow`: only what comes on slowly changed since the answer was whole.
+  explicit Watch(State& frame, bool slow = false) : frame_(frame), slow_(slow) {}
   double member_use(MemberId member, const solver::Vec12& end_forces) override;
   double membrane_use(PanelId membrane, const std::array<Vec6, 4>& corner_forces) override;
   double member_growth(MemberId member, const solver::Vec12& root) override;
@@ -17,6 +18,7 @@ class StandingFrame::State::Watch : public MemberWatch {
   [[nodiscard]] double growth(JointId joint, const Vec6& most) const;
 
   State& frame_;
+  bool slow_;
 };
 
 }  // namespace topple::structure

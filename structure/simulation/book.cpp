@@ -22,9 +22,9 @@ void Simulation::State::book() {
   resting.read(world->contacts(), obstacles, scenario.step,
                [&](collision::BodyId id) { return body(id) && !world->state(id).asleep; });
   shatter_landed();
-  const std::map<PanelId, PanelBlow> blows = blows_on_panels();
+  take_blows(blows_on_panels());
   break_up_landed();
-  crumble(blows);
+  crumble();
   keep_limit();  // some may have fallen asleep
   update_views();
 }
@@ -85,7 +85,7 @@ void Simulation::State::tell_changes(std::span<const std::int64_t> before) {
 }
 
 bool Simulation::State::rests() const {
-  return step > 0 && world->awake_count() == 0 && !frame->pending() && asked.empty() && touches.empty() &&
+  return step > 0 && world->awake_count() == 0 && !waits() && asked.empty() && touches.empty() &&
          next_instant() == unlimited;
 }
 

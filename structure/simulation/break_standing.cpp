@@ -164,6 +164,7 @@ void Simulation::State::crack_panels() {
 /// These chunks of a standing panel become bodies at rest; everybody hears of what remains. Returns the bodies of
 /// those that a hit broke out.
 std::vector<collision::BodyId> Simulation::State::break_standing(PanelId panel, std::vector<PanelChunk> chunks) {
+  spend_on_chunks(chunks.size());
   const BrokenPanel& left = broken_panels.at(panel);
   const Part part(panel);
   Vec3 sunk = Vec3::Zero();

@@ -2,7 +2,8 @@
 // most over first, and it falls apart into parts that move on as the whole did: momentum, linear and angular, and
 // kinetic energy go over exactly.
 //
-// One analysis answers for a body, however many members it has, and its factor is kept until the body breaks.
+// One analysis answers for a body, however many members it has. Blows that a budget leaves undone wait, in the order in
+// which they came.
 #include <algorithm>
 
 #include "simulation/first_failure.h"
@@ -19,6 +20,8 @@ namespace {
 constexpr double hard = 3;
 /// Joints within this share of the most used break together: symmetric ones differ by rounding only.
 constexpr double same_time = 1e-6;
+/// Operations, for budgets: to make a body of a part, with its shapes.
+constexpr double part_cost = 1.5e6;
 }  // namespace
 
 bool Simulation::State::holds_in_debris(JointId joint) const {
@@ -61,6 +64,10 @@ FreeSegmentParts Simulation::State::parts_of(const Body& one) const {
   return parts;
 }
 
+bool Simulation::State::spins_hard(const Body& one, const Vec3& spin) const {
+  return spin.squaredNorm() * (one.bounds.high - one.bounds.low).norm() / 2 > hard * building.gravity;
+}
+
 /// Bodies of several parts that contacts pushed hard, or that spin fast.
 std::vector<collision::BodyId> Simulation::State::hit_hard() {
   std::map<std::int64_t, double> force;  // sum over contacts of their size
@@ -79,24 +86,30 @@ std::vector<collision::BodyId> Simulation::State::hit_hard() {
   std::vector<collision::BodyId> hit;
   for (const auto& [id, size] : force) {
     const Body& one = bodies.at(id);
-    const double spin = world->state(one.id).angular_velocity.norm();
-    const double pull = spin * spin * (one.bounds.high - one.bounds.low).norm() / 2;
-    if (size > hard * one.rest.mass * building.gravity || pull > hard * building.gravity) hit.push_back({id});
+    if (size > hard * one.rest.mass * building.gravity || spins_hard(one, world->state(one.id).angular_velocity))
+      hit.push_back({id});
   }
   return hit;
 }
 
 /// What contacts did to these bodies in this step, in their own undeformed axes.
-std::map<std::int64_t, std::vector<FreePush>> Simulation::State::blows(const std::vector<collision::BodyId>& on) {
-  std::map<std::int64_t, std::vector<FreePush>> all;
+std::vector<Simulation::State::Blow> Simulation::State::blows(const std::vector<collision::BodyId>& on) const {
+  std::vector<Blow> all;
+  for (const collision::BodyId id : on) {
+    const collision::BodyState state = world->state(id);
+    const Mat3 back = state.pose.orientation.toRotationMatrix().transpose();
+    all.push_back({id, {}, back * state.angular_velocity, back * gravity, 0, step});
+  }
   const auto feel = [&](collision::BodyId id, std::int64_t tag, const Vec3& impulse, const Vec3& point) {
-    if (tag < 0 || impulse.isZero(0) || !std::binary_search(on.begin(), on.end(), id)) return;
-    const Body& one = bodies.at(id.value);
+    if (tag < 0 || impulse.isZero(0)) return;
+    const auto blow = std::lower_bound(all.begin(), all.end(), id,
+                                       [](const Blow& one, collision::BodyId wanted) { return one.on < wanted; });
+    if (blow == all.end() || blow->on != id) return;
     const collision::Pose pose = world->state(id).pose;
     const Mat3 back = pose.orientation.toRotationMatrix().transpose();
     const Part part = part_of_number(building, tag);
-    all[id.value].push_back(
-        {part.member, part.panel, one.rest.centre + back * (point - pose.position), back * impulse / scenario.step});
+    blow->pushes.push_back({part.member, part.panel, bodies.at(id.value).rest.centre + back * (point - pose.position),
+                            back * impulse / scenario.step});
   };
   for (const collision::Contact& contact : world->contacts()) {
     feel(contact.body, contact.part_tag, -contact.impulse, contact.point);
@@ -107,45 +120,73 @@ std::map<std::int64_t, std::vector<FreePush>> Simulation::State::blows(const std
 }
 
 void Simulation::State::break_up_landed() {
-  if (world->awake_count() == 0) return;
-  std::vector<collision::BodyId> hit = hit_hard();
-  if (hit.empty()) return;
-  std::map<std::int64_t, std::vector<FreePush>> pushes = blows(hit);
-  const int generations = generations_of(step, scenario.step, scenario.failure.generations_per_second);
-  for (int generation = 0; generation < generations && !hit.empty(); ++generation) {
-    std::vector<collision::BodyId> pieces;
-    for (const collision::BodyId id : hit)
-      for (const collision::BodyId piece : fall_apart(id, pushes[id.value], generation)) {
-        // The blow is that of the parts it fell on.
-        for (const FreePush& push : pushes[id.value]) {
-          const Body& own = bodies.at(piece.value);
-          const bool its = push.member.valid()
-                               ? std::binary_search(own.members.begin(), own.members.end(), push.member)
-                               : std::find(own.panels.begin(), own.panels.end(), push.panel) != own.panels.end();
-          if (its && piece != id) pushes[piece.value].push_back(push);
-        }
-        if (may_fall_apart(bodies.at(piece.value))) pieces.push_back(piece);
-      }
-    hit = std::move(pieces);
+  if (world->awake_count() > 0)
+    for (Blow& blow : blows(hit_hard())) take_blow(std::move(blow));
+  work_off_blows();
+}
+
+/// Of two blows on a body that waits for a budget, the harder one counts.
+void Simulation::State::take_blow(Blow blow) {
+  const auto waiting =
+      std::find_if(waiting_blows.begin(), waiting_blows.end(), [&](const Blow& other) { return other.on == blow.on; });
+  if (waiting == waiting_blows.end())
+    waiting_blows.push_back(std::move(blow));
+  else if (waiting->generation == 0 && !waiting->broke && blow.size() > waiting->size())
+    *waiting = std::move(blow);
+}
+
+/// One generation of each after the other, as far as the budget goes and generations of their step do.
+void Simulation::State::work_off_blows() {
+  while (!waiting_blows.empty()) {
+    const std::int64_t id = waiting_blows.front().on.value;
+    const Body* one = body({id});
+    if (one && !may_compute(Work::debris)) return;
+    Blow& first = waiting_blows.front();
+    const int generations = generations_of(first.step, scenario.step, scenario.failure.generations_per_second);
+    if (one && !first.broke && first.generation < generations) {
+      if (make_free_segment(*one) && !may_compute(Work::debris)) return;
+      first.broke = break_joints_of(first);
+    }
+    const bool comes_apart = one && first.broke;
+    if (comes_apart && !may_compute(Work::debris)) return;
+    const Blow blow = std::move(waiting_blows.front());
+    waiting_blows.pop_front();
+    if (comes_apart) hand_on(blow, come_apart(blow.on));
   }
 }
 
-/// One generation of a body's breaks. Returns what it is now: itself when joints broke and it still hangs together,
-/// nothing when nothing broke.
-std::vector<collision::BodyId> Simulation::State::fall_apart(collision::BodyId id, const std::vector<FreePush>& pushes,
-                                                             int generation) {
-  const Body& one = bodies.at(id.value);
-  const collision::BodyState state = world->state(id);
-  const Mat3 turn = state.pose.orientation.toRotationMatrix();
-  std::unique_ptr<FreeSegment>& segment = free_segments[id.value];
-  const auto holds = [&](JointId joint) { return holds_in_debris(joint); };
-  const FlyingEdges edges = [&](PanelId panel) { return flying_edges(panel); };
-  if (!segment)
-    segment = std::make_unique<FreeSegment>(
-        building, parts_of(one), holds, [&](PanelId shell) { return frame->shell_stiffness(shell); }, edges);
-  if (!segment->can_break()) return {};
-  const FreeSegment::Answer answer =
-      segment->bear(pushes, turn.transpose() * state.angular_velocity, turn.transpose() * gravity);
+/// The blow is that of the parts it fell on; all go on to spin as the whole did.
+void Simulation::State::hand_on(const Blow& blow, const std::vector<collision::BodyId>& pieces) {
+  for (const collision::BodyId id : pieces) {
+    const Body& own = bodies.at(id.value);
+    if (!may_fall_apart(own)) continue;
+    Blow part{id, {}, blow.spin, blow.gravity, blow.generation + 1, blow.step};
+    for (const FreePush& push : blow.pushes)
+      if (push.member.valid() ? std::binary_search(own.members.begin(), own.members.end(), push.member)
+                              : std::find(own.panels.begin(), own.panels.end(), push.panel) != own.panels.end())
+        part.pushes.push_back(push);
+    if (!part.pushes.empty() || spins_hard(own, blow.spin)) waiting_blows.push_back(std::move(part));
+  }
+}
+
+/// False when there is one.
+bool Simulation::State::make_free_segment(const Body& one) {
+  std::unique_ptr<FreeSegment>& segment = free_segments[one.id.value];
+  if (segment) return false;
+  segment = std::make_unique<FreeSegment>(
+      building, parts_of(one), [&](JointId joint) { return holds_in_debris(joint); },
+      [&](PanelId shell) { return frame->shell_stiffness(shell); }, [&](PanelId panel) { return flying_edges(panel); });
+  debris_operations += segment->take_operations();
+  return true;
+}
+
+/// One generation of a body's breaks. False when nothing broke.
+bool Simulation::State::break_joints_of(const Blow& blow) {
+  const Body& one = bodies.at(blow.on.value);
+  FreeSegment& segment = *free_segments.at(blow.on.value);
+  if (!segment.can_break()) return false;
+  const FreeSegment::Answer answer = segment.bear(blow.pushes, blow.spin, blow.gravity);
+  debris_operations += segment.take_operations();
   std::vector<std::pair<JointId, Utilisation>> over;
   double largest = 1;
   for (const auto& [joint, demand] : answer.demands) {
@@ -155,19 +196,45 @@ std::vector<collision::BodyId> Simulation::State::fall_apart(collision::BodyId i
     over.emplace_back(joint, used);
     largest = std::max(largest, used.value);
   }
-  if (over.empty()) return {};
-  for (const auto& [joint, used] : over) {
-    if (used.value < (1 - same_time) * largest) continue;
+  if (over.empty()) return false;
+  std::erase_if(over, [&](const auto& each) { return each.second.value < (1 - same_time) * largest; });
+  tell_broken_in_debris(one, over, blow.generation);
+  free_segments.erase(blow.on.value);
+  return true;
+}
+
+/// What it is now: itself when it still hangs together.
+std::vector<collision::BodyId> Simulation::State::come_apart(collision::BodyId id) {
+  const std::vector<FreeSegmentParts> parts = connected_parts(
+      building, parts_of(bodies.at(id.value)), [&](JointId joint) { return holds_in_debris(joint); },
+      [&](PanelId panel) { return flying_edges(panel); });
+  if (parts.size() == 1) return {id};
+  return split(id, parts);
+}
+
+void Simulation::State::tell_broken_in_debris(const Body& one,
+                                              const std::vector<std::pair<JointId, Utilisation>>& broken,
+                                              int generation) {
+  const collision::BodyState state = world->state(one.id);
+  const Mat3 turn = state.pose.orientation.toRotationMatrix();
+  for (const auto& [joint, used] : broken) {
     debris_broken[static_cast<std::size_t>(joint.index)] = 1;
     JointBreak line = impact_break(joint, used);
     line.generation = generation;
     line.position = state.pose.position + turn * (joint_position(joint) - one.rest.centre);
     tell(line);
   }
-  segment.reset();
-  const std::vector<FreeSegmentParts> parts = connected_parts(building, parts_of(one), holds, edges);
-  if (parts.size() == 1) return {id};
-  return split(id, parts);
+}
+
+/// One that waited on a body that fell apart for another reason.
+void Simulation::State::pass_on_blow(collision::BodyId from, const std::vector<collision::BodyId>& pieces) {
+  const auto waiting =
+      std::find_if(waiting_blows.begin(), waiting_blows.end(), [&](const Blow& blow) { return blow.on == from; });
+  if (waiting == waiting_blows.end()) return;
+  Blow blow = std::move(*waiting);
+  waiting_blows.erase(waiting);
+  --blow.generation;  // hand_on() counts one
+  hand_on(blow, pieces);
 }
 
 /// Replaces the body by its parts, each with the velocity of its centre in the whole.
@@ -179,7 +246,7 @@ std::vector<collision::BodyId> Simulation::State::split(collision::BodyId id,
   const Mat3 turn = state.pose.orientation.toRotationMatrix();
   (void)resting.forget(id, *frame, false);
   const std::vector<JointId> hung = take_off(id);
-  world->remove_body(id);
+  timer.engine([&] { world->remove_body(id); });
   bodies.erase(id.value);
   free_segments.erase(id.value);
 
@@ -230,8 +297,10 @@ std::vector<collision::BodyId> Simulation::State::split(collision::BodyId id,
     go_on(std::move(own));
   }
   const std::size_t parts_made = made.size();
+  debris_operations += part_cost * static_cast<double>(parts_made);
   for (Body& chunk : chunks) go_on(std::move(chunk));
   ledger.momentum_error = std::max(ledger.momentum_error, carried.error(handed_on));
+  pass_on_blow(id, made);
   hang_again(hung);
   // Parts are born inside each other where they were joined.
   for (std::size_t i = 0; i < parts_made; ++i)

@@ -80,6 +80,7 @@ std::vector<Body> Simulation::State::break_out_in_flight(PanelId panel, const Pa
   BrokenPanel& left = breaking(panel);
   const int before = left.chunks_out();
   std::vector<PanelChunk> chunks = left.hit(blow.at, blow.radius > 0 ? std::optional(blow.radius) : std::nullopt);
+  spend_on_chunks(chunks.size());
   if (chunks.empty()) return {};
   if (holding != left.held())
     for (PanelChunk& loose : left.hold(holding)) chunks.push_back(std::move(loose));
@@ -91,11 +92,20 @@ std::vector<Body> Simulation::State::break_out_in_flight(PanelId panel, const Pa
   return pieces;
 }
 
-void Simulation::State::crumble(const std::map<PanelId, PanelBlow>& blows) {
+void Simulation::State::take_blows(const std::map<PanelId, PanelBlow>& blows) {
+  for (const auto& [panel, blow] : blows)
+    if (PanelBlow& hardest = panel_blows[panel]; blow.force > hardest.force) hardest = blow;
+}
+
+void Simulation::State::crumble() {
   std::map<std::int64_t, std::vector<Body>> chunks;  // by the body that they leave
-  for (const auto& [panel, blow] : blows) {
+  while (!panel_blows.empty()) {
+    const auto [panel, blow] = *panel_blows.begin();
     const std::int64_t id = body_of_part[static_cast<std::size_t>(part_number(building, Part(panel)))];
-    if (!bodies.contains(id)) continue;
+    const bool flies = bodies.contains(id);
+    if (flies && !may_compute(Work::debris)) break;
+    panel_blows.erase(panel);
+    if (!flies) continue;
     // What lies frozen on it could not go with any one chunk.
     if (std::any_of(frozen.begin(), frozen.end(), [&](const Frozen& lying) { return lying.on == Part(panel); }))
       continue;

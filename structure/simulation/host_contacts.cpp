@@ -80,7 +80,9 @@ void Simulation::State::strike_by_host(const HostContact& contact, Part part, Ho
   };
   const Body& striking = bodies.at(id.value);
   const Kinetic before = kinetic_energy(striking, world->state(id), reading());
+  host_strikes = true;
   strike_all({touch});
+  host_strikes = false;
   const collision::BodyState after = now();
   const Kinetic left = kinetic_energy(striking, world->state(id), reading());
   body_work_put_in += before.translation + before.rotation - left.translation - left.rotation;

@@ -55,9 +55,9 @@ void Simulation::State::leave_weight(const MassProperties& rest) {
   freeze({weight});
 }
 
-void Simulation::State::part_is_gone(Part part) {
-  obstacles.remove(part, *world);
-  for (const collision::BodyId lying : resting.drop(part, *frame))
+void Simulation::State::parts_are_gone(std::span<const Part> parts) {
+  for (const Part& part : parts) timer.engine([&] { obstacles.remove(part, *world); });
+  for (const collision::BodyId lying : resting.drop(parts, *frame))
     if (bodies.contains(lying.value)) world->wake(lying);
 }
 
@@ -113,8 +113,9 @@ void Simulation::State::release(const Detached& part) {
   for (const NodeId node : part.nodes) displacement += frame->displacement(node).head<3>();
   if (!part.nodes.empty()) displacement /= static_cast<double>(part.nodes.size());
   if (displacement.norm() > largest_start) displacement *= largest_start / displacement.norm();
-  for (const MemberId member : part.members) part_is_gone(Part(member));
-  for (const PanelId panel : part.panels) part_is_gone(Part(panel));
+  std::vector<Part> gone(part.members.begin(), part.members.end());
+  for (const PanelId panel : part.panels) gone.emplace_back(panel);
+  parts_are_gone(gone);
 
   if (part.mechanism) tell(SimulationEvent::Kind::mechanism, one.name).mass = one.rest.mass;
   const bool small = one.volume < scenario.debris.smallest_volume;
@@ -236,7 +237,7 @@ collision::BodyId Simulation::State::add_body(Body one, const collision::BodySta
   description.angular_velocity = state.angular_velocity;
   description.friction = scenario.debris.friction;
   description.restitution = scenario.debris.restitution;
-  one.id = world->add_body(description);
+  one.id = timer.engine([&] { return world->add_body(description); });
   one.step_start = description.pose.position;
   for (const MemberId member : one.members) body_of_part[static_cast<std::size_t>(member.index)] = one.id.value;
   for (const PanelId panel : one.panels)
@@ -254,7 +255,7 @@ void Simulation::State::remove_body(collision::BodyId id, bool keep_weight) {
     if (of_part == id.value) of_part = -2;
   freeze(resting.forget(id, *frame, keep_weight));
   (void)take_off(id);
-  world->remove_body(id);
+  timer.engine([&] { world->remove_body(id); });
   free_segments.erase(id.value);
   cables.erase(id.value);
   bodies.erase(found);

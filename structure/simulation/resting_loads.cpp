@@ -113,10 +113,10 @@ bool RestingLoads::lay_one(const Key& key, Resting& resting, StandingFrame& fram
   return true;
 }
 
-std::vector<collision::BodyId> RestingLoads::drop(Part part, StandingFrame& frame) {
+std::vector<collision::BodyId> RestingLoads::drop(std::span<const Part> parts, StandingFrame& frame) {
   std::vector<collision::BodyId> bodies;
   for (auto entry = resting_.begin(); entry != resting_.end();) {
-    if (entry->first.part != part) {
+    if (std::find(parts.begin(), parts.end(), entry->first.part) == parts.end()) {
       ++entry;
       continue;
     }

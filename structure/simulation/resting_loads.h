@@ -18,8 +18,8 @@ class RestingLoads {
   /// Hands to the frame what changed beyond the band; returns how many changes the band ignored.
   template <class Weight>
   std::uint64_t lay(StandingFrame& frame, std::span<const double> strength_factors, const Weight& weight_of);
-  /// The part stands no more: its loads are dropped. Returns the bodies that lay on it.
-  std::vector<collision::BodyId> drop(Part part, StandingFrame& frame);
+  /// The parts stand no more: their loads are dropped. Returns the bodies that lay on them.
+  std::vector<collision::BodyId> drop(std::span<const Part> parts, StandingFrame& frame);
   /// The bodies that lie on a part.
   [[nodiscard]] std::vector<collision::BodyId> on(Part part) const;
   /// What lies on a part for good.

@@ -83,6 +83,7 @@ std::vector<collision::BodyId> Simulation::State::shatter(collision::BodyId id, 
                                        : break_panel(building, panel, one.rest.mass, shapes.corners(panel), at, radius,
                                                      *breakable_panels[static_cast<std::size_t>(panel.index)].settings);
   out = 0;
+  spend_on_chunks(chunks.size());
   if (chunks.empty()) return {};
   tell(SimulationEvent::Kind::panel_fractured, building[panel].name).position = point;
   (void)resting.forget(id, *frame, false);
@@ -167,14 +168,12 @@ void Simulation::State::shatter_struck(collision::BodyId id) {
   }
 }
 
-/// Panels that came down hard in this step.
+/// Panels that came down hard in this step, and those that a budget made wait.
 void Simulation::State::shatter_landed() {
   if (!any_breakable) return;
   std::vector<std::int64_t> awake;  // few: most bodies of a collapse are chunks
   for (const auto& [id, one] : bodies)
     if (!one.asleep && breakable_of(one).valid()) awake.push_back(id);
-  if (awake.empty()) return;
-  std::map<std::int64_t, std::pair<double, Vec3>> blows;  // the hardest of each body: change of speed and place
   const auto feel = [&](collision::BodyId id, const collision::Contact& contact) {
     if (!std::binary_search(awake.begin(), awake.end(), id.value)) return;
     const Body* one = body(id);
@@ -184,18 +183,27 @@ void Simulation::State::shatter_landed() {
     const double change = std::abs(contact.impulse.dot(contact.normal)) / mass;
     const PanelId panel = one->panels.front();
     if (change < breakable_panels[static_cast<std::size_t>(panel.index)].breaking_speed) return;
-    auto& hardest = blows.try_emplace(id.value, 0.0, Vec3::Zero()).first->second;
-    if (change > hardest.first) hardest = {change, contact.point};
+    Landing& hardest = landings[id.value];
+    if (change > hardest.speed)
+      hardest = {change, state.pose.orientation.conjugate() * (contact.point - state.pose.position)};
   };
-  for (const collision::Contact& contact : world->contacts()) {
-    feel(contact.body, contact);
-    if (contact.other.kind == collision::Touched::Kind::body) feel(contact.other.body, contact);
+  if (!awake.empty())
+    for (const collision::Contact& contact : world->contacts()) {
+      feel(contact.body, contact);
+      if (contact.other.kind == collision::Touched::Kind::body) feel(contact.other.body, contact);
+    }
+  bool any = false;
+  while (!landings.empty()) {
+    const auto [id, landing] = *landings.begin();
+    if (bodies.contains(id)) {
+      if (!may_compute(Work::debris)) break;
+      std::size_t out = 0;
+      (void)shatter({id}, world->state({id}).pose * landing.at, std::nullopt, out);
+      any = true;
+    }
+    landings.erase(id);
   }
-  for (const auto& [id, blow] : blows) {
-    std::size_t out = 0;
-    (void)shatter({id}, blow.second, std::nullopt, out);
-  }
-  if (!blows.empty()) keep_limit();
+  if (any) keep_limit();
 }
 
 }  // namespace topple::structure

@@ -20,10 +20,12 @@ void Simulation::step() {
   if (s.nothing_to_do()) {
     ++s.counters.steps_idle;
   } else {
+    s.begin_budget();
     const auto timed = [&](Stage stage, const auto& work) {
       return s.timer.stage(static_cast<std::size_t>(stage), work);
     };
     timed(Stage::load, [&] { s.use_tools(); });
+    timed(Stage::break_, [&] { s.work_off_blows(); });
     const auto contacts = timed(Stage::sense, [&] { return s.sense(); });
     timed(Stage::load, [&] { s.load(); });
     timed(Stage::break_, [&] {
@@ -76,13 +78,13 @@ Simulation::State::State(Building the_building, Scenario the_scenario, Simulatio
       stiffness_factors(building.members.size(), 1.0) {
   find_breakable_panels();
   open_panels();
-  operations_booked = frame->counters().operations;
+  operations_booked = operations();
   world->set_gravity(gravity);
   world->set_ground(ground_height(building, scenario), scenario.debris.friction, scenario.debris.restitution);
 }
 
 bool Simulation::State::nothing_to_do() const {
-  if (step <= 1 || !asked.empty() || !touches.empty() || frame->pending() || world->awake_count() > 0) return false;
+  if (step <= 1 || !asked.empty() || !touches.empty() || waits() || world->awake_count() > 0) return false;
   const double next = next_instant();
   return next == unlimited || step_of(next, scenario.step) > step;
 }
@@ -146,8 +148,7 @@ std::int64_t Simulation::skip_idle() {
 std::int64_t Simulation::skip_idle_before(std::int64_t end) {
   State& s = *state_;
   std::int64_t passed = 0;
-  if (s.step < 1 || !s.asked.empty() || !s.touches.empty() || s.frame->pending() || s.world->awake_count() > 0)
-    return 0;
+  if (s.step < 1 || !s.asked.empty() || !s.touches.empty() || s.waits() || s.world->awake_count() > 0) return 0;
   const double instant = s.next_instant();
   const std::int64_t next = instant < unlimited ? std::min(end, step_of(instant, s.scenario.step)) : end;
   passed = std::max<std::int64_t>(0, next - 1 - s.step);
@@ -231,6 +232,7 @@ const SimulationCounters& Simulation::counters() const {
   counters.restricted = frame.restricted;
   counters.background_factors = frame.background_factors;
   counters.late_factors = frame.late_factors;
+  counters.operations = state_->operations();
   return counters;
 }
 

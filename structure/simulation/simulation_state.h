@@ -1,5 +1,6 @@
 #pragma once
 // What a Simulation is made of, and its stages. Each stage has a file of its own.
+#include <deque>
 #include <map>
 
 #include "simulation/body.h"
@@ -76,9 +77,15 @@ struct Simulation::State {
   void break_generations();
 
   // operations_budget.cpp
-  [[nodiscard]] double operations_beyond_budget() const;
-  [[nodiscard]] bool may_compute();
-  [[nodiscard]] bool may_push() const;
+  /// What takes operations, in the order of a step.
+  enum class Work { blows, generations, debris };
+  [[nodiscard]] double operations() const { return frame->counters().operations + debris_operations; }
+  [[nodiscard]] double operations_left(Work work) const;
+  void begin_budget();
+  [[nodiscard]] bool may_compute(Work work);
+  /// Blows end where something breaks, to go on when it is solved for.
+  [[nodiscard]] bool blows_wait() const { return scenario.operations_budget && !host_strikes; }
+  void spend_on_chunks(std::size_t count);
   void hold_back(collision::BodyId id, collision::BodyState at);
   void let_go_held_back();
 
@@ -93,7 +100,8 @@ struct Simulation::State {
   // release.cpp: what left the frame becomes bodies.
   void release();
   void release(const Detached& part);
-  void part_is_gone(Part part);
+  void parts_are_gone(std::span<const Part> parts);
+  void part_is_gone(Part part) { parts_are_gone({&part, 1}); }
   [[nodiscard]] Body describe(const Detached& part) const;
   collision::BodyId add_body(Body body, const Vec3& velocity, const Vec3& spin, const Vec3& displacement);
   void knock(const Body& body, Vec3& velocity, Vec3& spin);
@@ -141,6 +149,11 @@ struct Simulation::State {
   void push_whole(collision::BodyId id);
   void shatter_struck(collision::BodyId id);
   void shatter_landed();
+  /// The hardest blow on a panel that came down: change of speed, m/s, and where, in the body's axes from its centre.
+  struct Landing {
+    double speed = 0;
+    Vec3 at = Vec3::Zero();
+  };
 
   // crumble.cpp: panels of bodies with other parts break where these come down hard on them.
   struct PanelBlow {
@@ -149,7 +162,8 @@ struct Simulation::State {
     double radius = 0;       ///< of the ball that hit it
   };
   [[nodiscard]] std::map<PanelId, PanelBlow> blows_on_panels() const;
-  void crumble(const std::map<PanelId, PanelBlow>& blows);
+  void take_blows(const std::map<PanelId, PanelBlow>& blows);
+  void crumble();
   std::vector<Body> break_out_in_flight(PanelId panel, const PanelBlow& blow);
   [[nodiscard]] std::array<bool, 4> held_in_flight(PanelId panel, const Body& one) const;
 
@@ -177,10 +191,33 @@ struct Simulation::State {
   void open_panels();
 
   // break_up.cpp: bodies of several members that are hit hard fall apart.
+  /// What a step's contacts, its spin and gravity do to a body, in the axes of the undeformed building.
+  struct Blow {
+    collision::BodyId on;
+    std::vector<FreePush> pushes;
+    Vec3 spin, gravity;
+    int generation = 0;     ///< of its breaks, so far
+    std::int64_t step = 0;  ///< in which it fell
+    bool broke = false;     ///< joints of it, so that the body is to come apart
+    [[nodiscard]] double size() const {
+      double sum = 0;
+      for (const FreePush& push : pushes) sum += push.force.norm();
+      return sum;
+    }
+  };
   void break_up_landed();
   [[nodiscard]] std::vector<collision::BodyId> hit_hard();
-  [[nodiscard]] std::map<std::int64_t, std::vector<FreePush>> blows(const std::vector<collision::BodyId>& on);
-  std::vector<collision::BodyId> fall_apart(collision::BodyId id, const std::vector<FreePush>& pushes, int generation);
+  [[nodiscard]] bool spins_hard(const Body& one, const Vec3& spin) const;
+  [[nodiscard]] std::vector<Blow> blows(const std::vector<collision::BodyId>& on) const;
+  void take_blow(Blow blow);
+  void work_off_blows();
+  void hand_on(const Blow& blow, const std::vector<collision::BodyId>& pieces);
+  void pass_on_blow(collision::BodyId from, const std::vector<collision::BodyId>& pieces);
+  bool make_free_segment(const Body& one);
+  bool break_joints_of(const Blow& blow);
+  std::vector<collision::BodyId> come_apart(collision::BodyId id);
+  void tell_broken_in_debris(const Body& one, const std::vector<std::pair<JointId, Utilisation>>& broken,
+                             int generation);
   /// `chunks`: of panels that broke out of it, which move on with it.
   std::vector<collision::BodyId> split(collision::BodyId id, const std::vector<FreeSegmentParts>& parts,
                                        std::vector<Body> chunks = {});
@@ -215,6 +252,10 @@ struct Simulation::State {
 
   // Small things.
   [[nodiscard]] bool nothing_to_do() const;
+  /// Breaks are still to come, of what stands or of debris.
+  [[nodiscard]] bool waits() const {
+    return frame->pending() || !waiting_blows.empty() || !landings.empty() || !panel_blows.empty();
+  }
   /// When the next event or stage acts; unlimited when none is to come.
   [[nodiscard]] double next_instant() const;
   [[nodiscard]] bool finished() const;
@@ -262,6 +303,10 @@ struct Simulation::State {
 
   std::vector<char> debris_broken;                                     ///< per joint: broke after it had left the frame
   std::map<std::int64_t, std::unique_ptr<FreeSegment>> free_segments;  ///< by body, made when it is first hit hard
+  // What a step, or a budget in earlier ones, left to do.
+  std::deque<Blow> waiting_blows;            ///< one for each body
+  std::map<std::int64_t, Landing> landings;  ///< by body: it is one panel
+  std::map<PanelId, PanelBlow> panel_blows;  ///< on panels of bodies with other parts
 
   std::vector<Knock> knocks;
   /// Where in this step a body that has struck something stands in time: see strike.cpp.
@@ -274,6 +319,7 @@ struct Simulation::State {
   struct HeldBack {
     Vec3 velocity, angular_velocity;  ///< with which it goes on, as the world reads them
   };
+  bool host_strikes = false;                   ///< bodies of the host do not wait
   std::map<std::int64_t, HeldBack> held_back;  ///< bodies whose blows wait for the next step
 
   std::int64_t step = 0;
@@ -304,7 +350,14 @@ struct Simulation::State {
   SimulationCounters counters;
   collision::OverlapWatch overlap_watch;
   BodyOverlaps overlaps;
-  double operations_booked = 0, operations_owed = 0;  ///< of the solver: counted so far, spent beyond the budget
+  double debris_operations = 0;                       ///< of free segments and of panels that break, so far
+  double operations_booked = 0, operations_owed = 0;  ///< counted when the step began; spent beyond the budget by then
+  std::int64_t budget_step = 0;                       ///< that began last
+  struct Turn {
+    std::int64_t waits_since = -1;  ///< step in which the budget refused it
+    std::int64_t asked = -1;        ///< step in which it was asked for last
+  };
+  std::array<Turn, 3> turns;  ///< per kind of work
   StageTimer timer;
   std::vector<BodyView> views;
   std::vector<double> poses;

@@ -37,6 +37,8 @@ std::vector<const collision::Contact*> at_one_instant(std::span<const collision:
 }  // namespace
 
 void Simulation::State::load() {
+  // What a budget cut short goes on under the loads that it began with: others would take its place in every step.
+  if (scenario.operations_budget && frame->pending()) return;
   counters.contacts_ignored += resting.lay(*frame, strength_factors, [&](collision::BodyId id) {
     const Body* one = body(id);
     return one ? one->rest.mass * gravity.norm() : 0.0;
@@ -65,7 +67,7 @@ void Simulation::State::strike_all(const std::vector<collision::Contact>& contac
 void Simulation::State::strike(const collision::Contact& contact) {
   std::optional<Strike> hit = aim(contact);
   if (!hit) return;
-  if (!may_push()) {
+  if (!may_compute(Work::blows)) {
     if (pushes_on(*hit)) hit->body->pushed_in_step = step;
     return hold_back(hit->body->id, hit->state);
   }
@@ -167,7 +169,7 @@ void Simulation::State::push_in(Strike& hit) {
   // A fast blow goes through whatever the joints bear.
   if (const double left = speed_through(hit, punching); left > 0) {
     if (punch_at_once(hit, punching, left)) return tell_loss(hit);
-  } else if (bears(hit, weight, punching)) {
+  } else if (!pushes_on(hit) && bears(hit, weight, punching)) {
     return tell_loss(hit);
   }
   StandingFrame::UnitResponse response = frame->respond(hit.place, hit.normal);
@@ -192,10 +194,14 @@ void Simulation::State::push_in(Strike& hit) {
       continue;
     }
     const double stored = pushing.stored(response.compliance);
-    const double shift = frame->break_in_impact(first.joints, hit.place, hit.normal);
+    double shift = 0;
+    if (blows_wait())
+      frame->begin_break_in_impact(first.joints);
+    else
+      shift = frame->break_in_impact(first.joints, hit.place, hit.normal);
     hit.through = !stands(hit.part);
     const bool slips = std::abs(shift) > largest_shift;
-    hit.waits = !hit.through && !slips && !may_push();
+    hit.waits = !hit.through && !slips && blows_wait();
     const bool ends = hit.through || slips || hit.waits;
     if (!ends) {
       pushing.shift(shift);
@@ -284,16 +290,16 @@ void Simulation::State::check_momentum(const Strike& hit, std::span<const PointI
 }
 
 void Simulation::State::break_generations() {
-  if (!may_compute() || (!frame->pending() && step > 1)) return;
+  if ((!frame->pending() && step > 1) || !may_compute(Work::generations)) return;
   const int generations = generations_of(step, scenario.step, scenario.failure.generations_per_second);
-  const std::vector<JointBreak> breaks = frame->settle(generations, scenario.operations_budget.value_or(unlimited));
+  const std::vector<JointBreak> breaks = frame->settle(generations, operations_left(Work::generations));
   for (const JointBreak& line : frame->take_yielded()) {
     SimulationEvent& event = tell(SimulationEvent::Kind::joint_yielded, building[line.joint].name);
     event.joint = line;
     event.position = line.position;
   }
   for (const JointBreak& broken : breaks) tell(broken);
-  crack_panels();
+  if (!frame->answering()) crack_panels();
 }
 
 }  // namespace topple::structure

@@ -143,7 +143,7 @@ bool Simulation::State::strike_together(std::span<const collision::Contact* cons
     pushed.hits.push_back(std::move(*hit));
   }
   std::vector<Strike>& hits = pushed.hits;
-  if (hits.size() < 2 || !may_push()) return false;
+  if (hits.size() < 2 || !may_compute(Work::blows)) return false;
   for (Strike& hit : hits) {
     hit.state = hits.front().state;
     hit.own_time = hits.front().own_time;
@@ -192,7 +192,11 @@ void Simulation::State::push_in(JointPush& pushed) {
     }
     const std::vector<JointBreak> breaks = watched.failing(push.force());
     const double stored = push.stored();
-    const Eigen::VectorXd shift = frame->break_in_impact(breaks, pushed.places, pushed.normals);
+    Eigen::VectorXd shift = Eigen::VectorXd::Zero(std::ssize(pushed.places));
+    if (blows_wait())
+      frame->begin_break_in_impact(breaks);
+    else
+      shift = frame->break_in_impact(breaks, pushed.places, pushed.normals);
     bool stays = false, slips = false;
     for (std::size_t i = 0; i < pushed.hits.size(); ++i) {
       Strike& hit = pushed.hits[i];
@@ -201,7 +205,7 @@ void Simulation::State::push_in(JointPush& pushed) {
       stays = stays || push.touches(i);
       slips = slips || std::abs(shift(static_cast<Eigen::Index>(i))) > largest_shift;
     }
-    const bool waits = stays && !slips && !may_push();
+    const bool waits = stays && !slips && blows_wait();
     const bool ends = !stays || slips || waits;
     if (!ends) go_on(pushed, shift);
     const double freed = ends ? stored : std::max(0.0, stored - push.stored());

@@ -189,6 +189,47 @@ TEST_CASE("a blow that a budget cuts in two waits where it touches and goes on w
   }
 }
 
+TEST_CASE("no step takes more than its budget by more than one answer, debris that breaks up included") {
+  struct Spent {
+    double most = 0, sum = 0;
+    std::size_t broken = 0, splits = 0;
+  };
+  const auto collapse = [](std::optional<double> budget) {
+    FrameBuilder f = grid_building(4, 3, 3, 5, 3, same_capacity(4e5), same_capacity(6e4));
+    for (std::size_t m = 0; m < f.building.members.size(); ++m) f.load(MemberId(m), -4000);
+    RemoveTool corner;
+    corner.members = {MemberId(0u), MemberId(1u), MemberId(4u)};
+    Scenario scenario = scenario_with({{0.5, corner}}, 6);
+    scenario.operations_budget = budget;
+    Simulation simulation(f.building, std::move(scenario));
+    simulation.step();
+    Spent spent;
+    double before = simulation.counters().operations, owed = 0;
+    while (!simulation.finished()) {
+      simulation.step();
+      const double now = simulation.counters().operations, step = now - before;
+      before = now;
+      spent.sum += step;
+      spent.most = std::max(spent.most, step);
+      if (!budget) continue;
+      if (owed >= *budget) CHECK(step == 0);  // it pays for what was spent
+      owed = std::max(0.0, owed + step - *budget);
+    }
+    spent.broken = of_kind(simulation, SimulationEvent::Kind::joint_broke).size();
+    spent.splits = of_kind(simulation, SimulationEvent::Kind::split).size();
+    CHECK(simulation.ledger().momentum_error < 1e-10);
+    CHECK(std::abs(simulation.ledger().residual()) < 0.01);
+    return spent;
+  };
+  const Spent free = collapse(std::nullopt);
+  REQUIRE(free.broken > 20);
+  REQUIRE(free.splits > 0);
+  const Spent tight = collapse(free.most / 20);
+  CHECK(tight.broken > free.broken / 2);
+  CHECK(tight.splits > 0);
+  CHECK(tight.most < free.most);
+}
+
 TEST_CASE("charges go off in the order of their delays") {
   FrameBuilder f = cantilevers();
   for (Joint& joint : f.building.joints) joint.capacity = same_capacity(1e6);

@@ -98,6 +98,9 @@ class Reanalysis {
 
   /// Brings the answer up to date. A mechanism is an answer (stable == false), not an exception.
   [[nodiscard]] const ReanalysisAnswer& solve();
+  /// The first part of it: takes the changes over and brings the factor up to date. The answer stays the last one until
+  /// solve() goes on from here, to the same bits as without. False: the structure is a mechanism, as solve() will tell.
+  bool prepare();
 
   /// The same, brought up to date only where the watch's uses may matter: no use that was not read anew lies above
   /// (1 - margin) max(1, the largest use). Nothing else may be concluded about what was left out; asking for its
@@ -109,6 +112,8 @@ class Reanalysis {
   void complete(UseWatch* watch = nullptr);
   /// To be called when capacities changed: the next solve(watch) reads everything again.
   void forget_uses();
+  /// The same when only what uses are counted from changed: what they can grow by is still known.
+  void forget_references();
   /// These beams will be removed one at a time, each restored before the next, with the loads as they are: the factor
   /// is gone through once for all of them (a dozen or two at a time serve best), and each answer then only checks, and
   /// refines if it must, what was found for it. No effect when anything is removed or broken now; whatever happens

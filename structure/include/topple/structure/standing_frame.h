@@ -172,9 +172,12 @@ class StandingFrame {
   [[nodiscard]] bool pending() const;
   /// Brings the state up to date: solve, break what is over capacity (one generation after the other, at most
   /// `generations` of them), sudden loss and bracing by the rules, mechanisms released. Returns what broke, in order;
-  /// pending() stays true when the limit cut it short. `operations`: no further generation begins once the solver has
-  /// spent so many.
+  /// pending() stays true when the limit cut it short. `operations`: nothing further begins once the solver has spent
+  /// so many, neither a generation nor the next part of bringing the state up to date.
   std::vector<JointBreak> settle(int generations, double operations = unlimited);
+  /// Operations cut a settle() short where what broke is not solved for: the statics are those of before, until the
+  /// next settle() goes on there.
+  [[nodiscard]] bool answering() const;
   /// Joints whose moment or torsion came to its capacity, and that have turned since, as they did; each sense of a
   /// joint once. Handed out once.
   std::vector<JointBreak> take_yielded();
@@ -215,6 +218,9 @@ class StandingFrame {
   /// The same where several places are pushed at once: the shift of each.
   Eigen::VectorXd break_in_impact(std::span<const JointBreak> breaks, std::span<const ContactPlace> places,
                                   std::span<const Vec3> directions);
+
+  /// The same in as far as it takes no solving, which is left to the next settle(): answering() is true until then.
+  void begin_break_in_impact(std::span<const JointBreak> breaks);
 
   /// A standing panel is broken in part, now: it hands on what remains of its weight by where that lies, its edge
   /// joints bear over what remains of their length (told as broken by the next settle() when nothing does), and it
