@@ -52,17 +52,34 @@ void Simulation::State::book_body(Body& one) {
   }
 }
 
+/// In most steps no body came and none went: their views are written over.
 void Simulation::State::update_views() {
   std::vector<std::int64_t> before;
   before.reserve(views.size());
   for (const BodyView& view : views) before.push_back(view.id.value);
-  views.clear();
+  const bool same = std::equal(before.begin(), before.end(), bodies.begin(), bodies.end(),
+                               [](std::int64_t id, const auto& entry) { return id == entry.first; });
+  if (!same) {
+    views.clear();
+    for (const auto& [id, one] : bodies) views.emplace_back().mesh = one.mesh;
+  }
   poses.clear();
+  auto view = views.begin();
   for (const auto& [id, one] : bodies) {
     const collision::BodyState state = world->state(one.id);
-    views.push_back({one.id, one.name, state.pose, one.rest.centre, one.rest.mass, one.radius, state.asleep,
-                     one.members, one.panels, one.mesh, one.chunk_of, std::nullopt});
-    if (const auto hung = cables.find(id); hung != cables.end()) views.back().cable_anchor = hung->second.anchor;
+    view->id = one.id;
+    view->name = one.name;
+    view->pose = state.pose;
+    view->rest_centre = one.rest.centre;
+    view->mass = one.rest.mass;
+    view->radius = one.radius;
+    view->asleep = state.asleep;
+    view->members = one.members;
+    view->panels = one.panels;
+    view->chunk_of = one.chunk_of;
+    const auto hung = cables.find(id);
+    view->cable_anchor = hung != cables.end() ? std::optional(hung->second.anchor) : std::nullopt;
+    ++view;
     const Vec3& at = state.pose.position;
     const Eigen::Vector4d turn = state.pose.orientation.coeffs();
     poses.insert(poses.end(), {at.x(), at.y(), at.z(), turn[0], turn[1], turn[2], turn[3]});
