@@ -1,7 +1,11 @@
 #pragma once
 // The superelements of a standing frame's panels: of its shells and of membranes with
 // openings from the start, of other membranes once they are broken.
+#include <array>
+#include <cmath>
+#include <cstdint>
 #include <memory>
+#include <set>
 #include <stdexcept>
 
 #include "panel_superelement.h"
@@ -26,6 +30,16 @@ class PanelSuperelements {
   /// Null for a panel that is one element, or none.
   [[nodiscard]] PanelSuperelement* of(PanelId panel) const {
     return of_panel_[static_cast<std::size_t>(panel.index)].get();
+  }
+  /// Finds the operators of a whole membrane's elements, which is most of what the first break of its shape would take.
+  void know(PanelId panel) {
+    const Panel& own = building_[panel];
+    const auto corner = [&](std::size_t n) { return building_[own.nodes[n]].position; };
+    std::array<std::int64_t, 8> shape{own.material.index, std::llround(1e9 * own.thickness)};
+    for (std::size_t n = 0; n < 4; ++n) shape[2 + n] = std::llround(1e6 * (corner((n + 1) % 4) - corner(n)).norm());
+    shape[6] = std::llround(1e6 * (corner(2) - corner(0)).norm());
+    shape[7] = std::llround(1e6 * (corner(3) - corner(1)).norm());
+    if (!of(panel) && known_.insert(shape).second) (void)PanelSuperelement(building_, panel, operators_);
   }
   PanelSuperelement& make(PanelId panel) {
     auto& own = of_panel_[static_cast<std::size_t>(panel.index)];
@@ -53,6 +67,7 @@ class PanelSuperelements {
   const Building& building_;
   std::shared_ptr<ShellOperators> operators_ = std::make_shared<ShellOperators>();
   std::vector<std::unique_ptr<PanelSuperelement>> of_panel_;
+  std::set<std::array<std::int64_t, 8>> known_;  ///< shapes: material, thickness, edges and diagonals
 };
 
 }  // namespace topple::structure

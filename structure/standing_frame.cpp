@@ -398,6 +398,10 @@ void StandingFrame::begin_break_in_impact(std::span<const JointBreak> breaks) {
   state.pending = true;
 }
 
+void StandingFrame::expect_fracture(PanelId panel) {
+  if (state_->bearings.membrane(panel)) state_->shells.know(panel);
+}
+
 void StandingFrame::fracture(PanelId panel, const PanelRemains& remains) {
   State& state = *state_;
   if (!state.stands(panel)) return;

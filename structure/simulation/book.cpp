@@ -59,10 +59,7 @@ void Simulation::State::update_views() {
   for (const BodyView& view : views) before.push_back(view.id.value);
   const bool same = std::equal(before.begin(), before.end(), bodies.begin(), bodies.end(),
                                [](std::int64_t id, const auto& entry) { return id == entry.first; });
-  if (!same) {
-    views.clear();
-    for (const auto& [id, one] : bodies) views.emplace_back().mesh = one.mesh;
-  }
+  if (!same) views.assign(bodies.size(), {});
   poses.clear();
   auto view = views.begin();
   for (const auto& [id, one] : bodies) {
@@ -76,6 +73,7 @@ void Simulation::State::update_views() {
     view->asleep = state.asleep;
     view->members = one.members;
     view->panels = one.panels;
+    if (view->chunk != one.mesh) view->chunk = one.mesh;
     view->chunk_of = one.chunk_of;
     const auto hung = cables.find(id);
     view->cable_anchor = hung != cables.end() ? std::optional(hung->second.anchor) : std::nullopt;

@@ -27,6 +27,7 @@ void Simulation::State::find_breakable_panels() {
                          "\" of this material can break (fracture)");
       breakable.settings = *settings;
       any_breakable = true;
+      frame->expect_fracture(PanelId(i));
       // Every panel has a pattern of its own (splitmix64's increment keeps their seeds far apart).
       breakable.settings->seed = scenario.seed + (i + 1) * 0x9e3779b97f4a7c15u;
       const double density =

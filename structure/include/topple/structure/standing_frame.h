@@ -222,6 +222,8 @@ class StandingFrame {
   /// The same in as far as it takes no solving, which is left to the next settle(): answering() is true until then.
   void begin_break_in_impact(std::span<const JointBreak> breaks);
 
+  /// This panel may be broken in part later: what all panels of its shape have in common is found now.
+  void expect_fracture(PanelId panel);
   /// A standing panel is broken in part, now: it hands on what remains of its weight by where that lies, its edge
   /// joints bear over what remains of their length (told as broken by the next settle() when nothing does), and it
   /// is as stiff as what remains. Holes are all since it was whole.
