@@ -231,34 +231,75 @@ std::vector<std::pair<int, Vec12>> fixed_end_of(const LoadSet& loads, const Load
 
 }  // namespace
 
-Reanalysis::Response Reanalysis::respond(const LoadSet& loads) const {
-  const State& state = *state_;
-  const LoadVector load = state.force_on_standing(loads);
-  Response response;
-  const Eigen::VectorXd u = state.solve_sparse(load.force, response.backward_error);
-  state_->count_response(1);
-  response.displacements = state.system->node_displacements(u, load.held_displacement);
-  response.fixed_end = fixed_end_of(loads, load);
-  return response;
-}
+Reanalysis::Response Reanalysis::respond(const LoadSet& loads) const { return std::move(respond({&loads, 1}).front()); }
 
 Reanalysis::Response Reanalysis::respond_near(const LoadSet& loads, std::vector<char>& known) const {
+  return std::move(respond_near({&loads, 1}, known).front());
+}
+
+namespace {
+
+/// What further columns of a response cost, beside the first: the factor is read once.
+constexpr double further_column = 0.3;
+
+double cost_of(std::size_t columns) { return 1 + further_column * (static_cast<double>(columns) - 1); }
+
+}  // namespace
+
+Eigen::MatrixXd Reanalysis::State::forces_on_standing(std::span<const LoadSet> loads,
+                                                      std::vector<LoadVector>& own) const {
+  Eigen::MatrixXd forces;
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    own.push_back(force_on_standing(loads[i]));
+    if (i == 0) forces.resize(own[0].force.size(), static_cast<Eigen::Index>(loads.size()));
+    forces.col(static_cast<Eigen::Index>(i)) = own[i].force;
+  }
+  return forces;
+}
+
+std::vector<Reanalysis::Response> Reanalysis::respond(std::span<const LoadSet> loads) const {
   const State& state = *state_;
-  const LoadVector load = state.force_on_standing(loads);
+  if (loads.empty()) return {};
+  std::vector<LoadVector> own;
+  std::vector<double> errors;
+  const Eigen::MatrixXd u = state.solve_sparse(state.forces_on_standing(loads, own), errors);
+  state_->count_response(cost_of(loads.size()));
+  std::vector<Response> responses(loads.size());
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    responses[i].displacements =
+        state.system->node_displacements(u.col(static_cast<Eigen::Index>(i)), own[i].held_displacement);
+    responses[i].fixed_end = fixed_end_of(loads[i], own[i]);
+    responses[i].backward_error = errors[i];
+  }
+  return responses;
+}
+
+std::vector<Reanalysis::Response> Reanalysis::respond_near(std::span<const LoadSet> loads,
+                                                           std::vector<char>& known) const {
+  const State& state = *state_;
+  if (loads.empty()) return {};
+  std::vector<LoadVector> own;
   std::vector<char> equation_known;
-  Response response;
-  const Eigen::VectorXd u = state.solve_on_paths(load.force, equation_known);
-  state_->count_response(0.5);  // the paths are about half of it
-  response.displacements = state.system->node_displacements(u, load.held_displacement);
-  response.fixed_end = fixed_end_of(loads, load);
+  std::vector<int> ends;
+  for (const LoadSet& set : loads)
+    for (const BeamLoad& load : set.beams)
+      for (const int node : model().beams[static_cast<std::size_t>(load.beam)].node) ends.push_back(node);
+  const Eigen::MatrixXd u = state.solve_on_paths(state.forces_on_standing(loads, own), ends, equation_known);
+  state_->count_response(0.5 * cost_of(loads.size()));  // the paths are about half of it
   const DofMap& dofs = state.system->dofs();
-  known.assign(response.displacements.size(), 1);
-  for (std::size_t n = 0; n < known.size(); ++n) {
+  known.assign(state.system->model.nodes.size(), 1);
+  for (std::size_t n = 0; n < known.size(); ++n)
     for (const int number : dofs.number[n])
       if (number < dofs.equations && equation_known[static_cast<std::size_t>(number)] == 0) known[n] = 0;
-    if (known[n] == 0) response.displacements[n].setZero();
+  std::vector<Response> responses(loads.size());
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    responses[i].displacements =
+        state.system->node_displacements(u.col(static_cast<Eigen::Index>(i)), own[i].held_displacement);
+    responses[i].fixed_end = fixed_end_of(loads[i], own[i]);
+    for (std::size_t n = 0; n < known.size(); ++n)
+      if (known[n] == 0) responses[i].displacements[n].setZero();
   }
-  return response;
+  return responses;
 }
 
 Vec12 Reanalysis::beam_stiffness_diagonal(int beam) const {

@@ -66,12 +66,18 @@ Eigen::VectorXd Reanalysis::State::solve_sparse(const Eigen::VectorXd& force, do
   const std::vector<int> loaded = rows_in(right_hand_side);
   x = right_hand_side;
   standing->solve(x, &loaded);
+  return refine_response(right_hand_side, std::move(x), backward_error).cwiseProduct(scale);
+}
+
+/// Until it is as exact as blows are weighed.
+Eigen::VectorXd Reanalysis::State::refine_response(const Eigen::VectorXd& scaled, Eigen::VectorXd x,
+                                                   double& backward_error) const {
   Eigen::VectorXd r, better;
-  backward_error = rows->residual(system->matrix(), right_hand_side, x, r);
+  backward_error = rows->residual(system->matrix(), scaled, x, r);
   for (int step = 0; step < most_refinements && backward_error > response_error; ++step) {
     standing->solve(r);
     better = x + r;
-    const double error = rows->residual(system->matrix(), right_hand_side, better, r);
+    const double error = rows->residual(system->matrix(), scaled, better, r);
     const bool go_on = error <= worthwhile * backward_error;
     if (error < backward_error) {
       x.swap(better);
@@ -79,21 +85,55 @@ Eigen::VectorXd Reanalysis::State::solve_sparse(const Eigen::VectorXd& force, do
     }
     if (!go_on) break;
   }
-  return x.cwiseProduct(scale);
+  return x;
 }
 
-Eigen::VectorXd Reanalysis::State::solve_on_paths(const Eigen::VectorXd& force, std::vector<char>& known) const {
+/// Rows in which any column is not zero.
+std::vector<int> Reanalysis::State::scale_columns(const Eigen::MatrixXd& force, Eigen::MatrixXd& scaled) const {
+  const Eigen::Index n = system->dofs().equations;
+  const Eigen::Map<const Eigen::VectorXd> scale(system->scale().data(), n);
+  scaled = scale.asDiagonal() * force.topRows(n);
+  std::vector<int> loaded;
+  for (Eigen::Index row = 0; row < n; ++row)
+    if ((scaled.row(row).array() != 0).any()) loaded.push_back(static_cast<int>(row));
+  return loaded;
+}
+
+Eigen::MatrixXd Reanalysis::State::solve_sparse(const Eigen::MatrixXd& force, std::vector<double>& errors) const {
+  const Eigen::Index n = system->dofs().equations, count = force.cols();
+  errors.assign(static_cast<std::size_t>(count), 0.0);
+  Eigen::MatrixXd X(n, count);
+  if (!standing || n == 0 || count == 1) {
+    for (Eigen::Index j = 0; j < count; ++j)
+      X.col(j) = solve_sparse(Eigen::VectorXd(force.col(j)), errors[static_cast<std::size_t>(j)]);
+    return X;
+  }
+  const Eigen::Map<const Eigen::VectorXd> scale(system->scale().data(), n);
+  Eigen::MatrixXd scaled;
+  const std::vector<int> loaded = scale_columns(force, scaled);
+  X = scaled;
+  standing->solve(X, loaded);
+  for (Eigen::Index j = 0; j < count; ++j)
+    X.col(j) = refine_response(scaled.col(j), X.col(j), errors[static_cast<std::size_t>(j)]).cwiseProduct(scale);
+  return X;
+}
+
+/// On the paths of what is loaded, and of these nodes.
+Eigen::MatrixXd Reanalysis::State::solve_on_paths(const Eigen::MatrixXd& force, std::span<const int> nodes,
+                                                  std::vector<char>& known) const {
   const Eigen::Index n = system->dofs().equations;
   known.assign(static_cast<std::size_t>(n), 1);
-  if (n == 0) return {};
-  if (!standing) {
-    double backward_error = 0;
-    return solve_sparse(force, backward_error);
+  if (!standing || n == 0) {
+    std::vector<double> errors;
+    return solve_sparse(force, errors);
   }
-  Eigen::VectorXd x;
-  scale_force(force, x);
-  standing->solve_on_paths(x, rows_in(x), known);
-  return x.cwiseProduct(Eigen::Map<const Eigen::VectorXd>(system->scale().data(), n));
+  Eigen::MatrixXd X;
+  std::vector<int> near = scale_columns(force, X);
+  for (const int node : nodes)
+    for (const int equation : system->dofs().number[static_cast<std::size_t>(node)])
+      if (equation < n) near.push_back(equation);
+  standing->solve_on_paths(X, near, known);
+  return Eigen::Map<const Eigen::VectorXd>(system->scale().data(), n).asDiagonal() * X;
 }
 
 void Reanalysis::State::add_rows_of(const std::vector<int>& nodes) {

@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -154,8 +155,6 @@ struct Reanalysis::State {
   void take_changes(UseWatch* watch);
   void apply_changes();
   void give_up(const Defect& defect);
-  /// The same on elimination paths, see StandingFactor::solve_on_paths().
-  [[nodiscard]] Eigen::VectorXd solve_on_paths(const Eigen::VectorXd& force, std::vector<char>& known) const;
   [[nodiscard]] double current_condition() const;
   [[nodiscard]] const BeamStrainForces& strain_forces_of(std::size_t beam) const;
   [[nodiscard]] Vec12 end_forces(std::size_t beam, const std::vector<Vec6>& displacements, const Vec12& fixed) const;
@@ -166,6 +165,14 @@ struct Reanalysis::State {
   /// The force that loads make, of a structure that stands; throws Instability.
   [[nodiscard]] LoadVector force_on_standing(const LoadSet& loads) const;
   [[nodiscard]] Eigen::VectorXd solve_sparse(const Eigen::VectorXd& force, double& backward_error) const;
+  [[nodiscard]] Eigen::VectorXd refine_response(const Eigen::VectorXd& scaled, Eigen::VectorXd x, double& error) const;
+  /// The same for several forces, a column each, the factor gone through once for all of them; and on elimination paths
+  /// (StandingFactor::solve_on_paths()), not refined.
+  [[nodiscard]] Eigen::MatrixXd solve_sparse(const Eigen::MatrixXd& force, std::vector<double>& backward_error) const;
+  [[nodiscard]] Eigen::MatrixXd solve_on_paths(const Eigen::MatrixXd& force, std::span<const int> nodes,
+                                               std::vector<char>& known) const;
+  [[nodiscard]] std::vector<int> scale_columns(const Eigen::MatrixXd& force, Eigen::MatrixXd& scaled) const;
+  [[nodiscard]] Eigen::MatrixXd forces_on_standing(std::span<const LoadSet> loads, std::vector<LoadVector>& own) const;
   [[nodiscard]] std::size_t checked_beam(int beam) const;
   [[nodiscard]] std::size_t checked_shell(int shell) const;
   [[nodiscard]] std::size_t checked_patch(int patch) const;

@@ -161,19 +161,47 @@ void StandingFactor::forget_dropped(Eigen::VectorXd& x) const {
   }
 }
 
-void StandingFactor::solve_on_paths(Eigen::VectorXd& x, const std::vector<int>& rows, std::vector<char>& known) const {
-  solver_->permute(x, eliminated_);
-  solver_->mark_paths(rows, marked_);
-  solver_->forward(eliminated_, &marked_);
-  correction_->correct(eliminated_);
-  solver_->backward(eliminated_, &marked_);
-  solver_->restore(eliminated_, x);
-  known.resize(static_cast<std::size_t>(x.size()));
-  for (Eigen::Index row = 0; row < x.size(); ++row) {
-    known[static_cast<std::size_t>(row)] = marked_[static_cast<std::size_t>(solver_->block_of(static_cast<int>(row)))];
-    if (known[static_cast<std::size_t>(row)] == 0) x(row) = 0;
+/// All columns as far as the backward solve, in columns_.
+void StandingFactor::eliminate(const Eigen::MatrixXd& X, const std::vector<int>& rows) const {
+  columns_.resize(X.rows(), X.cols());
+  for (Eigen::Index j = 0; j < X.cols(); ++j) {
+    column_ = X.col(j);
+    solver_->permute(column_, eliminated_);
+    columns_.col(j) = eliminated_;
   }
-  forget_dropped(x);
+  solver_->mark_paths(rows, marked_);
+  solver_->forward(columns_, &marked_);
+  for (Eigen::Index j = 0; j < X.cols(); ++j) {
+    eliminated_ = columns_.col(j);
+    correction_->correct(eliminated_);
+    columns_.col(j) = eliminated_;
+  }
+}
+
+void StandingFactor::restore(Eigen::MatrixXd& X) const {
+  for (Eigen::Index j = 0; j < X.cols(); ++j) {
+    eliminated_ = columns_.col(j);
+    solver_->restore(eliminated_, column_);
+    forget_dropped(column_);
+    X.col(j) = column_;
+  }
+}
+
+void StandingFactor::solve(Eigen::MatrixXd& X, const std::vector<int>& rows) const {
+  eliminate(X, rows);
+  solver_->backward(columns_);
+  restore(X);
+}
+
+void StandingFactor::solve_on_paths(Eigen::MatrixXd& X, const std::vector<int>& rows, std::vector<char>& known) const {
+  eliminate(X, rows);
+  solver_->backward(columns_, &marked_);
+  restore(X);
+  known.resize(static_cast<std::size_t>(X.rows()));
+  for (Eigen::Index row = 0; row < X.rows(); ++row) {
+    known[static_cast<std::size_t>(row)] = marked_[static_cast<std::size_t>(solver_->block_of(static_cast<int>(row)))];
+    if (known[static_cast<std::size_t>(row)] == 0) X.row(row).setZero();
+  }
 }
 
 void StandingFactor::forward(const Eigen::VectorXd& x, const std::vector<char>& marked, Eigen::VectorXd& y) const {

@@ -58,9 +58,11 @@ class StandingFactor {
 
   /// x := K^-1 x of the matrix as it stands. `rows` (unless null): x is zero in all other rows.
   void solve(Eigen::VectorXd& x, const std::vector<int>* rows = nullptr) const;
-  /// The same on the elimination paths of `rows` alone, where x may differ from zero: a part of the work. `known` (per
-  /// row) tells where x holds the answer; it is zero elsewhere.
-  void solve_on_paths(Eigen::VectorXd& x, const std::vector<int>& rows, std::vector<char>& known) const;
+  /// The same for several columns, zero outside of `rows` all of them, the factor gone through once.
+  void solve(Eigen::MatrixXd& X, const std::vector<int>& rows) const;
+  /// The same on the elimination paths of `rows` alone, where X may differ from zero: a part of the work. `known` (per
+  /// row) tells where X holds the answer; it is zero elsewhere.
+  void solve_on_paths(Eigen::MatrixXd& X, const std::vector<int>& rows, std::vector<char>& known) const;
   /// The same up to the backward solve: y, in elimination order, of which L^-T makes the answer. Rows as above, the
   /// blocks on their paths in `marked`.
   void forward(const Eigen::VectorXd& x, const std::vector<char>& marked, Eigen::VectorXd& y) const;
@@ -111,6 +113,8 @@ class StandingFactor {
   void add_planned();
   void set_wanted();
   void finish_solve(Eigen::VectorXd& x) const;
+  void eliminate(const Eigen::MatrixXd& X, const std::vector<int>& rows) const;
+  void restore(Eigen::MatrixXd& X) const;
 
   const FrameSystem& system_;
   std::optional<TriangularSolver> solver_;
@@ -135,7 +139,8 @@ class StandingFactor {
   std::map<Key, Wanted> wanted_;
   std::map<Key, ElementModes> planned_;  ///< of places that the last plan adds
   Eigen::VectorXd along_;                ///< in elimination order
-  mutable Eigen::VectorXd eliminated_;
+  mutable Eigen::VectorXd eliminated_, column_;
+  mutable Eigen::MatrixXd columns_;
   mutable std::vector<char> marked_;
 };
 

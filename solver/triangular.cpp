@@ -284,22 +284,48 @@ void TriangularSolver::backward(Eigen::VectorXd& y, const std::vector<char>* mar
   }
 }
 
-void TriangularSolver::backward(Eigen::MatrixXd& y) const {
+/// The block's own rows of all columns, one after the other, in the scratch `together_`; room for the rows below them
+/// in `below_`.
+double* TriangularSolver::own_rows(std::size_t b, const Eigen::MatrixXd& y) const {
+  const auto count = static_cast<std::size_t>(y.cols());
+  const auto columns = static_cast<std::size_t>(first_[b + 1] - first_[b]);
+  const auto rows = static_cast<std::size_t>(row_start_[b + 1] - row_start_[b]);
+  if (below_.size() < (rows - columns) * count) below_.resize((rows - columns) * count);
+  if (together_.size() < columns * count) together_.resize(columns * count);
+  for (std::size_t c = 0; c < count; ++c)
+    std::copy_n(y.col(static_cast<Eigen::Index>(c)).data() + first_[b], columns, together_.data() + c * columns);
+  return together_.data();
+}
+
+void TriangularSolver::put_own_rows(std::size_t b, Eigen::MatrixXd& y) const {
+  const auto columns = static_cast<std::size_t>(first_[b + 1] - first_[b]);
+  for (std::size_t c = 0; c < static_cast<std::size_t>(y.cols()); ++c)
+    std::copy_n(together_.data() + c * columns, columns, y.col(static_cast<Eigen::Index>(c)).data() + first_[b]);
+}
+
+void TriangularSolver::forward(Eigen::MatrixXd& y, const std::vector<char>* marked) const {
   const auto count = static_cast<int>(y.cols());
-  std::vector<double> below, own;
+  for (std::size_t b = 0; b < parent_.size(); ++b) {
+    if (marked != nullptr && (*marked)[b] == 0) continue;
+    const auto columns = static_cast<int>(first_[b + 1] - first_[b]);
+    const auto rows = static_cast<int>(row_start_[b + 1] - row_start_[b]);
+    double* own = own_rows(b, y);
+    eliminate_few_columns(value_.data() + value_start_[b], columns, rows, own, count, below_.data());
+    put_own_rows(b, y);
+    for (int c = 0; c < count; ++c)
+      subtract_rows(runs(b), below_.data() + static_cast<std::ptrdiff_t>(c) * (rows - columns), y.col(c).data());
+  }
+}
+
+void TriangularSolver::backward(Eigen::MatrixXd& y, const std::vector<char>* marked) const {
+  const auto count = static_cast<int>(y.cols());
   for (std::size_t b = parent_.size(); b-- > 0;) {
-    const BlockRows rows = block(static_cast<int>(b));
-    const std::size_t below_rows = rows.below.size(), columns = static_cast<std::size_t>(rows.columns);
-    below.resize(std::max(below.size(), below_rows * y.cols()));
-    own.resize(std::max(own.size(), columns * y.cols()));
-    for (std::size_t c = 0; c < static_cast<std::size_t>(count); ++c) {
-      const double* from = y.col(static_cast<Eigen::Index>(c)).data();
-      take_rows(runs(b), from, below.data() + c * below_rows);
-      std::copy_n(from + rows.first, columns, own.data() + c * columns);
-    }
-    backward(static_cast<int>(b), own.data(), below.data(), count);
-    for (std::size_t c = 0; c < static_cast<std::size_t>(count); ++c)
-      std::copy_n(own.data() + c * columns, columns, y.col(static_cast<Eigen::Index>(c)).data() + rows.first);
+    if (marked != nullptr && (*marked)[b] == 0) continue;
+    double* own = own_rows(b, y);
+    const std::ptrdiff_t below_rows = row_start_[b + 1] - row_start_[b] - (first_[b + 1] - first_[b]);
+    for (int c = 0; c < count; ++c) take_rows(runs(b), y.col(c).data(), below_.data() + c * below_rows);
+    backward(static_cast<int>(b), own, below_.data(), count);
+    put_own_rows(b, y);
   }
 }
 

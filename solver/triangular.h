@@ -76,7 +76,8 @@ class TriangularSolver {
   /// parent is marked too.
   void backward(Eigen::VectorXd& y, const std::vector<char>* marked = nullptr) const;
   /// The same for several columns, the factor gone through once.
-  void backward(Eigen::MatrixXd& y) const;
+  void forward(Eigen::MatrixXd& y, const std::vector<char>* marked = nullptr) const;
+  void backward(Eigen::MatrixXd& y, const std::vector<char>* marked = nullptr) const;
   /// B := L^-1 B for each B. Blocks that several paths share are gone through once, with all their columns together.
   /// With `y` (unless null) also y := L^-1 y as above, in the same pass.
   void forward(std::span<const PathColumns> groups, Eigen::VectorXd* y = nullptr,
@@ -94,6 +95,8 @@ class TriangularSolver {
   void find_runs();
   [[nodiscard]] std::span<const RowsInLine> runs(std::size_t block) const;
   void forward_block_of(std::size_t block, std::span<const PathColumns> groups, Eigen::VectorXd* y) const;
+  [[nodiscard]] double* own_rows(std::size_t block, const Eigen::MatrixXd& y) const;
+  void put_own_rows(std::size_t block, Eigen::MatrixXd& y) const;
 
   int size_ = 0;
   double entries_ = 0;

@@ -424,19 +424,38 @@ solver::LoadSet FrameStatics::local(const ResponseLoads& loads) const {
 }
 
 FrameStatics::Response FrameStatics::respond(int component, const ResponseLoads& loads) const {
-  Response response;
-  response.statics_ = this;
-  response.component_ = component;
-  response.answer_ = parts(component).analysis->respond(local(loads));
-  return response;
+  return std::move(respond(component, {&loads, 1}).front());
 }
 
 FrameStatics::Response FrameStatics::respond_near(int component, const ResponseLoads& loads) const {
-  Response response;
-  response.statics_ = this;
-  response.component_ = component;
-  response.answer_ = parts(component).analysis->respond_near(local(loads), response.known_);
-  return response;
+  return std::move(respond_near(component, {&loads, 1}).front());
+}
+
+std::vector<FrameStatics::Response> FrameStatics::told(int component, std::vector<solver::Reanalysis::Response> answers,
+                                                       const std::vector<char>& known) const {
+  std::vector<Response> responses(answers.size());
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    responses[i].statics_ = this;
+    responses[i].component_ = component;
+    responses[i].answer_ = std::move(answers[i]);
+    responses[i].known_ = known;
+  }
+  return responses;
+}
+
+std::vector<FrameStatics::Response> FrameStatics::respond(int component, std::span<const ResponseLoads> loads) const {
+  std::vector<solver::LoadSet> sets;
+  for (const ResponseLoads& one : loads) sets.push_back(local(one));
+  return told(component, parts(component).analysis->respond(sets), {});
+}
+
+std::vector<FrameStatics::Response> FrameStatics::respond_near(int component,
+                                                               std::span<const ResponseLoads> loads) const {
+  std::vector<solver::LoadSet> sets;
+  for (const ResponseLoads& one : loads) sets.push_back(local(one));
+  std::vector<char> known;
+  std::vector<solver::Reanalysis::Response> answers = parts(component).analysis->respond_near(sets, known);
+  return told(component, std::move(answers), known);
 }
 
 bool FrameStatics::Response::known(NodeId node) const {

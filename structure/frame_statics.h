@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "panel_superelements.h"
@@ -158,6 +159,9 @@ class FrameStatics {
   [[nodiscard]] Response respond(int component, const ResponseLoads& loads) const;
   /// At a part of the cost, and known on the elimination paths of the loads alone, where they act among them.
   [[nodiscard]] Response respond_near(int component, const ResponseLoads& loads) const;
+  /// Both for several loads at once, at less than as many times the cost; known on the paths of all of them.
+  [[nodiscard]] std::vector<Response> respond(int component, std::span<const ResponseLoads> loads) const;
+  [[nodiscard]] std::vector<Response> respond_near(int component, std::span<const ResponseLoads> loads) const;
   /// Diagonal of the stiffness that the member had in the undamaged building, local axes.
   [[nodiscard]] const solver::Vec12& stiffness_diagonal(MemberId member) const {
     return stiffness_diagonal_[index(member)];
@@ -190,6 +194,8 @@ class FrameStatics {
     solver::Vec12 held = solver::Vec12::Zero(), slip = solver::Vec12::Zero();
   };
   [[nodiscard]] solver::LoadSet local(const ResponseLoads& loads) const;
+  [[nodiscard]] std::vector<Response> told(int component, std::vector<solver::Reanalysis::Response> answers,
+                                           const std::vector<char>& known) const;
   solver::Reanalysis& changing(const Place& place);
   void read_end_forces(int component);
   bool displace(int component);

@@ -21,14 +21,6 @@ constexpr std::array<Eigen::Index, 3> normal_stress{0, 4, 5};
 
 double squared(double x) { return x * x; }
 
-/// Members that bear the force directly, each once.
-std::vector<MemberId> bearing_members(const PlacedLoad& placed) {
-  std::vector<MemberId> members;
-  for (const auto& [member, load] : placed.members)
-    if (std::find(members.begin(), members.end(), member) == members.end()) members.push_back(member);
-  return members;
-}
-
 /// Least energy at which a demand beyond `demand` fails, per sense; `k`: stiffness against each component.
 double least_energy(const JointCapacity& capacity, double strength, const Vec6& demand, const Vec6& k) {
   double least = unlimited;
@@ -103,41 +95,54 @@ const std::vector<double>& StandingFrame::State::certain_masses(int c) const {
   return mass;
 }
 
-double StandingFrame::State::least_mass(int c, const PlacedLoad& placed, const FrameStatics::Response& response,
-                                        double compliance) const {
-  if (!(compliance > 0)) return 0;
-  const std::vector<double>& mass = certain_masses(c);
-  double sum = 0;
-  for (NodeId node : statics.nodes(c))
-    if (response.known(node)) sum += mass[index_of(node)] * response.displacement(node).head<3>().squaredNorm();
-  // Members that bear the force bend as well: their share is left out.
-  for (MemberId member : bearing_members(placed))
-    if (segments.holds(building.joint(member, 0)) && segments.holds(building.joint(member, 1)))
-      for (NodeId node : building[member].nodes)
-        if (response.known(node))
-          sum -= std::max(0.0, loads.mass(member)) / 6 * response.displacement(node).head<3>().squaredNorm();
-  return std::max(0.0, sum) / (compliance * compliance);
+/// Members that bear any of the forces directly, each once.
+std::vector<MemberId> StandingFrame::State::bearing_members(std::span<const Shape> shapes) {
+  std::vector<MemberId> members;
+  for (const Shape& shape : shapes)
+    for (const auto& [member, load] : shape.placed.members)
+      if (std::find(members.begin(), members.end(), member) == members.end()) members.push_back(member);
+  return members;
 }
 
-StandingFrame::UnitResponse StandingFrame::State::respond_near(const ContactPlace& place, const Vec3& direction) const {
-  const PlacedLoad placed = this->place(place, direction);
-  const int c = component(place);
-  const FrameStatics::Response response = statics.respond_near(c, response_loads(placed));
-  UnitResponse answer;
-  answer.compliance = compliance(placed, response);
-  answer.rayleigh_mass = least_mass(c, placed, response, answer.compliance);
+/// What inertia() is at least, whatever combination of the forces acts: the products over the masses that certainly
+/// move with the nodes that are known.
+Eigen::MatrixXd StandingFrame::State::least_inertia(int c, std::span<const Shape> shapes) const {
+  const auto n = static_cast<Eigen::Index>(shapes.size());
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n, n);
+  Eigen::Matrix3Xd moved(3, n);
+  const auto add = [&](NodeId node, double mass) {
+    if (mass == 0 || !shapes.front().response.known(node)) return;
+    for (Eigen::Index i = 0; i < n; ++i)
+      moved.col(i) = shapes[static_cast<std::size_t>(i)].response.displacement(node).head<3>();
+    sum.noalias() += mass * (moved.transpose() * moved);
+  };
+  const std::vector<double>& mass = certain_masses(c);
+  for (NodeId node : statics.nodes(c)) add(node, mass[index_of(node)]);
+  // Members that bear a force bend as well: their share is left out.
+  for (MemberId member : bearing_members(shapes))
+    if (segments.holds(building.joint(member, 0)) && segments.holds(building.joint(member, 1)))
+      for (NodeId node : building[member].nodes) add(node, -std::max(0.0, loads.mass(member)) / 6);
+  return sum;
+}
+
+/// What the force on one of the shapes adds at the members that bear any of them and the panel that it lies on.
+std::vector<std::pair<JointId, Vec6>> StandingFrame::State::near_demands(std::span<const Shape> shapes,
+                                                                         std::size_t pushed) const {
+  std::vector<std::pair<JointId, Vec6>> demands;
+  const auto& [placed, response] = shapes[pushed];
   const auto add = [&](JointId joint, const Vec6& demand) {
     if (building[joint].capacity.breakable && holds(joint) && label(joint) >= 0 && !demand.isZero(0))
-      answer.demands.emplace_back(joint, demand);
+      demands.emplace_back(joint, demand);
   };
-  for (MemberId member : bearing_members(placed))
-    for (int end = 0; end < 2; ++end)
-      add(building.joint(member, end), member_joint_demand(response.end_forces(member), end));
+  for (MemberId member : bearing_members(shapes)) {
+    const solver::Vec12 end_forces = response.end_forces(member);
+    for (int end = 0; end < 2; ++end) add(building.joint(member, end), member_joint_demand(end_forces, end));
+  }
   if (placed.panel.valid() && bearings.serves(placed.panel))
     for (int edge = 0; edge < 4; ++edge)
       add(building.joint(placed.panel, edge), handed_edge_demand(building, bearings, placed.panel, edge,
                                                                  placed.edge_force[static_cast<std::size_t>(edge)]));
-  return answer;
+  return demands;
 }
 
 }  // namespace topple::structure

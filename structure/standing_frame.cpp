@@ -346,7 +346,12 @@ StandingFrame::CoupledResponse StandingFrame::respond(std::span<const ContactPla
 }
 
 StandingFrame::UnitResponse StandingFrame::respond_near(const ContactPlace& place, const Vec3& direction) const {
-  return state_->respond_near(place, direction);
+  return std::move(state_->respond_near({&place, 1}, {&direction, 1}).places.front());
+}
+
+StandingFrame::CoupledResponse StandingFrame::respond_near(std::span<const ContactPlace> places,
+                                                           std::span<const Vec3> directions) const {
+  return state_->respond_near(places, directions);
 }
 
 double StandingFrame::critical_energy(const ContactPlace& place) const {

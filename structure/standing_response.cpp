@@ -97,14 +97,7 @@ int StandingFrame::State::component(const ContactPlace& place) const {
 }
 
 StandingFrame::UnitResponse StandingFrame::State::respond(const ContactPlace& place, const Vec3& direction) const {
-  const PlacedLoad placed = this->place(place, direction);
-  const int c = component(place);
-  const FrameStatics::Response response = statics.respond(c, response_loads(placed));
-  UnitResponse answer;
-  answer.compliance = compliance(placed, response);
-  answer.demands = response_demands(c, placed, response);
-  answer.rayleigh_mass = rayleigh_mass(c, placed, response, answer.compliance);
-  return answer;
+  return std::move(couple({&place, 1}, {&direction, 1}, false).places.front());
 }
 
 double StandingFrame::State::compliance(const PlacedLoad& placed, const FrameStatics::Response& response) const {
@@ -113,32 +106,46 @@ double StandingFrame::State::compliance(const PlacedLoad& placed, const FrameSta
 
 StandingFrame::CoupledResponse StandingFrame::State::respond(std::span<const ContactPlace> places,
                                                              std::span<const Vec3> directions) const {
+  return couple(places, directions, false);
+}
+
+StandingFrame::CoupledResponse StandingFrame::State::respond_near(std::span<const ContactPlace> places,
+                                                                  std::span<const Vec3> directions) const {
+  return couple(places, directions, true);
+}
+
+/// Component by component: what is not joined does not feel each other.
+StandingFrame::CoupledResponse StandingFrame::State::couple(std::span<const ContactPlace> places,
+                                                            std::span<const Vec3> directions, bool near) const {
   const auto n = static_cast<Eigen::Index>(places.size());
   CoupledResponse answer;
   answer.compliance = answer.inertia = Eigen::MatrixXd::Zero(n, n);
-  std::vector<PlacedLoad> placed;
-  std::vector<FrameStatics::Response> responses;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    placed.push_back(this->place(places[i], directions[i]));
-    responses.push_back(statics.respond(component(places[i]), response_loads(placed.back())));
-  }
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    const int c = component(places[at]);
-    for (Eigen::Index j = 0; j <= i; ++j) {
-      const auto other = static_cast<std::size_t>(j);
-      if (component(places[other]) != c) continue;  // what is not joined does not feel each other
-      answer.compliance(i, j) =
-          i == j ? compliance(placed[at], responses[at]) : work(building, placed[at], placed[other], responses[other]);
-      answer.inertia(i, j) = shared_inertia(c, {placed[at], responses[at]}, {placed[other], responses[other]});
-      answer.compliance(j, i) = answer.compliance(i, j);
-      answer.inertia(j, i) = answer.inertia(i, j);
+  answer.places.resize(places.size());
+  std::map<int, std::vector<Eigen::Index>> joined;
+  for (std::size_t i = 0; i < places.size(); ++i) joined[component(places[i])].push_back(static_cast<Eigen::Index>(i));
+  for (const auto& [c, own] : joined) {
+    std::vector<PlacedLoad> placed;
+    std::vector<FrameStatics::ResponseLoads> forces;
+    for (const Eigen::Index i : own) {
+      const auto at = static_cast<std::size_t>(i);
+      placed.push_back(this->place(places[at], directions[at]));
+      forces.push_back(response_loads(placed.back()));
     }
-    UnitResponse one;
-    one.compliance = answer.compliance(i, i);
-    one.rayleigh_mass = one.compliance > 0 ? answer.inertia(i, i) / (one.compliance * one.compliance) : 0;
-    one.demands = response_demands(c, placed[at], responses[at]);
-    answer.places.push_back(std::move(one));
+    const std::vector<FrameStatics::Response> responses =
+        near ? statics.respond_near(c, forces) : statics.respond(c, forces);
+    std::vector<Shape> shapes;
+    for (std::size_t i = 0; i < own.size(); ++i) shapes.push_back({placed[i], responses[i]});
+    answer.inertia(own, own) = near ? least_inertia(c, shapes) : inertia(c, shapes);
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      for (std::size_t j = 0; j <= i; ++j)
+        answer.compliance(own[i], own[j]) = answer.compliance(own[j], own[i]) =
+            i == j ? compliance(placed[i], responses[i]) : work(building, placed[i], placed[j], responses[j]);
+      UnitResponse& one = answer.places[static_cast<std::size_t>(own[i])];
+      one.compliance = answer.compliance(own[i], own[i]);
+      if (one.compliance > 0)
+        one.rayleigh_mass = std::max(0.0, answer.inertia(own[i], own[i])) / (one.compliance * one.compliance);
+      one.demands = near ? near_demands(shapes, i) : response_demands(c, placed[i], responses[i]);
+    }
   }
   return answer;
 }
@@ -152,8 +159,10 @@ std::vector<std::pair<JointId, Vec6>> StandingFrame::State::response_demands(
   PanelId panel_read;  // a shell
   std::array<Vec6, 4> of_edges;
   for (JointId joint : checked_joints[static_cast<std::size_t>(c)]) {
-    if (!holds(joint) || label(joint) < 0) continue;
     const Joint& own = building[joint];
+    // What lies on members hands on its own load alone.
+    if (!own.member.valid() && own.panel != placed.panel && bearings.serves(own.panel)) continue;
+    if (!holds(joint) || label(joint) < 0) continue;
     Vec6 demand = Vec6::Zero();
     if (own.member.valid()) {
       if (own.member != member_read) end_forces = response.end_forces(own.member);
@@ -181,43 +190,67 @@ std::vector<std::pair<JointId, Vec6>> StandingFrame::State::response_demands(
   return demands;
 }
 
-/// Rayleigh: the mass that, moving with the contact place, has the kinetic energy of the whole static shape.
-double StandingFrame::State::rayleigh_mass(int c, const PlacedLoad& placed, const FrameStatics::Response& response,
-                                           double compliance) const {
-  if (!(compliance > 0)) return 0;
-  const Shape shape{placed, response};
-  return shared_inertia(c, shape, shape) / (compliance * compliance);
-}
-
-/// The product of two static shapes, integrated over the mass of the component.
-double StandingFrame::State::shared_inertia(int c, const Shape& a, const Shape& b) const {
-  const bool same = &a.response == &b.response;
-  double sum = 0;
+/// The products of static shapes, each with each, integrated over the mass of the component. Rayleigh's mass, which
+/// moving with a contact place has the kinetic energy of the whole static shape, is the square's over that of the
+/// compliance.
+Eigen::MatrixXd StandingFrame::State::inertia(int c, std::span<const Shape> shapes) const {
+  const auto n = static_cast<Eigen::Index>(shapes.size());
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n, n);
+  std::vector<MemberId> bearing;
+  for (const Shape& shape : shapes)
+    for (const auto& [member, load] : shape.placed.members) bearing.push_back(member);
+  std::sort(bearing.begin(), bearing.end());
+  Eigen::Matrix3Xd first(3, n), second(3, n);
   for (MemberId member : statics.members(c)) {
-    if (!stands(member) || loads.mass(member) <= 0) continue;
-    AlongMember along_a{a.response, loads_on(a.placed, member)}, along_b{b.response, {}};
-    if (!same) along_b.own = loads_on(b.placed, member);
-    if (!along_a.own.empty() || !along_b.own.empty()) {
-      sum += loads.mass(member) * mean_product(building, member, along_a, along_b);
-      continue;
-    }
-    // Far from the contact a straight line between the ends is near enough; the cost stays small.
+    const double mass = loads.mass(member);
+    if (!stands(member) || mass <= 0) continue;
+    // Far from the contacts a straight line between the ends is near enough; the cost stays small.
     const std::array<bool, 2> holds{segments.holds(building.joint(member, 0)),
                                     segments.holds(building.joint(member, 1))};
-    const auto [a0, a1] = straight_line(building, member, holds, a.response);
-    if (same) {
-      sum += loads.mass(member) * (a0.dot(a0) + a0.dot(a1) + a1.dot(a1)) / 3;
-      continue;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const auto ends = straight_line(building, member, holds, shapes[static_cast<std::size_t>(i)].response);
+      first.col(i) = ends.first;
+      second.col(i) = ends.second;
     }
-    const auto [b0, b1] = straight_line(building, member, holds, b.response);
-    sum += loads.mass(member) * (a0.dot(b0) + (a0.dot(b1) + a1.dot(b0)) / 2 + a1.dot(b1)) / 3;
+    const bool bears = std::binary_search(bearing.begin(), bearing.end(), member);
+    for (Eigen::Index i = 0; i < n; ++i)
+      for (Eigen::Index j = 0; j <= i; ++j) {
+        if (bears) {
+          const Shape &a = shapes[static_cast<std::size_t>(i)], &b = shapes[static_cast<std::size_t>(j)];
+          const AlongMember along_a{a.response, loads_on(a.placed, member)};
+          const AlongMember along_b{b.response, loads_on(b.placed, member)};
+          if (!along_a.own.empty() || !along_b.own.empty()) {
+            sum(i, j) += mass * mean_product(building, member, along_a, along_b);
+            continue;
+          }
+        }
+        sum(i, j) +=
+            mass *
+            (first.col(i).dot(first.col(j)) + (first.col(i).dot(second.col(j)) + second.col(i).dot(first.col(j))) / 2 +
+             second.col(i).dot(second.col(j))) /
+            3;
+      }
   }
-  for (NodeId node : statics.nodes(c))
-    if (stands(node))
-      sum += loads.mass(node) * a.response.displacement(node).head<3>().dot(b.response.displacement(node).head<3>());
-  for (PanelId panel : component_panels[static_cast<std::size_t>(c)])
-    if (stands(panel)) sum += loads.mass(panel) * panel_mean_product(panel, a, b);
-  return sum;
+  add_inertia_of_nodes(c, shapes, sum);
+  for (PanelId panel : component_panels[static_cast<std::size_t>(c)]) {
+    if (!stands(panel)) continue;
+    for (Eigen::Index i = 0; i < n; ++i)
+      for (Eigen::Index j = 0; j <= i; ++j)
+        sum(i, j) += loads.mass(panel) * panel_mean_product(panel, shapes[static_cast<std::size_t>(i)],
+                                                            shapes[static_cast<std::size_t>(j)]);
+  }
+  return sum.selfadjointView<Eigen::Lower>();
+}
+
+void StandingFrame::State::add_inertia_of_nodes(int c, std::span<const Shape> shapes, Eigen::MatrixXd& sum) const {
+  for (NodeId node : statics.nodes(c)) {
+    const double mass = loads.mass(node);
+    if (mass == 0 || !stands(node)) continue;
+    for (std::size_t i = 0; i < shapes.size(); ++i)
+      for (std::size_t j = 0; j <= i; ++j)
+        sum(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) +=
+            mass * shapes[i].response.displacement(node).head<3>().dot(shapes[j].response.displacement(node).head<3>());
+  }
 }
 
 /// A panel moves with its corners; of a shell all nodes are known.

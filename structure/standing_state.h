@@ -155,18 +155,22 @@ struct StandingFrame::State {
   [[nodiscard]] CoupledResponse respond(std::span<const ContactPlace> places, std::span<const Vec3> directions) const;
   [[nodiscard]] std::vector<std::pair<JointId, Vec6>> response_demands(int component, const PlacedLoad& placed,
                                                                        const FrameStatics::Response& response) const;
-  [[nodiscard]] double rayleigh_mass(int component, const PlacedLoad& placed, const FrameStatics::Response& response,
-                                     double compliance) const;
+  [[nodiscard]] CoupledResponse couple(std::span<const ContactPlace> places, std::span<const Vec3> directions,
+                                       bool near) const;
   /// Response to a force, and where the force is placed.
   struct Shape {
     const PlacedLoad& placed;
     const FrameStatics::Response& response;
   };
-  [[nodiscard]] double shared_inertia(int component, const Shape& a, const Shape& b) const;
+  [[nodiscard]] Eigen::MatrixXd inertia(int component, std::span<const Shape> shapes) const;
+  void add_inertia_of_nodes(int component, std::span<const Shape> shapes, Eigen::MatrixXd& sum) const;
   // Response, as far as it is known at little cost (standing_bound.cpp).
-  [[nodiscard]] UnitResponse respond_near(const ContactPlace& place, const Vec3& direction) const;
-  [[nodiscard]] double least_mass(int component, const PlacedLoad& placed, const FrameStatics::Response& response,
-                                  double compliance) const;
+  [[nodiscard]] CoupledResponse respond_near(std::span<const ContactPlace> places,
+                                             std::span<const Vec3> directions) const;
+  [[nodiscard]] Eigen::MatrixXd least_inertia(int component, std::span<const Shape> shapes) const;
+  [[nodiscard]] std::vector<std::pair<JointId, Vec6>> near_demands(std::span<const Shape> shapes,
+                                                                   std::size_t pushed) const;
+  [[nodiscard]] static std::vector<MemberId> bearing_members(std::span<const Shape> shapes);
   [[nodiscard]] const std::vector<double>& certain_masses(int component) const;
   [[nodiscard]] double critical_energy(int component) const;
   [[nodiscard]] double critical_energy(JointId joint) const;

@@ -71,6 +71,8 @@ struct Simulation::State {
   // strike_together.cpp: several of them at one instant.
   struct JointPush;
   [[nodiscard]] bool strike_together(std::span<const collision::Contact* const> contacts);
+  [[nodiscard]] bool take_up(JointPush& pushed) const;
+  [[nodiscard]] bool bears(JointPush& pushed);
   void push_in(JointPush& pushed);
   void go_on(JointPush& pushed, const Eigen::VectorXd& shift);
   void send_on(JointPush& pushed);

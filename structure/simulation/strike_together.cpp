@@ -131,6 +131,14 @@ struct Simulation::State::JointPush {
   StandingFrame::CoupledResponse response;
   std::optional<CoupledPush> push;
   Eigen::VectorXd speeds_out;  ///< of the places, along their normals
+
+  /// All is borne. It leaves with the restitution's part of what the parts give back; one that its weight holds down
+  /// stays.
+  void leave(CoupledPush done, CoupledPush::Stop end, double restitution) {
+    speeds_out = done.speeds_at_most_stored();
+    if (end == CoupledPush::Stop::left) speeds_out += restitution * (done.speeds() - speeds_out);
+    push = std::move(done);
+  }
 };
 
 /// False when they are better taken one after the other, or are no impacts any more; nothing has happened then.
@@ -150,9 +158,26 @@ bool Simulation::State::strike_together(std::span<const collision::Contact* cons
     pushed.places.push_back(hit.place);
     pushed.normals.push_back(hit.normal);
   }
-  pushed.response = frame->respond(pushed.places, pushed.normals);
-  if (!independent(pushed.response.compliance)) return false;
+  // What is known at little cost tells of most pushes that they are borne, and of some that they are taken one by one.
+  pushed.response = frame->respond_near(pushed.places, pushed.normals);
+  if (!take_up(pushed)) return false;
+  if (bears(pushed)) {
+    ++counters.impacts_bounded;
+  } else {
+    pushed.response = frame->respond(pushed.places, pushed.normals);
+    if (!take_up(pushed)) return false;
+    push_in(pushed);
+  }
+  ++counters.impacts_together;
+  send_on(pushed);
+  for (const Strike& hit : hits) tell_impact(hit);
+  return true;
+}
 
+/// The push against what is known of the structure. False when the places are better taken one after the other.
+bool Simulation::State::take_up(JointPush& pushed) const {
+  std::vector<Strike>& hits = pushed.hits;
+  if (!independent(pushed.response.compliance)) return false;
   const Body& one = *hits.front().body;
   const collision::BodyState& state = hits.front().state;
   const PushingBody body{one.rest.mass,          world_inertia(one, state.pose.orientation),
@@ -167,11 +192,21 @@ bool Simulation::State::strike_together(std::span<const collision::Contact* cons
     for (std::size_t i = 0; i < hits.size(); ++i) hits[i].structure_mass = pushed.response.places[i].rayleigh_mass;
   }
   pushed.push.emplace(body, std::move(places), pushed.response.compliance, share);
-  if (pushed.push->fastest_over_slowest() > most_unlike) return false;
-  ++counters.impacts_together;
-  push_in(pushed);
-  send_on(pushed);
-  for (const Strike& hit : hits) tell_impact(hit);
+  return pushed.push->fastest_over_slowest() <= most_unlike;
+}
+
+/// As for one place (strike.cpp): the joints that bear the push directly do not fail under its peaks, and the strain
+/// energy, at most that of all peaks at once, is less than any other joint fails at. Then the push is done.
+bool Simulation::State::bears(JointPush& pushed) {
+  constexpr double rounding = 1e-6;
+  CoupledPush borne = *pushed.push;
+  const CoupledPush::Stop end = borne.push();
+  const Eigen::VectorXd& peak = borne.peak_force();
+  if (!WatchedJoints(*frame, pushed.response.places, strength_factors, peak).empty()) return false;
+  const double stored = peak.dot(pushed.response.compliance.cwiseAbs() * peak) / 2;
+  for (const ContactPlace& place : pushed.places)
+    if (stored > (1 - rounding) * frame->critical_energy(place)) return false;
+  pushed.leave(std::move(borne), end, scenario.impact.restitution);
   return true;
 }
 
@@ -182,14 +217,9 @@ void Simulation::State::push_in(JointPush& pushed) {
     const CoupledPush::Stop end = borne.push();
     const WatchedJoints watched(*frame, pushed.response.places, strength_factors, borne.peak_force());
     const auto used = [&](const Eigen::VectorXd& force) { return watched.worst_use(force); };
-    if (watched.empty() || push.push(used) != CoupledPush::Stop::failed) {
-      if (watched.empty()) push = std::move(borne);
-      // It leaves with the restitution's part of what the parts give back; one that its weight holds down stays.
-      pushed.speeds_out = push.speeds_at_most_stored();
-      if (end == CoupledPush::Stop::left)
-        pushed.speeds_out += scenario.impact.restitution * (push.speeds() - pushed.speeds_out);
-      return;
-    }
+    if (watched.empty()) return pushed.leave(std::move(borne), end, scenario.impact.restitution);
+    if (push.push(used) != CoupledPush::Stop::failed)
+      return pushed.leave(CoupledPush(push), end, scenario.impact.restitution);
     const std::vector<JointBreak> breaks = watched.failing(push.force());
     const double stored = push.stored();
     Eigen::VectorXd shift = Eigen::VectorXd::Zero(std::ssize(pushed.places));

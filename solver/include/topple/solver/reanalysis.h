@@ -142,10 +142,13 @@ class Reanalysis {
     double backward_error = 0;
   };
   [[nodiscard]] Response respond(const LoadSet& loads) const;
-  /// The same for the nodes alone that lie on the elimination paths of those that bear the loads, these among them: a
-  /// part of the work. Not refined, so that no backward error is told. `known` (per node): where the answer holds; zero
-  /// elsewhere.
+  /// The same for the nodes alone that lie on the elimination paths of those that bear the loads, these and both of
+  /// every loaded beam's among them: a part of the work. Not refined, so that no backward error is told. `known` (per
+  /// node): where the answer holds; zero elsewhere.
   [[nodiscard]] Response respond_near(const LoadSet& loads, std::vector<char>& known) const;
+  /// Both for several load sets, the factor gone through once for all; `known` on the paths of all of them.
+  [[nodiscard]] std::vector<Response> respond(std::span<const LoadSet> loads) const;
+  [[nodiscard]] std::vector<Response> respond_near(std::span<const LoadSet> loads, std::vector<char>& known) const;
   /// Diagonal of a beam's stiffness as it stands (local axes, its joints included): what one freedom of an end meets
   /// while all others are held.
   [[nodiscard]] Vec12 beam_stiffness_diagonal(int beam) const;

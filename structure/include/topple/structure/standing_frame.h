@@ -207,6 +207,10 @@ class StandingFrame {
   /// The same as far as it is known at a part of the cost: the compliance, a lower bound of the Rayleigh mass, and the
   /// demands of the joints at the members and the panel that bear the force directly.
   [[nodiscard]] UnitResponse respond_near(const ContactPlace& place, const Vec3& direction) const;
+  /// The same for several places: the inertia is a lower bound under any forces there, and the demands are those of the
+  /// joints at the members that bear any of the forces.
+  [[nodiscard]] CoupledResponse respond_near(std::span<const ContactPlace> places,
+                                             std::span<const Vec3> directions) const;
   /// J: a push there that adds less strain energy than this to the structure breaks no joint, those of the members and
   /// the panel that bear it directly aside. Joints over capacity already are left to the generations.
   [[nodiscard]] double critical_energy(const ContactPlace& place) const;
