@@ -31,7 +31,8 @@ void FactorRefresh::make(const std::vector<int>& order, const AnalysisOptions& o
   if (!outcome.positive_definite || outcome.worst_pivot < options.warning_limit) return;
   const double condition = estimate_condition(matrix_, [&](auto b) { factor->solve(b); });
   if (1 / condition < options.warning_limit) return;
-  result_ = {std::move(factor), condition};
+  std::optional<TriangularSolver> triangles(*factor);
+  result_ = {std::move(factor), condition, std::move(triangles)};
 }
 
 FactorRefresh::Result FactorRefresh::take(bool& late) {

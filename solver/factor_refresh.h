@@ -3,11 +3,13 @@
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <thread>
 #include <vector>
 
 #include "factor.h"
 #include "sparse.h"
+#include "triangular.h"
 
 namespace topple::solver {
 
@@ -24,6 +26,7 @@ class FactorRefresh {
   struct Result {
     std::unique_ptr<Factor> factor;  ///< none: the matrix is not definite, or lies in the warning band
     double condition = 0;
+    std::optional<TriangularSolver> triangles;  ///< over the factor
   };
   /// Waits for the factor; once. `late`: it was not there yet.
   [[nodiscard]] Result take(bool& late);

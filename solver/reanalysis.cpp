@@ -80,8 +80,7 @@ const Eigen::MatrixXd& Reanalysis::patch_stiffness(int patch) const {
 
 std::vector<Vec6> Reanalysis::patch_forces(int patch) const {
   (void)state_->checked_patch(patch);
-  state_->complete(nullptr);
-  return state_->system->patch_forces(patch, state_->displacements);
+  return state_->system->patch_forces(patch, state_->whole());
 }
 
 void Reanalysis::set_beam_stiffness_factor(int beam, double factor) {
@@ -129,9 +128,13 @@ void Reanalysis::set_beam_loads(int beam, std::vector<BeamLoad> loads) {
   state_->mark(beam);
 }
 
-const std::vector<Vec6>& Reanalysis::displacements() const {
-  state_->complete(nullptr);
-  return state_->displacements;
+const std::vector<Vec6>& Reanalysis::displacements() const { return state_->whole(); }
+
+const std::vector<Vec6>& Reanalysis::displacements_at(std::span<const int> nodes) const {
+  const State& state = *state_;
+  const bool here = !state.restricted || std::all_of(nodes.begin(), nodes.end(),
+                                                     [&](int node) { return state.restricted->node_is_current(node); });
+  return here ? state.displacements : state.whole();
 }
 
 const BeamStrainForces& Reanalysis::State::strain_forces_of(std::size_t i) const {
@@ -152,14 +155,14 @@ Vec12 Reanalysis::State::end_forces(std::size_t i, const std::vector<Vec6>& u, c
 
 Vec12 Reanalysis::beam_end_forces(int beam) const {
   const std::size_t i = state_->checked_beam(beam);
-  if (state_->restricted && !state_->restricted->beam_is_current(beam)) state_->complete(nullptr);
-  return state_->end_forces(i, state_->displacements, state_->fixed_end[i]);
+  const bool here = !state_->restricted || state_->restricted->beam_is_current(beam);
+  return state_->end_forces(i, here ? state_->displacements : state_->whole(), state_->fixed_end[i]);
 }
 
 std::array<Vec6, 4> Reanalysis::shell_corner_forces(int shell) const {
   (void)state_->checked_shell(shell);
-  if (state_->restricted && !state_->restricted->shell_is_current(shell)) state_->complete(nullptr);
-  return state_->system->corner_forces(shell, state_->displacements, Vec24::Zero());
+  const bool here = !state_->restricted || state_->restricted->shell_is_current(shell);
+  return state_->system->corner_forces(shell, here ? state_->displacements : state_->whole(), Vec24::Zero());
 }
 
 Vec6 Reanalysis::reaction(int support) const {
@@ -167,7 +170,6 @@ Vec6 Reanalysis::reaction(int support) const {
   if (support < 0 || static_cast<std::size_t>(support) >= system.model.supports.size()) {
     throw std::invalid_argument("support " + std::to_string(support) + " does not exist");
   }
-  state_->complete(nullptr);
   if (state_->reactions.empty()) {
     std::vector<Vec12> forces;
     forces.reserve(system.model.beams.size());
@@ -176,13 +178,13 @@ Vec6 Reanalysis::reaction(int support) const {
     for (std::size_t i = 0; i < system.model.shells.size(); ++i) {
       corners.push_back(shell_corner_forces(static_cast<int>(i)));
     }
-    state_->reactions = system.reactions(state_->displacements, forces, corners, state_->node_loads);
+    state_->reactions = system.reactions(state_->whole(), forces, corners, state_->node_loads);
   }
   return state_->reactions[static_cast<std::size_t>(support)];
 }
 
 double Reanalysis::strain_energy() const {
-  state_->complete(nullptr);
+  const std::vector<Vec6>& displacements = state_->whole();
   const FrameSystem& system = *state_->system;
   double energy = 0;
   for (std::size_t i = 0; i < system.model.beams.size(); ++i) {
@@ -193,16 +195,16 @@ double Reanalysis::strain_energy() const {
   for (std::size_t i = 0; i < system.model.shells.size(); ++i) {
     const std::array<Vec6, 4> corners = shell_corner_forces(static_cast<int>(i));
     for (std::size_t n = 0; n < 4; ++n) {
-      energy += corners[n].dot(state_->displacements[static_cast<std::size_t>(system.model.shells[i].node[n])]) / 2;
+      energy += corners[n].dot(displacements[static_cast<std::size_t>(system.model.shells[i].node[n])]) / 2;
     }
   }
   for (std::size_t i = 0; i < system.model.patches.size(); ++i) {
     const std::vector<Vec6> forces = patch_forces(static_cast<int>(i));
     for (std::size_t n = 0; n < forces.size(); ++n)
-      energy += forces[n].dot(state_->displacements[static_cast<std::size_t>(system.model.patches[i].node[n])]) / 2;
+      energy += forces[n].dot(displacements[static_cast<std::size_t>(system.model.patches[i].node[n])]) / 2;
   }
   for (const Support& support : system.model.supports) {
-    const Vec6& u = state_->displacements[static_cast<std::size_t>(support.node)];
+    const Vec6& u = displacements[static_cast<std::size_t>(support.node)];
     for (int c = 0; c < 6; ++c) {
       if (std::isfinite(support.stiffness(c))) energy += support.stiffness(c) * u(c) * u(c) / 2;
     }

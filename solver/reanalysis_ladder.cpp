@@ -17,7 +17,7 @@ constexpr double alike = 1.25;
 /// Factors of a matrix of this condition and worse are made anew rather than corrected.
 constexpr double ill_conditioned = 1e12;
 /// Columns that a correction may have at most.
-constexpr int most_columns = 600;
+constexpr int most_columns = 1000;
 /// Solves that the estimate of a new factor's condition takes, with the first answer's.
 constexpr double solves_with_factor = 12;
 /// Operations for each entry of the factor in one solve: where memory sets the pace, and where the factor is in cache.
@@ -61,9 +61,9 @@ std::optional<Defect> Reanalysis::State::update_structure(const std::vector<int>
     structure_stands = factor_valid = true;
     return std::nullopt;
   }
-  if (refresh && refresh_paid >= refresh_due) (void)take_refreshed();
+  go_on_with_refresh();
   // Beyond what a correction can do, a factor that is under way comes sooner than one begun now.
-  if (correct_factor(touched, defect) || (refresh && take_refreshed() && correct_factor(touched, defect))) {
+  if (correct_factor(touched, defect) || (switch_now() && correct_factor(touched, defect))) {
     structure_stands = !defect;
     if (structure_stands) begin_refresh_if_due();
     return defect;

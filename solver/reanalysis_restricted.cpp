@@ -68,12 +68,34 @@ void Reanalysis::State::tell_effort() {
   counters.beams_left += system->model.beams.size() - static_cast<std::uint64_t>(done.beams);
 }
 
+const std::vector<Vec6>& Reanalysis::State::whole() const {
+  if (!restricted || !restricted->partial()) return displacements;
+  if (!whole_known) find_whole();
+  return whole_displacements;
+}
+
+/// As complete(), beside the answer.
+void Reanalysis::State::find_whole() const {
+  RestrictedAnswer beside = *restricted;
+  Eigen::VectorXd u = solution;
+  whole_displacements = displacements;
+  beside.complete({u, whole_displacements}, nullptr);
+  whole_known = true;
+  if (!answer.stable || !structure_stands || !stale_nodes.empty()) return;
+  double error = 0;
+  system->node_displacements_of_scaled(refine_to(backward_error_limit, solved_force, std::move(u), error),
+                                       whole_displacements);
+}
+
 /// The displacements of what was left out; where the structure stands, with the backward error of a full answer.
 void Reanalysis::State::complete(UseWatch* watch) {
-  if (!restricted || !restricted->partial()) return;
+  if (!restricted) return;
+  const bool behind = restricted->partial();
+  if (!behind && (watch == nullptr || !restricted->unread())) return;
   eliminated_along = false;
   restricted->complete({solution, displacements}, watch);
-  effort.restricted = false;
+  if (!behind) return;
+  effort.restricted = whole_known = false;
   reactions.clear();
   if (!answer.stable || !structure_stands || !stale_nodes.empty()) return;
   SolveQuality& quality = answer.quality;

@@ -66,15 +66,14 @@ Eigen::VectorXd Reanalysis::State::solve_sparse(const Eigen::VectorXd& force, do
   const std::vector<int> loaded = rows_in(right_hand_side);
   x = right_hand_side;
   standing->solve(x, &loaded);
-  return refine_response(right_hand_side, std::move(x), backward_error).cwiseProduct(scale);
+  return refine_to(response_error, right_hand_side, std::move(x), backward_error).cwiseProduct(scale);
 }
 
-/// Until it is as exact as blows are weighed.
-Eigen::VectorXd Reanalysis::State::refine_response(const Eigen::VectorXd& scaled, Eigen::VectorXd x,
-                                                   double& backward_error) const {
+Eigen::VectorXd Reanalysis::State::refine_to(double limit, const Eigen::VectorXd& scaled, Eigen::VectorXd x,
+                                             double& backward_error) const {
   Eigen::VectorXd r, better;
   backward_error = rows->residual(system->matrix(), scaled, x, r);
-  for (int step = 0; step < most_refinements && backward_error > response_error; ++step) {
+  for (int step = 0; step < most_refinements && backward_error > limit; ++step) {
     standing->solve(r);
     better = x + r;
     const double error = rows->residual(system->matrix(), scaled, better, r);
@@ -114,7 +113,8 @@ Eigen::MatrixXd Reanalysis::State::solve_sparse(const Eigen::MatrixXd& force, st
   X = scaled;
   standing->solve(X, loaded);
   for (Eigen::Index j = 0; j < count; ++j)
-    X.col(j) = refine_response(scaled.col(j), X.col(j), errors[static_cast<std::size_t>(j)]).cwiseProduct(scale);
+    X.col(j) =
+        refine_to(response_error, scaled.col(j), X.col(j), errors[static_cast<std::size_t>(j)]).cwiseProduct(scale);
   return X;
 }
 
@@ -295,6 +295,7 @@ bool Reanalysis::State::prepare() {
 /// From what is to become of the structure to its factor.
 void Reanalysis::State::take_changes(UseWatch* watch) {
   effort = {};
+  whole_known = false;
   // The uses of the present answer are what a restricted one starts from.
   if (watch != nullptr && restricted && !restricted->uses_known() && answered && answer.stable && structure_stands)
     read_all_uses(*watch);
@@ -321,7 +322,7 @@ const ReanalysisAnswer& Reanalysis::State::solve(UseWatch* watch) {
     return answer;
   }
   if (pending()) take_changes(watch);
-  prepared = false;
+  prepared = whole_known = false;
   ++counters.solves;
   if (loads_alone) ++counters.load_solves;
   if (mechanism) {

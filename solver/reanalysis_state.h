@@ -43,7 +43,9 @@ struct Reanalysis::State {
   RefreshRules refresh_rules;
   std::unique_ptr<StandingFactor> next;      ///< remembers the changes since the refresh was begun
   std::unique_ptr<FactorRefresh> refresh;    ///< the factor that `next` is to serve with
-  double refresh_paid = 0, refresh_due = 0;  ///< operations of answers since then; those after which it takes over
+  std::unique_ptr<Factor> next_factor;       ///< what the refresh made: `next` catches up over it
+  double next_condition = 0;                 ///< of the matrix that it was made of
+  double refresh_paid = 0, refresh_due = 0;  ///< operations of answers since then; those after which it is taken
   double correction_paid = 0;                ///< predicted cost of changes from before, since the factor was made
   double looked_at_softening = 0;            ///< at which the softest motion was looked at last
   bool refresh_failed = false;               ///< not to be tried again before there is another factor
@@ -78,6 +80,8 @@ struct Reanalysis::State {
   std::vector<int> loaded_nodes;  ///< of beams that changed, and loaded otherwise, since then
   RestrictedEffort effort;
   std::vector<Vec6> displacements;
+  mutable std::vector<Vec6> whole_displacements;  ///< of a restricted answer, when asked for
+  mutable bool whole_known = false;
   std::vector<Vec12> fixed_end;                         ///< per beam, local
   std::vector<Vec12> fixed_at_nodes;                    ///< per beam: the same reversed, on its nodes, global
   mutable std::vector<BeamStrainForces> strain_forces;  ///< per beam, made when first asked for
@@ -119,6 +123,9 @@ struct Reanalysis::State {
   void begin_refresh_if_due();
   /// The new factor takes over. False: there is none.
   [[nodiscard]] bool take_refreshed();
+  void go_on_with_refresh();
+  [[nodiscard]] bool switch_now();
+  void switch_factors();
   void drop_refresh();
   template <class Tell>
   void tell_standing(const Tell& tell) {
@@ -146,6 +153,9 @@ struct Reanalysis::State {
   /// Brings displacements up to date where the watch needs it. False: a full answer is needed.
   [[nodiscard]] bool answer_in_part(UseWatch& watch);
   void tell_effort();
+  /// Displacements everywhere, whatever the answer under way has left out.
+  [[nodiscard]] const std::vector<Vec6>& whole() const;
+  void find_whole() const;
   /// Makes a restricted answer whole.
   void complete(UseWatch* watch);
   void bring_up_to_date(UseWatch* watch);
@@ -165,7 +175,9 @@ struct Reanalysis::State {
   /// The force that loads make, of a structure that stands; throws Instability.
   [[nodiscard]] LoadVector force_on_standing(const LoadSet& loads) const;
   [[nodiscard]] Eigen::VectorXd solve_sparse(const Eigen::VectorXd& force, double& backward_error) const;
-  [[nodiscard]] Eigen::VectorXd refine_response(const Eigen::VectorXd& scaled, Eigen::VectorXd x, double& error) const;
+  /// Refines x until its error is within the limit.
+  [[nodiscard]] Eigen::VectorXd refine_to(double limit, const Eigen::VectorXd& scaled, Eigen::VectorXd x,
+                                          double& error) const;
   /// The same for several forces, a column each, the factor gone through once for all of them; and on elimination paths
   /// (StandingFactor::solve_on_paths()), not refined.
   [[nodiscard]] Eigen::MatrixXd solve_sparse(const Eigen::MatrixXd& force, std::vector<double>& backward_error) const;

@@ -31,7 +31,7 @@ std::span<const int> listed(const std::vector<int>& start, const std::vector<int
 }  // namespace
 
 RestrictedAnswer::RestrictedAnswer(const FrameSystem& system, const TriangularSolver& solver, BeamStiffness stiffness)
-    : system_(system), solver_(solver), beam_stiffness_(std::move(stiffness)) {
+    : system_(system), solver_(&solver), beam_stiffness_(std::move(stiffness)) {
   const auto blocks = static_cast<std::size_t>(solver.blocks());
   std::vector<int> parents(blocks);
   depth_.assign(blocks, 0);
@@ -49,6 +49,7 @@ RestrictedAnswer::RestrictedAnswer(const FrameSystem& system, const TriangularSo
   list_by_block(parents, blocks, child_start_, child_);
   list_elements();
   older_.assign(blocks, 0);
+  unread_.assign(blocks, 0);
   behind_.assign(static_cast<std::size_t>(below_start_.back()), 0.0);
   own_use_.assign(blocks, 0.0);
   bound_ = growth_ = slack_ = own_use_;
@@ -57,41 +58,54 @@ RestrictedAnswer::RestrictedAnswer(const FrameSystem& system, const TriangularSo
   waiting_ = change_ = past_ = Eigen::VectorXd::Zero(solver.size());
 }
 
+bool RestrictedAnswer::serve(const TriangularSolver& solver) {
+  if (solver.size() != solver_->size() || solver.blocks() != solver_->blocks()) return false;
+  for (int k = 0; k < solver.size(); ++k)
+    if (solver.row_at(k) != solver_->row_at(k)) return false;
+  for (int block = 0; block < solver.blocks(); ++block) {
+    const auto now = solver.block(block), before = solver_->block(block);
+    if (now.first != before.first || now.columns != before.columns ||
+        !std::equal(now.below.begin(), now.below.end(), before.below.begin(), before.below.end()))
+      return false;
+  }
+  solver_ = &solver;
+  return true;
+}
+
 int RestrictedAnswer::lowest_block(std::span<const int> equations) const {
-  int lowest = solver_.size();
+  int lowest = solver_->size();
   for (const int e : equations)
-    if (e >= 0 && e < system_.dofs().equations) lowest = std::min(lowest, solver_.position(e));
-  return lowest < solver_.size() ? solver_.block_of(solver_.row_at(lowest)) : -1;
+    if (e >= 0 && e < system_.dofs().equations) lowest = std::min(lowest, solver_->position(e));
+  return lowest < solver_->size() ? solver_->block_of(solver_->row_at(lowest)) : -1;
 }
 
 void RestrictedAnswer::list_elements() {
-  const auto blocks = static_cast<std::size_t>(solver_.blocks());
+  const auto blocks = static_cast<std::size_t>(solver_->blocks());
   const std::size_t beams = system_.model.beams.size(), shells = system_.model.shells.size();
   for (std::size_t i = 0; i < beams + shells; ++i) {
     const int block = lowest_block(system_.scatter().freedoms(i));
     (i < beams ? beam_block_ : shell_block_).push_back(block);
     if (block < 0) (i < beams ? held_beams_ : held_shells_).push_back(static_cast<int>(i < beams ? i : i - beams));
   }
-  std::vector<int> node_block;
-  for (const auto& numbers : system_.dofs().number) node_block.push_back(lowest_block(numbers));
+  for (const auto& numbers : system_.dofs().number) node_block_.push_back(lowest_block(numbers));
   list_by_block(beam_block_, blocks, beam_start_, beam_);
   list_by_block(shell_block_, blocks, shell_start_, shell_);
-  list_by_block(node_block, blocks, node_start_, node_);
+  list_by_block(node_block_, blocks, node_start_, node_);
 }
 
 bool RestrictedAnswer::is_current(int block) const {
   if (!partial_) return true;
-  for (; block >= 0; block = solver_.parent(block))
+  for (; block >= 0; block = solver_->parent(block))
     if (older_[static_cast<std::size_t>(block)] != 0) return false;
   return true;
 }
 
 /// Adds past_ or change_ of the block's rows to the answer: nodes that left stay at rest.
 void RestrictedAnswer::add_to_solution(int block, Answer answer) {
-  const auto own = solver_.block(block);
+  const auto own = solver_->block(block);
   const auto& vertex = system_.dofs().vertex_of_equation;
   for (int k = own.first; k < own.first + own.columns; ++k) {
-    const int row = solver_.row_at(k);
+    const int row = solver_->row_at(k);
     const auto v = static_cast<std::size_t>(vertex[static_cast<std::size_t>(row)]);
     const bool left = v < system_.node_stands.size() && system_.node_stands[v] == 0;
     answer.solution(row) = left ? 0.0 : answer.solution(row) + past_(k);
@@ -106,15 +120,15 @@ void RestrictedAnswer::read_nodes(int block, Answer answer) const {
 /// Carries the changes that the block missed through it, and hands them on to its children.
 void RestrictedAnswer::bring_older(int block, Answer answer) {
   const auto b = static_cast<std::size_t>(block);
-  const auto own = solver_.block(block);
+  const auto own = solver_->block(block);
   double* behind = behind_.data() + below_start_[b];
   past_.segment(own.first, own.columns) = waiting_.segment(own.first, own.columns);
-  solver_.backward(block, past_.data() + own.first, behind);
+  solver_->backward(block, past_.data() + own.first, behind);
   for (std::size_t i = 0; i < own.below.size(); ++i) past_(own.below[i]) = behind[i];
   add_to_solution(block, answer);
   for (const int child : listed(child_start_, child_, block)) {
     const auto c = static_cast<std::size_t>(child);
-    const auto below = solver_.block(child).below;
+    const auto below = solver_->block(child).below;
     double* of_child = behind_.data() + below_start_[c];
     for (std::size_t i = 0; i < below.size(); ++i) of_child[i] += past_(below[i]);
     older_[c] = 1;
@@ -129,19 +143,27 @@ void RestrictedAnswer::bring_older(int block, Answer answer) {
 }
 
 void RestrictedAnswer::complete(Answer answer, UseWatch* watch) {
-  if (!partial_) return;
-  visits_.clear();
-  for (int block = solver_.blocks() - 1; block >= 0; --block) {
-    if (older_[static_cast<std::size_t>(block)] == 0) continue;
-    bring_older(block, answer);
-    read_nodes(block, answer);
-    visits_.push_back(block);
+  if (partial_) {
+    for (int block = solver_->blocks() - 1; block >= 0; --block) {
+      const auto b = static_cast<std::size_t>(block);
+      if (older_[b] == 0) continue;
+      bring_older(block, answer);
+      read_nodes(block, answer);
+      unread_[b] = 1;
+    }
+    partial_ = false;
+    any_unread_ = true;
+    bound_left_out_ = 0;
   }
-  partial_ = false;
-  bound_left_out_ = 0;
-  if (watch == nullptr || !uses_known_) return;
-  for (const int block : visits_) read_uses(block, *watch);
-  for (int block = 0; block < solver_.blocks(); ++block) update_bound(block);
+  if (watch != nullptr && uses_known_ && any_unread_) read_unread(*watch);
+}
+
+void RestrictedAnswer::read_unread(UseWatch& watch) {
+  for (int block = 0; block < solver_->blocks(); ++block) {
+    if (unread_[static_cast<std::size_t>(block)] != 0) read_uses(block, watch);
+    update_bound(block);
+  }
+  any_unread_ = false;
 }
 
 void RestrictedAnswer::note(double use) { worst_ = std::max(worst_, use); }
@@ -151,6 +173,7 @@ void RestrictedAnswer::read_uses(int block, UseWatch& watch) {
   for (const int beam : listed(beam_start_, beam_, block)) use = std::max(use, watch.beam_use(beam));
   for (const int shell : listed(shell_start_, shell_, block)) use = std::max(use, watch.shell_use(shell));
   own_use_[static_cast<std::size_t>(block)] = use;
+  unread_[static_cast<std::size_t>(block)] = 0;
   note(use);
   effort_.beams += static_cast<int>(listed(beam_start_, beam_, block).size());
   effort_.shells += static_cast<int>(listed(shell_start_, shell_, block).size());
@@ -166,7 +189,7 @@ void RestrictedAnswer::update_bound(int block) {
 void RestrictedAnswer::read_all(UseWatch& watch) {
   worst_ = 0;
   read_growths(watch);
-  for (int block = 0; block < solver_.blocks(); ++block) {
+  for (int block = 0; block < solver_->blocks(); ++block) {
     read_uses(block, watch);
     update_bound(block);
     slack_[static_cast<std::size_t>(block)] = 0;
@@ -174,12 +197,13 @@ void RestrictedAnswer::read_all(UseWatch& watch) {
   for (const int beam : held_beams_) note(watch.beam_use(beam));
   for (const int shell : held_shells_) note(watch.shell_use(shell));
   uses_known_ = true;
+  any_unread_ = false;
 }
 
 void RestrictedAnswer::read_growths(UseWatch& watch) {
   if (growths_known_) return;
   growths_known_ = true;
-  for (int block = 0; block < solver_.blocks(); ++block) {
+  for (int block = 0; block < solver_->blocks(); ++block) {
     double& growth = growth_[static_cast<std::size_t>(block)];
     growth = 0;
     for (const int beam : listed(beam_start_, beam_, block)) {
@@ -221,9 +245,9 @@ void RestrictedAnswer::reach_neighbours(std::span<const int> rows) {
 
 const std::vector<char>& RestrictedAnswer::begin(std::span<const int> rows, Answer answer) {
   reach_neighbours(rows);
-  solver_.mark_paths(near_rows_, path_);
+  solver_->mark_paths(near_rows_, path_);
   if (!partial_) return path_;
-  for (int block = solver_.blocks() - 1; block >= 0; --block) {
+  for (int block = solver_->blocks() - 1; block >= 0; --block) {
     const auto b = static_cast<std::size_t>(block);
     if (path_[b] == 0 || older_[b] == 0) continue;
     bring_older(block, answer);
@@ -234,10 +258,10 @@ const std::vector<char>& RestrictedAnswer::begin(std::span<const int> rows, Answ
 
 /// This change alone, in a block whose ancestors have it.
 void RestrictedAnswer::step_now(int block, const Eigen::VectorXd& y, Answer answer) {
-  const auto own = solver_.block(block);
+  const auto own = solver_->block(block);
   for (std::size_t i = 0; i < own.below.size(); ++i) below_[i] = change_(own.below[i]);
   change_.segment(own.first, own.columns) = y.segment(own.first, own.columns);
-  solver_.backward(block, change_.data() + own.first, below_.data());
+  solver_->backward(block, change_.data() + own.first, below_.data());
   past_.segment(own.first, own.columns) = change_.segment(own.first, own.columns);
   add_to_solution(block, answer);
   read_nodes(block, answer);
@@ -253,7 +277,7 @@ Vec6 RestrictedAnswer::node_change(int node) const {
   for (std::size_t c = 0; c < 6; ++c) {
     const int e = system_.dofs().number[n][c];
     if (e < system_.dofs().equations)
-      u(static_cast<Eigen::Index>(c)) = change_(solver_.position(e)) * system_.scale()[static_cast<std::size_t>(e)];
+      u(static_cast<Eigen::Index>(c)) = change_(solver_->position(e)) * system_.scale()[static_cast<std::size_t>(e)];
   }
   u(0) -= system_.dofs().arm[n][1] * u(5);
   u(1) += system_.dofs().arm[n][0] * u(5);
@@ -288,7 +312,7 @@ double RestrictedAnswer::twice_energy_of_elements(int block) const {
 /// What the block missed of this change waits for it.
 void RestrictedAnswer::leave_out(int block) {
   const auto b = static_cast<std::size_t>(block);
-  const auto below = solver_.block(block).below;
+  const auto below = solver_->block(block).below;
   double* behind = behind_.data() + below_start_[b];
   for (std::size_t i = 0; i < below.size(); ++i) behind[i] += change_(below[i]);
   older_[b] = 1;
@@ -339,11 +363,11 @@ void RestrictedAnswer::finish(const Eigen::VectorXd& y) {
     bound_[b] += growth_[b] * root;
     bound_left_out_ = std::max(bound_left_out_, bound_[b]);
   }
-  for (int block = 0; block < solver_.blocks(); ++block) {
+  for (int block = 0; block < solver_->blocks(); ++block) {
     if (visited_[static_cast<std::size_t>(block)] != 0) {
       update_bound(block);
     } else {
-      const auto own = solver_.block(block);
+      const auto own = solver_->block(block);
       waiting_.segment(own.first, own.columns) += y.segment(own.first, own.columns);
     }
   }
@@ -356,10 +380,10 @@ void RestrictedAnswer::advance(std::span<const int> rows, const Eigen::VectorXd&
   visits_.clear();
   worst_ = bound_left_out_ = 0;
   std::fill(visited_.begin(), visited_.end(), 0);
-  for (int block = solver_.blocks() - 1; block >= 0; --block)
+  for (int block = solver_->blocks() - 1; block >= 0; --block)
     if (path_[static_cast<std::size_t>(block)] != 0) step_now(block, y, answer);
   remaining_ = 0;
-  for (const int row : rows) remaining_ += residual(row) * change_(solver_.position(row));
+  for (const int row : rows) remaining_ += residual(row) * change_(solver_->position(row));
   effort_.energy = remaining_ / 2;
   for (const int block : visits_) {
     remaining_ -= twice_energy_of_elements(block);

@@ -27,13 +27,17 @@ class RestrictedAnswer {
   /// `solver` holds the factor of the system's matrix at some time; both must outlive this. The answer is whole.
   RestrictedAnswer(const FrameSystem& system, const TriangularSolver& solver, BeamStiffness stiffness);
 
+  /// Another factor of the same pattern serves from now on; what is known of uses stays. The answer must be whole.
+  /// False (and nothing has changed): its blocks are others.
+  [[nodiscard]] bool serve(const TriangularSolver& solver);
+
   /// The answer: scaled, in the matrix's order, and what is read from it.
   struct Answer {
     Eigen::VectorXd& solution;
     std::vector<Vec6>& displacements;
   };
 
-  /// Brings everything up to date, reading the uses of what was not (`watch`; null: they stay bounds).
+  /// Brings everything up to date, reading all uses that were not since (`watch`; null: they stay bounds).
   void complete(Answer answer, UseWatch* watch);
   /// Reads every use; the answer must be whole.
   void read_all(UseWatch& watch);
@@ -43,7 +47,10 @@ class RestrictedAnswer {
   void forget_growths() { uses_known_ = growths_known_ = false; }
   /// Something is not up to date.
   [[nodiscard]] bool partial() const { return partial_; }
+  /// Something was brought up to date, and its uses were not read.
+  [[nodiscard]] bool unread() const { return any_unread_; }
   [[nodiscard]] bool beam_is_current(int beam) const { return is_current(beam_block_[static_cast<std::size_t>(beam)]); }
+  [[nodiscard]] bool node_is_current(int node) const { return is_current(node_block_[static_cast<std::size_t>(node)]); }
   [[nodiscard]] bool shell_is_current(int shell) const {
     return is_current(shell_block_[static_cast<std::size_t>(shell)]);
   }
@@ -81,6 +88,7 @@ class RestrictedAnswer {
   void update_bound(int block);
   void note(double use);
   void read_growths(UseWatch& watch);
+  void read_unread(UseWatch& watch);
   void descend(const Eigen::VectorXd& y, UseWatch& watch, Answer answer);
   void leave_out(int block);
   void finish(const Eigen::VectorXd& y);
@@ -90,16 +98,17 @@ class RestrictedAnswer {
   [[nodiscard]] double twice_energy_of_shell(int shell) const;
 
   const FrameSystem& system_;
-  const TriangularSolver& solver_;
+  const TriangularSolver* solver_;
   std::vector<int> depth_;
   std::vector<int> child_start_, child_;  ///< per block: its children
   // Elements and nodes belong to the block of the first of their equations that is eliminated: when that is up to
   // date, so are all of them. -1: they have none.
-  std::vector<int> beam_block_, shell_block_;
+  std::vector<int> beam_block_, shell_block_, node_block_;
   std::vector<int> beam_start_, beam_, shell_start_, shell_, node_start_, node_;  ///< per block
   std::vector<int> held_beams_, held_shells_;                                     ///< without any equation
   // Per block.
-  std::vector<char> older_;  ///< it is behind by what `behind_` and `waiting_` hold
+  std::vector<char> older_;   ///< it is behind by what `behind_` and `waiting_` hold
+  std::vector<char> unread_;  ///< its uses are bounds
   std::vector<std::int64_t> below_start_;
   std::vector<double> behind_;  ///< change of the rows below the block since it was visited
   std::vector<double> own_use_;
@@ -112,7 +121,7 @@ class RestrictedAnswer {
   std::vector<int> visits_, open_, left_out_, near_rows_, elements_;
   std::vector<double> below_;
   BeamStiffness beam_stiffness_;
-  bool partial_ = false, uses_known_ = false, growths_known_ = false;
+  bool partial_ = false, any_unread_ = false, uses_known_ = false, growths_known_ = false;
   double remaining_ = 0;  ///< twice the energy that the change may have left in what was not visited
   double worst_ = 0, bound_left_out_ = 0;
   Effort effort_;

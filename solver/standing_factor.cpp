@@ -1,6 +1,8 @@
 #include "standing_factor.h"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 namespace topple::solver {
 namespace {
@@ -21,9 +23,25 @@ StandingFactor::StandingFactor(const FrameSystem& system) : system_(system) {
   }
 }
 
-void StandingFactor::serve(const Factor& factor) {
-  solver_.emplace(factor);
+void StandingFactor::serve(const Factor& factor) { serve(TriangularSolver(factor)); }
+
+void StandingFactor::serve(TriangularSolver triangles) {
+  solver_.emplace(std::move(triangles));
   correction_.emplace(*solver_);
+}
+
+StandingFactor::CaughtUp StandingFactor::catch_up(int places) {
+  const Plan whole = plan();
+  if (!whole.possible) return {};
+  const std::size_t wanted = planned_.size(), taken = std::min(wanted, static_cast<std::size_t>(places));
+  while (planned_.size() > taken) planned_.erase(std::prev(planned_.end()));
+  for (const auto& [key, modes] : planned_) place_.emplace(key, correction_->add(modes.rows, modes.B));
+  planned_.clear();
+  correction_->finish_adding();
+  set_wanted();
+  correction_->update();
+  const double share = wanted == 0 ? 0.0 : static_cast<double>(taken) / static_cast<double>(wanted);
+  return {taken == wanted, share * (whole.operations - solve_operations())};
 }
 
 void StandingFactor::remember_beam(int beam) {

@@ -28,6 +28,15 @@ class StandingFactor {
   explicit StandingFactor(const FrameSystem& system);
   /// That factor, which must outlive this. Only now it can plan and solve.
   void serve(const Factor& factor);
+  /// The same with the triangles over that factor, made elsewhere.
+  void serve(TriangularSolver triangles);
+  /// Over a factor that is to serve soon: compares, and takes over at most so many of the places that changed since it
+  /// was made. Little enough to be done beside the answers of the one that still serves.
+  struct CaughtUp {
+    bool all = true;  ///< nothing is left, or what is left only a new factor takes
+    double operations = 0;
+  };
+  [[nodiscard]] CaughtUp catch_up(int places);
 
   // To be told before the system changes.
   void remember_beam(int beam);

@@ -112,10 +112,10 @@ bool BucklingBracing::suspicious(int c) {
   return found;
 }
 
-/// The Rayleigh quotient of -Kg over K in the shape that the second-order iteration comes to.
-double BucklingBracing::iterate(int c) const {
-  FrameStatics::ResponseLoads loads;
-  // A push sideways without any symmetry of its own.
+/// From a push sideways without any symmetry of its own.
+BucklingBracing::Iteration BucklingBracing::begin(int c) const {
+  Iteration first;
+  first.solves = statics_.solves(c);
   double step = 0;
   for (NodeId node : statics_.nodes(c)) {
     if (node_solved_[index_of(node)] == 0) continue;
@@ -123,35 +123,39 @@ double BucklingBracing::iterate(int c) const {
     Vec6 push = Vec6::Zero();
     push(0) = 1 + 0.3 * std::sin(0.7 * step);
     push(1) = 0.8 + 0.3 * std::sin(1.1 * step + 1);
-    loads.nodes.emplace_back(node, push);
+    first.loads.nodes.emplace_back(node, push);
   }
-  double quotient = 0;
-  for (int k = 0; k < iterations; ++k) {
-    const FrameStatics::Response shape = statics_.respond(c, loads);
-    double done = 0, geometric = 0, size = 0;
-    for (const auto& [node, load] : loads.nodes) {
-      done += load.dot(shape.displacement(node));
-      size = std::max(size, shape.displacement(node).cwiseAbs().maxCoeff());
-    }
-    if (!(done > 0) || !(size > 0)) return quotient;
-    std::vector<Vec6> at(building_.nodes.size(), Vec6::Zero());
-    for (MemberId member : statics_.members(c)) {
-      if (segments_.label(member) < 0) continue;
-      const auto& nodes = building_[member].nodes;
-      const solver::Beam& beam = statics_.beam(member);
-      const solver::Vec12& force = statics_.end_forces(member);
-      const solver::Vec12 hubs = hubs_of(beam, shape.displacement(nodes[0]), shape.displacement(nodes[1]));
-      const solver::Vec12 push = -forces_at_nodes(beam, geometric_forces(beam, (force(6) - force(0)) / 2, hubs));
-      for (int end = 0; end < 2; ++end) at[index_of(nodes[static_cast<std::size_t>(end)])] += push.segment<6>(6 * end);
-    }
-    for (auto& [node, load] : loads.nodes) {
-      geometric += at[index_of(node)].dot(shape.displacement(node));
-      load = at[index_of(node)] / size;
-    }
-    const double before = std::exchange(quotient, geometric / done);
-    if (k > 2 && std::abs(quotient - before) < settled * std::abs(quotient)) break;
+  return first;
+}
+
+/// One step towards the Rayleigh quotient of -Kg over K in the shape that the iteration comes to. True when it is
+/// there.
+bool BucklingBracing::iterate(int c, Iteration& iteration) const {
+  const FrameStatics::Response shape = statics_.respond(c, iteration.loads);
+  double done = 0, geometric = 0, size = 0;
+  for (const auto& [node, load] : iteration.loads.nodes) {
+    done += load.dot(shape.displacement(node));
+    size = std::max(size, shape.displacement(node).cwiseAbs().maxCoeff());
   }
-  return quotient;
+  if (!(done > 0) || !(size > 0)) return true;
+  std::vector<Vec6> at(building_.nodes.size(), Vec6::Zero());
+  for (MemberId member : statics_.members(c)) {
+    if (segments_.label(member) < 0) continue;
+    const auto& nodes = building_[member].nodes;
+    const solver::Beam& beam = statics_.beam(member);
+    const solver::Vec12& force = statics_.end_forces(member);
+    const solver::Vec12 hubs = hubs_of(beam, shape.displacement(nodes[0]), shape.displacement(nodes[1]));
+    const solver::Vec12 push = -forces_at_nodes(beam, geometric_forces(beam, (force(6) - force(0)) / 2, hubs));
+    for (int end = 0; end < 2; ++end) at[index_of(nodes[static_cast<std::size_t>(end)])] += push.segment<6>(6 * end);
+  }
+  for (auto& [node, load] : iteration.loads.nodes) {
+    geometric += at[index_of(node)].dot(shape.displacement(node));
+    load = at[index_of(node)] / size;
+  }
+  const double before = std::exchange(iteration.quotient, geometric / done);
+  ++iteration.steps;
+  return iteration.steps == iterations ||
+         (iteration.steps > 3 && std::abs(iteration.quotient - before) < settled * std::abs(iteration.quotient));
 }
 
 std::optional<BuckledPost> BucklingBracing::judge(int c) const {
@@ -274,18 +278,34 @@ std::optional<BuckledPost> BucklingBracing::judge(int c) const {
   return worst;
 }
 
-std::optional<BuckledPost> BucklingBracing::find(int c, bool certain) {
-  ++counters_.screened;
-  if (!suspicious(c) && !certain) return std::nullopt;
-  ++counters_.iterated;
-  bool inner = certain;
+/// A post bears so much that it may buckle between nodes at rest.
+bool BucklingBracing::buckles_inside(int c) const {
   for (MemberId member : statics_.members(c)) {
     if (segments_.label(member) < 0) continue;
     const solver::Vec12& force = statics_.end_forces(member);
-    inner = inner || (force(0) - force(6)) / 2 >
-                         inner_share * least_euler(building_, statics_, member, building_[member].length);
+    if ((force(0) - force(6)) / 2 > inner_share * least_euler(building_, statics_, member, building_[member].length))
+      return true;
   }
-  if (!inner && iterate(c) < suspicious_quotient) return std::nullopt;
+  return false;
+}
+
+std::optional<BuckledPost> BucklingBracing::find(int c, bool certain) {
+  auto under_way = iterations_.find(c);
+  if (under_way != iterations_.end() && under_way->second.solves != statics_.solves(c)) {
+    // What stands is another one; what was to be tested is still to be.
+    under_way->second = begin(c);
+  } else if (under_way == iterations_.end()) {
+    ++counters_.screened;
+    if (!suspicious(c) && !certain) return std::nullopt;
+    ++counters_.iterated;
+    if (!certain && !buckles_inside(c)) under_way = iterations_.emplace(c, begin(c)).first;
+  }
+  if (under_way != iterations_.end()) {
+    if (!iterate(c, under_way->second)) return std::nullopt;
+    const double quotient = under_way->second.quotient;
+    iterations_.erase(under_way);
+    if (quotient < suspicious_quotient) return std::nullopt;
+  }
   ++counters_.judged;
   std::optional<BuckledPost> buckled = judge(c);
   if (buckled) std::fill(tested_.begin(), tested_.end(), 0.0);

@@ -277,6 +277,7 @@ std::optional<FrameMechanism> FrameStatics::solve(int number) {
   Component& component = components_[static_cast<std::size_t>(number)];
   const solver::ReanalysisAnswer& answer = component.analysis->solve();
   if (answer.stable) {
+    component.unwatched = false;
     read_end_forces(component);
     operations_ += component.analysis->last_operations();
     if (second_order_) component.diverged = !displace(number);
@@ -291,7 +292,7 @@ std::optional<FrameMechanism> FrameStatics::solve(int number, MemberWatch& watch
   Adapter adapter(*this, component, watch);
   const solver::ReanalysisAnswer& answer = component.analysis->solve(adapter);
   if (answer.stable) {
-    component.partial = component.analysis->restricted_effort().restricted;
+    component.partial = component.unwatched = component.analysis->restricted_effort().restricted;
     // A factor in the warning band serves no restricted answers, and nothing was read.
     if (!component.partial && !component.analysis->uses_known()) {
       for (std::size_t beam = 0; beam < component.members.size(); ++beam)
@@ -305,10 +306,10 @@ std::optional<FrameMechanism> FrameStatics::solve(int number, MemberWatch& watch
 
 void FrameStatics::complete(int number, MemberWatch& watch) {
   Component& component = components_[static_cast<std::size_t>(number)];
-  if (!component.partial) return;
+  if (!component.unwatched) return;
   Adapter adapter(*this, component, watch);
   component.analysis->complete(&adapter);
-  component.partial = false;
+  component.partial = component.unwatched = false;
 }
 
 void FrameStatics::read_end_forces(const Component& component, MemberId member) const {
@@ -346,7 +347,7 @@ std::optional<FrameMechanism> FrameStatics::told(int number, const solver::Reana
 
 const Vec6& FrameStatics::displacement(NodeId node) const {
   const Place& place = node_place_[index(node)];
-  return at(place).displacements()[static_cast<std::size_t>(place.local)];
+  return at(place).displacements_at({&place.local, 1})[static_cast<std::size_t>(place.local)];
 }
 
 solver::Beam FrameStatics::beam(MemberId member) const {
@@ -410,7 +411,10 @@ Vec6 FrameStatics::reaction(NodeId node, std::size_t edge_support) const {
 Vec3 FrameStatics::point_displacement(MemberId member, double distance,
                                       const std::vector<solver::BeamLoad>& loads) const {
   const Place& place = member_place_[index(member)];
-  return at(place).point_displacement(place.local, distance, at(place).displacements(), with_hinges(member, loads));
+  const solver::Reanalysis& analysis = at(place);
+  const auto& nodes = analysis.model().beams[static_cast<std::size_t>(place.local)].node;
+  return analysis.point_displacement(place.local, distance, analysis.displacements_at(nodes),
+                                     with_hinges(member, loads));
 }
 
 solver::LoadSet FrameStatics::local(const ResponseLoads& loads) const {

@@ -93,8 +93,8 @@ class FrameStatics {
   [[nodiscard]] std::optional<FrameMechanism> solve(int component, MemberWatch& watch);
   /// Makes the answer whole; the watch reads what was left out.
   void complete(int component, MemberWatch& watch);
-  /// Something was left out of the component's answer.
-  [[nodiscard]] bool partial(int component) const { return parts(component).partial; }
+  /// Something was left out of what the last watch read of the component's answer.
+  [[nodiscard]] bool partial(int component) const { return parts(component).unwatched; }
   /// Capacities changed.
   void forget_uses(int component) { components_[static_cast<std::size_t>(component)].analysis->forget_uses(); }
   /// What uses are counted from changed.
@@ -168,6 +168,8 @@ class FrameStatics {
   }
 
   [[nodiscard]] solver::ReanalysisCounters counters() const;
+  /// Answers of one component so far.
+  [[nodiscard]] std::uint64_t solves(int component) const { return parts(component).analysis->counters().solves; }
   [[nodiscard]] double operations() const;
 
  private:
@@ -180,6 +182,7 @@ class FrameStatics {
     std::vector<PanelId> membranes, shells;  ///< shells and patches of the model, in order
     std::unique_ptr<solver::Reanalysis> analysis;
     bool changed = true, gone = false, diverged = false;
+    bool unwatched = false;        ///< the watch has not read all of the answer
     mutable bool partial = false;  ///< end_forces_ of some members are behind
   };
   template <class Tag>

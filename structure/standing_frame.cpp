@@ -46,6 +46,7 @@ StandingFrame::State::State(const Building& given, CombinationId combination, co
       checked_edges(checked_joints.size()),
       component_panels(checked_joints.size()),
       to_check(checked_joints.size(), 1),
+      demands_behind(checked_joints.size(), 0),
       critical_energies(checked_joints.size(), -1.0),
       certain(checked_joints.size()),
       solved_nodes(checked_joints.size(), 0),
@@ -77,7 +78,11 @@ StandingFrame::State::State(const Building& given, CombinationId combination, co
     read_demands(c, true);
     if (ductile.any(c)) ductile.base_is_answer(c);
     if (!buckling) continue;
-    if (const auto post = buckling->find(c, statics.diverged(c)))
+    std::optional<BuckledPost> post;
+    do {
+      post = buckling->find(c, statics.diverged(c));
+    } while (buckling->testing(c));
+    if (post)
       throw UnstableModel(building.file + ": post " + (post->post.valid() ? building[post->post].name : "") +
                           " buckles under combination " + building[combination].name + ": the critical factor is " +
                           std::to_string(post->factor));
@@ -172,8 +177,14 @@ bool StandingFrame::stands(PanelId panel) const { return state_->stands(panel); 
 bool StandingFrame::stands(NodeId node) const { return state_->stands(node); }
 bool StandingFrame::intact(JointId joint) const { return state_->holds(joint); }
 const Vec6& StandingFrame::displacement(NodeId node) const { return state_->account.displacement(node); }
-Vec6 StandingFrame::demand(JointId joint) const { return state_->demand(joint); }
-double StandingFrame::largest_utilisation_so_far(JointId joint) const { return state_->joints.largest(joint); }
+Vec6 StandingFrame::demand(JointId joint) const {
+  state_->know_demands();
+  return state_->demand(joint);
+}
+double StandingFrame::largest_utilisation_so_far(JointId joint) const {
+  state_->know_demands();
+  return state_->joints.largest(joint);
+}
 std::optional<PanelStress> StandingFrame::stress(PanelId panel) const { return state_->stress(panel); }
 double StandingFrame::elastic_energy() const { return state_->account.energy().elastic; }
 FrameEnergy StandingFrame::energy() const { return state_->account.energy(); }
@@ -183,6 +194,7 @@ double StandingFrame::node_mass(NodeId node) const { return state_->loads.mass(n
 const Building& StandingFrame::building() const { return state_->building; }
 
 Utilisation StandingFrame::utilisation(JointId joint) const {
+  state_->know_demands();
   const bool counts = state_->building[joint].capacity.breakable && state_->holds(joint) && state_->label(joint) >= 0;
   return counts ? state_->joints.utilisation(joint) : Utilisation{};
 }
@@ -294,10 +306,7 @@ std::vector<JointBreak> StandingFrame::settle(int generations, double operations
     return {};
   }
   state.generation = 0;
-  if (state.settle(generations, state.statics.operations() + operations)) {
-    state.progress = State::Progress::none;
-    state.complete();
-  }
+  if (state.settle(generations, state.statics.operations() + operations)) state.progress = State::Progress::none;
   state.generation = 0;
   state.account.lines_are_out();
   return std::exchange(state.breaks, {});
@@ -310,24 +319,28 @@ bool StandingFrame::State::settle(int generations, double until) {
     progress = Progress::laid;
     if (statics.operations() >= until) return false;
   }
+  if (!queue.empty() && progress != Progress::applied) know_demands();  // of what a tool breaks
   progress = Progress::applied;
   for (const Change& change : std::exchange(queue, {})) apply(change);
   if (!bring_up_to_date(until)) return false;
   pending = false;
-  for (;; ++generation) {
+  for (;;) {
     const std::vector<JointId> next = next_generation();
-    if (next.empty() && buckled.empty()) return true;
-    if (generation >= generations || statics.operations() >= until) {
+    const bool breaks = !next.empty() || !buckled.empty();
+    if (!breaks && !test_goes_on) return true;
+    if ((breaks && generation >= generations) || statics.operations() >= until) {
       buckled.clear();  // found again
       pending = true;
       return true;
     }
+    if (!breaks) continue;  // a test for buckling goes on
     break_joints(next, BreakCause::overload);
     snap_buckled();
     if (!bring_up_to_date(until)) {
       pending = true;
       return false;
     }
+    ++generation;
   }
 }
 
@@ -355,6 +368,7 @@ StandingFrame::CoupledResponse StandingFrame::respond_near(std::span<const Conta
 }
 
 double StandingFrame::critical_energy(const ContactPlace& place) const {
+  state_->know_demands();
   return state_->critical_energy(state_->component(place));
 }
 
@@ -376,7 +390,6 @@ Eigen::VectorXd StandingFrame::break_in_impact(std::span<const JointBreak> break
   for (const JointBreak& one : breaks) broken.push_back(one.joint);
   state.break_joints(broken, BreakCause::impact);
   state.bring_up_to_date();
-  state.complete();
   state.account.lines_are_out();
   // The caller knows its own breaks; what they brought with them is told by the next settle().
   std::erase_if(state.breaks, [](const JointBreak& one) { return one.cause == BreakCause::impact; });

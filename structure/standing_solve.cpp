@@ -16,6 +16,7 @@ void StandingFrame::State::lay_contacts() {
   write_loads();
   for (int c = 0; c < statics.components(); ++c) {
     if (!statics.changed(c)) continue;
+    complete(c);  // what changed suddenly before is read as such
     // Loads alone make no mechanism in a structure that was stable before.
     if (solve_slow(c)) continue;
     // On the way to rest, what lies on it is part of that way. So is what the structure cannot bear: that state,
@@ -56,8 +57,10 @@ bool StandingFrame::State::bring_up_to_date(double until) {
     if (parts_leaving() > left + many && until < unlimited) return false;
     bool stands = true;
     for (int c = 0; c < statics.components(); ++c)
-      if (statics.changed(c) && solved_nodes[static_cast<std::size_t>(c)] > 0 && !may_restrict(c))
+      if (statics.changed(c) && solved_nodes[static_cast<std::size_t>(c)] > 0 && !may_restrict(c)) {
+        complete(c);
         stands = statics.prepare(c) && stands;
+      }
     if (stands && statics.operations() >= until) return false;
     if (!solve_changed()) return true;
     if (statics.operations() >= until) return false;  // what moves is cut free, and leaves next
@@ -127,7 +130,10 @@ std::optional<FrameMechanism> StandingFrame::State::solve(int c) {
   forget_bounds(c);
   Watch watch(*this);
   auto mechanism = statics.solve(c, watch);
-  if (!mechanism) read_panel_demands(c, false);
+  if (!mechanism) {
+    demands_behind[static_cast<std::size_t>(c)] = statics.partial(c);
+    read_panel_demands(c, false);
+  }
   return mechanism;
 }
 
@@ -159,14 +165,21 @@ bool StandingFrame::State::may_restrict(int c) const {
          statics.shells(c).empty() && one_segment(c);
 }
 
-/// What is read from outside is whole.
-void StandingFrame::State::complete() {
-  for (int c = 0; c < statics.components(); ++c) complete(c);
+/// For whoever asks from outside: demands that the answers of a collapse under way have left out. These go on from
+/// where they are, to the same bits.
+void StandingFrame::State::know_demands() {
+  for (int c = 0; c < statics.components(); ++c) {
+    if (!std::exchange(demands_behind[static_cast<std::size_t>(c)], 0)) continue;
+    read_demands(c, false);
+    for (const JointId joint : checked_joints[static_cast<std::size_t>(c)])
+      if (holds(joint) && label(joint) >= 0) (void)joints.check(joint);
+  }
 }
 
 /// The rest of what solve() read.
 void StandingFrame::State::complete(int c) {
   if (!statics.partial(c)) return;
+  demands_behind[static_cast<std::size_t>(c)] = 0;
   Watch watch(*this);
   statics.complete(c, watch);
   read_panel_demands(c, false);
@@ -220,6 +233,7 @@ std::vector<JointId> StandingFrame::State::next_generation() {
   std::vector<JointId> next;
   std::vector<double> largest;
   std::vector<std::pair<JointId, double>> over;
+  test_goes_on = false;
   for (int c = 0; c < statics.components(); ++c) {
     if (!to_check[static_cast<std::size_t>(c)]) continue;
     if (const Way way = follow_yielding(c, next); way == Way::breaking) {
@@ -262,6 +276,7 @@ std::vector<JointId> StandingFrame::State::next_generation() {
 bool StandingFrame::State::buckles(int c) {
   if (!buckling) return false;
   const std::optional<BuckledPost> post = buckling->find(c, statics.diverged(c));
+  if (buckling->testing(c)) return test_goes_on = true;
   if (!post || !post->joint.valid()) return false;
   buckled.push_back(*post);
   return true;

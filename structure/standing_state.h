@@ -115,8 +115,8 @@ struct StandingFrame::State {
   void references_moved(int component);
   [[nodiscard]] bool may_restrict(int component) const;
   [[nodiscard]] bool one_segment(int component) const;
-  void complete();
   void complete(int component);
+  void know_demands();
   void read_demands(int component, bool slow);
   void read_panel_demands(int component, bool slow);
 
@@ -192,6 +192,7 @@ struct StandingFrame::State {
   std::optional<ClassicBracing> bracing;
   std::optional<BucklingBracing> buckling;
   std::vector<BuckledPost> buckled;                    ///< to break next
+  bool test_goes_on = false;                           ///< whether a post buckles is not known yet
   std::vector<char> node_solved;                       ///< per node: the solver still holds it
   std::vector<std::vector<solver::BeamLoad>> applied;  ///< per member: loads that the solver has
   std::vector<Vec6> node_applied;                      ///< per node
@@ -201,6 +202,7 @@ struct StandingFrame::State {
   std::vector<std::vector<JointId>> checked_edges;     ///< those of them that are edges of panels
   std::vector<std::vector<PanelId>> component_panels;  ///< per component
   std::vector<char> to_check;                          ///< per component
+  std::vector<char> demands_behind;                    ///< per component: those of some joints
   /// Per component, of its state as solved last: critical energy (below 0: to be found), and per node the mass that
   /// moves with it whatever the others do (empty: to be found).
   mutable std::vector<double> critical_energies;

@@ -117,7 +117,7 @@ TEST_CASE("near a push the answer is the full one's, and no joint fails below th
 TEST_CASE("near a push at several places the answer is the full one's, and no forces move more mass than it has") {
   std::mt19937 random(8);
   int with_panels = 0;
-  for (int round = 0; round < 6; ++round) {
+  for (int round = 0; round < 12; ++round) {
     const FrameBuilder frame = building(random, Interaction::max);
     StandingFrame standing(frame.building, CombinationId(0u), quiet());
     standing.settle(1000);

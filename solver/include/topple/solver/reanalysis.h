@@ -50,13 +50,14 @@ struct ReanalysisAnswer {
   SolveQuality quality;
 };
 
-/// When a new factor is made on another thread while the old one serves. It takes over at the first answer after the
+/// When a new factor is made on another thread while the old one serves. It is due at the first answer after the
 /// answers since then took `share` of the operations that it takes: a number of answers fixed by counts, whatever the
-/// clock says; if it is late, that answer waits. So the bits do not depend on how fast the other thread is.
+/// clock says; if it is late, that answer waits. Then it catches up with what changed since it was begun, a part of it
+/// beside each answer, and takes over. So the bits do not depend on how fast the other thread is.
 struct RefreshRules {
-  int columns = 240;              ///< begun when the correction has more than so many
+  int columns = 120;              ///< begun when the correction has more than so many
   double least_operations = 1e9;  ///< and a new factor takes at least so many; smaller ones are made at once
-  double share = 0.5;
+  double share = 0.7;
   std::function<void()> on_worker;  ///< runs on the other thread before it begins (tests slow it down)
 };
 
@@ -103,8 +104,9 @@ class Reanalysis {
   bool prepare();
 
   /// The same, brought up to date only where the watch's uses may matter: no use that was not read anew lies above
-  /// (1 - margin) max(1, the largest use). Nothing else may be concluded about what was left out; asking for its
-  /// displacements or forces makes the answer whole (as complete() does). The first call reads every use, as does one
+  /// (1 - margin) max(1, the largest use). Nothing else may be concluded about what was left out; its displacements or
+  /// forces, when asked for, are found beside the answer, which stays as it is: who looks on changes no bit of what
+  /// follows. The first call reads every use, as does one
   /// that needs a full answer. Patches have no uses: with any, call solve().
   [[nodiscard]] const ReanalysisAnswer& solve(UseWatch& watch);
   /// Makes a restricted answer whole, with the backward error of a full one; the watch reads the uses of what was left
@@ -128,6 +130,8 @@ class Reanalysis {
 
   // The current answer.
   [[nodiscard]] const std::vector<Vec6>& displacements() const;
+  /// Displacements that hold at these nodes, and perhaps nowhere else: as much less work as the answer has left out.
+  [[nodiscard]] const std::vector<Vec6>& displacements_at(std::span<const int> nodes) const;
   [[nodiscard]] Vec12 beam_end_forces(int beam) const;  ///< local, as in StaticSolution
   [[nodiscard]] std::array<Vec6, 4> shell_corner_forces(int shell) const;
   [[nodiscard]] std::vector<Vec6> patch_forces(int patch) const;  ///< per node: what it does to the patch, global
