@@ -328,7 +328,8 @@ bool StandingFrame::State::settle(int generations, double until) {
     const std::vector<JointId> next = next_generation();
     const bool breaks = !next.empty() || !buckled.empty();
     if (!breaks && !test_goes_on) return true;
-    if ((breaks && generation >= generations) || statics.operations() >= until) {
+    // What a test has found is not to be found again at the same cost.
+    if ((breaks && generation >= generations) || (buckled.empty() && statics.operations() >= until)) {
       buckled.clear();  // found again
       pending = true;
       return true;
