@@ -74,7 +74,7 @@ const std::vector<Vec6>& Reanalysis::State::whole() const {
   return whole_displacements;
 }
 
-/// As complete(), beside the answer.
+/// As complete(), beside the answer, to what a restricted one is held to.
 void Reanalysis::State::find_whole() const {
   RestrictedAnswer beside = *restricted;
   Eigen::VectorXd u = solution;
@@ -83,7 +83,7 @@ void Reanalysis::State::find_whole() const {
   whole_known = true;
   if (!answer.stable || !structure_stands || !stale_nodes.empty()) return;
   double error = 0;
-  system->node_displacements_of_scaled(refine_to(backward_error_limit, solved_force, std::move(u), error),
+  system->node_displacements_of_scaled(refine_to(acceptable_error, solved_force, std::move(u), error),
                                        whole_displacements);
 }
 
