@@ -1,6 +1,5 @@
 #pragma once
 // A building whose members are divided where shell panels hang on them (join_shells.h), and what its parts were.
-#include <optional>
 #include <vector>
 
 #include "topple/structure/building.h"

@@ -68,6 +68,26 @@ Collapse collapse(const Building& building, const FailureRules& rules, int restr
   return result;
 }
 
+/// A random building that fails when three of its joints are cut; every other trial counts on sudden losses.
+struct Trial {
+  FailureRules rules;
+  Building building;
+  std::vector<JointId> cuts;
+};
+
+Trial brittle_trial(int number, std::mt19937& random) {
+  Trial trial;
+  trial.rules.bracing = BracingRule::none;
+  trial.rules.sudden = number % 2 ? 2 : 1;
+  trial.building = random_building(random);
+  make_brittle(trial.building, trial.rules, random);
+  for (int cut = 0; cut < 3; ++cut) {
+    const MemberId member(random() % trial.building.members.size());
+    trial.cuts.push_back(trial.building.joint(member, 0));
+  }
+  return trial;
+}
+
 }  // namespace
 
 TEST_CASE("restricted answers break the same joints in the same order as whole ones") {
@@ -75,16 +95,10 @@ TEST_CASE("restricted answers break the same joints in the same order as whole o
   std::size_t broken = 0, left = 0;
   int differing_work = 0;
   for (int trial = 0; trial < 24; ++trial) {
-    FailureRules rules;
-    rules.bracing = BracingRule::none;
-    rules.sudden = trial % 2 ? 2 : 1;
-    Building building = random_building(random);
-    make_brittle(building, rules, random);
-    std::vector<JointId> cuts;
-    for (int cut = 0; cut < 3; ++cut) {
-      const MemberId member(random() % building.members.size());
-      cuts.push_back(building.joint(member, 0));
-    }
+    const Trial own = brittle_trial(trial, random);
+    const FailureRules& rules = own.rules;
+    const Building& building = own.building;
+    const std::vector<JointId>& cuts = own.cuts;
     const Collapse whole = collapse(building, rules, std::numeric_limits<int>::max(), cuts);
     const Collapse restricted = collapse(building, rules, 0, cuts);
     INFO("trial " << trial);
@@ -118,13 +132,10 @@ TEST_CASE("who looks on at a collapse changes no bit of it") {
   std::mt19937 random(7);
   int looked_on = 0;
   for (int trial = 0; trial < 8; ++trial) {
-    FailureRules rules;
-    rules.bracing = BracingRule::none;
-    rules.sudden = trial % 2 ? 2 : 1;
-    Building building = random_building(random);
-    make_brittle(building, rules, random);
-    std::vector<JointId> cuts;
-    for (int cut = 0; cut < 3; ++cut) cuts.push_back(building.joint(MemberId(random() % building.members.size()), 0));
+    const Trial own = brittle_trial(trial, random);
+    const FailureRules& rules = own.rules;
+    const Building& building = own.building;
+    const std::vector<JointId>& cuts = own.cuts;
     const auto look = [&](const StandingFrame& frame) {
       looked_on += frame.pending() ? 1 : 0;
       double sum = 0;
