@@ -304,13 +304,16 @@ std::vector<BucklingMode> buckling_modes(const FrameModel& model, const LoadSet&
     buckling.bracket(k, low, high);
     if (high == 0) {
       high = std::max(2 * low, 1.0);
-      while (buckling.below(high) < k) {
+      while (high < largest_factor && buckling.below(high) < k) {
         low = high;
         high *= 2;
-        if (high > largest_factor) return modes;
       }
     }
-    if (high > largest_factor) return modes;
+    // What lies beyond may have been counted alone: an estimate leads to it where a member buckles between resting nodes.
+    if (high > largest_factor) {
+      if (low >= largest_factor || buckling.below(largest_factor) < k) return modes;
+      high = largest_factor;
+    }
     enclose(buckling, k, low, high);
     const bool repeated = !modes.empty() && high - modes.back().factor < same_factor * high;
     if (!repeated) known.clear();

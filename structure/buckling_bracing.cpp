@@ -25,6 +25,10 @@ constexpr double inner_share = 0.7;
 constexpr double sought = 2;
 constexpr int iterations = 12;
 constexpr double settled = 1e-3;
+/// Places whose bends differ by less, relative, bend as much.
+constexpr double same_bend = 1e-3;
+/// A post that bends most so near to its end, as a share of its length, does so at the end.
+constexpr double at_the_end = 0.01;
 constexpr double pi = 3.14159265358979323846;
 
 double least_euler(const Building& building, const FrameStatics& statics, MemberId member, double length) {
@@ -225,57 +229,68 @@ std::optional<BuckledPost> BucklingBracing::judge(int c) const {
   if (modes.empty() || modes.front().factor > 1) return std::nullopt;
   const solver::BucklingMode& mode = modes.front();
 
-  BuckledPost worst;
-  double most = -1;
+  std::vector<Bent> bent;
   for (std::size_t i = 0; i < members.size(); ++i) {
-    const Member& own = building_[members[i]];
-    if (own.kind != MemberKind::post) continue;
+    if (building_[members[i]].kind != MemberKind::post) continue;
     const solver::Vec12& force = statics_.end_forces(members[i]);
     const double compression = (force(0) - force(6)) / 2;
     if (!(compression > 0)) continue;
-    const auto motion = [&](int end) -> const Vec6& {
-      return mode.shape[static_cast<std::size_t>(model.beams[i].node[static_cast<std::size_t>(end)])];
-    };
     const solver::Beam& beam = model.beams[i];
-    const solver::Vec12 hubs = hubs_of(beam, motion(0), motion(1));
-    const solver::Vec12 pushed = geometric_forces(beam, -compression * mode.factor, hubs);
-    // Between nodes at rest nothing tells the joints apart: the post that uses most of its own Euler load.
-    const bool at_rest = hubs.isZero(0);
-    const double inside = 1e-9 * compression / least_euler(building_, statics_, members[i], own.length);
-    const JointId joints[] = {building_.joint(members[i], 0), building_.joint(members[i], 1)};
-    JointId joint;
-    double bends = -1;
-    for (int end = 0; end < 2; ++end) {
-      if (!building_[joints[end]].capacity.breakable || !segments_.holds(joints[end])) continue;
-      // Moment of the cubic at this end: 2 E I/L (2 here + there), rotations against the chord, and what the axial
-      // force adds.
-      double bending = at_rest ? inside : 0;
-      for (const auto& [v, r, sense, I] : {std::tuple(1, 5, 1.0, beam.Iz), std::tuple(2, 4, -1.0, beam.Iy)}) {
-        const double chord = (hubs(v + 6) - hubs(v)) / own.length;
-        const double here = sense * hubs(r + 6 * end) - chord, there = sense * hubs(r + 6 * (1 - end)) - chord;
-        const double moment = beam.youngs_modulus * I / own.length * (4 * here + 2 * there);
-        bending = std::max(bending, std::abs(sense * moment + pushed(r + 6 * end)));
-      }
-      if (bending > bends) {
-        bends = bending;
-        joint = joints[end];
-      }
-    }
-    if (!joint.valid() || bends <= most) continue;
-    most = bends;
-    worst.post = members[i];
-    worst.joint = joint;
-    worst.compression = compression;
-    worst.bearable = mode.factor * compression;
-    const Vec3 first = motion(0).head<3>(), second = motion(1).head<3>();
-    const auto& nodes = own.nodes;
-    const double apart = (first - second).norm(), moved = std::max(first.norm(), second.norm());
-    worst.bulge = apart < 0.5 * moved            ? 0.5 * (building_[nodes[0]].position + building_[nodes[1]].position)
-                  : first.norm() > second.norm() ? building_[nodes[0]].position
-                                                 : building_[nodes[1]].position;
+    Bent one{members[i], compression};
+    for (std::size_t end = 0; end < 2; ++end) one.motion[end] = mode.shape[static_cast<std::size_t>(beam.node[end])];
+    const solver::Vec12 hubs = hubs_of(beam, one.motion[0], one.motion[1]);
+    one.rests = hubs.isZero(0);
+    if (one.rests) one.share = compression / solver::buckling_load_between_resting_hubs(beam);
+    one.bend = solver::buckling_bend(beam, mode.factor * compression, hubs);
+    bent.push_back(one);
   }
-  worst.factor = mode.factor;
-  return worst;
+  return give_way(most_bent(std::move(bent)), mode.factor);
+}
+
+/// Those that bend most, within what counts as the same. Where all nodes rest only the one that uses most of what it
+/// bears between them bends.
+std::vector<BucklingBracing::Bent> BucklingBracing::most_bent(std::vector<Bent> bent) {
+  const bool all_rest = std::all_of(bent.begin(), bent.end(), [](const Bent& one) { return one.rests; });
+  const auto size = [&](const Bent& one) { return all_rest ? one.share : one.rests ? 0 : one.bend.moment; };
+  double most = 0;
+  for (const Bent& one : bent) most = std::max(most, size(one));
+  std::erase_if(bent, [&](const Bent& one) { return size(one) < (1 - same_bend) * most; });
+  if (all_rest && bent.size() > 1) bent.resize(1);
+  return bent;
+}
+
+/// Of places that bend as much, a joint that can break goes first.
+BuckledPost BucklingBracing::give_way(const std::vector<Bent>& bent, double factor) const {
+  BuckledPost found;
+  found.factor = factor;
+  if (bent.empty()) return found;
+  const auto bends_less = [](const Bent& a, const Bent& b) { return a.bend.moment < b.bend.moment; };
+  const Bent* chosen = &*std::max_element(bent.begin(), bent.end(), bends_less);
+  const double most = chosen->bend.moment;
+  const auto holds_at = [&](const Bent& one, int end) { return segments_.holds(building_.joint(one.post, end)); };
+  for (auto one = bent.begin(); one != bent.end() && !found.joint.valid(); ++one)
+    for (int end = 0; end < 2 && !found.joint.valid(); ++end) {
+      const JointId joint = building_.joint(one->post, end);
+      if (!building_[joint].capacity.breakable || !holds_at(*one, end) ||
+          one->bend.at_ends[static_cast<std::size_t>(end)] < (1 - same_bend) * most)
+        continue;
+      chosen = &*one;
+      found.joint = joint;
+    }
+  const Member& own = building_[chosen->post];
+  found.post = chosen->post;
+  found.inside = chosen->bend.place / own.length;
+  const int near = found.inside < 0.5 ? 0 : 1;
+  if (!found.joint.valid() && std::min(found.inside, 1 - found.inside) < at_the_end && holds_at(*chosen, near))
+    found.joint = building_.joint(chosen->post, near);
+  found.compression = chosen->compression;
+  found.bearable = factor * chosen->compression;
+  const Vec3 first = chosen->motion[0].head<3>(), second = chosen->motion[1].head<3>();
+  const double apart = (first - second).norm(), moved = std::max(first.norm(), second.norm());
+  found.bulge = apart < 0.5 * moved            ? 0.5 * (building_[own.nodes[0]].position + building_[own.nodes[1]].position)
+                : first.norm() > second.norm() ? building_[own.nodes[0]].position
+                                               : building_[own.nodes[1]].position;
+  return found;
 }
 
 /// A post bears so much that it may buckle between nodes at rest.

@@ -9,21 +9,24 @@
 //   2. the second-order iteration over the standing elastic factor, K u' = -Kg(N) u: its Rayleigh quotient comes to the
 //      inverse of the buckling factor from below;
 //   3. the full tangent (solver::buckling_modes: exact members, counted eigenvalues) decides, and gives the shape.
-// The post that the critical shape bends most at a joint that can break gives way there.
+// The post that the critical shape bends most gives way where it does so (solver/buckling_bend.h): at an end, or inside.
+#include <array>
 #include <map>
 #include <optional>
 #include <vector>
 
 #include "frame_statics.h"
 #include "segmentation.h"
+#include "topple/solver/buckling_bend.h"
 
 namespace topple::structure {
 
 class PanelBearings;
 
 struct BuckledPost {
-  MemberId post;
-  JointId joint;                         ///< valid when one of its joints can break
+  MemberId post;                         ///< invalid when none is compressed
+  JointId joint;                         ///< where it bends most; invalid when that is inside
+  double inside = 0;                     ///< of its length from the first end: where it bends most then
   double factor = 0;                     ///< by which the loads would have to be smaller: below 1
   double compression = 0, bearable = 0;  ///< N; `bearable`: compression times factor
   Vec3 bulge = Vec3::Zero();             ///< where the critical shape moves it most, undeformed
@@ -63,6 +66,17 @@ class BucklingBracing {
   [[nodiscard]] bool iterate(int component, Iteration& iteration) const;
   [[nodiscard]] bool buckles_inside(int component) const;
   [[nodiscard]] std::optional<BuckledPost> judge(int component) const;
+  /// A compressed post in the critical shape.
+  struct Bent {
+    MemberId post;
+    double compression = 0;
+    std::array<Vec6, 2> motion{};  ///< of its nodes
+    bool rests = false;            ///< they do not move
+    double share = 0;              ///< of what it bears between nodes that rest
+    solver::BucklingBend bend;
+  };
+  [[nodiscard]] static std::vector<Bent> most_bent(std::vector<Bent> bent);
+  [[nodiscard]] BuckledPost give_way(const std::vector<Bent>& bent, double factor) const;
 
   const Building& building_;
   const FrameStatics& statics_;

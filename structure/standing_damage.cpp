@@ -176,6 +176,26 @@ void StandingFrame::State::remove(MemberId member) {
   take(bearings.leave({{{member, -1}}, {}}), nullptr);
 }
 
+/// The member leaves with both of its joints holding: each piece goes on hanging by one.
+void StandingFrame::State::cut_in_two(MemberId post, double inside) {
+  if (!stands(post)) return;
+  JointBreak broken;
+  broken.joint = building.joint(post, 0);
+  broken.cause = BreakCause::buckling;
+  broken.generation = generation;
+  broken.position = on_axis(building, post, inside * building[post].length);
+  broken.inside = inside;
+  int told = static_cast<int>(breaks.size());
+  breaks.push_back(broken);
+  cut_inside[post] = inside;
+  for (int end = 0; end < 2; ++end) {
+    const JointId joint = building.joint(post, end);
+    if (!holds(joint)) continue;
+    hanging.push_back(joint);
+    damage(joint, std::exchange(told, -1));  // what the other end frees is counted with it
+  }
+}
+
 void StandingFrame::State::remove(PanelId panel) {
   if (!stands(panel)) return;
   drop_contacts(panel);

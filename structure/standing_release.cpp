@@ -37,6 +37,7 @@ void StandingFrame::State::take_unanchored() {
     for (MemberId member : parts[p].members) {
       left.members.emplace_back(member, static_cast<int>(p));
       leaving[p].mechanism = leaving[p].mechanism || in_mechanism[index_of(member)];
+      if (const auto cut = cut_inside.extract(member)) leaving[p].cut = cut.mapped();
       drop_contacts(member);
       account.leave(member);
       statics.remove(member);

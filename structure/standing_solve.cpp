@@ -277,21 +277,25 @@ bool StandingFrame::State::buckles(int c) {
   if (!buckling) return false;
   const std::optional<BuckledPost> post = buckling->find(c, statics.diverged(c));
   if (buckling->testing(c)) return test_goes_on = true;
-  if (!post || !post->joint.valid()) return false;
+  if (!post || !post->post.valid()) return false;
   buckled.push_back(*post);
   return true;
 }
 
+/// At a joint, or where the post is cut in two.
 void StandingFrame::State::snap_buckled() {
   for (const BuckledPost& post : std::exchange(buckled, {})) {
     const std::size_t first = breaks.size();
-    break_joint(post.joint, BreakCause::buckling);
+    if (post.joint.valid())
+      break_joint(post.joint, BreakCause::buckling);
+    else
+      cut_in_two(post.post, post.inside);
     if (breaks.size() == first) continue;
     JointBreak& line = breaks[first];
     line.sense = Sense::compression;
     line.demand = post.compression;
     line.capacity = post.bearable;
-    line.position = post.bulge;
+    if (!line.inside) line.position = post.bulge;
   }
 }
 

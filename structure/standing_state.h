@@ -146,6 +146,7 @@ struct StandingFrame::State {
   void come_to_rest(int component);
   [[nodiscard]] bool buckles(int component);
   void snap_buckled();
+  void cut_in_two(MemberId post, double inside);
 
   // Response.
   [[nodiscard]] FrameStatics::ResponseLoads response_loads(const PlacedLoad& placed) const;
@@ -192,6 +193,7 @@ struct StandingFrame::State {
   std::optional<ClassicBracing> bracing;
   std::optional<BucklingBracing> buckling;
   std::vector<BuckledPost> buckled;                    ///< to break next
+  std::map<MemberId, double> cut_inside;               ///< posts that are about to leave, cut in two
   bool test_goes_on = false;                           ///< whether a post buckles is not known yet
   std::vector<char> node_solved;                       ///< per node: the solver still holds it
   std::vector<std::vector<solver::BeamLoad>> applied;  ///< per member: loads that the solver has

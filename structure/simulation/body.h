@@ -12,6 +12,7 @@
 #include "simulation/part_shapes.h"
 #include "topple/collision/world.h"
 #include "topple/fracture/mesh.h"
+#include "topple/structure/piece_kind.h"
 
 namespace topple::structure {
 
@@ -24,8 +25,9 @@ struct Body {
   MassProperties rest;     ///< in the undeformed building
   double radius = 0;       ///< above zero: a sphere
   double volume = 0;       ///< of solid material, m3
-  std::vector<Vec3> hull;  ///< a chunk: corners of its shape about `rest.centre`, global axes at rest; else empty
-  PanelKind chunk_of = PanelKind::slab;
+  std::vector<Vec3> hull;  ///< a chunk, or a piece of a member: corners of its shape about `rest.centre`, global axes at rest; else empty
+  PieceKind chunk_of = PieceKind::slab;
+  JointId end_joint;  ///< a piece of a member that was cut in two: the joint of its end
   std::shared_ptr<const fracture::Mesh> mesh;  ///< a chunk: as it is drawn, in the same axes
   Bounds bounds;                               ///< in the undeformed building, about `rest.centre`
   bool asleep = false;                         ///< as booked last

@@ -72,7 +72,11 @@ struct CollapseAnimation::State {
     }
   }
 
-  static int colour_of(PanelKind kind) { return kind == PanelKind::slab ? slab : wall; }
+  static int colour_of(PieceKind kind) {
+    constexpr std::array<Colour, 5> colours{slab, wall, post, beam, brace};
+    return colours[static_cast<std::size_t>(kind)];
+  }
+  static int colour_of(PanelKind kind) { return colour_of(piece_kind(kind)); }
 
   /// About `centre`.
   int mesh_of(const fracture::Mesh& mesh, const Vec3& centre, int material) {
@@ -92,7 +96,7 @@ struct CollapseAnimation::State {
                      colour_of(building[part.panel].kind));
     const Member& member = building[part.member];
     const Vec2 size = section_size(building[member.section]);
-    const int material = member.kind == MemberKind::post ? post : member.kind == MemberKind::beam ? beam : brace;
+    const int material = colour_of(piece_kind(member.kind));
     const auto [known, made] = boxes.try_emplace({member.length, size.x(), size.y(), static_cast<double>(material)},
                                                  static_cast<int>(scene.meshes.size()));
     if (made) scene.meshes.push_back(box_mesh(Vec3(member.length, size.x(), size.y()) / 2, material));

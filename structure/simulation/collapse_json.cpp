@@ -33,6 +33,7 @@ void add_joint(Json& line, const Building& building, const SimulationEvent& even
   line["demand"] = broken.demand;
   line["capacity"] = std::isfinite(broken.capacity) ? Json(broken.capacity) : Json(nullptr);
   line["generation"] = broken.generation;
+  if (broken.inside) line["inside"] = *broken.inside;
   line["position"] = array(event.position);
   line["energy"] = broken.energy;
   line["material"] = material_of(building, broken.joint);

@@ -55,7 +55,7 @@ bool Simulation::State::hang(JointId joint, collision::BodyId id) {
   Hung hung;
   hung.joint = joint;
   hung.body = id;
-  hung.member_hangs = has(one.members, building[joint].member);
+  hung.member_hangs = has(one.members, building[joint].member) || one.end_joint == joint;
   const ContactPlace on = hold_of(joint, hung.member_hangs);
   const bool on_frame = on.member.valid() ? frame->stands(on.member) : frame->stands(on.node);
   if (!on_frame) hung.holder = body_with(on);
@@ -143,7 +143,10 @@ std::vector<JointId> Simulation::State::take_off(collision::BodyId id) {
 /// After a body fell apart into others: what it hung by, and what hung on it, goes on with the piece that has its side.
 void Simulation::State::hang_again(const std::vector<JointId>& joints) {
   for (const JointId joint : joints) {
-    const collision::BodyId of_member = body_with(hold_of(joint, false));
+    const auto piece =
+        std::find_if(bodies.begin(), bodies.end(), [&](const auto& one) { return one.second.end_joint == joint; });
+    const collision::BodyId of_member =
+        piece != bodies.end() ? piece->second.id : body_with(hold_of(joint, false));
     const collision::BodyId of_hub = body_with(hold_of(joint, true));
     const collision::BodyId hanging = of_member.value >= 0 ? of_member : of_hub;
     if (hanging.value >= 0) hang_on({joint}, hanging);

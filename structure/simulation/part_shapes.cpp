@@ -197,6 +197,26 @@ std::vector<Vec3> PartShapes::corners(PanelId panel) const {
   return corners;
 }
 
+std::vector<Vec3> PartShapes::corners(const Building& building, MemberId id, double from, double to) const {
+  const Member& member = building[id];
+  const Shape& shape = of(Part(id));
+  const Vec3 x = shape.axes.row(0).transpose(), start = member_start(building, member);
+  const double middle = (shape.centre - start).dot(x), long_enough = (1 - 2 * largest_cut) * (to - from);
+  double low = std::max(from > 0 ? from + neighbour_gap / 2 : from, middle - shape.half.x());
+  double high = std::min(to < member.length ? to - neighbour_gap / 2 : to, middle + shape.half.x());
+  if (high - low < long_enough) {
+    low = from + largest_cut * (to - from);
+    high = to - largest_cut * (to - from);
+  }
+  std::vector<Vec3> corners;
+  for (const double y : {-1.0, 1.0})
+    for (const double z : {-1.0, 1.0})
+      for (const double along : {low, high})
+        corners.push_back(start + along * x +
+                          shape.axes.transpose() * Vec3(0, y * shape.half.y(), z * shape.half.z()));
+  return corners;
+}
+
 std::optional<double> PartShapes::ray(Part part, const Vec3& from, const Vec3& direction) const {
   const Shape& shape = of(part);
   Vec3 half = shape.half;

@@ -107,6 +107,7 @@ Body Simulation::State::describe(const Detached& part) const {
 
 void Simulation::State::release(const Detached& part) {
   if (part.members.empty() && part.panels.empty() && part.nodes.empty()) return;
+  if (part.cut) return release_in_two(part);
   if (part.members.empty() && part.panels.empty() && masses.of(part).mass <= 0) return;  // a bare hub
   Body one = describe(part);
   Vec3 displacement = Vec3::Zero();

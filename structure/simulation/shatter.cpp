@@ -62,7 +62,7 @@ Body Simulation::State::chunk_body(PanelId panel, PanelChunk chunk, int number) 
   piece.rest = chunk.rest;
   piece.volume = chunk.volume;
   piece.hull = std::move(chunk.hull);
-  piece.chunk_of = building[panel].kind;
+  piece.chunk_of = piece_kind(building[panel].kind);
   piece.mesh = std::move(chunk.mesh);
   for (const Vec3& corner : piece.hull) piece.bounds.add(corner);
   return piece;

@@ -129,7 +129,9 @@ void Simulation::State::call_listeners() {
 }
 
 void Simulation::State::tell(const JointBreak& broken) {
-  SimulationEvent& event = tell(SimulationEvent::Kind::joint_broke, building[broken.joint].name);
+  const Joint& joint = building[broken.joint];
+  SimulationEvent& event =
+      tell(SimulationEvent::Kind::joint_broke, broken.inside ? building[joint.member].name : joint.name);
   event.joint = broken;
   event.position = broken.position;
 }

@@ -102,6 +102,9 @@ struct Simulation::State {
   // release.cpp: what left the frame becomes bodies.
   void release();
   void release(const Detached& part);
+  // cut_in_two.cpp: the pieces of a post that buckled inside.
+  void release_in_two(const Detached& part);
+  [[nodiscard]] Body piece_of(MemberId member, int end, double cut) const;
   void parts_are_gone(std::span<const Part> parts);
   void part_is_gone(Part part) { parts_are_gone({&part, 1}); }
   [[nodiscard]] Body describe(const Detached& part) const;

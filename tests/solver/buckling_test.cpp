@@ -224,3 +224,37 @@ TEST_CASE("a post between held ends bulges in its middle, a freedom that buckles
   CHECK(std::abs(second(3)) > 0);
   CHECK(second.head<3>().norm() < 1e-6 * length * std::abs(second(3)));
 }
+
+TEST_CASE("a factor below the limit is found when only one beyond it is what an estimate leads to") {
+  // A slender post between a fixed foot and the end of a stiff bracket: by itself it buckles at 4 pi2 EI/L2 of what it
+  // bears; the nodes move at a far larger factor.
+  FrameModel model;
+  model.nodes = {Vec3(0, 0, 0), Vec3(0, 0, 6), Vec3(4, 0, 6)};
+  const auto bar = [&](int from, int to, double length, double I, double area) {
+    Beam beam;
+    beam.node = {from, to};
+    beam.length = length;
+    if (from == 0)
+      beam.axes << 0, 0, 1, 0, 1, 0, -1, 0, 0;
+    beam.youngs_modulus = 2e11;
+    beam.shear_modulus = 8e10;
+    beam.area = area;
+    beam.Iy = beam.Iz = beam.J = I;
+    model.beams.push_back(beam);
+  };
+  bar(0, 1, 6, 3e-6, 2e-3);
+  bar(1, 2, 4, 3e-3, 5e-2);
+  model.supports = {{0, fixed}, {2, fixed}};
+  LoadSet loads;
+  loads.nodes = {{1, Vec6::Unit(2) * -1.2e6}};
+  const auto all = buckling_modes(model, loads, 1, {});
+  REQUIRE(all.size() == 1);
+  REQUIRE(all[0].factor < 1);
+  for (const double limit : {1.0, 1.5, 2.0, 3.0, 1e3}) {
+    const auto modes = buckling_modes(model, loads, 1, {}, limit);
+    CAPTURE(limit);
+    REQUIRE(modes.size() == 1);
+    CHECK(modes[0].factor == Approx(all[0].factor).epsilon(1e-10));
+  }
+  CHECK(buckling_modes(model, loads, 1, {}, 0.5 * all[0].factor).empty());
+}

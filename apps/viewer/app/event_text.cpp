@@ -16,6 +16,7 @@ std::string event_text(const structure::SimulationEvent& event) {
     case Kind::joint_yielded:
       return event.name + " yields";
     case Kind::joint_broke:
+      if (event.joint.inside) return event.name + " buckles and breaks in two";
       return event.name + " breaks: " + structure::sense_names[static_cast<std::size_t>(event.joint.sense)];
     case Kind::panel_fractured:
       return event.name + " breaks into chunks";

@@ -137,7 +137,7 @@ class GltfWriter {
     Mesh mesh = track.chunk ? chunk_mesh(*track.chunk) : sphere_mesh(ball_rings);
     if (!track.chunk)
       for (Vertex& v : mesh.vertices) v.position *= static_cast<float>(track.radius);
-    node.mesh = add(mesh, track.chunk ? panel_colour(track.chunk_of) : projectile_colour);
+    node.mesh = add(mesh, track.chunk ? piece_colour(track.chunk_of) : projectile_colour);
     scene_.nodes.push_back(std::move(node));
   }
 

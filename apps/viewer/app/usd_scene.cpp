@@ -190,7 +190,7 @@ class UsdWriter {
     if (motion.last_translate.empty()) return;  // it came and went between two frames of the file
     const std::string more = motion.text() + seen(visible);
     if (track.chunk)
-      return mesh("chunk_" + std::to_string(track.id), chunk_mesh(*track.chunk), panel_colour(track.chunk_of), more);
+      return mesh("chunk_" + std::to_string(track.id), chunk_mesh(*track.chunk), piece_colour(track.chunk_of), more);
     out_ << "        def Sphere \"projectile_" << track.id << "\"\n        {\n"
          << print("            double radius = %.6g\n", track.radius);
     colour_and(projectile_colour, more);

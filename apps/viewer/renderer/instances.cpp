@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -23,6 +24,11 @@ glm::dvec3 to_glm(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 glm::vec3 to_glm(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
 glm::dquat to_glm(const Eigen::Quaterniond& q) { return {q.w(), q.x(), q.y(), q.z()}; }
 glm::vec4 packed(const glm::dquat& q) { return {q.x, q.y, q.z, q.w}; }
+
+bool is_shown(const ViewOptions& options, structure::PieceKind kind) {
+  const auto& shown = options.shown;
+  return std::array{shown.slabs, shown.walls, shown.posts, shown.beams, shown.braces}[static_cast<std::size_t>(kind)];
+}
 
 /// Parts of a drawn bent member: fewer when there are many, so that the triangles stay within what a card draws at
 /// ease.
@@ -378,8 +384,7 @@ void SceneInstances::place_chunks(const Snapshot& snapshot) {
   if (!built_options_.debris) return;
   for (const BodyPose& body : snapshot.bodies) {
     if (!body.chunk) continue;
-    const bool slab = body.chunk_of == PanelKind::slab;
-    if (!(slab ? built_options_.shown.slabs : built_options_.shown.walls)) continue;
+    if (!is_shown(built_options_, body.chunk_of)) continue;
     const auto [found, is_new] = chunk_of_body_.try_emplace(body.id, chunks_.size());
     if (is_new) {
       chunks_.emplace_back();
@@ -387,7 +392,7 @@ void SceneInstances::place_chunks(const Snapshot& snapshot) {
     }
     chunks_[found->second].instances.push_back({glm::vec3(to_glm(body.position) - origin_),
                                                 packed(to_glm(body.orientation)), glm::vec3(1),
-                                                panel_colour(body.chunk_of)});
+                                                piece_colour(body.chunk_of)});
   }
 }
 

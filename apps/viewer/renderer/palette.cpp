@@ -62,6 +62,22 @@ Rgba panel_colour(structure::PanelKind kind) {
   return kind == structure::PanelKind::slab ? rgba(206, 200, 190) : rgba(222, 205, 180);
 }
 
+Rgba piece_colour(structure::PieceKind kind) {
+  switch (kind) {
+    case structure::PieceKind::slab:
+      return panel_colour(structure::PanelKind::slab);
+    case structure::PieceKind::wall:
+      return panel_colour(structure::PanelKind::wall);
+    case structure::PieceKind::post:
+      return member_colour(structure::MemberKind::post);
+    case structure::PieceKind::beam:
+      return member_colour(structure::MemberKind::beam);
+    case structure::PieceKind::brace:
+      return member_colour(structure::MemberKind::brace);
+  }
+  return plain_member;
+}
+
 JointPalette joint_palette(bool colour_blind_safe) {
   // Okabe and Ito's colours where red and green must not be told apart.
   if (colour_blind_safe) return {rgba(230, 159, 0), rgba(86, 180, 233), rgba(204, 121, 167), rgba(20, 20, 20)};

@@ -5,7 +5,7 @@
 
 #include "renderer/snapshot.h"
 #include "renderer/view_options.h"
-#include "topple/structure/building.h"
+#include "topple/structure/piece_kind.h"
 
 namespace topple::viewer {
 
@@ -19,6 +19,7 @@ using Rgba = std::uint32_t;  ///< red in the lowest byte, as OpenGL reads it
 
 [[nodiscard]] Rgba member_colour(structure::MemberKind kind);
 [[nodiscard]] Rgba panel_colour(structure::PanelKind kind);
+[[nodiscard]] Rgba piece_colour(structure::PieceKind kind);
 inline constexpr Rgba projectile_colour = rgba(58, 52, 54), drawn_colour = rgba(214, 200, 176),
                       plain_member = rgba(150, 155, 160);
 

@@ -25,7 +25,7 @@ struct BodyTrack {
   Eigen::Vector3d rest_centre = Eigen::Vector3d::Zero();
   double radius = 0;
   std::shared_ptr<const fracture::Mesh> chunk;
-  structure::PanelKind chunk_of = structure::PanelKind::slab;
+  structure::PieceKind chunk_of = structure::PieceKind::slab;
   std::optional<Eigen::Vector3d> cable_anchor;
   std::int32_t first = 0, end = -1;  ///< frames first to end - 1; end -1: it is still there
   std::vector<PoseKey> keys;         ///< in order of frame; between two the pose runs straight from one to the other

@@ -70,8 +70,8 @@ struct BodyPose {
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
   double radius = 0;  ///< above zero: a projectile
   bool asleep = false;
-  std::shared_ptr<const fracture::Mesh> chunk;  ///< of a broken panel: about its centre of mass
-  structure::PanelKind chunk_of = structure::PanelKind::slab;
+  std::shared_ptr<const fracture::Mesh> chunk;  ///< of a broken panel or member: about its centre of mass
+  structure::PieceKind chunk_of = structure::PieceKind::slab;
   std::optional<Eigen::Vector3d> cable_anchor;  ///< of a wrecking ball
 };
 

@@ -3,7 +3,7 @@ import * as THREE from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { GONE, STANDS, Track, floats, geometry, integers, lastNotAbove } from './data.js';
 
-const MEMBER_COLOURS = [0x5c6a7a, 0x8c98a4, 0xa4785c], PANEL_COLOURS = [0xcec8be, 0xdecdb4], DRAWN_COLOUR = 0xd6c8b0, FAILED = new THREE.Color(0x1e4ee8);
+const MEMBER_COLOURS = [0x5c6a7a, 0x8c98a4, 0xa4785c], PANEL_COLOURS = [0xcec8be, 0xdecdb4], PIECE_COLOURS = [...PANEL_COLOURS, ...MEMBER_COLOURS], DRAWN_COLOUR = 0xd6c8b0, FAILED = new THREE.Color(0x1e4ee8);
 // tool, impact, yielded, broke, fractured, mechanism, detached, split, at rest, limited, done
 const EVENT_COLOURS = ['#d9822b', '#444', '#2f6fde', '#2f6fde', '#2f6fde', '#c23030', '#c23030', '#c23030', '#3a9a3a', '#999', '#3a9a3a'];
 const byId = (id) => document.getElementById(id);
@@ -98,7 +98,7 @@ class Replay {
     const ball = new THREE.SphereGeometry(1, 24, 16);
     for (const track of this.tracks) {
       if (!track.radius && !track.chunk) continue;
-      track.mesh = new THREE.Mesh(track.chunk ? geometry(track.chunk) : ball, new THREE.MeshLambertMaterial({ color: track.chunk ? PANEL_COLOURS[track.kind] : 0x3a3436 }));
+      track.mesh = new THREE.Mesh(track.chunk ? geometry(track.chunk) : ball, new THREE.MeshLambertMaterial({ color: track.chunk ? PIECE_COLOURS[track.kind] : 0x3a3436 }));
       track.mesh.castShadow = track.mesh.receiveShadow = true;
       if (track.radius) track.mesh.scale.setScalar(track.radius);
       this.scene.add(track.mesh);

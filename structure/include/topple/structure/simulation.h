@@ -17,6 +17,7 @@
 #include "topple/fracture/mesh.h"
 #include "topple/structure/building.h"
 #include "topple/structure/host_contact.h"
+#include "topple/structure/piece_kind.h"
 #include "topple/structure/scenario.h"
 #include "topple/structure/snapshot.h"
 #include "topple/structure/standing_frame.h"
@@ -102,8 +103,8 @@ struct BodyView {
   std::span<const MemberId> members;
   std::span<const PanelId> panels;
   std::shared_ptr<const fracture::Mesh>
-      chunk;                             ///< of a broken panel: about its centre of mass, turned by the pose alone
-  PanelKind chunk_of = PanelKind::slab;  ///< what it is a piece of
+      chunk;  ///< of a broken panel, or of a member cut in two: about its centre of mass, turned by the pose alone
+  PieceKind chunk_of = PieceKind::slab;  ///< what it is a piece of
   std::optional<Vec3> cable_anchor;      ///< a wrecking ball: where its cable hangs
 };
 

@@ -27,6 +27,8 @@ struct JointBreak {
   int generation = 0;  ///< within the step
   double energy = 0;   ///< elastic energy that the break sets free
   Vec3 position = Vec3::Zero();
+  /// No joint broke: the member of this one was cut in two here, as a fraction of its length from its first end.
+  std::optional<double> inside{};
 };
 
 /// A connected part that lost its hold (or moves as a mechanism): it leaves the frame for good. Joints inside it that
@@ -38,9 +40,12 @@ struct Detached {
   std::vector<PanelId> panels;
   std::vector<NodeId> nodes;
   bool mechanism = false;
-  /// Joints of members by which it still hangs on what stands (`mechanism: hinge`): free to turn in what is released,
-  /// holding in the rest until the host breaks them.
+  /// Joints of members by which it still hangs on what stands (`mechanism: hinge`, pieces of a post that was cut in two):
+  /// free to turn in what is released, holding in the rest until the host breaks them.
   std::vector<JointId> hinges;
+  /// It is one member that was cut in two at this fraction of its length from its first end: each piece hangs by the joint
+  /// of its own end.
+  std::optional<double> cut{};
 };
 
 /// Where a force acts on the standing frame.
