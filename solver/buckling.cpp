@@ -309,7 +309,8 @@ std::vector<BucklingMode> buckling_modes(const FrameModel& model, const LoadSet&
         high *= 2;
       }
     }
-    // What lies beyond may have been counted alone: an estimate leads to it where a member buckles between resting nodes.
+    // What lies beyond may have been counted alone: an estimate leads to it where a member buckles between resting
+    // nodes.
     if (high > largest_factor) {
       if (low >= largest_factor || buckling.below(largest_factor) < k) return modes;
       high = largest_factor;

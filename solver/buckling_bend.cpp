@@ -44,7 +44,8 @@ double compression_at(const Plane& plane, double k) {
   return P / (1 + P * plane.shear_compliance);
 }
 
-/// The four conditions at the ends on c0, c1 L, c2, c3, all of a length: what the spring gives is what the member bears.
+/// The four conditions at the ends on c0, c1 L, c2, c3, all of a length: what the spring gives is what the member
+/// bears.
 struct Conditions {
   Eigen::Matrix4d of_shape;
   Eigen::Vector4d of_hubs;  ///< what each hub's freedom counts in its condition

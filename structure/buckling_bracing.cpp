@@ -287,7 +287,7 @@ BuckledPost BucklingBracing::give_way(const std::vector<Bent>& bent, double fact
   found.bearable = factor * chosen->compression;
   const Vec3 first = chosen->motion[0].head<3>(), second = chosen->motion[1].head<3>();
   const double apart = (first - second).norm(), moved = std::max(first.norm(), second.norm());
-  found.bulge = apart < 0.5 * moved            ? 0.5 * (building_[own.nodes[0]].position + building_[own.nodes[1]].position)
+  found.bulge = apart < 0.5 * moved ? 0.5 * (building_[own.nodes[0]].position + building_[own.nodes[1]].position)
                 : first.norm() > second.norm() ? building_[own.nodes[0]].position
                                                : building_[own.nodes[1]].position;
   return found;

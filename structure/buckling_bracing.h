@@ -9,7 +9,8 @@
 //   2. the second-order iteration over the standing elastic factor, K u' = -Kg(N) u: its Rayleigh quotient comes to the
 //      inverse of the buckling factor from below;
 //   3. the full tangent (solver::buckling_modes: exact members, counted eigenvalues) decides, and gives the shape.
-// The post that the critical shape bends most gives way where it does so (solver/buckling_bend.h): at an end, or inside.
+// The post that the critical shape bends most gives way where it does so (solver/buckling_bend.h): at an end, or
+// inside.
 #include <array>
 #include <map>
 #include <optional>

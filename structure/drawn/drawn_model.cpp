@@ -44,7 +44,7 @@ struct DrawnModel::State {
     Piece piece;
     std::vector<Part> parts;  ///< that it follows; one when it is bound by name
     int cuts = 0;             ///< so far
-    std::int64_t chunk = -1;  ///< of a broken panel, by its body: followed instead
+    std::int64_t chunk = -1;  ///< of a broken panel, or piece of a cut member, by its body: followed instead
   };
 
   explicit State(const Building& given) : building(given), places(given) {}
@@ -55,6 +55,7 @@ struct DrawnModel::State {
   [[nodiscard]] std::vector<Part> pieces_of(MemberId member) const;
   [[nodiscard]] std::vector<Source> pieces_in(const Source& whole, const fracture::Mesh& solid) const;
   void follow_chunks(const Simulation& simulation);
+  void follow_cut_members(const Simulation& simulation);
   [[nodiscard]] bool cut_out_chunk(const Source& source, const ChunkPrism& chunk, std::vector<Source>& result) const;
   void list();
   void find_bones(Source& source) const;
@@ -64,6 +65,7 @@ struct DrawnModel::State {
   std::vector<Source> sources;
   std::vector<Piece> pieces;
   std::set<std::int64_t> chunks_followed;
+  std::set<MemberId> members_cut;
   double volume = 0;
   std::size_t events_seen = static_cast<std::size_t>(-1);
   std::vector<std::int64_t> bodies_seen;  ///< in order of id
@@ -248,6 +250,41 @@ void DrawnModel::State::follow_chunks(const Simulation& simulation) {
   }
 }
 
+/// What is drawn around a member that was cut in two is cut there as well; each half goes with its piece.
+void DrawnModel::State::follow_cut_members(const Simulation& simulation) {
+  for (const SimulationEvent& event : simulation.events()) {
+    if (event.kind != SimulationEvent::Kind::joint_broke || !event.joint.inside) continue;
+    const MemberId cut_member = building[event.joint.joint].member;
+    if (!members_cut.insert(cut_member).second) continue;
+    const Member& member = building[cut_member];
+    const Vec3 along = member.axes.row(0).transpose();
+    const Vec3 start = building[member.nodes[0]].position + member.offsets[0];
+    const fracture::Plane plane{start + *event.joint.inside * member.length * along, along};
+    std::array<std::int64_t, 2> pieces_of_it{-1, -1};
+    for (const BodyView& body : simulation.bodies())
+      for (std::size_t end = 0; end < 2; ++end)
+        if (body.name == member.name + "#" + std::to_string(end + 1)) pieces_of_it[end] = body.id.value;
+    std::vector<Source> now;
+    for (Source& source : sources) {
+      if (source.chunk >= 0 || source.parts != std::vector<Part>{Part(cut_member)}) {
+        now.push_back(std::move(source));
+        continue;
+      }
+      const fracture::CutSolid halves = fracture::cut(*source.piece.mesh, plane);
+      const std::array<const fracture::Mesh*, 2> of_ends{&halves.below, &halves.above};
+      for (std::size_t end = 0; end < 2; ++end) {
+        if (of_ends[end]->triangles.empty()) continue;
+        for (Source& piece : pieces_in(source, *of_ends[end])) {
+          piece.chunk = pieces_of_it[end];
+          if (piece.chunk >= 0) piece.piece.body = {piece.chunk};
+          now.push_back(std::move(piece));
+        }
+      }
+    }
+    sources = std::move(now);
+  }
+}
+
 void DrawnModel::State::find_bones(Source& source) const {
   if (source.piece.body.value != stands) source.piece.bones = nullptr;
   if (source.piece.body.value != stands || source.piece.bones) return;
@@ -309,6 +346,7 @@ void DrawnModel::update(const Simulation& simulation) {
   for (State::Source& source : s.sources) s.follow(std::move(source), simulation, now);
   s.sources = std::move(now);
   s.follow_chunks(simulation);
+  s.follow_cut_members(simulation);
   s.list();
 }
 

@@ -40,7 +40,7 @@ PanelHit read_hit(const JsonValue& value) {
   value.only({"at", "radius"});
   PanelHit hit;
   hit.at = value.require("at").numbers<fracture::Vec2>();
-  if (const auto radius = value.find("radius")) hit.radius = radius->positive();
+  if (const auto radius = value.find("radius")) hit.radius = radius->not_negative();
   return hit;
 }
 

@@ -25,9 +25,10 @@ struct Body {
   MassProperties rest;     ///< in the undeformed building
   double radius = 0;       ///< above zero: a sphere
   double volume = 0;       ///< of solid material, m3
-  std::vector<Vec3> hull;  ///< a chunk, or a piece of a member: corners of its shape about `rest.centre`, global axes at rest; else empty
+  std::vector<Vec3> hull;  ///< a chunk, or a piece of a member: corners of its shape about `rest.centre`, global axes
+                           ///< at rest; else empty
   PieceKind chunk_of = PieceKind::slab;
-  JointId end_joint;  ///< a piece of a member that was cut in two: the joint of its end
+  JointId end_joint;                           ///< a piece of a member that was cut in two: the joint of its end
   std::shared_ptr<const fracture::Mesh> mesh;  ///< a chunk: as it is drawn, in the same axes
   Bounds bounds;                               ///< in the undeformed building, about `rest.centre`
   bool asleep = false;                         ///< as booked last

@@ -1,6 +1,6 @@
-// A post that buckled inside leaves what stands in two pieces. Each is a body of its own that hangs on by the joint of its
-// end, as parts on hinges do (hinges.cpp), but held in all that the joint holds: a stub that stands on its foot, one that
-// hangs from the node above.
+// A post that buckled inside leaves what stands in two pieces. Each is a body of its own that hangs on by the joint of
+// its end, as parts on hinges do (hinges.cpp), but held in all that the joint holds: a stub that stands on its foot,
+// one that hangs from the node above.
 #include <algorithm>
 
 #include "simulation/momentum.h"
@@ -20,7 +20,8 @@ fracture::Mesh box(const Vec3& half, const Mat3& axes, const Vec3& from_centre) 
     const int out = face / 2, first = (out + 1) % 3, second = (out + 2) % 3;
     const double side = face % 2 == 0 ? -1 : 1;
     const int corner = static_cast<int>(mesh.positions.size());
-    for (const auto& [a, b] : {std::pair(-1.0, -1.0), std::pair(1.0, -1.0), std::pair(1.0, 1.0), std::pair(-1.0, 1.0)}) {
+    for (const auto& [a, b] :
+         {std::pair(-1.0, -1.0), std::pair(1.0, -1.0), std::pair(1.0, 1.0), std::pair(-1.0, 1.0)}) {
       Vec3 local;
       local[out] = side * half[out];
       local[first] = side * a * half[first];

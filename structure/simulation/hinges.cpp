@@ -145,8 +145,7 @@ void Simulation::State::hang_again(const std::vector<JointId>& joints) {
   for (const JointId joint : joints) {
     const auto piece =
         std::find_if(bodies.begin(), bodies.end(), [&](const auto& one) { return one.second.end_joint == joint; });
-    const collision::BodyId of_member =
-        piece != bodies.end() ? piece->second.id : body_with(hold_of(joint, false));
+    const collision::BodyId of_member = piece != bodies.end() ? piece->second.id : body_with(hold_of(joint, false));
     const collision::BodyId of_hub = body_with(hold_of(joint, true));
     const collision::BodyId hanging = of_member.value >= 0 ? of_member : of_hub;
     if (hanging.value >= 0) hang_on({joint}, hanging);

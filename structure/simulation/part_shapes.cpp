@@ -212,8 +212,7 @@ std::vector<Vec3> PartShapes::corners(const Building& building, MemberId id, dou
   for (const double y : {-1.0, 1.0})
     for (const double z : {-1.0, 1.0})
       for (const double along : {low, high})
-        corners.push_back(start + along * x +
-                          shape.axes.transpose() * Vec3(0, y * shape.half.y(), z * shape.half.z()));
+        corners.push_back(start + along * x + shape.axes.transpose() * Vec3(0, y * shape.half.y(), z * shape.half.z()));
   return corners;
 }
 

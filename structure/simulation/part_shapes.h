@@ -37,8 +37,8 @@ class PartShapes {
   [[nodiscard]] collision::ConvexPart shape(Part part, const Vec3& origin) const;
   /// The same of what is left of it: several convex parts where it is broken.
   [[nodiscard]] std::vector<collision::ConvexPart> parts(Part part, const Vec3& origin) const;
-  /// Corners of what of a member's shape lies between two distances from its first end, a little apart from what was cut
-  /// off there; of a stretch that lies all but beyond the shape, of its inner part.
+  /// Corners of what of a member's shape lies between two distances from its first end, a little apart from what was
+  /// cut off there; of a stretch that lies all but beyond the shape, of its inner part.
   [[nodiscard]] std::vector<Vec3> corners(const Building& building, MemberId member, double from, double to) const;
   /// From now on the panel has these shapes (corners of each).
   void set_broken(PanelId panel, std::vector<std::vector<Vec3>> hulls);

@@ -116,7 +116,7 @@ with tempfile.TemporaryDirectory() as folder:
         "five corners": {**good, "panel": {"outline": [*outline, [-1, 1.5]], "thickness": 0.2}},
         "dent": {**good, "panel": {"outline": [outline[0], outline[1], [1, 1], outline[3]], "thickness": 0.2}},
         "opening": {**good, "panel": {**good["panel"], "openings": [[[1, 1], [2, 1]]]}},
-        "radius": {**good, "hits": [{"at": [1, 1], "radius": 0}]}, "seed": {**good, "seed": 1.5},
+        "radius": {**good, "hits": [{"at": [1, 1], "radius": -0.1}]}, "seed": {**good, "seed": 1.5},
         "thickness": {**good, "panel": {"outline": outline, "thickness": 0}},
     }
     file = place / "wrong.json"
@@ -126,6 +126,11 @@ with tempfile.TemporaryDirectory() as folder:
         expect(done.returncode == 2 and done.stderr.count("\n") == 1, f"{what}: {done.returncode} {done.stderr}")
     expect(run("wall_local").returncode == 2, "no folder")
     expect(not (place / "none").exists(), "something was written for a wrong file")
+    for method in ("voronoi", "quadrilateral", "local"):  # a point alone: the cell that it hits; no length of damage at all
+        file.write_text(json.dumps({**good, "fracture": {"method": method}, "hits": [{"at": [1, 1], "radius": 0}]}))
+        done = run(file, "-o", place / method)
+        chunks = json.loads((place / method / "summary.json").read_text())["counts"]["chunks"] if done.returncode == 0 else -1
+        expect(chunks == (0 if method == "local" else 1), f"{method}, radius 0: {chunks} chunks {done.stderr}")
     file.write_text(json.dumps({**good, "hits": [{"at": [1, 1], "radius": 1e9}]}))
     done = run(file, "-o", place / "all")
     expect(done.returncode == 0 and json.loads((place / "all" / "summary.json").read_text())["areas"]["remaining"] == 0,

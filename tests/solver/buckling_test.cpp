@@ -234,8 +234,7 @@ TEST_CASE("a factor below the limit is found when only one beyond it is what an 
     Beam beam;
     beam.node = {from, to};
     beam.length = length;
-    if (from == 0)
-      beam.axes << 0, 0, 1, 0, 1, 0, -1, 0, 0;
+    if (from == 0) beam.axes << 0, 0, 1, 0, 1, 0, -1, 0, 0;
     beam.youngs_modulus = 2e11;
     beam.shear_modulus = 8e10;
     beam.area = area;

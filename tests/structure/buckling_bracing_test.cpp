@@ -110,8 +110,8 @@ TEST_CASE("a post that loses its bracing snaps by the classic rule at once, by b
       REQUIRE(breaks.empty() == !falls);
       if (!falls) continue;
       CHECK(breaks[0].cause == (by_buckling ? BreakCause::buckling : BreakCause::bracing));
-      // Classic: the joint that the struts braced, at mid-height. The critical shape of a column that is clamped below and
-      // pinned above is a sine from the pin down, highest after a quarter of its wave: inside the upper post.
+      // Classic: the joint that the struts braced, at mid-height. The critical shape of a column that is clamped below
+      // and pinned above is a sine from the pin down, highest after a quarter of its wave: inside the upper post.
       CHECK(breaks[0].joint == post.frame.building.joint(post.upper, 0));
       CHECK(bool(breaks[0].inside) == by_buckling);
       if (!by_buckling) continue;
@@ -133,7 +133,9 @@ TEST_CASE("a post breaks where its critical shape bends most: at a joint that ca
       const JointCapacity capacity = breakable ? same_capacity(1e12) : JointCapacity();
       const MemberId post = frame.member("P", MemberKind::post, foot, head, capacity, capacity);
       const auto pin = [&](int end) {
-        frame.building.joints[static_cast<std::size_t>(frame.building.joint(post, end).index)].stiffness.tail<2>().setZero();
+        frame.building.joints[static_cast<std::size_t>(frame.building.joint(post, end).index)]
+            .stiffness.tail<2>()
+            .setZero();
       };
       if (ends == Ends::pinned) pin(0);
       if (ends == Ends::pinned || ends == Ends::clamped_below) pin(1);
@@ -170,7 +172,8 @@ TEST_CASE("a post breaks where its critical shape bends most: at a joint that ca
       REQUIRE(breaks[0].inside);
       CHECK(*breaks[0].inside == Approx(place).epsilon(1e-5));
       CHECK((breaks[0].position - Vec3(0, 0, place * length)).norm() < 1e-4);
-      const auto cut = std::find_if(detached.begin(), detached.end(), [](const Detached& part) { return bool(part.cut); });
+      const auto cut =
+          std::find_if(detached.begin(), detached.end(), [](const Detached& part) { return bool(part.cut); });
       REQUIRE(cut != detached.end());
       CHECK(cut->members == std::vector<MemberId>{post});
       CHECK(*cut->cut == *breaks[0].inside);

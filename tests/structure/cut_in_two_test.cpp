@@ -1,5 +1,7 @@
-// A slender post beside a stiff bracket: when it buckles it is cut in two inside, its lower piece stands on, the upper one
-// hangs on, and both weigh on what holds them.
+// A slender post beside a stiff bracket: when it buckles it is cut in two inside, its lower piece stands on, the upper
+// one hangs on, and both weigh on what holds them.
+#include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <fstream>
@@ -7,7 +9,9 @@
 
 #include "structure/simulation_run.h"
 #include "support/scratch_folder.h"
+#include "topple/fracture/solid_cut.h"
 #include "topple/structure/collapse_animation.h"
+#include "topple/structure/drawn_model.h"
 #include "topple/structure/files.h"
 
 namespace {
@@ -34,9 +38,11 @@ Simulation bracket(const std::string& more_events = "", const std::string& joint
  "supports": {"F": "fixed", "K": "fixed"}})";
   const topple::test::ScratchFolder folder;
   std::ofstream(folder / "bracket.json") << model;
-  auto [building, course] = parse_scenario(R"({"topple": 1, "model": "bracket.json", "duration": 20, "failure": {"sudden": 1},
- "events": [{"at": 0.5, "load": {"nodes": {"H": {"z": -1.2e6}}}})" + more_events + "]}",
-                                           "s.json", folder.path());
+  auto [building, course] =
+      parse_scenario(R"({"topple": 1, "model": "bracket.json", "duration": 20, "failure": {"sudden": 1},
+ "events": [{"at": 0.5, "load": {"nodes": {"H": {"z": -1.2e6}}}})" +
+                         more_events + "]}",
+                     "s.json", folder.path());
   return Simulation(std::move(building), std::move(course));
 }
 
@@ -116,8 +122,8 @@ TEST_CASE("a piece of a cut post comes loose where its joint cannot bear it, and
 
   Simulation held = bracket(R"(, {"at": 5, "remove": {"supports": ["K"]}})");
   run_to(held, 5.3);
-  const auto of_bracket = std::find_if(held.bodies().begin(), held.bodies().end(),
-                                       [](const BodyView& body) { return body.name == "B"; });
+  const auto of_bracket =
+      std::find_if(held.bodies().begin(), held.bodies().end(), [](const BodyView& body) { return body.name == "B"; });
   REQUIRE(of_bracket != held.bodies().end());
   const Vec3 head(0, 0, height);
   CHECK(moved(*of_bracket, head).z() < height - 0.2);
@@ -137,6 +143,43 @@ TEST_CASE("a run in which a post is cut in two comes out the same again, and fro
   CHECK(resumed.hash() == third.hash());
   run(resumed);
   CHECK(resumed.hash() == first.hash());
+}
+
+TEST_CASE("what is drawn around a post that is cut in two goes with its pieces") {
+  Simulation simulation = bracket();
+  DrawnMesh cladding;
+  cladding.name = "cladding";
+  cladding.member = MemberId(0u);
+  // A box of 0.4 m around it.
+  const std::array<Vec3, 8> corner{Vec3(-0.2, -0.2, 0), Vec3(0.2, -0.2, 0), Vec3(0.2, 0.2, 0), Vec3(-0.2, 0.2, 0),
+                                   Vec3(-0.2, -0.2, 6), Vec3(0.2, -0.2, 6), Vec3(0.2, 0.2, 6), Vec3(-0.2, 0.2, 6)};
+  const std::array<std::array<std::size_t, 4>, 6> faces{
+      {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
+  for (const auto& face : faces) {
+    const int first = static_cast<int>(cladding.mesh.positions.size());
+    const Vec3 normal = (corner[face[1]] - corner[face[0]]).cross(corner[face[2]] - corner[face[0]]).normalized();
+    for (const std::size_t k : face) {
+      cladding.mesh.positions.push_back(corner[k]);
+      cladding.mesh.normals.push_back(normal);
+      cladding.mesh.texture.emplace_back(0, 0);
+    }
+    cladding.mesh.triangles.push_back({first, first + 1, first + 2});
+    cladding.mesh.triangles.push_back({first, first + 2, first + 3});
+  }
+  DrawnModel model(simulation.building(), {cladding});
+  while (simulation.time() < 1) {
+    simulation.step();
+    model.update(simulation);
+  }
+  REQUIRE(model.pieces().size() == 2);
+  double volume = 0;
+  for (const DrawnModel::Piece& piece : model.pieces()) {
+    CHECK(topple::fracture::audit(*piece.mesh, 1e-9, true).open_edges == 0);
+    volume += piece.volume;
+    const double middle = topple::fracture::solid_properties(*piece.mesh, 1).centre.z();
+    CHECK(piece.body.value == body_named(simulation, middle < 3 ? "P#1" : "P#2").id.value);
+  }
+  CHECK(volume == Approx(0.4 * 0.4 * 6).epsilon(1e-12));
 }
 
 TEST_CASE("the pieces of a cut post are in the animation, the post until it is cut") {

@@ -40,11 +40,11 @@ struct Detached {
   std::vector<PanelId> panels;
   std::vector<NodeId> nodes;
   bool mechanism = false;
-  /// Joints of members by which it still hangs on what stands (`mechanism: hinge`, pieces of a post that was cut in two):
-  /// free to turn in what is released, holding in the rest until the host breaks them.
+  /// Joints of members by which it still hangs on what stands (`mechanism: hinge`, pieces of a post that was cut in
+  /// two): free to turn in what is released, holding in the rest until the host breaks them.
   std::vector<JointId> hinges;
-  /// It is one member that was cut in two at this fraction of its length from its first end: each piece hangs by the joint
-  /// of its own end.
+  /// It is one member that was cut in two at this fraction of its length from its first end: each piece hangs by the
+  /// joint of its own end.
   std::optional<double> cut{};
 };
 
