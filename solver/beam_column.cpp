@@ -106,38 +106,55 @@ int negative_pivots(const Eigen::Matrix2d& m) {
 }  // namespace
 
 BeamColumn::BeamColumn(const ColumnPlane& plane, std::span<const ColumnStretch> stretches,
-                       const std::array<double, 4>& end_stiffness)
-    : plane_(plane) {
-  for (const ColumnStretch& stretch : stretches) {
-    const Transfer t = transfer(plane, stretch);
-    const Eigen::Matrix2d to_force = t.block<2, 2>(0, 2).inverse();
-    const Eigen::Matrix2d first_u = -to_force * t.block<2, 2>(0, 0);
-    const Eigen::Vector2d first_g = -to_force * t.block<2, 1>(0, 4);
-    const Eigen::Matrix2d D = t.block<2, 2>(2, 2);
-    Eigen::Matrix<double, 4, 4> force;  // M1, T1, M2, T2 by u1, u2
-    force << first_u, to_force, t.block<2, 2>(2, 0) + D * first_u, D * to_force;
-    Eigen::Vector4d load;
-    load << first_g, D * first_g + t.block<2, 1>(2, 4);
-    // What acts on the ends, in the order of the freedoms, and back from the scale of the length.
-    const double EI = plane.bending_stiffness, h = stretch.length;
-    const Eigen::Vector4d forces_scale(EI / (h * h), EI / h, EI / (h * h), EI / h), moves_scale(1 / h, 1, 1 / h, 1);
-    Segment segment;
-    segment.stretch = stretch;
-    const std::array<int, 4> from{1, 0, 3, 2};
-    for (int i = 0; i < 4; ++i) {
-      const double sign = (i < 2 ? -1 : 1) * forces_scale(i);
-      segment.stiffness.row(i) =
-          sign * force.row(from[static_cast<std::size_t>(i)]).cwiseProduct(moves_scale.transpose());
-      segment.fixed(i) = sign * load(from[static_cast<std::size_t>(i)]);
-    }
-    segments_.push_back(segment);
+                       const Eigen::Vector2d& at_second_end, const std::array<double, 4>& end_stiffness)
+    : plane_(plane), stretches_(stretches.begin(), stretches.end()) {
+  for (std::size_t first = 0, next = 1; first < stretches_.size(); first = next++) {
+    while (next < stretches_.size() && !stretches_[next].begins_segment) ++next;
+    segments_.push_back({first, next - first, 0, {}, {}});
+    find_stiffness(segments_.back());
   }
-  chain(stretches);
+  chain();
+  fixed_.tail<2>() -= at_second_end;
   stiffness_ = (0.5 * (stiffness_ + stiffness_.transpose())).eval();
   add_springs(end_stiffness);
 }
 
-void BeamColumn::chain(std::span<const ColumnStretch> stretches) {
+/// From its transfer matrix, the product of its stretches', in the scale of its length.
+void BeamColumn::find_stiffness(Segment& segment) const {
+  for (const ColumnStretch& stretch : stretches(segment)) segment.length += stretch.length;
+  const double EI = plane_.bending_stiffness, h = segment.length;
+  const Eigen::Vector4d scale = Scaled{h, EI}.scale();
+  Transfer t = Transfer::Zero();
+  t.leftCols<4>().setIdentity();
+  for (const ColumnStretch& stretch : stretches(segment)) {
+    t(2, 4) -= stretch.point_moment / scale(2);
+    t(3, 4) -= stretch.point_force / scale(3);
+    const Eigen::Vector4d to_own = Scaled{stretch.length, EI}.scale().cwiseQuotient(scale);
+    const Transfer own = transfer(plane_, stretch);
+    const Eigen::Matrix4d through =
+        to_own.asDiagonal() * own.leftCols<4>() * to_own.cwiseInverse().asDiagonal();
+    t = (through * t).eval();
+    t.col(4) += to_own.cwiseProduct(own.col(4));
+  }
+  const Eigen::Matrix2d to_force = t.block<2, 2>(0, 2).inverse();
+  const Eigen::Matrix2d first_u = -to_force * t.block<2, 2>(0, 0);
+  const Eigen::Vector2d first_g = -to_force * t.block<2, 1>(0, 4);
+  const Eigen::Matrix2d D = t.block<2, 2>(2, 2);
+  Eigen::Matrix<double, 4, 4> force;  // M1, T1, M2, T2 by u1, u2
+  force << first_u, to_force, t.block<2, 2>(2, 0) + D * first_u, D * to_force;
+  Eigen::Vector4d load;
+  load << first_g, D * first_g + t.block<2, 1>(2, 4);
+  // What acts on the ends, in the order of the freedoms, and back from the scale of the length.
+  const Eigen::Vector4d forces_scale(EI / (h * h), EI / h, EI / (h * h), EI / h), moves_scale(1 / h, 1, 1 / h, 1);
+  const std::array<int, 4> from{1, 0, 3, 2};
+  for (int i = 0; i < 4; ++i) {
+    const double sign = (i < 2 ? -1 : 1) * forces_scale(i);
+    segment.stiffness.row(i) = sign * force.row(from[static_cast<std::size_t>(i)]).cwiseProduct(moves_scale.transpose());
+    segment.fixed(i) = sign * load(from[static_cast<std::size_t>(i)]);
+  }
+}
+
+void BeamColumn::chain() {
   stiffness_ = segments_.front().stiffness;
   fixed_ = segments_.front().fixed;
   for (std::size_t i = 1; i < segments_.size(); ++i) {
@@ -148,8 +165,7 @@ void BeamColumn::chain(std::span<const ColumnStretch> stretches) {
     joint.inverse = middle.inverse();
     joint.to_first = stiffness_.block<2, 2>(2, 0);
     joint.to_next = next.block<2, 2>(0, 2);
-    joint.load = fixed_.tail<2>() + segments_[i].fixed.head<2>() -
-                 Eigen::Vector2d(stretches[i].point_force, stretches[i].point_moment);
+    joint.load = fixed_.tail<2>() + segments_[i].fixed.head<2>();
     Eigen::Matrix4d sum = Eigen::Matrix4d::Zero();
     sum.topLeftCorner<2, 2>() = stiffness_.topLeftCorner<2, 2>();
     sum.bottomRightCorner<2, 2>() = next.bottomRightCorner<2, 2>();
@@ -211,7 +227,14 @@ BeamColumn::Curve BeamColumn::curve(const Eigen::Vector4d& hubs) const {
     Eigen::Vector4d u;
     u << place[i], place[i + 1];
     const Eigen::Vector4d force = segments_[i].stiffness * u + segments_[i].fixed;
-    curve.parts_.push_back(along(plane_, segments_[i].stretch, {u(0), u(1), -force(1), -force(0)}));
+    Eigen::Vector4d state(u(0), u(1), -force(1), -force(0));
+    for (const ColumnStretch& stretch : stretches(segments_[i])) {
+      state(2) -= stretch.point_moment;
+      state(3) -= stretch.point_force;
+      curve.parts_.push_back(along(plane_, stretch, state));
+      state.setZero();
+      for (const Eigen::Vector4d& term : curve.parts_.back().series) state += term;
+    }
   }
   return curve;
 }

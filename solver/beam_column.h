@@ -1,9 +1,10 @@
 #pragma once
 // One bending plane of a beam-column under its axial force, exactly: v' = (rotation + T/GA)/(1 + N/GA) (Engesser),
 // rotation' = M/EI + free curvature, M' = -T + N v' - m, T' = -q, with T the force across the undeformed axis. The beam
-// is cut into segments on which N is a polynomial and the solution smooth; each segment's transfer matrix is a power
-// series summed to rounding, its stiffness follows, and the inner joints are condensed. Timoshenko and Gere, Theory of
-// Elastic Stability, ch. 1-2.
+// is cut into stretches on which N is a polynomial and the solution smooth; each stretch's transfer matrix is a power
+// series summed to rounding. Segments of several stretches multiply theirs, however short some of them are (a load
+// hardly off an end); the stiffness of each follows, and the joints between segments are condensed. Timoshenko and
+// Gere, Theory of Elastic Stability, ch. 1-2.
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <array>
@@ -18,8 +19,8 @@ struct ColumnStretch {
   std::array<double, 3> axial{};        ///< tension, in powers of the distance from the start
   double force = 0, force_slope = 0;    ///< across, per length
   double moment = 0, moment_slope = 0;  ///< per length
-  double point_force = 0,
-         point_moment = 0;  ///< at the start of the stretch (not of the first one: those go to the end)
+  double point_force = 0, point_moment = 0;  ///< at the start of the stretch
+  bool begins_segment = false;               ///< as the first one does anyway
 };
 
 struct ColumnPlane {
@@ -30,9 +31,10 @@ struct ColumnPlane {
 
 class BeamColumn {
  public:
-  /// `end_stiffness`: springs of v1, r1, v2, r2 (infinite: rigid, 0: released).
+  /// `end_stiffness`: springs of v1, r1, v2, r2 (infinite: rigid, 0: released). `at_second_end`: point force and
+  /// moment there. A segment should be far shorter than 2 pi sqrt(EI/N), at which it would buckle between held ends.
   BeamColumn(const ColumnPlane& plane, std::span<const ColumnStretch> stretches,
-             const std::array<double, 4>& end_stiffness);
+             const Eigen::Vector2d& at_second_end, const std::array<double, 4>& end_stiffness);
 
   /// In the freedoms v1, r1, v2, r2 of the hubs.
   [[nodiscard]] const Eigen::Matrix4d& stiffness() const { return stiffness_; }
@@ -60,7 +62,8 @@ class BeamColumn {
 
  private:
   struct Segment {
-    ColumnStretch stretch;
+    std::size_t first = 0, count = 0;  ///< of stretches_
+    double length = 0;
     Eigen::Matrix4d stiffness;
     Eigen::Vector4d fixed;
   };
@@ -70,10 +73,15 @@ class BeamColumn {
     Eigen::Vector2d load;
   };
   static Curve::Part along(const ColumnPlane& plane, const ColumnStretch& stretch, const Eigen::Vector4d& start);
-  void chain(std::span<const ColumnStretch> stretches);
+  [[nodiscard]] std::span<const ColumnStretch> stretches(const Segment& segment) const {
+    return std::span(stretches_).subspan(segment.first, segment.count);
+  }
+  void find_stiffness(Segment& segment) const;
+  void chain();
   void add_springs(const std::array<double, 4>& end_stiffness);
 
   ColumnPlane plane_;
+  std::vector<ColumnStretch> stretches_;
   std::vector<Segment> segments_;
   std::vector<Joint> joints_;  ///< before segments 1, 2, ...
   struct Spring {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "beam_internal_forces.h"
 
@@ -20,53 +22,101 @@ ColumnPlane plane_of(const Beam& beam, double factor, const InternalForces& forc
   return plane;
 }
 
-/// Stretches on which the series of the transfer matrix is short and well conditioned.
-int divisions(const BeamPiece& piece, double bending_stiffness) {
+/// How long a piece is, measured by the longest segment on which transfer matrices are well conditioned.
+double segments_long(const BeamPiece& piece, double bending_stiffness) {
   const std::array<double, 4>& axial = piece.force[0];
   double most_axial = std::max(std::abs(axial[0]), std::abs(polynomial(axial, piece.length)));
   if (const double turn = -axial[1] / (2 * axial[2]); turn > 0 && turn < piece.length)
     most_axial = std::max(most_axial, std::abs(polynomial(axial, turn)));
-  constexpr double longest = 1.5;  // of L sqrt(N/EI): far below 2 pi, where a held stretch would buckle
-  constexpr double most = 4096;
-  const double need = piece.length * std::sqrt(most_axial / bending_stiffness) / longest;
-  return static_cast<int>(std::clamp(std::ceil(need), 1.0, most));
+  constexpr double longest = 1.5;  // of L sqrt(N/EI): far below 2 pi, where a held segment would buckle
+  return piece.length * std::sqrt(most_axial / bending_stiffness) / longest;
 }
+
+/// Where a beam is cut into segments: all as long as each other in that measure, so that none is a small rest.
+class SegmentCuts {
+ public:
+  SegmentCuts(const std::vector<BeamPiece>& pieces, double bending_stiffness) {
+    for (const BeamPiece& piece : pieces) whole_ += segments_long(piece, bending_stiffness);
+    constexpr double most = 4096;
+    count_ = static_cast<int>(std::clamp(std::ceil(whole_), 1.0, most));
+  }
+  /// The next cut within a piece so long, as a share of it; nothing when the piece ends first. One at its end is left
+  /// to the piece behind.
+  std::optional<double> next(double piece) {
+    constexpr double end = 1 - 1e-9;
+    const double share = (whole_ * cuts_ / count_ - passed_) / piece;
+    if (cuts_ >= count_ || !(share < end)) return std::nullopt;
+    ++cuts_;
+    return std::max(share, 0.0);
+  }
+  void pass(double piece) { passed_ += piece; }
+
+ private:
+  double whole_ = 0, passed_ = 0;
+  int count_ = 1, cuts_ = 1;
+};
 
 /// The axial force, of degree 2 at most, in powers of the distance from a place further on.
 std::array<double, 3> from_place(const std::array<double, 4>& axial, double at) {
   return {polynomial(axial, at), axial[1] + 2 * at * axial[2], axial[2]};
 }
 
+/// Point forces and moments at a place, in one plane.
+Eigen::Vector2d point_loads_at(double place, const Beam& beam, std::span<const BeamLoad> loads, bool xz) {
+  Eigen::Vector2d sum(0, 0);
+  for (const BeamLoad& load : loads)
+    if (load.kind == BeamLoad::Kind::point && std::clamp(load.from, 0.0, beam.length) == place)
+      sum += Eigen::Vector2d(load.first(xz ? 2 : 1), xz ? -load.first(4) : load.first(5));
+  return sum;
+}
+
+/// From `from` to `to` of a piece, as shares of its length.
+ColumnStretch stretch_of(const BeamPiece& piece, double from, double to, const Beam& beam,
+                         std::span<const BeamLoad> loads, bool xz) {
+  const int v = xz ? 2 : 1, r = xz ? 4 : 5;
+  const double sign = xz ? -1 : 1;
+  ColumnStretch s;
+  s.start = piece.start + piece.length * from;
+  s.length = piece.length * (to - from);
+  s.axial = from_place(piece.force[0], piece.length * from);
+  if (from == 0) {
+    const Eigen::Vector2d point = point_loads_at(piece.start, beam, loads, xz);
+    s.point_force = point(0);
+    s.point_moment = point(1);
+  }
+  for (const BeamLoad& load : loads) {
+    if (load.kind != BeamLoad::Kind::distributed) continue;
+    const double begin = std::clamp(load.from, 0.0, beam.length), end = std::clamp(load.to, 0.0, beam.length);
+    if (const double middle = piece.start + piece.length / 2; !(begin < middle && end > middle)) continue;
+    const Vec6 slope = (load.last - load.first) / (end - begin), here = load.first + slope * (s.start - begin);
+    s.force += here(v);
+    s.force_slope += slope(v);
+    s.moment += sign * here(r);
+    s.moment_slope += sign * slope(r);
+  }
+  return s;
+}
+
 std::vector<ColumnStretch> stretches_of(const Beam& beam, double factor, const InternalForces& forces,
                                         std::span<const BeamLoad> loads, bool xz) {
   const double EI = factor * beam.youngs_modulus * (xz ? beam.Iy : beam.Iz);
-  const int v = xz ? 2 : 1, r = xz ? 4 : 5;
-  const double sign = xz ? -1 : 1;
   std::vector<ColumnStretch> stretches;
+  SegmentCuts cuts(forces.pieces, EI);
+  bool cut = false;
   for (const BeamPiece& piece : forces.pieces) {
-    const int n = divisions(piece, EI);
-    for (int i = 0; i < n; ++i) {
-      ColumnStretch s;
-      s.start = piece.start + piece.length * i / n;
-      s.length = piece.length / n;
-      s.axial = from_place(piece.force[0], piece.length * i / n);
-      for (const BeamLoad& load : loads) {
-        if (load.kind == BeamLoad::Kind::point && i == 0 && !stretches.empty() &&
-            std::clamp(load.from, 0.0, beam.length) == piece.start) {
-          s.point_force += load.first(v);
-          s.point_moment += sign * load.first(r);
-        }
-        if (load.kind != BeamLoad::Kind::distributed) continue;
-        const double from = std::clamp(load.from, 0.0, beam.length), to = std::clamp(load.to, 0.0, beam.length);
-        if (!(from <= piece.start && to >= piece.start + piece.length)) continue;
-        const Vec6 slope = (load.last - load.first) / (to - from), here = load.first + slope * (s.start - from);
-        s.force += here(v);
-        s.force_slope += slope(v);
-        s.moment += sign * here(r);
-        s.moment_slope += sign * slope(r);
-      }
-      stretches.push_back(s);
+    const double length = segments_long(piece, EI);
+    double from = 0;
+    const auto add_up_to = [&](double to) {
+      stretches.push_back(stretch_of(piece, from, to, beam, loads, xz));
+      stretches.back().begins_segment = std::exchange(cut, false);
+      from = to;
+    };
+    while (const std::optional<double> at = cuts.next(length)) {
+      if (*at > from) add_up_to(*at);
+      cut = true;
     }
+    add_up_to(1);
+    cuts.pass(length);
   }
   return stretches;
 }
@@ -82,7 +132,8 @@ std::array<double, 4> springs_of(const Beam& beam, bool xz) {
 
 BeamColumn make_column(const Beam& beam, double factor, const InternalForces& forces, std::span<const BeamLoad> loads,
                        bool xz) {
-  return {plane_of(beam, factor, forces, xz), stretches_of(beam, factor, forces, loads, xz), springs_of(beam, xz)};
+  return {plane_of(beam, factor, forces, xz), stretches_of(beam, factor, forces, loads, xz),
+          point_loads_at(beam.length, beam, loads, xz), springs_of(beam, xz)};
 }
 
 /// A cubic beam takes its loads by the first-order formulas: its column carries neither load nor axial force.

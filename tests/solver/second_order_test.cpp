@@ -207,6 +207,56 @@ TEST_CASE("without axial force second order is first order, springs, releases, l
   }
 }
 
+TEST_CASE("a point load at a member's end, or hardly off it, acts in second order as on the node there") {
+  const double L = 6, H = 1000, M = 700, P = 0.6 * pi * pi * 2e11 * 3e-5 / (4 * L * L);
+  for (const bool weak : {false, true}) {
+    const Column column(L, fixed, Vec6::Zero());
+    LoadSet on_node = at_head(weak ? 0 : H, weak ? H : 0, -P);
+    on_node.nodes[0].load(weak ? 3 : 4) = M;
+    const SecondOrderSolution expected = solve(column.model, on_node);
+    // 6 (1 - 1e-16) is what is left of 6 m after a change of units; the last places are off the end by what they say.
+    for (const double off : {0.0, 1e-16, 1e-13, 1e-9, 1e-7}) {
+      LoadSet loads = at_head(0, 0, -P);
+      BeamLoad point;
+      point.beam = 0;
+      point.kind = BeamLoad::Kind::point;
+      point.from = L * (1 - off);
+      point.first.head<3>() = column.model.beams[0].axes * on_node.nodes[0].load.head<3>().cwiseProduct(Vec3(1, 1, 0));
+      point.first.tail<3>() = column.model.beams[0].axes * on_node.nodes[0].load.tail<3>();
+      loads.beams = {point};
+      point.from = L * off;  // at the foot it goes into the support
+      loads.beams.push_back(point);
+      const SecondOrderSolution found = solve(column.model, loads);
+      INFO("off the end by " << off << " of the length, weak " << weak);
+      const double near = 1e-9 + 20 * off;
+      CHECK(found.solution.displacements[1].isApprox(expected.solution.displacements[1], near));
+      Vec6 reaction = expected.solution.reactions[0];
+      reaction.head<2>() -= on_node.nodes[0].load.head<2>();
+      reaction.tail<3>() -= on_node.nodes[0].load.tail<3>();
+      CHECK(found.solution.reactions[0].isApprox(reaction, near));
+      CHECK(diagram(column.model, found).values(0.9 * L)[weak ? 5 : 4] ==
+            Approx(diagram(column.model, expected).values(0.9 * L)[weak ? 5 : 4]).epsilon(near));
+    }
+  }
+}
+
+TEST_CASE("a load that begins or acts hardly off an end or another one leaves critical factors alone") {
+  const double L = 5, P = 1000, euler = pi * pi * 2e11 * 3e-5 / (L * L) / P;
+  for (const double off : {0.0, 1e-16, 1e-12, 1e-8, 1e-5}) {
+    LoadSet loads = at_head(0, 0, -P);
+    BeamLoad point;
+    point.beam = 0;
+    point.kind = BeamLoad::Kind::point;
+    point.first(1) = 300;
+    for (const double at : {L * off, 0.4 * L, 0.4 * L * (1 + off), L * (1 - off)}) {
+      point.from = at;
+      loads.beams.push_back(point);
+    }
+    INFO("off by " << off);
+    CHECK(lowest(Column(L, held({0, 1, 2, 5}), held({0, 1})).model, loads) == Approx(euler).epsilon(1e-9));
+  }
+}
+
 TEST_CASE("Euler's columns buckle at their closed forms with one member each") {
   const double L = 5, P = 1000;
   const double euler = pi * pi * 2e11 * 3e-5 / (L * L) / P;  // about the weak axis
