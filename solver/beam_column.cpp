@@ -110,7 +110,9 @@ BeamColumn::BeamColumn(const ColumnPlane& plane, std::span<const ColumnStretch> 
     : plane_(plane), stretches_(stretches.begin(), stretches.end()) {
   for (std::size_t first = 0, next = 1; first < stretches_.size(); first = next++) {
     while (next < stretches_.size() && !stretches_[next].begins_segment) ++next;
-    segments_.push_back({first, next - first, 0, {}, {}});
+    segments_.emplace_back();
+    segments_.back().first = first;
+    segments_.back().count = next - first;
     find_stiffness(segments_.back());
   }
   chain();
@@ -131,8 +133,7 @@ void BeamColumn::find_stiffness(Segment& segment) const {
     t(3, 4) -= stretch.point_force / scale(3);
     const Eigen::Vector4d to_own = Scaled{stretch.length, EI}.scale().cwiseQuotient(scale);
     const Transfer own = transfer(plane_, stretch);
-    const Eigen::Matrix4d through =
-        to_own.asDiagonal() * own.leftCols<4>() * to_own.cwiseInverse().asDiagonal();
+    const Eigen::Matrix4d through = to_own.asDiagonal() * own.leftCols<4>() * to_own.cwiseInverse().asDiagonal();
     t = (through * t).eval();
     t.col(4) += to_own.cwiseProduct(own.col(4));
   }
@@ -149,7 +150,8 @@ void BeamColumn::find_stiffness(Segment& segment) const {
   const std::array<int, 4> from{1, 0, 3, 2};
   for (int i = 0; i < 4; ++i) {
     const double sign = (i < 2 ? -1 : 1) * forces_scale(i);
-    segment.stiffness.row(i) = sign * force.row(from[static_cast<std::size_t>(i)]).cwiseProduct(moves_scale.transpose());
+    segment.stiffness.row(i) =
+        sign * force.row(from[static_cast<std::size_t>(i)]).cwiseProduct(moves_scale.transpose());
     segment.fixed(i) = sign * load(from[static_cast<std::size_t>(i)]);
   }
 }

@@ -16,9 +16,9 @@ namespace topple::solver {
 /// What acts on one stretch of the beam.
 struct ColumnStretch {
   double start = 0, length = 0;
-  std::array<double, 3> axial{};        ///< tension, in powers of the distance from the start
-  double force = 0, force_slope = 0;    ///< across, per length
-  double moment = 0, moment_slope = 0;  ///< per length
+  std::array<double, 3> axial{};             ///< tension, in powers of the distance from the start
+  double force = 0, force_slope = 0;         ///< across, per length
+  double moment = 0, moment_slope = 0;       ///< per length
   double point_force = 0, point_moment = 0;  ///< at the start of the stretch
   bool begins_segment = false;               ///< as the first one does anyway
 };
@@ -33,8 +33,8 @@ class BeamColumn {
  public:
   /// `end_stiffness`: springs of v1, r1, v2, r2 (infinite: rigid, 0: released). `at_second_end`: point force and
   /// moment there. A segment should be far shorter than 2 pi sqrt(EI/N), at which it would buckle between held ends.
-  BeamColumn(const ColumnPlane& plane, std::span<const ColumnStretch> stretches,
-             const Eigen::Vector2d& at_second_end, const std::array<double, 4>& end_stiffness);
+  BeamColumn(const ColumnPlane& plane, std::span<const ColumnStretch> stretches, const Eigen::Vector2d& at_second_end,
+             const std::array<double, 4>& end_stiffness);
 
   /// In the freedoms v1, r1, v2, r2 of the hubs.
   [[nodiscard]] const Eigen::Matrix4d& stiffness() const { return stiffness_; }
@@ -64,8 +64,8 @@ class BeamColumn {
   struct Segment {
     std::size_t first = 0, count = 0;  ///< of stretches_
     double length = 0;
-    Eigen::Matrix4d stiffness;
-    Eigen::Vector4d fixed;
+    Eigen::Matrix4d stiffness = Eigen::Matrix4d::Zero();
+    Eigen::Vector4d fixed = Eigen::Vector4d::Zero();
   };
   /// The joint before a segment: its displacements follow from those of the first end and of the next joint.
   struct Joint {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "beam_end_springs.h"
 #include "beam_internal_forces.h"
@@ -29,6 +30,8 @@ Polynomial derivative(const Polynomial& p) {
 double zero_between(const Polynomial& p, std::size_t terms, double a, double b, bool rising) {
   double x = a + (b - a) / 2, before = b - a;
   constexpr int enough = 200;
+  constexpr double squared_is_rounding = 1e-9;  // of the bracket: where Newton's method gets to, it doubles the digits
+  const double last_step = squared_is_rounding * (b - a);
   for (int i = 0; i < enough; ++i) {
     double value = p[terms - 1], slope = 0;
     for (std::size_t k = terms - 1; k-- > 0;) {
@@ -38,7 +41,9 @@ double zero_between(const Polynomial& p, std::size_t terms, double a, double b, 
     if (value == 0) return x;
     ((value < 0) == rising ? a : b) = x;
     double step = -value / slope;
-    if (!(x + step > a && x + step < b) || std::abs(step) > before / 2) step = a + (b - a) / 2 - x;
+    const bool newton = x + step > a && x + step < b && std::abs(step) <= before / 2;
+    if (newton && std::abs(step) < last_step) return x + step;
+    if (!newton) step = a + (b - a) / 2 - x;
     if (x + step == x || x + step <= a || x + step >= b) break;
     before = std::abs(step);
     x += step;
@@ -47,7 +52,8 @@ double zero_between(const Polynomial& p, std::size_t terms, double a, double b, 
 }
 
 /// One more than the highest power with a coefficient.
-std::size_t terms(const Polynomial& p) {
+template <std::size_t N>
+std::size_t terms(const std::array<double, N>& p) {
   std::size_t n = p.size();
   while (n > 0 && p[n - 1] == 0) --n;
   return n;
@@ -86,7 +92,8 @@ Places sign_changes(const Polynomial& p, double length) {
   if (n == 3) return sign_changes_of_quadratic(p[0], p[1], p[2], length);
   double from = 0, value = p[0];
   const auto look_up_to = [&](double to) {
-    const double there = polynomial(p, to);
+    double there = p[n - 1];
+    for (std::size_t k = n - 1; k-- > 0;) there = there * to + p[k];
     if ((value < 0) != (there < 0)) places.add(zero_between(p, n, from, to, value < 0));
     from = to;
     value = there;
@@ -119,6 +126,10 @@ struct BeamDiagram::State {
     p[0] -= slope * forces.pieces[piece].start;
     p[1] -= slope;
     return p;
+  }
+  /// An internal force at the second end, where no point load comes between: the end force itself, to the last bit.
+  [[nodiscard]] double at_second_end(Quantity quantity, double by_polynomial) const {
+    return forces.second_end(quantity) == by_polynomial ? end_forces(6 + quantity) : by_polynomial;
   }
   void rigid_motion(int translation, int rotation, double sense, const Vec12& hubs, double& offset,
                     double& slope) const;
@@ -156,7 +167,8 @@ BeamDiagram& BeamDiagram::operator=(BeamDiagram&&) noexcept = default;
 double BeamDiagram::value(Quantity quantity, double distance) const {
   const double x = std::clamp(distance, 0.0, state_->beam.length);
   const std::size_t piece = state_->piece_at(x);
-  return polynomial(state_->curve(piece, quantity), x - state_->forces.pieces[piece].start);
+  const double found = polynomial(state_->curve(piece, quantity), x - state_->forces.pieces[piece].start);
+  return x == state_->beam.length && quantity < deflection_y ? state_->at_second_end(quantity, found) : found;
 }
 
 std::array<double, 8> BeamDiagram::values(double distance) const {
@@ -167,24 +179,46 @@ std::array<double, 8> BeamDiagram::values(double distance) const {
   return result;
 }
 
+namespace {
+
+/// The least and the largest of what comes, the first place where several are equal.
+class Extremes {
+ public:
+  void consider(double value, double at) {
+    if (first_ || value < range_.least.value) range_.least = {value, at};
+    if (first_ || value > range_.greatest.value) range_.greatest = {value, at};
+    first_ = false;
+  }
+  /// A polynomial in the distance from `start`; at_end(its value there) is what counts at its end.
+  template <std::size_t N, class AtEnd>
+  void consider(const std::array<double, N>& p, double start, double length, AtEnd at_end) {
+    const std::size_t n = terms(p);
+    consider(p[0], start);
+    if (n > 2)
+      for (const double turn : sign_changes(derivative(widen(p)), length)) consider(polynomial(p, turn), start + turn);
+    if (n > 1) consider(at_end(polynomial(p, length)), start + length);
+  }
+  [[nodiscard]] const BeamDiagram::Range& range() const { return range_; }
+
+ private:
+  BeamDiagram::Range range_;
+  bool first_ = true;
+};
+
+}  // namespace
+
 BeamDiagram::Range BeamDiagram::extremes(Quantity quantity) const {
-  Range range;
-  bool first = true;
-  const auto consider = [&](double v, double at) {
-    if (first || v < range.least.value) range.least = {v, at};
-    if (first || v > range.greatest.value) range.greatest = {v, at};
-    first = false;
-  };
+  Extremes extremes;
   for (std::size_t i = 0; i < state_->forces.pieces.size(); ++i) {
     const BeamPiece& piece = state_->forces.pieces[i];
-    const Polynomial p = state_->curve(i, quantity);
-    consider(p[0], piece.start);
-    if (terms(p) > 2)
-      for (const double root : sign_changes(derivative(p), piece.length))
-        consider(polynomial(p, root), piece.start + root);
-    consider(polynomial(p, piece.length), piece.start + piece.length);
+    const bool last = i + 1 == state_->forces.pieces.size();
+    const auto at_end = [&](double value) { return last ? state_->at_second_end(quantity, value) : value; };
+    if (quantity < deflection_y)
+      extremes.consider(piece.force[static_cast<std::size_t>(quantity)], piece.start, piece.length, at_end);
+    else
+      extremes.consider(state_->curve(i, quantity), piece.start, piece.length, std::identity());
   }
-  return range;
+  return extremes.range();
 }
 
 /// The rigid part of the motion in one plane, offset + slope x, from two components that are not released: the beam's

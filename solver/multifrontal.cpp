@@ -266,11 +266,15 @@ void MultifrontalFactor::solve(Eigen::Ref<Eigen::MatrixXd> right_hand_sides) con
   // So many together: more would not fit the caches beside a panel. Several threads go through the factor side by side,
   // each with columns of its own.
   constexpr Eigen::Index most_together = 12;
+  // The factor is read once for a group: for fewer than this, reading it in each thread takes as long as the
+  // arithmetic.
+  constexpr Eigen::Index worth_a_group = 4;
   constexpr std::int64_t worth_a_thread = 1000000;  // entries of the factor: less is done before a thread has started
   const int threads = fronts_.value_start.back() >= worth_a_thread ? threads_ : 1;
   const Eigen::Index columns = right_hand_sides.cols();
   const auto groups = static_cast<int>(
-      std::max<Eigen::Index>((columns + most_together - 1) / most_together, std::min<Eigen::Index>(threads, columns)));
+      std::max<Eigen::Index>((columns + most_together - 1) / most_together,
+                             std::min<Eigen::Index>(threads, (columns + worth_a_group - 1) / worth_a_group)));
   each_on_threads(groups, threads, [&](int g) {
     const Eigen::Index first = g * columns / groups, count = (g + 1) * columns / groups - first;
     Eigen::MatrixXd y(n, count);

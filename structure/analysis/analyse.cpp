@@ -11,6 +11,7 @@
 #include "analysis/divided_member.h"
 #include "analysis/equilibrium.h"
 #include "analysis/instability.h"
+#include "analysis/loads_by_member.h"
 #include "analysis/modal_masses.h"
 #include "analysis/one_way_members.h"
 #include "analysis/second_order_member.h"
@@ -32,30 +33,6 @@ namespace topple::structure {
 
 namespace {
 
-/// The loads of each member together: those given where they lie in the members' order, as mostly they do.
-class LoadsByMember {
- public:
-  LoadsByMember(std::size_t members, const std::vector<solver::BeamLoad>& loads)
-      : start_(members + 1, 0), loads_(&loads) {
-    for (const solver::BeamLoad& load : loads) ++start_[static_cast<std::size_t>(load.beam) + 1];
-    std::partial_sum(start_.begin(), start_.end(), start_.begin());
-    const auto before = [](const solver::BeamLoad& a, const solver::BeamLoad& b) { return a.beam < b.beam; };
-    if (std::is_sorted(loads.begin(), loads.end(), before)) return;
-    sorted_ = loads;
-    std::stable_sort(sorted_.begin(), sorted_.end(), before);
-    loads_ = &sorted_;
-  }
-  LoadsByMember(LoadsByMember&&) = delete;
-  [[nodiscard]] std::span<const solver::BeamLoad> on(std::size_t member) const {
-    return {loads_->data() + start_[member], start_[member + 1] - start_[member]};
-  }
-
- private:
-  std::vector<std::size_t> start_;
-  std::vector<solver::BeamLoad> sorted_;
-  const std::vector<solver::BeamLoad>* loads_;
-};
-
 /// Everything that the combinations share.
 class Analysis {
  public:
@@ -68,13 +45,19 @@ class Analysis {
         bearing_edges_(building, frame_, edges_),
         bearings_(building, edges_),
         storeys_(building) {
+    for (std::size_t m = 0; m < building.members.size(); ++m)
+      for (int end = 0; end < 2; ++end)
+        if (building[building.joint(MemberId(m), end)].capacity.breakable) breakable_ends_.emplace_back(m, end);
     combinations_ = request.combinations;
     if (combinations_.empty())
       for (std::size_t i = 0; i < building.combinations.size(); ++i) combinations_.emplace_back(i);
     if (combinations_.size() > 1) cases_ = case_loads(building, frame_, edges_, combinations_);
     linear_ = request.second_order == solver::SecondOrder::none && request.buckling == 0 &&
               !OneWayMembers(frame_.model).any();
-    if (linear_ && of_cases()) return;
+    if (linear_ && of_cases()) {
+      if (!has_meshes(frame_)) prepare_sums();
+      return;
+    }
     loads_.resize(combinations_.size());
     side_by_side(loads_.size(), request.workers, [&](std::size_t k) { loads_[k] = loads_of(k); });
   }
@@ -130,6 +113,12 @@ class Analysis {
 
   /// Fewer cases than combinations: these are found as sums.
   [[nodiscard]] bool of_cases() const { return !cases_.sets.empty() && cases_.sets.size() < combinations_.size(); }
+
+  /// What combinations have on members, and against their reactions, is then added up from what the cases have.
+  void prepare_sums() {
+    case_loads_.emplace(building_.members.size(), cases_);
+    for (const solver::LoadSet& set : cases_.sets) case_balances_.push_back(balance_of(frame_.model, set));
+  }
 
   [[nodiscard]] CombinationLoads loads_of(std::size_t k) const {
     return combination_loads(building_, frame_, edges_, building_[combinations_[k]]);
@@ -192,8 +181,10 @@ class Analysis {
   [[nodiscard]] CombinationResult analysed(std::size_t k, const solver::StaticSolution& linear) {
     OneWayAnswer answer = settled(k, linear);
     const bool second_order = request_.second_order != solver::SecondOrder::none;
-    if (!second_order && request_.buckling == 0)
+    if (!second_order && request_.buckling == 0) {
+      if (case_loads_) return gather_sum(k, answer);
       return gather(k, answer, loads_.empty() ? loads_of(k) : std::move(loads_[k]));
+    }
     const int iterations = second_order ? turn_to_second_order(k, answer) : 0;
     solver::FrameModel model = carrying_both(frame_.model);
     if (!answer.beams.empty()) model.beams = answer.beams;
@@ -306,6 +297,35 @@ class Analysis {
       make_absolute(frame_, absolute.displacements);
     }
     const solver::StaticSolution& solution = frame_.giving_nodes.empty() ? answer.solution : absolute;
+    const LoadsByMember by_member(building_.members.size(), loads.whole ? loads.whole->beams : loads.set.beams);
+    CombinationResult result =
+        gathered(k, answer, solution, loads.parts, [&](std::size_t member) { return by_member.on(member); });
+    std::vector<solver::NodeLoad> pushes = pushes_of_supports(loads.parts, result.reactions);
+    loads.set.nodes.insert(loads.set.nodes.end(), pushes.begin(), pushes.end());
+    leave_out_giving_sides(frame_, loads.set, result.reactions);
+    hold_against_reactions(balance_of(frame_.model, loads.set), answer.axial.mode != solver::SecondOrder::none, result);
+    return result;
+  }
+
+  [[nodiscard]] CombinationResult gather_sum(std::size_t k, const OneWayAnswer& answer) const {
+    const PartLoads parts = loads_beside_members(building_, building_[combinations_[k]]);
+    std::vector<solver::BeamLoad> sum;
+    CombinationResult result = gathered(k, answer, answer.solution, parts, [&](std::size_t member) {
+      case_loads_->add_up(k, member, sum);
+      return std::span<const solver::BeamLoad>(sum);
+    });
+    Balance applied = balance_of(frame_.model, pushes_of_supports(parts, result.reactions));
+    for (std::size_t c = 0; c < case_balances_.size(); ++c)
+      applied.add(case_balances_[c], cases_.factors(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(k)));
+    hold_against_reactions(applied, false, result);
+    return result;
+  }
+
+  /// `loads_on(member)`: on the whole of each. Reactions are still those of the frame's supports.
+  template <class LoadsOn>
+  [[nodiscard]] CombinationResult gathered(std::size_t k, const OneWayAnswer& answer,
+                                           const solver::StaticSolution& solution, const PartLoads& parts,
+                                           LoadsOn loads_on) const {
     CombinationResult result;
     result.combination = combinations_[k];
     const auto of_mesh = solution.displacements.begin() + static_cast<std::ptrdiff_t>(building_.nodes.size());
@@ -313,24 +333,27 @@ class Analysis {
     result.mesh_displacements.assign(of_mesh, solution.displacements.end());
     result.reactions = solution.reactions;
     result.quality = solution.quality;
-    result.members = members(loads.whole ? *loads.whole : loads.set, answer);
-    result.panels = panels(loads.parts, solution);
-    result.joints = joints(loads.parts, solution, result);
+    result.members = members(answer, loads_on);
+    result.panels = panels(parts, solution);
+    result.joints = joints(parts, solution, result);
     result.storeys = storeys_.results(result.displacements, result.members);
-    turn_pushes_into_reactions(loads.parts, loads.set, result.reactions);
-    leave_out_giving_sides(frame_, loads.set, result.reactions);
-    const Equilibrium balance =
-        equilibrium(frame_.model, loads.set, result.reactions, answer.axial.mode != solver::SecondOrder::none);
+    return result;
+  }
+
+  void hold_against_reactions(const Balance& applied, bool displaced, CombinationResult& result) const {
+    const Equilibrium balance = equilibrium(frame_.model, applied, result.reactions, displaced);
     result.edge_reactions = edge_reactions(building_, frame_, result.reactions);
     result.reactions.resize(building_.supports.size());
     result.total_load = balance.load;
     result.total_reaction = balance.reaction;
     result.equilibrium_error = balance.error;
-    return result;
   }
 
-  /// A spring support whose far end is moved pushes its node: that is part of its reaction, not a load.
-  void turn_pushes_into_reactions(const PartLoads& parts, solver::LoadSet& loads, std::vector<Vec6>& reactions) const {
+  /// A spring support whose far end is moved pushes its node: that is part of its reaction, not a load. Returns what
+  /// takes the pushes off the loads again.
+  [[nodiscard]] std::vector<solver::NodeLoad> pushes_of_supports(const PartLoads& parts,
+                                                                 std::vector<Vec6>& reactions) const {
+    std::vector<solver::NodeLoad> taken_off;
     for (const solver::Settlement& settlement : parts.settlements)
       for (std::size_t s = 0; s < building_.supports.size(); ++s) {
         const NodeSupport& support = building_.supports[s];
@@ -339,8 +362,9 @@ class Analysis {
         Vec6 push = Vec6::Zero();
         push(settlement.component) = stiffness * settlement.value;
         reactions[s] += push;
-        loads.nodes.push_back({settlement.node, -push});
+        taken_off.push_back({settlement.node, -push});
       }
+    return taken_off;
   }
 
   template <class Diagram>
@@ -354,15 +378,15 @@ class Analysis {
       member.stations.push_back(diagram.values(length * s / request_.stations));
   }
 
-  [[nodiscard]] std::vector<MemberResult> members(const solver::LoadSet& loads, const OneWayAnswer& answer) const {
+  template <class LoadsOn>
+  [[nodiscard]] std::vector<MemberResult> members(const OneWayAnswer& answer, LoadsOn loads_on) const {
     const std::vector<solver::Beam>& beams = answer.beams.empty() ? frame_.model.beams : answer.beams;
     const std::vector<solver::Vec12>& end_forces = answer.solution.beam_end_forces;
-    const LoadsByMember by_member(building_.members.size(), loads.beams);
     std::vector<MemberResult> all(building_.members.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
       MemberResult& member = all[i];
       member.active = answer.active.empty() || answer.active[i] != 0;
-      const std::span<const solver::BeamLoad> on = by_member.on(i);
+      const std::span<const solver::BeamLoad> on = loads_on(i);
       if (frame_.pieces[i].empty() && answer.axial.mode == solver::SecondOrder::none) {
         member.end_forces = end_forces[i];
         fill(member, beams[i].length, solver::BeamDiagram(beams[i], member.end_forces, on));
@@ -409,13 +433,11 @@ class Analysis {
   [[nodiscard]] std::vector<Utilisation> joints(const PartLoads& parts, const solver::StaticSolution& solution,
                                                 const CombinationResult& result) const {
     std::vector<Utilisation> used(building_.joints.size());
-    for (std::size_t m = 0; m < building_.members.size(); ++m)
-      for (int end = 0; end < 2; ++end) {
-        const JointId id = building_.joint(MemberId(m), end);
-        if (building_[id].capacity.breakable)
-          used[static_cast<std::size_t>(id.index)] =
-              utilisation(building_[id].capacity, member_joint_demand(result.members[m].end_forces, end));
-      }
+    for (const auto& [m, end] : breakable_ends_) {
+      const JointId id = building_.joint(MemberId(m), end);
+      used[static_cast<std::size_t>(id.index)] =
+          utilisation(building_[id].capacity, member_joint_demand(result.members[m].end_forces, end));
+    }
     for (std::size_t p = 0; p < building_.panels.size(); ++p) {
       const PanelId panel(p);
       std::array<Vec6, 4> demand{Vec6::Zero(), Vec6::Zero(), Vec6::Zero(), Vec6::Zero()};
@@ -446,9 +468,12 @@ class Analysis {
   BearingEdges bearing_edges_;
   PanelBearings bearings_;
   Storeys storeys_;
+  std::vector<std::pair<std::size_t, int>> breakable_ends_;  ///< member, end
   std::vector<CombinationId> combinations_;
-  CaseLoads cases_;                      ///< where there are several combinations
-  bool linear_ = false;                  ///< to the end: no second order, no buckling, no one-way members
+  CaseLoads cases_;                              ///< where there are several combinations
+  bool linear_ = false;                          ///< to the end: no second order, no buckling, no one-way members
+  std::optional<CaseLoadsByMember> case_loads_;  ///< where combinations are added up from these to the end
+  std::vector<Balance> case_balances_;
   std::vector<CombinationLoads> loads_;  ///< per combination; empty where each is made when it is its turn
   bool floats_ = false;                  ///< nothing but the shift of the modes keeps it in place
   std::optional<solver::SecondOrderAnalysis> second_order_;

@@ -6,23 +6,29 @@ namespace topple::structure {
 
 namespace {
 
-/// Six components about a fixed point, with the sum of their sizes.
-class Balance {
+Vec3 centroid(const solver::FrameModel& model) {
+  Vec3 centre = Vec3::Zero();
+  for (const Vec3& node : model.nodes) centre += node;
+  return centre / static_cast<double>(model.nodes.size());
+}
+
+/// Adds up forces and moments at places.
+class Moments {
  public:
-  explicit Balance(const Vec3& centre) : centre_(centre) {}
+  explicit Moments(const solver::FrameModel& model) : centre_(centroid(model)) {}
   void add(const Vec3& at, const Vec3& force, const Vec3& moment) {
     Vec6 part;
     part << force, (at - centre_).cross(force) + moment;
-    sum += part;
-    size += part.cwiseAbs();
+    total.sum += part;
+    total.size += part.cwiseAbs();
   }
-  Vec6 sum = Vec6::Zero(), size = Vec6::Zero();
+  Balance total;
 
  private:
   Vec3 centre_;
 };
 
-void add_beam_load(Balance& balance, const solver::FrameModel& model, const solver::BeamLoad& load) {
+void add_beam_load(Moments& balance, const solver::FrameModel& model, const solver::BeamLoad& load) {
   if (load.kind == solver::BeamLoad::Kind::temperature) return;  // pushes nothing as a whole
   const solver::Beam& beam = model.beams[static_cast<std::size_t>(load.beam)];
   const Vec3 start = model.nodes[static_cast<std::size_t>(beam.node[0])] + beam.offset[0];
@@ -41,7 +47,7 @@ void add_beam_load(Balance& balance, const solver::FrameModel& model, const solv
 }
 
 /// A uniform traction on both triangles of a quadrilateral, each at its centroid.
-void add_shell_load(Balance& balance, const solver::FrameModel& model, const solver::ShellLoad& load) {
+void add_shell_load(Moments& balance, const solver::FrameModel& model, const solver::ShellLoad& load) {
   const auto& nodes = model.shells[static_cast<std::size_t>(load.shell)].node;
   const auto corner = [&](std::size_t i) -> const Vec3& { return model.nodes[static_cast<std::size_t>(nodes[i])]; };
   const Vec3 normal = (corner(2) - corner(0)).cross(corner(3) - corner(1)).normalized();
@@ -53,19 +59,27 @@ void add_shell_load(Balance& balance, const solver::FrameModel& model, const sol
 
 }  // namespace
 
-Equilibrium equilibrium(const solver::FrameModel& model, const solver::LoadSet& loads,
-                        const std::vector<Vec6>& reactions, bool displaced) {
-  Vec3 centre = Vec3::Zero();
-  for (const Vec3& node : model.nodes) centre += node;
-  centre /= static_cast<double>(model.nodes.size());
-  Balance applied(centre), held(centre);
-  for (const solver::NodeLoad& load : loads.nodes)
+Balance balance_of(const solver::FrameModel& model, const std::vector<solver::NodeLoad>& loads) {
+  Moments applied(model);
+  for (const solver::NodeLoad& load : loads)
     applied.add(model.nodes[static_cast<std::size_t>(load.node)], load.load.head<3>(), load.load.tail<3>());
+  return applied.total;
+}
+
+Balance balance_of(const solver::FrameModel& model, const solver::LoadSet& loads) {
+  Moments applied(model);
   for (const solver::BeamLoad& load : loads.beams) add_beam_load(applied, model, load);
   for (const solver::ShellLoad& load : loads.shells) add_shell_load(applied, model, load);
+  return applied.total.add(balance_of(model, loads.nodes), 1);
+}
+
+Equilibrium equilibrium(const solver::FrameModel& model, const Balance& applied, const std::vector<Vec6>& reactions,
+                        bool displaced) {
+  Moments moments(model);
   for (std::size_t i = 0; i < reactions.size(); ++i)
-    held.add(model.nodes[static_cast<std::size_t>(model.supports[i].node)], reactions[i].head<3>(),
-             reactions[i].tail<3>());
+    moments.add(model.nodes[static_cast<std::size_t>(model.supports[i].node)], reactions[i].head<3>(),
+                reactions[i].tail<3>());
+  const Balance& held = moments.total;
   Equilibrium result{applied.sum, held.sum, 0};
   // A component in which nothing but rounding acts (a symmetric frame's twist) has no error of its own: it is measured
   // against a millionth of the largest of its kind.

@@ -22,13 +22,19 @@ ResultsWriter::ResultsWriter(const Building& building, const AnalysisRequest& re
   movement_ = {u.length, u.length, u.length, 1, 1, 1};
   diagram_ = {u.force,  u.force, u.force, u.force * u.length, u.force * u.length, u.force * u.length,
               u.length, u.length};
+  si_ = u.length == 1 && u.force == 1;
   auto names = std::make_shared<Names>();
   for (const Node& node : building.nodes) names->nodes.push_back(json_key(node.name));
   for (const Member& member : building.members) names->members.push_back(json_key(member.name));
+  for (std::size_t j = 0; j < building.joints.size(); ++j)
+    if (building.joints[j].capacity.breakable) names->breakable.push_back(j);
   for (const CombinationResult& c : result.combinations)
     names->combinations.push_back(as_value(building[c.combination].name));
-  for (std::size_t q = 0; q < 8; ++q) names->diagrams[q] = json_key(diagram_names[q]) + R"({"min":[)";
-  for (std::size_t i = 0; i < 6; ++i) names->node_components[i] = json_key(component_names[i]) + R"({"min":[)";
+  const auto from_last = [](std::size_t i, const char* name) {
+    return ShortText((i > 0 ? "," : "") + json_key(name) + R"({"min":[)");
+  };
+  for (std::size_t q = 0; q < 8; ++q) names->diagrams[q] = from_last(q, diagram_names[q]);
+  for (std::size_t i = 0; i < 6; ++i) names->node_components[i] = from_last(i, component_names[i]);
   names_ = std::move(names);
 }
 
@@ -40,6 +46,7 @@ ResultsWriter::ResultsWriter(const ResultsWriter& whole, std::string storage)
       force_(whole.force_),
       movement_(whole.movement_),
       diagram_(whole.diagram_),
+      si_(whole.si_),
       names_(whole.names_),
       w_(std::move(storage)) {}
 
@@ -182,7 +189,7 @@ void ResultsWriter::behind_members(const CombinationResult& c) {
   w_.close('}').newline().key("panels").open('{');
   for (std::size_t i = 0; i < b_.panels.size(); ++i) panel(b_.panels[i], c.panels[i], c);
   w_.close('}').newline().key("joints").open('{');
-  for (std::size_t i = 0; i < b_.joints.size(); ++i) joint(b_.joints[i], c.joints[i]);
+  for (const std::size_t j : names_->breakable) joint(b_.joints[j], c.joints[j]);
   w_.close('}').newline().key("storeys").open('{');
   for (std::size_t i = 0; i < c.storeys.size(); ++i) {
     w_.key(std::to_string(i + 1)).open('{').key("drift").value(c.storeys[i].drift).key("shear").open('[');
@@ -211,7 +218,7 @@ void ResultsWriter::member(std::size_t m, const MemberResult& r, const DesignRes
     at = put(R"({"end_forces":[)", at);
     for (std::size_t i = 0; i < 12; ++i) {
       if (i > 0) *at++ = ',';
-      at = w_.write(r.end_forces(static_cast<Eigen::Index>(i)) / force_[i % 6], at);
+      at = w_.write(in_units(r.end_forces(static_cast<Eigen::Index>(i)), force_[i % 6]), at);
     }
     *at++ = ']';
     return at;
@@ -221,14 +228,12 @@ void ResultsWriter::member(std::size_t m, const MemberResult& r, const DesignRes
   w_.raw_key(r.active ? R"("active":true,"extremes":{)" : R"("active":false,"extremes":{)");
   w_.compose(enough, [&](char* at) {
     for (std::size_t q = 0; q < 8; ++q) {
-      if (q > 0) *at++ = ',';
-      at = put(names_->diagrams[q], at);
-      at = w_.write(r.min[q].value / diagram_[q], at);
+      at = w_.write(in_units(r.min[q].value, diagram_[q]), names_->diagrams[q].put(at));
       *at++ = ',';
-      at = put(R"(],"max":[)", w_.write(r.min[q].at / b_.units.length, at));
-      at = w_.write(r.max[q].value / diagram_[q], at);
+      at = put(R"(],"max":[)", w_.write(in_units(r.min[q].at, b_.units.length), at));
+      at = w_.write(in_units(r.max[q].value, diagram_[q]), at);
       *at++ = ',';
-      at = put("]}", w_.write(r.max[q].at / b_.units.length, at));
+      at = put("]}", w_.write(in_units(r.max[q].at, b_.units.length), at));
     }
     *at++ = '}';
     return at;

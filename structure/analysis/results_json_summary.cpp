@@ -25,9 +25,9 @@ void ResultsWriter::member_envelope(std::size_t m) {
   const auto of = [&](std::size_t k) -> const MemberResult& { return all[k].members[m]; };
   w_.newline().raw_key(names_->members[m]).raw_value("{");
   const auto bound = [&](const Extreme& e, std::size_t q, std::size_t k, char* at) {
-    at = w_.write(e.value / diagram_[q], at);
+    at = w_.write(in_units(e.value, diagram_[q]), at);
     *at++ = ',';
-    at = w_.write(e.at / b_.units.length, at);
+    at = w_.write(in_units(e.at, b_.units.length), at);
     *at++ = ',';
     return put(names_->combinations[k], at);
   };
@@ -36,8 +36,7 @@ void ResultsWriter::member_envelope(std::size_t m) {
     const std::size_t high = least_and_largest(all.size(), [&](std::size_t k) { return of(k).max[q].value; }).second;
     constexpr std::size_t enough = 512;
     w_.compose(enough + names_->combinations[low].size() + names_->combinations[high].size(), [&](char* at) {
-      if (q > 0) *at++ = ',';
-      at = put(names_->diagrams[q], at);
+      at = names_->diagrams[q].put(at);
       at = put(R"(],"max":[)", bound(of(low).min[q], q, low, at));
       return put("]}", bound(of(high).max[q], q, high, at));
     });
@@ -55,8 +54,8 @@ void ResultsWriter::member_envelope(std::size_t m) {
 void ResultsWriter::joint_envelope() {
   const std::vector<CombinationResult>& all = result_.combinations;
   w_.close('}').newline().key("joints").open('{');
-  for (std::size_t j = 0; j < b_.joints.size() && !all.empty(); ++j) {
-    if (!b_.joints[j].capacity.breakable) continue;
+  for (const std::size_t j : names_->breakable) {
+    if (all.empty()) break;
     const std::size_t worst =
         least_and_largest(all.size(), [&](std::size_t k) { return all[k].joints[j].value; }).second;
     w_.newline().key(b_.joints[j].name).open('[').value(all[worst].joints[j].value);
@@ -73,11 +72,10 @@ void ResultsWriter::node_envelope(std::size_t n) {
     const auto [low, high] = least_and_largest(all.size(), value);
     constexpr std::size_t enough = 256;
     w_.compose(enough + names_->combinations[low].size() + names_->combinations[high].size(), [&](char* at) {
-      if (i > 0) *at++ = ',';
-      at = w_.write(value(low) / movement_[i], put(names_->node_components[i], at));
+      at = w_.write(in_units(value(low), movement_[i]), names_->node_components[i].put(at));
       *at++ = ',';
       at = put(R"(],"max":[)", put(names_->combinations[low], at));
-      at = w_.write(value(high) / movement_[i], at);
+      at = w_.write(in_units(value(high), movement_[i]), at);
       *at++ = ',';
       return put("]}", put(names_->combinations[high], at));
     });

@@ -1,16 +1,38 @@
 #pragma once
 // What writes results.json: a list of pieces that are made side by side and handed on in order.
+#include <algorithm>
 #include <array>
+#include <cstring>
 #include <functional>
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "formats/json_writer.h"
 #include "topple/structure/analysis.h"
 
 namespace topple::structure {
+
+/// A few characters that are copied so often that it has to take no call: all the room, whatever their number.
+class ShortText {
+ public:
+  ShortText() = default;
+  ShortText(std::string_view text) : size_(text.size()) {
+    std::memcpy(text_.data(), text.data(), std::min(size_, room));
+  }
+  /// Writes on `room` characters from `at` on and returns the end of the text.
+  char* put(char* at) const {
+    std::memcpy(at, text_.data(), room);
+    return at + size_;
+  }
+  static constexpr std::size_t room = 32;
+
+ private:
+  std::array<char, room> text_{};
+  std::size_t size_ = 0;
+};
 
 /// Writes in the model's units: every quantity is divided by its factor to SI.
 class ResultsWriter {
@@ -27,9 +49,10 @@ class ResultsWriter {
   /// Names as keys and values, made once.
   struct Names {
     std::vector<std::string> nodes, members;
-    std::vector<std::string> combinations;       ///< of the result, as values
-    std::array<std::string, 8> diagrams;         ///< up to the first number
-    std::array<std::string, 6> node_components;  ///< the same of the envelope's displacements
+    std::vector<std::size_t> breakable;        ///< joints that have a use
+    std::vector<std::string> combinations;     ///< of the result, as values
+    std::array<ShortText, 8> diagrams;         ///< from behind the last one up to the first number
+    std::array<ShortText, 6> node_components;  ///< the same of the envelope's displacements
   };
   using Piece = std::function<void(ResultsWriter&)>;
 
@@ -41,6 +64,8 @@ class ResultsWriter {
   template <class Each>
   static void add_items(std::vector<Piece>& pieces, std::size_t count, Each each);
 
+  /// In the model's units. Dividing by one takes as long as by anything else.
+  [[nodiscard]] double in_units(double value, double factor) const { return si_ ? value : value / factor; }
   void header();
   [[nodiscard]] const char* p_delta() const;
   void design_header();
@@ -76,6 +101,7 @@ class ResultsWriter {
   const std::map<std::string, double>& seconds_;
   std::array<double, 6> force_, movement_;
   std::array<double, 8> diagram_;
+  bool si_ = false;  ///< all of these are one
   std::shared_ptr<const Names> names_;
   JsonWriter w_;
 };
@@ -88,7 +114,7 @@ inline char* put(std::string_view text, char* at) {
 template <class Values, class Factors>
 void ResultsWriter::list(const Values& values, const Factors& factors, int count) {
   w_.open('[');
-  for (int i = 0; i < count; ++i) w_.value(values[i] / factors[static_cast<std::size_t>(i) % factors.size()]);
+  for (int i = 0; i < count; ++i) w_.value(in_units(values[i], factors[static_cast<std::size_t>(i) % factors.size()]));
   w_.close(']');
 }
 

@@ -82,19 +82,22 @@ class JsonWriter {
   }
   /// For compose(): writes a number and returns its end. Needs number_room characters to write on.
   char* write(double number, char* at) {
-    // JSON has no infinities; null says that there is no finite value.
-    if (!std::isfinite(number)) return static_cast<char*>(std::memcpy(at, "null", 4)) + 4;
-    if (number == 0) {
+    const auto bits = std::bit_cast<std::uint64_t>(number);
+    constexpr std::uint64_t sign = std::uint64_t{1} << 63, infinite = std::uint64_t{0x7ff} << 52,
+                            golden = 0x9e3779b97f4a7c15;
+    const std::uint64_t size = bits & ~sign;
+    if (size == 0) {
       *at = '0';
       return at + 1;
     }
-    const auto bits = std::bit_cast<std::uint64_t>(number);
-    constexpr std::uint64_t sign = std::uint64_t{1} << 63, golden = 0x9e3779b97f4a7c15;
+    // JSON has no infinities; null says that there is no finite value.
+    if (size >= infinite) [[unlikely]]
+      return static_cast<char*>(std::memcpy(at, "null", 4)) + 4;
     *at = '-';
     at += bits >> 63;
-    Number& kept = numbers_[((bits & ~sign) * golden) >> (64 - kept_bits)];
-    if (kept.bits != (bits & ~sign)) {
-      kept.bits = bits & ~sign;
+    Number& kept = numbers_[(size * golden) >> (64 - kept_bits)];
+    if (kept.bits != size) {
+      kept.bits = size;
       kept.length = static_cast<std::uint8_t>(write_shortest(std::abs(number), at) - at);
       std::memcpy(kept.text, at, sizeof kept.text);
     } else {

@@ -19,6 +19,10 @@ struct CombinationLoads {
   solver::LoadSet set;                   ///< on the frame
   std::optional<solver::LoadSet> whole;  ///< on whole members, where a mesh divides some
 };
+/// Some panel has a mesh, which may divide members along it: loads then lie on pieces of these.
+[[nodiscard]] bool has_meshes(const Frame& frame);
+/// Its parts alone.
+[[nodiscard]] PartLoads loads_beside_members(const Building& building, const Combination& combination);
 [[nodiscard]] CombinationLoads combination_loads(const Building& building, const Frame& frame, const EdgeMembers& edges,
                                                  const Combination& combination);
 

@@ -122,16 +122,6 @@ void add_case(const Building& building, const LoadCase& load_case, double factor
     loads.settlements.push_back({settlement.node.index, settlement.component, factor * settlement.value});
 }
 
-PartLoads loads_beside_members(const Building& building, const Combination& combination) {
-  PartLoads loads;
-  loads.panels.resize(building.panels.size());
-  loads.nodes.assign(building.nodes.size(), Vec6::Zero());
-  add_weight_of_panels(building, self_weight(building, combination), loads);
-  for (const auto& [case_id, factor] : combination.factors)
-    if (factor != 0) add_case(building, building[case_id], factor, loads);
-  return loads;
-}
-
 /// In the members' order, and for each in the order in which they come.
 std::vector<solver::BeamLoad> member_loads(const Building& building, const Combination& combination) {
   std::vector<std::size_t> next(building.members.size() + 1, 0);
@@ -145,6 +135,16 @@ std::vector<solver::BeamLoad> member_loads(const Building& building, const Combi
 
 }  // namespace
 
+PartLoads loads_beside_members(const Building& building, const Combination& combination) {
+  PartLoads loads;
+  loads.panels.resize(building.panels.size());
+  loads.nodes.assign(building.nodes.size(), Vec6::Zero());
+  add_weight_of_panels(building, self_weight(building, combination), loads);
+  for (const auto& [case_id, factor] : combination.factors)
+    if (factor != 0) add_case(building, building[case_id], factor, loads);
+  return loads;
+}
+
 PartLoads part_loads(const Building& building, CombinationId id) { return part_loads(building, building[id]); }
 
 PartLoads part_loads(const Building& building, const Combination& combination) {
@@ -155,13 +155,16 @@ PartLoads part_loads(const Building& building, const Combination& combination) {
   return loads;
 }
 
+bool has_meshes(const Frame& frame) {
+  return std::any_of(frame.meshes.begin(), frame.meshes.end(),
+                     [](const PanelMesh& mesh) { return !mesh.elements.empty(); });
+}
+
 CombinationLoads combination_loads(const Building& building, const Frame& frame, const EdgeMembers& edges,
                                    const Combination& combination) {
   CombinationLoads loads{loads_beside_members(building, combination), {}, {}};
   loads.set = load_set(building, edges, loads.parts, member_loads(building, combination));
-  const bool divided = std::any_of(frame.meshes.begin(), frame.meshes.end(),
-                                   [](const PanelMesh& mesh) { return !mesh.elements.empty(); });
-  if (!divided) return loads;
+  if (!has_meshes(frame)) return loads;
   loads.whole = std::move(loads.set);
   loads.set = on_frame(building, frame, loads.parts, *loads.whole);
   return loads;
