@@ -106,7 +106,7 @@ int negative_pivots(const Eigen::Matrix2d& m) {
 }  // namespace
 
 BeamColumn::BeamColumn(const ColumnPlane& plane, std::span<const ColumnStretch> stretches,
-                       const Eigen::Vector2d& at_second_end, const std::array<double, 4>& end_stiffness)
+                       const std::array<double, 4>& end_stiffness, const Eigen::Vector2d& at_second_end)
     : plane_(plane), stretches_(stretches.begin(), stretches.end()) {
   for (std::size_t first = 0, next = 1; first < stretches_.size(); first = next++) {
     while (next < stretches_.size() && !stretches_[next].begins_segment) ++next;

@@ -33,8 +33,9 @@ class BeamColumn {
  public:
   /// `end_stiffness`: springs of v1, r1, v2, r2 (infinite: rigid, 0: released). `at_second_end`: point force and
   /// moment there. A segment should be far shorter than 2 pi sqrt(EI/N), at which it would buckle between held ends.
-  BeamColumn(const ColumnPlane& plane, std::span<const ColumnStretch> stretches, const Eigen::Vector2d& at_second_end,
-             const std::array<double, 4>& end_stiffness);
+  BeamColumn(const ColumnPlane& plane, std::span<const ColumnStretch> stretches,
+             const std::array<double, 4>& end_stiffness,
+             const Eigen::Vector2d& at_second_end = Eigen::Vector2d::Zero());
 
   /// In the freedoms v1, r1, v2, r2 of the hubs.
   [[nodiscard]] const Eigen::Matrix4d& stiffness() const { return stiffness_; }

@@ -132,8 +132,8 @@ std::array<double, 4> springs_of(const Beam& beam, bool xz) {
 
 BeamColumn make_column(const Beam& beam, double factor, const InternalForces& forces, std::span<const BeamLoad> loads,
                        bool xz) {
-  return {plane_of(beam, factor, forces, xz), stretches_of(beam, factor, forces, loads, xz),
-          point_loads_at(beam.length, beam, loads, xz), springs_of(beam, xz)};
+  return {plane_of(beam, factor, forces, xz), stretches_of(beam, factor, forces, loads, xz), springs_of(beam, xz),
+          point_loads_at(beam.length, beam, loads, xz)};
 }
 
 /// A cubic beam takes its loads by the first-order formulas: its column carries neither load nor axial force.
