@@ -1,6 +1,9 @@
 // Second order in a collapse that runs: the elastic factor serves, the geometric forces come in as loads.
 #include <algorithm>
 
+#include <cmath>
+#include <utility>
+
 #include "frame_statics.h"
 #include "geometric_forces.h"
 
@@ -10,14 +13,31 @@ namespace {
 constexpr int most_iterations = 40;
 /// Of the largest displacement: what is left between two iterations.
 constexpr double settled = 1e-9;
+/// Near the critical load the steps shrink slowly, each by the same share of the one before, the inverse of the
+/// buckling factor. Where that share is as steady as this, their sum is known.
+constexpr double steady = 0.02, slow = 0.2, critical = 0.9999;
+
+/// Share of the step before that a step is, over all nodes.
+double shrinkage(const std::vector<Vec6>& step, const std::vector<Vec6>& before) {
+  double both = 0, square = 0;
+  for (std::size_t n = 0; n < step.size(); ++n) {
+    both += step[n].dot(before[n]);
+    square += before[n].squaredNorm();
+  }
+  return square > 0 ? both / square : 0;
+}
 }  // namespace
 
 /// Iterates u' = K^-1 (F - Kg(N) u) from the answer of the loads with the geometric forces of the last answer. The end
-/// forces then hold the displaced member in balance. False when it does not settle: the first-order answer is back.
+/// forces then hold the displaced member in balance. What the slowest share leaves is added at once (Aitken; Irons and
+/// Tuck 1969, International Journal for Numerical Methods in Engineering 1). False when it does not settle: the
+/// first-order answer is back.
 bool FrameStatics::displace(int number) {
   Component& component = components_[static_cast<std::size_t>(number)];
   std::vector<Vec6> before = component.analysis->displacements();
-  double last = 0;
+  std::vector<Vec6> step(before.size(), Vec6::Zero()), step_before = step;
+  double last = 0, share = 0;
+  int since = 0;  // steps since one was made longer
   for (int k = 0; k < most_iterations; ++k) {
     std::vector<Vec6> push(component.nodes.size(), Vec6::Zero());
     for (MemberId member : component.members) {
@@ -54,9 +74,16 @@ bool FrameStatics::displace(int number) {
       }
       return true;
     }
-    if (k > 3 && moved > last) break;
+    if (since > 3 && moved > last) break;
     last = moved;
+    std::swap(step, step_before);
+    for (std::size_t n = 0; n < now.size(); ++n) step[n] = now[n] - before[n];
     before = now;
+    ++since;
+    const double share_before = std::exchange(share, shrinkage(step, step_before));
+    if (since < 3 || share < slow || share > critical || std::abs(share - share_before) > steady) continue;
+    for (std::size_t n = 0; n < before.size(); ++n) before[n] += share / (1 - share) * step[n];
+    since = 0;
   }
   for (NodeId node : component.nodes) {
     geometric_[index(node)].setZero();

@@ -55,3 +55,28 @@ TEST_CASE("by buckling the hall's post stands without its struts until its load 
   CHECK(breaks[0].joint.demand > breaks[0].joint.capacity);
   CHECK(breaks[0].position.z() == Approx(5).margin(0.5));  // where it bends most, between its two equal bends
 }
+
+TEST_CASE("the hall's post bulges more and more before it snaps, as Southwell's line to its critical load has it") {
+  Simulation simulation = hall("hall_buckling");
+  const NameIndex names(simulation.building());
+  const NodeId middle = names.node("M").value();
+  const JointId foot = names.joint("P-1:1").value();
+  // Deflection d under the load N: N = Ncr (1 - d0/d), so that two states tell Ncr.
+  std::vector<std::pair<double, double>> states;
+  for (const double time : {1.5, 2.0, 2.5, 2.7, 2.9}) {
+    CHECK(breaks_until(simulation, time).empty());
+    states.emplace_back(-simulation.frame().demand(foot)(0), simulation.frame().displacement(middle)(0));
+    if (states.size() < 2) continue;
+    const auto [N1, d1] = states[states.size() - 2];
+    const auto [N2, d2] = states.back();
+    CHECK(N2 > N1);
+    CHECK(d2 > 1.15 * d1);
+  }
+  const auto breaks = breaks_until(simulation, 3.0);
+  REQUIRE(!breaks.empty());
+  const auto [N1, d1] = states[2];
+  const auto [N2, d2] = states[4];
+  CHECK(d2 > 10 * states[0].second);
+  // Cubic geometric forces on two members for the post: 1.3 % stiffer than exact.
+  CHECK((N2 * d2 - N1 * d1) / (d2 - d1) == Approx(breaks[0].joint.capacity).epsilon(0.02));
+}
