@@ -263,9 +263,9 @@ Eigen::Vector4d BeamColumn::Curve::at(double distance) const {
   return {value(0, distance), value(1, distance), value(2, distance), value(3, distance)};
 }
 
-double BeamColumn::Curve::value(int component, double distance) const {
+double BeamColumn::Curve::value(int component, double distance, bool beyond) const {
   std::size_t i = 0;
-  while (i + 1 < parts_.size() && distance > parts_[i + 1].start) ++i;
+  while (i + 1 < parts_.size() && (distance > parts_[i + 1].start || (beyond && distance == parts_[i + 1].start))) ++i;
   const Part& part = parts_[i];
   const double t = (distance - part.start) / part.length;
   double value = 0;

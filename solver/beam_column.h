@@ -48,8 +48,8 @@ class BeamColumn {
   class Curve {
    public:
     [[nodiscard]] Eigen::Vector4d at(double distance) const;
-    /// One of the four.
-    [[nodiscard]] double value(int component, double distance) const;
+    /// One of the four; where it jumps, the one just before, or just `beyond`.
+    [[nodiscard]] double value(int component, double distance, bool beyond = false) const;
 
    private:
     friend class BeamColumn;

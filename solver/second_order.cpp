@@ -196,7 +196,8 @@ struct SecondOrderDiagram::State {
     return exact && quantity != BeamDiagram::axial && quantity != BeamDiagram::torsion;
   }
 
-  [[nodiscard]] double value(BeamDiagram::Quantity quantity, double x) const {
+  /// Where it jumps, the value just before, or just `beyond`.
+  [[nodiscard]] double value(BeamDiagram::Quantity quantity, double x, bool beyond = false) const {
     enum { v, rotation, M, T };
     const auto from_chord = [&](const BeamColumn::Curve& curve) {
       const double f = x / length;
@@ -205,13 +206,13 @@ struct SecondOrderDiagram::State {
     if (!bends(quantity)) return linear.value(quantity, x);
     switch (quantity) {
       case BeamDiagram::shear_y:
-        return xy.value(T, x);
+        return xy.value(T, x, beyond);
       case BeamDiagram::shear_z:
-        return xz.value(T, x);
+        return xz.value(T, x, beyond);
       case BeamDiagram::moment_z:
-        return xy.value(M, x);
+        return xy.value(M, x, beyond);
       case BeamDiagram::moment_y:
-        return -xz.value(M, x);
+        return -xz.value(M, x, beyond);
       case BeamDiagram::deflection_y:
         return from_chord(xy);
       default:
@@ -281,7 +282,7 @@ BeamDiagram::Range SecondOrderDiagram::extremes(BeamDiagram::Quantity quantity) 
   const State& s = *state_;
   if (!s.bends(quantity)) return s.linear.extremes(quantity);
   const auto value = [&](double x) { return s.value(quantity, x); };
-  constexpr int points = 24;
+  constexpr std::size_t points = 24;
   constexpr double golden = 0.6180339887498949;
   BeamDiagram::Range range{{value(0), 0}, {value(0), 0}};
   const auto consider = [&](double x, double v) {
@@ -308,19 +309,28 @@ BeamDiagram::Range SecondOrderDiagram::extremes(BeamDiagram::Quantity quantity) 
     consider((a + b) / 2, value((a + b) / 2));
   };
   for (std::size_t m = 0; m + 1 < s.marks.size(); ++m) {
-    const double from = s.marks[m], width = s.marks[m + 1] - from;
+    const double from = s.marks[m], to = s.marks[m + 1], width = to - from;
     if (width <= 0) continue;
+    const auto place = [&](std::size_t k) { return k == points ? to : from + width * static_cast<double>(k) / points; };
     std::array<double, points + 1> v{};
-    for (int k = 0; k <= points; ++k) {
-      v[static_cast<std::size_t>(k)] = value(from + width * k / points);
-      consider(from + width * k / points, v[static_cast<std::size_t>(k)]);
+    for (std::size_t k = 0; k <= points; ++k) {
+      v[k] = s.value(quantity, place(k), k == 0);
+      consider(place(k), v[k]);
     }
     for (std::size_t k = 1; k < points; ++k) {
-      const double a = from + width * static_cast<double>(k - 1) / points,
-                   b = from + width * static_cast<double>(k + 1) / points;
-      if (v[k] > v[k - 1] && v[k] >= v[k + 1]) sharpen(a, b, 1);
-      if (v[k] < v[k - 1] && v[k] <= v[k + 1]) sharpen(a, b, -1);
+      if (v[k] > v[k - 1] && v[k] >= v[k + 1]) sharpen(place(k - 1), place(k + 1), 1);
+      if (v[k] < v[k - 1] && v[k] <= v[k + 1]) sharpen(place(k - 1), place(k + 1), -1);
     }
+    // Between an end and the next point the curve may go up and down again: then it sets out the other way.
+    constexpr double aside = 1e-6;
+    const auto look_between = [&](std::size_t end, std::size_t next, double beside_end) {
+      const double sets_out = value(beside_end) - v[end], comes_to = v[next] - v[end];
+      const double a = std::min(place(end), place(next)), b = std::max(place(end), place(next));
+      if (sets_out > 0 && comes_to < 0) sharpen(a, b, 1);
+      if (sets_out < 0 && comes_to > 0) sharpen(a, b, -1);
+    };
+    look_between(0, 1, from + aside * width);
+    look_between(points, points - 1, to - aside * width);
   }
   return range;
 }

@@ -240,6 +240,40 @@ TEST_CASE("a point load at a member's end, or hardly off it, acts in second orde
   }
 }
 
+TEST_CASE("extremes in second order bound every value along the beam, near its loads too, and both sides of a jump") {
+  const double L = 6, P = 0.5 * pi * pi * 2e11 * 3e-5 / (L * L);
+  const Column column(L, held({0, 1, 2, 5}), held({0, 1}));
+  for (int i = 1; i < 60; ++i) {
+    LoadSet loads = at_head(0, 0, -P);
+    BeamLoad point;
+    point.beam = 0;
+    point.kind = BeamLoad::Kind::point;
+    point.from = L * i / 60;
+    point.first << 0, 4e3, -3e3, 0, 2e3, 5e3;
+    BeamLoad even;
+    even.beam = 0;
+    even.to = L;
+    even.first << 0, 1e3, 2e3, 0, 0, 0;
+    even.last = even.first;
+    loads.beams = {point, even};
+    const auto d = diagram(column.model, solve(column.model, loads));
+    for (int q = 0; q < BeamDiagram::quantities; ++q) {
+      const BeamDiagram::Range range = d.extremes(static_cast<BeamDiagram::Quantity>(q));
+      const double size = std::max(std::abs(range.least.value), std::abs(range.greatest.value));
+      for (int k = 0; k <= 1800; ++k) {
+        // Off the place of the point load by hardly anything: the other side of what jumps there.
+        for (const double x : {L * k / 1800, std::min(L, L * k / 1800 + 1e-9)}) {
+          const double value = d.values(x)[static_cast<std::size_t>(q)];
+          INFO("load at " << point.from << ", quantity " << q << " at " << x << ": " << value << ", said to be from "
+                          << range.least.value << " to " << range.greatest.value);
+          REQUIRE(value >= range.least.value - 1e-7 * size);
+          REQUIRE(value <= range.greatest.value + 1e-7 * size);
+        }
+      }
+    }
+  }
+}
+
 TEST_CASE("a load that begins or acts hardly off an end or another one leaves critical factors alone") {
   const double L = 5, P = 1000, euler = pi * pi * 2e11 * 3e-5 / (L * L) / P;
   for (const double off : {0.0, 1e-16, 1e-12, 1e-8, 1e-5}) {
