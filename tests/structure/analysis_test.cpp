@@ -94,6 +94,64 @@ TEST_CASE("shipped models stand with a margin, in equilibrium, solved to roundin
   }
 }
 
+TEST_CASE("combinations added up from fewer cases are each as it is alone, along members and against reactions too") {
+  const Building b = parse_model(R"({"topple": 1,
+    "materials": {"s": {"youngs_modulus": 2e11, "poisson_ratio": 0.3, "density": 7850, "thermal_expansion": 1.2e-5}},
+    "sections": {"s": {"area": 0.01, "Iy": 2e-4, "Iz": 3e-5, "J": 5e-6, "shear_area_y": 0.004, "shear_area_z": 0.006}},
+    "joints": {"j": {"stiffness": {"ry": 6e6}, "capacity": {"tension": 1e6, "moment_y": 5e5}},
+               "e": {"capacity_per_length": {"shear_z": 1e6, "tension": 1e6}}},
+    "nodes": {"A0": [0, 0, 0], "B0": [6, 0, 0], "C0": [6, 5, 0], "D0": [0, 5, 0],
+              "A": [0, 0, 3], "B": [6, 0, 3], "C": [6, 5, 3], "D": [0, 5, 3]},
+    "members": {"PA": {"kind": "post", "nodes": ["A0", "A"], "section": "s", "material": "s"},
+      "PB": {"kind": "post", "nodes": ["B0", "B"], "section": "s", "material": "s"},
+      "PC": {"kind": "post", "nodes": ["C0", "C"], "section": "s", "material": "s"},
+      "PD": {"kind": "post", "nodes": ["D0", "D"], "section": "s", "material": "s"},
+      "AB": {"nodes": ["A", "B"], "section": "s", "material": "s", "joints": ["j", null]},
+      "BC": {"nodes": ["B", "C"], "section": "s", "material": "s", "joints": ["j", "j"]},
+      "CD": {"nodes": ["C", "D"], "section": "s", "material": "s"},
+      "DA": {"nodes": ["D", "A"], "section": "s", "material": "s"}},
+    "panels": {"S": {"nodes": ["A", "B", "C", "D"], "thickness": 0.2, "material": "s", "joint": "e"}},
+    "supports": {"A0": "fixed", "B0": "pinned", "C0": "fixed", "D0": {"x": true, "y": true, "z": 4e7, "rx": true, "ry": true, "rz": true}},
+    "loads": {"dead": {"self_weight": 1, "panels": {"S": {"pressure": 2e3}}},
+      "live": {"panels": {"S": {"pressure": 3e3}}, "members": {"BC": [{"uniform": {"z": -8e3}},
+        {"trapezoid": {"y": [1e3, -4e3]}, "from": 1, "to": 3}, {"point": {"z": -9e3, "ry": 4e3}, "at": 2.5}],
+        "DA": [{"temperature": {"uniform": 20, "gradient_z": 15}}]}},
+      "wind": {"nodes": {"A": {"x": 4e4, "rz": 2e3}, "D": {"x": 3e4}}, "members": {"PA": [{"uniform": {"x": 2e3}}]}},
+      "settle": {"settlements": {"B0": {"z": -0.01}, "D0": {"z": 0.005}}}},
+    "combinations": {"1": {"dead": 1.35, "live": 1.5}, "2": {"dead": 1, "wind": 1.5}, "3": {"dead": 1, "wind": -1.5},
+      "4": {"dead": 1.35, "live": 1.05, "wind": 1.5}, "5": {"settle": 1}, "6": {"dead": 1, "live": -1, "settle": -2}}})",
+                                 "m.json");
+  const AnalysisResult all = analyse(b);
+  REQUIRE(all.combinations.size() == 6);
+  for (std::size_t k = 0; k < all.combinations.size(); ++k) {
+    const CombinationResult& found = all.combinations[k];
+    AnalysisRequest request;
+    request.combinations = {CombinationId(k)};
+    const CombinationResult alone = analyse(b, request).combinations.front();
+    INFO("combination " << k + 1);
+    const auto near = [](double size) { return [size](double x) { return Approx(x).epsilon(0).margin(1e-9 * size); }; };
+    const auto moved = near(0.01), force = near(1e5);
+    for (std::size_t n = 0; n < b.nodes.size(); ++n)
+      for (int c = 0; c < 6; ++c) CHECK(found.displacements[n](c) == moved(alone.displacements[n](c)));
+    for (std::size_t i = 0; i < b.supports.size(); ++i)
+      for (int c = 0; c < 6; ++c) CHECK(found.reactions[i](c) == force(alone.reactions[i](c)));
+    for (std::size_t m = 0; m < b.members.size(); ++m) {
+      const MemberResult &is = found.members[m], &should = alone.members[m];
+      INFO("member " << b.members[m].name);
+      for (int c = 0; c < 12; ++c) CHECK(is.end_forces(c) == force(should.end_forces(c)));
+      for (std::size_t q = 0; q < 8; ++q) {
+        INFO(diagram_names[q]);
+        CHECK(is.min[q].value == near(q < 6 ? 1e5 : 0.01)(should.min[q].value));
+        CHECK(is.max[q].value == near(q < 6 ? 1e5 : 0.01)(should.max[q].value));
+      }
+    }
+    for (std::size_t j = 0; j < b.joints.size(); ++j) CHECK(found.joints[j].value == near(1)(alone.joints[j].value));
+    for (int c = 0; c < 6; ++c) CHECK(found.total_load(c) == near(1e6)(alone.total_load(c)));
+    CHECK(found.equilibrium_error < 1e-10);
+    CHECK(alone.equilibrium_error < 1e-10);
+  }
+}
+
 TEST_CASE("an unstable model names the nodes and the members that move") {
   const Building b =
       parse_model(cantilever(R"({"A": "pinned"})", R"({"case": {"nodes": {"B": {"z": -1}}}})"), "c.json");
