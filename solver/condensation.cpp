@@ -119,7 +119,8 @@ Eigen::VectorXd Condensation::condense(const Eigen::VectorXd& loads) const {
 Eigen::VectorXd Condensation::recover(const Eigen::VectorXd& loads, const Eigen::VectorXd& kept) const {
   if (!factor_) return kept;
   const Supernodes& fronts = factor_->fronts();
-  Eigen::VectorXd y = forward(loads), below;
+  // A response to what acts elsewhere has no loads in here.
+  Eigen::VectorXd y = loads.isZero(0) ? Eigen::VectorXd(Eigen::VectorXd::Zero(size_)) : forward(loads), below;
   for (Eigen::Index k = 0; k < size_; ++k)
     if (is_kept(k)) y(k) = kept(row_at(k) - inner_);
   for (auto run = runs_.rbegin(); run != runs_.rend(); ++run) {
