@@ -44,8 +44,11 @@ class Modes {
     const KrylovOperators operators{static_cast<Eigen::Index>(order_.size()),
                                     [this](Eigen::Ref<Eigen::MatrixXd> x) { factor_->solve(x); },
                                     [this](const Eigen::Ref<const Eigen::MatrixXd>& x) { return mass_->times(x); }};
+    // More than there are freedoms are never found: asking for them is asking for all.
+    count = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(count), order_.size()));
     // A wider block where the count says that some are missing.
-    for (int extra = least_extra + count / 8; extra <= most_extra; extra *= 4) {
+    const int first = least_extra + count / 8, last = std::max(first, most_extra);
+    for (int extra = first; extra <= last; extra *= 4) {
       const KrylovAnswer found = largest_eigenvalues(operators, count, extra);
       if (!none_missing(found, count)) continue;
       gather(found, std::min<Eigen::Index>(count, found.values.size()), answer);
