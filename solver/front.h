@@ -1,6 +1,7 @@
 #pragma once
 // Partial Cholesky factorisation of a dense front: its leading columns are eliminated, the rest receives their update.
 #include <cstddef>
+#include <functional>
 #include <memory>
 
 namespace topple::solver {
@@ -45,6 +46,8 @@ class FrontWorkspace {
 
 /// Returns how many columns have been eliminated: all `pivots`, or the index of the first whose pivot is not positive.
 /// `team` (unless null) has its idle threads help; the result is the same to the bit.
-[[nodiscard]] int eliminate(const Front& front, FrontWorkspace& workspace, TaskTeam* team);
+/// `advanced` (unless null) hears again and again what share of the work is done; then `team` has one thread.
+[[nodiscard]] int eliminate(const Front& front, FrontWorkspace& workspace, TaskTeam* team,
+                            const std::function<void(double)>& advanced = {});
 
 }  // namespace topple::solver

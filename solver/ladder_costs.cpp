@@ -17,13 +17,28 @@ constexpr double column_entry = 0.4;
 
 double entry_cost(const SolveWork& work) { return work.entries < cached_entries ? cached_entry : distant_entry; }
 
-/// Of a small dense matrix: factor, estimate of its condition.
+constexpr double residual_entry = 1.0, dense_entry = 1.0;
+constexpr double changes_start = 40000, changed_node = 15000;
+constexpr double answer_start = 25000, answered_node = 100, answered_place = 400;
+
+}  // namespace
+
 double dense_cost(double rank, double kept) {
   if (rank == kept) return 0;
   return dense_start + dense_square * rank * rank + dense_cube * (rank * rank * rank - kept * kept * kept);
 }
 
-}  // namespace
+PassCost pass_cost(double factor_entries) {
+  return {entry_cost({factor_entries, 0}) / 2, path_product, solve_block / 2};
+}
+double front_cost(double operations) { return factor_block + factor_operation * operations; }
+double product_cost(double products) { return pair_product * products; }
+double columns_cost(double column_entries, double rank, double places) {
+  return column_entry * column_entries + dense_entry * rank * rank + answered_place * places;
+}
+double changes_cost(double nodes) { return changes_start + changed_node * nodes; }
+double nodes_cost(double nodes) { return answer_start + answered_node * nodes; }
+double residual_cost(double entries) { return residual_entry * entries; }
 
 double predicted_cost(const SolveWork& work) { return entry_cost(work) * work.entries + solve_block * work.blocks; }
 

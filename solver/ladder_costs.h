@@ -31,6 +31,26 @@ struct CorrectionWork {
 
 /// Nanoseconds on the machine that the constants were measured on; only ratios count.
 [[nodiscard]] double predicted_cost(const SolveWork& work);
+/// Of one pass of a triangular solve, forward or backward: for each entry of a block, for each entry and further
+/// column, for each block.
+struct PassCost {
+  double entry, further, block;
+};
+[[nodiscard]] PassCost pass_cost(double factor_entries);
+/// Of the elimination of one front, in operations.
+[[nodiscard]] double front_cost(double operations);
+/// Of a small dense matrix's factor, as far as it is new, and the estimate of its condition.
+[[nodiscard]] double dense_cost(double rank, double kept);
+/// Of the products of columns' entries, each with each.
+[[nodiscard]] double product_cost(double products);
+/// Of columns gone through twice and a small dense solve between, to correct one answer.
+[[nodiscard]] double columns_cost(double column_entries, double rank, double places);
+/// Of taking over what changed at so many nodes, before anything is solved for.
+[[nodiscard]] double changes_cost(double nodes);
+/// Of displacements of so many nodes from an answer.
+[[nodiscard]] double nodes_cost(double nodes);
+/// Of one product of a matrix (its lower entries) and a vector, with the sizes that a backward error takes.
+[[nodiscard]] double residual_cost(double entries);
 [[nodiscard]] double predicted_cost(const FactorWork& work);
 [[nodiscard]] double predicted_cost(const CorrectionWork& work);
 /// Of it what changes from before go on to cost, which a new factor would have in it.

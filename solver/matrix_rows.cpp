@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "ladder_costs.h"
+#include "topple/solver/paced_work.h"
 #include "vector_versions.h"
 
 namespace topple::solver {
@@ -171,6 +173,7 @@ void MatrixRows::group_columns(const SparseSymmetric& pattern) {
 
 double MatrixRows::residual(const SparseSymmetric& K, const Eigen::VectorXd& b, const Eigen::VectorXd& x,
                             Eigen::VectorXd& r) {
+  spend(operations_per_nanosecond * residual_cost(static_cast<double>(K.row.size())));
   r = b;
   size_ = b.cwiseAbs();
   absolute_x_ = x.cwiseAbs();

@@ -5,8 +5,10 @@
 #include <stdexcept>
 
 #include "beam_energy.h"
+#include "ladder_costs.h"
 #include "reanalysis_state.h"
 #include "topple/solver/beam_diagram.h"
+#include "topple/solver/paced_work.h"
 
 namespace topple::solver {
 namespace {
@@ -239,15 +241,6 @@ Reanalysis::Response Reanalysis::respond_near(const LoadSet& loads, std::vector<
   return std::move(respond_near({&loads, 1}, known).front());
 }
 
-namespace {
-
-/// What further columns of a response cost, beside the first: the factor is read once.
-constexpr double further_column = 0.3;
-
-double cost_of(std::size_t columns) { return 1 + further_column * (static_cast<double>(columns) - 1); }
-
-}  // namespace
-
 Eigen::MatrixXd Reanalysis::State::forces_on_standing(std::span<const LoadSet> loads,
                                                       std::vector<LoadVector>& own) const {
   Eigen::MatrixXd forces;
@@ -262,10 +255,10 @@ Eigen::MatrixXd Reanalysis::State::forces_on_standing(std::span<const LoadSet> l
 std::vector<Reanalysis::Response> Reanalysis::respond(std::span<const LoadSet> loads) const {
   const State& state = *state_;
   if (loads.empty()) return {};
+  spend(operations_per_nanosecond * nodes_cost(static_cast<double>(loads.size() * state.system->model.nodes.size())));
   std::vector<LoadVector> own;
   std::vector<double> errors;
   const Eigen::MatrixXd u = state.solve_sparse(state.forces_on_standing(loads, own), errors);
-  state_->count_response(cost_of(loads.size()));
   std::vector<Response> responses(loads.size());
   for (std::size_t i = 0; i < loads.size(); ++i) {
     responses[i].displacements =
@@ -280,6 +273,7 @@ std::vector<Reanalysis::Response> Reanalysis::respond_near(std::span<const LoadS
                                                            std::vector<char>& known) const {
   const State& state = *state_;
   if (loads.empty()) return {};
+  spend(operations_per_nanosecond * nodes_cost(static_cast<double>(loads.size() * state.system->model.nodes.size())));
   std::vector<LoadVector> own;
   std::vector<char> equation_known;
   std::vector<int> ends;
@@ -287,7 +281,6 @@ std::vector<Reanalysis::Response> Reanalysis::respond_near(std::span<const LoadS
     for (const BeamLoad& load : set.beams)
       for (const int node : model().beams[static_cast<std::size_t>(load.beam)].node) ends.push_back(node);
   const Eigen::MatrixXd u = state.solve_on_paths(state.forces_on_standing(loads, own), ends, equation_known);
-  state_->count_response(0.5 * cost_of(loads.size()));  // the paths are about half of it
   const DofMap& dofs = state.system->dofs();
   known.assign(state.system->model.nodes.size(), 1);
   for (std::size_t n = 0; n < known.size(); ++n)
@@ -332,10 +325,5 @@ const ReanalysisCounters& Reanalysis::counters() const { return state_->counters
 const FrameModel& Reanalysis::model() const { return state_->system->model; }
 const RestrictedEffort& Reanalysis::restricted_effort() const { return state_->effort; }
 double Reanalysis::last_operations() const { return state_->operations; }
-double Reanalysis::response_operations() const { return state_->response_operations; }
-
-void Reanalysis::State::count_response(double share) {
-  if (standing) response_operations += share * standing->solve_operations();
-}
 
 }  // namespace topple::solver

@@ -3,6 +3,7 @@
 
 #include "ladder_costs.h"
 #include "reanalysis_state.h"
+#include "topple/solver/paced_work.h"
 
 namespace topple::solver {
 namespace {
@@ -24,6 +25,15 @@ constexpr double solves_with_factor = 12;
 constexpr double solve_cost = 20, cached_solve_cost = 6;
 constexpr double cached_entries = 250000;
 
+/// Of a correction's work that of the columns beyond so many, by themselves.
+CorrectionWork added_alone(CorrectionWork work, double before) {
+  const double share = std::max(0.0, work.rank - before) / std::max(1.0, work.rank);
+  work.rank *= share;
+  work.kept = 0;
+  for (double* part : {&work.pairs, &work.pair_products, &work.column_entries}) *part *= share;
+  return work;
+}
+
 /// v'Kv / v'v.
 double rayleigh_quotient(const SparseSymmetric& K, const Eigen::VectorXd& v) {
   double energy = 0;
@@ -42,6 +52,7 @@ double rayleigh_quotient(const SparseSymmetric& K, const Eigen::VectorXd& v) {
 std::optional<Defect> Reanalysis::State::update_structure(const std::vector<int>& touched) {
   const bool stood = structure_stands;
   structure_stands = false;
+  spend(operations_per_nanosecond * changes_cost(static_cast<double>(touched.size())));
   if (!assembled) {
     system->assemble();
     assembled = true;
@@ -63,7 +74,7 @@ std::optional<Defect> Reanalysis::State::update_structure(const std::vector<int>
   }
   go_on_with_refresh();
   // Beyond what a correction can do, a factor that is under way comes sooner than one begun now.
-  if (correct_factor(touched, defect) || (switch_now() && correct_factor(touched, defect))) {
+  if (correct_factor(touched, defect) || (!needs_new_factor && switch_now() && correct_factor(touched, defect))) {
     structure_stands = !defect;
     if (structure_stands) begin_refresh_if_due();
     return defect;
@@ -101,12 +112,15 @@ void Reanalysis::State::update_correction(bool adds) {
 }
 
 bool Reanalysis::State::correct_factor(const std::vector<int>& touched, std::optional<Defect>& defect) {
-  eliminated_along = false;
+  eliminated_along = needs_new_factor = false;
   if (!standing || condition > ill_conditioned) return false;
   const StandingFactor::Plan plan = standing->plan();
-  if (!plan.possible || plan.rank > most_columns) return false;
   const double anew = predicted_cost(factor_work());
-  if (predicted_cost(plan.work) > anew) return false;
+  const auto too_much = [anew](bool possible, const CorrectionWork& work) {
+    return !possible || work.rank > most_columns || predicted_cost(work) > anew;
+  };
+  needs_new_factor = too_much(plan.possible, added_alone(plan.work, standing->rank()));
+  if (too_much(plan.possible, plan.work)) return false;
   if (factor_operations() < refresh_rules.least_operations) {
     // What earlier changes go on to cost is borne until it has cost as much as a new factor (to rent or to buy).
     const double carried = carried_cost(plan.work);

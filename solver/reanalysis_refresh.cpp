@@ -1,7 +1,9 @@
 // New factors made on another thread, and how they take over.
 #include <utility>
 
+#include "ladder_costs.h"
 #include "reanalysis_state.h"
+#include "topple/solver/paced_work.h"
 
 namespace topple::solver {
 
@@ -16,10 +18,11 @@ void Reanalysis::State::begin_refresh_if_due() {
   if (next || refresh_failed || !standing || standing->rank() <= refresh_rules.columns) return;
   const double anew = factor_operations();
   if (anew < refresh_rules.least_operations) return;
+  unwanted.reset();
   next = std::make_unique<StandingFactor>(*system);
   refresh = std::make_unique<FactorRefresh>(system->matrix(), order, options, refresh_rules.on_worker);
   refresh_paid = 0;
-  refresh_due = refresh_rules.share * anew;
+  refresh_due = refresh_rules.share * operations_per_nanosecond * predicted_cost(factor_work());
 }
 
 /// Waits for the new factor. False: it is of no use.
@@ -66,8 +69,9 @@ void Reanalysis::State::switch_factors() {
   ++counters.background_factors;
 }
 
+/// The thread of one that is under way is waited for when the next one begins.
 void Reanalysis::State::drop_refresh() {
-  refresh.reset();
+  if (refresh) unwanted = std::move(refresh);
   next.reset();
   next_factor.reset();
 }

@@ -3,7 +3,9 @@
 #include <cmath>
 #include <utility>
 
+#include "ladder_costs.h"
 #include "reanalysis_state.h"
+#include "topple/solver/paced_work.h"
 
 namespace topple::solver {
 namespace {
@@ -226,6 +228,7 @@ void Reanalysis::State::improve(const Eigen::VectorXd& force, bool first) {
 
 bool Reanalysis::State::solve_loads() {
   const Eigen::Index n = system->dofs().equations;
+  spend(operations_per_nanosecond * nodes_cost(static_cast<double>(displacements.size())));
   scale_force(load.force, scaled_force);
   const Eigen::VectorXd& force = scaled_force;
   if (n == 0) {
@@ -284,14 +287,6 @@ void Reanalysis::State::apply_changes() {
 
 const ReanalysisAnswer& Reanalysis::solve() { return state_->solve(nullptr); }
 
-bool Reanalysis::prepare() { return state_->prepare(); }
-
-bool Reanalysis::State::prepare() {
-  refresh_paid += std::exchange(operations, 0.0);
-  if (pending()) take_changes(nullptr);
-  return !prepared || !mechanism;
-}
-
 /// From what is to become of the structure to its factor.
 void Reanalysis::State::take_changes(UseWatch* watch) {
   effort = {};
@@ -309,41 +304,46 @@ void Reanalysis::State::take_changes(UseWatch* watch) {
   reactions.clear();
   mechanism.reset();
   const bool same_structure = touched_nodes.empty() && assembled && structure_stands;
-  loads_alone = same_structure && !prepared;
-  if (!same_structure) mechanism = update_structure(touched_nodes);
-  prepared = true;
+  if (same_structure)
+    ++counters.load_solves;
+  else
+    mechanism = update_structure(touched_nodes);
 }
 
 const ReanalysisAnswer& Reanalysis::State::solve(UseWatch* watch) {
-  refresh_paid += std::exchange(operations, 0.0);
-  if (!pending() && !prepared) {
+  operations = 0;
+  if (!pending()) {
     ++counters.unchanged;
     if (watch != nullptr && answer.stable) read_all_uses(*watch);
     return answer;
   }
-  if (pending()) take_changes(watch);
-  prepared = whole_known = false;
+  const double before = spent_here();
+  take_changes(watch);
+  find_answer(watch);
+  refresh_paid += spent_here() - before;
+  return answer;
+}
+
+void Reanalysis::State::find_answer(UseWatch* watch) {
   ++counters.solves;
-  if (loads_alone) ++counters.load_solves;
   if (mechanism) {
     give_up(*std::exchange(mechanism, std::nullopt));
-    return answer;
+    return;
   }
   if (const auto defect = system->unbalanced_load(load, negligible_lever)) {
     give_up(*defect);
-    return answer;
+    return;
   }
-  if (watch != nullptr && answer_in_part(*watch)) return answer;
+  if (watch != nullptr && answer_in_part(*watch)) return;
   if (!solve_loads()) {
     if (const auto defect = refactorise()) {
       structure_stands = false;
       give_up(*defect);
-      return answer;
+      return;
     }
     (void)solve_loads();
   }
   if (watch != nullptr) read_all_uses(*watch);
-  return answer;
 }
 
 }  // namespace topple::solver

@@ -43,11 +43,13 @@ struct Reanalysis::State {
   RefreshRules refresh_rules;
   std::unique_ptr<StandingFactor> next;      ///< remembers the changes since the refresh was begun
   std::unique_ptr<FactorRefresh> refresh;    ///< the factor that `next` is to serve with
+  std::unique_ptr<FactorRefresh> unwanted;   ///< dropped on the way
   std::unique_ptr<Factor> next_factor;       ///< what the refresh made: `next` catches up over it
   double next_condition = 0;                 ///< of the matrix that it was made of
-  double refresh_paid = 0, refresh_due = 0;  ///< operations of answers since then; those after which it is taken
+  double refresh_paid = 0, refresh_due = 0;  ///< spent by answers since then; after which it is taken
   double correction_paid = 0;                ///< predicted cost of changes from before, since the factor was made
   double looked_at_softening = 0;            ///< at which the softest motion was looked at last
+  bool needs_new_factor = false;             ///< the last change alone is more than a correction takes
   bool refresh_failed = false;               ///< not to be tried again before there is another factor
   bool assembled = false, factor_valid = false;
   bool structure_stands = false;  ///< the structure as it is was judged, and is stable
@@ -65,7 +67,6 @@ struct Reanalysis::State {
 
   // The answer.
   bool answered = false;
-  bool prepared = false;            ///< the structure is up to date, the answer is not
   bool loads_alone = false;         ///< changed since the answer
   std::optional<Defect> mechanism;  ///< of the structure as prepared
   ReanalysisAnswer answer;
@@ -89,8 +90,7 @@ struct Reanalysis::State {
   std::vector<char> unbalanced;  ///< per beam: loaded in a loose direction
   mutable std::vector<Vec6> reactions;
   ReanalysisCounters counters;
-  double operations = 0;           ///< of the last solve()
-  double response_operations = 0;  ///< of all responses
+  double operations = 0;  ///< of the last solve()
   /// Answers found beforehand: as everything stands (beam -1), and without one beam.
   std::vector<std::pair<int, Eigen::VectorXd>> expected;
   bool watched = false;           ///< the answer under way may leave out what does not matter
@@ -161,7 +161,7 @@ struct Reanalysis::State {
   void bring_up_to_date(UseWatch* watch);
   void read_all_uses(UseWatch& watch);
   [[nodiscard]] const ReanalysisAnswer& solve(UseWatch* watch);
-  [[nodiscard]] bool prepare();
+  void find_answer(UseWatch* watch);
   void take_changes(UseWatch* watch);
   void apply_changes();
   void give_up(const Defect& defect);
@@ -170,7 +170,6 @@ struct Reanalysis::State {
   [[nodiscard]] Vec12 end_forces(std::size_t beam, const std::vector<Vec6>& displacements, const Vec12& fixed) const;
   [[nodiscard]] LinearSolve linear_solve() const;
   void scale_force(const Eigen::VectorXd& force, Eigen::VectorXd& result) const;
-  void count_response(double share);
   /// Answer to a force that few equations feel; refined to response_error.
   /// The force that loads make, of a structure that stands; throws Instability.
   [[nodiscard]] LoadVector force_on_standing(const LoadSet& loads) const;

@@ -46,6 +46,8 @@ class RestrictedAnswer {
   /// What they can grow by may be more than it was.
   void forget_growths() { uses_known_ = growths_known_ = false; }
   /// Something is not up to date.
+  /// Numbers that a copy of it takes along.
+  [[nodiscard]] std::size_t size() const { return behind_.size(); }
   [[nodiscard]] bool partial() const { return partial_; }
   /// Something was brought up to date, and its uses were not read.
   [[nodiscard]] bool unread() const { return any_unread_; }

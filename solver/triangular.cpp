@@ -5,6 +5,7 @@
 
 #include "few_columns.h"
 #include "panel_substitution.h"
+#include "topple/solver/paced_work.h"
 #include "vector_versions.h"
 
 extern "C" {
@@ -151,7 +152,15 @@ void TriangularSolver::finish() {
     rows_to_root_[b] = static_cast<int>(first_[b + 1] - first_[b]);
     if (parent_[b] >= 0) rows_to_root_[b] += rows_to_root_[static_cast<std::size_t>(parent_[b])];
   }
+  cost_ = solver::pass_cost(entries_);
   find_runs();
+}
+
+double TriangularSolver::pass_cost(int block, int count) const {
+  const auto b = static_cast<std::size_t>(block);
+  const double entries =
+      static_cast<double>(first_[b + 1] - first_[b]) * static_cast<double>(row_start_[b + 1] - row_start_[b]);
+  return cost_.block + entries * (cost_.entry + cost_.further * (count - 1));
 }
 
 /// Rows that follow each other also do so on every path that both lie on: the next block is then the parent.
@@ -254,8 +263,10 @@ void TriangularSolver::mark_paths(std::span<const int> rows, std::vector<char>& 
 
 void TriangularSolver::forward(Eigen::VectorXd& y, const std::vector<char>* marked) const {
   double* below = below_.data();
+  Spending spending;
   for (std::size_t b = 0; b < parent_.size(); ++b) {
     if (marked != nullptr && (*marked)[b] == 0) continue;
+    spending.add(operations_per_nanosecond * pass_cost(static_cast<int>(b)));
     eliminate_few_columns(value_.data() + value_start_[b], static_cast<int>(first_[b + 1] - first_[b]),
                           static_cast<int>(row_start_[b + 1] - row_start_[b]), y.data() + first_[b], 1, below);
     subtract_rows(runs(b), below, y.data());
@@ -277,8 +288,10 @@ void TriangularSolver::backward(int block, double* x, const double* below, int c
 
 void TriangularSolver::backward(Eigen::VectorXd& y, const std::vector<char>* marked) const {
   double* below = below_.data();
+  Spending spending;
   for (std::size_t b = parent_.size(); b-- > 0;) {
     if (marked != nullptr && (*marked)[b] == 0) continue;
+    spending.add(operations_per_nanosecond * pass_cost(static_cast<int>(b)));
     take_rows(runs(b), y.data(), below);
     backward(static_cast<int>(b), y.data() + first_[b], below);
   }
@@ -305,8 +318,10 @@ void TriangularSolver::put_own_rows(std::size_t b, Eigen::MatrixXd& y) const {
 
 void TriangularSolver::forward(Eigen::MatrixXd& y, const std::vector<char>* marked) const {
   const auto count = static_cast<int>(y.cols());
+  Spending spending;
   for (std::size_t b = 0; b < parent_.size(); ++b) {
     if (marked != nullptr && (*marked)[b] == 0) continue;
+    spending.add(operations_per_nanosecond * pass_cost(static_cast<int>(b), count));
     const auto columns = static_cast<int>(first_[b + 1] - first_[b]);
     const auto rows = static_cast<int>(row_start_[b + 1] - row_start_[b]);
     double* own = own_rows(b, y);
@@ -319,8 +334,10 @@ void TriangularSolver::forward(Eigen::MatrixXd& y, const std::vector<char>* mark
 
 void TriangularSolver::backward(Eigen::MatrixXd& y, const std::vector<char>* marked) const {
   const auto count = static_cast<int>(y.cols());
+  Spending spending;
   for (std::size_t b = parent_.size(); b-- > 0;) {
     if (marked != nullptr && (*marked)[b] == 0) continue;
+    spending.add(operations_per_nanosecond * pass_cost(static_cast<int>(b), count));
     double* own = own_rows(b, y);
     const std::ptrdiff_t below_rows = row_start_[b + 1] - row_start_[b] - (first_[b + 1] - first_[b]);
     for (int c = 0; c < count; ++c) take_rows(runs(b), y.col(c).data(), below_.data() + c * below_rows);
@@ -331,7 +348,17 @@ void TriangularSolver::backward(Eigen::MatrixXd& y, const std::vector<char>* mar
 
 void TriangularSolver::forward(std::span<const PathColumns> groups, Eigen::VectorXd* y,
                                const std::vector<char>* marked) const {
+  // More are no faster together, and take longer before anything else can be done.
+  constexpr Eigen::Index most_together = 48;
+  Eigen::Index columns = 0;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    columns += groups[g].columns->cols();
+    if (columns <= most_together || g == 0) continue;
+    forward(groups.first(g), y, marked);
+    return forward(groups.subspan(g));
+  }
   next_.assign(groups.size(), 0);
+  Spending spending;
   for (std::size_t b = 0; b < parent_.size(); ++b) {
     // Paths ascend.
     sharing_.clear();
@@ -342,7 +369,11 @@ void TriangularSolver::forward(std::span<const PathColumns> groups, Eigen::Vecto
       ++next_[g];
     }
     const bool along = y != nullptr && (marked == nullptr || (*marked)[b] != 0);
-    if (along || !sharing_.empty()) forward_block_of(b, groups, along ? y : nullptr);
+    if (!along && sharing_.empty()) continue;
+    int count = along ? 1 : 0;
+    for (const std::size_t g : sharing_) count += static_cast<int>(groups[g].columns->cols());
+    spending.add(operations_per_nanosecond * pass_cost(static_cast<int>(b), count));
+    forward_block_of(b, groups, along ? y : nullptr);
   }
 }
 

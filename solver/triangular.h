@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "factor.h"
+#include "ladder_costs.h"
 
 namespace topple::solver {
 
@@ -60,6 +61,9 @@ class TriangularSolver {
   /// Marks the blocks on the paths of any rows.
   void mark_paths(std::span<const int> rows, std::vector<char>& marked) const;
 
+  /// Nanoseconds of a pass over one block, for so many columns at once (ladder_costs.h).
+  [[nodiscard]] double pass_cost(int block, int count = 1) const;
+
   /// One block: its columns (consecutive in elimination order) and the rows below them.
   struct BlockRows {
     int first, columns;
@@ -100,6 +104,7 @@ class TriangularSolver {
 
   int size_ = 0;
   double entries_ = 0;
+  PassCost cost_{};
   std::vector<int> order_, position_, block_of_;
   std::vector<int> parent_;  ///< per block; -1: a root
   std::span<const std::int64_t> first_, row_start_, value_start_, row_;

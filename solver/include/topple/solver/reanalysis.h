@@ -51,13 +51,13 @@ struct ReanalysisAnswer {
 };
 
 /// When a new factor is made on another thread while the old one serves. It is due at the first answer after the
-/// answers since then took `share` of the operations that it takes: a number of answers fixed by counts, whatever the
-/// clock says; if it is late, that answer waits. Then it catches up with what changed since it was begun, a part of it
+/// answers since then spent (spend()) `share` of what it takes: a number of answers fixed by counts, whatever the clock
+/// says; if it is late, that answer waits. Then it catches up with what changed since it was begun, a part of it
 /// beside each answer, and takes over. So the bits do not depend on how fast the other thread is.
 struct RefreshRules {
   int columns = 120;              ///< begun when the correction has more than so many
   double least_operations = 1e9;  ///< and a new factor takes at least so many; smaller ones are made at once
-  double share = 0.7;
+  double share = 1.5;
   std::function<void()> on_worker;  ///< runs on the other thread before it begins (tests slow it down)
 };
 
@@ -99,9 +99,6 @@ class Reanalysis {
 
   /// Brings the answer up to date. A mechanism is an answer (stable == false), not an exception.
   [[nodiscard]] const ReanalysisAnswer& solve();
-  /// The first part of it: takes the changes over and brings the factor up to date. The answer stays the last one until
-  /// solve() goes on from here, to the same bits as without. False: the structure is a mechanism, as solve() will tell.
-  bool prepare();
 
   /// The same, brought up to date only where the watch's uses may matter: no use that was not read anew lies above
   /// (1 - margin) max(1, the largest use). Nothing else may be concluded about what was left out; its displacements or
@@ -164,10 +161,8 @@ class Reanalysis {
 
   [[nodiscard]] const ReanalysisCounters& counters() const;
   [[nodiscard]] const FrameModel& model() const;
-  /// Predicted operations of the last solve(), for budgets.
+  /// Predicted operations of the last solve(): those by which background factors are due.
   [[nodiscard]] double last_operations() const;
-  /// And of all responses so far.
-  [[nodiscard]] double response_operations() const;
 
  private:
   struct State;
