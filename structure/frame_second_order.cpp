@@ -55,7 +55,6 @@ bool FrameStatics::displace(int number) {
       write_load(component.nodes[n]);
     }
     if (!component.analysis->solve().stable) return true;  // as stable as it was without these loads
-    operations_ += component.analysis->last_operations();
     read_end_forces(number);
     const std::vector<Vec6>& now = component.analysis->displacements();
     double moved = 0, size = 0;

@@ -260,26 +260,12 @@ class FrameStatics::Adapter : public solver::UseWatch {
   MemberWatch& watch_;
 };
 
-double FrameStatics::operations() const {
-  double sum = operations_;
-  for (const Component& component : components_) sum += component.analysis->response_operations();
-  return sum;
-}
-
-bool FrameStatics::prepare(int number) {
-  solver::Reanalysis& analysis = *components_[static_cast<std::size_t>(number)].analysis;
-  const bool stands = analysis.prepare();
-  operations_ += analysis.last_operations();
-  return stands;
-}
-
 std::optional<FrameMechanism> FrameStatics::solve(int number) {
   Component& component = components_[static_cast<std::size_t>(number)];
   const solver::ReanalysisAnswer& answer = component.analysis->solve();
   if (answer.stable) {
     component.unwatched = false;
     read_end_forces(component);
-    operations_ += component.analysis->last_operations();
     if (second_order_) component.diverged = !displace(number);
     component.changed = false;
     return std::nullopt;
@@ -333,7 +319,6 @@ const solver::Vec12& FrameStatics::end_forces(MemberId member) const {
 
 std::optional<FrameMechanism> FrameStatics::told(int number, const solver::ReanalysisAnswer& answer) {
   Component& component = components_[static_cast<std::size_t>(number)];
-  operations_ += component.analysis->last_operations();
   component.changed = false;
   if (answer.stable) return std::nullopt;
   component.changed = true;

@@ -85,8 +85,6 @@ class FrameStatics {
   /// forces as loads, K u' = F - Kg(N) u; where that does not settle (the loads are near or beyond what it bears before
   /// it buckles) the first-order answer stands, and diverged() says so.
   [[nodiscard]] std::optional<FrameMechanism> solve(int component);
-  /// The first part of it (Reanalysis::prepare()). False: there is a mechanism, which solve() will tell.
-  bool prepare(int component);
   void use_second_order() { second_order_ = true; }
   [[nodiscard]] bool diverged(int component) const { return parts(component).diverged; }
   /// The same where the watch's uses may matter. What is asked for later makes the answer whole.
@@ -170,7 +168,6 @@ class FrameStatics {
   [[nodiscard]] solver::ReanalysisCounters counters() const;
   /// Answers of one component so far.
   [[nodiscard]] std::uint64_t solves(int component) const { return parts(component).analysis->counters().solves; }
-  [[nodiscard]] double operations() const;
 
  private:
   struct Place {
@@ -226,7 +223,6 @@ class FrameStatics {
   std::vector<Vec6> node_loads_;                             ///< as given
   std::vector<Vec6> geometric_;                              ///< second order: added to them, per node
   bool second_order_ = false;
-  double operations_ = 0;
 };
 
 }  // namespace topple::structure

@@ -10,23 +10,39 @@ namespace topple::structure {
 
 /// Contact loads and softening come on slowly: their change moves R0 as much as R, so that no sudden-loss factor acts
 /// on them.
-void StandingFrame::State::lay_contacts() {
-  if (!loads.changed() && !std::exchange(softened, false)) return;
-  softened = false;
-  write_loads();
+bool StandingFrame::State::lay_contacts() {
+  if (!laying) {
+    if (!loads.changed() && !softened) return true;
+    softened = false;
+    write_loads();
+    laying = true;
+  }
   for (int c = 0; c < statics.components(); ++c) {
     if (!statics.changed(c)) continue;
-    complete(c);  // what changed suddenly before is read as such
-    // Loads alone make no mechanism in a structure that was stable before.
-    if (solve_slow(c)) continue;
-    // On the way to rest, what lies on it is part of that way. So is what the structure cannot bear: that state,
-    // however far it lies, is never reached.
-    if (!to_check[static_cast<std::size_t>(c)] && bears(c)) {
-      account.finish(c, true, breaks);
-      if (ductile.any(c)) ductile.base_is_answer(c);
-    }
-    to_check[static_cast<std::size_t>(c)] = 1;
+    const auto lay = [this, c] {
+      complete(c);  // what changed suddenly before is read as such
+      mechanism_found = solve_slow(c);
+    };
+    if (!paced(lay, [this, c] { laid(c, mechanism_found.has_value()); })) return false;
   }
+  laying = false;
+  return true;
+}
+
+void StandingFrame::State::lay_contacts_at_once() {
+  at_once([&] { (void)lay_contacts(); });
+}
+
+void StandingFrame::State::laid(int c, bool mechanism) {
+  // Loads alone make no mechanism in a structure that was stable before.
+  if (mechanism) return;
+  // On the way to rest, what lies on it is part of that way. So is what the structure cannot bear: that state,
+  // however far it lies, is never reached.
+  if (!to_check[static_cast<std::size_t>(c)] && bears(c)) {
+    account.finish(c, true, breaks);
+    if (ductile.any(c)) ductile.base_is_answer(c);
+  }
+  to_check[static_cast<std::size_t>(c)] = 1;
 }
 
 /// True when no joint of the component is over its capacity in the state solved last.
@@ -37,7 +53,9 @@ bool StandingFrame::State::bears(int c) const {
   });
 }
 
-void StandingFrame::State::bring_up_to_date() { (void)bring_up_to_date(unlimited); }
+void StandingFrame::State::bring_up_to_date_at_once() {
+  at_once([&] { (void)bring_up_to_date(); });
+}
 
 std::size_t StandingFrame::State::parts_leaving() const {
   std::size_t sum = 0;
@@ -47,29 +65,23 @@ std::size_t StandingFrame::State::parts_leaving() const {
 
 /// Where many parts leave they are handed out before anything is solved for; factors and answers are found one after
 /// the other. Where there is a mechanism, the structure as it is has no answer to stop at.
-bool StandingFrame::State::bring_up_to_date(double until) {
+bool StandingFrame::State::bring_up_to_date() {
   constexpr std::size_t many = 6;  // to make bodies of them takes about as long as to solve
   segment_numbers.clear();
   for (;;) {
     const std::size_t left = parts_leaving();
     release();
     write_loads();
-    if (parts_leaving() > left + many && until < unlimited) return false;
-    bool stands = true;
-    for (int c = 0; c < statics.components(); ++c)
-      if (statics.changed(c) && solved_nodes[static_cast<std::size_t>(c)] > 0 && !may_restrict(c)) {
-        complete(c);
-        stands = statics.prepare(c) && stands;
-      }
-    if (stands && statics.operations() >= until) return false;
-    if (!solve_changed()) return true;
-    if (statics.operations() >= until) return false;  // what moves is cut free, and leaves next
+    if (parts_leaving() > left + many && limited()) return false;
+    const Solved end = solve_changed();
+    if (end == Solved::yes) return true;
+    if (end == Solved::under_way || used_up()) return false;  // what moves is cut free, and leaves next
   }
 }
 
 /// What a settle() that was cut short left to do.
 void StandingFrame::State::finish() {
-  if (progress == Progress::applied) bring_up_to_date();
+  if (!pace.done() || progress == Progress::applied) bring_up_to_date_at_once();
   progress = Progress::none;
 }
 
@@ -89,23 +101,27 @@ void StandingFrame::State::write_loads() {
   }
 }
 
-/// True when a mechanism was found and its moving part cut free: then it is to be released and solved again.
-bool StandingFrame::State::solve_changed() {
-  bool found = false;
+/// Where a mechanism was found its moving part was cut free: then it is to be released and solved again.
+StandingFrame::State::Solved StandingFrame::State::solve_changed() {
+  bool moves = false;
   for (int c = 0; c < statics.components(); ++c) {
     if (!statics.changed(c)) continue;
     if (solved_nodes[static_cast<std::size_t>(c)] == 0) {
       statics.forget(c);
       continue;
     }
-    if (const auto mechanism = solve(c)) {
-      if (!swing(c, *mechanism)) release_mechanism(*mechanism);
-      found = true;
-      continue;
-    }
-    to_check[static_cast<std::size_t>(c)] = 1;
+    const auto find = [this, c] { mechanism_found = solve(c); };
+    if (!paced(find, [this, c] { solved(c, mechanism_found); })) return Solved::under_way;
+    moves = moves || mechanism_found.has_value();
   }
-  return found;
+  return moves ? Solved::mechanism : Solved::yes;
+}
+
+void StandingFrame::State::solved(int c, const std::optional<FrameMechanism>& mechanism) {
+  if (!mechanism)
+    to_check[static_cast<std::size_t>(c)] = 1;
+  else if (!swing(c, *mechanism))
+    release_mechanism(*mechanism);
 }
 
 /// True when all that stands of the component is one segment, so that its largest use decides what breaks next.
@@ -179,6 +195,7 @@ void StandingFrame::State::know_demands() {
 /// The rest of what solve() read.
 void StandingFrame::State::complete(int c) {
   if (!statics.partial(c)) return;
+  spend_on_joints(checked_joints[static_cast<std::size_t>(c)].size());
   demands_behind[static_cast<std::size_t>(c)] = 0;
   Watch watch(*this);
   statics.complete(c, watch);
@@ -188,6 +205,7 @@ void StandingFrame::State::complete(int c) {
 }
 
 void StandingFrame::State::read_demands(int c, bool slow) {
+  spend_on_joints(2 * checked_joints[static_cast<std::size_t>(c)].size());
   forget_bounds(c);
   MemberId member_read;
   solver::Vec12 end_forces;
@@ -233,13 +251,30 @@ std::vector<JointId> StandingFrame::State::next_generation() {
   std::vector<JointId> next;
   std::vector<double> largest;
   std::vector<std::pair<JointId, double>> over;
-  test_goes_on = false;
+  // What is known to break goes first.
+  const auto comes_later = [&] { return limited() && !(next.empty() && buckled.empty()); };
+  const auto rests = [&](int c) {
+    if (comes_later()) return;
+    switch (buckles(c)) {
+      case Tested::stands:
+        return come_to_rest(c);
+      case Tested::under_way:
+        check_goes_on = true;
+        return;
+      case Tested::buckles:
+        return;
+    }
+  };
+  test_goes_on = check_goes_on = false;
   for (int c = 0; c < statics.components(); ++c) {
     if (!to_check[static_cast<std::size_t>(c)]) continue;
-    if (const Way way = follow_yielding(c, next); way == Way::breaking) {
+    Way way = Way::unyielding;
+    if (ductile.any(c)) at_once([&] { way = follow_yielding(c, next); });
+    if (way == Way::breaking) {
       continue;
     } else if (way == Way::resting) {
-      if (!buckles(c)) come_to_rest(c);
+      rests(c);
+      if (check_goes_on) return {};
       continue;
     }
     largest.assign(static_cast<std::size_t>(segments.labels()), 0.0);
@@ -255,7 +290,11 @@ std::vector<JointId> StandingFrame::State::next_generation() {
       over.emplace_back(joint, used);
       largest[static_cast<std::size_t>(segment)] = std::max(largest[static_cast<std::size_t>(segment)], used);
     }
-    if (over.empty()) complete(c);
+    if (over.empty() && statics.partial(c) && comes_later()) continue;
+    if (over.empty() && statics.partial(c) && !paced([this, c] { complete(c); })) {
+      check_goes_on = true;
+      return {};
+    }
     if (over.empty() || !one_segment(c)) {
       bool moved = false;
       for (JointId joint : all) {
@@ -266,20 +305,31 @@ std::vector<JointId> StandingFrame::State::next_generation() {
     }
     for (const auto& [joint, used] : over)
       if (used >= (1 - same_time) * largest[static_cast<std::size_t>(label(joint))]) next.push_back(joint);
-    if (over.empty() && !buckles(c)) come_to_rest(c);
+    if (over.empty()) rests(c);
+    if (check_goes_on) return {};
   }
   std::sort(next.begin(), next.end());
   return next;
 }
 
 /// A post of the component gives way sideways in the static answer: it is to break next.
-bool StandingFrame::State::buckles(int c) {
-  if (!buckling) return false;
-  const std::optional<BuckledPost> post = buckling->find(c, statics.diverged(c));
-  if (buckling->testing(c)) return test_goes_on = true;
-  if (!post || !post->post.valid()) return false;
+StandingFrame::State::Tested StandingFrame::State::buckles(int c) {
+  if (!buckling) return Tested::stands;
+  const std::uint64_t solves = statics.counters().solves;
+  if (tested.component != c || tested.solves != solves) {
+    const auto test = [this, c] { tested.post = buckling->find(c, statics.diverged(c)); };
+    tested.component = c;
+    tested.solves = solves;
+    if (!paced(test)) return Tested::under_way;
+  }
+  const std::optional<BuckledPost> post = std::exchange(tested, {}).post;
+  if (buckling->testing(c)) {
+    test_goes_on = true;
+    return Tested::buckles;
+  }
+  if (!post || !post->post.valid()) return Tested::stands;
   buckled.push_back(*post);
-  return true;
+  return Tested::buckles;
 }
 
 /// At a joint, or where the post is cut in two.

@@ -171,7 +171,7 @@ StandingFrame::State::Way StandingFrame::State::follow_yielding(int c, std::vect
   PlasticPath& path = ductile.path(c);
   for (;;) {
     if (path.active && turn_back(c)) {
-      bring_up_to_date();
+      (void)bring_up_to_date();
       ++path.events;
       continue;
     }
@@ -187,7 +187,7 @@ StandingFrame::State::Way StandingFrame::State::follow_yielding(int c, std::vect
       path.direction = 1;
       const bool rests = !measured;
       path.returning = true;
-      bring_up_to_date();
+      (void)bring_up_to_date();
       if (!rests) continue;
       path = {};
       return Way::resting;
@@ -228,7 +228,7 @@ StandingFrame::State::Way StandingFrame::State::follow_yielding(int c, std::vect
       hold_all_again(c);
       return Way::breaking;
     }
-    bring_up_to_date();
+    (void)bring_up_to_date();
   }
 }
 

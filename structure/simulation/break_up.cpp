@@ -176,7 +176,7 @@ bool Simulation::State::make_free_segment(const Body& one) {
   segment = std::make_unique<FreeSegment>(
       building, parts_of(one), [&](JointId joint) { return holds_in_debris(joint); },
       [&](PanelId shell) { return frame->shell_stiffness(shell); }, [&](PanelId panel) { return flying_edges(panel); });
-  debris_operations += segment->take_operations();
+  spend_on_debris(segment->take_operations());
   return true;
 }
 
@@ -186,7 +186,7 @@ bool Simulation::State::break_joints_of(const Blow& blow) {
   FreeSegment& segment = *free_segments.at(blow.on.value);
   if (!segment.can_break()) return false;
   const FreeSegment::Answer answer = segment.bear(blow.pushes, blow.spin, blow.gravity);
-  debris_operations += segment.take_operations();
+  spend_on_debris(segment.take_operations());
   std::vector<std::pair<JointId, Utilisation>> over;
   double largest = 1;
   for (const auto& [joint, demand] : answer.demands) {
@@ -297,7 +297,7 @@ std::vector<collision::BodyId> Simulation::State::split(collision::BodyId id,
     go_on(std::move(own));
   }
   const std::size_t parts_made = made.size();
-  debris_operations += part_cost * static_cast<double>(parts_made);
+  spend_on_debris(part_cost * static_cast<double>(parts_made));
   for (Body& chunk : chunks) go_on(std::move(chunk));
   ledger.momentum_error = std::max(ledger.momentum_error, carried.error(handed_on));
   pass_on_blow(id, made);

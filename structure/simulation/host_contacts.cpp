@@ -2,7 +2,7 @@
 // again and its change of momentum is handed back.
 #include <cmath>
 
-#include "simulation/simulation_state.h"
+#include "simulation/asked_response.h"
 #include "topple/structure/error.h"
 
 namespace topple::structure {
@@ -80,9 +80,14 @@ void Simulation::State::strike_by_host(const HostContact& contact, Part part, Ho
   };
   const Body& striking = bodies.at(id.value);
   const Kinetic before = kinetic_energy(striking, world->state(id), reading());
+  finish_awaited();
+  const double allowed = frame->allowance(), spent = frame->counters().operations;
+  frame->allow(unlimited);
+  (void)frame->go_on();
   host_strikes = true;
   strike_all({touch});
   host_strikes = false;
+  frame->allow(allowed - (frame->counters().operations - spent));
   const collision::BodyState after = now();
   const Kinetic left = kinetic_energy(striking, world->state(id), reading());
   body_work_put_in += before.translation + before.rotation - left.translation - left.rotation;

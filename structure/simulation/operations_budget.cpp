@@ -11,27 +11,11 @@
 
 namespace topple::structure {
 
-namespace {
-/// Work of each kind begins in a step only while less than this share of the budget is spent in it: most of what begins
-/// takes several times as much. A factor and its answer often go into one step; debris can wait.
-constexpr std::array<double, 3> share_to_begin{0.12, 0.15, 0.08};
-}  // namespace
-
-/// Until no more work begins in this step.
-double Simulation::State::operations_left(Work work) const {
-  if (!scenario.operations_budget) return unlimited;
-  if (operations_owed >= *scenario.operations_budget) return 0;
-  return share_to_begin[static_cast<std::size_t>(work)] * *scenario.operations_budget -
-         (operations() - operations_booked);
-}
-
-/// One solve is never cut in two: it may take more than a step's budget, and as many steps then pass without any as it
-/// took budgets. Idle steps that were passed over pay as well.
+/// Steps that were passed over pay as well.
 void Simulation::State::begin_budget() {
   if (!scenario.operations_budget) return;
-  const double spent = operations() - operations_booked, steps = static_cast<double>(step - budget_step);
-  operations_owed = std::max(0.0, operations_owed + spent - steps * *scenario.operations_budget);
-  operations_booked += spent;
+  const double budget = *scenario.operations_budget, steps = static_cast<double>(step - budget_step);
+  frame->allow(budget_step < 0 ? budget : std::min(budget, frame->allowance() + steps * budget));
   budget_step = step;
 }
 
@@ -40,22 +24,38 @@ bool Simulation::State::may_compute(Work work) {
   if (!scenario.operations_budget || (work == Work::blows && host_strikes)) return true;
   // What an answer under way stands for is no place to strike: it comes before all blows.
   const bool answering = frame->answering();
+  wait_for_turn(work);
   Turn& own = turns[static_cast<std::size_t>(work)];
-  const std::int64_t since = own.waits_since < 0 || own.asked < step - 1 ? step : own.waits_since;
-  own.asked = step;
+  const std::int64_t since = own.waits_since;
   const bool turn = std::none_of(turns.begin(), turns.end(), [&](const Turn& other) {
     const bool blows = &other == &turns[static_cast<std::size_t>(Work::blows)];
     return !(blows && answering) && other.waits_since >= 0 && other.waits_since < since && other.asked >= step - 1;
   });
-  const bool may = turn && operations_left(work) > 0 && !(work == Work::blows && answering);
-  own.waits_since = may ? -1 : since;
+  const bool may = turn && frame->allowance() > 0 && !(work == Work::blows && answering);
+  if (may) own.waits_since = -1;
   return may;
+}
+
+void Simulation::State::wait_for_turn(Work work) {
+  Turn& own = turns[static_cast<std::size_t>(work)];
+  if (own.waits_since < 0 || own.asked < step - 1) own.waits_since = step;
+  own.asked = step;
+}
+
+bool Simulation::State::waits_for_turn(Work work) const {
+  const Turn& one = turns[static_cast<std::size_t>(work)];
+  return one.waits_since >= 0 && one.asked >= step - 1;
+}
+
+void Simulation::State::spend_on_debris(double operations) {
+  debris_operations += operations;
+  frame->allow(frame->allowance() - operations);
 }
 
 /// To cut a panel anew, and each chunk: its outline, mesh, shape and body.
 void Simulation::State::spend_on_chunks(std::size_t count) {
   constexpr double cut = 1e6, chunk = 3e5;
-  debris_operations += cut + chunk * static_cast<double>(count);
+  spend_on_debris(cut + chunk * static_cast<double>(count));
 }
 
 /// `at`: where and how fast it is at the instant of the impact, true velocities.

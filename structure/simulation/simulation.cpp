@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "simulation/asked_response.h"
 #include "simulation/replay_hash.h"
 #include "simulation/simulation_state.h"
 #include "simulation/step_clock.h"
@@ -78,10 +79,11 @@ Simulation::State::State(Building the_building, Scenario the_scenario, Simulatio
       stiffness_factors(building.members.size(), 1.0) {
   find_breakable_panels();
   open_panels();
-  operations_booked = operations();
   world->set_gravity(gravity);
   world->set_ground(ground_height(building, scenario), scenario.debris.friction, scenario.debris.restitution);
 }
+
+Simulation::State::~State() = default;
 
 bool Simulation::State::nothing_to_do() const {
   if (step <= 1 || !asked.empty() || !touches.empty() || waits() || world->awake_count() > 0) return false;
@@ -234,7 +236,7 @@ const SimulationCounters& Simulation::counters() const {
   counters.restricted = frame.restricted;
   counters.background_factors = frame.background_factors;
   counters.late_factors = frame.late_factors;
-  counters.operations = state_->operations();
+  counters.operations = frame.operations + state_->debris_operations;
   return counters;
 }
 

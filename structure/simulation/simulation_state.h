@@ -17,6 +17,7 @@ namespace topple::structure {
 
 struct Simulation::State {
   State(Building the_building, Scenario the_scenario, SimulationOptions the_options);
+  ~State();
 
   // tools.cpp: what acts in this step, before anything else.
   void use_tools();
@@ -50,17 +51,33 @@ struct Simulation::State {
   [[nodiscard]] Bounds swept_bounds(const Body& body, const collision::BodyState& state) const;
   void approach(Body& one, const collision::BodyState& state);
 
+  // asked_response.cpp: what blows must know of what stands.
+  struct AskedResponse;
+  struct Asking {
+    std::span<const collision::Contact* const> contacts;
+    std::span<const ContactPlace> places;
+    std::span<const Vec3> normals;
+  };
+  void finish_awaited();
+  void take_up_awaited(std::vector<collision::Contact>& impacts);
+  [[nodiscard]] AskedResponse* ask_for(const Asking& blow);
+  [[nodiscard]] const AskedResponse* near_response(const Asking& blow);
+  [[nodiscard]] const AskedResponse* full_response(const Asking& blow);
+
   // strike.cpp: the law of impact for one contact with what stands.
   void load();
   void strike_all(const std::vector<collision::Contact>& contacts);
   struct Strike;
+  [[nodiscard]] bool goes_on(const collision::Contact& contact) const;
+  [[nodiscard]] bool goes_on_alone(const collision::Contact& contact) const;
+  void wait(const Strike& hit);
   void strike(const collision::Contact& contact);
   [[nodiscard]] std::optional<Strike> aim(const collision::Contact& contact);
   [[nodiscard]] double rebound(const Indentation& pushing) const;
-  [[nodiscard]] bool bears(Strike& hit, double weight, double punching);
+  [[nodiscard]] bool bears(Strike& hit, double weight, double punching, const AskedResponse& known);
   [[nodiscard]] bool pushes_on(const Strike& hit) const;
   [[nodiscard]] bool takes_share(const Strike& hit) const;
-  void push_in(Strike& hit);
+  [[nodiscard]] bool push_in(Strike& hit, const collision::Contact& contact);
   static void tell_loss(Strike& hit);
   void send_on(const Strike& hit);
   void tell_impact(const Strike& hit);
@@ -70,9 +87,11 @@ struct Simulation::State {
   void check_momentum(const Strike& hit, std::span<const PointImpulse> impulses);
   // strike_together.cpp: several of them at one instant.
   struct JointPush;
-  [[nodiscard]] bool strike_together(std::span<const collision::Contact* const> contacts);
+  /// Whether contacts are done with, or their body has to wait until more is known, or they push one by one.
+  enum class Together { done, waits, apart };
+  [[nodiscard]] Together strike_together(std::span<const collision::Contact* const> contacts);
   [[nodiscard]] bool take_up(JointPush& pushed) const;
-  [[nodiscard]] bool bears(JointPush& pushed);
+  [[nodiscard]] bool bears(JointPush& pushed, double critical_energy);
   void push_in(JointPush& pushed);
   void go_on(JointPush& pushed, const Eigen::VectorXd& shift);
   void send_on(JointPush& pushed);
@@ -81,12 +100,13 @@ struct Simulation::State {
   // operations_budget.cpp
   /// What takes operations, in the order of a step.
   enum class Work { blows, generations, debris };
-  [[nodiscard]] double operations() const { return frame->counters().operations + debris_operations; }
-  [[nodiscard]] double operations_left(Work work) const;
   void begin_budget();
   [[nodiscard]] bool may_compute(Work work);
+  void wait_for_turn(Work work);
+  [[nodiscard]] bool waits_for_turn(Work work) const;
   /// Blows end where something breaks, to go on when it is solved for.
   [[nodiscard]] bool blows_wait() const { return scenario.operations_budget && !host_strikes; }
+  void spend_on_debris(double operations);
   void spend_on_chunks(std::size_t count);
   void hold_back(collision::BodyId id, collision::BodyState at);
   void let_go_held_back();
@@ -259,7 +279,8 @@ struct Simulation::State {
   [[nodiscard]] bool nothing_to_do() const;
   /// Breaks are still to come, of what stands or of debris.
   [[nodiscard]] bool waits() const {
-    return frame->pending() || !waiting_blows.empty() || !landings.empty() || !panel_blows.empty();
+    return frame->pending() || frame->answering() || !waiting_blows.empty() || !landings.empty() ||
+           !panel_blows.empty();
   }
   /// When the next event or stage acts; unlimited when none is to come.
   [[nodiscard]] double next_instant() const;
@@ -279,6 +300,7 @@ struct Simulation::State {
   Scenario scenario;
   SimulationOptions options;
   Vec3 gravity;
+  std::unique_ptr<AskedResponse> awaited;  ///< outlives the frame, which may be at work on it
   std::unique_ptr<StandingFrame> frame;
   std::unique_ptr<collision::World> world;
   PartMasses masses;
@@ -355,9 +377,8 @@ struct Simulation::State {
   SimulationCounters counters;
   collision::OverlapWatch overlap_watch;
   BodyOverlaps overlaps;
-  double debris_operations = 0;                       ///< of free segments and of panels that break, so far
-  double operations_booked = 0, operations_owed = 0;  ///< counted when the step began; spent beyond the budget by then
-  std::int64_t budget_step = 0;                       ///< that began last
+  double debris_operations = 0;   ///< of free segments and of panels that break, so far
+  std::int64_t budget_step = -1;  ///< that began last
   struct Turn {
     std::int64_t waits_since = -1;  ///< step in which the budget refused it
     std::int64_t asked = -1;        ///< step in which it was asked for last

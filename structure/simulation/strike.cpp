@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulation/asked_response.h"
 #include "simulation/first_failure.h"
 #include "simulation/momentum.h"
 #include "simulation/step_clock.h"
@@ -38,7 +39,7 @@ std::vector<const collision::Contact*> at_one_instant(std::span<const collision:
 
 void Simulation::State::load() {
   // What a budget cut short goes on under the loads that it began with: others would take its place in every step.
-  if (scenario.operations_budget && frame->pending()) return;
+  if (scenario.operations_budget && (frame->pending() || frame->answering())) return;
   counters.contacts_ignored += resting.lay(*frame, strength_factors, [&](collision::BodyId id) {
     const Body* one = body(id);
     return one ? one->rest.mass * gravity.norm() : 0.0;
@@ -52,29 +53,43 @@ void Simulation::State::strike_all(const std::vector<collision::Contact>& contac
     if (contact.other.kind != collision::Touched::Kind::obstacle) continue;
     if (!contact.persistent || contact.approach_speed > resting_speed) impacts.push_back(contact);
   }
+  take_up_awaited(impacts);
   std::vector<char> done(impacts.size(), 0);
   for (std::size_t i = 0; i < impacts.size(); ++i) {
     if (done[i] != 0) continue;
     const std::vector<const collision::Contact*> together = at_one_instant(impacts, i);
-    if (together.size() > 1 && strike_together(together)) {
+    if (together.size() > 1 && !goes_on_alone(impacts[i]) && strike_together(together) != Together::apart) {
       for (const collision::Contact* one : together) done[static_cast<std::size_t>(one - impacts.data())] = 1;
     } else {
       strike(impacts[i]);
     }
   }
+  if (!frame->answering()) awaited.reset();  // whatever was known is used, or of no use
+}
+
+/// Something was asked for that is known now, or more of it is to be.
+bool Simulation::State::goes_on(const collision::Contact& contact) const {
+  return awaited && awaited->contacts.front().body == contact.body && !frame->answering();
+}
+
+/// What was asked for its sake is not for several contacts.
+bool Simulation::State::goes_on_alone(const collision::Contact& contact) const {
+  return goes_on(contact) && awaited->contacts.size() == 1;
 }
 
 void Simulation::State::strike(const collision::Contact& contact) {
   std::optional<Strike> hit = aim(contact);
   if (!hit) return;
-  if (!may_compute(Work::blows)) {
-    if (pushes_on(*hit)) hit->body->pushed_in_step = step;
-    return hold_back(hit->body->id, hit->state);
-  }
-  push_in(*hit);
+  if (!(goes_on(contact) || may_compute(Work::blows)) || !push_in(*hit, contact)) return wait(*hit);
+  awaited.reset();
   send_on(*hit);
   push_chunks(*hit);
   tell_impact(*hit);
+}
+
+void Simulation::State::wait(const Strike& hit) {
+  if (pushes_on(hit)) hit.body->pushed_in_step = step;
+  hold_back(hit.body->id, hit.state);
 }
 
 void Simulation::State::tell_impact(const Strike& hit) {
@@ -147,14 +162,14 @@ bool Simulation::State::takes_share(const Strike& hit) const {
 /// Whether what is hit provably bears the push: the joints that bear it directly do not fail, and the energy is less
 /// than any other joint fails at. A lower bound of the mass that takes part makes the push harder than it is, so what
 /// is told of it (peak force, speed out) is a bound as well. Most impacts of debris end here, at a part of the cost.
-bool Simulation::State::bears(Strike& hit, double weight, double punching) {
+bool Simulation::State::bears(Strike& hit, double weight, double punching, const AskedResponse& known) {
   constexpr double rounding = 1e-6;
-  const StandingFrame::UnitResponse near = frame->respond_near(hit.place, hit.normal);
+  const StandingFrame::UnitResponse& near = known.near->places.front();
   const double mass = takes_share(hit) ? near.rayleigh_mass : 0;
   Indentation pushing(hit.mass, hit.speed, weight, mass);
   const FirstFailure own = first_failure(*frame, near, strength_factors, unlimited);
   if (pushing.push(near.compliance, std::min(own.force, punching)) != Indentation::Stop::stood) return false;
-  if (pushing.stored(near.compliance) > (1 - rounding) * frame->critical_energy(hit.place)) return false;
+  if (pushing.stored(near.compliance) > (1 - rounding) * known.critical_energy) return false;
   hit.structure_mass = mass;
   hit.speed_out = rebound(pushing);
   hit.peak_force = pushing.peak_force();
@@ -162,17 +177,30 @@ bool Simulation::State::bears(Strike& hit, double weight, double punching) {
   return true;
 }
 
-/// The pushing, break after break, until the body stops or nothing is left to push.
-void Simulation::State::push_in(Strike& hit) {
+/// The pushing, break after break, until the body stops or nothing is left to push. False: what it must know first is
+/// being found.
+bool Simulation::State::push_in(Strike& hit, const collision::Contact& contact) {
+  const collision::Contact* touching_there = &contact;
+  const Asking blow{{&touching_there, 1}, {&hit.place, 1}, {&hit.normal, 1}};
   const double weight = hit.mass * gravity.dot(hit.normal);
   double punching = punching_force(hit);
   // A fast blow goes through whatever the joints bear.
   if (const double left = speed_through(hit, punching); left > 0) {
-    if (punch_at_once(hit, punching, left)) return tell_loss(hit);
-  } else if (!pushes_on(hit) && bears(hit, weight, punching)) {
-    return tell_loss(hit);
+    if (punch_at_once(hit, punching, left)) {
+      tell_loss(hit);
+      return true;
+    }
+  } else if (!pushes_on(hit)) {
+    const AskedResponse* near = near_response(blow);
+    if (near == nullptr) return false;
+    if (bears(hit, weight, punching, *near)) {
+      tell_loss(hit);
+      return true;
+    }
   }
-  StandingFrame::UnitResponse response = frame->respond(hit.place, hit.normal);
+  const AskedResponse* known = full_response(blow);
+  if (known == nullptr) return false;
+  StandingFrame::UnitResponse response = known->full->places.front();
   hit.structure_mass = takes_share(hit) ? response.rayleigh_mass : 0;
   Indentation pushing(hit.mass, hit.speed, weight, hit.structure_mass);
   for (;;) {
@@ -220,6 +248,7 @@ void Simulation::State::push_in(Strike& hit) {
   }
   hit.peak_force = std::max(hit.peak_force, pushing.peak_force());
   tell_loss(hit);
+  return true;
 }
 
 void Simulation::State::tell_loss(Strike& hit) {
@@ -290,9 +319,12 @@ void Simulation::State::check_momentum(const Strike& hit, std::span<const PointI
 }
 
 void Simulation::State::break_generations() {
-  if ((!frame->pending() && step > 1) || !may_compute(Work::generations)) return;
+  if (!frame->pending() && step > 1) return;
+  if (awaited) return wait_for_turn(Work::generations);
+  if (!may_compute(Work::generations)) return;
+  frame->yield_after_answers(waits_for_turn(Work::blows));
   const int generations = generations_of(step, scenario.step, scenario.failure.generations_per_second);
-  const std::vector<JointBreak> breaks = frame->settle(generations, operations_left(Work::generations));
+  const std::vector<JointBreak> breaks = frame->settle(generations);
   for (const JointBreak& line : frame->take_yielded()) {
     SimulationEvent& event = tell(SimulationEvent::Kind::joint_yielded, building[line.joint].name);
     event.joint = line;

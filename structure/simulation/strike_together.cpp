@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "simulation/asked_response.h"
 #include "simulation/coupled_push.h"
 #include "simulation/first_failure.h"
 #include "simulation/momentum.h"
@@ -141,17 +142,19 @@ struct Simulation::State::JointPush {
   }
 };
 
-/// False when they are better taken one after the other, or are no impacts any more; nothing has happened then.
-bool Simulation::State::strike_together(std::span<const collision::Contact* const> contacts) {
+/// Apart when they are better taken one after the other, or are no impacts any more; nothing has happened then.
+Simulation::State::Together Simulation::State::strike_together(std::span<const collision::Contact* const> contacts) {
   JointPush pushed;
+  std::vector<const collision::Contact*> touching;
   for (const collision::Contact* contact : contacts) {
     std::optional<Strike> hit = aim(*contact);
     if (!hit) continue;
-    if (punching_force(*hit) < unlimited) return false;  // what breaks out of a panel leaves alone
+    if (punching_force(*hit) < unlimited) return Together::apart;  // what breaks out of a panel leaves alone
     pushed.hits.push_back(std::move(*hit));
+    touching.push_back(contact);
   }
   std::vector<Strike>& hits = pushed.hits;
-  if (hits.size() < 2 || !may_compute(Work::blows)) return false;
+  if (hits.size() < 2 || !(goes_on(*touching.front()) || may_compute(Work::blows))) return Together::apart;
   for (Strike& hit : hits) {
     hit.state = hits.front().state;
     hit.own_time = hits.front().own_time;
@@ -159,19 +162,28 @@ bool Simulation::State::strike_together(std::span<const collision::Contact* cons
     pushed.normals.push_back(hit.normal);
   }
   // What is known at little cost tells of most pushes that they are borne, and of some that they are taken one by one.
-  pushed.response = frame->respond_near(pushed.places, pushed.normals);
-  if (!take_up(pushed)) return false;
-  if (bears(pushed)) {
-    ++counters.impacts_bounded;
-  } else {
-    pushed.response = frame->respond(pushed.places, pushed.normals);
-    if (!take_up(pushed)) return false;
-    push_in(pushed);
+  const Asking blow{touching, pushed.places, pushed.normals};
+  const AskedResponse* known = near_response(blow);
+  if (known != nullptr) {
+    pushed.response = *known->near;
+    if (!take_up(pushed)) return Together::apart;
+    if (bears(pushed, known->critical_energy)) {
+      ++counters.impacts_bounded;
+    } else if ((known = full_response(blow)) != nullptr) {
+      pushed.response = *known->full;
+      if (!take_up(pushed)) return Together::apart;
+      push_in(pushed);
+    }
   }
+  if (known == nullptr) {
+    wait(hits.front());
+    return Together::waits;
+  }
+  awaited.reset();
   ++counters.impacts_together;
   send_on(pushed);
   for (const Strike& hit : hits) tell_impact(hit);
-  return true;
+  return Together::done;
 }
 
 /// The push against what is known of the structure. False when the places are better taken one after the other.
@@ -197,15 +209,14 @@ bool Simulation::State::take_up(JointPush& pushed) const {
 
 /// As for one place (strike.cpp): the joints that bear the push directly do not fail under its peaks, and the strain
 /// energy, at most that of all peaks at once, is less than any other joint fails at. Then the push is done.
-bool Simulation::State::bears(JointPush& pushed) {
+bool Simulation::State::bears(JointPush& pushed, double critical_energy) {
   constexpr double rounding = 1e-6;
   CoupledPush borne = *pushed.push;
   const CoupledPush::Stop end = borne.push();
   const Eigen::VectorXd& peak = borne.peak_force();
   if (!WatchedJoints(*frame, pushed.response.places, strength_factors, peak).empty()) return false;
   const double stored = peak.dot(pushed.response.compliance.cwiseAbs() * peak) / 2;
-  for (const ContactPlace& place : pushed.places)
-    if (stored > (1 - rounding) * frame->critical_energy(place)) return false;
+  if (stored > (1 - rounding) * critical_energy) return false;
   pushed.leave(std::move(borne), end, scenario.impact.restitution);
   return true;
 }

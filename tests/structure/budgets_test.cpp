@@ -224,10 +224,41 @@ TEST_CASE("no step takes more than its budget by more than one answer, debris th
   const Spent free = collapse(std::nullopt);
   REQUIRE(free.broken > 20);
   REQUIRE(free.splits > 0);
-  const Spent tight = collapse(free.most / 20);
+  const Spent tight = collapse(free.most / 5);
   CHECK(tight.broken > free.broken / 2);
   CHECK(tight.splits > 0);
   CHECK(tight.most < free.most);
+}
+
+TEST_CASE("who looks at a collapse in parts changes nothing of it, nor does a second thread") {
+  const auto collapse = [](bool looks, int threads) {
+    FrameBuilder f = grid_building(4, 3, 3, 5, 3, same_capacity(4e5), same_capacity(6e4));
+    for (std::size_t m = 0; m < f.building.members.size(); ++m) f.load(MemberId(m), -4000);
+    RemoveTool corner;
+    corner.members = {MemberId(0u), MemberId(1u), MemberId(4u)};
+    Scenario scenario = scenario_with({{0.5, corner}}, 6);
+    scenario.operations_budget = 3e6;
+    Simulation simulation(f.building, std::move(scenario), {threads, {}});
+    int in_between = 0;
+    double looked_at = 0;
+    while (!simulation.finished()) {
+      simulation.step();
+      in_between += simulation.frame().answering() ? 1 : 0;
+      if (!looks) continue;
+      looked_at += simulation.frame().utilisation(JointId(0u)).value + simulation.ledger().elastic;
+      looked_at += simulation.frame().displacement(NodeId(20u)).norm();
+      if (simulation.frame().stands(MemberId(9u)))
+        looked_at += static_cast<double>(simulation.what_carries(MemberId(9u)).size());
+    }
+    CHECK((looked_at > 0) == looks);
+    CHECK(in_between > 10);
+    CHECK(of_kind(simulation, SimulationEvent::Kind::impact).size() > 3);
+    return std::pair(simulation.hash(), of_kind(simulation, SimulationEvent::Kind::joint_broke).size());
+  };
+  const auto unseen = collapse(false, 1);
+  REQUIRE(unseen.second > 10);
+  CHECK(collapse(true, 1) == unseen);
+  CHECK(collapse(false, 2) == unseen);
 }
 
 TEST_CASE("charges go off in the order of their delays") {

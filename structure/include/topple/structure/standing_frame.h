@@ -179,10 +179,30 @@ class StandingFrame {
   /// `generations` of them), sudden loss and bracing by the rules, mechanisms released. Returns what broke, in order;
   /// pending() stays true when the limit cut it short. `operations`: nothing further begins once the solver has spent
   /// so many, neither a generation nor the next part of bringing the state up to date.
-  std::vector<JointBreak> settle(int generations, double operations = unlimited);
-  /// Operations cut a settle() short where what broke is not solved for: the statics are those of before, until the
-  /// next settle() goes on there.
+  std::vector<JointBreak> settle(int generations);
+  /// The same with an allowance (see below) of its own.
+  std::vector<JointBreak> settle(int generations, double operations);
+  /// The allowance cut a settle() short where what broke is not solved for, or other work: the statics are those of
+  /// before, until that goes on.
   [[nodiscard]] bool answering() const;
+
+  // Work at a pace.
+  /// From now on so many operations (as solver::spend() counts them) may be spent: whatever takes more stops there, in
+  /// the middle of a factorisation if need be, and goes on from there when there are more. Unlimited at first. What had
+  /// to be done at once is spent all the same, and may leave less than nothing.
+  void allow(double operations);
+  /// What is left of it.
+  [[nodiscard]] double allowance() const;
+  /// Somebody else waits: with an allowance settle() ends with an answer that was under way, and breaks one generation
+  /// at most.
+  void yield_after_answers(bool yields);
+  /// With an allowance: contact loads that changed are solved for. False: that is under way.
+  [[nodiscard]] bool lay_loads();
+  /// Runs what only asks this frame (no changes, no other frame). False: it is under way, and goes on in go_on(),
+  /// before anything else does. Only when go_on() is true.
+  [[nodiscard]] bool paced(std::function<void()> work);
+  /// Goes on with what is under way. True when nothing is.
+  [[nodiscard]] bool go_on();
   /// Joints whose moment or torsion came to its capacity, and that have turned since, as they did; each sense of a
   /// joint once. Handed out once.
   std::vector<JointBreak> take_yielded();
