@@ -347,24 +347,24 @@ bool StandingFrame::State::settle(int generations) {
     progress = Progress::laid;
     if (used_up()) return false;
   }
-  if (!queue.empty() && progress != Progress::applied) at_once([&] { know_demands(); });  // of what a tool breaks
+  if (!queue.empty() && progress != Progress::applied) at_once([&] { know_demands(); });  // of what a tool found
   progress = Progress::applied;
   for (const Change& change : std::exchange(queue, {})) apply(change);
   if (!bring_up_to_date()) return false;
   pending = false;
   for (;;) {
     const std::vector<JointId> next = next_generation();
-    const bool breaks = !next.empty() || !buckled.empty();
-    if (!breaks && !test_goes_on && !check_goes_on) return true;
+    const bool found = !next.empty() || !buckled.empty();
+    if (!found && !test_goes_on && !check_goes_on) return true;
     // What a test has found is not to be found again at the same cost.
     const bool enough =
-        breaks && (generation >= generations || (yields && limited() && (was_answering || generation > 0)));
+        found && (generation >= generations || (yields && limited() && (was_answering || generation > 0)));
     if (enough || check_goes_on || (buckled.empty() && used_up())) {
       buckled.clear();  // found again
       pending = true;
       return true;
     }
-    if (!breaks) continue;  // a test for buckling goes on
+    if (!found) continue;  // a test for buckling goes on
     break_joints(next, BreakCause::overload);
     snap_buckled();
     if (!bring_up_to_date()) {
