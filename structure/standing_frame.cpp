@@ -347,7 +347,7 @@ bool StandingFrame::State::settle(int generations) {
     progress = Progress::laid;
     if (used_up()) return false;
   }
-  if (!queue.empty() && progress != Progress::applied) at_once([&] { know_demands(); });  // of what a tool found
+  if (!queue.empty() && progress != Progress::applied) at_once([&] { know_demands(); });  // of what a tool breaks
   progress = Progress::applied;
   for (const Change& change : std::exchange(queue, {})) apply(change);
   if (!bring_up_to_date()) return false;
