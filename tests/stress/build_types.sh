@@ -3,12 +3,12 @@
 # not looked at: both builds are made.
 set -euo pipefail
 scripts/build release topple
-scripts/build debug topple
+scripts/build unoptimised topple
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 status=0
 for scenario in seed_hit house_hit wall_hit bridge_hit; do
-  for preset in release debug; do
+  for preset in release unoptimised; do
     python3 -c '
 import json, sys
 scenario = json.load(open(sys.argv[1]))
@@ -18,10 +18,10 @@ json.dump(scenario, open(sys.argv[2], "w"))' "models/scenarios/$scenario.json" "
     python3 -c 'import json, sys; print(json.load(open(sys.argv[1]))["hash"])' "$folder/$preset/summary.json" \
       >"$folder/$preset.hash"
   done
-  if cmp -s "$folder/release.hash" "$folder/debug.hash"; then
+  if cmp -s "$folder/release.hash" "$folder/unoptimised.hash"; then
     echo "build_types: $scenario $(cat "$folder/release.hash") in both"
   else
-    echo "build_types: $scenario differs: $(cat "$folder/release.hash") release, $(cat "$folder/debug.hash") debug" >&2
+    echo "build_types: $scenario differs: $(cat "$folder/release.hash") release, $(cat "$folder/unoptimised.hash") without optimisation" >&2
     status=1
   fi
 done
