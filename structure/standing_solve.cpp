@@ -269,7 +269,7 @@ std::vector<JointId> StandingFrame::State::next_generation() {
   for (int c = 0; c < statics.components(); ++c) {
     if (!to_check[static_cast<std::size_t>(c)]) continue;
     Way way = Way::unyielding;
-    if (ductile.any(c)) at_once([&] { way = follow_yielding(c, next); });
+    at_once([&] { way = follow_yielding(c, next); });
     if (way == Way::breaking) {
       continue;
     } else if (way == Way::resting) {
