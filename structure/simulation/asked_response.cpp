@@ -13,10 +13,7 @@ bool same_touch(const collision::Contact& a, const collision::Contact& b) {
 /// For who does not wait. Nobody has use for it any more.
 void Simulation::State::finish_awaited() {
   if (!awaited) return;
-  const double left = frame->allowance(), before = frame->counters().operations;
-  frame->allow(unlimited);
-  (void)frame->go_on();
-  frame->allow(left - (frame->counters().operations - before));
+  at_once([] {});
   awaited.reset();
 }
 

@@ -81,13 +81,11 @@ void Simulation::State::strike_by_host(const HostContact& contact, Part part, Ho
   const Body& striking = bodies.at(id.value);
   const Kinetic before = kinetic_energy(striking, world->state(id), reading());
   finish_awaited();
-  const double allowed = frame->allowance(), spent = frame->counters().operations;
-  frame->allow(unlimited);
-  (void)frame->go_on();
-  host_strikes = true;
-  strike_all({touch});
-  host_strikes = false;
-  frame->allow(allowed - (frame->counters().operations - spent));
+  at_once([&] {
+    host_strikes = true;
+    strike_all({touch});
+    host_strikes = false;
+  });
   const collision::BodyState after = now();
   const Kinetic left = kinetic_energy(striking, world->state(id), reading());
   body_work_put_in += before.translation + before.rotation - left.translation - left.rotation;

@@ -47,6 +47,15 @@ bool Simulation::State::waits_for_turn(Work work) const {
   return one.waits_since >= 0 && one.asked >= step - 1;
 }
 
+/// Without end to the budget, after what the frame is at work on; what both take is owed.
+void Simulation::State::at_once(const std::function<void()>& work) {
+  const double left = frame->allowance(), before = frame->counters().operations;
+  frame->allow(unlimited);
+  (void)frame->go_on();
+  work();
+  frame->allow(left - (frame->counters().operations - before));
+}
+
 void Simulation::State::spend_on_debris(double operations) {
   debris_operations += operations;
   frame->allow(frame->allowance() - operations);

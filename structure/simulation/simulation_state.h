@@ -106,6 +106,7 @@ struct Simulation::State {
   [[nodiscard]] bool waits_for_turn(Work work) const;
   /// Blows end where something breaks, to go on when it is solved for.
   [[nodiscard]] bool blows_wait() const { return scenario.operations_budget && !host_strikes; }
+  void at_once(const std::function<void()>& work);
   void spend_on_debris(double operations);
   void spend_on_chunks(std::size_t count);
   void hold_back(collision::BodyId id, collision::BodyState at);
