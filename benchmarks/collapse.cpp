@@ -107,24 +107,53 @@ structure::Simulation make(const std::string& name) {
   return structure::Simulation(std::move(building), std::move(scenario));
 }
 
-/// Time of the same steps of both, each pair in turn, so that what else the machine does falls on both.
-void compare(const std::string& name, const std::string& other, double seconds) {
-  std::array<structure::Simulation, 2> both{make(name), make(other)};
-  std::array<double, 2> whole{}, own{};
+/// Seconds of a whole run, with and without the engine.
+struct Cost {
+  double whole = 0, own = 0;
+};
+
+/// Costs of both, step by step in turns, so that what else the machine does falls on both. `first` (0 or 1) steps first: it
+/// finds the program's code and data colder than the other does.
+std::array<Cost, 2> in_turns(const std::array<std::string, 2>& names, double seconds, std::size_t first) {
+  std::array<structure::Simulation, 2> both{make(names[0]), make(names[1])};
+  std::array<Cost, 2> costs;
   for (structure::Simulation& simulation : both) simulation.step();
   const auto runs = [&](const structure::Simulation& one) { return !one.finished() && one.time() < seconds; };
   while (runs(both[0]) || runs(both[1]))
-    for (std::size_t i = 0; i < 2; ++i) {
+    for (const std::size_t i : {first, 1 - first}) {
       if (!runs(both[i])) continue;
       both[i].step();
       const auto& stages = both[i].stage_seconds();
       const double sum = std::accumulate(stages.begin(), stages.end(), 0.0);
-      whole[i] += sum;
-      own[i] += sum - both[i].collision_engine_seconds();
+      costs[i].whole += sum;
+      costs[i].own += sum - both[i].collision_engine_seconds();
     }
-  std::printf("                          %12s %12s  ratio\n", name.c_str(), other.c_str());
-  std::printf("all steps, ms             %12.2f %12.2f  %5.3f\n", 1e3 * whole[0], 1e3 * whole[1], whole[0] / whole[1]);
-  std::printf("without the engine, ms    %12.2f %12.2f  %5.3f\n", 1e3 * own[0], 1e3 * own[1], own[0] / own[1]);
+  return costs;
+}
+
+/// Each pair of runs is two, in which either goes first once.
+void compare(const std::string& name, const std::string& other, double seconds) {
+  constexpr std::size_t pairs = 7;
+  std::array<std::vector<double>, 2> whole, own;
+  std::array<std::vector<double>, 2> ratios;
+  for (std::size_t r = 0; r < pairs; ++r) {
+    const std::array<Cost, 2> a = in_turns({name, other}, seconds, 0), b = in_turns({name, other}, seconds, 1);
+    for (std::size_t i = 0; i < 2; ++i) {
+      whole[i].push_back((a[i].whole + b[i].whole) / 2);
+      own[i].push_back((a[i].own + b[i].own) / 2);
+    }
+    ratios[0].push_back(whole[0].back() / whole[1].back());
+    ratios[1].push_back(own[0].back() / own[1].back());
+  }
+  std::printf("medians of %zu pairs      %12s %12s  ratio (quartiles)\n", pairs, name.c_str(), other.c_str());
+  const auto row = [&](const char* what, const std::array<std::vector<double>, 2>& times,
+                       const std::vector<double>& ratio) {
+    std::printf("%-25s %12.2f %12.2f  %5.3f (%.3f to %.3f)\n", what, 1e3 * percentile(times[0], 0.5),
+                1e3 * percentile(times[1], 0.5), percentile(ratio, 0.5), percentile(ratio, 0.25),
+                percentile(ratio, 0.75));
+  };
+  row("all steps, ms", whole, ratios[0]);
+  row("without the engine, ms", own, ratios[1]);
 }
 
 std::vector<Step> run(structure::Simulation& simulation, double seconds) {
