@@ -28,6 +28,7 @@ struct Step {
   double engine = 0;               ///< s, within the stages
   std::uint64_t solves = 0, low_rank = 0, refactorisations = 0, events = 0, impacts = 0;
   double operations = 0;  ///< as a budget counts them
+  std::size_t bodies = 0, awake = 0;
   [[nodiscard]] double whole() const { return std::accumulate(stages.begin(), stages.end(), 0.0); }
   [[nodiscard]] double own() const { return whole() - engine; }
 };
@@ -93,12 +94,14 @@ void print_slowest(std::vector<Step> steps) {
 
 void write_steps(const std::string& path, const std::vector<Step>& steps) {
   std::ofstream file(path);
-  file << "step,sense,load,break,release,move,book,engine,solves,low_rank,new_factors,impacts,events,operations\n";
+  file << "step,sense,load,break,release,move,book,engine,solves,low_rank,new_factors,impacts,events,operations,bodies,"
+          "awake\n";
   for (const Step& step : steps) {
     file << step.number;
     for (double s : step.stages) file << ',' << s;
     file << ',' << step.engine << ',' << step.solves << ',' << step.low_rank << ',' << step.refactorisations << ','
-         << step.impacts << ',' << step.events << ',' << step.operations << '\n';
+         << step.impacts << ',' << step.events << ',' << step.operations << ',' << step.bodies << ',' << step.awake
+         << '\n';
   }
 }
 
@@ -173,6 +176,8 @@ std::vector<Step> run(structure::Simulation& simulation, double seconds) {
       step.events = simulation.events().size() - told;
       for (const auto& event : simulation.events().subspan(told))
         step.impacts += event.kind == structure::SimulationEvent::Kind::impact ? 1 : 0;
+      step.bodies = simulation.bodies().size();
+      step.awake = simulation.changes().moved.size();
       steps.push_back(step);
     }
     before = now;
