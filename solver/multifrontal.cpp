@@ -62,6 +62,23 @@ MultifrontalFactor::MultifrontalFactor(const SparseSymmetric& pattern, const std
   find_stacks();
 }
 
+MultifrontalFactor::MultifrontalFactor(const MultifrontalFactor& other)
+    : fronts_(other.fronts_),
+      child_start_(other.child_start_),
+      child_(other.child_),
+      odd_(other.odd_),
+      items_(other.items_),
+      item_parent_(other.item_parent_),
+      stack_entries_{other.stack_entries_[0], other.stack_entries_[1]},
+      threads_(other.threads_),
+      most_columns_(other.most_columns_),
+      most_below_(other.most_below_),
+      spends_(other.spends_),
+      values_(other.values_.size()),
+      failed_(other.failed_.load()) {
+  std::copy_n(other.values_.data(), other.values_.size(), values_.data());
+}
+
 MultifrontalFactor::~MultifrontalFactor() = default;
 
 void MultifrontalFactor::find_items() {

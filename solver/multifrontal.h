@@ -25,6 +25,7 @@ class MultifrontalFactor {
  public:
   /// Symbolic analysis. `order[k]` is the row eliminated k-th. `threads`: at least 1.
   MultifrontalFactor(const SparseSymmetric& pattern, const std::vector<int>& order, int threads);
+  MultifrontalFactor(const MultifrontalFactor& other);
   ~MultifrontalFactor();
 
   /// Factorises a matrix with the pattern given at construction. Returns how many columns, in the order of elimination,

@@ -91,9 +91,9 @@ void find_places(const SparseSymmetric& pattern, Element& element) {
 
 }  // namespace
 
-struct Superelement::State {
-  State(Patch given, std::span<const int> gone)
-      : patch(std::move(given)), share(patch.shells.size(), 1), shell_stands(patch.shells.size(), 1) {
+/// What stays as it is while shells go: a copy shares it.
+struct Superelement::Plan {
+  explicit Plan(Patch given) : patch(std::move(given)) {
     OwnStiffnesses known;
     for (std::size_t i = 0; i < patch.shells.size(); ++i) {
       check_shell(patch.shells[i], static_cast<int>(i), patch.nodes);
@@ -102,20 +102,15 @@ struct Superelement::State {
     for (const int node : patch.kept)
       if (node < 0 || static_cast<std::size_t>(node) >= patch.nodes.size())
         throw std::invalid_argument("node " + std::to_string(node) + " does not exist");
-    for (const int shell : gone) shell_stands[static_cast<std::size_t>(shell)] = 0;
     number_freedoms();
-    prepare();
-    condense();
+    for (std::size_t e = 0; e < patch.shells.size(); ++e) elements.push_back(element_of(e));
+    pattern = pattern_of(elements, inner, size());
+    for (Element& element : elements) find_places(pattern, element);
   }
 
-  void condense();
-  void drop_loose_shells();
   void number_freedoms();
-  void prepare();
   [[nodiscard]] Element element_of(std::size_t shell) const;
   [[nodiscard]] std::vector<int> order_of_elimination() const;
-  [[nodiscard]] SparseSymmetric assembled();
-  [[nodiscard]] Eigen::VectorXd gathered(const std::vector<Vec6>& loads) const;
   [[nodiscard]] Seen& seen(int node, int component) { return freedoms[static_cast<std::size_t>(6 * node + component)]; }
   [[nodiscard]] const Seen& seen(int node, int component) const {
     return freedoms[static_cast<std::size_t>(6 * node + component)];
@@ -123,20 +118,39 @@ struct Superelement::State {
   [[nodiscard]] int size() const { return inner + 6 * static_cast<int>(patch.kept.size()); }
 
   Patch patch;
-  std::vector<Mat24> own;     ///< of each shell, whole, in the freedoms of its nodes
-  std::vector<double> share;  ///< of each that is left
-  std::vector<char> shell_stands;
-  std::vector<int> shells_at;  ///< per node: how many stand
+  std::vector<Mat24> own;      ///< of each shell, whole, in the freedoms of its nodes
   std::vector<Seen> freedoms;  ///< per node and component, as long as the patch is this one
   int inner = 0;
   std::vector<Element> elements;
-  std::vector<char> alive;  ///< per inner equation: something that stands has stiffness there
   SparseSymmetric pattern;
-  std::optional<Condensation> condensation;
+};
+
+struct Superelement::State {
+  State(Patch given, std::span<const int> gone)
+      : plan(std::make_shared<const Plan>(std::move(given))),
+        share(plan->patch.shells.size(), 1),
+        shell_stands(plan->patch.shells.size(), 1),
+        condensation(plan->pattern, plan->inner, plan->order_of_elimination()) {
+    for (const int shell : gone) shell_stands[static_cast<std::size_t>(shell)] = 0;
+    condense();
+  }
+
+  void condense();
+  void drop_loose_shells();
+  [[nodiscard]] SparseSymmetric assembled();
+  [[nodiscard]] Eigen::VectorXd gathered(const std::vector<Vec6>& loads) const;
+
+  std::shared_ptr<const Plan> plan;
+  std::vector<double> share;  ///< of each that is left
+  std::vector<char> shell_stands;
+  std::vector<int> shells_at;  ///< per node: how many stand
+  std::vector<char> alive;     ///< per inner equation: something that stands has stiffness there
+  Condensation condensation;
 };
 
 /// Shells that no path over shared nodes joins to anything that holds or is seen.
 void Superelement::State::drop_loose_shells() {
+  const Patch& patch = plan->patch;
   std::vector<char> reached(patch.nodes.size(), 0);
   const auto reach = [&](int node) { reached[static_cast<std::size_t>(node)] = 1; };
   for (const int node : patch.kept) reach(node);
@@ -165,7 +179,7 @@ void Superelement::State::drop_loose_shells() {
 
 /// As if all shells stood: what goes later leaves equations without stiffness behind, so that pattern, order and
 /// fronts stay.
-void Superelement::State::number_freedoms() {
+void Superelement::Plan::number_freedoms() {
   freedoms.assign(6 * patch.nodes.size(), {});
   std::vector<char> held(freedoms.size(), 0), stiff(freedoms.size(), 0), placed(freedoms.size(), 0);
   for (const Support& support : patch.supports)
@@ -194,7 +208,7 @@ void Superelement::State::number_freedoms() {
         seen(tie.node, c) = {{inner + 6 * tie.kept[0] + c, inner + 6 * tie.kept[1] + c}, {1 - tie.share, tie.share}};
 }
 
-Element Superelement::State::element_of(std::size_t shell) const {
+Element Superelement::Plan::element_of(std::size_t shell) const {
   Element element;
   const auto& nodes = patch.shells[shell].node;
   const auto seen_by = [&](int k) -> const Seen& { return seen(nodes[static_cast<std::size_t>(k / 6)], k % 6); };
@@ -221,7 +235,7 @@ Element Superelement::State::element_of(std::size_t shell) const {
 
 /// Inner nodes by nested dissection. Then the kept ones, the last first: as blocks of their own, so that a front near
 /// one of them does not take all of them along.
-std::vector<int> Superelement::State::order_of_elimination() const {
+std::vector<int> Superelement::Plan::order_of_elimination() const {
   std::vector<std::vector<int>> rows(patch.nodes.size());
   for (std::size_t n = 0; n < patch.nodes.size(); ++n)
     for (std::size_t c = 0; c < 6; ++c)
@@ -249,19 +263,13 @@ std::vector<int> Superelement::State::order_of_elimination() const {
   return order;
 }
 
-void Superelement::State::prepare() {
-  for (std::size_t e = 0; e < patch.shells.size(); ++e) elements.push_back(element_of(e));
-  pattern = pattern_of(elements, inner, size());
-  for (Element& element : elements) find_places(pattern, element);
-  condensation.emplace(pattern, inner, order_of_elimination());
-}
-
 SparseSymmetric Superelement::State::assembled() {
-  SparseSymmetric matrix = pattern;
+  const int inner = plan->inner;
+  SparseSymmetric matrix = plan->pattern;
   alive.assign(static_cast<std::size_t>(inner), 0);
-  for (std::size_t e = 0; e < elements.size(); ++e) {
+  for (std::size_t e = 0; e < plan->elements.size(); ++e) {
     if (shell_stands[e] == 0) continue;
-    const Element& element = elements[e];
+    const Element& element = plan->elements[e];
     const std::int64_t* place = element.place.data();
     const auto count = static_cast<Eigen::Index>(element.number.size());
     for (Eigen::Index j = 0; j < count; ++j) {
@@ -274,10 +282,10 @@ SparseSymmetric Superelement::State::assembled() {
   const auto entry = [&](int row, int column) -> double& {  // of the diagonal, or between kept rows
     return matrix.value[static_cast<std::size_t>(matrix.start[static_cast<std::size_t>(column)] + row - column)];
   };
-  for (const Support& support : patch.supports)
+  for (const Support& support : plan->patch.supports)
     for (int c = 0; c < 6; ++c) {
       if (!std::isfinite(support.stiffness(c)) || !(support.stiffness(c) > 0)) continue;
-      const Seen& at = seen(support.node, c);
+      const Seen& at = plan->seen(support.node, c);
       for (std::size_t i = 0; i < 2; ++i)
         for (std::size_t j = 0; j < 2; ++j) {
           const int row = at.number[i], column = at.number[j];
@@ -293,16 +301,17 @@ SparseSymmetric Superelement::State::assembled() {
 
 void Superelement::State::condense() {
   drop_loose_shells();
-  if (!condensation->factorise(assembled())) throw std::invalid_argument("a patch of shells can move by itself");
+  if (!condensation.factorise(assembled())) throw std::invalid_argument("a patch of shells can move by itself");
 }
 
 /// Loads by equation: inner ones, then kept ones.
 /// Where nothing stands they act on nothing.
 Eigen::VectorXd Superelement::State::gathered(const std::vector<Vec6>& loads) const {
-  Eigen::VectorXd force = Eigen::VectorXd::Zero(size());
+  const int inner = plan->inner;
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(plan->size());
   for (std::size_t n = 0; n < loads.size(); ++n)
     for (int c = 0; c < 6; ++c) {
-      const Seen& to = seen(static_cast<int>(n), c);
+      const Seen& to = plan->seen(static_cast<int>(n), c);
       for (std::size_t i = 0; i < 2; ++i)
         if (to.number[i] >= inner || (to.number[i] >= 0 && alive[static_cast<std::size_t>(to.number[i])] != 0))
           force(to.number[i]) += to.weight[i] * loads[n](c);
@@ -312,6 +321,7 @@ Eigen::VectorXd Superelement::State::gathered(const std::vector<Vec6>& loads) co
 
 Superelement::Superelement(Patch patch, std::span<const int> gone)
     : state_(std::make_unique<State>(std::move(patch), gone)) {}
+Superelement::Superelement(const Superelement& other) : state_(std::make_unique<State>(*other.state_)) {}
 Superelement::~Superelement() = default;
 Superelement::Superelement(Superelement&&) noexcept = default;
 Superelement& Superelement::operator=(Superelement&&) noexcept = default;
@@ -333,23 +343,23 @@ void Superelement::keep(const std::vector<double>& share) {
   s.condense();
 }
 
-double Superelement::operations() const { return state_->condensation->operations(); }
+double Superelement::operations() const { return state_->condensation.operations(); }
 bool Superelement::stands(int shell) const { return state_->shell_stands[static_cast<std::size_t>(shell)] != 0; }
 bool Superelement::has_shells(int node) const { return state_->shells_at[static_cast<std::size_t>(node)] > 0; }
-const Eigen::MatrixXd& Superelement::stiffness() const { return state_->condensation->schur(); }
-const Superelement::Patch& Superelement::patch() const { return state_->patch; }
+const Eigen::MatrixXd& Superelement::stiffness() const { return state_->condensation.schur(); }
+const Superelement::Patch& Superelement::patch() const { return state_->plan->patch; }
 
 Eigen::VectorXd Superelement::condense(const std::vector<Vec6>& loads) const {
-  return state_->condensation->condense(state_->gathered(loads));
+  return state_->condensation.condense(state_->gathered(loads));
 }
 
 std::vector<Vec6> Superelement::recover(const Eigen::VectorXd& kept, const std::vector<Vec6>& loads) const {
   const State& s = *state_;
-  const Eigen::VectorXd all = s.condensation->recover(s.gathered(loads), kept);
-  std::vector<Vec6> displacements(s.patch.nodes.size(), Vec6::Zero());
+  const Eigen::VectorXd all = s.condensation.recover(s.gathered(loads), kept);
+  std::vector<Vec6> displacements(s.plan->patch.nodes.size(), Vec6::Zero());
   for (std::size_t n = 0; n < displacements.size(); ++n)
     for (int c = 0; c < 6; ++c) {
-      const Seen& from = s.seen(static_cast<int>(n), c);
+      const Seen& from = s.plan->seen(static_cast<int>(n), c);
       for (std::size_t i = 0; i < 2; ++i)
         if (from.number[i] >= 0) displacements[n](c) += from.weight[i] * all(from.number[i]);
     }
@@ -359,16 +369,17 @@ std::vector<Vec6> Superelement::recover(const Eigen::VectorXd& kept, const std::
 std::vector<Vec6> Superelement::reactions(const std::vector<Vec6>& displacements,
                                           const std::vector<Vec6>& loads) const {
   const State& s = *state_;
-  std::vector<Vec6> result(s.patch.nodes.size(), Vec6::Zero());
-  for (std::size_t e = 0; e < s.patch.shells.size(); ++e) {
+  std::vector<Vec6> result(s.plan->patch.nodes.size(), Vec6::Zero());
+  for (std::size_t e = 0; e < s.plan->patch.shells.size(); ++e) {
     if (s.shell_stands[e] == 0) continue;
     Vec24 u;
     for (int n = 0; n < 4; ++n)
       u.segment<6>(6 * n) =
-          displacements[static_cast<std::size_t>(s.patch.shells[e].node[static_cast<std::size_t>(n)])];
-    const Vec24 force = s.share[e] * (s.own[e] * u);
+          displacements[static_cast<std::size_t>(s.plan->patch.shells[e].node[static_cast<std::size_t>(n)])];
+    const Vec24 force = s.share[e] * (s.plan->own[e] * u);
     for (int n = 0; n < 4; ++n)
-      result[static_cast<std::size_t>(s.patch.shells[e].node[static_cast<std::size_t>(n)])] += force.segment<6>(6 * n);
+      result[static_cast<std::size_t>(s.plan->patch.shells[e].node[static_cast<std::size_t>(n)])] +=
+          force.segment<6>(6 * n);
   }
   for (std::size_t n = 0; n < loads.size(); ++n) result[n] -= loads[n];
   return result;

@@ -178,6 +178,13 @@ PanelSuperelement::PanelSuperelement(const Building& building, PanelId id, std::
   begin(std::move(patch));
 }
 
+/// The mesh of a membrane lies in the axes of its panel.
+PanelSuperelement::PanelSuperelement(const PanelSuperelement& whole, const Building& building, PanelId id)
+    : PanelSuperelement(whole) {
+  axes_ = turn_ = building[id].axes;
+  origin_ = building[building[id].nodes[0]].position;
+}
+
 /// The edges on which the panel's nodes lie.
 void PanelSuperelement::take_nodes(const Panel& panel) {
   edge_.assign(4, -1);

@@ -40,6 +40,9 @@ class PanelSuperelement {
   PanelSuperelement(const Building& building, PanelId id,
                     std::shared_ptr<ShellOperators> operators = std::make_shared<ShellOperators>());
 
+  /// A membrane panel of the same shape, material and thickness as one that is whole.
+  PanelSuperelement(const PanelSuperelement& whole, const Building& building, PanelId id);
+
   /// Only this remains; its holes begin with those of earlier calls.
   void fracture(const PanelRemains& remains);
   /// An edge is held no more, neither by its supports nor by what lies along it.

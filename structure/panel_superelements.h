@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <memory>
-#include <set>
 #include <stdexcept>
 
 #include "panel_superelement.h"
@@ -31,23 +31,37 @@ class PanelSuperelements {
   [[nodiscard]] PanelSuperelement* of(PanelId panel) const {
     return of_panel_[static_cast<std::size_t>(panel.index)].get();
   }
-  /// Finds the operators of a whole membrane's elements, which is most of what the first break of its shape would take.
+  /// Works out the superelement of a whole membrane of this shape: all that is left to do when one of them breaks is
+  /// what its hole changes.
   void know(PanelId panel) {
-    const Panel& own = building_[panel];
-    const auto corner = [&](std::size_t n) { return building_[own.nodes[n]].position; };
-    std::array<std::int64_t, 8> shape{own.material.index, std::llround(1e9 * own.thickness)};
-    for (std::size_t n = 0; n < 4; ++n) shape[2 + n] = std::llround(1e6 * (corner((n + 1) % 4) - corner(n)).norm());
-    shape[6] = std::llround(1e6 * (corner(2) - corner(0)).norm());
-    shape[7] = std::llround(1e6 * (corner(3) - corner(1)).norm());
-    if (!of(panel) && known_.insert(shape).second) (void)PanelSuperelement(building_, panel, operators_);
+    if (of(panel)) return;
+    auto& whole = whole_[shape(panel)];
+    if (!whole) whole = std::make_unique<PanelSuperelement>(building_, panel, operators_);
   }
   PanelSuperelement& make(PanelId panel) {
     auto& own = of_panel_[static_cast<std::size_t>(panel.index)];
-    if (!own) own = std::make_unique<PanelSuperelement>(building_, panel, operators_);
+    if (own) return *own;
+    const auto like = building_[panel].openings.empty() ? whole_.find(shape(panel)) : whole_.end();
+    own = like == whole_.end() ? std::make_unique<PanelSuperelement>(building_, panel, operators_)
+                               : std::make_unique<PanelSuperelement>(*like->second, building_, panel);
     return *own;
   }
 
  private:
+  /// Material, thickness, edges and diagonals, to a nanometre.
+  using Shape = std::array<std::int64_t, 8>;
+  [[nodiscard]] Shape shape(PanelId panel) const {
+    const auto rounded = [](double length) { return std::llround(1e9 * length); };
+    const Panel& own = building_[panel];
+    const auto apart = [&](std::size_t m, std::size_t n) {
+      return rounded((building_[own.nodes[n % 4]].position - building_[own.nodes[m]].position).norm());
+    };
+    Shape shape{own.material.index, rounded(own.thickness)};
+    for (std::size_t n = 0; n < 4; ++n) shape[2 + n] = apart(n, n + 1);
+    shape[6] = apart(0, 2);
+    shape[7] = apart(1, 3);
+    return shape;
+  }
   /// Members along edges that are not divided at the mesh would be left out.
   static void refuse_unready(const Building& building, const Frame& frame) {
     std::vector<std::size_t> panel_at(frame.model.nodes.size(), building.panels.size());
@@ -67,7 +81,7 @@ class PanelSuperelements {
   const Building& building_;
   std::shared_ptr<ShellOperators> operators_ = std::make_shared<ShellOperators>();
   std::vector<std::unique_ptr<PanelSuperelement>> of_panel_;
-  std::set<std::array<std::int64_t, 8>> known_;  ///< shapes: material, thickness, edges and diagonals
+  std::map<Shape, std::unique_ptr<PanelSuperelement>> whole_;  ///< membranes without openings
 };
 
 }  // namespace topple::structure

@@ -152,6 +152,22 @@ TEST_CASE("what a hole cuts off from everything that holds it leaves the superel
   CHECK_FALSE(element.has_shells(number(3, 2)));
 }
 
+TEST_CASE("a copy of a superelement loses shells of its own, and is what a new one is then") {
+  const Superelement whole(patch());
+  Superelement copy(whole), fresh(patch());
+  copy.remove(hole());
+  fresh.remove(hole());
+  const std::vector<Vec6> loads = loads_on(wall(), hole());
+  CHECK(copy.stiffness() == fresh.stiffness());
+  CHECK(copy.condense(loads) == fresh.condense(loads));
+  CHECK_FALSE(copy.stands(hole().front()));
+  // The one that it was copied from stands as it did.
+  const Superelement other(patch());
+  CHECK(whole.stands(hole().front()));
+  CHECK(whole.stiffness() == other.stiffness());
+  CHECK(whole.condense(loads) == other.condense(loads));
+}
+
 TEST_CASE("a tied edge stays straight: the patch is no softer than with free edges, and moves with its corners") {
   Superelement::Patch free = patch(), tied = patch();
   free.supports.clear();

@@ -85,6 +85,39 @@ TEST_CASE("an opening makes a membrane softer, and the larger the softer") {
   }
 }
 
+TEST_CASE("a slab that breaks is made from a whole one of its shape, which lies elsewhere and the other way round") {
+  // 6 m x 4 m, and the same turned by a right angle and moved.
+  const auto placed = [](std::array<std::array<int, 2>, 4> corners) {
+    Building b = building("");
+    for (std::size_t n = 0; n < 8; ++n) b.nodes[n].position.head<2>() = Vec2(corners[n % 4][0], corners[n % 4][1]);
+    const Vec3 x = (b.nodes[5].position - b.nodes[4].position).normalized();
+    b.panels[0].axes << x.transpose(), Vec3::UnitZ().cross(x).transpose(), Vec3::UnitZ().transpose();
+    return b;
+  };
+  const Building here = placed({{{0, 0}, {6, 0}, {6, 4}, {0, 4}}}),
+                 there = placed({{{1, 2}, {1, 8}, {-3, 8}, {-3, 2}}});
+  const PanelSuperelement whole(here, PanelId(0u));
+  PanelSuperelement made(whole, there, PanelId(0u)), fresh(there, PanelId(0u));
+  const auto equal = [&] {
+    const Eigen::MatrixXd expected = fresh.stiffness();
+    CHECK((made.stiffness() - expected).norm() < 1e-12 * expected.norm());
+    PanelLoading loading;
+    loading.traction = Vec3(100, 200, 300);
+    loading.forces.push_back({Vec3(0, 6, 4), Vec3(1000, -500, 0)});
+    const std::vector<Vec6> loads = made.loads_at_nodes(loading), wanted = fresh.loads_at_nodes(loading);
+    double largest = 0;
+    for (const Vec6& load : wanted) largest = std::max(largest, load.norm());
+    for (std::size_t n = 0; n < 4; ++n) CHECK((loads[n] - wanted[n]).norm() < 1e-9 * largest);
+  };
+  equal();
+  PanelRemains remains;
+  remains.holes = {{{1, 1}, {3, 1}, {3, 2.2}, {1, 2.2}}};
+  made.fracture(remains);
+  fresh.fracture(remains);
+  CHECK(made.stiffness().norm() < 0.99 * whole.stiffness().norm());
+  equal();
+}
+
 TEST_CASE("an analysis and a standing frame agree on a slab with an opening, and its weight is what is there") {
   const Building b = building(window);
   const AnalysisResult analysis = analyse(b);

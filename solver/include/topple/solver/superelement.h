@@ -30,6 +30,8 @@ class Superelement {
   };
   /// `gone`: shells that are not there from the beginning.
   explicit Superelement(Patch patch, std::span<const int> gone = {});
+  /// From then on each loses its own shells. What does not change is shared: a copy costs far less than a new one.
+  Superelement(const Superelement& other);
   ~Superelement();
   Superelement(Superelement&&) noexcept;
   Superelement& operator=(Superelement&&) noexcept;
@@ -60,6 +62,7 @@ class Superelement {
   [[nodiscard]] const Patch& patch() const;
 
  private:
+  struct Plan;
   struct State;
   std::unique_ptr<State> state_;
 };
