@@ -188,7 +188,7 @@ std::vector<Step> run(structure::Simulation& simulation, double seconds) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  solver::restart_with_better_blas_kernel(argv);
+  solver::prepare_blas(argv);
   std::string scenario_name = "seed_hit", steps_file, other;
   double seconds = structure::unlimited;
   for (int i = 1; i < argc; ++i) {

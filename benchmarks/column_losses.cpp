@@ -28,7 +28,7 @@ double error(const RegularFrame& frame, const solver::Reanalysis& standing, int 
 }  // namespace
 
 int main(int argc, char** argv) {
-  solver::restart_with_better_blas_kernel(argv);
+  solver::prepare_blas(argv);
   if (argc != 1 && argc != 5) {
     std::fprintf(stderr, "usage: bench_column_losses [posts_x posts_y storeys lost_storeys]\n");
     return 2;

@@ -228,7 +228,7 @@ void compare_fresh(const solver::FrameSystem& system) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  solver::restart_with_better_blas_kernel(argv);
+  solver::prepare_blas(argv);
   openblas_set_num_threads(1);
   int size[3] = {10, 10, 40};
   for (int i = 1; i < std::min(argc, 4); ++i) size[i - 1] = std::atoi(argv[i]);

@@ -102,7 +102,7 @@ bool takes_correction(const RegularFrame& frame, const std::vector<int>& members
 }  // namespace
 
 int main(int argc, char** argv) {
-  solver::restart_with_better_blas_kernel(argv);
+  solver::prepare_blas(argv);
   if (argc != 1 && argc != 4 && argc != 5) {
     std::fprintf(stderr, "usage: bench_ladder [posts_x posts_y storeys [counts]]\n");
     return 2;

@@ -65,7 +65,7 @@ void print(const char* name, const Spread& s) {
 }  // namespace
 
 int main(int, char** argv) {
-  topple::solver::restart_with_better_blas_kernel(argv);
+  topple::solver::prepare_blas(argv);
   const int all = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   std::printf("{\"blas_kernel\": \"%s\", \"processors\": %d", topple::solver::blas_kernel().c_str(), all);
   print("product_gflops", product_rate(1));

@@ -155,7 +155,7 @@ Together break_together(solver::Reanalysis& standing, const RegularFrame& frame,
 }  // namespace
 
 int main(int argc, char** argv) {
-  solver::restart_with_better_blas_kernel(argv);
+  solver::prepare_blas(argv);
   if (argc != 1 && argc != 5) {
     std::fprintf(stderr, "usage: bench_reanalysis [posts_x posts_y storeys breaks]\n");
     return 2;

@@ -6,14 +6,20 @@
 #include <unistd.h>
 #endif
 
-extern "C" char* openblas_get_corename();
+extern "C" {
+char* openblas_get_corename();
+void openblas_set_num_threads(int);
+#if defined(__linux__)
+__attribute__((weak)) int blas_thread_shutdown_();  // not there where OpenBLAS has been built without threads
+#endif
+}
 
 namespace topple::solver {
 
 namespace {
 
 constexpr const char* variable = "OPENBLAS_CORETYPE";
-/// BLAS runs on one thread in any case; told so before it is loaded, it starts none that spin for a while.
+/// BLAS runs on one thread in any case; told so before it is loaded, it starts none.
 constexpr const char* threads = "OPENBLAS_NUM_THREADS";
 
 /// Kernels for this processor's instruction set; empty when OpenBLAS's own choice cannot be bettered.
@@ -37,6 +43,14 @@ int width_class(const std::string& kernel) {
   return 0;
 }
 
+#if defined(__linux__)
+void end_blas_threads() {
+  if (blas_thread_shutdown_ == nullptr) return;
+  openblas_set_num_threads(1);
+  blas_thread_shutdown_();
+}
+#endif
+
 }  // namespace
 
 std::string blas_kernel() { return openblas_get_corename(); }
@@ -48,15 +62,16 @@ std::optional<std::string> better_blas_kernel() {
   return wanted;
 }
 
-void restart_with_better_blas_kernel([[maybe_unused]] char** argv) {
+void prepare_blas([[maybe_unused]] char** argv) {
 #if defined(__linux__)
   const auto wanted = better_blas_kernel();
-  if (!wanted) return;
+  if (!wanted) return end_blas_threads();
   // The variable, once set, also keeps the restarted program from starting again.
   if (setenv(variable, wanted->c_str(), 1) != 0) return;
   setenv(threads, "1", 0);
   execv("/proc/self/exe", argv);
   unsetenv(variable);  // the restart was refused: go on with what there is
+  end_blas_threads();
 #endif
 }
 

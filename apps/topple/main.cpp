@@ -52,7 +52,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace topple::app;
-  topple::solver::restart_with_better_blas_kernel(argv);
+  topple::solver::prepare_blas(argv);
   try {
     const int status = run(argc, argv);
     std::cout.flush();

@@ -164,7 +164,7 @@ void run(const std::string& file) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  solver::restart_with_better_blas_kernel(argv);
+  solver::prepare_blas(argv);
   try {
     if (argc != 2) throw std::runtime_error("usage: bench_scaling MODEL.json");
     run(argv[1]);

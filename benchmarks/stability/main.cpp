@@ -82,7 +82,7 @@ void print(const DebrisVerdict& v) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  topple::solver::restart_with_better_blas_kernel(argv);
+  topple::solver::prepare_blas(argv);
   try {
     int members = 100000, changes = 10000, frames = 20000;
     for (int i = 1; i < argc; ++i) {

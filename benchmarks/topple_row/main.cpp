@@ -209,7 +209,7 @@ void run(const StandingBuilding& standing, int repeats, double push) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  solver::restart_with_better_blas_kernel(argv);
+  solver::prepare_blas(argv);
   try {
     if (argc < 2) throw std::runtime_error("usage: bench_topple MODEL [--repeats N] [--frame-only] [--push NEWTON]");
     int repeats = 200;

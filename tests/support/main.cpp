@@ -4,6 +4,6 @@
 #include "topple/solver/blas_kernel.h"
 
 int main(int argc, char** argv) {
-  topple::solver::restart_with_better_blas_kernel(argv);
+  topple::solver::prepare_blas(argv);
   return Catch::Session().run(argc, argv);
 }

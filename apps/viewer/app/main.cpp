@@ -86,7 +86,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  topple::solver::restart_with_better_blas_kernel(argv);
+  topple::solver::prepare_blas(argv);
   try {
     return run(argc, argv);
   } catch (const topple::structure::InputError& error) {

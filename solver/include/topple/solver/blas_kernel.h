@@ -16,9 +16,11 @@ namespace topple::solver {
 /// kernels in use are already those, or when the user has set the variable.
 [[nodiscard]] std::optional<std::string> better_blas_kernel();
 
-/// Starts the program again, once, with OPENBLAS_CORETYPE set when that helps; else returns. For programs that own
-/// their main: call it first thing there. A library's host calls better_blas_kernel() and decides. Does nothing where
-/// programs cannot replace themselves.
-void restart_with_better_blas_kernel(char** argv);
+/// Starts the program again, once, with OPENBLAS_CORETYPE set when that helps; else ends the threads that OpenBLAS has
+/// started when it was loaded: with nothing to do, each keeps a processor busy for some 20 ms before it sleeps, as long
+/// as a small analysis takes. (It starts them anew for who asks for more than one thread later.) For programs that own
+/// their main: call it first thing there, before other threads use BLAS. A library's host calls better_blas_kernel()
+/// and decides. Does nothing where programs cannot replace themselves.
+void prepare_blas(char** argv);
 
 }  // namespace topple::solver
