@@ -82,7 +82,7 @@ Vec12 FrameSystem::end_forces(int index, const std::vector<Vec6>& displacements,
   return beam_end_forces(CondensedBeam(beam, beam_factor[i]), beam.length, hubs, fixed_end);
 }
 
-std::vector<StaticSolution> FrameSystem::recover(std::span<const LoadVector> loads,
+std::vector<StaticSolution> FrameSystem::recover(std::span<LoadVector> loads,
                                                  const Eigen::MatrixXd& displacements, int threads) const {
   std::vector<StaticSolution> solutions(loads.size());
   const auto count = static_cast<int>(loads.size());
@@ -90,6 +90,8 @@ std::vector<StaticSolution> FrameSystem::recover(std::span<const LoadVector> loa
     const auto k = static_cast<std::size_t>(set);
     solutions[k].displacements =
         node_displacements(displacements.col(static_cast<Eigen::Index>(k)), loads[k].held_displacement);
+    // Each place holds what the loads do at fixed ends until the beam's own turn.
+    solutions[k].beam_end_forces = std::move(loads[k].beam_fixed_end);
     solutions[k].beam_end_forces.resize(model.beams.size(), Vec12::Zero());
     solutions[k].shell_corner_forces.resize(model.shells.size());
   });
@@ -97,16 +99,16 @@ std::vector<StaticSolution> FrameSystem::recover(std::span<const LoadVector> loa
     const Beam& beam = model.beams[i];
     std::optional<BeamStrainStiffness> stiffness;
     if (second_order == nullptr) stiffness = strain_stiffness(CondensedBeam(beam, beam_factor[i]));
-    for (std::size_t k = 0; k < loads.size(); ++k) {
-      const Vec12 fixed = loads[k].beam_fixed_end.empty() ? Vec12::Zero() : loads[k].beam_fixed_end[i];
-      const std::vector<Vec6>& u = solutions[k].displacements;
+    for (StaticSolution& solution : solutions) {
+      Vec12& force = solution.beam_end_forces[i];
+      const std::vector<Vec6>& u = solution.displacements;
       if (!stiffness) {
-        solutions[k].beam_end_forces[i] = end_forces(static_cast<int>(i), u, fixed);
+        force = end_forces(static_cast<int>(i), u, Vec12(force));
         continue;
       }
       const Vec12 hubs =
           hub_displacements(beam, u[static_cast<std::size_t>(beam.node[0])], u[static_cast<std::size_t>(beam.node[1])]);
-      solutions[k].beam_end_forces[i] = *stiffness * relative_motion(beam.length, hubs) + fixed;
+      force += *stiffness * relative_motion(beam.length, hubs);
     }
   };
   constexpr std::size_t together = 1024;
@@ -114,7 +116,10 @@ std::vector<StaticSolution> FrameSystem::recover(std::span<const LoadVector> loa
   each_on_threads(static_cast<int>((beams + together - 1) / together), count > 1 ? threads : 1, [&](int chunk) {
     const std::size_t first = static_cast<std::size_t>(chunk) * together;
     for (std::size_t i = first; i < std::min(beams, first + together); ++i)
-      if (beam_stands[i] != 0) recover_beam(i);
+      if (beam_stands[i] != 0)
+        recover_beam(i);
+      else
+        for (StaticSolution& solution : solutions) solution.beam_end_forces[i].setZero();
   });
   for (std::size_t i = 0; i < model.shells.size(); ++i)
     for (std::size_t k = 0; k < loads.size(); ++k) {

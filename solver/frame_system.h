@@ -127,8 +127,8 @@ class FrameSystem {
   [[nodiscard]] std::vector<Vec6> shape(const Eigen::VectorXd& scaled) const;
   [[nodiscard]] Vec12 end_forces(int beam, const std::vector<Vec6>& displacements, const Vec12& fixed_end) const;
   /// Displacements, forces and reactions of several right-hand sides, the solution of each (not scaled) in a column.
-  /// Their quality is left to the caller.
-  [[nodiscard]] std::vector<StaticSolution> recover(std::span<const LoadVector> loads,
+  /// Their quality is left to the caller. The loads' `beam_fixed_end` are used up.
+  [[nodiscard]] std::vector<StaticSolution> recover(std::span<LoadVector> loads,
                                                     const Eigen::MatrixXd& displacements, int threads = 1) const;
   /// Per corner: what the node does to the shell, global; `fixed` as in LoadVector. Of a hanging shell only the part
   /// that its membrane forces have in the second order.

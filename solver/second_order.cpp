@@ -147,7 +147,8 @@ struct SecondOrderAnalysis::State {
   }
 
   [[nodiscard]] StaticSolution recover(const LoadVector& load, const Eigen::VectorXd& u) const {
-    StaticSolution solution = std::move(system_.recover({&load, 1}, u).front());
+    LoadVector used_up = load;
+    StaticSolution solution = std::move(system_.recover({&used_up, 1}, u).front());
     if (axial_.mode == SecondOrder::frame3dd) print_as_frame3dd(load, solution);
     return solution;
   }

@@ -113,7 +113,7 @@ Eigen::MatrixXd Prepared::right_hand_sides(std::span<const LoadVector> vectors) 
 }
 
 /// From the scaled displacements; condition and error bound are left to tell_condition().
-std::vector<StaticSolution> answers(const Prepared& prepared, std::span<const LoadVector> vectors,
+std::vector<StaticSolution> answers(const Prepared& prepared, std::vector<LoadVector> vectors,
                                     RefinedSolution refined) {
   const FrameSystem& system = prepared.system;
   refined.x.array().colwise() *= Eigen::Map<const Eigen::ArrayXd>(system.scale().data(), system.dofs().equations);
@@ -156,12 +156,12 @@ std::vector<StaticSolution> solve_each(Prepared& prepared, std::span<const LoadS
   std::vector<StaticSolution> solutions;
   {
     const Stopwatch watch(prepared.statistics.solve_seconds);
-    const std::vector<LoadVector> vectors = prepared.system.load_vectors(loads);
+    std::vector<LoadVector> vectors = prepared.system.load_vectors(loads);
     for (const LoadVector& vector : vectors) require_stable(prepared.system.unbalanced_load(vector));
     const Eigen::MatrixXd b = prepared.right_hand_sides(vectors);
     RefinedSolution refined{b, std::vector<SolveQuality>(loads.size())};
     if (b.rows() > 0) refined = solve_refined(prepared.system.matrix(), prepared.linear_solve(), b);
-    solutions = answers(prepared, vectors, std::move(refined));
+    solutions = answers(prepared, std::move(vectors), std::move(refined));
   }
   tell_condition(prepared, condition, solutions);
   return solutions;
@@ -251,9 +251,9 @@ std::optional<std::vector<StaticSolution>> add_up(Prepared& prepared, std::span<
                     [&](int j) { sums[static_cast<std::size_t>(j)] = sum_of(vectors, factors.col(j)); });
     const ExtendedResidual residual(system.matrix(), threads);
     const OnceRefined of_cases = refine_once(residual, prepared.linear_solve(), prepared.right_hand_sides(vectors));
-    solutions = answers(prepared, sums,
-                        refine(residual, prepared.linear_solve(), prepared.right_hand_sides(sums),
-                               sums_of(of_cases, factors, threads)));
+    RefinedSolution refined = refine(residual, prepared.linear_solve(), prepared.right_hand_sides(sums),
+                                     sums_of(of_cases, factors, threads));
+    solutions = answers(prepared, std::move(sums), std::move(refined));
   }
   tell_condition(prepared, condition, solutions);
   return solutions;

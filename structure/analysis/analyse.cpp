@@ -101,9 +101,9 @@ class Analysis {
   }
 
   /// Combinations that are linear to the end stand alone; others share an ordering, and what one leaves behind.
-  void recover(const std::vector<solver::StaticSolution>& solutions, AnalysisResult& result) {
+  void recover(std::vector<solver::StaticSolution> solutions, AnalysisResult& result) {
     result.combinations.resize(solutions.size());
-    const auto one = [&](std::size_t k) { result.combinations[k] = analysed(k, solutions[k]); };
+    const auto one = [&](std::size_t k) { result.combinations[k] = analysed(k, std::move(solutions[k])); };
     if (linear_) {
       side_by_side(solutions.size(), request_.workers, one);
     } else {
@@ -157,9 +157,9 @@ class Analysis {
   }
 
   /// With tension-only and compression-only members slack where they have to be.
-  [[nodiscard]] OneWayAnswer settled(std::size_t k, const solver::StaticSolution& solution) const {
+  [[nodiscard]] OneWayAnswer settled(std::size_t k, solver::StaticSolution solution) const {
     const OneWayMembers one_way(frame_.model);
-    if (!one_way.any()) return {solution, {}, {}, 0, {}};
+    if (!one_way.any()) return {std::move(solution), {}, {}, 0, {}};
     const auto linear = [&](const solver::FrameModel& model, OneWayAnswer& answer) {
       solver::StaticAnalysis analysis(model, request_.solver);
       answer.solution = std::move(analysis.solve({&loads_[k].set, 1}).front());
@@ -178,8 +178,8 @@ class Analysis {
   }
 
   /// Second order and buckling on what is taut, when they are asked for.
-  [[nodiscard]] CombinationResult analysed(std::size_t k, const solver::StaticSolution& linear) {
-    OneWayAnswer answer = settled(k, linear);
+  [[nodiscard]] CombinationResult analysed(std::size_t k, solver::StaticSolution linear) {
+    OneWayAnswer answer = settled(k, std::move(linear));
     const bool second_order = request_.second_order != solver::SecondOrder::none;
     if (!second_order && request_.buckling == 0) {
       if (case_loads_) return gather_sum(k, answer);
