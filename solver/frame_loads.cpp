@@ -126,6 +126,20 @@ void FrameSystem::add_fixed_end(int index, const Vec12& fixed_end, Eigen::Vector
 
 LoadVector FrameSystem::load_vector(const LoadSet& loads) const { return std::move(load_vectors({&loads, 1}).front()); }
 
+namespace {
+
+/// Energies, norms and stiffnesses under load multiply loads and displacements with each other.
+void require_computable(const Eigen::VectorXd& force) {
+  constexpr double most = 1e100;
+  if (!force.allFinite()) throw std::invalid_argument("a load is not finite");
+  if (force.size() > 0 && force.cwiseAbs().maxCoeff() > most)
+    throw std::invalid_argument(
+        "a load, or what a settlement or a temperature amounts to, is too large to compute with; accepted: at most "
+        "1e100 N or N m");
+}
+
+}  // namespace
+
 std::vector<LoadVector> FrameSystem::load_vectors(std::span<const LoadSet> sets) const {
   std::vector<LoadVector> result(sets.size());
   for (std::size_t k = 0; k < sets.size(); ++k) {
@@ -138,7 +152,7 @@ std::vector<LoadVector> FrameSystem::load_vectors(std::span<const LoadSet> sets)
     if (!sets[k].shells.empty()) add_shell_loads(sets[k].shells, vector);
     vector.held_displacement = held_displacements(sets[k].settlements);
     if (!(vector.held_displacement.array() == 0).all()) add_settlement_forces(vector);
-    if (!vector.force.allFinite()) throw std::invalid_argument("a load is not finite");
+    require_computable(vector.force);
   }
   return result;
 }

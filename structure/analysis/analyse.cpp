@@ -83,6 +83,7 @@ class Analysis {
       result.warnings.push_back("the model is nearly unstable: about " +
                                 std::to_string(static_cast<int>(result.statistics.digits_left)) +
                                 " digits of the answer are left");
+    warn_of_error(result);
     return result;
   }
 
@@ -282,6 +283,24 @@ class Analysis {
         building_.members[static_cast<std::size_t>(*heated.begin())].name +
         (heated.size() > 1 ? " and " + std::to_string(heated.size() - 1) + " more" : "") +
         "); --p-delta=cubic gives those in equilibrium");
+  }
+
+  /// What an answer says of its own error, where that is more than an engineer can overlook.
+  void warn_of_error(AnalysisResult& result) const {
+    constexpr double few_digits = 1e-6;
+    const auto digits = [](double error) {
+      return std::to_string(error < 1 ? static_cast<int>(-std::log10(error)) : 0);
+    };
+    for (const CombinationResult& c : result.combinations) {
+      const std::string of = "combination " + building_[c.combination].name + ": ";
+      if (c.equilibrium_error > few_digits)
+        result.warnings.push_back(of + "reactions balance the loads to about " + digits(c.equilibrium_error) +
+                                  " digits only (equilibrium error " + short_number(c.equilibrium_error) + ")");
+      if (!c.quality.converged)
+        result.warnings.push_back(of + "the equations are not solved to rounding (backward error " +
+                                  short_number(c.quality.backward_error) + "); about " +
+                                  digits(c.quality.error_bound) + " digits of the displacements are certain");
+    }
   }
 
   static std::string short_number(double number) {

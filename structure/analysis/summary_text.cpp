@@ -34,6 +34,13 @@ std::string short_number(double number) {
   return buffer;
 }
 
+/// Of a drift: 1/350, but 1/0.7 where a structure all but lies down.
+std::string whole_number(double number) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, number < 10 ? "%.2g" : "%.0f", number);
+  return buffer;
+}
+
 void most_used(Text& text, const Building& building, const CombinationResult& c) {
   std::vector<std::size_t> order;
   for (std::size_t j = 0; j < c.joints.size(); ++j)
@@ -111,10 +118,10 @@ void combination(Text& text, const Building& building, const AnalysisResult& res
       storey = i + 1;
     }
   if (drift > 0 && result.design_code)
-    text.line("  largest drift        1/%.0f in storey %zu: %.1f %% of the limit 1/%.0f", 1 / drift, storey,
-              100 * drift / result.drift_limit, 1 / result.drift_limit);
+    text.line("  largest drift        1/%s in storey %zu: %.1f %% of the limit 1/%.0f", whole_number(1 / drift).c_str(),
+              storey, 100 * drift / result.drift_limit, 1 / result.drift_limit);
   else if (drift > 0)
-    text.line("  largest drift        1/%.0f in storey %zu", 1 / drift, storey);
+    text.line("  largest drift        1/%s in storey %zu", whole_number(1 / drift).c_str(), storey);
   most_used_members(text, building, result, c);
   most_used(text, building, c);
   if (!c.buckling.empty()) {

@@ -1,4 +1,5 @@
 // Static analysis of buildings end to end: closed forms, OpenSees' answers, equilibrium, shipped models, instability.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <fstream>
@@ -181,4 +182,64 @@ TEST_CASE("a node that only a membrane reaches is unstable, and the message says
     "supports": {"A": "fixed", "B": "fixed"}, "loads": {"case": {"nodes": {"B": {"z": -1}}}}})";
   CHECK_THROWS_WITH(analyse(parse_model(text, "m.json")),
                     Catch::Contains("only membrane panels reach node") && Catch::Contains("along z"));
+}
+
+TEST_CASE("loads whose squares leave the range of numbers are an error at once, whatever is asked for") {
+  for (const char* size : {"-1e101", "-1e250", "-1e305"}) {
+    const Building b = parse_model(
+        cantilever(R"({"A": "fixed"})", R"({"case": {"nodes": {"B": {"x": )" + std::string(size) + "}}}}"), "c.json");
+    for (const bool second_order : {false, true})
+      for (const int buckling : {0, 2}) {
+        AnalysisRequest request;
+        request.second_order = second_order ? topple::solver::SecondOrder::exact : topple::solver::SecondOrder::none;
+        request.buckling = buckling;
+        CHECK_THROWS_WITH(analyse(b, request), Catch::Contains("too large to compute with"));
+      }
+  }
+  // Just within them, a critical load is a critical load: pi2 E I / (4 L2), less by shear.
+  AnalysisRequest request;
+  request.buckling = 1;
+  const Building b =
+      parse_model(cantilever(R"({"A": "fixed"})", R"({"case": {"nodes": {"B": {"x": -1e99}}}})"), "c.json");
+  const double euler = std::pow(std::acos(-1.0) / 8, 2) * 2e11 * 3e-5, critical = euler / (1 + euler / (8e10 * 0.004));
+  CHECK(analyse(b, request).combinations.at(0).buckling.at(0).factor == Approx(critical / 1e99).epsilon(1e-9));
+}
+
+TEST_CASE("reactions that balance the loads to a few digits only are warned of") {
+  // A cantilever cut into ever shorter members: the bending of each is ever smaller against its stiffness.
+  const auto cut = [](int pieces) {
+    std::string nodes = R"("n0": [0, 0, 0])", members;
+    for (int i = 0; i < pieces; ++i) {
+      const std::string here = std::to_string(i), next = std::to_string(i + 1);
+      nodes += R"(, "n)" + next + "\": [" + std::to_string(10.0 * (i + 1) / pieces) + ", 0, 0]";
+      members += (i > 0 ? ", \"m" : "\"m") + here + R"(": {"nodes": ["n)" + here + R"(", "n)" + next +
+                 R"("], "section": "s", "material": "steel"})";
+    }
+    return parse_model(R"({"topple": 1, "materials": {"steel": {"youngs_modulus": 2e11, "shear_modulus": 8e10,
+        "density": 7850}}, "sections": {"s": {"shape": "box", "depth": 0.3, "width": 0.3, "thickness": 0.01}},
+        "supports": {"n0": "fixed"}, "nodes": {)" +
+                           nodes + "}, \"members\": {" + members + "}}",
+                       "chain.json");
+  };
+  const auto warned = [](const AnalysisResult& result) {
+    return std::any_of(result.warnings.begin(), result.warnings.end(), [](const std::string& warning) {
+      return warning.find("combination self weight: reactions balance the loads to about") != std::string::npos;
+    });
+  };
+  const AnalysisResult coarse = analyse(cut(30)), fine = analyse(cut(20000));
+  CHECK(coarse.combinations.at(0).equilibrium_error < 1e-8);
+  CHECK_FALSE(warned(coarse));
+  INFO(fine.combinations.at(0).equilibrium_error);
+  REQUIRE(fine.combinations.at(0).equilibrium_error > 1e-6);
+  CHECK(warned(fine));
+}
+
+TEST_CASE("an answer that is not solved to rounding says so") {
+  // Displacements below the least number that a double can hold to its full digits.
+  const Building b =
+      parse_model(cantilever(R"({"A": "fixed"})", R"({"case": {"nodes": {"B": {"z": -3e-320}}}})"), "c.json");
+  const AnalysisResult result = analyse(b);
+  REQUIRE_FALSE(result.combinations.at(0).quality.converged);
+  REQUIRE(result.warnings.size() >= 2);
+  CHECK(result.warnings.back().find("not solved to rounding") != std::string::npos);
 }
