@@ -196,6 +196,8 @@ BodyId BulletWorld::add_body(const BodyDescription& description) {
   set_continuous(*body);
 
   bodies_.push_back(std::move(body));
+  seen_.emplace_back();
+  awake_count_.reset();
   order_.push_back(id);
   set_state(id, {description.pose, description.velocity, description.angular_velocity, false});
   world_.addRigidBody(&rigid, kBodies, btBroadphaseProxy::AllFilter);
@@ -221,6 +223,7 @@ void BulletWorld::remove_body(BodyId id) {
   forget_contacts_of(Touched::Kind::body, id.value);
   world_.removeRigidBody(gone.rigid.get());
   bodies_[static_cast<std::size_t>(id.value)].reset();
+  awake_count_.reset();
   order_.erase(std::lower_bound(order_.begin(), order_.end(), id));
 }
 
@@ -261,7 +264,13 @@ void BulletWorld::move_obstacle(ObstacleId id, const Pose& pose) {
 }
 
 BodyState BulletWorld::state(BodyId id) const {
-  const Body& seen = body(id.value);
+  const Body& wanted = body(id.value);
+  Seen& seen = seen_[static_cast<std::size_t>(id.value)];
+  if (!seen.holds) seen = {read(wanted), true};
+  return seen.state;
+}
+
+BodyState BulletWorld::read(const Body& seen) {
   const btTransform& frame = seen.rigid->getWorldTransform();
   BodyState state;
   state.pose.position = from_bullet(frame.getOrigin());
@@ -290,6 +299,8 @@ void BulletWorld::set_state(BodyId id, const BodyState& state) {
   if (rigid.getBroadphaseHandle()) world_.updateSingleAabb(&rigid);
   if (state.asleep) {
     rigid.forceActivationState(ISLAND_SLEEPING);
+    seen_[static_cast<std::size_t>(id.value)].holds = false;
+    awake_count_.reset();
   } else {
     wake(id);
   }
@@ -306,6 +317,8 @@ void BulletWorld::wake(BodyId id) {
   rigid.forceActivationState(ACTIVE_TAG);
   rigid.setDeactivationTime(0);
   body(id.value).watched = false;
+  seen_[static_cast<std::size_t>(id.value)].holds = false;
+  awake_count_.reset();
 }
 
 void BulletWorld::wake_all() {
@@ -325,8 +338,23 @@ void BulletWorld::wake_touching(const btCollisionObject& object) {
 }
 
 std::size_t BulletWorld::awake_count() const {
-  return static_cast<std::size_t>(
-      std::count_if(order_.begin(), order_.end(), [&](BodyId id) { return body(id.value).rigid->isActive(); }));
+  if (!awake_count_)
+    awake_count_ = static_cast<std::size_t>(
+        std::count_if(order_.begin(), order_.end(), [&](BodyId id) { return body(id.value).rigid->isActive(); }));
+  return *awake_count_;
+}
+
+/// After a step, while what moved is at hand. What slept before it and sleeps still has not moved.
+void BulletWorld::look_at_what_moved() {
+  std::size_t awake = 0;
+  for (const BodyId id : order_) {
+    const Body& one = body(id.value);
+    const bool active = one.rigid->isActive();
+    Seen& seen = seen_[static_cast<std::size_t>(id.value)];
+    if (active || !seen.holds || !seen.state.asleep) seen = {read(one), true};
+    if (active) ++awake;
+  }
+  awake_count_ = awake;
 }
 
 void BulletWorld::step(double dt) {
@@ -344,6 +372,7 @@ void BulletWorld::step(double dt) {
   let_settled_sleep(dt);
   for (auto& [id, hinge] : hinges_) read_hinge(*hinge, dt);
   read_cables(dt);
+  look_at_what_moved();
 }
 
 void BulletWorld::resist_rolling() {

@@ -117,6 +117,8 @@ class BulletWorld final : public World {
   void wake_all();
   void wake_touching(const btCollisionObject& object);
   void set_continuous(Body& body);
+  [[nodiscard]] static BodyState read(const Body& body);
+  void look_at_what_moved();
 
   void ignore(const SolidPair& pair, bool ignored);
   void forget_ignored_of(Touched::Kind kind, std::int64_t id);
@@ -157,7 +159,14 @@ class BulletWorld final : public World {
   std::map<std::int64_t, std::unique_ptr<Hinge>> hinges_;
   std::map<std::int64_t, std::unique_ptr<HungCable>> cables_;
   std::vector<BodyId> order_;  ///< of the bodies that are there, ascending
-  double watched_for_ = 0;     ///< s since the last look
+  /// By id: as it was read last, and whether it is so still.
+  struct Seen {
+    BodyState state;
+    bool holds = false;
+  };
+  mutable std::vector<Seen> seen_;
+  mutable std::optional<std::size_t> awake_count_;  ///< none: to be counted
+  double watched_for_ = 0;                          ///< s since the last look
   std::int64_t next_obstacle_ = 0, next_hinge_ = 0, next_cable_ = 0;
 
   Solid ground_;

@@ -31,13 +31,9 @@ struct Body {
   JointId end_joint;                           ///< a piece of a member that was cut in two: the joint of its end
   std::shared_ptr<const fracture::Mesh> mesh;  ///< a chunk: as it is drawn, in the same axes
   Bounds bounds;                               ///< in the undeformed building, about `rest.centre`
-  bool asleep = false;                         ///< as booked last
-  collision::BodyState before;                 ///< at the start of this step's motion, after its impacts
-  Vec3 step_start = Vec3::Zero();              ///< where its centre was when the step began
   Part pushed;                                 ///< what it was pushing when a budget cut the push,
   std::int64_t pushed_in_step = -1;            ///< and the step in which that was
-  Bounds looked_over;                          ///< a place that it is in
-  std::vector<Part> near;                      ///< what may stand there and had no shape in the collision world
+  std::vector<Part> near;  ///< what may stand where it was looked over, and had no shape in the collision world
 };
 
 /// Inertia about the centre, global axes, as the body lies.

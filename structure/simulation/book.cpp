@@ -7,7 +7,7 @@
 namespace topple::structure {
 
 void Simulation::State::move() {
-  for (auto& [id, one] : bodies) one.before = world->state(one.id);
+  for (BodyMotion& one : bodies.motions()) one.before = world->state({one.id});
   if (world->awake_count() == 0) return;
   timer.engine([&] { world->step(scenario.step); });
   watch_overlaps();
@@ -17,7 +17,7 @@ void Simulation::State::move() {
 void Simulation::State::book() {
   book_contacts();
   pull_hinges();
-  for (auto& [id, one] : bodies) book_body(one);
+  for (BodyMotion& one : bodies.motions()) book_body(one);
   let_go_held_back();
   resting.read(world->contacts(), obstacles, scenario.step,
                [&](collision::BodyId id) { return body(id) && !world->state(id).asleep; });
@@ -35,10 +35,10 @@ void Simulation::State::book_contacts() {
   for (const auto& [id, hung] : cables) ledger.lost_in_contacts += world->cable_pull(hung.cable).work_lost;
 }
 
-void Simulation::State::book_body(Body& one) {
-  const collision::BodyState after = world->state(one.id);
+void Simulation::State::book_body(BodyMotion& one) {
+  const collision::BodyState after = world->state({one.id});
   if (one.asleep && after.asleep) return;
-  const Vec3 weight = one.rest.mass * gravity;
+  const Vec3 weight = one.mass * gravity;
   body_gravity_work += weight.dot(after.pose.position - one.step_start);
   // What the collision world moved beyond its velocity (pushing things out of each other) is work of the contacts.
   const Vec3 pushed = after.pose.position - one.before.pose.position - after.velocity * scenario.step;
@@ -46,41 +46,57 @@ void Simulation::State::book_body(Body& one) {
   if (one.asleep != after.asleep) {  // a body at rest is read as having no velocity at all
     collision::BodyState awake = after.asleep ? after : one.before;
     awake.asleep = false;
-    const Kinetic kinetic = kinetic_energy(one, awake, reading());
+    const Kinetic kinetic = kinetic_energy(*one.body, awake, reading());
     ledger.lost_in_contacts += (after.asleep ? 1 : -1) * (kinetic.translation + kinetic.rotation);
     one.asleep = after.asleep;
   }
 }
 
-/// In most steps no body came and none went: their views are written over.
+/// What of a body does not change while it is there.
+BodyView Simulation::State::view_of(const Body& one) const {
+  BodyView view;
+  view.id = one.id;
+  view.name = one.name;
+  view.rest_centre = one.rest.centre;
+  view.mass = one.rest.mass;
+  view.radius = one.radius;
+  view.members = one.members;
+  view.panels = one.panels;
+  view.chunk = one.mesh;
+  view.chunk_of = one.chunk_of;
+  return view;
+}
+
+/// Both lists are in order of id; those of bodies that stay are written over.
 void Simulation::State::update_views() {
   std::vector<std::int64_t> before;
   before.reserve(views.size());
   for (const BodyView& view : views) before.push_back(view.id.value);
-  const bool same = std::equal(before.begin(), before.end(), bodies.begin(), bodies.end(),
-                               [](std::int64_t id, const auto& entry) { return id == entry.first; });
-  if (!same) views.assign(bodies.size(), {});
+  const std::span<const BodyMotion> motions = bodies.motions();
+  const auto same_id = [](std::int64_t id, const BodyMotion& one) { return id == one.id; };
+  if (!std::equal(before.begin(), before.end(), motions.begin(), motions.end(), same_id)) {
+    std::vector<BodyView> now;
+    now.reserve(motions.size());
+    auto old = views.begin();
+    for (const BodyMotion& one : motions) {
+      while (old != views.end() && old->id.value < one.id) ++old;
+      const bool stays = old != views.end() && old->id.value == one.id;
+      now.push_back(stays ? std::move(*old) : view_of(*one.body));
+    }
+    views = std::move(now);
+  }
   poses.clear();
-  auto view = views.begin();
-  for (const auto& [id, one] : bodies) {
-    const collision::BodyState state = world->state(one.id);
-    view->id = one.id;
-    view->name = one.name;
-    view->pose = state.pose;
-    view->rest_centre = one.rest.centre;
-    view->mass = one.rest.mass;
-    view->radius = one.radius;
-    view->asleep = state.asleep;
-    view->members = one.members;
-    view->panels = one.panels;
-    if (view->chunk != one.mesh) view->chunk = one.mesh;
-    view->chunk_of = one.chunk_of;
-    const auto hung = cables.find(id);
-    view->cable_anchor = hung != cables.end() ? std::optional(hung->second.anchor) : std::nullopt;
-    ++view;
+  poses.reserve(7 * views.size());
+  for (BodyView& view : views) {
+    const collision::BodyState state = world->state(view.id);
+    view.pose = state.pose;
+    view.asleep = state.asleep;
     const Vec3& at = state.pose.position;
     const Eigen::Vector4d turn = state.pose.orientation.coeffs();
     poses.insert(poses.end(), {at.x(), at.y(), at.z(), turn[0], turn[1], turn[2], turn[3]});
+    if (cables.empty() && !view.cable_anchor) continue;
+    const auto hung = cables.find(view.id.value);
+    view.cable_anchor = hung != cables.end() ? std::optional(hung->second.anchor) : std::nullopt;
   }
   tell_changes(before);
 }

@@ -70,14 +70,14 @@ bool Simulation::State::spins_hard(const Body& one, const Vec3& spin) const {
 
 /// Bodies of several parts that contacts pushed hard, or that spin fast.
 std::vector<collision::BodyId> Simulation::State::hit_hard() {
-  std::map<std::int64_t, double> force;  // sum over contacts of their size
-  for (const auto& [id, one] : bodies)
-    if (may_fall_apart(one) && !one.asleep) force.emplace(id, 0.0);
+  std::vector<std::pair<std::int64_t, double>> force;  // sum over contacts of their size
+  for (const std::int64_t id : bodies.composed())
+    if (!bodies.motion(id).asleep && may_fall_apart(bodies.at(id))) force.emplace_back(id, 0.0);
   if (force.empty()) return {};
   const auto feel = [&](collision::BodyId id, const collision::Contact& contact, std::int64_t tag) {
     if (tag < 0) return;
-    if (const auto felt = force.find(id.value); felt != force.end())
-      felt->second += contact.impulse.norm() / scenario.step;
+    const auto felt = std::lower_bound(force.begin(), force.end(), std::pair(id.value, 0.0));
+    if (felt != force.end() && felt->first == id.value) felt->second += contact.impulse.norm() / scenario.step;
   };
   for (const collision::Contact& contact : world->contacts()) {
     feel(contact.body, contact, contact.part_tag);
@@ -275,7 +275,7 @@ std::vector<collision::BodyId> Simulation::State::split(collision::BodyId id,
       return;
     }
     made.push_back(add_body(std::move(own), moving));
-    bodies.at(made.back().value).step_start = moving.pose.position;
+    bodies.motion(made.back().value).step_start = moving.pose.position;
     handed_on.add(bodies.at(made.back().value), world->state(made.back()));
     changes.split.push_back({id.value, made.back().value});
   };

@@ -22,7 +22,7 @@ std::map<PanelId, Simulation::State::PanelBlow> Simulation::State::blows_on_pane
     const PanelId panel = part_of_number(building, tag).panel;
     if (!panel.valid() || !breakable_panels[static_cast<std::size_t>(panel.index)].settings) return;
     const auto found = bodies.find(id.value);
-    if (found == bodies.end() || found->second.asleep || breakable_of(found->second).valid()) return;
+    if (found == bodies.end() || bodies.motion(id.value).asleep || breakable_of(found->second).valid()) return;
     const Body& one = found->second;
     const collision::BodyState state = world->state(id);
     const Vec3 arm = contact.point - state.pose.position;

@@ -86,7 +86,7 @@ void Simulation::State::let_go_held_back() {
     ledger.lost_in_contacts -=
         one->rest.mass * state.velocity.dot(moving.velocity) +
         state.angular_velocity.dot(world_inertia(*one, state.pose.orientation) * moving.angular_velocity);
-    one->asleep = false;
+    bodies.motion(id).asleep = false;
     state.velocity += moving.velocity;
     state.angular_velocity += moving.angular_velocity;
     state.asleep = false;

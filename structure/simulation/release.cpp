@@ -239,12 +239,12 @@ collision::BodyId Simulation::State::add_body(Body one, const collision::BodySta
   description.friction = scenario.debris.friction;
   description.restitution = scenario.debris.restitution;
   one.id = timer.engine([&] { return world->add_body(description); });
-  one.step_start = description.pose.position;
   for (const MemberId member : one.members) body_of_part[static_cast<std::size_t>(member.index)] = one.id.value;
   for (const PanelId panel : one.panels)
     body_of_part[static_cast<std::size_t>(part_number(building, Part(panel)))] = one.id.value;
   const collision::BodyId id = one.id;
-  bodies.emplace(id.value, std::move(one));
+  bodies.add(id.value, std::move(one));
+  bodies.motion(id.value).step_start = state.pose.position;
   return id;
 }
 
@@ -259,7 +259,7 @@ void Simulation::State::remove_body(collision::BodyId id, bool keep_weight) {
   timer.engine([&] { world->remove_body(id); });
   free_segments.erase(id.value);
   cables.erase(id.value);
-  bodies.erase(found);
+  bodies.erase(id.value);
 }
 
 /// Above the limit of bodies, sleeping ones are dropped, the smallest first and of equals the oldest. Their weight

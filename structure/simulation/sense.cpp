@@ -27,24 +27,37 @@ Bounds Simulation::State::swept_bounds(const Body& body, const collision::BodySt
   return swept;
 }
 
+/// However it is turned, its swept bounds are within what was looked over: most bodies need no more.
+bool Simulation::State::stays(const BodyMotion& one, const collision::BodyState& state) const {
+  const double dt = scenario.step;
+  const double turned_by = state.angular_velocity.norm() * dt * one.reach;
+  const Vec3 margin = Vec3::Constant(one.reach + sense_margin + turned_by);
+  const Vec3& from = state.pose.position;
+  const Vec3 to = from + reading().true_velocity(state.velocity) * dt + gravity * dt * dt / 2;
+  return one.looked_over.holds({from.cwiseMin(to) - margin, from.cwiseMax(to) + margin});
+}
+
 /// Parts never come to stand where none stood: what may stand around a body is looked up again only when it leaves the
 /// place that was looked over.
-void Simulation::State::approach(Body& one, const collision::BodyState& state) {
-  const Bounds swept = swept_bounds(one, state);
+void Simulation::State::approach(BodyMotion& one, const collision::BodyState& state) {
+  if (!one.near_any && stays(one, state)) return;
+  const Bounds swept = swept_bounds(*one.body, state);
+  std::vector<Part>& near = one.body->near;
   if (!one.looked_over.holds(swept)) {
     one.looked_over = swept;
     one.looked_over.add(Vec3(swept.low - Vec3::Constant(look_ahead)));
     one.looked_over.add(Vec3(swept.high + Vec3::Constant(look_ahead)));
-    one.near = obstacles.without_shape(one.looked_over);
+    near = obstacles.without_shape(one.looked_over);
   }
-  if (!one.near.empty()) obstacles.approach(one.near, swept, *frame, *world);
+  if (!near.empty()) obstacles.approach(near, swept, *frame, *world);
+  one.near_any = !near.empty();
 }
 
 std::vector<collision::Contact> Simulation::State::sense() {
   struck.clear();
   knocks.clear();
-  for (auto& [id, one] : bodies) {
-    const collision::BodyState state = world->state(one.id);
+  for (BodyMotion& one : bodies.motions()) {
+    const collision::BodyState state = world->state({one.id});
     one.step_start = state.pose.position;
     if (!state.asleep) approach(one, state);
   }

@@ -172,9 +172,9 @@ void Simulation::State::shatter_struck(collision::BodyId id) {
 /// Panels that came down hard in this step, and those that a budget made wait.
 void Simulation::State::shatter_landed() {
   if (!any_breakable) return;
-  std::vector<std::int64_t> awake;  // few: most bodies of a collapse are chunks
-  for (const auto& [id, one] : bodies)
-    if (!one.asleep && breakable_of(one).valid()) awake.push_back(id);
+  std::vector<std::int64_t> awake;
+  for (const std::int64_t id : bodies.single_panels())
+    if (!bodies.motion(id).asleep && breakable_of(bodies.at(id)).valid()) awake.push_back(id);
   const auto feel = [&](collision::BodyId id, const collision::Contact& contact) {
     if (!std::binary_search(awake.begin(), awake.end(), id.value)) return;
     const Body* one = body(id);

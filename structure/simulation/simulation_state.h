@@ -3,7 +3,7 @@
 #include <deque>
 #include <map>
 
-#include "simulation/body.h"
+#include "simulation/bodies.h"
 #include "simulation/broken_panel.h"
 #include "simulation/free_segment.h"
 #include "simulation/indentation.h"
@@ -49,7 +49,8 @@ struct Simulation::State {
   // sense.cpp
   [[nodiscard]] std::vector<collision::Contact> sense();
   [[nodiscard]] Bounds swept_bounds(const Body& body, const collision::BodyState& state) const;
-  void approach(Body& one, const collision::BodyState& state);
+  [[nodiscard]] bool stays(const BodyMotion& one, const collision::BodyState& state) const;
+  void approach(BodyMotion& one, const collision::BodyState& state);
 
   // asked_response.cpp: what blows must know of what stands.
   struct AskedResponse;
@@ -255,10 +256,11 @@ struct Simulation::State {
   // book.cpp
   void move();
   void book();
-  void book_body(Body& body);
+  void book_body(BodyMotion& one);
   void book_contacts();
   void watch_overlaps();
   [[nodiscard]] std::string touched_name(collision::BodyId body, std::int64_t part_tag) const;
+  [[nodiscard]] BodyView view_of(const Body& one) const;
   void update_views();
   void tell_changes(std::span<const std::int64_t> before);
   [[nodiscard]] bool rests() const;
@@ -316,7 +318,7 @@ struct Simulation::State {
   };
   std::vector<Frozen> frozen;
   std::vector<double> strength_factors;  ///< per joint
-  std::map<std::int64_t, Body> bodies;
+  Bodies bodies;
   std::vector<std::int64_t> body_of_part;  ///< by part number; -1 stands, -2 gone
 
   struct BreakablePanel {

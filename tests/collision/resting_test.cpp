@@ -103,6 +103,57 @@ TEST_CASE("a stack of boxes rests, falls asleep and then costs no step") {
   CHECK(world->sweep(kStep).empty());
 }
 
+TEST_CASE("a body that slept is seen as it is after whatever moves it, and those awake are counted") {
+  const auto world = world_with_ground();
+  const BodyId pushed = world->add_body(box_body({0.5, 0.5, 0.25}, 600, {0, 0, 0.25}));
+  const BodyId placed = world->add_body(box_body({0.5, 0.5, 0.25}, 600, {9, 0, 0.25}));
+  const BodyId met = world->add_body(box_body({0.5, 0.5, 0.25}, 600, {-9, 0, 0.25}));
+  const BodyId alone = world->add_body(box_body({0.5, 0.5, 0.25}, 600, {0, 9, 0.25}));
+  run(*world, 300);
+  REQUIRE(world->awake_count() == 0);
+  const Vec3 rested = world->state(alone).pose.position;
+
+  world->apply_impulse(pushed, {0, 0, 6000}, world->state(pushed).pose.position);
+  CHECK(world->awake_count() == 1);
+  CHECK(world->state(pushed).velocity.z() == Approx(10));
+  CHECK_FALSE(world->state(pushed).asleep);
+
+  BodyState state = world->state(placed);
+  state.pose.position = Vec3(9, 1, 5);
+  state.velocity = Vec3(0, 2, 0);
+  state.asleep = false;
+  world->set_state(placed, state);
+  CHECK(world->awake_count() == 2);
+  CHECK(world->state(placed).pose.position == state.pose.position);
+  CHECK(world->state(placed).velocity == state.velocity);
+
+  BodyDescription ball = ball_body(0.4, 500, {-7, 0, 0.4});
+  ball.velocity = Vec3(-20, 0, 0);
+  const BodyId thrown = world->add_body(ball);
+  CHECK(world->awake_count() == 3);
+  for (int i = 0; i < 12; ++i) {
+    const BodyState before = world->state(placed);
+    world->step(kStep);
+    const BodyState after = world->state(placed);
+    CHECK((after.pose.position - before.pose.position - kStep * after.velocity).norm() < 1e-9);
+  }
+  CHECK_FALSE(world->state(met).asleep);  // the ball came upon it
+  CHECK(world->state(met).pose.position.x() < -9.1);
+  CHECK(world->awake_count() == 4);
+  CHECK(world->state(alone).asleep);
+  CHECK(world->state(alone).pose.position == rested);
+
+  state = world->state(placed);
+  state.asleep = true;
+  world->set_state(placed, state);
+  CHECK(world->state(placed).asleep);
+  world->remove_body(thrown);
+  CHECK(world->awake_count() == 2);
+  CHECK_THROWS_AS(world->state(thrown), std::out_of_range);
+  world->wake(alone);
+  CHECK_FALSE(world->state(alone).asleep);
+}
+
 TEST_CASE("taking away an obstacle wakes what lay on it, and that falls") {
   const auto world = world_with_ground();
   const ObstacleId table = world->add_obstacle(box_obstacle({1, 1, 0.5}, {0, 0, 2.5}));
