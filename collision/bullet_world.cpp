@@ -326,11 +326,9 @@ void BulletWorld::wake_all() {
 }
 
 void BulletWorld::wake_touching(const btCollisionObject& object) {
-  for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
-    const btPersistentManifold& manifold = *dispatcher_.getManifoldByIndexInternal(i);
-    const btCollisionObject *first = manifold.getBody0(), *second = manifold.getBody1();
-    if ((first != &object && second != &object) || manifold.getNumContacts() == 0) continue;
-    for (const btCollisionObject* touching : {first, second}) {
+  for (const btPersistentManifold* manifold : manifolds_of(object)) {
+    if (manifold->getNumContacts() == 0) continue;
+    for (const btCollisionObject* touching : {manifold->getBody0(), manifold->getBody1()}) {
       const auto* solid = static_cast<const Solid*>(touching->getUserPointer());
       if (solid->kind == Touched::Kind::body) wake({solid->id});
     }

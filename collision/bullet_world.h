@@ -116,6 +116,8 @@ class BulletWorld final : public World {
   void remove_ground();
   void wake_all();
   void wake_touching(const btCollisionObject& object);
+  [[nodiscard]] std::vector<btPersistentManifold*> manifolds_of(const btCollisionObject& object,
+                                                                const btCollisionObject* other = nullptr);
   void set_continuous(Body& body);
   [[nodiscard]] static BodyState read(const Body& body);
   void look_at_what_moved();

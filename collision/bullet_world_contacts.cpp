@@ -1,4 +1,5 @@
 // Contacts of the last step, from Bullet's manifolds; pairs that are ignored until separated.
+#include <BulletCollision/BroadphaseCollision/btCollisionAlgorithm.h>
 #include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
 
 #include <algorithm>
@@ -205,13 +206,38 @@ void BulletWorld::ignore(const SolidPair& pair, bool ignored) {
   if (pair.kind == Touched::Kind::body) count(body(pair.other));
   if (!ignored) return;
   // Contacts found before stay in the pair's cache: forget them.
-  for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
-    btPersistentManifold& manifold = *dispatcher_.getManifoldByIndexInternal(i);
-    if ((manifold.getBody0() == first.object && manifold.getBody1() == other.object) ||
-        (manifold.getBody1() == first.object && manifold.getBody0() == other.object)) {
-      manifold.clearManifold();
-    }
+  for (btPersistentManifold* manifold : manifolds_of(*first.object, other.object)) manifold->clearManifold();
+}
+
+/// Those between an object and any other, or a certain one. They are found by the pairs whose bounds meet: these lie
+/// side by side, and there are far fewer of one object than manifolds in the world.
+std::vector<btPersistentManifold*> BulletWorld::manifolds_of(const btCollisionObject& object,
+                                                             const btCollisionObject* other) {
+  btManifoldArray of_pair;
+  std::vector<btPersistentManifold*> found;
+  const auto take = [&](const btBroadphasePair& pair) {
+    if (!pair.m_algorithm) return;
+    of_pair.resize(0);
+    pair.m_algorithm->getAllContactManifolds(of_pair);
+    for (int i = 0; i < of_pair.size(); ++i) found.push_back(of_pair[i]);
+  };
+  btOverlappingPairCache& cache = *broadphase_.getOverlappingPairCache();
+  btBroadphaseProxy* const own = const_cast<btBroadphaseProxy*>(object.getBroadphaseHandle());
+  if (other && own && other->getBroadphaseHandle()) {
+    const btBroadphaseProxy* const others = other->getBroadphaseHandle();
+    if (const btBroadphasePair* pair = cache.findPair(own, const_cast<btBroadphaseProxy*>(others))) take(*pair);
+  } else if (!other && own) {
+    const btBroadphasePairArray& pairs = cache.getOverlappingPairArray();
+    for (int i = 0; i < pairs.size(); ++i)
+      if (pairs[i].m_pProxy0 == own || pairs[i].m_pProxy1 == own) take(pairs[i]);
   }
+  const auto& foreseen = world_.foreseen_contacts();
+  for (int i = 0; i < foreseen.size(); ++i) {
+    const btCollisionObject *first = foreseen[i]->getBody0(), *second = foreseen[i]->getBody1();
+    const btCollisionObject* met = first == &object ? second : second == &object ? first : nullptr;
+    if (met && (!other || met == other)) found.push_back(foreseen[i]);
+  }
+  return found;
 }
 
 void BulletWorld::forget_ignored_of(Touched::Kind kind, std::int64_t id) {

@@ -30,6 +30,9 @@ class FreeSpinWorld : public btDiscreteDynamicsWorld {
   void let_go(Cable* cable) { std::erase(cables_, cable); }
   /// Contacts that Bullet foresaw for fast bodies stay until the next step, whether or not the bodies do.
   void forget_foreseen_contacts() { releasePredictiveContacts(); }
+  [[nodiscard]] const btAlignedObjectArray<btPersistentManifold*>& foreseen_contacts() const {
+    return m_predictiveManifolds;
+  }
 
  protected:
   void predictUnconstraintMotion(btScalar time_step) override;

@@ -19,8 +19,11 @@ void Simulation::State::book() {
   pull_hinges();
   for (BodyMotion& one : bodies.motions()) book_body(one);
   let_go_held_back();
-  resting.read(world->contacts(), obstacles, scenario.step,
-               [&](collision::BodyId id) { return body(id) && !world->state(id).asleep; });
+  auto next = bodies.motions().begin();  // asked for in order of id
+  resting.read(world->contacts(), obstacles, scenario.step, [&](collision::BodyId id) {
+    while (next != bodies.motions().end() && next->id < id.value) ++next;
+    return next != bodies.motions().end() && next->id == id.value && !world->state(id).asleep;
+  });
   shatter_landed();
   take_blows(blows_on_panels());
   break_up_landed();

@@ -8,6 +8,7 @@
 // the thickness. What is broken out has to be taken along: body and chunks leave with one speed, which keeps momentum.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "simulation/strike.h"
 
@@ -142,12 +143,17 @@ void Simulation::State::open_panels() {
 }
 
 /// Where the static stress passes what the material bears, a panel cracks at its largest; what that leaves is looked at
-/// in the next step.
+/// in the next step. Panels that a budget leaves out are looked at in later ones, as they are by then.
 void Simulation::State::crack_panels() {
-  for (std::size_t p = 0; p < building.panels.size(); ++p) {
+  // Operations, for budgets: to find the stress of a whole panel, and of one that is broken in part.
+  constexpr double whole_cost = 5e3, broken_cost = 1e6;
+  for (; panels_to_look_at > 0; --panels_to_look_at) {
+    if (scenario.operations_budget && frame->allowance() <= 0) return;
+    const std::size_t p = std::exchange(next_panel, (next_panel + 1) % building.panels.size());
     const BreakablePanel& breakable = breakable_panels[p];
     const PanelId panel(p);
     if (!breakable.settings || !frame->stands(panel)) continue;
+    spend_on_debris(broken_panels.contains(panel) ? broken_cost : whole_cost);
     const std::optional<PanelStress> stress = frame->stress(panel);
     if (!stress) continue;
     const double tension = stress->tension / breakable.tensile_strength;
@@ -164,7 +170,10 @@ void Simulation::State::crack_panels() {
 /// These chunks of a standing panel become bodies at rest; everybody hears of what remains. Returns the bodies of
 /// those that a hit broke out.
 std::vector<collision::BodyId> Simulation::State::break_standing(PanelId panel, std::vector<PanelChunk> chunks) {
+  // Operations, for budgets: what remains is condensed anew, and everybody hears of it.
+  constexpr double remains_cost = 7e6;
   spend_on_chunks(chunks.size());
+  spend_on_debris(remains_cost);
   const BrokenPanel& left = broken_panels.at(panel);
   const Part part(panel);
   Vec3 sunk = Vec3::Zero();
@@ -178,7 +187,7 @@ std::vector<collision::BodyId> Simulation::State::break_standing(PanelId panel, 
   } else {
     masses.set(panel, left.rest());
     shapes.set_broken(panel, left.hulls());
-    obstacles.renew(part, *world);
+    timer.engine([&] { obstacles.renew(part, *world); });
     for (const collision::BodyId lying : resting.on(part))
       if (bodies.contains(lying.value)) world->wake(lying);
   }
@@ -203,17 +212,16 @@ std::vector<collision::BodyId> Simulation::State::break_standing(PanelId panel, 
 /// What a hit broke out of a standing panel leaves with the speed of the body, which flies on through the hole.
 void Simulation::State::push_chunks(const Strike& hit) {
   if (!hit.part.panel.valid() || !hit.through) return;
-  const auto pass = [&](const collision::Touched& other) { world->ignore_until_separated(hit.body->id, other); };
   collision::Touched touched;
   if (const collision::ObstacleId panel = obstacles.obstacle_of(hit.part); panel.value >= 0) {
     touched.kind = collision::Touched::Kind::obstacle;
     touched.obstacle = panel;
-    pass(touched);
+    pass(hit.body->id, touched);
   }
   touched.kind = collision::Touched::Kind::body;
   for (const collision::BodyId id : hit.chunks) {
     touched.body = id;
-    pass(touched);
+    pass(hit.body->id, touched);
     const Vec3 gained = hit.speed_out * hit.normal;
     collision::BodyState state = world->state(id);
     state.velocity += gained;

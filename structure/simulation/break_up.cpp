@@ -308,7 +308,7 @@ std::vector<collision::BodyId> Simulation::State::split(collision::BodyId id,
       collision::Touched other;
       other.kind = collision::Touched::Kind::body;
       other.body = made[j];
-      world->ignore_until_separated(made[i], other);
+      pass(made[i], other);
     }
   return made;
 }

@@ -114,7 +114,7 @@ void Simulation::State::release_in_two(const Detached& part) {
     collision::Touched other;
     other.kind = collision::Touched::Kind::body;
     other.body = made[1];
-    world->ignore_until_separated(made[0], other);
+    pass(made[0], other);
   }
 }
 

@@ -82,7 +82,7 @@ void Simulation::State::pass_what_holds(collision::BodyId id, const Vec3& point,
   if (holder.value >= 0) {
     touched.kind = collision::Touched::Kind::body;
     touched.body = holder;
-    world->ignore_until_separated(id, touched);
+    pass(id, touched);
     return;
   }
   Bounds around;
@@ -92,7 +92,7 @@ void Simulation::State::pass_what_holds(collision::BodyId id, const Vec3& point,
   touched.kind = collision::Touched::Kind::obstacle;
   for (const Part part : grid.near(around)) {
     touched.obstacle = obstacles.obstacle_of(part);
-    if (touched.obstacle.value >= 0) world->ignore_until_separated(id, touched);
+    if (touched.obstacle.value >= 0) pass(id, touched);
   }
 }
 

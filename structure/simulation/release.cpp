@@ -148,7 +148,7 @@ void Simulation::State::release(const Detached& part) {
   collision::Touched broken;
   broken.kind = collision::Touched::Kind::body;
   broken.body = id;
-  for (const collision::BodyId by : passing) world->ignore_until_separated(by, broken);
+  for (const collision::BodyId by : passing) pass(by, broken);
 }
 
 /// True when an impact of this step broke this body off.
@@ -199,6 +199,10 @@ void Simulation::State::check_momentum(const Body& one) {
       given.add_impulse(impulse, state.pose.position + r);
     }
   ledger.momentum_error = std::max(ledger.momentum_error, measured.error(given));
+}
+
+void Simulation::State::pass(collision::BodyId id, const collision::Touched& other) {
+  timer.engine([&] { world->ignore_until_separated(id, other); });
 }
 
 collision::BodyId Simulation::State::add_body(Body one, const Vec3& velocity, const Vec3& spin,

@@ -12,7 +12,7 @@ namespace topple::structure {
 class RestingLoads {
  public:
   /// Reads the contacts of the last collision step. `awake` tells whether a body moves (contacts of sleeping ones
-  /// stay).
+  /// stay); it is asked in order of id.
   template <class Awake>
   void read(std::span<const collision::Contact> contacts, const Obstacles& obstacles, double dt, const Awake& awake);
   /// Hands to the frame what changed beyond the band; returns how many changes the band ignored.

@@ -89,7 +89,7 @@ std::vector<collision::BodyId> Simulation::State::shatter(collision::BodyId id, 
   tell(SimulationEvent::Kind::panel_fractured, building[panel].name).position = point;
   (void)resting.forget(id, *frame, false);
   (void)take_off(id);
-  world->remove_body(id);
+  timer.engine([&] { world->remove_body(id); });
   bodies.erase(id.value);
   body_of_part[static_cast<std::size_t>(part_number(building, Part(panel)))] = -2;
 
@@ -155,7 +155,7 @@ void Simulation::State::shatter_struck(collision::BodyId id) {
       collision::Touched broken;
       broken.kind = collision::Touched::Kind::body;
       broken.body = made[i];
-      if (bodies.contains(blow.by.value)) world->ignore_until_separated(blow.by, broken);
+      if (bodies.contains(blow.by.value)) pass(blow.by, broken);
       if (i >= out || size == 0) continue;
       const double mass = bodies.at(made[i].value).rest.mass;
       const Vec3 gained = std::min(size / struck_mass, blow.speed) * blow.impulse / size;

@@ -97,6 +97,7 @@ struct Simulation::State {
   void go_on(JointPush& pushed, const Eigen::VectorXd& shift);
   void send_on(JointPush& pushed);
   void break_generations();
+  void settle_generations();
 
   // operations_budget.cpp
   /// What takes operations, in the order of a step.
@@ -137,6 +138,7 @@ struct Simulation::State {
   [[nodiscard]] std::vector<collision::BodyId> breakers_of(const Body& one) const;
   collision::BodyId add_body(Body body, const collision::BodyState& state);
   void remove_body(collision::BodyId id, bool keep_weight);
+  void pass(collision::BodyId id, const collision::Touched& other);
   void keep_limit();
   void freeze(const std::vector<RestingLoads::Kept>& lying);
   void leave_weight(const MassProperties& rest);
@@ -283,7 +285,7 @@ struct Simulation::State {
   /// Breaks are still to come, of what stands or of debris.
   [[nodiscard]] bool waits() const {
     return frame->pending() || frame->answering() || !waiting_blows.empty() || !landings.empty() ||
-           !panel_blows.empty();
+           !panel_blows.empty() || panels_to_look_at > 0;
   }
   /// When the next event or stage acts; unlimited when none is to come.
   [[nodiscard]] double next_instant() const;
@@ -328,7 +330,8 @@ struct Simulation::State {
   };
   std::vector<BreakablePanel> breakable_panels;  ///< per panel
   bool any_breakable = false;
-  std::map<PanelId, BrokenPanel> broken_panels;  ///< those that are broken in part: standing, or whole bodies
+  std::size_t panels_to_look_at = 0, next_panel = 0;  ///< for cracks: how many in turn, from which on
+  std::map<PanelId, BrokenPanel> broken_panels;       ///< those that are broken in part: standing, or whole bodies
   std::map<PanelId, std::array<EdgeBearers, 4>> edge_bearers;  ///< looked up when first asked for
 
   std::vector<char> debris_broken;                                     ///< per joint: broke after it had left the frame

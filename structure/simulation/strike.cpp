@@ -319,9 +319,14 @@ void Simulation::State::check_momentum(const Strike& hit, std::span<const PointI
 }
 
 void Simulation::State::break_generations() {
-  if (!frame->pending() && step > 1) return;
+  if (!frame->pending() && step > 1 && panels_to_look_at == 0) return;
   if (awaited) return wait_for_turn(Work::generations);
   if (!may_compute(Work::generations)) return;
+  if (frame->pending() || step == 1) settle_generations();
+  if (!frame->answering()) crack_panels();
+}
+
+void Simulation::State::settle_generations() {
   frame->yield_after_answers(waits_for_turn(Work::blows));
   const int generations = generations_of(step, scenario.step, scenario.failure.generations_per_second);
   const std::vector<JointBreak> breaks = frame->settle(generations);
@@ -331,7 +336,7 @@ void Simulation::State::break_generations() {
     event.position = line.position;
   }
   for (const JointBreak& broken : breaks) tell(broken);
-  if (!frame->answering()) crack_panels();
+  if (!frame->answering() && any_breakable) panels_to_look_at = building.panels.size();
 }
 
 }  // namespace topple::structure

@@ -1,6 +1,8 @@
 // A shell panel that stands: its superelement against a global mesh with the same hole, balls through it, cracks.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <map>
+#include <optional>
 
 #include "panel_superelement.h"
 #include "test_paths.h"
@@ -268,4 +270,37 @@ TEST_CASE("stress beyond the tensile strength cracks a wall at its foot, and one
   // At the centre of the lowest row, 0.25 m up: bending of 2.75 m cantilevers, within what the free ends change.
   const double bending = 2000 * 2.75 * 2.75 / 2 * 6 / 0.04;
   CHECK(stress->tension == Approx(bending).epsilon(0.15));
+}
+
+TEST_CASE("under a budget walls crack one after the other, and none is left out") {
+  // Two walls side by side, each a cantilever that 20 kPa crack at its foot.
+  std::string text = wall_text;
+  const auto put = [&](const std::string& old, const std::string& now) {
+    text.replace(text.find(old), old.size(), now);
+  };
+  put("\"A1\": [0, 0, 3]}",
+      "\"A1\": [0, 0, 3],\n \"C0\": [0, 9, 0], \"D0\": [6, 9, 0], \"D1\": [6, 9, 3], \"C1\": [0, 9, 3]}");
+  put("\"joint\": \"foot\"}}",
+      "\"groups\": [\"w\"]},\n \"V\": {\"kind\": \"wall\", \"nodes\": [\"C0\", \"D0\", \"D1\", \"C1\"], "
+      "\"thickness\": 0.2, \"material\": \"c\", \"model\": \"shell\", \"mesh\": [12, 6]}}");
+  put("\"supports\": {\"W:1\": \"fixed\"}", "\"supports\": {\"W:1\": \"fixed\", \"V:1\": \"fixed\"}");
+  put("\"panels\": {\"W\": {\"pressure\": 2000}},\n                    \"nodes\": {\"A1\": {\"y\": 3000, \"z\": "
+      "-20000}}",
+      "\"panels\": {\"W\": {\"pressure\": 20000}, \"V\": {\"pressure\": 20000}}");
+  Scenario scenario = shipped("wall_hit");
+  scenario.events.clear();
+  const auto first_cracks = [&](std::optional<double> budget) {
+    scenario.operations_budget = budget;
+    Simulation simulation(wall(text), scenario);
+    std::map<std::string, std::int64_t> first;
+    for (int i = 0; i < 300; ++i) simulation.step();
+    for (const SimulationEvent& event : simulation.events())
+      if (event.kind == SimulationEvent::Kind::panel_fractured) first.emplace(event.name, event.step);
+    return first;
+  };
+  const auto at_once = first_cracks(std::nullopt), paced = first_cracks(1e6);
+  REQUIRE(at_once.size() == 2);
+  CHECK(at_once.at("W") == at_once.at("V"));
+  REQUIRE(paced.size() == 2);
+  CHECK(paced.at("V") > paced.at("W"));
 }
