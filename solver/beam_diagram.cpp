@@ -113,9 +113,10 @@ struct BeamDiagram::State {
   Vec6 tip = Vec6::Zero();     ///< displacement of the second end when the first stays
   Vec12 slip = Vec12::Zero();  ///< of the hubs against the beam's own ends
 
-  [[nodiscard]] std::size_t piece_at(double distance) const {
+  [[nodiscard]] std::size_t piece_at(double distance, bool beyond = false) const {
+    const auto passed = [&](double start) { return beyond ? distance >= start : distance > start; };
     std::size_t i = 0;
-    while (i + 1 < forces.pieces.size() && distance > forces.pieces[i + 1].start) ++i;
+    while (i + 1 < forces.pieces.size() && passed(forces.pieces[i + 1].start)) ++i;
     return i;
   }
   [[nodiscard]] Polynomial curve(std::size_t piece, Quantity quantity) const {
@@ -164,19 +165,25 @@ BeamDiagram::~BeamDiagram() = default;
 BeamDiagram::BeamDiagram(BeamDiagram&&) noexcept = default;
 BeamDiagram& BeamDiagram::operator=(BeamDiagram&&) noexcept = default;
 
-double BeamDiagram::value(Quantity quantity, double distance) const {
+double BeamDiagram::value(Quantity quantity, double distance, bool beyond) const {
   const double x = std::clamp(distance, 0.0, state_->beam.length);
-  const std::size_t piece = state_->piece_at(x);
+  const std::size_t piece = state_->piece_at(x, beyond);
   const double found = polynomial(state_->curve(piece, quantity), x - state_->forces.pieces[piece].start);
   return x == state_->beam.length && quantity < deflection_y ? state_->at_second_end(quantity, found) : found;
 }
 
-std::array<double, 8> BeamDiagram::values(double distance) const {
+std::array<double, 8> BeamDiagram::values(double distance, bool beyond) const {
   std::array<double, 8> result{};
   for (int q = 0; q < quantities; ++q) {
-    result[static_cast<std::size_t>(q)] = value(static_cast<Quantity>(q), distance);
+    result[static_cast<std::size_t>(q)] = value(static_cast<Quantity>(q), distance, beyond);
   }
   return result;
+}
+
+std::vector<double> BeamDiagram::breaks() const {
+  std::vector<double> places;
+  for (std::size_t i = 1; i < state_->forces.pieces.size(); ++i) places.push_back(state_->forces.pieces[i].start);
+  return places;
 }
 
 namespace {

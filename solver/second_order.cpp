@@ -204,7 +204,7 @@ struct SecondOrderDiagram::State {
       const double f = x / length;
       return curve.value(v, x) - (1 - f) * curve.value(v, 0) - f * curve.value(v, length);
     };
-    if (!bends(quantity)) return linear.value(quantity, x);
+    if (!bends(quantity)) return linear.value(quantity, x, beyond);
     switch (quantity) {
       case BeamDiagram::shear_y:
         return xy.value(T, x, beyond);
@@ -221,11 +221,11 @@ struct SecondOrderDiagram::State {
     }
   }
 
-  [[nodiscard]] std::array<double, 8> values(double x) const {
-    if (!exact) return linear.values(x);
+  [[nodiscard]] std::array<double, 8> values(double x, bool beyond) const {
+    if (!exact) return linear.values(x, beyond);
     std::array<double, 8> all{};
     for (int q = 0; q < BeamDiagram::quantities; ++q)
-      all[static_cast<std::size_t>(q)] = value(static_cast<BeamDiagram::Quantity>(q), x);
+      all[static_cast<std::size_t>(q)] = value(static_cast<BeamDiagram::Quantity>(q), x, beyond);
     return all;
   }
 };
@@ -273,9 +273,11 @@ SecondOrderDiagram::~SecondOrderDiagram() = default;
 SecondOrderDiagram::SecondOrderDiagram(SecondOrderDiagram&&) noexcept = default;
 SecondOrderDiagram& SecondOrderDiagram::operator=(SecondOrderDiagram&&) noexcept = default;
 
-std::array<double, 8> SecondOrderDiagram::values(double distance) const {
-  return state_->values(std::clamp(distance, 0.0, state_->length));
+std::array<double, 8> SecondOrderDiagram::values(double distance, bool beyond) const {
+  return state_->values(std::clamp(distance, 0.0, state_->length), beyond);
 }
+
+std::vector<double> SecondOrderDiagram::breaks() const { return state_->linear.breaks(); }
 
 /// Where the load is smooth the curves are too: the best of evenly spread points, made exact by a parabola's golden
 /// section around it.

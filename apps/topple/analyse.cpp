@@ -160,6 +160,7 @@ int run(const Options& options) {
   const int wanted = std::max({options.html ? report_stations : 0, options.vtu ? drawing_stations : 0,
                                options.code.empty() ? 0 : design_stations});
   wider.stations = whole_multiple(request.stations, wanted);
+  wider.critical_sections = !options.code.empty();
   // Kept to the end of the process, which gives it back at once: piece by piece that takes longer than a solve.
   static AnalysisResult result;
   try {

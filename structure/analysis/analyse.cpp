@@ -395,6 +395,26 @@ class Analysis {
     }
     for (int s = 0; request_.stations > 0 && s <= request_.stations; ++s)
       member.stations.push_back(diagram.values(length * s / request_.stations));
+    if (request_.critical_sections) member.critical = critical_sections(member, length, diagram);
+  }
+
+  template <class Diagram>
+  [[nodiscard]] static std::vector<std::array<double, 8>> critical_sections(const MemberResult& member, double length,
+                                                                            const Diagram& diagram) {
+    std::vector<std::array<double, 8>> sections;
+    const std::vector<double> breaks = diagram.breaks();
+    for (const double at : breaks)
+      for (const bool beyond : {false, true}) sections.push_back(diagram.values(at, beyond));
+    // Both sides of a break are there already: the extreme of one side does not go with the others of the other.
+    const auto at_a_break = [&](double at) {
+      constexpr double rounding = 1e-9;
+      return std::any_of(breaks.begin(), breaks.end(),
+                         [&](double place) { return std::abs(place - at) <= rounding * length; });
+    };
+    for (std::size_t q = 0; q < 6; ++q)
+      for (const Extreme& extreme : {member.min[q], member.max[q]})
+        if (!at_a_break(extreme.at)) sections.push_back(diagram.values(extreme.at));
+    return sections;
   }
 
   template <class LoadsOn>

@@ -45,8 +45,8 @@ SecondOrderMember::SecondOrderMember(const Frame& frame, std::size_t member, con
   if (pieces_.size() == 1) pieces_[0].first = pieces_[0].last = Vec2::Zero();
 }
 
-double SecondOrderMember::value(const Piece& piece, BeamDiagram::Quantity quantity, double within) {
-  double value = piece.diagram.values(within)[static_cast<std::size_t>(quantity)];
+double SecondOrderMember::value(const Piece& piece, BeamDiagram::Quantity quantity, double within, bool beyond) {
+  double value = piece.diagram.values(within, beyond)[static_cast<std::size_t>(quantity)];
   if (quantity >= BeamDiagram::deflection_y) {
     const int axis = quantity - BeamDiagram::deflection_y;
     value += piece.first(axis) + within / piece.length * (piece.last(axis) - piece.first(axis));
@@ -54,15 +54,24 @@ double SecondOrderMember::value(const Piece& piece, BeamDiagram::Quantity quanti
   return value;
 }
 
-std::array<double, 8> SecondOrderMember::values(double distance) const {
+std::array<double, 8> SecondOrderMember::values(double distance, bool beyond) const {
   const Piece* at = &pieces_.front();
   for (const Piece& piece : pieces_)
-    if (piece.start < distance) at = &piece;
+    if (beyond ? piece.start <= distance : piece.start < distance) at = &piece;
   std::array<double, 8> result{};
   for (int q = 0; q < BeamDiagram::quantities; ++q)
     result[static_cast<std::size_t>(q)] =
-        value(*at, static_cast<BeamDiagram::Quantity>(q), std::clamp(distance - at->start, 0.0, at->length));
+        value(*at, static_cast<BeamDiagram::Quantity>(q), std::clamp(distance - at->start, 0.0, at->length), beyond);
   return result;
+}
+
+std::vector<double> SecondOrderMember::breaks() const {
+  std::vector<double> places;
+  for (const Piece& piece : pieces_) {
+    if (piece.start > 0) places.push_back(piece.start);
+    for (const double within : piece.diagram.breaks()) places.push_back(piece.start + within);
+  }
+  return places;
 }
 
 /// Of sign times a smooth quantity: the best of equal steps, then golden sections about it.

@@ -13,7 +13,8 @@ class SecondOrderMember {
   SecondOrderMember(const Frame& frame, std::size_t member, const std::vector<solver::Beam>& beams,
                     const solver::AxialState& axial, const solver::StaticSolution& solution);
 
-  [[nodiscard]] std::array<double, 8> values(double distance) const;
+  [[nodiscard]] std::array<double, 8> values(double distance, bool beyond = false) const;
+  [[nodiscard]] std::vector<double> breaks() const;
   [[nodiscard]] solver::BeamDiagram::Range extremes(solver::BeamDiagram::Quantity quantity) const;
 
  private:
@@ -23,7 +24,8 @@ class SecondOrderMember {
     Vec2 first = Vec2::Zero(), last = Vec2::Zero();
     solver::SecondOrderDiagram diagram;
   };
-  [[nodiscard]] static double value(const Piece& piece, solver::BeamDiagram::Quantity quantity, double within);
+  [[nodiscard]] static double value(const Piece& piece, solver::BeamDiagram::Quantity quantity, double within,
+                                    bool beyond = false);
   static solver::BeamDiagram::Extreme highest(const Piece& piece, solver::BeamDiagram::Quantity quantity, double sign);
 
   std::vector<Piece> pieces_;

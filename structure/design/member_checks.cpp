@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <stdexcept>
 
 #include "topple/structure/error.h"
@@ -38,27 +39,13 @@ double lateral_length(const Member& member) {
   return std::max(longest, member.length - last);
 }
 
-/// Forces at the stations, and where an internal force is at its extreme: there the others are taken linearly between
-/// the stations.
-std::vector<SectionForces> forces_along(const MemberResult& member, double length) {
+/// Forces at the stations and at the critical sections.
+std::vector<SectionForces> forces_along(const MemberResult& member) {
   std::vector<SectionForces> all;
-  const std::size_t spaces = member.stations.size() - 1;
-  const auto at_station = [&](std::size_t s) {
-    SectionForces forces;
-    std::copy_n(member.stations[s].begin(), forces.size(), forces.begin());
-    return forces;
-  };
-  for (std::size_t s = 0; s <= spaces; ++s) all.push_back(at_station(s));
-  for (std::size_t q = 0; q < 6; ++q)
-    for (const Extreme& extreme : {member.min[q], member.max[q]}) {
-      const double place = std::clamp(extreme.at / length, 0.0, 1.0) * static_cast<double>(spaces);
-      const std::size_t s = std::min(static_cast<std::size_t>(place), spaces - 1);
-      const SectionForces before = at_station(s), after = at_station(s + 1);
-      SectionForces forces;
-      for (std::size_t i = 0; i < forces.size(); ++i)
-        forces[i] = before[i] + (place - static_cast<double>(s)) * (after[i] - before[i]);
-      forces[q] = extreme.value;
-      all.push_back(forces);
+  for (const auto& sections : {std::span(member.stations), std::span(member.critical)})
+    for (const std::array<double, 8>& at : sections) {
+      SectionForces& forces = all.emplace_back();
+      std::copy_n(at.begin(), forces.size(), forces.begin());
     }
   return all;
 }
@@ -100,10 +87,10 @@ void check_design(const Building& building, DesignCode code, double drift_limit,
     for (std::size_t m = 0; m < members.size(); ++m) {
       if (members[m].section == nullptr) continue;
       const MemberResult& forces = combination.members[m];
-      if (forces.stations.size() < 2)
-        throw std::invalid_argument("check_design: the analysis was made without stations");
+      if (forces.stations.size() < 2 || forces.critical.empty())
+        throw std::invalid_argument("check_design: the analysis was made without stations or critical sections");
       try {
-        combination.designs[m] = check_member(code, members[m], forces_along(forces, building.members[m].length));
+        combination.designs[m] = check_member(code, members[m], forces_along(forces));
       } catch (const InputError& error) {
         throw InputError(building.file + ": members." + building.members[m].name + ": " + error.what() +
                          "; or \"design\": \"none\" for a member that is not to be checked");

@@ -45,6 +45,10 @@ TEST_CASE("tension is positive, and a point load makes the jump that statics ask
   const auto range = diagram.extremes(BeamDiagram::moment_z);
   CHECK(diagram.value(BeamDiagram::moment_z, 2.0) - diagram.value(BeamDiagram::moment_z, 2.0 + 1e-9) ==
         Approx(30).epsilon(1e-6));
+  REQUIRE(diagram.breaks() == std::vector<double>{2.0});
+  CHECK(diagram.values(2.0)[BeamDiagram::moment_z] - diagram.values(2.0, true)[BeamDiagram::moment_z] ==
+        Approx(30).epsilon(tolerance));
+  CHECK(diagram.value(BeamDiagram::moment_z, 1.0, true) == diagram.value(BeamDiagram::moment_z, 1.0));
   CHECK(range.greatest.value >= diagram.value(BeamDiagram::moment_z, 2.0));
 }
 

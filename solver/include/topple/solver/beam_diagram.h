@@ -3,6 +3,7 @@
 #include <array>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "topple/solver/frame_model.h"
 
@@ -23,9 +24,12 @@ class BeamDiagram {
   BeamDiagram(BeamDiagram&&) noexcept;
   BeamDiagram& operator=(BeamDiagram&&) noexcept;
 
-  /// At a distance from the first end (held to 0 ... length). Where the quantity jumps, the value just before.
-  [[nodiscard]] double value(Quantity quantity, double distance) const;
-  [[nodiscard]] std::array<double, 8> values(double distance) const;
+  /// At a distance from the first end (held to 0 ... length). Where the quantity jumps, the value just before, or just
+  /// `beyond`.
+  [[nodiscard]] double value(Quantity quantity, double distance, bool beyond = false) const;
+  [[nodiscard]] std::array<double, 8> values(double distance, bool beyond = false) const;
+  /// Places between the ends where a load begins, ends or acts: there quantities may jump or kink. Ascending.
+  [[nodiscard]] std::vector<double> breaks() const;
 
   struct Extreme {
     double value = 0, at = 0;

@@ -81,7 +81,9 @@ class SecondOrderDiagram {
   ~SecondOrderDiagram();
   SecondOrderDiagram(SecondOrderDiagram&&) noexcept;
   SecondOrderDiagram& operator=(SecondOrderDiagram&&) noexcept;
-  [[nodiscard]] std::array<double, 8> values(double distance) const;
+  /// As BeamDiagram's.
+  [[nodiscard]] std::array<double, 8> values(double distance, bool beyond = false) const;
+  [[nodiscard]] std::vector<double> breaks() const;
   [[nodiscard]] BeamDiagram::Range extremes(BeamDiagram::Quantity quantity) const;
 
  private:

@@ -23,6 +23,7 @@ namespace topple::structure {
 struct AnalysisRequest {
   std::vector<CombinationId> combinations;  ///< empty: all
   int stations = 0;
+  bool critical_sections = false;  ///< asked for by design checks
   solver::AnalysisOptions solver;
   solver::SecondOrder second_order = solver::SecondOrder::none;
   int buckling = 0;  ///< lowest factors to find for each combination
@@ -47,6 +48,9 @@ struct MemberResult {
   solver::Vec12 end_forces = solver::Vec12::Zero();
   std::array<Extreme, 8> min, max;
   std::vector<std::array<double, 8>> stations;
+  /// Where asked for: on both sides of every place between the ends where a load begins, ends or acts, and where an
+  /// internal force is at its extreme.
+  std::vector<std::array<double, 8>> critical;
   bool active = true;
 };
 /// One element of a shell panel's mesh: stress resultants per length at its centre, in the panel's axes.

@@ -5,8 +5,9 @@
 
 namespace topple::structure {
 
-/// Stations along each member at which the formulas are evaluated, beside the places of the extremes of every internal
-/// force: ask analyse() for at least this many before check_design().
+/// Stations along each member at which the formulas are evaluated, beside both sides of every place where a load begins,
+/// ends or acts and the places of the extremes of every internal force: ask analyse() for at least this many, and for
+/// the critical sections, before check_design().
 inline constexpr int design_stations = 20;
 
 /// Limit on the storey drift where none is given: height/300 (UK National Annex to EN 1993-1-1, NA.2.24; codes leave it
@@ -20,7 +21,7 @@ inline constexpr double usual_drift_limit = 1.0 / 300;
 
 /// Fills `designs` of every combination and `design_code`, `drift_limit` of the result. Throws InputError that names
 /// the member and the key when something is missing, and for a building in "consistent" units (the codes' formulas have
-/// units). Throws std::invalid_argument when the result has no stations.
+/// units). Throws std::invalid_argument when the result has no stations or no critical sections.
 void check_design(const Building& building, DesignCode code, double drift_limit, AnalysisResult& result);
 
 }  // namespace topple::structure
