@@ -20,7 +20,14 @@ struct BodyMotion {
   collision::BodyState before;     ///< at the start of this step's motion, after its impacts
   double reach = 0;                ///< no point of its bounds is farther from its centre, m
   Bounds looked_over;              ///< a place that it is in
-  bool near_any = false;           ///< something of Body::near is left
+  /// When its surroundings were seen to last: how far its swept bounds can come to lie from where they were before they
+  /// leave that place or meet anything of Body::near, and what they were made of.
+  struct Seen {
+    double room = 0;  ///< m
+    Vec3 position = Vec3::Zero(), travel = Vec3::Zero();
+    Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+    double turned_by = 0;  ///< m
+  } seen;
 };
 
 class Bodies {

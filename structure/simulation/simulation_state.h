@@ -49,6 +49,11 @@ struct Simulation::State {
   // sense.cpp
   [[nodiscard]] std::vector<collision::Contact> sense();
   [[nodiscard]] Bounds swept_bounds(const Body& body, const collision::BodyState& state) const;
+  struct Sweep {
+    Vec3 travel;
+    double turned_by;
+  };
+  [[nodiscard]] Sweep sweep_of(const collision::BodyState& state, double radius) const;
   [[nodiscard]] bool stays(const BodyMotion& one, const collision::BodyState& state) const;
   void approach(BodyMotion& one, const collision::BodyState& state);
 
