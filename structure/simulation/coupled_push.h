@@ -30,6 +30,7 @@ struct PushedPlace {
 
 class CoupledPush {
  public:
+  using Vec6 = Eigen::Matrix<double, 6, 1>;
   /// `compliance`: symmetric positive definite, m/N, along the normals, one row for each place. `structure`: masses of
   /// the structure that move with the places, kg, symmetric and not negative; empty: none. Throws std::invalid_argument
   /// when sizes differ, a mass or compliance is not positive, or there is no place.
@@ -61,12 +62,11 @@ class CoupledPush {
   [[nodiscard]] double time() const { return time_; }  ///< since first touch, s
   /// Elastic energy under the contacts, J.
   [[nodiscard]] double stored() const;
-  /// Speeds of the places along their normals: now, and when most energy was stored since the last break.
-  [[nodiscard]] Eigen::VectorXd speeds() const { return jacobian_ * rate_; }
-  [[nodiscard]] Eigen::VectorXd speeds_at_most_stored() const { return jacobian_ * rate_at_most_stored_; }
+  /// Velocity and spin of the body: now, and when most energy was stored since the last break.
+  [[nodiscard]] const Vec6& rates() const { return rate_; }
+  [[nodiscard]] const Vec6& rates_at_most_stored() const { return rate_at_most_stored_; }
 
  private:
-  using Vec6 = Eigen::Matrix<double, 6, 1>;
   using Mat6 = Eigen::Matrix<double, 6, 6>;
   struct Modes {
     Mat6 shape;                 ///< columns, of unit modal mass

@@ -1,7 +1,6 @@
 // One body that comes upon several standing parts at the same instant: it pushes them together (coupled_push.h), break
 // after break, until it has come to a stop, they have let go of it, or they are gone.
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -10,6 +9,7 @@
 #include "simulation/coupled_push.h"
 #include "simulation/first_failure.h"
 #include "simulation/momentum.h"
+#include "simulation/push_impulses.h"
 #include "simulation/step_clock.h"
 #include "simulation/strike.h"
 
@@ -129,15 +129,17 @@ struct Simulation::State::JointPush {
   std::vector<Strike> hits;
   std::vector<ContactPlace> places;
   std::vector<Vec3> normals;
+  PushingBody body;
+  std::vector<PushedPlace> pushed_at;
   StandingFrame::CoupledResponse response;
   std::optional<CoupledPush> push;
-  Eigen::VectorXd speeds_out;  ///< of the places, along their normals
+  CoupledPush::Vec6 rates_out;  ///< velocity and spin with which the body comes out of it
 
   /// All is borne. It leaves with the restitution's part of what the parts give back; one that its weight holds down
   /// stays.
   void leave(CoupledPush done, CoupledPush::Stop end, double restitution) {
-    speeds_out = done.speeds_at_most_stored();
-    if (end == CoupledPush::Stop::left) speeds_out += restitution * (done.speeds() - speeds_out);
+    rates_out = done.rates_at_most_stored();
+    if (end == CoupledPush::Stop::left) rates_out += restitution * (done.rates() - rates_out);
     push = std::move(done);
   }
 };
@@ -192,18 +194,17 @@ bool Simulation::State::take_up(JointPush& pushed) const {
   if (!independent(pushed.response.compliance)) return false;
   const Body& one = *hits.front().body;
   const collision::BodyState& state = hits.front().state;
-  const PushingBody body{one.rest.mass,          world_inertia(one, state.pose.orientation),
-                         state.pose.position,    state.velocity,
-                         state.angular_velocity, one.rest.mass * gravity};
-  std::vector<PushedPlace> places;
-  for (const Strike& hit : hits) places.push_back({hit.place.point, hit.normal});
+  pushed.body = {one.rest.mass,  world_inertia(one, state.pose.orientation), state.pose.position,
+                 state.velocity, state.angular_velocity,                     one.rest.mass * gravity};
+  pushed.pushed_at.clear();
+  for (const Strike& hit : hits) pushed.pushed_at.push_back({hit.place.point, hit.normal});
   Eigen::MatrixXd share;
   if (takes_share(hits.front())) {
     const Eigen::MatrixXd stiffness = pushed.response.compliance.inverse();
     share = stiffness * pushed.response.inertia * stiffness;
     for (std::size_t i = 0; i < hits.size(); ++i) hits[i].structure_mass = pushed.response.places[i].rayleigh_mass;
   }
-  pushed.push.emplace(body, std::move(places), pushed.response.compliance, share);
+  pushed.push.emplace(pushed.body, pushed.pushed_at, pushed.response.compliance, share);
   return pushed.push->fastest_over_slowest() <= most_unlike;
 }
 
@@ -257,7 +258,7 @@ void Simulation::State::push_in(JointPush& pushed) {
     }
     if (ends) {
       pushed.hits.front().waits = waits;
-      pushed.speeds_out = push.speeds();
+      pushed.rates_out = push.rates();
       return;
     }
   }
@@ -282,48 +283,32 @@ void Simulation::State::go_on(JointPush& pushed, const Eigen::VectorXd& shift) {
   pushed.push->weaken(pushed.response.compliance, shift);
 }
 
-/// The impulses along the normals that leave the places with their speeds: the least ones where places depend on each
-/// other.
 void Simulation::State::send_on(JointPush& pushed) {
   Strike& first = pushed.hits.front();
   const Body& one = *first.body;
-  const Mat3 inertia = world_inertia(one, first.state.pose.orientation), inverse = inertia.inverse();
-  const auto n = static_cast<Eigen::Index>(pushed.hits.size());
-  Eigen::Matrix<double, Eigen::Dynamic, 6> jacobian(n, 6), moved(n, 6);  // moved: J M^-1
-  Eigen::VectorXd before(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Strike& hit = pushed.hits[static_cast<std::size_t>(i)];
-    const Vec3 turn = (hit.place.point - hit.state.pose.position).cross(hit.normal);
-    jacobian.row(i) << hit.normal.transpose(), turn.transpose();
-    moved.row(i) << hit.normal.transpose() / one.rest.mass, (inverse * turn).transpose();
-    before(i) = hit.normal.dot(first.state.velocity) + turn.dot(first.state.angular_velocity);
-  }
-  // What it went through pushes it no faster than it came.
-  Eigen::VectorXd after = pushed.speeds_out;
-  for (Eigen::Index i = 0; i < n; ++i)
-    if (pushed.hits[static_cast<std::size_t>(i)].through) after(i) = std::min(after(i), before(i));
-  const Eigen::VectorXd impulses =
-      Eigen::MatrixXd(jacobian * moved.transpose()).completeOrthogonalDecomposition().solve(after - before);
+  std::vector<char> through;
+  for (const Strike& hit : pushed.hits) through.push_back(hit.through ? 1 : 0);
+  const PushImpulses impulses = impulses_of_push(pushed.body, pushed.pushed_at, pushed.rates_out, through);
   collision::BodyState state = first.state;
-  const Eigen::Matrix<double, 6, 1> change = moved.transpose() * impulses;
-  state.velocity += change.head<3>();
-  state.angular_velocity += change.tail<3>();
+  state.velocity += impulses.change.head<3>();
+  state.angular_velocity += impulses.change.tail<3>();
   const Kinetic came = kinetic_energy(one, first.state), goes = kinetic_energy(one, state);
   ledger.lost_in_impacts += (came.translation + came.rotation) - (goes.translation + goes.rotation);
   std::vector<PointImpulse> given;
-  bool through = true;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    Strike& hit = pushed.hits[static_cast<std::size_t>(i)];
-    hit.peak_force = pushed.push->peak_force()(i);
-    hit.speed = before(i);
-    hit.speed_out = after(i);
+  for (std::size_t i = 0; i < pushed.hits.size(); ++i) {
+    Strike& hit = pushed.hits[i];
+    const auto speed = [&](const collision::BodyState& of) {
+      return hit.normal.dot(of.velocity + of.angular_velocity.cross(hit.place.point - pushed.body.centre));
+    };
+    hit.peak_force = pushed.push->peak_force()(static_cast<Eigen::Index>(i));
+    hit.speed = speed(first.state);
+    hit.speed_out = speed(state);
     if (hit.through) knock(hit);
-    through = through && hit.through;
-    given.push_back({impulses(i) * hit.normal, hit.place.point});
+    given.push_back({impulses.along(static_cast<Eigen::Index>(i)) * hit.normal, hit.place.point});
   }
   // It is stopped where it is as long as one place stands.
   Strike whole = first;
-  whole.through = through;
+  whole.through = std::find(through.begin(), through.end(), 0) == through.end();
   move_on(whole, state, given);
 }
 
