@@ -1,8 +1,5 @@
 #include "bullet_world.h"
 
-#include <BulletCollision/CollisionShapes/btConvexPolyhedron.h>
-#include <BulletCollision/CollisionShapes/btPolyhedralConvexShape.h>
-
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -16,7 +13,12 @@ namespace {
 
 /// Named tunables of the solver, with what they do.
 struct Settings {
-  int iterations = 50;  ///< of sequential impulse: contacts and joints load what stands, and stacks must not creep
+  int iterations = 50;        ///< of sequential impulse where contacts and joints load what stands
+  int loose_iterations = 20;  ///< where a heap lies on the ground alone
+  double warm_start =
+      0.95;  ///< share of the last step's impulses to begin with: with less heaps creep, with all a wedged piece rocks
+  double slop =
+      0.002;  ///< m by which contacts may overlap unpushed: pushed apart fully, a heap creeps for twenty seconds
   double restitution_from =
       0.5;  ///< m/s: slower contacts do not bounce, so that piles come to rest (2 g dt at 1/60 s is 0.33)
   double asleep_below =
@@ -27,7 +29,8 @@ struct Settings {
   double rolling_resistance =
       0.1;  ///< of the normal force times the radius, a ball on soil: on flat ground it would roll for ever
   double continuous_from =
-      0.5;  ///< of the inner radius: motion in one step above which the step itself looks for tunnelling
+      0.5;  ///< of a ball's radius: motion in one step above which the step itself looks for tunnelling. Pieces are left
+            ///< out: what stands is swept before, the ground is a half space, and what flies through other pieces harms none
 };
 constexpr Settings kSettings;
 
@@ -45,50 +48,46 @@ void set_surface(btCollisionObject& object, double friction, double restitution,
   object.setRestitution(std::sqrt(restitution));
 }
 
+const btTransform unturned = btTransform::getIdentity();
+
 struct PrincipalInertia {
   Vec3 moments;
-  Eigen::Quaterniond axes = Eigen::Quaterniond::Identity();
+  btTransform axes = unturned;
   bool turned = false;
 };
 
-PrincipalInertia principal_inertia(const Mat3& inertia, const std::string& owner) {
+/// `tried`: axes that are taken where they are principal ones.
+PrincipalInertia principal_inertia(const Mat3& inertia, const btTransform& tried, const std::string& owner) {
   constexpr double rounding = 1e-12;  // products of inertia below this share of the largest moment are taken as zero
   const double scale = inertia.diagonal().maxCoeff();
+  const auto is_diagonal = [&](const Mat3& m) {
+    return Mat3(m - Mat3(m.diagonal().asDiagonal())).cwiseAbs().maxCoeff() <= rounding * scale;
+  };
   if (!inertia.allFinite() || !((inertia - inertia.transpose()).cwiseAbs().maxCoeff() <= 1e-9 * scale)) {
     throw std::invalid_argument(owner + ": its inertia is not a finite symmetric matrix");
   }
   PrincipalInertia result;
-  const Mat3 products = inertia - Mat3(inertia.diagonal().asDiagonal());
-  if (products.cwiseAbs().maxCoeff() <= rounding * scale) {
+  const Mat3 turn = from_bullet(tried.getBasis()), in_tried = turn.transpose() * inertia * turn;
+  if (is_diagonal(in_tried)) {
+    result.moments = in_tried.diagonal();
+    result.axes = tried;
+    result.turned = !(tried == unturned);
+  } else if (is_diagonal(inertia)) {
     result.moments = inertia.diagonal();
   } else {
     const Eigen::SelfAdjointEigenSolver<Mat3> solution(inertia);
     Mat3 axes = solution.eigenvectors();
     if (axes.determinant() < 0) axes.col(2) = -axes.col(2);
     result.moments = solution.eigenvalues();
-    result.axes = Eigen::Quaterniond(axes);
+    result.axes = btTransform(to_bullet(Eigen::Quaterniond(axes)));
     result.turned = true;
   }
   if (!(result.moments.minCoeff() > 0)) throw std::invalid_argument(owner + ": its inertia is not positive definite");
   return result;
 }
 
-/// Radius of the sphere about the origin inside the part; 0 when the origin lies outside.
-double inner_radius(const SolidPart& part) {
-  const btVector3 centre = part.local.inverse() * btVector3(0, 0, 0);
-  if (!part.shape->isPolyhedral()) return std::max(0.0, part.shape->getMargin() - centre.length());
-  const auto& polyhedron = static_cast<const btPolyhedralConvexShape&>(*part.shape);
-  double radius = BT_LARGE_FLOAT;
-  const btConvexPolyhedron& faces = *polyhedron.getConvexPolyhedron();
-  for (int i = 0; i < faces.m_faces.size(); ++i) {
-    const btScalar* plane = faces.m_faces[i].m_plane;  // unit outward normal and offset: n x + d = 0
-    radius = std::min<double>(radius, -(btVector3(plane[0], plane[1], plane[2]).dot(centre) + plane[3]));
-  }
-  return std::max(0.0, radius);
-}
-
 /// Of a body that is one ball; 0 for any other.
-double rolling_radius(const std::vector<ConvexPart>& parts) {
+double ball_radius(const std::vector<ConvexPart>& parts) {
   return parts.size() == 1 && parts[0].kind == ConvexPart::Kind::sphere ? parts[0].half_extents.x() : 0;
 }
 
@@ -108,7 +107,8 @@ Body& body_of(btRigidBody& rigid) { return *static_cast<Body*>(static_cast<Solid
 }  // namespace
 
 BulletWorld::BulletWorld()
-    : dispatcher_(&configuration_), world_(&dispatcher_, &broadphase_, &solver_, &configuration_) {
+    : dispatcher_(&configuration_),
+      solver_(kSettings.iterations, kSettings.loose_iterations), world_(&dispatcher_, &broadphase_, &solver_, &configuration_) {
   dispatcher_.setDispatcherFlags(dispatcher_.getDispatcherFlags() &
                                  ~btCollisionDispatcher::CD_USE_RELATIVE_CONTACT_BREAKING_THRESHOLD);
   use_half_space_contacts(dispatcher_, polyhedron_first_, plane_first_);
@@ -117,7 +117,8 @@ BulletWorld::BulletWorld()
   world_.setForceUpdateAllAabbs(false);
   world_.getDispatchInfo().m_deterministicOverlappingPairs = true;
   btContactSolverInfo& info = world_.getSolverInfo();
-  info.m_numIterations = kSettings.iterations;
+  info.m_warmstartingFactor = kSettings.warm_start;
+  info.m_linearSlop = kSettings.slop;
   info.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
   info.m_restitutionVelocityThreshold = kSettings.restitution_from;
   // Overlaps are pushed apart by displacements alone, at every depth: they must not turn into kinetic energy.
@@ -175,14 +176,14 @@ BodyId BulletWorld::add_body(const BodyDescription& description) {
   if (!std::isfinite(description.mass) || !(description.mass > 0)) {
     throw std::invalid_argument(owner + ": mass " + std::to_string(description.mass) + "; it must be above zero");
   }
-  const PrincipalInertia inertia = principal_inertia(description.inertia, owner);
+  const PrincipalInertia inertia =
+      principal_inertia(description.inertia, frame_of_only_box(description.parts).value_or(unturned), owner);
   auto body = std::make_unique<Body>();
   body->kind = Touched::Kind::body;
   body->id = id.value;
   body->turned = inertia.turned;
-  body->principal.setRotation(to_bullet(inertia.axes));
-  make_parts(description.parts, body->principal.inverse(), owner, polyhedra_, *body);
-  for (const SolidPart& part : body->parts) body->inner_radius = std::max(body->inner_radius, inner_radius(part));
+  body->frame = inertia.axes;
+  make_parts(description.parts, owner, polyhedra_, *body);
 
   btRigidBody::btRigidBodyConstructionInfo info(description.mass, nullptr, body->shape(), to_bullet(inertia.moments));
   info.m_linearSleepingThreshold = info.m_angularSleepingThreshold = kSettings.asleep_below;
@@ -190,7 +191,7 @@ BodyId BulletWorld::add_body(const BodyDescription& description) {
   btRigidBody& rigid = *body->rigid;
   set_surface(rigid, description.friction, description.restitution, owner);
   rigid.setFlags(0);  // no gyroscopic terms: FreeSpinWorld turns bodies
-  body->rolling_radius = rolling_radius(description.parts);
+  body->ball_radius = ball_radius(description.parts);
   rigid.setUserPointer(static_cast<Solid*>(body.get()));
   body->object = &rigid;
   set_continuous(*body);
@@ -205,7 +206,7 @@ BodyId BulletWorld::add_body(const BodyDescription& description) {
 }
 
 void BulletWorld::set_continuous(Body& body) {
-  const double radius = body.ignored == 0 ? body.inner_radius : 0;
+  const double radius = body.ignored == 0 ? body.ball_radius : 0;
   body.rigid->setCcdSweptSphereRadius(0.9 * radius);
   body.rigid->setCcdMotionThreshold(kSettings.continuous_from * radius);
 }
@@ -232,12 +233,13 @@ ObstacleId BulletWorld::add_obstacle(const ObstacleDescription& description) {
   auto obstacle = std::make_unique<Obstacle>();
   obstacle->kind = Touched::Kind::obstacle;
   obstacle->id = next_obstacle_;
-  make_parts(description.parts, btTransform::getIdentity(), owner, polyhedra_, *obstacle);
+  obstacle->frame = frame_of_only_box(description.parts).value_or(unturned);
+  make_parts(description.parts, owner, polyhedra_, *obstacle);
   obstacle->fixed = std::make_unique<btCollisionObject>();
   btCollisionObject& fixed = *obstacle->fixed;
   set_surface(fixed, description.friction, description.restitution, owner);
   fixed.setCollisionShape(obstacle->shape());
-  fixed.setWorldTransform(to_bullet(description.pose));
+  fixed.setWorldTransform(to_bullet(description.pose) * obstacle->frame);
   fixed.setUserPointer(static_cast<Solid*>(obstacle.get()));
   fixed.forceActivationState(ISLAND_SLEEPING);  // else its bounds are brought up to date at every step
   obstacle->object = &fixed;
@@ -259,7 +261,7 @@ void BulletWorld::remove_obstacle(ObstacleId id) {
 void BulletWorld::move_obstacle(ObstacleId id, const Pose& pose) {
   Obstacle& moved = obstacle(id.value);
   wake_touching(*moved.object);
-  moved.fixed->setWorldTransform(to_bullet(pose));
+  moved.fixed->setWorldTransform(to_bullet(pose) * moved.frame);
   world_.updateSingleAabb(moved.fixed.get());
 }
 
@@ -275,7 +277,7 @@ BodyState BulletWorld::read(const Body& seen) {
   BodyState state;
   state.pose.position = from_bullet(frame.getOrigin());
   btQuaternion orientation = frame.getRotation();
-  if (seen.turned) orientation = orientation * seen.principal.getRotation().inverse();
+  if (seen.turned) orientation = orientation * seen.frame.getRotation().inverse();
   state.pose.orientation = from_bullet(orientation);
   state.velocity = from_bullet(seen.rigid->getLinearVelocity());
   state.angular_velocity = from_bullet(seen.rigid->getAngularVelocity());
@@ -289,7 +291,7 @@ void BulletWorld::set_state(BodyId id, const BodyState& state) {
     throw std::invalid_argument("body " + std::to_string(id.value) + ": its state is not finite");
   }
   btTransform frame = to_bullet(state.pose);
-  if (set.turned) frame = frame * set.principal;
+  if (set.turned) frame = frame * set.frame;
   btRigidBody& rigid = *set.rigid;
   rigid.setLinearVelocity(to_bullet(state.velocity));
   rigid.setAngularVelocity(to_bullet(state.angular_velocity));
@@ -378,12 +380,12 @@ void BulletWorld::resist_rolling() {
   for (Contact& contact : contacts_) {
     const double pressed = std::abs(contact.impulse.dot(contact.normal));
     for (const BodyId id : {contact.body, contact.other.body}) {
-      if (id.value < 0 || body(id.value).rolling_radius == 0) continue;
+      if (id.value < 0 || body(id.value).ball_radius == 0) continue;
       btRigidBody& ball = *body(id.value).rigid;
       const double inverse_inertia = ball.getInvInertiaDiagLocal().x();
       const double spin = ball.getAngularVelocity().length();
       const double slowed = std::max(
-          0.0, spin - kSettings.rolling_resistance * body(id.value).rolling_radius * pressed * inverse_inertia);
+          0.0, spin - kSettings.rolling_resistance * body(id.value).ball_radius * pressed * inverse_inertia);
       if (spin == 0) continue;
       ball.setAngularVelocity(ball.getAngularVelocity() * (slowed / spin));
       contact.work_lost += (spin * spin - slowed * slowed) / (2 * inverse_inertia);

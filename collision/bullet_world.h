@@ -6,7 +6,6 @@
 #include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
 #include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
 #include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
-#include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h>
 #include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
@@ -17,19 +16,17 @@
 #include "first_touch.h"
 #include "free_spin_world.h"
 #include "half_space_contacts.h"
+#include "island_solver.h"
 
 class btManifoldPoint;
 class btPersistentManifold;
 
 namespace topple::collision {
 
-/// A body turns in its principal axes inside, and is seen in the caller's.
+/// A body turns in its principal axes inside (its frame), and is seen in the caller's.
 struct Body : Solid {
   std::unique_ptr<btRigidBody> rigid;
-  btTransform principal = btTransform::getIdentity();  ///< principal axes in the caller's frame (a rotation)
-  bool turned = false;                                 ///< principal is not the identity
-  double inner_radius = 0;                             ///< sphere about the centre of mass inside one part; 0: none
-  double rolling_radius = 0;
+  double ball_radius = 0;  ///< of a body that is one ball; 0: any other
   int ignored = 0;  ///< pairs that it is in and that are ignored until separated
   SolverVelocities velocities;
   bool swings = false;                                  ///< on a cable, off its plumb line and touching nothing
@@ -153,7 +150,7 @@ class BulletWorld final : public World {
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_;
   btDbvtBroadphase broadphase_;
-  btSequentialImpulseConstraintSolver solver_;
+  IslandSolver solver_;
   FreeSpinWorld world_;
 
   std::vector<std::unique_ptr<Body>> bodies_;  ///< by id, which is never used again: null where one is gone
@@ -180,6 +177,7 @@ class BulletWorld final : public World {
   std::set<SolidPair> ignored_;
   std::vector<Contact> touching_;  ///< of the last step, those of sleeping bodies too
   std::vector<Contact> contacts_;  ///< those of awake bodies
+  std::vector<Contact> points_, merged_;  ///< room that gather_contacts() works in
 };
 
 /// Order of contacts of one world: by ids, then by tags.

@@ -94,15 +94,16 @@ void add_manifold(const btPersistentManifold& manifold, std::vector<Contact>& po
 
 /// One contact of points that share their parts: impulses and work add up; place, normal and speed are weighted by
 /// impulse.
-Contact merged(std::span<const Contact> points) {
-  Contact sum = points.front();
+Contact merged(std::span<const Contact* const> points) {
+  Contact sum = *points.front();
   sum.point.setZero();
   sum.normal.setZero();
   sum.impulse.setZero();
   sum.approach_speed = sum.work_lost = 0;
   double total = 0;
-  for (const Contact& point : points) total += point.impulse.norm();
-  for (const Contact& point : points) {
+  for (const Contact* point : points) total += point->impulse.norm();
+  for (const Contact* one : points) {
+    const Contact& point = *one;
     const double share = total > 0 ? point.impulse.norm() / total : 1.0 / static_cast<double>(points.size());
     sum.point += share * point.point;
     sum.normal += share * point.normal;
@@ -112,7 +113,7 @@ Contact merged(std::span<const Contact> points) {
     sum.depth = std::max(sum.depth, point.depth);
     if (sum.corner_count < 4) sum.corners[static_cast<std::size_t>(sum.corner_count++)] = point.point;
   }
-  if (sum.normal.norm() < 1e-9) sum.normal = points.front().normal;  // squeezed from both sides
+  if (sum.normal.norm() < 1e-9) sum.normal = points.front()->normal;  // squeezed from both sides
   sum.normal.normalize();
   return sum;
 }
@@ -132,26 +133,28 @@ Touched touched(const Solid& solid, std::int64_t tag) {
 }
 
 void BulletWorld::gather_contacts() {
-  std::vector<Contact> found;
+  std::vector<Contact>& found = points_;
+  found.clear();
   for (int i = 0; i < dispatcher_.getNumManifolds(); ++i)
     add_manifold(*dispatcher_.getManifoldByIndexInternal(i), found);
   const auto by_place = [](const Contact* a, const Contact* b) {
-    return std::make_tuple(parts_of(*a), a->point.x(), a->point.y(), a->point.z()) <
-           std::make_tuple(parts_of(*b), b->point.x(), b->point.y(), b->point.z());
+    const auto first = parts_of(*a), second = parts_of(*b);
+    if (first != second) return first < second;
+    return std::make_tuple(a->point.x(), a->point.y(), a->point.z()) <
+           std::make_tuple(b->point.x(), b->point.y(), b->point.z());
   };
   std::vector<const Contact*> order;  // contacts are large: what is sorted is where they are
+  order.reserve(found.size());
   for (const Contact& contact : found) order.push_back(&contact);
   std::sort(order.begin(), order.end(), by_place);
-  std::vector<Contact> points;
-  points.reserve(order.size());
-  for (const Contact* contact : order) points.push_back(*contact);
-  std::vector<Contact> now;
-  for (std::size_t begin = 0, end = 0; begin < points.size(); begin = end) {
-    while (end < points.size() && same_parts(points[begin], points[end])) ++end;
-    now.push_back(merged(std::span(points).subspan(begin, end - begin)));
+  std::vector<Contact>& now = merged_;
+  now.clear();
+  for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
+    while (end < order.size() && same_parts(*order[begin], *order[end])) ++end;
+    now.push_back(merged(std::span(order).subspan(begin, end - begin)));
     now.back().persistent = std::binary_search(touching_.begin(), touching_.end(), now.back(), before_by_parts);
   }
-  touching_ = std::move(now);
+  std::swap(touching_, now);
   contacts_.clear();
   std::copy_if(touching_.begin(), touching_.end(), std::back_inserter(contacts_),
                [&](const Contact& c) { return is_awake(c); });

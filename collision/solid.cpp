@@ -120,8 +120,19 @@ bool fills_frame(const SolidPart& part) { return part.local == btTransform::getI
 
 }  // namespace
 
-void make_parts(const std::vector<ConvexPart>& description, const btTransform& frame, const std::string& owner,
-                PolyhedronStore& polyhedra, Solid& solid) {
+std::optional<btTransform> frame_of_only_box(const std::vector<ConvexPart>& description) {
+  constexpr double rounding = 1e-9;  // of the size: how far a box may lie off and count as lying about the origin
+  if (description.size() != 1 || description[0].kind != ConvexPart::Kind::box) return {};
+  const ConvexPart& only = description[0];
+  if (!is_rotation(only.pose.orientation) || !(only.pose.position.norm() <= rounding * only.half_extents.minCoeff()))
+    return {};
+  return to_bullet(Pose{Vec3::Zero(), only.pose.orientation});
+}
+
+void make_parts(const std::vector<ConvexPart>& description, const std::string& owner, PolyhedronStore& polyhedra,
+                Solid& solid) {
+  const bool box_fills_frame = frame_of_only_box(description) == solid.frame;
+  const btTransform frame = solid.frame.inverse();
   if (description.empty()) throw std::invalid_argument(owner + ": it has no part; at least one is needed");
   for (const ConvexPart& given : description) {
     SolidPart part;
@@ -134,7 +145,7 @@ void make_parts(const std::vector<ConvexPart>& description, const btTransform& f
       part.local.setIdentity();
     } else {
       part.shape = make_shape(given, owner, polyhedra);
-      part.local = frame * to_bullet(given.pose);
+      if (!box_fills_frame) part.local = frame * to_bullet(given.pose);
     }
     part.tag = given.tag;
     part.reach = reach_of(part);

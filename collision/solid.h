@@ -4,6 +4,7 @@
 #include <BulletCollision/CollisionShapes/btConvexShape.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,8 @@ struct Solid {
   std::int64_t id = -1;
   std::vector<SolidPart> parts;
   std::unique_ptr<btCompoundShape> compound;  ///< none when one part fills the frame
+  btTransform frame = btTransform::getIdentity();  ///< of Bullet's transform in the caller's (a rotation)
+  bool turned = false;                             ///< the frame is not the identity
   btCollisionObject* object = nullptr;
   double reach = 0;
 
@@ -44,10 +47,14 @@ struct Solid {
   }
 };
 
-/// Parts given in a frame whose pose in the solid's Bullet frame is `frame`. Throws std::invalid_argument naming
+/// The frame of a description of one box that lies about the origin: in it the box is no compound, which pairs cost
+/// several times as much. None for any other.
+[[nodiscard]] std::optional<btTransform> frame_of_only_box(const std::vector<ConvexPart>& description);
+
+/// Makes the parts of a solid whose frame is known. Throws std::invalid_argument naming
 /// `owner` and the part's tag for a part of no volume or with a number that is not finite, and for no part at all.
-void make_parts(const std::vector<ConvexPart>& description, const btTransform& frame, const std::string& owner,
-                PolyhedronStore& polyhedra, Solid& solid);
+void make_parts(const std::vector<ConvexPart>& description, const std::string& owner, PolyhedronStore& polyhedra,
+                Solid& solid);
 
 /// The number of a child from a ray or contact of a solid with several parts; the part nearest to a global point.
 [[nodiscard]] int nearest_part(const Solid& solid, const btTransform& pose, const btVector3& point);

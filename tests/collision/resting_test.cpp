@@ -98,7 +98,8 @@ TEST_CASE("a stack of boxes rests, falls asleep and then costs no step") {
   for (int level = 0; level < 5; ++level) {
     const BodyState state = world->state(stack[static_cast<std::size_t>(level)]);
     CHECK(state.asleep);
-    CHECK((state.pose.position - Vec3(0, 0, 0.25 + 0.5 * level)).norm() < 0.01);
+    // Each may sink 2 mm into what it lies on, and the load of those above takes it somewhat further.
+    CHECK((state.pose.position - Vec3(0, 0, 0.25 + 0.5 * level)).norm() < 0.003 * (level + 1));
   }
   CHECK(world->sweep(kStep).empty());
 }
