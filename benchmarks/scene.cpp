@@ -11,6 +11,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "support/rigid_bodies.h"
 #include "topple/solver/static_analysis.h"
 #include "topple/structure/building.h"
 #include "topple/structure/files.h"
@@ -20,77 +21,7 @@ namespace {
 
 using namespace topple;
 using namespace topple::structure;
-
-struct Body {
-  std::string name;
-  double mass = 0;
-  Vec3 half_extents, centre;
-  Mat3 axes;  // rows
-};
-
-/// Order of bodies and joints: posts, beams and braces, panels.
-std::vector<std::size_t> members_in_order(const Building& building) {
-  std::vector<std::size_t> order(building.members.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::stable_partition(order.begin(), order.end(),
-                        [&](std::size_t i) { return building.members[i].kind == MemberKind::post; });
-  return order;
-}
-
-double total(const std::vector<solver::BeamLoad>& loads, const Mat3& axes) {
-  double down = 0;
-  for (const solver::BeamLoad& load : loads) {
-    const solver::Vec6 sum = load.kind == solver::BeamLoad::Kind::distributed
-                                 ? solver::Vec6((load.first + load.last) / 2 * (load.to - load.from))
-                                 : load.first;
-    down -= (axes.transpose() * sum.head<3>()).z();
-  }
-  return down;
-}
-
-Vec3 position(const Building& building, NodeId node) { return building[node].position; }
-
-Body member_body(const Building& building, const Member& member, double weight) {
-  const Section& section = building[member.section];
-  const auto side = [](double given, double inertia, double area) {
-    return given > 0 ? given : std::sqrt(12 * inertia / area);
-  };
-  Body body;
-  body.name = member.name;
-  body.mass = weight / building.gravity;
-  body.half_extents = Vec3(member.length, side(section.width, section.Iz, section.area),
-                           side(section.depth, section.Iy, section.area)) /
-                      2;
-  body.centre = (position(building, member.nodes[0]) + member.offsets[0] + position(building, member.nodes[1]) +
-                 member.offsets[1]) /
-                2;
-  body.axes = member.axes;
-  return body;
-}
-
-Body panel_body(const Building& building, const Panel& panel, double& area) {
-  Vec3 low = Vec3::Constant(1e300), high = -low, centre = Vec3::Zero();
-  for (const NodeId node : panel.nodes) {
-    const Vec3 local = panel.axes * position(building, node);
-    low = low.cwiseMin(local);
-    high = high.cwiseMax(local);
-    centre += position(building, node) / 4;
-  }
-  Body body;
-  body.name = panel.name;
-  body.half_extents = Vec3(high.x() - low.x(), high.y() - low.y(), panel.thickness) / 2;
-  body.centre = centre;
-  body.axes = panel.axes;
-  area = 4 * body.half_extents.x() * body.half_extents.y();
-  return body;
-}
-
-void write(const Body& body) {
-  const Mat3 rotation = body.axes.transpose();
-  const Eigen::Quaterniond q(rotation);
-  std::cout << "body " << body.name << ' ' << body.mass << ' ' << body.half_extents.transpose() << ' '
-            << body.centre.transpose() << ' ' << q.w() << ' ' << q.x() << ' ' << q.y() << ' ' << q.z() << '\n';
-}
+using namespace topple::bench;
 
 class Writer {
  public:
@@ -124,7 +55,7 @@ class Writer {
     for (const std::size_t i : members_in_order(building_)) {
       const Member& member = building_.members[i];
       body_of_[member.name] = count_++;
-      write(member_body(building_, member, total(loads_.members[i], member.axes)));
+      write(member_body(building_, member, total(loads_.members[i], member.axes)), std::cout);
       if (member.kind == MemberKind::post) post_below_[member.nodes[1].index] = member.name;
     }
     if (frame_only_) return;
@@ -136,7 +67,7 @@ class Writer {
       body.mass = down * area / building_.gravity;
       if (!(body.mass > 0)) throw std::runtime_error("panel " + body.name + " has no weight");
       body_of_[body.name] = count_++;
-      write(body);
+      write(body, std::cout);
     }
   }
 

@@ -12,9 +12,20 @@ void read(std::istream& in, std::array<double, N>& values) {
   for (double& value : values) in >> value;
 }
 
+/// By its number, of those already there.
+SceneBody& read_body(std::istream& in, Scene& scene) {
+  std::size_t number = 0;
+  if (!(in >> number) || number >= scene.bodies.size())
+    throw std::runtime_error("a body that is not there, or not yet");
+  return scene.bodies[number];
+}
+
 void read_line(std::istream& in, const std::string& kind, Scene& scene) {
   if (kind == "gravity") {
     in >> scene.gravity;
+  } else if (kind == "ground") {
+    in >> scene.ground;
+    scene.has_ground = true;
   } else if (kind == "static_sag") {
     in >> scene.static_sag;
   } else if (kind == "body") {
@@ -23,6 +34,13 @@ void read_line(std::istream& in, const std::string& kind, Scene& scene) {
     read(in, body.half_extents);
     read(in, body.centre);
     read(in, body.orientation);
+  } else if (kind == "ball") {
+    read_body(in, scene).ball = true;
+  } else if (kind == "state") {
+    SceneBody& body = read_body(in, scene);
+    read(in, body.velocity);
+    read(in, body.spin);
+    in >> body.asleep;
   } else if (kind == "joint") {
     SceneJoint& joint = scene.joints.emplace_back();
     in >> joint.name >> joint.body >> joint.other;

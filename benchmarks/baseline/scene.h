@@ -14,6 +14,9 @@ struct SceneBody {
   double mass = 0;                                // kg
   Vec3 half_extents{}, centre{};                  // m
   std::array<double, 4> orientation{1, 0, 0, 0};  // w x y z
+  bool ball = false;                              // of the radius half_extents[0]
+  Vec3 velocity{}, spin{};                        // m/s, rad/s, global axes
+  bool asleep = false;
 };
 
 /// Joins `body` to `other` (an index of bodies, -1: the ground) at a point. The force is what the other does to the
@@ -42,6 +45,8 @@ struct ScenePush {
 struct Scene {
   double gravity = 0;     // m/s2, downwards
   double static_sag = 0;  // m, mean over the roof points, by frame analysis
+  bool has_ground = false;
+  double ground = 0;  // height, m
   std::vector<SceneBody> bodies;
   std::vector<SceneJoint> joints;
   std::vector<RoofPoint> roof;
