@@ -234,7 +234,7 @@ void follow(const std::string& name, double every, const std::string& folder) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  solver::restart_with_better_blas_kernel(argv);
+  solver::prepare_blas(argv);
   try {
     if (argc != 4 || !(std::atof(argv[2]) > 0)) {
       std::fprintf(stderr, "usage: bench_moments SCENARIO EVERY FOLDER, EVERY in seconds, above zero\n");
