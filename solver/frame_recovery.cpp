@@ -82,8 +82,8 @@ Vec12 FrameSystem::end_forces(int index, const std::vector<Vec6>& displacements,
   return beam_end_forces(CondensedBeam(beam, beam_factor[i]), beam.length, hubs, fixed_end);
 }
 
-std::vector<StaticSolution> FrameSystem::recover(std::span<LoadVector> loads,
-                                                 const Eigen::MatrixXd& displacements, int threads) const {
+std::vector<StaticSolution> FrameSystem::recover(std::span<LoadVector> loads, const Eigen::MatrixXd& displacements,
+                                                 int threads) const {
   std::vector<StaticSolution> solutions(loads.size());
   const auto count = static_cast<int>(loads.size());
   each_on_threads(count, threads, [&](int set) {

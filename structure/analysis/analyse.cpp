@@ -298,8 +298,8 @@ class Analysis {
                                   " digits only (equilibrium error " + short_number(c.equilibrium_error) + ")");
       if (!c.quality.converged)
         result.warnings.push_back(of + "the equations are not solved to rounding (backward error " +
-                                  short_number(c.quality.backward_error) + "); about " +
-                                  digits(c.quality.error_bound) + " digits of the displacements are certain");
+                                  short_number(c.quality.backward_error) + "); about " + digits(c.quality.error_bound) +
+                                  " digits of the displacements are certain");
     }
   }
 

@@ -176,16 +176,18 @@ TEST_CASE("a member is as used at a load that all forces jump at as the two piec
   const std::string rest = R"(, "section": "s", "material": "S", "design": {"length_y": 0, "length_z": 0,
     "length_torsion": 0, "restraints": "continuous"}})";
   const std::string load = R"("x": 9e5, "y": 3e4, "z": -8e4, "rx": 6e4, "ry": 7e4, "rz": 3e4)";
-  const Building whole = parse_model(
-      common + R"("nodes": {"A": [0, 0, 0], "B": [5, 0, 0]},
-        "members": {"AB": {"nodes": ["A", "B"])" + rest + R"(},
-        "loads": {"a": {"members": {"AB": [{"point": {)" + load + R"(}, "at": 2.63}]}}}})",
-      "whole.json");
-  const Building pieces = parse_model(
-      common + R"("nodes": {"A": [0, 0, 0], "C": [2.63, 0, 0], "B": [5, 0, 0]},
-        "members": {"AC": {"nodes": ["A", "C"])" + rest + R"(, "CB": {"nodes": ["C", "B"])" + rest + R"(},
-        "loads": {"a": {"nodes": {"C": {)" + load + "}}}}}",
-      "pieces.json");
+  const Building whole = parse_model(common + R"("nodes": {"A": [0, 0, 0], "B": [5, 0, 0]},
+        "members": {"AB": {"nodes": ["A", "B"])" +
+                                         rest + R"(},
+        "loads": {"a": {"members": {"AB": [{"point": {)" +
+                                         load + R"(}, "at": 2.63}]}}}})",
+                                     "whole.json");
+  const Building pieces = parse_model(common + R"("nodes": {"A": [0, 0, 0], "C": [2.63, 0, 0], "B": [5, 0, 0]},
+        "members": {"AC": {"nodes": ["A", "C"])" +
+                                          rest + R"(, "CB": {"nodes": ["C", "B"])" + rest + R"(},
+        "loads": {"a": {"nodes": {"C": {)" +
+                                          load + "}}}}}",
+                                      "pieces.json");
   for (const bool second_order : {false, true})
     for (const auto& [code, name] : {std::pair{DesignCode::en1993, "EN 1993-1-1 6.2.1 (6.2)"},
                                      {DesignCode::en1993, "EN 1993-1-1 6.2.6 (6.17)"},
@@ -194,6 +196,7 @@ TEST_CASE("a member is as used at a load that all forces jump at as the two piec
       const auto one = checked(whole, code, usual_drift_limit, order).combinations.at(0).designs;
       const auto two = checked(pieces, code, usual_drift_limit, order).combinations.at(0).designs;
       INFO(name);
-      CHECK(clause(one.at(0), name) == Approx(std::max(clause(two.at(0), name), clause(two.at(1), name))).epsilon(1e-9));
+      CHECK(clause(one.at(0), name) ==
+            Approx(std::max(clause(two.at(0), name), clause(two.at(1), name))).epsilon(1e-9));
     }
 }
