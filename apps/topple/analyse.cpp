@@ -224,7 +224,11 @@ std::function<int()> declare(CLI::App& app) {
   app.add_option("--code", options->code, "Check every member by EN 1993-1-1 or AISC 360")
       ->check(CLI::IsMember({"en1993", "aisc360"}));
   app.add_option("--drift-limit", options->drift_limit, "With --code: limit of the storey drift, height/N")
-      ->check(CLI::PositiveNumber);
+      ->check([](const std::string& given) {
+        double number = 0;
+        const bool above_zero = CLI::detail::lexical_cast(given, number) && number > 0;
+        return above_zero ? std::string() : "found " + given + "; accepted: a number above 0";
+      });
   app.add_option("--lose", options->lose, "Member to lose suddenly, alone, with the whole state after it")
       ->expected(1)
       ->take_all();

@@ -86,14 +86,22 @@ class Tables {
     return table.take();
   }
 
+  /// Those of edges under the edge's name, as in results.json.
   [[nodiscard]] std::string reactions() const {
     Table table("combination,node" + six_names("", force_, moment_));
-    for (const CombinationResult& c : result_.combinations)
-      for (std::size_t s = 0; s < building_.supports.size(); ++s) {
-        table.cell(name(c)).cell(building_[building_.supports[s].node].name);
-        for (const double number : units_.load(c.reactions[s])) table.cell(number);
+    for (const CombinationResult& c : result_.combinations) {
+      const auto row = [&](const std::string& held, const Vec6& reaction) {
+        table.cell(name(c)).cell(held);
+        for (const double number : units_.load(reaction)) table.cell(number);
         table.end_row();
+      };
+      for (std::size_t s = 0; s < building_.supports.size(); ++s)
+        row(building_[building_.supports[s].node].name, c.reactions[s]);
+      for (std::size_t s = 0; s < building_.edge_supports.size(); ++s) {
+        const EdgeSupport& support = building_.edge_supports[s];
+        row(building_[building_.joint(support.panel, support.edge)].name, c.edge_reactions[s]);
       }
+    }
     return table.take();
   }
 
@@ -129,7 +137,7 @@ class Tables {
   }
 
   [[nodiscard]] std::string joints() const {
-    Table table("combination,joint,utilisation,governing,demand,capacity");
+    Table table("combination,joint,utilisation,governing,demand,capacity,unit");
     for (const CombinationResult& c : result_.combinations)
       for (std::size_t j = 0; j < building_.joints.size(); ++j) {
         const Joint& joint = building_.joints[j];
@@ -141,9 +149,17 @@ class Tables {
         if (joint.panel.valid()) factor /= building_.units.length;
         table.cell(name(c)).cell(joint.name).cell(used.value);
         table.cell(sense_names[static_cast<std::size_t>(used.sense)]).cell(used.demand / factor);
-        table.cell(used.capacity / factor).end_row();
+        table.cell(used.capacity / factor).cell(unit_of(used.sense, joint.panel.valid())).end_row();
       }
     return table.take();
+  }
+
+  /// As it stands in a cell: "N mm", of an edge "N mm/mm"; nothing in consistent units.
+  [[nodiscard]] std::string unit_of(Sense sense, bool per_length) const {
+    const Units& units = building_.units;
+    if (units.consistent) return "";
+    const std::string moment = sense < Sense::torsion ? "" : " " + units.length_name;
+    return units.force_name + moment + (per_length ? "/" + units.length_name : "");
   }
 
   [[nodiscard]] std::string panels() const {

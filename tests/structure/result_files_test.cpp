@@ -74,8 +74,27 @@ TEST_CASE("tables have units in their headers, quoted names, and the textbook's 
   REQUIRE(joints.size() == 3);
   const double use = number_in(joints[1].substr(joints[1].find(":1\",") + 2), 1);
   CHECK(use == Approx(6.0 * 4000 * 4000 / 12 / 1.6e7).epsilon(1e-12));  // q L^2 / 12
+  CHECK(joints[0].ends_with(",demand,capacity,unit"));
+  CHECK(joints[1].ends_with(",N mm"));
   CHECK(lines(file(files, "displacements.csv")).size() == 3);
   CHECK(lines(file(files, "panels.csv")).size() == 1);
+}
+
+TEST_CASE("the table of reactions has those of supported edges, and they add up to the load") {
+  const Building building = parse_model(R"({"topple": 1, "units": {"length": "m", "force": "kN", "mass": "t"},
+    "materials": {"c": {"youngs_modulus": 3e7, "poisson_ratio": 0.2}},
+    "nodes": {"A": [0, 0, 0], "B": [4, 0, 0], "C": [4, 3, 0], "D": [0, 3, 0]},
+    "joints": {"e": {"capacity_per_length": {"shear_z": 50}}},
+    "panels": {"S": {"nodes": ["A", "B", "C", "D"], "thickness": 0.2, "material": "c", "model": "shell", "mesh": 4, "joint": "e"}},
+    "supports": {"S:1": "fixed", "S:3": {"z": true}}, "loads": {"a": {"panels": {"S": {"pressure": 5}}}}})",
+                                        "slab.json");
+  const NamedTexts files = results_csv(building, analyse(building));
+  const auto reactions = lines(file(files, "reactions.csv"));
+  REQUIRE(reactions.size() == 3);
+  CHECK(reactions[1].starts_with("a,S:1,"));
+  CHECK(reactions[2].starts_with("a,S:3,"));
+  CHECK(number_in(reactions[1], 4) + number_in(reactions[2], 4) == Approx(60).epsilon(1e-9));
+  CHECK(lines(file(files, "joints.csv")).at(1).ends_with(",kN/m"));
 }
 
 TEST_CASE("a drawing goes through the stations, displaced by the beam's own deflection") {
