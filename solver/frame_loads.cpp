@@ -285,4 +285,19 @@ std::optional<Defect> FrameSystem::unbalanced_load(const LoadVector& load, doubl
   return result;
 }
 
+void FrameSystem::drop_idle_moments(LoadVector& load) const {
+  if (inert_hubs_ == 0) return;
+  for (std::size_t node = 0; node < inert_.size(); ++node)
+    for (int k = 0; k < inert_[node].count; ++k) {
+      const Vec3 axis = inert_[node].directions.col(k);
+      double idle = 0;
+      for (std::size_t c = 3; c < 6; ++c)
+        if (const int e = dofs_.number[node][c]; e < dofs_.equations)
+          idle += axis(static_cast<Eigen::Index>(c) - 3) * load.force(e);
+      for (std::size_t c = 3; c < 6; ++c)
+        if (const int e = dofs_.number[node][c]; e < dofs_.equations)
+          load.force(e) -= idle * axis(static_cast<Eigen::Index>(c) - 3);
+    }
+}
+
 }  // namespace topple::solver

@@ -108,6 +108,8 @@ class FrameSystem {
   /// A moment on a hub that nothing keeps from turning, or a load on a loose part; empty when there is none. A moment
   /// counts as none when the largest force would make it with a lever of this share of the longest beam.
   [[nodiscard]] std::optional<Defect> unbalanced_load(const LoadVector& load, double lever_share = 0) const;
+  /// Takes away the moments on hubs that nothing keeps from turning: as if each hub had turned until they are none.
+  void drop_idle_moments(LoadVector& load) const;
 
   [[nodiscard]] FixedEndForces fixed_end_forces(int beam, std::span<const BeamLoad> loads) const;
   /// Adds the reverse of a beam's fixed-end forces to the right-hand side of the equations.

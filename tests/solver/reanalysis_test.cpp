@@ -283,6 +283,23 @@ TEST_CASE("the response to one more load is that load's alone, and reciprocal") 
   }
 }
 
+TEST_CASE("a response leaves out a moment on a hub that nothing keeps from turning, as if it had turned out of the way") {
+  FrameModel model =
+      single_beam(2, components(rigid, rigid, rigid, rigid, rigid, rigid), components(0, rigid, rigid, 0, 0, 0));
+  model.beams[0].end_stiffness[1].tail<3>().setZero();
+  Reanalysis standing(model);
+  REQUIRE(standing.solve().stable);
+  LoadSet beside, through;
+  beside.nodes = {{1, components(1000, 0, 0, 0, 150, 0)}};  // a contact beside the hub
+  through.nodes = {{1, components(1000, 0, 0, 0, 0, 0)}};
+  const auto a = standing.respond(beside), b = standing.respond(through);
+  CHECK(a.displacements[1](0) == Approx(b.displacements[1](0)).epsilon(1e-14));
+  CHECK(a.displacements[1].tail<3>().norm() < 1e-14);
+  // What lies there for good does turn it.
+  standing.set_node_load(1, beside.nodes[0].load);
+  CHECK_FALSE(standing.solve().stable);
+}
+
 TEST_CASE("responses to several loads at once are those to each alone") {
   Case c;
   (void)c.standing.solve();

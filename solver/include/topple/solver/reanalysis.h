@@ -137,6 +137,7 @@ class Reanalysis {
 
   /// Response of the structure as it stands (last solve()) to an extra load set alone, all other loads zero; beam loads
   /// included exactly. Used for compliances under contacts and for the direction of impact forces. One solve each.
+  /// A moment on a hub that nothing keeps from turning is left out: the hub turns until it is none.
   struct Response {
     std::vector<Vec6> displacements;
     std::vector<std::pair<int, Vec12>> fixed_end;  ///< of the beams that bear one of the loads, in order of the beam
