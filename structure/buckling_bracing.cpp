@@ -236,7 +236,9 @@ std::optional<BuckledPost> BucklingBracing::judge(int c) const {
     const double compression = (force(0) - force(6)) / 2;
     if (!(compression > 0)) continue;
     const solver::Beam& beam = model.beams[i];
-    Bent one{members[i], compression};
+    Bent one;
+    one.post = members[i];
+    one.compression = compression;
     for (std::size_t end = 0; end < 2; ++end) one.motion[end] = mode.shape[static_cast<std::size_t>(beam.node[end])];
     const solver::Vec12 hubs = hubs_of(beam, one.motion[0], one.motion[1]);
     one.rests = hubs.isZero(0);
