@@ -2,8 +2,9 @@
 // No clock has a say, so that a replay does the same.
 //
 // A blow that waits is one whose body stands still where it touches for the rest of the step, with the speed that it
-// has left; in the next step it touches at once, and the push goes on. Momentum that others give it meanwhile is its
-// own; it falls no way, so that gravity does no work on it.
+// has left; in the next step it touches at once, and the push goes on. Others may slow it down meanwhile. What would
+// drive it on is borne by what it stands against: on a body that does not give way, the weight of a heap would do work
+// without end. It falls no way, so that gravity does no work on it.
 #include <algorithm>
 
 #include "simulation/simulation_state.h"
@@ -83,12 +84,23 @@ void Simulation::State::let_go_held_back() {
     if (!one) continue;
     collision::BodyState state = world->state({id});
     // The world measured what contacts did to a body that stood still; on the one that moves they did as much more.
-    ledger.lost_in_contacts -=
-        one->rest.mass * state.velocity.dot(moving.velocity) +
-        state.angular_velocity.dot(world_inertia(*one, state.pose.orientation) * moving.angular_velocity);
+    const Mat3 inertia = world_inertia(*one, state.pose.orientation);
+    const double measured = (one->rest.mass * state.velocity.squaredNorm() +
+                             state.angular_velocity.dot(inertia * state.angular_velocity)) /
+                            2;
+    const double more = one->rest.mass * state.velocity.dot(moving.velocity) +
+                        state.angular_velocity.dot(inertia * moving.angular_velocity);
     bodies.motion(id).asleep = false;
-    state.velocity += moving.velocity;
-    state.angular_velocity += moving.angular_velocity;
+    if (measured + more > 0) {
+      // What it stands against bears that.
+      ledger.lost_in_contacts += measured;
+      state.velocity = moving.velocity;
+      state.angular_velocity = moving.angular_velocity;
+    } else {
+      ledger.lost_in_contacts -= more;
+      state.velocity += moving.velocity;
+      state.angular_velocity += moving.angular_velocity;
+    }
     state.asleep = false;
     world->set_state({id}, state);
   }
