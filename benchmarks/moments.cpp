@@ -67,15 +67,9 @@ class MomentWriter {
     for (const std::size_t i : members_in_order(building_)) {
       const Member& member = building_.members[i];
       place(simulation_.body_of(MemberId(i)), member_body(building_, member, total(loads.members[i], member.axes)));
-      if (member.kind == MemberKind::post) post_below_[member.nodes[1].index] = i;
     }
     for (std::size_t i = 0; i < building_.panels.size(); ++i) {
-      double area = 0;
-      Body body = panel_body(building_, building_.panels[i], area);
-      const PanelAction& action = loads.panels[i];
-      body.mass =
-          (-action.body_force.z() + action.pressure * building_.panels[i].axes(2, 2)) * area / building_.gravity;
-      place(simulation_.body_of(PanelId(i)), body);
+      place(simulation_.body_of(PanelId(i)), panel_body(building_, building_.panels[i], loads.panels[i]));
     }
     pieces();
     joints();
@@ -145,35 +139,19 @@ class MomentWriter {
 
   /// As bench_scene joins them, where both sides still go together and the joint has not broken.
   void joints() {
-    for (const std::size_t i : members_in_order(building_)) {
-      const Member& member = building_.members[i];
-      const collision::BodyId carrier = simulation_.body_of(MemberId(i));
-      for (int end = 0; end < (member.kind == MemberKind::post ? 1 : 2); ++end) {
-        const NodeId node = member.nodes[static_cast<std::size_t>(end)];
-        const auto below = post_below_.find(node.index);
-        const bool ground = below == post_below_.end();
-        const collision::BodyId other = ground ? collision::BodyId{-1} : simulation_.body_of(MemberId(below->second));
-        if (other != carrier || !simulation_.frame().intact(building_.joint(MemberId(i), end))) continue;
-        joint(member.name + ':' + std::to_string(end + 1), member.name,
-              ground ? "" : building_.members[below->second].name, moved(carrier, position(building_, node)));
-      }
-    }
-    const EdgeMembers edges(building_);
-    for (std::size_t i = 0; i < building_.panels.size(); ++i) {
-      const Panel& panel = building_.panels[i];
-      const collision::BodyId carrier = simulation_.body_of(PanelId(i));
-      for (int edge = 0; edge < 4; ++edge) {
-        const std::vector<MemberId>& along = edges.of(PanelId(i), edge);
-        if (along.empty() || simulation_.body_of(along.front()) != carrier ||
-            !simulation_.frame().intact(building_.joint(PanelId(i), edge)))
-          continue;
-        const Vec3 middle = (position(building_, panel.nodes[static_cast<std::size_t>(edge)]) +
-                             position(building_, panel.nodes[static_cast<std::size_t>((edge + 1) % 4)])) /
-                            2;
-        joint(panel.name + ':' + std::to_string(edge + 1), panel.name, building_[along.front()].name,
-              moved(carrier, middle));
-      }
-    }
+    visit_member_joints(building_, [&](MemberId id, int end, MemberId below, const Vec3& point) {
+      const collision::BodyId carrier = simulation_.body_of(id);
+      const collision::BodyId other = below.valid() ? simulation_.body_of(below) : collision::BodyId{-1};
+      if (other != carrier || !simulation_.frame().intact(building_.joint(id, end))) return;
+      const std::string& name = building_[id].name;
+      joint(joint_name(name, end), name, below.valid() ? building_[below].name : "", moved(carrier, point));
+    });
+    visit_panel_joints(building_, [&](PanelId id, int edge, MemberId along, const Vec3& middle) {
+      const collision::BodyId carrier = simulation_.body_of(id);
+      if (simulation_.body_of(along) != carrier || !simulation_.frame().intact(building_.joint(id, edge))) return;
+      const std::string& name = building_[id].name;
+      joint(joint_name(name, edge), name, building_[along].name, moved(carrier, middle));
+    });
   }
 
   const Simulation& simulation_;
@@ -181,7 +159,6 @@ class MomentWriter {
   std::ostream& out_;
   std::map<std::int64_t, Motion> motions_;
   std::map<std::string, int> numbers_;  ///< of bodies in the scene; -1: gone
-  std::map<int, std::size_t> post_below_;
   int count_ = 0;
 };
 

@@ -43,7 +43,7 @@ class Writer {
   void run() {
     std::cout << std::setprecision(17) << "gravity " << building_.gravity << '\n';
     bodies();
-    for (const std::size_t i : members_in_order(building_)) member_joints(i);
+    member_joints();
     if (!frame_only_) panel_joints();
     roof();
   }
@@ -56,15 +56,10 @@ class Writer {
       const Member& member = building_.members[i];
       body_of_[member.name] = count_++;
       write(member_body(building_, member, total(loads_.members[i], member.axes)), std::cout);
-      if (member.kind == MemberKind::post) post_below_[member.nodes[1].index] = member.name;
     }
     if (frame_only_) return;
     for (std::size_t i = 0; i < building_.panels.size(); ++i) {
-      double area = 0;
-      Body body = panel_body(building_, building_.panels[i], area);
-      const PanelAction& action = loads_.panels[i];
-      const double down = -action.body_force.z() + action.pressure * building_.panels[i].axes(2, 2);
-      body.mass = down * area / building_.gravity;
+      const Body body = panel_body(building_, building_.panels[i], loads_.panels[i]);
       if (!(body.mass > 0)) throw std::runtime_error("panel " + body.name + " has no weight");
       body_of_[body.name] = count_++;
       write(body, std::cout);
@@ -78,52 +73,40 @@ class Writer {
     std::cout << '\n';
   }
 
-  /// A post is joined to the post below (or the ground) at its lower end; a beam at both ends to the lower posts.
-  void member_joints(std::size_t i) {
-    const Member& member = building_.members[i];
-    for (int end = 0; end < (member.kind == MemberKind::post ? 1 : 2); ++end) {
-      const NodeId node = member.nodes[static_cast<std::size_t>(end)];
-      const auto below = post_below_.find(node.index);
-      const int other = below == post_below_.end() ? -1 : body_of_.at(below->second);
-      const auto& local = solution_.beam_end_forces[i];
+  void member_joints() {
+    visit_member_joints(building_, [&](MemberId id, int end, MemberId below, const Vec3& point) {
+      const Member& member = building_[id];
+      const auto& local = solution_.beam_end_forces[static_cast<std::size_t>(id.index)];
       Eigen::Matrix<double, 6, 1> force;
       force.head<3>() = member.axes.transpose() * local.segment<3>(6 * end);
       force.tail<3>() = member.axes.transpose() * local.segment<3>(6 * end + 3);
-      joint(member.name + ':' + std::to_string(end + 1), body_of_.at(member.name), other, position(building_, node),
-            &force);
-    }
+      joint(joint_name(member.name, end), body_of_.at(member.name),
+            below.valid() ? body_of_.at(building_[below].name) : -1, point, &force);
+    });
   }
 
-  /// At the middle of each edge, to the member there: a slab has four beams, a wall two beams and two posts.
   void panel_joints() {
-    const EdgeMembers edges(building_);
-    for (std::size_t i = 0; i < building_.panels.size(); ++i) {
-      const Panel& panel = building_.panels[i];
-      for (int edge = 0; edge < 4; ++edge) {
-        const std::vector<MemberId>& along = edges.of(PanelId(i), edge);
-        if (along.empty()) continue;
-        const Vec3 middle = (position(building_, panel.nodes[static_cast<std::size_t>(edge)]) +
-                             position(building_, panel.nodes[static_cast<std::size_t>((edge + 1) % 4)])) /
-                            2;
-        joint(panel.name + ':' + std::to_string(edge + 1), body_of_.at(panel.name),
-              body_of_.at(building_[along.front()].name), middle, nullptr);
-      }
-    }
+    visit_panel_joints(building_, [&](PanelId id, int edge, MemberId along, const Vec3& middle) {
+      const std::string& name = building_[id].name;
+      joint(joint_name(name, edge), body_of_.at(name), body_of_.at(building_[along].name), middle, nullptr);
+    });
   }
 
   void roof() {
+    const std::map<int, MemberId> posts = posts_below(building_);
+    const auto post = [&](int node) { return body_of_.at(building_[posts.at(node)].name); };
     double sag = 0;
     int points = 0;
     for (std::size_t n = 0; n < building_.nodes.size(); ++n) {
       if (!on_roof(n)) continue;
-      std::cout << "roof " << body_of_.at(post_below_.at(static_cast<int>(n))) << ' '
+      std::cout << "roof " << post(static_cast<int>(n)) << ' '
                 << building_.nodes[n].position.transpose() << '\n';
       sag -= solution_.displacements[n].z();
       ++points;
     }
     std::cout << "static_sag " << sag / points << '\n';
     if (push_ == 0) return;
-    std::cout << "push " << body_of_.at(post_below_.at(pushed_)) << ' '
+    std::cout << "push " << post(pushed_) << ' '
               << building_.nodes[static_cast<std::size_t>(pushed_)].position.transpose() << " 0 0 " << -push_ << '\n';
   }
 
@@ -134,7 +117,6 @@ class Writer {
   int pushed_ = -1;
   solver::StaticSolution solution_;
   std::map<std::string, int> body_of_;
-  std::map<int, std::string> post_below_;
   int count_ = 0;
 };
 

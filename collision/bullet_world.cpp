@@ -108,7 +108,8 @@ Body& body_of(btRigidBody& rigid) { return *static_cast<Body*>(static_cast<Solid
 
 BulletWorld::BulletWorld()
     : dispatcher_(&configuration_),
-      solver_(kSettings.iterations, kSettings.loose_iterations), world_(&dispatcher_, &broadphase_, &solver_, &configuration_) {
+      solver_(kSettings.iterations, kSettings.loose_iterations),
+      world_(&dispatcher_, &broadphase_, &solver_, &configuration_) {
   dispatcher_.setDispatcherFlags(dispatcher_.getDispatcherFlags() &
                                  ~btCollisionDispatcher::CD_USE_RELATIVE_CONTACT_BREAKING_THRESHOLD);
   use_half_space_contacts(dispatcher_, polyhedron_first_, plane_first_);

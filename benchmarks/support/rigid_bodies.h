@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -61,7 +62,7 @@ inline Body member_body(const Building& building, const Member& member, double w
   return body;
 }
 
-inline Body panel_body(const Building& building, const Panel& panel, double& area) {
+inline Body panel_body(const Building& building, const Panel& panel, const PanelAction& action) {
   Vec3 low = Vec3::Constant(1e300), high = -low, centre = Vec3::Zero();
   for (const NodeId node : panel.nodes) {
     const Vec3 local = panel.axes * position(building, node);
@@ -74,9 +75,54 @@ inline Body panel_body(const Building& building, const Panel& panel, double& are
   body.half_extents = Vec3(high.x() - low.x(), high.y() - low.y(), panel.thickness) / 2;
   body.centre = centre;
   body.axes = panel.axes;
-  area = 4 * body.half_extents.x() * body.half_extents.y();
+  const double area = 4 * body.half_extents.x() * body.half_extents.y();
+  const double down = -action.body_force.z() + action.pressure * panel.axes(2, 2);
+  body.mass = down * area / building.gravity;
   return body;
 }
+
+/// The post under each node, by its upper end.
+inline std::map<int, MemberId> posts_below(const Building& building) {
+  std::map<int, MemberId> below;
+  for (std::size_t i = 0; i < building.members.size(); ++i)
+    if (building.members[i].kind == MemberKind::post) below[building.members[i].nodes[1].index] = MemberId(i);
+  return below;
+}
+
+/// A post is joined to the post below (or the ground: not valid) at its lower end; a beam at both ends to the lower
+/// posts. `visit` takes the member, its end, the post and the point.
+template <class Visit>
+void visit_member_joints(const Building& building, const Visit& visit) {
+  const std::map<int, MemberId> posts = posts_below(building);
+  for (const std::size_t i : members_in_order(building)) {
+    const Member& member = building.members[i];
+    for (int end = 0; end < (member.kind == MemberKind::post ? 1 : 2); ++end) {
+      const NodeId node = member.nodes[static_cast<std::size_t>(end)];
+      const auto below = posts.find(node.index);
+      visit(MemberId(i), end, below == posts.end() ? MemberId() : below->second, position(building, node));
+    }
+  }
+}
+
+/// At the middle of each edge, to the member there: a slab has four beams, a wall two beams and two posts. `visit` takes
+/// the panel, its edge, the member and the point.
+template <class Visit>
+void visit_panel_joints(const Building& building, const Visit& visit) {
+  const EdgeMembers edges(building);
+  for (std::size_t i = 0; i < building.panels.size(); ++i) {
+    const Panel& panel = building.panels[i];
+    for (int edge = 0; edge < 4; ++edge) {
+      const std::vector<MemberId>& along = edges.of(PanelId(i), edge);
+      if (along.empty()) continue;
+      const Vec3 middle = (position(building, panel.nodes[static_cast<std::size_t>(edge)]) +
+                           position(building, panel.nodes[static_cast<std::size_t>((edge + 1) % 4)])) /
+                          2;
+      visit(PanelId(i), edge, along.front(), middle);
+    }
+  }
+}
+
+inline std::string joint_name(const std::string& part, int end) { return part + ':' + std::to_string(end + 1); }
 
 /// A line of a scene (baseline/scene.h).
 inline void write(const Body& body, std::ostream& out) {
