@@ -102,17 +102,25 @@ auto& find(Map& map, std::int64_t id, const char* what) {
   return *found->second;
 }
 
+btDefaultCollisionConstructionInfo room_for_own_algorithms() {
+  btDefaultCollisionConstructionInfo info;
+  info.m_customCollisionAlgorithmMaxElementSize = size_of_polyhedron_contacts();
+  return info;
+}
+
 Body& body_of(btRigidBody& rigid) { return *static_cast<Body*>(static_cast<Solid*>(rigid.getUserPointer())); }
 
 }  // namespace
 
 BulletWorld::BulletWorld()
-    : dispatcher_(&configuration_),
+    : configuration_(room_for_own_algorithms()),
+      dispatcher_(&configuration_),
       solver_(kSettings.iterations, kSettings.loose_iterations),
       world_(&dispatcher_, &broadphase_, &solver_, &configuration_) {
   dispatcher_.setDispatcherFlags(dispatcher_.getDispatcherFlags() &
                                  ~btCollisionDispatcher::CD_USE_RELATIVE_CONTACT_BREAKING_THRESHOLD);
   use_half_space_contacts(dispatcher_, polyhedron_first_, plane_first_);
+  use_polyhedron_contacts(dispatcher_, polyhedra_contacts_);
   world_.record_with([](btRigidBody& rigid) -> SolverVelocities& { return body_of(rigid).velocities; });
   world_.setGravity({0, 0, 0});  // not the one that Bullet begins with
   world_.setForceUpdateAllAabbs(false);

@@ -17,6 +17,7 @@
 #include "free_spin_world.h"
 #include "half_space_contacts.h"
 #include "island_solver.h"
+#include "polyhedron_contacts.h"
 
 class btManifoldPoint;
 class btPersistentManifold;
@@ -147,6 +148,7 @@ class BulletWorld final : public World {
 
   // Order of destruction: solids leave before the world, the world before what it stands on.
   HalfSpaceContactsFactory polyhedron_first_{false}, plane_first_{true};
+  PolyhedronContactsFactory polyhedra_contacts_;
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_;
   btDbvtBroadphase broadphase_;

@@ -102,3 +102,50 @@ TEST_CASE("points that only look like a prism's at first have the faces of their
     CHECK(given.corner_count == turned.corner_count);
   }
 }
+
+TEST_CASE("a prism that turns past another, known to be apart from it, touches it when its tip gets there") {
+  const auto bar = [](double half_length) {
+    ConvexPart part = hexagon(true, false);
+    for (Vec3& point : part.points) point.x() *= half_length / 0.5;
+    return part;
+  };
+  const auto world = make_bullet_world();  // no gravity
+  BodyDescription turning = box_body({2, 0.35, 0.1}, 400, {0, 0, 5});
+  turning.parts = {bar(2)};
+  turning.angular_velocity = Vec3(0, 0, 0.5);
+  // A tall post that stands in the way of the bar's end, a quarter of a turn on; their bounds meet long before.
+  ObstacleDescription post;
+  post.parts = {bar(0.5)};
+  for (Vec3& point : post.parts[0].points) point.z() *= 30;
+  post.pose.position = Vec3(0, 1.8, 5);
+  world->add_obstacle(post);  // first, so that to the search it is the bar that moves
+  const BodyId id = world->add_body(turning);
+  const auto apart = [&] {
+    const BodyState state = world->state(id);
+    double least = 10;  // m across the bar's sides, of the post's corners near its end
+    for (const Vec3& corner : post.parts[0].points) {
+      const Vec3 at = state.pose.orientation.conjugate() * (Vec3(corner.x(), corner.y(), 0) + Vec3(0, 1.8, 0));
+      double out = -10;  // over the side of the bar that it is farthest out of
+      const std::vector<Vec3>& sides = turning.parts[0].points;
+      for (std::size_t i = 0; i < sides.size(); i += 2) {
+        const Vec3 &a = sides[i], &b = sides[(i + 2) % sides.size()];
+        const Vec3 outward = Vec3(b.y() - a.y(), a.x() - b.x(), 0).normalized();
+        out = std::max(out, (Vec3(at.x(), at.y(), a.z()) - a).dot(outward));
+      }
+      least = std::min(least, out);
+    }
+    return least;
+  };
+  int steps = 0;
+  double before = apart();
+  while (world->state(id).angular_velocity.z() > 0.4 && steps < 600) {
+    before = apart();
+    world->step(kStep);
+    ++steps;
+  }
+  INFO(steps);
+  CHECK(steps > 60);
+  CHECK(steps < 190);         // a quarter of a turn
+  CHECK(before < 0.02);       // no sooner
+  CHECK(apart() > -0.01);     // and no later
+}
