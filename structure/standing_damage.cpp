@@ -144,10 +144,8 @@ void StandingFrame::State::fracture(PanelId panel, const PanelRemains& remains) 
   account.lighten(panel);
   if (!bearings.serves(panel)) return fracture_shell(panel, remains);
   if (bearings.membrane(panel)) {
-    const Eigen::MatrixXd before =
-        shells.of(panel) ? shells.of(panel)->stiffness() : Eigen::MatrixXd(statics.membrane_stiffness(panel));
-    shells.make(panel).fracture(remains);
-    replace_stiffness(panel, before);
+    to_condense.emplace_back(panel, remains);
+    softened = true;
   }
   bearings.fracture(panel, remains.edge_length);
   const HandOver before = loads.handed(panel);
@@ -158,7 +156,41 @@ void StandingFrame::State::fracture(PanelId panel, const PanelRemains& remains) 
   for (int edge = 0; edge < 4; ++edge)
     if (holds(building.joint(panel, edge)) && remains.edge_length[static_cast<std::size_t>(edge)] <= 0)
       bare.push_back(building.joint(panel, edge));
-  break_joints(bare, BreakCause::impact);
+  break_bare(bare);
+}
+
+/// Edges of which nothing is left let go suddenly; what changed slowly is laid before.
+void StandingFrame::State::break_bare(std::span<const JointId> edges) {
+  if (edges.empty()) return;
+  lay_contacts_at_once();
+  break_joints(edges, BreakCause::impact);
+}
+
+/// Broken membranes, in the order in which they broke.
+bool StandingFrame::State::condense_broken() {
+  while (!to_condense.empty()) {
+    const PanelId panel = to_condense.front().first;
+    if (!bearings.membrane(panel)) {
+      to_condense.pop_front();
+      continue;
+    }
+    const auto condense = [this, panel] {
+      PanelSuperelement& own = shells.make(panel);
+      spend_on_elements(own.elements());
+      own.fracture(to_condense.front().second);
+    };
+    const auto replace = [this, panel, before = stiffness_of_membrane(panel)] {
+      replace_stiffness(panel, before);
+      to_condense.pop_front();
+    };
+    if (!paced(condense, replace)) return false;
+  }
+  return true;
+}
+
+Eigen::MatrixXd StandingFrame::State::stiffness_of_membrane(PanelId panel) const {
+  if (const PanelSuperelement* own = shells.of(panel)) return own->stiffness();
+  return statics.membrane_stiffness(panel);
 }
 
 void StandingFrame::State::remove(MemberId member) {

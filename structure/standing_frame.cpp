@@ -457,8 +457,8 @@ void StandingFrame::fracture(PanelId panel, const PanelRemains& remains) {
   State& state = *state_;
   if (!state.stands(panel)) return;
   state.finish();
-  state.lay_contacts_at_once();
   state.fracture(panel, remains);
+  if (!state.limited()) (void)state.condense_broken();
   state.pending = true;
 }
 

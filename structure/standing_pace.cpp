@@ -25,6 +25,12 @@ void StandingFrame::State::spend_on_joints(std::size_t count) {
   solver::spend(solver::operations_per_nanosecond * nanoseconds * static_cast<double>(count));
 }
 
+/// To find what is left of a panel's elements, and to condense them: together about as long for each.
+void StandingFrame::State::spend_on_elements(std::size_t count) {
+  constexpr double nanoseconds = 2500;
+  solver::spend(solver::operations_per_nanosecond * nanoseconds * static_cast<double>(count));
+}
+
 bool StandingFrame::State::go_on() {
   if (pace.done()) return true;
   if (used_up()) return false;

@@ -89,7 +89,7 @@ void StandingFrame::State::fracture_shell(PanelId panel, const PanelRemains& rem
   for (int edge = 0; edge < 4; ++edge)
     if (holds(building.joint(panel, edge)) && remains.edge_length[static_cast<std::size_t>(edge)] <= 0)
       bare.push_back(building.joint(panel, edge));
-  break_joints(bare, BreakCause::impact);
+  break_bare(bare);
 }
 
 /// Those of the edge at nodes of the building; what lies between them is within the panel.

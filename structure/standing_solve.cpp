@@ -11,6 +11,7 @@ namespace topple::structure {
 /// Contact loads and softening come on slowly: their change moves R0 as much as R, so that no sudden-loss factor acts
 /// on them.
 bool StandingFrame::State::lay_contacts() {
+  if (!condense_broken()) return false;
   if (!laying) {
     if (!loads.changed() && !softened) return true;
     softened = false;
@@ -68,6 +69,7 @@ std::size_t StandingFrame::State::parts_leaving() const {
 bool StandingFrame::State::bring_up_to_date() {
   constexpr std::size_t many = 6;  // to make bodies of them takes about as long as to solve
   segment_numbers.clear();
+  if (!condense_broken()) return false;
   for (;;) {
     const std::size_t left = parts_leaving();
     release();

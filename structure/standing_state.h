@@ -1,6 +1,7 @@
 #pragma once
 // What a StandingFrame is made of, and its inner steps: damage goes to every part that must know (damage), what lost
 // its hold leaves (release), changed components are solved (solve), joints are checked (check).
+#include <deque>
 #include <functional>
 #include <map>
 #include <utility>
@@ -88,6 +89,10 @@ struct StandingFrame::State {
   void lose_member_joint(JointId joint, int told);
   void take(const PanelBearings::Changes& changes, std::vector<Detached>* parts);
   void fracture(PanelId panel, const PanelRemains& remains);
+  void break_bare(std::span<const JointId> edges);
+  /// Of membranes that broke: what is left of their stiffness, before anything is solved for.
+  [[nodiscard]] bool condense_broken();
+  [[nodiscard]] Eigen::MatrixXd stiffness_of_membrane(PanelId panel) const;
   void remove(MemberId member);
   void remove(PanelId panel);
   template <class Gone>
@@ -120,6 +125,7 @@ struct StandingFrame::State {
   }
   void finish_paced();
   static void spend_on_joints(std::size_t count);
+  static void spend_on_elements(std::size_t count);
   void bill(double operations) {
     counters.operations += operations;
     allowance -= operations;
@@ -275,6 +281,7 @@ struct StandingFrame::State {
   std::vector<int> solved_nodes;  ///< per component: nodes that the solver still holds
 
   std::vector<Change> queue;
+  std::deque<std::pair<PanelId, PanelRemains>> to_condense;  ///< membranes that broke
   bool pending = false;
   /// How far a settle() came that operations limit: contact loads are laid; what changed is applied, and what stands
   /// is not solved for.

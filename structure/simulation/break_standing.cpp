@@ -170,8 +170,8 @@ void Simulation::State::crack_panels() {
 /// These chunks of a standing panel become bodies at rest; everybody hears of what remains. Returns the bodies of
 /// those that a hit broke out.
 std::vector<collision::BodyId> Simulation::State::break_standing(PanelId panel, std::vector<PanelChunk> chunks) {
-  // Operations, for budgets: what remains is condensed anew, and everybody hears of it.
-  constexpr double remains_cost = 7e6;
+  // Operations, for budgets: everybody hears of what remains.
+  constexpr double remains_cost = 4e6;
   spend_on_chunks(chunks.size());
   spend_on_debris(remains_cost);
   const BrokenPanel& left = broken_panels.at(panel);

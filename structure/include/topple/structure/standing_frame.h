@@ -255,7 +255,7 @@ class StandingFrame {
   void expect_fracture(PanelId panel);
   /// A standing panel is broken in part, now: it hands on what remains of its weight by where that lies, its edge
   /// joints bear over what remains of their length (told as broken by the next settle() when nothing does), and it
-  /// is as stiff as what remains. Holes are all since it was whole.
+  /// is as stiff as what remains (of a membrane: from the next settle() on). Holes are all since it was whole.
   void fracture(PanelId panel, const PanelRemains& remains);
   /// Of a shell panel as it is, or was when it left: in the freedoms of its nodes (Panel::all_nodes()), global.
   [[nodiscard]] Eigen::MatrixXd shell_stiffness(PanelId shell) const;
