@@ -160,10 +160,10 @@ void StandingFrame::State::fracture(PanelId panel, const PanelRemains& remains) 
 }
 
 /// Edges of which nothing is left let go suddenly; what changed slowly is laid before.
-void StandingFrame::State::break_bare(std::span<const JointId> edges) {
-  if (edges.empty()) return;
+void StandingFrame::State::break_bare(std::span<const JointId> bare) {
+  if (bare.empty()) return;
   lay_contacts_at_once();
-  break_joints(edges, BreakCause::impact);
+  break_joints(bare, BreakCause::impact);
 }
 
 /// Broken membranes, in the order in which they broke.

@@ -20,7 +20,7 @@ void Simulation::State::book() {
   for (BodyMotion& one : bodies.motions()) book_body(one);
   let_go_held_back();
   auto next = bodies.motions().begin();  // asked for in order of id
-  resting.read(world->contacts(), obstacles, scenario.step, [&](collision::BodyId id) {
+  resting.read(felt_contacts, obstacles, scenario.step, [&](collision::BodyId id) {
     while (next != bodies.motions().end() && next->id < id.value) ++next;
     return next != bodies.motions().end() && next->id == id.value && !world->state(id).asleep;
   });
@@ -34,7 +34,11 @@ void Simulation::State::book() {
 
 /// The collision world measures what each contact took from the bodies, in the same reading of velocities.
 void Simulation::State::book_contacts() {
-  for (const collision::Contact& contact : world->contacts()) ledger.lost_in_contacts += contact.work_lost;
+  felt_contacts.clear();
+  for (const collision::Contact& contact : world->contacts()) {
+    ledger.lost_in_contacts += contact.work_lost;
+    if (is_felt(contact)) felt_contacts.push_back(felt(contact));
+  }
   for (const auto& [id, hung] : cables) ledger.lost_in_contacts += world->cable_pull(hung.cable).work_lost;
 }
 

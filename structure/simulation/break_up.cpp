@@ -74,12 +74,12 @@ std::vector<collision::BodyId> Simulation::State::hit_hard() {
   for (const std::int64_t id : bodies.composed())
     if (!bodies.motion(id).asleep && may_fall_apart(bodies.at(id))) force.emplace_back(id, 0.0);
   if (force.empty()) return {};
-  const auto feel = [&](collision::BodyId id, const collision::Contact& contact, std::int64_t tag) {
+  const auto feel = [&](collision::BodyId id, const FeltContact& contact, std::int64_t tag) {
     if (tag < 0) return;
     const auto felt = std::lower_bound(force.begin(), force.end(), std::pair(id.value, 0.0));
     if (felt != force.end() && felt->first == id.value) felt->second += contact.impulse.norm() / scenario.step;
   };
-  for (const collision::Contact& contact : world->contacts()) {
+  for (const FeltContact& contact : felt_contacts) {
     feel(contact.body, contact, contact.part_tag);
     if (contact.other.kind == collision::Touched::Kind::body) feel(contact.other.body, contact, contact.other.part_tag);
   }
@@ -111,7 +111,7 @@ std::vector<Simulation::State::Blow> Simulation::State::blows(const std::vector<
     blow->pushes.push_back({part.member, part.panel, bodies.at(id.value).rest.centre + back * (point - pose.position),
                             back * impulse / scenario.step});
   };
-  for (const collision::Contact& contact : world->contacts()) {
+  for (const FeltContact& contact : felt_contacts) {
     feel(contact.body, contact.part_tag, -contact.impulse, contact.point);
     if (contact.other.kind == collision::Touched::Kind::body)
       feel(contact.other.body, contact.other.part_tag, contact.impulse, contact.point);

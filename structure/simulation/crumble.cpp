@@ -16,7 +16,7 @@ namespace topple::structure {
 std::map<PanelId, Simulation::State::PanelBlow> Simulation::State::blows_on_panels() const {
   std::map<PanelId, PanelBlow> blows;
   if (!any_breakable) return blows;
-  const auto feel = [&](collision::BodyId id, std::int64_t tag, const collision::Contact& contact,
+  const auto feel = [&](collision::BodyId id, std::int64_t tag, const FeltContact& contact,
                         collision::BodyId other) {
     if (tag < 0) return;
     const PanelId panel = part_of_number(building, tag).panel;
@@ -41,7 +41,7 @@ std::map<PanelId, Simulation::State::PanelBlow> Simulation::State::blows_on_pane
     PanelBlow& hardest = blows[panel];
     if (blow.force > hardest.force) hardest = blow;
   };
-  for (const collision::Contact& contact : world->contacts()) {
+  for (const FeltContact& contact : felt_contacts) {
     const bool two = contact.other.kind == collision::Touched::Kind::body;
     feel(contact.body, contact.part_tag, contact, two ? contact.other.body : collision::BodyId());
     if (two) feel(contact.other.body, contact.other.part_tag, contact, contact.body);

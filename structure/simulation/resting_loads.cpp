@@ -56,8 +56,8 @@ double largest_utilisation(const StandingFrame& frame, Part part) {
 
 }  // namespace
 
-void RestingLoads::gather(std::span<const collision::Contact> contacts, const Obstacles& obstacles, double dt) {
-  for (const collision::Contact& contact : contacts) {
+void RestingLoads::gather(std::span<const FeltContact> contacts, const Obstacles& obstacles, double dt) {
+  for (const FeltContact& contact : contacts) {
     if (contact.other.kind != collision::Touched::Kind::obstacle) continue;
     const Part part = obstacles.part_of(contact.other.obstacle);
     if (!part.valid()) continue;

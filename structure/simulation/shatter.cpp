@@ -175,7 +175,7 @@ void Simulation::State::shatter_landed() {
   std::vector<std::int64_t> awake;
   for (const std::int64_t id : bodies.single_panels())
     if (!bodies.motion(id).asleep && breakable_of(bodies.at(id)).valid()) awake.push_back(id);
-  const auto feel = [&](collision::BodyId id, const collision::Contact& contact) {
+  const auto feel = [&](collision::BodyId id, const FeltContact& contact) {
     if (!std::binary_search(awake.begin(), awake.end(), id.value)) return;
     const Body* one = body(id);
     const collision::BodyState state = world->state(id);
@@ -189,7 +189,7 @@ void Simulation::State::shatter_landed() {
       hardest = {change, state.pose.orientation.conjugate() * (contact.point - state.pose.position)};
   };
   if (!awake.empty())
-    for (const collision::Contact& contact : world->contacts()) {
+    for (const FeltContact& contact : felt_contacts) {
       feel(contact.body, contact);
       if (contact.other.kind == collision::Touched::Kind::body) feel(contact.other.body, contact);
     }

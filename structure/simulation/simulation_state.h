@@ -317,6 +317,7 @@ struct Simulation::State {
   PartShapes shapes;
   PartGrid grid;
   Obstacles obstacles;
+  std::vector<FeltContact> felt_contacts;  ///< of the last collision step
   RestingLoads resting;
   /// Debris that is no body any more and lies as dead weight.
   struct Frozen {
