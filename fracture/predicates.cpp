@@ -1,14 +1,10 @@
 #include "predicates.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace topple::fracture {
 
 namespace {
-
-constexpr double kRoundoff = 0x1p-53;
 
 /// A sum of doubles kept without any error, as components that do not overlap (Shewchuk's grow-expansion).
 class ExactSum {
@@ -37,6 +33,8 @@ class ExactSum {
   std::size_t size_ = 0;
 };
 
+}  // namespace
+
 double exact_orientation(const Vec2& a, const Vec2& b, const Vec2& c) {
   ExactSum sum;
   sum.add_product(a.x(), b.y());
@@ -46,28 +44,6 @@ double exact_orientation(const Vec2& a, const Vec2& b, const Vec2& c) {
   sum.add_product(a.y(), c.x());
   sum.add_product(c.y(), b.x());
   return sum.leading();
-}
-
-}  // namespace
-
-double orientation(const Vec2& a, const Vec2& b, const Vec2& c) {
-  const double left = (a.x() - c.x()) * (b.y() - c.y()), right = (a.y() - c.y()) * (b.x() - c.x());
-  const double value = left - right;
-  constexpr double bound = (3 + 16 * kRoundoff) * kRoundoff;
-  if (std::abs(value) > bound * (std::abs(left) + std::abs(right))) return value;
-  return exact_orientation(a, b, c);
-}
-
-bool certainly_in_circle(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
-  const Vec2 p = a - d, q = b - d, r = c - d;
-  const double qr = q.x() * r.y(), rq = r.x() * q.y(), rp = r.x() * p.y(), pr = p.x() * r.y();
-  const double pq = p.x() * q.y(), qp = q.x() * p.y();
-  const double lift_p = p.squaredNorm(), lift_q = q.squaredNorm(), lift_r = r.squaredNorm();
-  const double value = lift_p * (qr - rq) + lift_q * (rp - pr) + lift_r * (pq - qp);
-  const double magnitude = lift_p * (std::abs(qr) + std::abs(rq)) + lift_q * (std::abs(rp) + std::abs(pr)) +
-                           lift_r * (std::abs(pq) + std::abs(qp));
-  constexpr double bound = (10 + 96 * kRoundoff) * kRoundoff;
-  return value > bound * magnitude;
 }
 
 double distance_to_segment(const Vec2& point, const Vec2& a, const Vec2& b) {

@@ -38,10 +38,7 @@ int Triangulation::new_triangle() {
     return triangle;
   }
   const int triangle = static_cast<int>(labels_.size());
-  origins_.resize(origins_.size() + 3, none);
-  twins_.resize(origins_.size(), none);
-  tags_.resize(origins_.size(), none);
-  fixed_.resize(origins_.size(), 0);
+  edges_.resize(edges_.size() + 3);
   labels_.push_back(dead);
   is_touched_.push_back(0);
   return triangle;
@@ -62,31 +59,32 @@ void Triangulation::make(int triangle, int a, int b, int c, int label) {
   const int corners[] = {a, b, c};
   for (int i = 0; i < 3; ++i) {
     const int edge = 3 * triangle + i;
-    origins_[index(edge)] = corners[i];
+    edges_[index(edge)] = {corners[i], none, none, false, false};
     some_edge_[index(corners[i])] = edge;
-    attach(edge, {});
   }
   labels_[index(triangle)] = label;
   touch(triangle);
 }
 
-void Triangulation::attach(int edge, const Side& side) {
-  twins_[index(edge)] = side.twin;
-  fixed_[index(edge)] = side.fixed;
-  tags_[index(edge)] = side.tag;
-  if (side.twin != none) twins_[index(side.twin)] = edge;
+/// Gives a half-edge what another one had on its other side.
+void Triangulation::attach(int edge, const HalfEdge& side) {
+  HalfEdge& own = edges_[index(edge)];
+  own.twin = side.twin;
+  own.fixed = side.fixed;
+  own.tag = side.tag;
+  if (side.twin != none) edges_[index(side.twin)].twin = edge;
 }
 
 void Triangulation::join(int edge, int other) {
-  twins_[index(edge)] = other;
-  twins_[index(other)] = edge;
+  edges_[index(edge)].twin = other;
+  edges_[index(other)].twin = edge;
 }
 
 void Triangulation::fix(int edge, int tag) {
   for (const int half : {edge, twin(edge)}) {
     if (half == none) continue;
-    fixed_[index(half)] = 1;
-    tags_[index(half)] = tag;
+    edges_[index(half)].fixed = true;
+    edges_[index(half)].tag = tag;
   }
 }
 
@@ -98,15 +96,17 @@ void Triangulation::set_label(int triangle, int label) {
 }
 
 void Triangulation::settle_sides(int triangle) {
-  for (int edge = 3 * triangle; edge < 3 * triangle + 3; ++edge) {
-    const int other = twin(edge);
-    if (other == none) continue;
-    const bool separates = label(triangle) != label(other / 3);
-    if (separates == fixed(edge)) continue;
-    for (const int half : {edge, other}) {
-      fixed_[index(half)] = separates;
-      tags_[index(half)] = none;
-    }
+  for (int edge = 3 * triangle, last = edge + 3; edge < last; ++edge) settle_side(edge);
+}
+
+void Triangulation::settle_side(int edge) {
+  const int other = twin(edge);
+  if (other == none) return;
+  const bool separates = label(edge / 3) != label(other / 3);
+  if (separates == fixed(edge)) return;
+  for (const int half : {edge, other}) {
+    edges_[index(half)].fixed = separates;
+    edges_[index(half)].tag = none;
   }
 }
 
@@ -118,24 +118,20 @@ double Triangulation::doubled_area(int triangle) const {
 std::vector<int> Triangulation::star(int vertex) const {
   std::vector<int> triangles;
   triangles.reserve(8);  // six on average
-  const int first = some_edge_[index(vertex)];
-  int edge = first;
-  do {
+  any_around(vertex, [&](int edge) {
     triangles.push_back(edge / 3);
-    edge = twin(previous(edge));
-  } while (edge != none && edge != first);
-  if (edge == none)  // a corner of the box: the other way round as well
-    for (edge = twin(first); edge != none; edge = twin(next(edge))) triangles.push_back(edge / 3);
+    return false;
+  });
   return triangles;
 }
 
 int Triangulation::find_edge(int from, int to) const {
-  for (const int triangle : star(from))
-    for (int edge = 3 * triangle; edge < 3 * triangle + 3; ++edge) {
-      if (origin(edge) == from && target(edge) == to) return edge;
-      if (origin(edge) == to && target(edge) == from && twin(edge) != none) return twin(edge);
-    }
-  return none;
+  int found = none;
+  any_around(from, [&](int edge) {
+    if (target(edge) == to) found = edge;
+    return found != none;
+  });
+  return found;
 }
 
 int Triangulation::locate(const Vec2& point) const {
@@ -145,17 +141,19 @@ int Triangulation::locate(const Vec2& point) const {
                                 labels_.begin());
   // Which side is asked first changes from step to step: a walk that always turned the same way could go in circles.
   unsigned turn = 0;
+  int entered = none;  // the side that the walk came in through, with the point on its inner side
   for (int steps = 0; steps < 4 * triangle_slots() + 16; ++steps) {
     int out = none;
     for (unsigned i = 0; i < 3 && out == none; ++i) {
       const int edge = 3 * triangle + static_cast<int>((i + turn) % 3);
-      if (orientation(start(edge), end(edge), point) < 0) out = edge;
+      if (edge != entered && orientation(start(edge), end(edge), point) < 0) out = edge;
     }
     if (out == none || twin(out) == none) {
       hint_ = triangle;
       return triangle;
     }
-    triangle = twin(out) / 3;
+    entered = twin(out);
+    triangle = entered / 3;
     turn = turn * 1664525u + 1013904223u;
     turn ^= turn >> 16;
   }
@@ -169,6 +167,44 @@ int Triangulation::locate(const Vec2& point) const {
   throw std::logic_error("triangulation: a point lies in no triangle");
 }
 
+bool Triangulation::enclose(const std::vector<int>& chain, std::vector<int>& triangles, std::vector<int>& edges) {
+  triangles.clear();
+  edges.clear();
+  const Vec2& base = point(chain.front());
+  double doubled = 0, farthest2 = 0;
+  for (std::size_t i = 0; i < chain.size(); ++i) {
+    const std::size_t next = i + 1 < chain.size() ? i + 1 : 0;
+    const int edge = find_edge(chain[i], chain[next]);
+    if (edge == none) return false;
+    edges.push_back(edge);
+    const Vec2 a = point(chain[i]) - base, b = point(chain[next]) - base;
+    doubled += a.x() * b.y() - a.y() * b.x();
+    farthest2 = std::max(farthest2, a.squaredNorm());
+  }
+  constexpr double least_area = 1e-9;  // of the square of its size: that the loop has, or rounding might have turned it
+  if (!(doubled > least_area * farthest2)) return false;
+  std::vector<int>& corners = near_;
+  corners = chain;
+  std::sort(corners.begin(), corners.end());
+  if (std::adjacent_find(corners.begin(), corners.end()) != corners.end()) return false;
+  ++visit_;
+  visited_.resize(labels_.size(), 0);
+  const auto take = [&](int triangle) {
+    if (visited_[index(triangle)] == visit_) return;
+    visited_[index(triangle)] = visit_;
+    triangles.push_back(triangle);
+  };
+  for (const int edge : edges) {
+    edges_[index(edge)].on_loop = true;
+    take(edge / 3);
+  }
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    for (int edge = 3 * triangles[i], last = edge + 3; edge < last; ++edge)
+      if (const HalfEdge& side = edges_[index(edge)]; !side.on_loop && side.twin != none) take(side.twin / 3);
+  for (const int edge : edges) edges_[index(edge)].on_loop = false;
+  return true;
+}
+
 // Flips --------------------------------------------------------------------------------------------------------------
 
 bool Triangulation::may_flip(int edge) const {
@@ -180,36 +216,59 @@ bool Triangulation::may_flip(int edge) const {
 
 void Triangulation::flip(int edge) {
   const int other = twin(edge), first = edge / 3, second = other / 3;
-  const int a = origin(edge), b = target(edge), c = apex(edge), d = apex(other);
-  const Side bc = side(next(edge)), ca = side(previous(edge)), ad = side(next(other)), db = side(previous(other));
-  make(first, a, d, c, label(first));
-  make(second, d, b, c, label(second));
-  attach(3 * first, ad);
-  attach(3 * first + 2, ca);
-  attach(3 * second, db);
-  attach(3 * second + 1, bc);
-  join(3 * first + 1, 3 * second + 2);
+  const HalfEdge bc = edges_[index(next(edge))], ca = edges_[index(previous(edge))];
+  const HalfEdge ad = edges_[index(next(other))], db = edges_[index(previous(other))];
+  HalfEdge* const upper = &edges_[index(3 * first)];
+  HalfEdge* const lower = &edges_[index(3 * second)];
+  upper[0] = ad;
+  upper[1] = {db.origin, 3 * second + 2, none, false, false};
+  upper[2] = ca;
+  lower[0] = db;
+  lower[1] = bc;
+  lower[2] = {ca.origin, 3 * first + 1, none, false, false};
+  const auto reattach = [&](const HalfEdge& side, int place) {
+    if (side.twin != none) edges_[index(side.twin)].twin = place;
+    some_edge_[index(side.origin)] = place;
+  };
+  reattach(ad, 3 * first);
+  reattach(ca, 3 * first + 2);
+  reattach(db, 3 * second);
+  reattach(bc, 3 * second + 1);
+  some_edge_[index(ca.origin)] = 3 * second + 2;
+  touch(first);
+  touch(second);
 }
 
-void Triangulation::legalise(std::vector<int>& edges) {
-  while (!edges.empty()) {
-    const int edge = edges.back();
-    edges.pop_back();
+/// Lawson's flips, from the half-edges in `open_` on.
+void Triangulation::legalise_open() {
+  while (!open_.empty()) {
+    const int edge = open_.back();
+    open_.pop_back();
     const int other = twin(edge);
     if (other == none || fixed(edge)) continue;
     if (!certainly_in_circle(start(edge), end(edge), point(apex(edge)), point(apex(other))) || !may_flip(edge))
       continue;
     const int first = edge / 3, second = other / 3;
     flip(edge);
-    edges.insert(edges.end(), {3 * first, 3 * first + 2, 3 * second, 3 * second + 1});
+    open_.insert(open_.end(), {3 * first, 3 * first + 2, 3 * second, 3 * second + 1});
   }
+}
+
+void Triangulation::legalise_around(int vertex) {
+  open_.clear();
+  any_around(vertex, [&](int edge) {
+    const int first = edge - static_cast<int>(index(edge) % 3);
+    open_.insert(open_.end(), {first, first + 1, first + 2});
+    return false;
+  });
+  legalise_open();
 }
 
 // Points -------------------------------------------------------------------------------------------------------------
 
 int Triangulation::insert_inside(int triangle, const Vec2& position) {
   const int edge = 3 * triangle, a = origin(edge), b = target(edge), c = apex(edge);
-  const Side ab = side(edge), bc = side(edge + 1), ca = side(edge + 2);
+  const HalfEdge ab = edges_[index(edge)], bc = edges_[index(edge + 1)], ca = edges_[index(edge + 2)];
   const int vertex = new_vertex(position), second = new_triangle(), third = new_triangle();
   const int part = label(triangle);
   make(triangle, a, b, vertex, part);
@@ -227,8 +286,8 @@ int Triangulation::insert_inside(int triangle, const Vec2& position) {
 int Triangulation::split_at(int edge, const Vec2& position) {
   const int other = twin(edge), first = edge / 3, second = other / 3;
   const int a = origin(edge), b = target(edge), c = apex(edge), d = apex(other);
-  const Side ab = side(edge), bc = side(next(edge)), ca = side(previous(edge)), ad = side(next(other)),
-             db = side(previous(other));
+  const HalfEdge ab = edges_[index(edge)], bc = edges_[index(next(edge))], ca = edges_[index(previous(edge))];
+  const HalfEdge ad = edges_[index(next(other))], db = edges_[index(previous(other))];
   const int vertex = new_vertex(position), third = new_triangle(), fourth = new_triangle();
   const int upper = label(first), lower = label(second);
   make(first, vertex, c, a, upper);
@@ -257,10 +316,7 @@ int Triangulation::split_fixed(int edge, const Vec2& position) {
   const double off = orientation(start(edge), end(edge), position);
   if (off == 0) {
     const int vertex = split_at(edge, position);
-    std::vector<int> around;
-    for (const int triangle : star(vertex))
-      around.insert(around.end(), {3 * triangle, 3 * triangle + 1, 3 * triangle + 2});
-    legalise(around);
+    legalise_around(vertex);
     return vertex;
   }
   // Rounding has put the point beside the edge. The edge goes through it from now on: the sliver between the old and
@@ -275,23 +331,37 @@ int Triangulation::split_fixed(int edge, const Vec2& position) {
   const int old = find_edge(a, b);
   set_label(old / 3, beyond);
   for (const int half : {old, twin(old)}) {
-    fixed_[index(half)] = 0;
-    tags_[index(half)] = none;
+    edges_[index(half)].fixed = false;
+    edges_[index(half)].tag = none;
   }
   fix(next(old), edge_tag);
   fix(previous(old), edge_tag);
-  std::vector<int> around;
-  for (const int beside : star(vertex)) around.insert(around.end(), {3 * beside, 3 * beside + 1, 3 * beside + 2});
-  legalise(around);
+  legalise_around(vertex);
   return vertex;
 }
 
-int Triangulation::add_point(const Vec2& position) {
+/// The vertex at a point that an edge joins to another one, or `none`. What lies so close to it is its nearest.
+int Triangulation::joined(int vertex, const Vec2& position) const {
+  const double most = 1e-3 * tolerance_;
+  int found = none;
+  any_around(vertex, [&](int edge) {
+    if ((end(edge) - position).squaredNorm() > most * most) return false;
+    found = target(edge);
+    hint_ = edge / 3;
+    return true;
+  });
+  return found;
+}
+
+int Triangulation::add_point(const Vec2& position, int beside) {
+  if (beside != none)
+    if (const int vertex = joined(beside, position); vertex != none) return vertex;
   const int home = locate(position);
-  int nearest = none, beside = none;
+  int nearest = none, on_edge = none;
   double vertex_distance = tolerance_, edge_distance = tolerance_;
   // All triangles that come within the tolerance, to see every vertex and fixed edge there.
   collect_near(home, [&](int edge) {
+    if (!may_lie_within(position, start(edge), end(edge), tolerance_)) return false;
     const double to_vertex = (start(edge) - position).norm();
     if (to_vertex <= vertex_distance) {
       vertex_distance = to_vertex;
@@ -300,24 +370,21 @@ int Triangulation::add_point(const Vec2& position) {
     const double to_edge = distance_to_segment(position, start(edge), end(edge));
     if (fixed(edge) && to_edge <= edge_distance) {
       edge_distance = to_edge;
-      beside = edge;
+      on_edge = edge;
     }
     return to_edge <= tolerance_;
   });
   if (nearest != none) return nearest;
-  if (beside != none) {
-    const Vec2 along = end(beside) - start(beside);
-    const double share = (position - start(beside)).dot(along) / along.squaredNorm();
-    return split_fixed(beside, start(beside) + share * along);
+  if (on_edge != none) {
+    const Vec2 along = end(on_edge) - start(on_edge);
+    const double share = (position - start(on_edge)).dot(along) / along.squaredNorm();
+    return split_fixed(on_edge, start(on_edge) + share * along);
   }
   int vertex = none;
   for (int edge = 3 * home; edge < 3 * home + 3 && vertex == none; ++edge)
     if (twin(edge) != none && orientation(start(edge), end(edge), position) == 0) vertex = split_at(edge, position);
   if (vertex == none) vertex = insert_inside(home, position);
-  std::vector<int> around;
-  for (const int triangle : star(vertex))
-    around.insert(around.end(), {3 * triangle, 3 * triangle + 1, 3 * triangle + 2});
-  legalise(around);
+  legalise_around(vertex);
   return vertex;
 }
 

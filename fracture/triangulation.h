@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "topple/fracture/polygon.h"
@@ -25,11 +26,15 @@ class Triangulation {
   /// border.
   Triangulation(const Vec2& lower, const Vec2& upper, double tolerance);
 
-  /// The vertex that now stands for a point: a new one, or what was within the tolerance.
-  int add_point(const Vec2& point);
+  /// The vertex that now stands for a point: a new one, or what was within the tolerance. `beside`: a vertex that an
+  /// edge may already join to it, where it is looked for first.
+  int add_point(const Vec2& point, int beside = none);
   /// Fixes a chain of edges from one vertex to another, which leaves the straight line by about the tolerance at most.
   /// Appends the vertices on its way, `to` included, to `chain`.
   void add_segment(int from, int to, std::vector<int>& chain);
+  /// The triangles on the left of a closed chain of edges that goes counter-clockwise and passes no vertex twice, and its
+  /// edges; false, and nothing, when the chain is not such a one.
+  bool enclose(const std::vector<int>& chain, std::vector<int>& triangles, std::vector<int>& edges);
   /// All connected triangles for which `inside` holds, from the corners of `chain` on, in the order in which they are
   /// reached.
   template <class Inside>
@@ -38,6 +43,7 @@ class Triangulation {
   void set_label(int triangle, int label);
   /// Frees the triangle's sides that separate nothing, fixes those that do.
   void settle_sides(int triangle);
+  void settle_side(int edge);
   /// Removes a vertex around which nothing is fixed; false when it has to stay (a corner of the box).
   bool remove_vertex(int vertex);
 
@@ -45,21 +51,25 @@ class Triangulation {
   [[nodiscard]] int triangle_slots() const { return static_cast<int>(labels_.size()); }
   [[nodiscard]] bool alive(int triangle) const { return labels_[index(triangle)] != dead; }
   [[nodiscard]] int label(int triangle) const { return labels_[index(triangle)]; }
-  [[nodiscard]] int origin(int edge) const { return origins_[index(edge)]; }
-  [[nodiscard]] int target(int edge) const { return origins_[index(next(edge))]; }
-  [[nodiscard]] int apex(int edge) const { return origins_[index(previous(edge))]; }
-  [[nodiscard]] int twin(int edge) const { return twins_[index(edge)]; }
-  [[nodiscard]] bool fixed(int edge) const { return fixed_[index(edge)] != 0; }
+  [[nodiscard]] int origin(int edge) const { return edges_[index(edge)].origin; }
+  [[nodiscard]] int target(int edge) const { return origin(next(edge)); }
+  [[nodiscard]] int apex(int edge) const { return origin(previous(edge)); }
+  [[nodiscard]] int twin(int edge) const { return edges_[index(edge)].twin; }
+  [[nodiscard]] bool fixed(int edge) const { return edges_[index(edge)].fixed; }
   /// What a fixed edge lies on (`none` for a cut); set once, inherited by its parts.
-  [[nodiscard]] int tag(int edge) const { return tags_[index(edge)]; }
+  [[nodiscard]] int tag(int edge) const { return edges_[index(edge)].tag; }
   void set_tag(int edge, int tag);
-  [[nodiscard]] static int next(int edge) { return edge % 3 == 2 ? edge - 2 : edge + 1; }
-  [[nodiscard]] static int previous(int edge) { return edge % 3 == 0 ? edge + 2 : edge - 1; }
+  [[nodiscard]] static int next(int edge) { return index(edge) % 3 == 2 ? edge - 2 : edge + 1; }
+  [[nodiscard]] static int previous(int edge) { return index(edge) % 3 == 0 ? edge + 2 : edge - 1; }
   [[nodiscard]] double doubled_area(int triangle) const;
   /// The triangle that holds a point of the box.
   [[nodiscard]] int locate(const Vec2& point) const;
   /// The half-edge from one vertex to another, or `none`.
   [[nodiscard]] int find_edge(int from, int to) const;
+  /// Calls visit(edge) for the half-edge of each triangle at a vertex that leaves it, until one returns true; whether one
+  /// did.
+  template <class Visit>
+  bool any_around(int vertex, const Visit& visit) const;
   /// All triangles at a vertex.
   [[nodiscard]] std::vector<int> star(int vertex) const;
 
@@ -74,32 +84,35 @@ class Triangulation {
 
  private:
   static constexpr int dead = -1;
-  struct Side {
+  struct HalfEdge {
+    int origin = none;
     int twin = none;
-    bool fixed = false;
     int tag = none;
+    bool fixed = false;
+    bool on_loop = false;  ///< while the inside of a loop is searched
   };
-  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
-  [[nodiscard]] Side side(int edge) const { return {twin(edge), fixed(edge), tag(edge)}; }
+  static std::size_t index(int i) { return static_cast<unsigned>(i); }
   [[nodiscard]] const Vec2& start(int edge) const { return point(origin(edge)); }
   [[nodiscard]] const Vec2& end(int edge) const { return point(target(edge)); }
 
   int new_vertex(const Vec2& point);
   int new_triangle();
   void make(int triangle, int a, int b, int c, int label);
-  void attach(int edge, const Side& side);
+  void attach(int edge, const HalfEdge& side);
   void join(int edge, int other);
   void fix(int edge, int tag);
   void touch(int triangle);
 
   void flip(int edge);
   [[nodiscard]] bool may_flip(int edge) const;
-  void legalise(std::vector<int>& edges);
+  void legalise_open();
+  void legalise_around(int vertex);
   int insert_inside(int triangle, const Vec2& point);
   int split_at(int edge, const Vec2& point);
   int split_fixed(int edge, const Vec2& point);
   template <class Visit>
   void collect_near(int home, const Visit& visit);
+  [[nodiscard]] int joined(int vertex, const Vec2& point) const;
   [[nodiscard]] int first_crossed(int from, int to, int& on_the_way) const;
   [[nodiscard]] bool passes(int vertex, int from, int to) const;
   int split_crossing(int edge, int from, int to);
@@ -108,26 +121,45 @@ class Triangulation {
   void connect(int from, int to);
 
   std::vector<Vec2> points_;
-  std::vector<int> some_edge_;  ///< of each vertex: one half-edge that leaves it
-  std::vector<int> origins_, twins_, tags_;
-  std::vector<char> fixed_;
+  std::vector<int> some_edge_;   ///< of each vertex: one half-edge that leaves it
+  std::vector<HalfEdge> edges_;  ///< three of each triangle
   std::vector<int> labels_;
   std::vector<int> free_triangles_, free_vertices_, touched_;
   std::vector<char> is_touched_;
   std::vector<std::uint32_t> visited_;  ///< of each triangle: the last search that saw it
   std::uint32_t visit_ = 0;
-  std::vector<int> near_;  ///< of collect_near, kept for its memory
   double tolerance_;
   int unfinished_ = 0;
   mutable int hint_ = 0;
+  // Kept for their memory: of collect_near; half-edges that Lawson's flips have yet to look at; ends of the edges that a
+  // segment crosses, and of those made in their place.
+  std::vector<int> near_, open_;
+  std::vector<std::pair<int, int>> crossed_, made_;
 };
+
+template <class Visit>
+bool Triangulation::any_around(int vertex, const Visit& visit) const {
+  const int first = some_edge_[index(vertex)];
+  int edge = first;
+  do {
+    if (visit(edge)) return true;
+    edge = twin(previous(edge));
+  } while (edge != none && edge != first);
+  if (edge != none) return false;
+  // A corner of the box: the other way round as well.
+  for (edge = twin(first); edge != none; edge = twin(edge)) {
+    edge = next(edge);
+    if (visit(edge)) return true;
+  }
+  return false;
+}
 
 template <class Visit>
 void Triangulation::collect_near(int home, const Visit& visit) {
   std::vector<int>& open = near_;
   open.assign(1, home);
   for (std::size_t i = 0; i < open.size(); ++i)
-    for (int edge = 3 * open[i]; edge < 3 * open[i] + 3; ++edge) {
+    for (int edge = 3 * open[i], last = edge + 3; edge < last; ++edge) {
       if (!visit(edge) || twin(edge) == none) continue;
       const int beyond = twin(edge) / 3;
       bool known = false;
