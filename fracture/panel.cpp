@@ -89,7 +89,7 @@ class BreakablePanel::Impl {
     std::vector<int> corners;  ///< what its own corners have become
   };
   [[nodiscard]] std::optional<Loop> insert(const Polygon& polygon);
-  std::vector<int> relabel(const Loop& loop, int from, int to);
+  bool relabel(const Loop& loop, int from, int to);
   void clip_to_box(Polygon& polygon) const;
   [[nodiscard]] std::vector<std::vector<int>> islands(const std::vector<int>& removed) const;
   [[nodiscard]] std::vector<std::vector<int>> loose_parts(const std::vector<int>& starts) const;
@@ -113,7 +113,7 @@ BreakablePanel::Impl::Impl(const PanelShape& given, const PanelSettings& setting
   const std::optional<Loop> border = insert(shape.outline);
   if (!border || border->corners.size() != shape.outline.size())
     throw std::invalid_argument("corners of the outline lie too close together");
-  relabel(*border, kEmpty, kIntact);
+  (void)relabel(*border, kEmpty, kIntact);
   std::size_t edge = shape.outline.size() - 1;  // the chain begins at the first corner's end of the last edge
   for (std::size_t i = 0; i < border->chain.size(); ++i) {
     const int from = border->chain[i], to = border->chain[(i + 1) % border->chain.size()];
@@ -122,7 +122,7 @@ BreakablePanel::Impl::Impl(const PanelShape& given, const PanelSettings& setting
     triangulation.set_tag(triangulation.find_edge(from, to), static_cast<int>(edge));
   }
   for (const Polygon& opening : shape.openings)
-    if (const auto loop = insert(opening)) relabel(*loop, kIntact, kEmpty);
+    if (const auto loop = insert(opening)) (void)relabel(*loop, kIntact, kEmpty);
   tidy();
   intact_area = area();
 }
@@ -148,22 +148,28 @@ Vec2 BreakablePanel::Impl::centroid(int triangle) const {
                      3;
 }
 
-/// Gives the triangles inside a loop a new label where they have the old one, and settles all edges around.
-std::vector<int> BreakablePanel::Impl::relabel(const Loop& loop, int from, int to) {
-  Polygon polygon;
-  for (const int vertex : loop.chain) polygon.push_back(triangulation.point(vertex));
-  const std::vector<int> inside =
-      triangulation.collect(loop.chain, [&](int triangle) { return encloses(polygon, centroid(triangle)); });
-  std::vector<int> changed;
-  for (const int triangle : inside)
-    if (triangulation.label(triangle) == from) {
-      triangulation.set_label(triangle, to);
-      changed.push_back(triangle);
-    }
+/// Gives the triangles inside a loop a new label where they have the old one, and settles all edges around; whether any
+/// had it.
+bool BreakablePanel::Impl::relabel(const Loop& loop, int from, int to) {
+  std::vector<int> inside, sides;
+  const bool simple = triangulation.enclose(loop.chain, inside, sides);
+  if (!simple) {
+    Polygon polygon;
+    for (const int vertex : loop.chain) polygon.push_back(triangulation.point(vertex));
+    inside = triangulation.collect(loop.chain, [&](int triangle) { return encloses(polygon, centroid(triangle)); });
+  }
+  bool changed = false;
+  for (const int triangle : inside) {
+    if (triangulation.label(triangle) != from) continue;
+    triangulation.set_label(triangle, to);
+    changed = true;
+  }
   for (const int triangle : inside) triangulation.settle_sides(triangle);
   // Where the loop runs through empty space it separates nothing.
-  for (const int vertex : loop.chain)
-    for (const int triangle : triangulation.star(vertex)) triangulation.settle_sides(triangle);
+  for (const int edge : sides) triangulation.settle_side(edge);
+  if (!simple)
+    for (const int vertex : loop.chain)
+      for (const int triangle : triangulation.star(vertex)) triangulation.settle_sides(triangle);
   return changed;
 }
 
@@ -263,7 +269,7 @@ Fracture BreakablePanel::Impl::hit(const Vec2& at, std::optional<double> radius)
     clip_to_box(cell);
     if (cell.size() < 3) continue;
     const std::optional<Loop> loop = insert(cell);
-    if (loop && !relabel(*loop, kIntact, label).empty()) ++label;
+    if (loop && relabel(*loop, kIntact, label)) ++label;
   }
   fracture.cells = broken.size();
   // Later cells may have changed the triangles of earlier ones: they are gathered when all is cut.

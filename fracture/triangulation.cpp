@@ -340,23 +340,11 @@ int Triangulation::split_fixed(int edge, const Vec2& position) {
   return vertex;
 }
 
-/// The vertex at a point that an edge joins to another one, or `none`. What lies so close to it is its nearest.
-int Triangulation::joined(int vertex, const Vec2& position) const {
-  const double most = 1e-3 * tolerance_;
-  int found = none;
-  any_around(vertex, [&](int edge) {
-    if ((end(edge) - position).squaredNorm() > most * most) return false;
-    found = target(edge);
-    hint_ = edge / 3;
-    return true;
-  });
-  return found;
-}
-
-int Triangulation::add_point(const Vec2& position, int beside) {
-  if (beside != none)
-    if (const int vertex = joined(beside, position); vertex != none) return vertex;
+int Triangulation::add_point(const Vec2& position) {
   const int home = locate(position);
+  // A corner that is all but the point itself is the nearest vertex.
+  for (int edge = 3 * home, last = edge + 3; edge < last; ++edge)
+    if ((start(edge) - position).squaredNorm() <= 1e-6 * tolerance_ * tolerance_) return origin(edge);
   int nearest = none, on_edge = none;
   double vertex_distance = tolerance_, edge_distance = tolerance_;
   // All triangles that come within the tolerance, to see every vertex and fixed edge there.

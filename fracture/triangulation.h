@@ -26,9 +26,8 @@ class Triangulation {
   /// border.
   Triangulation(const Vec2& lower, const Vec2& upper, double tolerance);
 
-  /// The vertex that now stands for a point: a new one, or what was within the tolerance. `beside`: a vertex that an
-  /// edge may already join to it, where it is looked for first.
-  int add_point(const Vec2& point, int beside = none);
+  /// The vertex that now stands for a point: a new one, or what was within the tolerance.
+  int add_point(const Vec2& point);
   /// Fixes a chain of edges from one vertex to another, which leaves the straight line by about the tolerance at most.
   /// Appends the vertices on its way, `to` included, to `chain`.
   void add_segment(int from, int to, std::vector<int>& chain);
@@ -112,7 +111,6 @@ class Triangulation {
   int split_fixed(int edge, const Vec2& point);
   template <class Visit>
   void collect_near(int home, const Visit& visit);
-  [[nodiscard]] int joined(int vertex, const Vec2& point) const;
   [[nodiscard]] int first_crossed(int from, int to, int& on_the_way) const;
   [[nodiscard]] bool passes(int vertex, int from, int to) const;
   int split_crossing(int edge, int from, int to);
