@@ -1,123 +1,120 @@
 #include "convex_pieces.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <utility>
 
 #include "predicates.h"
 
 namespace topple::fracture {
 
-namespace {
+int ConvexPieces::corner(int local) const {
+  return triangulation_.origin(3 * triangles_[index(local) / 3] + static_cast<int>(index(local) % 3));
+}
 
-class Merger {
- public:
-  Merger(const Triangulation& triangulation, const std::vector<int>& triangles)
-      : triangulation_(triangulation), triangles_(triangles) {
-    std::sort(triangles_.begin(), triangles_.end());
-    const std::size_t edges = 3 * triangles_.size();
-    next_.resize(edges);
-    previous_.resize(edges);
-    for (std::size_t i = 0; i < triangles_.size(); ++i)
-      for (std::size_t side = 0; side < 3; ++side) {
-        next_[3 * i + side] = static_cast<int>(3 * i + (side + 1) % 3);
-        previous_[3 * i + side] = static_cast<int>(3 * i + (side + 2) % 3);
-      }
-    group_.resize(triangles_.size());
-    std::iota(group_.begin(), group_.end(), 0);
-    inner_.assign(edges, false);
-  }
+/// The other half-edge when it belongs to the region and nothing separates the two.
+int ConvexPieces::twin_of(int local) const {
+  const int edge = 3 * triangles_[index(local) / 3] + static_cast<int>(index(local) % 3);
+  const int twin = triangulation_.twin(edge);
+  if (twin == Triangulation::none || triangulation_.fixed(edge)) return Triangulation::none;
+  const int place = local_of_[index(twin) / 3];
+  if (index(place) >= triangles_.size() || triangles_[index(place)] != twin / 3) return Triangulation::none;
+  return 3 * place + static_cast<int>(index(twin) % 3);
+}
 
-  std::vector<Chunk> run() {
-    for (int local = 0; local < static_cast<int>(next_.size()); ++local) {
-      const int twin = twin_of(local);
-      if (twin > local) try_merge(local, twin);
+void ConvexPieces::start(std::span<const int> triangles) {
+  triangles_.assign(triangles.begin(), triangles.end());
+  std::sort(triangles_.begin(), triangles_.end());
+  const auto count = static_cast<int>(triangles_.size());
+  local_of_.resize(index(triangulation_.triangle_slots()), 0);
+  for (int i = 0; i < count; ++i) local_of_[index(triangles_[index(i)])] = i;
+  const std::size_t edges = 3 * triangles_.size();
+  twin_.resize(edges);
+  next_.resize(edges);
+  previous_.resize(edges);
+  group_.resize(triangles_.size());
+  for (int i = 0; i < count; ++i) {
+    group_[index(i)] = i;
+    for (int side = 0; side < 3; ++side) {
+      const int edge = 3 * i + side;
+      twin_[index(edge)] = twin_of(edge);
+      next_[index(edge)] = Triangulation::next(edge);
+      previous_[index(edge)] = Triangulation::previous(edge);
     }
-    return chunks();
   }
+  inner_.assign(edges, 0);
+}
 
- private:
-  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
-  [[nodiscard]] int global(int local) const { return 3 * triangles_[index(local / 3)] + local % 3; }
-  [[nodiscard]] int corner(int local) const { return triangulation_.origin(global(local)); }
-  [[nodiscard]] const Vec2& point(int local) const { return triangulation_.point(corner(local)); }
+int ConvexPieces::find(int group) {
+  while (group_[index(group)] != group) group = group_[index(group)] = group_[index(group_[index(group)])];
+  return group;
+}
 
-  /// The other half-edge when it belongs to the region and nothing separates the two.
-  [[nodiscard]] int twin_of(int local) const {
-    const int twin = triangulation_.twin(global(local));
-    if (twin == Triangulation::none || triangulation_.fixed(twin)) return -1;
-    const auto found = std::lower_bound(triangles_.begin(), triangles_.end(), twin / 3);
-    if (found == triangles_.end() || *found != twin / 3) return -1;
-    return 3 * static_cast<int>(found - triangles_.begin()) + twin % 3;
-  }
+bool ConvexPieces::convex(int before, int at, int after) const {
+  const Vec2 &a = point(before), &b = point(at), &c = point(after);
+  const double turn = orientation(a, b, c);
+  return turn > 0 || (turn >= -triangulation_.tolerance() * (c - a).norm() && (b - a).dot(c - b) > 0);
+}
 
-  int find(int group) {
-    while (group_[index(group)] != group) group = group_[index(group)] = group_[index(group_[index(group)])];
-    return group;
-  }
+void ConvexPieces::try_merge(int edge, int twin) {
+  const int here = find(edge / 3), there = find(twin / 3);
+  if (here == there) return;
+  const int before = previous_[index(edge)], after = next_[index(edge)];
+  const int twin_before = previous_[index(twin)], twin_after = next_[index(twin)];
+  // At both ends of the side: the corner before, the end itself, the corner after.
+  if (!convex(before, edge, next_[index(twin_after)]) || !convex(twin_before, twin, next_[index(after)])) return;
+  next_[index(before)] = twin_after;
+  previous_[index(twin_after)] = before;
+  next_[index(twin_before)] = after;
+  previous_[index(after)] = twin_before;
+  inner_[index(edge)] = inner_[index(twin)] = 1;
+  group_[index(std::max(here, there))] = std::min(here, there);
+}
 
-  [[nodiscard]] bool convex(int before, int at, int after) const {
-    const Vec2 &a = point(before), &b = point(at), &c = point(after);
-    const double turn = orientation(a, b, c);
-    return turn > 0 || (turn >= -triangulation_.tolerance() * (c - a).norm() && (b - a).dot(c - b) > 0);
-  }
+/// The place in its piece's outline of the corner that a half-edge leaves: around the corner until a side is there.
+int ConvexPieces::number_at(int edge) const {
+  while (inner_[index(edge)]) edge = Triangulation::next(twin_[index(edge)]);
+  return number_[index(edge)];
+}
 
-  void try_merge(int edge, int twin) {
-    const int here = find(edge / 3), there = find(twin / 3);
-    if (here == there) return;
-    const int before = previous_[index(edge)], after = next_[index(edge)];
-    const int twin_before = previous_[index(twin)], twin_after = next_[index(twin)];
-    // At both ends of the side: the corner before, the end itself, the corner after.
-    if (!convex(before, edge, next_[index(twin_after)]) || !convex(twin_before, twin, next_[index(after)])) return;
-    next_[index(before)] = twin_after;
-    previous_[index(twin_after)] = before;
-    next_[index(twin_before)] = after;
-    previous_[index(after)] = twin_before;
-    inner_[index(edge)] = inner_[index(twin)] = true;
-    group_[index(std::max(here, there))] = std::min(here, there);
-  }
+void ConvexPieces::append(std::span<const int> triangles, bool hit, std::vector<Chunk>& chunks) {
+  start(triangles);
+  const auto edges = static_cast<int>(next_.size()), count = static_cast<int>(triangles_.size());
+  for (int edge = 0; edge < edges; ++edge)
+    if (twin_[index(edge)] > edge) try_merge(edge, twin_[index(edge)]);
 
-  std::vector<Chunk> chunks() {
-    // A group is known by its first triangle.
-    std::vector<int> place(triangles_.size(), -1);
-    int count = 0;
-    for (int i = 0; i < static_cast<int>(triangles_.size()); ++i)
-      if (find(i) == i) place[index(i)] = count++;
-    std::vector<Chunk> result(index(count));
-    std::vector<std::vector<std::pair<int, int>>> numbers(index(count));  // of corners in the outline
-    std::vector<bool> seen(next_.size(), false);
-    for (int first = 0; first < static_cast<int>(next_.size()); ++first) {
-      if (inner_[index(first)] || seen[index(first)]) continue;
-      const std::size_t group = index(place[index(find(first / 3))]);
-      Polygon& outline = result[group].outline;
-      for (int edge = first; !seen[index(edge)]; edge = next_[index(edge)]) {
-        seen[index(edge)] = true;
-        numbers[group].emplace_back(corner(edge), static_cast<int>(outline.size()));
-        outline.push_back(point(edge));
-      }
+  // Chunks in the order of their first triangles, with all the memory that they need.
+  const std::size_t first_chunk = chunks.size();
+  chunk_of_.resize(triangles_.size());
+  corners_.clear();
+  faces_.clear();
+  for (int i = 0; i < count; ++i) {
+    const int group = find(i);
+    if (group == i) {
+      chunk_of_[index(i)] = static_cast<int>(corners_.size());
+      corners_.push_back(0);
+      faces_.push_back(0);
     }
-    for (auto& list : numbers) std::sort(list.begin(), list.end());
-    for (int i = 0; i < static_cast<int>(triangles_.size()); ++i) {
-      const std::size_t group = index(place[index(find(i))]);
-      const auto number_of = [&](int vertex) {
-        return std::lower_bound(numbers[group].begin(), numbers[group].end(), std::pair(vertex, 0))->second;
-      };
-      result[group].face.push_back(
-          {number_of(corner(3 * i)), number_of(corner(3 * i + 1)), number_of(corner(3 * i + 2))});
-    }
-    return result;
+    const int chunk = chunk_of_[index(i)] = chunk_of_[index(group)];
+    ++faces_[index(chunk)];
+    for (int edge = 3 * i; edge < 3 * i + 3; ++edge) corners_[index(chunk)] += inner_[index(edge)] ? 0 : 1;
   }
-
-  const Triangulation& triangulation_;
-  std::vector<int> triangles_, next_, previous_, group_;
-  std::vector<bool> inner_;
-};
-
-}  // namespace
-
-std::vector<Chunk> convex_pieces(const Triangulation& triangulation, const std::vector<int>& triangles) {
-  return Merger(triangulation, triangles).run();
+  for (std::size_t i = 0; i < corners_.size(); ++i) {
+    Chunk& chunk = chunks.emplace_back();
+    chunk.hit = hit;
+    chunk.outline.reserve(corners_[i]);
+    chunk.face.reserve(faces_[i]);
+  }
+  number_.assign(next_.size(), Triangulation::none);
+  for (int first = 0; first < edges; ++first) {
+    if (inner_[index(first)] || number_[index(first)] != Triangulation::none) continue;
+    Polygon& outline = chunks[first_chunk + index(chunk_of_[index(first) / 3])].outline;
+    for (int edge = first; number_[index(edge)] == Triangulation::none; edge = next_[index(edge)]) {
+      number_[index(edge)] = static_cast<int>(outline.size());
+      outline.push_back(point(edge));
+    }
+  }
+  for (int i = 0; i < count; ++i)
+    chunks[first_chunk + index(chunk_of_[index(i)])].face.push_back(
+        {number_at(3 * i), number_at(3 * i + 1), number_at(3 * i + 2)});
 }
 
 }  // namespace topple::fracture

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <span>
 #include <stdexcept>
+#include <utility>
 
 #include "cell_source.h"
 #include "convex_pieces.h"
@@ -95,7 +98,7 @@ class BreakablePanel::Impl {
   [[nodiscard]] std::vector<std::vector<int>> loose_parts(const std::vector<int>& starts) const;
   void empty(const std::vector<int>& triangles);
   [[nodiscard]] bool is_held(int triangle) const;
-  void take_out(std::vector<int> triangles, bool hit, Fracture& fracture);
+  std::vector<int> gather_cells(int count, ConvexPieces& pieces, Fracture& fracture) const;
   void tidy();
   [[nodiscard]] Vec2 centroid(int triangle) const;
 };
@@ -240,21 +243,17 @@ std::vector<std::vector<int>> BreakablePanel::Impl::loose_parts(const std::vecto
   return loose;
 }
 
-void BreakablePanel::Impl::take_out(std::vector<int> triangles, bool hit, Fracture& fracture) {
-  for (Chunk& chunk : convex_pieces(triangulation, triangles)) {
-    chunk.hit = hit;
-    fracture.chunks.push_back(std::move(chunk));
-  }
-}
-
 /// Drops vertices that no border needs any more, so that the triangulation stays as small as the damage is.
 void BreakablePanel::Impl::tidy() {
   std::vector<int> vertices;
+  std::vector<char> listed(static_cast<std::size_t>(triangulation.vertex_slots()), 0);
   for (const int triangle : triangulation.touched())
     if (triangulation.alive(triangle))
-      for (int edge = 3 * triangle; edge < 3 * triangle + 3; ++edge) vertices.push_back(triangulation.origin(edge));
+      for (int edge = 3 * triangle; edge < 3 * triangle + 3; ++edge) {
+        const int vertex = triangulation.origin(edge);
+        if (!std::exchange(listed[static_cast<std::size_t>(vertex)], 1)) vertices.push_back(vertex);
+      }
   std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   for (const int vertex : vertices) (void)triangulation.remove_vertex(vertex);
   mesh.update(triangulation, triangulation.touched(), kIntact);
   triangulation.clear_touched();
@@ -272,24 +271,37 @@ Fracture BreakablePanel::Impl::hit(const Vec2& at, std::optional<double> radius)
     if (loop && relabel(*loop, kIntact, label)) ++label;
   }
   fracture.cells = broken.size();
-  // Later cells may have changed the triangles of earlier ones: they are gathered when all is cut.
-  std::vector<std::vector<int>> pieces(static_cast<std::size_t>(label - kFirstPiece));
-  std::vector<int> removed;
-  for (const int triangle : triangulation.touched()) {
-    if (!triangulation.alive(triangle) || triangulation.label(triangle) < kFirstPiece) continue;
-    pieces[static_cast<std::size_t>(triangulation.label(triangle) - kFirstPiece)].push_back(triangle);
-    removed.push_back(triangle);
-  }
-  for (const std::vector<int>& piece : pieces) take_out(piece, true, fracture);
+  ConvexPieces pieces(triangulation);
+  std::vector<int> removed = gather_cells(label - kFirstPiece, pieces, fracture);
   if (!removed.empty())
     for (const std::vector<int>& island : islands(removed)) {
-      take_out(island, false, fracture);
+      pieces.append(island, false, fracture.chunks);
       removed.insert(removed.end(), island.begin(), island.end());
     }
   empty(removed);
   fracture.triangles_changed = triangulation.touched().size();
   tidy();
   return fracture;
+}
+
+/// All triangles of the cells, the chunks of which are appended cell by cell: when all is cut, since later cells change
+/// the triangles of earlier ones.
+std::vector<int> BreakablePanel::Impl::gather_cells(int count, ConvexPieces& pieces, Fracture& fracture) const {
+  std::vector<int> all;
+  std::vector<std::size_t> begin(static_cast<std::size_t>(count) + 2, 0);  // of cell i at i + 1, while they are counted
+  for (const int triangle : triangulation.touched()) {
+    if (!triangulation.alive(triangle) || triangulation.label(triangle) < kFirstPiece) continue;
+    all.push_back(triangle);
+    ++begin[static_cast<std::size_t>(triangulation.label(triangle) - kFirstPiece) + 2];
+  }
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<int> sorted(all.size());
+  for (const int triangle : all)
+    sorted[begin[static_cast<std::size_t>(triangulation.label(triangle) - kFirstPiece) + 1]++] = triangle;
+  fracture.chunks.reserve(static_cast<std::size_t>(count));
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
+    pieces.append(std::span(sorted).subspan(begin[i], begin[i + 1] - begin[i]), true, fracture.chunks);
+  return all;
 }
 
 void BreakablePanel::Impl::empty(const std::vector<int>& triangles) {
@@ -306,8 +318,9 @@ std::vector<int> BreakablePanel::Impl::intact() const {
 Fracture BreakablePanel::Impl::hold(const std::vector<bool>& held) {
   shape.held = held;
   Fracture fracture;
+  ConvexPieces pieces(triangulation);
   for (const std::vector<int>& island : loose_parts(intact())) {
-    take_out(island, false, fracture);
+    pieces.append(island, false, fracture.chunks);
     empty(island);
   }
   fracture.triangles_changed = triangulation.touched().size();
@@ -318,7 +331,7 @@ Fracture BreakablePanel::Impl::hold(const std::vector<bool>& held) {
 Fracture BreakablePanel::Impl::leave() {
   Fracture fracture;
   const std::vector<int> all = intact();
-  take_out(all, false, fracture);
+  ConvexPieces(triangulation).append(all, false, fracture.chunks);
   empty(all);
   fracture.triangles_changed = triangulation.touched().size();
   tidy();
@@ -388,8 +401,8 @@ std::vector<std::array<Vec2, 3>> BreakablePanel::triangles() const {
 }
 
 std::vector<Chunk> BreakablePanel::pieces() const {
-  std::vector<Chunk> pieces = convex_pieces(impl_->triangulation, impl_->intact());
-  for (Chunk& piece : pieces) piece.hit = false;
+  std::vector<Chunk> pieces;
+  ConvexPieces(impl_->triangulation).append(impl_->intact(), false, pieces);
   return pieces;
 }
 

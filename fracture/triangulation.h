@@ -47,6 +47,7 @@ class Triangulation {
   bool remove_vertex(int vertex);
 
   [[nodiscard]] const Vec2& point(int vertex) const { return points_[index(vertex)]; }
+  [[nodiscard]] int vertex_slots() const { return static_cast<int>(points_.size()); }
   [[nodiscard]] int triangle_slots() const { return static_cast<int>(labels_.size()); }
   [[nodiscard]] bool alive(int triangle) const { return labels_[index(triangle)] != dead; }
   [[nodiscard]] int label(int triangle) const { return labels_[index(triangle)]; }
