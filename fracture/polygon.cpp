@@ -82,38 +82,55 @@ bool is_simple(const Polygon& polygon) {
   return true;
 }
 
-void clip(LabelledPolygon& polygon, const Vec2& point, const Vec2& normal, int label) {
+namespace {
+
+/// Room for values on the stack where they are few, since most polygons are small and no memory is asked for then.
+template <class Value>
+class Few {
+ public:
+  explicit Few(std::size_t size) : many_(size > few ? size : 0), data_(size > few ? many_.data() : few_.data()) {}
+  Value& operator[](std::size_t i) { return data_[i]; }
+  [[nodiscard]] const Value* data() const { return data_; }
+
+ private:
+  static constexpr std::size_t few = 32;
+  std::array<Value, few> few_;
+  std::vector<Value> many_;
+  Value* data_;
+};
+
+}  // namespace
+
+bool clip(LabelledPolygon& polygon, const Vec2& point, const Vec2& normal, int label) {
   const std::size_t n = polygon.vertices.size();
-  // Most polygons are small, and most cuts miss: no memory is asked for then.
-  constexpr std::size_t few = 32;
-  std::array<double, few> of_few;
-  std::vector<double> of_many(n > few ? n : 0);
-  double* const beyond = n > few ? of_many.data() : of_few.data();
+  Few<double> beyond(n);
   bool cuts = false;
   for (std::size_t i = 0; i < n; ++i) {
     beyond[i] = normal.dot(polygon.vertices[i] - point);
     cuts = cuts || beyond[i] > 0;
   }
-  if (!cuts) return;
-  LabelledPolygon kept;
-  kept.vertices.reserve(n + 1);
-  kept.labels.reserve(n + 1);
+  if (!cuts) return false;
+  Few<Vec2> vertices(2 * n);  // the most that n vertices and n sides can give
+  Few<int> labels(2 * n);
+  std::size_t count = 0;
+  const auto keep = [&](const Vec2& vertex, int side) {
+    vertices[count] = vertex;
+    labels[count++] = side;
+  };
   for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t next = (i + 1) % n;
-    if (beyond[i] <= 0) {
-      kept.vertices.push_back(polygon.vertices[i]);
-      // On the line and leaving: the cut starts here.
-      kept.labels.push_back(beyond[i] == 0 && beyond[next] > 0 ? label : polygon.labels[i]);
-    }
-    if ((beyond[i] < 0 && beyond[next] > 0) || (beyond[i] > 0 && beyond[next] < 0)) {
-      const std::size_t inner = beyond[i] < 0 ? i : next, outer = beyond[i] < 0 ? next : i;
-      const double share = beyond[inner] / (beyond[inner] - beyond[outer]);
-      kept.vertices.push_back(polygon.vertices[inner] + share * (polygon.vertices[outer] - polygon.vertices[inner]));
-      kept.labels.push_back(beyond[i] < 0 ? label : polygon.labels[i]);
-    }
+    const std::size_t next = i + 1 < n ? i + 1 : 0;
+    const Vec2 &here = polygon.vertices[i], &there = polygon.vertices[next];
+    // On the line and leaving: the cut starts here.
+    if (beyond[i] <= 0) keep(here, beyond[i] == 0 && beyond[next] > 0 ? label : polygon.labels[i]);
+    if (beyond[i] < 0 && beyond[next] > 0)
+      keep(here + beyond[i] / (beyond[i] - beyond[next]) * (there - here), label);
+    else if (beyond[i] > 0 && beyond[next] < 0)
+      keep(there + beyond[next] / (beyond[next] - beyond[i]) * (here - there), polygon.labels[i]);
   }
-  if (kept.vertices.size() < 3) kept = {};
-  polygon = std::move(kept);
+  if (count < 3) count = 0;
+  polygon.vertices.assign(vertices.data(), vertices.data() + count);
+  polygon.labels.assign(labels.data(), labels.data() + count);
+  return true;
 }
 
 }  // namespace topple::fracture

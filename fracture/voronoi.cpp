@@ -27,18 +27,27 @@ int VoronoiGrid::rows() const { return grid_->rows(); }
 
 VoronoiCell VoronoiGrid::make(int index, int& ring) const {
   const auto& outline = grid_->outline();
-  VoronoiCell cell{site(index), {Polygon(outline.begin(), outline.end()), {-1, -2, -3, -4}}};
+  constexpr std::size_t usual = 16;  // more corners than nearly all cells have
+  VoronoiCell cell{site(index), {}};
+  cell.polygon.vertices.reserve(usual);
+  cell.polygon.labels.reserve(usual);
+  cell.polygon.vertices.assign(outline.begin(), outline.end());
+  cell.polygon.labels.assign({-1, -2, -3, -4});
+  const auto farthest2 = [&] {
+    double most = 0;
+    for (const Vec2& vertex : cell.polygon.vertices) most = std::max(most, (vertex - cell.site).squaredNorm());
+    return most;
+  };
   const int column = index % columns(), row = index / columns();
   const int farthest_ring = std::max(columns(), rows());
+  double reach2 = farthest2();  // the square of the distance to the cell's farthest vertex
   for (ring = 1; ring < farthest_ring; ++ring) {
-    double reach = 0;
-    for (const Vec2& vertex : cell.polygon.vertices) reach = std::max(reach, (vertex - cell.site).norm());
-    if ((ring - jitter_) * grid_->least_stretch() > 2 * reach) break;
+    if ((ring - jitter_) * grid_->least_stretch() > 2 * std::sqrt(reach2)) break;
     grid_->each_in_ring(column, row, ring, [&](int c, int r) {
       const int other = r * columns() + c;
       const Vec2 away = site(other) - cell.site;
-      if (away.squaredNorm() > 4 * reach * reach) return;  // half way to it lies beyond all of the cell
-      clip(cell.polygon, cell.site + away / 2, away, other);
+      if (away.squaredNorm() > 4 * reach2) return;  // half way to it lies beyond all of the cell
+      if (clip(cell.polygon, cell.site + away / 2, away, other)) reach2 = farthest2();
     });
   }
   return cell;
