@@ -91,7 +91,7 @@ class BreakablePanel::Impl {
     std::vector<int> chain;    ///< all vertices along it
     std::vector<int> corners;  ///< what its own corners have become
   };
-  [[nodiscard]] std::optional<Loop> insert(const Polygon& polygon);
+  [[nodiscard]] bool insert(const Polygon& polygon, Loop& loop);
   bool relabel(const Loop& loop, int from, int to);
   void clip_to_box(Polygon& polygon) const;
   [[nodiscard]] std::vector<std::vector<int>> islands(const std::vector<int>& removed) const;
@@ -101,6 +101,8 @@ class BreakablePanel::Impl {
   std::vector<int> gather_cells(int count, ConvexPieces& pieces, Fracture& fracture) const;
   void tidy();
   [[nodiscard]] Vec2 centroid(int triangle) const;
+
+  std::vector<int> inside_, sides_;  ///< of relabel, kept for their memory
 };
 
 BreakablePanel::Impl::Impl(const PanelShape& given, const PanelSettings& settings)
@@ -113,35 +115,37 @@ BreakablePanel::Impl::Impl(const PanelShape& given, const PanelSettings& setting
   if (settings.method == Method::local && settings.local.ring < box.size() * kLeastRing)
     throw std::invalid_argument("ring is too small for the panel: below a ten-thousandth of its size");
   if (shape.held.empty()) shape.held.assign(shape.outline.size(), true);
-  const std::optional<Loop> border = insert(shape.outline);
-  if (!border || border->corners.size() != shape.outline.size())
+  Loop border;
+  if (!insert(shape.outline, border) || border.corners.size() != shape.outline.size())
     throw std::invalid_argument("corners of the outline lie too close together");
-  (void)relabel(*border, kEmpty, kIntact);
+  (void)relabel(border, kEmpty, kIntact);
   std::size_t edge = shape.outline.size() - 1;  // the chain begins at the first corner's end of the last edge
-  for (std::size_t i = 0; i < border->chain.size(); ++i) {
-    const int from = border->chain[i], to = border->chain[(i + 1) % border->chain.size()];
-    const auto corner = std::find(border->corners.begin(), border->corners.end(), from);
-    if (corner != border->corners.end()) edge = static_cast<std::size_t>(corner - border->corners.begin());
+  for (std::size_t i = 0; i < border.chain.size(); ++i) {
+    const int from = border.chain[i], to = border.chain[(i + 1) % border.chain.size()];
+    const auto corner = std::find(border.corners.begin(), border.corners.end(), from);
+    if (corner != border.corners.end()) edge = static_cast<std::size_t>(corner - border.corners.begin());
     triangulation.set_tag(triangulation.find_edge(from, to), static_cast<int>(edge));
   }
+  Loop loop;
   for (const Polygon& opening : shape.openings)
-    if (const auto loop = insert(opening)) (void)relabel(*loop, kIntact, kEmpty);
+    if (insert(opening, loop)) (void)relabel(loop, kIntact, kEmpty);
   tidy();
   intact_area = area();
 }
 
-/// Makes a closed loop of fixed edges; none when nothing of it is left at the triangulation's tolerance.
-std::optional<BreakablePanel::Impl::Loop> BreakablePanel::Impl::insert(const Polygon& polygon) {
-  Loop loop;
+/// Makes a closed loop of fixed edges; false when nothing of it is left at the triangulation's tolerance.
+bool BreakablePanel::Impl::insert(const Polygon& polygon, Loop& loop) {
+  loop.chain.clear();
+  loop.corners.clear();
   for (const Vec2& point : polygon) {
     const int vertex = triangulation.add_point(point);
     if (std::find(loop.corners.begin(), loop.corners.end(), vertex) == loop.corners.end())
       loop.corners.push_back(vertex);
   }
-  if (loop.corners.size() < 3) return std::nullopt;
+  if (loop.corners.size() < 3) return false;
   for (std::size_t i = 0; i < loop.corners.size(); ++i)
     triangulation.add_segment(loop.corners[i], loop.corners[(i + 1) % loop.corners.size()], loop.chain);
-  return loop;
+  return true;
 }
 
 Vec2 BreakablePanel::Impl::centroid(int triangle) const {
@@ -154,7 +158,7 @@ Vec2 BreakablePanel::Impl::centroid(int triangle) const {
 /// Gives the triangles inside a loop a new label where they have the old one, and settles all edges around; whether any
 /// had it.
 bool BreakablePanel::Impl::relabel(const Loop& loop, int from, int to) {
-  std::vector<int> inside, sides;
+  std::vector<int>&inside = inside_, &sides = sides_;
   const bool simple = triangulation.enclose(loop.chain, inside, sides);
   if (!simple) {
     Polygon polygon;
@@ -264,11 +268,11 @@ Fracture BreakablePanel::Impl::hit(const Vec2& at, std::optional<double> radius)
   const double nearest = (at - at.cwiseMax(box.lower).cwiseMin(box.upper)).norm();
   std::vector<Polygon> broken = cells->broken(at, radius, nearest, nearest + box.size(), ++hits);
   int label = kFirstPiece;
+  Loop loop;
   for (Polygon& cell : broken) {
     clip_to_box(cell);
     if (cell.size() < 3) continue;
-    const std::optional<Loop> loop = insert(cell);
-    if (loop && relabel(*loop, kIntact, label)) ++label;
+    if (insert(cell, loop) && relabel(loop, kIntact, label)) ++label;
   }
   fracture.cells = broken.size();
   ConvexPieces pieces(triangulation);

@@ -44,12 +44,6 @@ int Triangulation::new_triangle() {
   return triangle;
 }
 
-void Triangulation::touch(int triangle) {
-  if (is_touched_[index(triangle)]) return;
-  is_touched_[index(triangle)] = 1;
-  touched_.push_back(triangle);
-}
-
 void Triangulation::clear_touched() {
   for (const int triangle : touched_) is_touched_[index(triangle)] = 0;
   touched_.clear();
@@ -59,7 +53,7 @@ void Triangulation::make(int triangle, int a, int b, int c, int label) {
   const int corners[] = {a, b, c};
   for (int i = 0; i < 3; ++i) {
     const int edge = 3 * triangle + i;
-    edges_[index(edge)] = {corners[i], none, none, false, false};
+    edges_[index(edge)] = {corners[i], none, none, 0};
     some_edge_[index(corners[i])] = edge;
   }
   labels_[index(triangle)] = label;
@@ -70,7 +64,7 @@ void Triangulation::make(int triangle, int a, int b, int c, int label) {
 void Triangulation::attach(int edge, const HalfEdge& side) {
   HalfEdge& own = edges_[index(edge)];
   own.twin = side.twin;
-  own.fixed = side.fixed;
+  own.flags = side.flags;
   own.tag = side.tag;
   if (side.twin != none) edges_[index(side.twin)].twin = edge;
 }
@@ -80,13 +74,16 @@ void Triangulation::join(int edge, int other) {
   edges_[index(other)].twin = edge;
 }
 
-void Triangulation::fix(int edge, int tag) {
+/// Of both half-edges of a side.
+void Triangulation::set_fixed(int edge, bool fixed, int tag) {
   for (const int half : {edge, twin(edge)}) {
     if (half == none) continue;
-    edges_[index(half)].fixed = true;
+    edges_[index(half)].flags = fixed ? is_fixed : 0;
     edges_[index(half)].tag = tag;
   }
 }
+
+void Triangulation::fix(int edge, int tag) { set_fixed(edge, true, tag); }
 
 void Triangulation::set_tag(int edge, int tag) { fix(edge, tag); }
 
@@ -103,11 +100,7 @@ void Triangulation::settle_side(int edge) {
   const int other = twin(edge);
   if (other == none) return;
   const bool separates = label(edge / 3) != label(other / 3);
-  if (separates == fixed(edge)) return;
-  for (const int half : {edge, other}) {
-    edges_[index(half)].fixed = separates;
-    edges_[index(half)].tag = none;
-  }
+  if (separates != fixed(edge)) set_fixed(edge, separates, none);
 }
 
 double Triangulation::doubled_area(int triangle) const {
@@ -143,11 +136,9 @@ int Triangulation::locate(const Vec2& point) const {
   unsigned turn = 0;
   int entered = none;  // the side that the walk came in through, with the point on its inner side
   for (int steps = 0; steps < 4 * triangle_slots() + 16; ++steps) {
-    int out = none;
-    for (unsigned i = 0; i < 3 && out == none; ++i) {
-      const int edge = 3 * triangle + static_cast<int>((i + turn) % 3);
+    int out = none, edge = 3 * triangle + static_cast<int>(turn % 3);
+    for (int i = 0; i < 3 && out == none; ++i, edge = next(edge))
       if (edge != entered && orientation(start(edge), end(edge), point) < 0) out = edge;
-    }
     if (out == none || twin(out) == none) {
       hint_ = triangle;
       return triangle;
@@ -195,46 +186,39 @@ bool Triangulation::enclose(const std::vector<int>& chain, std::vector<int>& tri
     triangles.push_back(triangle);
   };
   for (const int edge : edges) {
-    edges_[index(edge)].on_loop = true;
+    edges_[index(edge)].flags |= on_loop;
     take(edge / 3);
   }
   for (std::size_t i = 0; i < triangles.size(); ++i)
     for (int edge = 3 * triangles[i], last = edge + 3; edge < last; ++edge)
-      if (const HalfEdge& side = edges_[index(edge)]; !side.on_loop && side.twin != none) take(side.twin / 3);
-  for (const int edge : edges) edges_[index(edge)].on_loop = false;
+      if (const HalfEdge& side = edges_[index(edge)]; (side.flags & on_loop) == 0 && side.twin != none) take(side.twin / 3);
+  for (const int edge : edges) edges_[index(edge)].flags &= ~on_loop;
   return true;
 }
 
 // Flips --------------------------------------------------------------------------------------------------------------
 
-bool Triangulation::may_flip(int edge) const {
-  const int other = twin(edge);
-  if (other == none) return false;
-  const Vec2 &a = start(edge), &b = end(edge), &c = point(apex(edge)), &d = point(apex(other));
-  return orientation(a, d, c) > 0 && orientation(d, b, c) > 0;
-}
-
 void Triangulation::flip(int edge) {
   const int other = twin(edge), first = edge / 3, second = other / 3;
-  const HalfEdge bc = edges_[index(next(edge))], ca = edges_[index(previous(edge))];
-  const HalfEdge ad = edges_[index(next(other))], db = edges_[index(previous(other))];
-  HalfEdge* const upper = &edges_[index(3 * first)];
-  HalfEdge* const lower = &edges_[index(3 * second)];
-  upper[0] = ad;
-  upper[1] = {db.origin, 3 * second + 2, none, false, false};
-  upper[2] = ca;
-  lower[0] = db;
-  lower[1] = bc;
-  lower[2] = {ca.origin, 3 * first + 1, none, false, false};
-  const auto reattach = [&](const HalfEdge& side, int place) {
-    if (side.twin != none) edges_[index(side.twin)].twin = place;
-    some_edge_[index(side.origin)] = place;
-  };
-  reattach(ad, 3 * first);
-  reattach(ca, 3 * first + 2);
-  reattach(db, 3 * second);
-  reattach(bc, 3 * second + 1);
-  some_edge_[index(ca.origin)] = 3 * second + 2;
+  HalfEdge* const edges = edges_.data();
+  const HalfEdge bc = edges[next(edge)], ca = edges[previous(edge)];
+  const HalfEdge ad = edges[next(other)], db = edges[previous(other)];
+  const int upper = 3 * first, lower = 3 * second;
+  edges[upper] = ad;
+  edges[upper + 1] = {db.origin, lower + 2, none, 0};
+  edges[upper + 2] = ca;
+  edges[lower] = db;
+  edges[lower + 1] = bc;
+  edges[lower + 2] = {ca.origin, upper + 1, none, 0};
+  if (ad.twin != none) edges[ad.twin].twin = upper;
+  if (ca.twin != none) edges[ca.twin].twin = upper + 2;
+  if (db.twin != none) edges[db.twin].twin = lower;
+  if (bc.twin != none) edges[bc.twin].twin = lower + 1;
+  int* const some_edge = some_edge_.data();
+  some_edge[ad.origin] = upper;
+  some_edge[db.origin] = lower;
+  some_edge[bc.origin] = lower + 1;
+  some_edge[ca.origin] = lower + 2;
   touch(first);
   touch(second);
 }
@@ -302,7 +286,7 @@ int Triangulation::split_at(int edge, const Vec2& position) {
   join(3 * second + 2, 3 * fourth);
   join(3 * first + 2, 3 * second);
   join(3 * third, 3 * fourth + 2);
-  if (ab.fixed) {
+  if ((ab.flags & is_fixed) != 0) {
     fix(3 * first + 2, ab.tag);
     fix(3 * third, ab.tag);
   }
@@ -330,10 +314,7 @@ int Triangulation::split_fixed(int edge, const Vec2& position) {
   const int vertex = insert_inside(triangle, position);
   const int old = find_edge(a, b);
   set_label(old / 3, beyond);
-  for (const int half : {old, twin(old)}) {
-    edges_[index(half)].fixed = false;
-    edges_[index(half)].tag = none;
-  }
+  set_fixed(old, false, none);
   fix(next(old), edge_tag);
   fix(previous(old), edge_tag);
   legalise_around(vertex);

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "predicates.h"
 #include "topple/fracture/polygon.h"
 
 namespace topple::fracture {
@@ -55,7 +56,7 @@ class Triangulation {
   [[nodiscard]] int target(int edge) const { return origin(next(edge)); }
   [[nodiscard]] int apex(int edge) const { return origin(previous(edge)); }
   [[nodiscard]] int twin(int edge) const { return edges_[index(edge)].twin; }
-  [[nodiscard]] bool fixed(int edge) const { return edges_[index(edge)].fixed; }
+  [[nodiscard]] bool fixed(int edge) const { return (edges_[index(edge)].flags & is_fixed) != 0; }
   /// What a fixed edge lies on (`none` for a cut); set once, inherited by its parts.
   [[nodiscard]] int tag(int edge) const { return edges_[index(edge)].tag; }
   void set_tag(int edge, int tag);
@@ -84,13 +85,13 @@ class Triangulation {
 
  private:
   static constexpr int dead = -1;
-  struct HalfEdge {
+  struct alignas(16) HalfEdge {
     int origin = none;
     int twin = none;
     int tag = none;
-    bool fixed = false;
-    bool on_loop = false;  ///< while the inside of a loop is searched
+    int flags = 0;
   };
+  static constexpr int is_fixed = 1, on_loop = 2;  ///< flags; the second while the inside of a loop is searched
   static std::size_t index(int i) { return static_cast<unsigned>(i); }
   [[nodiscard]] const Vec2& start(int edge) const { return point(origin(edge)); }
   [[nodiscard]] const Vec2& end(int edge) const { return point(target(edge)); }
@@ -101,10 +102,19 @@ class Triangulation {
   void attach(int edge, const HalfEdge& side);
   void join(int edge, int other);
   void fix(int edge, int tag);
-  void touch(int triangle);
+  void touch(int triangle) {
+    if (std::exchange(is_touched_[index(triangle)], 1) == 0) touched_.push_back(triangle);
+  }
 
+  void set_fixed(int edge, bool fixed, int tag);
   void flip(int edge);
-  [[nodiscard]] bool may_flip(int edge) const;
+  /// Whether the two triangles at a half-edge are a convex quadrilateral.
+  [[nodiscard]] bool may_flip(int edge) const {
+    const int other = twin(edge);
+    if (other == none) return false;
+    const Vec2 &a = start(edge), &b = end(edge), &c = point(apex(edge)), &d = point(apex(other));
+    return orientation(a, d, c) > 0 && orientation(d, b, c) > 0;
+  }
   void legalise_open();
   void legalise_around(int vertex);
   int insert_inside(int triangle, const Vec2& point);
