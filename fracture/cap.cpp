@@ -62,14 +62,14 @@ std::vector<std::array<int, 3>> lid(const std::vector<Vec2>& points, const std::
   std::vector<char> seen(winding.size(), 0);
   for (const int triangle : order) seen[static_cast<std::size_t>(triangle)] = 1;
   for (std::size_t i = 0; i < order.size(); ++i)
-    for (int edge = 3 * order[i]; edge < 3 * order[i] + 3; ++edge) {
+    for (const int edge : Triangulation::sides(order[i])) {
       const int twin = cut.twin(edge);
-      if (twin == Triangulation::none || seen[static_cast<std::size_t>(twin / 3)]) continue;
+      if (twin == Triangulation::none || seen[static_cast<std::size_t>(Triangulation::triangle_of(twin))]) continue;
       const auto rise = turns.find({cut.origin(edge), cut.target(edge)});
-      seen[static_cast<std::size_t>(twin / 3)] = 1;
-      winding[static_cast<std::size_t>(twin / 3)] =
+      seen[static_cast<std::size_t>(Triangulation::triangle_of(twin))] = 1;
+      winding[static_cast<std::size_t>(Triangulation::triangle_of(twin))] =
           winding[static_cast<std::size_t>(order[i])] - (rise == turns.end() ? 0 : rise->second);
-      order.push_back(twin / 3);
+      order.push_back(Triangulation::triangle_of(twin));
     }
   std::sort(order.begin(), order.end());
   std::vector<std::array<int, 3>> triangles;
@@ -78,7 +78,7 @@ std::vector<std::array<int, 3>> lid(const std::vector<Vec2>& points, const std::
     std::array<int, 3> corners{};
     bool known = true;
     for (std::size_t i = 0; i < 3; ++i) {
-      const auto found = point_of.find(cut.origin(3 * triangle + static_cast<int>(i)));
+      const auto found = point_of.find(cut.origin(Triangulation::half(triangle, static_cast<int>(i))));
       known = known && found != point_of.end();
       corners[i] = known ? found->second : -1;
     }

@@ -6,18 +6,15 @@
 
 namespace topple::fracture {
 
-int ConvexPieces::corner(int local) const {
-  return triangulation_.origin(3 * triangles_[index(local) / 3] + static_cast<int>(index(local) % 3));
-}
-
 /// The other half-edge when it belongs to the region and nothing separates the two.
 int ConvexPieces::twin_of(int local) const {
-  const int edge = 3 * triangles_[index(local) / 3] + static_cast<int>(index(local) % 3);
+  const int edge = global(local);
   const int twin = triangulation_.twin(edge);
   if (twin == Triangulation::none || triangulation_.fixed(edge)) return Triangulation::none;
-  const int place = local_of_[index(twin) / 3];
-  if (index(place) >= triangles_.size() || triangles_[index(place)] != twin / 3) return Triangulation::none;
-  return 3 * place + static_cast<int>(index(twin) % 3);
+  const int place = local_of_[index(Triangulation::triangle_of(twin))];
+  if (index(place) >= triangles_.size() || triangles_[index(place)] != Triangulation::triangle_of(twin))
+    return Triangulation::none;
+  return Triangulation::half(place, Triangulation::side_of(twin));
 }
 
 void ConvexPieces::start(std::span<const int> triangles) {
@@ -26,15 +23,14 @@ void ConvexPieces::start(std::span<const int> triangles) {
   const auto count = static_cast<int>(triangles_.size());
   local_of_.resize(index(triangulation_.triangle_slots()), 0);
   for (int i = 0; i < count; ++i) local_of_[index(triangles_[index(i)])] = i;
-  const std::size_t edges = 3 * triangles_.size();
+  const std::size_t edges = index(Triangulation::half(count, 0));
   twin_.resize(edges);
   next_.resize(edges);
   previous_.resize(edges);
   group_.resize(triangles_.size());
   for (int i = 0; i < count; ++i) {
     group_[index(i)] = i;
-    for (int side = 0; side < 3; ++side) {
-      const int edge = 3 * i + side;
+    for (const int edge : Triangulation::sides(i)) {
       twin_[index(edge)] = twin_of(edge);
       next_[index(edge)] = Triangulation::next(edge);
       previous_[index(edge)] = Triangulation::previous(edge);
@@ -55,7 +51,7 @@ bool ConvexPieces::convex(int before, int at, int after) const {
 }
 
 void ConvexPieces::try_merge(int edge, int twin) {
-  const int here = find(edge / 3), there = find(twin / 3);
+  const int here = find(Triangulation::triangle_of(edge)), there = find(Triangulation::triangle_of(twin));
   if (here == there) return;
   const int before = previous_[index(edge)], after = next_[index(edge)];
   const int twin_before = previous_[index(twin)], twin_after = next_[index(twin)];
@@ -77,9 +73,10 @@ int ConvexPieces::number_at(int edge) const {
 
 void ConvexPieces::append(std::span<const int> triangles, bool hit, std::vector<Chunk>& chunks) {
   start(triangles);
-  const auto edges = static_cast<int>(next_.size()), count = static_cast<int>(triangles_.size());
-  for (int edge = 0; edge < edges; ++edge)
-    if (twin_[index(edge)] > edge) try_merge(edge, twin_[index(edge)]);
+  const auto count = static_cast<int>(triangles_.size());
+  for (int i = 0; i < count; ++i)
+    for (const int edge : Triangulation::sides(i))
+      if (twin_[index(edge)] > edge) try_merge(edge, twin_[index(edge)]);
 
   // Chunks in the order of their first triangles, with all the memory that they need.
   const std::size_t first_chunk = chunks.size();
@@ -95,7 +92,7 @@ void ConvexPieces::append(std::span<const int> triangles, bool hit, std::vector<
     }
     const int chunk = chunk_of_[index(i)] = chunk_of_[index(group)];
     ++faces_[index(chunk)];
-    for (int edge = 3 * i; edge < 3 * i + 3; ++edge) corners_[index(chunk)] += inner_[index(edge)] ? 0 : 1;
+    for (const int edge : Triangulation::sides(i)) corners_[index(chunk)] += inner_[index(edge)] ? 0 : 1;
   }
   for (std::size_t i = 0; i < corners_.size(); ++i) {
     Chunk& chunk = chunks.emplace_back();
@@ -104,17 +101,19 @@ void ConvexPieces::append(std::span<const int> triangles, bool hit, std::vector<
     chunk.face.reserve(faces_[i]);
   }
   number_.assign(next_.size(), Triangulation::none);
-  for (int first = 0; first < edges; ++first) {
-    if (inner_[index(first)] || number_[index(first)] != Triangulation::none) continue;
-    Polygon& outline = chunks[first_chunk + index(chunk_of_[index(first) / 3])].outline;
-    for (int edge = first; number_[index(edge)] == Triangulation::none; edge = next_[index(edge)]) {
-      number_[index(edge)] = static_cast<int>(outline.size());
-      outline.push_back(point(edge));
-    }
-  }
   for (int i = 0; i < count; ++i)
-    chunks[first_chunk + index(chunk_of_[index(i)])].face.push_back(
-        {number_at(3 * i), number_at(3 * i + 1), number_at(3 * i + 2)});
+    for (const int first : Triangulation::sides(i)) {
+      if (inner_[index(first)]) continue;
+      Polygon& outline = chunks[first_chunk + index(chunk_of_[index(i)])].outline;
+      for (int edge = first; number_[index(edge)] == Triangulation::none; edge = next_[index(edge)]) {
+        number_[index(edge)] = static_cast<int>(outline.size());
+        outline.push_back(point(edge));
+      }
+    }
+  for (int i = 0; i < count; ++i) {
+    const auto [a, b, c] = Triangulation::sides(i);
+    chunks[first_chunk + index(chunk_of_[index(i)])].face.push_back({number_at(a), number_at(b), number_at(c)});
+  }
 }
 
 }  // namespace topple::fracture

@@ -149,9 +149,9 @@ bool BreakablePanel::Impl::insert(const Polygon& polygon, Loop& loop) {
 }
 
 Vec2 BreakablePanel::Impl::centroid(int triangle) const {
-  const Vec2& first = triangulation.point(triangulation.origin(3 * triangle));
-  return first + ((triangulation.point(triangulation.origin(3 * triangle + 1)) - first) +
-                  (triangulation.point(triangulation.origin(3 * triangle + 2)) - first)) /
+  const Vec2& first = triangulation.point(triangulation.origin(Triangulation::half(triangle, 0)));
+  return first + ((triangulation.point(triangulation.origin(Triangulation::half(triangle, 1))) - first) +
+                  (triangulation.point(triangulation.origin(Triangulation::half(triangle, 2))) - first)) /
                      3;
 }
 
@@ -197,7 +197,7 @@ void BreakablePanel::Impl::clip_to_box(Polygon& polygon) const {
 }
 
 bool BreakablePanel::Impl::is_held(int triangle) const {
-  for (int edge = 3 * triangle; edge < 3 * triangle + 3; ++edge) {
+  for (const int edge : Triangulation::sides(triangle)) {
     const int tag = triangulation.tag(edge);
     if (tag >= 0 && shape.held[static_cast<std::size_t>(tag)]) return true;
   }
@@ -208,9 +208,10 @@ bool BreakablePanel::Impl::is_held(int triangle) const {
 std::vector<std::vector<int>> BreakablePanel::Impl::islands(const std::vector<int>& removed) const {
   std::vector<int> beside;
   for (const int triangle : removed)
-    for (int edge = 3 * triangle; edge < 3 * triangle + 3; ++edge) {
+    for (const int edge : Triangulation::sides(triangle)) {
       const int twin = triangulation.twin(edge);
-      if (twin != Triangulation::none && triangulation.label(twin / 3) == kIntact) beside.push_back(twin / 3);
+      if (twin != Triangulation::none && triangulation.label(Triangulation::triangle_of(twin)) == kIntact)
+        beside.push_back(Triangulation::triangle_of(twin));
     }
   return loose_parts(beside);
 }
@@ -228,12 +229,13 @@ std::vector<std::vector<int>> BreakablePanel::Impl::loose_parts(const std::vecto
     for (std::size_t i = 0; i < parts.back().size(); ++i) {
       const int triangle = parts.back()[i];
       if (is_held(triangle)) held.back() = 1;
-      for (int edge = 3 * triangle; edge < 3 * triangle + 3 && !held.back(); ++edge) {
+      for (const int edge : Triangulation::sides(triangle)) {
+        if (held.back()) break;
         const int twin = triangulation.twin(edge);
-        if (twin == Triangulation::none || triangulation.label(twin / 3) != kIntact) continue;
-        int& other = part_of[static_cast<std::size_t>(twin / 3)];
+        if (twin == Triangulation::none || triangulation.label(Triangulation::triangle_of(twin)) != kIntact) continue;
+        int& other = part_of[static_cast<std::size_t>(Triangulation::triangle_of(twin))];
         if (other >= 0 && other != part) held.back() = held[static_cast<std::size_t>(other)];
-        if (other < 0) parts.back().push_back(twin / 3);
+        if (other < 0) parts.back().push_back(Triangulation::triangle_of(twin));
         if (other < 0) other = part;
       }
       if (held.back()) return;  // the rest of it need not be seen
@@ -253,7 +255,7 @@ void BreakablePanel::Impl::tidy() {
   std::vector<char> listed(static_cast<std::size_t>(triangulation.vertex_slots()), 0);
   for (const int triangle : triangulation.touched())
     if (triangulation.alive(triangle))
-      for (int edge = 3 * triangle; edge < 3 * triangle + 3; ++edge) {
+      for (const int edge : Triangulation::sides(triangle)) {
         const int vertex = triangulation.origin(edge);
         if (!std::exchange(listed[static_cast<std::size_t>(vertex)], 1)) vertices.push_back(vertex);
       }
@@ -387,7 +389,7 @@ double BreakablePanel::intact_length(std::size_t edge) const {
   double length = 0;
   impl_->each_intact([&](int triangle) {
     const Triangulation& cut = impl_->triangulation;
-    for (int side = 3 * triangle; side < 3 * triangle + 3; ++side)
+    for (const int side : Triangulation::sides(triangle))
       if (cut.tag(side) == static_cast<int>(edge))
         length += (cut.point(cut.target(side)) - cut.point(cut.origin(side))).norm();
   });
@@ -398,7 +400,7 @@ std::vector<std::array<Vec2, 3>> BreakablePanel::triangles() const {
   std::vector<std::array<Vec2, 3>> result;
   impl_->each_intact([&](int triangle) {
     const Triangulation& cut = impl_->triangulation;
-    const int edge = 3 * triangle;
+    const int edge = Triangulation::half(triangle, 0);
     result.push_back({cut.point(cut.origin(edge)), cut.point(cut.origin(edge + 1)), cut.point(cut.origin(edge + 2))});
   });
   return result;

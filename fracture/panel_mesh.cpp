@@ -59,12 +59,13 @@ void PanelMesh::remove(int triangle) {
 
 void PanelMesh::add(const Triangulation& triangulation, int triangle, int intact) {
   std::array<int, 3> lower{};
-  for (int i = 0; i < 3; ++i) lower[index(i)] = corner_pair(triangulation, triangulation.origin(3 * triangle + i));
+  for (int i = 0; i < 3; ++i)
+    lower[index(i)] = corner_pair(triangulation, triangulation.origin(Triangulation::half(triangle, i)));
   add_face(triangle, 0, {lower[0] + 1, lower[1] + 1, lower[2] + 1});
   add_face(triangle, 1, {lower[0], lower[2], lower[1]});
   for (int i = 0; i < 3; ++i) {
-    const int edge = 3 * triangle + i, twin = triangulation.twin(edge);
-    if (twin != Triangulation::none && triangulation.label(twin / 3) == intact) continue;
+    const int edge = Triangulation::half(triangle, i), twin = triangulation.twin(edge);
+    if (twin != Triangulation::none && triangulation.label(Triangulation::triangle_of(twin)) == intact) continue;
     const int first = side_vertices();
     sides_[index(triangle)][index(i)] = first;
     const auto two = write_side(mesh_, first, triangulation.point(triangulation.origin(edge)),
@@ -84,11 +85,11 @@ void PanelMesh::update(const Triangulation& triangulation, const std::vector<int
   std::vector<char> listed(faces_.size(), 0);
   for (const int triangle : triangles) listed[index(triangle)] = 1;
   for (const int triangle : triangles)
-    for (int edge = 3 * triangle; edge < 3 * triangle + 3; ++edge) {
+    for (const int edge : Triangulation::sides(triangle)) {
       const int twin = triangulation.alive(triangle) ? triangulation.twin(edge) : Triangulation::none;
-      if (twin == Triangulation::none || listed[index(twin / 3)]) continue;
-      listed[index(twin / 3)] = 1;
-      all.push_back(twin / 3);
+      if (twin == Triangulation::none || listed[index(Triangulation::triangle_of(twin))]) continue;
+      listed[index(Triangulation::triangle_of(twin))] = 1;
+      all.push_back(Triangulation::triangle_of(twin));
     }
   for (const int triangle : all) remove(triangle);
   for (const int triangle : all)

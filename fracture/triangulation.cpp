@@ -16,7 +16,7 @@ Triangulation::Triangulation(const Vec2& lower, const Vec2& upper, double tolera
   const int first = new_triangle(), second = new_triangle();
   make(first, 0, 1, 2, 0);
   make(second, 0, 2, 3, 0);
-  join(3 * first + 2, 3 * second);
+  join(half(first, 2), half(second, 0));
 }
 
 int Triangulation::new_vertex(const Vec2& point) {
@@ -38,7 +38,7 @@ int Triangulation::new_triangle() {
     return triangle;
   }
   const int triangle = static_cast<int>(labels_.size());
-  edges_.resize(edges_.size() + 3);
+  edges_.resize(edges_.size() + 4);
   labels_.push_back(dead);
   is_touched_.push_back(0);
   return triangle;
@@ -52,7 +52,7 @@ void Triangulation::clear_touched() {
 void Triangulation::make(int triangle, int a, int b, int c, int label) {
   const int corners[] = {a, b, c};
   for (int i = 0; i < 3; ++i) {
-    const int edge = 3 * triangle + i;
+    const int edge = half(triangle, i);
     edges_[index(edge)] = {corners[i], none, none, 0};
     some_edge_[index(corners[i])] = edge;
   }
@@ -93,18 +93,18 @@ void Triangulation::set_label(int triangle, int label) {
 }
 
 void Triangulation::settle_sides(int triangle) {
-  for (int edge = 3 * triangle, last = edge + 3; edge < last; ++edge) settle_side(edge);
+  for (const int edge : sides(triangle)) settle_side(edge);
 }
 
 void Triangulation::settle_side(int edge) {
   const int other = twin(edge);
   if (other == none) return;
-  const bool separates = label(edge / 3) != label(other / 3);
+  const bool separates = label(triangle_of(edge)) != label(triangle_of(other));
   if (separates != fixed(edge)) set_fixed(edge, separates, none);
 }
 
 double Triangulation::doubled_area(int triangle) const {
-  const int edge = 3 * triangle;
+  const int edge = half(triangle, 0);
   return orientation(start(edge), end(edge), point(apex(edge)));
 }
 
@@ -112,7 +112,7 @@ std::vector<int> Triangulation::star(int vertex) const {
   std::vector<int> triangles;
   triangles.reserve(8);  // six on average
   any_around(vertex, [&](int edge) {
-    triangles.push_back(edge / 3);
+    triangles.push_back(triangle_of(edge));
     return false;
   });
   return triangles;
@@ -136,7 +136,7 @@ int Triangulation::locate(const Vec2& point) const {
   unsigned turn = 0;
   int entered = none;  // the side that the walk came in through, with the point on its inner side
   for (int steps = 0; steps < 4 * triangle_slots() + 16; ++steps) {
-    int out = none, edge = 3 * triangle + static_cast<int>(turn % 3);
+    int out = none, edge = half(triangle, static_cast<int>(turn % 3));
     for (int i = 0; i < 3 && out == none; ++i, edge = next(edge))
       if (edge != entered && orientation(start(edge), end(edge), point) < 0) out = edge;
     if (out == none || twin(out) == none) {
@@ -144,15 +144,14 @@ int Triangulation::locate(const Vec2& point) const {
       return triangle;
     }
     entered = twin(out);
-    triangle = entered / 3;
+    triangle = triangle_of(entered);
     turn = turn * 1664525u + 1013904223u;
     turn ^= turn >> 16;
   }
   for (triangle = 0; triangle < triangle_slots(); ++triangle) {
     if (!alive(triangle)) continue;
     bool inside = true;
-    for (int edge = 3 * triangle; edge < 3 * triangle + 3; ++edge)
-      inside = inside && orientation(start(edge), end(edge), point) >= 0;
+    for (const int edge : sides(triangle)) inside = inside && orientation(start(edge), end(edge), point) >= 0;
     if (inside) return hint_ = triangle;
   }
   throw std::logic_error("triangulation: a point lies in no triangle");
@@ -187,11 +186,12 @@ bool Triangulation::enclose(const std::vector<int>& chain, std::vector<int>& tri
   };
   for (const int edge : edges) {
     edges_[index(edge)].flags |= on_loop;
-    take(edge / 3);
+    take(triangle_of(edge));
   }
   for (std::size_t i = 0; i < triangles.size(); ++i)
-    for (int edge = 3 * triangles[i], last = edge + 3; edge < last; ++edge)
-      if (const HalfEdge& side = edges_[index(edge)]; (side.flags & on_loop) == 0 && side.twin != none) take(side.twin / 3);
+    for (const int edge : sides(triangles[i]))
+      if (const HalfEdge& side = edges_[index(edge)]; (side.flags & on_loop) == 0 && side.twin != none)
+        take(triangle_of(side.twin));
   for (const int edge : edges) edges_[index(edge)].flags &= ~on_loop;
   return true;
 }
@@ -199,11 +199,11 @@ bool Triangulation::enclose(const std::vector<int>& chain, std::vector<int>& tri
 // Flips --------------------------------------------------------------------------------------------------------------
 
 void Triangulation::flip(int edge) {
-  const int other = twin(edge), first = edge / 3, second = other / 3;
+  const int other = twin(edge), first = triangle_of(edge), second = triangle_of(other);
   HalfEdge* const edges = edges_.data();
   const HalfEdge bc = edges[next(edge)], ca = edges[previous(edge)];
   const HalfEdge ad = edges[next(other)], db = edges[previous(other)];
-  const int upper = 3 * first, lower = 3 * second;
+  const int upper = half(first, 0), lower = half(second, 0);
   edges[upper] = ad;
   edges[upper + 1] = {db.origin, lower + 2, none, 0};
   edges[upper + 2] = ca;
@@ -232,16 +232,16 @@ void Triangulation::legalise_open() {
     if (other == none || fixed(edge)) continue;
     if (!certainly_in_circle(start(edge), end(edge), point(apex(edge)), point(apex(other))) || !may_flip(edge))
       continue;
-    const int first = edge / 3, second = other / 3;
+    const int first = triangle_of(edge), second = triangle_of(other);
     flip(edge);
-    open_.insert(open_.end(), {3 * first, 3 * first + 2, 3 * second, 3 * second + 1});
+    open_.insert(open_.end(), {half(first, 0), half(first, 2), half(second, 0), half(second, 1)});
   }
 }
 
 void Triangulation::legalise_around(int vertex) {
   open_.clear();
   any_around(vertex, [&](int edge) {
-    const int first = edge - static_cast<int>(index(edge) % 3);
+    const int first = half(triangle_of(edge), 0);
     open_.insert(open_.end(), {first, first + 1, first + 2});
     return false;
   });
@@ -251,24 +251,24 @@ void Triangulation::legalise_around(int vertex) {
 // Points -------------------------------------------------------------------------------------------------------------
 
 int Triangulation::insert_inside(int triangle, const Vec2& position) {
-  const int edge = 3 * triangle, a = origin(edge), b = target(edge), c = apex(edge);
+  const int edge = half(triangle, 0), a = origin(edge), b = target(edge), c = apex(edge);
   const HalfEdge ab = edges_[index(edge)], bc = edges_[index(edge + 1)], ca = edges_[index(edge + 2)];
   const int vertex = new_vertex(position), second = new_triangle(), third = new_triangle();
   const int part = label(triangle);
   make(triangle, a, b, vertex, part);
   make(second, b, c, vertex, part);
   make(third, c, a, vertex, part);
-  attach(3 * triangle, ab);
-  attach(3 * second, bc);
-  attach(3 * third, ca);
-  join(3 * triangle + 1, 3 * second + 2);
-  join(3 * second + 1, 3 * third + 2);
-  join(3 * third + 1, 3 * triangle + 2);
+  attach(half(triangle, 0), ab);
+  attach(half(second, 0), bc);
+  attach(half(third, 0), ca);
+  join(half(triangle, 1), half(second, 2));
+  join(half(second, 1), half(third, 2));
+  join(half(third, 1), half(triangle, 2));
   return vertex;
 }
 
 int Triangulation::split_at(int edge, const Vec2& position) {
-  const int other = twin(edge), first = edge / 3, second = other / 3;
+  const int other = twin(edge), first = triangle_of(edge), second = triangle_of(other);
   const int a = origin(edge), b = target(edge), c = apex(edge), d = apex(other);
   const HalfEdge ab = edges_[index(edge)], bc = edges_[index(next(edge))], ca = edges_[index(previous(edge))];
   const HalfEdge ad = edges_[index(next(other))], db = edges_[index(previous(other))];
@@ -278,17 +278,17 @@ int Triangulation::split_at(int edge, const Vec2& position) {
   make(third, vertex, b, c, upper);
   make(second, vertex, a, d, lower);
   make(fourth, vertex, d, b, lower);
-  attach(3 * first + 1, ca);
-  attach(3 * third + 1, bc);
-  attach(3 * second + 1, ad);
-  attach(3 * fourth + 1, db);
-  join(3 * first, 3 * third + 2);
-  join(3 * second + 2, 3 * fourth);
-  join(3 * first + 2, 3 * second);
-  join(3 * third, 3 * fourth + 2);
+  attach(half(first, 1), ca);
+  attach(half(third, 1), bc);
+  attach(half(second, 1), ad);
+  attach(half(fourth, 1), db);
+  join(half(first, 0), half(third, 2));
+  join(half(second, 2), half(fourth, 0));
+  join(half(first, 2), half(second, 0));
+  join(half(third, 0), half(fourth, 2));
   if ((ab.flags & is_fixed) != 0) {
-    fix(3 * first + 2, ab.tag);
-    fix(3 * third, ab.tag);
+    fix(half(first, 2), ab.tag);
+    fix(half(third, 0), ab.tag);
   }
   return vertex;
 }
@@ -306,14 +306,14 @@ int Triangulation::split_fixed(int edge, const Vec2& position) {
   // Rounding has put the point beside the edge. The edge goes through it from now on: the sliver between the old and
   // the new edge changes sides.
   if (off < 0) edge = twin(edge);
-  const int triangle = edge / 3, beyond = label(twin(edge) / 3), edge_tag = tag(edge);
+  const int triangle = triangle_of(edge), beyond = label(triangle_of(twin(edge))), edge_tag = tag(edge);
   if (!(orientation(end(edge), point(apex(edge)), position) > 0 &&
         orientation(point(apex(edge)), start(edge), position) > 0))
     return nearest;
   const int a = origin(edge), b = target(edge);
   const int vertex = insert_inside(triangle, position);
   const int old = find_edge(a, b);
-  set_label(old / 3, beyond);
+  set_label(triangle_of(old), beyond);
   set_fixed(old, false, none);
   fix(next(old), edge_tag);
   fix(previous(old), edge_tag);
@@ -324,7 +324,7 @@ int Triangulation::split_fixed(int edge, const Vec2& position) {
 int Triangulation::add_point(const Vec2& position) {
   const int home = locate(position);
   // A corner that is all but the point itself is the nearest vertex.
-  for (int edge = 3 * home, last = edge + 3; edge < last; ++edge)
+  for (const int edge : sides(home))
     if ((start(edge) - position).squaredNorm() <= 1e-6 * tolerance_ * tolerance_) return origin(edge);
   int nearest = none, on_edge = none;
   double vertex_distance = tolerance_, edge_distance = tolerance_;
@@ -350,8 +350,9 @@ int Triangulation::add_point(const Vec2& position) {
     return split_fixed(on_edge, start(on_edge) + share * along);
   }
   int vertex = none;
-  for (int edge = 3 * home; edge < 3 * home + 3 && vertex == none; ++edge)
-    if (twin(edge) != none && orientation(start(edge), end(edge), position) == 0) vertex = split_at(edge, position);
+  for (const int edge : sides(home))
+    if (vertex == none && twin(edge) != none && orientation(start(edge), end(edge), position) == 0)
+      vertex = split_at(edge, position);
   if (vertex == none) vertex = insert_inside(home, position);
   legalise_around(vertex);
   return vertex;

@@ -20,8 +20,15 @@ namespace topple::fracture {
 
 class Triangulation {
  public:
-  /// Half-edges are numbered 3 triangle + side; side i runs from corner i to corner i + 1, the triangle on its left.
   static constexpr int none = -1;
+  /// Number of a half-edge: side i (0 to 2) of a triangle runs from corner i to corner i + 1, the triangle on its left.
+  /// Every fourth number stands for nothing, so that shifts take the place of divisions.
+  [[nodiscard]] static constexpr int half(int triangle, int side) { return 4 * triangle + side; }
+  [[nodiscard]] static constexpr int triangle_of(int edge) { return edge >> 2; }
+  [[nodiscard]] static constexpr int side_of(int edge) { return edge & 3; }
+  [[nodiscard]] static constexpr std::array<int, 3> sides(int triangle) {
+    return {half(triangle, 0), half(triangle, 1), half(triangle, 2)};
+  }
 
   /// An empty box of two triangles with the label 0. Everything inserted must lie inside, and `tolerance` away from its
   /// border.
@@ -32,8 +39,8 @@ class Triangulation {
   /// Fixes a chain of edges from one vertex to another, which leaves the straight line by about the tolerance at most.
   /// Appends the vertices on its way, `to` included, to `chain`.
   void add_segment(int from, int to, std::vector<int>& chain);
-  /// The triangles on the left of a closed chain of edges that goes counter-clockwise and passes no vertex twice, and its
-  /// edges; false, and nothing, when the chain is not such a one.
+  /// The triangles on the left of a closed chain of edges that goes counter-clockwise and passes no vertex twice, and
+  /// its edges; false, and nothing, when the chain is not such a one.
   bool enclose(const std::vector<int>& chain, std::vector<int>& triangles, std::vector<int>& edges);
   /// All connected triangles for which `inside` holds, from the corners of `chain` on, in the order in which they are
   /// reached.
@@ -60,15 +67,15 @@ class Triangulation {
   /// What a fixed edge lies on (`none` for a cut); set once, inherited by its parts.
   [[nodiscard]] int tag(int edge) const { return edges_[index(edge)].tag; }
   void set_tag(int edge, int tag);
-  [[nodiscard]] static int next(int edge) { return index(edge) % 3 == 2 ? edge - 2 : edge + 1; }
-  [[nodiscard]] static int previous(int edge) { return index(edge) % 3 == 0 ? edge + 2 : edge - 1; }
+  [[nodiscard]] static int next(int edge) { return (edge & 3) == 2 ? edge - 2 : edge + 1; }
+  [[nodiscard]] static int previous(int edge) { return (edge & 3) == 0 ? edge + 2 : edge - 1; }
   [[nodiscard]] double doubled_area(int triangle) const;
   /// The triangle that holds a point of the box.
   [[nodiscard]] int locate(const Vec2& point) const;
   /// The half-edge from one vertex to another, or `none`.
   [[nodiscard]] int find_edge(int from, int to) const;
-  /// Calls visit(edge) for the half-edge of each triangle at a vertex that leaves it, until one returns true; whether one
-  /// did.
+  /// Calls visit(edge) for the half-edge of each triangle at a vertex that leaves it, until one returns true; whether
+  /// one did.
   template <class Visit>
   bool any_around(int vertex, const Visit& visit) const;
   /// All triangles at a vertex.
@@ -131,7 +138,7 @@ class Triangulation {
 
   std::vector<Vec2> points_;
   std::vector<int> some_edge_;   ///< of each vertex: one half-edge that leaves it
-  std::vector<HalfEdge> edges_;  ///< three of each triangle
+  std::vector<HalfEdge> edges_;  ///< four of each triangle, the last without use
   std::vector<int> labels_;
   std::vector<int> free_triangles_, free_vertices_, touched_;
   std::vector<char> is_touched_;
@@ -140,8 +147,8 @@ class Triangulation {
   double tolerance_;
   int unfinished_ = 0;
   mutable int hint_ = 0;
-  // Kept for their memory: of collect_near; half-edges that Lawson's flips have yet to look at; ends of the edges that a
-  // segment crosses, and of those made in their place.
+  // Kept for their memory: of collect_near; half-edges that Lawson's flips have yet to look at; ends of the edges that
+  // a segment crosses, and of those made in their place.
   std::vector<int> near_, open_;
   std::vector<std::pair<int, int>> crossed_, made_;
 };
@@ -168,9 +175,9 @@ void Triangulation::collect_near(int home, const Visit& visit) {
   std::vector<int>& open = near_;
   open.assign(1, home);
   for (std::size_t i = 0; i < open.size(); ++i)
-    for (int edge = 3 * open[i], last = edge + 3; edge < last; ++edge) {
+    for (const int edge : sides(open[i])) {
       if (!visit(edge) || twin(edge) == none) continue;
-      const int beyond = twin(edge) / 3;
+      const int beyond = triangle_of(twin(edge));
       bool known = false;
       for (const int triangle : open) known = known || triangle == beyond;
       if (!known) open.push_back(beyond);
@@ -190,8 +197,8 @@ std::vector<int> Triangulation::collect(const std::vector<int>& chain, const Ins
   for (const int vertex : chain)
     for (const int triangle : star(vertex)) take(triangle);
   for (std::size_t i = 0; i < found.size(); ++i)
-    for (int edge = 3 * found[i]; edge < 3 * found[i] + 3; ++edge)
-      if (twin(edge) != none) take(twin(edge) / 3);
+    for (const int edge : sides(found[i]))
+      if (twin(edge) != none) take(triangle_of(twin(edge)));
   return found;
 }
 

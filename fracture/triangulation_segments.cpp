@@ -161,7 +161,7 @@ bool Triangulation::remove_vertex(int vertex) {
   std::array<HalfEdge, 3> sides{};
   std::size_t count = 0;
   any_around(vertex, [&](int edge) {
-    around[count] = edge / 3;
+    around[count] = triangle_of(edge);
     sides[count] = edges_[index(next(edge))];
     corners[count] = sides[count].origin;
     return ++count == 3;
@@ -170,7 +170,7 @@ bool Triangulation::remove_vertex(int vertex) {
   make(around[0], corners[0], corners[1], corners[2], label(around[0]));
   open_.clear();
   for (std::size_t i = 0; i < 3; ++i) {
-    const int edge = 3 * around[0] + static_cast<int>(i);
+    const int edge = half(around[0], static_cast<int>(i));
     attach(edge, sides[i]);
     open_.push_back(edge);
   }
@@ -188,12 +188,12 @@ bool Triangulation::valid() const {
   for (int triangle = 0; triangle < triangle_slots(); ++triangle) {
     if (!alive(triangle)) continue;
     if (!(doubled_area(triangle) > 0)) return false;
-    for (int edge = 3 * triangle; edge < 3 * triangle + 3; ++edge) {
+    for (const int edge : sides(triangle)) {
       const int other = twin(edge);
       if (other == none) continue;
-      if (twin(other) != edge || origin(other) != target(edge) || !alive(other / 3)) return false;
+      if (twin(other) != edge || origin(other) != target(edge) || !alive(triangle_of(other))) return false;
       if (fixed(edge) != fixed(other) || tag(edge) != tag(other)) return false;
-      if (label(triangle) != label(other / 3) && !fixed(edge)) return false;
+      if (label(triangle) != label(triangle_of(other)) && !fixed(edge)) return false;
     }
   }
   return true;

@@ -69,7 +69,8 @@ TEST_CASE("the union of overlapping squares has its area, whatever crosses what"
     const auto chain = add_loop(t, square);
     for (const int triangle : t.collect(chain, [&](int i) {
            const Vec2 middle =
-               (t.point(t.origin(3 * i)) + t.point(t.origin(3 * i + 1)) + t.point(t.origin(3 * i + 2))) / 3;
+               (t.point(t.origin(t.half(i, 0))) + t.point(t.origin(t.half(i, 1))) + t.point(t.origin(t.half(i, 2)))) /
+               3;
            return encloses(square, middle);
          }))
       t.set_label(triangle, 7);
@@ -100,8 +101,8 @@ TEST_CASE("without obstacles the triangulation is Delaunay's") {
   int inside = 0;
   for (int triangle = 0; triangle < t.triangle_slots(); ++triangle)
     for (const Vec2& point : points)
-      inside += certainly_in_circle(t.point(t.origin(3 * triangle)), t.point(t.origin(3 * triangle + 1)),
-                                    t.point(t.origin(3 * triangle + 2)), point)
+      inside += certainly_in_circle(t.point(t.origin(t.half(triangle, 0))), t.point(t.origin(t.half(triangle, 1))),
+                                    t.point(t.origin(t.half(triangle, 2))), point)
                     ? 1
                     : 0;
   CHECK(inside == 0);

@@ -33,7 +33,7 @@ Edges edges_of(const Triangulation& t) {
   Edges edges;
   for (int triangle = 0; triangle < t.triangle_slots(); ++triangle) {
     if (!t.alive(triangle)) continue;
-    for (int edge = 3 * triangle; edge < 3 * triangle + 3; ++edge) {
+    for (const int edge : Triangulation::sides(triangle)) {
       const Edge own = edge_between(t.point(t.origin(edge)), t.point(t.target(edge)));
       edges.all.insert(own);
       if (t.fixed(edge)) edges.fixed.insert(own);

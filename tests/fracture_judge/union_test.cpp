@@ -43,8 +43,9 @@ void paint(Triangulation& t, const Polygon& polygon, int bit) {
   for (const Vec2& point : polygon) corners.push_back(t.add_point(point));
   for (std::size_t i = 0; i < corners.size(); ++i) t.add_segment(corners[i], corners[(i + 1) % corners.size()], chain);
   for (const int triangle : t.collect(chain, [&](int i) {
-         return encloses(polygon,
-                         (t.point(t.origin(3 * i)) + t.point(t.origin(3 * i + 1)) + t.point(t.origin(3 * i + 2))) / 3);
+         return encloses(
+             polygon,
+             (t.point(t.origin(t.half(i, 0))) + t.point(t.origin(t.half(i, 1))) + t.point(t.origin(t.half(i, 2)))) / 3);
        }))
     t.set_label(triangle, t.label(triangle) | bit);
   for (int triangle = 0; triangle < t.triangle_slots(); ++triangle) t.settle_sides(triangle);
