@@ -39,7 +39,7 @@ Mesh prism_mesh(const Polygon& outline, const std::vector<std::array<int, 3>>& f
   mesh.triangles.reserve(2 * face.size() + 2 * n);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t upper = 0; upper < 2; ++upper) {
-      mesh.positions[2 * i + upper] = Vec3(outline[i].x(), outline[i].y(), (upper ? 1 : -1) * thickness / 2);
+      mesh.positions[2 * i + upper] = Vec3(outline[i].x(), outline[i].y(), upper ? thickness / 2 : -thickness / 2);
       mesh.normals[2 * i + upper] = Vec3(0, 0, upper ? 1 : -1);
       mesh.texture[2 * i + upper] = outline[i];
     }
@@ -49,7 +49,7 @@ Mesh prism_mesh(const Polygon& outline, const std::vector<std::array<int, 3>>& f
   }
   for (std::size_t i = 0; i < n; ++i)
     for (const auto& triangle :
-         write_side(mesh, static_cast<int>(2 * n + 4 * i), outline[i], outline[(i + 1) % n], thickness))
+         write_side(mesh, static_cast<int>(2 * n + 4 * i), outline[i], outline[i + 1 < n ? i + 1 : 0], thickness))
       mesh.triangles.push_back(triangle);
   return mesh;
 }
