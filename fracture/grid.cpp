@@ -28,18 +28,22 @@ Grid::Grid(const std::array<Vec2, 4>& outline, double cell, const std::array<int
   columns_ = divisions[0] > 0 ? divisions[0] : cells((length(0) + length(2)) / 2);
   rows_ = divisions[1] > 0 ? divisions[1] : cells((length(1) + length(3)) / 2);
 
-  // The map from the grid to the panel stretches every direction by at least min |det J| / max |J|: its determinant is
-  // linear and its norm convex, so both bounds are found at the corners. The panel is convex, so a straight line in it
-  // has a path in the grid, and no shorter one than this bound allows.
-  double least_area = INFINITY, greatest_norm = 0;
+  // The map from the grid to the panel stretches every direction by at least min det J / max |J|: its determinant is
+  // linear and its largest singular value convex, so both bounds are found at the corners. The panel is convex, so a
+  // straight line in it has a path in the grid, and no shorter one than this bound allows.
+  double least_area = INFINITY, greatest_stretch = 0;
   for (std::size_t corner = 0; corner < 4; ++corner) {
     const bool right = corner == 1 || corner == 2, top = corner >= 2;
     const Vec2 along_u = (top ? outline[2] - outline[3] : outline[1] - outline[0]) / columns_;
     const Vec2 along_v = (right ? outline[2] - outline[1] : outline[3] - outline[0]) / rows_;
     least_area = std::min(least_area, cross(along_u, along_v));
-    greatest_norm = std::max(greatest_norm, std::sqrt(along_u.squaredNorm() + along_v.squaredNorm()));
+    // The larger eigenvalue of J^T J is its square.
+    const double mean = (along_u.squaredNorm() + along_v.squaredNorm()) / 2;
+    const double half_gap = (along_u.squaredNorm() - along_v.squaredNorm()) / 2;
+    greatest_stretch = std::max(greatest_stretch, std::sqrt(mean + std::hypot(half_gap, along_u.dot(along_v))));
   }
-  least_stretch_ = least_area / greatest_norm;
+  constexpr double rounding = 1 - 1e-12;
+  least_stretch_ = rounding * least_area / greatest_stretch;
 }
 
 Vec2 Grid::at(double column, double row) const {

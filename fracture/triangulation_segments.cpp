@@ -25,7 +25,6 @@ bool Triangulation::passes(int vertex, int from, int to) const {
 /// The edge opposite `from` that the line to `to` leaves through; or `none`, and the vertex that lies on the line.
 int Triangulation::first_crossed(int from, int to, int& on_the_way) const {
   on_the_way = to;
-  if (find_edge(from, to) != none) return none;
   const Vec2 &a = point(from), &b = point(to);
   int crossed = none, known = none;
   double known_side = 0;  // of the vertex `known`, which two triangles have in common
@@ -74,16 +73,9 @@ int Triangulation::obstacle(int from, int to) {
   }
 }
 
-/// Makes the edge between two vertices with nothing fixed and no vertex between them, across the edges in `crossed_`:
+/// Makes the edge between two vertices with nothing fixed and no vertex between them in place of those in `crossed_`:
 /// S. Sloan, "A fast algorithm for generating constrained Delaunay triangulations" (1993).
 void Triangulation::connect(int from, int to) {
-  if (crossed_.empty()) {  // it is there already
-    if (const int there = find_edge(from, to); there == none)
-      ++unfinished_;
-    else if (!fixed(there))
-      fix(there, none);
-    return;
-  }
   const Vec2 a = point(from), b = point(to);
   made_.clear();
   for (std::size_t steps = 0; steps < crossed_.size(); ++steps) {
@@ -121,6 +113,10 @@ void Triangulation::connect(int from, int to) {
 /// Fixes the first part of a segment and says where it ends.
 int Triangulation::advance(int from, int to) {
   for (std::size_t steps = 0; steps < kMostSteps; ++steps) {
+    if (const int there = find_edge(from, to); there != none) {
+      if (!fixed(there)) fix(there, none);
+      return to;
+    }
     const int stop = obstacle(from, to);
     if (stop == from) break;
     if (stop == to) {

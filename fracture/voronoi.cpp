@@ -47,8 +47,10 @@ VoronoiCell VoronoiGrid::make(int index, int& ring) const {
       const int other = r * columns() + c;
       const Vec2 away = site(other) - cell.site;
       if (away.squaredNorm() > 4 * reach2) return;  // half way to it lies beyond all of the cell
-      if (clip(cell.polygon, cell.site + away / 2, away, other)) reach2 = farthest2();
+      const bool cut = clip(cell.polygon, cell.site + away / 2, away, other);
+      if (cut && ring > 1) reach2 = farthest2();  // the first ring shapes the cell: none of it can be left out
     });
+    if (ring == 1) reach2 = farthest2();
   }
   return cell;
 }
