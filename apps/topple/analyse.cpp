@@ -27,14 +27,14 @@ struct Options {
   std::string model, output;
   std::vector<std::string> combinations;
   std::string code;
-  double drift_limit = 1 / usual_drift_limit;
+  std::optional<double> drift_limit;
   int stations = 0, threads = 0;
   std::string p_delta;
   int buckling = 0, modes = 0;
   std::string mass, torsional_mass;
   bool rotary_inertia = false;
   std::vector<std::string> lose, lose_each;
-  double sudden = 2;
+  std::optional<double> sudden;
   bool html = false, csv = false, vtu = false, diagnose = false;
 };
 
@@ -72,7 +72,7 @@ std::vector<CombinationId> chosen(const Building& building, const std::vector<st
 /// Members by name or pattern, and all members of groups.
 LossRequest losses(const Options& options, const Building& building) {
   LossRequest request;
-  request.sudden = options.sudden;
+  if (options.sudden) request.sudden = *options.sudden;
   if (options.lose.empty() && options.lose_each.empty()) return request;
   const NameIndex names(building);
   for (const std::string& name : options.lose) {
@@ -117,6 +117,11 @@ void give_back_free_memory() {
 /// Options come before what the file asks for itself.
 void ask_for_modes(const Options& options, const RequestedAnalyses& requested, AnalysisRequest& request) {
   request.modes = options.modes > 0 ? options.modes : requested.modes;
+  for (const auto& [asked, name] : {std::pair{!options.mass.empty(), "--mass"},
+                                    {!options.torsional_mass.empty(), "--torsional-mass"},
+                                    {options.rotary_inertia, "--rotary-inertia"}})
+    if (asked && request.modes == 0)
+      throw InputError(std::string(name) + ": no frequencies are asked for; accepted: with --modes");
   const bool lumped = options.mass.empty() ? requested.lumped_mass : options.mass == "lumped";
   // Only a Frame3DD file asks for modes itself: its elements spin with density x J and have rotary inertia.
   const bool frame3dd = requested.modes > 0;
@@ -143,6 +148,10 @@ int run(const Options& options) {
                                     {options.vtu, "--vtu"},
                                     {options.diagnose, "--diagnose"}})
     if (asked && options.output.empty()) throw InputError(std::string(name) + ": name the folder for it with -o");
+  if (options.drift_limit && options.code.empty())
+    throw InputError("--drift-limit: nothing is checked; accepted: with --code");
+  if (options.sudden && options.lose.empty() && options.lose_each.empty())
+    throw InputError("--sudden: nothing is lost; accepted: with --lose or --lose-each");
   StageClock clock;
   const Building building = read_model(find_model(options.model));
   give_back_free_memory();
@@ -175,7 +184,7 @@ int run(const Options& options) {
                      "; accepted: no --html, --vtu and --code, which are about combinations");
   if (!options.code.empty()) {
     const DesignCode code = options.code == "en1993" ? DesignCode::en1993 : DesignCode::aisc360;
-    check_design(building, code, 1 / options.drift_limit, result);
+    check_design(building, code, options.drift_limit ? 1 / *options.drift_limit : usual_drift_limit, result);
     clock.stop("design");
   }
   clock.seconds["order"] = result.statistics.order_seconds;
