@@ -23,9 +23,6 @@ struct Settings {
       0.5;  ///< m/s: slower contacts do not bounce, so that piles come to rest (2 g dt at 1/60 s is 0.33)
   double asleep_below =
       0.1;  ///< m/s and rad/s for two seconds. Bullet's 0.8 and 1 freeze a post that has begun to topple
-  double settled_time = 2;    ///< s: things that touch each other rest when in such a time they have come less than ...
-  double settled_mean = 0.1;  ///< m on the whole (root mean square by mass), and ...
-  double settled_single = 1;  ///< m each by its centre: see let_settled_sleep()
   double rolling_resistance =
       0.1;  ///< of the normal force times the radius, a ball on soil: on flat ground it would roll for ever
   double continuous_from =
@@ -201,6 +198,8 @@ BodyId BulletWorld::add_body(const BodyDescription& description) {
   set_surface(rigid, description.friction, description.restitution, owner);
   rigid.setFlags(0);  // no gyroscopic terms: FreeSpinWorld turns bodies
   body->ball_radius = ball_radius(description.parts);
+  body->mass = description.mass;
+  body->moments = to_bullet(inertia.moments);
   rigid.setUserPointer(static_cast<Solid*>(body.get()));
   body->object = &rigid;
   set_continuous(*body);
@@ -228,6 +227,7 @@ void BulletWorld::remove_body(BodyId id) {
     if (one->second->body == id.value) remove_cable({one->first});
   }
   wake_touching(*gone.object);
+  let_go(gone);
   world_.forget_foreseen_contacts();
   forget_ignored_of(Touched::Kind::body, id.value);
   forget_contacts_of(Touched::Kind::body, id.value);
@@ -296,6 +296,7 @@ BodyState BulletWorld::read(const Body& seen) {
 
 void BulletWorld::set_state(BodyId id, const BodyState& state) {
   Body& set = body(id.value);
+  let_go(set);
   if (!state.pose.position.allFinite() || !state.velocity.allFinite() || !state.angular_velocity.allFinite()) {
     throw std::invalid_argument("body " + std::to_string(id.value) + ": its state is not finite");
   }
@@ -318,16 +319,21 @@ void BulletWorld::set_state(BodyId id, const BodyState& state) {
 }
 
 void BulletWorld::apply_impulse(BodyId id, const Vec3& impulse, const Vec3& point) {
+  let_go(body(id.value));
   btRigidBody& rigid = *body(id.value).rigid;
   rigid.applyImpulse(to_bullet(impulse), to_bullet(point) - rigid.getCenterOfMassPosition());
   wake(id);
 }
 
 void BulletWorld::wake(BodyId id) {
-  btRigidBody& rigid = *body(id.value).rigid;
-  rigid.forceActivationState(ACTIVE_TAG);
-  rigid.setDeactivationTime(0);
-  body(id.value).watched = false;
+  Body& woken = body(id.value);
+  let_go(woken);
+  woken.rigid->forceActivationState(ACTIVE_TAG);
+  woken.rigid->setDeactivationTime(0);
+  woken.watched = woken.about_to_rest = false;
+  woken.times_still = 0;
+  woken.seen_at = woken.rigid->getWorldTransform();
+  woken.seen_for = 0;
   seen_[static_cast<std::size_t>(id.value)].holds = false;
   awake_count_.reset();
 }
@@ -370,15 +376,20 @@ void BulletWorld::step(double dt) {
   if (!(dt > 0) || !std::isfinite(dt))
     throw std::invalid_argument("step of " + std::to_string(dt) + " s; it must be above zero");
   release_separated(dt);
+  hold_still();
   if (awake_count() == 0) {
     contacts_.clear();
     return;
   }
+  world_.before_solving([&] { let_go_struck(dt); });
   world_.stepSimulation(dt, 0);
   gather_contacts();
+  read_forces(dt);
   resist_rolling();
   keep_swinging();
   let_settled_sleep(dt);
+  let_go_unbalanced();
+  look_for_still(dt);
   for (auto& [id, hinge] : hinges_) read_hinge(*hinge, dt);
   read_cables(dt);
   look_at_what_moved();
@@ -399,42 +410,6 @@ void BulletWorld::resist_rolling() {
       ball.setAngularVelocity(ball.getAngularVelocity() * (slowed / spin));
       contact.work_lost += (spin * spin - slowed * slowed) / (2 * inverse_inertia);
     }
-  }
-}
-
-/// Bullet lets things that touch each other sleep when each of them is still. In a large pile of unequal bodies that
-/// never comes: the solver's remaining error keeps light ones trembling between heavy ones, on the spot. Such a pile
-/// rests when it is not going anywhere.
-void BulletWorld::let_settled_sleep(double dt) {
-  watched_for_ += dt;
-  if (watched_for_ < kSettings.settled_time) return;
-  watched_for_ = 0;
-  struct Island {
-    double mass = 0, sum = 0, farthest = 0;
-  };
-  std::map<int, Island> islands;
-  for (const BodyId id : order_) {
-    const Body& one = body(id.value);
-    if (!one.rigid->isActive()) continue;
-    const btTransform& now = one.rigid->getWorldTransform();
-    const double turned = now.getRotation().angleShortestPath(one.watched_at.getRotation());
-    const double away = (now.getOrigin() - one.watched_at.getOrigin()).length();
-    const double moved = away + one.reach * turned;
-    const double mass = 1 / one.rigid->getInvMass();
-    Island& island = islands[one.rigid->getIslandTag()];
-    island.mass += mass;
-    island.sum += mass * moved * moved;
-    island.farthest = std::max(island.farthest, one.watched ? away : BT_LARGE_FLOAT);
-  }
-  for (const BodyId id : order_) {
-    Body& one = body(id.value);
-    one.watched = one.rigid->isActive();
-    if (!one.watched || one.swings) continue;
-    one.watched_at = one.rigid->getWorldTransform();
-    const Island& island = islands[one.rigid->getIslandTag()];
-    if (island.sum < kSettings.settled_mean * kSettings.settled_mean * island.mass &&
-        island.farthest < kSettings.settled_single)
-      one.rigid->setActivationState(WANTS_DEACTIVATION);
   }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 // collision::World on Bullet. Its parts by file: bodies, obstacles and the step (bullet_world), contacts
-// (bullet_world_contacts), sweeps and rays (bullet_world_sweep), hinges (bullet_world_hinges), cables
+// (bullet_world_contacts), rest (bullet_world_rest), sweeps and rays (bullet_world_sweep), hinges (bullet_world_hinges), cables
 // (bullet_world_cables).
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
 #include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
@@ -13,6 +13,7 @@
 #include <set>
 
 #include "cable.h"
+#include "contact_forces.h"
 #include "first_touch.h"
 #include "free_spin_world.h"
 #include "half_space_contacts.h"
@@ -33,6 +34,16 @@ struct Body : Solid {
   bool swings = false;                                  ///< on a cable, off its plumb line and touching nothing
   bool watched = false;                                 ///< since the last look, for going anywhere
   btTransform watched_at = btTransform::getIdentity();  ///< where it was then
+  /// Of rest within a heap (bullet_world_rest.cpp): where it was when it was last looked at, s since then, how often in a
+  /// row it had been still.
+  btTransform seen_at = btTransform::getIdentity();
+  double seen_for = 0;
+  int times_still = 0;
+  bool on_standing = false;    ///< it lies on what stands, or on what does
+  bool about_to_rest = false;  ///< held still from the beginning of the next step
+  bool held_still = false;
+  double mass = 0;  ///< Bullet's own are zero while it is held still
+  btVector3 moments{0, 0, 0};
   std::set<std::int64_t> hinges;
 };
 
@@ -55,14 +66,6 @@ struct HungCable {
   Cable constraint;
   std::int64_t body = -1;
   CablePull pull;
-};
-
-/// Two solids by kind and id, lower first: bodies before obstacles before the ground.
-struct SolidPair {
-  std::int64_t body = -1;
-  Touched::Kind kind = Touched::Kind::ground;
-  std::int64_t other = -1;
-  auto operator<=>(const SolidPair&) const = default;
 };
 
 class BulletWorld final : public World {
@@ -128,6 +131,18 @@ class BulletWorld final : public World {
   void gather_contacts();
   void resist_rolling();
   void let_settled_sleep(double dt);
+  void hold_still();
+  void let_go(Body& body);
+  void let_go_struck(double dt);
+  void let_go_unbalanced();
+  void look_for_still(double dt);
+  [[nodiscard]] std::vector<char> still_bodies();
+  void read_forces(double dt);
+  /// A body, and one that holds it up.
+  struct Bearing {
+    std::int64_t borne, bearer;
+  };
+  [[nodiscard]] std::vector<Bearing> bearings(std::vector<std::int64_t>& on_standing) const;
   void forget_contacts_of(Touched::Kind kind, std::int64_t id);
   [[nodiscard]] bool is_awake(const Contact& contact) const;
 
@@ -168,6 +183,9 @@ class BulletWorld final : public World {
   mutable std::vector<Seen> seen_;
   mutable std::optional<std::size_t> awake_count_;  ///< none: to be counted
   double watched_for_ = 0;                          ///< s since the last look
+  double looked_for_ = 0;                           ///< the same, for bodies that are still alone
+  std::size_t held_count_ = 0;
+  ContactForces forces_;
   std::int64_t next_obstacle_ = 0, next_hinge_ = 0, next_cable_ = 0;
 
   Solid ground_;

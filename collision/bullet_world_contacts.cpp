@@ -170,6 +170,7 @@ void BulletWorld::forget_contacts_of(Touched::Kind kind, std::int64_t id) {
     if (kind == Touched::Kind::obstacle) return contact.other.obstacle.value == id;
     return contact.body.value == id || contact.other.body.value == id;
   };
+  forces_.forget(kind, id);
   std::erase_if(touching_, names);
   std::erase_if(contacts_, names);
 }

@@ -2,6 +2,7 @@
 // Bullet's world with a rotation that keeps angular momentum, and a record of what the solver did to each body.
 #include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
 
+#include <functional>
 #include <vector>
 
 #include "cable.h"
@@ -34,7 +35,14 @@ class FreeSpinWorld : public btDiscreteDynamicsWorld {
     return m_predictiveManifolds;
   }
 
+  /// Called in each step when contacts have been found, before bodies are gathered in islands and solved for.
+  void before_solving(std::function<void()> call) { before_solving_ = std::move(call); }
+
  protected:
+  void calculateSimulationIslands() override {
+    if (before_solving_) before_solving_();
+    btDiscreteDynamicsWorld::calculateSimulationIslands();
+  }
   void predictUnconstraintMotion(btScalar time_step) override;
   /// Turns each body as a free one (free_spin.h). Bullet's own rotation stops at 45 degrees a step, and its gyroscopic
   /// terms keep neither momentum nor energy.
@@ -42,6 +50,7 @@ class FreeSpinWorld : public btDiscreteDynamicsWorld {
 
  private:
   Record record_ = nullptr;
+  std::function<void()> before_solving_;
   std::vector<Cable*> cables_;
 };
 

@@ -50,8 +50,8 @@ void Simulation::State::book_body(BodyMotion& one) {
   // What the collision world moved beyond its velocity (pushing things out of each other) is work of the contacts.
   const Vec3 pushed = after.pose.position - one.before.pose.position - after.velocity * scenario.step;
   ledger.lost_in_contacts += weight.dot(pushed);
-  if (one.asleep != after.asleep) {  // a body at rest is read as having no velocity at all
-    collision::BodyState awake = after.asleep ? after : one.before;
+  if (one.asleep != after.asleep) {  // a body at rest is read as having no velocity at all, and does not move
+    collision::BodyState awake = one.before;
     awake.asleep = false;
     const Kinetic kinetic = kinetic_energy(*one.body, awake, reading());
     ledger.lost_in_contacts += (after.asleep ? 1 : -1) * (kinetic.translation + kinetic.rotation);
