@@ -129,6 +129,22 @@ inline void choose_rules(RandomNumbers& random, RandomCollapse& collapse) {
   }
 }
 
+/// Floors that break, by numbers of their own.
+inline void choose_fracture(std::uint64_t seed, RandomCollapse& collapse) {
+  RandomNumbers random(~seed);
+  if (collapse.building.panels.empty() || random.below(3) == 0) return;
+  constexpr fracture::Method methods[] = {fracture::Method::voronoi, fracture::Method::quadrilateral,
+                                          fracture::Method::local};
+  fracture::PanelSettings settings;
+  settings.method = methods[random.below(3)];
+  settings.cell = random.from(0.5, 2);
+  settings.local.length = {random.from(0.2, 0.5), random.from(0.6, 1.5)};
+  settings.local.ring = random.from(0.3, 1);
+  collapse.scenario.fracture = settings;
+  for (Material& material : collapse.building.materials) material.compressive_strength = random.from(15e6, 50e6);
+  if (random.below(3) == 0) collapse.scenario.debris.smallest_volume = random.from(0, 0.05);
+}
+
 inline RandomCollapse random_collapse(std::uint64_t seed) {
   RandomNumbers random(seed);
   const int nx = 2 + random.below(3), ny = 2 + random.below(2), storeys = 1 + random.below(4);
@@ -163,12 +179,12 @@ inline RandomCollapse random_collapse(std::uint64_t seed) {
   std::stable_sort(scenario.events.begin(), scenario.events.end(),
                    [](const Event& a, const Event& b) { return a.at < b.at; });
   choose_rules(random, collapse);
+  choose_fracture(seed, collapse);
   return collapse;
 }
 
-/// What is wrong with the collapse of this number; empty when nothing is.
-inline std::string fault_of_collapse(std::uint64_t seed) {
-  RandomCollapse collapse = random_collapse(seed);
+/// What is wrong with it; empty when nothing is.
+inline std::string fault_of(RandomCollapse collapse) {
   // A ball on a cable swings on to the end.
   const auto& events = collapse.scenario.events;
   const bool swings = std::any_of(events.begin(), events.end(),
@@ -197,5 +213,7 @@ inline std::string fault_of_collapse(std::uint64_t seed) {
   if (!(ledger.residual() > -0.01)) return "energy gained: residual " + std::to_string(ledger.residual());
   return {};
 }
+
+inline std::string fault_of_collapse(std::uint64_t seed) { return fault_of(random_collapse(seed)); }
 
 }  // namespace topple::test
