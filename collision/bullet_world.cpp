@@ -121,7 +121,7 @@ BulletWorld::BulletWorld()
   world_.record_with([](btRigidBody& rigid) -> SolverVelocities& { return body_of(rigid).velocities; });
   world_.setGravity({0, 0, 0});  // not the one that Bullet begins with
   world_.setForceUpdateAllAabbs(false);
-  world_.getDispatchInfo().m_deterministicOverlappingPairs = true;
+  world_.getDispatchInfo().m_deterministicOverlappingPairs = true;  // manifolds of an island, too, are put in order
   btContactSolverInfo& info = world_.getSolverInfo();
   info.m_warmstartingFactor = kSettings.warm_start;
   info.m_linearSlop = kSettings.slop;

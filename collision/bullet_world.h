@@ -3,7 +3,6 @@
 // (bullet_world_contacts), rest (bullet_world_rest), sweeps and rays (bullet_world_sweep), hinges (bullet_world_hinges), cables
 // (bullet_world_cables).
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
-#include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
 #include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
 #include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
 #include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
@@ -12,6 +11,7 @@
 #include <map>
 #include <set>
 
+#include "awake_pairs.h"
 #include "cable.h"
 #include "contact_forces.h"
 #include "first_touch.h"
@@ -165,7 +165,7 @@ class BulletWorld final : public World {
   HalfSpaceContactsFactory polyhedron_first_{false}, plane_first_{true};
   PolyhedronContactsFactory polyhedra_contacts_;
   btDefaultCollisionConfiguration configuration_;
-  btCollisionDispatcher dispatcher_;
+  AwakePairsDispatcher dispatcher_;
   btDbvtBroadphase broadphase_;
   IslandSolver solver_;
   FreeSpinWorld world_;
@@ -195,9 +195,9 @@ class BulletWorld final : public World {
   double ground_height_ = 0;
 
   std::set<SolidPair> ignored_;
-  std::vector<Contact> touching_;  ///< of the last step, those of sleeping bodies too
+  std::vector<Contact> touching_;  ///< of the last step; of two that sleep, of the last in which one was awake
   std::vector<Contact> contacts_;  ///< those of awake bodies
-  std::vector<Contact> points_, merged_;  ///< room that gather_contacts() works in
+  std::vector<Contact> points_, next_;  ///< room that gather_contacts() works in
 };
 
 /// Order of contacts of one world: by ids, then by tags.

@@ -135,8 +135,11 @@ Touched touched(const Solid& solid, std::int64_t tag) {
 void BulletWorld::gather_contacts() {
   std::vector<Contact>& found = points_;
   found.clear();
-  for (int i = 0; i < dispatcher_.getNumManifolds(); ++i)
-    add_manifold(*dispatcher_.getManifoldByIndexInternal(i), found);
+  for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
+    const btPersistentManifold& manifold = *dispatcher_.getManifoldByIndexInternal(i);
+    if (manifold.getNumContacts() > 0 && (manifold.getBody0()->isActive() || manifold.getBody1()->isActive()))
+      add_manifold(manifold, found);
+  }
   const auto by_place = [](const Contact* a, const Contact* b) {
     const auto first = parts_of(*a), second = parts_of(*b);
     if (first != second) return first < second;
@@ -147,17 +150,18 @@ void BulletWorld::gather_contacts() {
   order.reserve(found.size());
   for (const Contact& contact : found) order.push_back(&contact);
   std::sort(order.begin(), order.end(), by_place);
-  std::vector<Contact>& now = merged_;
-  now.clear();
+  contacts_.clear();
   for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
     while (end < order.size() && same_parts(*order[begin], *order[end])) ++end;
-    now.push_back(merged(std::span(order).subspan(begin, end - begin)));
-    now.back().persistent = std::binary_search(touching_.begin(), touching_.end(), now.back(), before_by_parts);
+    contacts_.push_back(merged(std::span(order).subspan(begin, end - begin)));
+    contacts_.back().persistent =
+        std::binary_search(touching_.begin(), touching_.end(), contacts_.back(), before_by_parts);
   }
-  std::swap(touching_, now);
-  contacts_.clear();
-  std::copy_if(touching_.begin(), touching_.end(), std::back_inserter(contacts_),
-               [&](const Contact& c) { return is_awake(c); });
+  std::erase_if(touching_, [&](const Contact& contact) { return is_awake(contact); });
+  next_.clear();
+  std::merge(touching_.begin(), touching_.end(), contacts_.begin(), contacts_.end(), std::back_inserter(next_),
+             before_by_parts);
+  std::swap(touching_, next_);
 }
 
 bool BulletWorld::is_awake(const Contact& contact) const {
