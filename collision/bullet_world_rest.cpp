@@ -115,9 +115,9 @@ void BulletWorld::let_go(Body& one) {
   rigid.updateInertiaTensor();
   rigid.forceActivationState(ACTIVE_TAG);
   rigid.setDeactivationTime(0);
-  one.watched = false;
+  one.watched = true;  // where it has been all the time
+  one.watched_at = one.seen_at = rigid.getWorldTransform();
   one.times_still = kRest.still_times - 1;
-  one.seen_at = rigid.getWorldTransform();
   one.seen_for = 0;
   seen_[static_cast<std::size_t>(one.id)].holds = false;
   awake_count_.reset();
