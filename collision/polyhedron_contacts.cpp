@@ -16,6 +16,10 @@ namespace topple::collision {
 
 namespace {
 
+/// m: contacts are sought anew when a point of one body may have moved farther than this against the other. Until then
+/// they go along with both, with errors of the second order; a quarter of what overlaps are left unpushed by.
+constexpr btScalar kMoved = 0.0005;
+
 const btPolyhedralConvexShape& polyhedron(const btCollisionObjectWrapper* wrapper) {
   return *static_cast<const btPolyhedralConvexShape*>(wrapper->getCollisionShape());
 }
@@ -68,6 +72,11 @@ class PolyhedronContacts final : public btActivatingCollisionAlgorithm {
       if (gap_ > far) return;
       apart_ = false;
     }
+    if (manifold_ && manifold_->getNumContacts() > 0 && distance_moved(now) <= kMoved) {
+      result->setPersistentManifold(manifold_);
+      result->refreshContactPoints();
+      return;
+    }
     measured_at_ = now;
     seek(first, second, info, *result);
   }
@@ -81,7 +90,7 @@ class PolyhedronContacts final : public btActivatingCollisionAlgorithm {
   }
 
  private:
-  /// No point of the second has moved farther in the first's frame since the gap was measured.
+  /// No point of the second has moved farther in the first's frame since contacts or the gap were sought.
   [[nodiscard]] btScalar distance_moved(const btTransform& now) const {
     btScalar turned = 0;  // Frobenius norm: sqrt(2) times the largest change of a unit vector
     for (int row = 0; row < 3; ++row) turned += (now.getBasis()[row] - measured_at_.getBasis()[row]).length2();
