@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "topple/fracture/unfit_settings.h"
+
 namespace topple::fracture {
 
 namespace {
@@ -22,7 +24,8 @@ Grid::Grid(const std::array<Vec2, 4>& outline, double cell, const std::array<int
       throw std::invalid_argument("the outline must be convex and go counter-clockwise");
   const auto length = [&](std::size_t edge) { return (outline[(edge + 1) % 4] - outline[edge]).norm(); };
   const auto cells = [&](double size) {
-    if (!(size / cell < 1e5)) throw std::invalid_argument("cell is too small for the panel: more than 100000 in a row");
+    if (!(size / cell < 1e5))
+      throw UnfitSettings("cell is too small for the panel; accepted: at most 100000 cells in a row");
     return std::max(1, static_cast<int>(std::lround(size / cell)));
   };
   columns_ = divisions[0] > 0 ? divisions[0] : cells((length(0) + length(2)) / 2);

@@ -11,6 +11,7 @@
 #include "convex_pieces.h"
 #include "panel_mesh.h"
 #include "predicates.h"
+#include "topple/fracture/unfit_settings.h"
 #include "triangulation.h"
 
 namespace topple::fracture {
@@ -113,7 +114,7 @@ BreakablePanel::Impl::Impl(const PanelShape& given, const PanelSettings& setting
                     kTolerance * box.size()),
       mesh(given.thickness) {
   if (settings.method == Method::local && settings.local.ring < box.size() * kLeastRing)
-    throw std::invalid_argument("ring is too small for the panel: below a ten-thousandth of its size");
+    throw UnfitSettings("ring is too small for the panel; accepted: at least a ten-thousandth of its size");
   if (shape.held.empty()) shape.held.assign(shape.outline.size(), true);
   Loop border;
   if (!insert(shape.outline, border) || border.corners.size() != shape.outline.size())

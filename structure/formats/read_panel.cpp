@@ -4,6 +4,7 @@
 
 #include "formats/json_document.h"
 #include "formats/read_fracture.h"
+#include "topple/fracture/unfit_settings.h"
 #include "topple/structure/panel_file.h"
 
 namespace topple::structure {
@@ -35,6 +36,18 @@ void read_shape(const JsonValue& panel, PanelFile& result) {
   }
 }
 
+/// What the cells of a grid can be spread over.
+void expect_convex_quadrilateral(const JsonValue& outline, const fracture::Polygon& corners) {
+  const auto refuse = [&](const char* found) {
+    outline.fail(std::string(found) + "; accepted: a convex quadrilateral, or the method \"local\"");
+  };
+  if (corners.size() != 4) refuse("the polygon has not four corners");
+  for (std::size_t i = 0; i < 4; ++i) {
+    const fracture::Vec2 along = corners[(i + 1) % 4] - corners[i], next = corners[(i + 2) % 4] - corners[(i + 1) % 4];
+    if (!(along.x() * next.y() - along.y() * next.x() > 0)) refuse("the polygon is not convex");
+  }
+}
+
 PanelHit read_hit(const JsonValue& value) {
   value.expect_object();
   value.only({"at", "radius"});
@@ -60,8 +73,13 @@ PanelFile read(const JsonDocument& document) {
     hits->expect_array(0, kMostHits);
     for (const JsonValue hit : *hits) result.hits.push_back(read_hit(hit));
   }
+  if (result.settings.method != fracture::Method::local)
+    expect_convex_quadrilateral(panel.require("outline"), result.shape.outline);
   try {  // what only shape and method together can tell
-    (void)fracture::BreakablePanel(result.shape, result.settings);
+    if (!(fracture::BreakablePanel(result.shape, result.settings).intact_area() > 0))
+      panel.require("openings").fail("nothing of the panel is left; accepted: openings beside which some of it is");
+  } catch (const fracture::UnfitSettings& error) {
+    root.require("fracture").fail(error.what());
   } catch (const std::invalid_argument& error) {
     panel.fail(error.what());
   }

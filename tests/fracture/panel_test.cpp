@@ -1,7 +1,11 @@
 // Panels that break: which cells, which pieces, what they weigh.
 #include "topple/fracture/panel.h"
 
+#include <Eigen/Geometry>
+
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <random>
 #include <set>
 
@@ -129,6 +133,19 @@ TEST_CASE("local damage surrounds the hit, ends convex, and its cells tile it") 
     const Vec2 hit(2, 1);
     const LocalDamage damage = local_damage(hit, 1.0, s, seed, 0, 100);
     REQUIRE(contains(damage.outline, hit));
+    const std::size_t n = damage.outline.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      const Vec2 along = damage.outline[(i + 1) % n] - damage.outline[i];
+      const Vec2 next = damage.outline[(i + 2) % n] - damage.outline[(i + 1) % n];
+      REQUIRE(along.x() * next.y() - along.y() * next.x() >= 0);  // no concave corner is left
+    }
+    const auto count = static_cast<double>(damage.corners.size());
+    for (std::size_t i = 0; i < damage.corners.size(); ++i) {  // each corner in its own part of the circle
+      const Vec2 arm = damage.corners[i] - hit;
+      const double share =
+          std::remainder(std::atan2(arm.y(), arm.x()) / (2 * M_PI) - static_cast<double>(i) / count, 1.0);
+      REQUIRE(std::abs(share) <= 0.5 / count + 1e-12);
+    }
     for (std::size_t i = 0; i < damage.corners.size(); ++i) {
       const Vec2 a = damage.corners[i] - hit, b = damage.corners[(i + 1) % damage.corners.size()] - hit;
       REQUIRE(a.x() * b.y() - a.y() * b.x() > 0);  // no gap of 180 degrees or more
@@ -261,6 +278,72 @@ TEST_CASE("texture and normals of what remains stay where they were") {
         }
       }
       (void)panel.hit(Vec2(4, 2), 0.6);
+    }
+  }
+}
+
+TEST_CASE("only the edges between intact and broken cells, and the border, become sides") {
+  const std::array<Vec2, 4> corners{Vec2(0, 0), Vec2(6, 0), Vec2(6, 3), Vec2(0, 3)};
+  const VoronoiGrid cells(corners, {0.5, 1.0, 1});
+  const QuadrilateralGrid quads(corners, {0.5, 0.5, 1});
+  const Vec2 at(2, 1.4);
+  const double radius = 0.6;  // what breaks stays off the border
+  // The edges of broken cells that no other broken cell has, and those on the border, by the cells' own neighbours.
+  const std::vector<int> broken_cells = cells.within(at, radius), broken_quads = quads.within(at, radius);
+  const auto is_broken = [](const std::vector<int>& broken, int index) {
+    return std::binary_search(broken.begin(), broken.end(), index);
+  };
+  double cell_edges = 0, quad_edges = 0;
+  for (const int index : broken_cells) {
+    const LabelledPolygon& polygon = cells.cell(index).polygon;
+    const std::size_t n = polygon.vertices.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      REQUIRE(polygon.labels[i] >= 0);  // none on the border here
+      if (!is_broken(broken_cells, polygon.labels[i]))
+        cell_edges += (polygon.vertices[(i + 1) % n] - polygon.vertices[i]).norm();
+    }
+  }
+  for (const int index : broken_quads) {
+    const Polygon cell = quads.cell(index);
+    const int n = quads.columns(), neighbours[] = {index - n, index + 1, index + n, index - 1};
+    REQUIRE((index >= n && index < quads.size() - n));
+    for (std::size_t i = 0; i < 4; ++i)
+      if (!is_broken(broken_quads, neighbours[i])) quad_edges += (cell[(i + 1) % 4] - cell[i]).norm();
+  }
+  for (const Method method : {Method::voronoi, Method::quadrilateral}) {
+    BreakablePanel panel(wall(), settings(method));
+    const std::size_t border = 8;  // two triangles for each side
+    CHECK(panel.mesh().triangles.size() == 4 + border);
+    const Fracture fracture = panel.hit(at, radius);
+    REQUIRE(fracture.chunks.size() == (method == Method::voronoi ? broken_cells : broken_quads).size());
+    const Mesh& mesh = panel.mesh();
+    double sides = 0;
+    for (const auto& [a, b, c] : mesh.triangles) {
+      const auto corner = [&](int i) -> const Vec3& { return mesh.positions[static_cast<std::size_t>(i)]; };
+      if (mesh.normals[static_cast<std::size_t>(a)].z() == 0)
+        sides += (corner(b) - corner(a)).cross(corner(c) - corner(a)).norm() / 2;
+    }
+    const double edges = 18 + (method == Method::voronoi ? cell_edges : quad_edges);
+    CHECK(sides == Approx(0.2 * edges).epsilon(1e-9));  // corners are joined within 7e-7 m at most
+  }
+}
+
+TEST_CASE("chunks have the texture and normals of the panel that they were") {
+  for (const Method method : kMethods) {
+    BreakablePanel panel(wall(), settings(method));
+    for (const Chunk& chunk : panel.hit(Vec2(2, 1), 0.8).chunks) {
+      const Mesh mesh = mesh_of(chunk, 0.2);
+      for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        const Vec3 &p = mesh.positions[i], &n = mesh.normals[i];
+        REQUIRE(std::abs(p.z()) == 0.1);
+        if (std::abs(n.z()) > 0.5) {
+          REQUIRE(mesh.texture[i] == Vec2(p.x(), p.y()));
+          REQUIRE(n.z() == (p.z() > 0 ? 1.0 : -1.0));
+        } else {
+          REQUIRE(mesh.texture[i].y() == p.z());
+          REQUIRE(mesh.texture[i].x() == Approx(-n.y() * p.x() + n.x() * p.y()).margin(1e-12));
+        }
+      }
     }
   }
 }

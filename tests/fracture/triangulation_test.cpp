@@ -80,6 +80,31 @@ TEST_CASE("the union of overlapping squares has its area, whatever crosses what"
   CHECK(t.valid());
 }
 
+TEST_CASE("the inside of a loop is what lies on its left, and a loop that is none is told") {
+  Triangulation t(Vec2(-1, -1), Vec2(5, 5), 1e-6);
+  const std::vector<int> chain = add_loop(t, {Vec2(0, 0), Vec2(3, 0), Vec2(3, 3), Vec2(0, 3)});
+  for (const Vec2& point : {Vec2(1, 1.1), Vec2(2, 0.7), Vec2(1.4, 2.3), Vec2(4, 4), Vec2(-0.5, 2)})
+    (void)t.add_point(point);
+  std::vector<int> triangles, edges;
+  REQUIRE(t.enclose(chain, triangles, edges));
+  CHECK(edges.size() == 4);
+  double doubled = 0;
+  for (const int triangle : triangles) doubled += t.doubled_area(triangle);
+  CHECK(doubled == Approx(18).epsilon(1e-14));
+  REQUIRE(t.enclose(chain, triangles, edges));  // a search leaves nothing behind
+  CHECK(triangles.size() == 4 - 2 + 2 * 3);     // of four corners and three points inside
+  const std::vector<int> clockwise(chain.rbegin(), chain.rend());
+  CHECK_FALSE(t.enclose(clockwise, triangles, edges));
+  // A loop with a spike passes a vertex twice; one with a gap has no edge there.
+  std::vector<int> spike = chain, rest;
+  const int tip = t.add_point(Vec2(4, 0.5));
+  t.add_segment(chain[1], tip, rest);
+  REQUIRE(rest.size() == 1);
+  spike.insert(spike.begin() + 2, {tip, chain[1]});
+  CHECK_FALSE(t.enclose(spike, triangles, edges));
+  CHECK_FALSE(t.enclose({chain[0], chain[2], tip}, triangles, edges));
+}
+
 TEST_CASE("what is fixed is the border between labels, and vertices that no border needs can go") {
   Triangulation t(Vec2(-1, -1), Vec2(5, 5), 1e-6);
   std::vector<int> chain = add_loop(t, {Vec2(0, 0), Vec2(2, 0), Vec2(2, 2), Vec2(0, 2)});

@@ -106,24 +106,40 @@ with tempfile.TemporaryDirectory() as folder:
     good = {"topple": 1, "panel": {"outline": [[0, 0], [6, 0], [6, 3], [0, 3]], "thickness": 0.2},
             "fracture": {"method": "voronoi"}, "hits": [{"at": [1, 1]}]}
     outline = good["panel"]["outline"]
+    whole = [[-1, -1], [7, -1], [7, 4], [-1, 4]]
+
+    def shaped(**keys):
+        return {**good, "panel": {**good["panel"], **keys}}
+
+    def broken_by(**keys):
+        return {**good, "fracture": keys}
+
+    # Each with the place that the message names; what is accepted must stand in it as well.
     wrong = {
-        "key": {**good, "hit": []}, "method": {**good, "fracture": {"method": "hammer"}},
-        "other method's key": {**good, "fracture": {"method": "voronoi", "ring": 1}},
-        "jitter": {**good, "fracture": {"method": "voronoi", "jitter": 2}},
-        "cell": {**good, "fracture": {"method": "quadrilateral", "cell": 1e-7}},
-        "points": {**good, "fracture": {"method": "local", "points": [2, 5]}},
-        "crossing": {**good, "panel": {"outline": [outline[0], outline[2], outline[1], outline[3]], "thickness": 0.2}},
-        "five corners": {**good, "panel": {"outline": [*outline, [-1, 1.5]], "thickness": 0.2}},
-        "dent": {**good, "panel": {"outline": [outline[0], outline[1], [1, 1], outline[3]], "thickness": 0.2}},
-        "opening": {**good, "panel": {**good["panel"], "openings": [[[1, 1], [2, 1]]]}},
-        "radius": {**good, "hits": [{"at": [1, 1], "radius": -0.1}]}, "seed": {**good, "seed": 1.5},
-        "thickness": {**good, "panel": {"outline": outline, "thickness": 0}},
+        "key": ({**good, "hit": []}, ", hit:"), "method": (broken_by(method="hammer"), "fracture.method: found \"hammer\""),
+        "other method's key": (broken_by(method="voronoi", ring=1), "fracture.ring:"),
+        "jitter": (broken_by(method="voronoi", jitter=2), "fracture.jitter: found 2"),
+        "cell": (broken_by(method="quadrilateral", cell=1e-7), "fracture: cell is too small"),
+        "points": (broken_by(method="local", points=[2, 5]), "fracture.points[0]: found 2"),
+        "points turned": (broken_by(method="local", points=[5, 4]), "fracture.points:"),
+        "length": (broken_by(method="local", length=[0, 1]), "fracture.length[0]: found 0"),
+        "ring": (broken_by(method="local", ring=1e-6), "fracture: ring is too small"),
+        "crossing": (shaped(outline=[outline[0], outline[2], outline[1], outline[3]]), "panel.outline: the polygon crosses"),
+        "five corners": (shaped(outline=[*outline, [-1, 1.5]]), "panel.outline: the polygon has not four corners"),
+        "dent": (shaped(outline=[outline[0], outline[1], [1, 1], outline[3]]), "panel.outline: the polygon is not convex"),
+        "opening": (shaped(openings=[[[1, 1], [2, 1]]]), "panel.openings[0]: found an array of 2"),
+        "nothing left": (shaped(openings=[whole]), "panel.openings: nothing of the panel is left"),
+        "radius": ({**good, "hits": [{"at": [1, 1], "radius": -0.1}]}, "hits[0].radius: found -0.1"),
+        "point": ({**good, "hits": [{"at": [1, 1, 1]}]}, "hits[0].at: found an array of 3"),
+        "seed": ({**good, "seed": 1.5}, "seed: found 1.5"), "thickness": (shaped(thickness=0), "panel.thickness: found 0"),
+        "density": (shaped(density=-1), "panel.density: found -1"),
     }
     file = place / "wrong.json"
-    for what, value in wrong.items():
+    for what, (value, named) in wrong.items():
         file.write_text(json.dumps(value))
         done = run(file, "-o", place / "none")
         expect(done.returncode == 2 and done.stderr.count("\n") == 1, f"{what}: {done.returncode} {done.stderr}")
+        expect("wrong.json, line 1" in done.stderr and named in done.stderr and "accepted: " in done.stderr, f"{what}: {done.stderr}")
     expect(run("wall_local").returncode == 2, "no folder")
     expect(not (place / "none").exists(), "something was written for a wrong file")
     for method in ("voronoi", "quadrilateral", "local"):  # a point alone: the cell that it hits; no length of damage at all
@@ -131,6 +147,9 @@ with tempfile.TemporaryDirectory() as folder:
         done = run(file, "-o", place / method)
         chunks = json.loads((place / method / "summary.json").read_text())["counts"]["chunks"] if done.returncode == 0 else -1
         expect(chunks == (0 if method == "local" else 1), f"{method}, radius 0: {chunks} chunks {done.stderr}")
+    file.write_text(json.dumps(shaped(outline=outline[::-1])))
+    done = run(file, "-o", place / "turned")
+    expect(done.returncode == 0, f"a clockwise outline: {done.stderr}")
     file.write_text(json.dumps({**good, "hits": [{"at": [1, 1], "radius": 1e9}]}))
     done = run(file, "-o", place / "all")
     expect(done.returncode == 0 and json.loads((place / "all" / "summary.json").read_text())["areas"]["remaining"] == 0,
