@@ -83,16 +83,21 @@ TEST_CASE("the union of overlapping squares has its area, whatever crosses what"
 TEST_CASE("the inside of a loop is what lies on its left, and a loop that is none is told") {
   Triangulation t(Vec2(-1, -1), Vec2(5, 5), 1e-6);
   const std::vector<int> chain = add_loop(t, {Vec2(0, 0), Vec2(3, 0), Vec2(3, 3), Vec2(0, 3)});
-  for (const Vec2& point : {Vec2(1, 1.1), Vec2(2, 0.7), Vec2(1.4, 2.3), Vec2(4, 4), Vec2(-0.5, 2)})
-    (void)t.add_point(point);
+  const std::vector<int> inner = add_loop(t, {Vec2(1, 1.1), Vec2(2, 0.7), Vec2(1.4, 2.3)});
+  for (const Vec2& point : {Vec2(4, 4), Vec2(-0.5, 2)}) (void)t.add_point(point);
   std::vector<int> triangles, edges;
-  REQUIRE(t.enclose(chain, triangles, edges));
+  const auto inside = [&] {
+    double doubled = 0;
+    for (const int triangle : triangles) doubled += t.doubled_area(triangle);
+    return doubled / 2;
+  };
+  REQUIRE(t.enclose(inner, triangles, edges));
+  CHECK(triangles.size() == 1);
+  CHECK(inside() == Approx((1.0 * 1.2 + 0.4 * 0.4) / 2).epsilon(1e-14));
+  REQUIRE(t.enclose(chain, triangles, edges));  // other borders inside, and an earlier search, do not matter
   CHECK(edges.size() == 4);
-  double doubled = 0;
-  for (const int triangle : triangles) doubled += t.doubled_area(triangle);
-  CHECK(doubled == Approx(18).epsilon(1e-14));
-  REQUIRE(t.enclose(chain, triangles, edges));  // a search leaves nothing behind
-  CHECK(triangles.size() == 4 - 2 + 2 * 3);     // of four corners and three points inside
+  CHECK(triangles.size() == 4 - 2 + 2 * 3);  // of four corners and three points inside
+  CHECK(inside() == Approx(9).epsilon(1e-14));
   const std::vector<int> clockwise(chain.rbegin(), chain.rend());
   CHECK_FALSE(t.enclose(clockwise, triangles, edges));
   // A loop with a spike passes a vertex twice; one with a gap has no edge there.
