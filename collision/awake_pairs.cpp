@@ -4,7 +4,6 @@
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
 
 #include <algorithm>
-#include <tuple>
 
 namespace topple::collision {
 
@@ -22,11 +21,11 @@ void AwakePairsDispatcher::dispatchAllCollisionPairs(btOverlappingPairCache* cac
   btBroadphasePair* const pairs = cache->getOverlappingPairArrayPtr();
   for (int i = 0; i < cache->getNumOverlappingPairs(); ++i) {
     const btBroadphaseProxy &first = *pairs[i].m_pProxy0, &second = *pairs[i].m_pProxy1;
-    if (is_awake(first) || is_awake(second)) awake_.push_back({first.m_uniqueId, second.m_uniqueId, i});
+    if (!is_awake(first) && !is_awake(second)) continue;
+    const auto high = static_cast<std::uint64_t>(first.m_uniqueId), low = static_cast<std::uint64_t>(second.m_uniqueId);
+    awake_.push_back({high << 32 | low, i});
   }
-  std::sort(awake_.begin(), awake_.end(), [](const Pair& a, const Pair& b) {
-    return std::tie(a.first, a.second) > std::tie(b.first, b.second);
-  });
+  std::sort(awake_.begin(), awake_.end(), [](const Pair& a, const Pair& b) { return a.ids > b.ids; });
   for (const Pair& pair : awake_) getNearCallback()(pairs[pair.at], *this, info);
 }
 

@@ -3,6 +3,7 @@
 // that orders all pairs of the world in each step; most are asleep in a large heap.
 #include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
 
+#include <cstdint>
 #include <vector>
 
 namespace topple::collision {
@@ -16,7 +17,8 @@ class AwakePairsDispatcher final : public btCollisionDispatcher {
 
  private:
   struct Pair {
-    int first, second, at;  ///< unique ids in the broadphase; place in the cache
+    std::uint64_t ids;  ///< unique in the broadphase, of both
+    int at;             ///< place in the cache
   };
   std::vector<Pair> awake_;
 };
