@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 #include "grid.h"
 #include "random.h"
@@ -20,6 +21,21 @@ VoronoiGrid::VoronoiGrid(const std::array<Vec2, 4>& outline, const VoronoiSettin
       const double v = row + 0.5 + jitter_ * (random.unit() - 0.5);
       sites_.push_back(grid_->at(u, v));
     }
+}
+
+VoronoiGrid::VoronoiGrid(const std::array<Vec2, 4>& outline, const VoronoiSettings& settings,
+                         std::span<const Vec2> places)
+    : grid_(std::make_shared<const Grid>(outline, settings.cell, settings.divisions)) {
+  if (places.size() != static_cast<std::size_t>(size()))
+    throw std::invalid_argument("found " + std::to_string(places.size()) + " places of sites; accepted: one for each of " +
+                                std::to_string(size()) + " cells");
+  sites_.reserve(places.size());
+  for (const Vec2& place : places) {
+    if (!(place.minCoeff() >= 0 && place.maxCoeff() <= 1))
+      throw std::invalid_argument("the place of a site in its cell must be from 0 to 1");
+    const int index = static_cast<int>(sites_.size());
+    sites_.push_back(grid_->at(index % columns() + place.x(), index / columns() + place.y()));
+  }
 }
 
 int VoronoiGrid::columns() const { return grid_->columns(); }

@@ -1,4 +1,5 @@
 // Voronoi cells on a jittered grid against the diagram over all sites.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
@@ -58,7 +59,7 @@ int farthest_neighbour(double aspect, std::uint64_t seed, int index, int n = 24)
 
 }  // namespace
 
-TEST_CASE("no fixed number of rings is enough: neighbours lie three, four, five and six cells away") {
+TEST_CASE("random sites have neighbours three cells away where cells are square, up to six where they are long") {
   // Found by search over seeds; brute force (above) agrees with such cells.
   CHECK(farthest_neighbour(1.0, 175, 450) == 3);
   CHECK(farthest_neighbour(1.5, 1, 161) == 3);
@@ -67,8 +68,7 @@ TEST_CASE("no fixed number of rings is enough: neighbours lie three, four, five 
   CHECK(farthest_neighbour(3.0, 1521, 360) == 6);
 }
 
-TEST_CASE(
-    "a bound of two rings gives wrong cells at every aspect, one of three where cells are twice as long as wide") {
+TEST_CASE("a bound of two rings gives wrong cells at every aspect, as one of three does where cells are long") {
   struct Case {
     double aspect;
     std::uint64_t seed;
@@ -94,6 +94,58 @@ TEST_CASE(
         CHECK(area(polygon.vertices) == Approx(exact).epsilon(1e-13));
     }
   }
+}
+
+namespace {
+
+/// Sites of 24 x 24 cells such that two of them, `apart` columns from each other, see each other past all between: both
+/// lie on the line between two rows, the others as far from the circle through the two as their cells let them.
+std::vector<Vec2> places_around(int apart, int column, int row) {
+  constexpr int n = 24;
+  std::vector<Vec2> places;
+  for (int r = 0; r < n; ++r)
+    for (int c = 0; c < n; ++c) {
+      const double away = c + 0.5 - (column + 0.5 * (apart + 1));
+      places.emplace_back(away < 0 ? 0 : 1, r < row ? 0 : 1);
+      if (r == row && c == column) places.back() = Vec2(1, 0);
+      if (r == row && c == column + apart) places.back() = Vec2(0, 0);
+    }
+  return places;
+}
+
+}  // namespace
+
+TEST_CASE("sites can lie so that neighbours are three, four, five and seven cells away") {
+  // The circle of diameter apart - 1 between the two must leave a corner of each cell between them outside: of the
+  // middle ones at a^2 + 1 (apart odd) or a^2 + 1/4 from its centre, a the cells' length over their width.
+  constexpr int n = 24, row = 12, column = 8;
+  for (const auto& [aspect, apart] : {std::pair{1.0, 3}, {1.5, 4}, {2.0, 5}, {3.0, 7}}) {
+    CAPTURE(aspect);
+    const auto outline = rectangle(n, n * aspect);
+    const VoronoiGrid grid(outline, {1.0, 1.0, 1, {n, n}}, places_around(apart, column, row));
+    const int index = row * n + column;
+    const VoronoiCell cell = grid.cell(index);
+    CHECK(std::count(cell.polygon.labels.begin(), cell.polygon.labels.end(), index + apart) == 1);
+    const double exact = area(brute_force(grid, outline, index).vertices);
+    CHECK(area(cell.polygon.vertices) == Approx(exact).epsilon(1e-12));
+    LabelledPolygon bounded{Polygon(outline.begin(), outline.end()), {-1, -2, -3, -4}};
+    for (int other = 0; other < grid.size(); ++other) {
+      if (other == index || std::max(std::abs(other % n - column), std::abs(other / n - row)) >= apart) continue;
+      const Vec2 away = grid.site(other) - grid.site(index);
+      clip(bounded, grid.site(index) + away / 2, away, other);
+    }
+    CHECK(area(bounded.vertices) > exact * (1 + 1e-9));
+  }
+}
+
+TEST_CASE("chosen sites must lie in their cells, one in each") {
+  const auto outline = rectangle(2, 1);
+  const VoronoiSettings settings{1.0, 1.0, 1, {2, 1}};
+  CHECK_THROWS_AS(VoronoiGrid(outline, settings, std::vector<Vec2>{Vec2(0.5, 0.5)}), std::invalid_argument);
+  const std::vector<Vec2> outside{Vec2(0.5, 0.5), Vec2(0.5, 1.1)};
+  CHECK_THROWS_AS(VoronoiGrid(outline, settings, outside), std::invalid_argument);
+  const VoronoiGrid grid(outline, settings, std::vector<Vec2>{Vec2(0.5, 0.5), Vec2(0.25, 1)});
+  CHECK(grid.site(1) == Vec2(1.25, 1));
 }
 
 TEST_CASE("the nearest site and those within a distance are those of all sites") {

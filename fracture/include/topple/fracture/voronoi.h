@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 
 #include "topple/fracture/polygon.h"
 
@@ -30,6 +31,10 @@ class VoronoiGrid {
   /// `outline`: a convex quadrilateral, counter-clockwise. Throws std::invalid_argument when it is not, or a setting is
   /// out of range.
   VoronoiGrid(const std::array<Vec2, 4>& outline, const VoronoiSettings& settings);
+  /// With chosen sites: the place of each in its grid cell, 0 to 1 along either way of the grid, by their numbers (row *
+  /// columns() + column). `settings.jitter` and `seed` are not used. Throws as well when a place is missing or out of
+  /// range.
+  VoronoiGrid(const std::array<Vec2, 4>& outline, const VoronoiSettings& settings, std::span<const Vec2> places);
 
   [[nodiscard]] int columns() const;
   [[nodiscard]] int rows() const;
@@ -38,7 +43,7 @@ class VoronoiGrid {
 
   /// Exact: neighbours are taken ring by ring of the grid until the ring lies farther away than twice the cell's
   /// farthest vertex, when no farther site can cut it any more (the security radius). A fixed number of rings is not
-  /// enough: cells that are longer than wide have neighbours five rings away and more.
+  /// enough: cells that are longer than wide have neighbours up to seven rings away.
   [[nodiscard]] VoronoiCell cell(int index) const;
   /// Rings that the last call of this cell needs, for those who want to see why.
   [[nodiscard]] int rings(int index) const;
