@@ -1,6 +1,6 @@
 // What the collision engine costs for a heap of chunks of broken slabs: prisms that fall on the ground one upon the
-// other and come to rest, with a wall that stands in the heap. Each second: time of a step, how many are awake, how fast
-// they still are, how far things are inside each other, what the wall bears.
+// other and come to rest, with a wall that stands in the heap. Each second: time of a step, how many are awake, how
+// fast they still are, how far things are inside each other, what the wall bears.
 //   bench_heap [CHUNKS] [SECONDS]
 #include <algorithm>
 #include <chrono>
@@ -102,8 +102,10 @@ int main(int argc, char** argv) {
     weight += body.mass * kGravity;
     world->add_body(body);
   }
-  std::printf("%d chunks, %.0f kN\n   s    ms/step  worst  sweep  awake  <5 cm/s  mean cm/s  contacts  deepest mm  sum mm  wall kN  height m\n", count,
-              weight / 1e3);
+  std::printf(
+      "%d chunks, %.0f kN\n   s    ms/step  worst  sweep  awake  <5 cm/s  mean cm/s  contacts  deepest mm  sum mm  "
+      "wall kN  height m\n",
+      count, weight / 1e3);
   using clock = std::chrono::steady_clock;
   const auto ms = [](clock::duration span) { return 1e3 * std::chrono::duration<double>(span).count(); };
   std::vector<double> all;

@@ -1,5 +1,5 @@
-// A collapse beside the same moments held up and moved by a rigid body engine alone: writes what stands and what lies or
-// flies at such moments as boxes and the joints that are left (baseline/scene.h), and what a step took us there.
+// A collapse beside the same moments held up and moved by a rigid body engine alone: writes what stands and what lies
+// or flies at such moments as boxes and the joints that are left (baseline/scene.h), and what a step took us there.
 //   bench_moments SCENARIO EVERY FOLDER
 // EVERY: simulated seconds from moment to moment. Prints a line for each: seconds, awake bodies, milliseconds of a step
 // (median of those around it) with and without the collision engine, the file.
@@ -78,7 +78,8 @@ class MomentWriter {
  private:
   [[nodiscard]] double ground() const {
     double lowest = 1e300;
-    for (const NodeSupport& support : building_.supports) lowest = std::min(lowest, position(building_, support.node).z());
+    for (const NodeSupport& support : building_.supports)
+      lowest = std::min(lowest, position(building_, support.node).z());
     return simulation_.scenario().ground.value_or(lowest);
   }
 
@@ -128,7 +129,8 @@ class MomentWriter {
 
   void joint(const std::string& name, const std::string& part, const std::string& other, const Vec3& point) {
     const int a = numbers_.at(part), b = other.empty() ? -1 : numbers_.at(other);
-    if (a >= 0 && (other.empty() || b >= 0)) out_ << "joint " << name << ' ' << a << ' ' << b << ' ' << point.transpose() << " 0\n";
+    if (a >= 0 && (other.empty() || b >= 0))
+      out_ << "joint " << name << ' ' << a << ' ' << b << ' ' << point.transpose() << " 0\n";
   }
 
   [[nodiscard]] Vec3 moved(collision::BodyId carrier, const Vec3& point) const {

@@ -99,8 +99,7 @@ class Writer {
     int points = 0;
     for (std::size_t n = 0; n < building_.nodes.size(); ++n) {
       if (!on_roof(n)) continue;
-      std::cout << "roof " << post(static_cast<int>(n)) << ' '
-                << building_.nodes[n].position.transpose() << '\n';
+      std::cout << "roof " << post(static_cast<int>(n)) << ' ' << building_.nodes[n].position.transpose() << '\n';
       sag -= solution_.displacements[n].z();
       ++points;
     }

@@ -25,9 +25,9 @@ struct Settings {
       0.1;  ///< m/s and rad/s for two seconds. Bullet's 0.8 and 1 freeze a post that has begun to topple
   double rolling_resistance =
       0.1;  ///< of the normal force times the radius, a ball on soil: on flat ground it would roll for ever
-  double continuous_from =
-      0.5;  ///< of a ball's radius: motion in one step above which the step itself looks for tunnelling. Pieces are left
-            ///< out: what stands is swept before, the ground is a half space, and what flies through other pieces harms none
+  double continuous_from = 0.5;  ///< of a ball's radius: motion in one step above which the step itself looks for
+                                 ///< tunnelling. Pieces are left out: what stands is swept before, the ground is a half
+                                 ///< space, and what flies through other pieces harms none
 };
 constexpr Settings kSettings;
 
@@ -404,8 +404,8 @@ void BulletWorld::resist_rolling() {
       btRigidBody& ball = *body(id.value).rigid;
       const double inverse_inertia = ball.getInvInertiaDiagLocal().x();
       const double spin = ball.getAngularVelocity().length();
-      const double slowed = std::max(
-          0.0, spin - kSettings.rolling_resistance * body(id.value).ball_radius * pressed * inverse_inertia);
+      const double slowed =
+          std::max(0.0, spin - kSettings.rolling_resistance * body(id.value).ball_radius * pressed * inverse_inertia);
       if (spin == 0) continue;
       ball.setAngularVelocity(ball.getAngularVelocity() * (slowed / spin));
       contact.work_lost += (spin * spin - slowed * slowed) / (2 * inverse_inertia);

@@ -1,7 +1,7 @@
 #pragma once
 // collision::World on Bullet. Its parts by file: bodies, obstacles and the step (bullet_world), contacts
-// (bullet_world_contacts), rest (bullet_world_rest), sweeps and rays (bullet_world_sweep), hinges (bullet_world_hinges), cables
-// (bullet_world_cables).
+// (bullet_world_contacts), rest (bullet_world_rest), sweeps and rays (bullet_world_sweep), hinges
+// (bullet_world_hinges), cables (bullet_world_cables).
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
 #include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
 #include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
@@ -29,13 +29,13 @@ namespace topple::collision {
 struct Body : Solid {
   std::unique_ptr<btRigidBody> rigid;
   double ball_radius = 0;  ///< of a body that is one ball; 0: any other
-  int ignored = 0;  ///< pairs that it is in and that are ignored until separated
+  int ignored = 0;         ///< pairs that it is in and that are ignored until separated
   SolverVelocities velocities;
   bool swings = false;                                  ///< on a cable, off its plumb line and touching nothing
   bool watched = false;                                 ///< since the last look, for going anywhere
   btTransform watched_at = btTransform::getIdentity();  ///< where it was then
-  /// Of rest within a heap (bullet_world_rest.cpp): where it was when it was last looked at, s since then, how often in a
-  /// row it had been still.
+  /// Of rest within a heap (bullet_world_rest.cpp): where it was when it was last looked at, s since then, how often in
+  /// a row it had been still.
   btTransform seen_at = btTransform::getIdentity();
   double seen_for = 0;
   int times_still = 0;
@@ -195,8 +195,8 @@ class BulletWorld final : public World {
   double ground_height_ = 0;
 
   std::set<SolidPair> ignored_;
-  std::vector<Contact> touching_;  ///< of the last step; of two that sleep, of the last in which one was awake
-  std::vector<Contact> contacts_;  ///< those of awake bodies
+  std::vector<Contact> touching_;       ///< of the last step; of two that sleep, of the last in which one was awake
+  std::vector<Contact> contacts_;       ///< those of awake bodies
   std::vector<Contact> points_, next_;  ///< room that gather_contacts() works in
 };
 

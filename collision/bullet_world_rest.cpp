@@ -3,8 +3,8 @@
 // Bullet's solver leaves a large heap creeping: each body moves a little, because those that it lies on do. What lies
 // still within it is therefore held in its place as if it stood, from the ground up: it takes part in no step, and to
 // its caller it is asleep. That is what stabilization in engines for games does; here it must not hide forces, for
-// heaps load what stands. So a body is held only when it is in balance, by forces averaged over some steps, and rests on
-// what is held, too, or stands. It is let go when
+// heaps load what stands. So a body is held only when it is in balance, by forces averaged over some steps, and rests
+// on what is held, too, or stands. It is let go when
 // - something comes upon it as an impact (faster than 2 g dt), before that is solved for, together with as much of the
 //   heap round it as the blow could move at a noticeable speed;
 // - what presses on it changes by a good part of what it carries, or that times its size as a moment: what it rests on
@@ -27,16 +27,16 @@ struct RestSettings {
   double settled_mean = 0.1;  ///< m on the whole (root mean square by mass), and ...
   double settled_single = 1;  ///< m each by its centre: see let_settled_sleep()
 
-  double look_time = 0.25;  ///< s between looks for single bodies of a heap that are still
-  double still_time = 0.5;  ///< s: a body is still while in each such time no point of it comes farther than ...
-  double still = 0.025;     ///< m: as fast as a whole heap that falls asleep. It must be so ...
-  int still_times = 2;      ///< times in a row, once where it was held before
-  double slow = 0.1;        ///< m in the same time: what moves less far is held, too, where it bears what is still
+  double look_time = 0.25;      ///< s between looks for single bodies of a heap that are still
+  double still_time = 0.5;      ///< s: a body is still while in each such time no point of it comes farther than ...
+  double still = 0.025;         ///< m: as fast as a whole heap that falls asleep. It must be so ...
+  int still_times = 2;          ///< times in a row, once where it was held before
+  double slow = 0.1;            ///< m in the same time: what moves less far is held, too, where it bears what is still
   double out_of_balance = 0.4;  ///< of what a body carries, its own weight included: more out of balance it is not
                                 ///< taken to rest, and when what presses on it changes by more it is let go
   double on_standing = 0.2;     ///< the same for what lies on something that stands, on others or straight
   double bearing = 0.25;        ///< of a body's weight: what presses it up with more bears it
-  double calm = 0.25;  ///< m/s: a blow lets go as much of the heap as its momentum would move faster than that
+  double calm = 0.25;           ///< m/s: a blow lets go as much of the heap as its momentum would move faster than that
 };
 constexpr RestSettings kRest;
 
@@ -72,8 +72,7 @@ void BulletWorld::let_settled_sleep(double dt) {
     if (!one.watched || one.swings) continue;
     one.watched_at = one.rigid->getWorldTransform();
     const Island& island = islands[one.rigid->getIslandTag()];
-    if (island.sum < kRest.settled_mean * kRest.settled_mean * island.mass &&
-        island.farthest < kRest.settled_single)
+    if (island.sum < kRest.settled_mean * kRest.settled_mean * island.mass && island.farthest < kRest.settled_single)
       one.rigid->setActivationState(WANTS_DEACTIVATION);
   }
 }
@@ -236,8 +235,7 @@ std::vector<char> BulletWorld::still_bodies() {
       return (now.getOrigin() - one.seen_at.getOrigin()).length() +
              one.reach * now.getRotation().angleShortestPath(one.seen_at.getRotation());
     };
-    const double speed =
-        one.rigid->getLinearVelocity().length() + one.reach * one.rigid->getAngularVelocity().length();
+    const double speed = one.rigid->getLinearVelocity().length() + one.reach * one.rigid->getAngularVelocity().length();
     const bool whole_time = one.seen_for >= kRest.still_time;
     const bool slow = moved() < (whole_time ? kRest.still : kRest.slow);
     if (!slow)
@@ -269,7 +267,9 @@ std::vector<char> BulletWorld::still_bodies() {
   for (const BodyId id : order_) {
     const auto one = static_cast<std::size_t>(id.value);
     const Vec3 weight = body(id.value).mass * gravity;
-    if (!in_heap[one] || !((forces[one] + weight).norm() < tolerance(body(id.value)) * std::max(weight.norm(), borne[one]))) still[one] = 0;
+    if (!in_heap[one] ||
+        !((forces[one] + weight).norm() < tolerance(body(id.value)) * std::max(weight.norm(), borne[one])))
+      still[one] = 0;
   }
   return still;
 }

@@ -31,7 +31,8 @@ btScalar skin_outside(const btPolyhedralConvexShape& shape) {
 
 /// Hands the nearest points on, measured between the vertices of hulls: they touch without their skins.
 struct BetweenVertices : btDiscreteCollisionDetectorInterface::Result {
-  BetweenVertices(btManifoldResult& all, btScalar first, btScalar second) : result(all), skins(first + second), others(second) {}
+  BetweenVertices(btManifoldResult& all, btScalar first, btScalar second)
+      : result(all), skins(first + second), others(second) {}
   void setShapeIdentifiersA(int, int) override {}
   void setShapeIdentifiersB(int, int) override {}
   void addContactPoint(const btVector3& normal_on_second, const btVector3& point, btScalar depth) override {
@@ -114,8 +115,7 @@ class PolyhedronContacts final : public btActivatingCollisionAlgorithm {
   void seek(const btCollisionObjectWrapper* first, const btCollisionObjectWrapper* second, const btDispatcherInfo& info,
             btManifoldResult& result) {
     const btPolyhedralConvexShape &a = polyhedron(first), &b = polyhedron(second);
-    if (!manifold_)
-      manifold_ = m_dispatcher->getNewManifold(first->getCollisionObject(), second->getCollisionObject());
+    if (!manifold_) manifold_ = m_dispatcher->getNewManifold(first->getCollisionObject(), second->getCollisionObject());
     result.setPersistentManifold(manifold_);
     btVoronoiSimplexSolver simplex;
     btGjkPairDetector detector(&a, &b, &simplex, &depths_);
@@ -152,7 +152,7 @@ class PolyhedronContacts final : public btActivatingCollisionAlgorithm {
 
   btConvexPenetrationDepthSolver& depths_;
   btPersistentManifold* manifold_ = nullptr;
-  btScalar reach_ = 0;                                  ///< of the second, from its origin
+  btScalar reach_ = 0;                                    ///< of the second, from its origin
   btTransform measured_at_ = btTransform::getIdentity();  ///< the second in the first's frame
   bool apart_ = false;
   btVector3 axis_{0, 0, 0};  ///< unit, from the first to the second, in the first's frame: shows them apart

@@ -1,7 +1,8 @@
 #pragma once
 // Contacts between two polyhedra of which one at least is a hull. As Bullet finds them (nearest points, and where the
 // two overlap their faces clipped against each other), but not sought while a plane is known that parts the two (in a
-// heap of slabs four of five pairs whose bounds meet do not touch), nor while they have hardly moved against each other.
+// heap of slabs four of five pairs whose bounds meet do not touch), nor while they have hardly moved against each
+// other.
 #include <BulletCollision/CollisionDispatch/btCollisionCreateFunc.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
 

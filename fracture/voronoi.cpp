@@ -27,8 +27,8 @@ VoronoiGrid::VoronoiGrid(const std::array<Vec2, 4>& outline, const VoronoiSettin
                          std::span<const Vec2> places)
     : grid_(std::make_shared<const Grid>(outline, settings.cell, settings.divisions)) {
   if (places.size() != static_cast<std::size_t>(size()))
-    throw std::invalid_argument("found " + std::to_string(places.size()) + " places of sites; accepted: one for each of " +
-                                std::to_string(size()) + " cells");
+    throw std::invalid_argument("found " + std::to_string(places.size()) +
+                                " places of sites; accepted: one for each of " + std::to_string(size()) + " cells");
   sites_.reserve(places.size());
   for (const Vec2& place : places) {
     if (!(place.minCoeff() >= 0 && place.maxCoeff() <= 1))

@@ -104,8 +104,8 @@ void visit_member_joints(const Building& building, const Visit& visit) {
   }
 }
 
-/// At the middle of each edge, to the member there: a slab has four beams, a wall two beams and two posts. `visit` takes
-/// the panel, its edge, the member and the point.
+/// At the middle of each edge, to the member there: a slab has four beams, a wall two beams and two posts. `visit`
+/// takes the panel, its edge, the member and the point.
 template <class Visit>
 void visit_panel_joints(const Building& building, const Visit& visit) {
   const EdgeMembers edges(building);
@@ -129,7 +129,7 @@ inline void write(const Body& body, std::ostream& out) {
   const Mat3 rotation = body.axes.transpose();
   const Eigen::Quaterniond q(rotation);
   out << "body " << body.name << ' ' << body.mass << ' ' << body.half_extents.transpose() << ' '
-            << body.centre.transpose() << ' ' << q.w() << ' ' << q.x() << ' ' << q.y() << ' ' << q.z() << '\n';
+      << body.centre.transpose() << ' ' << q.w() << ' ' << q.x() << ' ' << q.y() << ' ' << q.z() << '\n';
 }
 
 }  // namespace topple::bench

@@ -16,8 +16,7 @@ namespace topple::structure {
 std::map<PanelId, Simulation::State::PanelBlow> Simulation::State::blows_on_panels() const {
   std::map<PanelId, PanelBlow> blows;
   if (!any_breakable) return blows;
-  const auto feel = [&](collision::BodyId id, std::int64_t tag, const FeltContact& contact,
-                        collision::BodyId other) {
+  const auto feel = [&](collision::BodyId id, std::int64_t tag, const FeltContact& contact, collision::BodyId other) {
     if (tag < 0) return;
     const PanelId panel = part_of_number(building, tag).panel;
     if (!panel.valid() || !breakable_panels[static_cast<std::size_t>(panel.index)].settings) return;

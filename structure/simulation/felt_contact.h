@@ -1,6 +1,6 @@
 #pragma once
-// What a contact did in the last collision step, of those that somebody feels: parts that can break or be loaded. Pieces
-// of panels among themselves and on the ground, most of a heap, are left out. Bodies may be gone since.
+// What a contact did in the last collision step, of those that somebody feels: parts that can break or be loaded.
+// Pieces of panels among themselves and on the ground, most of a heap, are left out. Bodies may be gone since.
 #include "topple/collision/world.h"
 #include "topple/structure/building.h"
 

@@ -1,4 +1,5 @@
-// Single bodies of a heap that still moves are held still: when, what that hides of their forces, and what lets them go.
+// Single bodies of a heap that still moves are held still: when, what that hides of their forces, and what lets them
+// go.
 #include <catch2/catch.hpp>
 #include <map>
 #include <random>
@@ -18,7 +19,8 @@ BodyDescription chunk(std::mt19937& random, const Vec3& at) {
   part.kind = ConvexPart::Kind::hull;
   for (int i = 0; i < corners; ++i) {
     const double angle = 2 * M_PI * (i + between(-0.2, 0.2)) / corners, size = between(0.4, 0.55);
-    for (const double side : {-0.1, 0.1}) part.points.emplace_back(size * std::cos(angle), size * std::sin(angle), side);
+    for (const double side : {-0.1, 0.1})
+      part.points.emplace_back(size * std::cos(angle), size * std::sin(angle), side);
   }
   body.parts = {part};
   body.pose.orientation =

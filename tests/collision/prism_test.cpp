@@ -145,7 +145,7 @@ TEST_CASE("a prism that turns past another, known to be apart from it, touches i
   }
   INFO(steps);
   CHECK(steps > 60);
-  CHECK(steps < 190);         // a quarter of a turn
-  CHECK(before < 0.02);       // no sooner
-  CHECK(apart() > -0.01);     // and no later
+  CHECK(steps < 190);      // a quarter of a turn
+  CHECK(before < 0.02);    // no sooner
+  CHECK(apart() > -0.01);  // and no later
 }

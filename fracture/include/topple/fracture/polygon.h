@@ -28,8 +28,8 @@ struct LabelledPolygon {
 };
 
 /// Keeps the part of a convex polygon with normal . (p - point) <= 0; the new edge gets the label. Empty when nothing
-/// is left. Returns whether anything was cut off. A vertex on the line stays, and makes no second one. A crossing is computed from the end that is kept, so
-/// that two polygons that share the edge get the same point.
+/// is left. Returns whether anything was cut off. A vertex on the line stays, and makes no second one. A crossing is
+/// computed from the end that is kept, so that two polygons that share the edge get the same point.
 bool clip(LabelledPolygon& polygon, const Vec2& point, const Vec2& normal, int label);
 
 }  // namespace topple::fracture

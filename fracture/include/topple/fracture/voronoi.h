@@ -31,8 +31,8 @@ class VoronoiGrid {
   /// `outline`: a convex quadrilateral, counter-clockwise. Throws std::invalid_argument when it is not, or a setting is
   /// out of range.
   VoronoiGrid(const std::array<Vec2, 4>& outline, const VoronoiSettings& settings);
-  /// With chosen sites: the place of each in its grid cell, 0 to 1 along either way of the grid, by their numbers (row *
-  /// columns() + column). `settings.jitter` and `seed` are not used. Throws as well when a place is missing or out of
+  /// With chosen sites: the place of each in its grid cell, 0 to 1 along either way of the grid, by their numbers (row
+  /// * columns() + column). `settings.jitter` and `seed` are not used. Throws as well when a place is missing or out of
   /// range.
   VoronoiGrid(const std::array<Vec2, 4>& outline, const VoronoiSettings& settings, std::span<const Vec2> places);
 
