@@ -1,24 +1,23 @@
 #include "half_space_contacts.h"
 
-#include <BulletCollision/CollisionDispatch/btActivatingCollisionAlgorithm.h>
-#include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 #include <BulletCollision/CollisionDispatch/btManifoldResult.h>
-#include <BulletCollision/CollisionShapes/btPolyhedralConvexShape.h>
 #include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
 
 #include <initializer_list>
 #include <new>
 
+#include "polyhedron_pair.h"
+
 namespace topple::collision {
 
 namespace {
 
-class HalfSpaceContacts : public btActivatingCollisionAlgorithm {
+class HalfSpaceContacts final : public PolyhedronPair {
  public:
   HalfSpaceContacts(const btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper* first,
                     const btCollisionObjectWrapper* second, bool swapped)
-      : btActivatingCollisionAlgorithm(info), swapped_(swapped) {
+      : PolyhedronPair(info), swapped_(swapped) {
     const btCollisionObjectWrapper* solid = swapped ? second : first;
     const btCollisionObjectWrapper* ground = swapped ? first : second;
     // The solid first, whichever way round the pair is: the vertices of a body that slides stay the points that they
@@ -27,11 +26,6 @@ class HalfSpaceContacts : public btActivatingCollisionAlgorithm {
       manifold_ = m_dispatcher->getNewManifold(solid->getCollisionObject(), ground->getCollisionObject());
     }
   }
-  ~HalfSpaceContacts() override {
-    if (manifold_) m_dispatcher->releaseManifold(manifold_);
-  }
-  HalfSpaceContacts(const HalfSpaceContacts&) = delete;
-  HalfSpaceContacts& operator=(const HalfSpaceContacts&) = delete;
 
   void processCollision(const btCollisionObjectWrapper* first, const btCollisionObjectWrapper* second,
                         const btDispatcherInfo&, btManifoldResult* result) override {
@@ -43,8 +37,7 @@ class HalfSpaceContacts : public btActivatingCollisionAlgorithm {
     const btTransform& plane_pose = ground->getWorldTransform();
     const btVector3 normal = plane_pose.getBasis() * plane->getPlaneNormal();
     const btScalar offset = plane->getPlaneConstant() + normal.dot(plane_pose.getOrigin());
-    // A box holds its skin inside its vertices, a hull outside.
-    const btScalar skin = shape->getShapeType() == BOX_SHAPE_PROXYTYPE ? 0 : shape->getMargin();
+    const btScalar skin = skin_outside(*shape);
     result->setPersistentManifold(manifold_);
     result->refreshContactPoints();  // before, so that points of the last step that have gone do not crowd out those of
                                      // now
@@ -58,16 +51,7 @@ class HalfSpaceContacts : public btActivatingCollisionAlgorithm {
     }
   }
 
-  btScalar calculateTimeOfImpact(btCollisionObject*, btCollisionObject*, const btDispatcherInfo&,
-                                 btManifoldResult*) override {
-    return 1;
-  }
-  void getAllContactManifolds(btManifoldArray& manifolds) override {
-    if (manifold_) manifolds.push_back(manifold_);
-  }
-
  private:
-  btPersistentManifold* manifold_ = nullptr;
   bool swapped_;
 };
 

@@ -1,16 +1,15 @@
 #include "polyhedron_contacts.h"
 
-#include <BulletCollision/CollisionDispatch/btActivatingCollisionAlgorithm.h>
-#include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 #include <BulletCollision/CollisionDispatch/btManifoldResult.h>
 #include <BulletCollision/CollisionShapes/btConvexPolyhedron.h>
-#include <BulletCollision/CollisionShapes/btPolyhedralConvexShape.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
 #include <BulletCollision/NarrowPhaseCollision/btPolyhedralContactClipping.h>
 #include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
 
 #include <new>
+
+#include "polyhedron_pair.h"
 
 namespace topple::collision {
 
@@ -22,11 +21,6 @@ constexpr btScalar kMoved = 0.0005;
 
 const btPolyhedralConvexShape& polyhedron(const btCollisionObjectWrapper* wrapper) {
   return *static_cast<const btPolyhedralConvexShape*>(wrapper->getCollisionShape());
-}
-
-/// A box's vertices hold its margin, a hull's do not.
-btScalar skin_outside(const btPolyhedralConvexShape& shape) {
-  return shape.getShapeType() == BOX_SHAPE_PROXYTYPE ? 0 : shape.getMargin();
 }
 
 /// Hands the nearest points on, measured between the vertices of hulls: they touch without their skins.
@@ -47,20 +41,15 @@ struct BetweenVertices : btDiscreteCollisionDetectorInterface::Result {
   bool found = false;
 };
 
-class PolyhedronContacts final : public btActivatingCollisionAlgorithm {
+class PolyhedronContacts final : public PolyhedronPair {
  public:
   PolyhedronContacts(const btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper* second,
                      btConvexPenetrationDepthSolver& depths)
-      : btActivatingCollisionAlgorithm(info), depths_(depths) {
+      : PolyhedronPair(info), depths_(depths) {
     btVector3 centre;
     polyhedron(second).getBoundingSphere(centre, reach_);
     reach_ += centre.length();
   }
-  ~PolyhedronContacts() override {
-    if (manifold_) m_dispatcher->releaseManifold(manifold_);
-  }
-  PolyhedronContacts(const PolyhedronContacts&) = delete;
-  PolyhedronContacts& operator=(const PolyhedronContacts&) = delete;
 
   void processCollision(const btCollisionObjectWrapper* first, const btCollisionObjectWrapper* second,
                         const btDispatcherInfo& info, btManifoldResult* result) override {
@@ -80,14 +69,6 @@ class PolyhedronContacts final : public btActivatingCollisionAlgorithm {
     }
     measured_at_ = now;
     seek(first, second, info, *result);
-  }
-
-  btScalar calculateTimeOfImpact(btCollisionObject*, btCollisionObject*, const btDispatcherInfo&,
-                                 btManifoldResult*) override {
-    return 1;
-  }
-  void getAllContactManifolds(btManifoldArray& manifolds) override {
-    if (manifold_) manifolds.push_back(manifold_);
   }
 
  private:
@@ -151,7 +132,6 @@ class PolyhedronContacts final : public btActivatingCollisionAlgorithm {
   }
 
   btConvexPenetrationDepthSolver& depths_;
-  btPersistentManifold* manifold_ = nullptr;
   btScalar reach_ = 0;                                    ///< of the second, from its origin
   btTransform measured_at_ = btTransform::getIdentity();  ///< the second in the first's frame
   bool apart_ = false;

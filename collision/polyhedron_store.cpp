@@ -53,77 +53,6 @@ bool is_prism(const std::vector<Eigen::Vector3d>& points) {
   return angle < 3 * M_PI;
 }
 
-/// Directions of edges, each once, in the order and sense in which Bullet's own search finds them.
-void add_edges(btConvexPolyhedron& solid) {
-  constexpr btScalar same = 1e-6;
-  const auto near_zero = [](const btVector3& v) {
-    return std::abs(v.x()) <= same && std::abs(v.y()) <= same && std::abs(v.z()) <= same;
-  };
-  for (int f = 0; f < solid.m_faces.size(); ++f) {
-    const btAlignedObjectArray<int>& face = solid.m_faces[f].m_indices;
-    for (int i = 0; i < face.size(); ++i) {
-      const auto [low, high] = std::minmax(face[i], face[(i + 1) % face.size()]);
-      const btVector3 edge = (solid.m_vertices[low] - solid.m_vertices[high]).normalized();
-      bool known = false;
-      for (int e = 0; e < solid.m_uniqueEdges.size() && !known; ++e)
-        known = near_zero(solid.m_uniqueEdges[e] - edge) || near_zero(solid.m_uniqueEdges[e] + edge);
-      if (!known) solid.m_uniqueEdges.push_back(edge);
-    }
-  }
-}
-
-/// The centre of the surface, the ball about it that touches the nearest face, and a box inside: first the ball's cube,
-/// then as long as the solid lets it along its longest axis, then as wide. Bullet leaves out axes along which these
-/// already overlap more than the least overlap that it knows.
-void add_inner_box(btConvexPolyhedron& solid) {
-  solid.m_localCenter.setZero();
-  btScalar area = 0;
-  for (int f = 0; f < solid.m_faces.size(); ++f) {
-    const btAlignedObjectArray<int>& face = solid.m_faces[f].m_indices;
-    const btVector3& first = solid.m_vertices[face[0]];
-    for (int i = 1; i + 1 < face.size(); ++i) {
-      const btVector3 &second = solid.m_vertices[face[i]], &third = solid.m_vertices[face[i + 1]];
-      const btScalar own = (first - second).cross(first - third).length() / 2;
-      solid.m_localCenter += own * (first + second + third) / 3;
-      area += own;
-    }
-  }
-  solid.m_localCenter /= area;
-  btVector3 low = solid.m_vertices[0], high = low;
-  for (int v = 1; v < solid.m_vertices.size(); ++v) {
-    low.setMin(solid.m_vertices[v]);
-    high.setMax(solid.m_vertices[v]);
-  }
-  solid.mC = (low + high) / 2;
-  solid.mE = high - low;
-
-  const auto normal = [&](int f) {
-    const btScalar* plane = solid.m_faces[f].m_plane;
-    return btVector3(plane[0], plane[1], plane[2]);
-  };
-  const auto depth = [&](int f) { return -(normal(f).dot(solid.m_localCenter) + solid.m_faces[f].m_plane[3]); };
-  solid.m_radius = BT_LARGE_FLOAT;
-  for (int f = 0; f < solid.m_faces.size(); ++f) solid.m_radius = std::min(solid.m_radius, depth(f));
-  const btScalar cube = solid.m_radius / std::sqrt(btScalar(3));
-  btVector3 box(cube, cube, cube);
-  // How far all of these axes can grow together before a corner meets a face.
-  const auto grow = [&](const btVector3& axes, btScalar most) {
-    for (int f = 0; f < solid.m_faces.size(); ++f) {
-      const btVector3 slope = normal(f).absolute();
-      const btScalar left = depth(f) - slope.dot(box), by = slope.dot(axes);
-      if (by * most > left) most = std::max(btScalar(0), left / by);
-    }
-    constexpr btScalar rounding = 1e-9;
-    box += (1 - rounding) * most * axes;
-  };
-  const int longest = solid.mE.maxAxis();
-  btVector3 along(0, 0, 0);
-  along[longest] = 1;
-  grow(along, std::max(btScalar(0), solid.mE[longest] / 2 - cube));
-  grow(btVector3(1, 1, 1) - along, solid.m_radius - cube);
-  solid.m_extents = box;
-}
-
 }  // namespace
 
 bool PolyhedronStore::give_prism(btPolyhedralConvexShape& shape, const std::vector<Eigen::Vector3d>& points) {
@@ -164,8 +93,6 @@ bool PolyhedronStore::give_prism(btPolyhedralConvexShape& shape, const std::vect
     add(
         forward ? side : -side, [&](int k) { return given[static_cast<std::size_t>(forward ? k : 3 - k)]; }, 4);
   }
-  add_edges(prism);
-  add_inner_box(prism);
   shape.setPolyhedralFeatures(prism);
   return true;
 }

@@ -15,7 +15,9 @@ class PolyhedronStore {
   /// Gives the shape the faces and edges of all shapes that are made from these numbers.
   void give_features(btPolyhedralConvexShape& shape, const std::vector<double>& made_from);
   /// The same where the points are seen to be those of a straight prism: each corner of the one end followed by its
-  /// opposite at the other, round a convex end. Then nothing needs to be sought, nor kept. False where they are not.
+  /// opposite at the other, round a convex end. Then nothing needs to be sought, nor kept: its vertices and faces are
+  /// all that it is given (edges and inner boxes serve a search along separating axes, which is off in Bullet unless
+  /// m_enableSatConvex asks for it). False where they are not.
   static bool give_prism(btPolyhedralConvexShape& shape, const std::vector<Eigen::Vector3d>& points);
 
  private:
