@@ -152,15 +152,15 @@ void StandingFrame::State::fracture(PanelId panel, const PanelRemains& remains) 
   loads.fracture(panel, remains);
   account.lightened(panel, before, loads.handed(panel));
   to_check[static_cast<std::size_t>(statics.component(building[panel].nodes[0]))] = 1;
+  break_bare_edges(panel, remains);
+}
+
+/// Edges of which nothing is left let go suddenly; what changed slowly is laid before.
+void StandingFrame::State::break_bare_edges(PanelId panel, const PanelRemains& remains) {
   std::vector<JointId> bare;
   for (int edge = 0; edge < 4; ++edge)
     if (holds(building.joint(panel, edge)) && remains.edge_length[static_cast<std::size_t>(edge)] <= 0)
       bare.push_back(building.joint(panel, edge));
-  break_bare(bare);
-}
-
-/// Edges of which nothing is left let go suddenly; what changed slowly is laid before.
-void StandingFrame::State::break_bare(std::span<const JointId> bare) {
   if (bare.empty()) return;
   lay_contacts_at_once();
   break_joints(bare, BreakCause::impact);

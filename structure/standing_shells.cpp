@@ -85,11 +85,7 @@ void StandingFrame::State::fracture_shell(PanelId panel, const PanelRemains& rem
   place_contacts_again(panel);
   let_go_of_bare_nodes(panel);
   to_check[static_cast<std::size_t>(statics.component(building[panel].nodes[0]))] = 1;
-  std::vector<JointId> bare;
-  for (int edge = 0; edge < 4; ++edge)
-    if (holds(building.joint(panel, edge)) && remains.edge_length[static_cast<std::size_t>(edge)] <= 0)
-      bare.push_back(building.joint(panel, edge));
-  break_bare(bare);
+  break_bare_edges(panel, remains);
 }
 
 /// Those of the edge at nodes of the building; what lies between them is within the panel.

@@ -89,7 +89,7 @@ struct StandingFrame::State {
   void lose_member_joint(JointId joint, int told);
   void take(const PanelBearings::Changes& changes, std::vector<Detached>* parts);
   void fracture(PanelId panel, const PanelRemains& remains);
-  void break_bare(std::span<const JointId> bare);
+  void break_bare_edges(PanelId panel, const PanelRemains& remains);
   /// Of membranes that broke: what is left of their stiffness, before anything is solved for.
   [[nodiscard]] bool condense_broken();
   [[nodiscard]] Eigen::MatrixXd stiffness_of_membrane(PanelId panel) const;
