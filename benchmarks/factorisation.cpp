@@ -14,10 +14,10 @@
 #include <memory>
 #include <thread>
 
-#include "factor.h"
-#include "frame_system.h"
-#include "ordering.h"
-#include "refinement.h"
+#include "assembly/frame_system.h"
+#include "assembly/refinement.h"
+#include "factor/factor.h"
+#include "factor/ordering.h"
 #include "support/measure.h"
 #include "support/provenance.h"
 #include "support/regular_frame.h"

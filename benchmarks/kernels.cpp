@@ -7,7 +7,7 @@
 #include <map>
 #include <string>
 
-#include "beam.h"
+#include "elements/beam.h"
 #include "support/changed_frame.h"
 #include "support/steel_uses.h"
 #include "topple/solver/beam_diagram.h"

@@ -5,11 +5,11 @@
 #include <cstdlib>
 #include <span>
 
-#include "factor.h"
-#include "frame_system.h"
-#include "ladder_costs.h"
-#include "refinement.h"
-#include "standing_factor.h"
+#include "assembly/frame_system.h"
+#include "assembly/refinement.h"
+#include "factor/factor.h"
+#include "reanalysis/ladder_costs.h"
+#include "reanalysis/standing_factor.h"
 #include "support/changed_frame.h"
 #include "support/measure.h"
 #include "support/provenance.h"

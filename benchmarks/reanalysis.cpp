@@ -8,8 +8,8 @@
 #include <numeric>
 #include <random>
 
-#include "factor.h"
-#include "frame_system.h"
+#include "assembly/frame_system.h"
+#include "factor/factor.h"
 #include "support/changed_frame.h"
 #include "support/measure.h"
 #include "support/provenance.h"

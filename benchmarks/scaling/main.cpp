@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "segmentation.h"
+#include "failure/segmentation.h"
 #include "support/measure.h"
 #include "topple/solver/blas_kernel.h"
 #include "topple/solver/reanalysis.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "index_of.h"
+#include "model/index_of.h"
 
 namespace topple::structure {
 

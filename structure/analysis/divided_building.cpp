@@ -1,6 +1,6 @@
 #include "analysis/divided_building.h"
 
-#include "index_of.h"
+#include "model/index_of.h"
 #include "topple/structure/join_shells.h"
 
 namespace topple::structure {

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "analysis/instability.h"
-#include "unstable_model.h"
+#include "standing/unstable_model.h"
 
 namespace topple::structure {
 

@@ -4,9 +4,9 @@
 #include <limits>
 
 #include "analysis/lossy_frame.h"
-#include "index_of.h"
+#include "model/index_of.h"
+#include "standing/unstable_model.h"
 #include "topple/structure/error.h"
-#include "unstable_model.h"
 
 namespace topple::structure {
 

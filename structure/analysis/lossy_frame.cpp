@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "analysis/shell_results.h"
-#include "index_of.h"
-#include "panel_demand.h"
-#include "shell_edges.h"
+#include "failure/panel_demand.h"
+#include "mesh/shell_edges.h"
+#include "model/index_of.h"
 
 namespace topple::structure {
 

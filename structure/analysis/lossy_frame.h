@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "analysis/divided_building.h"
-#include "frame_loads.h"
+#include "loads/frame_loads.h"
 #include "topple/solver/reanalysis.h"
 
 namespace topple::structure {

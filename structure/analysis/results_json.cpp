@@ -3,7 +3,7 @@
 #include <set>
 
 #include "analysis/results_writer.h"
-#include "side_by_side.h"
+#include "parallel/side_by_side.h"
 #include "topple/solver/blas_kernel.h"
 
 namespace topple::structure {

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "formats/json_writer.h"
+#include "formats/json/json_writer.h"
 #include "topple/structure/analysis.h"
 
 namespace topple::structure {

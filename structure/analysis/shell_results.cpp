@@ -5,10 +5,10 @@
 #include <cmath>
 #include <map>
 
-#include "index_of.h"
+#include "failure/panel_demand.h"
 #include "mesh/giving_edges.h"
-#include "panel_demand.h"
-#include "shell_edges.h"
+#include "mesh/shell_edges.h"
+#include "model/index_of.h"
 #include "topple/solver/shell_resultants.h"
 
 namespace topple::structure {

@@ -6,8 +6,8 @@
 #include <map>
 
 #include "drawn/part_places.h"
-#include "index_of.h"
-#include "panel_area.h"
+#include "model/index_of.h"
+#include "model/panel_area.h"
 #include "topple/structure/drawn_model.h"
 #include "topple/structure/error.h"
 

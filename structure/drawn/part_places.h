@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "simulation/part.h"
+#include "simulation/debris/part.h"
 #include "topple/structure/standing_frame.h"
 
 namespace topple::structure {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "formats/json_document.h"
+#include "formats/json/json_document.h"
 #include "formats/read_meshes.h"
 #include "topple/fracture/gltf_reader.h"
 #include "topple/structure/drawn_model.h"

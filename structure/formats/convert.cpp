@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "formats/json_document.h"
+#include "formats/generator/written_out.h"
+#include "formats/json/json_document.h"
 #include "formats/model_files.h"
 #include "formats/model_forms.h"
-#include "formats/written_out.h"
 #include "topple/structure/error.h"
 #include "topple/structure/files.h"
 

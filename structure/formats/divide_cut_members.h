@@ -3,7 +3,7 @@
 #include <map>
 #include <string>
 
-#include "formats/json_document.h"
+#include "formats/json/json_document.h"
 #include "topple/structure/building.h"
 
 namespace topple::structure::formats {

@@ -3,7 +3,7 @@
 #include <set>
 #include <vector>
 
-#include "formats/json_document.h"
+#include "formats/json/json_document.h"
 #include "topple/structure/error.h"
 #include "topple/structure/files.h"
 #include "topple/structure/panel_file.h"

@@ -10,7 +10,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "formats/json_document.h"
+#include "formats/json/json_document.h"
 #include "topple/structure/building.h"
 
 namespace topple::structure::formats {

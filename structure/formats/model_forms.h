@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "formats/frame3dd_file.h"
-#include "formats/json_document.h"
+#include "formats/frame3dd/frame3dd_file.h"
+#include "formats/json/json_document.h"
 
 namespace topple::structure {
 

@@ -1,5 +1,5 @@
 // `analyses`: what the file itself asks for; `frame3dd`: what it keeps for that program alone.
-#include "formats/frame3dd.h"
+#include "formats/frame3dd/frame3dd.h"
 #include "formats/model_reader.h"
 
 namespace topple::structure::formats {

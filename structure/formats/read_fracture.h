@@ -1,6 +1,6 @@
 #pragma once
 // The key `fracture`, which has one shape wherever it stands.
-#include "formats/json_document.h"
+#include "formats/json/json_document.h"
 #include "topple/fracture/panel.h"
 
 namespace topple::structure::formats {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/json_document.h"
+#include "formats/json/json_document.h"
 
 namespace topple::structure::formats {
 

@@ -3,7 +3,7 @@
 #include <system_error>
 
 #include "drawn/drawn_weight.h"
-#include "formats/frame3dd.h"
+#include "formats/frame3dd/frame3dd.h"
 #include "formats/model_files.h"
 #include "formats/model_forms.h"
 #include "formats/model_reader.h"

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "formats/json_document.h"
+#include "formats/json/json_document.h"
 #include "formats/read_fracture.h"
 #include "topple/fracture/unfit_settings.h"
 #include "topple/structure/panel_file.h"

@@ -3,7 +3,7 @@
 #include <set>
 
 #include "formats/divide_cut_members.h"
-#include "formats/json_document.h"
+#include "formats/json/json_document.h"
 #include "formats/model_reader.h"
 #include "formats/read_fracture.h"
 #include "topple/structure/error.h"

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "index_of.h"
+#include "model/index_of.h"
 
 namespace topple::structure {
 

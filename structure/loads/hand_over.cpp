@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "edge_placement.h"
-#include "index_of.h"
 #include "loads/hand_over.h"
+#include "model/index_of.h"
 #include "panel_shares.h"
 
 namespace topple::structure {

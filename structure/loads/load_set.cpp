@@ -1,6 +1,6 @@
 // A combination as one right-hand side of the frame, everything standing.
-#include "index_of.h"
 #include "loads/case_loads.h"
+#include "model/index_of.h"
 #include "topple/structure/frame.h"
 
 namespace topple::structure {

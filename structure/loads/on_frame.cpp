@@ -1,8 +1,8 @@
 // Loads of whole members and shell panels, laid on the beams and elements that they are divided into.
 #include <algorithm>
 
-#include "index_of.h"
 #include "mesh/giving_edges.h"
+#include "model/index_of.h"
 #include "topple/structure/frame.h"
 
 namespace topple::structure {

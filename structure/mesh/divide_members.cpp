@@ -1,9 +1,9 @@
 // Members along the edges of shell panels, divided at the mesh's nodes.
 #include <algorithm>
 
-#include "index_of.h"
 #include "mesh/frame_mesh.h"
 #include "mesh/panel_edges.h"
+#include "model/index_of.h"
 
 namespace topple::structure {
 

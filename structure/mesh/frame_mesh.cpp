@@ -5,8 +5,8 @@
 #include <map>
 #include <optional>
 
-#include "index_of.h"
 #include "mesh/panel_cells.h"
+#include "model/index_of.h"
 #include "topple/structure/error.h"
 
 namespace topple::structure {

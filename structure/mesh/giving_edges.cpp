@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <map>
 
-#include "index_of.h"
-#include "panel_demand.h"
+#include "failure/panel_demand.h"
+#include "model/index_of.h"
 #include "topple/solver/superelement.h"
 
 namespace topple::structure {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "index_of.h"
+#include "model/index_of.h"
 
 namespace topple::structure {
 

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <utility>
 
-#include "simulation/strike.h"
+#include "simulation/impact/strike.h"
 
 namespace topple::structure {
 

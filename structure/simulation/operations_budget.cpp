@@ -7,8 +7,8 @@
 // without end. It falls no way, so that gravity does no work on it.
 #include <algorithm>
 
+#include "simulation/impact/strike.h"
 #include "simulation/simulation_state.h"
-#include "simulation/strike.h"
 
 namespace topple::structure {
 
@@ -85,9 +85,9 @@ void Simulation::State::let_go_held_back() {
     collision::BodyState state = world->state({id});
     // The world measured what contacts did to a body that stood still; on the one that moves they did as much more.
     const Mat3 inertia = world_inertia(*one, state.pose.orientation);
-    const double measured = (one->rest.mass * state.velocity.squaredNorm() +
-                             state.angular_velocity.dot(inertia * state.angular_velocity)) /
-                            2;
+    const double measured =
+        (one->rest.mass * state.velocity.squaredNorm() + state.angular_velocity.dot(inertia * state.angular_velocity)) /
+        2;
     const double more = one->rest.mass * state.velocity.dot(moving.velocity) +
                         state.angular_velocity.dot(inertia * moving.angular_velocity);
     bodies.motion(id).asleep = false;

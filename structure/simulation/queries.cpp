@@ -1,7 +1,7 @@
 // What a host asks about what stands.
 #include <algorithm>
 
-#include "simulation/mass_properties.h"
+#include "simulation/debris/mass_properties.h"
 #include "simulation/simulation_state.h"
 
 namespace topple::structure {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "simulation/asked_response.h"
-#include "simulation/replay_hash.h"
+#include "simulation/accounts/replay_hash.h"
+#include "simulation/impact/asked_response.h"
 #include "simulation/simulation_state.h"
 #include "simulation/step_clock.h"
 #include "topple/structure/error.h"

@@ -3,14 +3,14 @@
 #include <deque>
 #include <map>
 
-#include "simulation/bodies.h"
-#include "simulation/broken_panel.h"
-#include "simulation/free_segment.h"
-#include "simulation/indentation.h"
-#include "simulation/obstacles.h"
-#include "simulation/part_masses.h"
-#include "simulation/resting_loads.h"
-#include "simulation/stage_timer.h"
+#include "simulation/accounts/stage_timer.h"
+#include "simulation/debris/bodies.h"
+#include "simulation/debris/obstacles.h"
+#include "simulation/debris/part_masses.h"
+#include "simulation/debris/resting_loads.h"
+#include "simulation/fracture/broken_panel.h"
+#include "simulation/impact/free_segment.h"
+#include "simulation/impact/indentation.h"
 #include "topple/structure/simulation.h"
 
 namespace topple::structure {

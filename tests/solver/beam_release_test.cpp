@@ -1,5 +1,5 @@
 // Releases at both ends, in every combination that a broken joint leaves behind.
-#include "beam.h"
+#include "elements/beam.h"
 
 #include <Eigen/QR>
 #include <catch2/catch.hpp>

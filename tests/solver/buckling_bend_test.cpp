@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "beam_column.h"
+#include "elements/beam_column.h"
 #include "topple/solver/buckling_bend.h"
 
 namespace {

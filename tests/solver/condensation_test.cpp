@@ -1,5 +1,5 @@
 // A sparse matrix condensed to its last rows, against dense algebra over the whole of it.
-#include "condensation.h"
+#include "elements/condensation.h"
 
 #include <Eigen/LU>
 #include <catch2/catch.hpp>

@@ -1,5 +1,5 @@
 // The sparse factor and the node ordering against dense algebra.
-#include "factor.h"
+#include "factor/factor.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -8,7 +8,7 @@
 #include <numeric>
 #include <random>
 
-#include "ordering.h"
+#include "factor/ordering.h"
 
 extern "C" {
 void openblas_set_num_threads(int);

@@ -1,6 +1,6 @@
 // Passes over a dense block of a factor for a few right-hand sides, against sums in extended precision: every number of
 // columns, of rows and of right-hand sides takes another way through them.
-#include "few_columns.h"
+#include "factor/few_columns.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "panel_substitution.h"
+#include "factor/panel_substitution.h"
 #include "random_values.h"
 
 using namespace topple::solver;

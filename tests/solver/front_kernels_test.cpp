@@ -1,5 +1,5 @@
 // The strip kernels of each kind of processor against sums in extended precision, and against each other.
-#include "front_kernels.h"
+#include "factor/front_kernels.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

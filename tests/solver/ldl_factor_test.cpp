@@ -1,5 +1,5 @@
 // L D L' of indefinite matrices against dense eigenvalues.
-#include "ldl_factor.h"
+#include "factor/ldl_factor.h"
 
 #include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>

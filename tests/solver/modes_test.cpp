@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "frame_system.h"
-#include "mass_matrix.h"
+#include "assembly/frame_system.h"
+#include "assembly/mass_matrix.h"
 #include "topple/solver/modes.h"
 #include "topple/solver/shifted_modes.h"
 

@@ -1,5 +1,5 @@
 // Our own factorisation against arithmetic in extended precision, whatever the matrix and the number of threads.
-#include "multifrontal.h"
+#include "factor/multifrontal.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -10,7 +10,7 @@
 #include <numeric>
 #include <random>
 
-#include "factor.h"
+#include "factor/factor.h"
 
 using namespace topple::solver;
 

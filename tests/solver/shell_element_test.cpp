@@ -1,5 +1,5 @@
 // The shell element by itself: patch tests, motions without energy, bending in its plane, thin plates.
-#include "shell.h"
+#include "elements/shell.h"
 
 #include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
@@ -170,5 +170,6 @@ TEST_CASE("free growth with temperature costs no force, held growth E t strain/(
   const Vec24 fixed = element.fixed_forces(Vec3::Zero(), strain);
   CHECK((element.stiffness() * grown + fixed).norm() < 1e-12 * fixed.norm());
   const double n = -30e9 * 0.2 * strain / 0.8;
-  CHECK((element.resultants(Vec24::Zero(), strain, Vec2::Zero()).head<3>() - Vec3(n, n, 0)).norm() < 1e-12 * std::abs(n));
+  CHECK((element.resultants(Vec24::Zero(), strain, Vec2::Zero()).head<3>() - Vec3(n, n, 0)).norm() <
+        1e-12 * std::abs(n));
 }

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/frame3dd.h"
+#include "formats/frame3dd/frame3dd.h"
 #include "structure/example_model.h"
 #include "structure/mutation.h"
 #include "support/scratch_folder.h"

@@ -11,8 +11,8 @@
 
 #include "app/open_scene.h"
 #include "renderer/instances.h"
-#include "renderer/palette.h"
 #include "renderer/picture_renderer.h"
+#include "renderer/shapes/palette.h"
 #include "support/scratch_folder.h"
 
 namespace {

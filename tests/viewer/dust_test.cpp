@@ -4,8 +4,8 @@
 
 #include "app/open_scene.h"
 #include "app/session.h"
-#include "renderer/dust.h"
 #include "renderer/picture_renderer.h"
+#include "renderer/shapes/dust.h"
 
 namespace {
 

@@ -7,9 +7,9 @@
 #include "app/open_scene.h"
 #include "app/session.h"
 #include "app/show_words.h"
-#include "renderer/arrows.h"
-#include "renderer/diagram.h"
 #include "renderer/instances.h"
+#include "renderer/shapes/arrows.h"
+#include "renderer/shapes/diagram.h"
 #include "support/scratch_folder.h"
 #include "topple/structure/error.h"
 

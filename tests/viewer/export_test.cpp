@@ -11,13 +11,13 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "app/gltf_scene.h"
 #include "app/headless.h"
-#include "app/html_replay.h"
+#include "app/output/gltf_scene.h"
+#include "app/output/html_replay.h"
+#include "app/output/usd_scene.h"
+#include "app/output/video.h"
 #include "app/part_motion.h"
 #include "app/session.h"
-#include "app/usd_scene.h"
-#include "app/video.h"
 #include "support/scratch_folder.h"
 
 namespace {

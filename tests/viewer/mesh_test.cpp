@@ -1,6 +1,6 @@
 // Every mesh that is drawn is closed and faces outwards: each edge is run through once each way, and the volume
 // enclosed (by the divergence theorem) is that of the section, whose area comes from its dimensions by hand.
-#include "renderer/mesh.h"
+#include "renderer/shapes/mesh.h"
 
 #include <array>
 #include <catch2/catch.hpp>
@@ -11,7 +11,7 @@
 #include <tuple>
 #include <utility>
 
-#include "renderer/triangulation.h"
+#include "renderer/shapes/triangulation.h"
 
 namespace {
 

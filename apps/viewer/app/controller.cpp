@@ -13,9 +13,9 @@
 #include <map>
 #include <stdexcept>
 
-#include "app/gltf_scene.h"
-#include "app/html_replay.h"
-#include "app/usd_scene.h"
+#include "app/output/gltf_scene.h"
+#include "app/output/html_replay.h"
+#include "app/output/usd_scene.h"
 #include "renderer/instances.h"
 #include "topple/structure/error.h"
 

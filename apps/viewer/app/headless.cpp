@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "app/actions.h"
-#include "app/gltf_scene.h"
-#include "app/html_replay.h"
 #include "app/interface.h"
-#include "app/outputs.h"
+#include "app/output/gltf_scene.h"
+#include "app/output/html_replay.h"
+#include "app/output/outputs.h"
+#include "app/output/usd_scene.h"
 #include "app/side_panel.h"
-#include "app/usd_scene.h"
 #include "renderer/frame_composer.h"
 #include "renderer/gl_errors.h"
 #include "renderer/headless_context.h"

@@ -3,8 +3,8 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "renderer/mesh.h"
 #include "renderer/recording.h"
+#include "renderer/shapes/mesh.h"
 
 namespace topple::viewer {
 

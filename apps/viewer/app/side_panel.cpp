@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "app/widgets.h"
-#include "renderer/arrows.h"
+#include "renderer/shapes/arrows.h"
 
 namespace topple::viewer {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/controller.h"
-#include "app/output_panel.h"
+#include "app/output/output_panel.h"
 #include "app/tuning_panel.h"
 #include "renderer/instances.h"
 

@@ -2,7 +2,7 @@
 // Small parts of panels.
 #include <imgui.h>
 
-#include "renderer/palette.h"
+#include "renderer/shapes/palette.h"
 
 namespace topple::viewer {
 

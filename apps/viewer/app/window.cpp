@@ -15,7 +15,7 @@
 
 #include "app/driver.h"
 #include "app/interface.h"
-#include "app/outputs.h"
+#include "app/output/outputs.h"
 #include "app/side_panel.h"
 #include "renderer/frame_composer.h"
 #include "renderer/gl_errors.h"

@@ -7,8 +7,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "renderer/arrows.h"
-#include "renderer/diagram.h"
+#include "renderer/shapes/arrows.h"
+#include "renderer/shapes/diagram.h"
 #include "topple/structure/drawn_model.h"
 
 namespace topple::viewer {

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "renderer/camera.h"
-#include "renderer/dust.h"
-#include "renderer/mesh.h"
-#include "renderer/overlay.h"
-#include "renderer/palette.h"
+#include "renderer/shapes/dust.h"
+#include "renderer/shapes/mesh.h"
+#include "renderer/shapes/overlay.h"
+#include "renderer/shapes/palette.h"
 #include "renderer/snapshot.h"
 #include "renderer/view_options.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "renderer/dust.h"
+#include "renderer/shapes/dust.h"
 
 namespace topple::viewer {
 namespace {

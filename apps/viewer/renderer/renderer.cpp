@@ -6,11 +6,11 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <stdexcept>
 
-#include "renderer/dust_buffer.h"
 #include "renderer/gpu_scene.h"
-#include "renderer/overlay_buffer.h"
 #include "renderer/render_targets.h"
 #include "renderer/shaders.h"
+#include "renderer/shapes/dust_buffer.h"
+#include "renderer/shapes/overlay_buffer.h"
 
 namespace topple::viewer {
 namespace {

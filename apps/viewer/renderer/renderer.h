@@ -9,7 +9,7 @@
 
 #include "renderer/camera.h"
 #include "renderer/instances.h"
-#include "renderer/overlay.h"
+#include "renderer/shapes/overlay.h"
 #include "renderer/view_options.h"
 
 namespace topple::viewer {

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "renderer/dust.h"
+#include "renderer/shapes/dust.h"
 #include "renderer/snapshot.h"
 #include "topple/structure/drawn_model.h"
 

@@ -1,0 +1,230 @@
+#include "app/output/html_replay.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string_view>
+
+#include "app/part_motion.h"
+#include "renderer/instances.h"
+
+#ifdef TOPPLE_REPLAY
+extern "C" const char topple_replay_page_begin[];
+extern "C" const char topple_replay_page_end[];
+#endif
+
+namespace topple::viewer {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string_view page() {
+#ifdef TOPPLE_REPLAY
+  return {topple_replay_page_begin, static_cast<std::size_t>(topple_replay_page_end - topple_replay_page_begin)};
+#else
+  throw std::runtime_error("this program was built without the replay page: build it where npm is installed");
+#endif
+}
+
+/// Bytes of an array (little-endian, as in every browser) as base64.
+template <class T>
+std::string base64(const std::vector<T>& values) {
+  constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::vector<unsigned char> bytes(values.size() * sizeof(T));
+  if (!bytes.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
+  std::string text;
+  text.reserve(4 * ((bytes.size() + 2) / 3));
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    unsigned three = static_cast<unsigned>(bytes[i]) << 16U;
+    if (i + 1 < bytes.size()) three |= static_cast<unsigned>(bytes[i + 1]) << 8U;
+    if (i + 2 < bytes.size()) three |= bytes[i + 2];
+    text += digits[three >> 18U & 63U];
+    text += digits[three >> 12U & 63U];
+    text += i + 1 < bytes.size() ? digits[three >> 6U & 63U] : '=';
+    text += i + 2 < bytes.size() ? digits[three & 63U] : '=';
+  }
+  return text;
+}
+
+Json mesh_json(const Mesh& mesh) {
+  std::vector<float> positions, normals;
+  for (const Vertex& v : mesh.vertices)
+    for (int c = 0; c < 3; ++c) positions.push_back(v.position[c]), normals.push_back(v.normal[c]);
+  return {{"positions", base64(positions)}, {"normals", base64(normals)}, {"indices", base64(mesh.indices)}};
+}
+
+std::array<float, 3> floats(const Eigen::Vector3d& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
+class ReplayData {
+ public:
+  ReplayData(const structure::Building& building, const Recording& recording)
+      : building_(building), recording_(recording) {
+    const glm::dvec3 centre = bounds_of(building).centre();
+    origin_ = {centre.x, centre.y, centre.z};
+  }
+
+  [[nodiscard]] Json write() const {
+    const Bounds bounds = bounds_of(building_);
+    Json data;
+    data["title"] = building_.title.empty() ? "Topple" : building_.title;
+    data["radius"] = bounds.radius();
+    data["ground"] = bounds.low.z - bounds.centre().z;
+    std::vector<float> times;
+    for (const auto& frame : recording_.frames()) times.push_back(static_cast<float>(frame.time));
+    data["times"] = base64(times);
+    data["sections"] = Json::array();
+    for (const auto& section : building_.sections) data["sections"].push_back(mesh_json(section_mesh(section, 1)));
+    data["members"] = members();
+    data["panels"] = panels();
+    data["places"] = places();
+    data["tracks"] = tracks();
+    data["drawn"] = drawn();
+    data["failed"] = failed();
+    data["events"] = Json::array();
+    for (const auto& event : recording_.events())
+      data["events"].push_back({{"time", event.time}, {"kind", static_cast<int>(event.kind)}, {"text", event.text}});
+    return data;
+  }
+
+ private:
+  /// Name, section, kind; first end, length and axes (rows) as numbers.
+  [[nodiscard]] Json members() const {
+    Json list = Json::array();
+    for (const auto& member : building_.members) {
+      const Eigen::Vector3d first = building_[member.nodes[0]].position + member.offsets[0] - origin_;
+      std::vector<float> numbers;
+      for (const float x : floats(first)) numbers.push_back(x);
+      numbers.push_back(static_cast<float>(member.length));
+      for (int row = 0; row < 3; ++row)
+        for (const float x : floats(member.axes.row(row).transpose())) numbers.push_back(x);
+      list.push_back({{"name", member.name},
+                      {"section", member.section.index},
+                      {"kind", static_cast<int>(member.kind)},
+                      {"numbers", base64(numbers)}});
+    }
+    return list;
+  }
+
+  [[nodiscard]] Json panels() const {
+    Json list = Json::array();
+    const auto all = panel_states(building_, recording_);
+    for (std::size_t p = 0; p < building_.panels.size(); ++p) {
+      const structure::Panel& panel = building_.panels[p];
+      Json states = Json::array();
+      for (const PanelState& state : all[p])
+        states.push_back(
+            {{"frame", state.frame}, {"mesh", mesh_json(placed_panel_mesh(building_, panel, state, origin_))}});
+      list.push_back({{"name", panel.name}, {"kind", static_cast<int>(panel.kind)}, {"states", std::move(states)}});
+    }
+    return list;
+  }
+
+  /// [part, frame, track] for each change of place after the first frame.
+  [[nodiscard]] Json places() const {
+    const auto all = part_places(building_, recording_);
+    std::vector<std::int32_t> changes;
+    for (std::size_t part = 0; part < all.size(); ++part)
+      for (const PlaceChange& change : all[part])
+        if (change.frame > 0 || change.track != part_stands)
+          changes.insert(changes.end(), {static_cast<std::int32_t>(part), change.frame, change.track});
+    return base64(changes);
+  }
+
+  [[nodiscard]] Json tracks() const {
+    Json list = Json::array();
+    for (const BodyTrack& track : recording_.tracks()) {
+      std::vector<std::int32_t> frames;
+      std::vector<float> poses;
+      for (const PoseKey& key : track.keys) {
+        frames.push_back(key.frame);
+        poses.insert(poses.end(), key.offset.begin(), key.offset.end());
+        poses.insert(poses.end(), key.turn.begin(), key.turn.end());
+      }
+      Json one{{"centre", floats(track.rest_centre - origin_)},
+               {"first", track.first},
+               {"end", track.end},
+               {"frames", base64(frames)},
+               {"poses", base64(poses)}};
+      if (track.radius > 0) one["radius"] = track.radius;
+      if (track.chunk) {
+        one["chunk"] = mesh_json(chunk_mesh(*track.chunk));
+        one["kind"] = static_cast<int>(track.chunk_of);
+      }
+      list.push_back(std::move(one));
+    }
+    return list;
+  }
+
+  /// Pieces of a model around the building: [frame, track] for each change of place.
+  [[nodiscard]] Json drawn() const {
+    Json list = Json::array();
+    for (const DrawnTrack& piece : drawn_tracks(recording_)) {
+      std::vector<std::int32_t> places;
+      for (const PlaceChange& change : piece.places) places.insert(places.end(), {change.frame, change.track});
+      list.push_back({{"mesh", mesh_json(placed_mesh(*piece.mesh, origin_))}, {"places", base64(places)}});
+    }
+    return list;
+  }
+
+  /// [member, end, frame] of each member's joint that fails.
+  [[nodiscard]] Json failed() const {
+    std::vector<std::int32_t> list;
+    std::vector<char> told(2 * building_.members.size(), 0);
+    std::shared_ptr<const FrameAnswer> seen;
+    for (std::size_t f = 0; f < recording_.frames().size(); ++f) {
+      const auto& answer = recording_.frames()[f].answer;
+      if (answer == seen) continue;
+      seen = answer;
+      for (std::size_t j = 0; j < told.size(); ++j) {
+        if (told[j] != 0 || answer->joints[j].intact) continue;
+        told[j] = 1;
+        list.insert(list.end(),
+                    {static_cast<std::int32_t>(j / 2), static_cast<std::int32_t>(j % 2), static_cast<std::int32_t>(f)});
+      }
+    }
+    return base64(list);
+  }
+
+  const structure::Building& building_;
+  const Recording& recording_;
+  Eigen::Vector3d origin_;
+};
+
+/// "<" would end or open elements within the page's script.
+std::string in_script(const std::string& json) {
+  std::string out;
+  out.reserve(json.size());
+  for (const char c : json) c == '<' ? out += "\\u003c" : out += c;
+  return out;
+}
+
+}  // namespace
+
+bool can_write_replay() {
+#ifdef TOPPLE_REPLAY
+  return true;
+#else
+  return false;
+#endif
+}
+
+void write_html_replay(const structure::Building& building, const Recording& recording, const std::string& file) {
+  constexpr std::string_view mark = "\"TOPPLE_DATA\"";
+  const std::string_view whole = page();
+  const std::size_t at = whole.find(mark);
+  if (at == std::string_view::npos) throw std::runtime_error("the replay page has no place for its data");
+  std::ofstream out(file, std::ios::binary);
+  out << whole.substr(0, at) << in_script(ReplayData(building, recording).write().dump())
+      << whole.substr(at + mark.size());
+  if (!out.flush()) throw std::runtime_error("cannot write " + file);
+  std::printf("%s: replay\n", file.c_str());
+}
+
+}  // namespace topple::viewer

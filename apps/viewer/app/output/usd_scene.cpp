@@ -1,0 +1,217 @@
+#include "app/output/usd_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include "app/part_motion.h"
+#include "renderer/shapes/palette.h"
+
+namespace topple::viewer {
+namespace {
+
+__attribute__((format(printf, 1, 2))) std::string print(const char* format, ...) {
+  char text[256];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  return text;
+}
+
+/// Names of prims hold letters, digits and underscores, and are unique among their siblings.
+class PrimNames {
+ public:
+  std::string operator()(const std::string& name) {
+    std::string prim;
+    for (const char c : name) prim += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+    if (prim.empty() || std::isdigit(static_cast<unsigned char>(prim[0])) != 0) prim = "_" + prim;
+    std::string unique = prim;
+    for (int i = 2; !used_.insert(unique).second; ++i) unique = prim + "_" + std::to_string(i);
+    return unique;
+  }
+
+ private:
+  std::set<std::string> used_;
+};
+
+class UsdWriter {
+ public:
+  UsdWriter(const structure::Building& building, const Recording& recording, std::ofstream& out, double rate)
+      : building_(building), recording_(recording), out_(out), rate_(rate), samples_(export_samples(recording, rate)) {}
+
+  void write() {
+    out_ << "#usda 1.0\n(\n    defaultPrim = \"Building\"\n    upAxis = \"Z\"\n    metersPerUnit = 1\n"
+         << print(
+                "    timeCodesPerSecond = %.9g\n    framesPerSecond = %.9g\n    startTimeCode = 0\n    endTimeCode = "
+                "%d\n",
+                rate_, rate_, samples_.back().code)
+         << ")\n\ndef Xform \"Building\"\n{\n";
+    const auto places = part_places(building_, recording_);
+    out_ << "    def Scope \"Members\"\n    {\n";
+    PrimNames members;
+    for (std::size_t m = 0; m < building_.members.size(); ++m)
+      part(members(building_.members[m].name), placed_member_mesh(building_, building_.members[m], origin_), places[m],
+           member_colour(building_.members[m].kind));
+    out_ << "    }\n    def Scope \"Panels\"\n    {\n";
+    PrimNames panels;
+    const auto states = panel_states(building_, recording_);
+    for (std::size_t p = 0; p < building_.panels.size(); ++p)
+      for (std::size_t k = 0; k < states[p].size(); ++k) {
+        // What remains after each break is a prim of its own, seen while it lasts.
+        const structure::Panel& panel = building_.panels[p];
+        part(panels(k == 0 ? panel.name : panel.name + "_rest"),
+             placed_panel_mesh(building_, panel, states[p][k], origin_), places[building_.members.size() + p],
+             panel_colour(panel.kind), {states[p][k].frame, k + 1 < states[p].size() ? states[p][k + 1].frame : never});
+      }
+    out_ << "    }\n    def Scope \"Bodies\"\n    {\n";
+    for (const BodyTrack& track : recording_.tracks()) body(track);
+    // Pieces of a model around the building, each while it is one; those that stand as they were drawn.
+    out_ << "    }\n    def Scope \"Drawn\"\n    {\n";
+    int number = 0;
+    for (const DrawnTrack& piece : drawn_tracks(recording_))
+      part("drawn_" + std::to_string(++number), placed_mesh(*piece.mesh, origin_), piece.places, drawn_colour);
+    out_ << "    }\n}\n";
+  }
+
+ private:
+  void mesh(const std::string& name, const Mesh& mesh, Rgba colour, const std::string& more) {
+    out_ << "        def Mesh \"" << name << "\"\n        {\n            int[] faceVertexCounts = [";
+    for (std::size_t i = 0; i < mesh.indices.size() / 3; ++i) out_ << (i > 0 ? ", 3" : "3");
+    out_ << "]\n            int[] faceVertexIndices = [";
+    for (std::size_t i = 0; i < mesh.indices.size(); ++i) out_ << (i > 0 ? ", " : "") << mesh.indices[i];
+    out_ << "]\n            point3f[] points = [";
+    vectors(mesh, &Vertex::position);
+    out_ << "]\n            normal3f[] normals = [";
+    vectors(mesh, &Vertex::normal);
+    out_ << "] (\n                interpolation = \"vertex\"\n            )\n"
+         << "            uniform token subdivisionScheme = \"none\"\n";
+    colour_and(colour, more);
+  }
+  void vectors(const Mesh& mesh, glm::vec3 Vertex::*what) {
+    bool first = true;
+    for (const Vertex& v : mesh.vertices) {
+      const glm::vec3 p = v.*what;
+      out_ << print("%s(%.6g, %.6g, %.6g)", first ? "" : ", ", static_cast<double>(p.x), static_cast<double>(p.y),
+                    static_cast<double>(p.z));
+      first = false;
+    }
+  }
+  void colour_and(Rgba colour, const std::string& more) {
+    const glm::vec4 c = unpack(colour);
+    const auto linear = [](float x) { return std::pow(static_cast<double>(x), 2.2); };
+    out_ << print("            color3f[] primvars:displayColor = [(%.4g, %.4g, %.4g)]\n", linear(c.r), linear(c.g),
+                  linear(c.b))
+         << more << "        }\n";
+  }
+
+  /// Collects time samples, leaving out those that repeat what comes before and after.
+  struct Motion {
+    std::string translate, orient;
+    std::string last_translate, last_orient;
+    int held = -1;
+    bool moved = false;
+    void add(int code, const PartMotion& motion) {
+      const std::string t =
+          print("(%.7g, %.7g, %.7g)", motion.shift.x() + 0.0, motion.shift.y() + 0.0, motion.shift.z() + 0.0);
+      const std::string q =
+          print("(%.7g, %.7g, %.7g, %.7g)", motion.turn.w(), motion.turn.x(), motion.turn.y(), motion.turn.z());
+      if (t == last_translate && q == last_orient) {
+        held = code;
+        return;
+      }
+      moved = moved || !last_translate.empty();
+      if (held >= 0) put(held, last_translate, last_orient);
+      held = -1;
+      put(code, t, q);
+      last_translate = t, last_orient = q;
+    }
+    void put(int code, const std::string& t, const std::string& q) {
+      const std::string number = "                " + std::to_string(code) + ": ";
+      translate += number + t + ",\n";
+      orient += number + q + ",\n";
+    }
+    [[nodiscard]] std::string text() const {
+      return "            double3 xformOp:translate.timeSamples = {\n" + translate +
+             "            }\n            quatf xformOp:orient.timeSamples = {\n" + orient +
+             "            }\n            uniform token[] xformOpOrder = [\"xformOp:translate\", \"xformOp:orient\"]\n";
+    }
+  };
+
+  /// From which frame of the file on it is seen, and from which no more.
+  static std::string seen(const std::vector<std::pair<int, bool>>& changes) {
+    if (changes.size() == 1 && changes[0].second) return {};
+    std::string text = "            token visibility.timeSamples = {\n";
+    for (const auto& [code, visible] : changes)
+      text += "                " + std::to_string(code) + ": \"" + (visible ? "inherited" : "invisible") + "\",\n";
+    return text + "            }\n";
+  }
+
+  static constexpr std::int32_t never = std::numeric_limits<std::int32_t>::max();
+  /// Frames of the recording: from the first to before the second.
+  using Span = std::pair<std::int32_t, std::int32_t>;
+  void part(const std::string& name, const Mesh& shape, const std::vector<PlaceChange>& places, Rgba colour,
+            Span lasts = {0, never}) {
+    Motion motion;
+    std::vector<std::pair<int, bool>> visible;
+    std::size_t next = 0;
+    for (const ExportSample& sample : samples_) {
+      while (next + 1 < places.size() && places[next + 1].frame <= sample.frame) ++next;
+      const bool there = lasts.first <= sample.frame && sample.frame < lasts.second;
+      const int track = there ? places[next].track : part_gone;
+      if (visible.empty() || visible.back().second != (track != part_gone))
+        visible.emplace_back(sample.code, track != part_gone);
+      if (track == part_gone) continue;
+      motion.add(sample.code,
+                 track >= 0 ? motion_of(recording_.tracks()[static_cast<std::size_t>(track)], sample.frame, origin_)
+                            : PartMotion());
+    }
+    mesh(name, shape, colour, (motion.moved ? motion.text() : "") + seen(visible));
+  }
+
+  void body(const BodyTrack& track) {
+    if (!track.chunk && !(track.radius > 0)) return;
+    Motion motion;
+    std::vector<std::pair<int, bool>> visible;
+    for (const ExportSample& sample : samples_) {
+      const bool here = track.first <= sample.frame && (track.end < 0 || sample.frame < track.end);
+      if (visible.empty() || visible.back().second != here) visible.emplace_back(sample.code, here);
+      if (!here) continue;
+      const BodyPose pose = track.pose(sample.frame);
+      motion.add(sample.code, {pose.orientation, pose.position - origin_});
+    }
+    if (motion.last_translate.empty()) return;  // it came and went between two frames of the file
+    const std::string more = motion.text() + seen(visible);
+    if (track.chunk)
+      return mesh("chunk_" + std::to_string(track.id), chunk_mesh(*track.chunk), piece_colour(track.chunk_of), more);
+    out_ << "        def Sphere \"projectile_" << track.id << "\"\n        {\n"
+         << print("            double radius = %.6g\n", track.radius);
+    colour_and(projectile_colour, more);
+  }
+
+  const structure::Building& building_;
+  const Recording& recording_;
+  std::ofstream& out_;
+  double rate_;
+  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
+  std::vector<ExportSample> samples_;
+};
+
+}  // namespace
+
+void write_usd(const structure::Building& building, const Recording& recording, const std::string& file, double rate) {
+  std::ofstream out(file);
+  if (!out) throw std::runtime_error("cannot write " + file);
+  UsdWriter(building, recording, out, rate).write();
+  if (!out.flush()) throw std::runtime_error("cannot write " + file);
+  std::printf("%s: animation\n", file.c_str());
+}
+
+}  // namespace topple::viewer

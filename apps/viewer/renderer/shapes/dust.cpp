@@ -1,0 +1,136 @@
+#include "renderer/shapes/dust.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace topple::viewer {
+namespace {
+
+using structure::SimulationEvent;
+
+/// Radius of the cloud of a broken joint, of a broken panel, m.
+constexpr double joint_size = 0.5, panel_size = 1.6;
+/// Of an impact: by the cube root of its energy, J, as the cloud's volume goes with the energy; at most this.
+constexpr double size_per_root_joule = 0.05, largest_size = 5.0;
+/// A body that loses more than this speed within a step has landed, m/s; smaller ones than this size throw up nothing.
+constexpr double landing_speed = 1.5;
+/// Puffs of one landing: along its lowest parts, at most this many.
+constexpr std::size_t landing_puffs = 16;
+constexpr std::size_t most_puffs = 700;
+/// Closer ones of one instant are one, m.
+constexpr double merging_distance = 1.0;
+
+/// Discs for each puff.
+constexpr int discs = 5;
+constexpr float densest = 0.7F, dense_size = 1.5F;
+
+double energy_size(double energy) { return std::min(largest_size, size_per_root_joule * std::cbrt(energy)); }
+
+/// A number from 0 to 1 that is always the same for the same words (Steele, Lea, Flood 2014: splitmix64's mixer).
+float noise(std::uint64_t word) {
+  word += 0x9e3779b97f4a7c15u;
+  word = (word ^ (word >> 30)) * 0xbf58476d1ce4e5b9u;
+  word = (word ^ (word >> 27)) * 0x94d049bb133111ebu;
+  return static_cast<float>((word ^ (word >> 31)) >> 40) / static_cast<float>(1u << 24);
+}
+
+/// Where the lowest parts of a body are.
+std::vector<Eigen::Vector3d> lowest_parts(const structure::Building& building, const structure::BodyView& body) {
+  std::vector<Eigen::Vector3d> places;
+  const auto moved = [&](const Eigen::Vector3d& p) -> Eigen::Vector3d {
+    return body.pose.position + body.pose.orientation * (p - body.rest_centre);
+  };
+  for (const structure::MemberId id : body.members)
+    for (const structure::NodeId node : building[id].nodes) places.push_back(moved(building[node].position));
+  for (const structure::PanelId id : body.panels)
+    for (const structure::NodeId node : building[id].nodes) places.push_back(moved(building[node].position));
+  if (places.empty()) return {body.pose.position};
+  std::sort(places.begin(), places.end(), [](const auto& a, const auto& b) { return a.z() < b.z(); });
+  const double limit = places.front().z() + 0.5;
+  places.erase(std::find_if(places.begin(), places.end(), [&](const auto& p) { return p.z() > limit; }), places.end());
+  if (places.size() <= landing_puffs) return places;
+  std::vector<Eigen::Vector3d> some;
+  for (std::size_t i = 0; i < landing_puffs; ++i) some.push_back(places[i * places.size() / landing_puffs]);
+  return some;
+}
+
+}  // namespace
+
+void DustWatcher::throw_up(double time, const Eigen::Vector3d& position, double size) {
+  for (auto puff = puffs_.rbegin(); puff != puffs_.rend() && puff->time == time; ++puff)
+    if ((puff->position - position).squaredNorm() < merging_distance * merging_distance) {
+      const double volume = std::pow(static_cast<double>(puff->size), 3) + std::pow(size, 3);
+      puff->size = static_cast<float>(std::min(largest_size, std::cbrt(volume)));
+      return;
+    }
+  puffs_.push_back({thrown_up_++, time, position, static_cast<float>(size)});
+  changed_ = true;
+}
+
+void DustWatcher::hear(const structure::Simulation& simulation) {
+  const auto& events = simulation.events();
+  for (; events_heard_ < events.size(); ++events_heard_) {
+    const SimulationEvent& event = events[events_heard_];
+    if (event.kind == SimulationEvent::Kind::joint_broke) throw_up(event.time, event.position, joint_size);
+    if (event.kind == SimulationEvent::Kind::panel_fractured) throw_up(event.time, event.position, panel_size);
+    if (event.kind != SimulationEvent::Kind::impact) continue;
+    const double energy = event.mass * (event.speed_in * event.speed_in - event.speed_out * event.speed_out) / 2;
+    if (event.speed_in > landing_speed && energy > 0) throw_up(event.time, event.position, energy_size(energy));
+  }
+}
+
+void DustWatcher::look_for_landings(const structure::Simulation& simulation) {
+  const double passed = simulation.time() - time_;
+  std::map<std::int64_t, Seen> now;
+  for (const structure::BodyView& body : simulation.bodies()) {
+    if (body.asleep) continue;
+    Seen seen{body.pose.position, Eigen::Vector3d::Zero()};
+    if (const auto before = bodies_.find(body.id.value); before != bodies_.end() && passed > 0) {
+      seen.velocity = (seen.position - before->second.position) / passed;
+      const double slowed = before->second.velocity.norm() - seen.velocity.norm();
+      if (slowed > landing_speed) {
+        const auto places = lowest_parts(simulation.building(), body);
+        const double size = energy_size(body.mass * slowed * slowed / 2 / static_cast<double>(places.size()));
+        for (const Eigen::Vector3d& place : places) throw_up(simulation.time(), place, size);
+      }
+    }
+    now.emplace(body.id.value, seen);
+  }
+  bodies_ = std::move(now);
+  time_ = simulation.time();
+}
+
+std::shared_ptr<const std::vector<DustPuff>> DustWatcher::watch(const structure::Simulation& simulation) {
+  changed_ = false;
+  hear(simulation);
+  look_for_landings(simulation);
+  const std::size_t before = puffs_.size();
+  std::erase_if(puffs_, [&](const DustPuff& puff) { return puff.time + dust_life < simulation.time(); });
+  if (puffs_.size() > most_puffs) puffs_.erase(puffs_.begin(), puffs_.end() - static_cast<std::ptrdiff_t>(most_puffs));
+  changed_ = changed_ || puffs_.size() != before;
+  if (changed_) shared_ = puffs_.empty() ? nullptr : std::make_shared<const std::vector<DustPuff>>(puffs_);
+  return shared_;
+}
+
+void place_dust(const std::vector<DustPuff>& puffs, double time, const glm::dvec3& origin,
+                std::vector<DustInstance>& instances) {
+  for (const DustPuff& puff : puffs) {
+    const auto age = static_cast<float>(time - puff.time);
+    if (age < 0 || age >= static_cast<float>(dust_life)) continue;
+    const glm::vec3 at(glm::dvec3(puff.position.x(), puff.position.y(), puff.position.z()) - origin);
+    // Thrown out fast, held up by the air, thinned out as it spreads.
+    const float spread = 1 - std::exp(-2.2F * age), left = 1 - age / static_cast<float>(dust_life);
+    // What little there is of a small puff is thin.
+    const float opacity = densest * left * left * std::min(1.0F, age / 0.08F) * std::min(1.0F, puff.size / dense_size);
+    for (int i = 0; i < discs; ++i) {
+      const std::uint64_t word = static_cast<std::uint64_t>(puff.number * 4 * discs + 4 * i);
+      const float angle = 6.2831853F * (static_cast<float>(i) + noise(word)) / discs;
+      const float out = puff.size * (0.25F + 0.75F * noise(word + 1)) * spread;
+      const glm::vec3 way(std::cos(angle) * out, std::sin(angle) * out, puff.size * 0.6F * noise(word + 2) * spread);
+      instances.push_back({at + way, puff.size * (0.3F + (0.5F + 0.3F * noise(word + 3)) * spread), opacity});
+    }
+  }
+}
+
+}  // namespace topple::viewer

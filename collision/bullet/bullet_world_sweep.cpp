@@ -1,0 +1,246 @@
+// What awake bodies will touch, rays, and queries of space. Nothing here moves anything.
+#include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <tuple>
+
+#include "bullet/bullet_world.h"
+
+namespace topple::collision {
+
+namespace {
+
+struct Bounds {
+  btVector3 low, high;
+  [[nodiscard]] bool meets(const Bounds& other) const { return TestAabbAgainstAabb2(low, high, other.low, other.high); }
+};
+
+/// Bounds of a part over its whole path: those at both ends, and how far the path can leave the straight line between.
+Bounds swept_bounds(const SolidPart& part, const Motion& motion, double dt) {
+  Bounds bounds, end;
+  part.shape->getAabb(motion.start * part.local, bounds.low, bounds.high);
+  part.shape->getAabb(motion.at(dt) * part.local, end.low, end.high);
+  const double turn = std::min(SIMD_PI, motion.angular_velocity.length() * dt);
+  const double out = part.reach * (1 - std::cos(turn / 2)) + motion.acceleration.length() * dt * dt / 8 + kSkin;
+  bounds.low.setMin(end.low);
+  bounds.high.setMax(end.high);
+  bounds.low -= btVector3(out, out, out);
+  bounds.high += btVector3(out, out, out);
+  return bounds;
+}
+
+struct Candidates : btBroadphaseAabbCallback {
+  std::vector<const Solid*> solids;
+  bool process(const btBroadphaseProxy* proxy) override {
+    solids.push_back(
+        static_cast<const Solid*>(static_cast<const btCollisionObject*>(proxy->m_clientObject)->getUserPointer()));
+    return true;
+  }
+};
+
+struct NearestHit : btCollisionWorld::ClosestRayResultCallback {
+  int child = -1;
+  using ClosestRayResultCallback::ClosestRayResultCallback;
+  btScalar addSingleResult(btCollisionWorld::LocalRayResult& result, bool normal_in_world) override {
+    child = result.m_localShapeInfo ? result.m_localShapeInfo->m_triangleIndex : -1;
+    return ClosestRayResultCallback::addSingleResult(result, normal_in_world);
+  }
+};
+
+}  // namespace
+
+struct BulletWorld::Mover {
+  const Body* body = nullptr;
+  Motion motion;
+  std::vector<Bounds> parts;
+  Bounds whole;
+};
+
+Motion BulletWorld::motion_of(const Body& body, double dt) const {
+  const btVector3 gravity = world_.getGravity();
+  Motion motion;
+  motion.start = body.rigid->getWorldTransform();
+  motion.acceleration = body.rigid->isActive() ? gravity : btVector3(0, 0, 0);
+  // Stored velocities are those of mid-step.
+  motion.velocity = body.rigid->getLinearVelocity() + motion.acceleration * (dt / 2);
+  motion.angular_velocity = body.rigid->getAngularVelocity();
+  return motion;
+}
+
+BulletWorld::Mover BulletWorld::mover_of(const Body& body, const Motion& motion, double duration) {
+  Mover mover;
+  mover.body = &body;
+  mover.motion = motion;
+  for (const SolidPart& part : body.parts) mover.parts.push_back(swept_bounds(part, motion, duration));
+  mover.whole = mover.parts.front();
+  for (const Bounds& part : mover.parts) {
+    mover.whole.low.setMin(part.low);
+    mover.whole.high.setMax(part.high);
+  }
+  return mover;
+}
+
+std::vector<BulletWorld::Mover> BulletWorld::movers(double dt) const {
+  std::vector<Mover> result;
+  for (const BodyId id : order_) {
+    const Body& one = body(id.value);
+    if (one.rigid->isActive()) result.push_back(mover_of(one, motion_of(one, dt), dt));
+  }
+  return result;
+}
+
+namespace {
+
+Contact contact_of(const Solid& body, std::int64_t tag, const Solid& other, std::int64_t other_tag,
+                   const Touch& touch) {
+  Contact contact;
+  contact.body.value = body.id;
+  contact.part_tag = tag;
+  contact.other = touched(other, other_tag);
+  contact.point = from_bullet(touch.point);
+  contact.normal = from_bullet(touch.normal);
+  contact.approach_speed = touch.approach_speed;
+  contact.time = touch.time;
+  contact.corner_count = touch.corner_count;
+  for (int i = 0; i < touch.corner_count; ++i)
+    contact.corners[static_cast<std::size_t>(i)] = from_bullet(touch.corners[i]);
+  return contact;
+}
+
+/// The body with the lower id comes first: turns the contact round when that is the other one.
+void put_lower_first(Contact& contact) {
+  if (contact.other.kind != Touched::Kind::body || contact.body < contact.other.body) return;
+  std::swap(contact.body, contact.other.body);
+  std::swap(contact.part_tag, contact.other.part_tag);
+  contact.normal = -contact.normal;
+}
+
+}  // namespace
+
+void BulletWorld::sweep_pair(const Mover& mover, const Solid& other, const Motion& other_motion, double dt,
+                             std::vector<Contact>& found) const {
+  if (!mover.body->object->checkCollideWith(other.object) || !other.object->checkCollideWith(mover.body->object))
+    return;
+  find_touches(mover, other, other_motion, dt, found);
+}
+
+/// Of each part of the one with each part of the other.
+void BulletWorld::find_touches(const Mover& mover, const Solid& other, const Motion& other_motion, double dt,
+                               std::vector<Contact>& found) {
+  for (const SolidPart& other_part : other.parts) {
+    const Bounds other_bounds = swept_bounds(other_part, other_motion, dt);
+    if (!other_bounds.meets(mover.whole)) continue;
+    for (std::size_t i = 0; i < mover.parts.size(); ++i) {
+      if (!mover.parts[i].meets(other_bounds)) continue;
+      const SolidPart& part = mover.body->parts[i];
+      const std::optional<Touch> touch = first_touch(part, mover.motion, other_part, other_motion, dt);
+      if (touch) found.push_back(contact_of(*mover.body, part.tag, other, other_part.tag, *touch));
+    }
+  }
+}
+
+/// Whether they meet within this step or the next, faster than what rests does: one that is about to go through the
+/// other. (This step alone would not do: who is told at the end of a step to pass has yet to arrive.)
+bool BulletWorld::still_to_pass(const Body& first, const Solid& other, bool other_moves, double dt) const {
+  const double ahead = 2 * dt;
+  Motion other_motion;
+  other_motion.start = other.object->getWorldTransform();
+  if (other_moves) other_motion = motion_of(static_cast<const Body&>(other), dt);
+  const double resting_speed = 2 * world_.getGravity().length() * dt;
+  std::vector<Contact> found;
+  find_touches(mover_of(first, motion_of(first, dt), ahead), other, other_motion, ahead, found);
+  return std::any_of(found.begin(), found.end(),
+                     [&](const Contact& contact) { return contact.approach_speed > resting_speed; });
+}
+
+void BulletWorld::sweep_ground(const Mover& mover, double dt, std::vector<Contact>& found) const {
+  if (!ground_object_ || mover.whole.low.z() > ground_height_) return;
+  for (std::size_t i = 0; i < mover.parts.size(); ++i) {
+    if (mover.parts[i].low.z() > ground_height_) continue;
+    const SolidPart& part = mover.body->parts[i];
+    const std::optional<Touch> touch = first_touch_of_ground(part, mover.motion, ground_height_, dt);
+    if (touch) found.push_back(contact_of(*mover.body, part.tag, ground_, -1, *touch));
+  }
+}
+
+void BulletWorld::sweep_standing(const Mover& mover, Sweep what, double dt, std::vector<Contact>& found) const {
+  Candidates candidates;
+  // Bullet's query changes nothing, but is not declared so.
+  const_cast<btDbvtBroadphase&>(broadphase_).aabbTest(mover.whole.low, mover.whole.high, candidates);
+  for (const Solid* other : candidates.solids) {
+    if (other->kind == Touched::Kind::ground) continue;
+    if (other->kind == Touched::Kind::body && (what == Sweep::obstacles || other->object->isActive())) continue;
+    Motion still;
+    still.start = other->object->getWorldTransform();
+    sweep_pair(mover, *other, still, dt, found);
+  }
+}
+
+void BulletWorld::sweep_movers(const std::vector<Mover>& movers, double dt, std::vector<Contact>& found) const {
+  std::vector<const Mover*> by_x;
+  for (const Mover& mover : movers) by_x.push_back(&mover);
+  std::sort(by_x.begin(), by_x.end(), [](const Mover* a, const Mover* b) {
+    return std::make_tuple(a->whole.low.x(), a->body->id) < std::make_tuple(b->whole.low.x(), b->body->id);
+  });
+  for (std::size_t i = 0; i < by_x.size(); ++i) {
+    for (std::size_t j = i + 1; j < by_x.size() && by_x[j]->whole.low.x() <= by_x[i]->whole.high.x(); ++j) {
+      if (!by_x[i]->whole.meets(by_x[j]->whole)) continue;
+      const bool forward = by_x[i]->body->id < by_x[j]->body->id;
+      const Mover &first = *by_x[forward ? i : j], &second = *by_x[forward ? j : i];
+      sweep_pair(first, *second.body, second.motion, dt, found);
+    }
+  }
+}
+
+std::vector<Contact> BulletWorld::sweep(double dt, Sweep what) {
+  if (!(dt > 0) || !std::isfinite(dt))
+    throw std::invalid_argument("sweep of " + std::to_string(dt) + " s; it must be above zero");
+  release_separated(dt);
+  std::vector<Contact> found;
+  if (what == Sweep::obstacles && obstacles_.empty()) return found;
+  const std::vector<Mover> awake = movers(dt);
+  for (const Mover& mover : awake) sweep_standing(mover, what, dt, found);
+  if (what == Sweep::everything) {
+    for (const Mover& mover : awake) sweep_ground(mover, dt, found);
+    sweep_movers(awake, dt, found);
+  }
+  for (Contact& contact : found) {
+    put_lower_first(contact);
+    contact.persistent = std::binary_search(touching_.begin(), touching_.end(), contact, before_by_parts);
+  }
+  std::sort(found.begin(), found.end(), [](const Contact& a, const Contact& b) {
+    if (a.time != b.time) return a.time < b.time;
+    return before_by_parts(a, b);
+  });
+  return found;
+}
+
+std::optional<RayHit> BulletWorld::ray_cast(const Vec3& from, const Vec3& to) const {
+  NearestHit hit(to_bullet(from), to_bullet(to));
+  hit.m_collisionFilterMask = btBroadphaseProxy::AllFilter;
+  world_.rayTest(hit.m_rayFromWorld, hit.m_rayToWorld, hit);
+  if (!hit.hasHit()) return std::nullopt;
+  const auto& solid = *static_cast<const Solid*>(hit.m_collisionObject->getUserPointer());
+  RayHit result;
+  result.what =
+      touched(solid, solid.kind == Touched::Kind::ground ? -1 : solid.part(solid.compound ? hit.child : -1).tag);
+  result.point = from_bullet(hit.m_hitPointWorld);
+  result.normal = from_bullet(hit.m_hitNormalWorld).normalized();
+  result.distance = (result.point - from).norm();
+  return result;
+}
+
+std::vector<ObstacleId> BulletWorld::obstacles_in(const Vec3& low, const Vec3& high) const {
+  Candidates candidates;
+  const_cast<btDbvtBroadphase&>(broadphase_).aabbTest(to_bullet(low), to_bullet(high), candidates);
+  std::vector<ObstacleId> result;
+  for (const Solid* solid : candidates.solids) {
+    if (solid->kind == Touched::Kind::obstacle) result.push_back({solid->id});
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+}  // namespace topple::collision

@@ -1,0 +1,191 @@
+#include "contacts/first_touch.h"
+
+#include <BulletCollision/CollisionShapes/btPolyhedralConvexShape.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
+#include <BulletCollision/NarrowPhaseCollision/btPointCollector.h>
+#include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "contacts/contact_area.h"
+
+namespace topple::collision {
+
+namespace {
+
+/// Parts nearer than this (m) touch. What is left is gone through at the approach speed, so times are exact to second
+/// order.
+constexpr double kTouching = 1e-4;
+/// No advance is shorter than it takes to close by this (m): slow pairs, such as those at rest, take few. What it
+/// oversteps is taken back with the approach speed.
+constexpr double kLeastClosing = 5e-4;
+/// No advance is shorter than this share of the duration: bounds the work for a part that spins just above another.
+constexpr double kLeastAdvance = 1.0 / 256;
+
+struct Closest {
+  double distance = BT_LARGE_FLOAT;
+  btVector3 normal{0, 0, 0};  // from the first into the second
+  btVector3 point{0, 0, 0};   // on the second
+};
+
+Closest closest_points(const SolidPart& first, const btTransform& first_pose, const SolidPart& second,
+                       const btTransform& second_pose) {
+  btVoronoiSimplexSolver simplex;
+  btGjkEpaPenetrationDepthSolver penetration;
+  btGjkPairDetector detector(first.shape.get(), second.shape.get(), &simplex, &penetration);
+  btGjkPairDetector::ClosestPointInput input;
+  input.m_transformA = first_pose * first.local;
+  input.m_transformB = second_pose * second.local;
+  btPointCollector found;
+  detector.getClosestPoints(input, found, nullptr);
+  if (!found.m_hasResult) return {};
+  return {found.m_distance, -found.m_normalOnBInWorld, found.m_pointInWorld};
+}
+
+/// No point of the part closes faster than this along n by its turning alone.
+double turning_bound(const SolidPart& part, const Motion& motion, const btVector3& normal) {
+  return motion.angular_velocity.cross(normal).length() * part.reach;
+}
+
+/// Largest closing speed of the origins along n from `time` on. It is linear in time, so it is at an end.
+double origins_bound(const Motion& first, const Motion& second, const btVector3& normal, double time, double duration) {
+  const auto closing = [&](double t) { return (first.velocity_at(t) - second.velocity_at(t)).dot(normal); };
+  return std::max(closing(time), closing(duration));
+}
+
+/// What advance() asks about a pair; the second may be the ground.
+struct Pair {
+  virtual ~Pair() = default;
+  [[nodiscard]] virtual Closest closest(double time) const = 0;
+  /// No point closes faster than this along n from `time` to the end.
+  [[nodiscard]] virtual double closing_bound(const btVector3& normal, double time) const = 0;
+  [[nodiscard]] virtual double approach_speed(const btVector3& normal, const btVector3& point, double time) const = 0;
+};
+
+std::optional<Touch> advance(const Pair& pair, double duration) {
+  double time = 0;
+  while (time <= duration) {
+    const Closest closest = pair.closest(time);
+    if (closest.distance >= BT_LARGE_FLOAT) return std::nullopt;
+    if (closest.distance <= kTouching) {
+      const double speed = pair.approach_speed(closest.normal, closest.point, time);
+      if (speed > 0) {
+        Touch touch;
+        touch.time = std::clamp(time + closest.distance / speed, 0.0, duration);
+        touch.normal = closest.normal;
+        touch.point = closest.point;
+        return touch;
+      }
+    }
+    const double bound = pair.closing_bound(closest.normal, time);
+    if (!(bound > 0)) return std::nullopt;
+    time += std::max({(closest.distance - kTouching / 2) / bound, kLeastClosing / bound, kLeastAdvance * duration});
+  }
+  return std::nullopt;
+}
+
+struct PartPair : Pair {
+  const SolidPart &first, &second;
+  const Motion &first_motion, &second_motion;
+  double duration;
+  PartPair(const SolidPart& a, const Motion& a_motion, const SolidPart& b, const Motion& b_motion, double time)
+      : first(a), second(b), first_motion(a_motion), second_motion(b_motion), duration(time) {}
+  [[nodiscard]] Closest closest(double time) const override {
+    return closest_points(first, first_motion.at(time), second, second_motion.at(time));
+  }
+  [[nodiscard]] double closing_bound(const btVector3& normal, double time) const override {
+    return origins_bound(first_motion, second_motion, normal, time, duration) +
+           turning_bound(first, first_motion, normal) + turning_bound(second, second_motion, normal);
+  }
+  [[nodiscard]] double approach_speed(const btVector3& normal, const btVector3& point, double time) const override {
+    return (first_motion.point_velocity(point, time) - second_motion.point_velocity(point, time)).dot(normal);
+  }
+};
+
+struct GroundPair : Pair {
+  const SolidPart& part;
+  const Motion& motion;
+  double height, duration;
+  GroundPair(const SolidPart& a, const Motion& a_motion, double ground, double time)
+      : part(a), motion(a_motion), height(ground), duration(time) {}
+  [[nodiscard]] Closest closest(double time) const override {
+    const LowestPoints lowest = lowest_points(part, motion.at(time), 0);
+    return {lowest.height - height, {0, 0, -1}, lowest.points[0]};
+  }
+  [[nodiscard]] double closing_bound(const btVector3& normal, double time) const override {
+    return origins_bound(motion, Motion{}, normal, time, duration) + turning_bound(part, motion, normal);
+  }
+  [[nodiscard]] double approach_speed(const btVector3& normal, const btVector3& point, double time) const override {
+    return motion.point_velocity(point, time).dot(normal);
+  }
+};
+
+}  // namespace
+
+btTransform Motion::at(double time) const {
+  btTransform pose = start;
+  const btScalar rate = angular_velocity.length();
+  if (rate * time > 0)
+    pose.setBasis(btMatrix3x3(btQuaternion(angular_velocity / rate, rate * time)) * start.getBasis());
+  pose.setOrigin(start.getOrigin() + velocity * time + acceleration * (time * time / 2));
+  return pose;
+}
+
+btVector3 Motion::point_velocity(const btVector3& point, double time) const {
+  const btVector3 centre = start.getOrigin() + velocity * time + acceleration * (time * time / 2);
+  return velocity_at(time) + angular_velocity.cross(point - centre);
+}
+
+LowestPoints lowest_points(const SolidPart& part, const btTransform& pose, double band) {
+  LowestPoints lowest;
+  const btTransform placed = pose * part.local;
+  if (!part.shape->isPolyhedral()) {
+    lowest.points.push_back(placed.getOrigin() -
+                            btVector3(0, 0, part.shape->getMargin()));  // a sphere's margin is its radius
+    lowest.height = lowest.points[0].z();
+    return lowest;
+  }
+  const auto& polyhedron = static_cast<const btPolyhedralConvexShape&>(*part.shape);
+  const btScalar skin = polyhedron.getShapeType() == BOX_SHAPE_PROXYTYPE ? 0 : polyhedron.getMargin();
+  btAlignedObjectArray<btVector3> vertices;
+  lowest.height = BT_LARGE_FLOAT;
+  for (int i = 0; i < polyhedron.getNumVertices(); ++i) {
+    btVector3 vertex;
+    polyhedron.getVertex(i, vertex);
+    vertices.push_back(placed * vertex - btVector3(0, 0, skin));
+    lowest.height = std::min<double>(lowest.height, vertices[i].z());
+  }
+  for (int i = 0; i < vertices.size(); ++i) {
+    if (vertices[i].z() <= lowest.height + band) lowest.points.push_back(vertices[i]);
+  }
+  return lowest;
+}
+
+std::optional<Touch> first_touch(const SolidPart& first, const Motion& first_motion, const SolidPart& second,
+                                 const Motion& second_motion, double duration) {
+  const PartPair pair(first, first_motion, second, second_motion, duration);
+  std::optional<Touch> touch = advance(pair, duration);
+  if (!touch) return touch;
+  find_contact_area(first, first_motion.at(touch->time), second, second_motion.at(touch->time), *touch);
+  touch->approach_speed = pair.approach_speed(touch->normal, touch->point, touch->time);
+  return touch;
+}
+
+std::optional<Touch> first_touch_of_ground(const SolidPart& part, const Motion& motion, double height,
+                                           double duration) {
+  const GroundPair pair(part, motion, height, duration);
+  std::optional<Touch> touch = advance(pair, duration);
+  if (!touch) return touch;
+  set_contact_area(lowest_points(part, motion.at(touch->time), kContactBand).points, *touch);
+  touch->approach_speed = pair.approach_speed(touch->normal, touch->point, touch->time);
+  return touch;
+}
+
+double distance(const SolidPart& first, const btTransform& first_pose, const SolidPart& second,
+                const btTransform& second_pose) {
+  return closest_points(first, first_pose, second, second_pose).distance;
+}
+
+}  // namespace topple::collision

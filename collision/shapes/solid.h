@@ -1,0 +1,62 @@
+#pragma once
+// What lies in the Bullet world: the convex parts of a body, an obstacle or the ground, as Bullet shapes.
+#include <BulletCollision/CollisionShapes/btCompoundShape.h>
+#include <BulletCollision/CollisionShapes/btConvexShape.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bullet/bullet_types.h"
+#include "shapes/polyhedron_store.h"
+
+class btCollisionObject;
+
+namespace topple::collision {
+
+/// Hulls and boxes touch through a skin of this thickness (m). Thick enough that resting contacts stay out of the
+/// costly search for penetration depth, thin enough that nobody sees the gap of a hull: its skin lies outside.
+inline constexpr double kSkin = 0.002;
+
+/// One convex part in the frame of its solid's Bullet transform.
+struct SolidPart {
+  std::unique_ptr<btConvexShape> shape;
+  btTransform local = btTransform::getIdentity();
+  std::int64_t tag = -1;
+  double reach = 0;      ///< no point of it is farther from the solid's origin, m
+  double thickness = 0;  ///< least width across any of its faces, m
+};
+
+struct Solid {
+  Touched::Kind kind = Touched::Kind::ground;
+  std::int64_t id = -1;
+  std::vector<SolidPart> parts;
+  std::unique_ptr<btCompoundShape> compound;       ///< none when one part fills the frame
+  btTransform frame = btTransform::getIdentity();  ///< of Bullet's transform in the caller's (a rotation)
+  bool turned = false;                             ///< the frame is not the identity
+  btCollisionObject* object = nullptr;
+  double reach = 0;
+
+  [[nodiscard]] btCollisionShape* shape() const {
+    return compound ? static_cast<btCollisionShape*>(compound.get()) : parts.front().shape.get();
+  }
+  /// The part of a Bullet child index, -1 being the only one.
+  [[nodiscard]] const SolidPart& part(int index) const {
+    return parts[index < 0 ? 0 : static_cast<std::size_t>(index)];
+  }
+};
+
+/// The frame of a description of one box that lies about the origin: in it the box is no compound, which pairs cost
+/// several times as much. None for any other.
+[[nodiscard]] std::optional<btTransform> frame_of_only_box(const std::vector<ConvexPart>& description);
+
+/// Makes the parts of a solid whose frame is known. Throws std::invalid_argument naming
+/// `owner` and the part's tag for a part of no volume or with a number that is not finite, and for no part at all.
+void make_parts(const std::vector<ConvexPart>& description, const std::string& owner, PolyhedronStore& polyhedra,
+                Solid& solid);
+
+/// The number of a child from a ray or contact of a solid with several parts; the part nearest to a global point.
+[[nodiscard]] int nearest_part(const Solid& solid, const btTransform& pose, const btVector3& point);
+
+}  // namespace topple::collision

@@ -1,0 +1,572 @@
+#include "assembly/frame_system.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+#include "elements/second_order_beam.h"
+#include "factor/ordering.h"
+
+namespace topple::solver {
+namespace {
+
+void check_patch(const Patch& patch, std::size_t index, int nodes) {
+  const std::string name = "patch " + std::to_string(index);
+  const auto size = static_cast<Eigen::Index>(6 * patch.node.size());
+  for (const int node : patch.node)
+    if (node < 0 || node >= nodes)
+      throw std::invalid_argument(name + ": node " + std::to_string(node) + " does not exist");
+  if (patch.stiffness.rows() != size || patch.stiffness.cols() != size || !patch.stiffness.allFinite())
+    throw std::invalid_argument(name + ": its stiffness is not a finite matrix of six freedoms for each node");
+}
+
+FrameModel checked(FrameModel model) {
+  const int nodes = static_cast<int>(model.nodes.size());
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    if (!model.nodes[i].allFinite()) throw std::invalid_argument("node " + std::to_string(i) + " is not finite");
+  }
+  for (std::size_t i = 0; i < model.beams.size(); ++i) check_beam(model.beams[i], static_cast<int>(i), nodes);
+  for (std::size_t i = 0; i < model.shells.size(); ++i) {
+    check_shell(model.shells[i], static_cast<int>(i), model.nodes);
+  }
+  for (std::size_t i = 0; i < model.patches.size(); ++i) check_patch(model.patches[i], i, nodes);
+  return model;
+}
+
+ScatterMap make_scatter(const FrameModel& model, const DofMap& dofs) {
+  std::vector<int> freedoms;
+  std::vector<std::int64_t> start{0};
+  const auto add = [&](std::span<const int> nodes) {
+    for (int node : nodes) {
+      const auto& numbers = dofs.number[static_cast<std::size_t>(node)];
+      freedoms.insert(freedoms.end(), numbers.begin(), numbers.end());
+    }
+    start.push_back(static_cast<std::int64_t>(freedoms.size()));
+  };
+  for (const Beam& beam : model.beams) add(beam.node);
+  for (const Shell& shell : model.shells) add(shell.node);
+  for (const Patch& patch : model.patches) add(patch.node);
+  // A node without elements still couples with its diaphragm; in one element of its own it keeps its place.
+  for (const Diaphragm& diaphragm : model.diaphragms) {
+    for (int node : diaphragm.nodes) add(std::span(&node, 1));
+  }
+  return {dofs, std::move(freedoms), std::move(start)};
+}
+
+}  // namespace
+
+std::string list_nodes(std::span<const int> nodes) {
+  constexpr std::size_t shown = 5;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(nodes.size(), shown); ++i) {
+    text += (i > 0 ? ", node " : "node ") + std::to_string(nodes[i]);
+  }
+  if (nodes.size() > shown) text += " and " + std::to_string(nodes.size() - shown) + " more";
+  return text;
+}
+
+FrameSystem::FrameSystem(FrameModel given)
+    : model(checked(std::move(given))),
+      beam_factor(model.beams.size(), 1.0),
+      beam_stands(model.beams.size(), 1),
+      shell_stands(model.shells.size(), 1),
+      node_stands(model.nodes.size(), 1),
+      support_(support_stiffness(model)),
+      dofs_(model),
+      scatter_(make_scatter(model, dofs_)),
+      elements_of_node_(model.nodes.size()),
+      matrix_(scatter_.empty_matrix()),
+      scale_(static_cast<std::size_t>(dofs_.equations), 1.0),
+      inert_(model.nodes.size()) {
+  int element = 0;
+  const auto belongs = [&](std::span<const int> nodes) {
+    for (int node : nodes) elements_of_node_[static_cast<std::size_t>(node)].push_back(element);
+    ++element;
+  };
+  for (const Beam& beam : model.beams) belongs(beam.node);
+  for (const Shell& shell : model.shells) belongs(shell.node);
+  for (const Patch& patch : model.patches) belongs(patch.node);
+  for (const Diaphragm& diaphragm : model.diaphragms) {
+    for (int node : diaphragm.nodes) belongs(std::span(&node, 1));
+  }
+}
+
+std::span<const int> FrameSystem::beams_of_node(int node) const {
+  const auto& elements = elements_of_node_[static_cast<std::size_t>(node)];  // in order: beams first
+  const auto end = std::lower_bound(elements.begin(), elements.end(), static_cast<int>(model.beams.size()));
+  return {elements.begin(), end};
+}
+
+void FrameSystem::elements_of_vertex(int vertex, std::vector<int>& elements) const {
+  const auto v = static_cast<std::size_t>(vertex);
+  const auto append = [&](std::size_t node) {
+    elements.insert(elements.end(), elements_of_node_[node].begin(), elements_of_node_[node].end());
+  };
+  if (v < model.nodes.size()) return append(v);
+  for (const int node : model.diaphragms[v - model.nodes.size()].nodes) append(static_cast<std::size_t>(node));
+}
+
+/// Of the node's elements those from `first` on, `count` of that kind, counted from 0.
+std::vector<int> FrameSystem::numbers_of_node(int node, std::size_t first, std::size_t count) const {
+  std::vector<int> numbers;
+  for (int element : elements_of_node_[static_cast<std::size_t>(node)]) {
+    const auto e = static_cast<std::size_t>(element);
+    if (e >= first && e < first + count) numbers.push_back(static_cast<int>(e - first));
+  }
+  return numbers;
+}
+
+std::vector<int> FrameSystem::shells_of_node(int node) const {
+  return numbers_of_node(node, element_of_shell(0), model.shells.size());
+}
+
+std::vector<int> FrameSystem::patches_of_node(int node) const {
+  return numbers_of_node(node, element_of_patch(0), model.patches.size());
+}
+
+std::vector<int> FrameSystem::elimination_order() const {
+  std::vector<int> active, index(static_cast<std::size_t>(dofs_.vertices()), -1), freedoms;
+  for (int v = 0; v < dofs_.vertices(); ++v) {
+    const auto n = static_cast<std::size_t>(v);
+    if (dofs_.first_equation[n + 1] == dofs_.first_equation[n]) continue;
+    index[n] = static_cast<int>(active.size());
+    active.push_back(v);
+    freedoms.push_back(dofs_.first_equation[n + 1] - dofs_.first_equation[n]);
+  }
+  std::vector<std::pair<int, int>> edges;
+  edges.reserve(scatter_.edges().size());
+  for (const auto& [v, w] : scatter_.edges()) {
+    edges.emplace_back(index[static_cast<std::size_t>(v)], index[static_cast<std::size_t>(w)]);
+  }
+  std::vector<int> order;
+  order.reserve(static_cast<std::size_t>(dofs_.equations));
+  for (int a : order_nodes(static_cast<int>(active.size()), edges, freedoms)) {
+    const auto v = static_cast<std::size_t>(active[static_cast<std::size_t>(a)]);
+    for (int e = dofs_.first_equation[v]; e < dofs_.first_equation[v + 1]; ++e) order.push_back(e);
+  }
+  return order;
+}
+
+Mat12 FrameSystem::hub_stiffness(std::size_t i) const {
+  if (second_order == nullptr) return CondensedBeam(model.beams[i], beam_factor[i]).stiffness();
+  return SecondOrderBeam(model.beams[i], beam_factor[i], second_order->mode, second_order->first_axial[i],
+                         second_order->loads[i], ends_apart(static_cast<int>(i)))
+      .stiffness();
+}
+
+double FrameSystem::ends_apart(int index) const {
+  const Beam& beam = model.beams[static_cast<std::size_t>(index)];
+  const auto place = [&](std::size_t end) -> Vec3 {
+    return model.nodes[static_cast<std::size_t>(beam.node[end])] + beam.offset[end];
+  };
+  const double apart = (place(1) - place(0)).norm();
+  constexpr double rounding = 1e-9;
+  return apart > (1 + rounding) * beam.length ? apart : beam.length;
+}
+
+Mat12 FrameSystem::beam_stiffness(int index) const {
+  const auto i = static_cast<std::size_t>(index);
+  if (beam_stands[i] == 0) return Mat12::Zero();
+  const Beam& beam = model.beams[i];
+  std::array<Mat3, 2> arm;
+  for (std::size_t end = 0; end < 2; ++end) {
+    arm[end] = arm_matrix(beam.offset[end]) + dofs_.diaphragm_arm(beam.node[end]);
+  }
+  return to_node_freedoms(beam.axes, hub_stiffness(i), arm);
+}
+
+const Mat24& FrameSystem::shell_node_stiffness(int index) const {
+  if (const auto given = model.shell_stiffness.find(index); given != model.shell_stiffness.end()) return given->second;
+  const Shell& shell = model.shells[static_cast<std::size_t>(index)];
+  const std::array<Vec3, 4> corners = corner_places(shell, model.nodes);
+  const bool kept = kept_shell_.thickness == shell.thickness && kept_shell_.youngs_modulus == shell.youngs_modulus &&
+                    kept_shell_.poisson_ratio == shell.poisson_ratio && kept_shell_.bending == shell.bending &&
+                    kept_corners_ == corners;
+  if (!kept) {
+    kept_shell_ = shell;
+    kept_corners_ = corners;
+    kept_stiffness_ = ShellElement(shell, corners).stiffness();
+  }
+  return kept_stiffness_;
+}
+
+Mat24 FrameSystem::shell_stiffness(int index) const {
+  const auto i = static_cast<std::size_t>(index);
+  if (shell_stands[i] == 0) return Mat24::Zero();
+  Mat24 K = shell_node_stiffness(index);
+  if (shells_pushed() && hanging(index) == nullptr) K += shell_geometric_stiffness(index);
+  add_diaphragm_arms(model.shells[i].node, K);
+  return K;
+}
+
+Eigen::MatrixXd FrameSystem::patch_node_stiffness(std::size_t patch) const {
+  Eigen::MatrixXd K = model.patches[patch].stiffness;
+  if (shells_pushed())
+    if (const HangingShell* shell = hanging_on_patch(second_order->hanging, static_cast<int>(patch)))
+      K += shell->corners.transpose() * shell_geometric_stiffness(shell->shell) * shell->corners;
+  const std::vector<int>& nodes = model.patches[patch].node;
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    if (node_stands[static_cast<std::size_t>(nodes[n])] != 0) continue;
+    K.middleRows<6>(static_cast<Eigen::Index>(6 * n)).setZero();
+    K.middleCols<6>(static_cast<Eigen::Index>(6 * n)).setZero();
+  }
+  return K;
+}
+
+Eigen::MatrixXd FrameSystem::patch_stiffness(int index) const {
+  const auto i = static_cast<std::size_t>(index);
+  Eigen::MatrixXd K = patch_node_stiffness(i);
+  add_diaphragm_arms(model.patches[i].node, K);
+  return K;
+}
+
+Eigen::MatrixXd FrameSystem::plate_stiffness(std::size_t element) const {
+  if (element < element_of_patch(0)) return shell_stiffness(static_cast<int>(element - element_of_shell(0)));
+  return patch_stiffness(static_cast<int>(element - element_of_patch(0)));
+}
+
+std::span<const int> FrameSystem::plate_nodes(std::size_t element) const {
+  if (element < element_of_patch(0)) return model.shells[element - element_of_shell(0)].node;
+  return model.patches[element - element_of_patch(0)].node;
+}
+
+const HangingShell* FrameSystem::hanging(int shell) const {
+  return second_order == nullptr ? nullptr : hanging_shell(second_order->hanging, shell);
+}
+
+Vec24 FrameSystem::corner_displacements(int index, const std::vector<Vec6>& displacements) const {
+  const HangingShell* hung = hanging(index);
+  if (hung == nullptr) {
+    Vec24 u;
+    const auto& nodes = model.shells[static_cast<std::size_t>(index)].node;
+    for (int n = 0; n < 4; ++n)
+      u.segment<6>(6 * n) = displacements[static_cast<std::size_t>(nodes[static_cast<std::size_t>(n)])];
+    return u;
+  }
+  const std::vector<int>& nodes = model.patches[static_cast<std::size_t>(hung->patch)].node;
+  Eigen::VectorXd all(static_cast<Eigen::Index>(6 * nodes.size()));
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+    all.segment<6>(static_cast<Eigen::Index>(6 * n)) = displacements[static_cast<std::size_t>(nodes[n])];
+  return hung->corners * all;
+}
+
+Mat24 FrameSystem::shell_geometric_stiffness(int index) const {
+  const auto i = static_cast<std::size_t>(index);
+  const Shell& shell = model.shells[i];
+  Vec24 u = corner_displacements(index, second_order->shell_displacements);
+  const Vec3 origin = u.head<3>();
+  for (int n = 0; n < 4; ++n) u.segment<3>(6 * n) -= origin;
+  const double strain = second_order->shell_strain.empty() ? 0 : second_order->shell_strain[i];
+  return second_order->shell_factor *
+         ShellElement(shell, corner_places(shell, model.nodes)).geometric_stiffness(u, strain);
+}
+
+void FrameSystem::add_diaphragm_arms(std::span<const int> nodes, Eigen::Ref<Eigen::MatrixXd> K) const {
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    if (dofs_.diaphragm_of_node[static_cast<std::size_t>(nodes[k])] < 0) continue;
+    const Mat3 C = dofs_.diaphragm_arm(nodes[k]);
+    const auto n = static_cast<Eigen::Index>(6 * k);
+    K.middleRows<3>(n + 3) += C.transpose() * K.middleRows<3>(n);
+    K.middleCols<3>(n + 3) += K.middleCols<3>(n) * C;
+  }
+}
+
+void FrameSystem::add_element(std::size_t element, const std::vector<char>& wanted) {
+  const std::size_t beams = model.beams.size();
+  if (element < beams) {
+    if (beam_stands[element] == 0) return;
+    const Mat12 K = beam_stiffness(static_cast<int>(element));
+    scatter_.add(element, K.data(), scale_, wanted, matrix_);
+  } else if (element < beams + model.shells.size() && shell_stands[element - beams] != 0) {
+    const Mat24 K = shell_stiffness(static_cast<int>(element - beams));
+    scatter_.add(element, K.data(), scale_, wanted, matrix_);
+  } else if (element >= element_of_patch(0) && element < element_of_patch(0) + model.patches.size()) {
+    const Eigen::MatrixXd K = patch_stiffness(static_cast<int>(element - element_of_patch(0)));
+    scatter_.add(element, K.data(), scale_, wanted, matrix_);
+  }
+}
+
+double& FrameSystem::entry(int equation, int other) {
+  return matrix_.value[static_cast<std::size_t>(scatter_.position(equation, other))];
+}
+
+void FrameSystem::add_support_springs(int node) {
+  const auto n = static_cast<std::size_t>(node);
+  Mat6 G = Mat6::Identity();
+  G.topRightCorner<3, 3>() = dofs_.diaphragm_arm(node);
+  Vec6 k = support_[n];
+  for (int c = 0; c < 6; ++c) k(c) = std::isinf(k(c)) ? 0 : k(c);
+  if ((k.array() == 0).all()) return;
+  const Mat6 K = G.transpose() * k.asDiagonal() * G;
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j <= i; ++j) {
+      const int row = dofs_.number[n][static_cast<std::size_t>(i)],
+                column = dofs_.number[n][static_cast<std::size_t>(j)];
+      if (K(i, j) == 0 || row >= dofs_.equations || column >= dofs_.equations) continue;
+      entry(row, column) += K(i, j) * scale_[static_cast<std::size_t>(row)] * scale_[static_cast<std::size_t>(column)];
+    }
+  }
+}
+
+void FrameSystem::forget_inert_rotations(std::size_t node) {
+  if (inert_[node].count > 0) --inert_hubs_;
+  inert_[node].count = 0;
+}
+
+/// A hub turned about an axis that no element resists strains nothing, bears nothing and belongs to nobody: a node of a
+/// truss. It is held at zero, in any direction in space; unbalanced_load() refuses a moment about it.
+void FrameSystem::hold_inert_rotations(int node) {
+  constexpr double inert_limit = 1e-13;  // of the largest rotational stiffness at the node: rounding of rotated zeros
+  const auto n = static_cast<std::size_t>(node);
+  forget_inert_rotations(n);
+  std::array<int, 3> component{}, equation{};
+  std::size_t free = 0;
+  for (int c = 3; c < 6; ++c) {
+    const int e = dofs_.number[n][static_cast<std::size_t>(c)];
+    if (e >= dofs_.equations || (c == 5 && dofs_.diaphragm_of_node[n] >= 0)) continue;
+    component[free] = c - 3;
+    equation[free++] = e;
+  }
+  if (free == 0) return;
+  Mat3 block = Mat3::Zero();
+  for (std::size_t i = 0; i < free; ++i) {
+    for (std::size_t j = 0; j < free; ++j) {
+      block(component[i], component[j]) = entry(equation[i], equation[j]) /
+                                          scale_[static_cast<std::size_t>(equation[i])] /
+                                          scale_[static_cast<std::size_t>(equation[j])];
+    }
+  }
+  for (int c = 0; c < 3; ++c) {  // held components are not looked for
+    if (std::find(component.begin(), component.begin() + static_cast<std::ptrdiff_t>(free), c) ==
+        component.begin() + static_cast<std::ptrdiff_t>(free)) {
+      block(c, c) = std::numeric_limits<double>::infinity();
+    }
+  }
+  double largest = 0;
+  for (std::size_t i = 0; i < free; ++i) largest = std::max(largest, block(component[i], component[i]));
+  const double held = largest > 0 ? largest : 1 / std::pow(scale_[static_cast<std::size_t>(equation[0])], 2);
+  for (int c = 0; c < 3; ++c) {
+    if (std::isinf(block(c, c))) block(c, c) = held;
+  }
+  // A cheap test first: the determinant of a well-braced hub is far from zero.
+  if (largest > 0 && block.determinant() > 1e-9 * held * held * held) return;
+  const Eigen::SelfAdjointEigenSolver<Mat3> modes(block);
+  for (int m = 0; m < 3; ++m) {
+    if (std::abs(modes.eigenvalues()(m)) > inert_limit * held)
+      continue;  // below zero: a softened hub, not an inert one
+    const Vec3 d = modes.eigenvectors().col(m);
+    if (inert_[n].count == 0) ++inert_hubs_;
+    inert_[n].directions.col(inert_[n].count++) = d;
+    inert_[n].stiffness = held;
+    for (std::size_t i = 0; i < free; ++i) {
+      for (std::size_t j = 0; j <= i; ++j) {
+        entry(equation[i], equation[j]) += held * d(component[i]) * d(component[j]) *
+                                           scale_[static_cast<std::size_t>(equation[i])] *
+                                           scale_[static_cast<std::size_t>(equation[j])];
+      }
+    }
+  }
+}
+
+void FrameSystem::finish_node(int node) {
+  const auto n = static_cast<std::size_t>(node);
+  if (node_stands[n] == 0) {
+    for (int e = dofs_.first_equation[n]; e < dofs_.first_equation[n + 1]; ++e) entry(e, e) = 1;
+    forget_inert_rotations(n);
+    return;
+  }
+  add_support_springs(node);
+  hold_inert_rotations(node);
+}
+
+/// A diaphragm whose nodes have all left is held.
+void FrameSystem::finish_diaphragms(const std::vector<char>& wanted) {
+  for (std::size_t d = 0; d < model.diaphragms.size(); ++d) {
+    const std::size_t v = model.nodes.size() + d;
+    if (!wanted.empty() && wanted[v] == 0) continue;
+    const auto& nodes = model.diaphragms[d].nodes;
+    if (std::any_of(nodes.begin(), nodes.end(), [&](int n) { return node_stands[static_cast<std::size_t>(n)] != 0; }))
+      continue;
+    for (int e = dofs_.first_equation[v]; e < dofs_.first_equation[v + 1]; ++e) entry(e, e) = 1;
+  }
+}
+
+void FrameSystem::set_scale() {
+  for (int e = 0; e < dofs_.equations; ++e) {
+    const double diagonal = entry(e, e);
+    scale_[static_cast<std::size_t>(e)] = diagonal > 0 ? std::exp2(-std::round(std::log2(diagonal) / 2)) : 1.0;
+  }
+  for (int column = 0; column < dofs_.equations; ++column) {
+    const auto c = static_cast<std::size_t>(column);
+    for (auto k = matrix_.start[c]; k < matrix_.start[c + 1]; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      matrix_.value[i] *= scale_[c] * scale_[static_cast<std::size_t>(matrix_.row[i])];
+    }
+  }
+}
+
+void FrameSystem::set_support(int support, const Vec6& stiffness) {
+  model.supports[static_cast<std::size_t>(support)].stiffness = stiffness;
+  support_ = support_stiffness(model);
+}
+
+void FrameSystem::assemble() {
+  std::fill(matrix_.value.begin(), matrix_.value.end(), 0.0);
+  std::fill(scale_.begin(), scale_.end(), 1.0);
+  for (std::size_t i = 0; i < element_of_patch(0) + model.patches.size(); ++i) add_element(i, {});
+  for (std::size_t node = 0; node < model.nodes.size(); ++node) finish_node(static_cast<int>(node));
+  finish_diaphragms({});
+  set_scale();
+}
+
+void FrameSystem::want_node(int node) {
+  char& wanted = wanted_[static_cast<std::size_t>(node)];
+  if (wanted == 0) wanted_nodes_.push_back(node);
+  wanted = 1;
+}
+
+/// The vertices of these nodes; a diaphragm takes all of its nodes along.
+void FrameSystem::want_vertices_of(std::span<const int> nodes) {
+  wanted_.resize(static_cast<std::size_t>(dofs_.vertices()), 0);
+  wanted_nodes_.clear();
+  for (int node : nodes) {
+    want_node(node);
+    const int d = dofs_.diaphragm_of_node[static_cast<std::size_t>(node)];
+    if (d < 0) continue;
+    wanted_[model.nodes.size() + static_cast<std::size_t>(d)] = 1;
+    for (int other : model.diaphragms[static_cast<std::size_t>(d)].nodes) want_node(other);
+  }
+  std::sort(wanted_nodes_.begin(), wanted_nodes_.end());
+}
+
+// Entries are built again from zero, in the same order as in assemble(), and never subtracted from: what is released
+// leaves exact zeros, not rounding that would pass for stiffness.
+void FrameSystem::reassemble(std::span<const int> nodes) {
+  want_vertices_of(nodes);
+  wanted_elements_.clear();
+  for (const int n : wanted_nodes_) {
+    const auto node = static_cast<std::size_t>(n);
+    wanted_elements_.insert(wanted_elements_.end(), elements_of_node_[node].begin(), elements_of_node_[node].end());
+    for (int e = dofs_.first_equation[node]; e < dofs_.first_equation[node + 1]; ++e) {
+      for (int f = dofs_.first_equation[node]; f <= e; ++f) entry(e, f) = 0;
+    }
+  }
+  std::sort(wanted_elements_.begin(), wanted_elements_.end());
+  wanted_elements_.erase(std::unique(wanted_elements_.begin(), wanted_elements_.end()), wanted_elements_.end());
+  for (int element : wanted_elements_) scatter_.clear(static_cast<std::size_t>(element), wanted_, matrix_);
+  for (int element : wanted_elements_) add_element(static_cast<std::size_t>(element), wanted_);
+  for (const int node : wanted_nodes_) finish_node(node);
+  finish_diaphragms(wanted_);
+  for (const int node : wanted_nodes_) wanted_[static_cast<std::size_t>(node)] = 0;
+  std::fill(wanted_.begin() + static_cast<std::ptrdiff_t>(model.nodes.size()), wanted_.end(), char{0});
+}
+
+Mat6 FrameSystem::supports_and_inert_rotations(int node) const {
+  const auto n = static_cast<std::size_t>(node);
+  Mat6 K = Mat6::Zero();
+  if (node_stands[n] == 0) return K;
+  for (int c = 0; c < 6; ++c) K(c, c) = std::isinf(support_[n](c)) ? 0 : support_[n](c);
+  for (int k = 0; k < inert_[n].count; ++k) {
+    const Vec3 d = inert_[n].directions.col(k);
+    K.bottomRightCorner<3, 3>() += inert_[n].stiffness * d * d.transpose();
+  }
+  return K;
+}
+
+FrameSystem::NodeMatrix FrameSystem::own_stiffness(int node) const {
+  const auto n = static_cast<std::size_t>(node);
+  const int first = dofs_.first_equation[n], count = dofs_.first_equation[n + 1] - first;
+  const Mat6 K = supports_and_inert_rotations(node);
+  NodeMatrix own = NodeMatrix::Zero(count, count);
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) {
+      const int row = dofs_.number[n][static_cast<std::size_t>(i)] - first,
+                column = dofs_.number[n][static_cast<std::size_t>(j)] - first;
+      if (row < 0 || column < 0 || row >= count || column >= count) continue;
+      own(row, column) +=
+          K(i, j) * scale_[static_cast<std::size_t>(first + row)] * scale_[static_cast<std::size_t>(first + column)];
+    }
+  }
+  return own;
+}
+
+std::optional<Defect> FrameSystem::defect() const {
+  std::vector<int> nodes(model.nodes.size()), beams(model.beams.size());
+  std::iota(nodes.begin(), nodes.end(), 0);
+  std::iota(beams.begin(), beams.end(), 0);
+  return defect(nodes, beams);
+}
+
+std::optional<Defect> FrameSystem::defect(std::span<const int> nodes) const {
+  const auto sort_unique = [](std::vector<int>& values) {
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+  };
+  judged_nodes_.assign(nodes.begin(), nodes.end());
+  sort_unique(judged_nodes_);
+  judged_beams_.clear();
+  for (int node : judged_nodes_) {
+    const std::span<const int> here = beams_of_node(node);
+    judged_beams_.insert(judged_beams_.end(), here.begin(), here.end());
+  }
+  sort_unique(judged_beams_);
+  return defect(judged_nodes_, judged_beams_);
+}
+
+std::optional<Defect> FrameSystem::defect(std::span<const int> nodes, std::span<const int> beams) const {
+  std::optional<Defect> result = unheld_freedoms(nodes);
+  return result ? std::move(result) : loose_beams(beams);
+}
+
+std::optional<Defect> FrameSystem::unheld_freedoms(std::span<const int> nodes) const {
+  static const std::array<const char*, 6> names{"x", "y", "z", "rx", "ry", "rz"};
+  std::optional<Defect> result;
+  std::string components;
+  for (const int index : nodes) {
+    const auto node = static_cast<std::size_t>(index);
+    if (node_stands[node] == 0) continue;
+    for (std::size_t c = 0; c < 6; ++c) {
+      const int e = dofs_.number[node][c];
+      if (e >= dofs_.equations) continue;
+      const double diagonal = matrix_.value[static_cast<std::size_t>(matrix_.start[static_cast<std::size_t>(e)])];
+      if (diagonal > 0) continue;
+      if (!result) {
+        result.emplace();
+        result->motion.motion.assign(model.nodes.size(), Vec6::Zero());
+      }
+      std::vector<int>& isolated = result->motion.nodes;
+      if (isolated.empty() || isolated.back() != index) isolated.push_back(index);
+      if (isolated.size() == 1) components += std::string(components.empty() ? "" : ", ") + names[c];
+      result->motion.motion[node](static_cast<Eigen::Index>(c)) = 1;
+    }
+  }
+  if (result) {
+    const std::vector<int>& isolated = result->motion.nodes;
+    result->message = "unstable: nothing holds " + list_nodes(isolated) + " (node " + std::to_string(isolated[0]) +
+                      " in " + components + ")";
+  }
+  return result;
+}
+
+std::optional<Defect> FrameSystem::loose_beams(std::span<const int> beams) const {
+  std::optional<Defect> result;
+  for (const int beam : beams) {
+    const auto i = static_cast<std::size_t>(beam);
+    if (beam_stands[i] == 0 || !CondensedBeam(model.beams[i], beam_factor[i]).loose()) continue;
+    if (!result) {
+      result.emplace();
+      result->motion.motion.assign(model.nodes.size(), Vec6::Zero());
+    }
+    result->motion.beams.push_back(beam);
+  }
+  if (!result) return result;
+  const std::vector<int>& loose = result->motion.beams;
+  result->message = "unstable: beam " + std::to_string(loose[0]) + " can move by itself: its ends are released too far";
+  if (loose.size() > 1) result->message += " (and " + std::to_string(loose.size() - 1) + " more beams)";
+  return result;
+}
+
+}  // namespace topple::solver

@@ -1,0 +1,326 @@
+#include "topple/solver/buckling.h"
+
+#include <cmath>
+#include <map>
+#include <memory>
+#include <numeric>
+
+#include "assembly/frame_system.h"
+#include "assembly/mass_matrix.h"
+#include "eigen/buckling_start.h"
+#include "elements/second_order_beam.h"
+#include "factor/factor.h"
+#include "factor/ldl_factor.h"
+
+namespace topple::solver {
+namespace {
+
+constexpr double enclosed = 1e-11;        // relative width at which a factor counts as found
+constexpr double equal_to_newton = 2e-9;  // relative distance of factors whose shapes it mixes
+constexpr double same_factor = 1e-6;      // modes this close are sought apart from each other
+constexpr int inverse_iterations = 8;
+
+/// Members held at both ends buckle at 4 pi2 EI/L2 (less by shear); far below it there is nothing to count.
+bool cannot_buckle_between_rigid_ends(const Beam& beam, double axial, const std::vector<BeamLoad>& loads) {
+  if (!loads.empty()) return false;
+  for (const Vec6& end : beam.end_stiffness)
+    if (!(end.array() == rigid).all()) return false;
+  constexpr double pi = 3.14159265358979323846, far_below = 0.9;
+  for (const auto& [I, area] : {std::pair(beam.Iy, beam.shear_area_z), std::pair(beam.Iz, beam.shear_area_y)}) {
+    const double euler = 4 * pi * pi * beam.youngs_modulus * I / (beam.length * beam.length);
+    const double critical = area > 0 ? euler / (1 + euler / (beam.shear_modulus * area)) : euler;
+    if (-axial > far_below * critical) return false;
+  }
+  return true;
+}
+
+class Buckling {
+ public:
+  Buckling(const FrameModel& model, const LoadSet& loads, const AnalysisOptions& options,
+           const std::vector<HangingShell>& hanging)
+      : system_(model) {
+    StaticAnalysis linear(model, options);
+    const std::vector<StaticSolution> solution = linear.solve({&loads, 1});
+    for (const Vec12& forces : solution.front().beam_end_forces) first_axial_.push_back(-forces(0));
+    loads_.resize(model.beams.size());
+    for (const BeamLoad& load : loads.beams) loads_[static_cast<std::size_t>(load.beam)].push_back(load);
+    axial_.mode = SecondOrder::exact;
+    axial_.hanging = hanging;
+    if (!model.shells.empty()) {
+      axial_.shell_displacements = solution.front().displacements;
+      axial_.shell_strain = shell_strains(model, loads);
+    }
+    system_.assemble();
+    const std::vector<int> order = system_.elimination_order();
+    if (!order.empty()) ldl_ = std::make_unique<LdlFactor>(system_.matrix(), order);
+    system_.second_order = &axial_;
+  }
+
+  /// How many critical factors lie below this one. Leaves the factorised tangent behind when it is to be kept.
+  int below(double factor, bool keep = false) {
+    if (const auto known = counted_.find(factor); known != counted_.end() && !keep) return known->second;
+    return counted_[factor] = count_below(factor, keep);
+  }
+
+  /// What the counts made so far leave for the k-th factor: `high` stays when none has been beyond it.
+  void bracket(int k, double& low, double& high) const {
+    for (const auto& [factor, count] : counted_) {
+      if (count < k) {
+        low = std::max(low, factor);
+      } else {
+        high = factor;
+        break;
+      }
+    }
+  }
+
+  /// Estimates to begin with; none where members are not what is compressed.
+  [[nodiscard]] std::vector<BucklingStart> starts(int count, const AnalysisOptions& options) {
+    const double reference = reference_factor();
+    if (!ldl_ || !(reference > 0)) return {};
+    set_factor(0);
+    system_.assemble();
+    const SparseSymmetric K = system_.matrix();
+    const std::vector<double> scale(system_.scale().begin(), system_.scale().end());
+    constexpr double small = 1e-4;  // of the reference: what is lost is then linear to some digits
+    set_factor(small * reference);
+    system_.assemble();
+    SparseSymmetric G = system_.matrix();
+    for (std::size_t column = 0; column < scale.size(); ++column)
+      for (auto k = static_cast<std::size_t>(G.start[column]); k < static_cast<std::size_t>(G.start[column + 1]); ++k) {
+        const auto row = static_cast<std::size_t>(G.row[k]);
+        const double same = scale[row] / system_.scale()[row] * (scale[column] / system_.scale()[column]);
+        G.value[k] = (K.value[k] - G.value[k] * same) / (small * reference);
+      }
+    Factor factor(K, system_.elimination_order(), options.factorisation);
+    if (!factor.factorise(K).positive_definite) return {};
+    const auto times = [&](const Eigen::Ref<const Eigen::MatrixXd>& x) {
+      Eigen::MatrixXd y = Eigen::MatrixXd::Zero(x.rows(), x.cols());
+      multiply_symmetric(G, x, y);
+      return y;
+    };
+    return estimate_buckling({K.size, [&](Eigen::Ref<Eigen::MatrixXd> x) { factor.solve(x); }, times}, count);
+  }
+
+  /// From an estimate to the factor nearby: inverse iteration and Newton's method in turn, until it moves no more than
+  /// its square shows. Returns what is left of the doubt; the factor is proved by counts alone.
+  double sharpen(const BucklingStart& start, double& factor) {
+    constexpr int most = 6;
+    constexpr double close = 1e-7, lost = 0.5;
+    factor = start.factor;
+    displacement_ = start.vector.normalized();
+    double moved = factor;
+    for (int turn = 0; turn < most && std::abs(moved) > close * factor; ++turn) {
+      below(factor, true);
+      const double guess = newton(factor);
+      moved = guess - factor;
+      if (!(guess > 0) || !(std::abs(moved) < lost * factor)) return factor;
+      factor = guess;
+    }
+    return std::max(10 * moved * moved / factor, enclosed / 4 * factor);
+  }
+
+  int count_below(double factor, bool keep) {
+    set_factor(factor);
+    int count = 0;
+    for (std::size_t i = 0; i < first_axial_.size(); ++i) {
+      const Beam& beam = system_.model.beams[i];
+      if (cannot_buckle_between_rigid_ends(beam, axial_.first_axial[i], axial_.loads[i])) continue;
+      count += SecondOrderBeam(beam, 1, SecondOrder::exact, axial_.first_axial[i], axial_.loads[i]).buckled_modes();
+    }
+    if (!ldl_) return count;
+    system_.assemble();
+    return count + ldl_->factorise(system_.matrix(), keep);
+  }
+
+  /// After below(factor, true): where the tangent's eigenvalue nearest to zero vanishes, by Newton's method on its
+  /// Rayleigh quotient.
+  double newton(double factor) {
+    if (!ldl_) return factor;
+    constexpr int turns = 3;
+    constexpr double step = 1e-5;
+    if (displacement_.size() == 0) displacement_ = start();
+    Eigen::VectorXd x = displacement_;
+    for (int k = 0; k < turns; ++k) {
+      ldl_->solve(x);
+      x.normalize();
+    }
+    displacement_ = x;
+    const Eigen::VectorXd u = unscaled(x);
+    const double here = energy(u);
+    set_factor(factor * (1 + step));
+    system_.assemble();
+    return factor - here * step * factor / (energy(u) - here);
+  }
+
+  /// The shape at a factor hardly below a critical one, apart from the vectors in `known`.
+  std::vector<Vec6> shape(double factor, std::vector<Eigen::VectorXd>& known) {
+    std::vector<Vec6> shape(system_.model.nodes.size(), Vec6::Zero());
+    if (!ldl_) return shape;
+    assemble_in_unloaded_scale(factor);
+    ldl_->factorise(system_.matrix(), true);
+    Eigen::VectorXd x = start();
+    double growth = 0;
+    for (int k = 0; k < inverse_iterations; ++k) {
+      for (const Eigen::VectorXd& other : known) x -= other.dot(x) * other;
+      x.normalize();
+      ldl_->solve(x);
+      growth = x.norm();
+    }
+    for (const Eigen::VectorXd& other : known) x -= other.dot(x) * other;
+    x.normalize();
+    constexpr double singular = 1e5;  // what a vector grows by where the tangent is all but singular
+    if (growth < singular) return shape;
+    known.push_back(x);
+    return system_.shape(x);
+  }
+
+  [[nodiscard]] bool has_compression() const {
+    if (!system_.model.shells.empty()) return true;
+    for (std::size_t i = 0; i < first_axial_.size(); ++i)
+      if (first_axial_[i] < 0 || !loads_[i].empty()) return true;
+    return false;
+  }
+
+ private:
+  /// The tangent, each freedom scaled by what its stiffness is without load: by its own in the tangent, a freedom that
+  /// buckles alone (the middle of a post between held ends) would look as stiff as any other.
+  void assemble_in_unloaded_scale(double factor) {
+    set_factor(0);
+    system_.assemble();
+    set_factor(factor);
+    std::vector<int> nodes(system_.model.nodes.size());
+    std::iota(nodes.begin(), nodes.end(), 0);
+    system_.reassemble(nodes);
+  }
+
+  /// A vector without any symmetry of its own.
+  [[nodiscard]] Eigen::VectorXd start() const {
+    Eigen::VectorXd x(system_.dofs().equations);
+    for (Eigen::Index i = 0; i < x.size(); ++i) x(i) = std::sin(1.0 + 0.7 * static_cast<double>(i));
+    return x;
+  }
+
+  [[nodiscard]] Eigen::VectorXd unscaled(const Eigen::VectorXd& x) const {
+    Eigen::VectorXd u(x.size());
+    for (Eigen::Index i = 0; i < x.size(); ++i) u(i) = x(i) * system_.scale()[static_cast<std::size_t>(i)];
+    return u;
+  }
+
+  /// u K u of the tangent as it is assembled; its scale may be another one than the vector's.
+  [[nodiscard]] double energy(const Eigen::VectorXd& u) const {
+    Eigen::VectorXd x(u.size());
+    for (Eigen::Index i = 0; i < u.size(); ++i) x(i) = u(i) / system_.scale()[static_cast<std::size_t>(i)];
+    Eigen::MatrixXd force = Eigen::MatrixXd::Zero(u.size(), 1);
+    multiply_symmetric(system_.matrix(), x, force);
+    return x.dot(force.col(0));
+  }
+
+  void set_factor(double factor) {
+    axial_.first_axial = first_axial_;
+    axial_.loads = loads_;
+    axial_.shell_factor = factor;
+    for (double& n : axial_.first_axial) n *= factor;
+    for (auto& list : axial_.loads)
+      for (BeamLoad& load : list) {
+        load.first *= factor;
+        load.last *= factor;
+      }
+  }
+
+  /// The least of the factors at which a member would buckle by itself between pinned ends.
+  [[nodiscard]] double reference_factor() const {
+    constexpr double pi = 3.14159265358979323846;
+    double most = 0;
+    for (std::size_t i = 0; i < first_axial_.size(); ++i) {
+      const Beam& beam = system_.model.beams[i];
+      const double least = std::min(beam.Iy, beam.Iz) * beam.youngs_modulus * pi * pi / (beam.length * beam.length);
+      most = std::max(most, -first_axial_[i] / least);
+    }
+    return most > 0 ? 1 / most : 0;
+  }
+
+  FrameSystem system_;
+  AxialState axial_;
+  std::map<double, int> counted_;
+  std::vector<double> first_axial_;
+  std::vector<std::vector<BeamLoad>> loads_;
+  std::unique_ptr<LdlFactor> ldl_;
+  Eigen::VectorXd displacement_;  ///< where the last search for an eigenvector ended
+};
+
+/// Encloses the k-th factor between `low`, with fewer below it, and `high`, with at least k.
+void enclose(Buckling& buckling, int k, double& low, double& high) {
+  const auto take = [&](double factor, int count) { (count >= k ? high : low) = factor; };
+  constexpr double close = 0.5;  // relative width from which Newton's method is worth its price
+  while (high - low > enclosed * high) {
+    const double middle = low + (high - low) / 2;
+    const bool sharpen = high - low < close * high;
+    take(middle, buckling.below(middle, sharpen));
+    if (!sharpen) continue;
+    // A factor where a member buckles between resting nodes is a pole, not a zero: then halving goes on.
+    const double guess = buckling.newton(middle), moved = guess - middle;
+    if (!(guess > low && guess < high)) continue;
+    const double margin = std::max(10 * moved * moved / guess, enclosed / 4 * guess);
+    const bool another_nearby = moved != 0 && high - low < equal_to_newton * high;
+    for (const double side : {guess - margin, guess + margin})
+      if (side > low && side < high) take(side, buckling.below(side));
+    // Newton's method ends between factors that lie so close that it cannot tell their shapes apart.
+    if (another_nearby && high - low > enclosed * high && high - low < equal_to_newton * high) return;
+  }
+}
+
+/// Counts on both sides of where an estimate leads to: most often that encloses the k-th factor at once.
+void count_around(Buckling& buckling, int k, const BucklingStart& start) {
+  double low = 0, high = 0;
+  buckling.bracket(k, low, high);
+  if (high > 0 && high - low <= enclosed * high) return;
+  double factor = 0;
+  const double doubt = buckling.sharpen(start, factor);
+  // Factors close by, or an estimate of another one, leave it on one side: then from further and further away.
+  constexpr double least = 5e-10, wider = 100, furthest = 0.1;
+  for (const double way : {-1.0, 1.0})
+    for (double step = doubt; step < furthest * factor; step = std::max(least * factor, wider * step)) {
+      const bool beyond = buckling.below(factor + way * step) >= k;
+      if (beyond == (way > 0)) break;
+    }
+}
+
+}  // namespace
+
+std::vector<BucklingMode> buckling_modes(const FrameModel& model, const LoadSet& loads, int count,
+                                         const AnalysisOptions& options, double largest_factor,
+                                         const std::vector<HangingShell>& hanging) {
+  Buckling buckling(model, loads, options, hanging);
+  std::vector<BucklingMode> modes;
+  if (!buckling.has_compression()) return modes;
+  double low = 0;
+  std::vector<Eigen::VectorXd> known;
+  const std::vector<BucklingStart> starts = buckling.starts(count, options);
+  for (int k = 1; k <= count; ++k) {
+    if (static_cast<std::size_t>(k) <= starts.size())
+      count_around(buckling, k, starts[static_cast<std::size_t>(k) - 1]);
+    double high = 0;
+    buckling.bracket(k, low, high);
+    if (high == 0) {
+      high = std::max(2 * low, 1.0);
+      while (high < largest_factor && buckling.below(high) < k) {
+        low = high;
+        high *= 2;
+      }
+    }
+    // What lies beyond may have been counted alone: an estimate leads to it where a member buckles between resting
+    // nodes.
+    if (high > largest_factor) {
+      if (low >= largest_factor || buckling.below(largest_factor) < k) return modes;
+      high = largest_factor;
+    }
+    enclose(buckling, k, low, high);
+    const bool repeated = !modes.empty() && high - modes.back().factor < same_factor * high;
+    if (!repeated) known.clear();
+    modes.push_back({high, buckling.shape(low * (1 - 100 * enclosed), known)});
+  }
+  return modes;
+}
+
+}  // namespace topple::solver

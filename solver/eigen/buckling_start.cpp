@@ -1,0 +1,82 @@
+#include "eigen/buckling_start.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+namespace topple::solver {
+namespace {
+
+constexpr Eigen::Index beyond = 3, blocks = 12;  // width of a block beyond what is sought; how many of them
+constexpr double negligible = 1e-10;             // what is left of a vector beside the others when it is but rounding
+
+/// K-orthonormal vectors V with K V and G V.
+class Basis {
+ public:
+  Basis(const LinearisedBuckling& operators, Eigen::Index capacity) : op_(operators) {
+    for (Eigen::MatrixXd* m : {&V_, &KV_, &GV_}) m->resize(op_.size, capacity);
+  }
+
+  /// Takes in K^-1 times these columns, as far as they bring anything new; returns how many did.
+  Eigen::Index add(const Eigen::MatrixXd& forces) {
+    const Eigen::Index before = columns_;
+    Eigen::MatrixXd moved = forces;
+    op_.solve(moved);
+    for (Eigen::Index j = 0; j < forces.cols() && columns_ < V_.cols(); ++j) {
+      Eigen::VectorXd v = moved.col(j), Kv = forces.col(j);
+      const double energy = v.dot(Kv);
+      if (!(energy > 0)) continue;
+      for (int pass = 0; pass < 2; ++pass) {
+        const Eigen::VectorXd along = KV_.leftCols(columns_).transpose() * v;
+        v -= V_.leftCols(columns_) * along;
+        Kv -= KV_.leftCols(columns_) * along;
+      }
+      const double left = v.dot(Kv);
+      if (!(left > negligible * energy)) continue;
+      V_.col(columns_) = v / std::sqrt(left);
+      KV_.col(columns_++) = Kv / std::sqrt(left);
+    }
+    GV_.middleCols(before, columns_ - before) = op_.multiply(V_.middleCols(before, columns_ - before));
+    return columns_ - before;
+  }
+
+  [[nodiscard]] Eigen::MatrixXd last_forces(Eigen::Index count) const {
+    return GV_.middleCols(columns_ - count, count);
+  }
+
+  [[nodiscard]] std::vector<BucklingStart> starts(int count) const {
+    if (columns_ == 0) return {};
+    const Eigen::MatrixXd H = V_.leftCols(columns_).transpose() * GV_.leftCols(columns_);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> dense(0.5 * (H + H.transpose()));
+    std::vector<BucklingStart> found;
+    for (Eigen::Index i = columns_; i-- > 0 && static_cast<int>(found.size()) < count;) {
+      const double value = dense.eigenvalues()(i);
+      if (!(value > 0)) break;
+      found.push_back({1 / value, V_.leftCols(columns_) * dense.eigenvectors().col(i)});
+    }
+    return found;
+  }
+
+ private:
+  const LinearisedBuckling& op_;
+  Eigen::MatrixXd V_, KV_, GV_;
+  Eigen::Index columns_ = 0;
+};
+
+}  // namespace
+
+std::vector<BucklingStart> estimate_buckling(const LinearisedBuckling& operators, int count) {
+  const Eigen::Index width = std::min<Eigen::Index>(operators.size, count + beyond);
+  if (width == 0) return {};
+  Basis basis(operators, std::min<Eigen::Index>(operators.size, blocks * width));
+  // Vectors without any symmetry of their own.
+  Eigen::MatrixXd start(operators.size, width);
+  for (Eigen::Index j = 0; j < width; ++j)
+    for (Eigen::Index i = 0; i < operators.size; ++i)
+      start(i, j) = std::sin(1.0 + 0.7 * static_cast<double>(i) + 1.3 * static_cast<double>(j * i % 977));
+  Eigen::Index added = basis.add(operators.multiply(start));
+  for (Eigen::Index b = 1; b < blocks && added > 0; ++b) added = basis.add(basis.last_forces(added));
+  return basis.starts(count);
+}
+
+}  // namespace topple::solver

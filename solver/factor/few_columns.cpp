@@ -1,0 +1,189 @@
+#include "factor/few_columns.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <type_traits>
+
+#include "factor/vector_versions.h"
+
+namespace topple::solver {
+namespace {
+
+constexpr int strip = 8;                           // columns of L at a time
+constexpr int six = 6;                             // right-hand sides at a time
+constexpr std::ptrdiff_t panel_in_cache = 100000;  // entries
+
+/// Numbers of one row of coefficients: N of them count, the others are zero.
+template <int N>
+using RowLanes = std::conditional_t<N == 1, OneLane, EightLanes>;
+
+/// target(i, c) += sum over k < width of L(i, k) coefficient(k, c), for N columns of the target.
+template <int N>
+[[gnu::always_inline]] inline void add_columns(const double* L, std::ptrdiff_t ld, int width, const double* coefficient,
+                                               double* target, std::ptrdiff_t stride, int rows) {
+  each_lanes(
+      rows, [&]([[maybe_unused]] auto lanes, int i) __attribute__((always_inline)) {
+        using Lanes = decltype(lanes);
+        typename Lanes::Vector sum[N];
+        TOPPLE_UNROLLED
+        for (int c = 0; c < N; ++c) sum[c] = lanes_at<Lanes>(target + c * stride + i);
+        for (int k = 0; k < width; ++k) {
+          const typename Lanes::Vector l = lanes_at<Lanes>(L + k * ld + i);
+          TOPPLE_UNROLLED
+          for (int c = 0; c < N; ++c) sum[c] += l * coefficient[k * RowLanes<N>::count + c];
+        }
+        TOPPLE_UNROLLED
+        for (int c = 0; c < N; ++c) lanes_at<Lanes>(target + c * stride + i) = sum[c];
+      });
+}
+
+/// x := T^-1 x, a row of x after the other; T is a lower triangle of `strip` columns.
+template <class Row>
+[[gnu::always_inline]] inline void solve_strip(const double* T, std::ptrdiff_t ld, double* x) {
+  typename Row::Vector row[strip];
+  TOPPLE_UNROLLED
+  for (int k = 0; k < strip; ++k) row[k] = lanes_at<Row>(x + k * Row::count);
+  TOPPLE_UNROLLED
+  for (int k = 0; k < strip; ++k) {
+    row[k] = row[k] * (1 / T[k * ld + k]);
+    TOPPLE_UNROLLED
+    for (int i = k + 1; i < strip; ++i) row[i] -= T[k * ld + i] * row[k];
+    lanes_at<Row>(x + k * Row::count) = row[k];
+  }
+}
+
+/// The same for fewer columns.
+template <class Row>
+[[gnu::always_inline]] inline void solve_narrow_strip(const double* T, std::ptrdiff_t ld, int width, double* x) {
+  for (int k = 0; k < width; ++k) {
+    const typename Row::Vector row = lanes_at<Row>(x + k * Row::count) * (1 / T[k * ld + k]);
+    lanes_at<Row>(x + k * Row::count) = row;
+    for (int i = k + 1; i < width; ++i) lanes_at<Row>(x + i * Row::count) -= T[k * ld + i] * row;
+  }
+}
+
+/// One strip of columns of L, N right-hand sides.
+template <int N>
+[[gnu::always_inline]] inline void eliminate_strip(const double* L, std::ptrdiff_t columns, std::ptrdiff_t rows,
+                                                   std::ptrdiff_t first, double* x, double* below) {
+  using Row = RowLanes<N>;
+  const int width = static_cast<int>(std::min<std::ptrdiff_t>(strip, columns - first));
+  const std::ptrdiff_t below_rows = rows - columns, next = first + width;
+  const double* block = L + first * rows;
+  double plus[strip * Row::count] = {}, minus[strip * Row::count];
+  for (int k = 0; k < width; ++k) {
+    TOPPLE_UNROLLED
+    for (int c = 0; c < N; ++c) plus[k * Row::count + c] = x[c * columns + first + k];
+  }
+  if (width == strip) {
+    solve_strip<Row>(block + first, rows, plus);
+  } else {
+    solve_narrow_strip<Row>(block + first, rows, width, plus);
+  }
+  for (int k = 0; k < width; ++k) {
+    lanes_at<Row>(minus + k * Row::count) = -lanes_at<Row>(plus + k * Row::count);
+    TOPPLE_UNROLLED
+    for (int c = 0; c < N; ++c) x[c * columns + first + k] = plus[k * Row::count + c];
+  }
+  add_columns<N>(block + next, rows, width, minus, x + next, columns, static_cast<int>(columns - next));
+  add_columns<N>(block + columns, rows, width, plus, below, below_rows, static_cast<int>(below_rows));
+}
+
+using Eliminate = void (*)(const double*, int, int, int, double*, double*);
+#define TOPPLE_ELIMINATE(N)                                                                         \
+  TOPPLE_VECTOR_VERSIONS                                                                            \
+  void eliminate_##N(const double* L, int columns, int rows, int first, double* x, double* below) { \
+    eliminate_strip<N>(L, columns, rows, first, x, below);                                          \
+  }
+TOPPLE_ELIMINATE(1)
+TOPPLE_ELIMINATE(2)
+TOPPLE_ELIMINATE(3)
+TOPPLE_ELIMINATE(4)
+TOPPLE_ELIMINATE(5)
+TOPPLE_ELIMINATE(6)
+#undef TOPPLE_ELIMINATE
+constexpr Eliminate eliminate_of[six] = {eliminate_1, eliminate_2, eliminate_3, eliminate_4, eliminate_5, eliminate_6};
+
+/// c(k) += W(:, k) . y for N columns.
+template <int N>
+[[gnu::always_inline]] inline void multiply_columns(const double* W, std::ptrdiff_t stride, const double* y, int rows,
+                                                    double* c) {
+  constexpr int lanes = EightLanes::count;
+  EightLanes::Vector sum[N];
+  TOPPLE_UNROLLED
+  for (int k = 0; k < N; ++k) sum[k] = EightLanes::Vector{};
+  int i = 0;
+  for (; i + lanes <= rows; i += lanes) {
+    const EightLanes::Vector own = lanes_at<EightLanes>(y + i);
+    TOPPLE_UNROLLED
+    for (int k = 0; k < N; ++k) sum[k] += lanes_at<EightLanes>(W + k * stride + i) * own;
+  }
+  TOPPLE_UNROLLED
+  for (int k = 0; k < N; ++k) {
+    double part[lanes], last = 0;
+    lanes_at<EightLanes>(part) = sum[k];
+    for (int j = i; j < rows; ++j) last += W[k * stride + j] * y[j];
+    for (int lane = 0; lane < lanes; ++lane) last += part[lane];
+    c[k] += last;
+  }
+}
+
+using Multiply = void (*)(const double*, std::ptrdiff_t, const double*, int, double*);
+#define TOPPLE_MULTIPLY_COLUMNS(N)                                                                  \
+  TOPPLE_VECTOR_VERSIONS                                                                            \
+  void multiply_##N(const double* W, std::ptrdiff_t stride, const double* y, int rows, double* c) { \
+    multiply_columns<N>(W, stride, y, rows, c);                                                     \
+  }
+TOPPLE_MULTIPLY_COLUMNS(1)
+TOPPLE_MULTIPLY_COLUMNS(2)
+TOPPLE_MULTIPLY_COLUMNS(3)
+TOPPLE_MULTIPLY_COLUMNS(4)
+TOPPLE_MULTIPLY_COLUMNS(5)
+TOPPLE_MULTIPLY_COLUMNS(6)
+#undef TOPPLE_MULTIPLY_COLUMNS
+constexpr Multiply multiply_of[six] = {multiply_1, multiply_2, multiply_3, multiply_4, multiply_5, multiply_6};
+
+TOPPLE_VECTOR_VERSIONS
+void add_combination(const double* W, std::ptrdiff_t stride, int columns, const double* c, double* y, int rows) {
+  if (columns == strip) {
+    add_columns<1>(W, stride, strip, c, y, 0, rows);
+  } else {
+    add_columns<1>(W, stride, columns, c, y, 0, rows);
+  }
+}
+
+}  // namespace
+
+void add_products(const double* W, int stride, int rows, int columns, const double* y, double* c) {
+  for (int k = 0; k < columns; k += six)
+    multiply_of[std::min(six, columns - k) - 1](W + static_cast<std::ptrdiff_t>(k) * stride, stride, y, rows, c + k);
+}
+
+void subtract_combination(const double* W, int stride, int rows, int columns, const double* c, double* y) {
+  double minus[strip];
+  for (int k = 0; k < columns; k += strip) {
+    const int width = std::min(strip, columns - k);
+    for (int i = 0; i < width; ++i) minus[i] = -c[k + i];
+    add_combination(W + static_cast<std::ptrdiff_t>(k) * stride, stride, width, minus, y, rows);
+  }
+}
+
+void eliminate_few_columns(const double* L, int columns, int rows, double* x, int count, double* below) {
+  const int below_rows = rows - columns;
+  std::fill(below, below + static_cast<std::ptrdiff_t>(below_rows) * count, 0.0);
+  const auto eliminate = [&](int first, int c) {
+    eliminate_of[std::min(six, count - c) - 1](L, columns, rows, first, x + static_cast<std::ptrdiff_t>(c) * columns,
+                                               below + static_cast<std::ptrdiff_t>(c) * below_rows);
+  };
+  // A panel that stays in the cache serves some right-hand sides after the others, which then stay nearer still. A
+  // larger one comes from memory once, strip by strip.
+  if (static_cast<std::ptrdiff_t>(columns) * rows <= panel_in_cache) {
+    for (int c = 0; c < count; c += six)
+      for (int first = 0; first < columns; first += strip) eliminate(first, c);
+  } else {
+    for (int first = 0; first < columns; first += strip)
+      for (int c = 0; c < count; c += six) eliminate(first, c);
+  }
+}
+
+}  // namespace topple::solver

@@ -1,0 +1,422 @@
+#include "factor/triangular.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "factor/few_columns.h"
+#include "factor/panel_substitution.h"
+#include "factor/vector_versions.h"
+#include "topple/solver/paced_work.h"
+
+extern "C" {
+void dtrsm_(const char*, const char*, const char*, const char*, const int*, const int*, const double*, const double*,
+            const int*, double*, const int*);
+void dgemm_(const char*, const char*, const int*, const int*, const int*, const double*, const double*, const int*,
+            const double*, const int*, const double*, double*, const int*);
+}
+
+namespace topple::solver {
+namespace {
+
+/// Blocks with fewer entries than this are done by plain passes: a call of BLAS costs more than they do.
+constexpr int small_block = 1024;
+/// Up to so many right-hand sides BLAS loses to a plain pass over the block.
+constexpr int few_columns = 12;
+constexpr double plus = 1, none = 0;
+
+/// One block of the factor: `columns` dense columns of `rows` entries, the triangle first.
+struct Block {
+  const double* value;
+  int columns, rows;
+  [[nodiscard]] int below() const { return rows - columns; }
+  [[nodiscard]] bool small() const { return columns * rows < small_block; }
+};
+
+/// x (the block's own rows, a column each) := triangle^-1 x; below := rectangle x.
+void forward_block(const Block& b, double* x, int count, double* below) {
+  const int below_rows = b.below();
+  if (count <= few_columns || b.small()) {
+    eliminate_few_columns(b.value, b.columns, b.rows, x, count, below);
+    return;
+  }
+  dtrsm_("L", "L", "N", "N", &b.columns, &count, &plus, b.value, &b.rows, x, &b.columns);
+  if (below_rows > 0)
+    dgemm_("N", "N", &below_rows, &count, &b.columns, &plus, b.value + b.columns, &b.rows, x, &b.columns, &none, below,
+           &below_rows);
+}
+
+[[gnu::always_inline]] inline void subtract(const double* from, const RowsInLine& run, double* to) {
+  each_lanes(
+      run.count, [&]([[maybe_unused]] auto lanes, int i) __attribute__((always_inline)) {
+        lanes_at<decltype(lanes)>(to + i) -= lanes_at<decltype(lanes)>(from + run.from + i);
+      });
+}
+
+/// compact := the runs' rows of y.
+TOPPLE_VECTOR_VERSIONS
+void take_rows(std::span<const RowsInLine> runs, const double* y, double* compact) {
+  for (const RowsInLine& run : runs)
+    each_lanes(
+        run.count, [&]([[maybe_unused]] auto lanes, int i) __attribute__((always_inline)) {
+          lanes_at<decltype(lanes)>(compact + run.from + i) = lanes_at<decltype(lanes)>(y + run.row + i);
+        });
+}
+
+/// The runs' rows of y -= compact.
+TOPPLE_VECTOR_VERSIONS
+void subtract_rows(std::span<const RowsInLine> runs, const double* compact, double* y) {
+  for (const RowsInLine& run : runs) subtract(compact, run, y + run.row);
+}
+
+/// The same on a path that ends there.
+TOPPLE_VECTOR_VERSIONS
+void subtract_rows_from_end(std::span<const RowsInLine> runs, const double* compact, double* end) {
+  for (const RowsInLine& run : runs) subtract(compact, run, end - run.from_end);
+}
+
+}  // namespace
+
+TriangularSolver::TriangularSolver(const Factor& factor) {
+  const FactorView view = factor.view();
+  size_ = static_cast<int>(view.order.size());
+  order_.assign(view.order.begin(), view.order.end());
+  if (view.supernodal) {
+    take_supernodal(view);
+  } else {
+    take_simplicial(view);
+  }
+  finish();
+}
+
+void TriangularSolver::take_supernodal(const FactorView& view) {
+  first_ = view.first;
+  row_start_ = view.row_start;
+  value_start_ = view.start;
+  row_ = view.row;
+  value_ = view.value;
+}
+
+/// Gathers runs of columns in which each one's pattern is the next one's and the next one itself.
+void TriangularSolver::take_simplicial(const FactorView& view) {
+  const auto n = static_cast<std::size_t>(size_);
+  const auto begin = [&](std::size_t j) { return static_cast<std::size_t>(view.start[j]); };
+  const auto count = [&](std::size_t j) { return static_cast<std::size_t>(view.count[j]); };
+  own_row_start_.push_back(0);
+  own_value_start_.push_back(0);
+  for (std::size_t j = 0; j < n;) {
+    std::size_t end = j + 1;
+    while (end < n && count(end - 1) == count(end) + 1 &&
+           view.row[begin(end - 1) + 1] == static_cast<std::int64_t>(end))
+      ++end;
+    const std::size_t rows = count(j);
+    own_first_.push_back(static_cast<std::int64_t>(j));
+    for (std::size_t k = 0; k < rows; ++k) own_row_.push_back(view.row[begin(j) + k]);
+    for (std::size_t c = j; c < end; ++c) {
+      const double* values = view.value.data() + begin(c);
+      const double pivot = view.is_ll ? 1.0 : std::sqrt(values[0]);
+      own_value_.insert(own_value_.end(), c - j, 0.0);
+      own_value_.push_back(view.is_ll ? values[0] : pivot);
+      for (std::size_t k = 1; k < count(c); ++k) own_value_.push_back(values[k] * pivot);
+    }
+    own_row_start_.push_back(static_cast<std::int64_t>(own_row_.size()));
+    own_value_start_.push_back(static_cast<std::int64_t>(own_value_.size()));
+    j = end;
+  }
+  own_first_.push_back(static_cast<std::int64_t>(n));
+  first_ = own_first_;
+  row_start_ = own_row_start_;
+  value_start_ = own_value_start_;
+  row_ = own_row_;
+  value_ = own_value_;
+}
+
+void TriangularSolver::finish() {
+  position_.resize(order_.size());
+  for (std::size_t k = 0; k < order_.size(); ++k) position_[static_cast<std::size_t>(order_[k])] = static_cast<int>(k);
+  const std::size_t count = first_.empty() ? 0 : first_.size() - 1;
+  block_of_.resize(order_.size());
+  for (std::size_t b = 0; b < count; ++b)
+    std::fill(block_of_.begin() + first_[b], block_of_.begin() + first_[b + 1], static_cast<int>(b));
+  parent_.assign(count, -1);
+  std::int64_t most_below = 0;
+  for (std::size_t b = 0; b < count; ++b) {
+    const std::int64_t columns = first_[b + 1] - first_[b], rows = row_start_[b + 1] - row_start_[b];
+    if (rows > columns)
+      parent_[b] = block_of_[static_cast<std::size_t>(row_[static_cast<std::size_t>(row_start_[b] + columns)])];
+    most_below = std::max(most_below, rows - columns);
+    entries_ += static_cast<double>(columns) * static_cast<double>(rows);
+  }
+  below_.resize(static_cast<std::size_t>(most_below));
+  rows_to_root_.assign(count, 0);
+  for (std::size_t b = count; b-- > 0;) {
+    rows_to_root_[b] = static_cast<int>(first_[b + 1] - first_[b]);
+    if (parent_[b] >= 0) rows_to_root_[b] += rows_to_root_[static_cast<std::size_t>(parent_[b])];
+  }
+  cost_ = solver::pass_cost(entries_);
+  find_runs();
+}
+
+double TriangularSolver::pass_cost(int block, int count) const {
+  const auto b = static_cast<std::size_t>(block);
+  const double entries =
+      static_cast<double>(first_[b + 1] - first_[b]) * static_cast<double>(row_start_[b + 1] - row_start_[b]);
+  return cost_.block + entries * (cost_.entry + cost_.further * (count - 1));
+}
+
+/// Rows that follow each other also do so on every path that both lie on: the next block is then the parent.
+void TriangularSolver::find_runs() {
+  run_start_.push_back(0);
+  for (std::size_t b = 0; b < parent_.size(); ++b) {
+    const std::span<const std::int64_t> below = block(static_cast<int>(b)).below;
+    for (std::size_t i = 0; i < below.size(); ++i) {
+      if (i > 0 && below[i] == below[i - 1] + 1) {
+        ++run_.back().count;
+        continue;
+      }
+      const int row = static_cast<int>(below[i]);
+      const auto of = static_cast<std::size_t>(block_of_[static_cast<std::size_t>(row)]);
+      run_.push_back({static_cast<int>(i), row, 1, rows_to_root_[of] - (row - static_cast<int>(first_[of]))});
+    }
+    run_start_.push_back(static_cast<std::int64_t>(run_.size()));
+  }
+}
+
+std::span<const RowsInLine> TriangularSolver::runs(std::size_t b) const {
+  return std::span(run_).subspan(static_cast<std::size_t>(run_start_[b]),
+                                 static_cast<std::size_t>(run_start_[b + 1] - run_start_[b]));
+}
+
+double TriangularSolver::entries(const EliminationPath& path) const {
+  double sum = 0;
+  for (const int block : path.block) {
+    const auto b = static_cast<std::size_t>(block);
+    sum += static_cast<double>(first_[b + 1] - first_[b]) * static_cast<double>(row_start_[b + 1] - row_start_[b]);
+  }
+  return sum;
+}
+
+double TriangularSolver::entries_on_paths(std::span<const int> rows, std::vector<char>& marked) const {
+  mark_paths(rows, marked);
+  double sum = 0;
+  for (std::size_t b = 0; b < marked.size(); ++b)
+    if (marked[b] != 0)
+      sum += static_cast<double>(first_[b + 1] - first_[b]) * static_cast<double>(row_start_[b + 1] - row_start_[b]);
+  return sum;
+}
+
+void TriangularSolver::permute(const Eigen::VectorXd& natural, Eigen::VectorXd& eliminated) const {
+  eliminated.resize(size_);
+  for (int k = 0; k < size_; ++k) eliminated(k) = natural(order_[static_cast<std::size_t>(k)]);
+}
+
+void TriangularSolver::restore(const Eigen::VectorXd& eliminated, Eigen::VectorXd& natural) const {
+  natural.resize(size_);
+  for (int k = 0; k < size_; ++k) natural(order_[static_cast<std::size_t>(k)]) = eliminated(k);
+}
+
+EliminationPath TriangularSolver::path(std::span<const int> rows) const {
+  EliminationPath result;
+  int least = size_;
+  for (const int row : rows) least = std::min(least, position(row));
+  int offset = 0;
+  for (int block = least < size_ ? block_of_[static_cast<std::size_t>(least)] : -1; block >= 0;
+       block = parent_[static_cast<std::size_t>(block)]) {
+    const auto b = static_cast<std::size_t>(block);
+    result.block.push_back(block);
+    result.offset.push_back(offset);
+    offset += static_cast<int>(first_[b + 1] - first_[b]);
+  }
+  result.offset.push_back(offset);
+  return result;
+}
+
+int TriangularSolver::row_on_path(const EliminationPath& path, int row) const {
+  const int at = position(row), block = block_of_[static_cast<std::size_t>(at)];
+  const auto found = std::lower_bound(path.block.begin(), path.block.end(), block);
+  return path.offset[static_cast<std::size_t>(found - path.block.begin())] + at -
+         static_cast<int>(first_[static_cast<std::size_t>(block)]);
+}
+
+void TriangularSolver::multiply(const EliminationPath& path, const Eigen::MatrixXd& W, const Eigen::VectorXd& y,
+                                double* product) const {
+  std::fill(product, product + W.cols(), 0.0);
+  for (std::size_t k = 0; k < path.block.size(); ++k)
+    add_products(W.data() + path.offset[k], static_cast<int>(W.rows()), path.offset[k + 1] - path.offset[k],
+                 static_cast<int>(W.cols()), y.data() + first_[static_cast<std::size_t>(path.block[k])], product);
+}
+
+void TriangularSolver::subtract(const EliminationPath& path, const Eigen::MatrixXd& W, const double* c,
+                                Eigen::VectorXd& y) const {
+  for (std::size_t k = 0; k < path.block.size(); ++k)
+    subtract_combination(W.data() + path.offset[k], static_cast<int>(W.rows()), path.offset[k + 1] - path.offset[k],
+                         static_cast<int>(W.cols()), c, y.data() + first_[static_cast<std::size_t>(path.block[k])]);
+}
+
+void TriangularSolver::mark_paths(std::span<const int> rows, std::vector<char>& marked) const {
+  marked.assign(parent_.size(), 0);
+  for (const int row : rows) {
+    for (int block = block_of_[static_cast<std::size_t>(position(row))];
+         block >= 0 && marked[static_cast<std::size_t>(block)] == 0; block = parent_[static_cast<std::size_t>(block)])
+      marked[static_cast<std::size_t>(block)] = 1;
+  }
+}
+
+void TriangularSolver::forward(Eigen::VectorXd& y, const std::vector<char>* marked) const {
+  double* below = below_.data();
+  Spending spending;
+  for (std::size_t b = 0; b < parent_.size(); ++b) {
+    if (marked != nullptr && (*marked)[b] == 0) continue;
+    spending.add(operations_per_nanosecond * pass_cost(static_cast<int>(b)));
+    eliminate_few_columns(value_.data() + value_start_[b], static_cast<int>(first_[b + 1] - first_[b]),
+                          static_cast<int>(row_start_[b + 1] - row_start_[b]), y.data() + first_[b], 1, below);
+    subtract_rows(runs(b), below, y.data());
+  }
+}
+
+TriangularSolver::BlockRows TriangularSolver::block(int block) const {
+  const auto b = static_cast<std::size_t>(block);
+  const auto columns = static_cast<std::size_t>(first_[b + 1] - first_[b]);
+  const auto start = static_cast<std::size_t>(row_start_[b]), end = static_cast<std::size_t>(row_start_[b + 1]);
+  return {static_cast<int>(first_[b]), static_cast<int>(columns), row_.subspan(start + columns, end - start - columns)};
+}
+
+void TriangularSolver::backward(int block, double* x, const double* below, int count) const {
+  const auto b = static_cast<std::size_t>(block);
+  substitute_back(value_.data() + value_start_[b], static_cast<int>(first_[b + 1] - first_[b]),
+                  static_cast<int>(row_start_[b + 1] - row_start_[b]), x, count, below);
+}
+
+void TriangularSolver::backward(Eigen::VectorXd& y, const std::vector<char>* marked) const {
+  double* below = below_.data();
+  Spending spending;
+  for (std::size_t b = parent_.size(); b-- > 0;) {
+    if (marked != nullptr && (*marked)[b] == 0) continue;
+    spending.add(operations_per_nanosecond * pass_cost(static_cast<int>(b)));
+    take_rows(runs(b), y.data(), below);
+    backward(static_cast<int>(b), y.data() + first_[b], below);
+  }
+}
+
+/// The block's own rows of all columns, one after the other, in the scratch `together_`; room for the rows below them
+/// in `below_`.
+double* TriangularSolver::own_rows(std::size_t b, const Eigen::MatrixXd& y) const {
+  const auto count = static_cast<std::size_t>(y.cols());
+  const auto columns = static_cast<std::size_t>(first_[b + 1] - first_[b]);
+  const auto rows = static_cast<std::size_t>(row_start_[b + 1] - row_start_[b]);
+  if (below_.size() < (rows - columns) * count) below_.resize((rows - columns) * count);
+  if (together_.size() < columns * count) together_.resize(columns * count);
+  for (std::size_t c = 0; c < count; ++c)
+    std::copy_n(y.col(static_cast<Eigen::Index>(c)).data() + first_[b], columns, together_.data() + c * columns);
+  return together_.data();
+}
+
+void TriangularSolver::put_own_rows(std::size_t b, Eigen::MatrixXd& y) const {
+  const auto columns = static_cast<std::size_t>(first_[b + 1] - first_[b]);
+  for (std::size_t c = 0; c < static_cast<std::size_t>(y.cols()); ++c)
+    std::copy_n(together_.data() + c * columns, columns, y.col(static_cast<Eigen::Index>(c)).data() + first_[b]);
+}
+
+void TriangularSolver::forward(Eigen::MatrixXd& y, const std::vector<char>* marked) const {
+  const auto count = static_cast<int>(y.cols());
+  Spending spending;
+  for (std::size_t b = 0; b < parent_.size(); ++b) {
+    if (marked != nullptr && (*marked)[b] == 0) continue;
+    spending.add(operations_per_nanosecond * pass_cost(static_cast<int>(b), count));
+    const auto columns = static_cast<int>(first_[b + 1] - first_[b]);
+    const auto rows = static_cast<int>(row_start_[b + 1] - row_start_[b]);
+    double* own = own_rows(b, y);
+    eliminate_few_columns(value_.data() + value_start_[b], columns, rows, own, count, below_.data());
+    put_own_rows(b, y);
+    for (int c = 0; c < count; ++c)
+      subtract_rows(runs(b), below_.data() + static_cast<std::ptrdiff_t>(c) * (rows - columns), y.col(c).data());
+  }
+}
+
+void TriangularSolver::backward(Eigen::MatrixXd& y, const std::vector<char>* marked) const {
+  const auto count = static_cast<int>(y.cols());
+  Spending spending;
+  for (std::size_t b = parent_.size(); b-- > 0;) {
+    if (marked != nullptr && (*marked)[b] == 0) continue;
+    spending.add(operations_per_nanosecond * pass_cost(static_cast<int>(b), count));
+    double* own = own_rows(b, y);
+    const std::ptrdiff_t below_rows = row_start_[b + 1] - row_start_[b] - (first_[b + 1] - first_[b]);
+    for (int c = 0; c < count; ++c) take_rows(runs(b), y.col(c).data(), below_.data() + c * below_rows);
+    backward(static_cast<int>(b), own, below_.data(), count);
+    put_own_rows(b, y);
+  }
+}
+
+void TriangularSolver::forward(std::span<const PathColumns> groups, Eigen::VectorXd* y,
+                               const std::vector<char>* marked) const {
+  // More are no faster together, and take longer before anything else can be done.
+  constexpr Eigen::Index most_together = 48;
+  Eigen::Index columns = 0;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    columns += groups[g].columns->cols();
+    if (columns <= most_together || g == 0) continue;
+    forward(groups.first(g), y, marked);
+    return forward(groups.subspan(g));
+  }
+  next_.assign(groups.size(), 0);
+  Spending spending;
+  for (std::size_t b = 0; b < parent_.size(); ++b) {
+    // Paths ascend.
+    sharing_.clear();
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      const std::vector<int>& path = groups[g].path->block;
+      if (next_[g] == path.size() || path[next_[g]] != static_cast<int>(b)) continue;
+      sharing_.push_back(g);
+      ++next_[g];
+    }
+    const bool along = y != nullptr && (marked == nullptr || (*marked)[b] != 0);
+    if (!along && sharing_.empty()) continue;
+    int count = along ? 1 : 0;
+    for (const std::size_t g : sharing_) count += static_cast<int>(groups[g].columns->cols());
+    spending.add(operations_per_nanosecond * pass_cost(static_cast<int>(b), count));
+    forward_block_of(b, groups, along ? y : nullptr);
+  }
+}
+
+/// One block, for the groups in sharing_ and y (unless null).
+void TriangularSolver::forward_block_of(std::size_t b, std::span<const PathColumns> groups, Eigen::VectorXd* y) const {
+  const Block block{value_.data() + value_start_[b], static_cast<int>(first_[b + 1] - first_[b]),
+                    static_cast<int>(row_start_[b + 1] - row_start_[b])};
+  int count = y != nullptr ? 1 : 0;
+  for (const std::size_t g : sharing_) count += static_cast<int>(groups[g].columns->cols());
+  const auto grow = [](std::vector<double>& store, int rows, int columns) {
+    const std::size_t size = static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns);
+    if (store.size() < size) store.resize(size);
+  };
+  grow(together_, block.columns, count);
+  grow(below_, block.below(), count);
+  const auto each_column = [&](auto&& work) {
+    int at = 0;
+    for (const std::size_t g : sharing_) {
+      Eigen::MatrixXd& columns = *groups[g].columns;
+      // Where the block's first row stands in a column, counted from the column's end.
+      for (Eigen::Index c = 0; c < columns.cols(); ++c, ++at) work(columns.col(c).data() + columns.rows(), at);
+    }
+  };
+  double *x = together_.data(), *below = below_.data();
+  const int own = rows_to_root_[b];
+  // That of y comes last.
+  double *last = x + static_cast<std::ptrdiff_t>(count - 1) * block.columns, *y_own = nullptr;
+  if (y != nullptr) {
+    y_own = y->data() + first_[b];
+    std::copy(y_own, y_own + block.columns, last);
+  }
+  each_column([&](double* end, int at) {
+    std::copy(end - own, end - own + block.columns, x + static_cast<std::ptrdiff_t>(at) * block.columns);
+  });
+  forward_block(block, x, count, below);
+  each_column([&](double* end, int at) {
+    const double* from = x + static_cast<std::ptrdiff_t>(at) * block.columns;
+    std::copy(from, from + block.columns, end - own);
+    subtract_rows_from_end(runs(b), below + static_cast<std::ptrdiff_t>(at) * block.below(), end);
+  });
+  if (y == nullptr) return;
+  std::copy(last, last + block.columns, y_own);
+  subtract_rows(runs(b), below + static_cast<std::ptrdiff_t>(count - 1) * block.below(), y->data());
+}
+
+}  // namespace topple::solver

@@ -1,0 +1,44 @@
+#include "reanalysis/factor_refresh.h"
+
+#include <exception>
+#include <utility>
+
+#include "assembly/refinement.h"
+
+namespace topple::solver {
+
+FactorRefresh::FactorRefresh(const SparseSymmetric& matrix, const std::vector<int>& order,
+                             const AnalysisOptions& options, std::function<void()> on_worker)
+    : matrix_(matrix) {
+  thread_ = std::thread([this, order, options, begin = std::move(on_worker)] {
+    if (begin) begin();
+    try {
+      make(order, options);
+    } catch (const std::exception&) {
+      result_ = {};  // no memory for a second factor: the first goes on serving
+    }
+    done_ = true;
+  });
+}
+
+FactorRefresh::~FactorRefresh() {
+  if (thread_.joinable()) thread_.join();
+}
+
+void FactorRefresh::make(const std::vector<int>& order, const AnalysisOptions& options) {
+  auto factor = std::make_unique<Factor>(matrix_, order, options.factorisation, 1);
+  const Factor::Outcome outcome = factor->factorise(matrix_);
+  if (!outcome.positive_definite || outcome.worst_pivot < options.warning_limit) return;
+  const double condition = estimate_condition(matrix_, [&](auto b) { factor->solve(b); });
+  if (1 / condition < options.warning_limit) return;
+  std::optional<TriangularSolver> triangles(*factor);
+  result_ = {std::move(factor), condition, std::move(triangles)};
+}
+
+FactorRefresh::Result FactorRefresh::take(bool& late) {
+  late = !done_;
+  thread_.join();
+  return std::move(result_);
+}
+
+}  // namespace topple::solver

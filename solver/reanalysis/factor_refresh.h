@@ -1,0 +1,43 @@
+#pragma once
+// A new factor made on a thread of its own, of the matrix as it was when it was begun, while the old one serves.
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "assembly/sparse.h"
+#include "factor/factor.h"
+#include "factor/triangular.h"
+
+namespace topple::solver {
+
+class FactorRefresh {
+ public:
+  /// Copies what it needs and begins. `on_worker` (may be empty) runs first, on the new thread.
+  FactorRefresh(const SparseSymmetric& matrix, const std::vector<int>& order, const AnalysisOptions& options,
+                std::function<void()> on_worker);
+  /// Waits for the thread.
+  ~FactorRefresh();
+  FactorRefresh(const FactorRefresh&) = delete;
+  FactorRefresh& operator=(const FactorRefresh&) = delete;
+
+  struct Result {
+    std::unique_ptr<Factor> factor;  ///< none: the matrix is not definite, or lies in the warning band
+    double condition = 0;
+    std::optional<TriangularSolver> triangles;  ///< over the factor
+  };
+  /// Waits for the factor; once. `late`: it was not there yet.
+  [[nodiscard]] Result take(bool& late);
+
+ private:
+  void make(const std::vector<int>& order, const AnalysisOptions& options);
+
+  SparseSymmetric matrix_;
+  Result result_;
+  std::atomic<bool> done_{false};
+  std::thread thread_;
+};
+
+}  // namespace topple::solver

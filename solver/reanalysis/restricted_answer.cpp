@@ -1,0 +1,410 @@
+#include "reanalysis/restricted_answer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "topple/solver/paced_work.h"
+
+namespace topple::solver {
+namespace {
+
+/// The energies are differences of sums in double precision over an answer that is itself a rounded one.
+constexpr double energy_rounding = 1e-8;
+/// A block by itself takes so much longer than in a pass over all.
+constexpr double block_by_block = 1.5;
+
+/// Numbers 0 ... count - 1 listed by the block that each belongs to (-1: none).
+void list_by_block(const std::vector<int>& block_of, std::size_t blocks, std::vector<int>& start,
+                   std::vector<int>& list) {
+  start.assign(blocks + 1, 0);
+  for (const int block : block_of)
+    if (block >= 0) ++start[static_cast<std::size_t>(block) + 1];
+  for (std::size_t b = 0; b < blocks; ++b) start[b + 1] += start[b];
+  list.resize(static_cast<std::size_t>(start[blocks]));
+  std::vector<int> next(start.begin(), start.end() - 1);
+  for (std::size_t i = 0; i < block_of.size(); ++i)
+    if (block_of[i] >= 0)
+      list[static_cast<std::size_t>(next[static_cast<std::size_t>(block_of[i])]++)] = static_cast<int>(i);
+}
+
+std::span<const int> listed(const std::vector<int>& start, const std::vector<int>& list, int block) {
+  const auto b = static_cast<std::size_t>(block);
+  return std::span(list).subspan(static_cast<std::size_t>(start[b]), static_cast<std::size_t>(start[b + 1] - start[b]));
+}
+
+}  // namespace
+
+RestrictedAnswer::RestrictedAnswer(const FrameSystem& system, const TriangularSolver& solver, BeamStiffness stiffness)
+    : system_(system), solver_(&solver), beam_stiffness_(std::move(stiffness)) {
+  const auto blocks = static_cast<std::size_t>(solver.blocks());
+  std::vector<int> parents(blocks);
+  depth_.assign(blocks, 0);
+  below_start_.push_back(0);
+  for (std::size_t b = 0; b < blocks; ++b) {
+    parents[b] = solver.parent(static_cast<int>(b));
+    below_start_.push_back(below_start_.back() +
+                           static_cast<std::int64_t>(solver.block(static_cast<int>(b)).below.size()));
+  }
+  std::size_t most_below = 0;
+  for (std::size_t b = blocks; b-- > 0;) {
+    if (parents[b] >= 0) depth_[b] = depth_[static_cast<std::size_t>(parents[b])] + 1;
+    most_below = std::max(most_below, static_cast<std::size_t>(below_start_[b + 1] - below_start_[b]));
+  }
+  list_by_block(parents, blocks, child_start_, child_);
+  list_elements();
+  older_.assign(blocks, 0);
+  unread_.assign(blocks, 0);
+  behind_.assign(static_cast<std::size_t>(below_start_.back()), 0.0);
+  own_use_.assign(blocks, 0.0);
+  bound_ = growth_ = slack_ = own_use_;
+  visited_.assign(blocks, 0);
+  below_.resize(most_below);
+  waiting_ = change_ = past_ = Eigen::VectorXd::Zero(solver.size());
+}
+
+bool RestrictedAnswer::serve(const TriangularSolver& solver) {
+  if (solver.size() != solver_->size() || solver.blocks() != solver_->blocks()) return false;
+  for (int k = 0; k < solver.size(); ++k)
+    if (solver.row_at(k) != solver_->row_at(k)) return false;
+  for (int block = 0; block < solver.blocks(); ++block) {
+    const auto now = solver.block(block), before = solver_->block(block);
+    if (now.first != before.first || now.columns != before.columns ||
+        !std::equal(now.below.begin(), now.below.end(), before.below.begin(), before.below.end()))
+      return false;
+  }
+  solver_ = &solver;
+  return true;
+}
+
+int RestrictedAnswer::lowest_block(std::span<const int> equations) const {
+  int lowest = solver_->size();
+  for (const int e : equations)
+    if (e >= 0 && e < system_.dofs().equations) lowest = std::min(lowest, solver_->position(e));
+  return lowest < solver_->size() ? solver_->block_of(solver_->row_at(lowest)) : -1;
+}
+
+void RestrictedAnswer::list_elements() {
+  const auto blocks = static_cast<std::size_t>(solver_->blocks());
+  const std::size_t beams = system_.model.beams.size(), shells = system_.model.shells.size();
+  for (std::size_t i = 0; i < beams + shells; ++i) {
+    const int block = lowest_block(system_.scatter().freedoms(i));
+    (i < beams ? beam_block_ : shell_block_).push_back(block);
+    if (block < 0) (i < beams ? held_beams_ : held_shells_).push_back(static_cast<int>(i < beams ? i : i - beams));
+  }
+  for (const auto& numbers : system_.dofs().number) node_block_.push_back(lowest_block(numbers));
+  list_by_block(beam_block_, blocks, beam_start_, beam_);
+  list_by_block(shell_block_, blocks, shell_start_, shell_);
+  list_by_block(node_block_, blocks, node_start_, node_);
+}
+
+bool RestrictedAnswer::is_current(int block) const {
+  if (!partial_) return true;
+  for (; block >= 0; block = solver_->parent(block))
+    if (older_[static_cast<std::size_t>(block)] != 0) return false;
+  return true;
+}
+
+/// Adds past_ or change_ of the block's rows to the answer: nodes that left stay at rest.
+void RestrictedAnswer::add_to_solution(int block, Answer answer) {
+  const auto own = solver_->block(block);
+  const auto& vertex = system_.dofs().vertex_of_equation;
+  for (int k = own.first; k < own.first + own.columns; ++k) {
+    const int row = solver_->row_at(k);
+    const auto v = static_cast<std::size_t>(vertex[static_cast<std::size_t>(row)]);
+    const bool left = v < system_.node_stands.size() && system_.node_stands[v] == 0;
+    answer.solution(row) = left ? 0.0 : answer.solution(row) + past_(k);
+  }
+}
+
+void RestrictedAnswer::read_nodes(int block, Answer answer) const {
+  for (const int node : listed(node_start_, node_, block))
+    answer.displacements[static_cast<std::size_t>(node)] = system_.node_displacement_of_scaled(node, answer.solution);
+}
+
+/// Carries the changes that the block missed through it, and hands them on to its children.
+void RestrictedAnswer::bring_older(int block, Answer answer) {
+  const auto b = static_cast<std::size_t>(block);
+  const auto own = solver_->block(block);
+  spend(operations_per_nanosecond * block_by_block * solver_->pass_cost(block));
+  double* behind = behind_.data() + below_start_[b];
+  past_.segment(own.first, own.columns) = waiting_.segment(own.first, own.columns);
+  solver_->backward(block, past_.data() + own.first, behind);
+  for (std::size_t i = 0; i < own.below.size(); ++i) past_(own.below[i]) = behind[i];
+  add_to_solution(block, answer);
+  for (const int child : listed(child_start_, child_, block)) {
+    const auto c = static_cast<std::size_t>(child);
+    const auto below = solver_->block(child).below;
+    double* of_child = behind_.data() + below_start_[c];
+    for (std::size_t i = 0; i < below.size(); ++i) of_child[i] += past_(below[i]);
+    older_[c] = 1;
+    bound_[c] += growth_[c] * slack_[b];
+    slack_[c] += slack_[b];
+  }
+  waiting_.segment(own.first, own.columns).setZero();
+  std::fill(behind, behind + own.below.size(), 0.0);
+  own_use_[b] += growth_[b] * slack_[b];
+  slack_[b] = 0;
+  older_[b] = 0;
+}
+
+void RestrictedAnswer::complete(Answer answer, UseWatch* watch) {
+  if (partial_) {
+    for (int block = solver_->blocks() - 1; block >= 0; --block) {
+      const auto b = static_cast<std::size_t>(block);
+      if (older_[b] == 0) continue;
+      bring_older(block, answer);
+      read_nodes(block, answer);
+      unread_[b] = 1;
+    }
+    partial_ = false;
+    any_unread_ = true;
+    bound_left_out_ = 0;
+  }
+  if (watch != nullptr && uses_known_ && any_unread_) read_unread(*watch);
+}
+
+void RestrictedAnswer::read_unread(UseWatch& watch) {
+  for (int block = 0; block < solver_->blocks(); ++block) {
+    if (unread_[static_cast<std::size_t>(block)] != 0) read_uses(block, watch);
+    update_bound(block);
+  }
+  any_unread_ = false;
+}
+
+void RestrictedAnswer::note(double use) { worst_ = std::max(worst_, use); }
+
+void RestrictedAnswer::read_uses(int block, UseWatch& watch) {
+  constexpr double element = 750;  // ns, of its energy and its uses
+  double use = 0;
+  spend(operations_per_nanosecond * element *
+        static_cast<double>(listed(beam_start_, beam_, block).size() + listed(shell_start_, shell_, block).size()));
+  for (const int beam : listed(beam_start_, beam_, block)) use = std::max(use, watch.beam_use(beam));
+  for (const int shell : listed(shell_start_, shell_, block)) use = std::max(use, watch.shell_use(shell));
+  own_use_[static_cast<std::size_t>(block)] = use;
+  unread_[static_cast<std::size_t>(block)] = 0;
+  note(use);
+  effort_.beams += static_cast<int>(listed(beam_start_, beam_, block).size());
+  effort_.shells += static_cast<int>(listed(shell_start_, shell_, block).size());
+}
+
+void RestrictedAnswer::update_bound(int block) {
+  const auto b = static_cast<std::size_t>(block);
+  bound_[b] = own_use_[b];
+  for (const int child : listed(child_start_, child_, block))
+    bound_[b] = std::max(bound_[b], bound_[static_cast<std::size_t>(child)]);
+}
+
+void RestrictedAnswer::read_all(UseWatch& watch) {
+  worst_ = 0;
+  read_growths(watch);
+  for (int block = 0; block < solver_->blocks(); ++block) {
+    read_uses(block, watch);
+    update_bound(block);
+    slack_[static_cast<std::size_t>(block)] = 0;
+  }
+  for (const int beam : held_beams_) note(watch.beam_use(beam));
+  for (const int shell : held_shells_) note(watch.shell_use(shell));
+  uses_known_ = true;
+  any_unread_ = false;
+}
+
+void RestrictedAnswer::read_growths(UseWatch& watch) {
+  if (growths_known_) return;
+  growths_known_ = true;
+  for (int block = 0; block < solver_->blocks(); ++block) {
+    constexpr double element = 1000;  // ns
+    spend(operations_per_nanosecond * element *
+          static_cast<double>(listed(beam_start_, beam_, block).size() + listed(shell_start_, shell_, block).size()));
+    double& growth = growth_[static_cast<std::size_t>(block)];
+    growth = 0;
+    for (const int beam : listed(beam_start_, beam_, block)) {
+      const auto i = static_cast<std::size_t>(beam);
+      if (system_.beam_stands[i] == 0) continue;
+      const Mat12 K = CondensedBeam(system_.model.beams[i], system_.beam_factor[i]).stiffness();
+      double root[12];
+      for (int k = 0; k < 12; ++k) root[k] = std::sqrt(std::max(0.0, K(k, k)));
+      growth = std::max(growth, watch.beam_growth(beam, root));
+    }
+    for (const int shell : listed(shell_start_, shell_, block)) {
+      if (system_.shell_stands[static_cast<std::size_t>(shell)] == 0) continue;
+      const Mat24& K = system_.shell_node_stiffness(shell);
+      double root[24];
+      for (int k = 0; k < 24; ++k) root[k] = std::sqrt(std::max(0.0, K(k, k)));
+      growth = std::max(growth, watch.shell_growth(shell, root));
+    }
+    for (const int child : listed(child_start_, child_, block))
+      growth = std::max(growth, growth_[static_cast<std::size_t>(child)]);
+  }
+}
+
+/// Rows that share an element with any of these, these included.
+void RestrictedAnswer::reach_neighbours(std::span<const int> rows) {
+  near_rows_.assign(rows.begin(), rows.end());
+  int last = -1;
+  for (const int row : rows) {
+    const int vertex = system_.dofs().vertex_of_equation[static_cast<std::size_t>(row)];
+    if (vertex == last) continue;
+    last = vertex;
+    elements_.clear();
+    system_.elements_of_vertex(vertex, elements_);
+    for (const int element : elements_) {
+      for (const int e : system_.scatter().freedoms(static_cast<std::size_t>(element)))
+        if (e >= 0 && e < system_.dofs().equations) near_rows_.push_back(e);
+    }
+  }
+}
+
+const std::vector<char>& RestrictedAnswer::begin(std::span<const int> rows, Answer answer) {
+  reach_neighbours(rows);
+  solver_->mark_paths(near_rows_, path_);
+  if (!partial_) return path_;
+  for (int block = solver_->blocks() - 1; block >= 0; --block) {
+    const auto b = static_cast<std::size_t>(block);
+    if (path_[b] == 0 || older_[b] == 0) continue;
+    bring_older(block, answer);
+    read_nodes(block, answer);
+  }
+  return path_;
+}
+
+/// This change alone, in a block whose ancestors have it.
+void RestrictedAnswer::step_now(int block, const Eigen::VectorXd& y, Answer answer) {
+  const auto own = solver_->block(block);
+  spend(operations_per_nanosecond * block_by_block * solver_->pass_cost(block));
+  for (std::size_t i = 0; i < own.below.size(); ++i) below_[i] = change_(own.below[i]);
+  change_.segment(own.first, own.columns) = y.segment(own.first, own.columns);
+  solver_->backward(block, change_.data() + own.first, below_.data());
+  past_.segment(own.first, own.columns) = change_.segment(own.first, own.columns);
+  add_to_solution(block, answer);
+  read_nodes(block, answer);
+  visited_[static_cast<std::size_t>(block)] = 1;
+  visits_.push_back(block);
+  effort_.entries += static_cast<double>(own.columns) * static_cast<double>(own.columns + own.below.size());
+}
+
+Vec6 RestrictedAnswer::node_change(int node) const {
+  const auto n = static_cast<std::size_t>(node);
+  Vec6 u = Vec6::Zero();
+  if (system_.node_stands[n] == 0) return u;
+  for (std::size_t c = 0; c < 6; ++c) {
+    const int e = system_.dofs().number[n][c];
+    if (e < system_.dofs().equations)
+      u(static_cast<Eigen::Index>(c)) = change_(solver_->position(e)) * system_.scale()[static_cast<std::size_t>(e)];
+  }
+  u(0) -= system_.dofs().arm[n][1] * u(5);
+  u(1) += system_.dofs().arm[n][0] * u(5);
+  return u;
+}
+
+double RestrictedAnswer::twice_energy_of_beam(int index) const {
+  const auto i = static_cast<std::size_t>(index);
+  if (system_.beam_stands[i] == 0) return 0;
+  const Beam& beam = system_.model.beams[i];
+  const Vec6 strain =
+      relative_motion(beam.length, hub_displacements(beam, node_change(beam.node[0]), node_change(beam.node[1])));
+  return beam_stiffness_(index).twice_energy(strain);
+}
+
+double RestrictedAnswer::twice_energy_of_shell(int index) const {
+  const auto i = static_cast<std::size_t>(index);
+  if (system_.shell_stands[i] == 0) return 0;
+  Vec24 u;
+  for (int corner = 0; corner < 4; ++corner)
+    u.segment<6>(6 * corner) = node_change(system_.model.shells[i].node[static_cast<std::size_t>(corner)]);
+  return u.dot(system_.shell_node_stiffness(index) * u);
+}
+
+double RestrictedAnswer::twice_energy_of_elements(int block) const {
+  double sum = 0;
+  for (const int beam : listed(beam_start_, beam_, block)) sum += twice_energy_of_beam(beam);
+  for (const int shell : listed(shell_start_, shell_, block)) sum += twice_energy_of_shell(shell);
+  return sum;
+}
+
+/// What the block missed of this change waits for it.
+void RestrictedAnswer::leave_out(int block) {
+  const auto b = static_cast<std::size_t>(block);
+  const auto below = solver_->block(block).below;
+  double* behind = behind_.data() + below_start_[b];
+  for (std::size_t i = 0; i < below.size(); ++i) behind[i] += change_(below[i]);
+  older_[b] = 1;
+  partial_ = true;
+}
+
+/// From the children of what was visited downwards, those deepest in the tree (nearest to the change) first.
+void RestrictedAnswer::descend(const Eigen::VectorXd& y, UseWatch& watch, Answer answer) {
+  open_.clear();
+  for (const int block : visits_)
+    for (const int child : listed(child_start_, child_, block))
+      if (path_[static_cast<std::size_t>(child)] == 0) open_.push_back(child);
+  const auto shallower = [&](int a, int b) {
+    const int first = depth_[static_cast<std::size_t>(a)], second = depth_[static_cast<std::size_t>(b)];
+    return first != second ? first < second : a < b;
+  };
+  std::sort(open_.begin(), open_.end(), shallower);
+  left_out_.clear();
+  while (!open_.empty()) {
+    const int block = open_.back();
+    const auto b = static_cast<std::size_t>(block);
+    open_.pop_back();
+    const double limit = (1 - watch.margin) * (watch.largest_decides ? std::max(1.0, worst_) : 1.0);
+    if (!(bound_[b] + growth_[b] * std::sqrt(energy_left_out()) > limit)) {
+      left_out_.push_back(block);
+      continue;
+    }
+    if (older_[b] != 0) bring_older(block, answer);
+    step_now(block, y, answer);
+    remaining_ -= twice_energy_of_elements(block);
+    read_uses(block, watch);
+    for (const int child : listed(child_start_, child_, block)) open_.push_back(child);
+  }
+}
+
+/// Twice the energy of this change in what was not visited, at most.
+double RestrictedAnswer::energy_left_out() const {
+  return std::max(0.0, remaining_) + energy_rounding * 2 * effort_.energy;
+}
+
+/// What was left out waits, with a bound of what it missed.
+void RestrictedAnswer::finish(const Eigen::VectorXd& y) {
+  const double root = std::sqrt(energy_left_out());
+  for (const int block : left_out_) {
+    const auto b = static_cast<std::size_t>(block);
+    leave_out(block);
+    slack_[b] += root;
+    bound_[b] += growth_[b] * root;
+    bound_left_out_ = std::max(bound_left_out_, bound_[b]);
+  }
+  for (int block = 0; block < solver_->blocks(); ++block) {
+    if (visited_[static_cast<std::size_t>(block)] != 0) {
+      update_bound(block);
+    } else {
+      const auto own = solver_->block(block);
+      waiting_.segment(own.first, own.columns) += y.segment(own.first, own.columns);
+    }
+  }
+  effort_.left_out = energy_left_out() / 2;
+}
+
+void RestrictedAnswer::advance(std::span<const int> rows, const Eigen::VectorXd& residual, const Eigen::VectorXd& y,
+                               UseWatch& watch, Answer answer) {
+  effort_ = {};
+  visits_.clear();
+  worst_ = bound_left_out_ = 0;
+  std::fill(visited_.begin(), visited_.end(), 0);
+  for (int block = solver_->blocks() - 1; block >= 0; --block)
+    if (path_[static_cast<std::size_t>(block)] != 0) step_now(block, y, answer);
+  remaining_ = 0;
+  for (const int row : rows) remaining_ += residual(row) * change_(solver_->position(row));
+  effort_.energy = remaining_ / 2;
+  for (const int block : visits_) {
+    remaining_ -= twice_energy_of_elements(block);
+    read_uses(block, watch);
+  }
+  for (const int beam : held_beams_) note(watch.beam_use(beam));
+  for (const int shell : held_shells_) note(watch.shell_use(shell));
+  descend(y, watch, answer);
+  finish(y);
+}
+
+}  // namespace topple::solver

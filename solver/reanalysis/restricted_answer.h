@@ -1,0 +1,132 @@
+#pragma once
+// Answers that are brought up to date only where they may matter. The change of an answer obeys L' du = y with y
+// nonzero on the elimination paths of what changed alone, so that a subtree of the elimination tree away from these
+// paths follows its separator: du inside is L^-T (-L_sep' du_sep), at any later time. It is left out as long as the use
+// (demand over capacity) of nothing inside can matter.
+//
+// What the change can do there is bounded by strain energy. With r the residual that the change left, the energy of
+// the whole change is r.du / 2 (r lives on a few rows), every element's is positive, and those of all elements that
+// were visited are known: what is left out holds at most the rest (the sum of du_sep' S du_sep / 2 over the subtrees
+// left out). An element of stiffness K takes energy E only with end forces |dF_i| <= sqrt(2 E K_ii) (Cauchy and
+// Schwarz in the energy norm); over several changes these add up.
+#include <Eigen/Core>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "assembly/frame_system.h"
+#include "elements/beam_strain_forces.h"
+#include "factor/triangular.h"
+#include "topple/solver/use_watch.h"
+
+namespace topple::solver {
+
+class RestrictedAnswer {
+ public:
+  using BeamStiffness = std::function<const BeamStrainForces&(int beam)>;
+  /// `solver` holds the factor of the system's matrix at some time; both must outlive this. The answer is whole.
+  RestrictedAnswer(const FrameSystem& system, const TriangularSolver& solver, BeamStiffness stiffness);
+
+  /// Another factor of the same pattern serves from now on; what is known of uses stays. The answer must be whole.
+  /// False (and nothing has changed): its blocks are others.
+  [[nodiscard]] bool serve(const TriangularSolver& solver);
+
+  /// The answer: scaled, in the matrix's order, and what is read from it.
+  struct Answer {
+    Eigen::VectorXd& solution;
+    std::vector<Vec6>& displacements;
+  };
+
+  /// Brings everything up to date, reading all uses that were not since (`watch`; null: they stay bounds).
+  void complete(Answer answer, UseWatch* watch);
+  /// Reads every use; the answer must be whole.
+  void read_all(UseWatch& watch);
+  [[nodiscard]] bool uses_known() const { return uses_known_; }
+  void forget_uses() { uses_known_ = false; }
+  /// What they can grow by may be more than it was.
+  void forget_growths() { uses_known_ = growths_known_ = false; }
+  /// Something is not up to date.
+  /// Numbers that a copy of it takes along.
+  [[nodiscard]] std::size_t size() const { return behind_.size(); }
+  [[nodiscard]] bool partial() const { return partial_; }
+  /// Something was brought up to date, and its uses were not read.
+  [[nodiscard]] bool unread() const { return any_unread_; }
+  [[nodiscard]] bool beam_is_current(int beam) const { return is_current(beam_block_[static_cast<std::size_t>(beam)]); }
+  [[nodiscard]] bool node_is_current(int node) const { return is_current(node_block_[static_cast<std::size_t>(node)]); }
+  [[nodiscard]] bool shell_is_current(int shell) const {
+    return is_current(shell_block_[static_cast<std::size_t>(shell)]);
+  }
+
+  /// Prepares a change at these rows (of the matrix): they, all rows that share an element with them, and their
+  /// ancestors are brought up to date. Returns the blocks on their paths.
+  const std::vector<char>& begin(std::span<const int> rows, Answer answer);
+  /// Carries a change through, as far as the watch needs it: y (in elimination order) was made from `residual`, which
+  /// is nonzero in the rows of begin() alone.
+  void advance(std::span<const int> rows, const Eigen::VectorXd& residual, const Eigen::VectorXd& y, UseWatch& watch,
+               Answer answer);
+
+  struct Effort {
+    double entries = 0;  ///< of the factor that the backward solve went through
+    int beams = 0, shells = 0;
+    double energy = 0;    ///< of the change, in all (J)
+    double left_out = 0;  ///< the bound of what is in the parts left out (J)
+  };
+  /// Of the last advance().
+  [[nodiscard]] const Effort& effort() const { return effort_; }
+  /// Upper bound of the uses in what is not up to date.
+  [[nodiscard]] double bound_left_out() const { return bound_left_out_; }
+
+ private:
+  [[nodiscard]] bool is_current(int block) const;
+  void list_elements();
+  [[nodiscard]] int lowest_block(std::span<const int> equations) const;
+  void reach_neighbours(std::span<const int> rows);
+  void bring_older(int block, Answer answer);
+  void step_now(int block, const Eigen::VectorXd& y, Answer answer);
+  void add_to_solution(int block, Answer answer);
+  void read_nodes(int block, Answer answer) const;
+  void read_uses(int block, UseWatch& watch);
+  [[nodiscard]] double twice_energy_of_elements(int block) const;
+  void update_bound(int block);
+  void note(double use);
+  void read_growths(UseWatch& watch);
+  void read_unread(UseWatch& watch);
+  void descend(const Eigen::VectorXd& y, UseWatch& watch, Answer answer);
+  void leave_out(int block);
+  void finish(const Eigen::VectorXd& y);
+  [[nodiscard]] double energy_left_out() const;
+  [[nodiscard]] Vec6 node_change(int node) const;
+  [[nodiscard]] double twice_energy_of_beam(int beam) const;
+  [[nodiscard]] double twice_energy_of_shell(int shell) const;
+
+  const FrameSystem& system_;
+  const TriangularSolver* solver_;
+  std::vector<int> depth_;
+  std::vector<int> child_start_, child_;  ///< per block: its children
+  // Elements and nodes belong to the block of the first of their equations that is eliminated: when that is up to
+  // date, so are all of them. -1: they have none.
+  std::vector<int> beam_block_, shell_block_, node_block_;
+  std::vector<int> beam_start_, beam_, shell_start_, shell_, node_start_, node_;  ///< per block
+  std::vector<int> held_beams_, held_shells_;                                     ///< without any equation
+  // Per block.
+  std::vector<char> older_;   ///< it is behind by what `behind_` and `waiting_` hold
+  std::vector<char> unread_;  ///< its uses are bounds
+  std::vector<std::int64_t> below_start_;
+  std::vector<double> behind_;  ///< change of the rows below the block since it was visited
+  std::vector<double> own_use_;
+  std::vector<double> bound_, growth_;  ///< of the whole subtree: of its uses; most growth
+  std::vector<double> slack_;           ///< sqrt(2 energy) that the subtree may have taken since it was visited
+  Eigen::VectorXd waiting_;             ///< y of blocks that are behind
+  Eigen::VectorXd change_;              ///< du of this change where visited
+  Eigen::VectorXd past_;                ///< scratch: older changes on one block's rows
+  std::vector<char> path_, visited_;
+  std::vector<int> visits_, open_, left_out_, near_rows_, elements_;
+  std::vector<double> below_;
+  BeamStiffness beam_stiffness_;
+  bool partial_ = false, any_unread_ = false, uses_known_ = false, growths_known_ = false;
+  double remaining_ = 0;  ///< twice the energy that the change may have left in what was not visited
+  double worst_ = 0, bound_left_out_ = 0;
+  Effort effort_;
+};
+
+}  // namespace topple::solver

@@ -1,0 +1,287 @@
+#include "reanalysis/standing_factor.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace topple::solver {
+namespace {
+
+/// Operations that one entry of the factor costs in a triangular solve, and one entry of the changes' columns.
+constexpr double entry_cost = 10, correction_cost = 4;
+
+}  // namespace
+
+StandingFactor::StandingFactor(const FrameSystem& system) : system_(system) {
+  for (int node = 0; node < static_cast<int>(system.model.nodes.size()); ++node) {
+    if (system.dofs().diaphragm_of_node[static_cast<std::size_t>(node)] >= 0) {
+      diaphragm_node_before_.emplace(node, system.supports_and_inert_rotations(node));
+      continue;
+    }
+    const auto own = system.own_stiffness(node);
+    if ((own.array() != 0).any()) node_before_.emplace(node, own);
+  }
+}
+
+void StandingFactor::serve(const Factor& factor) { serve(TriangularSolver(factor)); }
+
+void StandingFactor::serve(TriangularSolver triangles) {
+  solver_.emplace(std::move(triangles));
+  correction_.emplace(*solver_);
+}
+
+StandingFactor::CaughtUp StandingFactor::catch_up(int places) {
+  const Plan whole = plan();
+  if (!whole.possible) return {};
+  const std::size_t wanted = planned_.size(), taken = std::min(wanted, static_cast<std::size_t>(places));
+  while (planned_.size() > taken) planned_.erase(std::prev(planned_.end()));
+  for (const auto& [key, modes] : planned_) place_.emplace(key, correction_->add(modes.rows, modes.B));
+  planned_.clear();
+  correction_->finish_adding();
+  set_wanted();
+  correction_->update();
+  const double share = wanted == 0 ? 0.0 : static_cast<double>(taken) / static_cast<double>(wanted);
+  return {taken == wanted, share * (whole.operations - solve_operations())};
+}
+
+void StandingFactor::remember_beam(int beam) {
+  if (!beam_before_.contains(beam)) beam_before_.emplace(beam, beam_mode_stiffness(system_, beam));
+  stale_beams_.push_back(beam);
+}
+
+void StandingFactor::remember_shell(int shell) {
+  shell_before_.emplace(shell, system_.shell_stands[static_cast<std::size_t>(shell)]);
+  know_modes(shell);
+}
+
+/// What it strains by does not change: found once, while it stands.
+void StandingFactor::know_modes(int shell) {
+  if (system_.shell_stands[static_cast<std::size_t>(shell)] != 0 && !shell_modes_.contains(shell))
+    shell_modes_.emplace(shell, shell_modes(system_, system_.shell_stiffness(shell), shell));
+}
+
+bool StandingFactor::remember_plate(std::size_t element) {
+  if (element < system_.element_of_patch(0) &&
+      shell_before_.contains(static_cast<int>(element - system_.element_of_shell(0))))
+    return false;
+  if (!plate_before_.contains(element)) plate_before_.emplace(element, system_.plate_stiffness(element));
+  return true;
+}
+
+bool StandingFactor::inside_dropped(std::span<const int> nodes) const {
+  return std::all_of(nodes.begin(), nodes.end(),
+                     [&](int n) { return std::binary_search(dropped_.begin(), dropped_.end(), n); });
+}
+
+ElementModes StandingFactor::modes(Key key) const {
+  if (key.kind == Kind::beam) return beam_modes(system_, key.index);
+  if (key.kind == Kind::shell) return shell_modes_.at(key.index);
+  if (key.kind == Kind::plate) {
+    const auto element = static_cast<std::size_t>(key.index);
+    ElementModes own;
+    for (const int place : equations_of(element))
+      own.rows.push_back(system_.scatter().freedoms(element)[static_cast<std::size_t>(place)]);
+    const auto count = static_cast<Eigen::Index>(own.rows.size());
+    own.B = Eigen::MatrixXd::Identity(count, count);
+    return own;
+  }
+  return node_modes(system_, key.index);
+}
+
+/// What was restored is as the factor has it: no need to look at it again until it changes again.
+void StandingFactor::forget_unchanged(std::optional<Eigen::Index> kept) {
+  const std::vector<int> number = kept ? correction_->forget_unchanged(*kept) : correction_->forget_unchanged();
+  if (number.empty()) return;
+  for (auto place = place_.begin(); place != place_.end();) {
+    place->second = number[static_cast<std::size_t>(place->second)];
+    if (place->second >= 0) {
+      ++place;
+      continue;
+    }
+    wanted_.erase(place->first);
+    // A beam inside a part that left stays known: it holds the part together.
+    if (place->first.kind == Kind::beam &&
+        !inside_dropped(system_.model.beams[static_cast<std::size_t>(place->first.index)].node))
+      beam_before_.erase(place->first.index);
+    place = place_.erase(place);
+  }
+}
+
+/// Takes what changed over, and adds what changed for the first time.
+void StandingFactor::add_planned() {
+  set_wanted();
+  forget_unchanged();
+  for (const auto& [key, wanted] : wanted_) {
+    if (wanted.set || !wanted.active()) continue;
+    const ElementModes& m = planned_.at(key);
+    place_.emplace(key, correction_->add(m.rows, m.B));
+  }
+  planned_.clear();
+}
+
+void StandingFactor::set_wanted() {
+  for (const auto& [key, place] : place_) {
+    Wanted& wanted = wanted_.at(key);
+    if (!wanted.set) correction_->set(place, wanted.D);
+    wanted.set = true;
+  }
+}
+
+void StandingFactor::update() {
+  add_planned();
+  correction_->finish_adding();
+  set_wanted();
+  correction_->update();
+}
+
+void StandingFactor::update(std::span<const int> rows, const Eigen::VectorXd& right_hand_side) {
+  add_planned();
+  solver_->permute(right_hand_side, along_);
+  solver_->mark_paths(rows, marked_);
+  correction_->finish_adding({}, &along_, &marked_);
+  set_wanted();
+  correction_->update();
+}
+
+void StandingFactor::solve(Eigen::VectorXd& x, const std::vector<int>* rows) const {
+  solver_->permute(x, eliminated_);
+  if (rows != nullptr) {
+    solver_->mark_paths(*rows, marked_);
+    solver_->forward(eliminated_, &marked_);
+  } else {
+    solver_->forward(eliminated_);
+  }
+  finish_solve(x);
+}
+
+void StandingFactor::forward_along(Eigen::VectorXd& y) const {
+  y = along_;
+  correction_->correct(y);
+}
+
+void StandingFactor::solve_along(Eigen::VectorXd& x) const {
+  eliminated_ = along_;
+  finish_solve(x);
+}
+
+/// From the eliminated right-hand side to the answer.
+void StandingFactor::finish_solve(Eigen::VectorXd& x) const {
+  correction_->correct(eliminated_);
+  solver_->backward(eliminated_);
+  solver_->restore(eliminated_, x);
+  forget_dropped(x);
+}
+
+void StandingFactor::forget_dropped(Eigen::VectorXd& x) const {
+  for (const int node : dropped_) {
+    const auto n = static_cast<std::size_t>(node);
+    for (int e = system_.dofs().first_equation[n]; e < system_.dofs().first_equation[n + 1]; ++e) x(e) = 0;
+  }
+}
+
+/// All columns as far as the backward solve, in columns_.
+void StandingFactor::eliminate(const Eigen::MatrixXd& X, const std::vector<int>& rows) const {
+  columns_.resize(X.rows(), X.cols());
+  for (Eigen::Index j = 0; j < X.cols(); ++j) {
+    column_ = X.col(j);
+    solver_->permute(column_, eliminated_);
+    columns_.col(j) = eliminated_;
+  }
+  solver_->mark_paths(rows, marked_);
+  solver_->forward(columns_, &marked_);
+  for (Eigen::Index j = 0; j < X.cols(); ++j) {
+    eliminated_ = columns_.col(j);
+    correction_->correct(eliminated_);
+    columns_.col(j) = eliminated_;
+  }
+}
+
+void StandingFactor::restore(Eigen::MatrixXd& X) const {
+  for (Eigen::Index j = 0; j < X.cols(); ++j) {
+    eliminated_ = columns_.col(j);
+    solver_->restore(eliminated_, column_);
+    forget_dropped(column_);
+    X.col(j) = column_;
+  }
+}
+
+void StandingFactor::solve(Eigen::MatrixXd& X, const std::vector<int>& rows) const {
+  eliminate(X, rows);
+  solver_->backward(columns_);
+  restore(X);
+}
+
+void StandingFactor::solve_on_paths(Eigen::MatrixXd& X, const std::vector<int>& rows, std::vector<char>& known) const {
+  eliminate(X, rows);
+  solver_->backward(columns_, &marked_);
+  restore(X);
+  known.resize(static_cast<std::size_t>(X.rows()));
+  for (Eigen::Index row = 0; row < X.rows(); ++row) {
+    known[static_cast<std::size_t>(row)] = marked_[static_cast<std::size_t>(solver_->block_of(static_cast<int>(row)))];
+    if (known[static_cast<std::size_t>(row)] == 0) X.row(row).setZero();
+  }
+}
+
+void StandingFactor::forward(const Eigen::VectorXd& x, const std::vector<char>& marked, Eigen::VectorXd& y) const {
+  solver_->permute(x, y);
+  solver_->forward(y, &marked);
+  correction_->correct(y);
+}
+
+Eigen::MatrixXd StandingFactor::solve_without(std::span<const Loss> losses) {
+  forget_unchanged(0);
+  std::vector<int> places;
+  std::vector<Eigen::MatrixXd> y;
+  for (const Loss& loss : losses) {
+    ElementModes m = beam_modes(system_, loss.beam);
+    // Every row of the residual on one path with those of the modes.
+    const auto own = m.B.rows();
+    m.B.conservativeResize(own + static_cast<Eigen::Index>(loss.rows.size()), Eigen::NoChange);
+    m.B.bottomRows(static_cast<Eigen::Index>(loss.rows.size())).setZero();
+    m.rows.insert(m.rows.end(), loss.rows.begin(), loss.rows.end());
+    places.push_back(correction_->add(m.rows, m.B));
+    const Key key{Kind::beam, loss.beam};
+    place_.emplace(key, places.back());
+    wanted_.insert_or_assign(key, Wanted{Mat6::Zero(), true});
+    const EliminationPath& path = correction_->path(places.back());
+    Eigen::MatrixXd column = Eigen::MatrixXd::Zero(path.rows(), 1);
+    for (std::size_t i = 0; i < loss.rows.size(); ++i)
+      column(solver_->row_on_path(path, loss.rows[i])) = loss.residual(static_cast<Eigen::Index>(i));
+    y.push_back(std::move(column));
+  }
+  std::vector<PathColumns> also;
+  for (std::size_t j = 0; j < losses.size(); ++j) also.push_back({&correction_->path(places[j]), &y[j]});
+  correction_->finish_adding(also);
+  Eigen::MatrixXd Y = Eigen::MatrixXd::Zero(solver_->size(), std::ssize(losses));
+  Eigen::VectorXd on_path, whole;
+  for (std::size_t j = 0; j < losses.size(); ++j) {
+    on_path = y[j].col(0);
+    if (!correction_->correct_alone(places[j], -beam_mode_stiffness(system_, losses[j].beam), on_path)) continue;
+    whole.setZero(solver_->size());
+    const double minus = -1;
+    solver_->subtract(correction_->path(places[j]), on_path, &minus, whole);
+    Y.col(static_cast<Eigen::Index>(j)) = whole;
+  }
+  solver_->backward(Y);
+  for (Eigen::Index j = 0; j < Y.cols(); ++j) {
+    on_path = Y.col(j);
+    solver_->restore(on_path, whole);
+    Y.col(j) = whole;
+  }
+  return Y;
+}
+
+Eigen::VectorXd StandingFactor::softest_motion() const {
+  Eigen::VectorXd y = correction_->softest_motion(), x;
+  solver_->backward(y);
+  solver_->restore(y, x);
+  const double norm = x.norm();
+  if (norm > 0) x /= norm;
+  return x;
+}
+
+double StandingFactor::solve_operations() const {
+  return 2 * entry_cost * solver_->entries() + correction_cost * correction_->entries();
+}
+
+}  // namespace topple::solver

@@ -1,0 +1,156 @@
+#pragma once
+// A factor that goes on serving while the structure changes: it remembers what every changed element was when the
+// factor was made, keeps the low-rank correction from there to now, and tells beforehand what that costs.
+//
+// Parts that left (dropped nodes) keep the stiffness they had inside, so that nothing inside them needs correcting;
+// only what joined them to the rest is taken away, and one node of each is held. They bear no load and get no
+// displacement.
+#include <Eigen/Core>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "assembly/frame_system.h"
+#include "eigen/element_modes.h"
+#include "factor/factor.h"
+#include "factor/triangular.h"
+#include "reanalysis/ladder_costs.h"
+#include "reanalysis/low_rank.h"
+
+namespace topple::solver {
+
+class StandingFactor {
+ public:
+  /// From now on it can be told of changes; the factor of the system's matrix as it is now may come later. The system
+  /// must outlive this.
+  explicit StandingFactor(const FrameSystem& system);
+  /// That factor, which must outlive this. Only now it can plan and solve.
+  void serve(const Factor& factor);
+  /// The same with the triangles over that factor, made elsewhere.
+  void serve(TriangularSolver triangles);
+  /// Over a factor that is to serve soon: compares, and takes over at most so many of the places that changed since it
+  /// was made. Little enough to be done beside the answers of the one that still serves.
+  struct CaughtUp {
+    bool all = true;  ///< nothing is left, or what is left only a new factor takes
+    double operations = 0;
+  };
+  [[nodiscard]] CaughtUp catch_up(int places);
+
+  // To be told before the system changes.
+  void remember_beam(int beam);
+  void remember_shell(int shell);
+  /// An element that is no beam gets another stiffness, not only none or its own: a patch, or a shell whose stiffness
+  /// is given. False: it was remembered as a shell that comes and goes, and only a new factor takes the change.
+  [[nodiscard]] bool remember_plate(std::size_t element);
+  void drop_node(int node) {
+    dropped_.push_back(node);
+    dropped_more_ = true;
+  }
+  /// These nodes' supports or elements change, or have changed.
+  void touch(std::span<const int> nodes) { touched_.insert(touched_.end(), nodes.begin(), nodes.end()); }
+
+  /// Compares the system as it is now with what was remembered.
+  struct Plan {
+    bool possible = false;  ///< false: the change is of a kind that only a new factor takes
+    int rank = 0;           ///< columns of the correction
+    double operations = 0;  ///< to bring it up to date and for one answer
+    CorrectionWork work;    ///< the same by kind, as the rungs are compared by
+  };
+  [[nodiscard]] Plan plan();
+  /// Carries the last plan out.
+  void update();
+  /// The same; a right-hand side, zero outside of `rows`, is eliminated along with the new places: the blocks of the
+  /// factor are read once for both. forward_along() and solve_along() go on from there.
+  void update(std::span<const int> rows, const Eigen::VectorXd& right_hand_side);
+
+  /// x := K^-1 x of the matrix as it stands. `rows` (unless null): x is zero in all other rows.
+  void solve(Eigen::VectorXd& x, const std::vector<int>* rows = nullptr) const;
+  /// The same for several columns, zero outside of `rows` all of them, the factor gone through once.
+  void solve(Eigen::MatrixXd& X, const std::vector<int>& rows) const;
+  /// The same on the elimination paths of `rows` alone, where X may differ from zero: a part of the work. `known` (per
+  /// row) tells where X holds the answer; it is zero elsewhere.
+  void solve_on_paths(Eigen::MatrixXd& X, const std::vector<int>& rows, std::vector<char>& known) const;
+  /// The same up to the backward solve: y, in elimination order, of which L^-T makes the answer. Rows as above, the
+  /// blocks on their paths in `marked`.
+  void forward(const Eigen::VectorXd& x, const std::vector<char>& marked, Eigen::VectorXd& y) const;
+  /// What forward() makes of the right-hand side that was eliminated along; and solve().
+  void forward_along(Eigen::VectorXd& y) const;
+  void solve_along(Eigen::VectorXd& x) const;
+  /// A beam that will be taken away, and a right-hand side for the matrix without it: zero outside of these rows, those
+  /// of the beam's nodes.
+  struct Loss {
+    int beam;
+    std::vector<int> rows;
+    Eigen::VectorXd residual;
+  };
+  /// The answers to all of them, a column each (zero where the matrix without the beam is singular), the factor gone
+  /// through together. Only while nothing differs from when it was made; the corrections are kept for what follows.
+  [[nodiscard]] Eigen::MatrixXd solve_without(std::span<const Loss> losses);
+  [[nodiscard]] const TriangularSolver& triangles() const { return *solver_; }
+  /// The softest motion of the changed structure relative to that of the factor (scaled equations), and by what factor
+  /// it is softer than there.
+  [[nodiscard]] Eigen::VectorXd softest_motion() const;
+  [[nodiscard]] double softening() const { return correction_->softening(); }
+  /// Whether anything differs from when the factor was made.
+  [[nodiscard]] bool changed() const { return correction_->active_rank() > 0 || !dropped_.empty(); }
+  [[nodiscard]] int rank() const { return correction_->active_rank(); }
+  /// Operations of one answer.
+  [[nodiscard]] double solve_operations() const;
+
+ private:
+  enum class Kind { beam, shell, plate, node, ground };
+  struct Key {
+    Kind kind;
+    int index;
+    auto operator<=>(const Key&) const = default;
+  };
+  void plan_beam(int beam, const Mat6& before);
+  void plan_beams();
+  void plan_shells();
+  void plan_plates();
+  [[nodiscard]] std::vector<int> equations_of(std::size_t element) const;
+  bool plan_nodes();
+  void plan_grounds();
+  void want(Key key, const Eigen::Ref<const Eigen::MatrixXd>& D);
+  void forget_unchanged(std::optional<Eigen::Index> kept = {});
+  void forget_dropped(Eigen::VectorXd& x) const;
+  [[nodiscard]] bool inside_dropped(std::span<const int> nodes) const;
+  void know_modes(int shell);
+  [[nodiscard]] ElementModes modes(Key key) const;
+  void add_planned();
+  void set_wanted();
+  void finish_solve(Eigen::VectorXd& x) const;
+  void eliminate(const Eigen::MatrixXd& X, const std::vector<int>& rows) const;
+  void restore(Eigen::MatrixXd& X) const;
+
+  const FrameSystem& system_;
+  std::optional<TriangularSolver> solver_;
+  std::optional<LowRankCorrection> correction_;
+  std::map<int, Mat6> beam_before_;
+  std::map<int, char> shell_before_;
+  std::map<int, ElementModes> shell_modes_;
+  std::map<std::size_t, Eigen::MatrixXd> plate_before_;
+  std::map<int, Eigen::MatrixXd> node_before_;  ///< own stiffness, of nodes that have any
+  std::map<int, Mat6> diaphragm_node_before_;   ///< the same, of nodes in diaphragms
+  std::vector<int> dropped_;
+  // Since the last plan. When parts left, everything is looked at again.
+  std::vector<int> stale_beams_, touched_;
+  bool dropped_more_ = false;
+  std::map<Key, int> place_;
+  /// D of every place that has or had one, and whether the correction has it yet.
+  struct Wanted {
+    Eigen::MatrixXd D;
+    bool set = false;
+    [[nodiscard]] bool active() const { return (D.array() != 0).any(); }
+  };
+  std::map<Key, Wanted> wanted_;
+  std::map<Key, ElementModes> planned_;  ///< of places that the last plan adds
+  Eigen::VectorXd along_;                ///< in elimination order
+  mutable Eigen::VectorXd eliminated_, column_;
+  mutable Eigen::MatrixXd columns_;
+  mutable std::vector<char> marked_;
+};
+
+}  // namespace topple::solver

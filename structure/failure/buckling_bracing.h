@@ -1,0 +1,97 @@
+#pragma once
+// Loss of bracing by buckling: which post of a standing component gives way sideways under what it bears.
+//
+// Three sieves, the finest last:
+//   1. a post's compression against a lower bound of what it can bear, pi2 E I/(2 Lu)2, Lu the length over which
+//   nothing
+//      braces it: below `tested_share` of it nothing is looked at, nor while no post bears more than when it was tested
+//      last;
+//   2. the second-order iteration over the standing elastic factor, K u' = -Kg(N) u: its Rayleigh quotient comes to the
+//      inverse of the buckling factor from below;
+//   3. the full tangent (solver::buckling_modes: exact members, counted eigenvalues) decides, and gives the shape.
+// The post that the critical shape bends most gives way where it does so (solver/buckling_bend.h): at an end, or
+// inside.
+#include <array>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "failure/segmentation.h"
+#include "standing/frame_statics.h"
+#include "topple/solver/buckling_bend.h"
+
+namespace topple::structure {
+
+class PanelBearings;
+
+struct BuckledPost {
+  MemberId post;                         ///< invalid when none is compressed
+  JointId joint;                         ///< where it bends most; invalid when that is inside
+  double inside = 0;                     ///< of its length from the first end: where it bends most then
+  double factor = 0;                     ///< by which the loads would have to be smaller: below 1
+  double compression = 0, bearable = 0;  ///< N; `bearable`: compression times factor
+  Vec3 bulge = Vec3::Zero();             ///< where the critical shape moves it most, undeformed
+};
+
+class BucklingBracing {
+ public:
+  BucklingBracing(const Building& building, const FrameStatics& statics, const Segmentation& segments,
+                  const PanelBearings& bearings, const std::vector<std::vector<solver::BeamLoad>>& applied,
+                  const std::vector<Vec6>& node_applied, const std::vector<char>& node_solved);
+
+  /// Of the state solved last. Nothing: the component is stable, or is still being tested: one step of the iteration at
+  /// a time, so that a budget can spread it. `certain`: the tangent is asked in any case.
+  [[nodiscard]] std::optional<BuckledPost> find(int component, bool certain = false);
+  /// The iteration is under way for this component. It begins anew when what stands was solved again.
+  [[nodiscard]] bool testing(int component) const { return iterations_.contains(component); }
+
+  struct Counters {
+    int screened = 0, iterated = 0, judged = 0;  ///< components that each sieve was asked about
+  };
+  [[nodiscard]] const Counters& counters() const { return counters_; }
+
+  /// Length over which nothing braces the post sideways.
+  [[nodiscard]] double unbraced_length(MemberId post) const;
+
+ private:
+  [[nodiscard]] bool braced(NodeId node) const;
+  [[nodiscard]] bool suspicious(int component);
+  /// The second-order iteration over the elastic factor, under way.
+  struct Iteration {
+    std::uint64_t solves = 0;  ///< what stands was solved so often when it began
+    FrameStatics::ResponseLoads loads;
+    double quotient = 0;
+    int steps = 0;
+  };
+  [[nodiscard]] Iteration begin(int component) const;
+  [[nodiscard]] bool iterate(int component, Iteration& iteration) const;
+  [[nodiscard]] bool buckles_inside(int component) const;
+  [[nodiscard]] std::optional<BuckledPost> judge(int component) const;
+  /// A compressed post in the critical shape.
+  struct Bent {
+    MemberId post;
+    double compression = 0;
+    std::array<Vec6, 2> motion{};  ///< of its nodes
+    bool rests = false;            ///< they do not move
+    double share = 0;              ///< of what it bears between nodes that rest
+    solver::BucklingBend bend;
+  };
+  [[nodiscard]] static std::vector<Bent> most_bent(std::vector<Bent> bent);
+  [[nodiscard]] BuckledPost give_way(const std::vector<Bent>& bent, double factor) const;
+
+  const Building& building_;
+  const FrameStatics& statics_;
+  const Segmentation& segments_;
+  const PanelBearings& bearings_;
+  const std::vector<std::vector<solver::BeamLoad>>& applied_;
+  const std::vector<Vec6>& node_applied_;
+  const std::vector<char>& node_solved_;
+  std::vector<std::vector<MemberId>> members_at_;  ///< per node
+  std::vector<std::vector<PanelId>> plates_at_;
+  std::vector<char> supported_;          ///< per node
+  std::vector<double> tested_;           ///< per member: utilisation of the lower bound when it was tested last
+  std::map<int, Iteration> iterations_;  ///< per component
+  Counters counters_;
+};
+
+}  // namespace topple::structure

@@ -1,0 +1,316 @@
+// Break-up: a body that is hit hard is a free segment (free_segment.h). Its joints that are over capacity break, those
+// most over first, and it falls apart into parts that move on as the whole did: momentum, linear and angular, and
+// kinetic energy go over exactly.
+//
+// One analysis answers for a body, however many members it has. Blows that a budget leaves undone wait, in the order in
+// which they came.
+#include <algorithm>
+
+#include "simulation/debris/momentum.h"
+#include "simulation/impact/first_failure.h"
+#include "simulation/simulation_state.h"
+#include "simulation/step_clock.h"
+#include "topple/structure/joint_check.h"
+
+namespace topple::structure {
+
+namespace {
+/// Forces of contact below this multiple of the body's weight, and spins whose pull is below this multiple of gravity,
+/// are those of lying, rolling and tumbling: what fell in one piece bears them.
+constexpr double hard = 3;
+/// Joints within this share of the most used break together: symmetric ones differ by rounding only.
+constexpr double same_time = 1e-6;
+/// Operations, for budgets: to make a body of a part, with its shapes.
+constexpr double part_cost = 1.5e6;
+}  // namespace
+
+bool Simulation::State::holds_in_debris(JointId joint) const {
+  return frame->intact(joint) && debris_broken[static_cast<std::size_t>(joint.index)] == 0;
+}
+
+/// Only where a panel can break: others come down whole, with what most of their corners are joined to.
+std::optional<std::array<double, 4>> Simulation::State::flying_edges(PanelId id) const {
+  if (!breakable_panels[static_cast<std::size_t>(id.index)].settings) return std::nullopt;
+  const Panel& panel = building[id];
+  const BrokenPanel* broken = broken_panel(id);
+  std::array<double, 4> length{};
+  for (std::size_t edge = 0; edge < 4; ++edge) {
+    if (!holds_in_debris(building.joint(id, static_cast<int>(edge)))) continue;
+    const Vec3 way = building[panel.nodes[(edge + 1) % 4]].position - building[panel.nodes[edge]].position;
+    length[edge] = broken ? broken->edge_length(edge) : way.norm();
+  }
+  return length;
+}
+
+/// Its joints are asked what they bear when it is hit hard.
+bool Simulation::State::may_fall_apart(const Body& one) const {
+  return one.members.size() > 1 || (any_breakable && one.members.size() == 1 && !one.panels.empty());
+}
+
+FreeSegmentParts Simulation::State::parts_of(const Body& one) const {
+  FreeSegmentParts parts;
+  parts.members = one.members;
+  parts.panels = one.panels;
+  parts.nodes = one.nodes;
+  // What lies frozen on a part is of its mass.
+  const auto of = [&](Part part, double own) {
+    for (const Frozen& lying : frozen)
+      if (lying.on == part) own += lying.mass.mass;
+    return own;
+  };
+  for (const MemberId member : one.members) parts.member_mass.push_back(of(Part(member), masses.of(member).mass));
+  for (const PanelId panel : one.panels) parts.panel_mass.push_back(of(Part(panel), masses.of(panel).mass));
+  for (const NodeId node : one.nodes) parts.node_mass.push_back(masses.of(node).mass);
+  return parts;
+}
+
+bool Simulation::State::spins_hard(const Body& one, const Vec3& spin) const {
+  return spin.squaredNorm() * (one.bounds.high - one.bounds.low).norm() / 2 > hard * building.gravity;
+}
+
+/// Bodies of several parts that contacts pushed hard, or that spin fast.
+std::vector<collision::BodyId> Simulation::State::hit_hard() {
+  std::vector<std::pair<std::int64_t, double>> force;  // sum over contacts of their size
+  for (const std::int64_t id : bodies.composed())
+    if (!bodies.motion(id).asleep && may_fall_apart(bodies.at(id))) force.emplace_back(id, 0.0);
+  if (force.empty()) return {};
+  const auto feel = [&](collision::BodyId id, const FeltContact& contact, std::int64_t tag) {
+    if (tag < 0) return;
+    const auto felt = std::lower_bound(force.begin(), force.end(), std::pair(id.value, 0.0));
+    if (felt != force.end() && felt->first == id.value) felt->second += contact.impulse.norm() / scenario.step;
+  };
+  for (const FeltContact& contact : felt_contacts) {
+    feel(contact.body, contact, contact.part_tag);
+    if (contact.other.kind == collision::Touched::Kind::body) feel(contact.other.body, contact, contact.other.part_tag);
+  }
+  std::vector<collision::BodyId> hit;
+  for (const auto& [id, size] : force) {
+    const Body& one = bodies.at(id);
+    if (size > hard * one.rest.mass * building.gravity || spins_hard(one, world->state(one.id).angular_velocity))
+      hit.push_back({id});
+  }
+  return hit;
+}
+
+/// What contacts did to these bodies in this step, in their own undeformed axes.
+std::vector<Simulation::State::Blow> Simulation::State::blows(const std::vector<collision::BodyId>& on) const {
+  std::vector<Blow> all;
+  for (const collision::BodyId id : on) {
+    const collision::BodyState state = world->state(id);
+    const Mat3 back = state.pose.orientation.toRotationMatrix().transpose();
+    all.push_back({id, {}, back * state.angular_velocity, back * gravity, 0, step});
+  }
+  const auto feel = [&](collision::BodyId id, std::int64_t tag, const Vec3& impulse, const Vec3& point) {
+    if (tag < 0 || impulse.isZero(0)) return;
+    const auto blow = std::lower_bound(all.begin(), all.end(), id,
+                                       [](const Blow& one, collision::BodyId wanted) { return one.on < wanted; });
+    if (blow == all.end() || blow->on != id) return;
+    const collision::Pose pose = world->state(id).pose;
+    const Mat3 back = pose.orientation.toRotationMatrix().transpose();
+    const Part part = part_of_number(building, tag);
+    blow->pushes.push_back({part.member, part.panel, bodies.at(id.value).rest.centre + back * (point - pose.position),
+                            back * impulse / scenario.step});
+  };
+  for (const FeltContact& contact : felt_contacts) {
+    feel(contact.body, contact.part_tag, -contact.impulse, contact.point);
+    if (contact.other.kind == collision::Touched::Kind::body)
+      feel(contact.other.body, contact.other.part_tag, contact.impulse, contact.point);
+  }
+  return all;
+}
+
+void Simulation::State::break_up_landed() {
+  if (world->awake_count() > 0)
+    for (Blow& blow : blows(hit_hard())) take_blow(std::move(blow));
+  work_off_blows();
+}
+
+/// Of two blows on a body that waits for a budget, the harder one counts.
+void Simulation::State::take_blow(Blow blow) {
+  const auto waiting =
+      std::find_if(waiting_blows.begin(), waiting_blows.end(), [&](const Blow& other) { return other.on == blow.on; });
+  if (waiting == waiting_blows.end())
+    waiting_blows.push_back(std::move(blow));
+  else if (waiting->generation == 0 && !waiting->broke && blow.size() > waiting->size())
+    *waiting = std::move(blow);
+}
+
+/// One generation of each after the other, as far as the budget goes and generations of their step do.
+void Simulation::State::work_off_blows() {
+  while (!waiting_blows.empty()) {
+    const std::int64_t id = waiting_blows.front().on.value;
+    const Body* one = body({id});
+    if (one && !may_compute(Work::debris)) return;
+    Blow& first = waiting_blows.front();
+    const int generations = generations_of(first.step, scenario.step, scenario.failure.generations_per_second);
+    if (one && !first.broke && first.generation < generations) {
+      if (make_free_segment(*one) && !may_compute(Work::debris)) return;
+      first.broke = break_joints_of(first);
+    }
+    const bool comes_apart = one && first.broke;
+    if (comes_apart && !may_compute(Work::debris)) return;
+    const Blow blow = std::move(waiting_blows.front());
+    waiting_blows.pop_front();
+    if (comes_apart) hand_on(blow, come_apart(blow.on));
+  }
+}
+
+/// The blow is that of the parts it fell on; all go on to spin as the whole did.
+void Simulation::State::hand_on(const Blow& blow, const std::vector<collision::BodyId>& pieces) {
+  for (const collision::BodyId id : pieces) {
+    const Body& own = bodies.at(id.value);
+    if (!may_fall_apart(own)) continue;
+    Blow part{id, {}, blow.spin, blow.gravity, blow.generation + 1, blow.step};
+    for (const FreePush& push : blow.pushes)
+      if (push.member.valid() ? std::binary_search(own.members.begin(), own.members.end(), push.member)
+                              : std::find(own.panels.begin(), own.panels.end(), push.panel) != own.panels.end())
+        part.pushes.push_back(push);
+    if (!part.pushes.empty() || spins_hard(own, blow.spin)) waiting_blows.push_back(std::move(part));
+  }
+}
+
+/// False when there is one.
+bool Simulation::State::make_free_segment(const Body& one) {
+  std::unique_ptr<FreeSegment>& segment = free_segments[one.id.value];
+  if (segment) return false;
+  segment = std::make_unique<FreeSegment>(
+      building, parts_of(one), [&](JointId joint) { return holds_in_debris(joint); },
+      [&](PanelId shell) { return frame->shell_stiffness(shell); }, [&](PanelId panel) { return flying_edges(panel); });
+  spend_on_debris(segment->take_operations());
+  return true;
+}
+
+/// One generation of a body's breaks. False when nothing broke.
+bool Simulation::State::break_joints_of(const Blow& blow) {
+  const Body& one = bodies.at(blow.on.value);
+  FreeSegment& segment = *free_segments.at(blow.on.value);
+  if (!segment.can_break()) return false;
+  const FreeSegment::Answer answer = segment.bear(blow.pushes, blow.spin, blow.gravity);
+  spend_on_debris(segment.take_operations());
+  std::vector<std::pair<JointId, Utilisation>> over;
+  double largest = 1;
+  for (const auto& [joint, demand] : answer.demands) {
+    const Utilisation used =
+        utilisation(building[joint].capacity, demand, strength_factors[static_cast<std::size_t>(joint.index)]);
+    if (!(used.value > 1)) continue;
+    over.emplace_back(joint, used);
+    largest = std::max(largest, used.value);
+  }
+  if (over.empty()) return false;
+  std::erase_if(over, [&](const auto& each) { return each.second.value < (1 - same_time) * largest; });
+  tell_broken_in_debris(one, over, blow.generation);
+  free_segments.erase(blow.on.value);
+  return true;
+}
+
+/// What it is now: itself when it still hangs together.
+std::vector<collision::BodyId> Simulation::State::come_apart(collision::BodyId id) {
+  const std::vector<FreeSegmentParts> parts = connected_parts(
+      building, parts_of(bodies.at(id.value)), [&](JointId joint) { return holds_in_debris(joint); },
+      [&](PanelId panel) { return flying_edges(panel); });
+  if (parts.size() == 1) return {id};
+  return split(id, parts);
+}
+
+void Simulation::State::tell_broken_in_debris(const Body& one,
+                                              const std::vector<std::pair<JointId, Utilisation>>& broken,
+                                              int generation) {
+  const collision::BodyState state = world->state(one.id);
+  const Mat3 turn = state.pose.orientation.toRotationMatrix();
+  for (const auto& [joint, used] : broken) {
+    debris_broken[static_cast<std::size_t>(joint.index)] = 1;
+    JointBreak line = impact_break(joint, used);
+    line.generation = generation;
+    line.position = state.pose.position + turn * (joint_position(joint) - one.rest.centre);
+    tell(line);
+  }
+}
+
+/// One that waited on a body that fell apart for another reason.
+void Simulation::State::pass_on_blow(collision::BodyId from, const std::vector<collision::BodyId>& pieces) {
+  const auto waiting =
+      std::find_if(waiting_blows.begin(), waiting_blows.end(), [&](const Blow& blow) { return blow.on == from; });
+  if (waiting == waiting_blows.end()) return;
+  Blow blow = std::move(*waiting);
+  waiting_blows.erase(waiting);
+  --blow.generation;  // hand_on() counts one
+  hand_on(blow, pieces);
+}
+
+/// Replaces the body by its parts, each with the velocity of its centre in the whole.
+std::vector<collision::BodyId> Simulation::State::split(collision::BodyId id,
+                                                        const std::vector<FreeSegmentParts>& parts,
+                                                        std::vector<Body> chunks) {
+  const Body whole = bodies.at(id.value);
+  const collision::BodyState state = world->state(id);
+  const Mat3 turn = state.pose.orientation.toRotationMatrix();
+  (void)resting.forget(id, *frame, false);
+  const std::vector<JointId> hung = take_off(id);
+  timer.engine([&] { world->remove_body(id); });
+  bodies.erase(id.value);
+  free_segments.erase(id.value);
+
+  std::vector<collision::BodyId> made;
+  Momentum carried{state.pose.position}, handed_on{state.pose.position};
+  carried.add(whole, state);
+  const auto motion_of = [&](const Body& own) {
+    const Vec3 arm = turn * (own.rest.centre - whole.rest.centre);
+    collision::BodyState moving = state;
+    moving.pose.position += arm;
+    moving.velocity += state.angular_velocity.cross(arm);
+    moving.asleep = false;
+    return moving;
+  };
+  // One that is too small to be a body takes its energy with it.
+  const auto go_on = [&](Body own) {
+    const collision::BodyState moving = motion_of(own);
+    if (own.volume < scenario.debris.smallest_volume) {
+      const Kinetic lost = kinetic_energy(own, moving, reading());
+      ledger.removed += lost.translation + lost.rotation;
+      for (const MemberId member : own.members) body_of_part[static_cast<std::size_t>(member.index)] = -2;
+      for (const PanelId panel : own.panels)
+        body_of_part[static_cast<std::size_t>(part_number(building, Part(panel)))] = -2;
+      tell(SimulationEvent::Kind::limited, own.name).mass = own.rest.mass;
+      handed_on.add(own, moving);
+      return;
+    }
+    made.push_back(add_body(std::move(own), moving));
+    bodies.motion(made.back().value).step_start = moving.pose.position;
+    handed_on.add(bodies.at(made.back().value), world->state(made.back()));
+    changes.split.push_back({id.value, made.back().value});
+  };
+  for (const FreeSegmentParts& part : parts) {
+    Detached piece;
+    piece.members = part.members;
+    piece.panels = part.panels;
+    piece.nodes = part.nodes;
+    const double mass = masses.of(piece).mass;
+    if (piece.members.empty() && piece.panels.empty() && mass <= 0) continue;  // a bare hub
+    Body own = describe(piece);
+    if (parts.size() > 1) {
+      SimulationEvent& event = tell(SimulationEvent::Kind::split, own.name);
+      event.members = own.members;
+      event.panels = own.panels;
+      event.mass = own.rest.mass;
+      event.position = motion_of(own).pose.position;
+    }
+    go_on(std::move(own));
+  }
+  const std::size_t parts_made = made.size();
+  spend_on_debris(part_cost * static_cast<double>(parts_made));
+  for (Body& chunk : chunks) go_on(std::move(chunk));
+  ledger.momentum_error = std::max(ledger.momentum_error, carried.error(handed_on));
+  pass_on_blow(id, made);
+  hang_again(hung);
+  // Parts are born inside each other where they were joined.
+  for (std::size_t i = 0; i < parts_made; ++i)
+    for (std::size_t j = i + 1; j < parts_made; ++j) {
+      collision::Touched other;
+      other.kind = collision::Touched::Kind::body;
+      other.body = made[j];
+      pass(made[i], other);
+    }
+  return made;
+}
+
+}  // namespace topple::structure

@@ -1,0 +1,124 @@
+// Contacts of bodies that the host owns. For the length of its impact such a body is one like any other; then it leaves
+// again and its change of momentum is handed back.
+#include <cmath>
+
+#include "simulation/impact/asked_response.h"
+#include "topple/structure/error.h"
+
+namespace topple::structure {
+
+namespace {
+
+/// Size of the ball that stands for a host's body while it strikes, m; its mass and inertia are its own.
+constexpr double stand_in_radius = 0.05;
+
+void require_sound(const HostContact& contact) {
+  const std::string name = "host contact " + std::to_string(contact.key);
+  if (!(contact.mass > 0) || !std::isfinite(contact.mass)) throw InputError(name + ": its mass must be above zero");
+  if (!(contact.inertia.determinant() > 0) || !contact.inertia.allFinite())
+    throw InputError(name + ": its inertia must be positive definite");
+  if (!(std::abs(contact.normal.norm() - 1) < 1e-9)) throw InputError(name + ": its normal must have length 1");
+  if (!contact.point.allFinite() || !contact.centre.allFinite() || !contact.velocity.allFinite() ||
+      !contact.angular_velocity.allFinite())
+    throw InputError(name + ": its point and velocities must be finite");
+  if (contact.member.valid() + contact.panel.valid() + (contact.body.value >= 0) != 1)
+    throw InputError(name + ": it must touch one member, panel or body");
+}
+
+Vec3 point_velocity(const HostContact& contact) {
+  return contact.velocity + contact.angular_velocity.cross(contact.point - contact.centre);
+}
+
+}  // namespace
+
+void Simulation::touch(const HostContact& contact) {
+  require_sound(contact);
+  state_->touches.push_back(contact);
+  state_->actions.push_back({state_->step, contact});
+}
+
+std::span<const HostImpulse> Simulation::host_impulses() const { return state_->host_impulses; }
+
+void Simulation::State::strike_by_host() {
+  host_impulses.clear();
+  for (const HostContact& contact : std::exchange(touches, {})) {
+    HostImpulse felt;
+    felt.key = contact.key;
+    felt.speed_in = felt.speed_out = point_velocity(contact).dot(contact.normal);
+    const Part part = contact.member.valid() ? Part(contact.member) : Part(contact.panel);
+    if (felt.speed_in > 0) {
+      if (!part.valid())
+        push_debris(contact, felt);
+      else if (stands(part))
+        strike_by_host(contact, part, felt);
+    }
+    host_impulses.push_back(felt);
+  }
+}
+
+void Simulation::State::strike_by_host(const HostContact& contact, Part part, HostImpulse& felt) {
+  Body guest;
+  guest.name = "host " + std::to_string(contact.key);
+  guest.rest.mass = contact.mass;
+  guest.rest.centre = contact.centre;
+  guest.rest.inertia = contact.inertia;
+  guest.radius = stand_in_radius;
+  const collision::BodyId id = add_body(std::move(guest), contact.velocity, contact.angular_velocity, Vec3::Zero());
+  obstacles.approach(shapes.bounds(part), *frame, *world);
+
+  collision::Contact touch;
+  touch.body = id;
+  touch.other.kind = collision::Touched::Kind::obstacle;
+  touch.other.obstacle = obstacles.obstacle_of(part);
+  touch.point = contact.point;
+  touch.normal = contact.normal;
+  touch.approach_speed = felt.speed_in;
+  const auto now = [&] {
+    collision::BodyState state = world->state(id);
+    state.velocity = reading().true_velocity(state.velocity);
+    return state;
+  };
+  const Body& striking = bodies.at(id.value);
+  const Kinetic before = kinetic_energy(striking, world->state(id), reading());
+  finish_awaited();
+  at_once([&] {
+    host_strikes = true;
+    strike_all({touch});
+    host_strikes = false;
+  });
+  const collision::BodyState after = now();
+  const Kinetic left = kinetic_energy(striking, world->state(id), reading());
+  body_work_put_in += before.translation + before.rotation - left.translation - left.rotation;
+  felt.impulse = contact.mass * (after.velocity - contact.velocity);
+  felt.speed_out = (after.velocity + after.angular_velocity.cross(contact.point - contact.centre)).dot(contact.normal);
+  felt.through = !stands(part);
+  world->remove_body(id);
+  bodies.erase(id.value);
+  struck.erase(id.value);
+}
+
+/// Two rigid bodies: the impulse that leaves them apart with the scenario's restitution (Newton's law of impact).
+void Simulation::State::push_debris(const HostContact& contact, HostImpulse& felt) {
+  const Body* one = body(contact.body);
+  if (!one) return;
+  const collision::BodyState state = world->state(contact.body);
+  const Vec3 arm = contact.point - state.pose.position, own_arm = contact.point - contact.centre;
+  const Vec3 velocity = state.asleep
+                            ? Vec3(Vec3::Zero())
+                            : Vec3(reading().true_velocity(state.velocity) + state.angular_velocity.cross(arm));
+  const double closing = felt.speed_in - velocity.dot(contact.normal);
+  if (closing <= 0) return;
+  const Mat3 inverse = world_inertia(*one, state.pose.orientation).inverse();
+  const double debris_mass = effective_mass(one->rest.mass, inverse, arm, contact.normal);
+  const double own_mass = effective_mass(contact.mass, contact.inertia.inverse(), own_arm, contact.normal);
+  const double reduced = own_mass * debris_mass / (own_mass + debris_mass), e = scenario.impact.restitution;
+  const double size = (1 + e) * reduced * closing;
+  world->apply_impulse(contact.body, size * contact.normal, contact.point);
+  felt.impulse = -size * contact.normal;
+  felt.speed_out = felt.speed_in - size / own_mass;
+  const double lost = reduced * closing * closing * (1 - e * e) / 2;
+  ledger.lost_in_impacts += lost;
+  body_work_put_in += own_mass * (felt.speed_in * felt.speed_in - felt.speed_out * felt.speed_out) / 2;
+}
+
+}  // namespace topple::structure

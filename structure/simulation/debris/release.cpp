@@ -1,0 +1,290 @@
+// Release: what lost its hold on the frame becomes rigid bodies with true mass, centre and inertia.
+#include <algorithm>
+
+#include "simulation/debris/momentum.h"
+#include "simulation/simulation_state.h"
+
+namespace topple::structure {
+
+namespace {
+/// Radius of the sphere that stands for a node's point mass falling alone, m.
+constexpr double hub_radius = 0.1;
+/// A part starts where its statics had it, but no farther from the undeformed place than this, m: a segment on its way
+/// to a mechanism has static answers of metres, which it has had no time to reach.
+constexpr double largest_start = 0.05;
+
+std::string name_of(const Building& building, const Detached& part) {
+  if (!part.members.empty()) return building[part.members.front()].name;
+  if (!part.panels.empty()) return building[part.panels.front()].name;
+  return building[part.nodes.front()].name;
+}
+
+bool belongs(const Detached& part, Part one) {
+  const auto has = [](const auto& list, auto id) { return std::find(list.begin(), list.end(), id) != list.end(); };
+  return one.member.valid() ? has(part.members, one.member) : has(part.panels, one.panel);
+}
+}  // namespace
+
+/// What lies where its body was dropped goes on weighing, and falls with what it lies on.
+void Simulation::State::freeze(const std::vector<RestingLoads::Kept>& lying) {
+  const double g = gravity.norm();
+  if (g == 0) return;
+  for (const RestingLoads::Kept& one : lying)
+    if (const double mass = one.force.dot(gravity) / (g * g); mass > 0)
+      frozen.push_back({one.on, point_mass(one.point, mass)});
+}
+
+/// A part too small to be a body comes down on what stands under it, and its weight stays there.
+void Simulation::State::leave_weight(const MassProperties& rest) {
+  const double g = gravity.norm();
+  if (g == 0) return;
+  const Vec3 down = gravity / g;
+  Part under;
+  double nearest = unlimited;
+  for (std::size_t i = 0; i < part_count(building); ++i) {
+    const Part part = part_of_number(building, static_cast<std::int64_t>(i));
+    if (!stands(part)) continue;
+    const auto distance = shapes.ray(part, rest.centre, down);
+    if (!distance || *distance >= nearest) continue;
+    nearest = *distance;
+    under = part;
+  }
+  if (!under.valid()) return;
+  const RestingLoads::Kept weight{under, rest.mass * gravity, rest.centre + nearest * down};
+  resting.lay_for_good(weight, *frame);
+  freeze({weight});
+}
+
+void Simulation::State::parts_are_gone(std::span<const Part> parts) {
+  for (const Part& part : parts) timer.engine([&] { obstacles.remove(part, *world); });
+  for (const collision::BodyId lying : resting.drop(parts, *frame))
+    if (bodies.contains(lying.value)) world->wake(lying);
+}
+
+void Simulation::State::release() {
+  for (Detached& part : frame->take_detached()) {
+    // Of a panel that is broken out altogether nothing is left to leave.
+    std::erase_if(part.panels, [&](PanelId panel) {
+      const BrokenPanel* left = broken_panel(panel);
+      return left && left->hulls().empty();
+    });
+    release(part);
+  }
+  hang_on_what_left();
+  drop_loose_pieces();
+  keep_limit();
+}
+
+Body Simulation::State::describe(const Detached& part) const {
+  Body one;
+  one.name = name_of(building, part);
+  one.members = part.members;
+  one.panels = part.panels;
+  one.nodes = part.nodes;
+  one.rest = masses.of(part);
+  for (const Frozen& lying : frozen)
+    if (belongs(part, lying.on)) one.rest.add(lying.mass);
+  for (const MemberId member : part.members) {
+    one.volume += member_volume(building, building[member]);
+    one.bounds.add(shapes.bounds(Part(member)));
+  }
+  for (const PanelId panel : part.panels) {
+    const BrokenPanel* left = broken_panel(panel);
+    one.volume += left ? left->volume() : panel_volume(building, building[panel]);
+    one.bounds.add(shapes.bounds(Part(panel)));
+  }
+  if (part.members.empty() && part.panels.empty()) {
+    one.radius = hub_radius;
+    one.rest = sphere_mass(one.rest.centre, one.rest.mass, hub_radius);
+    one.volume = 4.0 / 3.0 * M_PI * hub_radius * hub_radius * hub_radius;
+    one.bounds.low = one.rest.centre - Vec3::Constant(hub_radius);
+    one.bounds.high = one.rest.centre + Vec3::Constant(hub_radius);
+  }
+  one.bounds.low -= one.rest.centre;
+  one.bounds.high -= one.rest.centre;
+  return one;
+}
+
+void Simulation::State::release(const Detached& part) {
+  if (part.members.empty() && part.panels.empty() && part.nodes.empty()) return;
+  if (part.cut) return release_in_two(part);
+  if (part.members.empty() && part.panels.empty() && masses.of(part).mass <= 0) return;  // a bare hub
+  Body one = describe(part);
+  Vec3 displacement = Vec3::Zero();
+  for (const NodeId node : part.nodes) displacement += frame->displacement(node).head<3>();
+  if (!part.nodes.empty()) displacement /= static_cast<double>(part.nodes.size());
+  if (displacement.norm() > largest_start) displacement *= largest_start / displacement.norm();
+  std::vector<Part> gone(part.members.begin(), part.members.end());
+  for (const PanelId panel : part.panels) gone.emplace_back(panel);
+  parts_are_gone(gone);
+
+  if (part.mechanism) tell(SimulationEvent::Kind::mechanism, one.name).mass = one.rest.mass;
+  const bool small = one.volume < scenario.debris.smallest_volume;
+  SimulationEvent& event = tell(small ? SimulationEvent::Kind::limited : SimulationEvent::Kind::detached, one.name);
+  event.members = one.members;
+  event.panels = one.panels;
+  event.mass = one.rest.mass;
+  event.position = one.rest.centre + displacement;
+  const std::int64_t nowhere = -2;
+  if (small) {
+    for (const MemberId member : part.members) body_of_part[static_cast<std::size_t>(member.index)] = nowhere;
+    for (const PanelId panel : part.panels)
+      body_of_part[static_cast<std::size_t>(part_number(building, Part(panel)))] = nowhere;
+    leave_weight(one.rest);
+    return;
+  }
+  Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();
+  const bool breaks = breakable_of(one).valid() &&
+                      std::any_of(knocks.begin(), knocks.end(), [&](const Knock& k) { return was_struck(k, one); });
+  if (breaks) {
+    shatter_struck(add_body(std::move(one), velocity, spin, displacement));
+    return;
+  }
+  knock(one, velocity, spin);
+  const std::vector<collision::BodyId> passing = breakers_of(one);
+  const collision::BodyId id = add_body(std::move(one), velocity, spin, displacement);
+  check_momentum(bodies.at(id.value));
+  hang_on(part.hinges, id);
+  collision::Touched broken;
+  broken.kind = collision::Touched::Kind::body;
+  broken.body = id;
+  for (const collision::BodyId by : passing) pass(by, broken);
+}
+
+/// True when an impact of this step broke this body off.
+bool Simulation::State::was_struck(const Knock& given, const Body& one) {
+  return given.part.member.valid()
+             ? std::binary_search(one.members.begin(), one.members.end(), given.part.member)
+             : std::find(one.panels.begin(), one.panels.end(), given.part.panel) != one.panels.end();
+}
+
+/// Bodies that go on through what they broke off.
+std::vector<collision::BodyId> Simulation::State::breakers_of(const Body& one) const {
+  std::vector<collision::BodyId> passing;
+  for (const Knock& given : knocks)
+    if (was_struck(given, one) && bodies.contains(given.by.value)) passing.push_back(given.by);
+  return passing;
+}
+
+/// A part that an impact broke off takes the momentum of the share of the structure that moved with the body.
+void Simulation::State::knock(const Body& one, Vec3& velocity, Vec3& spin) {
+  for (const Knock& given : knocks) {
+    if (!was_struck(given, one)) continue;
+    const Vec3 r = given.point - one.rest.centre;
+    const Mat3 inverse = one.rest.inertia.inverse();
+    const double size = given.impulse.norm();
+    if (size == 0) continue;
+    const Vec3 n = given.impulse / size;
+    const double mass = effective_mass(one.rest.mass, inverse, r, n);
+    const Vec3 impulse = std::min(size, mass * given.speed) * n;
+    velocity += impulse / one.rest.mass;
+    spin += inverse * r.cross(impulse);
+    ledger.lost_in_impacts -= impulse.squaredNorm() / mass / 2;
+  }
+}
+
+/// A part that detaches was at rest: all the momentum that the world's body has must be what knocks gave it.
+void Simulation::State::check_momentum(const Body& one) {
+  collision::BodyState state = world->state(one.id);
+  state.velocity = reading().true_velocity(state.velocity);
+  Momentum measured{state.pose.position}, given{state.pose.position};
+  measured.add(one, state);
+  const Mat3 inverse = one.rest.inertia.inverse();
+  for (const Knock& blow : knocks)
+    if (was_struck(blow, one)) {
+      const double size = blow.impulse.norm();
+      if (size == 0) continue;
+      const Vec3 r = blow.point - one.rest.centre, n = blow.impulse / size;
+      const Vec3 impulse = std::min(size, effective_mass(one.rest.mass, inverse, r, n) * blow.speed) * n;
+      given.add_impulse(impulse, state.pose.position + r);
+    }
+  ledger.momentum_error = std::max(ledger.momentum_error, measured.error(given));
+}
+
+void Simulation::State::pass(collision::BodyId id, const collision::Touched& other) {
+  timer.engine([&] { world->ignore_until_separated(id, other); });
+}
+
+collision::BodyId Simulation::State::add_body(Body one, const Vec3& velocity, const Vec3& spin,
+                                              const Vec3& displacement) {
+  collision::BodyState state;
+  state.pose.position = one.rest.centre + displacement;
+  state.velocity = reading().to_world(velocity);
+  state.angular_velocity = spin;
+  return add_body(std::move(one), state);
+}
+
+/// `state` as the collision world reads it.
+collision::BodyId Simulation::State::add_body(Body one, const collision::BodyState& state) {
+  collision::BodyDescription description;
+  if (one.radius > 0) {
+    collision::ConvexPart sphere;
+    sphere.kind = collision::ConvexPart::Kind::sphere;
+    sphere.half_extents = Vec3::Constant(one.radius);
+    description.parts = {sphere};
+  }
+  if (!one.hull.empty()) {
+    collision::ConvexPart hull;
+    hull.kind = collision::ConvexPart::Kind::hull;
+    hull.points = one.hull;
+    description.parts = {hull};
+  }
+  const auto add_shapes = [&](Part part) {
+    for (collision::ConvexPart& convex : shapes.parts(part, one.rest.centre))
+      description.parts.push_back(std::move(convex));
+  };
+  for (const MemberId member : one.members) add_shapes(Part(member));
+  for (const PanelId panel : one.panels) add_shapes(Part(panel));
+  description.mass = one.rest.mass;
+  description.inertia = one.rest.inertia;
+  description.pose = state.pose;
+  description.velocity = state.velocity;
+  description.angular_velocity = state.angular_velocity;
+  description.friction = scenario.debris.friction;
+  description.restitution = scenario.debris.restitution;
+  one.id = timer.engine([&] { return world->add_body(description); });
+  for (const MemberId member : one.members) body_of_part[static_cast<std::size_t>(member.index)] = one.id.value;
+  for (const PanelId panel : one.panels)
+    body_of_part[static_cast<std::size_t>(part_number(building, Part(panel)))] = one.id.value;
+  const collision::BodyId id = one.id;
+  bodies.add(id.value, std::move(one));
+  bodies.motion(id.value).step_start = state.pose.position;
+  return id;
+}
+
+void Simulation::State::remove_body(collision::BodyId id, bool keep_weight) {
+  const auto found = bodies.find(id.value);
+  const Kinetic kinetic = kinetic_energy(found->second, world->state(id), reading());
+  ledger.removed += kinetic.translation + kinetic.rotation;
+  for (std::int64_t& of_part : body_of_part)
+    if (of_part == id.value) of_part = -2;
+  freeze(resting.forget(id, *frame, keep_weight));
+  (void)take_off(id);
+  timer.engine([&] { world->remove_body(id); });
+  free_segments.erase(id.value);
+  cables.erase(id.value);
+  bodies.erase(id.value);
+}
+
+/// Above the limit of bodies, sleeping ones are dropped, the smallest first and of equals the oldest. Their weight
+/// stays where it lies.
+void Simulation::State::keep_limit() {
+  const auto limit = static_cast<std::size_t>(std::max(0, scenario.debris.limit));
+  if (bodies.size() <= limit) return;
+  std::vector<std::pair<double, std::int64_t>> sleeping;
+  for (const auto& [id, one] : bodies)
+    if (world->state(one.id).asleep) sleeping.emplace_back(one.volume, id);
+  std::sort(sleeping.begin(), sleeping.end());
+  for (const auto& [volume, id] : sleeping) {
+    if (bodies.size() <= limit) return;
+    const Body& one = bodies.at(id);
+    SimulationEvent& event = tell(SimulationEvent::Kind::limited, one.name);
+    event.members = one.members;
+    event.panels = one.panels;
+    event.mass = one.rest.mass;
+    event.position = world->state(one.id).pose.position;
+    remove_body({id}, true);
+  }
+}
+
+}  // namespace topple::structure

@@ -1,0 +1,152 @@
+#include "simulation/debris/resting_loads.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "simulation/debris/mass_properties.h"
+
+namespace topple::structure {
+
+namespace {
+/// Time over which contact forces are averaged, s: longer than the solver's chatter, shorter than anything that
+/// settles.
+constexpr double smoothing_time = 0.1;
+/// Share of what a part can still bear that a change of load may have without being told to the frame.
+constexpr double band_of_margin = 0.1;
+/// The band is never more nor less than these shares of the body's weight, whatever the joints can bear.
+constexpr double largest_band = 0.25, smallest_band = 0.01;
+/// A load that moved by this share of the member's length counts as changed.
+constexpr double moved_share = 0.1;
+
+/// Least force across the part that one of its joints can bear, with the moment of a force at midspan.
+double local_capacity(const Building& building, Part part, std::span<const double> strength) {
+  double least = unlimited;
+  const auto value = [&](JointId id, Sense sense) {
+    return building[id].capacity.value[static_cast<std::size_t>(sense)] * strength[static_cast<std::size_t>(id.index)];
+  };
+  if (part.member.valid()) {
+    const double length = building[part.member].length;
+    for (int end = 0; end < 2; ++end) {
+      const JointId id = building.joint(part.member, end);
+      for (const Sense sense : {Sense::shear_y, Sense::shear_z}) least = std::min(least, value(id, sense));
+      for (const Sense sense : {Sense::moment_y, Sense::moment_z})
+        least = std::min(least, 8 * value(id, sense) / length);
+    }
+    return least;
+  }
+  const Panel& panel = building[part.panel];
+  for (int edge = 0; edge < 4; ++edge) {
+    const Vec3 along = building[panel.nodes[static_cast<std::size_t>((edge + 1) % 4)]].position -
+                       building[panel.nodes[static_cast<std::size_t>(edge)]].position;
+    least = std::min(least, value(building.joint(part.panel, edge), Sense::shear_z) * along.norm());
+  }
+  return least;
+}
+
+double largest_utilisation(const StandingFrame& frame, Part part) {
+  const Building& building = frame.building();
+  double largest = 0;
+  const int count = part.member.valid() ? 2 : 4;
+  for (int i = 0; i < count; ++i) {
+    const JointId id = part.member.valid() ? building.joint(part.member, i) : building.joint(part.panel, i);
+    largest = std::max(largest, frame.utilisation(id).value);
+  }
+  return largest;
+}
+
+}  // namespace
+
+void RestingLoads::gather(std::span<const FeltContact> contacts, const Obstacles& obstacles, double dt) {
+  for (const FeltContact& contact : contacts) {
+    if (contact.other.kind != collision::Touched::Kind::obstacle) continue;
+    const Part part = obstacles.part_of(contact.other.obstacle);
+    if (!part.valid()) continue;
+    const auto [entry, made] = resting_.try_emplace(Key{contact.body.value, part});
+    Resting& resting = entry->second;
+    if (made) resting.load_key = next_key_++;
+    const double weight = contact.impulse.norm() / dt;
+    resting.seen_force += contact.impulse / dt;
+    resting.seen_point += weight * contact.point;
+    resting.seen_weight += weight;
+  }
+}
+
+void RestingLoads::smooth(Resting& resting, double dt) {
+  const double share = std::min(1.0, dt / smoothing_time);
+  resting.force += share * (resting.seen_force - resting.force);
+  if (resting.seen_weight == 0) return;
+  const Vec3 at = resting.seen_point / resting.seen_weight;
+  resting.point =
+      resting.force.isZero(0) || resting.point.isZero(0) ? at : resting.point + share * (at - resting.point);
+}
+
+double RestingLoads::band(const StandingFrame& frame, std::span<const double> strength_factors, Part part,
+                          double weight) {
+  const double margin = std::max(0.0, 1 - largest_utilisation(frame, part));
+  const double bearable = band_of_margin * margin * local_capacity(frame.building(), part, strength_factors);
+  return std::clamp(bearable, smallest_band * weight, largest_band * weight);
+}
+
+/// True when the frame was told.
+bool RestingLoads::lay_one(const Key& key, Resting& resting, StandingFrame& frame,
+                           std::span<const double> strength_factors, double weight) {
+  if (!resting.laid && resting.force.isZero(0)) return false;
+  const double allowed = band(frame, strength_factors, key.part, weight);
+  const double length = key.part.member.valid()
+                            ? frame.building()[key.part.member].length
+                            : std::sqrt(panel_volume(frame.building(), frame.building()[key.part.panel]) /
+                                        frame.building()[key.part.panel].thickness);
+  const bool changed = (resting.force - resting.applied).norm() > allowed;
+  const bool moved = resting.laid && (resting.point - resting.applied_at).norm() > moved_share * length;
+  const bool left = resting.laid && resting.seen_weight == 0 && resting.force.norm() < allowed;
+  if (left) {
+    frame.remove_contact_load(resting.load_key);
+    resting.laid = false;
+    resting.applied = resting.force = Vec3::Zero();
+    return true;
+  }
+  if (!changed && !moved) return false;
+  frame.set_contact_load({resting.load_key, {key.part.member, key.part.panel, resting.point}, resting.force});
+  resting.applied = resting.force;
+  resting.applied_at = resting.point;
+  resting.laid = true;
+  return true;
+}
+
+std::vector<collision::BodyId> RestingLoads::drop(std::span<const Part> parts, StandingFrame& frame) {
+  std::vector<collision::BodyId> bodies;
+  for (auto entry = resting_.begin(); entry != resting_.end();) {
+    if (std::find(parts.begin(), parts.end(), entry->first.part) == parts.end()) {
+      ++entry;
+      continue;
+    }
+    if (entry->second.laid) frame.remove_contact_load(entry->second.load_key);
+    bodies.push_back({entry->first.body});
+    entry = resting_.erase(entry);
+  }
+  return bodies;
+}
+
+std::vector<collision::BodyId> RestingLoads::on(Part part) const {
+  std::vector<collision::BodyId> bodies;
+  for (const auto& [key, resting] : resting_)
+    if (key.part == part) bodies.push_back({key.body});
+  return bodies;
+}
+
+std::vector<RestingLoads::Kept> RestingLoads::forget(collision::BodyId body, StandingFrame& frame, bool keep) {
+  std::vector<Kept> kept;
+  for (auto entry = resting_.begin(); entry != resting_.end();) {
+    if (entry->first.body != body.value) {
+      ++entry;
+      continue;
+    }
+    if (entry->second.laid && !keep) frame.remove_contact_load(entry->second.load_key);
+    if (entry->second.laid && keep)
+      kept.push_back({entry->first.part, entry->second.applied, entry->second.applied_at});
+    entry = resting_.erase(entry);
+  }
+  return kept;
+}
+
+}  // namespace topple::structure

@@ -1,0 +1,210 @@
+// Shatter: a panel that has come off breaks into chunks where something hits it hard enough.
+//
+// The chunks move on as the parts of one rigid body, so that momentum and energy go over exactly; what hit the panel
+// out of the frame then pushes the chunks that it broke out. Hard enough is a blow whose elastic wave carries more than
+// the compressive strength: the stress at the front of a wave is v sqrt(E rho), v the change of speed (K. Graff, "Wave
+// Motion in Elastic Solids", 1975, section 2.1).
+#include <algorithm>
+#include <cmath>
+
+#include "simulation/debris/momentum.h"
+#include "simulation/fracture/panel_chunks.h"
+#include "simulation/simulation_state.h"
+#include "topple/structure/error.h"
+
+namespace topple::structure {
+
+void Simulation::State::find_breakable_panels() {
+  for (std::size_t i = 0; i < building.panels.size(); ++i) {
+    const Panel& panel = building.panels[i];
+    const Material& material = building[panel.material];
+    const auto& settings = panel.fracture ? panel.fracture : material.fracture ? material.fracture : scenario.fracture;
+    BreakablePanel breakable;
+    if (settings) {
+      if (!material.compressive_strength)
+        throw InputError(building.file + ", materials." + material.name +
+                         ".compressive_strength: missing; expected, because panel \"" + panel.name +
+                         "\" of this material can break (fracture)");
+      breakable.settings = *settings;
+      any_breakable = true;
+      frame->expect_fracture(PanelId(i));
+      // Every panel has a pattern of its own (splitmix64's increment keeps their seeds far apart).
+      breakable.settings->seed = scenario.seed + (i + 1) * 0x9e3779b97f4a7c15u;
+      const double density =
+          material.density > 0 ? material.density : masses.of(PanelId(i)).mass / panel_volume(building, panel);
+      // Where it is not given: that of concrete of this compressive strength (EN 1992-1-1, table 3.1).
+      breakable.tensile_strength =
+          material.tensile_strength.value_or(0.3e6 * std::pow(*material.compressive_strength / 1e6, 2.0 / 3.0));
+      breakable.compressive_strength = *material.compressive_strength;
+      breakable.breaking_speed = *material.compressive_strength / std::sqrt(material.youngs_modulus * density);
+    }
+    breakable_panels.push_back(std::move(breakable));
+  }
+}
+
+/// The panel that a body consists of, when nothing else belongs to it and it can break.
+PanelId Simulation::State::breakable_of(const Body& one) const {
+  if (!one.members.empty() || one.panels.size() != 1) return {};
+  const PanelId panel = one.panels.front();
+  // A hub that carries a point mass of its own cannot go with any one chunk.
+  if (std::abs(one.rest.mass - masses.of(panel).mass) > 1e-12 * one.rest.mass) return {};
+  return breakable_panels[static_cast<std::size_t>(panel.index)].settings ? panel : PanelId();
+}
+
+const BrokenPanel* Simulation::State::broken_panel(PanelId panel) const {
+  const auto found = broken_panels.find(panel);
+  return found == broken_panels.end() ? nullptr : &found->second;
+}
+
+Body Simulation::State::chunk_body(PanelId panel, PanelChunk chunk, int number) const {
+  Body piece;
+  piece.name = building[panel].name + "#" + std::to_string(number);
+  piece.rest = chunk.rest;
+  piece.volume = chunk.volume;
+  piece.hull = std::move(chunk.hull);
+  piece.chunk_of = piece_kind(building[panel].kind);
+  piece.mesh = std::move(chunk.mesh);
+  for (const Vec3& corner : piece.hull) piece.bounds.add(corner);
+  return piece;
+}
+
+/// Replaces the body by chunks that move as it did. Returns those that became bodies, what was hit out first; `out`:
+/// how many these are. Nothing when the blow falls where nothing can break.
+std::vector<collision::BodyId> Simulation::State::shatter(collision::BodyId id, const Vec3& point,
+                                                          std::optional<double> radius, std::size_t& out) {
+  const Body one = bodies.at(id.value);
+  const PanelId panel = breakable_of(one);
+  const collision::BodyState state = world->state(id);
+  const Mat3 turn = state.pose.orientation.toRotationMatrix();
+  const Vec3 at = one.rest.centre + turn.transpose() * (point - state.pose.position);
+  const BrokenPanel* left = broken_panel(panel);
+  const int before = left ? left->chunks_out() : 0;
+  std::vector<PanelChunk> chunks = left
+                                       ? break_up(*left, at, radius)
+                                       : break_panel(building, panel, one.rest.mass, shapes.corners(panel), at, radius,
+                                                     *breakable_panels[static_cast<std::size_t>(panel.index)].settings);
+  out = 0;
+  spend_on_chunks(chunks.size());
+  if (chunks.empty()) return {};
+  tell(SimulationEvent::Kind::panel_fractured, building[panel].name).position = point;
+  (void)resting.forget(id, *frame, false);
+  (void)take_off(id);
+  timer.engine([&] { world->remove_body(id); });
+  bodies.erase(id.value);
+  body_of_part[static_cast<std::size_t>(part_number(building, Part(panel)))] = -2;
+
+  std::vector<collision::BodyId> made;
+  Momentum carried{state.pose.position}, handed_on{state.pose.position};
+  carried.add(one, state);
+  double dust = 0;
+  for (std::size_t i = 0; i < chunks.size(); ++i) {
+    const bool of_hit = chunks[i].hit;
+    Body piece = chunk_body(panel, std::move(chunks[i]), before + static_cast<int>(i) + 1);
+    const Vec3 arm = turn * (piece.rest.centre - one.rest.centre);
+    collision::BodyState moving = state;
+    moving.pose.position += arm;
+    moving.velocity += state.angular_velocity.cross(arm);
+    if (piece.volume < scenario.debris.smallest_volume) {
+      const Kinetic lost = kinetic_energy(piece, moving, reading());
+      ledger.removed += lost.translation + lost.rotation;
+      handed_on.add(piece, moving);
+      dust += piece.rest.mass;
+      continue;
+    }
+    if (of_hit) ++out;
+    made.push_back(add_body(std::move(piece), moving));
+  }
+  for (const collision::BodyId piece : made) {
+    handed_on.add(bodies.at(piece.value), world->state(piece));
+    changes.split.push_back({id.value, piece.value});
+  }
+  ledger.momentum_error = std::max(ledger.momentum_error, carried.error(handed_on));
+  if (dust > 0) tell(SimulationEvent::Kind::limited, building[panel].name).mass = dust;
+  return made;
+}
+
+void Simulation::State::push_whole(collision::BodyId id) {
+  Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();
+  knock(bodies.at(id.value), velocity, spin);
+  collision::BodyState state = world->state(id);
+  state.velocity += velocity;
+  state.angular_velocity += spin;
+  world->set_state(id, state);
+}
+
+/// A panel that an impact broke off the frame: what hit it pushes the chunks that it broke out, each by its share of
+/// the mass, and flies on through the gap.
+void Simulation::State::shatter_struck(collision::BodyId id) {
+  const Body& one = bodies.at(id.value);
+  if (!breakable_of(one).valid()) return;
+  for (const Knock& given : knocks) {
+    if (!was_struck(given, one)) continue;
+    const Body* by = body(given.by);
+    const std::optional<double> radius = by && by->radius > 0 ? std::optional(by->radius) : std::nullopt;
+    const Knock blow = given;
+    std::size_t out = 0;
+    const std::vector<collision::BodyId> made = shatter(id, blow.point, radius, out);
+    if (made.empty()) {  // hit where there is nothing to break: it is pushed as a whole
+      if (bodies.contains(id.value)) push_whole(id);
+      return;
+    }
+    double struck_mass = 0;
+    for (std::size_t i = 0; i < out; ++i) struck_mass += bodies.at(made[i].value).rest.mass;
+    const double size = blow.impulse.norm();
+    for (std::size_t i = 0; i < made.size(); ++i) {
+      collision::Touched broken;
+      broken.kind = collision::Touched::Kind::body;
+      broken.body = made[i];
+      if (bodies.contains(blow.by.value)) pass(blow.by, broken);
+      if (i >= out || size == 0) continue;
+      const double mass = bodies.at(made[i].value).rest.mass;
+      const Vec3 gained = std::min(size / struck_mass, blow.speed) * blow.impulse / size;
+      collision::BodyState state = world->state(made[i]);
+      const Vec3 before = reading().true_velocity(state.velocity);
+      state.velocity += gained;
+      ledger.lost_in_impacts -= mass * gained.dot(before + gained / 2);
+      world->set_state(made[i], state);
+    }
+    return;
+  }
+}
+
+/// Panels that came down hard in this step, and those that a budget made wait.
+void Simulation::State::shatter_landed() {
+  if (!any_breakable) return;
+  std::vector<std::int64_t> awake;
+  for (const std::int64_t id : bodies.single_panels())
+    if (!bodies.motion(id).asleep && breakable_of(bodies.at(id)).valid()) awake.push_back(id);
+  const auto feel = [&](collision::BodyId id, const FeltContact& contact) {
+    if (!std::binary_search(awake.begin(), awake.end(), id.value)) return;
+    const Body* one = body(id);
+    const collision::BodyState state = world->state(id);
+    const Mat3 inverse = world_inertia(*one, state.pose.orientation).inverse();
+    const double mass = effective_mass(one->rest.mass, inverse, contact.point - state.pose.position, contact.normal);
+    const double change = std::abs(contact.impulse.dot(contact.normal)) / mass;
+    const PanelId panel = one->panels.front();
+    if (change < breakable_panels[static_cast<std::size_t>(panel.index)].breaking_speed) return;
+    Landing& hardest = landings[id.value];
+    if (change > hardest.speed)
+      hardest = {change, state.pose.orientation.conjugate() * (contact.point - state.pose.position)};
+  };
+  if (!awake.empty())
+    for (const FeltContact& contact : felt_contacts) {
+      feel(contact.body, contact);
+      if (contact.other.kind == collision::Touched::Kind::body) feel(contact.other.body, contact);
+    }
+  bool any = false;
+  while (!landings.empty()) {
+    const auto [id, landing] = *landings.begin();
+    if (bodies.contains(id)) {
+      if (!may_compute(Work::debris)) break;
+      std::size_t out = 0;
+      (void)shatter({id}, world->state({id}).pose * landing.at, std::nullopt, out);
+      any = true;
+    }
+    landings.erase(id);
+  }
+  if (any) keep_limit();
+}
+
+}  // namespace topple::structure

@@ -1,0 +1,342 @@
+// Load and break: resting contacts load the frame; new contacts strike it by the law of impact (indentation.h), one
+// after the other by time of impact, those of a body at one instant together (strike_together.cpp); then generations
+// break what is over capacity.
+#include <algorithm>
+#include <cmath>
+
+#include "simulation/debris/momentum.h"
+#include "simulation/impact/asked_response.h"
+#include "simulation/impact/first_failure.h"
+#include "simulation/impact/strike.h"
+#include "simulation/step_clock.h"
+
+namespace topple::structure {
+
+namespace {
+/// Speed with which a body goes on. It goes on from where it touched: where its weight did more on the way in than what
+/// broke took, it does that work on the way that follows, and not twice.
+double let_through(double speed_in, const Indentation& pushing) { return std::min(pushing.speed(), speed_in); }
+
+/// Contacts of a body that are no farther from touching than this, m, when the first of them touches, touch with it:
+/// collision shapes are no truer.
+constexpr double touching = 1e-3;
+
+/// The contacts from `from` on that strike with it: of the same body, on other standing parts.
+std::vector<const collision::Contact*> at_one_instant(std::span<const collision::Contact> contacts, std::size_t from) {
+  const collision::Contact& first = contacts[from];
+  std::vector<const collision::Contact*> found{&first};
+  for (std::size_t i = from + 1; i < contacts.size(); ++i) {
+    const collision::Contact& next = contacts[i];
+    if (next.body != first.body || next.other.kind != first.other.kind) continue;
+    if ((next.time - first.time) * next.approach_speed > touching) continue;
+    if (std::none_of(found.begin(), found.end(),
+                     [&](const collision::Contact* one) { return one->other.obstacle == next.other.obstacle; }))
+      found.push_back(&next);
+  }
+  return found;
+}
+}  // namespace
+
+void Simulation::State::load() {
+  // What a budget cut short goes on under the loads that it began with: others would take its place in every step.
+  if (scenario.operations_budget && (frame->pending() || frame->answering())) return;
+  counters.contacts_ignored += resting.lay(*frame, strength_factors, [&](collision::BodyId id) {
+    const Body* one = body(id);
+    return one ? one->rest.mass * gravity.norm() : 0.0;
+  });
+}
+
+void Simulation::State::strike_all(const std::vector<collision::Contact>& contacts) {
+  const double resting_speed = 2 * gravity.norm() * scenario.step;
+  std::vector<collision::Contact> impacts;
+  for (const collision::Contact& contact : contacts) {
+    if (contact.other.kind != collision::Touched::Kind::obstacle) continue;
+    if (!contact.persistent || contact.approach_speed > resting_speed) impacts.push_back(contact);
+  }
+  take_up_awaited(impacts);
+  std::vector<char> done(impacts.size(), 0);
+  for (std::size_t i = 0; i < impacts.size(); ++i) {
+    if (done[i] != 0) continue;
+    const std::vector<const collision::Contact*> together = at_one_instant(impacts, i);
+    if (together.size() > 1 && !goes_on_alone(impacts[i]) && strike_together(together) != Together::apart) {
+      for (const collision::Contact* one : together) done[static_cast<std::size_t>(one - impacts.data())] = 1;
+    } else {
+      strike(impacts[i]);
+    }
+  }
+  if (!frame->answering()) awaited.reset();  // whatever was known is used, or of no use
+}
+
+/// Something was asked for that is known now, or more of it is to be.
+bool Simulation::State::goes_on(const collision::Contact& contact) const {
+  return awaited && awaited->contacts.front().body == contact.body && !frame->answering();
+}
+
+/// What was asked for its sake is not for several contacts.
+bool Simulation::State::goes_on_alone(const collision::Contact& contact) const {
+  return goes_on(contact) && awaited->contacts.size() == 1;
+}
+
+void Simulation::State::strike(const collision::Contact& contact) {
+  std::optional<Strike> hit = aim(contact);
+  if (!hit) return;
+  if (!(goes_on(contact) || may_compute(Work::blows)) || !push_in(*hit, contact)) return wait(*hit);
+  awaited.reset();
+  send_on(*hit);
+  push_chunks(*hit);
+  tell_impact(*hit);
+}
+
+void Simulation::State::wait(const Strike& hit) {
+  if (pushes_on(hit)) hit.body->pushed_in_step = step;
+  hold_back(hit.body->id, hit.state);
+}
+
+void Simulation::State::tell_impact(const Strike& hit) {
+  SimulationEvent& event = tell(SimulationEvent::Kind::impact, part_name(building, hit.part));
+  event.body = hit.body->id;
+  event.body_name = hit.body->name;
+  event.mass = hit.mass;
+  event.peak_force = hit.peak_force;
+  event.speed_in = hit.speed;
+  event.speed_out = hit.speed_out;
+  event.position = hit.place.point;
+  for (const JointBreak& broken : hit.breaks) tell(broken);
+}
+
+/// Nothing when the contact is no impact any more: what it would hit has fallen, or an earlier impact of this step has
+/// stopped the body.
+std::optional<Simulation::State::Strike> Simulation::State::aim(const collision::Contact& contact) {
+  const Part part = obstacles.part_of(contact.other.obstacle);
+  Body* hitting = body(contact.body);
+  if (!part.valid() || !hitting || !stands(part) || held_back.contains(hitting->id.value)) return std::nullopt;
+  // What was sensed may have been broken out since.
+  if (const BrokenPanel* left = part.panel.valid() ? broken_panel(part.panel) : nullptr)
+    if (obstacles.obstacle_of(part) != contact.other.obstacle && !left->holds(contact.point)) return std::nullopt;
+  Strike hit;
+  hit.body = hitting;
+  hit.part = part;
+  hit.place = {part.member, part.panel, contact.point};
+  hit.normal = contact.normal;
+  hit.sensed_at = contact.time;
+  hit.state = world->state(hitting->id);
+  hit.state.velocity = reading().true_velocity(hit.state.velocity);
+
+  double time = contact.time;
+  if (const auto earlier = struck.find(hitting->id.value); earlier != struck.end()) {
+    // After an impact the body is slower (or stopped where it was): the rest of its way takes as much longer.
+    const Vec3 r = contact.point - hit.state.pose.position;
+    const double now = (hit.state.velocity + hit.state.angular_velocity.cross(r)).dot(contact.normal);
+    if (now <= 0) return std::nullopt;
+    time = earlier->second.base + (contact.time - earlier->second.at) * std::max(1.0, contact.approach_speed / now);
+    if (time > scenario.step) return std::nullopt;  // sensed again in the next step
+  }
+  hit.own_time = time;
+  hit.state.pose.position += hit.state.velocity * time + gravity * (time * time / 2);
+  hit.state.pose.orientation = turned(hit.state.pose.orientation, hit.state.angular_velocity * time);
+  hit.state.velocity += gravity * time;
+
+  const Vec3 r = contact.point - hit.state.pose.position;
+  hit.speed = (hit.state.velocity + hit.state.angular_velocity.cross(r)).dot(hit.normal);
+  if (hit.speed <= 0) return std::nullopt;
+  const Mat3 inverse = world_inertia(*hitting, hit.state.pose.orientation).inverse();
+  hit.mass = effective_mass(hitting->rest.mass, inverse, r, hit.normal);
+  return hit;
+}
+
+/// A body that is let go stays where it is: what its weight would have done further in is not its own.
+double Simulation::State::rebound(const Indentation& pushing) const {
+  return -scenario.impact.restitution * pushing.elastic_rebound_speed();
+}
+
+/// A push that a budget cut in two and that goes on here.
+bool Simulation::State::pushes_on(const Strike& hit) const {
+  return hit.body->pushed == hit.part && hit.body->pushed_in_step == step - 1;
+}
+
+/// What is hit takes its share of the speed once.
+bool Simulation::State::takes_share(const Strike& hit) const {
+  return scenario.impact.structure_mass && !pushes_on(hit);
+}
+
+/// Whether what is hit provably bears the push: the joints that bear it directly do not fail, and the energy is less
+/// than any other joint fails at. A lower bound of the mass that takes part makes the push harder than it is, so what
+/// is told of it (peak force, speed out) is a bound as well. Most impacts of debris end here, at a part of the cost.
+bool Simulation::State::bears(Strike& hit, double weight, double punching, const AskedResponse& known) {
+  constexpr double rounding = 1e-6;
+  const StandingFrame::UnitResponse& near = known.near->places.front();
+  const double mass = takes_share(hit) ? near.rayleigh_mass : 0;
+  Indentation pushing(hit.mass, hit.speed, weight, mass);
+  const FirstFailure own = first_failure(*frame, near, strength_factors, unlimited);
+  if (pushing.push(near.compliance, std::min(own.force, punching)) != Indentation::Stop::stood) return false;
+  if (pushing.stored(near.compliance) > (1 - rounding) * known.critical_energy) return false;
+  hit.structure_mass = mass;
+  hit.speed_out = rebound(pushing);
+  hit.peak_force = pushing.peak_force();
+  ++counters.impacts_bounded;
+  return true;
+}
+
+/// The pushing, break after break, until the body stops or nothing is left to push. False: what it must know first is
+/// being found.
+bool Simulation::State::push_in(Strike& hit, const collision::Contact& contact) {
+  const collision::Contact* touching_there = &contact;
+  const Asking blow{{&touching_there, 1}, {&hit.place, 1}, {&hit.normal, 1}};
+  const double weight = hit.mass * gravity.dot(hit.normal);
+  double punching = punching_force(hit);
+  // A fast blow goes through whatever the joints bear.
+  if (const double left = speed_through(hit, punching); left > 0) {
+    if (punch_at_once(hit, punching, left)) {
+      tell_loss(hit);
+      return true;
+    }
+  } else if (!pushes_on(hit)) {
+    const AskedResponse* near = near_response(blow);
+    if (near == nullptr) return false;
+    if (bears(hit, weight, punching, *near)) {
+      tell_loss(hit);
+      return true;
+    }
+  }
+  const AskedResponse* known = full_response(blow);
+  if (known == nullptr) return false;
+  StandingFrame::UnitResponse response = known->full->places.front();
+  hit.structure_mass = takes_share(hit) ? response.rayleigh_mass : 0;
+  Indentation pushing(hit.mass, hit.speed, weight, hit.structure_mass);
+  for (;;) {
+    const FirstFailure first = first_failure(*frame, response, strength_factors, unlimited);
+    const bool punches = punching < unlimited && punching <= first.force;
+    const Indentation::Stop stop = pushing.push(response.compliance, std::min(first.force, punching));
+    if (stop != Indentation::Stop::failed) {
+      hit.speed_out = stop == Indentation::Stop::missed ? std::min(pushing.speed(), hit.speed) : rebound(pushing);
+      break;
+    }
+    if (punches) {
+      if (const double plug = break_out(hit); plug > 0) {
+        hit.through = true;
+        hit.speed_out =
+            let_through(hit.speed, pushing) * hit.mass / (hit.mass + plug);  // it takes along what it broke out
+        break;
+      }
+      punching = unlimited;
+      continue;
+    }
+    const double stored = pushing.stored(response.compliance);
+    double shift = 0;
+    if (blows_wait())
+      frame->begin_break_in_impact(first.joints);
+    else
+      shift = frame->break_in_impact(first.joints, hit.place, hit.normal);
+    hit.through = !stands(hit.part);
+    const bool slips = std::abs(shift) > largest_shift;
+    hit.waits = !hit.through && !slips && blows_wait();
+    const bool ends = hit.through || slips || hit.waits;
+    if (!ends) {
+      pushing.shift(shift);
+      response = frame->respond(hit.place, hit.normal);
+    }
+    const double freed = ends ? stored : std::max(0.0, stored - pushing.stored(response.compliance));
+    for (JointBreak broken : first.joints) {
+      broken.energy = freed / static_cast<double>(first.joints.size());
+      broken.position = joint_position(broken.joint);
+      hit.breaks.push_back(broken);
+    }
+    if (ends) {
+      hit.speed_out = let_through(hit.speed, pushing);
+      break;
+    }
+  }
+  hit.peak_force = std::max(hit.peak_force, pushing.peak_force());
+  tell_loss(hit);
+  return true;
+}
+
+void Simulation::State::tell_loss(Strike& hit) {
+  hit.lost = hit.mass * (hit.speed * hit.speed - hit.speed_out * hit.speed_out) / 2;
+}
+
+/// Gives the body its outgoing velocity, before the collision world moves it.
+void Simulation::State::send_on(const Strike& hit) {
+  const Body& one = *hit.body;
+  const Vec3 impulse = hit.mass * (hit.speed_out - hit.speed) * hit.normal;  // on the body
+  const Vec3 r = hit.place.point - hit.state.pose.position;
+  const Mat3 inertia = world_inertia(one, hit.state.pose.orientation);
+  collision::BodyState after = hit.state;
+  after.velocity += impulse / one.rest.mass;
+  after.angular_velocity += inertia.inverse() * r.cross(impulse);
+  ledger.lost_in_impacts += hit.lost;
+  if (hit.through && hit.chunks.empty()) knock(hit);
+  const PointImpulse given{impulse, hit.place.point};
+  move_on(hit, after, std::span(&given, 1));
+}
+
+/// What was hit and came off takes along its share of the momentum.
+void Simulation::State::knock(const Strike& hit) {
+  knocks.push_back(
+      {hit.part, hit.structure_mass * hit.speed_out * hit.normal, hit.place.point, hit.speed_out, hit.body->id});
+}
+
+/// `after`: where and how it moves at the instant of the impact, true velocities; `impulses`: what made it so.
+void Simulation::State::move_on(const Strike& hit, collision::BodyState after, std::span<const PointImpulse> impulses) {
+  StruckClock& clock = struck[hit.body->id.value];
+  clock.at = hit.sensed_at;
+  clock.base = hit.through ? hit.own_time : 0;
+  if (hit.through) {
+    // It flies on as if it had come with its new speed: at the instant of impact it is where it is.
+    const double t = hit.own_time;
+    after.velocity -= gravity * t;
+    after.pose.position -= after.velocity * t + gravity * (t * t / 2);
+    after.pose.orientation = turned(after.pose.orientation, -after.angular_velocity * t);
+  }
+  if (hit.waits) {
+    hit.body->pushed = hit.part;
+    hit.body->pushed_in_step = step;
+    hold_back(hit.body->id, after);
+  } else {
+    after.velocity = reading().to_world(after.velocity);
+    after.asleep = false;
+    world->set_state(hit.body->id, after);
+  }
+  check_momentum(hit, impulses);
+}
+
+/// The momentum that the world's body has at the instant of the impact must be what it had before and the impulses.
+void Simulation::State::check_momentum(const Strike& hit, std::span<const PointImpulse> impulses) {
+  Momentum given{hit.state.pose.position}, measured{hit.state.pose.position};
+  given.add(*hit.body, hit.state);
+  for (const PointImpulse& one : impulses) given.add_impulse(one.impulse, one.point);
+  collision::BodyState now = world->state(hit.body->id);
+  if (hit.waits) {
+    const HeldBack& goes_on = held_back.at(hit.body->id.value);
+    now.velocity = goes_on.velocity;
+    now.angular_velocity = goes_on.angular_velocity;
+  }
+  now.velocity = reading().true_velocity(now.velocity);
+  if (hit.through) now.velocity += gravity * hit.own_time;
+  now.pose = hit.state.pose;
+  measured.add(*hit.body, now);
+  ledger.momentum_error = std::max(ledger.momentum_error, measured.error(given));
+}
+
+void Simulation::State::break_generations() {
+  if (!frame->pending() && step > 1 && panels_to_look_at == 0) return;
+  if (awaited) return wait_for_turn(Work::generations);
+  if (!may_compute(Work::generations)) return;
+  if (frame->pending() || step == 1) settle_generations();
+  if (!frame->answering()) crack_panels();
+}
+
+void Simulation::State::settle_generations() {
+  frame->yield_after_answers(waits_for_turn(Work::blows));
+  const int generations = generations_of(step, scenario.step, scenario.failure.generations_per_second);
+  const std::vector<JointBreak> breaks = frame->settle(generations);
+  for (const JointBreak& line : frame->take_yielded()) {
+    SimulationEvent& event = tell(SimulationEvent::Kind::joint_yielded, building[line.joint].name);
+    event.joint = line;
+    event.position = line.position;
+  }
+  for (const JointBreak& broken : breaks) tell(broken);
+  if (!frame->answering() && any_breakable) panels_to_look_at = building.panels.size();
+}
+
+}  // namespace topple::structure

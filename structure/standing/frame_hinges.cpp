@@ -1,0 +1,75 @@
+// Plastic hinges in the statics of a standing frame. One that flows is a release, with the moment that it holds as a
+// load on the member's end and, reversed, on the hub; one that holds again is a joint with an angle in it.
+#include "model/index_of.h"
+#include "standing/frame_statics.h"
+
+namespace topple::structure {
+
+std::vector<solver::BeamLoad> FrameStatics::with_hinges(MemberId member, std::vector<solver::BeamLoad> loads) const {
+  const auto found = hinges_.find(member);
+  if (found == hinges_.end()) return loads;
+  for (int end = 0; end < 2; ++end) {
+    solver::BeamLoad held;
+    held.kind = solver::BeamLoad::Kind::point;
+    held.from = end == 0 ? 0 : beam(member).length;
+    held.first = found->second.held.segment<6>(6 * end);
+    if (!held.first.isZero(0)) loads.push_back(held);
+  }
+  solver::BeamLoad slip;
+  slip.kind = solver::BeamLoad::Kind::temperature;
+  slip.first = found->second.slip.head<6>();
+  slip.last = found->second.slip.tail<6>();
+  if (!slip.first.isZero(0) || !slip.last.isZero(0)) loads.push_back(slip);
+  return loads;
+}
+
+void FrameStatics::write_loads(MemberId member) {
+  const Place& place = member_place_[index(member)];
+  std::vector<solver::BeamLoad> loads = with_hinges(member, member_loads_[index(member)]);
+  for (solver::BeamLoad& load : loads) load.beam = place.local;
+  changing(place).set_beam_loads(place.local, std::move(loads));
+  if (!hinges_.contains(member)) return;
+  for (const int node : beam(member).node) write_load(parts(place.component).nodes[static_cast<std::size_t>(node)]);
+}
+
+void FrameStatics::write_load(NodeId node) {
+  const Place& place = node_place_[index(node)];
+  Vec6 load = node_loads_[index(node)];
+  if (second_order_) load += geometric_[index(node)];
+  for (const auto& [member, hinges] : hinges_) {
+    if (member_place_[index(member)].component != place.component) continue;
+    const solver::Beam& own = beam(member);
+    for (std::size_t end = 0; end < 2; ++end)
+      if (own.node[end] == place.local)
+        load.tail<3>() -= own.axes.transpose() * hinges.held.segment<3>(static_cast<Eigen::Index>(6 * end + 3));
+  }
+  changing(place).set_node_load(place.local, load);
+}
+
+void FrameStatics::set_hinge(MemberId member, int end, int axis, double stiffness, double held, double slip) {
+  const Place& place = member_place_[index(member)];
+  const auto [found, made] = hinges_.try_emplace(member);
+  Hinges& hinges = found->second;
+  if (made) hinges.stiffness = beam(member).end_stiffness;
+  Vec6& own = hinges.stiffness[static_cast<std::size_t>(end)];
+  own(axis) = stiffness;
+  hinges.held(6 * end + axis) = held;
+  hinges.slip(6 * end + axis) = slip;
+  changing(place).set_end_stiffness(place.local, end, own);
+  write_loads(member);
+}
+
+void FrameStatics::let_flow(MemberId member, int end, int axis, double held) {
+  set_hinge(member, end, axis, 0, held, 0);
+}
+
+void FrameStatics::hold_again(MemberId member, int end, int axis, double stiffness, double slip) {
+  set_hinge(member, end, axis, stiffness, 0, slip);
+}
+
+solver::Vec12 FrameStatics::slips(MemberId member) const {
+  const auto found = hinges_.find(member);
+  return found == hinges_.end() ? solver::Vec12::Zero() : found->second.slip;
+}
+
+}  // namespace topple::structure

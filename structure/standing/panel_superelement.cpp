@@ -1,0 +1,500 @@
+#include "standing/panel_superelement.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "mesh/panel_cells.h"
+#include "model/index_of.h"
+#include "topple/fracture/polygon.h"
+
+namespace topple::structure {
+
+namespace {
+
+/// Elements of a broken membrane: about this long, m, and at most so many along an edge.
+constexpr double membrane_element = 0.5;
+constexpr int most_elements = 12;
+/// Nearer to a line of an opening than this share of their distance, they are left out.
+constexpr double least_gap = 0.4;
+/// An element with less of its area stands no more.
+constexpr double least_share = 0.05;
+/// Stress is looked at where so much of an element is there.
+constexpr double share_with_stress = 0.5;
+
+/// Lines of about this distance, and through the openings' vertices.
+PanelLines membrane_lines(const PanelSurface& surface, const Panel& panel, PanelId id) {
+  PanelLines lines{id, {}};
+  for (std::size_t way = 0; way < 2; ++way) {
+    const double length = std::max(surface.edge_length(way), surface.edge_length(way + 2));
+    const int count = std::clamp(static_cast<int>(std::ceil(length / membrane_element)), 1, most_elements);
+    std::vector<double>& at = lines.at[way];
+    at = {0, 1};
+    const auto add = [&](double line, double apart) {
+      if (std::none_of(at.begin(), at.end(), [&](double other) { return std::abs(other - line) < apart; }))
+        at.push_back(line);
+    };
+    for (const auto& opening : panel.openings)
+      for (const Vec2& vertex : opening) add(surface.parameters(vertex)(static_cast<Eigen::Index>(way)), same_line);
+    for (int i = 1; i < count; ++i) add(static_cast<double>(i) / count, least_gap / count);
+    std::sort(at.begin(), at.end());
+  }
+  return lines;
+}
+
+/// The edge on which a point of the mesh lies and how far along, from 0 to 1; -1 for one inside.
+std::pair<int, double> edge_place(const Vec2& st) {
+  constexpr double border = 1e-8;
+  const auto along = [&](double value) { return value < border ? 0.0 : value > 1 - border ? 1.0 : value; };
+  const double s = along(st.x()), t = along(st.y());
+  if (t == 0) return {0, s};
+  if (s == 1) return {1, t};
+  if (t == 1) return {2, 1 - s};
+  if (s == 0) return {3, 1 - t};
+  return {-1, 0};
+}
+
+Vec6 turned(const Mat3& turn, const Vec6& v) {
+  Vec6 result;
+  result << turn * v.head<3>(), turn * v.tail<3>();
+  return result;
+}
+
+struct Box2 {
+  Vec2 low, high;
+  [[nodiscard]] bool overlaps(const Box2& other) const {
+    return (other.high - low).minCoeff() > 0 && (high - other.low).minCoeff() > 0;
+  }
+};
+
+Box2 box_of(const std::vector<Vec2>& polygon) {
+  Box2 box{polygon.front(), polygon.front()};
+  for (const Vec2& corner : polygon) {
+    box.low = box.low.cwiseMin(corner);
+    box.high = box.high.cwiseMax(corner);
+  }
+  return box;
+}
+
+/// Larger and smaller principal value of a plane symmetric tensor (xx, yy, xy).
+std::array<double, 2> principal(const Vec3& s) {
+  const double mean = (s(0) + s(1)) / 2, radius = std::hypot((s(0) - s(1)) / 2, s(2));
+  return {mean + radius, mean - radius};
+}
+
+}  // namespace
+
+PanelSuperelement::PanelSuperelement(const Building& building, const Frame& frame, PanelId id,
+                                     std::shared_ptr<ShellOperators> operators)
+    : axes_(building[id].axes),
+      origin_(building[building[id].nodes[0]].position),
+      turn_(Mat3::Identity()),
+      thickness_(building[id].thickness),
+      operators_(std::move(operators)) {
+  const PanelMesh& mesh = frame.meshes[index_of(id)];
+  solver::Superelement::Patch patch;
+  std::map<int, int> place;
+  const auto local = [&](int node) {
+    const auto [entry, made] = place.emplace(node, static_cast<int>(patch.nodes.size()));
+    if (made) patch.nodes.push_back(frame.model.nodes[static_cast<std::size_t>(node)]);
+    return entry->second;
+  };
+  for (const NodeId node : building[id].all_nodes()) node_.push_back(local(node.index));
+  for (std::size_t k = 0; k < mesh.elements.size(); ++k) {
+    solver::Shell shell = frame.model.shells[static_cast<std::size_t>(mesh.first_shell) + k];
+    for (int& node : shell.node) node = local(node);
+    patch.shells.push_back(shell);
+  }
+  for (std::size_t edge = 0; edge < 4; ++edge)
+    if (building[id].joined[edge])
+      for (const int node : mesh.edge_nodes[edge]) bearing_edge_[edge].push_back(local(node));
+  for (const EdgeSupport& support : building.edge_supports) {
+    if (support.panel != id) continue;
+    std::vector<int>& bearing = bearing_edge_[static_cast<std::size_t>(support.edge)];
+    bearing.clear();
+    for (const int node : mesh.edge_nodes[static_cast<std::size_t>(support.edge)]) {
+      bearing.push_back(local(node));
+      if (std::find(node_.begin(), node_.end(), local(node)) == node_.end())
+        patch.supports.push_back({local(node), support.stiffness});
+    }
+  }
+  take_nodes(building[id]);
+  for (std::size_t n = 0; n < node_.size(); ++n)
+    if (held_at(n)) patch.kept.push_back(node_[n]);
+  begin(std::move(patch));
+}
+
+void PanelSuperelement::begin(solver::Superelement::Patch patch) {
+  share_.assign(patch.shells.size(), 1);
+  patch_.emplace(std::move(patch));
+  for (const solver::Shell& shell : patch_->patch().shells)
+    element_.push_back(&operators_->of(shell, patch_->patch().nodes));
+  find_places();
+  load_evenly();
+}
+
+PanelSuperelement::PanelSuperelement(const Building& building, PanelId id, std::shared_ptr<ShellOperators> operators)
+    : axes_(building[id].axes),
+      origin_(building[building[id].nodes[0]].position),
+      turn_(building[id].axes),
+      thickness_(building[id].thickness),
+      operators_(std::move(operators)) {
+  const Panel& panel = building[id];
+  const PanelSurface surface(building, panel);
+  const PanelLines lines = membrane_lines(surface, panel, id);
+  const PanelCells cells = panel_cells(surface, panel, lines, cuts_cells(surface, panel, lines));
+  solver::Superelement::Patch patch;
+  // Its mean plane, as the one element of a whole membrane. The corners are there even where an opening takes them.
+  const auto add_node = [&](const Vec2& st) {
+    const Vec2 place = surface.local(st);
+    patch.nodes.emplace_back(place.x(), place.y(), 0);
+  };
+  for (int corner = 0; corner < 4; ++corner) {
+    node_.push_back(corner);
+    patch.kept.push_back(corner);
+    add_node(PanelSurface::on_edge(static_cast<std::size_t>(corner), 0));
+  }
+  std::vector<int> number;
+  for (const Vec2& point : cells.points) {
+    const auto [edge, along] = edge_place(point);
+    if (edge >= 0 && (along == 0 || along == 1)) {
+      number.push_back((edge + (along == 1 ? 1 : 0)) % 4);
+      continue;
+    }
+    number.push_back(static_cast<int>(patch.nodes.size()));
+    add_node(point);
+    if (edge >= 0) patch.ties.push_back({number.back(), {edge, (edge + 1) % 4}, along, false});
+  }
+  solver::Shell shell;
+  shell.youngs_modulus = building[panel.material].youngs_modulus;
+  shell.poisson_ratio = building[panel.material].poisson_ratio;
+  shell.thickness = panel.thickness;
+  for (const auto& cell : cells.quadrilaterals) {
+    for (std::size_t i = 0; i < 4; ++i) shell.node[i] = number[static_cast<std::size_t>(cell[i])];
+    patch.shells.push_back(shell);
+  }
+  take_nodes(panel);
+  begin(std::move(patch));
+}
+
+/// The mesh of a membrane lies in the axes of its panel.
+PanelSuperelement::PanelSuperelement(const PanelSuperelement& whole, const Building& building, PanelId id)
+    : PanelSuperelement(whole) {
+  axes_ = turn_ = building[id].axes;
+  origin_ = building[building[id].nodes[0]].position;
+}
+
+/// The edges on which the panel's nodes lie.
+void PanelSuperelement::take_nodes(const Panel& panel) {
+  edge_.assign(4, -1);
+  if (panel.model != PanelModel::shell) return;
+  for (std::size_t edge = 0; edge < 4; ++edge)
+    edge_.insert(edge_.end(), panel.edge_nodes[edge].size(), static_cast<int>(edge));
+}
+
+void PanelSuperelement::find_places() {
+  const std::vector<int>& kept = patch_->patch().kept;
+  place_.clear();
+  for (const int node : node_) {
+    const auto found = std::find(kept.begin(), kept.end(), node);
+    place_.push_back(found == kept.end() ? -1 : static_cast<int>(found - kept.begin()));
+  }
+}
+
+/// By its edge; at a corner by either of its edges that something lies along, where there is none by either.
+bool PanelSuperelement::held_at(std::size_t node) const {
+  if (edge_[node] >= 0) return holds_[static_cast<std::size_t>(edge_[node])];
+  const std::array<std::size_t, 2> edges{node, (node + 3) % 4};
+  const bool bears = !bearing_edge_[edges[0]].empty() || !bearing_edge_[edges[1]].empty();
+  return std::any_of(edges.begin(), edges.end(),
+                     [&](std::size_t edge) { return holds_[edge] && (!bears || !bearing_edge_[edge].empty()); });
+}
+
+/// Place of a patch node in the panel's plane.
+Vec2 PanelSuperelement::flat(int node) const {
+  const Vec3& place = patch_->patch().nodes[static_cast<std::size_t>(node)];
+  if (turn_.isIdentity(0)) return (axes_ * (place - origin_)).head<2>();
+  return place.head<2>();
+}
+
+void PanelSuperelement::fracture(const PanelRemains& remains) {
+  const auto& shells = patch_->patch().shells;
+  lost_.resize(shells.size(), 0);
+  std::vector<fracture::Polygon> elements;
+  std::vector<Box2> boxes;
+  for (const solver::Shell& shell : shells) {
+    fracture::Polygon& element = elements.emplace_back();
+    for (const int node : shell.node) element.push_back(flat(node));
+    boxes.push_back(box_of(element));
+  }
+  // Holes come in the order in which they were made: those of earlier hits are counted.
+  for (; holes_counted_ < remains.holes.size(); ++holes_counted_) {
+    const std::vector<Vec2>& hole = remains.holes[holes_counted_];
+    const Box2 box = box_of(hole);
+    for (std::size_t k = 0; k < shells.size(); ++k) {
+      if (!box.overlaps(boxes[k])) continue;
+      fracture::LabelledPolygon both{hole, std::vector<int>(hole.size(), 0)};
+      for (std::size_t i = 0; i < 4 && !both.vertices.empty(); ++i) {
+        const Vec2 along = elements[k][(i + 1) % 4] - elements[k][i];
+        fracture::clip(both, elements[k][i], Vec2(along.y(), -along.x()), 0);
+      }
+      if (both.vertices.size() > 2) lost_[k] += fracture::area(both.vertices);
+    }
+  }
+  for (std::size_t k = 0; k < shells.size(); ++k) share_[k] = std::max(0.0, 1 - lost_[k] / fracture::area(elements[k]));
+  keep_shares();
+}
+
+void PanelSuperelement::keep_shares() {
+  std::vector<double> standing = share_;
+  for (std::size_t k = 0; k < standing.size(); ++k)
+    if (standing[k] < least_share || !patch_->stands(static_cast<int>(k))) standing[k] = 0;
+  patch_->keep(standing);
+  load_evenly();
+}
+
+/// What each node gets of a unit traction along each axis of the patch.
+void PanelSuperelement::load_evenly() {
+  const auto& shells = patch_->patch().shells;
+  unit_traction_.assign(patch_->patch().nodes.size(), Eigen::Matrix<double, 6, 3>::Zero());
+  for (std::size_t k = 0; k < shells.size(); ++k) {
+    if (share_[k] <= 0) continue;
+    const Eigen::Matrix<double, 24, 3> own = share_[k] * element_[k]->loads;
+    if (patch_->stands(static_cast<int>(k))) {
+      for (int n = 0; n < 4; ++n)
+        unit_traction_[static_cast<std::size_t>(shells[k].node[static_cast<std::size_t>(n)])] +=
+            own.middleRows<6>(6 * n);
+      continue;
+    }
+    Vec3 centre = Vec3::Zero();
+    for (const int node : shells[k].node) {
+      const Vec2 corner = flat(node);
+      centre += Vec3(corner.x(), corner.y(), 0) / 4;
+    }
+    const Grip held = grip(Vec2(centre.head<2>()));
+    for (int axis = 0; axis < 3; ++axis) {
+      Vec3 sum = Vec3::Zero();
+      for (int n = 0; n < 4; ++n) sum += own.block<3, 1>(6 * n, axis);
+      held.each(sum,
+                [&](int node, const Vec6& load) { unit_traction_[static_cast<std::size_t>(node)].col(axis) += load; });
+    }
+  }
+}
+
+void PanelSuperelement::release_edge(int edge) {
+  holds_[static_cast<std::size_t>(edge)] = false;
+  const auto& nodes = bearing_edge_[static_cast<std::size_t>(edge)];
+  solver::Superelement::Patch patch = patch_->patch();
+  std::erase_if(patch.supports, [&](const solver::Support& support) {
+    return std::find(nodes.begin(), nodes.end(), support.node) != nodes.end();
+  });
+  patch.kept.clear();
+  for (std::size_t n = 0; n < node_.size(); ++n)
+    if (held_at(n)) patch.kept.push_back(node_[n]);
+  std::vector<int> gone;
+  for (std::size_t k = 0; k < patch.shells.size(); ++k)
+    if (!patch_->stands(static_cast<int>(k))) gone.push_back(static_cast<int>(k));
+  patch_.emplace(std::move(patch), gone);
+  find_places();
+  keep_shares();
+}
+
+Eigen::MatrixXd PanelSuperelement::stiffness() const {
+  const auto size = static_cast<Eigen::Index>(6 * node_.size());
+  Eigen::MatrixXd global = Eigen::MatrixXd::Zero(size, size);
+  const Eigen::MatrixXd& kept = patch_->stiffness();
+  const bool turned = !turn_.isIdentity(0);
+  for (std::size_t i = 0; i < 2 * node_.size(); ++i)
+    for (std::size_t j = 0; j < 2 * node_.size(); ++j) {
+      const int row = place_[i / 2], column = place_[j / 2];
+      if (row < 0 || column < 0) continue;
+      const auto at = [](std::size_t half, int node) { return static_cast<Eigen::Index>(6 * node + 3 * (half % 2)); };
+      const Mat3 own = kept.block<3, 3>(at(i, row), at(j, column));
+      auto block = global.block<3, 3>(static_cast<Eigen::Index>(3 * i), static_cast<Eigen::Index>(3 * j));
+      if (turned)
+        block = turn_.transpose() * own * turn_;
+      else
+        block = own;
+    }
+  return global;
+}
+
+bool PanelSuperelement::stands_at(std::size_t node) const {
+  return place_[node] >= 0 && patch_->has_shells(node_[node]);
+}
+
+/// On the element that holds the point by its bilinear shapes; in a hole, on the nearest node that stands, with the
+/// moment that keeps its line of action.
+PanelSuperelement::Grip PanelSuperelement::grip(const Vec2& at) const {
+  const auto& shells = patch_->patch().shells;
+  Grip held;
+  double least = unlimited;
+  fracture::Polygon corners(4);
+  for (std::size_t k = 0; k < shells.size(); ++k) {
+    if (!patch_->stands(static_cast<int>(k))) continue;
+    for (std::size_t n = 0; n < 4; ++n) {
+      corners[n] = flat(shells[k].node[n]);
+      const double away = (corners[n] - at).norm();
+      if (away < least) held.node[0] = shells[k].node[n];
+      least = std::min(least, away);
+    }
+    if (!fracture::contains(corners, at)) continue;
+    // Newton's method on the bilinear map; two steps are exact in a parallelogram.
+    Vec2 place = Vec2::Zero();
+    for (int i = 0; i < 20; ++i) {
+      const Vec2 a = corners[0] + corners[1] + corners[2] + corners[3],
+                 b = corners[1] + corners[2] - corners[0] - corners[3];
+      const Vec2 c = corners[2] + corners[3] - corners[0] - corners[1],
+                 d = corners[0] + corners[2] - corners[1] - corners[3];
+      const Vec2 residual = at - (a + place.x() * b + place.y() * c + place.x() * place.y() * d) / 4;
+      Eigen::Matrix2d slope;
+      slope << (b + place.y() * d) / 4, (c + place.x() * d) / 4;
+      const double determinant = slope(0, 0) * slope(1, 1) - slope(0, 1) * slope(1, 0);
+      const Vec2 step((slope(1, 1) * residual.x() - slope(0, 1) * residual.y()) / determinant,
+                      (slope(0, 0) * residual.y() - slope(1, 0) * residual.x()) / determinant);
+      place = (place + step).cwiseMax(-1).cwiseMin(1);
+      if (step.norm() < 1e-14) break;
+    }
+    constexpr std::array<std::array<double, 2>, 4> sign{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
+    for (std::size_t n = 0; n < 4; ++n) {
+      held.node[n] = shells[k].node[n];
+      held.share[n] = (1 + sign[n][0] * place.x()) * (1 + sign[n][1] * place.y()) / 4;
+    }
+    return held;
+  }
+  if (held.node[0] < 0) return held;
+  held.share[0] = 1;
+  const Vec2 arm = at - flat(held.node[0]);
+  held.lever = turn_ * (axes_.transpose() * Vec3(arm.x(), arm.y(), 0));
+  return held;
+}
+
+void PanelSuperelement::add_force(const PanelForce& one, std::vector<Vec6>& loads) const {
+  const Vec3 place = axes_ * (one.point - origin_);
+  grip(Vec2(place.head<2>())).each(turn_ * one.force, [&](int node, const Vec6& load) {
+    loads[static_cast<std::size_t>(node)] += load;
+  });
+}
+
+std::vector<Vec6> PanelSuperelement::node_loads(const PanelLoading& loading) const {
+  std::vector<Vec6> loads(patch_->patch().nodes.size(), Vec6::Zero());
+  const Vec3 traction = turn_ * loading.traction;
+  if (!traction.isZero(0))
+    for (std::size_t n = 0; n < loads.size(); ++n) loads[n] = unit_traction_[n] * traction;
+  for (const PanelForce& one : loading.forces) add_force(one, loads);
+  return loads;
+}
+
+std::vector<Vec6> PanelSuperelement::loads_at_nodes(const PanelLoading& loading) const {
+  const Eigen::VectorXd condensed = patch_->condense(node_loads(loading));
+  std::vector<Vec6> loads(node_.size(), Vec6::Zero());
+  for (std::size_t n = 0; n < loads.size(); ++n)
+    if (place_[n] >= 0) loads[n] = turned(turn_.transpose(), condensed.segment<6>(6 * place_[n]));
+  return loads;
+}
+
+std::vector<Vec6> PanelSuperelement::recover(const std::vector<Vec6>& at_nodes, const PanelLoading& loading) const {
+  Eigen::VectorXd kept(static_cast<Eigen::Index>(6 * patch_->patch().kept.size()));
+  for (std::size_t n = 0; n < node_.size(); ++n)
+    if (place_[n] >= 0) kept.segment<6>(6 * place_[n]) = turned(turn_, at_nodes[n]);
+  return patch_->recover(kept, node_loads(loading));
+}
+
+double PanelSuperelement::compliance(const PanelForce& unit) const {
+  PanelLoading loading;
+  loading.forces = {unit};
+  const std::vector<Vec6> loads = node_loads(loading);
+  const std::vector<Vec6> u =
+      patch_->recover(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(6 * patch_->patch().kept.size())), loads);
+  double work = 0;
+  for (std::size_t n = 0; n < u.size(); ++n) work += u[n].dot(loads[n]);
+  return work;
+}
+
+double PanelSuperelement::mean_square_motion(const std::vector<Vec6>& at_nodes, const PanelLoading& loading) const {
+  const std::vector<Vec6> u = recover(at_nodes, loading);
+  double sum = 0, area = 0;
+  for (std::size_t k = 0; k < share_.size(); ++k) {
+    if (!patch_->stands(static_cast<int>(k))) continue;
+    fracture::Polygon element;
+    double squares = 0;
+    for (const int node : patch_->patch().shells[k].node) {
+      element.push_back(flat(node));
+      squares += u[static_cast<std::size_t>(node)].head<3>().squaredNorm() / 4;
+    }
+    const double own = share_[k] * fracture::area(element);
+    sum += own * squares;
+    area += own;
+  }
+  return area > 0 ? sum / area : 0;
+}
+
+std::array<Vec6, 4> PanelSuperelement::edge_demands(const std::vector<Vec6>& at_nodes, const PanelLoading& loading,
+                                                    const std::array<double, 4>& length,
+                                                    const std::array<bool, 4>& bear) const {
+  std::array<Vec6, 4> demands{Vec6::Zero(), Vec6::Zero(), Vec6::Zero(), Vec6::Zero()};
+  const auto bears = [&](std::size_t edge) { return bear[edge] && holds_[edge] && !bearing_edge_[edge].empty(); };
+  const std::vector<Vec6> reactions = patch_->reactions(recover(at_nodes, loading), node_loads(loading));
+  std::array<std::vector<int>, 4> of_edge;
+  std::vector<int> edges_at(reactions.size(), 0);  // a corner between two edges that bear is shared
+  for (std::size_t edge = 0; edge < 4; ++edge) {
+    if (bears(edge)) of_edge[edge] = bearing_edge_[edge];
+    for (const int node : of_edge[edge]) ++edges_at[static_cast<std::size_t>(node)];
+  }
+  for (std::size_t corner = 0; corner < 4; ++corner) {  // and so is one where none does, a post's under a flat slab
+    if (edges_at[static_cast<std::size_t>(node_[corner])] > 0 || !stands_at(corner)) continue;
+    for (const std::size_t edge : {corner, (corner + 3) % 4}) {
+      if (!holds_[edge]) continue;
+      of_edge[edge].push_back(node_[corner]);
+      ++edges_at[static_cast<std::size_t>(node_[corner])];
+    }
+  }
+  for (std::size_t edge = 0; edge < 4; ++edge) {
+    if (of_edge[edge].empty() || !(length[edge] > 0)) continue;
+    const auto place = [&](std::size_t corner) { return flat(node_[corner % 4]); };
+    const Vec2 along = (place(edge + 1) - place(edge)).normalized();
+    Mat3 own;  // rows: outwards, along, normal
+    own << along.y(), -along.x(), 0, along.x(), along.y(), 0, 0, 0, 1;
+    const Mat3 to_edge = own * axes_ * turn_.transpose();
+    Vec6 sum = Vec6::Zero();
+    for (const int node : of_edge[edge]) {
+      const auto n = static_cast<std::size_t>(node);
+      sum += reactions[n] / edges_at[n];
+    }
+    demands[edge] = turned(to_edge, sum) / length[edge];
+  }
+  return demands;
+}
+
+PanelStress PanelSuperelement::worst_stress(const std::vector<Vec6>& at_nodes, const PanelLoading& loading) const {
+  const std::vector<Vec6> u = recover(at_nodes, loading);
+  const auto& shells = patch_->patch().shells;
+  PanelStress worst;
+  for (std::size_t k = 0; k < shells.size(); ++k) {
+    if (!patch_->stands(static_cast<int>(k)) || share_[k] < share_with_stress) continue;
+    Eigen::Matrix<double, 24, 1> own;
+    for (int n = 0; n < 4; ++n)
+      own.segment<6>(6 * n) = u[static_cast<std::size_t>(shells[k].node[static_cast<std::size_t>(n)])];
+    const Vec6 r = element_[k]->resultants * own;
+    for (const double face : {-1.0, 1.0}) {
+      const Vec3 stress = r.head<3>() / thickness_ + face * 6 * r.tail<3>() / (thickness_ * thickness_);
+      const auto [larger, smaller] = principal(stress);
+      if (larger <= worst.tension && -smaller <= worst.compression) continue;
+      Vec2 centre = Vec2::Zero();
+      for (const int node : shells[k].node) centre += flat(node) / 4;
+      const Vec3 at = origin_ + axes_.transpose() * Vec3(centre.x(), centre.y(), 0);
+      if (larger > worst.tension) {
+        worst.tension = larger;
+        worst.tension_at = at;
+      }
+      if (-smaller > worst.compression) {
+        worst.compression = -smaller;
+        worst.compression_at = at;
+      }
+    }
+  }
+  return worst;
+}
+
+}  // namespace topple::structure

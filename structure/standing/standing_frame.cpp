@@ -1,0 +1,482 @@
+#include "topple/structure/standing_frame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "failure/panel_demand.h"
+#include "loads/placed_load.h"
+#include "model/index_of.h"
+#include "standing/standing_state.h"
+#include "standing/unstable_model.h"
+#include "topple/structure/error.h"
+
+namespace topple::structure {
+
+namespace {
+
+/// The combination's loads; a settlement would have to be held through every change and is refused.
+PartLoads loads_to_stand(const Building& building, CombinationId combination) {
+  PartLoads loads = part_loads(building, combination);
+  if (loads.settlements.empty()) return loads;
+  const Node& node = building.nodes[static_cast<std::size_t>(loads.settlements.front().node)];
+  throw InputError(building.file + ": combinations." + building[combination].name + ": settles node " + node.name +
+                   "; demolition takes combinations without settlements");
+}
+
+}  // namespace
+
+StandingFrame::State::State(const Building& given, CombinationId combination, const FailureRules& failure, int threads)
+    : building(given),
+      rules(failure),
+      edges(given),
+      segments(given),
+      bearings(given, edges),
+      shells(given),
+      loads(given, loads_to_stand(given, combination), bearings, shells),
+      edge_loads(given, bearings, loads),
+      statics(given, shells, threads),
+      joints(given, failure.sudden),
+      ductile(given, statics, segments, bearings, applied),
+      node_solved(given.nodes.size(), 1),
+      applied(given.members.size()),
+      node_applied(given.nodes.size(), Vec6::Zero()),
+      account({given, segments, bearings, loads, statics, node_solved, applied}),
+      checked_joints(static_cast<std::size_t>(statics.components())),
+      checked_edges(checked_joints.size()),
+      component_panels(checked_joints.size()),
+      to_check(checked_joints.size(), 1),
+      demands_behind(checked_joints.size(), 0),
+      critical_energies(checked_joints.size(), -1.0),
+      certain(checked_joints.size()),
+      solved_nodes(checked_joints.size(), 0),
+      in_mechanism(given.members.size(), 0) {
+  if (rules.bracing == BracingRule::classic) bracing.emplace(building);
+  if (rules.bracing == BracingRule::buckling)
+    buckling.emplace(building, statics, segments, bearings, applied, node_applied, node_solved);
+  if (rules.second_order) statics.use_second_order();
+  for (std::size_t j = 0; j < building.joints.size(); ++j) {
+    if (!building.joints[j].capacity.breakable) continue;
+    const auto c = static_cast<std::size_t>(component(JointId(j)));
+    checked_joints[c].push_back(JointId(j));
+    if (!building.joints[j].member.valid()) checked_edges[c].push_back(JointId(j));
+  }
+  for (std::size_t n = 0; n < building.nodes.size(); ++n)
+    ++solved_nodes[static_cast<std::size_t>(statics.component(NodeId(n)))];
+  for (std::size_t p = 0; p < building.panels.size(); ++p)
+    component_panels[static_cast<std::size_t>(statics.component(building.panels[p].nodes[0]))].push_back(PanelId(p));
+  if (const auto floating = segments.take_unanchored(); !floating.empty()) {
+    FrameMechanism mechanism;
+    mechanism.nodes = floating.front().nodes;
+    mechanism.motion.assign(building.nodes.size(), Vec6::Zero());
+    for (NodeId node : mechanism.nodes) mechanism.motion[index_of(node)](2) = -1;
+    throw UnstableModel(describe_mechanism(building, mechanism) + "; nothing connects them to a support");
+  }
+  write_loads();
+  for (int c = 0; c < statics.components(); ++c) {
+    if (const auto mechanism = statics.solve(c)) throw UnstableModel(describe_mechanism(building, *mechanism));
+    read_demands(c, true);
+    if (ductile.any(c)) ductile.base_is_answer(c);
+    if (!buckling) continue;
+    std::optional<BuckledPost> post;
+    do {
+      post = buckling->find(c, statics.diverged(c));
+    } while (buckling->testing(c));
+    if (post)
+      throw UnstableModel(building.file + ": post " + (post->post.valid() ? building[post->post].name : "") +
+                          " buckles under combination " + building[combination].name + ": the critical factor is " +
+                          std::to_string(post->factor));
+  }
+  account.start();
+  // Nothing broke to get here: this state is R0. Joints over capacity break in the first generation.
+  pending = !next_generation().empty();
+}
+
+bool StandingFrame::State::stands(PanelId panel) const {
+  return bearings.serves(panel) ? bearings.stands(panel) : segments.label(panel) >= 0;
+}
+
+bool StandingFrame::State::stands(const ContactPlace& place) const {
+  if (place.node.valid()) return stands(place.node) && node_solved[index_of(place.node)] != 0;
+  return place.member.valid() ? stands(place.member) : place.panel.valid() && stands(place.panel);
+}
+
+bool StandingFrame::State::holds(JointId joint) const {
+  const Joint& own = building[joint];
+  if (own.member.valid() || !bearings.serves(own.panel)) return segments.holds(joint);
+  return bearings.holds(own.panel)[static_cast<std::size_t>(own.end)];
+}
+
+int StandingFrame::State::component(JointId joint) const {
+  const Joint& own = building[joint];
+  return own.member.valid() ? statics.component(own.member) : statics.component(building[own.panel].nodes[0]);
+}
+
+int StandingFrame::State::label(JointId joint) const {
+  const Joint& own = building[joint];
+  if (own.member.valid()) return segments.label(own.member);
+  if (!bearings.serves(own.panel)) return segments.label(own.panel);
+  if (!bearings.stands(own.panel)) return -1;
+  const auto member = bearings.bearing_member(own.panel);
+  return member ? segments.label(*member) : segments.label(bearings.bearing_node(own.panel));
+}
+
+Vec6 StandingFrame::State::demand(JointId joint) const {
+  if (!holds(joint) || label(joint) < 0) return Vec6::Zero();
+  const Joint& own = building[joint];
+  if (own.capacity.breakable) return joints.demand(joint);
+  return solved_demand(joint);
+}
+
+Vec6 StandingFrame::State::solved_demand(JointId joint) const {
+  const Joint& own = building[joint];
+  if (own.member.valid()) return member_joint_demand(statics.end_forces(own.member), own.end);
+  return edge_demands(own.panel)[static_cast<std::size_t>(own.end)];
+}
+
+std::array<Vec6, 4> StandingFrame::State::edge_demands(PanelId panel) const {
+  if (!bearings.serves(panel)) return shell_edge_demands(panel, node_displacements(panel), loading(panel));
+  return panel_edge_demands(building, bearings, loads, panel,
+                            bearings.membrane(panel) ? std::optional(statics.corner_forces(panel)) : std::nullopt);
+}
+
+Vec3 StandingFrame::State::position(JointId joint) const {
+  const Joint& own = building[joint];
+  if (own.member.valid()) return on_axis(building, own.member, own.end == 0 ? 0 : building[own.member].length);
+  const auto& nodes = building[own.panel].nodes;
+  const auto edge = static_cast<std::size_t>(own.end);
+  return 0.5 * (building[nodes[edge]].position + building[nodes[(edge + 1) % 4]].position);
+}
+
+const std::vector<int>& StandingFrame::State::numbered_segments() const {
+  if (!segment_numbers.empty()) return segment_numbers;
+  std::vector<char> has_part(static_cast<std::size_t>(segments.labels()), 0);
+  for (std::size_t m = 0; m < building.members.size(); ++m)
+    if (const int label = segments.label(MemberId(m)); label >= 0) has_part[static_cast<std::size_t>(label)] = 1;
+  for (std::size_t p = 0; p < building.panels.size(); ++p)  // shells; others belong to what bears them
+    if (const int label = segments.label(PanelId(p)); label >= 0) has_part[static_cast<std::size_t>(label)] = 1;
+  segment_numbers.assign(has_part.size() + 1, -1);  // the last entry counts
+  int count = 0;
+  for (std::size_t n = 0; n < building.nodes.size(); ++n) {
+    const int label = segments.label(NodeId(n));
+    if (label < 0 || !has_part[static_cast<std::size_t>(label)]) continue;
+    int& number = segment_numbers[static_cast<std::size_t>(label)];
+    if (number < 0) number = count++;
+  }
+  segment_numbers.back() = count;
+  return segment_numbers;
+}
+
+StandingFrame::StandingFrame(const Building& building, CombinationId combination, const FailureRules& rules,
+                             int threads)
+    : state_(std::make_unique<State>(building, combination, rules, threads)) {}
+StandingFrame::~StandingFrame() = default;
+
+bool StandingFrame::stands(MemberId member) const { return state_->stands(member); }
+bool StandingFrame::stands(PanelId panel) const { return state_->stands(panel); }
+bool StandingFrame::stands(NodeId node) const { return state_->stands(node); }
+bool StandingFrame::intact(JointId joint) const { return state_->holds(joint); }
+const Vec6& StandingFrame::displacement(NodeId node) const { return state_->account.displacement(node); }
+Vec6 StandingFrame::demand(JointId joint) const {
+  state_->look();
+  state_->know_demands();
+  return state_->demand(joint);
+}
+double StandingFrame::largest_utilisation_so_far(JointId joint) const {
+  state_->look();
+  state_->know_demands();
+  return state_->joints.largest(joint);
+}
+std::optional<PanelStress> StandingFrame::stress(PanelId panel) const {
+  state_->look();
+  return state_->stress(panel);
+}
+double StandingFrame::elastic_energy() const { return energy().elastic; }
+FrameEnergy StandingFrame::energy() const {
+  state_->look();
+  return state_->account.energy();
+}
+double StandingFrame::mass(MemberId member) const { return state_->loads.mass(member); }
+double StandingFrame::mass(PanelId panel) const { return state_->loads.mass(panel); }
+double StandingFrame::node_mass(NodeId node) const { return state_->loads.mass(node); }
+const Building& StandingFrame::building() const { return state_->building; }
+
+Utilisation StandingFrame::utilisation(JointId joint) const {
+  state_->look();
+  state_->know_demands();
+  const bool counts = state_->building[joint].capacity.breakable && state_->holds(joint) && state_->label(joint) >= 0;
+  return counts ? state_->joints.utilisation(joint) : Utilisation{};
+}
+
+Eigen::Matrix<double, 12, 1> StandingFrame::end_forces(MemberId member) const {
+  if (!state_->stands(member)) return Eigen::Matrix<double, 12, 1>::Zero();
+  state_->look();
+  return state_->statics.end_forces(member);
+}
+
+Vec6 StandingFrame::reaction(NodeId node) const {
+  state_->look();
+  Vec6 sum = Vec6::Zero();
+  if (!state_->node_solved[index_of(node)]) return sum;
+  const auto& supports = state_->building.supports;
+  for (std::size_t s = 0; s < supports.size(); ++s)
+    if (supports[s].node == node) sum += state_->statics.reaction(s);
+  return sum;
+}
+
+int StandingFrame::segment(MemberId member) const {
+  const int label = state_->segments.label(member);
+  return label < 0 ? -1 : state_->numbered_segments()[static_cast<std::size_t>(label)];
+}
+
+int StandingFrame::standing_segments() const { return state_->numbered_segments().back(); }
+
+double StandingFrame::roof_sag() const {
+  const std::vector<Node>& nodes = state_->building.nodes;
+  double top = -unlimited, low = unlimited;
+  for (const Node& node : nodes) {
+    top = std::max(top, node.position.z());
+    low = std::min(low, node.position.z());
+  }
+  const double same_height = 1e-9 * std::max(top - low, 1.0);
+  double sum = 0;
+  int count = 0;
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    if (nodes[n].position.z() < top - same_height || !state_->stands(NodeId(n))) continue;
+    sum -= displacement(NodeId(n))(2);
+    ++count;
+  }
+  return count > 0 ? sum / count : 0;
+}
+
+void StandingFrame::break_joint(JointId joint, BreakCause cause) {
+  state_->queue.push_back(State::BreakJoint{joint, cause});
+  state_->pending = true;
+}
+void StandingFrame::remove(MemberId member) {
+  state_->queue.push_back(member);
+  state_->pending = true;
+}
+void StandingFrame::remove(PanelId panel) {
+  state_->queue.push_back(panel);
+  state_->pending = true;
+}
+void StandingFrame::remove_support(NodeId node) {
+  state_->queue.push_back(State::RemoveSupport{node});
+  state_->pending = true;
+}
+void StandingFrame::set_gravity(const Vec3& gravity) {
+  state_->queue.push_back(State::Gravity{gravity});
+  state_->pending = true;
+}
+void StandingFrame::add_load(NodeId node, const Vec6& load) {
+  state_->queue.push_back(State::EventLoad{node, load});
+  state_->pending = true;
+}
+
+void StandingFrame::set_strength_factor(JointId joint, double factor) {
+  State& state = *state_;
+  if (!state.building[joint].capacity.breakable || state.joints.strength(joint) == factor) return;
+  state.finish_paced();
+  if (!(factor > 0)) return break_joint(joint, BreakCause::tool);
+  state.joints.set_strength(joint, factor);
+  state.statics.forget_uses(state.component(joint));
+  state.to_check[static_cast<std::size_t>(state.component(joint))] = 1;
+  state.forget_bounds(state.component(joint));
+  state.pending = true;
+}
+
+void StandingFrame::set_stiffness_factor(MemberId member, double factor) {
+  if (!(factor > 0 && factor <= 1)) throw std::invalid_argument("a stiffness factor must be above 0 and at most 1");
+  State& state = *state_;
+  if (!state.stands(member) || state.statics.stiffness(member) == factor) return;
+  state.finish_paced();
+  state.account.soften(member);
+  state.statics.set_stiffness(member, factor);
+  state.softened = state.pending = true;
+}
+
+void StandingFrame::set_contact_load(const ContactLoad& load) { state_->set_contact(load); }
+
+void StandingFrame::remove_contact_load(std::int64_t key) { state_->remove_contact(key); }
+
+void StandingFrame::restrict_answers_from(int nodes) { state_->restricted_from = nodes; }
+
+bool StandingFrame::pending() const { return state_->pending; }
+
+void StandingFrame::allow(double operations) { state_->allowance = operations; }
+
+double StandingFrame::allowance() const { return state_->allowance; }
+
+void StandingFrame::yield_after_answers(bool yields) { state_->yields = yields; }
+
+std::vector<JointBreak> StandingFrame::settle(int generations, double operations) {
+  allow(operations);
+  return settle(generations);
+}
+
+bool StandingFrame::lay_loads() {
+  State& state = *state_;
+  if (!state.limited()) return true;  // then whatever needs them lays them
+  return state.go_on() && (state.progress != State::Progress::none || state.lay_contacts());
+}
+
+bool StandingFrame::paced(std::function<void()> work) { return state_->paced(std::move(work)); }
+
+bool StandingFrame::go_on() { return state_->go_on(); }
+
+std::vector<JointBreak> StandingFrame::settle(int generations) {
+  State& state = *state_;
+  if (!state.pending && state.pace.done()) {
+    ++state.idle_settles;
+    return {};
+  }
+  state.generation = 0;
+  if (state.settle(generations)) state.progress = State::Progress::none;
+  state.generation = 0;
+  state.account.lines_are_out();
+  return std::exchange(state.breaks, {});
+}
+
+/// False when it was cut short before what stands is solved for.
+bool StandingFrame::State::settle(int generations) {
+  const bool was_answering = progress == Progress::applied || !pace.done();
+  if (!go_on()) return false;
+  if (progress == Progress::none) {
+    if (!lay_contacts()) return false;
+    progress = Progress::laid;
+    if (used_up()) return false;
+  }
+  if (!queue.empty() && progress != Progress::applied) at_once([&] { know_demands(); });  // of what a tool breaks
+  progress = Progress::applied;
+  for (const Change& change : std::exchange(queue, {})) apply(change);
+  if (!bring_up_to_date()) return false;
+  pending = false;
+  for (;;) {
+    const std::vector<JointId> next = next_generation();
+    const bool found = !next.empty() || !buckled.empty();
+    if (!found && !test_goes_on && !check_goes_on) return true;
+    // What a test has found is not to be found again at the same cost.
+    const bool enough =
+        found && (generation >= generations || (yields && limited() && (was_answering || generation > 0)));
+    if (enough || check_goes_on || (buckled.empty() && used_up())) {
+      buckled.clear();  // found again
+      pending = true;
+      return true;
+    }
+    if (!found) continue;  // a test for buckling goes on
+    break_joints(next, BreakCause::overload);
+    snap_buckled();
+    if (!bring_up_to_date()) {
+      pending = true;
+      return false;
+    }
+    ++generation;
+  }
+}
+
+bool StandingFrame::answering() const { return state_->progress == State::Progress::applied || !state_->pace.done(); }
+
+std::vector<JointBreak> StandingFrame::take_yielded() { return std::exchange(state_->yielded, {}); }
+std::vector<Detached> StandingFrame::take_detached() { return std::exchange(state_->detached, {}); }
+
+StandingFrame::UnitResponse StandingFrame::respond(const ContactPlace& place, const Vec3& direction) const {
+  return std::move(respond({&place, 1}, {&direction, 1}).places.front());
+}
+
+StandingFrame::CoupledResponse StandingFrame::respond(std::span<const ContactPlace> places,
+                                                      std::span<const Vec3> directions) const {
+  return state_->ask([&] { return state_->respond(places, directions); });
+}
+
+StandingFrame::UnitResponse StandingFrame::respond_near(const ContactPlace& place, const Vec3& direction) const {
+  return std::move(respond_near({&place, 1}, {&direction, 1}).places.front());
+}
+
+StandingFrame::CoupledResponse StandingFrame::respond_near(std::span<const ContactPlace> places,
+                                                           std::span<const Vec3> directions) const {
+  return state_->ask([&] { return state_->respond_near(places, directions); });
+}
+
+double StandingFrame::critical_energy(const ContactPlace& place) const {
+  return state_->ask([&] {
+    state_->know_demands();
+    return state_->critical_energy(state_->component(place));
+  });
+}
+
+double StandingFrame::break_in_impact(std::span<const JointBreak> breaks, const ContactPlace& place,
+                                      const Vec3& direction) {
+  return break_in_impact(breaks, std::span(&place, 1), std::span(&direction, 1))(0);
+}
+
+Eigen::VectorXd StandingFrame::break_in_impact(std::span<const JointBreak> breaks, std::span<const ContactPlace> places,
+                                               std::span<const Vec3> directions) {
+  State& state = *state_;
+  state.finish();
+  state.lay_contacts_at_once();
+  Eigen::VectorXd shift(static_cast<Eigen::Index>(places.size()));
+  for (std::size_t i = 0; i < places.size(); ++i)
+    shift(static_cast<Eigen::Index>(i)) =
+        state.stands(places[i]) ? state.displacement_along(places[i], directions[i]) : 0.0;
+  std::vector<JointId> broken;
+  for (const JointBreak& one : breaks) broken.push_back(one.joint);
+  state.break_joints(broken, BreakCause::impact);
+  state.bring_up_to_date_at_once();
+  state.account.lines_are_out();
+  // The caller knows its own breaks; what they brought with them is told by the next settle().
+  std::erase_if(state.breaks, [](const JointBreak& one) { return one.cause == BreakCause::impact; });
+  state.pending = true;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    double& by = shift(static_cast<Eigen::Index>(i));
+    by = state.stands(places[i]) ? state.displacement_along(places[i], directions[i]) - by : 0.0;
+  }
+  return shift;
+}
+
+void StandingFrame::begin_break_in_impact(std::span<const JointBreak> breaks) {
+  State& state = *state_;
+  state.finish();
+  state.lay_contacts_at_once();
+  std::vector<JointId> broken;
+  for (const JointBreak& one : breaks) broken.push_back(one.joint);
+  state.break_joints(broken, BreakCause::impact);
+  state.segment_numbers.clear();
+  state.release();
+  state.account.lines_are_out();
+  std::erase_if(state.breaks, [](const JointBreak& one) { return one.cause == BreakCause::impact; });
+  state.progress = State::Progress::applied;
+  state.pending = true;
+}
+
+void StandingFrame::expect_fracture(PanelId panel) {
+  if (state_->bearings.membrane(panel)) state_->shells.know(panel);
+}
+
+void StandingFrame::fracture(PanelId panel, const PanelRemains& remains) {
+  State& state = *state_;
+  if (!state.stands(panel)) return;
+  state.finish();
+  state.fracture(panel, remains);
+  if (!state.limited()) (void)state.condense_broken();
+  state.pending = true;
+}
+
+Eigen::MatrixXd StandingFrame::shell_stiffness(PanelId shell) const { return state_->shells.of(shell)->stiffness(); }
+
+const FrameCounters& StandingFrame::counters() const {
+  FrameCounters& counters = state_->counters;
+  const solver::ReanalysisCounters solved = state_->statics.counters();
+  counters.solves = solved.solves;
+  counters.low_rank = solved.low_rank;
+  counters.refactorisations = solved.refactorisations;
+  counters.restricted = solved.restricted;
+  counters.background_factors = solved.background_factors;
+  counters.late_factors = solved.late_factors;
+  counters.unchanged = solved.unchanged + state_->idle_settles;
+  counters.segmentations = state_->segments.searches();
+  counters.vertices_searched = state_->segments.vertices_searched();
+  return counters;
+}
+
+}  // namespace topple::structure

@@ -1,0 +1,64 @@
+// What acts on a standing frame and how it bears it, for drawings; and capacities that change while it stands.
+#include <algorithm>
+
+#include "model/index_of.h"
+#include "standing/standing_state.h"
+#include "topple/solver/beam_diagram.h"
+
+namespace topple::structure {
+
+std::vector<std::array<double, 8>> StandingFrame::internal_forces(MemberId member, int intervals) const {
+  const State& state = *state_;
+  if (!state.stands(member)) return {};
+  state.look();
+  const solver::BeamDiagram diagram(state.statics.beam(member), state.statics.end_forces(member),
+                                    state.applied[index_of(member)]);
+  std::vector<std::array<double, 8>> values;
+  const double length = state.building[member].length;
+  for (int i = 0; i <= intervals; ++i) values.push_back(diagram.values(length * i / intervals));
+  return values;
+}
+
+std::vector<solver::BeamLoad> StandingFrame::member_loads(MemberId member) const {
+  return state_->stands(member) ? state_->applied[index_of(member)] : std::vector<solver::BeamLoad>();
+}
+
+Vec6 StandingFrame::node_load(NodeId node) const {
+  return state_->stands(node) ? state_->node_applied[index_of(node)] : Vec6(Vec6::Zero());
+}
+
+Vec6 StandingFrame::reaction(std::size_t support) const {
+  state_->look();
+  const NodeId node = state_->building.supports[support].node;
+  return state_->stands(node) ? state_->statics.reaction(support) : Vec6(Vec6::Zero());
+}
+
+std::vector<ContactLoad> StandingFrame::contact_loads() const {
+  std::vector<ContactLoad> loads;
+  for (const auto& [key, load] : state_->contacts)
+    if (state_->stands(load.place)) loads.push_back(load);
+  return loads;
+}
+
+void StandingFrame::capacity_changed(JointId joint) {
+  State& state = *state_;
+  state.finish_paced();
+  const int c = state.component(joint);
+  std::vector<JointId>& checked = state.checked_joints[static_cast<std::size_t>(c)];
+  const auto place = std::lower_bound(checked.begin(), checked.end(), joint);
+  const bool was_checked = place != checked.end() && *place == joint;
+  const bool breakable = state.building[joint].capacity.breakable;
+  if (was_checked && !breakable) checked.erase(place);
+  if (breakable && !was_checked) {
+    checked.insert(place, joint);
+    if (state.holds(joint) && state.label(joint) >= 0) {
+      state.joints.set_demand(joint, state.solved_demand(joint));
+      state.joints.accept(joint);
+    }
+  }
+  state.joints.capacity_changed(joint);
+  state.to_check[static_cast<std::size_t>(c)] = 1;
+  state.pending = true;
+}
+
+}  // namespace topple::structure

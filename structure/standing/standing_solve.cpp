@@ -1,0 +1,366 @@
+// Bringing a standing frame's statics up to date, and reading from it what its joints bear.
+#include <algorithm>
+#include <utility>
+
+#include "loads/placed_load.h"
+#include "model/index_of.h"
+#include "standing/standing_watch.h"
+
+namespace topple::structure {
+
+/// Contact loads and softening come on slowly: their change moves R0 as much as R, so that no sudden-loss factor acts
+/// on them.
+bool StandingFrame::State::lay_contacts() {
+  if (!condense_broken()) return false;
+  if (!laying) {
+    if (!loads.changed() && !softened) return true;
+    softened = false;
+    write_loads();
+    laying = true;
+  }
+  for (int c = 0; c < statics.components(); ++c) {
+    if (!statics.changed(c)) continue;
+    const auto lay = [this, c] {
+      complete(c);  // what changed suddenly before is read as such
+      mechanism_found = solve_slow(c);
+    };
+    if (!paced(lay, [this, c] { laid(c, mechanism_found.has_value()); })) return false;
+  }
+  laying = false;
+  return true;
+}
+
+void StandingFrame::State::lay_contacts_at_once() {
+  at_once([&] { (void)lay_contacts(); });
+}
+
+void StandingFrame::State::laid(int c, bool mechanism) {
+  // Loads alone make no mechanism in a structure that was stable before.
+  if (mechanism) return;
+  // On the way to rest, what lies on it is part of that way. So is what the structure cannot bear: that state,
+  // however far it lies, is never reached.
+  if (!to_check[static_cast<std::size_t>(c)] && bears(c)) {
+    account.finish(c, true, breaks);
+    if (ductile.any(c)) ductile.base_is_answer(c);
+  }
+  to_check[static_cast<std::size_t>(c)] = 1;
+}
+
+/// True when no joint of the component is over its capacity in the state solved last.
+bool StandingFrame::State::bears(int c) const {
+  const std::vector<JointId>& all = checked_joints[static_cast<std::size_t>(c)];
+  return std::none_of(all.begin(), all.end(), [&](JointId joint) {
+    return holds(joint) && label(joint) >= 0 && joints.utilisation(joint).value > 1;
+  });
+}
+
+void StandingFrame::State::bring_up_to_date_at_once() {
+  at_once([&] { (void)bring_up_to_date(); });
+}
+
+std::size_t StandingFrame::State::parts_leaving() const {
+  std::size_t sum = 0;
+  for (const Detached& part : detached) sum += part.members.size() + part.panels.size();
+  return sum;
+}
+
+/// Where many parts leave they are handed out before anything is solved for; factors and answers are found one after
+/// the other. Where there is a mechanism, the structure as it is has no answer to stop at.
+bool StandingFrame::State::bring_up_to_date() {
+  constexpr std::size_t many = 6;  // to make bodies of them takes about as long as to solve
+  segment_numbers.clear();
+  if (!condense_broken()) return false;
+  for (;;) {
+    const std::size_t left = parts_leaving();
+    release();
+    write_loads();
+    if (parts_leaving() > left + many && limited()) return false;
+    const Solved end = solve_changed();
+    if (end == Solved::yes) return true;
+    if (end == Solved::under_way || used_up()) return false;  // what moves is cut free, and leaves next
+  }
+}
+
+/// What a settle() that was cut short left to do.
+void StandingFrame::State::finish() {
+  if (!pace.done() || progress == Progress::applied) bring_up_to_date_at_once();
+  progress = Progress::none;
+}
+
+void StandingFrame::State::write_loads() {
+  const FrameLoads::Changed changed = loads.take_changed();
+  for (MemberId member : changed.members) {
+    if (!stands(member)) continue;
+    account.write(member);
+    applied[index_of(member)] = loads.on(member);
+    statics.set_loads(member, applied[index_of(member)]);
+  }
+  for (NodeId node : changed.nodes) {
+    if (!node_solved[index_of(node)]) continue;
+    account.write(node, node_applied[index_of(node)]);
+    node_applied[index_of(node)] = loads.on(node);
+    statics.set_load(node, node_applied[index_of(node)]);
+  }
+}
+
+/// Where a mechanism was found its moving part was cut free: then it is to be released and solved again.
+StandingFrame::State::Solved StandingFrame::State::solve_changed() {
+  bool moves = false;
+  for (int c = 0; c < statics.components(); ++c) {
+    if (!statics.changed(c)) continue;
+    if (solved_nodes[static_cast<std::size_t>(c)] == 0) {
+      statics.forget(c);
+      continue;
+    }
+    const auto find = [this, c] { mechanism_found = solve(c); };
+    if (!paced(find, [this, c] { solved(c, mechanism_found); })) return Solved::under_way;
+    moves = moves || mechanism_found.has_value();
+  }
+  return moves ? Solved::mechanism : Solved::yes;
+}
+
+void StandingFrame::State::solved(int c, const std::optional<FrameMechanism>& mechanism) {
+  if (!mechanism)
+    to_check[static_cast<std::size_t>(c)] = 1;
+  else if (!swing(c, *mechanism))
+    release_mechanism(*mechanism);
+}
+
+/// True when all that stands of the component is one segment, so that its largest use decides what breaks next.
+bool StandingFrame::State::one_segment(int c) const {
+  int only = -1;
+  for (const MemberId member : statics.members(c)) {
+    const int label = segments.label(member);
+    if (label < 0 || label == only) continue;
+    if (only >= 0) return false;
+    only = label;
+  }
+  return true;
+}
+
+/// Solves where it may matter to what breaks next, and reads what the joints there bear.
+std::optional<FrameMechanism> StandingFrame::State::solve(int c) {
+  if (!may_restrict(c)) {
+    auto mechanism = statics.solve(c);
+    if (!mechanism) read_demands(c, false);
+    return mechanism;
+  }
+  forget_bounds(c);
+  Watch watch(*this);
+  auto mechanism = statics.solve(c, watch);
+  if (!mechanism) {
+    demands_behind[static_cast<std::size_t>(c)] = statics.partial(c);
+    read_panel_demands(c, false);
+  }
+  return mechanism;
+}
+
+/// After contact loads or stiffness changed slowly; the answer is whole.
+std::optional<FrameMechanism> StandingFrame::State::solve_slow(int c) {
+  if (!may_restrict(c)) {
+    auto mechanism = statics.solve(c);
+    if (!mechanism) read_demands(c, true);
+    return mechanism;
+  }
+  forget_bounds(c);
+  Watch watch(*this, true);
+  auto mechanism = statics.solve(c, watch);
+  if (mechanism) return mechanism;
+  statics.complete(c, watch);
+  read_panel_demands(c, true);
+  return std::nullopt;
+}
+
+/// Uses after a sudden loss count from them.
+void StandingFrame::State::references_moved(int c) {
+  if (rules.sudden != 1) statics.forget_references(c);
+}
+
+/// A way on which joints yield needs all of an answer, as do shells, whose edges bear what all of their nodes do; where
+/// few nodes stand, telling apart what may matter costs more than a whole answer.
+bool StandingFrame::State::may_restrict(int c) const {
+  return static_cast<int>(statics.nodes(c).size()) >= restricted_from && !rules.second_order && !ductile.any(c) &&
+         statics.shells(c).empty() && one_segment(c);
+}
+
+/// For whoever asks from outside: demands that the answers of a collapse under way have left out. These go on from
+/// where they are, to the same bits.
+void StandingFrame::State::know_demands() {
+  for (int c = 0; c < statics.components(); ++c) {
+    if (!std::exchange(demands_behind[static_cast<std::size_t>(c)], 0)) continue;
+    read_demands(c, false);
+    for (const JointId joint : checked_joints[static_cast<std::size_t>(c)])
+      if (holds(joint) && label(joint) >= 0) (void)joints.check(joint);
+  }
+}
+
+/// The rest of what solve() read.
+void StandingFrame::State::complete(int c) {
+  if (!statics.partial(c)) return;
+  spend_on_joints(checked_joints[static_cast<std::size_t>(c)].size());
+  demands_behind[static_cast<std::size_t>(c)] = 0;
+  Watch watch(*this);
+  statics.complete(c, watch);
+  read_panel_demands(c, false);
+  for (const JointId joint : checked_joints[static_cast<std::size_t>(c)])
+    if (holds(joint) && label(joint) >= 0) (void)joints.check(joint);
+}
+
+void StandingFrame::State::read_demands(int c, bool slow) {
+  spend_on_joints(2 * checked_joints[static_cast<std::size_t>(c)].size());
+  forget_bounds(c);
+  MemberId member_read;
+  solver::Vec12 end_forces;
+  for (JointId joint : checked_joints[static_cast<std::size_t>(c)]) {
+    const Joint& own = building[joint];
+    if (!own.member.valid() || !holds(joint) || label(joint) < 0) continue;
+    if (own.member != member_read) end_forces = statics.end_forces(own.member);
+    member_read = own.member;
+    const Vec6 demand = member_joint_demand(end_forces, own.end);
+    slow ? joints.set_slow_demand(joint, demand) : joints.set_demand(joint, demand);
+  }
+  for (const PanelId panel : statics.membranes(c))
+    if (bearings.membrane(panel)) edge_loads.set_corner_forces(panel, statics.corner_forces(panel));
+  read_panel_demands(c, slow);
+}
+
+/// Loads that panels hand on change without anything moving. Shells are read from what their corners do.
+void StandingFrame::State::read_panel_demands(int c, bool slow) {
+  PanelId panel_read;
+  std::array<Vec6, 4> shell;
+  const std::array<Vec6, 4>* of_edges = nullptr;
+  for (JointId joint : checked_edges[static_cast<std::size_t>(c)]) {
+    const Joint& own = building[joint];
+    if (own.panel != panel_read) {
+      of_edges = nullptr;
+      if (!bearings.serves(own.panel)) {
+        of_edges = &(shell = edge_demands(own.panel));
+      } else if (edge_loads.changed(own.panel)) {
+        of_edges = &edge_loads.read(own.panel);
+      }
+    }
+    panel_read = own.panel;
+    if (of_edges == nullptr || !holds(joint) || label(joint) < 0) continue;
+    const Vec6& demand = (*of_edges)[static_cast<std::size_t>(own.end)];
+    slow ? joints.set_slow_demand(joint, demand) : joints.set_demand(joint, demand);
+  }
+}
+
+/// The joints that break next, those of components whose joints yield first: in each segment all that are over capacity
+/// and within `same_time` of its largest, in order of id. A segment without any has come to rest: R becomes R0.
+std::vector<JointId> StandingFrame::State::next_generation() {
+  constexpr double same_time = 1e-6;  // relative; symmetric joints differ by rounding only
+  std::vector<JointId> next;
+  std::vector<double> largest;
+  std::vector<std::pair<JointId, double>> over;
+  // What is known to break goes first.
+  const auto comes_later = [&] { return limited() && !(next.empty() && buckled.empty()); };
+  const auto rests = [&](int c) {
+    if (comes_later()) return;
+    switch (buckles(c)) {
+      case Tested::stands:
+        return come_to_rest(c);
+      case Tested::under_way:
+        check_goes_on = true;
+        return;
+      case Tested::buckles:
+        return;
+    }
+  };
+  test_goes_on = check_goes_on = false;
+  for (int c = 0; c < statics.components(); ++c) {
+    if (!to_check[static_cast<std::size_t>(c)]) continue;
+    Way way = Way::unyielding;
+    at_once([&] { way = follow_yielding(c, next); });
+    if (way == Way::breaking) {
+      continue;
+    } else if (way == Way::resting) {
+      rests(c);
+      if (check_goes_on) return {};
+      continue;
+    }
+    largest.assign(static_cast<std::size_t>(segments.labels()), 0.0);
+    over.clear();
+    const std::vector<JointId>& all = checked_joints[static_cast<std::size_t>(c)];
+    for (JointId joint : all) {
+      const double used = joints.felt(joint).value;
+      if (!(used > 1 || used > joints.largest(joint))) continue;
+      const int segment = label(joint);
+      if (segment < 0 || !holds(joint)) continue;
+      joints.remember(joint, used);
+      if (!(used > 1)) continue;
+      over.emplace_back(joint, used);
+      largest[static_cast<std::size_t>(segment)] = std::max(largest[static_cast<std::size_t>(segment)], used);
+    }
+    if (over.empty() && statics.partial(c) && comes_later()) continue;
+    if (over.empty() && statics.partial(c) && !paced([this, c] { complete(c); })) {
+      check_goes_on = true;
+      return {};
+    }
+    if (over.empty() || !one_segment(c)) {
+      bool moved = false;
+      for (JointId joint : all) {
+        const int segment = label(joint);
+        if (segment >= 0 && largest[static_cast<std::size_t>(segment)] == 0) moved = joints.accept(joint) || moved;
+      }
+      if (moved) references_moved(c);
+    }
+    for (const auto& [joint, used] : over)
+      if (used >= (1 - same_time) * largest[static_cast<std::size_t>(label(joint))]) next.push_back(joint);
+    if (over.empty()) rests(c);
+    if (check_goes_on) return {};
+  }
+  std::sort(next.begin(), next.end());
+  return next;
+}
+
+/// A post of the component gives way sideways in the static answer: it is to break next.
+StandingFrame::State::Tested StandingFrame::State::buckles(int c) {
+  if (!buckling) return Tested::stands;
+  const std::uint64_t solves = statics.counters().solves;
+  if (tested.component != c || tested.solves != solves) {
+    const auto test = [this, c] { tested.post = buckling->find(c, statics.diverged(c)); };
+    tested.component = c;
+    tested.solves = solves;
+    if (!paced(test)) return Tested::under_way;
+  }
+  const std::optional<BuckledPost> post = std::exchange(tested, {}).post;
+  if (buckling->testing(c)) {
+    test_goes_on = true;
+    return Tested::buckles;
+  }
+  if (!post || !post->post.valid()) return Tested::stands;
+  buckled.push_back(*post);
+  return Tested::buckles;
+}
+
+/// At a joint, or where the post is cut in two.
+void StandingFrame::State::snap_buckled() {
+  for (const BuckledPost& post : std::exchange(buckled, {})) {
+    const std::size_t first = breaks.size();
+    if (post.joint.valid())
+      break_joint(post.joint, BreakCause::buckling);
+    else
+      cut_in_two(post.post, post.inside);
+    if (breaks.size() == first) continue;
+    JointBreak& line = breaks[first];
+    line.sense = Sense::compression;
+    line.demand = post.compression;
+    line.capacity = post.bearable;
+    if (!line.inside) line.position = post.bulge;
+  }
+}
+
+/// The static answer is borne: R becomes R0.
+void StandingFrame::State::come_to_rest(int c) {
+  complete(c);
+  bool moved = false;
+  for (JointId joint : checked_joints[static_cast<std::size_t>(c)])
+    if (label(joint) >= 0) moved = joints.accept(joint) || moved;
+  if (moved) references_moved(c);
+  to_check[static_cast<std::size_t>(c)] = 0;
+  account.finish(c, false, breaks);
+  if (ductile.any(c)) ductile.base_is_answer(c);
+}
+
+}  // namespace topple::structure

@@ -1,0 +1,24 @@
+#pragma once
+// Reads a standing frame's joints while its statics are brought up to date where it may matter.
+#include "standing/standing_state.h"
+
+namespace topple::structure {
+
+class StandingFrame::State::Watch : public MemberWatch {
+ public:
+  /// `slow`: only what comes on slowly changed since the answer was whole.
+  explicit Watch(State& frame, bool slow = false) : frame_(frame), slow_(slow) {}
+  double member_use(MemberId member, const solver::Vec12& end_forces) override;
+  double membrane_use(PanelId membrane, const std::array<Vec6, 4>& corner_forces) override;
+  double member_growth(MemberId member, const solver::Vec12& root) override;
+  double membrane_growth(PanelId membrane, const std::array<Vec6, 4>& root) override;
+
+ private:
+  [[nodiscard]] double read(JointId joint, const Vec6& demand);
+  [[nodiscard]] double growth(JointId joint, const Vec6& most) const;
+
+  State& frame_;
+  bool slow_;
+};
+
+}  // namespace topple::structure

@@ -1,0 +1,333 @@
+// The way of a component whose joints turn before they break: from the base (the last state reached) along a straight
+// line towards the static answer, from event to event. At each, a hinge forms, or one that would turn back holds again,
+// or a joint breaks; then the answer is solved anew.
+//
+// After a sudden change the loads of the way act at once. They have then done work at their full size, while the
+// structure has taken up only what it resists with: the way goes on beyond the static answer, to the first state where
+// the two are equal, and comes back from there elastically. With U the energy of the difference between answer and base
+// and E the surplus so far, the surplus at a share x of the way is E + 2 U (x - x^2/2). An elastic system comes to x =
+// 2; an elastic-plastic spring of ductility m bears 1 - 1/(2 m) of its yield force.
+#include <algorithm>
+#include <cmath>
+
+#include "model/index_of.h"
+#include "simulation/impact/first_failure.h"
+#include "standing/standing_state.h"
+
+namespace topple::structure {
+
+namespace {
+/// Two states on the way closer than this (relative) are one: symmetric joints differ by rounding.
+constexpr double same_place = 1e-9;
+/// A moment that changes by less than this share of the capacity over the whole way does not change.
+constexpr double no_change = 1e-9;
+/// Of the largest rotation in a mechanism: below it a hinge does not turn.
+constexpr double no_turn = 1e-6;
+/// Events on one way, for each hinge; a way that has more is going round in circles, and what would yield next breaks.
+constexpr int most_events = 8;
+/// Where the base lies closer than this (of the way) to the static answer, that is no direction to go on in.
+constexpr double least_way = 1e-6;
+}  // namespace
+
+/// What happens first on the way: at `at` the hinges begin to flow or the joints break. Nothing: at is infinite.
+struct StandingFrame::State::NextEvent {
+  double at = unlimited;
+  std::vector<PlasticHinge*> flowing;
+  std::vector<JointId> breaking;
+
+  void take(double place, PlasticHinge* hinge, JointId joint) {
+    if (place > at + same_place * std::max(1.0, at)) return;
+    if (place < at - same_place * std::max(1.0, at)) *this = {};
+    at = std::min(at, place);
+    if (hinge != nullptr) flowing.push_back(hinge);
+    if (joint.valid()) breaking.push_back(joint);
+  }
+};
+
+double StandingFrame::State::demand_in_base(const PlasticHinge& hinge) const {
+  return joints.reference(hinge.joint)(hinge.axis);
+}
+
+double StandingFrame::State::slip_in_answer(const PlasticHinge& hinge) const {
+  const Joint& own = building[hinge.joint];
+  const MemberShape shape = account.shape_now(own.member);
+  return shape.hub(own.end)(hinge.axis) - shape.end(own.end)(hinge.axis) - hinge.held / own.stiffness(hinge.axis);
+}
+
+void StandingFrame::State::tell_yield(PlasticHinge& hinge, double held) {
+  if (hinge.told) return;
+  hinge.told = true;
+  JointBreak line;
+  line.joint = hinge.joint;
+  line.cause = BreakCause::overload;
+  line.sense = hinge.sense();
+  line.demand = line.capacity = std::abs(held);
+  line.generation = generation;
+  line.position = position(hinge.joint);
+  yielded.push_back(line);
+}
+
+void StandingFrame::State::let_flow(PlasticHinge& hinge, double held) {
+  const Joint& own = building[hinge.joint];
+  hinge.flows = true;
+  hinge.held = held;
+  statics.let_flow(own.member, own.end, hinge.axis, held);
+  joints.remember(hinge.joint, 1);
+  tell_yield(hinge, held);
+}
+
+void StandingFrame::State::hold_again(PlasticHinge& hinge) {
+  const Joint& own = building[hinge.joint];
+  hinge.flows = false;
+  hinge.held = 0;
+  statics.hold_again(own.member, own.end, hinge.axis, own.stiffness(hinge.axis), hinge.slip);
+}
+
+void StandingFrame::State::hold_all_again(int c) {
+  for (PlasticHinge& hinge : ductile.hinges(c))
+    if (hinge.flows) hold_again(hinge);
+}
+
+/// The base moves on; `energy`: of the whole way.
+void StandingFrame::State::move_base(int c, double part, double energy) {
+  PlasticPath& path = ductile.path(c);
+  for (PlasticHinge& hinge : ductile.hinges(c)) {
+    if (!hinge.flows) continue;
+    const double turned = part * path.direction * (slip_in_answer(hinge) - hinge.slip);
+    account.dissipate(building[hinge.joint].member, hinge.held * turned);
+    hinge.slip += turned;
+  }
+  for (JointId joint : checked_joints[static_cast<std::size_t>(c)])
+    if (holds(joint) && label(joint) >= 0) {
+      joints.move_reference(joint, part * path.direction);
+      joints.remember(joint, joints.used(joint, joints.reference(joint)).value);
+    }
+  ductile.move_base(c, part * path.direction);
+  path.surplus = std::max(0.0, path.surplus + 2 * energy * (path.direction * part - part * part / 2));
+  if (path.direction > 0 && part > 1) path.direction = -1;
+}
+
+/// How far the way goes when nothing else happens.
+double StandingFrame::State::end_of_way(int c, double energy) {
+  const PlasticPath& path = ductile.path(c);
+  if (!path.active) return rules.sudden;
+  if (path.returning || rules.sudden == 1) return 1;
+  return energy > 0 ? path.direction + std::sqrt(1 + path.surplus / energy) : 0;
+}
+
+/// Hinges that would turn against what they hold hold again. True when there were any.
+bool StandingFrame::State::turn_back(int c) {
+  const double direction = ductile.path(c).direction;
+  bool found = false;
+  for (PlasticHinge& hinge : ductile.hinges(c)) {
+    if (!hinge.flows) continue;
+    const double turned = direction * (slip_in_answer(hinge) - hinge.slip);
+    if (!(turned * hinge.held < -no_change * hinge.limit * std::abs(hinge.held))) continue;
+    hold_again(hinge);
+    found = true;
+  }
+  return found;
+}
+
+StandingFrame::State::NextEvent StandingFrame::State::find_next_event(int c) {
+  const double direction = ductile.path(c).direction;
+  const auto borne = [&](JointId joint, const Vec6& demand) {
+    return structure::utilisation(joints.brittle_capacity(joint), demand, joints.strength(joint)).value < 1;
+  };
+  NextEvent next;
+  for (PlasticHinge& hinge : ductile.hinges(c)) {
+    if (!holds(hinge.joint) || label(hinge.joint) < 0) continue;
+    if (hinge.flows) {
+      const double turning = direction * (slip_in_answer(hinge) - hinge.slip);
+      const double left = hinge.limit - std::copysign(hinge.slip, turning * hinge.slip);
+      if (std::abs(turning) > no_turn * hinge.limit)
+        next.take(std::max(0.0, left / std::abs(turning)), nullptr, hinge.joint);
+      continue;
+    }
+    const double capacity =
+        building[hinge.joint].capacity.value[static_cast<std::size_t>(hinge.sense())] * joints.strength(hinge.joint);
+    const double from = demand_in_base(hinge), change = direction * (joints.demand(hinge.joint)(hinge.axis) - from);
+    if (std::abs(from) > (1 + no_change) * capacity)
+      next.take(0, &hinge, {});
+    else if (std::abs(change) > no_change * capacity)
+      next.take(std::max(0.0, (capacity - std::copysign(from, from * change)) / std::abs(change)), &hinge, {});
+  }
+  for (JointId joint : checked_joints[static_cast<std::size_t>(c)]) {
+    if (!holds(joint) || label(joint) < 0) continue;
+    const Vec6& from = joints.reference(joint);
+    const Vec6 change = direction * (joints.demand(joint) - from);
+    // Convex along the way: borne at both ends is borne between them.
+    if (next.at < unlimited && borne(joint, from) && borne(joint, from + next.at * change)) continue;
+    const double at = failing_force(joints.brittle_capacity(joint), joints.strength(joint), from, change);
+    if (at < unlimited) next.take(std::max(0.0, at), nullptr, joint);
+  }
+  std::sort(next.breaking.begin(), next.breaking.end());
+  next.breaking.erase(std::unique(next.breaking.begin(), next.breaking.end()), next.breaking.end());
+  return next;
+}
+
+StandingFrame::State::Way StandingFrame::State::follow_yielding(int c, std::vector<JointId>& breaking) {
+  if (!ductile.any(c) && !ductile.path(c).active) return Way::unyielding;
+  PlasticPath& path = ductile.path(c);
+  for (;;) {
+    if (path.active && turn_back(c)) {
+      (void)bring_up_to_date();
+      ++path.events;
+      continue;
+    }
+    NextEvent next = find_next_event(c);
+    const bool measured = rules.sudden != 1 && !path.returning;
+    const double energy = measured && (path.active || !next.flowing.empty()) ? ductile.difference_energy(c) : 0;
+    const double end = end_of_way(c, energy);
+    if (!path.active && (next.flowing.empty() || next.at > end)) return Way::unyielding;
+    if (next.at > end) {
+      move_base(c, end, energy);
+      hold_all_again(c);
+      path.surplus = 0;
+      path.direction = 1;
+      const bool rests = !measured;
+      path.returning = true;
+      (void)bring_up_to_date();
+      if (!rests) continue;
+      path = {};
+      return Way::resting;
+    }
+    double at = next.at;
+    if (std::abs(at - 1) < least_way && path.direction > 0 && measured) at = 1 - least_way;
+    const bool limit = ++path.events > most_events * (2 + static_cast<int>(ductile.hinges(c).size()));
+    path.active = true;
+    move_base(c, at, energy);
+    if (limit)
+      for (const PlasticHinge* hinge : next.flowing) next.breaking.push_back(hinge->joint);
+    if (!next.breaking.empty()) {
+      hold_all_again(c);  // which of them turn on is seen once these are broken
+      breaking.insert(breaking.end(), next.breaking.begin(), next.breaking.end());
+      return Way::breaking;
+    }
+    // Those that share a member or a node one after the other: the first may be enough for both.
+    std::vector<MemberId> members;
+    std::vector<NodeId> nodes;
+    for (PlasticHinge* hinge : next.flowing) {
+      const Joint& own = building[hinge->joint];
+      const NodeId node = building[own.member].nodes[static_cast<std::size_t>(own.end)];
+      if (std::find(members.begin(), members.end(), own.member) != members.end()) continue;
+      if (std::find(nodes.begin(), nodes.end(), node) != nodes.end()) continue;
+      members.push_back(own.member);
+      nodes.push_back(node);
+      const double capacity =
+          own.capacity.value[static_cast<std::size_t>(hinge->sense())] * joints.strength(hinge->joint);
+      const double towards = path.direction * (joints.demand(hinge->joint)(hinge->axis) - demand_in_base(*hinge));
+      const double now = demand_in_base(*hinge);
+      const double held = std::copysign(capacity, std::abs(now) > no_change * capacity ? now : towards);
+      if (segments.holds(building.joint(own.member, 1 - own.end)))
+        let_flow(*hinge, held);
+      else if (turns_out_alone(*hinge, held))
+        breaking.push_back(hinge->joint);
+    }
+    if (!breaking.empty()) {
+      hold_all_again(c);
+      return Way::breaking;
+    }
+    (void)bring_up_to_date();
+  }
+}
+
+/// A member that only this joint holds swings about it: the joint's moment in the answer is what its loads turn it
+/// with. True when it turns too far; else it has come to a stop and holds again.
+bool StandingFrame::State::turns_out_alone(PlasticHinge& hinge, double held) {
+  const Joint& own = building[hinge.joint];
+  PlasticPath& path = ductile.path(component(hinge.joint));
+  const double gain = std::copysign(1.0, held) * joints.demand(hinge.joint)(hinge.axis) - std::abs(held);
+  const double left = std::max(0.0, hinge.limit - std::copysign(hinge.slip, hinge.slip * held));
+  const double amount = gain < 0 ? std::min(left, path.surplus / -gain) : left;
+  tell_yield(hinge, held);
+  joints.remember(hinge.joint, 1);
+  hinge.slip += std::copysign(amount, held);
+  account.dissipate(own.member, amount * std::abs(held));
+  path.surplus = std::max(0.0, path.surplus + gain * amount);
+  if (amount >= left) return true;
+  hold_again(hinge);
+  hold_all_again(component(hinge.joint));
+  path.returning = true;
+  path.surplus = 0;
+  path.direction = 1;
+  return false;
+}
+
+/// A mechanism of hinges: they turn under what they hold, while the loads do more work or less, until one has turned
+/// too far or the surplus is used up. False when the mechanism is none of theirs.
+bool StandingFrame::State::swing(int c, const FrameMechanism& mechanism) {
+  std::vector<std::pair<PlasticHinge*, double>> turning;
+  PlasticPath& path = ductile.path(c);
+  double resisted = 0, largest = 0, fastest = 0, loaded = 0;
+  const auto rigid = [&](MemberId member) {
+    const auto& nodes = building[member].nodes;
+    return MemberShape(statics.beam(member), solver::Vec12::Zero(),
+                       account.hubs(member, mechanism.motion[index_of(nodes[0])], mechanism.motion[index_of(nodes[1])]),
+                       {});
+  };
+  for (PlasticHinge& hinge : ductile.hinges(c)) {
+    if (!hinge.flows || !holds(hinge.joint) || label(hinge.joint) < 0) continue;
+    const Joint& own = building[hinge.joint];
+    const MemberShape shape = rigid(own.member);
+    const double rate = shape.hub(own.end)(hinge.axis) - shape.end(own.end)(hinge.axis);
+    turning.emplace_back(&hinge, rate);
+    resisted += rate * hinge.held;
+    fastest = std::max(fastest, std::abs(rate));
+    largest = std::max(largest, std::abs(rate * hinge.held));
+  }
+  for (NodeId node : statics.nodes(c)) {
+    const Vec6& motion = mechanism.motion[index_of(node)];
+    if (stands(node)) fastest = std::max(fastest, motion.tail<3>().cwiseAbs().maxCoeff());
+  }
+  std::erase_if(turning, [&](const auto& one) { return std::abs(one.second) <= no_turn * fastest; });
+  if (turning.empty()) return false;
+  const double sign = resisted < 0 ? -1 : 1;
+  bool back = false;
+  for (auto& [hinge, rate] : turning) {
+    rate *= sign;
+    if (rate * hinge->held < -no_change * largest) {
+      hold_again(*hinge);
+      back = true;
+    }
+  }
+  if (back || ++path.events > most_events * (2 + static_cast<int>(ductile.hinges(c).size()))) {
+    if (!back) hold_all_again(c);
+    return true;
+  }
+  for (NodeId node : statics.nodes(c))
+    if (node_solved[index_of(node)]) loaded += sign * loads.on(node).dot(mechanism.motion[index_of(node)]);
+  for (MemberId member : statics.members(c))
+    if (stands(member) && !applied[index_of(member)].empty())
+      loaded += sign * rigid(member).work(applied[index_of(member)], Vec3::UnitZ()).sum();
+  const double gain = loaded - std::abs(resisted);
+  double amount = unlimited;
+  for (const auto& [hinge, rate] : turning)
+    amount = std::min(amount,
+                      std::max(0.0, (hinge->limit - std::copysign(hinge->slip, hinge->slip * rate)) / std::abs(rate)));
+  const bool arrested = gain < 0 && path.surplus < -gain * amount;
+  if (arrested) amount = path.surplus / -gain;
+  for (const auto& [hinge, rate] : turning) {
+    hinge->slip += amount * rate;
+    account.dissipate(building[hinge->joint].member, amount * rate * hinge->held);
+  }
+  ductile.move_base(c, mechanism.motion, sign * amount);
+  path.surplus = std::max(0.0, path.surplus + gain * amount);
+  if (arrested) {
+    hold_all_again(c);
+    path.returning = true;
+    path.surplus = 0;
+    path.direction = 1;
+    return true;
+  }
+  std::vector<JointId> turned_out;
+  for (const auto& [hinge, rate] : turning)
+    if (std::abs(hinge->slip) >= (1 - same_place) * hinge->limit) turned_out.push_back(hinge->joint);
+  std::sort(turned_out.begin(), turned_out.end());
+  turned_out.erase(std::unique(turned_out.begin(), turned_out.end()), turned_out.end());
+  hold_all_again(c);
+  break_joints(turned_out, BreakCause::overload);
+  return true;
+}
+
+}  // namespace topple::structure
