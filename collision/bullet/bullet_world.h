@@ -96,7 +96,7 @@ class BulletWorld final : public World {
   void ignore_until_separated(BodyId body, const Touched& other) override;
   [[nodiscard]] std::span<const BodyId> bodies() const override { return order_; }
   [[nodiscard]] std::size_t awake_count() const override;
-  [[nodiscard]] std::vector<Contact> sweep(double dt, Sweep what) override;
+  [[nodiscard]] std::vector<Contact> sweep(double dt, Sweep what, double least_speed) override;
   void step(double dt) override;
   [[nodiscard]] std::span<const Contact> contacts() const override { return contacts_; }
   [[nodiscard]] std::optional<RayHit> ray_cast(const Vec3& from, const Vec3& to) const override;
@@ -153,9 +153,13 @@ class BulletWorld final : public World {
                            std::vector<Contact>& found);
   void sweep_pair(const Mover& mover, const Solid& other, const Motion& other_motion, double dt,
                   std::vector<Contact>& found) const;
-  void sweep_ground(const Mover& mover, double dt, std::vector<Contact>& found) const;
-  void sweep_standing(const Mover& mover, Sweep what, double dt, std::vector<Contact>& found) const;
-  void sweep_movers(const std::vector<Mover>& movers, double dt, std::vector<Contact>& found) const;
+  void sweep_ground(const Mover& mover, double dt, double least_speed, std::vector<Contact>& found) const;
+  struct SweepRange {
+    Sweep what;
+    double dt, least_speed;
+  };
+  void sweep_standing(const Mover& mover, const SweepRange& range, std::vector<Contact>& found) const;
+  void sweep_movers(const std::vector<Mover>& movers, const SweepRange& range, std::vector<Contact>& found) const;
 
   void read_hinge(Hinge& hinge, double dt) const;
   std::unique_ptr<btTypedConstraint> make_constraint(const HingeDescription& description, Body& body,

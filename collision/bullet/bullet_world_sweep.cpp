@@ -49,6 +49,14 @@ struct NearestHit : btCollisionWorld::ClosestRayResultCallback {
   }
 };
 
+/// No two points of them close faster than this within dt, m/s.
+double fastest_closing(const Solid& one, const Motion& motion, const Solid& other, const Motion& other_motion,
+                       double dt) {
+  return (motion.velocity - other_motion.velocity).length() +
+         (motion.acceleration - other_motion.acceleration).length() * dt +
+         motion.angular_velocity.length() * one.reach + other_motion.angular_velocity.length() * other.reach;
+}
+
 }  // namespace
 
 struct BulletWorld::Mover {
@@ -155,8 +163,9 @@ bool BulletWorld::still_to_pass(const Body& first, const Solid& other, bool othe
                      [&](const Contact& contact) { return contact.approach_speed > resting_speed; });
 }
 
-void BulletWorld::sweep_ground(const Mover& mover, double dt, std::vector<Contact>& found) const {
+void BulletWorld::sweep_ground(const Mover& mover, double dt, double least_speed, std::vector<Contact>& found) const {
   if (!ground_object_ || mover.whole.low.z() > ground_height_) return;
+  if (fastest_closing(*mover.body, mover.motion, ground_, {}, dt) < least_speed) return;
   for (std::size_t i = 0; i < mover.parts.size(); ++i) {
     if (mover.parts[i].low.z() > ground_height_) continue;
     const SolidPart& part = mover.body->parts[i];
@@ -165,7 +174,8 @@ void BulletWorld::sweep_ground(const Mover& mover, double dt, std::vector<Contac
   }
 }
 
-void BulletWorld::sweep_standing(const Mover& mover, Sweep what, double dt, std::vector<Contact>& found) const {
+void BulletWorld::sweep_standing(const Mover& mover, const SweepRange& range, std::vector<Contact>& found) const {
+  const auto [what, dt, least_speed] = range;
   Candidates candidates;
   // Bullet's query changes nothing, but is not declared so.
   const_cast<btDbvtBroadphase&>(broadphase_).aabbTest(mover.whole.low, mover.whole.high, candidates);
@@ -174,11 +184,15 @@ void BulletWorld::sweep_standing(const Mover& mover, Sweep what, double dt, std:
     if (other->kind == Touched::Kind::body && (what == Sweep::obstacles || other->object->isActive())) continue;
     Motion still;
     still.start = other->object->getWorldTransform();
+    if (other->kind == Touched::Kind::body &&
+        fastest_closing(*mover.body, mover.motion, *other, still, dt) < least_speed)
+      continue;
     sweep_pair(mover, *other, still, dt, found);
   }
 }
 
-void BulletWorld::sweep_movers(const std::vector<Mover>& movers, double dt, std::vector<Contact>& found) const {
+void BulletWorld::sweep_movers(const std::vector<Mover>& movers, const SweepRange& range,
+                               std::vector<Contact>& found) const {
   std::vector<const Mover*> by_x;
   for (const Mover& mover : movers) by_x.push_back(&mover);
   std::sort(by_x.begin(), by_x.end(), [](const Mover* a, const Mover* b) {
@@ -189,22 +203,25 @@ void BulletWorld::sweep_movers(const std::vector<Mover>& movers, double dt, std:
       if (!by_x[i]->whole.meets(by_x[j]->whole)) continue;
       const bool forward = by_x[i]->body->id < by_x[j]->body->id;
       const Mover &first = *by_x[forward ? i : j], &second = *by_x[forward ? j : i];
-      sweep_pair(first, *second.body, second.motion, dt, found);
+      if (fastest_closing(*first.body, first.motion, *second.body, second.motion, range.dt) < range.least_speed)
+        continue;
+      sweep_pair(first, *second.body, second.motion, range.dt, found);
     }
   }
 }
 
-std::vector<Contact> BulletWorld::sweep(double dt, Sweep what) {
+std::vector<Contact> BulletWorld::sweep(double dt, Sweep what, double least_speed) {
   if (!(dt > 0) || !std::isfinite(dt))
     throw std::invalid_argument("sweep of " + std::to_string(dt) + " s; it must be above zero");
   release_separated(dt);
   std::vector<Contact> found;
   if (what == Sweep::obstacles && obstacles_.empty()) return found;
   const std::vector<Mover> awake = movers(dt);
-  for (const Mover& mover : awake) sweep_standing(mover, what, dt, found);
+  const SweepRange range{what, dt, least_speed};
+  for (const Mover& mover : awake) sweep_standing(mover, range, found);
   if (what == Sweep::everything) {
-    for (const Mover& mover : awake) sweep_ground(mover, dt, found);
-    sweep_movers(awake, dt, found);
+    for (const Mover& mover : awake) sweep_ground(mover, dt, least_speed, found);
+    sweep_movers(awake, range, found);
   }
   for (Contact& contact : found) {
     put_lower_first(contact);

@@ -174,6 +174,33 @@ TEST_CASE("a sweep for obstacles finds those alone, as the full sweep does") {
   CHECK(same->point == standing[0].point);
 }
 
+TEST_CASE("a sweep with a least speed leaves out bodies that close slowly, and no faster ones nor obstacles") {
+  const auto world = world_with_ground();
+  world->add_obstacle(box_obstacle({0.1, 2, 2}, {-0.55, 0, 2}));
+  BodyDescription fast = box_body({0.2, 0.2, 0.2}, 100, {0, 0, 2}),
+                  slow = box_body({0.2, 0.2, 0.2}, 100, {0, 5, 0.201});
+  fast.velocity = Vec3(8, 0, 0);
+  const BodyId hits = world->add_body(fast);
+  BodyDescription struck = box_body({0.2, 0.2, 0.2}, 100, {0.45, 0, 2});
+  world->add_body(struck);
+  world->add_body(slow);  // it comes to lie on the ground
+  BodyDescription spinning = box_body({1, 0.1, 0.1}, 100, {5, 0, 0.5});
+  spinning.angular_velocity = Vec3(0, 30, 0);  // its centre falls slowly, its end strikes the ground
+  const BodyId turns = world->add_body(spinning);
+  const std::vector<Contact> all = world->sweep(kStep), quick = world->sweep(kStep, Sweep::everything, 2.0);
+  std::vector<Contact> expected;
+  for (const Contact& contact : all)
+    if (contact.approach_speed >= 2) expected.push_back(contact);
+  REQUIRE(expected.size() >= 2);
+  CHECK(quick.size() < all.size());
+  for (const Contact& contact : expected)
+    CHECK(std::any_of(quick.begin(), quick.end(), [&](const Contact& one) {
+      return one.body == contact.body && one.time == contact.time && one.other.body == contact.other.body;
+    }));
+  CHECK(std::any_of(quick.begin(), quick.end(), [&](const Contact& one) { return one.body == hits; }));
+  CHECK(std::any_of(quick.begin(), quick.end(), [&](const Contact& one) { return one.body == turns; }));
+}
+
 TEST_CASE("thousands of obstacles come and go, and are found by box and by ray") {
   const auto world = make_bullet_world();
   std::vector<ObstacleId> ids;

@@ -190,8 +190,10 @@ class World {
   /// Contacts that awake bodies make with obstacles, ground or bodies within dt on their ballistic paths, each as if
   /// the others were not there, in order of time, then of body id. One for each pair of parts, the body with the lower
   /// id first. Those that were there in the last step are flagged persistent. Nothing moves. Sweep::obstacles leaves
-  /// out bodies and ground, and with them most of the cost when debris lies in a pile.
-  [[nodiscard]] virtual std::vector<Contact> sweep(double dt, Sweep what = Sweep::everything) = 0;
+  /// out bodies and ground, and with them most of the cost when debris lies in a pile. So does `least_speed` (m/s):
+  /// pairs of bodies, and bodies and ground, no points of which can close faster within dt may be left out.
+  [[nodiscard]] virtual std::vector<Contact> sweep(double dt, Sweep what = Sweep::everything,
+                                                   double least_speed = 0) = 0;
   /// Integrates awake bodies by dt > 0 (one internal step, semi-implicit Euler; rotation keeps angular momentum).
   virtual void step(double dt) = 0;
   /// Contacts of awake bodies in the last step, one for each pair of parts, in order of ids and tags. What a sleeping
