@@ -175,7 +175,9 @@ Mat12 FrameSystem::beam_stiffness(int index) const {
   for (std::size_t end = 0; end < 2; ++end) {
     arm[end] = arm_matrix(beam.offset[end]) + dofs_.diaphragm_arm(beam.node[end]);
   }
-  return to_node_freedoms(beam.axes, hub_stiffness(i), arm);
+  Mat12 K = to_node_freedoms(beam.axes, hub_stiffness(i), arm);
+  if (inertia != nullptr && beam.density != 0) K += inertia->factor * beam_mass(*this, inertia->masses, index);
+  return K;
 }
 
 const Mat24& FrameSystem::shell_node_stiffness(int index) const {
@@ -198,6 +200,8 @@ Mat24 FrameSystem::shell_stiffness(int index) const {
   if (shell_stands[i] == 0) return Mat24::Zero();
   Mat24 K = shell_node_stiffness(index);
   if (shells_pushed() && hanging(index) == nullptr) K += shell_geometric_stiffness(index);
+  if (inertia != nullptr && model.shells[i].density != 0)
+    K += inertia->factor * shell_mass(*this, inertia->masses, index);
   add_diaphragm_arms(model.shells[i].node, K);
   return K;
 }
@@ -275,6 +279,7 @@ void FrameSystem::add_diaphragm_arms(std::span<const int> nodes, Eigen::Ref<Eige
 }
 
 void FrameSystem::add_element(std::size_t element, const std::vector<char>& wanted) {
+  if (inertia != nullptr) add_element_mass(element, wanted);
   const std::size_t beams = model.beams.size();
   if (element < beams) {
     if (beam_stands[element] == 0) return;
@@ -293,23 +298,7 @@ double& FrameSystem::entry(int equation, int other) {
   return matrix_.value[static_cast<std::size_t>(scatter_.position(equation, other))];
 }
 
-void FrameSystem::add_support_springs(int node) {
-  const auto n = static_cast<std::size_t>(node);
-  Mat6 G = Mat6::Identity();
-  G.topRightCorner<3, 3>() = dofs_.diaphragm_arm(node);
-  Vec6 k = support_[n];
-  for (int c = 0; c < 6; ++c) k(c) = std::isinf(k(c)) ? 0 : k(c);
-  if ((k.array() == 0).all()) return;
-  const Mat6 K = G.transpose() * k.asDiagonal() * G;
-  for (int i = 0; i < 6; ++i) {
-    for (int j = 0; j <= i; ++j) {
-      const int row = dofs_.number[n][static_cast<std::size_t>(i)],
-                column = dofs_.number[n][static_cast<std::size_t>(j)];
-      if (K(i, j) == 0 || row >= dofs_.equations || column >= dofs_.equations) continue;
-      entry(row, column) += K(i, j) * scale_[static_cast<std::size_t>(row)] * scale_[static_cast<std::size_t>(column)];
-    }
-  }
-}
+void FrameSystem::add_support_springs(int node) { add_diagonal(node, own_springs(node), matrix_); }
 
 void FrameSystem::forget_inert_rotations(std::size_t node) {
   if (inert_[node].count > 0) --inert_hubs_;
@@ -379,6 +368,7 @@ void FrameSystem::finish_node(int node) {
     return;
   }
   add_support_springs(node);
+  add_node_mass(node);
   hold_inert_rotations(node);
 }
 
@@ -406,6 +396,7 @@ void FrameSystem::set_scale() {
       matrix_.value[i] *= scale_[c] * scale_[static_cast<std::size_t>(matrix_.row[i])];
     }
   }
+  scale_mass();
 }
 
 void FrameSystem::set_support(int support, const Vec6& stiffness) {
@@ -415,6 +406,7 @@ void FrameSystem::set_support(int support, const Vec6& stiffness) {
 
 void FrameSystem::assemble() {
   std::fill(matrix_.value.begin(), matrix_.value.end(), 0.0);
+  mass_ = inertia != nullptr ? scatter_.empty_matrix() : SparseSymmetric();
   std::fill(scale_.begin(), scale_.end(), 1.0);
   for (std::size_t i = 0; i < element_of_patch(0) + model.patches.size(); ++i) add_element(i, {});
   for (std::size_t node = 0; node < model.nodes.size(); ++node) finish_node(static_cast<int>(node));
@@ -457,6 +449,7 @@ void FrameSystem::reassemble(std::span<const int> nodes) {
   std::sort(wanted_elements_.begin(), wanted_elements_.end());
   wanted_elements_.erase(std::unique(wanted_elements_.begin(), wanted_elements_.end()), wanted_elements_.end());
   for (int element : wanted_elements_) scatter_.clear(static_cast<std::size_t>(element), wanted_, matrix_);
+  if (inertia != nullptr) clear_mass(wanted_nodes_, wanted_elements_);
   for (int element : wanted_elements_) add_element(static_cast<std::size_t>(element), wanted_);
   for (const int node : wanted_nodes_) finish_node(node);
   finish_diaphragms(wanted_);
@@ -468,7 +461,7 @@ Mat6 FrameSystem::supports_and_inert_rotations(int node) const {
   const auto n = static_cast<std::size_t>(node);
   Mat6 K = Mat6::Zero();
   if (node_stands[n] == 0) return K;
-  for (int c = 0; c < 6; ++c) K(c, c) = std::isinf(support_[n](c)) ? 0 : support_[n](c);
+  K.diagonal() = own_springs(node);
   for (int k = 0; k < inert_[n].count; ++k) {
     const Vec3 d = inert_[n].directions.col(k);
     K.bottomRightCorner<3, 3>() += inert_[n].stiffness * d * d.transpose();

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "assembly/dof_map.h"
+#include "assembly/element_masses.h"
 #include "assembly/scatter_map.h"
 #include "elements/beam.h"
 #include "elements/shell.h"
@@ -48,11 +49,16 @@ class FrameSystem {
   std::vector<char> beam_stands, shell_stands, node_stands;
   /// Axial forces that act on the displaced beams; null: first order. Loads given later must be those of this state.
   const AxialState* second_order = nullptr;
+  /// Of a frame that moves: the matrix is K + factor M, and M is kept beside it. To be set before assemble(); not with
+  /// shells that hang on patches. Null: K alone.
+  const SystemInertia* inertia = nullptr;
 
   [[nodiscard]] const DofMap& dofs() const { return dofs_; }
   [[nodiscard]] const ScatterMap& scatter() const { return scatter_; }
   [[nodiscard]] const SparseSymmetric& matrix() const { return matrix_; }
   [[nodiscard]] std::span<const double> scale() const { return scale_; }
+  /// M in the scaled equations, on the same pattern; without inertia its values are not there.
+  [[nodiscard]] const SparseSymmetric& mass() const { return mass_; }
 
   /// Beams that reach a node, standing or not, in order.
   [[nodiscard]] std::span<const int> beams_of_node(int node) const;
@@ -74,7 +80,8 @@ class FrameSystem {
 
   /// Distance of the places where a beam's ends hang: its length, but for beams that are shorter (Frame3DD's radii).
   [[nodiscard]] double ends_apart(int beam) const;
-  /// K of a beam in the 12 freedoms of its element (diaphragm arms included); zero where it does not stand.
+  /// K of a beam in the 12 freedoms of its element (diaphragm arms included), K + factor M with inertia; zero where it
+  /// does not stand.
   [[nodiscard]] Mat12 beam_stiffness(int beam) const;
   /// The same for a shell, 24 freedoms.
   [[nodiscard]] Mat24 shell_stiffness(int shell) const;
@@ -153,6 +160,11 @@ class FrameSystem {
   void finish_node(int node);
   void finish_diaphragms(const std::vector<char>& wanted);
   void add_support_springs(int node);
+  /// Springs of the node's supports, and with inertia factor times its own masses.
+  [[nodiscard]] Vec6 own_springs(int node) const;
+  void add_element_mass(std::size_t element, const std::vector<char>& wanted);
+  void add_node_mass(int node);
+  void add_diagonal(int node, const Vec6& diagonal, SparseSymmetric& matrix) const;
   void hold_inert_rotations(int node);
   void forget_inert_rotations(std::size_t node);
   void set_scale();
@@ -176,6 +188,8 @@ class FrameSystem {
   void add_shell_loads(const std::vector<ShellLoad>& loads, LoadVector& result) const;
   void add_settlement_forces(LoadVector& result) const;
   [[nodiscard]] double& entry(int equation, int other);
+  void clear_mass(std::span<const int> nodes, std::span<const int> elements);
+  void scale_mass();
   void add_diaphragm_reactions(const std::vector<Vec6>& residual, std::vector<Vec6>& held_reaction) const;
   [[nodiscard]] Eigen::VectorXd held_displacements(std::span<const Settlement> settlements) const;
 
@@ -183,7 +197,7 @@ class FrameSystem {
   DofMap dofs_;
   ScatterMap scatter_;
   std::vector<std::vector<int>> elements_of_node_;
-  SparseSymmetric matrix_;
+  SparseSymmetric matrix_, mass_;
   std::vector<double> scale_;
   /// Per node: directions in which its hub turns without straining anything (columns), held at zero.
   struct InertHub {

@@ -1,9 +1,8 @@
 #include "assembly/mass_matrix.h"
 
 #include <Eigen/Geometry>
-#include <stdexcept>
 
-#include "elements/beam_mass.h"
+#include "assembly/element_masses.h"
 
 namespace topple::solver {
 
@@ -26,27 +25,22 @@ void multiply_symmetric(const SparseSymmetric& A, const Eigen::Ref<const Eigen::
 MassMatrix::MassMatrix(const FrameSystem& system, const MassModel& masses)
     : system_(system), hanging_(masses.hanging), matrix_(system.scatter().empty_matrix()) {
   const FrameModel& model = system.model;
-  const DofMap& dofs = system.dofs();
   for (std::size_t i = 0; i < model.beams.size(); ++i) {
-    const Beam& beam = model.beams[i];
-    if (beam.density == 0) continue;
-    std::array<Mat3, 2> arm;
-    for (std::size_t end = 0; end < 2; ++end)
-      arm[end] = arm_matrix(beam.offset[end]) + dofs.diaphragm_arm(beam.node[end]);
-    const double spread = i < masses.beam_lengths.size() ? masses.beam_lengths[i] : 0;
-    const Mat12 M = to_node_freedoms(beam.axes, beam_mass_matrix(beam, masses, spread > 0 ? spread : beam.length), arm);
+    if (model.beams[i].density == 0) continue;
+    const Mat12 M = beam_mass(system, masses, static_cast<int>(i));
     system.scatter().add(i, M.data(), system.scale(), {}, matrix_);
   }
   for (std::size_t i = 0; i < model.shells.size(); ++i)
     if (model.shells[i].density != 0) add_shell(static_cast<int>(i), masses);
-  for (const NodeMass& mass : masses.nodes) add_node(mass);
+  const std::vector<Vec6> at_node = masses_at_nodes(model, masses);
+  for (std::size_t n = 0; n < at_node.size(); ++n)
+    if (!at_node[n].isZero(0)) add_node(static_cast<int>(n), at_node[n]);
 }
 
 void MassMatrix::add_shell(int index, const MassModel& masses) {
   const FrameModel& model = system_.model;
   const Shell& shell = model.shells[static_cast<std::size_t>(index)];
-  const bool lumped = masses.distribution == MassDistribution::lumped;
-  Mat24 M = ShellElement(shell, corner_places(shell, model.nodes)).mass(shell.density * shell.thickness, lumped);
+  Mat24 M = shell_mass(system_, masses, index);
   const HangingShell* hung = hanging_shell(hanging_, index);
   if (hung == nullptr) {
     system_.add_diaphragm_arms(shell.node, M);
@@ -58,17 +52,11 @@ void MassMatrix::add_shell(int index, const MassModel& masses) {
   system_.scatter().add(system_.element_of_patch(hung->patch), all.data(), system_.scale(), {}, matrix_);
 }
 
-void MassMatrix::add_node(const NodeMass& given) {
+void MassMatrix::add_node(int node, const Vec6& diagonal) {
   const DofMap& dofs = system_.dofs();
-  const auto n = static_cast<std::size_t>(given.node);
-  if (given.node < 0 || n >= system_.model.nodes.size())
-    throw std::invalid_argument("mass on node " + std::to_string(given.node) + ", which does not exist");
-  if (!(given.mass >= 0) || !(given.inertia.array() >= 0).all())
-    throw std::invalid_argument("mass on node " + std::to_string(given.node) + " is negative");
+  const auto n = static_cast<std::size_t>(node);
   Mat6 G = Mat6::Identity();
-  G.topRightCorner<3, 3>() = dofs.diaphragm_arm(given.node);
-  Vec6 diagonal;
-  diagonal << Vec3::Constant(given.mass), given.inertia;
+  G.topRightCorner<3, 3>() = dofs.diaphragm_arm(node);
   const Mat6 M = G.transpose() * diagonal.asDiagonal() * G;
   const auto scale = system_.scale();
   for (std::size_t i = 0; i < 6; ++i)

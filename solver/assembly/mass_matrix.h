@@ -21,7 +21,7 @@ class MassMatrix {
 
  private:
   void add_shell(int shell, const MassModel& masses);
-  void add_node(const NodeMass& mass);
+  void add_node(int node, const Vec6& diagonal);
   const FrameSystem& system_;
   std::vector<HangingShell> hanging_;
   SparseSymmetric matrix_;

@@ -1,6 +1,7 @@
 #include "eigen/element_modes.h"
 
 #include <Eigen/Eigenvalues>
+#include <array>
 #include <cmath>
 
 namespace topple::solver {
@@ -21,9 +22,25 @@ ElementModes in_equations(const FrameSystem& system, std::size_t element, const 
   return modes;
 }
 
+/// Of a beam's 12 freedoms those that are equations.
+int equations_of_beam(const FrameSystem& system, int beam, std::array<int, 12>& kept) {
+  const auto freedoms = system.scatter().freedoms(static_cast<std::size_t>(beam));
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < 12; ++k)
+    if (freedoms[k] < system.dofs().equations) kept[count++] = static_cast<int>(k);
+  return static_cast<int>(count);
+}
+
 }  // namespace
 
 ElementModes beam_modes(const FrameSystem& system, int index) {
+  if (system.inertia != nullptr) {
+    std::array<int, 12> kept{};
+    const int count = equations_of_beam(system, index, kept);
+    Eigen::MatrixXd own = Eigen::MatrixXd::Zero(12, count);
+    for (int k = 0; k < count; ++k) own(kept[static_cast<std::size_t>(k)], k) = 1;
+    return in_equations(system, static_cast<std::size_t>(index), own);
+  }
   const Beam& beam = system.model.beams[static_cast<std::size_t>(index)];
   // Columns: the reverse rigid-body forces at the first end, unit forces at the second, local axes.
   Eigen::Matrix<double, 12, 6> local = Eigen::Matrix<double, 12, 6>::Zero();
@@ -42,8 +59,17 @@ ElementModes beam_modes(const FrameSystem& system, int index) {
   return in_equations(system, static_cast<std::size_t>(index), B);
 }
 
-Mat6 beam_mode_stiffness(const FrameSystem& system, int index) {
+BeamModeMatrix beam_mode_stiffness(const FrameSystem& system, int index) {
   const auto i = static_cast<std::size_t>(index);
+  if (system.inertia != nullptr) {
+    std::array<int, 12> kept{};
+    const int count = equations_of_beam(system, index, kept);
+    const Mat12 A = system.beam_stiffness(index);
+    BeamModeMatrix D(count, count);
+    for (int r = 0; r < count; ++r)
+      for (int c = 0; c < count; ++c) D(r, c) = A(kept[static_cast<std::size_t>(r)], kept[static_cast<std::size_t>(c)]);
+    return D;
+  }
   if (system.beam_stands[i] == 0) return Mat6::Zero();
   return CondensedBeam(system.model.beams[i], system.beam_factor[i]).stiffness().bottomRightCorner<6, 6>();
 }

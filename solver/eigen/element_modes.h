@@ -13,10 +13,13 @@ struct ElementModes {
   Eigen::MatrixXd B;      ///< a row for each
 };
 
-/// What the second end moves beyond the rigid motion of the first, along the beam's axes: 6 columns.
+/// What the second end moves beyond the rigid motion of the first, along the beam's axes: 6 columns. With inertia every
+/// motion counts: a column for each of its freedoms that is an equation.
 [[nodiscard]] ElementModes beam_modes(const FrameSystem& system, int beam);
-/// D of a beam as it stands: its stiffness at the second end with the first held.
-[[nodiscard]] Mat6 beam_mode_stiffness(const FrameSystem& system, int beam);
+/// D of a beam as it stands: its stiffness at the second end with the first held; with inertia K + factor M in its
+/// equations. Never on the heap.
+using BeamModeMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 12, 12>;
+[[nodiscard]] BeamModeMatrix beam_mode_stiffness(const FrameSystem& system, int beam);
 
 /// A shell's straining motions, scaled so that D is the identity while it stands.
 [[nodiscard]] ElementModes shell_modes(const FrameSystem& system, const Mat24& stiffness, int shell);

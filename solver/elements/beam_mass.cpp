@@ -58,8 +58,9 @@ Mat12 between_ends(const PerLength& m, double length) {
   return M;
 }
 
-/// How the beam's ends follow its hubs when nothing acts on it: (K + k) ends = k hubs in the freedoms that are not
-/// rigid. What the releases leave loose (a spin) stays at rest.
+}  // namespace
+
+// (K + k) ends = k hubs in the freedoms that are not rigid. What the releases leave loose (a spin) stays at rest.
 Mat12 ends_by_hubs(const Beam& beam) {
   std::vector<int> soft;
   Vec12 spring;
@@ -95,7 +96,9 @@ Mat12 ends_by_hubs(const Beam& beam) {
   return result;
 }
 
-}  // namespace
+Mat12 mass_between_ends(const Beam& beam, const MassModel& masses, double length) {
+  return between_ends(per_length(beam, masses, length), length);
+}
 
 Mat12 beam_mass_matrix(const Beam& beam, const MassModel& masses, double length) {
   const PerLength m = per_length(beam, masses, length);

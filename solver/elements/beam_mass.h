@@ -10,4 +10,10 @@ namespace topple::solver {
 /// mass lies (MassModel::beam_lengths). Przemieniecki, ch. 11.
 [[nodiscard]] Mat12 beam_mass_matrix(const Beam& beam, const MassModel& masses, double length);
 
+/// The consistent mass between the beam's own ends, local axes: beam_mass_matrix() of rigid ends.
+[[nodiscard]] Mat12 mass_between_ends(const Beam& beam, const MassModel& masses, double length);
+/// How the beam's ends follow its hubs when nothing acts on it, local axes: a beam that hangs on one end follows that
+/// hub as a rigid body; one that hangs on nothing stays at rest.
+[[nodiscard]] Mat12 ends_by_hubs(const Beam& beam);
+
 }  // namespace topple::solver

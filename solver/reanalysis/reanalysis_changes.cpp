@@ -90,6 +90,8 @@ void Reanalysis::State::rebuild() {
   fresh->beam_stands = system->beam_stands;
   fresh->shell_stands = system->shell_stands;
   fresh->node_stands = system->node_stands;
+  fresh->second_order = system->second_order;
+  fresh->inertia = system->inertia;
   system = std::move(fresh);
   standing.reset();
   factor.reset();

@@ -242,7 +242,7 @@ Eigen::MatrixXd StandingFactor::solve_without(std::span<const Loss> losses) {
     places.push_back(correction_->add(m.rows, m.B));
     const Key key{Kind::beam, loss.beam};
     place_.emplace(key, places.back());
-    wanted_.insert_or_assign(key, Wanted{Mat6::Zero(), true});
+    wanted_.insert_or_assign(key, Wanted{Eigen::MatrixXd::Zero(m.B.cols(), m.B.cols()), true});
     const EliminationPath& path = correction_->path(places.back());
     Eigen::MatrixXd column = Eigen::MatrixXd::Zero(path.rows(), 1);
     for (std::size_t i = 0; i < loss.rows.size(); ++i)

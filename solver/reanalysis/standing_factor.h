@@ -106,7 +106,7 @@ class StandingFactor {
     int index;
     auto operator<=>(const Key&) const = default;
   };
-  void plan_beam(int beam, const Mat6& before);
+  void plan_beam(int beam, const BeamModeMatrix& before);
   void plan_beams();
   void plan_shells();
   void plan_plates();
@@ -128,7 +128,7 @@ class StandingFactor {
   const FrameSystem& system_;
   std::optional<TriangularSolver> solver_;
   std::optional<LowRankCorrection> correction_;
-  std::map<int, Mat6> beam_before_;
+  std::map<int, BeamModeMatrix> beam_before_;
   std::map<int, char> shell_before_;
   std::map<int, ElementModes> shell_modes_;
   std::map<std::size_t, Eigen::MatrixXd> plate_before_;

@@ -39,9 +39,9 @@ void StandingFactor::want(Key key, const Eigen::Ref<const Eigen::MatrixXd>& D) {
   }
 }
 
-void StandingFactor::plan_beam(int beam, const Mat6& before) {
+void StandingFactor::plan_beam(int beam, const BeamModeMatrix& before) {
   const auto& nodes = system_.model.beams[static_cast<std::size_t>(beam)].node;
-  Mat6 D = Mat6::Zero();
+  BeamModeMatrix D = BeamModeMatrix::Zero(before.rows(), before.cols());
   if (!inside_dropped(nodes)) D = beam_mode_stiffness(system_, beam) - before;
   want({Kind::beam, beam}, D);
 }

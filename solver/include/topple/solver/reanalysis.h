@@ -166,6 +166,7 @@ class Reanalysis {
   [[nodiscard]] double last_operations() const;
 
  private:
+  friend class FrameDynamics;  // moves on the same equations: its matrix is K + s M, changed and factorised as here
   struct State;
   std::unique_ptr<State> state_;
 };

@@ -1,0 +1,41 @@
+#include "assembly/element_masses.h"
+
+#include <stdexcept>
+#include <string>
+
+#include "assembly/frame_system.h"
+#include "elements/beam_mass.h"
+
+namespace topple::solver {
+
+Mat12 beam_mass(const FrameSystem& system, const MassModel& masses, int index) {
+  const auto i = static_cast<std::size_t>(index);
+  const Beam& beam = system.model.beams[i];
+  std::array<Mat3, 2> arm;
+  for (std::size_t end = 0; end < 2; ++end)
+    arm[end] = arm_matrix(beam.offset[end]) + system.dofs().diaphragm_arm(beam.node[end]);
+  const double spread = i < masses.beam_lengths.size() ? masses.beam_lengths[i] : 0;
+  return to_node_freedoms(beam.axes, beam_mass_matrix(beam, masses, spread > 0 ? spread : beam.length), arm);
+}
+
+Mat24 shell_mass(const FrameSystem& system, const MassModel& masses, int index) {
+  const Shell& shell = system.model.shells[static_cast<std::size_t>(index)];
+  const bool lumped = masses.distribution == MassDistribution::lumped;
+  return ShellElement(shell, corner_places(shell, system.model.nodes)).mass(shell.density * shell.thickness, lumped);
+}
+
+std::vector<Vec6> masses_at_nodes(const FrameModel& model, const MassModel& masses) {
+  std::vector<Vec6> at(model.nodes.size(), Vec6::Zero());
+  for (const NodeMass& given : masses.nodes) {
+    if (given.node < 0 || static_cast<std::size_t>(given.node) >= at.size())
+      throw std::invalid_argument("mass on node " + std::to_string(given.node) + ", which does not exist");
+    if (!(given.mass >= 0) || !(given.inertia.array() >= 0).all())
+      throw std::invalid_argument("mass on node " + std::to_string(given.node) + " is negative");
+    Vec6& here = at[static_cast<std::size_t>(given.node)];
+    here.head<3>().array() += given.mass;
+    here.tail<3>() += given.inertia;
+  }
+  return at;
+}
+
+}  // namespace topple::solver

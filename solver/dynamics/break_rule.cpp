@@ -1,0 +1,108 @@
+// Which joints break within a substep, and when.
+#include <algorithm>
+
+#include "dynamics/dynamic_state.h"
+
+namespace topple::solver {
+namespace {
+
+/// Of a substep: at how many places a use is looked at, and how far the one at which it reaches 1 is narrowed down.
+constexpr int looks = 8;
+constexpr int halvings = 30;
+
+}  // namespace
+
+Vec12 FrameDynamics::State::fixed_end_forces(int beam, bool at_end) const {
+  Vec12 fixed = core().fixed_end[static_cast<std::size_t>(beam)];
+  for (const LoadPattern& pattern : patterns) {
+    const auto own = pattern.fixed_end.find(beam);
+    if (own != pattern.fixed_end.end()) fixed += (at_end ? pattern.now : pattern.before) * own->second;
+  }
+  return fixed;
+}
+
+Vec12 FrameDynamics::State::end_forces(int beam, bool at_end) const {
+  return core().end_forces(static_cast<std::size_t>(beam), (at_end ? nodes_now : nodes_before).u,
+                           fixed_end_forces(beam, at_end));
+}
+
+SubstepCourse<Vec12> FrameDynamics::State::course(int beam) const {
+  const auto i = static_cast<std::size_t>(beam);
+  SubstepCourse<Vec12> course;
+  course.start = end_forces(beam, false);
+  course.end = end_forces(beam, true);
+  course.length = method.h;
+  // Loads that go with time change linearly.
+  Vec12 rate = Vec12::Zero();
+  if (system().beam_stands[i] != 0) rate = (fixed_end_forces(beam, true) - fixed_end_forces(beam, false)) / method.h;
+  course.start_rate = core().end_forces(i, nodes_before.v, rate);
+  course.end_rate = core().end_forces(i, nodes_now.v, rate);
+  return course;
+}
+
+/// The share of the substep at which the joint first reaches its capacity, by the cubic course of its force; its end
+/// where that alone is beyond.
+double FrameDynamics::State::reached_at(const JointLaw& law, int beam, int end, const SubstepCourse<Vec12>& course) {
+  const auto over = [&](double share) { return law.end_use(beam, end, course.at(share)) > 1; };
+  if (over(0)) return 0;
+  double low = 0, high = 1;
+  for (int k = 1; k <= looks; ++k) {
+    const double share = static_cast<double>(k) / looks;
+    if (over(share)) {
+      high = share;
+      break;
+    }
+    low = share;
+  }
+  if (low >= high) return 1;
+  for (int k = 0; k < halvings; ++k) {
+    const double middle = (low + high) / 2;
+    (over(middle) ? high : low) = middle;
+  }
+  return high;
+}
+
+void FrameDynamics::State::record_break(const JointBreak& found, double share, const SubstepCourse<Vec12>& course) {
+  const auto end = static_cast<std::size_t>(found.end);
+  Vec12 mean = course.mean_until(share);
+  // What the other end's joint handed over before it broke went through this one.
+  const auto through = substep_fixed_end.find(found.beam);
+  if (through != substep_fixed_end.end()) mean += through->second;
+  broken.push_back({found.beam, end, mean.segment<6>(static_cast<Eigen::Index>(6 * end))});
+  breaks.push_back(found);
+  ++counters.breaks;
+  frame.set_end_stiffness(found.beam, found.end, Vec6::Zero());
+}
+
+bool FrameDynamics::State::break_joints(const JointLaw& law) {
+  know_nodes();
+  struct Crossing {
+    JointBreak joint;
+    double share;
+    SubstepCourse<Vec12> course;
+  };
+  std::vector<Crossing> crossings;
+  for (int beam = 0; beam < static_cast<int>(system().model.beams.size()); ++beam) {
+    const auto i = static_cast<std::size_t>(beam);
+    if (system().beam_stands[i] == 0) continue;
+    const Vec12 forces = end_forces(beam, true);
+    if (!(law.beam_use(beam, forces) > 1)) continue;
+    const SubstepCourse<Vec12> own = course(beam);
+    for (int end = 0; end < 2; ++end) {
+      if (system().model.beams[i].end_stiffness[static_cast<std::size_t>(end)].isZero(0)) continue;
+      if (!(law.end_use(beam, end, forces) > 1)) continue;
+      const double share = reached_at(law, beam, end, own);
+      crossings.push_back({{beam, end, time + share * method.h, own.at(share)}, share, own});
+    }
+  }
+  if (crossings.empty()) return false;
+  std::stable_sort(crossings.begin(), crossings.end(),
+                   [](const Crossing& a, const Crossing& b) { return a.share < b.share; });
+  const double together =
+      crossings.front().share + wave_times[static_cast<std::size_t>(crossings.front().joint.beam)] / method.h;
+  for (const Crossing& crossing : crossings)
+    if (crossing.share <= together) record_break(crossing.joint, crossing.share, crossing.course);
+  return true;
+}
+
+}  // namespace topple::solver

@@ -1,0 +1,126 @@
+#pragma once
+// What a FrameDynamics holds. Vectors are in the scaled equations of its frame system: displacements x with u = S x,
+// forces S f.
+#include <map>
+#include <vector>
+
+#include "assembly/element_masses.h"
+#include "dynamics/generalized_alpha.h"
+#include "dynamics/products.h"
+#include "reanalysis/reanalysis_state.h"
+#include "topple/solver/frame_dynamics.h"
+
+namespace topple::solver {
+
+/// Motion of the equations at one time.
+struct MotionState {
+  Eigen::VectorXd u, v, a;
+};
+
+/// The same by nodes, global.
+struct NodeMotion {
+  std::vector<Vec6> u, v;
+};
+
+/// A load that goes with time.
+struct LoadPattern {
+  enum class Kind { loads, ground, holding } kind = Kind::loads;
+  LoadSet loads;
+  Vec3 direction = Vec3::Zero();
+  std::map<int, Vec12> fixed_end;  ///< per loaded beam, local, for a value of 1
+  Eigen::VectorXd force;           ///< scaled; empty: to be found
+  double current = 0, next = 0;    ///< values now, and at the end of the next substep
+  double before = 0, now = 0;      ///< at both ends of the substep under way, or the last one
+};
+
+/// A joint that broke within the present substep: until then its force acted (mean over the substep, local).
+struct BrokenJoint {
+  int beam = -1;
+  std::size_t end = 0;
+  Vec6 mean_force = Vec6::Zero();
+};
+
+/// A beam whose ends changed at the start of the present substep: how its ends followed its hubs before.
+struct ChangedBeam {
+  int beam = -1;
+  Mat12 followed;
+};
+
+struct FrameDynamics::State {
+  DynamicOptions options;
+  GeneralizedAlpha method;
+  SystemInertia inertia;
+  Reanalysis frame;
+  std::vector<double> wave_times;
+  std::vector<LoadPattern> patterns;
+  double time = 0;
+
+  MotionState before, now;  ///< at the start and at the end of the substep under way
+  bool accepted = true;     ///< no substep is under way: `before` is the motion now, `now` that before the last substep
+  NodeMotion nodes_before, nodes_now;  ///< at both ends of the substep under way, or the last one
+  bool nodes_known = false;
+  [[nodiscard]] const MotionState& current() const { return before; }
+  /// Of `before`, with the structure as it stands: M u, M v, M a, and (K + s M) u, (K + s M) v.
+  SideBySide<4> mass_products;
+  SideBySide<2> matrix_products;
+  bool products_known = false;
+  Eigen::VectorXd constant_load, collocated_load, substep_load;  ///< substep_load: of what broke in this substep
+  std::vector<BrokenJoint> broken;
+  std::vector<ChangedBeam> changed;
+  std::map<int, Vec12> substep_fixed_end;  ///< of beams that bear the force of their broken end, local
+  bool prepared = false;
+  DynamicEnergy energy;
+  DynamicCounters counters;
+  std::vector<JointBreak> breaks;
+  // Scratch.
+  SideBySide<4> motion_columns;
+  SideBySide<2> moved_columns;
+  SideBySide<1> z, mass_z;
+  Eigen::VectorXd q, w, residual, moved;
+
+  State(FrameModel model, MassModel masses, DynamicOptions given);
+  [[nodiscard]] Reanalysis::State& core() { return *frame.state_; }
+  [[nodiscard]] const Reanalysis::State& core() const { return *frame.state_; }
+  [[nodiscard]] const FrameSystem& system() const { return *core().system; }
+  [[nodiscard]] Eigen::Index equations() const { return system().dofs().equations; }
+
+  // structural_change.cpp
+  /// Takes over what changed since the last substep, or within it.
+  void apply_changes();
+  void take_changes();
+  void remember_changing_beams();
+  void drop_bare_nodes();
+  [[nodiscard]] bool bare(int node);
+  void clear_dropped();
+  void find_substep_load();
+  void begin_substep();
+  /// Momentum of a beam that its hubs' velocities leave out now (local hub impulses), since its ends changed.
+  [[nodiscard]] Vec12 missing_momentum(const ChangedBeam& change);
+  void add_on_hubs(int beam, const Vec12& local, Eigen::VectorXd& force) const;
+  double stored_energy();
+
+  // substep.cpp
+  void take_substep();
+  void accept();
+  void book();
+  void find_products();
+  void find_collocated_load();
+  void solve(Eigen::VectorXd& x);
+  void know_nodes();
+
+  // load_patterns.cpp
+  void find_pattern(LoadPattern& pattern);
+  void find_patterns();
+  [[nodiscard]] Eigen::VectorXd scaled_equations(const std::vector<Vec6>& per_node) const;
+  [[nodiscard]] Eigen::VectorXd scaled(const Eigen::VectorXd& force) const;
+
+  // break_rule.cpp
+  [[nodiscard]] bool break_joints(const JointLaw& law);
+  [[nodiscard]] static double reached_at(const JointLaw& law, int beam, int end, const SubstepCourse<Vec12>& course);
+  void record_break(const JointBreak& broken, double share, const SubstepCourse<Vec12>& course);
+  [[nodiscard]] Vec12 end_forces(int beam, bool at_end) const;
+  [[nodiscard]] Vec12 fixed_end_forces(int beam, bool at_end) const;
+  [[nodiscard]] SubstepCourse<Vec12> course(int beam) const;
+};
+
+}  // namespace topple::solver

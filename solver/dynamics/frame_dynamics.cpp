@@ -1,0 +1,192 @@
+#include "topple/solver/frame_dynamics.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "assembly/mass_matrix.h"
+#include "dynamics/dynamic_state.h"
+
+namespace topple::solver {
+namespace {
+
+const MassModel& checked(const MassModel& masses) {
+  if (masses.distribution != MassDistribution::consistent)
+    throw std::invalid_argument("a frame that moves needs consistent mass");
+  if (!masses.hanging.empty())
+    throw std::invalid_argument("a frame that moves takes no shells that hang on joints that give");
+  return masses;
+}
+
+std::vector<double> wave_times_of(const FrameModel& model, const std::vector<double>& given) {
+  if (!given.empty() && given.size() != model.beams.size())
+    throw std::invalid_argument("wave times: one for each beam, or none");
+  if (!given.empty()) return given;
+  std::vector<double> times;
+  for (const Beam& beam : model.beams) times.push_back(beam.length * std::sqrt(beam.density / beam.youngs_modulus));
+  return times;
+}
+
+}  // namespace
+
+RayleighDamping rayleigh_damping(double ratio, double first, double second) {
+  if (!(ratio >= 0) || !std::isfinite(ratio)) throw std::invalid_argument("a damping ratio must be 0 or more");
+  if (!(first > 0 && second > 0)) throw std::invalid_argument("damping is given at two frequencies above 0");
+  return {2 * ratio * first * second / (first + second), 2 * ratio / (first + second)};
+}
+
+FrameDynamics::State::State(FrameModel model, MassModel masses, DynamicOptions given)
+    : options(std::move(given)),
+      method(options.substep, options.spectral_radius, options.damping.stiffness),
+      inertia{checked(masses), masses_at_nodes(model, masses), method.s},
+      frame(std::move(model), options.analysis),
+      wave_times(wave_times_of(frame.model(), options.wave_times)) {
+  if (!(options.damping.mass >= 0)) throw std::invalid_argument("damping must not be negative");
+  core().system->inertia = &inertia;
+  nodes_before.u.assign(frame.model().nodes.size(), Vec6::Zero());
+  nodes_before.v = nodes_now.u = nodes_now.v = nodes_before.u;
+}
+
+FrameDynamics::FrameDynamics(FrameModel model, MassModel masses, DynamicOptions options)
+    : state_(std::make_unique<State>(std::move(model), std::move(masses), std::move(options))) {
+  state_->begin_substep();
+  state_->apply_changes();
+}
+FrameDynamics::~FrameDynamics() = default;
+FrameDynamics::FrameDynamics(FrameDynamics&&) noexcept = default;
+FrameDynamics& FrameDynamics::operator=(FrameDynamics&&) noexcept = default;
+
+void FrameDynamics::set_end_stiffness(int beam, int end, const Vec6& stiffness) {
+  state_->frame.set_end_stiffness(beam, end, stiffness);
+}
+void FrameDynamics::remove_beam(int beam) { state_->frame.remove_beam(beam); }
+void FrameDynamics::remove_shell(int shell) { state_->frame.remove_shell(shell); }
+void FrameDynamics::set_patch_stiffness(int patch, Eigen::MatrixXd stiffness) {
+  state_->frame.set_patch_stiffness(patch, std::move(stiffness));
+}
+void FrameDynamics::set_beam_stiffness_factor(int beam, double factor) {
+  state_->frame.set_beam_stiffness_factor(beam, factor);
+}
+void FrameDynamics::set_support_stiffness(int support, const Vec6& stiffness) {
+  state_->frame.set_support_stiffness(support, stiffness);
+}
+void FrameDynamics::drop_nodes(std::span<const int> nodes) { state_->frame.drop_nodes(nodes); }
+void FrameDynamics::set_node_load(int node, const Vec6& load) { state_->frame.set_node_load(node, load); }
+void FrameDynamics::set_beam_loads(int beam, std::vector<BeamLoad> loads) {
+  state_->frame.set_beam_loads(beam, std::move(loads));
+}
+
+void FrameDynamics::set_mass_damping(double a0) {
+  if (!(a0 >= 0)) throw std::invalid_argument("damping must not be negative");
+  state_->options.damping.mass = a0;
+}
+
+void FrameDynamics::set_state(const std::vector<Vec6>& displacements, const std::vector<Vec6>& velocities) {
+  State& state = *state_;
+  const std::size_t count = state.frame.model().nodes.size();
+  if (displacements.size() != count || velocities.size() != count)
+    throw std::invalid_argument("a state has six displacements and six velocities for each node");
+  state.begin_substep();
+  state.apply_changes();
+  state.before.u = state.scaled_equations(displacements);
+  state.before.v = state.scaled_equations(velocities);
+  state.before.a.setZero(state.equations());
+  state.clear_dropped();
+  state.now = state.before;
+  state.products_known = state.nodes_known = false;
+  state.accepted = true;
+  state.stored_energy();
+}
+
+const std::vector<JointBreak>& FrameDynamics::advance(const JointLaw* law) {
+  State& state = *state_;
+  state.begin_substep();
+  state.apply_changes();
+  state.find_patterns();
+  state.take_substep();
+  ++state.counters.substeps;
+  while (law != nullptr && state.break_joints(*law)) {
+    ++state.counters.retaken;
+    state.apply_changes();
+    state.find_patterns();
+    state.take_substep();
+  }
+  state.accept();
+  return state.breaks;
+}
+
+double FrameDynamics::time() const { return state_->time; }
+double FrameDynamics::substep() const { return state_->method.h; }
+const std::vector<Vec6>& FrameDynamics::displacements() const {
+  state_->know_nodes();
+  return state_->nodes_now.u;
+}
+const std::vector<Vec6>& FrameDynamics::velocities() const {
+  state_->know_nodes();
+  return state_->nodes_now.v;
+}
+std::vector<Vec6> FrameDynamics::accelerations() const {
+  std::vector<Vec6> result(state_->frame.model().nodes.size());
+  state_->system().node_displacements_of_scaled(state_->current().a, result);
+  return result;
+}
+
+SubstepCourse<Vec6> FrameDynamics::node_course(int node) const {
+  state_->know_nodes();
+  const auto n = static_cast<std::size_t>(node);
+  return {state_->nodes_before.u.at(n), state_->nodes_before.v.at(n), state_->nodes_now.u.at(n),
+          state_->nodes_now.v.at(n), state_->method.h};
+}
+
+Vec12 FrameDynamics::beam_end_forces(int beam) const {
+  (void)state_->core().checked_beam(beam);
+  state_->know_nodes();
+  return state_->end_forces(beam, true);
+}
+
+SubstepCourse<Vec12> FrameDynamics::beam_course(int beam) const {
+  (void)state_->core().checked_beam(beam);
+  state_->know_nodes();
+  return state_->course(beam);
+}
+
+SubstepCourse<Eigen::Matrix<double, 24, 1>> FrameDynamics::shell_course(int shell) const {
+  (void)state_->core().checked_shell(shell);
+  state_->know_nodes();
+  const auto forces = [&](const std::vector<Vec6>& motion) {
+    Vec24 all;
+    const std::array<Vec6, 4> corners = state_->system().corner_forces(shell, motion, Vec24::Zero());
+    for (std::size_t k = 0; k < 4; ++k) all.segment<6>(static_cast<Eigen::Index>(6 * k)) = corners[k];
+    return all;
+  };
+  return {forces(state_->nodes_before.u), forces(state_->nodes_before.v), forces(state_->nodes_now.u),
+          forces(state_->nodes_now.v), state_->method.h};
+}
+
+Vec6 FrameDynamics::momentum() const {
+  const State& state = *state_;
+  const MassMatrix directions(state.system(), MassModel());
+  SideBySide<1> v = state.current().v.transpose(), product;
+  multiply<1>(state.system().mass(), v, product);
+  Vec6 result;
+  for (int c = 0; c < 6; ++c) result(c) = product.row(0).dot(directions.rigid_motion(c, Vec3::Zero()).transpose());
+  return result;
+}
+
+const DynamicEnergy& FrameDynamics::energy() const { return state_->energy; }
+double FrameDynamics::mass_damping() const { return state_->options.damping.mass; }
+
+double FrameDynamics::rayleigh_quotient(const std::vector<Vec6>& displacements) const {
+  const State& state = *state_;
+  const SideBySide<1> u = state.scaled_equations(displacements).transpose();
+  SideBySide<1> Au, Mu;
+  multiply<1>(state.system().matrix(), u, Au);
+  multiply<1>(state.system().mass(), u, Mu);
+  const double mass = u.row(0).dot(Mu.row(0));
+  return mass > 0 ? std::max(0.0, u.row(0).dot(Au.row(0)) / mass - state.method.s) : 0;
+}
+
+const FrameModel& FrameDynamics::model() const { return state_->frame.model(); }
+const DynamicCounters& FrameDynamics::counters() const { return state_->counters; }
+const ReanalysisCounters& FrameDynamics::reanalysis_counters() const { return state_->core().counters; }
+
+}  // namespace topple::solver

@@ -1,0 +1,131 @@
+// One substep: from the motion before it to the one after it, and the accounts of energy.
+#include <utility>
+
+#include "dynamics/dynamic_state.h"
+
+namespace topple::solver {
+namespace {
+
+/// Over a structure that became this much softer than the factor's one refinement is made.
+constexpr double soft = 1e3;
+
+}  // namespace
+
+void FrameDynamics::State::solve(Eigen::VectorXd& x) {
+  Reanalysis::State& own = core();
+  if (x.size() == 0) return;
+  if (!own.standing) {
+    Eigen::MatrixXd columns = x;
+    own.factor->solve(columns);
+    x = columns.col(0);
+    return;
+  }
+  if (!own.standing->changed() || own.standing->softening() < soft) {
+    own.standing->solve(x);
+    return;
+  }
+  const Eigen::VectorXd force = x;
+  own.standing->solve(x);
+  (void)own.rows->residual(own.system->matrix(), force, x, residual);
+  own.standing->solve(residual);
+  x += residual;
+}
+
+void FrameDynamics::State::find_products() {
+  if (products_known) return;
+  products_known = true;
+  const Eigen::Index n = equations();
+  motion_columns.resize(4, n);
+  motion_columns.row(0) = before.u;
+  motion_columns.row(1) = before.v;
+  motion_columns.row(2) = before.a;
+  motion_columns.row(3).setZero();
+  multiply<4>(system().mass(), motion_columns, mass_products);
+  moved_columns.resize(2, n);
+  moved_columns.row(0) = before.u;
+  moved_columns.row(1) = before.v;
+  multiply<2>(system().matrix(), moved_columns, matrix_products);
+}
+
+void FrameDynamics::State::find_collocated_load() {
+  collocated_load = constant_load + substep_load;
+  for (const LoadPattern& pattern : patterns) {
+    const double value = method.af * pattern.before + (1 - method.af) * pattern.now;
+    if (value != 0) collocated_load += value * pattern.force;
+  }
+}
+
+void FrameDynamics::State::take_substep() {
+  const double h = method.h, am = method.am, af = method.af, a0 = options.damping.mass, a1 = options.damping.stiffness;
+  const double by_v = (1 - af) * h + a1;
+  const double by_a = (1 - af) * h * h * (0.5 - method.beta) + a1 * (1 - af) * h * (1 - method.gamma);
+  q = before.u + by_v * before.v + by_a * before.a;
+  find_collocated_load();
+  w = collocated_load;
+  const double foreseen = (1 - af) * h;
+  if (options.keep_energy) {
+    find_products();
+    w += (method.s * mass_products.row(0) + (method.s * by_v - a0) * mass_products.row(1) +
+          (method.s * by_a - am - a0 * foreseen) * mass_products.row(2))
+             .transpose();
+  } else {
+    z = (method.s * q - am * before.a - a0 * (before.v + foreseen * before.a)).transpose();
+    multiply<1>(system().mass(), z, mass_z);
+    w += mass_z.row(0).transpose();
+  }
+  solve(w);
+  now.a = (w - q) / method.c;
+  now.u = before.u + h * before.v + h * h * ((0.5 - method.beta) * before.a + method.beta * now.a);
+  now.v = before.v + h * ((1 - method.gamma) * before.a + method.gamma * now.a);
+  nodes_known = accepted = false;
+}
+
+/// By nodes, as far as they are asked for.
+void FrameDynamics::State::know_nodes() {
+  if (nodes_known) return;
+  nodes_known = true;
+  const MotionState& start = accepted ? now : before;
+  const MotionState& end = accepted ? before : now;
+  system().node_displacements_of_scaled(start.u, nodes_before.u);
+  system().node_displacements_of_scaled(start.v, nodes_before.v);
+  system().node_displacements_of_scaled(end.u, nodes_now.u);
+  system().node_displacements_of_scaled(end.v, nodes_now.v);
+}
+
+/// 1/2 v'Mv + 1/2 u'Ku at the start of the substep under way.
+double FrameDynamics::State::stored_energy() {
+  if (!options.keep_energy) return 0;
+  find_products();
+  energy.kinetic = 0.5 * mass_products.row(1).dot(before.v.transpose());
+  energy.elastic = 0.5 * (matrix_products.row(0) - method.s * mass_products.row(0)).dot(before.u.transpose());
+  return energy.kinetic + energy.elastic;
+}
+
+/// What the forces of the substep have done, along its displacement.
+void FrameDynamics::State::book() {
+  const double a0 = options.damping.mass, a1 = options.damping.stiffness, foreseen = (1 - method.af) * method.h;
+  moved = now.u - before.u;
+  const double of_breaks = substep_load.dot(moved);
+  energy.external_work += collocated_load.dot(moved) - of_breaks;
+  energy.freed -= of_breaks;
+  if (a0 > 0) energy.damped += a0 * (mass_products.row(1) + foreseen * mass_products.row(2)).dot(moved.transpose());
+  if (a1 > 0)
+    energy.damped += a1 * method.af * (matrix_products.row(1) - method.s * mass_products.row(1)).dot(moved.transpose());
+}
+
+void FrameDynamics::State::accept() {
+  if (options.keep_energy) book();
+  std::swap(before, now);
+  accepted = true;
+  products_known = false;
+  if (options.keep_energy) {
+    stored_energy();
+    if (options.damping.stiffness > 0)
+      energy.damped += options.damping.stiffness * (1 - method.af) *
+                       (matrix_products.row(1) - method.s * mass_products.row(1)).dot(moved.transpose());
+  }
+  time += method.h;
+  for (LoadPattern& pattern : patterns) pattern.current = pattern.now;
+}
+
+}  // namespace topple::solver

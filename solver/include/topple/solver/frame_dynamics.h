@@ -1,0 +1,163 @@
+#pragma once
+// A frame that moves: M a + C v + K u = f(t) about its unloaded place, while joints break. Generalized-alpha in time
+// (J. Chung, G. M. Hulbert, Journal of Applied Mechanics 60 (1993), 371), consistent mass. The matrix of a substep is
+// c (K + s M): it has K's graph, order and map, a joint that breaks is a low-rank change of it, and it is definite even
+// where K alone is a mechanism. A freedom with neither stiffness nor mass is left out.
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "topple/solver/modes.h"
+#include "topple/solver/reanalysis.h"
+
+namespace topple::solver {
+
+/// C = mass x M + stiffness x K.
+struct RayleighDamping {
+  double mass = 0;       ///< a0, 1/s; its force goes with the velocity foreseen, and takes no part in the matrix
+  double stiffness = 0;  ///< a1, s; acts on the stiffness as it stands: a joint that broke damps nothing
+};
+/// The share of critical damping `ratio` at two angular frequencies (rad/s): a0 = 2 ratio w1 w2/(w1 + w2), a1 = 2
+/// ratio/(w1 + w2) (R. W. Clough, J. Penzien, Dynamics of Structures, 12-5). Throws std::invalid_argument unless ratio
+/// >= 0 and both frequencies > 0.
+[[nodiscard]] RayleighDamping rayleigh_damping(double ratio, double first, double second);
+
+struct DynamicOptions {
+  double substep = 1.0 / 240;  ///< s
+  /// At infinite frequency, 0 to 1: what a substep leaves of motion that it cannot resolve. 1 keeps energy exactly;
+  /// below it the shock of a break dies away in some substeps, and what resolved motion loses falls with the third
+  /// power of the substep.
+  double spectral_radius = 0.8;
+  RayleighDamping damping;
+  bool keep_energy = true;  ///< false: no ledger, and a cheaper substep
+  /// Per beam, s: how long a wave takes along it. Joints that reach their capacity within that time of the first one,
+  /// whose beam counts, break together. Empty: its length over the speed of sound of its Young's modulus and density.
+  std::vector<double> wave_times;
+  AnalysisOptions analysis;
+};
+
+/// Joules, since the start. kinetic + elastic + damped + freed = external_work + the first kinetic + elastic, at a
+/// spectral radius of 1 to rounding; below 1 the rest is what the method itself dissipates.
+struct DynamicEnergy {
+  double kinetic = 0, elastic = 0;  ///< now; elastic is 1/2 u'Ku
+  double damped = 0;                ///< by C
+  double external_work = 0;         ///< of loads
+  double freed = 0;                 ///< by breaks and other changes of the structure: what left it, and what a member
+                                    ///< that swings from one end alone lost
+};
+
+/// What joints can bear: by whatever rule, a use of 1 is the capacity.
+class JointLaw {
+ public:
+  virtual ~JointLaw() = default;
+  /// The larger of the uses at both ends; end forces local, as StaticSolution has them. Called for every beam in every
+  /// substep.
+  [[nodiscard]] virtual double beam_use(int beam, const Vec12& end_forces) const = 0;
+  /// At one end.
+  [[nodiscard]] virtual double end_use(int beam, int end, const Vec12& end_forces) const = 0;
+};
+
+struct JointBreak {
+  int beam = -1, end = 0;
+  double time = 0;               ///< at which it reached its capacity, s
+  Vec12 forces = Vec12::Zero();  ///< of its beam then
+};
+
+/// A motion in one substep as a cubic of time: values and rates at its two ends.
+template <class Vector>
+struct SubstepCourse {
+  Vector start, start_rate, end, end_rate;
+  double length = 0;  ///< s
+  /// At a share of the substep, 0 to 1.
+  [[nodiscard]] Vector at(double share) const {
+    const double s = share, r = 1 - s;
+    return (r * r * (1 + 2 * s)) * start + (s * s * (1 + 2 * r)) * end + (length * s * r * r) * start_rate -
+           (length * s * s * r) * end_rate;
+  }
+  /// Its integral from the start to there, divided by the length of the whole substep.
+  [[nodiscard]] Vector mean_until(double share) const {
+    const double s = share, s2 = s * s, s3 = s2 * s, s4 = s3 * s;
+    return (s - s3 + s4 / 2) * start + (s3 - s4 / 2) * end + length * ((s2 / 2 - 2 * s3 / 3 + s4 / 4) * start_rate) -
+           length * ((s3 / 3 - s4 / 4) * end_rate);
+  }
+};
+
+struct DynamicCounters {
+  std::uint64_t substeps = 0;
+  std::uint64_t retaken = 0;  ///< taken again because joints broke
+  std::uint64_t breaks = 0;
+};
+
+class FrameDynamics {
+ public:
+  /// At rest at its unloaded place, all as the model has it. Consistent mass only; throws std::invalid_argument for
+  /// what cannot be used, Instability where a freedom has neither stiffness nor mass or a beam can move by itself.
+  FrameDynamics(FrameModel model, MassModel masses, DynamicOptions options);
+  ~FrameDynamics();
+  FrameDynamics(FrameDynamics&&) noexcept;
+  FrameDynamics& operator=(FrameDynamics&&) noexcept;
+
+  // Changes take effect with the next substep, from its beginning, as in Reanalysis. When a beam's end breaks, its mass
+  // goes to the end still held: the momentum is kept, as an impulse in that substep, and the loss booked as freed.
+  void set_end_stiffness(int beam, int end, const Vec6& stiffness);
+  void remove_beam(int beam);
+  void remove_shell(int shell);
+  void set_patch_stiffness(int patch, Eigen::MatrixXd stiffness);
+  void set_beam_stiffness_factor(int beam, double factor);
+  void set_support_stiffness(int support, const Vec6& stiffness);
+  void drop_nodes(std::span<const int> nodes);
+  void set_node_load(int node, const Vec6& load);
+  void set_beam_loads(int beam, std::vector<BeamLoad> loads);
+  /// From now on; a1 stays as it is.
+  void set_mass_damping(double a0);
+
+  // Loads that go with time, beside those: a distribution in space times a value that changes linearly within each
+  // substep. Each returns the pattern's number; its value is 0.
+  [[nodiscard]] int add_pattern(const LoadSet& loads);
+  /// The inertia of the frame against a ground that accelerates along `direction`: -M times a rigid translation, of
+  /// what stands at the time. The frame's motion is then relative to the ground.
+  [[nodiscard]] int add_ground_acceleration(const Vec3& direction);
+  /// The force that keeps the frame where it is now, with the structure and loads that it will have in the next
+  /// substep.
+  [[nodiscard]] int add_holding_force();
+  void set_pattern(int pattern, double value_at_end);  ///< of the next substep, and from then on
+  void jump_pattern(int pattern, double value);        ///< at once
+
+  /// Per node, global: displacements, velocities. Accelerations begin at 0; they have no part in the motion at a
+  /// spectral radius of 1, and little below.
+  void set_state(const std::vector<Vec6>& displacements, const std::vector<Vec6>& velocities);
+
+  /// One substep. Of the joints over capacity at its end the one that reached it first breaks, with those that follow
+  /// within a wave's time, and the substep is taken again without them, their forces until then acting as loads (their
+  /// mean over the substep), until none is over. Returns the breaks in order.
+  const std::vector<JointBreak>& advance(const JointLaw* law = nullptr);
+
+  [[nodiscard]] double time() const;
+  [[nodiscard]] double substep() const;
+  [[nodiscard]] const std::vector<Vec6>& displacements() const;
+  [[nodiscard]] const std::vector<Vec6>& velocities() const;
+  [[nodiscard]] std::vector<Vec6> accelerations() const;
+  /// In the last substep.
+  [[nodiscard]] SubstepCourse<Vec6> node_course(int node) const;
+  /// End forces as Reanalysis has them: elastic, those of damping and of the beam's own inertia apart.
+  [[nodiscard]] Vec12 beam_end_forces(int beam) const;
+  [[nodiscard]] SubstepCourse<Vec12> beam_course(int beam) const;
+  [[nodiscard]] SubstepCourse<Eigen::Matrix<double, 24, 1>> shell_course(int shell) const;  ///< corner forces, global
+  /// Linear and angular momentum about the origin, of what is free to move.
+  [[nodiscard]] Vec6 momentum() const;
+  [[nodiscard]] const DynamicEnergy& energy() const;
+  [[nodiscard]] double mass_damping() const;
+  /// Rayleigh's quotient u'Ku/u'Mu of a displacement, (rad/s)2; 0 when it moves no mass.
+  [[nodiscard]] double rayleigh_quotient(const std::vector<Vec6>& displacements) const;
+  [[nodiscard]] const FrameModel& model() const;
+  [[nodiscard]] const DynamicCounters& counters() const;
+  [[nodiscard]] const ReanalysisCounters& reanalysis_counters() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace topple::solver
