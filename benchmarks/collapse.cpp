@@ -27,7 +27,6 @@ struct Step {
   std::array<double, 6> stages{};  ///< s
   double engine = 0;               ///< s, within the stages
   std::uint64_t solves = 0, low_rank = 0, refactorisations = 0, events = 0, impacts = 0;
-  double operations = 0;  ///< as a budget counts them
   std::size_t bodies = 0, awake = 0;
   [[nodiscard]] double whole() const { return std::accumulate(stages.begin(), stages.end(), 0.0); }
   [[nodiscard]] double own() const { return whole() - engine; }
@@ -94,14 +93,12 @@ void print_slowest(std::vector<Step> steps) {
 
 void write_steps(const std::string& path, const std::vector<Step>& steps) {
   std::ofstream file(path);
-  file << "step,sense,load,break,release,move,book,engine,solves,low_rank,new_factors,impacts,events,operations,bodies,"
-          "awake\n";
+  file << "step,sense,load,break,release,move,book,engine,solves,low_rank,new_factors,impacts,events,bodies,awake\n";
   for (const Step& step : steps) {
     file << step.number;
     for (double s : step.stages) file << ',' << s;
     file << ',' << step.engine << ',' << step.solves << ',' << step.low_rank << ',' << step.refactorisations << ','
-         << step.impacts << ',' << step.events << ',' << step.operations << ',' << step.bodies << ',' << step.awake
-         << '\n';
+         << step.impacts << ',' << step.events << ',' << step.bodies << ',' << step.awake << '\n';
   }
 }
 
@@ -115,8 +112,8 @@ struct Cost {
   double whole = 0, own = 0;
 };
 
-/// Costs of both, step by step in turns, so that what else the machine does falls on both. `first` (0 or 1) steps first: it
-/// finds the program's code and data colder than the other does.
+/// Costs of both, step by step in turns, so that what else the machine does falls on both. `first` (0 or 1) steps
+/// first: it finds the program's code and data colder than the other does.
 std::array<Cost, 2> in_turns(const std::array<std::string, 2>& names, double seconds, std::size_t first) {
   std::array<structure::Simulation, 2> both{make(names[0]), make(names[1])};
   std::array<Cost, 2> costs;
@@ -171,7 +168,6 @@ std::vector<Step> run(structure::Simulation& simulation, double seconds) {
       Step step{simulation.steps(), simulation.stage_seconds(), simulation.collision_engine_seconds()};
       step.solves = now.solves - before.solves;
       step.low_rank = now.low_rank - before.low_rank;
-      step.operations = now.operations - before.operations;
       step.refactorisations = now.refactorisations - before.refactorisations;
       step.events = simulation.events().size() - told;
       for (const auto& event : simulation.events().subspan(told))

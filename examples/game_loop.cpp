@@ -44,7 +44,6 @@ int main(int argc, char** argv) {
   auto [building, scenario] = read_scenario(find_scenario("seed_idle"));
   scenario.duration = 1e6;  // the game decides when it ends
   scenario.until_rest = false;
-  scenario.operations_budget = 5e8;  // predicted operations for each step: the frame rate is kept, and replays agree
   Simulation simulation(std::move(building), std::move(scenario));
   const MemberId post = *NameIndex(simulation.building()).member("P-1-1-1");
 

@@ -6,7 +6,7 @@
 
 #include "factor/vector_versions.h"
 #include "reanalysis/ladder_costs.h"
-#include "topple/solver/paced_work.h"
+#include "reanalysis/work_count.h"
 
 namespace topple::solver {
 namespace {
@@ -173,7 +173,7 @@ void MatrixRows::group_columns(const SparseSymmetric& pattern) {
 
 double MatrixRows::residual(const SparseSymmetric& K, const Eigen::VectorXd& b, const Eigen::VectorXd& x,
                             Eigen::VectorXd& r) {
-  spend(operations_per_nanosecond * residual_cost(static_cast<double>(K.row.size())));
+  count_work(residual_cost(static_cast<double>(K.row.size())));
   r = b;
   size_ = b.cwiseAbs();
   absolute_x_ = x.cwiseAbs();

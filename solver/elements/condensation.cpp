@@ -84,12 +84,6 @@ Eigen::MatrixXd Condensation::kept_columns() const {
   return L;
 }
 
-double Condensation::operations() const {
-  if (!factor_) return 0;
-  const auto kept = static_cast<double>(size_ - inner_);
-  return factor_->fronts().operations + kept * kept * kept;
-}
-
 /// In the order of elimination: inner rows become Lii^-1 fi, kept ones fk - Lki Lii^-1 fi.
 Eigen::VectorXd Condensation::forward(const Eigen::VectorXd& loads) const {
   const Supernodes& fronts = factor_->fronts();

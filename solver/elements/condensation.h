@@ -25,8 +25,6 @@ class Condensation {
 
   /// Of a matrix with that pattern. False when its inner part is not positive definite.
   [[nodiscard]] bool factorise(SparseSymmetric matrix);
-  /// Multiply-adds of one factorise(), predicted.
-  [[nodiscard]] double operations() const;
   /// Of the kept rows, in their order in the matrix.
   [[nodiscard]] const Eigen::MatrixXd& schur() const { return schur_; }
 

@@ -343,7 +343,6 @@ void Superelement::keep(const std::vector<double>& share) {
   s.condense();
 }
 
-double Superelement::operations() const { return state_->condensation.operations(); }
 bool Superelement::stands(int shell) const { return state_->shell_stands[static_cast<std::size_t>(shell)] != 0; }
 bool Superelement::has_shells(int node) const { return state_->shells_at[static_cast<std::size_t>(node)] > 0; }
 const Eigen::MatrixXd& Superelement::stiffness() const { return state_->condensation.schur(); }

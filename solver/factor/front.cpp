@@ -213,8 +213,7 @@ double* FrontWorkspace::reserve(std::size_t entries) {
   return memory_.get();
 }
 
-int eliminate(const Front& front, FrontWorkspace& workspace, TaskTeam* team,
-              const std::function<void(double)>& advanced) {
+int eliminate(const Front& front, FrontWorkspace& workspace, TaskTeam* team) {
   const auto each = [&](int count, auto&& work) {
     if (team != nullptr) {
       team->split(count, work);
@@ -231,17 +230,7 @@ int eliminate(const Front& front, FrontWorkspace& workspace, TaskTeam* team,
     const int done = block.factorise_triangle();
     if (done < std::min(block_columns, front.pivots - from)) return from + done;
     each(block.chunks(), [&](int chunk) { block.solve_chunk(chunk); });
-    // What is left is as the cube of the columns and rows that are left; most of a block's work is its update.
-    const auto left = [&](int column) {
-      const double rows = front.rows, below = front.below(), at = column;
-      return (std::pow(rows - at, 3) - std::pow(below, 3)) / (std::pow(rows, 3) - std::pow(below, 3));
-    };
-    const double before = 1 - left(from), after = 1 - left(std::min(from + block_columns, front.pivots));
-    const int tiles = block.tiles();
-    each(tiles, [&](int tile) {
-      block.update_tile(tile);
-      if (advanced) advanced(before + (after - before) * (tile + 1) / tiles);
-    });
+    each(block.tiles(), [&](int tile) { block.update_tile(tile); });
   }
   return front.pivots;
 }

@@ -1,7 +1,6 @@
 #pragma once
 // Partial Cholesky factorisation of a dense front: its leading columns are eliminated, the rest receives their update.
 #include <cstddef>
-#include <functional>
 #include <memory>
 
 namespace topple::solver {
@@ -46,8 +45,6 @@ class FrontWorkspace {
 
 /// Returns how many columns have been eliminated: all `pivots`, or the index of the first whose pivot is not positive.
 /// `team` (unless null) has its idle threads help; the result is the same to the bit.
-/// `advanced` (unless null) hears again and again what share of the work is done; then `team` has one thread.
-[[nodiscard]] int eliminate(const Front& front, FrontWorkspace& workspace, TaskTeam* team,
-                            const std::function<void(double)>& advanced = {});
+[[nodiscard]] int eliminate(const Front& front, FrontWorkspace& workspace, TaskTeam* team);
 
 }  // namespace topple::solver

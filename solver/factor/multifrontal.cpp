@@ -10,8 +10,6 @@
 #include "factor/panel_substitution.h"
 #include "parallel/each_on_threads.h"
 #include "parallel/task_team.h"
-#include "reanalysis/ladder_costs.h"
-#include "topple/solver/paced_work.h"
 
 namespace topple::solver {
 namespace {
@@ -73,7 +71,6 @@ MultifrontalFactor::MultifrontalFactor(const MultifrontalFactor& other)
       threads_(other.threads_),
       most_columns_(other.most_columns_),
       most_below_(other.most_below_),
-      spends_(other.spends_),
       values_(other.values_.size()),
       failed_(other.failed_.load()) {
   std::copy_n(other.values_.data(), other.values_.size(), values_.data());
@@ -135,18 +132,11 @@ std::int64_t MultifrontalFactor::factorise(const SparseSymmetric& matrix) {
   failed_ = std::numeric_limits<std::int64_t>::max();
   TaskTeam team(items_.size() > 1 && fronts_.operations >= least_parallel ? threads_ : 1);
   std::vector<Worker> workers(static_cast<std::size_t>(team.threads()));
-  const bool in_order = items_.size() == 1;
-  spends_ = in_order;
   team.run_tree(item_parent_, [&](int item, int worker) {
     run_item(static_cast<std::size_t>(item), workers[static_cast<std::size_t>(worker)], matrix, team);
   });
   kept_update_.clear();
   spare_.clear();
-  if (!in_order) {  // as much as in order
-    double sum = 0;
-    for (std::size_t f = 0; f < count && fronts_.first[f] <= failed_.load(); ++f) sum += cost(f);
-    spend(sum);
-  }
   return std::min(failed_.load(), static_cast<std::int64_t>(fronts_.order.size()));
 }
 
@@ -168,10 +158,6 @@ void MultifrontalFactor::run_item(std::size_t item, Worker& worker, const Sparse
   }
 }
 
-double MultifrontalFactor::cost(std::size_t f) const {
-  return whole_operations(operations_per_nanosecond * front_cost(fronts_.front_operations(f)));
-}
-
 bool MultifrontalFactor::process(std::size_t f, bool keep_update, Worker& worker, const SparseSymmetric& matrix,
                                  TaskTeam* team) {
   Front front;
@@ -191,13 +177,7 @@ bool MultifrontalFactor::process(std::size_t f, bool keep_update, Worker& worker
   map_children(f, worker);
   assemble(f, front, worker, 0, front.pivots, team);
   add_entries(f, matrix);
-  double told = 0;
-  const auto tell = [&](double share) {
-    const double now = std::floor(share * cost(f));
-    spend(now - std::exchange(told, now));
-  };
-  const int done = spends_ ? eliminate(front, worker.workspace, team, tell) : eliminate(front, worker.workspace, team);
-  if (spends_) tell(1);
+  const int done = eliminate(front, worker.workspace, team);
   if (done == front.pivots) {
     assemble(f, front, worker, front.pivots, front.rows, team);
     drop_updates(f, worker);
@@ -310,10 +290,6 @@ void MultifrontalFactor::solve(Eigen::Ref<Eigen::MatrixXd> right_hand_sides) con
   constexpr std::int64_t worth_a_thread = 1000000;  // entries of the factor: less is done before a thread has started
   const int threads = fronts_.value_start.back() >= worth_a_thread ? threads_ : 1;
   const Eigen::Index columns = right_hand_sides.cols();
-  const PassCost pass = pass_cost(static_cast<double>(fronts_.value_start.back()));
-  spend(2 * operations_per_nanosecond *
-        (pass.block * fronts_.count() + static_cast<double>(fronts_.value_start.back()) *
-                                            (pass.entry + pass.further * static_cast<double>(columns - 1))));
   const auto groups = static_cast<int>(
       std::max<Eigen::Index>((columns + most_together - 1) / most_together,
                              std::min<Eigen::Index>(threads, (columns + worth_a_group - 1) / worth_a_group)));

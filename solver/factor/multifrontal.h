@@ -47,7 +47,6 @@ class MultifrontalFactor {
   struct Worker;
   void find_items();
   void find_stacks();
-  [[nodiscard]] double cost(std::size_t front) const;
   void run_item(std::size_t item, Worker& worker, const SparseSymmetric& matrix, TaskTeam& team);
   bool process(std::size_t front, bool keep_update, Worker& worker, const SparseSymmetric& matrix, TaskTeam* team);
   void map_children(std::size_t front, Worker& worker) const;
@@ -65,7 +64,6 @@ class MultifrontalFactor {
   std::vector<std::int32_t> item_parent_;
   std::size_t stack_entries_[2] = {0, 0};  ///< most that wait at a time inside of an item, at even and odd depths
   int threads_, most_columns_ = 0, most_below_ = 0;
-  bool spends_ = false;  ///< front by front
   LargeBuffer values_;
   std::vector<double*> update_;           ///< per front, while it waits
   std::vector<LargeBuffer> kept_update_;  ///< per front: of the roots of items

@@ -6,7 +6,7 @@
 #include "factor/few_columns.h"
 #include "factor/panel_substitution.h"
 #include "factor/vector_versions.h"
-#include "topple/solver/paced_work.h"
+#include "reanalysis/work_count.h"
 
 extern "C" {
 void dtrsm_(const char*, const char*, const char*, const char*, const int*, const int*, const double*, const double*,
@@ -263,14 +263,15 @@ void TriangularSolver::mark_paths(std::span<const int> rows, std::vector<char>& 
 
 void TriangularSolver::forward(Eigen::VectorXd& y, const std::vector<char>* marked) const {
   double* below = below_.data();
-  Spending spending;
+  double work = 0;
   for (std::size_t b = 0; b < parent_.size(); ++b) {
     if (marked != nullptr && (*marked)[b] == 0) continue;
-    spending.add(operations_per_nanosecond * pass_cost(static_cast<int>(b)));
+    work += pass_cost(static_cast<int>(b));
     eliminate_few_columns(value_.data() + value_start_[b], static_cast<int>(first_[b + 1] - first_[b]),
                           static_cast<int>(row_start_[b + 1] - row_start_[b]), y.data() + first_[b], 1, below);
     subtract_rows(runs(b), below, y.data());
   }
+  count_work(work);
 }
 
 TriangularSolver::BlockRows TriangularSolver::block(int block) const {
@@ -288,13 +289,14 @@ void TriangularSolver::backward(int block, double* x, const double* below, int c
 
 void TriangularSolver::backward(Eigen::VectorXd& y, const std::vector<char>* marked) const {
   double* below = below_.data();
-  Spending spending;
+  double work = 0;
   for (std::size_t b = parent_.size(); b-- > 0;) {
     if (marked != nullptr && (*marked)[b] == 0) continue;
-    spending.add(operations_per_nanosecond * pass_cost(static_cast<int>(b)));
+    work += pass_cost(static_cast<int>(b));
     take_rows(runs(b), y.data(), below);
     backward(static_cast<int>(b), y.data() + first_[b], below);
   }
+  count_work(work);
 }
 
 /// The block's own rows of all columns, one after the other, in the scratch `together_`; room for the rows below them
@@ -318,10 +320,10 @@ void TriangularSolver::put_own_rows(std::size_t b, Eigen::MatrixXd& y) const {
 
 void TriangularSolver::forward(Eigen::MatrixXd& y, const std::vector<char>* marked) const {
   const auto count = static_cast<int>(y.cols());
-  Spending spending;
+  double work = 0;
   for (std::size_t b = 0; b < parent_.size(); ++b) {
     if (marked != nullptr && (*marked)[b] == 0) continue;
-    spending.add(operations_per_nanosecond * pass_cost(static_cast<int>(b), count));
+    work += pass_cost(static_cast<int>(b), count);
     const auto columns = static_cast<int>(first_[b + 1] - first_[b]);
     const auto rows = static_cast<int>(row_start_[b + 1] - row_start_[b]);
     double* own = own_rows(b, y);
@@ -330,20 +332,22 @@ void TriangularSolver::forward(Eigen::MatrixXd& y, const std::vector<char>* mark
     for (int c = 0; c < count; ++c)
       subtract_rows(runs(b), below_.data() + static_cast<std::ptrdiff_t>(c) * (rows - columns), y.col(c).data());
   }
+  count_work(work);
 }
 
 void TriangularSolver::backward(Eigen::MatrixXd& y, const std::vector<char>* marked) const {
   const auto count = static_cast<int>(y.cols());
-  Spending spending;
+  double work = 0;
   for (std::size_t b = parent_.size(); b-- > 0;) {
     if (marked != nullptr && (*marked)[b] == 0) continue;
-    spending.add(operations_per_nanosecond * pass_cost(static_cast<int>(b), count));
+    work += pass_cost(static_cast<int>(b), count);
     double* own = own_rows(b, y);
     const std::ptrdiff_t below_rows = row_start_[b + 1] - row_start_[b] - (first_[b + 1] - first_[b]);
     for (int c = 0; c < count; ++c) take_rows(runs(b), y.col(c).data(), below_.data() + c * below_rows);
     backward(static_cast<int>(b), own, below_.data(), count);
     put_own_rows(b, y);
   }
+  count_work(work);
 }
 
 void TriangularSolver::forward(std::span<const PathColumns> groups, Eigen::VectorXd* y,
@@ -358,7 +362,7 @@ void TriangularSolver::forward(std::span<const PathColumns> groups, Eigen::Vecto
     return forward(groups.subspan(g));
   }
   next_.assign(groups.size(), 0);
-  Spending spending;
+  double work = 0;
   for (std::size_t b = 0; b < parent_.size(); ++b) {
     // Paths ascend.
     sharing_.clear();
@@ -372,9 +376,10 @@ void TriangularSolver::forward(std::span<const PathColumns> groups, Eigen::Vecto
     if (!along && sharing_.empty()) continue;
     int count = along ? 1 : 0;
     for (const std::size_t g : sharing_) count += static_cast<int>(groups[g].columns->cols());
-    spending.add(operations_per_nanosecond * pass_cost(static_cast<int>(b), count));
+    work += pass_cost(static_cast<int>(b), count);
     forward_block_of(b, groups, along ? y : nullptr);
   }
+  count_work(work);
 }
 
 /// One block, for the groups in sharing_ and y (unless null).

@@ -31,7 +31,6 @@ double dense_cost(double rank, double kept) {
 PassCost pass_cost(double factor_entries) {
   return {entry_cost({factor_entries, 0}) / 2, path_product, solve_block / 2};
 }
-double front_cost(double operations) { return factor_block + factor_operation * operations; }
 double product_cost(double products) { return pair_product * products; }
 double columns_cost(double column_entries, double rank, double places) {
   return column_entry * column_entries + dense_entry * rank * rank + answered_place * places;

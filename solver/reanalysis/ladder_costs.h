@@ -37,8 +37,6 @@ struct PassCost {
   double entry, further, block;
 };
 [[nodiscard]] PassCost pass_cost(double factor_entries);
-/// Of the elimination of one front, in operations.
-[[nodiscard]] double front_cost(double operations);
 /// Of a small dense matrix's factor, as far as it is new, and the estimate of its condition.
 [[nodiscard]] double dense_cost(double rank, double kept);
 /// Of the products of columns' entries, each with each.

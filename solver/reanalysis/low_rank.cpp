@@ -6,7 +6,7 @@
 
 #include "factor/few_columns.h"
 #include "reanalysis/ladder_costs.h"
-#include "topple/solver/paced_work.h"
+#include "reanalysis/work_count.h"
 
 namespace topple::solver {
 namespace {
@@ -74,8 +74,7 @@ void LowRankCorrection::finish_adding(std::span<const PathColumns> also, Eigen::
   for (; finished_ < places_.size(); ++finished_) {
     Eigen::MatrixXd& W = places_[finished_].W;
     constexpr double passes = 4;  // each column against those before it and back, twice
-    spend(operations_per_nanosecond *
-          product_cost(passes / 2 * static_cast<double>(W.size()) * static_cast<double>(W.cols())));
+    count_work(product_cost(passes / 2 * static_cast<double>(W.size()) * static_cast<double>(W.cols())));
     orthonormalise(W, places_[finished_].R);
   }
   if (gram_.rows() < gram_size_) {
@@ -93,8 +92,7 @@ void LowRankCorrection::know_gram(Place& place, const Place& other) {
   while (i > 0 && j > 0 && other.path.block[i - 1] == place.path.block[j - 1]) --i, --j;
   const int shared = other.path.rows() - other.path.offset[i];
   const auto rows = static_cast<int>(other.W.cols());
-  spend(operations_per_nanosecond *
-        product_cost(static_cast<double>(shared) * rows * static_cast<double>(place.W.cols())));
+  count_work(product_cost(static_cast<double>(shared) * rows * static_cast<double>(place.W.cols())));
   for (Eigen::Index c = 0; c < place.W.cols(); ++c) {
     double* product = gram_.col(place.first + c).data() + other.first;
     std::fill(product, product + rows, 0.0);
@@ -220,7 +218,7 @@ void LowRankCorrection::update() {
   softening_ = 1;
   if (active_.empty()) return;
   fill_capacitance(kept);
-  spend(operations_per_nanosecond * dense_cost(active_rank_, kept));
+  count_work(dense_cost(active_rank_, kept));
   capacitance_.factorise();
   for (const int p : active_) places_[static_cast<std::size_t>(p)].factorised = true;
   softening_ = capacitance_.inverse_norm();
@@ -252,7 +250,7 @@ void LowRankCorrection::subtract(const Eigen::Ref<const Eigen::VectorXd>& c, Eig
 
 void LowRankCorrection::correct(Eigen::VectorXd& y) const {
   if (active_.empty()) return;
-  spend(operations_per_nanosecond * columns_cost(entries(), active_rank_, static_cast<double>(active_.size())));
+  count_work(columns_cost(entries(), active_rank_, static_cast<double>(active_.size())));
   // W'y in the first half, D W'y in the second.
   Eigen::Map<Eigen::MatrixXd> c = scratch(coefficients_, active_rank_, 2);
   gather(y, c.col(0));

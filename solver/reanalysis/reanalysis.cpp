@@ -8,7 +8,6 @@
 #include "reanalysis/ladder_costs.h"
 #include "reanalysis/reanalysis_state.h"
 #include "topple/solver/beam_diagram.h"
-#include "topple/solver/paced_work.h"
 
 namespace topple::solver {
 namespace {
@@ -256,7 +255,6 @@ Eigen::MatrixXd Reanalysis::State::forces_on_standing(std::span<const LoadSet> l
 std::vector<Reanalysis::Response> Reanalysis::respond(std::span<const LoadSet> loads) const {
   const State& state = *state_;
   if (loads.empty()) return {};
-  spend(operations_per_nanosecond * nodes_cost(static_cast<double>(loads.size() * state.system->model.nodes.size())));
   std::vector<LoadVector> own;
   std::vector<double> errors;
   const Eigen::MatrixXd u = state.solve_sparse(state.forces_on_standing(loads, own), errors);
@@ -274,7 +272,6 @@ std::vector<Reanalysis::Response> Reanalysis::respond_near(std::span<const LoadS
                                                            std::vector<char>& known) const {
   const State& state = *state_;
   if (loads.empty()) return {};
-  spend(operations_per_nanosecond * nodes_cost(static_cast<double>(loads.size() * state.system->model.nodes.size())));
   std::vector<LoadVector> own;
   std::vector<char> equation_known;
   std::vector<int> ends;

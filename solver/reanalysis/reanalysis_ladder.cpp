@@ -3,7 +3,7 @@
 
 #include "reanalysis/ladder_costs.h"
 #include "reanalysis/reanalysis_state.h"
-#include "topple/solver/paced_work.h"
+#include "reanalysis/work_count.h"
 
 namespace topple::solver {
 namespace {
@@ -52,7 +52,7 @@ double rayleigh_quotient(const SparseSymmetric& K, const Eigen::VectorXd& v) {
 std::optional<Defect> Reanalysis::State::update_structure(const std::vector<int>& touched) {
   const bool stood = structure_stands;
   structure_stands = false;
-  spend(operations_per_nanosecond * changes_cost(static_cast<double>(touched.size())));
+  count_work(changes_cost(static_cast<double>(touched.size())));
   if (!assembled) {
     system->assemble();
     assembled = true;

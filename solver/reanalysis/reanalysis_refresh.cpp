@@ -3,7 +3,6 @@
 
 #include "reanalysis/ladder_costs.h"
 #include "reanalysis/reanalysis_state.h"
-#include "topple/solver/paced_work.h"
 
 namespace topple::solver {
 
@@ -22,7 +21,7 @@ void Reanalysis::State::begin_refresh_if_due() {
   next = std::make_unique<StandingFactor>(*system);
   refresh = std::make_unique<FactorRefresh>(system->matrix(), order, options, refresh_rules.on_worker);
   refresh_paid = 0;
-  refresh_due = refresh_rules.share * operations_per_nanosecond * predicted_cost(factor_work());
+  refresh_due = refresh_rules.share * predicted_cost(factor_work());
 }
 
 /// Waits for the new factor. False: it is of no use.

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "reanalysis/reanalysis_state.h"
-#include "topple/solver/paced_work.h"
 
 namespace topple::solver {
 namespace {
@@ -77,8 +76,6 @@ const std::vector<Vec6>& Reanalysis::State::whole() const {
 
 /// As complete(), beside the answer, to what a restricted one is held to.
 void Reanalysis::State::find_whole() const {
-  constexpr double copied = 2;  // ns
-  spend(operations_per_nanosecond * copied * static_cast<double>(restricted->size()));
   RestrictedAnswer beside = *restricted;
   Eigen::VectorXd u = solution;
   whole_displacements = displacements;

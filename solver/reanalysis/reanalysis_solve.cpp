@@ -5,7 +5,7 @@
 
 #include "reanalysis/ladder_costs.h"
 #include "reanalysis/reanalysis_state.h"
-#include "topple/solver/paced_work.h"
+#include "reanalysis/work_count.h"
 
 namespace topple::solver {
 namespace {
@@ -228,7 +228,7 @@ void Reanalysis::State::improve(const Eigen::VectorXd& force, bool first) {
 
 bool Reanalysis::State::solve_loads() {
   const Eigen::Index n = system->dofs().equations;
-  spend(operations_per_nanosecond * nodes_cost(static_cast<double>(displacements.size())));
+  count_work(nodes_cost(static_cast<double>(displacements.size())));
   scale_force(load.force, scaled_force);
   const Eigen::VectorXd& force = scaled_force;
   if (n == 0) {
@@ -317,10 +317,10 @@ const ReanalysisAnswer& Reanalysis::State::solve(UseWatch* watch) {
     if (watch != nullptr && answer.stable) read_all_uses(*watch);
     return answer;
   }
-  const double before = spent_here();
+  const double before = counted_work();
   take_changes(watch);
   find_answer(watch);
-  refresh_paid += spent_here() - before;
+  refresh_paid += counted_work() - before;
   return answer;
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "topple/solver/paced_work.h"
+#include "reanalysis/work_count.h"
 
 namespace topple::solver {
 namespace {
@@ -125,7 +125,7 @@ void RestrictedAnswer::read_nodes(int block, Answer answer) const {
 void RestrictedAnswer::bring_older(int block, Answer answer) {
   const auto b = static_cast<std::size_t>(block);
   const auto own = solver_->block(block);
-  spend(operations_per_nanosecond * block_by_block * solver_->pass_cost(block));
+  count_work(block_by_block * solver_->pass_cost(block));
   double* behind = behind_.data() + below_start_[b];
   past_.segment(own.first, own.columns) = waiting_.segment(own.first, own.columns);
   solver_->backward(block, past_.data() + own.first, behind);
@@ -176,8 +176,8 @@ void RestrictedAnswer::note(double use) { worst_ = std::max(worst_, use); }
 void RestrictedAnswer::read_uses(int block, UseWatch& watch) {
   constexpr double element = 750;  // ns, of its energy and its uses
   double use = 0;
-  spend(operations_per_nanosecond * element *
-        static_cast<double>(listed(beam_start_, beam_, block).size() + listed(shell_start_, shell_, block).size()));
+  count_work(element * static_cast<double>(listed(beam_start_, beam_, block).size() +
+                                           listed(shell_start_, shell_, block).size()));
   for (const int beam : listed(beam_start_, beam_, block)) use = std::max(use, watch.beam_use(beam));
   for (const int shell : listed(shell_start_, shell_, block)) use = std::max(use, watch.shell_use(shell));
   own_use_[static_cast<std::size_t>(block)] = use;
@@ -213,8 +213,8 @@ void RestrictedAnswer::read_growths(UseWatch& watch) {
   growths_known_ = true;
   for (int block = 0; block < solver_->blocks(); ++block) {
     constexpr double element = 1000;  // ns
-    spend(operations_per_nanosecond * element *
-          static_cast<double>(listed(beam_start_, beam_, block).size() + listed(shell_start_, shell_, block).size()));
+    count_work(element * static_cast<double>(listed(beam_start_, beam_, block).size() +
+                                             listed(shell_start_, shell_, block).size()));
     double& growth = growth_[static_cast<std::size_t>(block)];
     growth = 0;
     for (const int beam : listed(beam_start_, beam_, block)) {
@@ -270,7 +270,7 @@ const std::vector<char>& RestrictedAnswer::begin(std::span<const int> rows, Answ
 /// This change alone, in a block whose ancestors have it.
 void RestrictedAnswer::step_now(int block, const Eigen::VectorXd& y, Answer answer) {
   const auto own = solver_->block(block);
-  spend(operations_per_nanosecond * block_by_block * solver_->pass_cost(block));
+  count_work(block_by_block * solver_->pass_cost(block));
   for (std::size_t i = 0; i < own.below.size(); ++i) below_[i] = change_(own.below[i]);
   change_.segment(own.first, own.columns) = y.segment(own.first, own.columns);
   solver_->backward(block, change_.data() + own.first, below_.data());

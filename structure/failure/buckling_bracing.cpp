@@ -119,7 +119,6 @@ bool BucklingBracing::suspicious(int c) {
 /// From a push sideways without any symmetry of its own.
 BucklingBracing::Iteration BucklingBracing::begin(int c) const {
   Iteration first;
-  first.solves = statics_.solves(c);
   double step = 0;
   for (NodeId node : statics_.nodes(c)) {
     if (node_solved_[index_of(node)] == 0) continue;
@@ -160,6 +159,13 @@ bool BucklingBracing::iterate(int c, Iteration& iteration) const {
   ++iteration.steps;
   return iteration.steps == iterations ||
          (iteration.steps > 3 && std::abs(iteration.quotient - before) < settled * std::abs(iteration.quotient));
+}
+
+double BucklingBracing::quotient(int c) const {
+  Iteration iteration = begin(c);
+  while (!iterate(c, iteration)) {
+  }
+  return iteration.quotient;
 }
 
 std::optional<BuckledPost> BucklingBracing::judge(int c) const {
@@ -307,22 +313,10 @@ bool BucklingBracing::buckles_inside(int c) const {
 }
 
 std::optional<BuckledPost> BucklingBracing::find(int c, bool certain) {
-  auto under_way = iterations_.find(c);
-  if (under_way != iterations_.end() && under_way->second.solves != statics_.solves(c)) {
-    // What stands is another one; what was to be tested is still to be.
-    under_way->second = begin(c);
-  } else if (under_way == iterations_.end()) {
-    ++counters_.screened;
-    if (!suspicious(c) && !certain) return std::nullopt;
-    ++counters_.iterated;
-    if (!certain && !buckles_inside(c)) under_way = iterations_.emplace(c, begin(c)).first;
-  }
-  if (under_way != iterations_.end()) {
-    if (!iterate(c, under_way->second)) return std::nullopt;
-    const double quotient = under_way->second.quotient;
-    iterations_.erase(under_way);
-    if (quotient < suspicious_quotient) return std::nullopt;
-  }
+  ++counters_.screened;
+  if (!suspicious(c) && !certain) return std::nullopt;
+  ++counters_.iterated;
+  if (!certain && !buckles_inside(c) && quotient(c) < suspicious_quotient) return std::nullopt;
   ++counters_.judged;
   std::optional<BuckledPost> buckled = judge(c);
   if (buckled) std::fill(tested_.begin(), tested_.end(), 0.0);

@@ -39,11 +39,8 @@ class BucklingBracing {
                   const PanelBearings& bearings, const std::vector<std::vector<solver::BeamLoad>>& applied,
                   const std::vector<Vec6>& node_applied, const std::vector<char>& node_solved);
 
-  /// Of the state solved last. Nothing: the component is stable, or is still being tested: one step of the iteration at
-  /// a time, so that a budget can spread it. `certain`: the tangent is asked in any case.
+  /// Of the state solved last. Nothing: the component is stable. `certain`: the tangent is asked in any case.
   [[nodiscard]] std::optional<BuckledPost> find(int component, bool certain = false);
-  /// The iteration is under way for this component. It begins anew when what stands was solved again.
-  [[nodiscard]] bool testing(int component) const { return iterations_.contains(component); }
 
   struct Counters {
     int screened = 0, iterated = 0, judged = 0;  ///< components that each sieve was asked about
@@ -58,13 +55,13 @@ class BucklingBracing {
   [[nodiscard]] bool suspicious(int component);
   /// The second-order iteration over the elastic factor, under way.
   struct Iteration {
-    std::uint64_t solves = 0;  ///< what stands was solved so often when it began
     FrameStatics::ResponseLoads loads;
     double quotient = 0;
     int steps = 0;
   };
   [[nodiscard]] Iteration begin(int component) const;
   [[nodiscard]] bool iterate(int component, Iteration& iteration) const;
+  [[nodiscard]] double quotient(int component) const;
   [[nodiscard]] bool buckles_inside(int component) const;
   [[nodiscard]] std::optional<BuckledPost> judge(int component) const;
   /// A compressed post in the critical shape.
@@ -88,9 +85,8 @@ class BucklingBracing {
   const std::vector<char>& node_solved_;
   std::vector<std::vector<MemberId>> members_at_;  ///< per node
   std::vector<std::vector<PanelId>> plates_at_;
-  std::vector<char> supported_;          ///< per node
-  std::vector<double> tested_;           ///< per member: utilisation of the lower bound when it was tested last
-  std::map<int, Iteration> iterations_;  ///< per component
+  std::vector<char> supported_;  ///< per node
+  std::vector<double> tested_;   ///< per member: utilisation of the lower bound when it was tested last
   Counters counters_;
 };
 

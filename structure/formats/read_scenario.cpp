@@ -29,6 +29,10 @@ void take(const JsonValue& object, std::string_view key, Target& target, Read re
 double positive(const JsonValue& value) { return value.positive(); }
 bool boolean(const JsonValue& value) { return value.boolean(); }
 
+/// Why a key that bounded a step is refused.
+constexpr const char* pace_is_the_hosts =
+    "a step computes all that happens in it, and the pace of the steps is the host's; leave the key out";
+
 class ScenarioReader {
  public:
   ScenarioReader(const JsonValue& root, const Building& building, CutPlaces cuts)
@@ -47,10 +51,6 @@ class ScenarioReader {
     if (const auto impact = root_.find("impact")) read_impact(*impact);
     if (const auto debris = root_.find("debris")) read_debris(*debris);
     if (const auto fracture = root_.find("fracture")) scenario_.fracture = read_fracture(*fracture);
-    if (const auto budget = root_.find("budget")) {
-      budget->only({"operations"});
-      scenario_.operations_budget = budget->require("operations").positive();
-    }
     if (const auto events = root_.find("events")) read_events(*events);
     return std::move(scenario_);
   }
@@ -72,7 +72,9 @@ class ScenarioReader {
   }
 
   void read_failure(const JsonValue& failure) {
-    failure.only({"bracing", "mechanism", "generations_per_second", "second_order", "sudden"});
+    if (const auto quota = failure.find("generations_per_second"))
+      quota->fail("nothing limits what may break in a step any more: " + std::string(pace_is_the_hosts));
+    failure.only({"bracing", "mechanism", "second_order", "sudden"});
     FailureRules& rules = scenario_.failure;
     take(failure, "bracing", rules.bracing, [](const JsonValue& v) {
       const std::string_view rule = v.text("\"buckling\", \"classic\" or \"none\"");
@@ -86,7 +88,6 @@ class ScenarioReader {
       if (rule != "hinge" && rule != "detach") v.refuse("\"hinge\" or \"detach\"");
       return rule == "hinge" ? MechanismRule::hinge : MechanismRule::detach;
     });
-    take(failure, "generations_per_second", rules.generations_per_second, positive);
     take(failure, "second_order", rules.second_order, boolean);
     take(failure, "sudden", rules.sudden, [](const JsonValue& v) {
       const double factor = v.number("a number of 1 or above");
@@ -312,8 +313,10 @@ class ScenarioReader {
 std::pair<Building, Scenario> read_document(const JsonDocument& document, const std::filesystem::path& folder) {
   const JsonValue root = document.root();
   if (!root.is_object()) root.refuse("an object");
+  if (const auto budget = root.find("budget"))
+    budget->fail("nothing limits what a step may compute any more: " + std::string(pace_is_the_hosts));
   root.only({"topple", "title", "model", "combination", "step", "duration", "until_rest", "seed", "ground", "failure",
-             "impact", "debris", "fracture", "budget", "events"});
+             "impact", "debris", "fracture", "events"});
   const JsonValue version = root.require("topple");
   if (!version.is_number() || version.number() != 1) version.refuse("1, the version of the format");
   const JsonValue model = root.require("model");

@@ -143,17 +143,12 @@ void Simulation::State::open_panels() {
 }
 
 /// Where the static stress passes what the material bears, a panel cracks at its largest; what that leaves is looked at
-/// in the next step. Panels that a budget leaves out are looked at in later ones, as they are by then.
+/// in the next step.
 void Simulation::State::crack_panels() {
-  // Operations, for budgets: to find the stress of a whole panel, and of one that is broken in part.
-  constexpr double whole_cost = 5e3, broken_cost = 1e6;
-  for (; panels_to_look_at > 0; --panels_to_look_at) {
-    if (scenario.operations_budget && frame->allowance() <= 0) return;
-    const std::size_t p = std::exchange(next_panel, (next_panel + 1) % building.panels.size());
+  for (std::size_t p = 0; p < building.panels.size(); ++p) {
     const BreakablePanel& breakable = breakable_panels[p];
     const PanelId panel(p);
     if (!breakable.settings || !frame->stands(panel)) continue;
-    spend_on_debris(broken_panels.contains(panel) ? broken_cost : whole_cost);
     const std::optional<PanelStress> stress = frame->stress(panel);
     if (!stress) continue;
     const double tension = stress->tension / breakable.tensile_strength;
@@ -170,10 +165,6 @@ void Simulation::State::crack_panels() {
 /// These chunks of a standing panel become bodies at rest; everybody hears of what remains. Returns the bodies of
 /// those that a hit broke out.
 std::vector<collision::BodyId> Simulation::State::break_standing(PanelId panel, std::vector<PanelChunk> chunks) {
-  // Operations, for budgets: everybody hears of what remains.
-  constexpr double remains_cost = 4e6;
-  spend_on_chunks(chunks.size());
-  spend_on_debris(remains_cost);
   const BrokenPanel& left = broken_panels.at(panel);
   const Part part(panel);
   Vec3 sunk = Vec3::Zero();

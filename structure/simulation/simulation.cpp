@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include "simulation/accounts/replay_hash.h"
-#include "simulation/impact/asked_response.h"
 #include "simulation/simulation_state.h"
 #include "simulation/step_clock.h"
 #include "topple/structure/error.h"
@@ -21,12 +20,10 @@ void Simulation::step() {
   if (s.nothing_to_do()) {
     ++s.counters.steps_idle;
   } else {
-    s.begin_budget();
     const auto timed = [&](Stage stage, const auto& work) {
       return s.timer.stage(static_cast<std::size_t>(stage), work);
     };
     timed(Stage::load, [&] { s.use_tools(); });
-    timed(Stage::break_, [&] { s.work_off_blows(); });
     const auto contacts = timed(Stage::sense, [&] { return s.sense(); });
     timed(Stage::load, [&] { s.load(); });
     timed(Stage::break_, [&] {
@@ -86,7 +83,7 @@ Simulation::State::State(Building the_building, Scenario the_scenario, Simulatio
 Simulation::State::~State() = default;
 
 bool Simulation::State::nothing_to_do() const {
-  if (step <= 1 || !asked.empty() || !touches.empty() || waits() || world->awake_count() > 0) return false;
+  if (step <= 1 || !asked.empty() || !touches.empty() || frame->pending() || world->awake_count() > 0) return false;
   const double next = next_instant();
   return next == unlimited || step_of(next, scenario.step) > step;
 }
@@ -152,7 +149,8 @@ std::int64_t Simulation::skip_idle() {
 std::int64_t Simulation::skip_idle_before(std::int64_t end) {
   State& s = *state_;
   std::int64_t passed = 0;
-  if (s.step < 1 || !s.asked.empty() || !s.touches.empty() || s.waits() || s.world->awake_count() > 0) return 0;
+  if (s.step < 1 || !s.asked.empty() || !s.touches.empty() || s.frame->pending() || s.world->awake_count() > 0)
+    return 0;
   const double instant = s.next_instant();
   const std::int64_t next = instant < unlimited ? std::min(end, step_of(instant, s.scenario.step)) : end;
   passed = std::max<std::int64_t>(0, next - 1 - s.step);
@@ -236,7 +234,6 @@ const SimulationCounters& Simulation::counters() const {
   counters.restricted = frame.restricted;
   counters.background_factors = frame.background_factors;
   counters.late_factors = frame.late_factors;
-  counters.operations = frame.operations + state_->debris_operations;
   return counters;
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 // What a Simulation is made of, and its stages. Each stage has a file of its own.
-#include <deque>
 #include <map>
 
 #include "simulation/accounts/stage_timer.h"
@@ -57,33 +56,15 @@ struct Simulation::State {
   [[nodiscard]] bool stays(const BodyMotion& one, const collision::BodyState& state) const;
   void approach(BodyMotion& one, const collision::BodyState& state);
 
-  // asked_response.cpp: what blows must know of what stands.
-  struct AskedResponse;
-  struct Asking {
-    std::span<const collision::Contact* const> contacts;
-    std::span<const ContactPlace> places;
-    std::span<const Vec3> normals;
-  };
-  void finish_awaited();
-  void take_up_awaited(std::vector<collision::Contact>& impacts);
-  [[nodiscard]] AskedResponse* ask_for(const Asking& blow);
-  [[nodiscard]] const AskedResponse* near_response(const Asking& blow);
-  [[nodiscard]] const AskedResponse* full_response(const Asking& blow);
-
   // strike.cpp: the law of impact for one contact with what stands.
   void load();
   void strike_all(const std::vector<collision::Contact>& contacts);
   struct Strike;
-  [[nodiscard]] bool goes_on(const collision::Contact& contact) const;
-  [[nodiscard]] bool goes_on_alone(const collision::Contact& contact) const;
-  void wait(const Strike& hit);
   void strike(const collision::Contact& contact);
   [[nodiscard]] std::optional<Strike> aim(const collision::Contact& contact);
   [[nodiscard]] double rebound(const Indentation& pushing) const;
-  [[nodiscard]] bool bears(Strike& hit, double weight, double punching, const AskedResponse& known);
-  [[nodiscard]] bool pushes_on(const Strike& hit) const;
-  [[nodiscard]] bool takes_share(const Strike& hit) const;
-  [[nodiscard]] bool push_in(Strike& hit, const collision::Contact& contact);
+  [[nodiscard]] bool bears(Strike& hit, double weight, double punching);
+  void push_in(Strike& hit);
   static void tell_loss(Strike& hit);
   void send_on(const Strike& hit);
   void tell_impact(const Strike& hit);
@@ -93,31 +74,13 @@ struct Simulation::State {
   void check_momentum(const Strike& hit, std::span<const PointImpulse> impulses);
   // strike_together.cpp: several of them at one instant.
   struct JointPush;
-  /// Whether contacts are done with, or their body has to wait until more is known, or they push one by one.
-  enum class Together { done, waits, apart };
-  [[nodiscard]] Together strike_together(std::span<const collision::Contact* const> contacts);
+  [[nodiscard]] bool strike_together(std::span<const collision::Contact* const> contacts);
   [[nodiscard]] bool take_up(JointPush& pushed) const;
-  [[nodiscard]] bool bears(JointPush& pushed, double critical_energy);
+  [[nodiscard]] bool bears(JointPush& pushed);
   void push_in(JointPush& pushed);
   void go_on(JointPush& pushed, const Eigen::VectorXd& shift);
   void send_on(JointPush& pushed);
   void break_generations();
-  void settle_generations();
-
-  // operations_budget.cpp
-  /// What takes operations, in the order of a step.
-  enum class Work { blows, generations, debris };
-  void begin_budget();
-  [[nodiscard]] bool may_compute(Work work);
-  void wait_for_turn(Work work);
-  [[nodiscard]] bool waits_for_turn(Work work) const;
-  /// Blows end where something breaks, to go on when it is solved for.
-  [[nodiscard]] bool blows_wait() const { return scenario.operations_budget && !host_strikes; }
-  void at_once(const std::function<void()>& work);
-  void spend_on_debris(double operations);
-  void spend_on_chunks(std::size_t count);
-  void hold_back(collision::BodyId id, collision::BodyState at);
-  void let_go_held_back();
 
   /// Momentum that an impact gave to what it broke off, handed over when that part becomes a body.
   struct Knock {
@@ -196,8 +159,7 @@ struct Simulation::State {
     double radius = 0;       ///< of the ball that hit it
   };
   [[nodiscard]] std::map<PanelId, PanelBlow> blows_on_panels() const;
-  void take_blows(const std::map<PanelId, PanelBlow>& blows);
-  void crumble();
+  void crumble(const std::map<PanelId, PanelBlow>& blows);
   std::vector<Body> break_out_in_flight(PanelId panel, const PanelBlow& blow);
   [[nodiscard]] std::array<bool, 4> held_in_flight(PanelId panel, const Body& one) const;
 
@@ -230,24 +192,14 @@ struct Simulation::State {
     collision::BodyId on;
     std::vector<FreePush> pushes;
     Vec3 spin, gravity;
-    int generation = 0;     ///< of its breaks, so far
-    std::int64_t step = 0;  ///< in which it fell
-    bool broke = false;     ///< joints of it, so that the body is to come apart
-    [[nodiscard]] double size() const {
-      double sum = 0;
-      for (const FreePush& push : pushes) sum += push.force.norm();
-      return sum;
-    }
+    int generation = 0;  ///< of its breaks, so far
   };
   void break_up_landed();
   [[nodiscard]] std::vector<collision::BodyId> hit_hard();
   [[nodiscard]] bool spins_hard(const Body& one, const Vec3& spin) const;
   [[nodiscard]] std::vector<Blow> blows(const std::vector<collision::BodyId>& on) const;
-  void take_blow(Blow blow);
-  void work_off_blows();
-  void hand_on(const Blow& blow, const std::vector<collision::BodyId>& pieces);
-  void pass_on_blow(collision::BodyId from, const std::vector<collision::BodyId>& pieces);
-  bool make_free_segment(const Body& one);
+  [[nodiscard]] std::vector<Blow> handed_on(const Blow& blow, const std::vector<collision::BodyId>& pieces) const;
+  [[nodiscard]] FreeSegment& free_segment_of(const Body& one);
   bool break_joints_of(const Blow& blow);
   std::vector<collision::BodyId> come_apart(collision::BodyId id);
   void tell_broken_in_debris(const Body& one, const std::vector<std::pair<JointId, Utilisation>>& broken,
@@ -287,11 +239,6 @@ struct Simulation::State {
 
   // Small things.
   [[nodiscard]] bool nothing_to_do() const;
-  /// Breaks are still to come, of what stands or of debris.
-  [[nodiscard]] bool waits() const {
-    return frame->pending() || frame->answering() || !waiting_blows.empty() || !landings.empty() ||
-           !panel_blows.empty() || panels_to_look_at > 0;
-  }
   /// When the next event or stage acts; unlimited when none is to come.
   [[nodiscard]] double next_instant() const;
   [[nodiscard]] bool finished() const;
@@ -310,7 +257,6 @@ struct Simulation::State {
   Scenario scenario;
   SimulationOptions options;
   Vec3 gravity;
-  std::unique_ptr<AskedResponse> awaited;  ///< outlives the frame, which may be at work on it
   std::unique_ptr<StandingFrame> frame;
   std::unique_ptr<collision::World> world;
   PartMasses masses;
@@ -336,16 +282,11 @@ struct Simulation::State {
   };
   std::vector<BreakablePanel> breakable_panels;  ///< per panel
   bool any_breakable = false;
-  std::size_t panels_to_look_at = 0, next_panel = 0;  ///< for cracks: how many in turn, from which on
-  std::map<PanelId, BrokenPanel> broken_panels;       ///< those that are broken in part: standing, or whole bodies
+  std::map<PanelId, BrokenPanel> broken_panels;  ///< those that are broken in part: standing, or whole bodies
   std::map<PanelId, std::array<EdgeBearers, 4>> edge_bearers;  ///< looked up when first asked for
 
   std::vector<char> debris_broken;                                     ///< per joint: broke after it had left the frame
   std::map<std::int64_t, std::unique_ptr<FreeSegment>> free_segments;  ///< by body, made when it is first hit hard
-  // What a step, or a budget in earlier ones, left to do.
-  std::deque<Blow> waiting_blows;            ///< one for each body
-  std::map<std::int64_t, Landing> landings;  ///< by body: it is one panel
-  std::map<PanelId, PanelBlow> panel_blows;  ///< on panels of bodies with other parts
 
   std::vector<Knock> knocks;
   /// Where in this step a body that has struck something stands in time: see strike.cpp.
@@ -354,12 +295,6 @@ struct Simulation::State {
     double base = 0;  ///< the same in the body's own time since its state
   };
   std::map<std::int64_t, StruckClock> struck;
-
-  struct HeldBack {
-    Vec3 velocity, angular_velocity;  ///< with which it goes on, as the world reads them
-  };
-  bool host_strikes = false;                   ///< bodies of the host do not wait
-  std::map<std::int64_t, HeldBack> held_back;  ///< bodies whose blows wait for the next step
 
   std::int64_t step = 0;
   std::size_t next_event = 0;
@@ -389,13 +324,6 @@ struct Simulation::State {
   SimulationCounters counters;
   collision::OverlapWatch overlap_watch;
   BodyOverlaps overlaps;
-  double debris_operations = 0;   ///< of free segments and of panels that break, so far
-  std::int64_t budget_step = -1;  ///< that began last
-  struct Turn {
-    std::int64_t waits_since = -1;  ///< step in which the budget refused it
-    std::int64_t asked = -1;        ///< step in which it was asked for last
-  };
-  std::array<Turn, 3> turns;  ///< per kind of work
   StageTimer timer;
   std::vector<BodyView> views;
   std::vector<double> poses;

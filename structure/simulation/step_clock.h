@@ -18,10 +18,4 @@ inline constexpr double event_tolerance = 1e-6;
   return step < 1 ? 1 : step;
 }
 
-/// Generations that step k may run, so that every second has `per_second` of them whatever the step.
-[[nodiscard]] inline int generations_of(std::int64_t step, double dt, double per_second) {
-  const auto until = [&](std::int64_t k) { return std::floor(static_cast<double>(k) * dt * per_second + 1e-9); };
-  return static_cast<int>(until(step) - until(step - 1));
-}
-
 }  // namespace topple::structure

@@ -29,7 +29,6 @@ void Simulation::State::use_tools() {
 
 void Simulation::State::use_at(double instant, const Tool& tool) {
   used_at = instant;
-  finish_awaited();
   std::visit([&](const auto& one) { use(one); }, tool);
 }
 

@@ -167,7 +167,6 @@ class FrameStatics {
 
   [[nodiscard]] solver::ReanalysisCounters counters() const;
   /// Answers of one component so far.
-  [[nodiscard]] std::uint64_t solves(int component) const { return parts(component).analysis->counters().solves; }
 
  private:
   struct Place {

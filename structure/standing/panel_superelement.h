@@ -49,9 +49,7 @@ class PanelSuperelement {
   void release_edge(int edge);
 
   /// Multiply-adds of one condensation, predicted.
-  [[nodiscard]] double operations() const { return patch_->operations(); }
   /// Of its mesh, those that are gone included.
-  [[nodiscard]] std::size_t elements() const { return share_.size(); }
 
   // Of the panel's nodes in the order of Panel::all_nodes(), global axes. A node that the panel let go of, or at which
   // nothing of it is left, has zeros.

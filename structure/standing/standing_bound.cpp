@@ -65,7 +65,6 @@ double StandingFrame::State::critical_energy(int c) const {
   double& least = critical_energies[static_cast<std::size_t>(c)];
   if (least >= 0) return least;
   least = unlimited;
-  spend_on_joints(checked_joints[static_cast<std::size_t>(c)].size());
   for (JointId joint : checked_joints[static_cast<std::size_t>(c)]) {
     if (!holds(joint) || label(joint) < 0) continue;
     const Joint& own = building[joint];
@@ -83,7 +82,6 @@ const std::vector<double>& StandingFrame::State::certain_masses(int c) const {
   std::vector<double>& mass = certain[static_cast<std::size_t>(c)];
   if (!mass.empty()) return mass;
   mass.assign(building.nodes.size(), 0.0);
-  spend_on_joints(statics.members(c).size());
   for (MemberId member : statics.members(c)) {
     if (!stands(member) || !segments.holds(building.joint(member, 0)) || !segments.holds(building.joint(member, 1)))
       continue;

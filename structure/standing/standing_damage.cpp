@@ -143,16 +143,23 @@ void StandingFrame::State::take(const PanelBearings::Changes& changes, std::vect
 void StandingFrame::State::fracture(PanelId panel, const PanelRemains& remains) {
   account.lighten(panel);
   if (!bearings.serves(panel)) return fracture_shell(panel, remains);
-  if (bearings.membrane(panel)) {
-    to_condense.emplace_back(panel, remains);
-    softened = true;
-  }
+  const bool membrane = bearings.membrane(panel);
   bearings.fracture(panel, remains.edge_length);
   const HandOver before = loads.handed(panel);
   loads.fracture(panel, remains);
   account.lightened(panel, before, loads.handed(panel));
   to_check[static_cast<std::size_t>(statics.component(building[panel].nodes[0]))] = 1;
+  if (membrane) condense(panel, remains);
   break_bare_edges(panel, remains);
+}
+
+/// What is left of a membrane's stiffness.
+void StandingFrame::State::condense(PanelId panel, const PanelRemains& remains) {
+  const PanelSuperelement* known = shells.of(panel);
+  const Eigen::MatrixXd before = known ? known->stiffness() : Eigen::MatrixXd(statics.membrane_stiffness(panel));
+  shells.make(panel).fracture(remains);
+  replace_stiffness(panel, before);
+  softened = true;
 }
 
 /// Edges of which nothing is left let go suddenly; what changed slowly is laid before.
@@ -162,35 +169,8 @@ void StandingFrame::State::break_bare_edges(PanelId panel, const PanelRemains& r
     if (holds(building.joint(panel, edge)) && remains.edge_length[static_cast<std::size_t>(edge)] <= 0)
       bare.push_back(building.joint(panel, edge));
   if (bare.empty()) return;
-  lay_contacts_at_once();
+  lay_contacts();
   break_joints(bare, BreakCause::impact);
-}
-
-/// Broken membranes, in the order in which they broke.
-bool StandingFrame::State::condense_broken() {
-  while (!to_condense.empty()) {
-    const PanelId panel = to_condense.front().first;
-    if (!bearings.membrane(panel)) {
-      to_condense.pop_front();
-      continue;
-    }
-    const auto condense = [this, panel] {
-      PanelSuperelement& own = shells.make(panel);
-      spend_on_elements(own.elements());
-      own.fracture(to_condense.front().second);
-    };
-    const auto replace = [this, panel, before = stiffness_of_membrane(panel)] {
-      replace_stiffness(panel, before);
-      to_condense.pop_front();
-    };
-    if (!paced(condense, replace)) return false;
-  }
-  return true;
-}
-
-Eigen::MatrixXd StandingFrame::State::stiffness_of_membrane(PanelId panel) const {
-  if (const PanelSuperelement* own = shells.of(panel)) return own->stiffness();
-  return statics.membrane_stiffness(panel);
 }
 
 void StandingFrame::State::remove(MemberId member) {
@@ -265,6 +245,17 @@ void StandingFrame::State::drop_contacts(const Gone& gone) {
 template void StandingFrame::State::drop_contacts(const MemberId&);
 template void StandingFrame::State::drop_contacts(const NodeId&);
 template void StandingFrame::State::drop_contacts(const PanelId&);
+
+void StandingFrame::State::set_contact(const ContactLoad& load) {
+  if (!stands(load.place)) return;
+  contacts[load.key] = load;
+  if (loads.set_contact(load.key, place(load.place, load.force, load.moment))) pending = true;
+}
+
+void StandingFrame::State::remove_contact(std::int64_t key) {
+  contacts.erase(key);
+  if (loads.remove_contact(key)) pending = true;
+}
 
 void StandingFrame::State::place_contacts_again(PanelId panel) {
   for (const auto& [key, contact] : contacts)

@@ -78,11 +78,7 @@ StandingFrame::State::State(const Building& given, CombinationId combination, co
     read_demands(c, true);
     if (ductile.any(c)) ductile.base_is_answer(c);
     if (!buckling) continue;
-    std::optional<BuckledPost> post;
-    do {
-      post = buckling->find(c, statics.diverged(c));
-    } while (buckling->testing(c));
-    if (post)
+    if (const std::optional<BuckledPost> post = buckling->find(c, statics.diverged(c)))
       throw UnstableModel(building.file + ": post " + (post->post.valid() ? building[post->post].name : "") +
                           " buckles under combination " + building[combination].name + ": the critical factor is " +
                           std::to_string(post->factor));
@@ -178,31 +174,22 @@ bool StandingFrame::stands(NodeId node) const { return state_->stands(node); }
 bool StandingFrame::intact(JointId joint) const { return state_->holds(joint); }
 const Vec6& StandingFrame::displacement(NodeId node) const { return state_->account.displacement(node); }
 Vec6 StandingFrame::demand(JointId joint) const {
-  state_->look();
   state_->know_demands();
   return state_->demand(joint);
 }
 double StandingFrame::largest_utilisation_so_far(JointId joint) const {
-  state_->look();
   state_->know_demands();
   return state_->joints.largest(joint);
 }
-std::optional<PanelStress> StandingFrame::stress(PanelId panel) const {
-  state_->look();
-  return state_->stress(panel);
-}
+std::optional<PanelStress> StandingFrame::stress(PanelId panel) const { return state_->stress(panel); }
 double StandingFrame::elastic_energy() const { return energy().elastic; }
-FrameEnergy StandingFrame::energy() const {
-  state_->look();
-  return state_->account.energy();
-}
+FrameEnergy StandingFrame::energy() const { return state_->account.energy(); }
 double StandingFrame::mass(MemberId member) const { return state_->loads.mass(member); }
 double StandingFrame::mass(PanelId panel) const { return state_->loads.mass(panel); }
 double StandingFrame::node_mass(NodeId node) const { return state_->loads.mass(node); }
 const Building& StandingFrame::building() const { return state_->building; }
 
 Utilisation StandingFrame::utilisation(JointId joint) const {
-  state_->look();
   state_->know_demands();
   const bool counts = state_->building[joint].capacity.breakable && state_->holds(joint) && state_->label(joint) >= 0;
   return counts ? state_->joints.utilisation(joint) : Utilisation{};
@@ -210,12 +197,10 @@ Utilisation StandingFrame::utilisation(JointId joint) const {
 
 Eigen::Matrix<double, 12, 1> StandingFrame::end_forces(MemberId member) const {
   if (!state_->stands(member)) return Eigen::Matrix<double, 12, 1>::Zero();
-  state_->look();
   return state_->statics.end_forces(member);
 }
 
 Vec6 StandingFrame::reaction(NodeId node) const {
-  state_->look();
   Vec6 sum = Vec6::Zero();
   if (!state_->node_solved[index_of(node)]) return sum;
   const auto& supports = state_->building.supports;
@@ -277,7 +262,6 @@ void StandingFrame::add_load(NodeId node, const Vec6& load) {
 void StandingFrame::set_strength_factor(JointId joint, double factor) {
   State& state = *state_;
   if (!state.building[joint].capacity.breakable || state.joints.strength(joint) == factor) return;
-  state.finish_paced();
   if (!(factor > 0)) return break_joint(joint, BreakCause::tool);
   state.joints.set_strength(joint, factor);
   state.statics.forget_uses(state.component(joint));
@@ -290,7 +274,6 @@ void StandingFrame::set_stiffness_factor(MemberId member, double factor) {
   if (!(factor > 0 && factor <= 1)) throw std::invalid_argument("a stiffness factor must be above 0 and at most 1");
   State& state = *state_;
   if (!state.stands(member) || state.statics.stiffness(member) == factor) return;
-  state.finish_paced();
   state.account.soften(member);
   state.statics.set_stiffness(member, factor);
   state.softened = state.pending = true;
@@ -304,78 +287,38 @@ void StandingFrame::restrict_answers_from(int nodes) { state_->restricted_from =
 
 bool StandingFrame::pending() const { return state_->pending; }
 
-void StandingFrame::allow(double operations) { state_->allowance = operations; }
-
-double StandingFrame::allowance() const { return state_->allowance; }
-
-void StandingFrame::yield_after_answers(bool yields) { state_->yields = yields; }
-
-std::vector<JointBreak> StandingFrame::settle(int generations, double operations) {
-  allow(operations);
-  return settle(generations);
-}
-
-bool StandingFrame::lay_loads() {
-  State& state = *state_;
-  if (!state.limited()) return true;  // then whatever needs them lays them
-  return state.go_on() && (state.progress != State::Progress::none || state.lay_contacts());
-}
-
-bool StandingFrame::paced(std::function<void()> work) { return state_->paced(std::move(work)); }
-
-bool StandingFrame::go_on() { return state_->go_on(); }
-
 std::vector<JointBreak> StandingFrame::settle(int generations) {
   State& state = *state_;
-  if (!state.pending && state.pace.done()) {
+  if (!state.pending) {
     ++state.idle_settles;
     return {};
   }
   state.generation = 0;
-  if (state.settle(generations)) state.progress = State::Progress::none;
+  state.settle(generations);
   state.generation = 0;
   state.account.lines_are_out();
   return std::exchange(state.breaks, {});
 }
 
-/// False when it was cut short before what stands is solved for.
-bool StandingFrame::State::settle(int generations) {
-  const bool was_answering = progress == Progress::applied || !pace.done();
-  if (!go_on()) return false;
-  if (progress == Progress::none) {
-    if (!lay_contacts()) return false;
-    progress = Progress::laid;
-    if (used_up()) return false;
-  }
-  if (!queue.empty() && progress != Progress::applied) at_once([&] { know_demands(); });  // of what a tool breaks
-  progress = Progress::applied;
+void StandingFrame::State::settle(int generations) {
+  lay_contacts();
+  if (!queue.empty()) know_demands();  // of what a tool breaks
   for (const Change& change : std::exchange(queue, {})) apply(change);
-  if (!bring_up_to_date()) return false;
-  pending = false;
+  bring_up_to_date();
   for (;;) {
     const std::vector<JointId> next = next_generation();
-    const bool found = !next.empty() || !buckled.empty();
-    if (!found && !test_goes_on && !check_goes_on) return true;
-    // What a test has found is not to be found again at the same cost.
-    const bool enough =
-        found && (generation >= generations || (yields && limited() && (was_answering || generation > 0)));
-    if (enough || check_goes_on || (buckled.empty() && used_up())) {
+    pending = !next.empty() || !buckled.empty();
+    if (!pending) return;
+    if (generation == generations) {
       buckled.clear();  // found again
-      pending = true;
-      return true;
+      return;
     }
-    if (!found) continue;  // a test for buckling goes on
     break_joints(next, BreakCause::overload);
     snap_buckled();
-    if (!bring_up_to_date()) {
-      pending = true;
-      return false;
-    }
+    bring_up_to_date();
     ++generation;
   }
 }
-
-bool StandingFrame::answering() const { return state_->progress == State::Progress::applied || !state_->pace.done(); }
 
 std::vector<JointBreak> StandingFrame::take_yielded() { return std::exchange(state_->yielded, {}); }
 std::vector<Detached> StandingFrame::take_detached() { return std::exchange(state_->detached, {}); }
@@ -386,7 +329,7 @@ StandingFrame::UnitResponse StandingFrame::respond(const ContactPlace& place, co
 
 StandingFrame::CoupledResponse StandingFrame::respond(std::span<const ContactPlace> places,
                                                       std::span<const Vec3> directions) const {
-  return state_->ask([&] { return state_->respond(places, directions); });
+  return state_->respond(places, directions);
 }
 
 StandingFrame::UnitResponse StandingFrame::respond_near(const ContactPlace& place, const Vec3& direction) const {
@@ -395,14 +338,12 @@ StandingFrame::UnitResponse StandingFrame::respond_near(const ContactPlace& plac
 
 StandingFrame::CoupledResponse StandingFrame::respond_near(std::span<const ContactPlace> places,
                                                            std::span<const Vec3> directions) const {
-  return state_->ask([&] { return state_->respond_near(places, directions); });
+  return state_->respond_near(places, directions);
 }
 
 double StandingFrame::critical_energy(const ContactPlace& place) const {
-  return state_->ask([&] {
-    state_->know_demands();
-    return state_->critical_energy(state_->component(place));
-  });
+  state_->know_demands();
+  return state_->critical_energy(state_->component(place));
 }
 
 double StandingFrame::break_in_impact(std::span<const JointBreak> breaks, const ContactPlace& place,
@@ -413,8 +354,7 @@ double StandingFrame::break_in_impact(std::span<const JointBreak> breaks, const 
 Eigen::VectorXd StandingFrame::break_in_impact(std::span<const JointBreak> breaks, std::span<const ContactPlace> places,
                                                std::span<const Vec3> directions) {
   State& state = *state_;
-  state.finish();
-  state.lay_contacts_at_once();
+  state.lay_contacts();
   Eigen::VectorXd shift(static_cast<Eigen::Index>(places.size()));
   for (std::size_t i = 0; i < places.size(); ++i)
     shift(static_cast<Eigen::Index>(i)) =
@@ -422,7 +362,7 @@ Eigen::VectorXd StandingFrame::break_in_impact(std::span<const JointBreak> break
   std::vector<JointId> broken;
   for (const JointBreak& one : breaks) broken.push_back(one.joint);
   state.break_joints(broken, BreakCause::impact);
-  state.bring_up_to_date_at_once();
+  state.bring_up_to_date();
   state.account.lines_are_out();
   // The caller knows its own breaks; what they brought with them is told by the next settle().
   std::erase_if(state.breaks, [](const JointBreak& one) { return one.cause == BreakCause::impact; });
@@ -434,21 +374,6 @@ Eigen::VectorXd StandingFrame::break_in_impact(std::span<const JointBreak> break
   return shift;
 }
 
-void StandingFrame::begin_break_in_impact(std::span<const JointBreak> breaks) {
-  State& state = *state_;
-  state.finish();
-  state.lay_contacts_at_once();
-  std::vector<JointId> broken;
-  for (const JointBreak& one : breaks) broken.push_back(one.joint);
-  state.break_joints(broken, BreakCause::impact);
-  state.segment_numbers.clear();
-  state.release();
-  state.account.lines_are_out();
-  std::erase_if(state.breaks, [](const JointBreak& one) { return one.cause == BreakCause::impact; });
-  state.progress = State::Progress::applied;
-  state.pending = true;
-}
-
 void StandingFrame::expect_fracture(PanelId panel) {
   if (state_->bearings.membrane(panel)) state_->shells.know(panel);
 }
@@ -456,9 +381,7 @@ void StandingFrame::expect_fracture(PanelId panel) {
 void StandingFrame::fracture(PanelId panel, const PanelRemains& remains) {
   State& state = *state_;
   if (!state.stands(panel)) return;
-  state.finish();
   state.fracture(panel, remains);
-  if (!state.limited()) (void)state.condense_broken();
   state.pending = true;
 }
 

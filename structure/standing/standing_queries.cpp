@@ -10,7 +10,6 @@ namespace topple::structure {
 std::vector<std::array<double, 8>> StandingFrame::internal_forces(MemberId member, int intervals) const {
   const State& state = *state_;
   if (!state.stands(member)) return {};
-  state.look();
   const solver::BeamDiagram diagram(state.statics.beam(member), state.statics.end_forces(member),
                                     state.applied[index_of(member)]);
   std::vector<std::array<double, 8>> values;
@@ -28,7 +27,6 @@ Vec6 StandingFrame::node_load(NodeId node) const {
 }
 
 Vec6 StandingFrame::reaction(std::size_t support) const {
-  state_->look();
   const NodeId node = state_->building.supports[support].node;
   return state_->stands(node) ? state_->statics.reaction(support) : Vec6(Vec6::Zero());
 }
@@ -42,7 +40,6 @@ std::vector<ContactLoad> StandingFrame::contact_loads() const {
 
 void StandingFrame::capacity_changed(JointId joint) {
   State& state = *state_;
-  state.finish_paced();
   const int c = state.component(joint);
   std::vector<JointId>& checked = state.checked_joints[static_cast<std::size_t>(c)];
   const auto place = std::lower_bound(checked.begin(), checked.end(), joint);

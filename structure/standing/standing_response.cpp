@@ -152,7 +152,6 @@ StandingFrame::CoupledResponse StandingFrame::State::couple(std::span<const Cont
 
 std::vector<std::pair<JointId, Vec6>> StandingFrame::State::response_demands(
     int c, const PlacedLoad& placed, const FrameStatics::Response& response) const {
-  spend_on_joints(checked_joints[static_cast<std::size_t>(c)].size());
   std::vector<std::pair<JointId, Vec6>> demands;
   Vec6 largest = Vec6::Zero();
   MemberId member_read;
@@ -196,7 +195,6 @@ std::vector<std::pair<JointId, Vec6>> StandingFrame::State::response_demands(
 /// compliance.
 Eigen::MatrixXd StandingFrame::State::inertia(int c, std::span<const Shape> shapes) const {
   const auto n = static_cast<Eigen::Index>(shapes.size());
-  spend_on_joints((statics.members(c).size() + component_panels[static_cast<std::size_t>(c)].size()) * shapes.size());
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n, n);
   std::vector<MemberId> bearing;
   for (const Shape& shape : shapes)

@@ -10,28 +10,15 @@ namespace topple::structure {
 
 /// Contact loads and softening come on slowly: their change moves R0 as much as R, so that no sudden-loss factor acts
 /// on them.
-bool StandingFrame::State::lay_contacts() {
-  if (!condense_broken()) return false;
-  if (!laying) {
-    if (!loads.changed() && !softened) return true;
-    softened = false;
-    write_loads();
-    laying = true;
-  }
+void StandingFrame::State::lay_contacts() {
+  if (!loads.changed() && !softened) return;
+  softened = false;
+  write_loads();
   for (int c = 0; c < statics.components(); ++c) {
     if (!statics.changed(c)) continue;
-    const auto lay = [this, c] {
-      complete(c);  // what changed suddenly before is read as such
-      mechanism_found = solve_slow(c);
-    };
-    if (!paced(lay, [this, c] { laid(c, mechanism_found.has_value()); })) return false;
+    complete(c);  // what changed suddenly before is read as such
+    laid(c, solve_slow(c).has_value());
   }
-  laying = false;
-  return true;
-}
-
-void StandingFrame::State::lay_contacts_at_once() {
-  at_once([&] { (void)lay_contacts(); });
 }
 
 void StandingFrame::State::laid(int c, bool mechanism) {
@@ -54,37 +41,12 @@ bool StandingFrame::State::bears(int c) const {
   });
 }
 
-void StandingFrame::State::bring_up_to_date_at_once() {
-  at_once([&] { (void)bring_up_to_date(); });
-}
-
-std::size_t StandingFrame::State::parts_leaving() const {
-  std::size_t sum = 0;
-  for (const Detached& part : detached) sum += part.members.size() + part.panels.size();
-  return sum;
-}
-
-/// Where many parts leave they are handed out before anything is solved for; factors and answers are found one after
-/// the other. Where there is a mechanism, the structure as it is has no answer to stop at.
-bool StandingFrame::State::bring_up_to_date() {
-  constexpr std::size_t many = 6;  // to make bodies of them takes about as long as to solve
+void StandingFrame::State::bring_up_to_date() {
   segment_numbers.clear();
-  if (!condense_broken()) return false;
-  for (;;) {
-    const std::size_t left = parts_leaving();
+  do {
     release();
     write_loads();
-    if (parts_leaving() > left + many && limited()) return false;
-    const Solved end = solve_changed();
-    if (end == Solved::yes) return true;
-    if (end == Solved::under_way || used_up()) return false;  // what moves is cut free, and leaves next
-  }
-}
-
-/// What a settle() that was cut short left to do.
-void StandingFrame::State::finish() {
-  if (!pace.done() || progress == Progress::applied) bring_up_to_date_at_once();
-  progress = Progress::none;
+  } while (!solve_changed());
 }
 
 void StandingFrame::State::write_loads() {
@@ -103,8 +65,8 @@ void StandingFrame::State::write_loads() {
   }
 }
 
-/// Where a mechanism was found its moving part was cut free: then it is to be released and solved again.
-StandingFrame::State::Solved StandingFrame::State::solve_changed() {
+/// False: a mechanism was found, and its moving part was cut free: it is to be released, and what stands solved again.
+bool StandingFrame::State::solve_changed() {
   bool moves = false;
   for (int c = 0; c < statics.components(); ++c) {
     if (!statics.changed(c)) continue;
@@ -112,11 +74,11 @@ StandingFrame::State::Solved StandingFrame::State::solve_changed() {
       statics.forget(c);
       continue;
     }
-    const auto find = [this, c] { mechanism_found = solve(c); };
-    if (!paced(find, [this, c] { solved(c, mechanism_found); })) return Solved::under_way;
-    moves = moves || mechanism_found.has_value();
+    const std::optional<FrameMechanism> mechanism = solve(c);
+    solved(c, mechanism);
+    moves = moves || mechanism.has_value();
   }
-  return moves ? Solved::mechanism : Solved::yes;
+  return !moves;
 }
 
 void StandingFrame::State::solved(int c, const std::optional<FrameMechanism>& mechanism) {
@@ -197,7 +159,6 @@ void StandingFrame::State::know_demands() {
 /// The rest of what solve() read.
 void StandingFrame::State::complete(int c) {
   if (!statics.partial(c)) return;
-  spend_on_joints(checked_joints[static_cast<std::size_t>(c)].size());
   demands_behind[static_cast<std::size_t>(c)] = 0;
   Watch watch(*this);
   statics.complete(c, watch);
@@ -207,7 +168,6 @@ void StandingFrame::State::complete(int c) {
 }
 
 void StandingFrame::State::read_demands(int c, bool slow) {
-  spend_on_joints(2 * checked_joints[static_cast<std::size_t>(c)].size());
   forget_bounds(c);
   MemberId member_read;
   solver::Vec12 end_forces;
@@ -253,32 +213,14 @@ std::vector<JointId> StandingFrame::State::next_generation() {
   std::vector<JointId> next;
   std::vector<double> largest;
   std::vector<std::pair<JointId, double>> over;
-  // What is known to break goes first.
-  const auto comes_later = [&] { return limited() && !(next.empty() && buckled.empty()); };
   const auto rests = [&](int c) {
-    if (comes_later()) return;
-    switch (buckles(c)) {
-      case Tested::stands:
-        return come_to_rest(c);
-      case Tested::under_way:
-        check_goes_on = true;
-        return;
-      case Tested::buckles:
-        return;
-    }
+    if (!buckles(c)) come_to_rest(c);
   };
-  test_goes_on = check_goes_on = false;
   for (int c = 0; c < statics.components(); ++c) {
     if (!to_check[static_cast<std::size_t>(c)]) continue;
-    Way way = Way::unyielding;
-    at_once([&] { way = follow_yielding(c, next); });
-    if (way == Way::breaking) {
-      continue;
-    } else if (way == Way::resting) {
-      rests(c);
-      if (check_goes_on) return {};
-      continue;
-    }
+    const Way way = follow_yielding(c, next);
+    if (way == Way::resting) rests(c);
+    if (way != Way::unyielding) continue;
     largest.assign(static_cast<std::size_t>(segments.labels()), 0.0);
     over.clear();
     const std::vector<JointId>& all = checked_joints[static_cast<std::size_t>(c)];
@@ -292,11 +234,7 @@ std::vector<JointId> StandingFrame::State::next_generation() {
       over.emplace_back(joint, used);
       largest[static_cast<std::size_t>(segment)] = std::max(largest[static_cast<std::size_t>(segment)], used);
     }
-    if (over.empty() && statics.partial(c) && comes_later()) continue;
-    if (over.empty() && statics.partial(c) && !paced([this, c] { complete(c); })) {
-      check_goes_on = true;
-      return {};
-    }
+    if (over.empty()) complete(c);
     if (over.empty() || !one_segment(c)) {
       bool moved = false;
       for (JointId joint : all) {
@@ -308,30 +246,18 @@ std::vector<JointId> StandingFrame::State::next_generation() {
     for (const auto& [joint, used] : over)
       if (used >= (1 - same_time) * largest[static_cast<std::size_t>(label(joint))]) next.push_back(joint);
     if (over.empty()) rests(c);
-    if (check_goes_on) return {};
   }
   std::sort(next.begin(), next.end());
   return next;
 }
 
 /// A post of the component gives way sideways in the static answer: it is to break next.
-StandingFrame::State::Tested StandingFrame::State::buckles(int c) {
-  if (!buckling) return Tested::stands;
-  const std::uint64_t solves = statics.counters().solves;
-  if (tested.component != c || tested.solves != solves) {
-    const auto test = [this, c] { tested.post = buckling->find(c, statics.diverged(c)); };
-    tested.component = c;
-    tested.solves = solves;
-    if (!paced(test)) return Tested::under_way;
-  }
-  const std::optional<BuckledPost> post = std::exchange(tested, {}).post;
-  if (buckling->testing(c)) {
-    test_goes_on = true;
-    return Tested::buckles;
-  }
-  if (!post || !post->post.valid()) return Tested::stands;
+bool StandingFrame::State::buckles(int c) {
+  if (!buckling) return false;
+  const std::optional<BuckledPost> post = buckling->find(c, statics.diverged(c));
+  if (!post || !post->post.valid()) return false;
   buckled.push_back(*post);
-  return Tested::buckles;
+  return true;
 }
 
 /// At a joint, or where the post is cut in two.

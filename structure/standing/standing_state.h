@@ -1,8 +1,6 @@
 #pragma once
 // What a StandingFrame is made of, and its inner steps: damage goes to every part that must know (damage), what lost
 // its hold leaves (release), changed components are solved (solve), joints are checked (check).
-#include <deque>
-#include <functional>
 #include <map>
 #include <utility>
 #include <variant>
@@ -18,7 +16,6 @@
 #include "standing/energy_account.h"
 #include "standing/frame_statics.h"
 #include "standing/panel_superelements.h"
-#include "topple/solver/paced_work.h"
 #include "topple/structure/standing_frame.h"
 
 namespace topple::structure {
@@ -90,9 +87,7 @@ struct StandingFrame::State {
   void take(const PanelBearings::Changes& changes, std::vector<Detached>* parts);
   void fracture(PanelId panel, const PanelRemains& remains);
   void break_bare_edges(PanelId panel, const PanelRemains& remains);
-  /// Of membranes that broke: what is left of their stiffness, before anything is solved for.
-  [[nodiscard]] bool condense_broken();
-  [[nodiscard]] Eigen::MatrixXd stiffness_of_membrane(PanelId panel) const;
+  void condense(PanelId panel, const PanelRemains& remains);
   void remove(MemberId member);
   void remove(PanelId panel);
   template <class Gone>
@@ -109,66 +104,14 @@ struct StandingFrame::State {
   void release_mechanism(const FrameMechanism& mechanism);
   void let_hang(JointId joint);
 
-  // Pace (standing_pace.cpp).
-  /// Runs `work`, which changes nothing that anybody outside of the solver and the joints looks at, and `then`. False:
-  /// `work` took more than the allowance; it goes on, and `then` follows, in go_on().
-  [[nodiscard]] bool paced(std::function<void()> work, std::function<void()> then = {});
-  /// False: the allowance is used up, and the same work is under way still.
-  [[nodiscard]] bool go_on();
-  /// There is no end to the allowance while `work` runs, after what is under way; what both spend beyond it is owed.
-  template <class Work>
-  void at_once(const Work& work) {
-    finish_paced();
-    const double left = std::exchange(allowance, unlimited);
-    const double spent = counted(work);
-    allowance = left - spent;
-  }
-  void finish_paced();
-  static void spend_on_joints(std::size_t count);
-  static void spend_on_elements(std::size_t count);
-  void bill(double operations) {
-    counters.operations += operations;
-    allowance -= operations;
-  }
-  /// Returns what it spends, which the counters have once. What runs at a pace is counted as it is paid for.
-  template <class Work>
-  double counted(const Work& work) const {
-    const bool here = !pace.runs_here();
-    const double before = solver::spent_here();
-    if (here) ++counting;
-    work();
-    if (here) --counting;
-    const double spent = solver::spent_here() - before;
-    if (here && counting == 0) counters.operations += spent;
-    return spent;
-  }
-  /// For whoever asks from outside: what is under way is run to its end, and goes on to be paid for.
-  void look() const { pace.run_out(); }
-  /// The same, and then something is computed that counts, but is paid for by nobody.
-  template <class Work>
-  auto ask(const Work& work) const {
-    look();
-    decltype(work()) answer;
-    counted([&] { answer = work(); });
-    return answer;
-  }
-  [[nodiscard]] bool limited() const { return allowance < unlimited; }
-  [[nodiscard]] bool used_up() const { return allowance <= 0; }
-
   // Solve.
-  /// False: it is under way. So of all that return bool below, where nothing else is said.
-  [[nodiscard]] bool lay_contacts();
-  void lay_contacts_at_once();
+  void lay_contacts();
   void laid(int component, bool mechanism);
   [[nodiscard]] bool bears(int component) const;
-  [[nodiscard]] bool bring_up_to_date();
-  void bring_up_to_date_at_once();
-  [[nodiscard]] bool settle(int generations);
-  void finish();
-  [[nodiscard]] std::size_t parts_leaving() const;
+  void bring_up_to_date();
+  void settle(int generations);
   void write_loads();
-  enum class Solved { yes, mechanism, under_way };
-  [[nodiscard]] Solved solve_changed();
+  [[nodiscard]] bool solve_changed();
   void solved(int component, const std::optional<FrameMechanism>& mechanism);
   [[nodiscard]] std::optional<FrameMechanism> solve(int component);
   [[nodiscard]] std::optional<FrameMechanism> solve_slow(int component);
@@ -204,8 +147,7 @@ struct StandingFrame::State {
   // Check.
   [[nodiscard]] std::vector<JointId> next_generation();
   void come_to_rest(int component);
-  enum class Tested { stands, buckles, under_way };
-  [[nodiscard]] Tested buckles(int component);
+  [[nodiscard]] bool buckles(int component);
   void snap_buckled();
   void cut_in_two(MemberId post, double inside);
 
@@ -253,17 +195,8 @@ struct StandingFrame::State {
   DuctileJoints ductile;
   std::optional<ClassicBracing> bracing;
   std::optional<BucklingBracing> buckling;
-  std::vector<BuckledPost> buckled;       ///< to break next
-  std::map<MemberId, double> cut_inside;  ///< posts that are about to leave, cut in two
-  bool test_goes_on = false;              ///< whether a post buckles is not known yet
-  /// What a test for buckling found that the allowance cut in two, of the state solved for the so manieth time.
-  struct TestedPost {
-    int component = -1;
-    std::uint64_t solves = 0;
-    std::optional<BuckledPost> post;
-  };
-  TestedPost tested;
-  bool check_goes_on = false;                          ///< which joints break next is not known yet
+  std::vector<BuckledPost> buckled;                    ///< to break next
+  std::map<MemberId, double> cut_inside;               ///< posts that are about to leave, cut in two
   std::vector<char> node_solved;                       ///< per node: the solver still holds it
   std::vector<std::vector<solver::BeamLoad>> applied;  ///< per member: loads that the solver has
   std::vector<Vec6> node_applied;                      ///< per node
@@ -281,22 +214,8 @@ struct StandingFrame::State {
   std::vector<int> solved_nodes;  ///< per component: nodes that the solver still holds
 
   std::vector<Change> queue;
-  std::deque<std::pair<PanelId, PanelRemains>> to_condense;  ///< membranes that broke
   bool pending = false;
-  /// How far a settle() came that operations limit: contact loads are laid; what changed is applied, and what stands
-  /// is not solved for.
-  enum class Progress { none, laid, applied };
-  Progress progress = Progress::none;
-  bool softened = false;         ///< stiffness factors changed since the last solve
-  bool laying = false;           ///< contact loads are written, and not all components solved for them
-  mutable int counting = 0;      ///< depth of counted()
-  double allowance = unlimited;  ///< operations that may still be spent
-  bool yields = false;           ///< to others, after each answer
-  mutable solver::PacedWork pace;
-  std::function<void()> after_pace;
-  std::optional<FrameMechanism> mechanism_found;  ///< by what runs at a pace
-  /// Changes of contact loads that wait for it.
-  std::vector<std::pair<std::int64_t, std::optional<ContactLoad>>> waiting_loads;
+  bool softened = false;  ///< stiffness factors changed since the last solve
   std::map<std::int64_t, ContactLoad> contacts;
   std::vector<char> in_mechanism;   ///< per member: it moves, and is about to leave
   std::vector<MemberId> half_held;  ///< members that have just lost one end

@@ -170,7 +170,6 @@ inline RandomCollapse random_collapse(std::uint64_t seed) {
   scenario.duration = 600;
   scenario.ground = 0;
   scenario.seed = seed;
-  if (random.below(4) == 0) scenario.operations_budget = random.from(1e4, 1e7);
   if (random.below(4) == 0) scenario.debris.limit = 5 + random.below(20);
   const Vec3 size((nx - 1) * bay, (ny - 1) * bay, storeys * height);
   const int tools = 1 + random.below(4);

@@ -125,7 +125,7 @@ def acting():
     for button in ([818, 322], [818, 389]):  # the picture, all pictures
         yield {"at": 1.2, "click": button}
     yield {"at": 1.25, "gravity": 4}
-    yield {"at": 1.3, "restart": {"bracing": "classic", "mechanism": "detach", "sudden": 1.5, "generations_per_second": 120,
+    yield {"at": 1.3, "restart": {"bracing": "classic", "mechanism": "detach", "sudden": 1.5,
                                   "second_order": True, "fracture": "voronoi", "cell": 1.5, "materials": {"steel": 0.9}}}
     yield {"at": 1.35, "fire": {"pixel": middle, "speed": 60, "mass": 500, "radius": 0.4}}
     yield seen(2.0, "by_other_rules.png")

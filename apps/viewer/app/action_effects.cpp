@@ -50,7 +50,6 @@ RunRules rules_of(const RestartAction& restart, const Scene& scene) {
   rules.failure.bracing = restart.bracing.value_or(rules.failure.bracing);
   rules.failure.mechanism = restart.mechanism.value_or(rules.failure.mechanism);
   rules.failure.sudden = restart.sudden.value_or(rules.failure.sudden);
-  rules.failure.generations_per_second = restart.generations_per_second.value_or(rules.failure.generations_per_second);
   rules.failure.second_order = restart.second_order.value_or(rules.failure.second_order);
   if (restart.panels_stay_whole) rules.fracture.reset();
   if (restart.fracture) {

@@ -33,7 +33,7 @@ class Value {
       refuse("unknown key '" + key + "'; accepted: " + accepted);
     }
   }
-  [[nodiscard]] bool has(const std::string& key) const { return value_.contains(key); }
+  [[nodiscard]] bool has(const std::string& key) const { return value_.is_object() && value_.contains(key); }
   [[nodiscard]] Value operator[](const std::string& key) const {
     if (!value_.is_object() || !value_.contains(key)) refuse("'" + key + "' is missing");
     return {value_[key], place_ + "." + key};
@@ -139,14 +139,16 @@ RestartAction restart_of(const Value& value) {
   constexpr std::array bracings{"buckling", "classic", "none"};
   constexpr std::array methods{"voronoi", "quadrilateral", "local", "none"};
   constexpr std::array mechanisms{"hinge", "detach"};
-  value.only(
-      {"bracing", "mechanism", "sudden", "generations_per_second", "second_order", "fracture", "cell", "materials"});
+  if (value.has("generations_per_second"))
+    value["generations_per_second"].refuse(
+        "nothing limits what may break in a step any more: a step computes all that happens in it, and the pace of the "
+        "steps is the host's; leave the key out");
+  value.only({"bracing", "mechanism", "sudden", "second_order", "fracture", "cell", "materials"});
   RestartAction restart;
   if (value.has("bracing")) restart.bracing = static_cast<structure::BracingRule>(value["bracing"].choice(bracings));
   if (value.has("mechanism"))
     restart.mechanism = static_cast<structure::MechanismRule>(value["mechanism"].choice(mechanisms));
   if (value.has("sudden")) restart.sudden = value["sudden"].positive();
-  if (value.has("generations_per_second")) restart.generations_per_second = value["generations_per_second"].positive();
   if (value.has("second_order")) restart.second_order = value["second_order"].yes_or_no();
   if (value.has("fracture")) {
     const std::size_t method = value["fracture"].choice(methods);

@@ -64,7 +64,7 @@ struct GoOnAction {};
 struct RestartAction {
   std::optional<structure::BracingRule> bracing;
   std::optional<structure::MechanismRule> mechanism;
-  std::optional<double> sudden, generations_per_second, cell;
+  std::optional<double> sudden, cell;
   std::optional<bool> second_order;
   bool panels_stay_whole = false;
   std::optional<fracture::Method> fracture;

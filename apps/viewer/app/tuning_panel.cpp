@@ -121,7 +121,6 @@ void TuningPanel::rules(Controller& controller) {
   if (!rules_) rules_ = RunRules{controller.scene().scenario.failure, controller.scene().scenario.fracture, nullptr};
   structure::FailureRules& failure = rules_->failure;
   slider("sudden loss", failure.sudden, 1, 2, "x %.2f", ImGuiSliderFlags_None);
-  slider("generations", failure.generations_per_second, 10, 2000, "%.0f / s");
   int bracing = static_cast<int>(failure.bracing);
   constexpr const char* bracings[] = {"buckling", "classic", "none"};
   if (ImGui::Combo("bracing", &bracing, bracings, IM_ARRAYSIZE(bracings)))

@@ -18,16 +18,15 @@ void Simulation::State::book() {
   book_contacts();
   pull_hinges();
   for (BodyMotion& one : bodies.motions()) book_body(one);
-  let_go_held_back();
   auto next = bodies.motions().begin();  // asked for in order of id
   resting.read(felt_contacts, obstacles, scenario.step, [&](collision::BodyId id) {
     while (next != bodies.motions().end() && next->id < id.value) ++next;
     return next != bodies.motions().end() && next->id == id.value && !world->state(id).asleep;
   });
   shatter_landed();
-  take_blows(blows_on_panels());
+  const std::map<PanelId, PanelBlow> blows = blows_on_panels();
   break_up_landed();
-  crumble();
+  crumble(blows);
   keep_limit();  // some may have fallen asleep
   update_views();
 }
@@ -123,7 +122,7 @@ void Simulation::State::tell_changes(std::span<const std::int64_t> before) {
 }
 
 bool Simulation::State::rests() const {
-  return step > 0 && world->awake_count() == 0 && !waits() && asked.empty() && touches.empty() &&
+  return step > 0 && world->awake_count() == 0 && !frame->pending() && asked.empty() && touches.empty() &&
          next_instant() == unlimited;
 }
 

@@ -31,8 +31,6 @@ struct Body {
   JointId end_joint;                           ///< a piece of a member that was cut in two: the joint of its end
   std::shared_ptr<const fracture::Mesh> mesh;  ///< a chunk: as it is drawn, in the same axes
   Bounds bounds;                               ///< in the undeformed building, about `rest.centre`
-  Part pushed;                                 ///< what it was pushing when a budget cut the push,
-  std::int64_t pushed_in_step = -1;            ///< and the step in which that was
   std::vector<Part> near;  ///< what may stand where it was looked over, and had no shape in the collision world
 };
 

@@ -2,9 +2,9 @@
 // most over first, and it falls apart into parts that move on as the whole did: momentum, linear and angular, and
 // kinetic energy go over exactly.
 //
-// One analysis answers for a body, however many members it has. Blows that a budget leaves undone wait, in the order in
-// which they came.
+// One analysis answers for a body, however many members it has.
 #include <algorithm>
+#include <deque>
 
 #include "simulation/debris/momentum.h"
 #include "simulation/impact/first_failure.h"
@@ -20,8 +20,6 @@ namespace {
 constexpr double hard = 3;
 /// Joints within this share of the most used break together: symmetric ones differ by rounding only.
 constexpr double same_time = 1e-6;
-/// Operations, for budgets: to make a body of a part, with its shapes.
-constexpr double part_cost = 1.5e6;
 }  // namespace
 
 bool Simulation::State::holds_in_debris(JointId joint) const {
@@ -98,7 +96,7 @@ std::vector<Simulation::State::Blow> Simulation::State::blows(const std::vector<
   for (const collision::BodyId id : on) {
     const collision::BodyState state = world->state(id);
     const Mat3 back = state.pose.orientation.toRotationMatrix().transpose();
-    all.push_back({id, {}, back * state.angular_velocity, back * gravity, 0, step});
+    all.push_back({id, {}, back * state.angular_velocity, back * gravity});
   }
   const auto feel = [&](collision::BodyId id, std::int64_t tag, const Vec3& impulse, const Vec3& point) {
     if (tag < 0 || impulse.isZero(0)) return;
@@ -119,74 +117,52 @@ std::vector<Simulation::State::Blow> Simulation::State::blows(const std::vector<
   return all;
 }
 
+/// One generation of each body after the other, until nothing breaks.
 void Simulation::State::break_up_landed() {
-  if (world->awake_count() > 0)
-    for (Blow& blow : blows(hit_hard())) take_blow(std::move(blow));
-  work_off_blows();
-}
-
-/// Of two blows on a body that waits for a budget, the harder one counts.
-void Simulation::State::take_blow(Blow blow) {
-  const auto waiting =
-      std::find_if(waiting_blows.begin(), waiting_blows.end(), [&](const Blow& other) { return other.on == blow.on; });
-  if (waiting == waiting_blows.end())
-    waiting_blows.push_back(std::move(blow));
-  else if (waiting->generation == 0 && !waiting->broke && blow.size() > waiting->size())
-    *waiting = std::move(blow);
-}
-
-/// One generation of each after the other, as far as the budget goes and generations of their step do.
-void Simulation::State::work_off_blows() {
-  while (!waiting_blows.empty()) {
-    const std::int64_t id = waiting_blows.front().on.value;
-    const Body* one = body({id});
-    if (one && !may_compute(Work::debris)) return;
-    Blow& first = waiting_blows.front();
-    const int generations = generations_of(first.step, scenario.step, scenario.failure.generations_per_second);
-    if (one && !first.broke && first.generation < generations) {
-      if (make_free_segment(*one) && !may_compute(Work::debris)) return;
-      first.broke = break_joints_of(first);
-    }
-    const bool comes_apart = one && first.broke;
-    if (comes_apart && !may_compute(Work::debris)) return;
-    const Blow blow = std::move(waiting_blows.front());
-    waiting_blows.pop_front();
-    if (comes_apart) hand_on(blow, come_apart(blow.on));
+  if (world->awake_count() == 0) return;
+  std::vector<Blow> fallen = blows(hit_hard());
+  std::deque<Blow> waiting(std::make_move_iterator(fallen.begin()), std::make_move_iterator(fallen.end()));
+  while (!waiting.empty()) {
+    const Blow blow = std::move(waiting.front());
+    waiting.pop_front();
+    if (!break_joints_of(blow)) continue;
+    for (Blow& part : handed_on(blow, come_apart(blow.on))) waiting.push_back(std::move(part));
   }
 }
 
 /// The blow is that of the parts it fell on; all go on to spin as the whole did.
-void Simulation::State::hand_on(const Blow& blow, const std::vector<collision::BodyId>& pieces) {
+std::vector<Simulation::State::Blow> Simulation::State::handed_on(const Blow& blow,
+                                                                  const std::vector<collision::BodyId>& pieces) const {
+  std::vector<Blow> parts;
   for (const collision::BodyId id : pieces) {
     const Body& own = bodies.at(id.value);
     if (!may_fall_apart(own)) continue;
-    Blow part{id, {}, blow.spin, blow.gravity, blow.generation + 1, blow.step};
+    Blow part{id, {}, blow.spin, blow.gravity, blow.generation + 1};
     for (const FreePush& push : blow.pushes)
       if (push.member.valid() ? std::binary_search(own.members.begin(), own.members.end(), push.member)
                               : std::find(own.panels.begin(), own.panels.end(), push.panel) != own.panels.end())
         part.pushes.push_back(push);
-    if (!part.pushes.empty() || spins_hard(own, blow.spin)) waiting_blows.push_back(std::move(part));
+    if (!part.pushes.empty() || spins_hard(own, blow.spin)) parts.push_back(std::move(part));
   }
+  return parts;
 }
 
-/// False when there is one.
-bool Simulation::State::make_free_segment(const Body& one) {
+FreeSegment& Simulation::State::free_segment_of(const Body& one) {
   std::unique_ptr<FreeSegment>& segment = free_segments[one.id.value];
-  if (segment) return false;
-  segment = std::make_unique<FreeSegment>(
-      building, parts_of(one), [&](JointId joint) { return holds_in_debris(joint); },
-      [&](PanelId shell) { return frame->shell_stiffness(shell); }, [&](PanelId panel) { return flying_edges(panel); });
-  spend_on_debris(segment->take_operations());
-  return true;
+  if (!segment)
+    segment = std::make_unique<FreeSegment>(
+        building, parts_of(one), [&](JointId joint) { return holds_in_debris(joint); },
+        [&](PanelId shell) { return frame->shell_stiffness(shell); },
+        [&](PanelId panel) { return flying_edges(panel); });
+  return *segment;
 }
 
 /// One generation of a body's breaks. False when nothing broke.
 bool Simulation::State::break_joints_of(const Blow& blow) {
   const Body& one = bodies.at(blow.on.value);
-  FreeSegment& segment = *free_segments.at(blow.on.value);
+  FreeSegment& segment = free_segment_of(one);
   if (!segment.can_break()) return false;
   const FreeSegment::Answer answer = segment.bear(blow.pushes, blow.spin, blow.gravity);
-  spend_on_debris(segment.take_operations());
   std::vector<std::pair<JointId, Utilisation>> over;
   double largest = 1;
   for (const auto& [joint, demand] : answer.demands) {
@@ -224,17 +200,6 @@ void Simulation::State::tell_broken_in_debris(const Body& one,
     line.position = state.pose.position + turn * (joint_position(joint) - one.rest.centre);
     tell(line);
   }
-}
-
-/// One that waited on a body that fell apart for another reason.
-void Simulation::State::pass_on_blow(collision::BodyId from, const std::vector<collision::BodyId>& pieces) {
-  const auto waiting =
-      std::find_if(waiting_blows.begin(), waiting_blows.end(), [&](const Blow& blow) { return blow.on == from; });
-  if (waiting == waiting_blows.end()) return;
-  Blow blow = std::move(*waiting);
-  waiting_blows.erase(waiting);
-  --blow.generation;  // hand_on() counts one
-  hand_on(blow, pieces);
 }
 
 /// Replaces the body by its parts, each with the velocity of its centre in the whole.
@@ -297,10 +262,8 @@ std::vector<collision::BodyId> Simulation::State::split(collision::BodyId id,
     go_on(std::move(own));
   }
   const std::size_t parts_made = made.size();
-  spend_on_debris(part_cost * static_cast<double>(parts_made));
   for (Body& chunk : chunks) go_on(std::move(chunk));
   ledger.momentum_error = std::max(ledger.momentum_error, carried.error(handed_on));
-  pass_on_blow(id, made);
   hang_again(hung);
   // Parts are born inside each other where they were joined.
   for (std::size_t i = 0; i < parts_made; ++i)

@@ -2,7 +2,7 @@
 // again and its change of momentum is handed back.
 #include <cmath>
 
-#include "simulation/impact/asked_response.h"
+#include "simulation/simulation_state.h"
 #include "topple/structure/error.h"
 
 namespace topple::structure {
@@ -80,12 +80,7 @@ void Simulation::State::strike_by_host(const HostContact& contact, Part part, Ho
   };
   const Body& striking = bodies.at(id.value);
   const Kinetic before = kinetic_energy(striking, world->state(id), reading());
-  finish_awaited();
-  at_once([&] {
-    host_strikes = true;
-    strike_all({touch});
-    host_strikes = false;
-  });
+  strike_all({touch});
   const collision::BodyState after = now();
   const Kinetic left = kinetic_energy(striking, world->state(id), reading());
   body_work_put_in += before.translation + before.rotation - left.translation - left.rotation;

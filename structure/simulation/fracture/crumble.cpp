@@ -79,7 +79,6 @@ std::vector<Body> Simulation::State::break_out_in_flight(PanelId panel, const Pa
   BrokenPanel& left = breaking(panel);
   const int before = left.chunks_out();
   std::vector<PanelChunk> chunks = left.hit(blow.at, blow.radius > 0 ? std::optional(blow.radius) : std::nullopt);
-  spend_on_chunks(chunks.size());
   if (chunks.empty()) return {};
   if (holding != left.held())
     for (PanelChunk& loose : left.hold(holding)) chunks.push_back(std::move(loose));
@@ -91,20 +90,12 @@ std::vector<Body> Simulation::State::break_out_in_flight(PanelId panel, const Pa
   return pieces;
 }
 
-void Simulation::State::take_blows(const std::map<PanelId, PanelBlow>& blows) {
-  for (const auto& [panel, blow] : blows)
-    if (PanelBlow& hardest = panel_blows[panel]; blow.force > hardest.force) hardest = blow;
-}
-
-void Simulation::State::crumble() {
+void Simulation::State::crumble(const std::map<PanelId, PanelBlow>& blows) {
   std::map<std::int64_t, std::vector<Body>> chunks;  // by the body that they leave
-  while (!panel_blows.empty()) {
-    const auto [panel, blow] = *panel_blows.begin();
+  for (const auto& [hit, blow] : blows) {
+    const PanelId panel = hit;
     const std::int64_t id = body_of_part[static_cast<std::size_t>(part_number(building, Part(panel)))];
-    const bool flies = bodies.contains(id);
-    if (flies && !may_compute(Work::debris)) break;
-    panel_blows.erase(panel);
-    if (!flies) continue;
+    if (!bodies.contains(id)) continue;
     // What lies frozen on it could not go with any one chunk.
     if (std::any_of(frozen.begin(), frozen.end(), [&](const Frozen& lying) { return lying.on == Part(panel); }))
       continue;

@@ -84,7 +84,6 @@ std::vector<collision::BodyId> Simulation::State::shatter(collision::BodyId id, 
                                        : break_panel(building, panel, one.rest.mass, shapes.corners(panel), at, radius,
                                                      *breakable_panels[static_cast<std::size_t>(panel.index)].settings);
   out = 0;
-  spend_on_chunks(chunks.size());
   if (chunks.empty()) return {};
   tell(SimulationEvent::Kind::panel_fractured, building[panel].name).position = point;
   (void)resting.forget(id, *frame, false);
@@ -169,9 +168,10 @@ void Simulation::State::shatter_struck(collision::BodyId id) {
   }
 }
 
-/// Panels that came down hard in this step, and those that a budget made wait.
+/// Panels that came down hard in this step.
 void Simulation::State::shatter_landed() {
   if (!any_breakable) return;
+  std::map<std::int64_t, Landing> landings;  // by body
   std::vector<std::int64_t> awake;
   for (const std::int64_t id : bodies.single_panels())
     if (!bodies.motion(id).asleep && breakable_of(bodies.at(id)).valid()) awake.push_back(id);
@@ -193,18 +193,11 @@ void Simulation::State::shatter_landed() {
       feel(contact.body, contact);
       if (contact.other.kind == collision::Touched::Kind::body) feel(contact.other.body, contact);
     }
-  bool any = false;
-  while (!landings.empty()) {
-    const auto [id, landing] = *landings.begin();
-    if (bodies.contains(id)) {
-      if (!may_compute(Work::debris)) break;
-      std::size_t out = 0;
-      (void)shatter({id}, world->state({id}).pose * landing.at, std::nullopt, out);
-      any = true;
-    }
-    landings.erase(id);
+  for (const auto& [id, landing] : landings) {
+    std::size_t out = 0;
+    (void)shatter({id}, world->state({id}).pose * landing.at, std::nullopt, out);
   }
-  if (any) keep_limit();
+  if (!landings.empty()) keep_limit();
 }
 
 }  // namespace topple::structure

@@ -40,10 +40,6 @@ Vec3 start_of(const Building& building, const Member& member) {
   return building[member.nodes[0]].position + member.offsets[0];
 }
 
-/// Operations, for budgets: to number, order and assemble, for each node and member; to load a member and read what its
-/// joints bear; and to ask at all.
-constexpr double making_cost = 1e5, reading_cost = 4e4, asking_cost = 3e5;
-
 }  // namespace
 
 FreeSegment::FreeSegment(const Building& building, FreeSegmentParts parts, const std::function<bool(JointId)>& holds,
@@ -108,10 +104,8 @@ FreeSegment::FreeSegment(const Building& building, FreeSegmentParts parts, const
   const bool member_asked = breakable && parts_.members.size() > 1;
   if (!(member_asked || shell_asked) || held_at < 0) return;
   model_.supports.push_back({held_at, Vec6::Constant(solver::rigid)});
-  operations_ = making_cost * static_cast<double>(model_.nodes.size() + model_.beams.size());
   try {
     analysis_ = std::make_unique<solver::StaticAnalysis>(model_);
-    operations_ += analysis_->statistics().factor_operations;
   } catch (const solver::Instability&) {
     // It can move within itself: its joints are spared by that motion.
   }
@@ -352,9 +346,6 @@ FreeSegment::Answer FreeSegment::bear(std::span<const FreePush> pushes, const Ve
   std::optional<solver::StaticSolution> solution;
   if (analysis_) {
     solution = analysis_->solve({&loads, 1}).front();
-    // Forward, backward and a residual.
-    operations_ += asking_cost + 6 * static_cast<double>(analysis_->statistics().factor_entries) +
-                   reading_cost * static_cast<double>(parts_.members.size());
     answer.imbalance = largest > 0 ? solution->reactions.front().head<3>().norm() / largest : 0;
     std::map<MemberId, std::size_t> number;
     for (std::size_t i = 0; i < parts_.members.size(); ++i) number[parts_.members[i]] = i;

@@ -53,8 +53,6 @@ class FreeSegment {
   };
   /// `spin` and `gravity` in the axes of the undeformed building. Only when it can break.
   [[nodiscard]] Answer bear(std::span<const FreePush> pushes, const Vec3& spin, const Vec3& gravity);
-  /// Predicted, of all that was solved since the last call; making the segment included.
-  [[nodiscard]] double take_operations() { return std::exchange(operations_, 0.0); }
 
  private:
   [[nodiscard]] int node_at(NodeId node);
@@ -91,7 +89,6 @@ class FreeSegment {
   double mass_ = 0;
   Vec3 centre_ = Vec3::Zero();
   Mat3 inertia_ = Mat3::Zero();
-  double operations_ = 0;
   std::unique_ptr<solver::StaticAnalysis> analysis_;
 };
 

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "simulation/debris/momentum.h"
-#include "simulation/impact/asked_response.h"
 #include "simulation/impact/first_failure.h"
 #include "simulation/impact/strike.h"
 #include "simulation/step_clock.h"
@@ -38,8 +37,6 @@ std::vector<const collision::Contact*> at_one_instant(std::span<const collision:
 }  // namespace
 
 void Simulation::State::load() {
-  // What a budget cut short goes on under the loads that it began with: others would take its place in every step.
-  if (scenario.operations_budget && (frame->pending() || frame->answering())) return;
   counters.contacts_ignored += resting.lay(*frame, strength_factors, [&](collision::BodyId id) {
     const Body* one = body(id);
     return one ? one->rest.mass * gravity.norm() : 0.0;
@@ -53,43 +50,25 @@ void Simulation::State::strike_all(const std::vector<collision::Contact>& contac
     if (contact.other.kind != collision::Touched::Kind::obstacle) continue;
     if (!contact.persistent || contact.approach_speed > resting_speed) impacts.push_back(contact);
   }
-  take_up_awaited(impacts);
   std::vector<char> done(impacts.size(), 0);
   for (std::size_t i = 0; i < impacts.size(); ++i) {
     if (done[i] != 0) continue;
     const std::vector<const collision::Contact*> together = at_one_instant(impacts, i);
-    if (together.size() > 1 && !goes_on_alone(impacts[i]) && strike_together(together) != Together::apart) {
+    if (together.size() > 1 && strike_together(together)) {
       for (const collision::Contact* one : together) done[static_cast<std::size_t>(one - impacts.data())] = 1;
     } else {
       strike(impacts[i]);
     }
   }
-  if (!frame->answering()) awaited.reset();  // whatever was known is used, or of no use
-}
-
-/// Something was asked for that is known now, or more of it is to be.
-bool Simulation::State::goes_on(const collision::Contact& contact) const {
-  return awaited && awaited->contacts.front().body == contact.body && !frame->answering();
-}
-
-/// What was asked for its sake is not for several contacts.
-bool Simulation::State::goes_on_alone(const collision::Contact& contact) const {
-  return goes_on(contact) && awaited->contacts.size() == 1;
 }
 
 void Simulation::State::strike(const collision::Contact& contact) {
   std::optional<Strike> hit = aim(contact);
   if (!hit) return;
-  if (!(goes_on(contact) || may_compute(Work::blows)) || !push_in(*hit, contact)) return wait(*hit);
-  awaited.reset();
+  push_in(*hit);
   send_on(*hit);
   push_chunks(*hit);
   tell_impact(*hit);
-}
-
-void Simulation::State::wait(const Strike& hit) {
-  if (pushes_on(hit)) hit.body->pushed_in_step = step;
-  hold_back(hit.body->id, hit.state);
 }
 
 void Simulation::State::tell_impact(const Strike& hit) {
@@ -109,7 +88,7 @@ void Simulation::State::tell_impact(const Strike& hit) {
 std::optional<Simulation::State::Strike> Simulation::State::aim(const collision::Contact& contact) {
   const Part part = obstacles.part_of(contact.other.obstacle);
   Body* hitting = body(contact.body);
-  if (!part.valid() || !hitting || !stands(part) || held_back.contains(hitting->id.value)) return std::nullopt;
+  if (!part.valid() || !hitting || !stands(part)) return std::nullopt;
   // What was sensed may have been broken out since.
   if (const BrokenPanel* left = part.panel.valid() ? broken_panel(part.panel) : nullptr)
     if (obstacles.obstacle_of(part) != contact.other.obstacle && !left->holds(contact.point)) return std::nullopt;
@@ -149,27 +128,17 @@ double Simulation::State::rebound(const Indentation& pushing) const {
   return -scenario.impact.restitution * pushing.elastic_rebound_speed();
 }
 
-/// A push that a budget cut in two and that goes on here.
-bool Simulation::State::pushes_on(const Strike& hit) const {
-  return hit.body->pushed == hit.part && hit.body->pushed_in_step == step - 1;
-}
-
-/// What is hit takes its share of the speed once.
-bool Simulation::State::takes_share(const Strike& hit) const {
-  return scenario.impact.structure_mass && !pushes_on(hit);
-}
-
 /// Whether what is hit provably bears the push: the joints that bear it directly do not fail, and the energy is less
 /// than any other joint fails at. A lower bound of the mass that takes part makes the push harder than it is, so what
 /// is told of it (peak force, speed out) is a bound as well. Most impacts of debris end here, at a part of the cost.
-bool Simulation::State::bears(Strike& hit, double weight, double punching, const AskedResponse& known) {
+bool Simulation::State::bears(Strike& hit, double weight, double punching) {
   constexpr double rounding = 1e-6;
-  const StandingFrame::UnitResponse& near = known.near->places.front();
-  const double mass = takes_share(hit) ? near.rayleigh_mass : 0;
+  const StandingFrame::UnitResponse near = frame->respond_near(hit.place, hit.normal);
+  const double mass = scenario.impact.structure_mass ? near.rayleigh_mass : 0;
   Indentation pushing(hit.mass, hit.speed, weight, mass);
   const FirstFailure own = first_failure(*frame, near, strength_factors, unlimited);
   if (pushing.push(near.compliance, std::min(own.force, punching)) != Indentation::Stop::stood) return false;
-  if (pushing.stored(near.compliance) > (1 - rounding) * known.critical_energy) return false;
+  if (pushing.stored(near.compliance) > (1 - rounding) * frame->critical_energy(hit.place)) return false;
   hit.structure_mass = mass;
   hit.speed_out = rebound(pushing);
   hit.peak_force = pushing.peak_force();
@@ -177,31 +146,18 @@ bool Simulation::State::bears(Strike& hit, double weight, double punching, const
   return true;
 }
 
-/// The pushing, break after break, until the body stops or nothing is left to push. False: what it must know first is
-/// being found.
-bool Simulation::State::push_in(Strike& hit, const collision::Contact& contact) {
-  const collision::Contact* touching_there = &contact;
-  const Asking blow{{&touching_there, 1}, {&hit.place, 1}, {&hit.normal, 1}};
+/// The pushing, break after break, until the body stops or nothing is left to push.
+void Simulation::State::push_in(Strike& hit) {
   const double weight = hit.mass * gravity.dot(hit.normal);
   double punching = punching_force(hit);
   // A fast blow goes through whatever the joints bear.
   if (const double left = speed_through(hit, punching); left > 0) {
-    if (punch_at_once(hit, punching, left)) {
-      tell_loss(hit);
-      return true;
-    }
-  } else if (!pushes_on(hit)) {
-    const AskedResponse* near = near_response(blow);
-    if (near == nullptr) return false;
-    if (bears(hit, weight, punching, *near)) {
-      tell_loss(hit);
-      return true;
-    }
+    if (punch_at_once(hit, punching, left)) return tell_loss(hit);
+  } else if (bears(hit, weight, punching)) {
+    return tell_loss(hit);
   }
-  const AskedResponse* known = full_response(blow);
-  if (known == nullptr) return false;
-  StandingFrame::UnitResponse response = known->full->places.front();
-  hit.structure_mass = takes_share(hit) ? response.rayleigh_mass : 0;
+  StandingFrame::UnitResponse response = frame->respond(hit.place, hit.normal);
+  hit.structure_mass = scenario.impact.structure_mass ? response.rayleigh_mass : 0;
   Indentation pushing(hit.mass, hit.speed, weight, hit.structure_mass);
   for (;;) {
     const FirstFailure first = first_failure(*frame, response, strength_factors, unlimited);
@@ -222,15 +178,9 @@ bool Simulation::State::push_in(Strike& hit, const collision::Contact& contact) 
       continue;
     }
     const double stored = pushing.stored(response.compliance);
-    double shift = 0;
-    if (blows_wait())
-      frame->begin_break_in_impact(first.joints);
-    else
-      shift = frame->break_in_impact(first.joints, hit.place, hit.normal);
+    const double shift = frame->break_in_impact(first.joints, hit.place, hit.normal);
     hit.through = !stands(hit.part);
-    const bool slips = std::abs(shift) > largest_shift;
-    hit.waits = !hit.through && !slips && blows_wait();
-    const bool ends = hit.through || slips || hit.waits;
+    const bool ends = hit.through || std::abs(shift) > largest_shift;
     if (!ends) {
       pushing.shift(shift);
       response = frame->respond(hit.place, hit.normal);
@@ -248,7 +198,6 @@ bool Simulation::State::push_in(Strike& hit, const collision::Contact& contact) 
   }
   hit.peak_force = std::max(hit.peak_force, pushing.peak_force());
   tell_loss(hit);
-  return true;
 }
 
 void Simulation::State::tell_loss(Strike& hit) {
@@ -288,15 +237,9 @@ void Simulation::State::move_on(const Strike& hit, collision::BodyState after, s
     after.pose.position -= after.velocity * t + gravity * (t * t / 2);
     after.pose.orientation = turned(after.pose.orientation, -after.angular_velocity * t);
   }
-  if (hit.waits) {
-    hit.body->pushed = hit.part;
-    hit.body->pushed_in_step = step;
-    hold_back(hit.body->id, after);
-  } else {
-    after.velocity = reading().to_world(after.velocity);
-    after.asleep = false;
-    world->set_state(hit.body->id, after);
-  }
+  after.velocity = reading().to_world(after.velocity);
+  after.asleep = false;
+  world->set_state(hit.body->id, after);
   check_momentum(hit, impulses);
 }
 
@@ -306,11 +249,6 @@ void Simulation::State::check_momentum(const Strike& hit, std::span<const PointI
   given.add(*hit.body, hit.state);
   for (const PointImpulse& one : impulses) given.add_impulse(one.impulse, one.point);
   collision::BodyState now = world->state(hit.body->id);
-  if (hit.waits) {
-    const HeldBack& goes_on = held_back.at(hit.body->id.value);
-    now.velocity = goes_on.velocity;
-    now.angular_velocity = goes_on.angular_velocity;
-  }
   now.velocity = reading().true_velocity(now.velocity);
   if (hit.through) now.velocity += gravity * hit.own_time;
   now.pose = hit.state.pose;
@@ -319,24 +257,15 @@ void Simulation::State::check_momentum(const Strike& hit, std::span<const PointI
 }
 
 void Simulation::State::break_generations() {
-  if (!frame->pending() && step > 1 && panels_to_look_at == 0) return;
-  if (awaited) return wait_for_turn(Work::generations);
-  if (!may_compute(Work::generations)) return;
-  if (frame->pending() || step == 1) settle_generations();
-  if (!frame->answering()) crack_panels();
-}
-
-void Simulation::State::settle_generations() {
-  frame->yield_after_answers(waits_for_turn(Work::blows));
-  const int generations = generations_of(step, scenario.step, scenario.failure.generations_per_second);
-  const std::vector<JointBreak> breaks = frame->settle(generations);
+  if (!frame->pending() && step > 1) return;
+  const std::vector<JointBreak> breaks = frame->settle();
   for (const JointBreak& line : frame->take_yielded()) {
     SimulationEvent& event = tell(SimulationEvent::Kind::joint_yielded, building[line.joint].name);
     event.joint = line;
     event.position = line.position;
   }
   for (const JointBreak& broken : breaks) tell(broken);
-  if (!frame->answering() && any_breakable) panels_to_look_at = building.panels.size();
+  if (any_breakable) crack_panels();
 }
 
 }  // namespace topple::structure

@@ -17,7 +17,6 @@ struct Simulation::State::Strike {
   double peak_force = 0;
   double structure_mass = 0, lost = 0;
   bool through = false;  ///< what was hit is gone
-  bool waits = false;    ///< for the next step, where it goes on
   std::vector<JointBreak> breaks;
   std::vector<collision::BodyId> chunks;  ///< that it broke out of a standing panel
 };

@@ -6,7 +6,6 @@
 #include <map>
 
 #include "simulation/debris/momentum.h"
-#include "simulation/impact/asked_response.h"
 #include "simulation/impact/coupled_push.h"
 #include "simulation/impact/first_failure.h"
 #include "simulation/impact/push_impulses.h"
@@ -144,19 +143,17 @@ struct Simulation::State::JointPush {
   }
 };
 
-/// Apart when they are better taken one after the other, or are no impacts any more; nothing has happened then.
-Simulation::State::Together Simulation::State::strike_together(std::span<const collision::Contact* const> contacts) {
+/// False when they are better taken one after the other, or are no impacts any more; nothing has happened then.
+bool Simulation::State::strike_together(std::span<const collision::Contact* const> contacts) {
   JointPush pushed;
-  std::vector<const collision::Contact*> touching;
   for (const collision::Contact* contact : contacts) {
     std::optional<Strike> hit = aim(*contact);
     if (!hit) continue;
-    if (punching_force(*hit) < unlimited) return Together::apart;  // what breaks out of a panel leaves alone
+    if (punching_force(*hit) < unlimited) return false;  // what breaks out of a panel leaves alone
     pushed.hits.push_back(std::move(*hit));
-    touching.push_back(contact);
   }
   std::vector<Strike>& hits = pushed.hits;
-  if (hits.size() < 2 || !(goes_on(*touching.front()) || may_compute(Work::blows))) return Together::apart;
+  if (hits.size() < 2) return false;
   for (Strike& hit : hits) {
     hit.state = hits.front().state;
     hit.own_time = hits.front().own_time;
@@ -164,28 +161,19 @@ Simulation::State::Together Simulation::State::strike_together(std::span<const c
     pushed.normals.push_back(hit.normal);
   }
   // What is known at little cost tells of most pushes that they are borne, and of some that they are taken one by one.
-  const Asking blow{touching, pushed.places, pushed.normals};
-  const AskedResponse* known = near_response(blow);
-  if (known != nullptr) {
-    pushed.response = *known->near;
-    if (!take_up(pushed)) return Together::apart;
-    if (bears(pushed, known->critical_energy)) {
-      ++counters.impacts_bounded;
-    } else if ((known = full_response(blow)) != nullptr) {
-      pushed.response = *known->full;
-      if (!take_up(pushed)) return Together::apart;
-      push_in(pushed);
-    }
+  pushed.response = frame->respond_near(pushed.places, pushed.normals);
+  if (!take_up(pushed)) return false;
+  if (bears(pushed)) {
+    ++counters.impacts_bounded;
+  } else {
+    pushed.response = frame->respond(pushed.places, pushed.normals);
+    if (!take_up(pushed)) return false;
+    push_in(pushed);
   }
-  if (known == nullptr) {
-    wait(hits.front());
-    return Together::waits;
-  }
-  awaited.reset();
   ++counters.impacts_together;
   send_on(pushed);
   for (const Strike& hit : hits) tell_impact(hit);
-  return Together::done;
+  return true;
 }
 
 /// The push against what is known of the structure. False when the places are better taken one after the other.
@@ -200,7 +188,7 @@ bool Simulation::State::take_up(JointPush& pushed) const {
   pushed.pushed_at.clear();
   for (const Strike& hit : hits) pushed.pushed_at.push_back({hit.place.point, hit.normal});
   Eigen::MatrixXd share;
-  if (takes_share(hits.front())) {
+  if (scenario.impact.structure_mass) {
     const Eigen::MatrixXd stiffness = pushed.response.compliance.inverse();
     share = stiffness * pushed.response.inertia * stiffness;
     for (std::size_t i = 0; i < hits.size(); ++i) hits[i].structure_mass = pushed.response.places[i].rayleigh_mass;
@@ -211,14 +199,15 @@ bool Simulation::State::take_up(JointPush& pushed) const {
 
 /// As for one place (strike.cpp): the joints that bear the push directly do not fail under its peaks, and the strain
 /// energy, at most that of all peaks at once, is less than any other joint fails at. Then the push is done.
-bool Simulation::State::bears(JointPush& pushed, double critical_energy) {
+bool Simulation::State::bears(JointPush& pushed) {
   constexpr double rounding = 1e-6;
   CoupledPush borne = *pushed.push;
   const CoupledPush::Stop end = borne.push();
   const Eigen::VectorXd& peak = borne.peak_force();
   if (!WatchedJoints(*frame, pushed.response.places, strength_factors, peak).empty()) return false;
   const double stored = peak.dot(pushed.response.compliance.cwiseAbs() * peak) / 2;
-  if (stored > (1 - rounding) * critical_energy) return false;
+  for (const ContactPlace& place : pushed.places)
+    if (stored > (1 - rounding) * frame->critical_energy(place)) return false;
   pushed.leave(std::move(borne), end, scenario.impact.restitution);
   return true;
 }
@@ -235,11 +224,7 @@ void Simulation::State::push_in(JointPush& pushed) {
       return pushed.leave(CoupledPush(push), end, scenario.impact.restitution);
     const std::vector<JointBreak> breaks = watched.failing(push.force());
     const double stored = push.stored();
-    Eigen::VectorXd shift = Eigen::VectorXd::Zero(std::ssize(pushed.places));
-    if (blows_wait())
-      frame->begin_break_in_impact(breaks);
-    else
-      shift = frame->break_in_impact(breaks, pushed.places, pushed.normals);
+    const Eigen::VectorXd shift = frame->break_in_impact(breaks, pushed.places, pushed.normals);
     bool stays = false, slips = false;
     for (std::size_t i = 0; i < pushed.hits.size(); ++i) {
       Strike& hit = pushed.hits[i];
@@ -248,8 +233,7 @@ void Simulation::State::push_in(JointPush& pushed) {
       stays = stays || push.touches(i);
       slips = slips || std::abs(shift(static_cast<Eigen::Index>(i))) > largest_shift;
     }
-    const bool waits = stays && !slips && blows_wait();
-    const bool ends = !stays || slips || waits;
+    const bool ends = !stays || slips;
     if (!ends) go_on(pushed, shift);
     const double freed = ends ? stored : std::max(0.0, stored - push.stored());
     for (JointBreak broken : breaks) {
@@ -258,7 +242,6 @@ void Simulation::State::push_in(JointPush& pushed) {
       pushed.hits.front().breaks.push_back(broken);
     }
     if (ends) {
-      pushed.hits.front().waits = waits;
       pushed.rates_out = push.rates();
       return;
     }

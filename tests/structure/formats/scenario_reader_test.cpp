@@ -14,9 +14,9 @@ namespace {
 const std::string scenario_text = R"({
   "topple": 1, "title": "Corner post hit", "model": "seed_building", "combination": "collapse",
   "step": 0.01, "duration": 2000, "until_rest": false, "seed": 7, "ground": -0.5,
-  "failure": {"bracing": "none", "mechanism": "detach", "generations_per_second": 120, "second_order": false, "sudden": 1.5},
+  "failure": {"bracing": "none", "mechanism": "detach", "second_order": false, "sudden": 1.5},
   "impact": {"restitution": 0.2, "structure_mass": false},
-  "debris": {"friction": 0.5, "restitution": 0.3, "limit": 100, "smallest_volume": 0.01}, "budget": {"operations": 5e8},
+  "debris": {"friction": 0.5, "restitution": 0.3, "limit": 100, "smallest_volume": 0.01},
   "events": [
     {"at": 4.0, "charge": {"centre": [0, 0, 1], "radius": 3, "strength": [0.25, 0.75]}},
     {"at": 1.0, "projectile": {"from": [-20, 0, 2], "velocity": [60, 0, 0], "mass": 700, "radius": 0.3}},
@@ -51,12 +51,10 @@ TEST_CASE("a scenario is read in full, its events in order of time") {
   CHECK(scenario.ground == -0.5);
   CHECK(scenario.failure.bracing == BracingRule::none);
   CHECK(scenario.failure.mechanism == MechanismRule::detach);
-  CHECK(scenario.failure.generations_per_second == 120);
   CHECK(scenario.failure.sudden == 1.5);
   CHECK(scenario.impact.restitution == 0.2);
   CHECK_FALSE(scenario.impact.structure_mass);
   CHECK(scenario.debris.limit == 100);
-  CHECK(scenario.operations_budget == 5e8);
   REQUIRE(scenario.events.size() == 6);
   CHECK(std::get<Projectile>(scenario.events[0].tool).mass == 700);
   const auto& cut = std::get<CutTool>(scenario.events[1].tool);
@@ -80,7 +78,6 @@ TEST_CASE("a scenario that says little takes the defaults") {
   CHECK(scenario.until_rest);
   CHECK(scenario.seed == 1);
   CHECK_FALSE(scenario.ground.has_value());
-  CHECK(scenario.failure.generations_per_second == 240);
   CHECK(scenario.failure.sudden == 2);
   CHECK(scenario.impact.structure_mass);
   CHECK(scenario.debris.limit == 2000);
@@ -107,6 +104,15 @@ TEST_CASE("the scenario reader names file, place, what it found and what is acce
         std::string::npos);
   CHECK(error("\"limit\": 100", "\"limit\": 1.5") ==
         "s.json, line 6, debris.limit: found 1.5; accepted: a whole number from 0 to 1000000");
+}
+
+TEST_CASE("keys that bounded what a step computes are refused, and it is said whose the pace is") {
+  const std::string why =
+      "a step computes all that happens in it, and the pace of the steps is the host's; leave the key out";
+  CHECK(error_of(replaced(scenario_text, "\"events\"", "\"budget\": {\"operations\": 5e8}, \"events\"")) ==
+        "s.json, line 7, budget: nothing limits what a step may compute any more: " + why);
+  CHECK(error_of(replaced(scenario_text, "\"sudden\": 1.5", "\"sudden\": 1.5, \"generations_per_second\": 240")) ==
+        "s.json, line 4, failure.generations_per_second: nothing limits what may break in a step any more: " + why);
 }
 
 TEST_CASE("rules of failure and fracture are read, others told by what is accepted") {

@@ -102,15 +102,6 @@ TEST_CASE("an event belongs to the first step that ends at or after it") {
   for (int k = 1; k < 5000; ++k) CHECK(step_of(k * 0.1, 0.1) == k);
 }
 
-TEST_CASE("each second has its generations whatever the step") {
-  for (const double dt : {1.0 / 60, 1.0 / 240, 1.0 / 1000, 0.013}) {
-    int sum = 0;
-    const auto steps = static_cast<std::int64_t>(std::llround(13 / dt));
-    for (std::int64_t k = 1; k <= steps; ++k) sum += generations_of(k, dt, 240);
-    CHECK(std::abs(sum - 13 * 240) <= 1);
-  }
-}
-
 TEST_CASE("the replay hash is FNV-1a of the bytes") {
   ReplayHash hash;
   hash.add(std::string_view("a"));

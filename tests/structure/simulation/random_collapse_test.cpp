@@ -33,10 +33,3 @@ TEST_CASE("random buildings whose floors break in each way come to rest as well"
     }
   }
 }
-
-TEST_CASE("a body that waits for its blow for seconds gains no energy from the heap that lies on it") {
-  // Its budget is a hundredth of what a blow takes: half of the building lay on two balls and was pushed by them.
-  topple::test::RandomCollapse collapse = topple::test::random_collapse(985);
-  collapse.scenario.fracture.reset();
-  CHECK(topple::test::fault_of(std::move(collapse)) == "");
-}

@@ -59,7 +59,7 @@ TEST_CASE("a hit on the corner post brings down what it carried, the same in eve
         freed = now;
       }
     };
-    run_until(2.5);  // the corner alone hung on that post; a budget has its parts come off one after the other
+    run_until(2.5);  // the corner alone hung on that post
     const CollapseCounts first = collapse_counts(simulation);
     CHECK(first.members_down >= 6);
     CHECK(first.members_down < 40);

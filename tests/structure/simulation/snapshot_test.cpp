@@ -49,7 +49,6 @@ TEST_CASE("a collapse saved in its middle and resumed ends like one that ran thr
 TEST_CASE("plastic hinges and debris that broke further come back with a snapshot") {
   const auto ductile = [] {
     auto [building, scenario] = read_scenario(find_scenario("seed_hit"));
-    scenario.operations_budget.reset();
     for (Joint& joint : building.joints)
       if (joint.member.valid() && building[joint.member].kind == MemberKind::beam && joint.capacity.breakable)
         for (const std::size_t sense : {5u, 6u}) joint.capacity.ductility[sense] = 0.03;

@@ -272,7 +272,7 @@ TEST_CASE("stress beyond the tensile strength cracks a wall at its foot, and one
   CHECK(stress->tension == Approx(bending).epsilon(0.15));
 }
 
-TEST_CASE("under a budget walls crack one after the other, and none is left out") {
+TEST_CASE("walls that are loaded alike crack in the same step, and none is left out") {
   // Two walls side by side, each a cantilever that 20 kPa crack at its foot.
   std::string text = wall_text;
   const auto put = [&](const std::string& old, const std::string& now) {
@@ -289,18 +289,12 @@ TEST_CASE("under a budget walls crack one after the other, and none is left out"
       "\"panels\": {\"W\": {\"pressure\": 20000}, \"V\": {\"pressure\": 20000}}");
   Scenario scenario = shipped("wall_hit");
   scenario.events.clear();
-  const auto first_cracks = [&](std::optional<double> budget) {
-    scenario.operations_budget = budget;
-    Simulation simulation(wall(text), scenario);
-    std::map<std::string, std::int64_t> first;
-    for (int i = 0; i < 300; ++i) simulation.step();
-    for (const SimulationEvent& event : simulation.events())
-      if (event.kind == SimulationEvent::Kind::panel_fractured) first.emplace(event.name, event.step);
-    return first;
-  };
-  const auto at_once = first_cracks(std::nullopt), paced = first_cracks(1e6);
-  REQUIRE(at_once.size() == 2);
-  CHECK(at_once.at("W") == at_once.at("V"));
-  REQUIRE(paced.size() == 2);
-  CHECK(paced.at("V") > paced.at("W"));
+  Simulation simulation(wall(text), scenario);
+  std::map<std::string, std::int64_t> first;
+  for (int i = 0; i < 10; ++i) simulation.step();
+  for (const SimulationEvent& event : simulation.events())
+    if (event.kind == SimulationEvent::Kind::panel_fractured) first.emplace(event.name, event.step);
+  REQUIRE(first.size() == 2);
+  CHECK(first.at("W") == 1);
+  CHECK(first.at("V") == 1);
 }

@@ -51,7 +51,7 @@ struct ReanalysisAnswer {
 };
 
 /// When a new factor is made on another thread while the old one serves. It is due at the first answer after the
-/// answers since then spent (spend()) `share` of what it takes: a number of answers fixed by counts, whatever the clock
+/// answers since then took `share` of its predicted work: a number of answers fixed by counts, whatever the clock
 /// says; if it is late, that answer waits. Then it catches up with what changed since it was begun, a part of it
 /// beside each answer, and takes over. So the bits do not depend on how fast the other thread is.
 struct RefreshRules {
@@ -162,7 +162,7 @@ class Reanalysis {
 
   [[nodiscard]] const ReanalysisCounters& counters() const;
   [[nodiscard]] const FrameModel& model() const;
-  /// Predicted operations of the last solve(): those by which background factors are due.
+  /// Predicted operations of the last solve().
   [[nodiscard]] double last_operations() const;
 
  private:

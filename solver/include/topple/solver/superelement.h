@@ -43,8 +43,6 @@ class Superelement {
   /// (as in the finite cell method, J. Parvizian, A. Duester, E. Rank, Computational Mechanics 41 (2007), 121). 0 takes
   /// it out.
   void keep(const std::vector<double>& share);
-  /// Multiply-adds of condensing anew, predicted.
-  [[nodiscard]] double operations() const;
   [[nodiscard]] bool stands(int shell) const;
   /// True while a shell stands at a node.
   [[nodiscard]] bool has_shells(int node) const;

@@ -16,7 +16,6 @@ enum class MechanismRule { hinge, detach };
 struct FailureRules {
   BracingRule bracing = BracingRule::buckling;
   MechanismRule mechanism = MechanismRule::hinge;
-  double generations_per_second = 240;
   bool second_order = false;
   double sudden = 2.0;  ///< dynamic factor of a sudden loss; 1 is off
 };
@@ -88,8 +87,7 @@ struct Scenario {
   ImpactRules impact;
   DebrisRules debris;
   std::optional<fracture::PanelSettings> fracture;  ///< of panels that have none of their own nor by material
-  std::optional<double> operations_budget;
-  std::vector<Event> events;  ///< in order of time
+  std::vector<Event> events;                        ///< in order of time
 };
 
 }  // namespace topple::structure

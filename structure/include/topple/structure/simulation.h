@@ -72,7 +72,6 @@ struct SimulationCounters {
   std::uint64_t impacts_bounded = 0;   ///< borne by a bound alone, without a solve
   std::uint64_t impacts_together = 0;  ///< of one body on several parts at one instant
   std::uint64_t restricted = 0;        ///< answers that left out what could not break
-  double operations = 0;               ///< predicted, of what stands and of debris: what a budget counts
   /// Factors made on another thread while the old one served; those of them that had to be waited for (it depends on
   /// the machine, and changes nothing else).
   std::uint64_t background_factors = 0, late_factors = 0;

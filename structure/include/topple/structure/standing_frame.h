@@ -4,6 +4,7 @@
 //
 // One solver::Reanalysis serves each connected component that the building has at the start; joints that break change
 // it in place, and what detaches is dropped from it.
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -79,7 +80,6 @@ struct FrameCounters {
   std::uint64_t solves = 0, low_rank = 0, refactorisations = 0, segmentations = 0, unchanged = 0;
   std::uint64_t restricted = 0;                            ///< answers that left out what could not break
   std::uint64_t background_factors = 0, late_factors = 0;  ///< as solver::ReanalysisCounters
-  double operations = 0;                                   ///< predicted by the solver, for budgets
   std::uint64_t vertices_searched = 0;                     ///< nodes and members that segmentation looked at
 };
 
@@ -175,34 +175,10 @@ class StandingFrame {
 
   /// True when a load or joint changed and the answer is not yet settled.
   [[nodiscard]] bool pending() const;
-  /// Brings the state up to date: solve, break what is over capacity (one generation after the other, at most
-  /// `generations` of them), sudden loss and bracing by the rules, mechanisms released. Returns what broke, in order;
-  /// pending() stays true when the limit cut it short. `operations`: nothing further begins once the solver has spent
-  /// so many, neither a generation nor the next part of bringing the state up to date.
-  std::vector<JointBreak> settle(int generations);
-  /// The same with an allowance (see below) of its own.
-  std::vector<JointBreak> settle(int generations, double operations);
-  /// The allowance cut a settle() short where what broke is not solved for, or other work: the statics are those of
-  /// before, until that goes on.
-  [[nodiscard]] bool answering() const;
-
-  // Work at a pace.
-  /// From now on so many operations (as solver::spend() counts them) may be spent: whatever takes more stops there, in
-  /// the middle of a factorisation if need be, and goes on from there when there are more. Unlimited at first. What had
-  /// to be done at once is spent all the same, and may leave less than nothing.
-  void allow(double operations);
-  /// What is left of it.
-  [[nodiscard]] double allowance() const;
-  /// Somebody else waits: with an allowance settle() ends with an answer that was under way, and breaks one generation
-  /// at most.
-  void yield_after_answers(bool yields);
-  /// With an allowance: contact loads that changed are solved for. False: that is under way.
-  [[nodiscard]] bool lay_loads();
-  /// Runs what only asks this frame (no changes, no other frame). False: it is under way, and goes on in go_on(),
-  /// before anything else does. Only when go_on() is true.
-  [[nodiscard]] bool paced(std::function<void()> work);
-  /// Goes on with what is under way. True when nothing is.
-  [[nodiscard]] bool go_on();
+  /// Brings the state up to date: solve, break what is over capacity, one generation after the other until nothing is,
+  /// sudden loss and bracing by the rules, mechanisms released. Returns what broke, in order. Whoever wants to look at
+  /// a state in between stops after so many `generations`: then pending() stays true.
+  std::vector<JointBreak> settle(int generations = std::numeric_limits<int>::max());
   /// Joints whose moment or torsion came to its capacity, and that have turned since, as they did; each sense of a
   /// joint once. Handed out once.
   std::vector<JointBreak> take_yielded();
@@ -248,14 +224,11 @@ class StandingFrame {
   Eigen::VectorXd break_in_impact(std::span<const JointBreak> breaks, std::span<const ContactPlace> places,
                                   std::span<const Vec3> directions);
 
-  /// The same in as far as it takes no solving, which is left to the next settle(): answering() is true until then.
-  void begin_break_in_impact(std::span<const JointBreak> breaks);
-
   /// This panel may be broken in part later: what all panels of its shape have in common is found now.
   void expect_fracture(PanelId panel);
   /// A standing panel is broken in part, now: it hands on what remains of its weight by where that lies, its edge
   /// joints bear over what remains of their length (told as broken by the next settle() when nothing does), and it
-  /// is as stiff as what remains (of a membrane: from the next settle() on). Holes are all since it was whole.
+  /// is as stiff as what remains. Holes are all since it was whole.
   void fracture(PanelId panel, const PanelRemains& remains);
   /// Of a shell panel as it is, or was when it left: in the freedoms of its nodes (Panel::all_nodes()), global.
   [[nodiscard]] Eigen::MatrixXd shell_stiffness(PanelId shell) const;
