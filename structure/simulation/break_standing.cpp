@@ -143,7 +143,7 @@ void Simulation::State::open_panels() {
 }
 
 /// Where the static stress passes what the material bears, a panel cracks at its largest; what that leaves is looked at
-/// in the next step.
+/// again.
 void Simulation::State::crack_panels() {
   for (std::size_t p = 0; p < building.panels.size(); ++p) {
     const BreakablePanel& breakable = breakable_panels[p];

@@ -256,16 +256,19 @@ void Simulation::State::check_momentum(const Strike& hit, std::span<const PointI
   ledger.momentum_error = std::max(ledger.momentum_error, measured.error(given));
 }
 
+/// Until nothing is over capacity and no panel cracks.
 void Simulation::State::break_generations() {
   if (!frame->pending() && step > 1) return;
-  const std::vector<JointBreak> breaks = frame->settle();
-  for (const JointBreak& line : frame->take_yielded()) {
-    SimulationEvent& event = tell(SimulationEvent::Kind::joint_yielded, building[line.joint].name);
-    event.joint = line;
-    event.position = line.position;
-  }
-  for (const JointBreak& broken : breaks) tell(broken);
-  if (any_breakable) crack_panels();
+  do {
+    const std::vector<JointBreak> breaks = frame->settle();
+    for (const JointBreak& line : frame->take_yielded()) {
+      SimulationEvent& event = tell(SimulationEvent::Kind::joint_yielded, building[line.joint].name);
+      event.joint = line;
+      event.position = line.position;
+    }
+    for (const JointBreak& broken : breaks) tell(broken);
+    if (any_breakable) crack_panels();
+  } while (frame->pending());
 }
 
 }  // namespace topple::structure
