@@ -1,9 +1,13 @@
 // Drawing and the simulation side by side: neither waits for the other, and pictures between steps are interpolated.
+#include <atomic>
 #include <catch2/catch.hpp>
+#include <chrono>
+#include <ctime>
 #include <future>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
+#include <thread>
 
 #include "app/controller.h"
 #include "app/driver.h"
@@ -18,6 +22,13 @@ using namespace topple::viewer;
 std::unique_ptr<Session> seed_session() {
   const Scene scene = open_scene("seed_building");
   return std::make_unique<Session>(scene.building, scene.scenario);
+}
+
+/// Of this thread.
+double processor_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 }  // namespace
@@ -35,6 +46,59 @@ TEST_CASE("a picture is drawn while a step takes its time") {
   driver.set_paused(true);
   drawn.set_value();
   CHECK(driver.error().empty());
+}
+
+TEST_CASE("sixty pictures a second, with their panels, are made while one step takes two seconds") {
+  std::unique_ptr<HeadlessContext> context;
+  try {
+    context = std::make_unique<HeadlessContext>();
+  } catch (const std::runtime_error& error) {
+    std::cout << "SKIPPED: " << error.what() << '\n';
+    return;
+  }
+  constexpr int pictures = 120;
+  constexpr double longest = 60;  // s: a test that fails must end
+  std::atomic<int> drawn = 0;
+  std::promise<void> begun;
+  const auto slow = [&, first = true]() mutable {
+    if (!std::exchange(first, false)) return;
+    begun.set_value();
+    for (double waited = 0; waited < longest && (waited < 2 || drawn < pictures); waited += 0.01)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  };
+  const Scene scene = open_scene("seed_hit");
+  ThreadDriver driver(std::make_unique<Session>(scene.building, scene.scenario), slow);
+  const glm::dvec2 size(1280, 720);
+  Controller controller(driver, scene, 0, size);
+  SceneInstances instances(*scene.building);
+  Interface interface(1);
+  SidePanel panel;
+  begun.get_future().wait();
+  const double before = processor_seconds();
+  while (drawn < pictures) {
+    controller.update(1.0 / 60);
+    const Snapshot moment = controller.shown(false);
+    CHECK(moment.step == 0);
+    instances.update(moment, controller.options);
+    interface.begin_frame(size, 1.0 / 60);
+    panel.draw(controller, moment, instances, driver.error());
+    draw_hover_text(controller, moment);
+    Interface::end_frame();
+    if (++drawn == pictures / 2) controller.key("space");
+    CHECK(driver.paused() == (drawn >= pictures / 2));  // it answers at once, whatever the step does
+  }
+  // What the processor does for a picture; the graphics card's part is drawn by a card.
+  CHECK((processor_seconds() - before) / pictures < 1.0 / 60);
+  CHECK(driver.error().empty());
+}
+
+TEST_CASE("the ratio is what a run behind the window reaches, and nothing while it is paused") {
+  ThreadDriver driver(seed_session(), [] { std::this_thread::sleep_for(std::chrono::milliseconds(50)); });
+  while (driver.moment().later->step < 4) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  CHECK(driver.ratio() > 0);
+  CHECK(driver.ratio() <= 1 / 60.0 / 0.05 + 1e-3);  // steps of 1/60 s that take 1/20 s at least
+  driver.set_paused(true);
+  CHECK(driver.ratio() == 0);
 }
 
 TEST_CASE("between two steps, a body is drawn between its poses") {

@@ -43,6 +43,8 @@ class Driver {
   /// Simulated seconds for each second.
   virtual void set_speed(double speed) = 0;
   [[nodiscard]] virtual double speed() const = 0;
+  /// The same as it is: less than speed() while steps take longer than they last.
+  [[nodiscard]] virtual double ratio() const = 0;
   [[nodiscard]] virtual Moment moment() const = 0;
   [[nodiscard]] const Recording& recording() const { return *recording_; }
 
@@ -65,6 +67,7 @@ class DirectDriver : public Driver {
   [[nodiscard]] bool paused() const override { return paused_; }
   void set_speed(double speed) override { speed_ = speed; }
   [[nodiscard]] double speed() const override { return speed_; }
+  [[nodiscard]] double ratio() const override { return paused_ ? 0 : speed_; }
   [[nodiscard]] Moment moment() const override { return {nullptr, latest_, 1}; }
 
  private:
@@ -74,12 +77,13 @@ class DirectDriver : public Driver {
   double speed_ = 1;
 };
 
-/// Steps on a thread of its own at the pace of real time; drawing reads the last two snapshots and never waits for a
-/// step.
+/// Steps on a thread of its own at the pace of real time (structure::StepThread); drawing reads the last two snapshots
+/// and never waits for a step.
 class ThreadDriver : public Driver {
  public:
-  /// The session is the thread's alone from now on.
-  explicit ThreadDriver(std::unique_ptr<Session> session);
+  /// The session is the thread's alone from now on. `before_step` (unless empty) is called on it before each step:
+  /// tests make steps slow by it.
+  explicit ThreadDriver(std::unique_ptr<Session> session, std::function<void()> before_step = {});
   ~ThreadDriver() override;
   void order(Order what) override;
   void order_and_show(Order what) override;
@@ -87,6 +91,7 @@ class ThreadDriver : public Driver {
   [[nodiscard]] bool paused() const override;
   void set_speed(double speed) override;
   [[nodiscard]] double speed() const override;
+  [[nodiscard]] double ratio() const override;
   [[nodiscard]] Moment moment() const override;
   /// Why the simulation stopped, when it threw; empty otherwise.
   [[nodiscard]] std::string error() const;

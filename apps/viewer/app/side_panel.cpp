@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numeric>
+#include <string>
 
 #include "app/widgets.h"
 #include "renderer/shapes/arrows.h"
@@ -143,6 +144,13 @@ void help_window(bool& open) {
   ImGui::End();
 }
 
+/// Slow runs keep two digits.
+std::string ratio_text(double ratio) {
+  char text[32];
+  std::snprintf(text, sizeof text, ratio < 0.1 ? "x %.2g" : "x %.2f", ratio);
+  return text;
+}
+
 }  // namespace
 
 glm::dvec2 SidePanel::scene_size(glm::dvec2 window) {
@@ -165,7 +173,8 @@ void SidePanel::run_bar(Controller& controller) {
   key_button("Restart", "r");
   key_button("Help", "h");
   double speed = driver.speed();
-  if (slider("speed", speed, 0.02, 1, "x %.2f")) driver.set_speed(speed);
+  const std::string pace = driver.paused() ? "x %.2f, paused" : "x %.2f, runs at " + ratio_text(driver.ratio());
+  if (slider("speed", speed, 0.02, 1, pace.c_str())) driver.set_speed(speed);
   ImGui::TextUnformatted("A click will");
   for (std::size_t i = 0; i < tool_names.size(); ++i) {
     if (i % 3 != 0) ImGui::SameLine();
