@@ -1,0 +1,309 @@
+#include "simulation/impact/impact.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace topple::structure {
+
+namespace {
+
+/// Samples in a period of the fastest mode when a peak, a failure or a parting is looked for: between two of them a
+/// force has at most one extreme.
+constexpr int samples_per_period = 48;
+constexpr double pi = 3.14159265358979323846;
+/// Of the largest squared frequency: below it a mode is a free motion.
+constexpr double free_motion = 1e-12;
+/// A force below this share of the largest peak is none.
+constexpr double no_force = 1e-12;
+constexpr double never = std::numeric_limits<double>::infinity();
+
+/// The first time in (from, to] at which `passed` holds, which it does at `to`.
+template <typename Passed>
+double first_time(double from, double to, const Passed& passed) {
+  for (int k = 0; k < 100 && to - from > 1e-15 * to; ++k) {
+    const double middle = from + (to - from) / 2;
+    (passed(middle) ? to : from) = middle;
+  }
+  return to;
+}
+
+/// Where a rate that is positive at `from` and negative at `to` passes through zero: by chords, halved where they
+/// tarry.
+template <typename Rate>
+double passes_zero(double from, double to, double at_from, double at_to, const Rate& rate) {
+  for (int k = 0; k < 100 && to - from > 1e-14 * to; ++k) {
+    const double chord = from + (to - from) * at_from / (at_from - at_to);
+    const double at = k % 3 == 2 || !(chord > from && chord < to) ? from + (to - from) / 2 : chord;
+    const double value = rate(at);
+    if (value == 0) return at;
+    (value > 0 ? from : to) = at;
+    (value > 0 ? at_from : at_to) = value;
+  }
+  return from + (to - from) / 2;
+}
+
+/// Least t > 0 with gap + speed t + acceleration t^2/2 = 0 on the way up, gap below zero; `never` when there is none.
+double closes_after(double gap, double speed, double acceleration) {
+  const double squared = speed * speed - 2 * acceleration * gap;
+  if (squared < 0) return never;
+  const double root = std::sqrt(squared);
+  // Written so that no digits are lost: gap = -t (speed + root)/2.
+  const double t = speed + root > 0 ? -2 * gap / (speed + root) : never;
+  return t > 0 ? t : never;
+}
+
+}  // namespace
+
+/// The places that touch in modal coordinates, from now on.
+struct Impact::Modes {
+  std::vector<int> touching, apart;
+  Eigen::MatrixXd root;          ///< C^1/2 of the places that touch
+  Eigen::MatrixXd inverse_root;  ///< its inverse
+  Eigen::MatrixXd shape;         ///< eigenvectors of C^-1/2 L C^-1/2
+  Eigen::VectorXd squared;       ///< circular frequencies squared
+  Eigen::VectorXd place, speed, push;
+
+  [[nodiscard]] double fastest() const { return std::sqrt(squared.maxCoeff()); }
+  [[nodiscard]] double slowest() const {
+    double least = squared.maxCoeff();
+    for (const double one : squared)
+      if (one > 0) least = std::min(least, one);
+    return std::sqrt(least);
+  }
+  /// Of order -1: velocities, 0: coordinates, 1 and 2: their integrals from now.
+  [[nodiscard]] Eigen::VectorXd coordinates(double t, int order) const;
+  /// Forces of the places that touch (order 0), their rates (-1) and integrals (1, 2).
+  [[nodiscard]] Eigen::VectorXd force(double t, int order = 0) const {
+    return inverse_root * (shape * coordinates(t, order));
+  }
+};
+
+Eigen::VectorXd Impact::Modes::coordinates(double t, int order) const {
+  Eigen::VectorXd at(place.size());
+  for (Eigen::Index i = 0; i < at.size(); ++i) {
+    const double q = place(i), v = speed(i), p = push(i);
+    if (squared(i) == 0) {
+      at(i) = order == -1  ? v + p * t
+              : order == 0 ? q + v * t + p * t * t / 2
+              : order == 1 ? q * t + v * t * t / 2 + p * t * t * t / 6
+                           : q * t * t / 2 + v * t * t * t / 6 + p * t * t * t * t / 24;
+      continue;
+    }
+    const double w = std::sqrt(squared(i)), rest = p / squared(i), c = std::cos(w * t), s = std::sin(w * t);
+    at(i) = order == -1  ? (rest - q) * w * s + v * c
+            : order == 0 ? rest + (q - rest) * c + v / w * s
+            : order == 1 ? rest * t + (q - rest) * s / w + v / (w * w) * (1 - c)
+                         : rest * t * t / 2 + (q - rest) * (1 - c) / (w * w) + v / (w * w) * (t - s / w);
+  }
+  return at;
+}
+
+Impact::Impact(Eigen::MatrixXd mobility, Eigen::MatrixXd compliance, Eigen::VectorXd closing_speed,
+               Eigen::VectorXd acceleration)
+    : mobility_(std::move(mobility)),
+      compliance_(std::move(compliance)),
+      depth_(Eigen::VectorXd::Zero(closing_speed.size())),
+      speed_(std::move(closing_speed)),
+      acceleration_(std::move(acceleration)),
+      unloaded_(depth_),
+      impulse_(depth_),
+      peak_(depth_),
+      state_(static_cast<std::size_t>(speed_.size()), Touch::touching) {
+  check();
+}
+
+void Impact::check() const {
+  const Eigen::Index n = speed_.size();
+  if (n == 0 || mobility_.rows() != n || mobility_.cols() != n || compliance_.rows() != n || compliance_.cols() != n ||
+      acceleration_.size() != n)
+    throw std::invalid_argument(
+        "an impact needs a place, and for each a row of mobility and compliance, a speed and an acceleration");
+  if (!mobility_.allFinite() || !compliance_.allFinite() || !speed_.allFinite() || !acceleration_.allFinite())
+    throw std::invalid_argument("an impact needs finite numbers");
+  if (!(mobility_.diagonal().minCoeff() > 0))
+    throw std::invalid_argument("at an impact's places one side at least must be able to move");
+  if (Eigen::LLT<Eigen::MatrixXd>(compliance_).info() != Eigen::Success)
+    throw std::invalid_argument("the compliance of an impact is not positive definite");
+}
+
+bool Impact::any(Touch state) const { return std::find(state_.begin(), state_.end(), state) != state_.end(); }
+bool Impact::goes_on() const { return any(Touch::touching) || any(Touch::behind); }
+
+void Impact::change(Eigen::MatrixXd mobility, Eigen::MatrixXd compliance, const Eigen::VectorXd& shift) {
+  mobility_ = std::move(mobility);
+  compliance_ = std::move(compliance);
+  unloaded_ += shift;
+  check();
+  for (Eigen::Index i = 0; i < depth_.size(); ++i) {
+    Touch& state = state_[static_cast<std::size_t>(i)];
+    if (state == Touch::touching && depth_(i) < unloaded_(i)) state = Touch::behind;
+  }
+}
+
+void Impact::let_go(std::size_t place) { state_[place] = Touch::gone; }
+
+Impact::Modes Impact::modes() const {
+  Modes m;
+  for (std::size_t i = 0; i < state_.size(); ++i)
+    (state_[i] == Touch::touching ? m.touching : m.apart).push_back(static_cast<int>(i));
+  const Eigen::MatrixXd C = compliance_(m.touching, m.touching), L = mobility_(m.touching, m.touching);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> roots(C);
+  m.root = roots.operatorSqrt();
+  m.inverse_root = roots.operatorInverseSqrt();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(m.inverse_root * L * m.inverse_root);
+  m.shape = eigen.eigenvectors();
+  m.squared = eigen.eigenvalues();
+  const double least = free_motion * m.squared.maxCoeff();
+  for (double& one : m.squared)
+    if (one <= least) one = 0;
+  const Eigen::MatrixXd to_modes = m.shape.transpose() * m.inverse_root;
+  const Eigen::VectorXd pressed = depth_ - unloaded_;
+  m.place = to_modes * pressed(m.touching);
+  m.speed = to_modes * speed_(m.touching);
+  m.push = to_modes * acceleration_(m.touching);
+  return m;
+}
+
+double Impact::fastest_over_slowest() const {
+  if (!any(Touch::touching)) return 1;
+  const Modes m = modes();
+  return m.fastest() / m.slowest();
+}
+
+Eigen::VectorXd Impact::force() const {
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(depth_.size());
+  if (!any(Touch::touching)) return all;
+  const Modes m = modes();
+  all(m.touching) = m.force(0);
+  return all;
+}
+
+double Impact::stored() const {
+  const Eigen::VectorXd f = force();
+  return f.dot(compliance_ * f) / 2;
+}
+
+/// Everything as it is `time` later, the same places touching all the while.
+void Impact::advance(const Modes& m, double time) {
+  const Eigen::VectorXd given = m.force(time, 1), travelled = m.force(time, 2);
+  Eigen::VectorXd impulse = Eigen::VectorXd::Zero(depth_.size()), twice = impulse;
+  impulse(m.touching) = given;
+  twice(m.touching) = travelled;
+  depth_ += speed_ * time + acceleration_ * (time * time / 2) - mobility_ * twice;
+  speed_ += acceleration_ * time - mobility_ * impulse;
+  // The places that touch by their modes: what cancels there would be lost in the sums above.
+  depth_(m.touching) = unloaded_(m.touching) + m.root * (m.shape * m.coordinates(time, 0));
+  impulse_ += impulse;
+  time_ += time;
+}
+
+/// The peak of each force between two samples: where its rate passes through zero.
+void Impact::note_peaks(const Modes& m, double from, double to) {
+  const Eigen::VectorXd at_from = m.force(from, -1), at_to = m.force(to, -1), end = m.force(to);
+  for (std::size_t k = 0; k < m.touching.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    double& peak = peak_(m.touching[k]);
+    peak = std::max(peak, end(i));
+    if (!(at_from(i) > 0 && at_to(i) < 0)) continue;
+    const double at = passes_zero(from, to, at_from(i), at_to(i), [&](double t) { return m.force(t, -1)(i); });
+    peak = std::max(peak, m.force(at)(i));
+  }
+}
+
+/// Nothing touches: on to where the first place that was left behind is met. False: none will be.
+bool Impact::fly_to_next_touch() {
+  double next = never;
+  Eigen::Index met = -1;
+  for (Eigen::Index i = 0; i < depth_.size(); ++i) {
+    if (state_[static_cast<std::size_t>(i)] != Touch::behind) continue;
+    const double t = closes_after(depth_(i) - unloaded_(i), speed_(i), acceleration_(i));
+    if (t >= next) continue;
+    next = t;
+    met = i;
+  }
+  if (met < 0) return false;
+  depth_ += speed_ * next + acceleration_ * (next * next / 2);
+  speed_ += acceleration_ * next;
+  depth_(met) = unloaded_(met);
+  time_ += next;
+  state_[static_cast<std::size_t>(met)] = Touch::touching;
+  return true;
+}
+
+/// Until a place lets go or is met (`changed`), something fails, or a full swing of the slowest mode has been seen.
+Impact::Stop Impact::swing(const Utilisation& utilisation, bool& changed) {
+  const Modes m = modes();
+  const auto least = [&](double t) { return m.force(t).minCoeff(); };
+  const auto used = [&](double t) {
+    Eigen::VectorXd all = Eigen::VectorXd::Zero(depth_.size());
+    all(m.touching) = m.force(t).cwiseMax(0.0);
+    return utilisation(all);
+  };
+  // Of the places left behind, the largest overlap with the surface as the other forces move it: above zero they touch.
+  const auto met = [&](double t, Eigen::Index* which) {
+    double most = -never;
+    const Eigen::VectorXd force = m.force(t), twice = m.force(t, 2);
+    for (const int i : m.apart) {
+      if (state_[static_cast<std::size_t>(i)] != Touch::behind) continue;
+      double overlap = depth_(i) + speed_(i) * t + acceleration_(i) * t * t / 2 - unloaded_(i);
+      for (std::size_t k = 0; k < m.touching.size(); ++k)
+        overlap -= mobility_(i, m.touching[k]) * twice(static_cast<Eigen::Index>(k)) +
+                   compliance_(i, m.touching[k]) * force(static_cast<Eigen::Index>(k));
+      if (overlap <= most) continue;
+      most = overlap;
+      if (which) *which = i;
+    }
+    return most;
+  };
+  const double step = 2 * pi / m.fastest() / samples_per_period, end = 2 * pi / m.slowest();
+  changed = false;
+  double at = 0;
+  if (utilisation && used(0) >= 1) return Stop::failed;
+  Eigen::Index touched = -1;
+  bool parted = false, failed = false;
+  while (at < end && !parted && !failed && touched < 0) {
+    double to = std::min(at + step, end);
+    parted = least(to) < 0;
+    if (parted) to = first_time(at, to, [&](double t) { return least(t) < 0 && t > at; });
+    if (met(to, nullptr) > 0) {
+      to = first_time(at, to, [&](double t) { return met(t, nullptr) > 0; });
+      (void)met(to, &touched);
+      parted = false;
+    }
+    if (utilisation && used(to) >= 1) {
+      failed = true;
+      parted = false;
+      touched = -1;
+      to = first_time(at, to, [&](double t) { return used(t) >= 1; });
+    }
+    note_peaks(m, at, to);
+    at = to;
+  }
+  advance(m, at);
+  if (failed) return Stop::failed;
+  changed = parted || touched >= 0;
+  if (touched >= 0) state_[static_cast<std::size_t>(touched)] = Touch::touching;
+  if (parted) {
+    const Eigen::VectorXd last = m.force(at);
+    const double none = no_force * std::max(peak_.maxCoeff(), std::numeric_limits<double>::min());
+    for (std::size_t k = 0; k < m.touching.size(); ++k)
+      if (last(static_cast<Eigen::Index>(k)) <= none) state_[static_cast<std::size_t>(m.touching[k])] = Touch::gone;
+  }
+  return Stop::held;
+}
+
+Impact::Stop Impact::push(const Utilisation& utilisation) {
+  for (;;) {
+    if (!any(Touch::touching) && !fly_to_next_touch()) return Stop::parted;
+    bool changed = false;
+    const Stop stop = swing(utilisation, changed);
+    if (stop == Stop::failed || !changed) return stop;
+  }
+}
+
+}  // namespace topple::structure
