@@ -76,31 +76,52 @@ double strip_compliance(const Building& building, const Panel& panel, double x, 
   return x * x * (span - x) * (span - x) / (3 * bending * span);
 }
 
+/// The strip of a panel through a point, from one of two opposite edges (`near`) to the other.
+struct Strip {
+  Vec3 start, end;
+  double x = 0;  ///< of the point's foot, from the start, m
+  double width = 0;
+  [[nodiscard]] double length() const { return (end - start).norm(); }
+};
+
+Strip strip_through(const Building& building, const Panel& panel, std::size_t near, const Vec3& point) {
+  const Vec3 normal = panel.axes.row(2);
+  const Vec3 foot = point - normal * normal.dot(point - building[panel.nodes[0]].position);
+  const Edge first = edge_of(building, panel, near), second = edge_of(building, panel, near + 2);
+  // The strip through the point meets both edges at the same share of their lengths (exactly so in a parallelogram).
+  const double share = 0.5 * (first.nearest(foot) + 1 - second.nearest(foot));
+  Strip strip{first.at(share), second.at(1 - share)};
+  const double length = strip.length();
+  strip.x = std::clamp((foot - strip.start).dot(strip.end - strip.start) / length, 0.0, length);
+  strip.width = 0.5 * (first.along.norm() + second.along.norm());
+  return strip;
+}
+
+/// Distances between the middles of opposite edges: 0 to 2, 1 to 3.
+std::array<double, 2> spans(const Building& building, const Panel& panel) {
+  const auto middle = [&](std::size_t edge) { return edge_of(building, panel, edge).at(0.5); };
+  return {(middle(2) - middle(0)).norm(), (middle(3) - middle(1)).norm()};
+}
+
+double bending_of(const Building& building, const Panel& panel, const Strip& strip, const Vec3& force) {
+  const double across = force.norm() > 0 ? panel.axes.row(2).dot(force) / force.norm() : 0;
+  return across * across * strip_compliance(building, panel, strip.x, strip.length(), strip.width);
+}
+
 PlacedLoad place_on_panel(const Building& building, const PanelBearings& bearings, PanelId id, const Vec3& point,
                           const Vec3& force) {
   const Panel& panel = building[id];
-  const auto middle = [&](std::size_t edge) { return edge_of(building, panel, edge).at(0.5); };
-  const std::array<double, 2> span{(middle(2) - middle(0)).norm(), (middle(3) - middle(1)).norm()};
+  const std::array<double, 2> span = spans(building, panel);
   const auto& holds = bearings.holds(id);
   const std::array<bool, 2> bears{holds[0] && holds[2], holds[1] && holds[3]};
   const std::size_t near = bears[0] && (!bears[1] || span[0] <= span[1]) ? 0 : 1, far = near + 2;
-
-  const Vec3 normal = panel.axes.row(2);
-  const Vec3 foot = point - normal * normal.dot(point - building[panel.nodes[0]].position);
-  const Edge first = edge_of(building, panel, near), second = edge_of(building, panel, far);
-  // The strip through the point meets both edges at the same share of their lengths (exactly so in a parallelogram).
-  const double share = 0.5 * (first.nearest(foot) + 1 - second.nearest(foot));
-  const Vec3 start = first.at(share), end = second.at(1 - share);
-  const double length = (end - start).norm();
-  const double x = std::clamp((foot - start).dot(end - start) / length, 0.0, length);
-
+  const Strip strip = strip_through(building, panel, near, point);
+  const double length = strip.length();
   PlacedLoad placed;
   placed.panel = id;
-  place_on_edge(building, bearings, id, near, start, (1 - x / length) * force, placed);
-  place_on_edge(building, bearings, id, far, end, x / length * force, placed);
-  const double across = force.norm() > 0 ? normal.dot(force) / force.norm() : 0;
-  placed.bending_compliance =
-      across * across * strip_compliance(building, panel, x, length, 0.5 * (first.along.norm() + second.along.norm()));
+  place_on_edge(building, bearings, id, near, strip.start, (1 - strip.x / length) * force, placed);
+  place_on_edge(building, bearings, id, far, strip.end, strip.x / length * force, placed);
+  placed.bending_compliance = bending_of(building, panel, strip, force);
   return placed;
 }
 
@@ -115,6 +136,12 @@ double nearest_on_axis(const Building& building, MemberId member, const Vec3& po
 Vec3 on_axis(const Building& building, MemberId member, double distance) {
   const Member& own = building[member];
   return building[own.nodes[0]].position + own.offsets[0] + distance * own.axes.row(0).transpose();
+}
+
+double panel_bending_compliance(const Building& building, PanelId id, const Vec3& point, const Vec3& direction) {
+  const Panel& panel = building[id];
+  const std::array<double, 2> span = spans(building, panel);
+  return bending_of(building, panel, strip_through(building, panel, span[0] <= span[1] ? 0 : 1, point), direction);
 }
 
 PlacedLoad place_load(const Building& building, const PanelBearings& bearings, const ContactPlace& place,

@@ -11,6 +11,11 @@ namespace topple::structure {
 [[nodiscard]] PlacedLoad place_load(const Building& building, const PanelBearings& bearings, const ContactPlace& place,
                                     const Vec3& force, const Vec3& moment = Vec3::Zero());
 
+/// m/N: by how much a panel that nothing holds bends under a force at a point along its direction, as the strip across
+/// its shorter span does (above). Zero at its edges.
+[[nodiscard]] double panel_bending_compliance(const Building& building, PanelId panel, const Vec3& point,
+                                              const Vec3& direction);
+
 /// Distance of the point of a member's axis nearest to `point` from its first end, within the member.
 [[nodiscard]] double nearest_on_axis(const Building& building, MemberId member, const Vec3& point);
 [[nodiscard]] Vec3 on_axis(const Building& building, MemberId member, double distance);

@@ -102,12 +102,20 @@ FreeSegment::FreeSegment(const Building& building, FreeSegmentParts parts, const
   inertia_ -= mass_ * (centre_.squaredNorm() * Mat3::Identity() - centre_ * centre_.transpose());
   const bool shell_asked = std::any_of(hung_.begin(), hung_.end(), [](const Hung& hung) { return hung.patch >= 0; });
   const bool member_asked = breakable && parts_.members.size() > 1;
+  held_at_ = held_at;
+  can_break_ = !hung_.empty();
   if (!(member_asked || shell_asked) || held_at < 0) return;
-  model_.supports.push_back({held_at, Vec6::Constant(solver::rigid)});
+  analyse();
+  can_break_ = can_break_ || analysis_ != nullptr;
+}
+
+void FreeSegment::analyse() {
+  if (held_at_ < 0) return;
+  model_.supports.assign(1, {held_at_, Vec6::Constant(solver::rigid)});
   try {
     analysis_ = std::make_unique<solver::StaticAnalysis>(model_);
   } catch (const solver::Instability&) {
-    // It can move within itself: its joints are spared by that motion.
+    is_mechanism_ = true;  // its joints are spared by that motion
   }
 }
 
@@ -302,15 +310,15 @@ Vec3 FreeSegment::on(const Vec3& at, const Answer& motion, const Vec3& spin, con
   return gravity - (motion.acceleration + motion.angular_acceleration.cross(r) + spin.cross(spin.cross(r)));
 }
 
-FreeSegment::Answer FreeSegment::bear(std::span<const FreePush> pushes, const Vec3& spin, const Vec3& gravity) {
+/// The pushes, and the inertia that holds them in balance with the spin and the weight.
+solver::LoadSet FreeSegment::balanced(std::span<const FreePush> pushes, const Vec3& spin, const Vec3& gravity,
+                                      Answer& answer) const {
   solver::LoadSet loads = place(pushes);
   Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
-  double largest = mass_ * gravity.norm();
   for (const solver::NodeLoad& load : loads.nodes) {
     const Vec3 r = model_.nodes[static_cast<std::size_t>(load.node)] - centre_;
     force += load.load.head<3>();
     moment += r.cross(load.load.head<3>());
-    largest = std::max(largest, load.load.head<3>().norm());
   }
   for (const solver::BeamLoad& load : loads.beams) {
     const Member& member = building_[parts_.members[static_cast<std::size_t>(load.beam)]];
@@ -318,9 +326,7 @@ FreeSegment::Answer FreeSegment::bear(std::span<const FreePush> pushes, const Ve
     const Vec3 r = start_of(building_, member) + load.from * member.axes.row(0).transpose() - centre_;
     force += global;
     moment += r.cross(global) + member.axes.transpose() * load.first.tail<3>();
-    largest = std::max(largest, global.norm());
   }
-  Answer answer;
   answer.acceleration = gravity + force / mass_;
   answer.angular_acceleration = inertia_.inverse() * (moment - spin.cross(inertia_ * spin));
   for (std::size_t i = 0; i < parts_.members.size(); ++i) {
@@ -343,10 +349,13 @@ FreeSegment::Answer FreeSegment::bear(std::span<const FreePush> pushes, const Ve
     load.head<3>() = point_mass_[n] * on(model_.nodes[n], answer, spin, gravity);
     loads.nodes.push_back({static_cast<int>(n), load});
   }
-  std::optional<solver::StaticSolution> solution;
-  if (analysis_) {
-    solution = analysis_->solve({&loads, 1}).front();
-    answer.imbalance = largest > 0 ? solution->reactions.front().head<3>().norm() / largest : 0;
+  return loads;
+}
+
+/// What its joints bear in a state that was solved for.
+void FreeSegment::read_demands(const solver::StaticSolution* solution, std::span<const FreePush> pushes,
+                               const Vec3& spin, const Vec3& gravity, Answer& answer) const {
+  if (solution) {
     std::map<MemberId, std::size_t> number;
     for (std::size_t i = 0; i < parts_.members.size(); ++i) number[parts_.members[i]] = i;
     for (JointId joint : joints_)
@@ -365,6 +374,19 @@ FreeSegment::Answer FreeSegment::bear(std::span<const FreePush> pushes, const Ve
   }
   std::sort(answer.demands.begin(), answer.demands.end(),
             [](const auto& a, const auto& b) { return a.first < b.first; });
+}
+
+FreeSegment::Answer FreeSegment::bear(std::span<const FreePush> pushes, const Vec3& spin, const Vec3& gravity) {
+  Answer answer;
+  const solver::LoadSet loads = balanced(pushes, spin, gravity, answer);
+  std::optional<solver::StaticSolution> solution;
+  if (analysis_) {
+    solution = analysis_->solve({&loads, 1}).front();
+    double largest = mass_ * gravity.norm();
+    for (const FreePush& push : pushes) largest = std::max(largest, push.force.norm());
+    answer.imbalance = largest > 0 ? solution->reactions.front().head<3>().norm() / largest : 0;
+  }
+  read_demands(solution ? &*solution : nullptr, pushes, spin, gravity, answer);
   return answer;
 }
 

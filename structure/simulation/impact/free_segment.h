@@ -5,6 +5,7 @@
 //   a + alpha x r + w x (w x r),
 // and the frame is solved held at one node, whose reaction is nothing. Panels that are no shells stiffen nothing and
 // hang in it by their edges (flying_edges.h); what a shell's edges bear is what its stiffness takes up.
+#include <Eigen/Core>
 #include <functional>
 #include <memory>
 #include <span>
@@ -42,7 +43,7 @@ class FreeSegment {
               const FlyingEdges& edges = nullptr);
 
   /// False when no joint inside it could break. One that can move within itself is asked nothing of its members.
-  [[nodiscard]] bool can_break() const { return analysis_ != nullptr || !hung_.empty(); }
+  [[nodiscard]] bool can_break() const { return can_break_; }
 
   struct Answer {
     /// Of each intact joint with a capacity, in order of id; those of panels per length.
@@ -54,7 +55,29 @@ class FreeSegment {
   /// `spin` and `gravity` in the axes of the undeformed building. Only when it can break.
   [[nodiscard]] Answer bear(std::span<const FreePush> pushes, const Vec3& spin, const Vec3& gravity);
 
+  /// How the body gives way to forces at several places, and what they add to its joints.
+  struct Flexibility {
+    /// m/N: by how much place i moves along its force, beyond the rigid motion of the whole, for each newton of force
+    /// j; symmetric.
+    Eigen::MatrixXd compliance;
+    /// For each newton at each place, one column a place; joints in order of id, those of panels per length.
+    std::vector<std::pair<JointId, Eigen::Matrix<double, 6, Eigen::Dynamic>>> demands;
+  };
+  /// `unit_pushes`: unit vectors. Each is held in balance by the inertia of the whole (free flexibility by inertia
+  /// relief: Felippa and Park, "A direct flexibility method", 1997, whose A' K^+ A this is). A panel that is struck
+  /// adds its own bending as a strip between two edges (placed_load.h). Where the body can move within itself nothing
+  /// is known of its members, and what is struck is as stiff as its own part.
+  [[nodiscard]] Flexibility flexibility(std::span<const FreePush> unit_pushes);
+
  private:
+  void analyse();
+  [[nodiscard]] double compliance_of_part_alone(const FreePush& unit_push) const;
+  [[nodiscard]] double work(const solver::LoadSet& loads, const solver::StaticSolution& through,
+                            const solver::LoadSet& of_solution) const;
+  [[nodiscard]] solver::LoadSet balanced(std::span<const FreePush> pushes, const Vec3& spin, const Vec3& gravity,
+                                         Answer& answer) const;
+  void read_demands(const solver::StaticSolution* solution, std::span<const FreePush> pushes, const Vec3& spin,
+                    const Vec3& gravity, Answer& answer) const;
   [[nodiscard]] int node_at(NodeId node);
   /// A panel that hangs by edges that can break.
   struct Hung {
@@ -89,6 +112,9 @@ class FreeSegment {
   double mass_ = 0;
   Vec3 centre_ = Vec3::Zero();
   Mat3 inertia_ = Mat3::Zero();
+  int held_at_ = -1;           ///< node of the model, -1: none that could hold it
+  bool is_mechanism_ = false;  ///< it can move within itself
+  bool can_break_ = false;
   std::unique_ptr<solver::StaticAnalysis> analysis_;
 };
 

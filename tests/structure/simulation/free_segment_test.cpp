@@ -256,3 +256,48 @@ TEST_CASE("a floor goes with the part that holds two of its opposite edges, and 
   REQUIRE(two.size() == 2);
   CHECK(two[0].panels == floor.parts.panels);
 }
+
+TEST_CASE("a free bar gives way by l^3/(320 E I) in the middle, l^3/(105 E I) at its end, l/(3 E A) along itself") {
+  const Bar bar;
+  FreeSegment segment(bar.frame.building, bar.parts, all_hold);
+  const Building& building = bar.frame.building;
+  const Member& member = building[bar.parts.members[0]];
+  const Section& section = building[member.section];
+  const Material& material = building[member.material];
+  const double l = Bar::length, EI = material.youngs_modulus * section.Iy, EA = material.youngs_modulus * section.area;
+  const double GA = section.shear_area_z > 0 ? material.shear_modulus * section.shear_area_z : 0;
+  // Bending moments of a free bar in balance with its own even inertia: q x^2/2 to the middle, x (1 - x/l)^2 from the
+  // end. Of the shear forces: the integrals of (x/l)^2 twice to the middle, l/12, and of (1 - 4 s + 3 s^2)^2, 2 l/15.
+  const double shear_middle = GA > 0 ? l / 12 / GA : 0, shear_end = GA > 0 ? 2 * l / 15 / GA : 0;
+  const std::vector<FreePush> pushes{{bar.parts.members[0], {}, Vec3(l / 2, 0, 0), Vec3(0, 0, 1)},
+                                     {bar.parts.members[1], {}, Vec3(l, 0, 0), Vec3(0, 0, 1)},
+                                     {bar.parts.members[0], {}, Vec3(0, 0, 0), Vec3(1, 0, 0)}};
+  const FreeSegment::Flexibility flexibility = segment.flexibility(pushes);
+  CHECK(flexibility.compliance(0, 0) == Approx(l * l * l / (320 * EI) + shear_middle).epsilon(rounding));
+  CHECK(flexibility.compliance(1, 1) == Approx(l * l * l / (105 * EI) + shear_end).epsilon(rounding));
+  CHECK(flexibility.compliance(2, 2) == Approx(l / (3 * EA)).epsilon(rounding));
+  CHECK(std::abs(flexibility.compliance(0, 2)) < rounding * flexibility.compliance(2, 2));
+  CHECK(flexibility.compliance(0, 1) == Approx(flexibility.compliance(1, 0)).epsilon(1e-15));
+  // Each newton adds l/8 to the moment of the joints in the middle.
+  REQUIRE(flexibility.demands.size() == 2);
+  for (const auto& [joint, step] : flexibility.demands)
+    for (int place = 0; place < 2; ++place) CHECK(std::abs(step(4, place)) == Approx(l / 8).epsilon(rounding));
+}
+
+TEST_CASE("a single free member gives way as a bar does though no joint of it could break") {
+  FrameBuilder frame;
+  const NodeId a = frame.node("A", 0, 0, 0), b = frame.node("B", 6, 0, 0);
+  FreeSegmentParts parts;
+  parts.members = {frame.member("AB", MemberKind::beam, a, b)};
+  parts.nodes = {a, b};
+  parts.member_mass = {300};
+  parts.node_mass = {0, 0};
+  FreeSegment segment(frame.building, parts, all_hold);
+  CHECK_FALSE(segment.can_break());
+  const Section& section = frame.building[frame.building[parts.members[0]].section];
+  const Material& material = frame.building[frame.building[parts.members[0]].material];
+  const FreePush push{parts.members[0], {}, Vec3(0, 0, 0), Vec3(1, 0, 0)};
+  const auto flexibility = segment.flexibility({&push, 1});
+  CHECK(flexibility.compliance(0, 0) == Approx(6 / (3 * material.youngs_modulus * section.area)).epsilon(rounding));
+  CHECK(flexibility.demands.empty());
+}
