@@ -145,7 +145,15 @@ void Impact::change(Eigen::MatrixXd mobility, Eigen::MatrixXd compliance, const 
   }
 }
 
-void Impact::let_go(std::size_t place) { state_[place] = Touch::gone; }
+void Impact::keep(const std::vector<int>& places) {
+  mobility_ = Eigen::MatrixXd(mobility_(places, places));
+  compliance_ = Eigen::MatrixXd(compliance_(places, places));
+  for (Eigen::VectorXd* each : {&depth_, &speed_, &acceleration_, &unloaded_, &impulse_, &peak_})
+    *each = Eigen::VectorXd((*each)(places));
+  std::vector<Touch> state;
+  for (const int place : places) state.push_back(state_[static_cast<std::size_t>(place)]);
+  state_ = std::move(state);
+}
 
 Impact::Modes Impact::modes() const {
   Modes m;

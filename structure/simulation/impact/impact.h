@@ -17,6 +17,7 @@
 // beam (Timoshenko and Young, Vibration Problems in Engineering).
 #include <Eigen/Core>
 #include <functional>
+#include <utility>
 #include <vector>
 
 namespace topple::structure {
@@ -42,15 +43,21 @@ class Impact {
   /// After a break: mobility and compliance from now on, and by how much each unloaded place has moved (positive away
   /// from what pushes it). Speeds stay. The same errors as the constructor's.
   void change(Eigen::MatrixXd mobility, Eigen::MatrixXd compliance, const Eigen::VectorXd& shift);
-  /// The place is gone: it bears nothing from now on.
-  void let_go(std::size_t place);
+  /// Only these places from now on, in this order.
+  void keep(const std::vector<int>& places);
   [[nodiscard]] bool touches(std::size_t place) const { return state_[place] == Touch::touching; }
+  /// It touches, or a break has moved it ahead of what will meet it again.
+  [[nodiscard]] bool may_touch(std::size_t place) const { return state_[place] != Touch::gone; }
   /// Whether any place touches or may still come to.
   [[nodiscard]] bool goes_on() const;
 
-  [[nodiscard]] Eigen::VectorXd force() const;                                   ///< now, N
-  [[nodiscard]] const Eigen::VectorXd& peak_force() const { return peak_; }      ///< so far, N
-  [[nodiscard]] const Eigen::VectorXd& impulse() const { return impulse_; }      ///< of each place so far, N s
+  [[nodiscard]] Eigen::VectorXd force() const;                               ///< now, N
+  [[nodiscard]] const Eigen::VectorXd& peak_force() const { return peak_; }  ///< so far, N
+  [[nodiscard]] const Eigen::VectorXd& impulse() const { return impulse_; }  ///< of each place since taken last, N s
+  /// Hands them out: from now on they are counted anew.
+  [[nodiscard]] Eigen::VectorXd take_impulse() {
+    return std::exchange(impulse_, Eigen::VectorXd::Zero(impulse_.size()));
+  }
   [[nodiscard]] const Eigen::VectorXd& closing_speed() const { return speed_; }  ///< now, m/s
   [[nodiscard]] const Eigen::VectorXd& indentation() const { return depth_; }    ///< now, m
   [[nodiscard]] double time() const { return time_; }                            ///< since first touch, s

@@ -1,0 +1,389 @@
+// Bodies that come upon each other or upon the ground: the law of impact (impact.h) says which of their joints fail, at
+// the instant and with the speeds at which they meet, before the collision world moves them.
+//
+// Each side gives way by its own flexibility as a free body (free_segment.h); chunks, balls and the ground are rigid.
+// What breaks takes its energy out of the approach, the parts that are left go on, and when nothing more fails the
+// collision world has the rest: where nothing breaks an impact leaves no trace here.
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "simulation/debris/momentum.h"
+#include "simulation/impact/impact.h"
+#include "simulation/impact/rigid_mobility.h"
+#include "simulation/impact/struck_joints.h"
+#include "simulation/simulation_state.h"
+
+namespace topple::structure {
+
+namespace {
+
+/// m/s: what closes no faster is lying, rolling or settling. A body gains it in a fall of 13 mm; with the stiffness of
+/// a steel beam (1e7 N/m) and a ton it presses with 50 kN, five times the weight.
+constexpr double least_impact_speed = 0.5;
+/// m: places that are no farther from touching when the first of them touches touch with it. Collision shapes are no
+/// truer.
+constexpr double touching = 1e-3;
+/// Places that give way alike to this share are one place.
+constexpr double same_place = 1e-6;
+/// A stiff place among soft ones is over before these feel anything: the first alone is followed then.
+constexpr double most_unlike = 30;
+
+/// How far the unloaded places lie behind after a break. What is left stiffer holds the force that it had: the rest of
+/// the way belonged to what came off. What is left softer is pressed as far as it was.
+Eigen::VectorXd shift_of_break(const Eigen::MatrixXd& before, const Eigen::MatrixXd& after,
+                               const Eigen::VectorXd& force) {
+  const bool stiffer = force.dot(after * force) < force.dot(before * force);
+  return stiffer ? Eigen::VectorXd((before - after) * force) : Eigen::VectorXd(Eigen::VectorXd::Zero(force.size()));
+}
+
+/// Which places give way in ways of their own, in their order: of two that are one, the first.
+std::vector<int> independent_places(const Eigen::MatrixXd& compliance) {
+  std::vector<int> kept;
+  Eigen::MatrixXd left = compliance;
+  for (Eigen::Index k = 0; k < left.rows(); ++k) {
+    if (!(left(k, k) > same_place * compliance(k, k))) continue;
+    kept.push_back(static_cast<int>(k));
+    const Eigen::VectorXd column = left.col(k) / left(k, k);
+    left -= (column * left.row(k)).eval();
+  }
+  return kept;
+}
+
+}  // namespace
+
+/// An impact under way. Side 0 is the body of the contact, side 1 what it comes upon.
+struct Simulation::State::BodyImpact {
+  struct Side {
+    collision::BodyId id;  ///< -1: the ground
+    double time = 0;       ///< of the impact, since the body's state
+    RigidMotion motion;    ///< at the instant, true velocities
+    collision::Pose pose;  ///< at the instant
+    bool slept = false;
+    std::vector<std::int64_t> tags;  ///< of the part that each place is on; -1: none of the building's
+    FreeSegment::Flexibility flexibility;
+    std::vector<std::pair<JointId, Vec6>> borne;  ///< by its joints from its spin alone
+  };
+  std::vector<ImpactPlace> places;
+  std::array<Side, 2> sides;
+  Eigen::MatrixXd compliance;
+
+  [[nodiscard]] Eigen::MatrixXd mobility_of_both() const {
+    return mobility(sides[0].motion, places) + mobility(sides[1].motion, places);
+  }
+  [[nodiscard]] Eigen::VectorXd closing() const { return closing_speeds(sides[0].motion, sides[1].motion, places); }
+  void keep(const std::vector<int>& kept);
+  void give(const Eigen::VectorXd& impulses);
+};
+
+void Simulation::State::BodyImpact::keep(const std::vector<int>& kept) {
+  std::vector<ImpactPlace> fewer;
+  for (const int k : kept) fewer.push_back(places[static_cast<std::size_t>(k)]);
+  places = std::move(fewer);
+  for (Side& side : sides) {
+    std::vector<std::int64_t> tags;
+    for (const int k : kept) tags.push_back(side.tags[static_cast<std::size_t>(k)]);
+    side.tags = std::move(tags);
+    for (auto& [joint, step] : side.flexibility.demands)
+      step = Eigen::Matrix<double, 6, Eigen::Dynamic>(step(Eigen::all, kept));
+  }
+  compliance = Eigen::MatrixXd(compliance(kept, kept));
+}
+
+/// To both sides at once, opposite and equal.
+void Simulation::State::BodyImpact::give(const Eigen::VectorXd& impulses) {
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Vec3 impulse = impulses(static_cast<Eigen::Index>(i)) * places[i].normal;
+    sides[0].motion.push(-impulse, places[i].point);
+    sides[1].motion.push(impulse, places[i].point);
+  }
+}
+
+/// Of the body that holds the joint's member or panel.
+std::int64_t Simulation::State::body_of_joint(JointId joint) const {
+  const Joint& own = building[joint];
+  const Part part = own.member.valid() ? Part(own.member) : Part(own.panel);
+  return body_of_part[static_cast<std::size_t>(part_number(building, part))];
+}
+
+bool Simulation::State::may_break(collision::BodyId id) const {
+  const auto found = bodies.find(id.value);
+  return found != bodies.end() && may_fall_apart(found->second);
+}
+
+/// Those of one pair at one instant, in order of time; pairs of which nothing can break are left to the collision
+/// world.
+void Simulation::State::strike_bodies(const std::vector<collision::Contact>& contacts) {
+  std::vector<char> done(contacts.size(), 0);
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const collision::Contact& first = contacts[i];
+    if (done[i] != 0 || first.other.kind == collision::Touched::Kind::obstacle) continue;
+    if (first.approach_speed < least_impact_speed) continue;
+    const bool two = first.other.kind == collision::Touched::Kind::body;
+    if (!may_break(first.body) && !(two && may_break(first.other.body))) continue;
+    std::vector<const collision::Contact*> together;
+    for (std::size_t k = i; k < contacts.size(); ++k) {
+      const collision::Contact& next = contacts[k];
+      if (next.body != first.body || next.other.kind != first.other.kind || next.other.body != first.other.body)
+        continue;
+      if (k > i && (next.time - first.time) * next.approach_speed > touching) continue;
+      together.push_back(&next);
+      done[k] = 1;
+    }
+    strike_bodies_at(together);
+  }
+}
+
+/// Where it is and how it moves `time` after the step began.
+Simulation::State::BodyImpact::Side Simulation::State::side_at(collision::BodyId id, double time) const {
+  BodyImpact::Side side;
+  side.id = id;
+  if (id.value < 0) return side;
+  const collision::BodyState state = world->state(id);
+  const Body& one = bodies.at(id.value);
+  side.slept = state.asleep;
+  side.time = state.asleep ? 0 : time;
+  side.pose = state.pose;
+  side.motion.inverse_mass = 1 / one.rest.mass;
+  if (!state.asleep) {
+    side.motion.velocity = reading().true_velocity(state.velocity);
+    side.motion.spin = state.angular_velocity;
+    side.pose.position += side.motion.velocity * time + gravity * (time * time / 2);
+    side.pose.orientation = turned(state.pose.orientation, side.motion.spin * time);
+    side.motion.velocity += gravity * time;
+  }
+  side.motion.centre = side.pose.position;
+  side.motion.inverse_inertia = world_inertia(one, side.pose.orientation).inverse();
+  return side;
+}
+
+/// The body from the step's start on, so that it comes through that instant as it is now.
+void Simulation::State::set_side(const BodyImpact::Side& side) {
+  if (side.id.value < 0) return;
+  collision::BodyState state;
+  const double t = side.time;
+  state.velocity = side.motion.velocity - gravity * t;
+  state.angular_velocity = side.motion.spin;
+  state.pose.position = side.pose.position - state.velocity * t - gravity * (t * t / 2);
+  state.pose.orientation = turned(side.pose.orientation, -side.motion.spin * t);
+  BodyMotion& motion = bodies.motion(side.id.value);
+  // The weight has done its work on the way to the instant, wherever the body is said to come from.
+  body_gravity_work += motion.mass * gravity.dot(state.pose.position - motion.step_start);
+  motion.step_start = state.pose.position;
+  state.velocity = reading().to_world(state.velocity);
+  world->set_state(side.id, state);
+}
+
+/// How a side gives way at the places, what its joints bear of it, and what they bear without it.
+void Simulation::State::find_flexibility(BodyImpact::Side& side, const std::vector<ImpactPlace>& places, double sign) {
+  const auto n = static_cast<Eigen::Index>(places.size());
+  side.flexibility = {};
+  side.flexibility.compliance = Eigen::MatrixXd::Zero(n, n);
+  side.borne.clear();
+  const Body* one = body(side.id);
+  if (!one || (one->members.empty() && one->panels.empty())) return;
+  const Mat3 back = side.pose.orientation.toRotationMatrix().transpose();
+  std::vector<FreePush> pushes;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Part part = part_of_number(building, side.tags[i]);
+    pushes.push_back({part.member, part.panel, one->rest.centre + back * (places[i].point - side.pose.position),
+                      sign * (back * places[i].normal)});
+  }
+  (void)make_free_segment(*one);
+  FreeSegment& segment = *free_segments.at(one->id.value);
+  side.flexibility = segment.flexibility(pushes);
+  if (segment.can_break()) side.borne = segment.bear({}, back * side.motion.spin, Vec3::Zero()).demands;
+}
+
+std::vector<StruckJoint> Simulation::State::struck_joints(const BodyImpact& impact) const {
+  std::vector<StruckJoint> joints;
+  for (const BodyImpact::Side& side : impact.sides)
+    for (std::size_t k = 0; k < side.flexibility.demands.size(); ++k) {
+      const auto& [joint, step] = side.flexibility.demands[k];
+      joints.push_back({joint, &building[joint].capacity, strength_factors[static_cast<std::size_t>(joint.index)],
+                        side.borne[k].second, step});
+    }
+  return joints;
+}
+
+void Simulation::State::strike_bodies_at(const std::vector<const collision::Contact*>& contacts) {
+  const collision::Contact& first = *contacts.front();
+  const bool two = first.other.kind == collision::Touched::Kind::body;
+  if (!bodies.contains(first.body.value) || (two && !bodies.contains(first.other.body.value))) return;
+  BodyImpact impact;
+  impact.sides[0] = side_at(first.body, first.time);
+  impact.sides[1] = side_at(two ? first.other.body : collision::BodyId(), first.time);
+  for (const collision::Contact* contact : contacts) {
+    // An area is met at its corners.
+    for (int corner = 0; corner < std::max(1, contact->corner_count); ++corner) {
+      const Vec3 point =
+          contact->corner_count > 0 ? contact->corners[static_cast<std::size_t>(corner)] : contact->point;
+      impact.places.push_back({point, contact->normal});
+      impact.sides[0].tags.push_back(contact->part_tag);
+      impact.sides[1].tags.push_back(two ? contact->other.part_tag : -1);
+    }
+  }
+  push_bodies(impact);
+}
+
+/// Both sides' flexibility, and the places that are left of it. False: nothing gives way, or nothing closes.
+bool Simulation::State::take_up(BodyImpact& impact) {
+  find_flexibility(impact.sides[0], impact.places, -1);
+  find_flexibility(impact.sides[1], impact.places, 1);
+  impact.compliance = impact.sides[0].flexibility.compliance + impact.sides[1].flexibility.compliance;
+  return impact.compliance.diagonal().minCoeff() > 0;
+}
+
+void Simulation::State::push_bodies(BodyImpact& impact) {
+  if (!(impact.closing().maxCoeff() >= least_impact_speed) || !take_up(impact)) return;
+  impact.keep(independent_places(impact.compliance));
+  std::optional<Impact> push = begin_push(impact);
+  if (push->fastest_over_slowest() > most_unlike) {
+    impact.keep({0});
+    push = begin_push(impact);
+  }
+  const double speed_in = push->closing_speed()(0);
+  std::optional<std::size_t> told;  // which event tells of it, once something broke
+  for (;;) {
+    Impact borne = *push;
+    (void)borne.push();
+    const StruckJoints joints(struck_joints(impact), borne.peak_force());
+    const auto used = [&](const Eigen::VectorXd& force) { return joints.utilisation(force); };
+    if (joints.empty() || push->push(used) != Impact::Stop::failed) break;
+    if (!told) told = tell_body_impact(impact, speed_in);
+    const std::vector<JointBreak> broken = joints.failing(push->force());
+    give_impulses(impact, push->take_impulse());
+    const bool goes_on = break_bodies(impact, *push, broken);
+    SimulationEvent& event = events[*told];
+    event.peak_force = std::max(event.peak_force, push->peak_force().maxCoeff());
+    event.speed_out = push->closing_speed()(0);
+    if (!goes_on) break;
+  }
+}
+
+Impact Simulation::State::begin_push(const BodyImpact& impact) const {
+  Eigen::VectorXd acceleration(static_cast<Eigen::Index>(impact.places.size()));
+  for (std::size_t i = 0; i < impact.places.size(); ++i) {
+    // What lies asleep is held up by what it lies on.
+    const auto falls = [&](const BodyImpact::Side& side) {
+      return side.id.value >= 0 && !side.slept ? gravity.dot(impact.places[i].normal) : 0.0;
+    };
+    acceleration(static_cast<Eigen::Index>(i)) = falls(impact.sides[0]) - falls(impact.sides[1]);
+  }
+  return Impact(impact.mobility_of_both(), impact.compliance, impact.closing(), acceleration);
+}
+
+std::size_t Simulation::State::tell_body_impact(const BodyImpact& impact, double speed_in) {
+  const BodyImpact::Side &by = impact.sides[0], &on = impact.sides[1];
+  SimulationEvent& event =
+      tell(SimulationEvent::Kind::impact, on.id.value < 0 ? "ground" : touched_name(on.id, on.tags.front()));
+  event.body = by.id;
+  event.other_body = on.id;
+  event.body_name = bodies.at(by.id.value).name;
+  event.mass = bodies.at(by.id.value).rest.mass;
+  event.speed_in = speed_in;
+  event.position = impact.places.front().point;
+  return events.size() - 1;
+}
+
+/// What the law has done so far becomes velocity of both; the world hears of it.
+void Simulation::State::give_impulses(BodyImpact& impact, const Eigen::VectorXd& impulses) {
+  const auto state_of = [](const BodyImpact::Side& side) {
+    collision::BodyState state;
+    state.pose = side.pose;
+    state.velocity = side.motion.velocity;
+    state.angular_velocity = side.motion.spin;
+    return state;
+  };
+  const auto measure = [&](Momentum& sum) {
+    double kinetic = 0;
+    for (const BodyImpact::Side& side : impact.sides) {
+      if (side.id.value < 0) continue;
+      sum.add(bodies.at(side.id.value), state_of(side));
+      const Kinetic own = kinetic_energy(bodies.at(side.id.value), state_of(side));
+      kinetic += own.translation + own.rotation;
+    }
+    return kinetic;
+  };
+  Momentum before{impact.places.front().point}, after{impact.places.front().point};
+  const double kinetic = measure(before);
+  impact.give(impulses);
+  if (impact.sides[1].id.value < 0)
+    for (std::size_t i = 0; i < impact.places.size(); ++i)
+      before.add_impulse(-impulses(static_cast<Eigen::Index>(i)) * impact.places[i].normal, impact.places[i].point);
+  for (BodyImpact::Side& side : impact.sides) {
+    set_side(side);
+    if (side.id.value >= 0) side = side_again(side, side.id);
+  }
+  ledger.lost_in_impacts += kinetic - measure(after);
+  ledger.momentum_error = std::max(ledger.momentum_error, after.error(before));
+}
+
+/// The same places and the same instant, on a body as the world has it now.
+Simulation::State::BodyImpact::Side Simulation::State::side_again(const BodyImpact::Side& side,
+                                                                  collision::BodyId id) const {
+  BodyImpact::Side now = side_at(id, side.time);
+  now.tags = side.tags;
+  now.flexibility = side.flexibility;
+  now.borne = side.borne;
+  return now;
+}
+
+/// These joints fail; bodies fall apart, and the push goes on with the pieces that touch. False: it is over.
+bool Simulation::State::break_bodies(BodyImpact& impact, Impact& push, const std::vector<JointBreak>& broken) {
+  const double stored = push.stored();
+  const Eigen::VectorXd force = push.force();
+  const Eigen::MatrixXd compliance = impact.compliance;
+  std::vector<std::size_t> lines;
+  for (const JointBreak& one : broken) {
+    debris_broken[static_cast<std::size_t>(one.joint.index)] = 1;
+    JointBreak line = one;
+    const collision::BodyId id{body_of_joint(one.joint)};
+    const collision::BodyState state = world->state(id);
+    line.position = state.pose * (joint_position(one.joint) - bodies.at(id.value).rest.centre);
+    lines.push_back(events.size());
+    tell(line);
+  }
+  std::vector<int> kept;
+  for (BodyImpact::Side& side : impact.sides) {
+    if (side.id.value < 0) continue;
+    const bool of_this = std::any_of(broken.begin(), broken.end(),
+                                     [&](const JointBreak& one) { return body_of_joint(one.joint) == side.id.value; });
+    if (!of_this) continue;
+    free_segments.erase(side.id.value);
+    (void)come_apart(side.id);
+    const std::int64_t piece = body_of_part[static_cast<std::size_t>(side.tags.front())];
+    if (!bodies.contains(piece)) return false;
+    side = side_again(side, {piece});
+  }
+  const auto holds = [&](const BodyImpact::Side& side, std::size_t place) {
+    return side.id.value < 0 || side.tags[place] < 0 ||
+           body_of_part[static_cast<std::size_t>(side.tags[place])] == side.id.value;
+  };
+  for (std::size_t i = 0; i < impact.places.size(); ++i)
+    if (push.may_touch(i) && holds(impact.sides[0], i) && holds(impact.sides[1], i))
+      kept.push_back(static_cast<int>(i));
+  double left = 0;
+  bool goes_on = !kept.empty();
+  if (goes_on) {
+    impact.keep(kept);
+    push.keep(kept);
+    goes_on = take_up(impact);
+  }
+  if (goes_on) {
+    const std::vector<int> apart = independent_places(impact.compliance);
+    impact.keep(apart);
+    push.keep(apart);
+    Eigen::MatrixXd before = compliance(kept, kept);
+    Eigen::VectorXd pressed = force(kept);
+    before = Eigen::MatrixXd(before(apart, apart));
+    pressed = Eigen::VectorXd(pressed(apart));
+    push.change(impact.mobility_of_both(), impact.compliance, shift_of_break(before, impact.compliance, pressed));
+    left = push.stored();
+  }
+  for (const std::size_t line : lines)
+    events[line].joint.energy = std::max(0.0, stored - left) / static_cast<double>(lines.size());
+  return goes_on;
+}
+
+}  // namespace topple::structure
