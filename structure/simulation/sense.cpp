@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulation/impact/impact_settings.h"
 #include "simulation/simulation_state.h"
 
 namespace topple::structure {
@@ -82,7 +83,11 @@ std::vector<collision::Contact> Simulation::State::sense() {
     if (!state.asleep) approach(one, state);
   }
   if (world->awake_count() == 0) return {};
-  return timer.engine([&] { return world->sweep(scenario.step, collision::Sweep::obstacles); });
+  // Bodies are looked for where some can break against each other.
+  const bool any_composed = std::any_of(bodies.composed().begin(), bodies.composed().end(),
+                                        [&](std::int64_t id) { return !bodies.motion(id).asleep || may_break({id}); });
+  const collision::Sweep what = any_composed ? collision::Sweep::everything : collision::Sweep::obstacles;
+  return timer.engine([&] { return world->sweep(scenario.step, what, impact_settings.least_speed); });
 }
 
 }  // namespace topple::structure

@@ -29,6 +29,7 @@ void Simulation::step() {
     timed(Stage::break_, [&] {
       s.strike_by_host();
       s.strike_all(contacts);
+      s.strike_bodies(contacts);
       s.break_generations();
     });
     timed(Stage::release, [&] { s.release(); });

@@ -9,7 +9,11 @@
 #include "simulation/debris/resting_loads.h"
 #include "simulation/fracture/broken_panel.h"
 #include "simulation/impact/free_segment.h"
+#include "simulation/impact/impact.h"
 #include "simulation/impact/indentation.h"
+#include "simulation/impact/pressing_forces.h"
+#include "simulation/impact/rigid_mobility.h"
+#include "simulation/impact/struck_joints.h"
 #include "topple/structure/simulation.h"
 
 namespace topple::structure {
@@ -90,6 +94,26 @@ struct Simulation::State {
     collision::BodyId by;
   };
 
+  // strike_bodies.cpp: the law of impact between bodies, and of bodies on the ground and on what stands firm.
+  struct BodyImpact;
+  struct ImpactSide;
+  void strike_bodies(const std::vector<collision::Contact>& contacts);
+  void strike_bodies_at(const std::vector<const collision::Contact*>& contacts);
+  void push_bodies(BodyImpact& impact);
+  [[nodiscard]] bool may_break(collision::BodyId id) const;
+  [[nodiscard]] std::int64_t body_of_joint(JointId joint) const;
+  [[nodiscard]] ImpactSide side_at(collision::BodyId id, double time) const;
+  [[nodiscard]] double time_since_state(collision::BodyId id, double sensed_at) const;
+  [[nodiscard]] ImpactSide side_again(const ImpactSide& side, collision::BodyId id) const;
+  void set_side(const ImpactSide& side);
+  void find_flexibility(ImpactSide& side, const std::vector<ImpactPlace>& places, double sign);
+  [[nodiscard]] bool take_up(BodyImpact& impact);
+  [[nodiscard]] Impact begin_push(const BodyImpact& impact) const;
+  [[nodiscard]] std::vector<StruckJoint> struck_joints(const BodyImpact& impact) const;
+  std::size_t tell_body_impact(const BodyImpact& impact, double speed_in);
+  void give_impulses(BodyImpact& impact, const Eigen::VectorXd& impulses);
+  bool break_bodies(BodyImpact& impact, Impact& push, const std::vector<JointBreak>& broken);
+
   // release.cpp: what left the frame becomes bodies.
   void release();
   void release(const Detached& part);
@@ -154,11 +178,13 @@ struct Simulation::State {
 
   // crumble.cpp: panels of bodies with other parts break where these come down hard on them.
   struct PanelBlow {
-    double force = 0;        ///< N
+    double energy = 0;       ///< of the approach, J
     Vec3 at = Vec3::Zero();  ///< in the undeformed building
     double radius = 0;       ///< of the ball that hit it
   };
   [[nodiscard]] std::map<PanelId, PanelBlow> blows_on_panels() const;
+  [[nodiscard]] double punching_energy(PanelId panel, const Vec3& at, const Vec3& along, double radius) const;
+  [[nodiscard]] double inverse_effective_mass(const Body& one, const FeltContact& contact) const;
   void crumble(const std::map<PanelId, PanelBlow>& blows);
   std::vector<Body> break_out_in_flight(PanelId panel, const PanelBlow& blow);
   [[nodiscard]] std::array<bool, 4> held_in_flight(PanelId panel, const Body& one) const;
@@ -187,7 +213,7 @@ struct Simulation::State {
   void open_panels();
 
   // break_up.cpp: bodies of several members that are hit hard fall apart.
-  /// What a step's contacts, its spin and gravity do to a body, in the axes of the undeformed building.
+  /// What presses on a body, its spin and gravity do to it, in the axes of the undeformed building.
   struct Blow {
     collision::BodyId on;
     std::vector<FreePush> pushes;
@@ -195,9 +221,8 @@ struct Simulation::State {
     int generation = 0;  ///< of its breaks, so far
   };
   void break_up_landed();
-  [[nodiscard]] std::vector<collision::BodyId> hit_hard();
+  [[nodiscard]] std::vector<Blow> pressed_hard();
   [[nodiscard]] bool spins_hard(const Body& one, const Vec3& spin) const;
-  [[nodiscard]] std::vector<Blow> blows(const std::vector<collision::BodyId>& on) const;
   [[nodiscard]] std::vector<Blow> handed_on(const Blow& blow, const std::vector<collision::BodyId>& pieces) const;
   [[nodiscard]] FreeSegment& free_segment_of(const Body& one);
   bool break_joints_of(const Blow& blow);
@@ -264,6 +289,7 @@ struct Simulation::State {
   PartGrid grid;
   Obstacles obstacles;
   std::vector<FeltContact> felt_contacts;  ///< of the last collision step
+  PressingForces pressing;
   RestingLoads resting;
   /// Debris that is no body any more and lies as dead weight.
   struct Frozen {

@@ -8,6 +8,7 @@
 
 #include "simulation/debris/momentum.h"
 #include "simulation/impact/first_failure.h"
+#include "simulation/impact/impact_settings.h"
 #include "simulation/simulation_state.h"
 #include "simulation/step_clock.h"
 #include "topple/structure/joint_check.h"
@@ -15,9 +16,6 @@
 namespace topple::structure {
 
 namespace {
-/// Forces of contact below this multiple of the body's weight, and spins whose pull is below this multiple of gravity,
-/// are those of lying, rolling and tumbling: what fell in one piece bears them.
-constexpr double hard = 3;
 /// Joints within this share of the most used break together: symmetric ones differ by rounding only.
 constexpr double same_time = 1e-6;
 }  // namespace
@@ -63,56 +61,26 @@ FreeSegmentParts Simulation::State::parts_of(const Body& one) const {
 }
 
 bool Simulation::State::spins_hard(const Body& one, const Vec3& spin) const {
-  return spin.squaredNorm() * (one.bounds.high - one.bounds.low).norm() / 2 > hard * building.gravity;
+  return spin.squaredNorm() * (one.bounds.high - one.bounds.low).norm() / 2 > impact_settings.hard * building.gravity;
 }
 
-/// Bodies of several parts that contacts pushed hard, or that spin fast.
-std::vector<collision::BodyId> Simulation::State::hit_hard() {
-  std::vector<std::pair<std::int64_t, double>> force;  // sum over contacts of their size
-  for (const std::int64_t id : bodies.composed())
-    if (!bodies.motion(id).asleep && may_fall_apart(bodies.at(id))) force.emplace_back(id, 0.0);
-  if (force.empty()) return {};
-  const auto feel = [&](collision::BodyId id, const FeltContact& contact, std::int64_t tag) {
-    if (tag < 0) return;
-    const auto felt = std::lower_bound(force.begin(), force.end(), std::pair(id.value, 0.0));
-    if (felt != force.end() && felt->first == id.value) felt->second += contact.impulse.norm() / scenario.step;
-  };
-  for (const FeltContact& contact : felt_contacts) {
-    feel(contact.body, contact, contact.part_tag);
-    if (contact.other.kind == collision::Touched::Kind::body) feel(contact.other.body, contact, contact.other.part_tag);
-  }
-  std::vector<collision::BodyId> hit;
-  for (const auto& [id, size] : force) {
-    const Body& one = bodies.at(id);
-    if (size > hard * one.rest.mass * building.gravity || spins_hard(one, world->state(one.id).angular_velocity))
-      hit.push_back({id});
-  }
-  return hit;
-}
-
-/// What contacts did to these bodies in this step, in their own undeformed axes.
-std::vector<Simulation::State::Blow> Simulation::State::blows(const std::vector<collision::BodyId>& on) const {
+/// Bodies of several parts that are pressed hard, or that spin fast, and what acts on them in their undeformed axes.
+std::vector<Simulation::State::Blow> Simulation::State::pressed_hard() {
+  pressing.read(felt_contacts, scenario.step, [&](collision::BodyId id) -> std::optional<BodyPlace> {
+    const auto composed = bodies.composed();
+    if (!std::binary_search(composed.begin(), composed.end(), id.value)) return std::nullopt;
+    return BodyPlace{world->state(id).pose, bodies.at(id.value).rest.centre};
+  });
   std::vector<Blow> all;
-  for (const collision::BodyId id : on) {
-    const collision::BodyState state = world->state(id);
+  for (const std::int64_t id : bodies.composed()) {
+    const Body& one = bodies.at(id);
+    if (bodies.motion(id).asleep || !may_fall_apart(one)) continue;
+    const collision::BodyState state = world->state(one.id);
+    if (pressing.size(one.id) <= impact_settings.hard * one.rest.mass * building.gravity &&
+        !spins_hard(one, state.angular_velocity))
+      continue;
     const Mat3 back = state.pose.orientation.toRotationMatrix().transpose();
-    all.push_back({id, {}, back * state.angular_velocity, back * gravity});
-  }
-  const auto feel = [&](collision::BodyId id, std::int64_t tag, const Vec3& impulse, const Vec3& point) {
-    if (tag < 0 || impulse.isZero(0)) return;
-    const auto blow = std::lower_bound(all.begin(), all.end(), id,
-                                       [](const Blow& one, collision::BodyId wanted) { return one.on < wanted; });
-    if (blow == all.end() || blow->on != id) return;
-    const collision::Pose pose = world->state(id).pose;
-    const Mat3 back = pose.orientation.toRotationMatrix().transpose();
-    const Part part = part_of_number(building, tag);
-    blow->pushes.push_back({part.member, part.panel, bodies.at(id.value).rest.centre + back * (point - pose.position),
-                            back * impulse / scenario.step});
-  };
-  for (const FeltContact& contact : felt_contacts) {
-    feel(contact.body, contact.part_tag, -contact.impulse, contact.point);
-    if (contact.other.kind == collision::Touched::Kind::body)
-      feel(contact.other.body, contact.other.part_tag, contact.impulse, contact.point);
+    all.push_back({one.id, pressing.on(one.id, building), back * state.angular_velocity, back * gravity});
   }
   return all;
 }
@@ -120,7 +88,7 @@ std::vector<Simulation::State::Blow> Simulation::State::blows(const std::vector<
 /// One generation of each body after the other, until nothing breaks.
 void Simulation::State::break_up_landed() {
   if (world->awake_count() == 0) return;
-  std::vector<Blow> fallen = blows(hit_hard());
+  std::vector<Blow> fallen = pressed_hard();
   std::deque<Blow> waiting(std::make_move_iterator(fallen.begin()), std::make_move_iterator(fallen.end()));
   while (!waiting.empty()) {
     const Blow blow = std::move(waiting.front());

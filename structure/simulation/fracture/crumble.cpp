@@ -2,11 +2,11 @@
 // breaks out, and what then hangs on nothing, leaves as chunks; what its edges still hold stays with the body. All move
 // on as the body did, so that momentum and kinetic energy go over exactly.
 //
-// Hard is a blow that punches the panel as it would where it stands (break_standing.cpp), the contact's impulse taken
-// as a force that lasts the step, or one that is faster than what crushes the material (shatter.cpp). What lies on a
-// panel presses on it without a blow.
+// Hard is a blow whose energy bends the panel to the force that punches it and punches it then, or one that is faster
+// than what crushes the material (shatter.cpp). What lies on a panel presses on it without a blow.
 #include <algorithm>
 
+#include "loads/placed_load.h"
 #include "simulation/simulation_state.h"
 
 namespace topple::structure {
@@ -28,17 +28,20 @@ std::map<PanelId, Simulation::State::PanelBlow> Simulation::State::blows_on_pane
     const double impulse = std::abs(contact.impulse.dot(contact.normal));
     const Mat3 turn = state.pose.orientation.toRotationMatrix();
     const Mat3 inverse = world_inertia(one, state.pose.orientation).inverse();
-    const double change = impulse / effective_mass(one.rest.mass, inverse, arm, contact.normal);
+    const double own = effective_mass(one.rest.mass, inverse, arm, contact.normal);
     const auto by = bodies.find(other.value);
+    const Vec3 across = turn.transpose() * contact.normal;
     PanelBlow blow;
-    blow.force = impulse / scenario.step;
     blow.at = one.rest.centre + turn.transpose() * arm;
     blow.radius = by == bodies.end() ? 0 : by->second.radius;
-    const bool crushes = change >= breakable_panels[static_cast<std::size_t>(panel.index)].breaking_speed;
-    const double bears = punching_force(panel, turn.transpose() * contact.normal, blow.radius);
-    if (!crushes && (contact.persistent || blow.force < bears)) return;
+    // The energy with which the two came together: the impulse is (1 + e) times what stops them.
+    const double inverse_mass = 1 / own + (by == bodies.end() ? 0 : inverse_effective_mass(by->second, contact));
+    const double stops = impulse / (1 + scenario.debris.restitution);
+    blow.energy = stops * stops * inverse_mass / 2;
+    const bool crushes = impulse / own >= breakable_panels[static_cast<std::size_t>(panel.index)].breaking_speed;
+    if (!crushes && (contact.persistent || blow.energy < punching_energy(panel, blow.at, across, blow.radius))) return;
     PanelBlow& hardest = blows[panel];
-    if (blow.force > hardest.force) hardest = blow;
+    if (blow.energy > hardest.energy) hardest = blow;
   };
   for (const FeltContact& contact : felt_contacts) {
     const bool two = contact.other.kind == collision::Touched::Kind::body;
@@ -46,6 +49,20 @@ std::map<PanelId, Simulation::State::PanelBlow> Simulation::State::blows_on_pane
     if (two) feel(contact.other.body, contact.other.part_tag, contact, contact.body);
   }
   return blows;
+}
+
+/// What bends the panel to the force that punches it, and punches it then: elastic energy, and that force over half the
+/// thickness, as where it stands (break_standing.cpp).
+double Simulation::State::punching_energy(PanelId panel, const Vec3& at, const Vec3& along, double radius) const {
+  const double bears = punching_force(panel, along, radius);
+  return bears * bears * panel_bending_compliance(building, panel, at, along) / 2 +
+         bears * building[panel].thickness / 2;
+}
+
+double Simulation::State::inverse_effective_mass(const Body& one, const FeltContact& contact) const {
+  const collision::BodyState state = world->state(one.id);
+  const Mat3 inverse = world_inertia(one, state.pose.orientation).inverse();
+  return 1 / effective_mass(one.rest.mass, inverse, contact.point - state.pose.position, contact.normal);
 }
 
 /// An edge holds by what the body still has at its nodes.

@@ -6,6 +6,7 @@
 
 #include "simulation/debris/momentum.h"
 #include "simulation/impact/first_failure.h"
+#include "simulation/impact/impact_settings.h"
 #include "simulation/impact/strike.h"
 #include "simulation/step_clock.h"
 
@@ -16,10 +17,6 @@ namespace {
 /// broke took, it does that work on the way that follows, and not twice.
 double let_through(double speed_in, const Indentation& pushing) { return std::min(pushing.speed(), speed_in); }
 
-/// Contacts of a body that are no farther from touching than this, m, when the first of them touches, touch with it:
-/// collision shapes are no truer.
-constexpr double touching = 1e-3;
-
 /// The contacts from `from` on that strike with it: of the same body, on other standing parts.
 std::vector<const collision::Contact*> at_one_instant(std::span<const collision::Contact> contacts, std::size_t from) {
   const collision::Contact& first = contacts[from];
@@ -27,7 +24,7 @@ std::vector<const collision::Contact*> at_one_instant(std::span<const collision:
   for (std::size_t i = from + 1; i < contacts.size(); ++i) {
     const collision::Contact& next = contacts[i];
     if (next.body != first.body || next.other.kind != first.other.kind) continue;
-    if ((next.time - first.time) * next.approach_speed > touching) continue;
+    if ((next.time - first.time) * next.approach_speed > impact_settings.touching) continue;
     if (std::none_of(found.begin(), found.end(),
                      [&](const collision::Contact* one) { return one->other.obstacle == next.other.obstacle; }))
       found.push_back(&next);
@@ -44,11 +41,10 @@ void Simulation::State::load() {
 }
 
 void Simulation::State::strike_all(const std::vector<collision::Contact>& contacts) {
-  const double resting_speed = 2 * gravity.norm() * scenario.step;
   std::vector<collision::Contact> impacts;
   for (const collision::Contact& contact : contacts) {
     if (contact.other.kind != collision::Touched::Kind::obstacle) continue;
-    if (!contact.persistent || contact.approach_speed > resting_speed) impacts.push_back(contact);
+    if (!contact.persistent || contact.approach_speed > impact_settings.least_speed) impacts.push_back(contact);
   }
   std::vector<char> done(impacts.size(), 0);
   for (std::size_t i = 0; i < impacts.size(); ++i) {

@@ -10,6 +10,7 @@
 
 #include "simulation/debris/momentum.h"
 #include "simulation/impact/impact.h"
+#include "simulation/impact/impact_settings.h"
 #include "simulation/impact/rigid_mobility.h"
 #include "simulation/impact/struck_joints.h"
 #include "simulation/simulation_state.h"
@@ -17,17 +18,6 @@
 namespace topple::structure {
 
 namespace {
-
-/// m/s: what closes no faster is lying, rolling or settling. A body gains it in a fall of 13 mm; with the stiffness of
-/// a steel beam (1e7 N/m) and a ton it presses with 50 kN, five times the weight.
-constexpr double least_impact_speed = 0.5;
-/// m: places that are no farther from touching when the first of them touches touch with it. Collision shapes are no
-/// truer.
-constexpr double touching = 1e-3;
-/// Places that give way alike to this share are one place.
-constexpr double same_place = 1e-6;
-/// A stiff place among soft ones is over before these feel anything: the first alone is followed then.
-constexpr double most_unlike = 30;
 
 /// How far the unloaded places lie behind after a break. What is left stiffer holds the force that it had: the rest of
 /// the way belonged to what came off. What is left softer is pressed as far as it was.
@@ -42,7 +32,7 @@ std::vector<int> independent_places(const Eigen::MatrixXd& compliance) {
   std::vector<int> kept;
   Eigen::MatrixXd left = compliance;
   for (Eigen::Index k = 0; k < left.rows(); ++k) {
-    if (!(left(k, k) > same_place * compliance(k, k))) continue;
+    if (!(left(k, k) > impact_settings.same_place * compliance(k, k))) continue;
     kept.push_back(static_cast<int>(k));
     const Eigen::VectorXd column = left.col(k) / left(k, k);
     left -= (column * left.row(k)).eval();
@@ -52,20 +42,22 @@ std::vector<int> independent_places(const Eigen::MatrixXd& compliance) {
 
 }  // namespace
 
+struct Simulation::State::ImpactSide {
+  collision::BodyId id;  ///< -1: the ground, or a part that stands
+  Part standing;         ///< valid: that part
+  double time = 0;       ///< of the impact, since the body's state
+  RigidMotion motion;    ///< at the instant, true velocities
+  collision::Pose pose;  ///< at the instant
+  bool slept = false;
+  std::vector<std::int64_t> tags;  ///< of the part that each place is on; -1: none of the building's
+  FreeSegment::Flexibility flexibility;
+  std::vector<std::pair<JointId, Vec6>> borne;  ///< by its joints from its spin alone
+};
+
 /// An impact under way. Side 0 is the body of the contact, side 1 what it comes upon.
 struct Simulation::State::BodyImpact {
-  struct Side {
-    collision::BodyId id;  ///< -1: the ground
-    double time = 0;       ///< of the impact, since the body's state
-    RigidMotion motion;    ///< at the instant, true velocities
-    collision::Pose pose;  ///< at the instant
-    bool slept = false;
-    std::vector<std::int64_t> tags;  ///< of the part that each place is on; -1: none of the building's
-    FreeSegment::Flexibility flexibility;
-    std::vector<std::pair<JointId, Vec6>> borne;  ///< by its joints from its spin alone
-  };
   std::vector<ImpactPlace> places;
-  std::array<Side, 2> sides;
+  std::array<ImpactSide, 2> sides;
   Eigen::MatrixXd compliance;
 
   [[nodiscard]] Eigen::MatrixXd mobility_of_both() const {
@@ -80,7 +72,7 @@ void Simulation::State::BodyImpact::keep(const std::vector<int>& kept) {
   std::vector<ImpactPlace> fewer;
   for (const int k : kept) fewer.push_back(places[static_cast<std::size_t>(k)]);
   places = std::move(fewer);
-  for (Side& side : sides) {
+  for (ImpactSide& side : sides) {
     std::vector<std::int64_t> tags;
     for (const int k : kept) tags.push_back(side.tags[static_cast<std::size_t>(k)]);
     side.tags = std::move(tags);
@@ -117,16 +109,16 @@ void Simulation::State::strike_bodies(const std::vector<collision::Contact>& con
   std::vector<char> done(contacts.size(), 0);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const collision::Contact& first = contacts[i];
-    if (done[i] != 0 || first.other.kind == collision::Touched::Kind::obstacle) continue;
-    if (first.approach_speed < least_impact_speed) continue;
+    if (done[i] != 0 || first.approach_speed < impact_settings.least_speed) continue;
     const bool two = first.other.kind == collision::Touched::Kind::body;
     if (!may_break(first.body) && !(two && may_break(first.other.body))) continue;
     std::vector<const collision::Contact*> together;
     for (std::size_t k = i; k < contacts.size(); ++k) {
       const collision::Contact& next = contacts[k];
-      if (next.body != first.body || next.other.kind != first.other.kind || next.other.body != first.other.body)
+      if (next.body != first.body || next.other.kind != first.other.kind || next.other.body != first.other.body ||
+          next.other.obstacle != first.other.obstacle)
         continue;
-      if (k > i && (next.time - first.time) * next.approach_speed > touching) continue;
+      if (k > i && (next.time - first.time) * next.approach_speed > impact_settings.touching) continue;
       together.push_back(&next);
       done[k] = 1;
     }
@@ -135,8 +127,8 @@ void Simulation::State::strike_bodies(const std::vector<collision::Contact>& con
 }
 
 /// Where it is and how it moves `time` after the step began.
-Simulation::State::BodyImpact::Side Simulation::State::side_at(collision::BodyId id, double time) const {
-  BodyImpact::Side side;
+Simulation::State::ImpactSide Simulation::State::side_at(collision::BodyId id, double time) const {
+  ImpactSide side;
   side.id = id;
   if (id.value < 0) return side;
   const collision::BodyState state = world->state(id);
@@ -158,7 +150,7 @@ Simulation::State::BodyImpact::Side Simulation::State::side_at(collision::BodyId
 }
 
 /// The body from the step's start on, so that it comes through that instant as it is now.
-void Simulation::State::set_side(const BodyImpact::Side& side) {
+void Simulation::State::set_side(const ImpactSide& side) {
   if (side.id.value < 0) return;
   collision::BodyState state;
   const double t = side.time;
@@ -175,11 +167,20 @@ void Simulation::State::set_side(const BodyImpact::Side& side) {
 }
 
 /// How a side gives way at the places, what its joints bear of it, and what they bear without it.
-void Simulation::State::find_flexibility(BodyImpact::Side& side, const std::vector<ImpactPlace>& places, double sign) {
+void Simulation::State::find_flexibility(ImpactSide& side, const std::vector<ImpactPlace>& places, double sign) {
   const auto n = static_cast<Eigen::Index>(places.size());
   side.flexibility = {};
   side.flexibility.compliance = Eigen::MatrixXd::Zero(n, n);
   side.borne.clear();
+  if (side.standing.valid()) {
+    // It holds, as strike.cpp found; each place gives way by itself.
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const ImpactPlace& place = places[static_cast<std::size_t>(i)];
+      side.flexibility.compliance(i, i) =
+          frame->respond_near({side.standing.member, side.standing.panel, place.point}, place.normal).compliance;
+    }
+    return;
+  }
   const Body* one = body(side.id);
   if (!one || (one->members.empty() && one->panels.empty())) return;
   const Mat3 back = side.pose.orientation.toRotationMatrix().transpose();
@@ -189,15 +190,14 @@ void Simulation::State::find_flexibility(BodyImpact::Side& side, const std::vect
     pushes.push_back({part.member, part.panel, one->rest.centre + back * (places[i].point - side.pose.position),
                       sign * (back * places[i].normal)});
   }
-  (void)make_free_segment(*one);
-  FreeSegment& segment = *free_segments.at(one->id.value);
+  FreeSegment& segment = free_segment_of(*one);
   side.flexibility = segment.flexibility(pushes);
   if (segment.can_break()) side.borne = segment.bear({}, back * side.motion.spin, Vec3::Zero()).demands;
 }
 
 std::vector<StruckJoint> Simulation::State::struck_joints(const BodyImpact& impact) const {
   std::vector<StruckJoint> joints;
-  for (const BodyImpact::Side& side : impact.sides)
+  for (const ImpactSide& side : impact.sides)
     for (std::size_t k = 0; k < side.flexibility.demands.size(); ++k) {
       const auto& [joint, step] = side.flexibility.demands[k];
       joints.push_back({joint, &building[joint].capacity, strength_factors[static_cast<std::size_t>(joint.index)],
@@ -211,8 +211,12 @@ void Simulation::State::strike_bodies_at(const std::vector<const collision::Cont
   const bool two = first.other.kind == collision::Touched::Kind::body;
   if (!bodies.contains(first.body.value) || (two && !bodies.contains(first.other.body.value))) return;
   BodyImpact impact;
-  impact.sides[0] = side_at(first.body, first.time);
-  impact.sides[1] = side_at(two ? first.other.body : collision::BodyId(), first.time);
+  impact.sides[0] = side_at(first.body, time_since_state(first.body, first.time));
+  impact.sides[1] = two ? side_at(first.other.body, time_since_state(first.other.body, first.time)) : ImpactSide();
+  if (first.other.kind == collision::Touched::Kind::obstacle) {
+    impact.sides[1].standing = obstacles.part_of(first.other.obstacle);
+    if (!impact.sides[1].standing.valid() || !stands(impact.sides[1].standing)) return;  // it broke there
+  }
   for (const collision::Contact* contact : contacts) {
     // An area is met at its corners.
     for (int corner = 0; corner < std::max(1, contact->corner_count); ++corner) {
@@ -226,6 +230,12 @@ void Simulation::State::strike_bodies_at(const std::vector<const collision::Cont
   push_bodies(impact);
 }
 
+/// What has struck something standing in this step has a state from there on (strike.cpp).
+double Simulation::State::time_since_state(collision::BodyId id, double sensed_at) const {
+  const auto earlier = struck.find(id.value);
+  return earlier == struck.end() ? sensed_at : earlier->second.base + std::max(0.0, sensed_at - earlier->second.at);
+}
+
 /// Both sides' flexibility, and the places that are left of it. False: nothing gives way, or nothing closes.
 bool Simulation::State::take_up(BodyImpact& impact) {
   find_flexibility(impact.sides[0], impact.places, -1);
@@ -235,10 +245,10 @@ bool Simulation::State::take_up(BodyImpact& impact) {
 }
 
 void Simulation::State::push_bodies(BodyImpact& impact) {
-  if (!(impact.closing().maxCoeff() >= least_impact_speed) || !take_up(impact)) return;
+  if (!(impact.closing().maxCoeff() >= impact_settings.least_speed) || !take_up(impact)) return;
   impact.keep(independent_places(impact.compliance));
   std::optional<Impact> push = begin_push(impact);
-  if (push->fastest_over_slowest() > most_unlike) {
+  if (push->fastest_over_slowest() > impact_settings.most_unlike) {
     impact.keep({0});
     push = begin_push(impact);
   }
@@ -265,7 +275,7 @@ Impact Simulation::State::begin_push(const BodyImpact& impact) const {
   Eigen::VectorXd acceleration(static_cast<Eigen::Index>(impact.places.size()));
   for (std::size_t i = 0; i < impact.places.size(); ++i) {
     // What lies asleep is held up by what it lies on.
-    const auto falls = [&](const BodyImpact::Side& side) {
+    const auto falls = [&](const ImpactSide& side) {
       return side.id.value >= 0 && !side.slept ? gravity.dot(impact.places[i].normal) : 0.0;
     };
     acceleration(static_cast<Eigen::Index>(i)) = falls(impact.sides[0]) - falls(impact.sides[1]);
@@ -274,9 +284,11 @@ Impact Simulation::State::begin_push(const BodyImpact& impact) const {
 }
 
 std::size_t Simulation::State::tell_body_impact(const BodyImpact& impact, double speed_in) {
-  const BodyImpact::Side &by = impact.sides[0], &on = impact.sides[1];
+  const ImpactSide &by = impact.sides[0], &on = impact.sides[1];
   SimulationEvent& event =
-      tell(SimulationEvent::Kind::impact, on.id.value < 0 ? "ground" : touched_name(on.id, on.tags.front()));
+      tell(SimulationEvent::Kind::impact, on.standing.valid() ? part_name(building, on.standing)
+                                          : on.id.value < 0   ? "ground"
+                                                              : touched_name(on.id, on.tags.front()));
   event.body = by.id;
   event.other_body = on.id;
   event.body_name = bodies.at(by.id.value).name;
@@ -288,7 +300,7 @@ std::size_t Simulation::State::tell_body_impact(const BodyImpact& impact, double
 
 /// What the law has done so far becomes velocity of both; the world hears of it.
 void Simulation::State::give_impulses(BodyImpact& impact, const Eigen::VectorXd& impulses) {
-  const auto state_of = [](const BodyImpact::Side& side) {
+  const auto state_of = [](const ImpactSide& side) {
     collision::BodyState state;
     state.pose = side.pose;
     state.velocity = side.motion.velocity;
@@ -297,7 +309,7 @@ void Simulation::State::give_impulses(BodyImpact& impact, const Eigen::VectorXd&
   };
   const auto measure = [&](Momentum& sum) {
     double kinetic = 0;
-    for (const BodyImpact::Side& side : impact.sides) {
+    for (const ImpactSide& side : impact.sides) {
       if (side.id.value < 0) continue;
       sum.add(bodies.at(side.id.value), state_of(side));
       const Kinetic own = kinetic_energy(bodies.at(side.id.value), state_of(side));
@@ -311,7 +323,7 @@ void Simulation::State::give_impulses(BodyImpact& impact, const Eigen::VectorXd&
   if (impact.sides[1].id.value < 0)
     for (std::size_t i = 0; i < impact.places.size(); ++i)
       before.add_impulse(-impulses(static_cast<Eigen::Index>(i)) * impact.places[i].normal, impact.places[i].point);
-  for (BodyImpact::Side& side : impact.sides) {
+  for (ImpactSide& side : impact.sides) {
     set_side(side);
     if (side.id.value >= 0) side = side_again(side, side.id);
   }
@@ -320,9 +332,8 @@ void Simulation::State::give_impulses(BodyImpact& impact, const Eigen::VectorXd&
 }
 
 /// The same places and the same instant, on a body as the world has it now.
-Simulation::State::BodyImpact::Side Simulation::State::side_again(const BodyImpact::Side& side,
-                                                                  collision::BodyId id) const {
-  BodyImpact::Side now = side_at(id, side.time);
+Simulation::State::ImpactSide Simulation::State::side_again(const ImpactSide& side, collision::BodyId id) const {
+  ImpactSide now = side_at(id, side.time);
   now.tags = side.tags;
   now.flexibility = side.flexibility;
   now.borne = side.borne;
@@ -345,7 +356,7 @@ bool Simulation::State::break_bodies(BodyImpact& impact, Impact& push, const std
     tell(line);
   }
   std::vector<int> kept;
-  for (BodyImpact::Side& side : impact.sides) {
+  for (ImpactSide& side : impact.sides) {
     if (side.id.value < 0) continue;
     const bool of_this = std::any_of(broken.begin(), broken.end(),
                                      [&](const JointBreak& one) { return body_of_joint(one.joint) == side.id.value; });
@@ -356,7 +367,7 @@ bool Simulation::State::break_bodies(BodyImpact& impact, Impact& push, const std
     if (!bodies.contains(piece)) return false;
     side = side_again(side, {piece});
   }
-  const auto holds = [&](const BodyImpact::Side& side, std::size_t place) {
+  const auto holds = [&](const ImpactSide& side, std::size_t place) {
     return side.id.value < 0 || side.tags[place] < 0 ||
            body_of_part[static_cast<std::size_t>(side.tags[place])] == side.id.value;
   };

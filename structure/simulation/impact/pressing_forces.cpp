@@ -1,0 +1,80 @@
+#include "simulation/impact/pressing_forces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "simulation/debris/part.h"
+#include "simulation/impact/impact_settings.h"
+
+namespace topple::structure {
+
+namespace {
+/// N: below it a contact that is gone is forgotten.
+constexpr double nothing = 1e-3;
+}  // namespace
+
+void PressingForces::gather(const Key& key, const BodyPlace& place, const Vec3& force, const Vec3& point) {
+  const Mat3 back = place.pose.orientation.toRotationMatrix().transpose();
+  Pressing& own = pressing_[key];
+  const double weight = force.norm();
+  own.seen_force += back * force;
+  own.seen_point += weight * (place.rest_centre + back * (point - place.pose.position));
+  own.seen_weight += weight;
+}
+
+void PressingForces::read(std::span<const FeltContact> contacts, double dt,
+                          const std::function<std::optional<BodyPlace>(collision::BodyId)>& place_of) {
+  for (const FeltContact& contact : contacts) {
+    if (!contact.persistent) continue;
+    const bool two = contact.other.kind == collision::Touched::Kind::body;
+    const std::int64_t other = two ? contact.other.body.value : contact.other.obstacle.value;
+    const auto kind = static_cast<std::int64_t>(contact.other.kind);
+    if (contact.part_tag >= 0)
+      if (const auto place = place_of(contact.body))
+        gather({contact.body.value, contact.part_tag, kind, other, contact.other.part_tag}, *place,
+               -contact.impulse / dt, contact.point);
+    if (two && contact.other.part_tag >= 0)
+      if (const auto place = place_of(contact.other.body))
+        gather({contact.other.body.value, contact.other.part_tag, kind, contact.body.value, contact.part_tag}, *place,
+               contact.impulse / dt, contact.point);
+  }
+  // The exact decay over dt of an average with this time constant: two short steps are one long one.
+  const double share = 1 - std::exp(-dt / impact_settings.pressing_time);
+  for (auto entry = pressing_.begin(); entry != pressing_.end();) {
+    Pressing& own = entry->second;
+    const bool first = own.force.isZero(0);
+    own.force += share * (own.seen_force - own.force);
+    if (own.seen_weight > 0) {
+      const Vec3 at = own.seen_point / own.seen_weight;
+      own.point = first ? at : Vec3(own.point + share * (at - own.point));
+    }
+    const bool gone = (own.seen_weight == 0 && own.force.norm() < nothing) || !place_of({entry->first.body});
+    own.seen_force.setZero();
+    own.seen_point.setZero();
+    own.seen_weight = 0;
+    entry = gone ? pressing_.erase(entry) : std::next(entry);
+  }
+}
+
+std::vector<FreePush> PressingForces::on(collision::BodyId body, const Building& building) const {
+  std::vector<FreePush> pushes;
+  const std::int64_t least = std::numeric_limits<std::int64_t>::min();
+  for (auto entry = pressing_.lower_bound({body.value, least, least, least, least});
+       entry != pressing_.end() && entry->first.body == body.value; ++entry) {
+    const Part part = part_of_number(building, entry->first.part);
+    pushes.push_back({part.member, part.panel, entry->second.point, entry->second.force});
+  }
+  return pushes;
+}
+
+double PressingForces::size(collision::BodyId body) const {
+  double sum = 0;
+  const std::int64_t least = std::numeric_limits<std::int64_t>::min();
+  for (auto entry = pressing_.lower_bound({body.value, least, least, least, least});
+       entry != pressing_.end() && entry->first.body == body.value; ++entry)
+    sum += entry->second.force.norm();
+  return sum;
+}
+
+}  // namespace topple::structure

@@ -1,0 +1,46 @@
+#pragma once
+// What lies on debris, or debris on what it lies on, presses on its joints: the forces of contacts that last, averaged
+// over a stated time, whatever the length of the step. Impacts are the business of their law.
+#include <compare>
+#include <functional>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "simulation/impact/felt_contact.h"
+#include "simulation/impact/free_segment.h"
+
+namespace topple::structure {
+
+/// Where a body's undeformed parts are now.
+struct BodyPlace {
+  collision::Pose pose;
+  Vec3 rest_centre = Vec3::Zero();
+};
+
+class PressingForces {
+ public:
+  /// Reads the contacts of the last collision step. `place_of` gives nothing for bodies whose joints are not asked.
+  void read(std::span<const FeltContact> contacts, double dt,
+            const std::function<std::optional<BodyPlace>(collision::BodyId)>& place_of);
+  /// On a body, in the axes of the undeformed building, in a fixed order.
+  [[nodiscard]] std::vector<FreePush> on(collision::BodyId body, const Building& building) const;
+  /// Sum of their sizes, N.
+  [[nodiscard]] double size(collision::BodyId body) const;
+
+ private:
+  struct Key {
+    std::int64_t body, part, other_kind, other, other_part;
+    auto operator<=>(const Key&) const = default;
+  };
+  struct Pressing {
+    Vec3 force = Vec3::Zero(), point = Vec3::Zero();  ///< axes of the undeformed building
+    Vec3 seen_force = Vec3::Zero(), seen_point = Vec3::Zero();
+    double seen_weight = 0;
+  };
+  void gather(const Key& key, const BodyPlace& place, const Vec3& force, const Vec3& point);
+
+  std::map<Key, Pressing> pressing_;
+};
+
+}  // namespace topple::structure
