@@ -9,7 +9,7 @@ import shlex
 import subprocess
 
 
-MEASURED = "/solver/multifrontal.cpp"  # whose flags are told
+MEASURED = "/solver/factor/multifrontal.cpp"  # whose flags are told
 MISSING = "not a package here"
 
 

@@ -1,0 +1,191 @@
+"""Whether the outcome of a collapse hangs on the length of the step: distributions over inputs that are moved a little, the same ones at
+every length."""
+
+import concurrent.futures
+import json
+import math
+import os
+import random
+import re
+import statistics
+import subprocess
+
+import output
+import scatter
+
+# Scenario, samples, samples of a quick run.
+SCENARIOS = [("seed_hit", 128, 12), ("tower_hit", 128, 12), ("house_hit", 128, 12), ("bridge_hit", 128, 12), ("tower_fire", 12, 2)]
+STEPS = [30, 60, 120, 240, 480]  # a second
+COARSE, FINE = 60, 240           # compared with each other
+ASKED_SHARE, ASKED_TIME, ASKED_P = 0.12, 0.10, 0.01
+RESAMPLES = 4000
+
+COLUMNS = [("scenario", "scenario"), ("rate", "steps a second"), ("samples", "samples"), ("share", "share of members down"), ("share_error", "standard error"),
+           ("half", "half of them down, s"), ("half_error", "standard error"), ("joints", "joints broken"), ("joints_error", "standard error"),
+           ("rest", "at rest, s"), ("failed", "runs that failed")]
+
+TEXT = ("Each sample moves the projectile's line sideways by up to %g m and up or down by up to %g m (or scatters the strength that a fire leaves by a fiftieth); the same samples are run at every "
+        "length of step. Who falls on whom hangs on the last bit, so that single runs cannot agree: what is compared is the distribution. The 90 %% interval of the difference of mean shares between "
+        "1/%d and 1/%d s is by bootstrap over inputs; the permutation test exchanges the two within each input and takes the largest standardised difference over all scenarios and both quantities."
+        % (scatter.SIDEWAYS, scatter.UP, COARSE, FINE))
+
+
+def members_of(context, scenario):
+    with open(os.path.join(context.root, "models", "scenarios", scenario + ".json"), encoding="utf-8") as stored:
+        model = json.load(stored)["model"]
+    told = subprocess.run([os.path.join(context.programs, "topple"), "check", os.path.join(context.root, "models", model + ".json")], capture_output=True, text=True, check=True).stdout
+    return int(re.search(r"(\d+) members", told).group(1))
+
+
+def half_down(events, down):
+    """When the half of the members that are down at the end had left, s; None when none are."""
+    if down == 0:
+        return None
+    left = 0
+    for event in events:
+        if event["kind"] == "detached":
+            left += len(event.get("members", []))
+            if 2 * left >= down:
+                return event["time"]
+    return None
+
+
+def run_one(context, scenario, rate, sample, seed):
+    """One collapse: what came of it, or why it failed."""
+    name = "%s-%d-%d" % (scenario, rate, sample)
+    folder = os.path.join(context.results, "convergence", name)
+    os.makedirs(folder)
+    content = scatter.moved(context.root, scenario, seed, sample)
+    content["step"] = 1.0 / rate
+    content["model"] = os.path.join(context.root, "models", content["model"] + ".json")
+    path = os.path.join(folder, "scenario.json")
+    with open(path, "w", encoding="utf-8") as out:
+        json.dump(content, out)
+    done = subprocess.run([os.path.join(context.programs, "topple"), "demolish", path, "-o", folder], capture_output=True, text=True)
+    if done.returncode != 0:
+        return {"failed": done.stderr.strip()[-300:]}
+    with open(os.path.join(folder, "summary.json"), encoding="utf-8") as stored:
+        summary = json.load(stored)
+    with open(os.path.join(folder, "events.jsonl"), encoding="utf-8") as stored:
+        events = [json.loads(line) for line in stored]
+    counts = summary["counts"]
+    for left in ("events.jsonl", "standing.json"):
+        os.remove(os.path.join(folder, left))
+    return {"down": counts["members_down"], "joints": counts["joints_broken"], "rest": summary["simulated_seconds"] if summary["at_rest"] else None,
+            "half": half_down(events, counts["members_down"]), "residual": abs(summary["ledger"]["energy"]["residual"])}
+
+
+def mean_and_error(values):
+    values = [value for value in values if value is not None]
+    if not values:
+        return None, None
+    return statistics.fmean(values), statistics.stdev(values) / math.sqrt(len(values)) if len(values) > 1 else None
+
+
+def bootstrap_interval(differences, draw):
+    """Of the mean, 90 %."""
+    means = sorted(statistics.fmean(draw.choices(differences, k=len(differences))) for _ in range(RESAMPLES))
+    return means[int(0.05 * RESAMPLES)], means[int(0.95 * RESAMPLES) - 1]
+
+
+def standardised(differences):
+    spread = math.sqrt(sum(value * value for value in differences))
+    return abs(sum(differences)) / spread if spread > 0 else 0.0
+
+
+def permutation_p(groups, draw):
+    """groups: differences by input, each list one quantity of one scenario. Two-sided, over all of them at once."""
+    groups = [group for group in groups if any(group)]
+    if not groups:
+        return 1.0
+    seen = max(standardised(group) for group in groups)
+    as_large = sum(max(standardised([value if draw.random() < 0.5 else -value for value in group]) for group in groups) >= seen * (1 - 1e-12)
+                   for _ in range(RESAMPLES))
+    return (as_large + 1) / (RESAMPLES + 1)
+
+
+def rows_of(scenario, members, found, rates, samples):
+    rows = []
+    for rate in rates:
+        runs = [found[(scenario, rate, sample)] for sample in range(samples)]
+        good = [run for run in runs if "failed" not in run]
+        row = {"scenario": scenario, "rate": rate, "samples": samples, "failed": len(runs) - len(good)}
+        row["share"], row["share_error"] = mean_and_error([run["down"] / members for run in good])
+        for key in ("half", "joints", "rest"):
+            row[key], row[key + "_error"] = mean_and_error([run[key] for run in good])
+        rows.append(row)
+    return rows
+
+
+def pairs(scenario, found, samples, key):
+    both = [(found[(scenario, COARSE, k)], found[(scenario, FINE, k)]) for k in range(samples)]
+    return [(a[key], b[key]) for a, b in both if a.get(key) is not None and b.get(key) is not None]
+
+
+def judge(context, names, members, found, counts, draw):
+    """What is asked of every scenario, in words; what is not as it must be goes to context.broken."""
+    lines, groups = [], []
+    for scenario in names:
+        shares = [(a - b) / members[scenario] for a, b in pairs(scenario, found, counts[scenario], "down")]
+        times = pairs(scenario, found, counts[scenario], "half")
+        if not shares:
+            context.broken.append("%s: no run to compare" % scenario)
+            continue
+        low, high = bootstrap_interval(shares, draw)
+        line = "%s: mean share down at 1/%d less at 1/%d s: %+.3f, 90 %% within %+.3f and %+.3f (asked: +-%g)" % (scenario, COARSE, FINE, statistics.fmean(shares), low, high, ASKED_SHARE)
+        worst = None
+        if times:
+            worst = statistics.fmean(a for a, _ in times) / statistics.fmean(b for _, b in times) - 1
+            line += "; half down %+.1f %% (asked: %g %%)" % (100 * worst, 100 * ASKED_TIME)
+        lines.append(line)
+        if max(-low, high) > ASKED_SHARE or (worst is not None and abs(worst) > ASKED_TIME):
+            lines[-1] += ": MISSED"
+        groups += [shares, [a - b for a, b in times]]
+    p = permutation_p(groups, draw)
+    lines.append("permutation test over everything: p = %.3f (asked: above %g)%s" % (p, ASKED_P, "" if p > ASKED_P else ": MISSED"))
+    return lines
+
+
+FIGURE = """set logscale x
+unset logscale y
+set format y '%g'
+set format x '%g'
+set xlabel 'steps a second'
+set ylabel 'share of members down'
+set yrange [-0.05:1.05]
+set key outside right
+"""
+
+
+def draw_figure(context, rows, names):
+    data = {"s%d" % i: [(row["rate"], row["share"], row["share_error"] or 0.0) for row in rows if row["scenario"] == name and row["share"] is not None] for i, name in enumerate(names)}
+    lines = ", ".join("$s%d using 1:2:3 with yerrorlines title '%s' noenhanced" % (i, name) for i, name in enumerate(names))
+    path = output.plot(os.path.join(context.results, "convergence.svg"), FIGURE + "plot " + lines + "\n", data)
+    return [path] if path else []
+
+
+def run(context):
+    seed = context.provenance["commit"]
+    names = [name for name, _, _ in SCENARIOS if not (context.quick and name == "tower_fire")]
+    counts = {name: quick if context.quick else whole for name, whole, quick in SCENARIOS}
+    rates = STEPS[:-1] if context.quick else STEPS
+    members = {name: members_of(context, name) for name in names}
+    jobs = [(name, rate, sample) for name in names for rate in rates for sample in range(counts[name])]
+    found = {}
+    with concurrent.futures.ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
+        started = {pool.submit(run_one, context, *job, seed): job for job in jobs}
+        for number, one in enumerate(concurrent.futures.as_completed(started)):
+            found[started[one]] = one.result()
+            if number % 50 == 0:
+                output.progress(context, "%d of %d collapses" % (number + 1, len(jobs)))
+    rows = [row for name in names for row in rows_of(name, members[name], found, rates, counts[name])]
+    failed = sorted({run["failed"] for run in found.values() if "failed" in run})
+    context.broken += ["a run failed: " + why for why in failed]
+    lines = judge(context, names, members, found, counts, random.Random(seed))
+    residual = max((run["residual"] for run in found.values() if "failed" not in run), default=0.0)
+    lines.append("largest residual of the ledger over all runs: %.2g %% (asked: 0.5 %%)" % (100 * residual))
+    for line in lines:
+        print("bench: " + line)
+    output.print_table(rows, COLUMNS)
+    output.write_results(context, "convergence", rows, COLUMNS, ("scenario", "rate"), lines)
+    return [("Outcomes against the length of the step", TEXT, draw_figure(context, rows, names), (rows, COLUMNS))]
