@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "simulation/impact/flying_edges.h"
+#include "topple/solver/beam_diagram.h"
 #include "topple/solver/static_analysis.h"
 #include "topple/structure/building.h"
 
@@ -72,8 +73,13 @@ class FreeSegment {
  private:
   void analyse();
   [[nodiscard]] double compliance_of_part_alone(const FreePush& unit_push) const;
-  [[nodiscard]] double work(const solver::LoadSet& loads, const solver::StaticSolution& through,
-                            const solver::LoadSet& of_solution) const;
+  struct MovedMass;
+  [[nodiscard]] std::vector<solver::BeamDiagram> diagrams_of(const solver::StaticSolution& solution,
+                                                             const solver::LoadSet& loads) const;
+  [[nodiscard]] double moved(const solver::LoadSet& push, const std::vector<solver::BeamDiagram>& diagrams,
+                             const std::vector<Vec6>& displacements) const;
+  [[nodiscard]] MovedMass moved_mass(const std::vector<solver::BeamDiagram>& diagrams,
+                                     const std::vector<Vec6>& displacements) const;
   [[nodiscard]] solver::LoadSet balanced(std::span<const FreePush> pushes, const Vec3& spin, const Vec3& gravity,
                                          Answer& answer) const;
   void read_demands(const solver::StaticSolution* solution, std::span<const FreePush> pushes, const Vec3& spin,

@@ -4,6 +4,7 @@
 
 #include "loads/placed_load.h"
 #include "model/index_of.h"
+#include "simulation/debris/mass_properties.h"
 #include "simulation/impact/free_segment.h"
 #include "topple/solver/beam_diagram.h"
 
@@ -17,13 +18,6 @@ constexpr std::array<std::pair<double, double>, 4> gauss{{{0.06943184420297371, 
                                                           {0.33000947820757187, 0.32607257743127308},
                                                           {0.66999052179242813, 0.32607257743127308},
                                                           {0.93056815579702629, 0.17392742256872692}}};
-
-std::vector<solver::BeamLoad> loads_on(const solver::LoadSet& loads, std::size_t beam) {
-  std::vector<solver::BeamLoad> own;
-  for (const solver::BeamLoad& load : loads.beams)
-    if (load.beam == static_cast<int>(beam)) own.push_back(load);
-  return own;
-}
 
 /// Of the hubs at a beam's ends, in its own axes, after its arms.
 solver::Vec12 at_ends(const solver::Beam& beam, const std::vector<Vec6>& displacements) {
@@ -39,32 +33,62 @@ solver::Vec12 at_ends(const solver::Beam& beam, const std::vector<Vec6>& displac
 
 }  // namespace
 
-/// Of these loads through the displacements that others (`of_solution`) cause.
-double FreeSegment::work(const solver::LoadSet& loads, const solver::StaticSolution& through,
-                         const solver::LoadSet& of_solution) const {
+std::vector<solver::BeamDiagram> FreeSegment::diagrams_of(const solver::StaticSolution& solution,
+                                                          const solver::LoadSet& loads) const {
+  std::vector<std::vector<solver::BeamLoad>> own(model_.beams.size());
+  for (const solver::BeamLoad& load : loads.beams) own[static_cast<std::size_t>(load.beam)].push_back(load);
+  std::vector<solver::BeamDiagram> diagrams;
+  diagrams.reserve(own.size());
+  for (std::size_t b = 0; b < own.size(); ++b)
+    diagrams.emplace_back(model_.beams[b], solution.beam_end_forces[b], own[b]);
+  return diagrams;
+}
+
+/// What a solved state moves of the body's mass: sums of mass times displacement, and of their moments about its
+/// centre.
+struct FreeSegment::MovedMass {
+  Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
+};
+
+/// How a place on a member or node moves in a solved state, along its push.
+double FreeSegment::moved(const solver::LoadSet& push, const std::vector<solver::BeamDiagram>& diagrams,
+                          const std::vector<Vec6>& displacements) const {
   double sum = 0;
-  for (const solver::NodeLoad& load : loads.nodes)
-    sum += load.load.dot(through.displacements[static_cast<std::size_t>(load.node)]);
-  for (std::size_t b = 0; b < model_.beams.size(); ++b) {
-    const solver::Beam& beam = model_.beams[b];
-    const std::vector<solver::BeamLoad> own = loads_on(loads, b);
-    const solver::BeamDiagram diagram(beam, through.beam_end_forces[b], loads_on(of_solution, b));
-    const solver::Vec12 ends = at_ends(beam, through.displacements);
+  for (const solver::NodeLoad& load : push.nodes)
+    sum += load.load.dot(displacements[static_cast<std::size_t>(load.node)]);
+  for (const solver::BeamLoad& load : push.beams) {
+    const auto b = static_cast<std::size_t>(load.beam);
+    sum += load.first.dot(diagrams[b].displacement(load.from, at_ends(model_.beams[b], displacements)));
+  }
+  return sum;
+}
+
+FreeSegment::MovedMass FreeSegment::moved_mass(const std::vector<solver::BeamDiagram>& diagrams,
+                                               const std::vector<Vec6>& displacements) const {
+  MovedMass sum;
+  for (std::size_t b = 0; b < parts_.members.size(); ++b) {
+    const Member& member = building_[parts_.members[b]];
+    const solver::BeamDiagram& diagram = diagrams[b];
+    const solver::Vec12 ends = at_ends(model_.beams[b], displacements);
+    const Vec3 first = member_start(building_, member), along = member.axes.row(0);
+    const double per_length = parts_.member_mass[b] / member.length, turning = polar(parts_.members[b]);
     std::vector<double> cuts = diagram.breaks();
     cuts.insert(cuts.begin(), 0.0);
-    cuts.push_back(beam.length);
-    for (const solver::BeamLoad& load : own) {
-      if (load.kind == solver::BeamLoad::Kind::point) {
-        sum += load.first.dot(diagram.displacement(load.from, ends));
-        continue;
+    cuts.push_back(member.length);
+    for (std::size_t i = 0; i + 1 < cuts.size(); ++i)
+      for (const auto& [at, weight] : gauss) {
+        const double x = cuts[i] + at * (cuts[i + 1] - cuts[i]);
+        const double mass = per_length * weight * (cuts[i + 1] - cuts[i]);
+        const Vec6 here = diagram.displacement(x, ends);
+        const Vec3 moved = member.axes.transpose() * here.head<3>();
+        sum.linear += mass * moved;
+        sum.angular += mass * (first + x * along - centre_).cross(moved) + mass * turning * here(3) * along;
       }
-      for (std::size_t i = 0; i + 1 < cuts.size(); ++i)
-        for (const auto& [at, weight] : gauss) {
-          const double x = cuts[i] + at * (cuts[i + 1] - cuts[i]), share = x / beam.length;
-          const Vec6 here = (1 - share) * load.first + share * load.last;
-          sum += weight * (cuts[i + 1] - cuts[i]) * here.dot(diagram.displacement(x, ends));
-        }
-    }
+  }
+  for (std::size_t n = 0; n < point_mass_.size(); ++n) {
+    const Vec3 moved = displacements[n].head<3>();
+    sum.linear += point_mass_[n] * moved;
+    sum.angular += point_mass_[n] * (model_.nodes[n] - centre_).cross(moved);
   }
   return sum;
 }
@@ -91,11 +115,22 @@ FreeSegment::Flexibility FreeSegment::flexibility(std::span<const FreePush> unit
   std::vector<solver::StaticSolution> solutions;
   if (analysis_) {
     solutions = analysis_->solve(loads);
-    for (Eigen::Index i = 0; i < n; ++i)
-      for (Eigen::Index j = 0; j <= i; ++j) {
-        const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
-        result.compliance(i, j) = result.compliance(j, i) = work(loads[a], solutions[b], loads[b]);
+    std::vector<solver::LoadSet> alone;
+    for (std::size_t i = 0; i < unit_pushes.size(); ++i) alone.push_back(place(unit_pushes.subspan(i, 1)));
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const auto b = static_cast<std::size_t>(j);
+      const std::vector<solver::BeamDiagram> diagrams = diagrams_of(solutions[b], loads[b]);
+      const MovedMass inertia = moved_mass(diagrams, solutions[b].displacements);
+      // The work of force i and of the inertia that holds it in balance, through what force j moves.
+      for (Eigen::Index i = 0; i < n; ++i) {
+        const auto a = static_cast<std::size_t>(i);
+        result.compliance(i, j) = moved(alone[a], diagrams, solutions[b].displacements) -
+                                  answers[a].acceleration.dot(inertia.linear) -
+                                  answers[a].angular_acceleration.dot(inertia.angular);
       }
+    }
+    // Symmetric but for rounding (Betti).
+    result.compliance = (0.5 * (result.compliance + result.compliance.transpose())).eval();
   }
   for (std::size_t i = 0; i < unit_pushes.size(); ++i) {
     const FreePush& push = unit_pushes[i];

@@ -76,8 +76,8 @@ void Simulation::State::BodyImpact::keep(const std::vector<int>& kept) {
     std::vector<std::int64_t> tags;
     for (const int k : kept) tags.push_back(side.tags[static_cast<std::size_t>(k)]);
     side.tags = std::move(tags);
-    for (auto& [joint, step] : side.flexibility.demands)
-      step = Eigen::Matrix<double, 6, Eigen::Dynamic>(step(Eigen::all, kept));
+    for (auto& [joint, columns] : side.flexibility.demands)
+      columns = Eigen::Matrix<double, 6, Eigen::Dynamic>(columns(Eigen::all, kept));
   }
   compliance = Eigen::MatrixXd(compliance(kept, kept));
 }
@@ -199,9 +199,9 @@ std::vector<StruckJoint> Simulation::State::struck_joints(const BodyImpact& impa
   std::vector<StruckJoint> joints;
   for (const ImpactSide& side : impact.sides)
     for (std::size_t k = 0; k < side.flexibility.demands.size(); ++k) {
-      const auto& [joint, step] = side.flexibility.demands[k];
+      const auto& [joint, columns] = side.flexibility.demands[k];
       joints.push_back({joint, &building[joint].capacity, strength_factors[static_cast<std::size_t>(joint.index)],
-                        side.borne[k].second, step});
+                        side.borne[k].second, columns});
     }
   return joints;
 }
