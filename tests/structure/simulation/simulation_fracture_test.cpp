@@ -267,7 +267,8 @@ TEST_CASE("a floor that comes down on its beams tears off them where its edges b
       ++torn;
       CHECK(event.joint.cause == BreakCause::impact);
       CHECK(event.joint.sense == Sense::shear_z);
-      CHECK(std::abs(event.joint.demand) > capacity);
+      // Torn at the instant at which the capacity is reached, which is found to the last digits of the time.
+      CHECK(std::abs(event.joint.demand) == Approx(capacity).epsilon(1e-9));
     }
     CHECK((torn > 0) == (capacity < 1e6));
     // Torn off, it is no part of the body that its beams are.
