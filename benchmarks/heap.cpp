@@ -1,16 +1,18 @@
 // What the collision engine costs for a heap of chunks of broken slabs: prisms that fall on the ground one upon the
 // other and come to rest, with a wall that stands in the heap. Each second: time of a step, how many are awake, how
 // fast they still are, how far things are inside each other, what the wall bears.
-//   bench_heap [CHUNKS] [SECONDS]
+//   bench_heap [CHUNKS] [SECONDS] [sequential-impulse|small-steps]
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <random>
+#include <string>
 
 #include "support/provenance.h"
 #include "topple/collision/overlap_watch.h"
+#include "topple/collision/small_steps.h"
 #include "topple/collision/world.h"
 
 namespace {
@@ -83,8 +85,13 @@ BodyDescription chunk(std::mt19937& random, const Vec3& at) {
 int main(int argc, char** argv) {
   const int count = argc > 1 ? std::atoi(argv[1]) : 600;
   const double seconds = argc > 2 ? std::atof(argv[2]) : 30;
-  topple::bench::print_provenance("Steps of a heap of chunks", 1);
-  const auto world = make_bullet_world();
+  const std::string solver = argc > 3 ? argv[3] : "sequential-impulse";
+  if (solver != "sequential-impulse" && solver != "small-steps") {
+    std::fprintf(stderr, "bench_heap: no solver %s; accepted: sequential-impulse, small-steps\n", solver.c_str());
+    return 2;
+  }
+  topple::bench::print_provenance(("Steps of a heap of chunks, " + solver).c_str(), 1);
+  const auto world = solver == "small-steps" ? make_small_steps_world() : make_bullet_world();
   world->set_gravity({0, 0, -kGravity});
   world->set_ground(0, 0.6, 0);
   ObstacleDescription wall;

@@ -1,0 +1,34 @@
+#pragma once
+// Where two convex parts touch or are about to: at most four points with one normal.
+#include <array>
+
+#include "topple/collision/world.h"
+
+namespace topple::collision {
+
+/// Where a solid's own frame is, with its rotation as a matrix.
+struct Placement {
+  Vec3 position = Vec3::Zero();
+  Mat3 turn = Mat3::Identity();
+  [[nodiscard]] Vec3 operator*(const Vec3& local) const { return position + turn * local; }
+};
+
+struct ManifoldPoint {
+  Vec3 on_first, on_second;  ///< the two points that meet, each in its solid's frame
+  double separation = 0;     ///< along the normal, negative inside, m
+  double impulse = 0;        ///< normal one of a sub-step, to begin the next with, N s
+  double force = 0;          ///< mean normal force of the last step, N
+};
+
+struct Manifold {
+  static constexpr int most = 4;
+  int count = 0;
+  std::array<ManifoldPoint, most> points;
+  Vec3 normal = Vec3::Zero();        ///< from the first into the second, global
+  bool normal_on_first = true;       ///< which of the two it turns with ...
+  Vec3 local_normal = Vec3::Zero();  ///< ... and what it is in that one's frame
+  Vec3 friction = Vec3::Zero();      ///< impulse of a sub-step across the normal on the second, N s, global
+  double twist = 0;                  ///< the same about the normal, N m s
+};
+
+}  // namespace topple::collision

@@ -1,0 +1,149 @@
+#include "contacts/near_pairs.h"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+#include <tuple>
+
+namespace topple::collision {
+
+namespace {
+btDbvtVolume volume(const Box3& box) { return btDbvtVolume::FromMM(to_bullet(box.low), to_bullet(box.high)); }
+}  // namespace
+
+NearPairs::NearPairs() { colliders_.emplace_back(); }
+NearPairs::~NearPairs() {
+  moving_.clear();
+  standing_.clear();
+}
+
+void NearPairs::set_ground(Solid* solid, double height) {
+  Collider& of_ground = colliders_[ground];
+  of_ground.solid = solid;
+  of_ground.order = std::numeric_limits<std::uint64_t>::max();
+  of_ground.stands = true;
+  ground_height_ = height;
+  stale_ = true;
+  for (std::uint32_t i = 1; i < colliders_.size(); ++i)
+    if (colliders_[i].solid && !colliders_[i].stands && !colliders_[i].moved) {
+      colliders_[i].moved = true;
+      moved_.push_back(i);
+    }
+}
+
+std::uint32_t NearPairs::add(Solid* solid, int part, std::uint64_t order, const Box3& fat) {
+  std::uint32_t index;
+  if (free_colliders_.empty()) {
+    index = static_cast<std::uint32_t>(colliders_.size());
+    colliders_.emplace_back();
+  } else {
+    index = free_colliders_.back();
+    free_colliders_.pop_back();
+  }
+  Collider& made = colliders_[index];
+  made = {solid, part, order, fat, fat, nullptr, solid->kind != Touched::Kind::body, true};
+  made.leaf = (made.stands ? standing_ : moving_).insert(volume(fat), nullptr);
+  made.leaf->dataAsInt = static_cast<int>(index);
+  moved_.push_back(index);
+  return index;
+}
+
+void NearPairs::remove(std::uint32_t index) {
+  Collider& gone = colliders_[index];
+  (gone.stands ? standing_ : moving_).remove(gone.leaf);
+  for (std::size_t i = 0; i < order_.size();) {
+    const NearPair& one = pairs_[order_[i]];
+    if (one.first != index && one.second != index) {
+      ++i;
+      continue;
+    }
+    known_.erase(key(one.first, one.second));
+    free_pairs_.push_back(order_[i]);
+    order_.erase(order_.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+  std::erase(moved_, index);
+  gone = {};
+  free_colliders_.push_back(index);
+}
+
+void NearPairs::move(std::uint32_t index, const Box3& tight, double margin) {
+  Collider& moving = colliders_[index];
+  moving.tight = tight;
+  // Bounds of what came in fast are drawn in again when it is slow.
+  constexpr double far_too_large = 3;
+  const double loose = std::max((moving.fat.high - tight.high).maxCoeff(), (tight.low - moving.fat.low).maxCoeff());
+  if (margin > 0 && moving.fat.holds(tight) && loose <= far_too_large * margin) return;
+  moving.fat.low = tight.low - Vec3::Constant(margin);
+  moving.fat.high = tight.high + Vec3::Constant(margin);
+  btDbvtVolume now = volume(moving.fat);
+  (moving.stands ? standing_ : moving_).update(moving.leaf, now);
+  if (moving.moved) return;
+  moving.moved = true;
+  moved_.push_back(index);
+}
+
+void NearPairs::add_pair(std::uint32_t a, std::uint32_t b) {
+  if (!known_.insert(key(a, b)).second) return;
+  if (colliders_[a].order > colliders_[b].order) std::swap(a, b);
+  std::uint32_t index;
+  if (free_pairs_.empty()) {
+    index = static_cast<std::uint32_t>(pairs_.size());
+    pairs_.emplace_back();
+  } else {
+    index = free_pairs_.back();
+    free_pairs_.pop_back();
+    pairs_[index] = {};
+  }
+  NearPair& made = pairs_[index];
+  made.first = a;
+  made.second = b;
+  made.first_order = colliders_[a].order;
+  made.second_order = colliders_[b].order;
+  made_.push_back(index);
+}
+
+void NearPairs::seek_for(std::uint32_t index) {
+  const Collider& one = colliders_[index];
+  const auto meet = [&](std::uint32_t other) {
+    if (colliders_[other].solid != one.solid) add_pair(index, other);
+  };
+  each_in(one.fat, false, meet);
+  if (one.stands) return;
+  each_in(one.fat, true, meet);
+  if (colliders_[ground].solid && one.fat.low.z() <= ground_height_) add_pair(index, ground);
+}
+
+bool NearPairs::near(const NearPair& pair) const {
+  const Collider &a = colliders_[pair.first], &b = colliders_[pair.second];
+  if (pair.second == ground) return b.solid && a.fat.low.z() <= ground_height_;
+  return a.fat.meets(b.fat);
+}
+
+void NearPairs::find() {
+  if (moved_.empty() && !stale_) return;
+  stale_ = false;
+  std::erase_if(order_, [&](std::uint32_t index) {
+    const NearPair& one = pairs_[index];
+    if ((!colliders_[one.first].moved && !colliders_[one.second].moved && one.second != ground) || near(one))
+      return false;
+    known_.erase(key(one.first, one.second));
+    free_pairs_.push_back(index);
+    return true;
+  });
+  made_.clear();
+  for (const std::uint32_t index : moved_) {
+    seek_for(index);
+    colliders_[index].moved = false;
+  }
+  moved_.clear();
+  const auto before = [&](std::uint32_t a, std::uint32_t b) {
+    return std::tie(pairs_[a].first_order, pairs_[a].second_order) <
+           std::tie(pairs_[b].first_order, pairs_[b].second_order);
+  };
+  std::sort(made_.begin(), made_.end(), before);
+  const auto middle = static_cast<std::ptrdiff_t>(order_.size());
+  order_.insert(order_.end(), made_.begin(), made_.end());
+  std::inplace_merge(order_.begin(), order_.begin() + middle, order_.end(), before);
+}
+
+}  // namespace topple::collision

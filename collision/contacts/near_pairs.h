@@ -1,0 +1,107 @@
+#pragma once
+// Pairs of parts whose bounds are near each other, in an order that follows from handles alone. Bounds are larger than
+// the parts, so that what lies still is never sought again. Trees of bounds are Bullet's.
+#include <BulletCollision/BroadphaseCollision/btDbvt.h>
+
+#include <cstdint>
+#include <unordered_set>
+#include <vector>
+
+#include "contacts/manifold.h"
+#include "contacts/polyhedra_contacts.h"
+#include "shapes/solid.h"
+
+namespace topple::collision {
+
+struct Box3 {
+  Vec3 low = Vec3::Zero(), high = Vec3::Zero();
+  [[nodiscard]] bool holds(const Box3& other) const {
+    return (low.array() <= other.low.array()).all() && (high.array() >= other.high.array()).all();
+  }
+  [[nodiscard]] bool meets(const Box3& other) const {
+    return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
+  }
+};
+
+/// One convex part in the world.
+struct Collider {
+  Solid* solid = nullptr;
+  int part = 0;
+  std::uint64_t order = 0;  ///< bodies by id and part, then obstacles, then the ground
+  Box3 fat, tight;          ///< tight: with what the next step may move it
+  btDbvtNode* leaf = nullptr;
+  bool stands = false, moved = false;
+};
+
+struct NearPair {
+  std::uint32_t first = 0, second = 0;  ///< colliders, by order
+  std::uint64_t first_order = 0, second_order = 0;
+  Manifold manifold;
+  SeparatingAxis axis;
+  Mat3 turn = Mat3::Identity();    ///< of the second in the first's frame when contacts were last sought ...
+  Vec3 shift = Vec3::Zero();       ///< ... and its place
+  double clear = -1;               ///< m: no contact before the second has moved so far; below zero: not known
+  double margin = 0;               ///< m, with which they were sought
+  Vec3 rest_force = Vec3::Zero();  ///< on the second, of two of which one sleeps at least: what it rests with, N
+  bool sought = false;
+  bool persistent = false;  ///< it touched in the step before the last
+  bool touches = false;     ///< it pushed in the last step, or lay close
+};
+
+class NearPairs {
+ public:
+  static constexpr std::uint32_t ground = 0;  ///< collider of the half space
+
+  NearPairs();
+  ~NearPairs();
+  NearPairs(const NearPairs&) = delete;
+  NearPairs& operator=(const NearPairs&) = delete;
+
+  void set_ground(Solid* solid, double height);
+  std::uint32_t add(Solid* solid, int part, std::uint64_t order, const Box3& fat);
+  void remove(std::uint32_t collider);
+  /// Where the part is now or will be before the next step; bounds are made anew, larger by `margin`, when it is
+  /// outside of them (always, with a margin of zero).
+  void move(std::uint32_t collider, const Box3& tight, double margin);
+  /// Brings the pairs up to date.
+  void find();
+
+  [[nodiscard]] const Collider& collider(std::uint32_t index) const { return colliders_[index]; }
+  /// In order of their colliders.
+  [[nodiscard]] const std::vector<std::uint32_t>& order() const { return order_; }
+  [[nodiscard]] NearPair& pair(std::uint32_t index) { return pairs_[index]; }
+  [[nodiscard]] const NearPair& pair(std::uint32_t index) const { return pairs_[index]; }
+  /// Colliders whose bounds meet the box.
+  template <class Call>
+  void each_in(const Box3& box, bool standing, const Call& call) const;
+
+ private:
+  void add_pair(std::uint32_t a, std::uint32_t b);
+  void seek_for(std::uint32_t collider);
+  [[nodiscard]] bool near(const NearPair& pair) const;
+  static std::uint64_t key(std::uint32_t a, std::uint32_t b) {
+    return a < b ? std::uint64_t{a} << 32 | b : std::uint64_t{b} << 32 | a;
+  }
+
+  btDbvt moving_, standing_;
+  std::vector<Collider> colliders_;
+  std::vector<std::uint32_t> free_colliders_, moved_;
+  std::vector<NearPair> pairs_;
+  std::vector<std::uint32_t> free_pairs_, order_, made_;
+  std::unordered_set<std::uint64_t> known_;
+  double ground_height_ = 0;
+  bool stale_ = false;  ///< a collider has gone
+};
+
+template <class Call>
+void NearPairs::each_in(const Box3& box, bool standing, const Call& call) const {
+  struct Collect : btDbvt::ICollide {
+    const Call& tell;
+    explicit Collect(const Call& c) : tell(c) {}
+    void Process(const btDbvtNode* leaf) override { tell(static_cast<std::uint32_t>(leaf->dataAsInt)); }
+  } collect(call);
+  const btDbvt& tree = standing ? standing_ : moving_;
+  tree.collideTV(tree.m_root, btDbvtVolume::FromMM(to_bullet(box.low), to_bullet(box.high)), collect);
+}
+
+}  // namespace topple::collision

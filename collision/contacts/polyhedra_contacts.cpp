@@ -1,0 +1,342 @@
+#include "contacts/polyhedra_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace topple::collision {
+
+namespace {
+
+/// m: a face serves rather than a pair of edges that is better by no more than this, and the last axis rather than a
+/// new one: points then do not flicker between features.
+constexpr double kFaceFirst = 0.0005, kLastFirst = 0.0005;
+/// Share of the overlap that the deepest point of the clipped face must have: else the deepest vertex is added.
+constexpr double kLeftOut = 0.75;
+/// Sine between two edges below which they span no normal.
+constexpr double kParallel = 0.01;
+
+struct Found {
+  double separation = -1e300;
+  SeparatingAxis axis;
+};
+
+/// All in the first's frame.
+struct Pair {
+  const Polyhedron &first, &second;
+  Mat3 turn;  ///< of the second in the first's frame
+  Vec3 shift;
+  std::vector<Vec3>& vertices;  ///< of the second
+
+  [[nodiscard]] double first_face(int f) const {
+    const Polyhedron::Face& face = first.faces[static_cast<std::size_t>(f)];
+    double least = 1e300;
+    for (const Vec3& vertex : vertices) least = std::min(least, face.normal.dot(vertex));
+    return least - face.offset;
+  }
+  [[nodiscard]] double second_face(int f) const {
+    const Polyhedron::Face& face = second.faces[static_cast<std::size_t>(f)];
+    const Vec3 normal = turn * face.normal;
+    double least = 1e300;
+    for (const Vec3& vertex : first.vertices) least = std::min(least, normal.dot(vertex));
+    return least - normal.dot(shift) - face.offset;
+  }
+  /// Normal from the first to the second; zero for edges that are parallel.
+  [[nodiscard]] Vec3 edge_normal(const Polyhedron::Edge& a, const Polyhedron::Edge& b) const {
+    const Vec3 n = a.direction.cross(turn * b.direction);
+    const double length = n.norm();
+    if (length < kParallel) return Vec3::Zero();
+    const Vec3& from = first.vertices[static_cast<std::size_t>(a.from)];
+    return n.dot(from - first.centre) < 0 ? Vec3(-n / length) : Vec3(n / length);
+  }
+  [[nodiscard]] double edges(int i, int j) const {
+    const Polyhedron::Edge &a = first.edges[static_cast<std::size_t>(i)],
+                           &b = second.edges[static_cast<std::size_t>(j)];
+    const Vec3 n = edge_normal(a, b);
+    if (n.isZero(0)) return -1e300;
+    return n.dot(vertices[static_cast<std::size_t>(b.from)] - first.vertices[static_cast<std::size_t>(a.from)]);
+  }
+  [[nodiscard]] double along(const SeparatingAxis& axis) const {
+    switch (axis.kind) {
+      case SeparatingAxis::Kind::first_face:
+        return first_face(axis.first);
+      case SeparatingAxis::Kind::second_face:
+        return second_face(axis.second);
+      case SeparatingAxis::Kind::edges:
+        return make_a_face(axis.first, axis.second) ? edges(axis.first, axis.second) : -1e300;
+      case SeparatingAxis::Kind::none:
+        break;
+    }
+    return -1e300;
+  }
+  /// Whether the two edges make a face of the Minkowski difference: the arcs of their Gauss maps cross.
+  [[nodiscard]] bool make_a_face(int i, int j) const {
+    const Polyhedron::Edge &a = first.edges[static_cast<std::size_t>(i)],
+                           &b = second.edges[static_cast<std::size_t>(j)];
+    const auto normal = [](const Polyhedron& of, int f) -> const Vec3& {
+      return of.faces[static_cast<std::size_t>(f)].normal;
+    };
+    const Vec3 other = turn * b.direction;
+    const double c = -a.direction.dot(turn * normal(second, b.left)),
+                 d = -a.direction.dot(turn * normal(second, b.right));
+    const double e = other.dot(normal(first, a.left)), f = other.dot(normal(first, a.right));
+    return arcs_cross(c, d, e, f);
+  }
+  /// Of the second's normals (turned round) along the first's edge, and the first's along the second's edge.
+  static bool arcs_cross(double c, double d, double e, double f) { return c * d < 0 && e * f < 0 && c * f > 0; }
+};
+
+template <class Separation>
+void try_all(int count, SeparatingAxis::Kind kind, const Separation& separation, Found& best, double margin) {
+  for (int f = 0; f < count; ++f) {
+    const double now = separation(f);
+    if (now <= best.separation) continue;
+    best.separation = now;
+    best.axis.kind = kind;
+    (kind == SeparatingAxis::Kind::first_face ? best.axis.first : best.axis.second) = f;
+    if (now > margin) return;
+  }
+}
+
+struct Room {
+  std::vector<Vec3> vertices, places;
+  std::vector<double> on_first, on_second;
+  std::vector<Vec3> polygon, clipped;
+  std::vector<ManifoldPoint> points;
+};
+/// Working space alone: nothing in it outlives a call.
+Room& room() {
+  static thread_local Room own;
+  return own;
+}
+
+void try_edges(const Pair& pair, Found& best, double margin, Room& work) {
+  const std::size_t first_edges = pair.first.edges.size(), second_edges = pair.second.edges.size();
+  const std::size_t first_faces = pair.first.faces.size(), second_faces = pair.second.faces.size();
+  work.on_first.resize(first_edges * second_faces);
+  for (std::size_t f = 0; f < second_faces; ++f) {
+    const Vec3 normal = pair.turn * pair.second.faces[f].normal;
+    for (std::size_t i = 0; i < first_edges; ++i)
+      work.on_first[i * second_faces + f] = -pair.first.edges[i].direction.dot(normal);
+  }
+  work.on_second.resize(first_faces);
+  for (std::size_t j = 0; j < second_edges; ++j) {
+    const Polyhedron::Edge& b = pair.second.edges[j];
+    const Vec3 other = pair.turn * b.direction;
+    for (std::size_t f = 0; f < first_faces; ++f) work.on_second[f] = other.dot(pair.first.faces[f].normal);
+    for (std::size_t i = 0; i < first_edges; ++i) {
+      const Polyhedron::Edge& a = pair.first.edges[i];
+      const double* row = &work.on_first[i * second_faces];
+      if (!Pair::arcs_cross(row[b.left], row[b.right], work.on_second[static_cast<std::size_t>(a.left)],
+                            work.on_second[static_cast<std::size_t>(a.right)]))
+        continue;
+      const double now = pair.edges(static_cast<int>(i), static_cast<int>(j));
+      if (now <= best.separation + kFaceFirst) continue;
+      best.separation = now;
+      best.axis = {SeparatingAxis::Kind::edges, static_cast<int>(i), static_cast<int>(j), 0};
+      if (now > margin) return;
+    }
+  }
+}
+
+Found search(const Pair& pair, double margin, const SeparatingAxis& last, Room& work) {
+  Found best;
+  try_all(
+      static_cast<int>(pair.first.faces.size()), SeparatingAxis::Kind::first_face,
+      [&](int f) { return pair.first_face(f); }, best, margin);
+  if (best.separation > margin) return best;
+  Found second;
+  try_all(
+      static_cast<int>(pair.second.faces.size()), SeparatingAxis::Kind::second_face,
+      [&](int f) { return pair.second_face(f); }, second, margin);
+  if (second.separation > best.separation + kFaceFirst) best = second;
+  if (best.separation > margin) return best;
+  try_edges(pair, best, margin, work);
+  if (best.separation > margin || last.kind == SeparatingAxis::Kind::none) return best;
+  const double before = pair.along(last);
+  if (before >= best.separation - kLastFirst) best = {before, last};
+  return best;
+}
+
+/// Keeps what of the polygon is inside n x <= offset.
+void clip(const Vec3& normal, double offset, std::vector<Vec3>& polygon, std::vector<Vec3>& out) {
+  out.clear();
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    const double over_a = normal.dot(a) - offset, over_b = normal.dot(b) - offset;
+    if (over_a <= 0) out.push_back(a);
+    if ((over_a < 0 && over_b > 0) || (over_a > 0 && over_b < 0))
+      out.push_back(a + (b - a) * (over_a / (over_a - over_b)));
+  }
+  polygon.swap(out);
+}
+
+/// The face of the other that looks most against the normal, clipped by the sides of the reference face. All in the
+/// reference's frame. Points come out on the incident face.
+void clip_face(const Polyhedron& reference, int face_index, const Polyhedron& other, const Mat3& turn,
+               const std::vector<Vec3>& vertices, Room& work) {
+  const Polyhedron::Face& face = reference.faces[static_cast<std::size_t>(face_index)];
+  const Vec3 in_other = turn.transpose() * face.normal;
+  std::size_t incident = 0;
+  double least = 1e300;
+  for (std::size_t f = 0; f < other.faces.size(); ++f) {
+    const double facing = other.faces[f].normal.dot(in_other);
+    if (facing < least) least = facing, incident = f;
+  }
+  work.polygon.clear();
+  const Polyhedron::Face& facing = other.faces[incident];
+  for (int i = 0; i < facing.count; ++i)
+    work.polygon.push_back(vertices[static_cast<std::size_t>(other.loops[static_cast<std::size_t>(facing.first + i)])]);
+  for (int i = 0; i < face.count && !work.polygon.empty(); ++i) {
+    const auto corner = [&](int k) -> const Vec3& {
+      return reference
+          .vertices[static_cast<std::size_t>(reference.loops[static_cast<std::size_t>(face.first + k % face.count)])];
+    };
+    const Vec3 out = (corner(i + 1) - corner(i)).cross(face.normal).normalized();
+    clip(out, out.dot(corner(i)), work.polygon, work.clipped);
+  }
+}
+
+/// The vertex that is deepest along the normal (in the first's frame), where clipping has left it out: a corner beside
+/// the face that it is under.
+template <class Add>
+void add_deepest(const Pair& pair, bool of_second, const Vec3& normal, double separation, const Add& add) {
+  const std::vector<Vec3>& vertices = of_second ? pair.second.vertices : pair.first.vertices;
+  const Vec3 along = of_second ? Vec3(pair.turn.transpose() * normal) : Vec3(-normal);
+  const Vec3 deepest = *std::min_element(vertices.begin(), vertices.end(),
+                                         [&](const Vec3& a, const Vec3& b) { return along.dot(a) < along.dot(b); });
+  if (of_second) {
+    const Vec3 place = pair.shift + pair.turn * deepest;
+    add(place - separation * normal, place, separation);
+  } else {
+    add(deepest, deepest + separation * normal, separation);
+  }
+}
+
+/// Nearest points of two edges: of the lines, but no farther along than their ends.
+std::pair<Vec3, Vec3> nearest_of_edges(const Vec3& a, const Vec3& a_end, const Vec3& b, const Vec3& b_end) {
+  const Vec3 u = a_end - a, v = b_end - b, d = b - a;
+  const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v), du = d.dot(u), dv = d.dot(v);
+  const double denominator = uu * vv - uv * uv;
+  const double s = std::clamp((du * vv - uv * dv) / denominator, 0.0, 1.0);
+  const double t = std::clamp((uv * du - uu * dv) / denominator, 0.0, 1.0);
+  return {a + s * u, b + t * v};
+}
+
+}  // namespace
+
+void keep_four(const Vec3& normal, std::vector<ManifoldPoint>& points, std::vector<Vec3>& places, Manifold& manifold) {
+  const auto take = [&](std::size_t i) {
+    manifold.points[static_cast<std::size_t>(manifold.count++)] = points[i];
+    points[i] = points.back(), points.pop_back();
+    places[i] = places.back(), places.pop_back();
+  };
+  manifold.count = 0;
+  if (points.size() <= Manifold::most) {
+    for (const ManifoldPoint& point : points) manifold.points[static_cast<std::size_t>(manifold.count++)] = point;
+    return;
+  }
+  const auto most = [&](const auto& value) {
+    std::size_t best = 0;
+    double largest = -1e300;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const double now = value(i);
+      if (now > largest) largest = now, best = i;
+    }
+    return best;
+  };
+  std::size_t chosen = most([&](std::size_t i) { return -points[i].separation; });
+  const Vec3 a = places[chosen];
+  take(chosen);
+  chosen = most([&](std::size_t i) { return (places[i] - a).squaredNorm(); });
+  const Vec3 b = places[chosen];
+  take(chosen);
+  const auto area = [&](const Vec3& p, const Vec3& q, std::size_t i) {
+    return normal.dot((p - places[i]).cross(q - places[i]));
+  };
+  chosen = most([&](std::size_t i) { return std::abs(area(a, b, i)); });
+  const Vec3 c = places[chosen];
+  const double side = area(a, b, chosen) < 0 ? -1 : 1;
+  take(chosen);
+  // What adds most to the triangle, outside of any of its sides.
+  chosen = most([&](std::size_t i) {
+    return std::max({-side * area(a, b, i), -side * area(b, c, i), -side * area(c, a, i)});
+  });
+  take(chosen);
+}
+
+void collide(const Polyhedron& first, const Placement& first_at, const Polyhedron& second, const Placement& second_at,
+             double margin, SeparatingAxis& axis, Manifold& manifold) {
+  Room& work = room();
+  manifold.count = 0;
+  const Mat3 back = first_at.turn.transpose();
+  work.vertices.resize(second.vertices.size());
+  const Pair pair{first, second, back * second_at.turn, back * (second_at.position - first_at.position), work.vertices};
+  for (std::size_t i = 0; i < second.vertices.size(); ++i)
+    work.vertices[i] = pair.shift + pair.turn * second.vertices[i];
+  if (axis.kind != SeparatingAxis::Kind::none && (axis.gap = pair.along(axis)) > margin) return;
+  const Found found = search(pair, margin, axis, work);
+  axis = found.axis;
+  axis.gap = found.separation;
+  if (found.separation > margin) return;
+
+  work.points.clear();
+  work.places.clear();
+  const Mat3 forth = pair.turn.transpose();
+  const auto add = [&](const Vec3& on_first, const Vec3& on_second, double separation) {  // both in the first's frame
+    ManifoldPoint point;
+    point.on_first = on_first;
+    point.on_second = forth * (on_second - pair.shift);
+    point.separation = separation;
+    work.points.push_back(point);
+    work.places.push_back(on_first);
+  };
+  Vec3 normal;  // in the first's frame
+  if (axis.kind == SeparatingAxis::Kind::first_face) {
+    const Polyhedron::Face& face = first.faces[static_cast<std::size_t>(axis.first)];
+    normal = face.normal;
+    clip_face(first, axis.first, second, pair.turn, work.vertices, work);
+    for (const Vec3& place : work.polygon) {
+      const double separation = normal.dot(place) - face.offset;
+      if (separation <= margin) add(place - separation * normal, place, separation);
+    }
+    manifold.normal_on_first = true;
+    manifold.local_normal = normal;
+  } else if (axis.kind == SeparatingAxis::Kind::second_face) {
+    const Polyhedron::Face& face = second.faces[static_cast<std::size_t>(axis.second)];
+    normal = -(pair.turn * face.normal);
+    std::vector<Vec3>& in_second = work.vertices;
+    in_second.resize(first.vertices.size());
+    for (std::size_t i = 0; i < first.vertices.size(); ++i) in_second[i] = forth * (first.vertices[i] - pair.shift);
+    clip_face(second, axis.second, first, forth, in_second, work);
+    for (const Vec3& place : work.polygon) {
+      const double separation = face.normal.dot(place) - face.offset;
+      if (separation > margin) continue;
+      const Vec3 on_first = pair.shift + pair.turn * place;
+      add(on_first, on_first + separation * normal, separation);
+    }
+    manifold.normal_on_first = false;
+    manifold.local_normal = -face.normal;
+  } else {
+    const Polyhedron::Edge &a = first.edges[static_cast<std::size_t>(axis.first)],
+                           &b = second.edges[static_cast<std::size_t>(axis.second)];
+    normal = pair.edge_normal(a, b);
+    const auto corner = [](const std::vector<Vec3>& vertices, int i) { return vertices[static_cast<std::size_t>(i)]; };
+    const auto [near_first, near_second] =
+        nearest_of_edges(corner(first.vertices, a.from), corner(first.vertices, a.to), corner(work.vertices, b.from),
+                         corner(work.vertices, b.to));
+    // Both on one line along the normal, as far apart as the axis says.
+    const Vec3 middle = (near_first + near_second) / 2;
+    const Vec3 on_first = middle - found.separation / 2 * normal, on_second = middle + found.separation / 2 * normal;
+    add(on_first, on_second, found.separation);
+    manifold.normal_on_first = true;
+    manifold.local_normal = normal;
+  }
+  manifold.normal = first_at.turn * normal;
+  double nearest = 1e300;
+  for (const ManifoldPoint& point : work.points) nearest = std::min(nearest, point.separation);
+  if (found.separation < 0 && nearest > kLeftOut * found.separation)
+    add_deepest(pair, axis.kind == SeparatingAxis::Kind::first_face, normal, found.separation, add);
+  keep_four(normal, work.points, work.places, manifold);
+}
+
+}  // namespace topple::collision

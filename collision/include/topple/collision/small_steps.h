@@ -1,0 +1,14 @@
+#pragma once
+// A collision::World with a contact solver of our own: soft contacts in small steps (docs/architecture.md). Forces are
+// the sums of what was applied, so that they balance weight and momentum to rounding; what sleeps presses with forces
+// in balance. Contacts of bodies that come to rest are told in that step, and not after.
+#include "topple/collision/world.h"
+
+namespace topple::collision {
+
+/// Where it differs from make_bullet_world(): gravity's work is a body's weight times its way, so that what pushes
+/// overlaps apart counts as work of the contacts; an island rests when all of its bodies have been slow for half a
+/// second and forces within their friction cones hold each of them.
+[[nodiscard]] std::unique_ptr<World> make_small_steps_world();
+
+}  // namespace topple::collision

@@ -1,0 +1,222 @@
+// The inner loops over packs of contacts; compiled once for each set of instructions, in a namespace of its own.
+// Nothing here may include Eigen: its inline functions would be compiled for those instructions everywhere.
+#include "solver/contact_packs.h"
+
+namespace topple::collision {
+namespace TOPPLE_KERNELS {
+namespace {
+
+#define TOPPLE_INLINE __attribute__((always_inline)) inline
+
+typedef long long Lanes __attribute__((vector_size(kLanes * sizeof(double))));
+
+TOPPLE_INLINE Wide all(double x) { return Wide{x, x, x, x}; }
+TOPPLE_INLINE Wide larger(const Wide& a, const Wide& b) { return a > b ? a : b; }
+TOPPLE_INLINE Wide smaller(const Wide& a, const Wide& b) { return a < b ? a : b; }
+TOPPLE_INLINE Wide dot(const Wide* a, const Wide* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+TOPPLE_INLINE Wide root(const Wide& a) {
+  return Wide{__builtin_sqrt(a[0]), __builtin_sqrt(a[1]), __builtin_sqrt(a[2]), __builtin_sqrt(a[3])};
+}
+
+struct Gathered {
+  Wide linear[3], angular[3];
+};
+
+/// Rows of four become columns.
+TOPPLE_INLINE void transpose(Wide& a, Wide& b, Wide& c, Wide& d) {
+  const Wide ab_low = __builtin_shuffle(a, b, Lanes{0, 4, 2, 6}), ab_high = __builtin_shuffle(a, b, Lanes{1, 5, 3, 7});
+  const Wide cd_low = __builtin_shuffle(c, d, Lanes{0, 4, 2, 6}), cd_high = __builtin_shuffle(c, d, Lanes{1, 5, 3, 7});
+  a = __builtin_shuffle(ab_low, cd_low, Lanes{0, 1, 4, 5});
+  b = __builtin_shuffle(ab_high, cd_high, Lanes{0, 1, 4, 5});
+  c = __builtin_shuffle(ab_low, cd_low, Lanes{2, 3, 6, 7});
+  d = __builtin_shuffle(ab_high, cd_high, Lanes{2, 3, 6, 7});
+}
+
+TOPPLE_INLINE Wide row(const double* from) { return *reinterpret_cast<const Wide*>(from); }
+
+TOPPLE_INLINE void gather(const Motion6* from, const int* index, Gathered& to) {
+  const double *a = from[index[0]].linear, *b = from[index[1]].linear, *c = from[index[2]].linear,
+               *d = from[index[3]].linear;
+  to.linear[0] = row(a), to.linear[1] = row(b), to.linear[2] = row(c), to.angular[0] = row(d);
+  transpose(to.linear[0], to.linear[1], to.linear[2], to.angular[0]);
+  Wide unused = row(d + 4);
+  to.angular[1] = row(a + 4), to.angular[2] = row(b + 4);
+  Wide third = row(c + 4);
+  transpose(to.angular[1], to.angular[2], third, unused);
+}
+
+TOPPLE_INLINE void scatter(const Gathered& from, const int* index, Motion6* to) {
+  Wide rows[4] = {from.linear[0], from.linear[1], from.linear[2], from.angular[0]};
+  Wide rest[4] = {from.angular[1], from.angular[2], all(0), all(0)};
+  transpose(rows[0], rows[1], rows[2], rows[3]);
+  transpose(rest[0], rest[1], rest[2], rest[3]);
+  for (int lane = 0; lane < kLanes; ++lane) {
+    if (index[lane] == 0) continue;
+    *reinterpret_cast<Wide*>(to[index[lane]].linear) = rows[lane];
+    *reinterpret_cast<Wide*>(to[index[lane]].linear + 4) = rest[lane];
+  }
+}
+
+/// Both bodies of each lane.
+struct Both {
+  Gathered first, second;
+};
+
+TOPPLE_INLINE Wide relative(const ContactPack& pack, const Wide* direction, const Wide* on_first, const Wide* on_second,
+                            const Both& of) {
+  const Wide across[3] = {of.second.linear[0] * pack.second_root - of.first.linear[0] * pack.first_root,
+                          of.second.linear[1] * pack.second_root - of.first.linear[1] * pack.first_root,
+                          of.second.linear[2] * pack.second_root - of.first.linear[2] * pack.first_root};
+  return dot(direction, across) + (dot(on_second, of.second.angular) - dot(on_first, of.first.angular));
+}
+
+TOPPLE_INLINE void push(const ContactPack& pack, const Wide* direction, const Wide* on_first, const Wide* on_second,
+                        const Wide& impulse, Both& velocity) {
+  const Wide first = impulse * pack.first_root, second = impulse * pack.second_root;
+  for (int i = 0; i < 3; ++i) {
+    velocity.first.linear[i] -= direction[i] * first;
+    velocity.second.linear[i] += direction[i] * second;
+    velocity.first.angular[i] -= on_first[i] * impulse;
+    velocity.second.angular[i] += on_second[i] * impulse;
+  }
+}
+
+TOPPLE_INLINE void turn(const ContactPack& pack, const Wide& impulse, Both& velocity) {
+  for (int i = 0; i < 3; ++i) {
+    velocity.first.angular[i] -= pack.twist_first[i] * impulse;
+    velocity.second.angular[i] += pack.twist_second[i] * impulse;
+  }
+}
+
+TOPPLE_INLINE void load(const ContactPack& pack, const Motion6* from, Both& to) {
+  gather(from, pack.first_body, to.first);
+  gather(from, pack.second_body, to.second);
+}
+
+TOPPLE_INLINE void store(const ContactPack& pack, const Both& from, Motion6* to) {
+  scatter(from.first, pack.first_body, to);
+  scatter(from.second, pack.second_body, to);
+}
+
+void warm_start(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity,
+                const Motion6*, const SubStep&) {
+  for (std::size_t k = begin; k < end; ++k) {
+    const ContactPack& pack = packs[k];
+    Both now;
+    load(pack, velocity, now);
+    for (int i = 0; i < pack.point_count; ++i) {
+      const PackPoint& point = points[pack.first_point + static_cast<std::size_t>(i)];
+      push(pack, pack.normal, point.first, point.second, point.impulse, now);
+    }
+    for (int i = 0; i < 2; ++i)
+      push(pack, pack.along[i], pack.along_first[i], pack.along_second[i], pack.slide[i], now);
+    turn(pack, pack.twist, now);
+    store(pack, now, velocity);
+  }
+}
+
+void solve(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity,
+           const Motion6* displacement, const SubStep& step) {
+  const Wide rate = all(1 / step.length), none = all(0), one = all(1), fastest = all(-step.pushed_apart);
+  for (std::size_t k = begin; k < end; ++k) {
+    ContactPack& pack = packs[k];
+    Both now, moved;
+    load(pack, velocity, now);
+    load(pack, displacement, moved);
+    for (int i = 0; i < pack.point_count; ++i) {
+      PackPoint& point = points[pack.first_point + static_cast<std::size_t>(i)];
+      const Wide separation = point.separation + relative(pack, pack.normal, point.first, point.second, moved);
+      const Lanes apart = separation > none;
+      const Wide bias = apart ? separation * rate : larger(pack.mass_scale * pack.bias_rate * separation, fastest);
+      const Wide scale = apart ? one : pack.mass_scale, given_back = apart ? none : pack.impulse_scale;
+      const Wide speed = relative(pack, pack.normal, point.first, point.second, now);
+      const Wide wanted = point.impulse - point.mass * (scale * speed + bias) - given_back * point.impulse;
+      const Wide impulse = larger(wanted, none), change = impulse - point.impulse;
+      point.impulse = impulse;
+      push(pack, pack.normal, point.first, point.second, change, now);
+    }
+    store(pack, now, velocity);
+  }
+}
+
+TOPPLE_INLINE void rub(ContactPack& pack, const PackPoint* points, Both& now) {
+  Wide pressed = all(0), grip = all(0);
+  for (int i = 0; i < pack.point_count; ++i) {
+    pressed += points[i].impulse;
+    grip += points[i].impulse * points[i].lever;
+  }
+  const Wide none = all(0), one = all(1);
+  const Wide turning = dot(pack.twist_second, now.second.angular) - dot(pack.twist_first, now.first.angular);
+  const Wide most = pack.friction * grip;
+  const Wide twist = larger(none - most, smaller(most, pack.twist - pack.twist_mass * turning));
+  turn(pack, twist - pack.twist, now);
+  pack.twist = twist;
+  const Wide x = relative(pack, pack.along[0], pack.along_first[0], pack.along_second[0], now),
+             y = relative(pack, pack.along[1], pack.along_first[1], pack.along_second[1], now);
+  Wide a = pack.slide[0] - (pack.inverse[0] * x + pack.inverse[1] * y),
+       b = pack.slide[1] - (pack.inverse[1] * x + pack.inverse[2] * y);
+  const Wide bound = pack.friction * pressed, size = root(a * a + b * b);
+  const Wide share = size > bound ? bound / (size > none ? size : one) : one;
+  a *= share;
+  b *= share;
+  push(pack, pack.along[0], pack.along_first[0], pack.along_second[0], a - pack.slide[0], now);
+  push(pack, pack.along[1], pack.along_first[1], pack.along_second[1], b - pack.slide[1], now);
+  pack.slide[0] = a;
+  pack.slide[1] = b;
+}
+
+void relax(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity,
+           const Motion6* displacement, const SubStep& step) {
+  const Wide rate = all(1 / step.length), none = all(0);
+  for (std::size_t k = begin; k < end; ++k) {
+    ContactPack& pack = packs[k];
+    PackPoint* const own = points + pack.first_point;
+    Both now, moved;
+    load(pack, velocity, now);
+    load(pack, displacement, moved);
+    for (int i = 0; i < pack.point_count; ++i) {
+      PackPoint& point = own[i];
+      const Wide separation = point.separation + relative(pack, pack.normal, point.first, point.second, moved);
+      const Wide bias = separation > none ? separation * rate : none;
+      const Wide speed = relative(pack, pack.normal, point.first, point.second, now);
+      const Wide impulse = larger(point.impulse - point.mass * (speed + bias), none), change = impulse - point.impulse;
+      point.impulse = impulse;
+      point.total += impulse;
+      push(pack, pack.normal, point.first, point.second, change, now);
+    }
+    // Last, so that friction is bounded by the normal impulses that are told.
+    rub(pack, own, now);
+    for (int i = 0; i < 2; ++i) pack.slide_total[i] += pack.slide[i];
+    pack.twist_total += pack.twist;
+    store(pack, now, velocity);
+  }
+}
+
+void restitute(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity,
+               const Motion6*, const SubStep& step) {
+  const Wide none = all(0), from = all(-step.restitution_from);
+  for (std::size_t k = begin; k < end; ++k) {
+    ContactPack& pack = packs[k];
+    PackPoint* const own = points + pack.first_point;
+    Both now;
+    load(pack, velocity, now);
+    for (int i = 0; i < pack.point_count; ++i) {
+      PackPoint& point = own[i];
+      const Lanes bounces = (point.approach < from) & (point.total > none);
+      const Wide speed = relative(pack, pack.normal, point.first, point.second, now);
+      const Wide wanted = larger(point.total - point.mass * (speed + pack.restitution * point.approach), none);
+      const Wide change = bounces ? wanted - point.total : none;
+      point.total += change;
+      push(pack, pack.normal, point.first, point.second, change, now);
+    }
+    store(pack, now, velocity);
+  }
+}
+
+}  // namespace
+
+extern const ContactKernels kernels;
+const ContactKernels kernels{warm_start, solve, relax, restitute};
+
+}  // namespace TOPPLE_KERNELS
+}  // namespace topple::collision

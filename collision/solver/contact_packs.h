@@ -1,0 +1,71 @@
+#pragma once
+// Contacts of four pairs of bodies side by side, as the solver's inner loops read them: plain numbers, no body twice in
+// a colour, so that packs of a colour can be done in any order and on any thread with the same bits.
+//
+// Velocities and displacements are scaled by the roots of mass and moments: a row's Jacobian is then its own mass
+// matrix times itself, and half of what would be read is not there. For a body with mass m and principal moments I,
+//   v^ = sqrt(m) v,   w^ = sqrt(I) R' w,   row on w^: R' (r x n)/sqrt(I).
+#include <cstddef>
+
+// Such vectors never cross a call that is not inlined.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+namespace topple::collision {
+
+inline constexpr int kLanes = 4;
+typedef double Wide __attribute__((vector_size(kLanes * sizeof(double)), may_alias));
+
+/// Of a body in the sub-steps: scaled velocity, or displacement since the step began.
+struct alignas(64) Motion6 {
+  double linear[3]{}, angular[3]{}, unused[2]{};  ///< read as two rows of four
+};
+static_assert(sizeof(Motion6) == 64);
+
+/// One point of each lane.
+struct alignas(32) PackPoint {
+  Wide first[3], second[3];  ///< angular parts of the normal row
+  Wide separation;           ///< when the step began
+  Wide mass;                 ///< effective, of the row; 0: no point in this lane
+  Wide impulse;              ///< of this sub-step
+  Wide total;                ///< over the step
+  Wide approach;             ///< relative speed along the normal when the step began, negative when closing
+  Wide lever;                ///< from the centre of friction, m
+};
+
+struct alignas(32) ContactPack {
+  int first_body[kLanes]{}, second_body[kLanes]{};  ///< 0: what stands
+  std::size_t first_point = 0;
+  int point_count = 0;
+  Wide normal[3];
+  Wide first_root, second_root;  ///< 1/sqrt(mass)
+  Wide bias_rate, mass_scale, impulse_scale;
+  Wide restitution;
+  // Friction of the patch, at its centre: two directions across the normal, and the turn about it.
+  Wide along[2][3];
+  Wide along_first[2][3], along_second[2][3];
+  Wide twist_first[3], twist_second[3];
+  Wide inverse[3];  ///< of the two directions' mass matrix: xx, xy, yy
+  Wide twist_mass;
+  Wide friction;
+  Wide slide[2], twist;              ///< impulses of this sub-step
+  Wide slide_total[2], twist_total;  ///< over the step
+};
+
+struct SubStep {
+  double length = 0;        ///< s
+  double pushed_apart = 0;  ///< m/s
+  double restitution_from = 0;
+};
+
+/// The inner loops, in the widest instructions that the processor has; the bits are the same in all.
+struct ContactKernels {
+  using Pass = void (*)(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity,
+                        const Motion6* displacement, const SubStep& step);
+  Pass warm_start;  ///< applies the impulses that the packs hold
+  Pass solve;       ///< normal rows, with the springs
+  Pass relax;       ///< normal rows without springs, then friction; adds up the totals
+  Pass restitute;   ///< after the last sub-step
+};
+[[nodiscard]] const ContactKernels& contact_kernels();
+
+}  // namespace topple::collision

@@ -1,0 +1,202 @@
+#pragma once
+// collision::World with a contact solver of its own. Its parts by file: bodies, obstacles, queries of state
+// (debris_world), the step (debris_world_step), what touches and what is told of it (debris_world_contacts), rest
+// (debris_world_rest), sweeps and rays (debris_world_sweep), hinges and cables (debris_world_joints).
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+
+#include "contacts/contact_forces.h"
+#include "contacts/first_touch.h"
+#include "contacts/near_pairs.h"
+#include "contacts/pair_contacts.h"
+#include "shapes/touching_solid.h"
+#include "solver/step_solver.h"
+
+namespace topple::collision {
+
+/// A body turns in its principal axes inside (its frame), and is seen in the caller's.
+struct DebrisBody : TouchingSolid {
+  double mass = 0, friction = 0, restitution = 0;
+  double ball_radius = 0;  ///< of a body that is one ball; 0: any other
+  Vec3 moments = Vec3::Zero(), inverse_root_moments = Vec3::Zero();
+  Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();  ///< of the principal axes
+  Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();         ///< as BodyState tells them
+  bool asleep = false;
+  double slow_for = 0;      ///< s
+  double load = 0;          ///< m/s2: force on a contact over its effective mass, the largest; how hard it is pressed
+  double substep_rate = 0;  ///< 1/s: sub-steps in the last step
+  double retry_rest = 0;    ///< s until rest is tried again, where it was not found
+  int ignored = 0;          ///< pairs that it is in and that are ignored until separated
+  int solver = 0;           ///< its number in the step's solver
+  int island = 0;
+  // Of the step: what it began with, for the account of energy.
+  Vec3 velocity_before = Vec3::Zero(), spin_before = Vec3::Zero();
+  double energy_before = 0, pushed = 0, booked = 0;
+  std::vector<std::uint32_t> colliders;  ///< by part
+  std::set<std::int64_t> hinges, cables;
+};
+
+struct DebrisObstacle : TouchingSolid {
+  Pose pose;
+  double friction = 0, restitution = 0;
+  std::vector<std::uint32_t> colliders;
+};
+
+struct DebrisHinge {
+  HingeRows rows;
+  std::int64_t body = -1, other = -1;
+  Eigen::Matrix<double, 6, 1> force = Eigen::Matrix<double, 6, 1>::Zero();
+  double work_lost = 0;
+};
+
+struct DebrisCable {
+  CableRow row;
+  std::int64_t body = -1;
+  CablePull pull;
+};
+
+class DebrisWorld final : public World {
+ public:
+  explicit DebrisWorld(const SolverSettings& settings);
+  ~DebrisWorld() override;
+  DebrisWorld(const DebrisWorld&) = delete;
+  DebrisWorld& operator=(const DebrisWorld&) = delete;
+
+  void set_gravity(const Vec3& gravity) override;
+  void set_ground(double height, double friction, double restitution) override;
+  BodyId add_body(const BodyDescription& description) override;
+  void remove_body(BodyId body) override;
+  ObstacleId add_obstacle(const ObstacleDescription& description) override;
+  void remove_obstacle(ObstacleId obstacle) override;
+  void move_obstacle(ObstacleId obstacle, const Pose& pose) override;
+  HingeId add_hinge(const HingeDescription& description) override;
+  void remove_hinge(HingeId hinge) override;
+  [[nodiscard]] Eigen::Matrix<double, 6, 1> hinge_force(HingeId hinge) const override;
+  [[nodiscard]] double hinge_work_lost(HingeId hinge) const override;
+  CableId add_cable(const CableDescription& description) override;
+  void remove_cable(CableId cable) override;
+  [[nodiscard]] CablePull cable_pull(CableId cable) const override;
+  [[nodiscard]] BodyState state(BodyId body) const override;
+  void set_state(BodyId body, const BodyState& state) override;
+  void apply_impulse(BodyId body, const Vec3& impulse, const Vec3& point) override;
+  void wake(BodyId body) override;
+  void ignore_until_separated(BodyId body, const Touched& other) override;
+  [[nodiscard]] std::span<const BodyId> bodies() const override { return order_; }
+  [[nodiscard]] std::size_t awake_count() const override { return awake_count_; }
+  [[nodiscard]] std::vector<Contact> sweep(double dt, Sweep what, double least_speed) override;
+  void step(double dt) override;
+  [[nodiscard]] std::span<const Contact> contacts() const override { return contacts_; }
+  [[nodiscard]] std::optional<RayHit> ray_cast(const Vec3& from, const Vec3& to) const override;
+  [[nodiscard]] std::vector<ObstacleId> obstacles_in(const Vec3& low, const Vec3& high) const override;
+
+ private:
+  struct Mover;  // an awake body during a sweep
+  /// Awake bodies that touch or hang together.
+  struct Island {
+    std::vector<DebrisBody*> bodies;
+    std::vector<std::uint32_t> pairs;  ///< that touch
+    std::vector<DebrisHinge*> hinges;
+    std::vector<DebrisCable*> cables;
+    double load = 0;          ///< m/s2
+    double substep_rate = 0;  ///< 1/s: the highest of its bodies
+    bool slow = true;
+  };
+
+  [[nodiscard]] DebrisBody& body(std::int64_t id) const;
+  [[nodiscard]] DebrisObstacle& obstacle(std::int64_t id) const;
+  [[nodiscard]] DebrisHinge& hinge(std::int64_t id) const;
+  [[nodiscard]] DebrisCable& cable(std::int64_t id) const;
+  [[nodiscard]] const Solid& solid(const SolidPair& pair) const;
+
+  // Bodies.
+  static void place(DebrisBody& body, const Pose& pose);
+  void fall_asleep(DebrisBody& body);
+  void wake_up(DebrisBody& body);
+  void wake_all();
+  void wake_touching(const Solid& solid);
+  [[nodiscard]] static Box3 bounds_of(const PartShape& shape, const Placement& at);
+
+  // The step.
+  void update_bounds(double dt);
+  void find_contacts(double dt);
+  void seek(std::uint32_t index, double dt);
+  [[nodiscard]] double margin_of(const NearPair& pair, double dt) const;
+  void wake_struck(double dt);
+  void wake_round(DebrisBody& struck, double momentum);
+  [[nodiscard]] bool awake(const NearPair& pair) const;
+  void gather_islands();
+  [[nodiscard]] int substeps(const Island& island, double dt) const;
+  void solve(std::span<Island* const> islands, int substeps, double dt);
+  void fill_solver(std::span<Island* const> islands);
+  void fly(DebrisBody& body, double dt) const;
+  void take_results(std::span<Island* const> islands, double dt);
+  void turn(DebrisBody& body, const Vec3& turned, double dt) const;
+  void resist_rolling(double dt);
+
+  // Contacts.
+  void tell_contacts(double dt);
+  void tell(const SolverContact& solved, double dt);
+  void book_work(std::span<Island* const> islands, double dt);
+  [[nodiscard]] DebrisBody* moving(const SolverContact& solved, bool second) const;
+  void merge_contacts();
+  [[nodiscard]] double energy(const DebrisBody& body, double dt) const;
+  void forget_contacts_of(Touched::Kind kind, std::int64_t id);
+  void mark_persistent(std::vector<Contact>& found) const;
+  void ignore(const SolidPair& pair, bool ignored);
+  void forget_ignored_of(Touched::Kind kind, std::int64_t id);
+  [[nodiscard]] bool ignores(const Solid& first, const Solid& second) const;
+  [[nodiscard]] bool still_to_pass(const DebrisBody& first, const Solid& other, bool other_moves, double dt) const;
+  void release_separated(double dt);
+  [[nodiscard]] static bool separated(const Solid& first, const Solid& second);
+
+  // Rest.
+  void look_for_rest(double dt);
+  [[nodiscard]] bool come_to_rest(Island& island, double dt);
+  [[nodiscard]] Island with_sleeping(const Island& island) const;
+  void wake_changed(double dt);
+  [[nodiscard]] bool swings(const DebrisBody& body) const;
+
+  // Sweeps.
+  [[nodiscard]] Motion motion_of(const DebrisBody& body, double dt) const;
+  [[nodiscard]] std::vector<Mover> movers(double dt) const;
+  [[nodiscard]] static Mover mover_of(const DebrisBody& body, const Motion& motion, double duration);
+  static void find_touches(const Mover& mover, const Solid& other, const Motion& other_motion, double dt,
+                           std::vector<Contact>& found);
+  void sweep_pair(const Mover& mover, const Solid& other, const Motion& other_motion, double dt,
+                  std::vector<Contact>& found) const;
+  struct SweepRange {
+    Sweep what;
+    double dt, least_speed;
+  };
+  void sweep_ground(const Mover& mover, const SweepRange& range, std::vector<Contact>& found) const;
+  void sweep_standing(const Mover& mover, const SweepRange& range, std::vector<Contact>& found) const;
+  void sweep_movers(const std::vector<Mover>& movers, const SweepRange& range, std::vector<Contact>& found) const;
+
+  void read_joints(std::span<Island* const> islands, double dt);
+
+  SolverSettings settings_;
+  Vec3 gravity_ = Vec3::Zero();
+  std::vector<std::unique_ptr<DebrisBody>> bodies_;  ///< by id, which is never used again: null where one is gone
+  std::map<std::int64_t, std::unique_ptr<DebrisObstacle>> obstacles_;
+  std::map<std::int64_t, std::unique_ptr<DebrisHinge>> hinges_;
+  std::map<std::int64_t, std::unique_ptr<DebrisCable>> cables_;
+  std::vector<BodyId> order_;  ///< of the bodies that are there, ascending
+  std::size_t awake_count_ = 0;
+  std::int64_t next_obstacle_ = 0, next_hinge_ = 0, next_cable_ = 0;
+
+  Solid ground_;
+  bool has_ground_ = false;
+  double ground_height_ = 0, ground_friction_ = 0, ground_restitution_ = 0;
+  PolyhedronStore polyhedra_;
+  NearPairs pairs_;
+  std::set<SolidPair> ignored_;
+
+  StepSolver solver_;
+  std::vector<Island> islands_;
+  std::vector<SolverContact> solved_;  ///< of the last step
+  std::vector<Contact> contacts_;
+};
+
+}  // namespace topple::collision

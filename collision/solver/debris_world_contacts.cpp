@@ -1,0 +1,261 @@
+// What touched in the step and what that did; pairs that are ignored until separated.
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <tuple>
+
+#include "contacts/part_contacts.h"
+#include "solver/debris_world.h"
+
+namespace topple::collision {
+
+namespace {
+
+/// Points that are farther apart than this (m) and carried nothing are only near.
+constexpr double kTouching = 0.001;
+
+auto parts_of(const Contact& c) {
+  return std::make_tuple(c.body.value, c.other.kind, c.other.body.value, c.other.obstacle.value, c.part_tag,
+                         c.other.part_tag);
+}
+
+Touched touched(const Solid& solid, std::int64_t tag) {
+  Touched result;
+  result.kind = solid.kind;
+  if (solid.kind == Touched::Kind::body) result.body.value = solid.id;
+  if (solid.kind == Touched::Kind::obstacle) result.obstacle.value = solid.id;
+  result.part_tag = tag;
+  return result;
+}
+
+/// Two parts that share their tags with others of their bodies are told as one.
+void merge(const Contact& more, Contact& sum) {
+  const double a = sum.impulse.norm(), b = more.impulse.norm(), share = a + b > 0 ? b / (a + b) : 0.5;
+  const Vec3 point = (1 - share) * sum.point + share * more.point;
+  sum.point = point;
+  const Vec3 normal = (1 - share) * sum.normal + share * more.normal;
+  if (normal.norm() > 1e-9) sum.normal = normal.normalized();  // else squeezed from both sides
+  sum.approach_speed += share * (more.approach_speed - sum.approach_speed);
+  sum.impulse += more.impulse;
+  sum.work_lost += more.work_lost;
+  sum.depth = std::max(sum.depth, more.depth);
+  sum.persistent = sum.persistent || more.persistent;
+  for (int i = 0; i < more.corner_count && sum.corner_count < 4; ++i)
+    sum.corners[static_cast<std::size_t>(sum.corner_count++)] = more.corners[static_cast<std::size_t>(i)];
+}
+
+}  // namespace
+
+DebrisBody* DebrisWorld::moving(const SolverContact& solved, bool second) const {
+  if ((second ? solved.second : solved.first) == 0) return nullptr;
+  return static_cast<DebrisBody*>(pairs_.collider(second ? solved.pair->second : solved.pair->first).solid);
+}
+
+/// Kinetic and of height. Velocities are those of mid-step.
+double DebrisWorld::energy(const DebrisBody& one, double dt) const {
+  const Vec3 velocity = one.velocity + gravity_ * (dt / 2), spin = one.at.turn.transpose() * one.spin;
+  return one.mass * (velocity.squaredNorm() / 2 - gravity_.dot(one.at.position)) +
+         spin.dot(one.moments.cwiseProduct(spin)) / 2;
+}
+
+void DebrisWorld::tell(const SolverContact& solved, double dt) {
+  NearPair& pair = *solved.pair;
+  const Manifold& manifold = pair.manifold;
+  double nearest = 1e300;
+  for (int i = 0; i < manifold.count; ++i)
+    nearest = std::min(nearest, manifold.points[static_cast<std::size_t>(i)].separation);
+  pair.persistent = pair.touches;
+  pair.touches = !solved.impulse.isZero(0) || nearest <= kTouching;
+  if (!pair.touches) return;
+  const Collider &a = pairs_.collider(pair.first), &b = pairs_.collider(pair.second);
+  const SolidPart& part = a.solid->parts[static_cast<std::size_t>(a.part)];
+  const SolidPart* other =
+      pair.second == NearPairs::ground ? nullptr : &b.solid->parts[static_cast<std::size_t>(b.part)];
+  Contact& contact = contacts_.emplace_back();
+  contact.body.value = a.solid->id;
+  contact.part_tag = part.tag;
+  contact.other = touched(*b.solid, other ? other->tag : -1);
+  contact.point = solved.centre;
+  contact.normal = manifold.normal;
+  contact.impulse = solved.impulse;
+  contact.depth = std::max(0.0, -nearest);
+  contact.thickness = other ? std::min(part.thickness, other->thickness) : part.thickness;
+  contact.persistent = pair.persistent;
+  for (int i = 0; i < manifold.count; ++i) {
+    const ManifoldPoint& point = manifold.points[static_cast<std::size_t>(i)];
+    if (point.separation > kTouching && !(point.force > 0)) continue;
+    contact.corners[static_cast<std::size_t>(contact.corner_count++)] = *solved.second_at * point.on_second;
+  }
+  const auto velocity_at = [&](bool second) -> Vec3 {
+    const int number = second ? solved.second : solved.first;
+    if (number == 0) return Vec3::Zero();
+    const SolverBody& moves = solver_.body(number);
+    return moves.velocity + gravity_ * (dt / 2) + moves.spin.cross(contact.point - moves.at.position);
+  };
+  contact.approach_speed = (velocity_at(false) - velocity_at(true)).dot(contact.normal);
+}
+
+void DebrisWorld::tell_contacts(double dt) {
+  for (const SolverContact& solved : solver_.contacts()) {
+    const std::size_t before = contacts_.size();
+    tell(solved, dt);
+    solved_.push_back(solved);
+    solved_.back().told = contacts_.size() > before ? static_cast<int>(before) : -1;
+  }
+}
+
+/// Impulses times the mean of the velocities before and after them, and what is missing to a body's change of energy in
+/// proportion to their sizes: velocities change within the step.
+void DebrisWorld::book_work(std::span<Island* const> islands, double dt) {
+  for (const Island* island : islands)
+    for (DebrisBody* one : island->bodies) one->pushed = one->booked = 0;
+  const Vec3 half_kick = gravity_ * (dt / 2);
+  const auto work = [&](DebrisBody& on, const Vec3& impulse, const Vec3& moment) {  // taken out
+    const double taken =
+        -impulse.dot((on.velocity_before + on.velocity) / 2 + half_kick) - moment.dot((on.spin_before + on.spin) / 2);
+    on.booked += taken;
+    on.pushed += impulse.norm();
+    return taken;
+  };
+  const auto first = solved_.size() - solver_.contacts().size();
+  for (std::size_t i = first; i < solved_.size(); ++i) {
+    const SolverContact& solved = solved_[i];
+    if (solved.told < 0) continue;
+    for (const bool second : {false, true})
+      if (DebrisBody* on = moving(solved, second)) {
+        const Vec3 impulse = second ? solved.impulse : Vec3(-solved.impulse);
+        const SolverBody& moves = solver_.body(second ? solved.second : solved.first);
+        const Vec3 moment =
+            (solved.centre - moves.at.position).cross(impulse) + (second ? solved.moment : Vec3(-solved.moment));
+        contacts_[static_cast<std::size_t>(solved.told)].work_lost += work(*on, impulse, moment);
+      }
+  }
+  for (const Island* island : islands) {
+    for (DebrisHinge* hinge : island->hinges) {
+      hinge->work_lost = work(body(hinge->body), hinge->rows.force_total, hinge->rows.body_moment);
+      if (hinge->other >= 0)
+        hinge->work_lost += work(body(hinge->other), -hinge->rows.force_total, hinge->rows.holder_moment);
+    }
+    for (DebrisCable* cable : island->cables)
+      cable->pull.work_lost = work(body(cable->body), cable->row.impulse, Vec3::Zero());
+  }
+  const auto share = [&](const DebrisBody& on, double size) {
+    if (!(on.pushed > 0)) return 0.0;
+    return size / on.pushed * (on.energy_before - energy(on, dt) - on.booked);
+  };
+  for (std::size_t i = first; i < solved_.size(); ++i)
+    for (const bool second : {false, true})
+      if (const DebrisBody* on = moving(solved_[i], second); on && solved_[i].told >= 0)
+        contacts_[static_cast<std::size_t>(solved_[i].told)].work_lost += share(*on, solved_[i].impulse.norm());
+  for (const Island* island : islands) {
+    for (DebrisHinge* hinge : island->hinges) {
+      const double size = hinge->rows.force_total.norm();
+      hinge->work_lost += share(body(hinge->body), size);
+      if (hinge->other >= 0) hinge->work_lost += share(body(hinge->other), size);
+    }
+    for (DebrisCable* cable : island->cables)
+      cable->pull.work_lost += share(body(cable->body), cable->row.impulse.norm());
+  }
+  read_joints(islands, dt);
+}
+
+/// In order of ids and tags, one for each pair of parts.
+void DebrisWorld::merge_contacts() {
+  std::vector<std::uint32_t> order(contacts_.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return parts_of(contacts_[a]) < parts_of(contacts_[b]); });
+  std::vector<Contact> merged;
+  merged.reserve(contacts_.size());
+  for (const std::uint32_t i : order) {
+    if (!merged.empty() && parts_of(merged.back()) == parts_of(contacts_[i]))
+      merge(contacts_[i], merged.back());
+    else
+      merged.push_back(contacts_[i]);
+  }
+  contacts_.swap(merged);
+}
+
+void DebrisWorld::mark_persistent(std::vector<Contact>& found) const {
+  if (found.empty()) return;
+  std::vector<decltype(parts_of(found[0]))> known;
+  for (const std::uint32_t index : pairs_.order()) {
+    const NearPair& pair = pairs_.pair(index);
+    if (!pair.touches || pair.manifold.count == 0) continue;
+    const Collider &a = pairs_.collider(pair.first), &b = pairs_.collider(pair.second);
+    Contact contact;
+    contact.body.value = a.solid->id;
+    contact.part_tag = a.solid->parts[static_cast<std::size_t>(a.part)].tag;
+    contact.other =
+        touched(*b.solid, pair.second == NearPairs::ground ? -1 : b.solid->parts[static_cast<std::size_t>(b.part)].tag);
+    known.push_back(parts_of(contact));
+  }
+  std::sort(known.begin(), known.end());
+  for (Contact& contact : found) contact.persistent = std::binary_search(known.begin(), known.end(), parts_of(contact));
+}
+
+void DebrisWorld::forget_contacts_of(Touched::Kind kind, std::int64_t id) {
+  std::erase_if(contacts_, [&](const Contact& contact) {
+    if (kind == Touched::Kind::obstacle) return contact.other.obstacle.value == id;
+    return contact.body.value == id || contact.other.body.value == id;
+  });
+}
+
+void DebrisWorld::ignore_until_separated(BodyId id, const Touched& other) {
+  if (other.kind == Touched::Kind::ground)
+    throw std::invalid_argument("the ground cannot be ignored; accepted: a body, an obstacle");
+  SolidPair pair{id.value, other.kind, other.kind == Touched::Kind::body ? other.body.value : other.obstacle.value};
+  static_cast<void>(body(pair.body));
+  static_cast<void>(solid(pair));
+  if (pair.kind == Touched::Kind::body) {
+    if (pair.body == pair.other)
+      throw std::invalid_argument("body " + std::to_string(pair.body) + " cannot ignore itself");
+    if (pair.body > pair.other) std::swap(pair.body, pair.other);
+  }
+  if (ignored_.insert(pair).second) ignore(pair, true);
+}
+
+void DebrisWorld::ignore(const SolidPair& pair, bool ignored) {
+  body(pair.body).ignored += ignored ? 1 : -1;
+  if (pair.kind == Touched::Kind::body) body(pair.other).ignored += ignored ? 1 : -1;
+}
+
+bool DebrisWorld::ignores(const Solid& first, const Solid& second) const {
+  if (static_cast<const DebrisBody&>(first).ignored == 0 || second.kind == Touched::Kind::ground) return false;
+  return ignored_.contains({first.id, second.kind, second.id});
+}
+
+void DebrisWorld::forget_ignored_of(Touched::Kind kind, std::int64_t id) {
+  for (auto pair = ignored_.begin(); pair != ignored_.end();) {
+    const bool names = (pair->kind == kind && pair->other == id) || (kind == Touched::Kind::body && pair->body == id);
+    if (names) ignore(*pair, false);
+    pair = names ? ignored_.erase(pair) : std::next(pair);
+  }
+}
+
+bool DebrisWorld::separated(const Solid& first, const Solid& second) {
+  const auto &a = static_cast<const TouchingSolid&>(first), &b = static_cast<const TouchingSolid&>(second);
+  for (const PartShape& shape : a.shapes)
+    for (const PartShape& other : b.shapes) {
+      if (!bounds_of(shape, a.at).meets(bounds_of(other, b.at))) continue;
+      SeparatingAxis axis;
+      Manifold manifold;
+      collide(shape, a.at, other, b.at, 0, axis, manifold);
+      if (manifold.count > 0) return false;
+    }
+  return true;
+}
+
+void DebrisWorld::release_separated(double dt) {
+  for (auto pair = ignored_.begin(); pair != ignored_.end();) {
+    const DebrisBody& first = body(pair->body);
+    const Solid& other = solid(*pair);
+    const bool other_moves = pair->kind == Touched::Kind::body && !static_cast<const DebrisBody&>(other).asleep;
+    const bool moves = !first.asleep || other_moves;
+    const bool apart = moves && separated(first, other) && !still_to_pass(first, other, other_moves, dt);
+    if (apart) ignore(*pair, false);
+    pair = apart ? ignored_.erase(pair) : std::next(pair);
+  }
+}
+
+}  // namespace topple::collision

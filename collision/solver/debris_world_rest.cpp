@@ -1,0 +1,179 @@
+// Rest.
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "solver/debris_world.h"
+
+namespace topple::collision {
+
+/// Before the step is solved: an island all of whose bodies have been slow for some time stays where it is, if there
+/// are forces that hold it; with it, what it lies on and sleeps already is asked, for these forces change.
+bool DebrisWorld::come_to_rest(Island& island, double dt) {
+  for (DebrisBody* one : island.bodies) {
+    if (one->slow_for < settings_.slow_for - 1e-9) return false;
+    if (one->retry_rest > 0) return false;
+  }
+  Island whole = with_sleeping(island);
+  for (DebrisBody* one : whole.bodies) one->asleep = false;  // rows of what sleeps are rows, here
+  Island* const only = &whole;
+  fill_solver({&only, 1});
+  std::vector<double> sizes{1};
+  for (const DebrisBody* one : whole.bodies) sizes.push_back(one->reach);
+  const bool rests = solver_.rest(dt, gravity_, sizes);
+  for (std::size_t i = island.bodies.size(); i < whole.bodies.size(); ++i) whole.bodies[i]->asleep = true;
+  if (!rests) {
+    for (DebrisBody* one : island.bodies) one->retry_rest = settings_.rest_again;
+    return false;
+  }
+  tell_contacts(dt);
+  for (const SolverContact& solved : solver_.contacts()) solved.pair->rest_force = solved.impulse / dt;
+  read_joints({&only, 1}, dt);
+  for (DebrisBody* one : island.bodies) {
+    one->velocity.setZero();
+    one->spin.setZero();
+    one->asleep = true;
+    --awake_count_;
+  }
+  return true;
+}
+
+/// The island, and all bodies that sleep and touch it, or what touches it.
+DebrisWorld::Island DebrisWorld::with_sleeping(const Island& island) const {
+  Island whole = island;
+  std::set<const Solid*> known(whole.bodies.begin(), whole.bodies.end());
+  std::set<std::uint32_t> pairs(whole.pairs.begin(), whole.pairs.end());
+  const auto sleeping = [&](std::uint32_t collider) -> DebrisBody* {
+    Solid* solid = pairs_.collider(collider).solid;
+    if (solid->kind != Touched::Kind::body) return nullptr;
+    auto* one = static_cast<DebrisBody*>(solid);
+    return one->asleep ? one : nullptr;
+  };
+  for (bool grows = true; grows;) {
+    grows = false;
+    for (const std::uint32_t index : pairs_.order()) {
+      const NearPair& pair = pairs_.pair(index);
+      if (pair.manifold.count == 0) continue;
+      DebrisBody *a = sleeping(pair.first), *b = sleeping(pair.second);
+      const bool first = known.contains(pairs_.collider(pair.first).solid),
+                 second = known.contains(pairs_.collider(pair.second).solid);
+      if (!first && !second) continue;
+      for (DebrisBody* next : {first ? nullptr : a, second ? nullptr : b})
+        if (next && known.insert(next).second) {
+          whole.bodies.push_back(next);
+          grows = true;
+        }
+      if (pairs.insert(index).second) whole.pairs.push_back(index);
+    }
+  }
+  for (std::size_t i = island.bodies.size(); i < whole.bodies.size(); ++i) {
+    for (const std::int64_t id : whole.bodies[i]->hinges)
+      if (hinge(id).body == whole.bodies[i]->id) whole.hinges.push_back(&hinge(id));
+    for (const std::int64_t id : whole.bodies[i]->cables) whole.cables.push_back(&cable(id));
+  }
+  std::sort(whole.pairs.begin(), whole.pairs.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const NearPair &first = pairs_.pair(a), &second = pairs_.pair(b);
+    return std::tie(first.first_order, first.second_order) < std::tie(second.first_order, second.second_order);
+  });
+  return whole;
+}
+
+/// A body that an awake one comes upon, before the step is solved: as a free body it takes the blow.
+void DebrisWorld::wake_struck(double dt) {
+  if (awake_count_ == order_.size()) return;
+  bool again = true;
+  while (again) {
+    again = false;
+    std::vector<std::pair<DebrisBody*, double>> struck;
+    for (const std::uint32_t index : pairs_.order()) {
+      const NearPair& pair = pairs_.pair(index);
+      if (pair.manifold.count == 0) continue;
+      Solid *a = pairs_.collider(pair.first).solid, *b = pairs_.collider(pair.second).solid;
+      if (a->kind != Touched::Kind::body || b->kind != Touched::Kind::body) continue;
+      auto &first = static_cast<DebrisBody&>(*a), &second = static_cast<DebrisBody&>(*b);
+      if (first.asleep == second.asleep) continue;
+      const DebrisBody& moves = first.asleep ? second : first;
+      const double side = first.asleep ? -1 : 1;
+      const Vec3 velocity = moves.velocity + gravity_ * dt;
+      double fastest = 0;
+      for (int i = 0; i < pair.manifold.count; ++i) {
+        const ManifoldPoint& point = pair.manifold.points[static_cast<std::size_t>(i)];
+        const Vec3 arm = moves.at * (first.asleep ? point.on_second : point.on_first) - moves.at.position;
+        const double approach = side * pair.manifold.normal.dot(velocity + moves.spin.cross(arm));
+        if (approach > settings_.struck_from + gravity_.norm() * dt && point.separation < approach * dt)
+          fastest = std::max(fastest, approach);
+      }
+      if (fastest > 0) struck.emplace_back(&(first.asleep ? first : second), fastest * moves.mass);
+    }
+    for (const auto& [one, momentum] : struck)
+      if (one->asleep) {
+        wake_round(*one, momentum);
+        again = true;
+      }
+    if (again)
+      for (const std::uint32_t index : pairs_.order())
+        if (awake(pairs_.pair(index))) seek(index, dt);
+  }
+}
+
+/// As much of the heap as the blow's momentum would move at a noticeable speed.
+void DebrisWorld::wake_round(DebrisBody& struck, double momentum) {
+  std::vector<DebrisBody*> reached{&struck};
+  double moved = 0;
+  for (std::size_t i = 0; i < reached.size() && (i == 0 || moved * settings_.struck_from < momentum); ++i) {
+    moved += reached[i]->mass;
+    wake_up(*reached[i]);
+    for (const std::uint32_t index : pairs_.order()) {
+      const NearPair& pair = pairs_.pair(index);
+      if (pair.manifold.count == 0) continue;
+      Solid *a = pairs_.collider(pair.first).solid, *b = pairs_.collider(pair.second).solid;
+      if (a != reached[i] && b != reached[i]) continue;
+      Solid* other = a == reached[i] ? b : a;
+      if (other->kind != Touched::Kind::body) continue;
+      auto* next = static_cast<DebrisBody*>(other);
+      if (next->asleep && std::find(reached.begin(), reached.end(), next) == reached.end()) reached.push_back(next);
+    }
+  }
+}
+
+/// What a body that sleeps is pressed with has changed: it may not rest any more.
+void DebrisWorld::wake_changed(double dt) {
+  if (awake_count_ == order_.size()) return;
+  const double weight = gravity_.norm();
+  for (const SolverContact& solved : solved_) {
+    NearPair& pair = *solved.pair;
+    for (const bool second : {false, true}) {
+      Solid* solid = pairs_.collider(second ? pair.second : pair.first).solid;
+      if (solid->kind != Touched::Kind::body || !static_cast<DebrisBody*>(solid)->asleep) continue;
+      auto& sleeps = static_cast<DebrisBody&>(*solid);
+      if ((solved.impulse / dt - pair.rest_force).norm() > settings_.wakes_from * sleeps.mass * weight) wake_up(sleeps);
+    }
+  }
+  // And what was pressed by one that has gone.
+  for (const std::uint32_t index : pairs_.order()) {
+    NearPair& pair = pairs_.pair(index);
+    if (pair.rest_force.isZero(0) || pair.manifold.count > 0 || !awake(pair)) continue;
+    for (const std::uint32_t side : {pair.first, pair.second}) {
+      Solid* solid = pairs_.collider(side).solid;
+      if (solid->kind == Touched::Kind::body) wake_up(static_cast<DebrisBody&>(*solid));
+    }
+    pair.rest_force.setZero();
+  }
+}
+
+/// How long each body has been slow.
+void DebrisWorld::look_for_rest(double dt) {
+  const Vec3 half_kick = gravity_ * (dt / 2);
+  // At rest, speeds at the end of a step are those of half a sub-step's fall.
+  const double slow = settings_.slow + gravity_.norm() * dt / 8;
+  for (const Island& island : islands_)
+    for (DebrisBody* one : island.bodies) {
+      if (one->asleep) continue;
+      const double speed = (one->velocity + half_kick).norm() + one->reach * one->spin.norm();
+      const bool held = !island.pairs.empty() || !island.hinges.empty() || !island.cables.empty();
+      one->slow_for = held && speed < slow && !swings(*one) ? one->slow_for + dt : 0;
+      one->retry_rest = std::max(0.0, one->retry_rest - dt);
+    }
+}
+
+}  // namespace topple::collision

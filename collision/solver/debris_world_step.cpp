@@ -1,0 +1,349 @@
+// The step: bounds, contacts, islands, sub-steps, what it did.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+#include "solver/debris_world.h"
+#include "solver/free_rotation.h"
+
+namespace topple::collision {
+
+void DebrisWorld::step(double dt) {
+  if (!(dt > 0) || !std::isfinite(dt))
+    throw std::invalid_argument("step of " + std::to_string(dt) + " s; it must be above zero");
+  release_separated(dt);
+  contacts_.clear();
+  solved_.clear();
+  if (awake_count_ == 0) return;
+  find_contacts(dt);
+  gather_islands();
+  std::map<int, std::vector<Island*>> by_substeps;
+  for (Island& island : islands_) {
+    if (come_to_rest(island, dt)) continue;
+    if (island.pairs.empty() && island.hinges.empty() && island.cables.empty())
+      fly(*island.bodies.front(), dt);
+    else
+      by_substeps[substeps(island, dt)].push_back(&island);
+  }
+  for (const auto& [count, islands] : by_substeps) solve(islands, count, dt);
+  merge_contacts();
+  wake_changed(dt);
+  look_for_rest(dt);
+}
+
+void DebrisWorld::update_bounds(double dt) {
+  for (const BodyId id : order_) {
+    DebrisBody& one = body(id.value);
+    if (one.asleep) continue;
+    const Vec3 way = (one.velocity + gravity_ * dt) * dt;
+    const double spin = one.spin.norm() * dt;
+    for (std::size_t i = 0; i < one.parts.size(); ++i) {
+      Box3 bounds = bounds_of(one.shapes[i], one.at);
+      const Vec3 out = Vec3::Constant(settings_.margin + std::min(1.0, spin) * one.parts[i].reach);
+      bounds.low += way.cwiseMin(0) - out;
+      bounds.high += way.cwiseMax(0) + out;
+      pairs_.move(one.colliders[i], bounds, settings_.fat + way.norm());
+    }
+  }
+}
+
+bool DebrisWorld::awake(const NearPair& pair) const {
+  const auto moves = [&](std::uint32_t collider) {
+    const Solid* solid = pairs_.collider(collider).solid;
+    return solid->kind == Touched::Kind::body && !static_cast<const DebrisBody*>(solid)->asleep;
+  };
+  return moves(pair.first) || moves(pair.second);
+}
+
+namespace {
+
+const Placement& placement(const Solid& solid) {
+  static const Placement unplaced;
+  return solid.kind == Touched::Kind::ground ? unplaced : static_cast<const TouchingSolid&>(solid).at;
+}
+
+/// Velocity of a body that moves, else zero.
+Vec3 velocity_of(const Solid& solid, const Vec3& gravity_part) {
+  if (solid.kind != Touched::Kind::body) return Vec3::Zero();
+  const auto& body = static_cast<const DebrisBody&>(solid);
+  return body.asleep ? Vec3(Vec3::Zero()) : Vec3(body.velocity + gravity_part);
+}
+Vec3 spin_of(const Solid& solid) {
+  if (solid.kind != Touched::Kind::body) return Vec3::Zero();
+  const auto& body = static_cast<const DebrisBody&>(solid);
+  return body.asleep ? Vec3(Vec3::Zero()) : body.spin;
+}
+
+}  // namespace
+
+/// What could come together within the step is a contact already.
+double DebrisWorld::margin_of(const NearPair& pair, double dt) const {
+  const Collider &a = pairs_.collider(pair.first), &b = pairs_.collider(pair.second);
+  const Vec3 half_kick = gravity_ * (dt / 2);
+  const auto turning = [&](const Collider& of) {
+    return of.solid->kind == Touched::Kind::body
+               ? spin_of(*of.solid).norm() * of.solid->parts[static_cast<std::size_t>(of.part)].reach
+               : 0;
+  };
+  const double speed =
+      (velocity_of(*a.solid, half_kick) - velocity_of(*b.solid, half_kick)).norm() + turning(a) + turning(b);
+  return std::max(settings_.margin, speed * dt);
+}
+
+void DebrisWorld::seek(std::uint32_t index, double dt) {
+  NearPair& pair = pairs_.pair(index);
+  const Collider &a = pairs_.collider(pair.first), &b = pairs_.collider(pair.second);
+  if (pair.second != NearPairs::ground && !a.tight.meets(b.tight)) {
+    if (pair.manifold.count > 0) pair.sought = false;
+    pair.manifold.count = 0;
+    return;
+  }
+  if (!ignored_.empty() && ignores(*a.solid, *b.solid)) {
+    pair.manifold.count = 0;
+    return;
+  }
+  PairMotion motion;
+  const auto shape = [](const Collider& of) {
+    return &static_cast<const TouchingSolid*>(of.solid)->shapes[static_cast<std::size_t>(of.part)];
+  };
+  motion.first = shape(a);
+  motion.second = pair.second == NearPairs::ground ? nullptr : shape(b);
+  motion.first_at = &placement(*a.solid);
+  motion.second_at = &placement(*b.solid);
+  motion.margin = margin_of(pair, dt);
+  motion.ground_height = ground_height_;
+  update_contacts(pair, motion, settings_.kept, settings_.matched);
+}
+
+void DebrisWorld::find_contacts(double dt) {
+  for (auto& [id, hinge] : hinges_) {
+    if (hinge->other < 0) continue;
+    DebrisBody &one = body(hinge->body), &other = body(hinge->other);
+    if (one.asleep != other.asleep) wake_up(one.asleep ? one : other);
+  }
+  update_bounds(dt);
+  pairs_.find();
+  for (const std::uint32_t index : pairs_.order())
+    if (awake(pairs_.pair(index))) seek(index, dt);
+  wake_struck(dt);
+}
+
+/// Of bodies that touch or hang together. What stands, or sleeps, joins none.
+void DebrisWorld::gather_islands() {
+  std::vector<DebrisBody*> awake_bodies;
+  for (const BodyId id : order_) {
+    DebrisBody& one = body(id.value);
+    if (one.asleep) continue;
+    one.island = static_cast<int>(awake_bodies.size());
+    awake_bodies.push_back(&one);
+  }
+  std::vector<int> parent(awake_bodies.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](int i) {
+    while (parent[static_cast<std::size_t>(i)] != i)
+      i = parent[static_cast<std::size_t>(i)] = parent[static_cast<std::size_t>(parent[static_cast<std::size_t>(i)])];
+    return i;
+  };
+  const auto join = [&](const DebrisBody& a, const DebrisBody& b) {
+    const int first = root(a.island), second = root(b.island);
+    parent[static_cast<std::size_t>(std::max(first, second))] = std::min(first, second);
+  };
+  const auto moves = [&](std::uint32_t collider) -> DebrisBody* {
+    Solid* solid = pairs_.collider(collider).solid;
+    if (solid->kind != Touched::Kind::body) return nullptr;
+    auto* one = static_cast<DebrisBody*>(solid);
+    return one->asleep ? nullptr : one;
+  };
+  for (const std::uint32_t index : pairs_.order()) {
+    const NearPair& pair = pairs_.pair(index);
+    if (pair.manifold.count == 0) continue;
+    DebrisBody *a = moves(pair.first), *b = moves(pair.second);
+    if (a && b) join(*a, *b);
+  }
+  for (auto& [id, hinge] : hinges_)
+    if (hinge->other >= 0 && !body(hinge->body).asleep) join(body(hinge->body), body(hinge->other));
+  std::vector<int> number(awake_bodies.size(), -1);
+  islands_.clear();
+  for (DebrisBody* one : awake_bodies) {
+    const auto top = static_cast<std::size_t>(root(one->island));
+    if (number[top] < 0) {
+      number[top] = static_cast<int>(islands_.size());
+      islands_.emplace_back();
+    }
+  }
+  for (DebrisBody* one : awake_bodies) {
+    one->island = number[static_cast<std::size_t>(root(one->island))];
+    Island& island = islands_[static_cast<std::size_t>(one->island)];
+    island.bodies.push_back(one);
+    island.load = std::max(island.load, one->load);
+    island.substep_rate = std::max(island.substep_rate, one->substep_rate);
+  }
+  const auto island_of = [&](const DebrisBody& one) -> Island& {
+    return islands_[static_cast<std::size_t>(one.island)];
+  };
+  for (const std::uint32_t index : pairs_.order()) {
+    const NearPair& pair = pairs_.pair(index);
+    if (pair.manifold.count == 0) continue;
+    const DebrisBody *a = moves(pair.first), *b = moves(pair.second);
+    if (a || b) island_of(a ? *a : *b).pairs.push_back(index);
+  }
+  for (auto& [id, hinge] : hinges_)
+    if (!body(hinge->body).asleep) island_of(body(hinge->body)).hinges.push_back(hinge.get());
+  for (auto& [id, cable] : cables_)
+    if (!body(cable->body).asleep) island_of(body(cable->body)).cables.push_back(cable.get());
+}
+
+int DebrisWorld::substeps(const Island& island, double dt) const {
+  constexpr double reference = 1.0 / 60, weight = 9.81;
+  const double steps = dt / reference;
+  const double for_load =
+      settings_.substeps_for_weight * std::pow(std::max(1.0, island.load / weight), settings_.substeps_growth);
+  const double wanted =
+      std::clamp(for_load, double(settings_.fewest_substeps), double(settings_.most_substeps)) * steps;
+  // Few different numbers, so that islands can be solved together.
+  int count = 1;
+  while (count < wanted) count += std::max(1, count / 4);
+  // Each change of their number changes the springs: it follows a rising load at once, a falling one late.
+  const int last = static_cast<int>(std::lround(island.substep_rate * dt));
+  return count < last && wanted > settings_.substeps_held * last ? last : count;
+}
+
+/// A body that nothing touches: exactly.
+void DebrisWorld::fly(DebrisBody& one, double dt) const {
+  one.velocity += gravity_ * dt;
+  one.at.position += one.velocity * dt;
+  one.load = one.substep_rate = 0;
+  turn(one, one.spin * dt, dt);
+}
+
+/// As a free body that has the momentum with which the step ended, and by what its contacts turned it otherwise: the
+/// momentum stays, to rounding.
+void DebrisWorld::turn(DebrisBody& one, const Vec3& turned, double dt) const {
+  if (one.spin.isZero(0) && turned.isZero(0)) return;
+  const Vec3 more = turned - one.spin * dt;
+  FreeRotation free{one.turn, one.spin};
+  const bool round = one.moments.x() == one.moments.y() && one.moments.y() == one.moments.z();
+  if (round) {
+    const double angle = turned.norm();
+    if (angle > 0) free.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(angle, turned / angle)) * one.turn;
+    one.turn = free.orientation.normalized();
+    one.at.turn = one.turn.toRotationMatrix();
+    return;
+  }
+  free = rotated_freely(free, one.moments, dt);
+  one.turn = free.orientation;
+  one.spin = free.spin;
+  const double angle = more.norm();
+  if (angle > 1e-14) {
+    const Eigen::Quaterniond before = one.turn;
+    one.turn = (Eigen::Quaterniond(Eigen::AngleAxisd(angle, more / angle)) * before).normalized();
+    const Vec3 momentum = before * one.moments.cwiseProduct(before.conjugate() * one.spin);
+    one.spin = one.turn * (one.turn.conjugate() * momentum).cwiseQuotient(one.moments);
+  }
+  one.at.turn = one.turn.toRotationMatrix();
+}
+
+void DebrisWorld::fill_solver(std::span<Island* const> islands) {
+  solver_.clear();
+  for (const Island* island : islands)
+    for (DebrisBody* one : island->bodies) {
+      SolverBody moving;
+      moving.at = one->at;
+      moving.inverse_root_mass = 1 / std::sqrt(one->mass);
+      moving.inverse_root_moments = one->inverse_root_moments;
+      moving.velocity = one->velocity;
+      moving.spin = one->spin;
+      one->solver = solver_.add(moving);
+    }
+  const auto number = [&](const Solid& solid) {
+    if (solid.kind != Touched::Kind::body) return 0;
+    const auto& one = static_cast<const DebrisBody&>(solid);
+    return one.asleep ? 0 : one.solver;
+  };
+  struct Surface {
+    double friction, restitution;
+  };
+  const auto surface = [&](const Solid& solid) -> Surface {
+    if (solid.kind == Touched::Kind::ground) return {ground_friction_, ground_restitution_};
+    if (solid.kind == Touched::Kind::obstacle) {
+      const auto& one = static_cast<const DebrisObstacle&>(solid);
+      return {one.friction, one.restitution};
+    }
+    const auto& one = static_cast<const DebrisBody&>(solid);
+    return {one.friction, one.restitution};
+  };
+  for (const Island* island : islands) {
+    for (const std::uint32_t index : island->pairs) {
+      SolverContact contact;
+      contact.pair = &pairs_.pair(index);
+      const Solid &first = *pairs_.collider(contact.pair->first).solid,
+                  &second = *pairs_.collider(contact.pair->second).solid;
+      contact.first = number(first);
+      contact.second = number(second);
+      contact.first_at = &placement(first);
+      contact.second_at = &placement(second);
+      const Surface a = surface(first), b = surface(second);
+      contact.friction = std::sqrt(a.friction * b.friction);
+      contact.restitution = std::sqrt(a.restitution * b.restitution);
+      solver_.add(contact);
+    }
+    for (DebrisHinge* hinge : island->hinges) {
+      hinge->rows.body = body(hinge->body).solver;
+      hinge->rows.holder = hinge->other < 0 ? 0 : body(hinge->other).solver;
+      solver_.add(&hinge->rows);
+    }
+    for (DebrisCable* cable : island->cables) {
+      cable->row.body = body(cable->body).solver;
+      cable->row.impulse.setZero();
+      cable->row.pulled = 0;
+      solver_.add(&cable->row);
+    }
+  }
+}
+
+void DebrisWorld::solve(std::span<Island* const> islands, int substeps, double dt) {
+  fill_solver(islands);
+  for (const Island* island : islands)
+    for (DebrisBody* one : island->bodies) {
+      one->substep_rate = substeps / dt;
+      one->velocity_before = one->velocity;
+      one->spin_before = one->spin;
+      one->energy_before = energy(*one, dt);
+    }
+  solver_.run(dt, substeps, gravity_);
+  tell_contacts(dt);  // where things were when the step began
+  take_results(islands, dt);
+  book_work(islands, dt);
+}
+
+void DebrisWorld::take_results(std::span<Island* const> islands, double dt) {
+  for (const Island* island : islands)
+    for (DebrisBody* one : island->bodies) {
+      const SolverBody& moved = solver_.body(one->solver);
+      one->velocity = moved.velocity;
+      one->spin = moved.spin;
+      one->at.position += moved.moved;
+      one->load *= 0.9;  // so that the number of sub-steps does not follow the solver's chatter
+    }
+  for (const SolverContact& contact : solver_.contacts())
+    for (const bool second : {false, true})
+      if (DebrisBody* one = moving(contact, second)) one->load = std::max(one->load, contact.load);
+  resist_rolling(dt);
+  for (const Island* island : islands)
+    for (DebrisBody* one : island->bodies) turn(*one, solver_.body(one->solver).turned, dt);
+}
+
+/// A ball on soil: by the normal force times a share of its radius.
+void DebrisWorld::resist_rolling(double) {
+  for (const SolverContact& contact : solver_.contacts())
+    for (const bool second : {false, true}) {
+      DebrisBody* ball = moving(contact, second);
+      if (!ball || ball->ball_radius == 0) continue;
+      const double pressed = std::abs(contact.impulse.dot(contact.pair->manifold.normal)), spin = ball->spin.norm();
+      const double slowed = settings_.rolling_resistance * ball->ball_radius * pressed / ball->moments.x();
+      if (spin > 0) ball->spin *= std::max(0.0, spin - slowed) / spin;
+    }
+}
+
+}  // namespace topple::collision

@@ -1,0 +1,37 @@
+#pragma once
+// A body as the step's solver sees it: its principal axes and where it is when the step begins. Rows act on scaled
+// velocities (contact_packs.h).
+#include <cmath>
+
+#include "contacts/manifold.h"
+#include "solver/contact_packs.h"
+
+namespace topple::collision {
+
+struct SolverBody {
+  Placement at;                  ///< principal axes
+  double inverse_root_mass = 0;  ///< 1/sqrt(kg)
+  Vec3 inverse_root_moments = Vec3::Zero();
+  Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();  ///< stored ones (BodyState), global
+  Vec3 moved = Vec3::Zero(), turned = Vec3::Zero();   ///< by the step: m, rad about global axes
+
+  /// The angular part of a row of moment m per unit impulse.
+  [[nodiscard]] Vec3 scaled_moment(const Vec3& moment) const {
+    return inverse_root_moments.cwiseProduct(at.turn.transpose() * moment);
+  }
+  [[nodiscard]] Vec3 linear(const Motion6& scaled) const {
+    return inverse_root_mass * Vec3(scaled.linear[0], scaled.linear[1], scaled.linear[2]);
+  }
+  [[nodiscard]] Vec3 angular(const Motion6& scaled) const {
+    return at.turn * inverse_root_moments.cwiseProduct(Vec3(scaled.angular[0], scaled.angular[1], scaled.angular[2]));
+  }
+  void set(const Vec3& linear_motion, const Vec3& angular_motion, Motion6& scaled) const {
+    const Vec3 turn = (at.turn.transpose() * angular_motion).cwiseQuotient(inverse_root_moments);
+    for (int i = 0; i < 3; ++i) {
+      scaled.linear[i] = linear_motion[i] / inverse_root_mass;
+      scaled.angular[i] = turn[i];
+    }
+  }
+};
+
+}  // namespace topple::collision

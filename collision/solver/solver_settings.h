@@ -1,0 +1,44 @@
+#pragma once
+// Every constant of the contact solver: unit, reason, effect.
+
+namespace topple::collision {
+
+struct SolverSettings {
+  // Sub-steps. A contact is a spring whose rate is its effective mass times (2 pi f)^2 with f = 1/(stiffness h): under
+  // a load of R times the weight of that mass it rests R g/(2 pi f)^2 deep.
+  double stiffness = 8;             ///< sub-steps in a period: with fewer, one pass over the contacts does not converge
+  double damping = 10;              ///< ratio: overlaps are pushed apart without bouncing
+  double standing_stiffer = 2;      ///< f against what stands, times this: nothing there gives way
+  double standing_damping = 0.5;    ///< and the damping ratio
+  int fewest_substeps = 4;          ///< of a step: below, friction and stacks of two creep
+  int most_substeps = 64;           ///< of a step: a thousandfold mass needs 40
+  double substeps_for_weight = 11;  ///< of a 1/60 s step, for a contact that bears the weight of its own mass ...
+  double substeps_growth = 0.07;    ///< ... times the load over that weight to this power: a stack of ten rests within
+                                    ///< 0.3 mm, a hundredfold mass within 2 mm, a thousandfold within 15
+  double substeps_held = 0.7;       ///< their number falls only when the load asks for less than this share of it
+  double pushed_apart = 3;  ///< m/s: overlaps are undone no faster (chunks are born inside each other). What is pressed
+                            ///< in by a thousandfold mass needs 2.5: held below that, a spring does not bear its load
+
+  // Contacts.
+  double margin = 0.02;  ///< m: parts nearer than this are looked at as contacts about to be
+  double kept = 0.005;   ///< m: contacts are sought anew when a point of the pair has moved farther against the other
+  double matched = 0.1;  ///< m: a new point takes over the impulse of an old one nearer than this
+  double fat = 0.04;     ///< m by which bounds are larger than parts: pairs are sought again beyond it
+  double restitution_from = 1;      ///< m/s: slower contacts do not bounce, so that piles come to rest
+  double rolling_resistance = 0.1;  ///< of the normal force times the radius, a ball on soil: it would roll for ever
+
+  // Joints.
+  double joint_frequency = 120;  ///< Hz at most (a quarter of the sub-steps' rate): gaps of hinges close with it
+  double joint_damping = 2;      ///< ratio
+
+  // Rest.
+  double slow = 0.05;         ///< m/s of the fastest point: a body that is slower ...
+  double slow_for = 0.5;      ///< s: ... for so long, and all that touch it, sleep
+  double struck_from = 0.1;   ///< m/s: what sleeps is woken before it is come upon faster than this
+  double wakes_from = 0.1;    ///< of its weight: what sleeps wakes when a force on it changes by more
+  double equilibrium = 1e-6;  ///< of a body's weight (moments: times its size): what sleeps is out of balance by less
+  int equilibrium_passes = 800;  ///< over the contacts in the search for that balance, at most: as many as some steps
+  double rest_again = 0.25;      ///< s: where no balance was found, it is sought again after this
+};
+
+}  // namespace topple::collision

@@ -1,0 +1,324 @@
+#include "solver/step_solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace topple::collision {
+
+void StepSolver::clear() {
+  bodies_.clear();
+  bodies_.emplace_back();  // what stands
+  contacts_.clear();
+  hinges_.clear();
+  cables_.clear();
+}
+
+int StepSolver::add(const SolverBody& body) {
+  bodies_.push_back(body);
+  return static_cast<int>(bodies_.size()) - 1;
+}
+
+StepSolver::Softness StepSolver::softness(double frequency, double damping, double h) {
+  const double w = 2 * M_PI * frequency, a1 = 2 * damping + h * w, a2 = h * w * a1;
+  return {w / a1, a2 / (1 + a2), 1 / (1 + a2)};
+}
+
+/// No body twice in a colour. In the order of contacts, so that it follows from handles.
+void StepSolver::colour() {
+  for (auto& list : by_colour_) list.clear();
+  used_.assign(bodies_.size(), {});
+  const auto word = [&](int body, std::size_t w) -> std::uint64_t {
+    const auto& used = used_[static_cast<std::size_t>(body)];
+    return body == 0 || w >= used.size() ? 0 : used[w];
+  };
+  const auto mark = [&](int body, std::size_t chosen) {
+    if (body == 0) return;
+    auto& used = used_[static_cast<std::size_t>(body)];
+    if (used.size() <= chosen / 64) used.resize(chosen / 64 + 1, 0);
+    used[chosen / 64] |= std::uint64_t{1} << (chosen % 64);
+  };
+  for (std::uint32_t i = 0; i < contacts_.size(); ++i) {
+    const SolverContact& contact = contacts_[i];
+    std::size_t chosen = 0;
+    for (std::size_t w = 0;; ++w) {
+      const std::uint64_t taken = word(contact.first, w) | word(contact.second, w);
+      if (taken == std::numeric_limits<std::uint64_t>::max()) continue;
+      chosen = 64 * w + static_cast<std::size_t>(__builtin_ctzll(~taken));
+      break;
+    }
+    mark(contact.first, chosen);
+    mark(contact.second, chosen);
+    if (by_colour_.size() <= chosen) by_colour_.resize(chosen + 1);
+    by_colour_[chosen].push_back(i);
+  }
+}
+
+void StepSolver::fill_packs() {
+  packs_.clear();
+  points_.clear();
+  colours_.clear();
+  const auto count = [&](std::uint32_t i) { return contacts_[i].pair->manifold.count; };
+  for (auto& list : by_colour_) {
+    if (list.empty()) continue;
+    colours_.push_back(packs_.size());
+    std::stable_sort(list.begin(), list.end(), [&](std::uint32_t a, std::uint32_t b) { return count(a) > count(b); });
+    for (std::size_t begin = 0; begin < list.size(); begin += kLanes) {
+      ContactPack pack{};
+      pack.first_point = points_.size();
+      pack.point_count = count(list[begin]);
+      points_.resize(points_.size() + static_cast<std::size_t>(pack.point_count), PackPoint{});
+      for (std::size_t lane = 0; lane < kLanes && begin + lane < list.size(); ++lane) {
+        SolverContact& contact = contacts_[list[begin + lane]];
+        contact.pack = static_cast<int>(packs_.size());
+        contact.lane = static_cast<int>(lane);
+        pack.first_body[lane] = contact.first;
+        pack.second_body[lane] = contact.second;
+      }
+      packs_.push_back(pack);
+    }
+  }
+  colours_.push_back(packs_.size());
+}
+
+namespace {
+void accumulate(const Motion6& more, Motion6& to) {
+  for (int i = 0; i < 3; ++i) {
+    to.linear[i] += more.linear[i];
+    to.angular[i] += more.angular[i];
+  }
+}
+void set(Wide* of, int lane, const Vec3& v) {
+  for (int i = 0; i < 3; ++i) of[i][lane] = v[i];
+}
+Vec3 get(const Wide* of, int lane) { return {of[0][lane], of[1][lane], of[2][lane]}; }
+}  // namespace
+
+void StepSolver::prepare(SolverContact& contact) {
+  ContactPack& pack = packs_[static_cast<std::size_t>(contact.pack)];
+  const int lane = contact.lane;
+  const bool stands = contact.first == 0 || contact.second == 0;
+  const double frequency = 1 / (settings_.stiffness * h_) * (stands ? settings_.standing_stiffer : 1);
+  const Softness soft = softness(frequency, settings_.damping * (stands ? settings_.standing_damping : 1), h_);
+  pack.bias_rate[lane] = soft.bias_rate;
+  pack.mass_scale[lane] = soft.mass_scale;
+  pack.impulse_scale[lane] = soft.impulse_scale;
+  pack.first_root[lane] = bodies_[static_cast<std::size_t>(contact.first)].inverse_root_mass;
+  pack.second_root[lane] = bodies_[static_cast<std::size_t>(contact.second)].inverse_root_mass;
+  pack.restitution[lane] = contact.restitution;
+  pack.friction[lane] = contact.friction;
+  set(pack.normal, lane, contact.pair->manifold.normal);
+  prepare_points(contact, pack, h_);
+  prepare_friction(contact, pack, h_);
+}
+
+void StepSolver::prepare_points(SolverContact& contact, ContactPack& pack, double h) {
+  const SolverBody &first = bodies_[static_cast<std::size_t>(contact.first)],
+                   &second = bodies_[static_cast<std::size_t>(contact.second)];
+  const Manifold& manifold = contact.pair->manifold;
+  const Vec3& n = manifold.normal;
+  const int lane = contact.lane;
+  const double masses =
+      first.inverse_root_mass * first.inverse_root_mass + second.inverse_root_mass * second.inverse_root_mass;
+  const Vec3 across = second.linear(velocity_[static_cast<std::size_t>(contact.second)]) -
+                      first.linear(velocity_[static_cast<std::size_t>(contact.first)]);
+  const auto spin = [&](int body) {
+    const Motion6& v = velocity_[static_cast<std::size_t>(body)];
+    return Vec3(v.angular[0], v.angular[1], v.angular[2]);
+  };
+  const Vec3 first_spin = spin(contact.first), second_spin = spin(contact.second);
+  for (int i = 0; i < manifold.count; ++i) {
+    const ManifoldPoint& point = manifold.points[static_cast<std::size_t>(i)];
+    PackPoint& row = points_[pack.first_point + static_cast<std::size_t>(i)];
+    const Vec3 place = (*contact.first_at * point.on_first + *contact.second_at * point.on_second) / 2;
+    const Vec3 a = first.scaled_moment((place - first.at.position).cross(n)),
+               b = second.scaled_moment((place - second.at.position).cross(n));
+    set(row.first, lane, a);
+    set(row.second, lane, b);
+    row.separation[lane] = point.separation;
+    row.mass[lane] = 1 / (masses + a.squaredNorm() + b.squaredNorm());
+    row.impulse[lane] = point.impulse * h;
+    row.approach[lane] = n.dot(across) + b.dot(second_spin) - a.dot(first_spin);
+  }
+}
+
+void StepSolver::prepare_friction(SolverContact& contact, ContactPack& pack, double h) {
+  const SolverBody &first = bodies_[static_cast<std::size_t>(contact.first)],
+                   &second = bodies_[static_cast<std::size_t>(contact.second)];
+  const Manifold& manifold = contact.pair->manifold;
+  const Vec3& n = manifold.normal;
+  const int lane = contact.lane;
+  std::array<Vec3, Manifold::most> places;
+  std::array<double, Manifold::most> weights{};
+  double sum = 0;
+  for (int pass = 0; pass < 2 && !(sum > 0); ++pass)  // by force; where there is none yet, by nearness
+    for (int i = 0; i < manifold.count; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      const ManifoldPoint& point = manifold.points[k];
+      places[k] = (*contact.first_at * point.on_first + *contact.second_at * point.on_second) / 2;
+      weights[k] = pass == 0 ? point.force : 1 / (1 + std::max(0.0, point.separation) / settings_.margin);
+      sum += weights[k];
+    }
+  contact.anchor.setZero();
+  for (int i = 0; i < manifold.count; ++i)
+    contact.anchor += weights[static_cast<std::size_t>(i)] / sum * places[static_cast<std::size_t>(i)];
+  for (int i = 0; i < manifold.count; ++i) {
+    const Vec3 arm = places[static_cast<std::size_t>(i)] - contact.anchor;
+    points_[pack.first_point + static_cast<std::size_t>(i)].lever[lane] = (arm - n.dot(arm) * n).norm();
+  }
+  const Vec3 aside = std::abs(n.z()) < 0.7 ? Vec3(0, 0, 1) : Vec3(1, 0, 0);
+  std::array<Vec3, 2> along;
+  along[0] = aside.cross(n).normalized();
+  along[1] = n.cross(along[0]);
+  std::array<Vec3, 2> on_first, on_second;
+  for (std::size_t i = 0; i < 2; ++i) {
+    on_first[i] = first.scaled_moment((contact.anchor - first.at.position).cross(along[i]));
+    on_second[i] = second.scaled_moment((contact.anchor - second.at.position).cross(along[i]));
+    set(pack.along[i], lane, along[i]);
+    set(pack.along_first[i], lane, on_first[i]);
+    set(pack.along_second[i], lane, on_second[i]);
+    pack.slide[i][lane] = manifold.friction.dot(along[i]) * h;
+  }
+  const double masses =
+      first.inverse_root_mass * first.inverse_root_mass + second.inverse_root_mass * second.inverse_root_mass;
+  const double xx = masses + on_first[0].squaredNorm() + on_second[0].squaredNorm(),
+               yy = masses + on_first[1].squaredNorm() + on_second[1].squaredNorm(),
+               xy = on_first[0].dot(on_first[1]) + on_second[0].dot(on_second[1]), determinant = xx * yy - xy * xy;
+  pack.inverse[0][lane] = yy / determinant;
+  pack.inverse[1][lane] = -xy / determinant;
+  pack.inverse[2][lane] = xx / determinant;
+  const Vec3 twist_first = first.scaled_moment(n), twist_second = second.scaled_moment(n);
+  set(pack.twist_first, lane, twist_first);
+  set(pack.twist_second, lane, twist_second);
+  pack.twist_mass[lane] = 1 / (twist_first.squaredNorm() + twist_second.squaredNorm());
+  pack.twist[lane] = manifold.twist * h;
+}
+
+void StepSolver::scale_bodies(double dt, const Vec3& gravity) {
+  const std::size_t count = bodies_.size();
+  velocity_.assign(count, {});
+  displacement_.assign(count, {});
+  kick_.assign(count, {});
+  pushed_.assign(count, {});
+  begun_.assign(count, {});
+  for (std::size_t i = 1; i < count; ++i) {
+    const SolverBody& body = bodies_[i];
+    // From the middle of the step to that of a sub-step before the first.
+    body.set(body.velocity + gravity * ((dt - h_) / 2), body.spin, velocity_[i]);
+    body.set(gravity * h_, Vec3::Zero(), kick_[i]);
+  }
+}
+
+void StepSolver::unscale_bodies(double dt, const Vec3& gravity) {
+  for (std::size_t i = 1; i < bodies_.size(); ++i) {
+    SolverBody& body = bodies_[i];
+    body.velocity = body.linear(velocity_[i]) - gravity * ((dt - h_) / 2);
+    body.spin = body.angular(velocity_[i]);
+    body.moved = body.linear(displacement_[i]);
+    body.turned = body.angular(displacement_[i]);
+  }
+}
+
+void StepSolver::each_pack(ContactKernels::Pass pass, const SubStep& step) {
+  for (std::size_t c = 0; c + 1 < colours_.size(); ++c)
+    pass(packs_.data(), points_.data(), colours_[c], colours_[c + 1], velocity_.data(), displacement_.data(), step);
+}
+
+/// Gravity, and what contacts did in the sub-step before: Jacobians stay through a step, so that the sum over a body's
+/// contacts is known from its velocities.
+void StepSolver::begin_sub_step(int number) {
+  for (std::size_t i = 1; i < bodies_.size(); ++i) {
+    accumulate(kick_[i], velocity_[i]);
+    if (number > 0) accumulate(pushed_[i], velocity_[i]);
+  }
+}
+
+void StepSolver::sub_step(int number) {
+  const SubStep step{h_, settings_.pushed_apart, settings_.restitution_from};
+  const ContactKernels& kernels = contact_kernels();
+  for (std::size_t i = 1; i < bodies_.size(); ++i) {
+    begun_[i] = velocity_[i];
+    accumulate(kick_[i], begun_[i]);
+  }
+  begin_sub_step(number);
+  if (number == 0) each_pack(kernels.warm_start, step);
+  const auto of = [&](int body) -> const SolverBody& { return bodies_[static_cast<std::size_t>(body)]; };
+  const auto displacement = [&](int body) -> const Motion6& { return displacement_[static_cast<std::size_t>(body)]; };
+  const double frequency = std::min(settings_.joint_frequency, 0.25 / h_);
+  // What joints do is told apart from what contacts do (`begun_`): their rows turn with the bodies.
+  for (HingeRows* hinge : hinges_) {
+    hinge->prepare(of(hinge->body), of(hinge->holder), displacement(hinge->body), displacement(hinge->holder));
+    hinge->warm_start(velocity_.data(), begun_.data());
+  }
+  const auto hold_cables = [&] {
+    for (CableRow* cable : cables_) {
+      const auto i = static_cast<std::size_t>(cable->body);
+      cable->hold(bodies_[i], h_, displacement_[i], velocity_[i], begun_[i]);
+    }
+  };
+  hold_cables();
+  for (HingeRows* hinge : hinges_)
+    hinge->solve(frequency, settings_.joint_damping, h_, velocity_.data(), begun_.data());
+  each_pack(kernels.solve, step);
+  hold_cables();
+  for (std::size_t i = 1; i < bodies_.size(); ++i)
+    for (int k = 0; k < 3; ++k) {
+      displacement_[i].linear[k] += h_ * velocity_[i].linear[k];
+      displacement_[i].angular[k] += h_ * velocity_[i].angular[k];
+    }
+  for (HingeRows* hinge : hinges_) hinge->solve(0, 0, h_, velocity_.data(), begun_.data());
+  each_pack(kernels.relax, step);
+  for (HingeRows* hinge : hinges_) hinge->add_up();
+  for (std::size_t i = 1; i < bodies_.size(); ++i)
+    for (int k = 0; k < 3; ++k) {
+      pushed_[i].linear[k] = velocity_[i].linear[k] - begun_[i].linear[k];
+      pushed_[i].angular[k] = velocity_[i].angular[k] - begun_[i].angular[k];
+    }
+}
+
+void StepSolver::store_contact(SolverContact& contact, double dt) {
+  const ContactPack& pack = packs_[static_cast<std::size_t>(contact.pack)];
+  const int lane = contact.lane;
+  Manifold& manifold = contact.pair->manifold;
+  double total = 0;
+  contact.centre.setZero();
+  for (int i = 0; i < manifold.count; ++i) {
+    ManifoldPoint& point = manifold.points[static_cast<std::size_t>(i)];
+    const PackPoint& row = points_[pack.first_point + static_cast<std::size_t>(i)];
+    const Vec3 place = (*contact.first_at * point.on_first + *contact.second_at * point.on_second) / 2;
+    point.impulse = row.impulse[lane] / h_;
+    point.force = row.total[lane] / dt;
+    total += row.total[lane];
+    contact.load = std::max(contact.load, row.total[lane] / dt / row.mass[lane]);
+    contact.centre += row.total[lane] * place;
+  }
+  if (total > 0)
+    contact.centre /= total;
+  else
+    contact.centre = contact.anchor;
+  Vec3 slide = Vec3::Zero(), slide_total = Vec3::Zero();
+  for (int i = 0; i < 2; ++i) {
+    slide += pack.slide[i][lane] * get(pack.along[i], lane);
+    slide_total += pack.slide_total[i][lane] * get(pack.along[i], lane);
+  }
+  manifold.friction = slide / h_;
+  manifold.twist = pack.twist[lane] / h_;
+  contact.impulse = total * manifold.normal + slide_total;
+  contact.moment = pack.twist_total[lane] * manifold.normal + (contact.anchor - contact.centre).cross(slide_total);
+}
+
+void StepSolver::run(double dt, int substeps, const Vec3& gravity) {
+  h_ = dt / substeps;
+  scale_bodies(dt, gravity);
+  colour();
+  fill_packs();
+  for (SolverContact& contact : contacts_) prepare(contact);
+  for (HingeRows* hinge : hinges_) hinge->begin_step(h_);
+  for (int i = 0; i < substeps; ++i) sub_step(i);
+  each_pack(contact_kernels().restitute, {h_, settings_.pushed_apart, settings_.restitution_from});
+  for (SolverContact& contact : contacts_) store_contact(contact, dt);
+  for (HingeRows* hinge : hinges_) hinge->end_step(h_);
+  unscale_bodies(dt, gravity);
+}
+
+}  // namespace topple::collision

@@ -1,0 +1,95 @@
+#pragma once
+// Bodies that touch or hang together, taken through one step in sub-steps with soft contacts: collide once, then in
+// each sub-step velocities by gravity and the last impulses, contacts as damped springs, positions, contacts again
+// without springs, so that what pushes overlaps apart is no speed (Macklin et al., "Small steps in physics simulation",
+// 2019; Catto, "Solver2D", 2024).
+//
+// Velocities inside are those of the middle of a sub-step, so that free flight is exact. Forces are the sums over
+// sub-steps of what was applied: they balance weight and momentum to rounding.
+#include <span>
+#include <vector>
+
+#include "contacts/near_pairs.h"
+#include "solver/cable_row.h"
+#include "solver/contact_packs.h"
+#include "solver/hinge_rows.h"
+#include "solver/solver_body.h"
+#include "solver/solver_settings.h"
+
+namespace topple::collision {
+
+/// A touching pair, and what the step did to it.
+struct SolverContact {
+  NearPair* pair = nullptr;
+  int first = 0, second = 0;  ///< solver bodies; 0: what stands
+  const Placement *first_at = nullptr, *second_at = nullptr;
+  double friction = 0, restitution = 0;
+  // Where it lies in the packs.
+  int pack = -1, lane = 0;
+  int told = -1;  ///< which of the world's contacts tells of it
+  // After the step.
+  Vec3 impulse = Vec3::Zero();  ///< on the second, N s
+  Vec3 centre = Vec3::Zero();   ///< of the normal impulses
+  Vec3 moment = Vec3::Zero();   ///< on the second about the centre, N m s: about the normal
+  Vec3 anchor = Vec3::Zero();   ///< where friction acts
+  double load = 0;              ///< m/s2: the largest force of a point over its effective mass
+};
+
+class Equilibrium;
+
+class StepSolver {
+ public:
+  explicit StepSolver(const SolverSettings& settings) : settings_(settings) {}
+
+  void clear();
+  /// Numbers from 1.
+  int add(const SolverBody& body);
+  void add(const SolverContact& contact) { contacts_.push_back(contact); }
+  void add(HingeRows* hinge) { hinges_.push_back(hinge); }
+  void add(CableRow* cable) { cables_.push_back(cable); }
+  /// `dt` in `substeps` parts.
+  void run(double dt, int substeps, const Vec3& gravity);
+
+  /// Whether the bodies can stay where they are: contacts, hinges and cables then hold the forces that keep them there,
+  /// as those of a step `dt` long; nothing has moved. `sizes`: of each body (by its number), m.
+  [[nodiscard]] bool rest(double dt, const Vec3& gravity, std::span<const double> sizes);
+
+  [[nodiscard]] const SolverBody& body(int index) const { return bodies_[static_cast<std::size_t>(index)]; }
+  [[nodiscard]] std::span<const SolverContact> contacts() const { return contacts_; }
+  [[nodiscard]] std::size_t body_count() const { return bodies_.size() - 1; }
+
+ private:
+  struct Softness {
+    double bias_rate, mass_scale, impulse_scale;
+  };
+  [[nodiscard]] static Softness softness(double frequency, double damping, double h);
+  void colour();
+  void fill_packs();
+  void prepare(SolverContact& contact);
+  void prepare_points(SolverContact& contact, ContactPack& pack, double h);
+  void prepare_friction(SolverContact& contact, ContactPack& pack, double h);
+  void scale_bodies(double dt, const Vec3& gravity);
+  void sub_step(int number);
+  void begin_sub_step(int number);
+  void each_pack(ContactKernels::Pass pass, const SubStep& step);
+  void take_forces(const Equilibrium& equilibrium, double dt);
+  void store_contact(SolverContact& contact, double dt);
+  void unscale_bodies(double dt, const Vec3& gravity);
+
+  const SolverSettings& settings_;
+  double h_ = 0;
+  std::vector<SolverBody> bodies_;
+  std::vector<SolverContact> contacts_;
+  std::vector<HingeRows*> hinges_;
+  std::vector<CableRow*> cables_;
+
+  // Hot.
+  std::vector<Motion6> velocity_, displacement_, kick_, pushed_, begun_;
+  std::vector<ContactPack> packs_;
+  std::vector<PackPoint> points_;
+  std::vector<std::size_t> colours_;  ///< first pack of each, and the end
+  std::vector<std::vector<std::uint32_t>> by_colour_;
+  std::vector<std::vector<std::uint64_t>> used_;
+};
+
+}  // namespace topple::collision
