@@ -1,4 +1,4 @@
-// Damage to a standing frame: each change told to segmentation, bearings, loads, solver and joints alike.
+// Damage to a standing frame: each change told to segmentation, parts.bearings, loads, solver and joints alike.
 #include "loads/placed_load.h"
 #include "model/index_of.h"
 #include "standing/standing_state.h"
@@ -19,7 +19,7 @@ void StandingFrame::State::apply(const Change& change) {
                         [&](MemberId member) { remove(member); }, [&](PanelId panel) { remove(panel); },
                         [&](const RemoveSupport& one) {
                           if (node_solved[index_of(one.node)]) account.lose_support(one.node);
-                          segments.remove_support(one.node);
+                          parts.segments.remove_support(one.node);
                           statics.remove_support(one.node);
                         },
                         [&](const EventLoad& one) {
@@ -43,7 +43,7 @@ void StandingFrame::State::break_joint(JointId joint, BreakCause cause) {
 void StandingFrame::State::break_joints(std::span<const JointId> together, BreakCause cause) {
   std::vector<JointId> broken;
   for (JointId joint : together)
-    if (holds(joint) && label(joint) >= 0) broken.push_back(joint);
+    if (parts.standing(joint)) broken.push_back(joint);
   const int first = static_cast<int>(breaks.size());
   for (JointId joint : broken) tell(joint, cause);
   for (std::size_t i = 0; i < broken.size(); ++i) damage(broken[i], first + static_cast<int>(i));
@@ -58,20 +58,20 @@ void StandingFrame::State::tell(JointId joint, BreakCause cause) {
   broken.demand = used.demand;
   broken.capacity = used.capacity;
   broken.generation = generation;
-  broken.position = position(joint);
+  broken.position = parts.position(joint);
   breaks.push_back(broken);
 }
 
 void StandingFrame::State::damage(JointId joint, int told) {
   const Joint& own = building[joint];
   if (own.member.valid()) {
-    segments.break_joint(joint);
+    parts.segments.break_joint(joint);
     lose_member_joint(joint, told);
     return;
   }
   joints.lose(joint);
-  if (bearings.serves(own.panel))
-    take(bearings.break_edge(own.panel, own.end), nullptr);
+  if (parts.bearings.serves(own.panel))
+    take(parts.bearings.break_edge(own.panel, own.end), nullptr);
   else
     lose_shell_edge(own.panel, own.end);
 }
@@ -83,16 +83,16 @@ void StandingFrame::State::lose_member_joint(JointId joint, int told) {
   const NodeId node = building[own.member].nodes[static_cast<std::size_t>(own.end)];
   statics.break_joint(own.member, own.end);
   joints.lose(joint);
-  ductile.lose(joint, component(joint));
-  to_check[static_cast<std::size_t>(component(joint))] = 1;
+  yielding.lose(joint, components.of(joint));
+  to_check[static_cast<std::size_t>(components.of(joint))] = 1;
   half_held.push_back(own.member);
   if (bracing) {
     const std::vector<JointId>& snapped = bracing->lose(joint);
     unbraced.insert(unbraced.end(), snapped.begin(), snapped.end());
   }
-  if (segments.degree(node) > 0) return;
+  if (parts.segments.degree(node) > 0) return;
   // A hub without members: a support that bears nothing, or about to leave. The solver has no stiffness for it.
-  take(bearings.bare(node), nullptr);
+  take(parts.bearings.bare(node), nullptr);
   if (!node_solved[index_of(node)]) return;
   account.drop(node);
   drop_node(node);
@@ -100,7 +100,7 @@ void StandingFrame::State::lose_member_joint(JointId joint, int told) {
 
 void StandingFrame::State::drop_node(NodeId node) {
   if (!node_solved[index_of(node)]) return;
-  drop_contacts(node);
+  contacts.drop(node);
   node_solved[index_of(node)] = 0;
   --solved_nodes[static_cast<std::size_t>(statics.component(node))];
   statics.drop({node});
@@ -111,8 +111,8 @@ void StandingFrame::State::hand_on_anew(PanelId panel) {
   loads.hand_on_anew(panel);
 }
 
-/// `parts`: those that leave in the same change, by their numbers.
-void StandingFrame::State::take(const PanelBearings::Changes& changes, std::vector<Detached>* parts) {
+/// `leaving`: those that leave in the same change, by their numbers.
+void StandingFrame::State::take(const PanelBearings::Changes& changes, std::vector<Detached>* leaving) {
   for (PanelId panel : changes.lost_membrane) {
     account.lose_membrane(panel);
     statics.remove_membrane(panel);
@@ -120,35 +120,35 @@ void StandingFrame::State::take(const PanelBearings::Changes& changes, std::vect
   const auto settle_edges = [&](PanelId panel) {
     hand_on_anew(panel);
     for (int edge = 0; edge < 4; ++edge)
-      if (!bearings.holds(panel)[static_cast<std::size_t>(edge)]) joints.lose(building.joint(panel, edge));
-    to_check[static_cast<std::size_t>(statics.component(building[panel].nodes[0]))] = 1;
+      if (!parts.bearings.holds(panel)[static_cast<std::size_t>(edge)]) joints.lose(building.joint(panel, edge));
+    to_check[static_cast<std::size_t>(components.of(panel))] = 1;
   };
   for (PanelId panel : changes.lost_edge) {
     settle_edges(panel);
-    place_contacts_again(panel);
+    contacts.place_again(panel);
   }
   for (PanelId panel : changes.fell) {
     settle_edges(panel);
-    drop_contacts(panel);
+    contacts.drop(panel);
     detached.emplace_back().panels.push_back(panel);
   }
   for (const auto& [panel, part] : changes.carried_off) {
     hand_on_anew(panel);
-    drop_contacts(panel);
-    (*parts)[static_cast<std::size_t>(part)].panels.push_back(panel);
+    contacts.drop(panel);
+    (*leaving)[static_cast<std::size_t>(part)].panels.push_back(panel);
   }
 }
 
 /// A membrane keeps what stiffness its remains have while all of its edges hold.
 void StandingFrame::State::fracture(PanelId panel, const PanelRemains& remains) {
   account.lighten(panel);
-  if (!bearings.serves(panel)) return fracture_shell(panel, remains);
-  const bool membrane = bearings.membrane(panel);
-  bearings.fracture(panel, remains.edge_length);
+  if (!parts.bearings.serves(panel)) return fracture_shell(panel, remains);
+  const bool membrane = parts.bearings.membrane(panel);
+  parts.bearings.fracture(panel, remains.edge_length);
   const HandOver before = loads.handed(panel);
   loads.fracture(panel, remains);
   account.lightened(panel, before, loads.handed(panel));
-  to_check[static_cast<std::size_t>(statics.component(building[panel].nodes[0]))] = 1;
+  to_check[static_cast<std::size_t>(components.of(panel))] = 1;
   if (membrane) condense(panel, remains);
   break_bare_edges(panel, remains);
 }
@@ -166,7 +166,7 @@ void StandingFrame::State::condense(PanelId panel, const PanelRemains& remains) 
 void StandingFrame::State::break_bare_edges(PanelId panel, const PanelRemains& remains) {
   std::vector<JointId> bare;
   for (int edge = 0; edge < 4; ++edge)
-    if (holds(building.joint(panel, edge)) && remains.edge_length[static_cast<std::size_t>(edge)] <= 0)
+    if (parts.holds(building.joint(panel, edge)) && remains.edge_length[static_cast<std::size_t>(edge)] <= 0)
       bare.push_back(building.joint(panel, edge));
   if (bare.empty()) return;
   lay_contacts();
@@ -177,15 +177,15 @@ void StandingFrame::State::remove(MemberId member) {
   if (!stands(member)) return;
   for (int end = 0; end < 2; ++end) {
     const JointId joint = building.joint(member, end);
-    if (!segments.holds(joint)) continue;
-    segments.break_joint(joint);
+    if (!parts.segments.holds(joint)) continue;
+    parts.segments.break_joint(joint);
     lose_member_joint(joint, -1);
   }
-  segments.remove(member);
+  parts.segments.remove(member);
   account.leave(member);
   statics.remove(member);
-  drop_contacts(member);
-  take(bearings.leave({{{member, -1}}, {}}), nullptr);
+  contacts.drop(member);
+  take(parts.bearings.leave({{{member, -1}}, {}}), nullptr);
 }
 
 /// The member leaves with both of its joints holding: each piece goes on hanging by one.
@@ -202,7 +202,7 @@ void StandingFrame::State::cut_in_two(MemberId post, double inside) {
   cut_inside[post] = inside;
   for (int end = 0; end < 2; ++end) {
     const JointId joint = building.joint(post, end);
-    if (!holds(joint)) continue;
+    if (!parts.holds(joint)) continue;
     hanging.push_back(joint);
     damage(joint, std::exchange(told, -1));  // what the other end frees is counted with it
   }
@@ -210,56 +210,20 @@ void StandingFrame::State::cut_in_two(MemberId post, double inside) {
 
 void StandingFrame::State::remove(PanelId panel) {
   if (!stands(panel)) return;
-  drop_contacts(panel);
-  if (!bearings.serves(panel)) {
-    segments.remove(panel);
+  contacts.drop(panel);
+  if (!parts.bearings.serves(panel)) {
+    parts.segments.remove(panel);
     leave_shell(panel);
     return;
   }
-  if (bearings.membrane(panel)) {
+  if (parts.bearings.membrane(panel)) {
     account.lose_membrane(panel);
     statics.remove_membrane(panel);
   }
-  bearings.remove(panel);
+  parts.bearings.remove(panel);
   hand_on_anew(panel);
   for (int edge = 0; edge < 4; ++edge) joints.lose(building.joint(panel, edge));
-  to_check[static_cast<std::size_t>(statics.component(building[panel].nodes[0]))] = 1;
-}
-
-/// A contact on a panel that also bears on a member that left is placed again when the panel's bearings change.
-template <class Gone>
-void StandingFrame::State::drop_contacts(const Gone& gone) {
-  std::erase_if(contacts, [&](const auto& contact) {
-    const auto& [key, load] = contact;
-    if constexpr (std::is_same_v<Gone, MemberId>) {
-      if (load.place.member != gone) return false;
-    } else if constexpr (std::is_same_v<Gone, NodeId>) {
-      if (load.place.node != gone) return false;
-    } else {
-      if (load.place.panel != gone) return false;
-    }
-    loads.remove_contact(key);
-    return true;
-  });
-}
-template void StandingFrame::State::drop_contacts(const MemberId&);
-template void StandingFrame::State::drop_contacts(const NodeId&);
-template void StandingFrame::State::drop_contacts(const PanelId&);
-
-void StandingFrame::State::set_contact(const ContactLoad& load) {
-  if (!stands(load.place)) return;
-  contacts[load.key] = load;
-  if (loads.set_contact(load.key, place(load.place, load.force, load.moment))) pending = true;
-}
-
-void StandingFrame::State::remove_contact(std::int64_t key) {
-  contacts.erase(key);
-  if (loads.remove_contact(key)) pending = true;
-}
-
-void StandingFrame::State::place_contacts_again(PanelId panel) {
-  for (const auto& [key, contact] : contacts)
-    if (contact.place.panel == panel) loads.set_contact(key, place(contact.place, contact.force));
+  to_check[static_cast<std::size_t>(components.of(panel))] = 1;
 }
 
 }  // namespace topple::structure

@@ -7,6 +7,7 @@
 #include "failure/panel_demand.h"
 #include "loads/placed_load.h"
 #include "model/index_of.h"
+#include "standing/shell_reading.h"
 #include "standing/standing_state.h"
 #include "standing/unstable_model.h"
 #include "topple/structure/error.h"
@@ -29,43 +30,32 @@ PartLoads loads_to_stand(const Building& building, CombinationId combination) {
 StandingFrame::State::State(const Building& given, CombinationId combination, const FailureRules& failure, int threads)
     : building(given),
       rules(failure),
-      edges(given),
-      segments(given),
-      bearings(given, edges),
+      parts(given),
       shells(given),
-      loads(given, loads_to_stand(given, combination), bearings, shells),
-      edge_loads(given, bearings, loads),
+      loads(given, loads_to_stand(given, combination), parts.bearings, shells),
+      edge_loads(given, parts.bearings, loads),
       statics(given, shells, threads),
+      components(given, statics),
       joints(given, failure.sudden),
-      ductile(given, statics, segments, bearings, applied),
       node_solved(given.nodes.size(), 1),
       applied(given.members.size()),
       node_applied(given.nodes.size(), Vec6::Zero()),
-      account({given, segments, bearings, loads, statics, node_solved, applied}),
-      checked_joints(static_cast<std::size_t>(statics.components())),
-      checked_edges(checked_joints.size()),
-      component_panels(checked_joints.size()),
-      to_check(checked_joints.size(), 1),
-      demands_behind(checked_joints.size(), 0),
-      critical_energies(checked_joints.size(), -1.0),
-      certain(checked_joints.size()),
-      solved_nodes(checked_joints.size(), 0),
+      account({given, parts.segments, parts.bearings, loads, statics, node_solved, applied}),
+      yielding({parts, components, loads, applied, node_solved, statics, joints, account, failure.sudden, generation,
+                [this] { bring_up_to_date(); }}),
+      response({parts, shells, loads, statics, joints, components, node_solved}),
+      contacts(response, loads),
+      to_check(components.joints.size(), 1),
+      demands_behind(components.joints.size(), 0),
+      solved_nodes(components.joints.size(), 0),
       in_mechanism(given.members.size(), 0) {
   if (rules.bracing == BracingRule::classic) bracing.emplace(building);
   if (rules.bracing == BracingRule::buckling)
-    buckling.emplace(building, statics, segments, bearings, applied, node_applied, node_solved);
+    buckling.emplace(building, statics, parts.segments, parts.bearings, applied, node_applied, node_solved);
   if (rules.second_order) statics.use_second_order();
-  for (std::size_t j = 0; j < building.joints.size(); ++j) {
-    if (!building.joints[j].capacity.breakable) continue;
-    const auto c = static_cast<std::size_t>(component(JointId(j)));
-    checked_joints[c].push_back(JointId(j));
-    if (!building.joints[j].member.valid()) checked_edges[c].push_back(JointId(j));
-  }
   for (std::size_t n = 0; n < building.nodes.size(); ++n)
     ++solved_nodes[static_cast<std::size_t>(statics.component(NodeId(n)))];
-  for (std::size_t p = 0; p < building.panels.size(); ++p)
-    component_panels[static_cast<std::size_t>(statics.component(building.panels[p].nodes[0]))].push_back(PanelId(p));
-  if (const auto floating = segments.take_unanchored(); !floating.empty()) {
+  if (const auto floating = parts.segments.take_unanchored(); !floating.empty()) {
     FrameMechanism mechanism;
     mechanism.nodes = floating.front().nodes;
     mechanism.motion.assign(building.nodes.size(), Vec6::Zero());
@@ -76,7 +66,7 @@ StandingFrame::State::State(const Building& given, CombinationId combination, co
   for (int c = 0; c < statics.components(); ++c) {
     if (const auto mechanism = statics.solve(c)) throw UnstableModel(describe_mechanism(building, *mechanism));
     read_demands(c, true);
-    if (ductile.any(c)) ductile.base_is_answer(c);
+    yielding.rest(c);
     if (!buckling) continue;
     if (const std::optional<BuckledPost> post = buckling->find(c, statics.diverged(c)))
       throw UnstableModel(building.file + ": post " + (post->post.valid() ? building[post->post].name : "") +
@@ -88,37 +78,13 @@ StandingFrame::State::State(const Building& given, CombinationId combination, co
   pending = !next_generation().empty();
 }
 
-bool StandingFrame::State::stands(PanelId panel) const {
-  return bearings.serves(panel) ? bearings.stands(panel) : segments.label(panel) >= 0;
-}
-
 bool StandingFrame::State::stands(const ContactPlace& place) const {
   if (place.node.valid()) return stands(place.node) && node_solved[index_of(place.node)] != 0;
   return place.member.valid() ? stands(place.member) : place.panel.valid() && stands(place.panel);
 }
 
-bool StandingFrame::State::holds(JointId joint) const {
-  const Joint& own = building[joint];
-  if (own.member.valid() || !bearings.serves(own.panel)) return segments.holds(joint);
-  return bearings.holds(own.panel)[static_cast<std::size_t>(own.end)];
-}
-
-int StandingFrame::State::component(JointId joint) const {
-  const Joint& own = building[joint];
-  return own.member.valid() ? statics.component(own.member) : statics.component(building[own.panel].nodes[0]);
-}
-
-int StandingFrame::State::label(JointId joint) const {
-  const Joint& own = building[joint];
-  if (own.member.valid()) return segments.label(own.member);
-  if (!bearings.serves(own.panel)) return segments.label(own.panel);
-  if (!bearings.stands(own.panel)) return -1;
-  const auto member = bearings.bearing_member(own.panel);
-  return member ? segments.label(*member) : segments.label(bearings.bearing_node(own.panel));
-}
-
 Vec6 StandingFrame::State::demand(JointId joint) const {
-  if (!holds(joint) || label(joint) < 0) return Vec6::Zero();
+  if (!parts.standing(joint)) return Vec6::Zero();
   const Joint& own = building[joint];
   if (own.capacity.breakable) return joints.demand(joint);
   return solved_demand(joint);
@@ -131,36 +97,12 @@ Vec6 StandingFrame::State::solved_demand(JointId joint) const {
 }
 
 std::array<Vec6, 4> StandingFrame::State::edge_demands(PanelId panel) const {
-  if (!bearings.serves(panel)) return shell_edge_demands(panel, node_displacements(panel), loading(panel));
-  return panel_edge_demands(building, bearings, loads, panel,
-                            bearings.membrane(panel) ? std::optional(statics.corner_forces(panel)) : std::nullopt);
-}
-
-Vec3 StandingFrame::State::position(JointId joint) const {
-  const Joint& own = building[joint];
-  if (own.member.valid()) return on_axis(building, own.member, own.end == 0 ? 0 : building[own.member].length);
-  const auto& nodes = building[own.panel].nodes;
-  const auto edge = static_cast<std::size_t>(own.end);
-  return 0.5 * (building[nodes[edge]].position + building[nodes[(edge + 1) % 4]].position);
-}
-
-const std::vector<int>& StandingFrame::State::numbered_segments() const {
-  if (!segment_numbers.empty()) return segment_numbers;
-  std::vector<char> has_part(static_cast<std::size_t>(segments.labels()), 0);
-  for (std::size_t m = 0; m < building.members.size(); ++m)
-    if (const int label = segments.label(MemberId(m)); label >= 0) has_part[static_cast<std::size_t>(label)] = 1;
-  for (std::size_t p = 0; p < building.panels.size(); ++p)  // shells; others belong to what bears them
-    if (const int label = segments.label(PanelId(p)); label >= 0) has_part[static_cast<std::size_t>(label)] = 1;
-  segment_numbers.assign(has_part.size() + 1, -1);  // the last entry counts
-  int count = 0;
-  for (std::size_t n = 0; n < building.nodes.size(); ++n) {
-    const int label = segments.label(NodeId(n));
-    if (label < 0 || !has_part[static_cast<std::size_t>(label)]) continue;
-    int& number = segment_numbers[static_cast<std::size_t>(label)];
-    if (number < 0) number = count++;
-  }
-  segment_numbers.back() = count;
-  return segment_numbers;
+  if (!parts.bearings.serves(panel))
+    return shell_edge_demands(*shells.of(panel), parts.bearings, panel, node_displacements(building[panel], statics),
+                              loading(panel));
+  return panel_edge_demands(
+      building, parts.bearings, loads, panel,
+      parts.bearings.membrane(panel) ? std::optional(statics.corner_forces(panel)) : std::nullopt);
 }
 
 StandingFrame::StandingFrame(const Building& building, CombinationId combination, const FailureRules& rules,
@@ -171,7 +113,7 @@ StandingFrame::~StandingFrame() = default;
 bool StandingFrame::stands(MemberId member) const { return state_->stands(member); }
 bool StandingFrame::stands(PanelId panel) const { return state_->stands(panel); }
 bool StandingFrame::stands(NodeId node) const { return state_->stands(node); }
-bool StandingFrame::intact(JointId joint) const { return state_->holds(joint); }
+bool StandingFrame::intact(JointId joint) const { return state_->parts.holds(joint); }
 const Vec6& StandingFrame::displacement(NodeId node) const { return state_->account.displacement(node); }
 Vec6 StandingFrame::demand(JointId joint) const {
   state_->know_demands();
@@ -191,7 +133,7 @@ const Building& StandingFrame::building() const { return state_->building; }
 
 Utilisation StandingFrame::utilisation(JointId joint) const {
   state_->know_demands();
-  const bool counts = state_->building[joint].capacity.breakable && state_->holds(joint) && state_->label(joint) >= 0;
+  const bool counts = state_->building[joint].capacity.breakable && state_->parts.standing(joint);
   return counts ? state_->joints.utilisation(joint) : Utilisation{};
 }
 
@@ -209,12 +151,9 @@ Vec6 StandingFrame::reaction(NodeId node) const {
   return sum;
 }
 
-int StandingFrame::segment(MemberId member) const {
-  const int label = state_->segments.label(member);
-  return label < 0 ? -1 : state_->numbered_segments()[static_cast<std::size_t>(label)];
-}
+int StandingFrame::segment(MemberId member) const { return state_->parts.segment(member); }
 
-int StandingFrame::standing_segments() const { return state_->numbered_segments().back(); }
+int StandingFrame::standing_segments() const { return state_->parts.segment_count(); }
 
 double StandingFrame::roof_sag() const {
   const std::vector<Node>& nodes = state_->building.nodes;
@@ -264,9 +203,9 @@ void StandingFrame::set_strength_factor(JointId joint, double factor) {
   if (!state.building[joint].capacity.breakable || state.joints.strength(joint) == factor) return;
   if (!(factor > 0)) return break_joint(joint, BreakCause::tool);
   state.joints.set_strength(joint, factor);
-  state.statics.forget_uses(state.component(joint));
-  state.to_check[static_cast<std::size_t>(state.component(joint))] = 1;
-  state.forget_bounds(state.component(joint));
+  state.statics.forget_uses(state.components.of(joint));
+  state.to_check[static_cast<std::size_t>(state.components.of(joint))] = 1;
+  state.response.forget_bounds(state.components.of(joint));
   state.pending = true;
 }
 
@@ -279,9 +218,13 @@ void StandingFrame::set_stiffness_factor(MemberId member, double factor) {
   state.softened = state.pending = true;
 }
 
-void StandingFrame::set_contact_load(const ContactLoad& load) { state_->set_contact(load); }
+void StandingFrame::set_contact_load(const ContactLoad& load) {
+  if (state_->stands(load.place) && state_->contacts.set(load)) state_->pending = true;
+}
 
-void StandingFrame::remove_contact_load(std::int64_t key) { state_->remove_contact(key); }
+void StandingFrame::remove_contact_load(std::int64_t key) {
+  if (state_->contacts.remove(key)) state_->pending = true;
+}
 
 void StandingFrame::restrict_answers_from(int nodes) { state_->restricted_from = nodes; }
 
@@ -320,7 +263,7 @@ void StandingFrame::State::settle(int generations) {
   }
 }
 
-std::vector<JointBreak> StandingFrame::take_yielded() { return std::exchange(state_->yielded, {}); }
+std::vector<JointBreak> StandingFrame::take_yielded() { return state_->yielding.take_yielded(); }
 std::vector<Detached> StandingFrame::take_detached() { return std::exchange(state_->detached, {}); }
 
 StandingFrame::UnitResponse StandingFrame::respond(const ContactPlace& place, const Vec3& direction) const {
@@ -329,7 +272,7 @@ StandingFrame::UnitResponse StandingFrame::respond(const ContactPlace& place, co
 
 StandingFrame::CoupledResponse StandingFrame::respond(std::span<const ContactPlace> places,
                                                       std::span<const Vec3> directions) const {
-  return state_->respond(places, directions);
+  return state_->response.respond(places, directions);
 }
 
 StandingFrame::UnitResponse StandingFrame::respond_near(const ContactPlace& place, const Vec3& direction) const {
@@ -338,12 +281,12 @@ StandingFrame::UnitResponse StandingFrame::respond_near(const ContactPlace& plac
 
 StandingFrame::CoupledResponse StandingFrame::respond_near(std::span<const ContactPlace> places,
                                                            std::span<const Vec3> directions) const {
-  return state_->respond_near(places, directions);
+  return state_->response.respond_near(places, directions);
 }
 
 double StandingFrame::critical_energy(const ContactPlace& place) const {
   state_->know_demands();
-  return state_->critical_energy(state_->component(place));
+  return state_->response.critical_energy(state_->components.of(place));
 }
 
 double StandingFrame::break_in_impact(std::span<const JointBreak> breaks, const ContactPlace& place,
@@ -358,7 +301,7 @@ Eigen::VectorXd StandingFrame::break_in_impact(std::span<const JointBreak> break
   Eigen::VectorXd shift(static_cast<Eigen::Index>(places.size()));
   for (std::size_t i = 0; i < places.size(); ++i)
     shift(static_cast<Eigen::Index>(i)) =
-        state.stands(places[i]) ? state.displacement_along(places[i], directions[i]) : 0.0;
+        state.stands(places[i]) ? state.response.displacement_along(places[i], directions[i]) : 0.0;
   std::vector<JointId> broken;
   for (const JointBreak& one : breaks) broken.push_back(one.joint);
   state.break_joints(broken, BreakCause::impact);
@@ -369,13 +312,13 @@ Eigen::VectorXd StandingFrame::break_in_impact(std::span<const JointBreak> break
   state.pending = true;
   for (std::size_t i = 0; i < places.size(); ++i) {
     double& by = shift(static_cast<Eigen::Index>(i));
-    by = state.stands(places[i]) ? state.displacement_along(places[i], directions[i]) - by : 0.0;
+    by = state.stands(places[i]) ? state.response.displacement_along(places[i], directions[i]) - by : 0.0;
   }
   return shift;
 }
 
 void StandingFrame::expect_fracture(PanelId panel) {
-  if (state_->bearings.membrane(panel)) state_->shells.know(panel);
+  if (state_->parts.bearings.membrane(panel)) state_->shells.know(panel);
 }
 
 void StandingFrame::fracture(PanelId panel, const PanelRemains& remains) {
@@ -397,8 +340,8 @@ const FrameCounters& StandingFrame::counters() const {
   counters.background_factors = solved.background_factors;
   counters.late_factors = solved.late_factors;
   counters.unchanged = solved.unchanged + state_->idle_settles;
-  counters.segmentations = state_->segments.searches();
-  counters.vertices_searched = state_->segments.vertices_searched();
+  counters.segmentations = state_->parts.segments.searches();
+  counters.vertices_searched = state_->parts.segments.vertices_searched();
   return counters;
 }
 

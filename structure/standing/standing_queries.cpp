@@ -33,22 +33,22 @@ Vec6 StandingFrame::reaction(std::size_t support) const {
 
 std::vector<ContactLoad> StandingFrame::contact_loads() const {
   std::vector<ContactLoad> loads;
-  for (const auto& [key, load] : state_->contacts)
+  for (const auto& [key, load] : state_->contacts.all())
     if (state_->stands(load.place)) loads.push_back(load);
   return loads;
 }
 
 void StandingFrame::capacity_changed(JointId joint) {
   State& state = *state_;
-  const int c = state.component(joint);
-  std::vector<JointId>& checked = state.checked_joints[static_cast<std::size_t>(c)];
+  const int c = state.components.of(joint);
+  std::vector<JointId>& checked = state.components.joints[static_cast<std::size_t>(c)];
   const auto place = std::lower_bound(checked.begin(), checked.end(), joint);
   const bool was_checked = place != checked.end() && *place == joint;
   const bool breakable = state.building[joint].capacity.breakable;
   if (was_checked && !breakable) checked.erase(place);
   if (breakable && !was_checked) {
     checked.insert(place, joint);
-    if (state.holds(joint) && state.label(joint) >= 0) {
+    if (state.parts.standing(joint)) {
       state.joints.set_demand(joint, state.solved_demand(joint));
       state.joints.accept(joint);
     }

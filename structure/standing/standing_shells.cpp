@@ -5,65 +5,25 @@
 #include "failure/panel_demand.h"
 #include "loads/placed_load.h"
 #include "model/index_of.h"
+#include "standing/shell_reading.h"
 #include "standing/standing_state.h"
 
 namespace topple::structure {
-
-PlacedLoad StandingFrame::State::place(const ContactPlace& place, const Vec3& force, const Vec3& moment) const {
-  if (place.panel.valid() && !bearings.serves(place.panel)) return place_on_shell(place, force);
-  return place_load(building, bearings, place, force, moment);
-}
-
-/// What the panel's nodes get of a force on it; its own give is that with its nodes held.
-PlacedLoad StandingFrame::State::place_on_shell(const ContactPlace& place, const Vec3& force) const {
-  const PanelSuperelement& shell = *shells.of(place.panel);
-  PanelLoading loading;
-  loading.forces.push_back({place.point, force});
-  PlacedLoad placed;
-  placed.panel = place.panel;
-  placed.on_shell = {place.point, force};
-  const std::vector<Vec6> at_nodes = shell.loads_at_nodes(loading);
-  const std::vector<NodeId> nodes = building[place.panel].all_nodes();
-  for (std::size_t n = 0; n < nodes.size(); ++n)
-    if (!at_nodes[n].isZero(0)) placed.nodes.emplace_back(nodes[n], at_nodes[n]);
-  placed.bending_compliance = shell.compliance(loading.forces.front());
-  return placed;
-}
 
 /// All that acts on a panel now.
 PanelLoading StandingFrame::State::loading(PanelId panel) const {
   PanelLoading loading;
   loading.traction = loads.traction(panel);
-  for (const auto& [key, contact] : contacts)
+  for (const auto& [key, contact] : contacts.all())
     if (contact.place.panel == panel) loading.forces.push_back({contact.place.point, contact.force});
   return loading;
-}
-
-std::vector<Vec6> StandingFrame::State::node_displacements(PanelId panel) const {
-  std::vector<Vec6> all;
-  for (const NodeId node : building[panel].all_nodes()) all.push_back(statics.displacement(node));
-  return all;
-}
-
-std::vector<Vec6> StandingFrame::State::node_displacements(PanelId panel,
-                                                           const FrameStatics::Response& response) const {
-  std::vector<Vec6> all;
-  for (const NodeId node : building[panel].all_nodes()) all.push_back(response.displacement(node));
-  return all;
-}
-
-std::array<Vec6, 4> StandingFrame::State::shell_edge_demands(PanelId panel, const std::vector<Vec6>& at_nodes,
-                                                             const PanelLoading& loading) const {
-  std::array<double, 4> length;
-  for (int edge = 0; edge < 4; ++edge) length[static_cast<std::size_t>(edge)] = bearings.intact_length(panel, edge);
-  return shells.of(panel)->edge_demands(at_nodes, loading, length);
 }
 
 std::optional<PanelStress> StandingFrame::State::stress(PanelId panel) const {
   if (!stands(panel) || !statics.stiff(panel)) return std::nullopt;
   if (const PanelSuperelement* shell = shells.of(panel)) {
-    const PanelLoading all = bearings.serves(panel) ? PanelLoading{} : loading(panel);
-    return shell->worst_stress(node_displacements(panel), all);
+    const PanelLoading all = parts.bearings.serves(panel) ? PanelLoading{} : loading(panel);
+    return shell->worst_stress(node_displacements(building[panel], statics), all);
   }
   return mean_membrane_stress(building, panel, statics.corner_forces(panel));
 }
@@ -75,16 +35,16 @@ void StandingFrame::State::replace_stiffness(PanelId panel, const Eigen::MatrixX
 }
 
 void StandingFrame::State::fracture_shell(PanelId panel, const PanelRemains& remains) {
-  bearings.fracture(panel, remains.edge_length);
+  parts.bearings.fracture(panel, remains.edge_length);
   const HandOver before = loads.handed(panel);
   const Eigen::MatrixXd stiffness = shells.of(panel)->stiffness();
   shells.of(panel)->fracture(remains);
   replace_stiffness(panel, stiffness);
   loads.fracture(panel, remains);
   account.lightened(panel, before, loads.handed(panel));
-  place_contacts_again(panel);
+  contacts.place_again(panel);
   let_go_of_bare_nodes(panel);
-  to_check[static_cast<std::size_t>(statics.component(building[panel].nodes[0]))] = 1;
+  to_check[static_cast<std::size_t>(components.of(panel))] = 1;
   break_bare_edges(panel, remains);
 }
 
@@ -93,7 +53,7 @@ void StandingFrame::State::lose_edge_supports(PanelId panel, int edge) {
   const auto e = static_cast<std::size_t>(edge);
   for (std::size_t s = 0; s < building.edge_supports.size(); ++s) {
     if (building.edge_supports[s].panel != panel || building.edge_supports[s].edge != edge) continue;
-    segments.remove_support(panel);
+    parts.segments.remove_support(panel);
     std::vector<NodeId> held = building[panel].edge_nodes[e];
     for (const std::size_t corner : {e, (e + 1) % 4}) held.push_back(building[panel].nodes[corner]);
     for (const NodeId node : held) {
@@ -105,17 +65,17 @@ void StandingFrame::State::lose_edge_supports(PanelId panel, int edge) {
 
 /// An edge lets go of its supports, and of the members and panels along it.
 void StandingFrame::State::lose_shell_edge(PanelId panel, int edge) {
-  segments.break_joint(building.joint(panel, edge));
+  parts.segments.break_joint(building.joint(panel, edge));
   lose_edge_supports(panel, edge);
-  if (segments.label(panel) >= 0 && statics.stiff(panel)) {
+  if (parts.segments.label(panel) >= 0 && statics.stiff(panel)) {
     const Eigen::MatrixXd before = shells.of(panel)->stiffness();
     shells.of(panel)->release_edge(edge);
     replace_stiffness(panel, before);
     hand_on_anew(panel);
-    place_contacts_again(panel);
+    contacts.place_again(panel);
     let_go_of_bare_nodes(panel);
   }
-  to_check[static_cast<std::size_t>(statics.component(building[panel].nodes[0]))] = 1;
+  to_check[static_cast<std::size_t>(components.of(panel))] = 1;
 }
 
 /// The panel stands no more: its stiffness and its load go with it.
@@ -129,7 +89,7 @@ void StandingFrame::State::leave_shell(PanelId panel) {
   loads.remove(panel);
   for (int edge = 0; edge < 4; ++edge) joints.lose(building.joint(panel, edge));
   let_go_of_bare_nodes(panel);
-  to_check[static_cast<std::size_t>(statics.component(building[panel].nodes[0]))] = 1;
+  to_check[static_cast<std::size_t>(components.of(panel))] = 1;
 }
 
 /// Where nothing of the panel is left it holds nothing together; nodes without anything else leave the solver, which
@@ -138,9 +98,9 @@ void StandingFrame::State::let_go_of_bare_nodes(PanelId panel) {
   const std::vector<NodeId> nodes = building[panel].all_nodes();
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     if (statics.stiff(panel) && shells.of(panel)->stands_at(n)) continue;
-    segments.detach(panel, nodes[n]);
-    if (!node_solved[index_of(nodes[n])] || segments.degree(nodes[n]) > 0) continue;
-    take(bearings.bare(nodes[n]), nullptr);
+    parts.segments.detach(panel, nodes[n]);
+    if (!node_solved[index_of(nodes[n])] || parts.segments.degree(nodes[n]) > 0) continue;
+    take(parts.bearings.bare(nodes[n]), nullptr);
     account.drop(nodes[n]);
     drop_node(nodes[n]);
   }
@@ -152,7 +112,7 @@ void StandingFrame::State::release_moving_shells(const std::vector<NodeId>& movi
   for (const NodeId node : moving) moves[index_of(node)] = 1;
   for (std::size_t p = 0; p < building.panels.size(); ++p) {
     const PanelId panel(p);
-    if (bearings.serves(panel) || segments.label(panel) < 0) continue;
+    if (parts.bearings.serves(panel) || parts.segments.label(panel) < 0) continue;
     const std::vector<NodeId> nodes = building.panels[p].all_nodes();
     bool any = false, all = true;
     for (std::size_t n = 0; n < nodes.size(); ++n) {

@@ -28,21 +28,20 @@ void StandingFrame::State::laid(int c, bool mechanism) {
   // however far it lies, is never reached.
   if (!to_check[static_cast<std::size_t>(c)] && bears(c)) {
     account.finish(c, true, breaks);
-    if (ductile.any(c)) ductile.base_is_answer(c);
+    yielding.rest(c);
   }
   to_check[static_cast<std::size_t>(c)] = 1;
 }
 
 /// True when no joint of the component is over its capacity in the state solved last.
 bool StandingFrame::State::bears(int c) const {
-  const std::vector<JointId>& all = checked_joints[static_cast<std::size_t>(c)];
-  return std::none_of(all.begin(), all.end(), [&](JointId joint) {
-    return holds(joint) && label(joint) >= 0 && joints.utilisation(joint).value > 1;
-  });
+  const std::vector<JointId>& all = components.joints[static_cast<std::size_t>(c)];
+  return std::none_of(all.begin(), all.end(),
+                      [&](JointId joint) { return parts.standing(joint) && joints.utilisation(joint).value > 1; });
 }
 
 void StandingFrame::State::bring_up_to_date() {
-  segment_numbers.clear();
+  parts.forget_numbers();
   do {
     release();
     write_loads();
@@ -84,20 +83,10 @@ bool StandingFrame::State::solve_changed() {
 void StandingFrame::State::solved(int c, const std::optional<FrameMechanism>& mechanism) {
   if (!mechanism)
     to_check[static_cast<std::size_t>(c)] = 1;
-  else if (!swing(c, *mechanism))
+  else if (const auto turned_out = yielding.swing(c, *mechanism))
+    break_joints(*turned_out, BreakCause::overload);
+  else
     release_mechanism(*mechanism);
-}
-
-/// True when all that stands of the component is one segment, so that its largest use decides what breaks next.
-bool StandingFrame::State::one_segment(int c) const {
-  int only = -1;
-  for (const MemberId member : statics.members(c)) {
-    const int label = segments.label(member);
-    if (label < 0 || label == only) continue;
-    if (only >= 0) return false;
-    only = label;
-  }
-  return true;
 }
 
 /// Solves where it may matter to what breaks next, and reads what the joints there bear.
@@ -107,7 +96,7 @@ std::optional<FrameMechanism> StandingFrame::State::solve(int c) {
     if (!mechanism) read_demands(c, false);
     return mechanism;
   }
-  forget_bounds(c);
+  response.forget_bounds(c);
   Watch watch(*this);
   auto mechanism = statics.solve(c, watch);
   if (!mechanism) {
@@ -124,7 +113,7 @@ std::optional<FrameMechanism> StandingFrame::State::solve_slow(int c) {
     if (!mechanism) read_demands(c, true);
     return mechanism;
   }
-  forget_bounds(c);
+  response.forget_bounds(c);
   Watch watch(*this, true);
   auto mechanism = statics.solve(c, watch);
   if (mechanism) return mechanism;
@@ -141,8 +130,8 @@ void StandingFrame::State::references_moved(int c) {
 /// A way on which joints yield needs all of an answer, as do shells, whose edges bear what all of their nodes do; where
 /// few nodes stand, telling apart what may matter costs more than a whole answer.
 bool StandingFrame::State::may_restrict(int c) const {
-  return static_cast<int>(statics.nodes(c).size()) >= restricted_from && !rules.second_order && !ductile.any(c) &&
-         statics.shells(c).empty() && one_segment(c);
+  return static_cast<int>(statics.nodes(c).size()) >= restricted_from && !rules.second_order && !yielding.any(c) &&
+         statics.shells(c).empty() && parts.one_segment(statics.members(c));
 }
 
 /// For whoever asks from outside: demands that the answers of a collapse under way have left out. These go on from
@@ -151,8 +140,8 @@ void StandingFrame::State::know_demands() {
   for (int c = 0; c < statics.components(); ++c) {
     if (!std::exchange(demands_behind[static_cast<std::size_t>(c)], 0)) continue;
     read_demands(c, false);
-    for (const JointId joint : checked_joints[static_cast<std::size_t>(c)])
-      if (holds(joint) && label(joint) >= 0) (void)joints.check(joint);
+    for (const JointId joint : components.joints[static_cast<std::size_t>(c)])
+      if (parts.standing(joint)) (void)joints.check(joint);
   }
 }
 
@@ -163,24 +152,24 @@ void StandingFrame::State::complete(int c) {
   Watch watch(*this);
   statics.complete(c, watch);
   read_panel_demands(c, false);
-  for (const JointId joint : checked_joints[static_cast<std::size_t>(c)])
-    if (holds(joint) && label(joint) >= 0) (void)joints.check(joint);
+  for (const JointId joint : components.joints[static_cast<std::size_t>(c)])
+    if (parts.standing(joint)) (void)joints.check(joint);
 }
 
 void StandingFrame::State::read_demands(int c, bool slow) {
-  forget_bounds(c);
+  response.forget_bounds(c);
   MemberId member_read;
   solver::Vec12 end_forces;
-  for (JointId joint : checked_joints[static_cast<std::size_t>(c)]) {
+  for (JointId joint : components.joints[static_cast<std::size_t>(c)]) {
     const Joint& own = building[joint];
-    if (!own.member.valid() || !holds(joint) || label(joint) < 0) continue;
+    if (!own.member.valid() || !parts.standing(joint)) continue;
     if (own.member != member_read) end_forces = statics.end_forces(own.member);
     member_read = own.member;
     const Vec6 demand = member_joint_demand(end_forces, own.end);
     slow ? joints.set_slow_demand(joint, demand) : joints.set_demand(joint, demand);
   }
   for (const PanelId panel : statics.membranes(c))
-    if (bearings.membrane(panel)) edge_loads.set_corner_forces(panel, statics.corner_forces(panel));
+    if (parts.bearings.membrane(panel)) edge_loads.set_corner_forces(panel, statics.corner_forces(panel));
   read_panel_demands(c, slow);
 }
 
@@ -189,18 +178,18 @@ void StandingFrame::State::read_panel_demands(int c, bool slow) {
   PanelId panel_read;
   std::array<Vec6, 4> shell;
   const std::array<Vec6, 4>* of_edges = nullptr;
-  for (JointId joint : checked_edges[static_cast<std::size_t>(c)]) {
+  for (JointId joint : components.edges[static_cast<std::size_t>(c)]) {
     const Joint& own = building[joint];
     if (own.panel != panel_read) {
       of_edges = nullptr;
-      if (!bearings.serves(own.panel)) {
+      if (!parts.bearings.serves(own.panel)) {
         of_edges = &(shell = edge_demands(own.panel));
       } else if (edge_loads.changed(own.panel)) {
         of_edges = &edge_loads.read(own.panel);
       }
     }
     panel_read = own.panel;
-    if (of_edges == nullptr || !holds(joint) || label(joint) < 0) continue;
+    if (of_edges == nullptr || !parts.standing(joint)) continue;
     const Vec6& demand = (*of_edges)[static_cast<std::size_t>(own.end)];
     slow ? joints.set_slow_demand(joint, demand) : joints.set_demand(joint, demand);
   }
@@ -218,33 +207,33 @@ std::vector<JointId> StandingFrame::State::next_generation() {
   };
   for (int c = 0; c < statics.components(); ++c) {
     if (!to_check[static_cast<std::size_t>(c)]) continue;
-    const Way way = follow_yielding(c, next);
-    if (way == Way::resting) rests(c);
-    if (way != Way::unyielding) continue;
-    largest.assign(static_cast<std::size_t>(segments.labels()), 0.0);
+    const YieldingWay::End end = yielding.follow(c, next);
+    if (end == YieldingWay::End::resting) rests(c);
+    if (end != YieldingWay::End::unyielding) continue;
+    largest.assign(static_cast<std::size_t>(parts.segments.labels()), 0.0);
     over.clear();
-    const std::vector<JointId>& all = checked_joints[static_cast<std::size_t>(c)];
+    const std::vector<JointId>& all = components.joints[static_cast<std::size_t>(c)];
     for (JointId joint : all) {
       const double used = joints.felt(joint).value;
       if (!(used > 1 || used > joints.largest(joint))) continue;
-      const int segment = label(joint);
-      if (segment < 0 || !holds(joint)) continue;
+      const int segment = parts.label(joint);
+      if (segment < 0 || !parts.holds(joint)) continue;
       joints.remember(joint, used);
       if (!(used > 1)) continue;
       over.emplace_back(joint, used);
       largest[static_cast<std::size_t>(segment)] = std::max(largest[static_cast<std::size_t>(segment)], used);
     }
     if (over.empty()) complete(c);
-    if (over.empty() || !one_segment(c)) {
+    if (over.empty() || !parts.one_segment(statics.members(c))) {
       bool moved = false;
       for (JointId joint : all) {
-        const int segment = label(joint);
+        const int segment = parts.label(joint);
         if (segment >= 0 && largest[static_cast<std::size_t>(segment)] == 0) moved = joints.accept(joint) || moved;
       }
       if (moved) references_moved(c);
     }
     for (const auto& [joint, used] : over)
-      if (used >= (1 - same_time) * largest[static_cast<std::size_t>(label(joint))]) next.push_back(joint);
+      if (used >= (1 - same_time) * largest[static_cast<std::size_t>(parts.label(joint))]) next.push_back(joint);
     if (over.empty()) rests(c);
   }
   std::sort(next.begin(), next.end());
@@ -281,12 +270,12 @@ void StandingFrame::State::snap_buckled() {
 void StandingFrame::State::come_to_rest(int c) {
   complete(c);
   bool moved = false;
-  for (JointId joint : checked_joints[static_cast<std::size_t>(c)])
-    if (label(joint) >= 0) moved = joints.accept(joint) || moved;
+  for (JointId joint : components.joints[static_cast<std::size_t>(c)])
+    if (parts.label(joint) >= 0) moved = joints.accept(joint) || moved;
   if (moved) references_moved(c);
   to_check[static_cast<std::size_t>(c)] = 0;
   account.finish(c, false, breaks);
-  if (ductile.any(c)) ductile.base_is_answer(c);
+  yielding.rest(c);
 }
 
 }  // namespace topple::structure

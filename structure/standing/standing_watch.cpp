@@ -8,7 +8,7 @@
 namespace topple::structure {
 
 double StandingFrame::State::Watch::read(JointId joint, const Vec6& demand) {
-  if (!frame_.building[joint].capacity.breakable || !frame_.holds(joint) || frame_.label(joint) < 0) return 0;
+  if (!frame_.building[joint].capacity.breakable || !frame_.parts.standing(joint)) return 0;
   slow_ ? frame_.joints.set_slow_demand(joint, demand) : frame_.joints.set_demand(joint, demand);
   return frame_.joints.felt(joint).value;
 }

@@ -8,9 +8,9 @@
 #include <algorithm>
 
 #include "failure/panel_demand.h"
-#include "loads/placed_load.h"
 #include "model/index_of.h"
-#include "standing/standing_state.h"
+#include "standing/frame_response.h"
+#include "standing/shell_reading.h"
 
 namespace topple::structure {
 
@@ -48,29 +48,30 @@ double least_energy(const JointCapacity& capacity, double strength, const Vec6& 
 
 }  // namespace
 
-void StandingFrame::State::forget_bounds(int c) {
-  critical_energies[static_cast<std::size_t>(c)] = -1;
-  certain[static_cast<std::size_t>(c)].clear();
+void FrameResponse::forget_bounds(int c) {
+  critical_energies_[static_cast<std::size_t>(c)] = -1;
+  certain_masses_[static_cast<std::size_t>(c)].clear();
 }
 
-double StandingFrame::State::critical_energy(JointId joint) const {
-  const Joint& own = building[joint];
-  const Vec6& demand = joints.demand(joint);
-  const double strength = joints.strength(joint);
+double FrameResponse::critical_energy(JointId joint) const {
+  const Joint& own = building_[joint];
+  const Vec6& demand = from_.joints.demand(joint);
+  const double strength = from_.joints.strength(joint);
   if (structure::utilisation(own.capacity, demand, strength).value >= 1) return unlimited;  // its break is no push's
-  return least_energy(own.capacity, strength, demand, statics.stiffness_diagonal(own.member).segment<6>(6 * own.end));
+  return least_energy(own.capacity, strength, demand,
+                      from_.statics.stiffness_diagonal(own.member).segment<6>(6 * own.end));
 }
 
-double StandingFrame::State::critical_energy(int c) const {
-  double& least = critical_energies[static_cast<std::size_t>(c)];
+double FrameResponse::critical_energy(int c) const {
+  double& least = critical_energies_[static_cast<std::size_t>(c)];
   if (least >= 0) return least;
   least = unlimited;
-  for (JointId joint : checked_joints[static_cast<std::size_t>(c)]) {
-    if (!holds(joint) || label(joint) < 0) continue;
-    const Joint& own = building[joint];
+  for (JointId joint : from_.components.joints[static_cast<std::size_t>(c)]) {
+    if (!from_.parts.standing(joint)) continue;
+    const Joint& own = building_[joint];
     if (own.member.valid())
       least = std::min(least, critical_energy(joint));
-    else if (!bearings.serves(own.panel))
+    else if (!from_.parts.bearings.serves(own.panel))
       least = 0;  // a supported edge of a shell: no bound is known
   }
   return least;
@@ -78,25 +79,26 @@ double StandingFrame::State::critical_energy(int c) const {
 
 /// Of a member whose ends move by a and b, the straight line between has |a|^2 + a.b + |b|^2 over three of its mass
 /// times one, never less than a sixth of |a|^2 + |b|^2; a panel moves with its corners, as in rayleigh_mass().
-const std::vector<double>& StandingFrame::State::certain_masses(int c) const {
-  std::vector<double>& mass = certain[static_cast<std::size_t>(c)];
+const std::vector<double>& FrameResponse::certain_masses(int c) const {
+  std::vector<double>& mass = certain_masses_[static_cast<std::size_t>(c)];
   if (!mass.empty()) return mass;
-  mass.assign(building.nodes.size(), 0.0);
-  for (MemberId member : statics.members(c)) {
-    if (!stands(member) || !segments.holds(building.joint(member, 0)) || !segments.holds(building.joint(member, 1)))
+  mass.assign(building_.nodes.size(), 0.0);
+  for (MemberId member : from_.statics.members(c)) {
+    if (!from_.parts.stands(member) || !from_.parts.segments.holds(building_.joint(member, 0)) ||
+        !from_.parts.segments.holds(building_.joint(member, 1)))
       continue;
-    for (NodeId node : building[member].nodes) mass[index_of(node)] += std::max(0.0, loads.mass(member)) / 6;
+    for (NodeId node : building_[member].nodes) mass[index_of(node)] += std::max(0.0, from_.loads.mass(member)) / 6;
   }
-  for (PanelId panel : component_panels[static_cast<std::size_t>(c)])
-    if (stands(panel) && bearings.serves(panel))
-      for (NodeId node : building[panel].nodes) mass[index_of(node)] += loads.mass(panel) / 4;
-  for (NodeId node : statics.nodes(c))
-    if (stands(node)) mass[index_of(node)] += loads.mass(node);
+  for (PanelId panel : from_.components.panels[static_cast<std::size_t>(c)])
+    if (from_.parts.stands(panel) && from_.parts.bearings.serves(panel))
+      for (NodeId node : building_[panel].nodes) mass[index_of(node)] += from_.loads.mass(panel) / 4;
+  for (NodeId node : from_.statics.nodes(c))
+    if (from_.parts.stands(node)) mass[index_of(node)] += from_.loads.mass(node);
   return mass;
 }
 
 /// Members that bear any of the forces directly, each once.
-std::vector<MemberId> StandingFrame::State::bearing_members(std::span<const Shape> shapes) {
+std::vector<MemberId> FrameResponse::bearing_members(std::span<const Shape> shapes) {
   std::vector<MemberId> members;
   for (const Shape& shape : shapes)
     for (const auto& [member, load] : shape.placed.members)
@@ -106,7 +108,7 @@ std::vector<MemberId> StandingFrame::State::bearing_members(std::span<const Shap
 
 /// What inertia() is at least, whatever combination of the forces acts: the products over the masses that certainly
 /// move with the nodes that are known.
-Eigen::MatrixXd StandingFrame::State::least_inertia(int c, std::span<const Shape> shapes) const {
+Eigen::MatrixXd FrameResponse::least_inertia(int c, std::span<const Shape> shapes) const {
   const auto n = static_cast<Eigen::Index>(shapes.size());
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n, n);
   Eigen::Matrix3Xd moved(3, n);
@@ -117,31 +119,31 @@ Eigen::MatrixXd StandingFrame::State::least_inertia(int c, std::span<const Shape
     sum.noalias() += mass * (moved.transpose() * moved);
   };
   const std::vector<double>& mass = certain_masses(c);
-  for (NodeId node : statics.nodes(c)) add(node, mass[index_of(node)]);
+  for (NodeId node : from_.statics.nodes(c)) add(node, mass[index_of(node)]);
   // Members that bear a force bend as well: their share is left out.
   for (MemberId member : bearing_members(shapes))
-    if (segments.holds(building.joint(member, 0)) && segments.holds(building.joint(member, 1)))
-      for (NodeId node : building[member].nodes) add(node, -std::max(0.0, loads.mass(member)) / 6);
+    if (from_.parts.segments.holds(building_.joint(member, 0)) &&
+        from_.parts.segments.holds(building_.joint(member, 1)))
+      for (NodeId node : building_[member].nodes) add(node, -std::max(0.0, from_.loads.mass(member)) / 6);
   return sum;
 }
 
 /// What the force on one of the shapes adds at the members that bear any of them and the panel that it lies on.
-std::vector<std::pair<JointId, Vec6>> StandingFrame::State::near_demands(std::span<const Shape> shapes,
-                                                                         std::size_t pushed) const {
-  std::vector<std::pair<JointId, Vec6>> demands;
+FrameResponse::Demands FrameResponse::near_demands(std::span<const Shape> shapes, std::size_t pushed) const {
+  Demands demands;
   const auto& [placed, response] = shapes[pushed];
   const auto add = [&](JointId joint, const Vec6& demand) {
-    if (building[joint].capacity.breakable && holds(joint) && label(joint) >= 0 && !demand.isZero(0))
+    if (building_[joint].capacity.breakable && from_.parts.standing(joint) && !demand.isZero(0))
       demands.emplace_back(joint, demand);
   };
   for (MemberId member : bearing_members(shapes)) {
     const solver::Vec12 end_forces = response.end_forces(member);
-    for (int end = 0; end < 2; ++end) add(building.joint(member, end), member_joint_demand(end_forces, end));
+    for (int end = 0; end < 2; ++end) add(building_.joint(member, end), member_joint_demand(end_forces, end));
   }
-  if (placed.panel.valid() && bearings.serves(placed.panel))
+  if (placed.panel.valid() && from_.parts.bearings.serves(placed.panel))
     for (int edge = 0; edge < 4; ++edge)
-      add(building.joint(placed.panel, edge), handed_edge_demand(building, bearings, placed.panel, edge,
-                                                                 placed.edge_force[static_cast<std::size_t>(edge)]));
+      add(building_.joint(placed.panel, edge), handed_edge_demand(building_, from_.parts.bearings, placed.panel, edge,
+                                                                  placed.edge_force[static_cast<std::size_t>(edge)]));
   return demands;
 }
 

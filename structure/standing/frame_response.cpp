@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "failure/panel_demand.h"
-#include "loads/placed_load.h"
 #include "model/index_of.h"
-#include "standing/standing_state.h"
+#include "standing/frame_response.h"
+#include "standing/shell_reading.h"
 
 namespace topple::structure {
 
@@ -83,46 +83,55 @@ std::pair<Vec3, Vec3> straight_line(const Building& building, MemberId id, const
 
 }  // namespace
 
-FrameStatics::ResponseLoads StandingFrame::State::response_loads(const PlacedLoad& placed) const {
+FrameResponse::FrameResponse(const Sources& sources)
+    : building_(sources.parts.building()),
+      from_(sources),
+      critical_energies_(static_cast<std::size_t>(sources.statics.components()), -1.0),
+      certain_masses_(critical_energies_.size()) {}
+
+PlacedLoad FrameResponse::place(const ContactPlace& place, const Vec3& force, const Vec3& moment) const {
+  if (place.panel.valid() && !from_.parts.bearings.serves(place.panel)) return place_on_shell(place, force);
+  return place_load(building_, from_.parts.bearings, place, force, moment);
+}
+
+/// What the panel's nodes get of a force on it; its own give is that with its nodes held.
+PlacedLoad FrameResponse::place_on_shell(const ContactPlace& place, const Vec3& force) const {
+  const PanelSuperelement& shell = *from_.shells.of(place.panel);
+  PanelLoading loading;
+  loading.forces.push_back({place.point, force});
+  PlacedLoad placed;
+  placed.panel = place.panel;
+  placed.on_shell = {place.point, force};
+  const std::vector<Vec6> at_nodes = shell.loads_at_nodes(loading);
+  const std::vector<NodeId> nodes = building_[place.panel].all_nodes();
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+    if (!at_nodes[n].isZero(0)) placed.nodes.emplace_back(nodes[n], at_nodes[n]);
+  placed.bending_compliance = shell.compliance(loading.forces.front());
+  return placed;
+}
+
+FrameStatics::ResponseLoads FrameResponse::response_loads(const PlacedLoad& placed) const {
   FrameStatics::ResponseLoads unit;
   unit.members = placed.members;
   for (const auto& [node, load] : placed.nodes)
-    if (node_solved[index_of(node)]) unit.nodes.emplace_back(node, load);
+    if (from_.node_solved[index_of(node)]) unit.nodes.emplace_back(node, load);
   return unit;
 }
 
-int StandingFrame::State::component(const ContactPlace& place) const {
-  if (place.node.valid()) return statics.component(place.node);
-  return place.member.valid() ? statics.component(place.member) : statics.component(building[place.panel].nodes[0]);
-}
-
-StandingFrame::UnitResponse StandingFrame::State::respond(const ContactPlace& place, const Vec3& direction) const {
-  return std::move(couple({&place, 1}, {&direction, 1}, false).places.front());
-}
-
-double StandingFrame::State::compliance(const PlacedLoad& placed, const FrameStatics::Response& response) const {
-  return work(building, placed, placed, response) + placed.bending_compliance;
-}
-
-StandingFrame::CoupledResponse StandingFrame::State::respond(std::span<const ContactPlace> places,
-                                                             std::span<const Vec3> directions) const {
-  return couple(places, directions, false);
-}
-
-StandingFrame::CoupledResponse StandingFrame::State::respond_near(std::span<const ContactPlace> places,
-                                                                  std::span<const Vec3> directions) const {
-  return couple(places, directions, true);
+double FrameResponse::compliance(const Shape& shape) const {
+  return work(building_, shape.placed, shape.placed, shape.response) + shape.placed.bending_compliance;
 }
 
 /// Component by component: what is not joined does not feel each other.
-StandingFrame::CoupledResponse StandingFrame::State::couple(std::span<const ContactPlace> places,
-                                                            std::span<const Vec3> directions, bool near) const {
+FrameResponse::CoupledResponse FrameResponse::couple(std::span<const ContactPlace> places,
+                                                     std::span<const Vec3> directions, bool near) const {
   const auto n = static_cast<Eigen::Index>(places.size());
   CoupledResponse answer;
   answer.compliance = answer.inertia = Eigen::MatrixXd::Zero(n, n);
   answer.places.resize(places.size());
   std::map<int, std::vector<Eigen::Index>> joined;
-  for (std::size_t i = 0; i < places.size(); ++i) joined[component(places[i])].push_back(static_cast<Eigen::Index>(i));
+  for (std::size_t i = 0; i < places.size(); ++i)
+    joined[from_.components.of(places[i])].push_back(static_cast<Eigen::Index>(i));
   for (const auto& [c, own] : joined) {
     std::vector<PlacedLoad> placed;
     std::vector<FrameStatics::ResponseLoads> forces;
@@ -132,52 +141,53 @@ StandingFrame::CoupledResponse StandingFrame::State::couple(std::span<const Cont
       forces.push_back(response_loads(placed.back()));
     }
     const std::vector<FrameStatics::Response> responses =
-        near ? statics.respond_near(c, forces) : statics.respond(c, forces);
+        near ? from_.statics.respond_near(c, forces) : from_.statics.respond(c, forces);
     std::vector<Shape> shapes;
     for (std::size_t i = 0; i < own.size(); ++i) shapes.push_back({placed[i], responses[i]});
     answer.inertia(own, own) = near ? least_inertia(c, shapes) : inertia(c, shapes);
     for (std::size_t i = 0; i < own.size(); ++i) {
       for (std::size_t j = 0; j <= i; ++j)
         answer.compliance(own[i], own[j]) = answer.compliance(own[j], own[i]) =
-            i == j ? compliance(placed[i], responses[i]) : work(building, placed[i], placed[j], responses[j]);
+            i == j ? compliance(shapes[i]) : work(building_, placed[i], placed[j], responses[j]);
       UnitResponse& one = answer.places[static_cast<std::size_t>(own[i])];
       one.compliance = answer.compliance(own[i], own[i]);
       if (one.compliance > 0)
         one.rayleigh_mass = std::max(0.0, answer.inertia(own[i], own[i])) / (one.compliance * one.compliance);
-      one.demands = near ? near_demands(shapes, i) : response_demands(c, placed[i], responses[i]);
+      one.demands = near ? near_demands(shapes, i) : response_demands(c, shapes[i]);
     }
   }
   return answer;
 }
 
-std::vector<std::pair<JointId, Vec6>> StandingFrame::State::response_demands(
-    int c, const PlacedLoad& placed, const FrameStatics::Response& response) const {
-  std::vector<std::pair<JointId, Vec6>> demands;
+FrameResponse::Demands FrameResponse::response_demands(int c, const Shape& shape) const {
+  const auto& [placed, response] = shape;
+  Demands demands;
   Vec6 largest = Vec6::Zero();
   MemberId member_read;
   solver::Vec12 end_forces;
   PanelId panel_read;  // a shell
   std::array<Vec6, 4> of_edges;
-  for (JointId joint : checked_joints[static_cast<std::size_t>(c)]) {
-    const Joint& own = building[joint];
+  for (JointId joint : from_.components.joints[static_cast<std::size_t>(c)]) {
+    const Joint& own = building_[joint];
     // What lies on members hands on its own load alone.
-    if (!own.member.valid() && own.panel != placed.panel && bearings.serves(own.panel)) continue;
-    if (!holds(joint) || label(joint) < 0) continue;
+    if (!own.member.valid() && own.panel != placed.panel && from_.parts.bearings.serves(own.panel)) continue;
+    if (!from_.parts.standing(joint)) continue;
     Vec6 demand = Vec6::Zero();
     if (own.member.valid()) {
       if (own.member != member_read) end_forces = response.end_forces(own.member);
       member_read = own.member;
       demand = member_joint_demand(end_forces, own.end);
-    } else if (!bearings.serves(own.panel)) {
+    } else if (!from_.parts.bearings.serves(own.panel)) {
       if (own.panel != panel_read) {
         PanelLoading unit;
         if (own.panel == placed.panel) unit.forces.push_back(placed.on_shell);
-        of_edges = shell_edge_demands(own.panel, node_displacements(own.panel, response), unit);
+        of_edges = shell_edge_demands(*from_.shells.of(own.panel), from_.parts.bearings, own.panel,
+                                      node_displacements(building_[own.panel], response), unit);
       }
       panel_read = own.panel;
       demand = of_edges[static_cast<std::size_t>(own.end)];
     } else if (own.panel == placed.panel) {
-      demand = handed_edge_demand(building, bearings, own.panel, own.end,
+      demand = handed_edge_demand(building_, from_.parts.bearings, own.panel, own.end,
                                   placed.edge_force[static_cast<std::size_t>(own.end)]);
     }
     if (demand.isZero(0)) continue;
@@ -193,7 +203,7 @@ std::vector<std::pair<JointId, Vec6>> StandingFrame::State::response_demands(
 /// The products of static shapes, each with each, integrated over the mass of the component. Rayleigh's mass, which
 /// moving with a contact place has the kinetic energy of the whole static shape, is the square's over that of the
 /// compliance.
-Eigen::MatrixXd StandingFrame::State::inertia(int c, std::span<const Shape> shapes) const {
+Eigen::MatrixXd FrameResponse::inertia(int c, std::span<const Shape> shapes) const {
   const auto n = static_cast<Eigen::Index>(shapes.size());
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n, n);
   std::vector<MemberId> bearing;
@@ -201,14 +211,14 @@ Eigen::MatrixXd StandingFrame::State::inertia(int c, std::span<const Shape> shap
     for (const auto& [member, load] : shape.placed.members) bearing.push_back(member);
   std::sort(bearing.begin(), bearing.end());
   Eigen::Matrix3Xd first(3, n), second(3, n);
-  for (MemberId member : statics.members(c)) {
-    const double mass = loads.mass(member);
-    if (!stands(member) || mass <= 0) continue;
+  for (MemberId member : from_.statics.members(c)) {
+    const double mass = from_.loads.mass(member);
+    if (!from_.parts.stands(member) || mass <= 0) continue;
     // Far from the contacts a straight line between the ends is near enough; the cost stays small.
-    const std::array<bool, 2> holds{segments.holds(building.joint(member, 0)),
-                                    segments.holds(building.joint(member, 1))};
+    const std::array<bool, 2> holds{from_.parts.segments.holds(building_.joint(member, 0)),
+                                    from_.parts.segments.holds(building_.joint(member, 1))};
     for (Eigen::Index i = 0; i < n; ++i) {
-      const auto ends = straight_line(building, member, holds, shapes[static_cast<std::size_t>(i)].response);
+      const auto ends = straight_line(building_, member, holds, shapes[static_cast<std::size_t>(i)].response);
       first.col(i) = ends.first;
       second.col(i) = ends.second;
     }
@@ -220,7 +230,7 @@ Eigen::MatrixXd StandingFrame::State::inertia(int c, std::span<const Shape> shap
           const AlongMember along_a{a.response, loads_on(a.placed, member)};
           const AlongMember along_b{b.response, loads_on(b.placed, member)};
           if (!along_a.own.empty() || !along_b.own.empty()) {
-            sum(i, j) += mass * mean_product(building, member, along_a, along_b);
+            sum(i, j) += mass * mean_product(building_, member, along_a, along_b);
             continue;
           }
         }
@@ -232,20 +242,20 @@ Eigen::MatrixXd StandingFrame::State::inertia(int c, std::span<const Shape> shap
       }
   }
   add_inertia_of_nodes(c, shapes, sum);
-  for (PanelId panel : component_panels[static_cast<std::size_t>(c)]) {
-    if (!stands(panel)) continue;
+  for (PanelId panel : from_.components.panels[static_cast<std::size_t>(c)]) {
+    if (!from_.parts.stands(panel)) continue;
     for (Eigen::Index i = 0; i < n; ++i)
       for (Eigen::Index j = 0; j <= i; ++j)
-        sum(i, j) += loads.mass(panel) * panel_mean_product(panel, shapes[static_cast<std::size_t>(i)],
-                                                            shapes[static_cast<std::size_t>(j)]);
+        sum(i, j) += from_.loads.mass(panel) * panel_mean_product(panel, shapes[static_cast<std::size_t>(i)],
+                                                                  shapes[static_cast<std::size_t>(j)]);
   }
   return sum.selfadjointView<Eigen::Lower>();
 }
 
-void StandingFrame::State::add_inertia_of_nodes(int c, std::span<const Shape> shapes, Eigen::MatrixXd& sum) const {
-  for (NodeId node : statics.nodes(c)) {
-    const double mass = loads.mass(node);
-    if (mass == 0 || !stands(node)) continue;
+void FrameResponse::add_inertia_of_nodes(int c, std::span<const Shape> shapes, Eigen::MatrixXd& sum) const {
+  for (NodeId node : from_.statics.nodes(c)) {
+    const double mass = from_.loads.mass(node);
+    if (mass == 0 || !from_.parts.stands(node)) continue;
     for (std::size_t i = 0; i < shapes.size(); ++i)
       for (std::size_t j = 0; j <= i; ++j)
         sum(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) +=
@@ -254,10 +264,10 @@ void StandingFrame::State::add_inertia_of_nodes(int c, std::span<const Shape> sh
 }
 
 /// A panel moves with its corners; of a shell all nodes are known.
-double StandingFrame::State::panel_mean_product(PanelId panel, const Shape& a, const Shape& b) const {
-  if (bearings.serves(panel)) {
+double FrameResponse::panel_mean_product(PanelId panel, const Shape& a, const Shape& b) const {
+  if (from_.parts.bearings.serves(panel)) {
     double mean = 0;
-    for (const NodeId node : building[panel].nodes)
+    for (const NodeId node : building_[panel].nodes)
       mean += a.response.displacement(node).head<3>().dot(b.response.displacement(node).head<3>()) / 4;
     return mean;
   }
@@ -269,11 +279,11 @@ double StandingFrame::State::panel_mean_product(PanelId panel, const Shape& a, c
     }
     return result;
   };
-  const PanelSuperelement& shell = *shells.of(panel);
-  const std::vector<Vec6> at_a = node_displacements(panel, a.response);
+  const PanelSuperelement& shell = *from_.shells.of(panel);
+  const std::vector<Vec6> at_a = node_displacements(building_[panel], a.response);
   if (&a.response == &b.response) return shell.mean_square_motion(at_a, loading(a.placed, 1));
   // By the squares of the sum and of the difference.
-  const std::vector<Vec6> at_b = node_displacements(panel, b.response);
+  const std::vector<Vec6> at_b = node_displacements(building_[panel], b.response);
   double product = 0;
   for (const double sign : {1.0, -1.0}) {
     std::vector<Vec6> at = at_a;
@@ -286,14 +296,14 @@ double StandingFrame::State::panel_mean_product(PanelId panel, const Shape& a, c
   return product;
 }
 
-double StandingFrame::State::displacement_along(const ContactPlace& place, const Vec3& direction) const {
+double FrameResponse::displacement_along(const ContactPlace& place, const Vec3& direction) const {
   const PlacedLoad placed = this->place(place, direction);
   double sum = 0;
   for (const auto& [member, load] : placed.members) {
-    const Vec3 force = building[member].axes.transpose() * load.first.head<3>();
-    sum += force.dot(statics.point_displacement(member, load.from, loads.on(member)));
+    const Vec3 force = building_[member].axes.transpose() * load.first.head<3>();
+    sum += force.dot(from_.statics.point_displacement(member, load.from, from_.loads.on(member)));
   }
-  for (const auto& [node, load] : placed.nodes) sum += load.dot(statics.displacement(node));
+  for (const auto& [node, load] : placed.nodes) sum += load.dot(from_.statics.displacement(node));
   return sum;
 }
 

@@ -12,7 +12,7 @@
 
 #include "model/index_of.h"
 #include "simulation/impact/first_failure.h"
-#include "standing/standing_state.h"
+#include "standing/yielding_way.h"
 
 namespace topple::structure {
 
@@ -30,7 +30,7 @@ constexpr double least_way = 1e-6;
 }  // namespace
 
 /// What happens first on the way: at `at` the hinges begin to flow or the joints break. Nothing: at is infinite.
-struct StandingFrame::State::NextEvent {
+struct YieldingWay::NextEvent {
   double at = unlimited;
   std::vector<PlasticHinge*> flowing;
   std::vector<JointId> breaking;
@@ -44,17 +44,22 @@ struct StandingFrame::State::NextEvent {
   }
 };
 
-double StandingFrame::State::demand_in_base(const PlasticHinge& hinge) const {
-  return joints.reference(hinge.joint)(hinge.axis);
+YieldingWay::YieldingWay(Sources sources)
+    : building_(sources.parts.building()),
+      from_(std::move(sources)),
+      ductile_(building_, from_.statics, from_.parts.segments, from_.parts.bearings, from_.applied) {}
+
+double YieldingWay::demand_in_base(const PlasticHinge& hinge) const {
+  return from_.joints.reference(hinge.joint)(hinge.axis);
 }
 
-double StandingFrame::State::slip_in_answer(const PlasticHinge& hinge) const {
-  const Joint& own = building[hinge.joint];
-  const MemberShape shape = account.shape_now(own.member);
+double YieldingWay::slip_in_answer(const PlasticHinge& hinge) const {
+  const Joint& own = building_[hinge.joint];
+  const MemberShape shape = from_.account.shape_now(own.member);
   return shape.hub(own.end)(hinge.axis) - shape.end(own.end)(hinge.axis) - hinge.held / own.stiffness(hinge.axis);
 }
 
-void StandingFrame::State::tell_yield(PlasticHinge& hinge, double held) {
+void YieldingWay::tell_yield(PlasticHinge& hinge, double held) {
   if (hinge.told) return;
   hinge.told = true;
   JointBreak line;
@@ -62,64 +67,64 @@ void StandingFrame::State::tell_yield(PlasticHinge& hinge, double held) {
   line.cause = BreakCause::overload;
   line.sense = hinge.sense();
   line.demand = line.capacity = std::abs(held);
-  line.generation = generation;
-  line.position = position(hinge.joint);
-  yielded.push_back(line);
+  line.generation = from_.generation;
+  line.position = from_.parts.position(hinge.joint);
+  yielded_.push_back(line);
 }
 
-void StandingFrame::State::let_flow(PlasticHinge& hinge, double held) {
-  const Joint& own = building[hinge.joint];
+void YieldingWay::let_flow(PlasticHinge& hinge, double held) {
+  const Joint& own = building_[hinge.joint];
   hinge.flows = true;
   hinge.held = held;
-  statics.let_flow(own.member, own.end, hinge.axis, held);
-  joints.remember(hinge.joint, 1);
+  from_.statics.let_flow(own.member, own.end, hinge.axis, held);
+  from_.joints.remember(hinge.joint, 1);
   tell_yield(hinge, held);
 }
 
-void StandingFrame::State::hold_again(PlasticHinge& hinge) {
-  const Joint& own = building[hinge.joint];
+void YieldingWay::hold_again(PlasticHinge& hinge) {
+  const Joint& own = building_[hinge.joint];
   hinge.flows = false;
   hinge.held = 0;
-  statics.hold_again(own.member, own.end, hinge.axis, own.stiffness(hinge.axis), hinge.slip);
+  from_.statics.hold_again(own.member, own.end, hinge.axis, own.stiffness(hinge.axis), hinge.slip);
 }
 
-void StandingFrame::State::hold_all_again(int c) {
-  for (PlasticHinge& hinge : ductile.hinges(c))
+void YieldingWay::hold_all_again(int c) {
+  for (PlasticHinge& hinge : ductile_.hinges(c))
     if (hinge.flows) hold_again(hinge);
 }
 
 /// The base moves on; `energy`: of the whole way.
-void StandingFrame::State::move_base(int c, double part, double energy) {
-  PlasticPath& path = ductile.path(c);
-  for (PlasticHinge& hinge : ductile.hinges(c)) {
+void YieldingWay::move_base(int c, double part, double energy) {
+  PlasticPath& path = ductile_.path(c);
+  for (PlasticHinge& hinge : ductile_.hinges(c)) {
     if (!hinge.flows) continue;
     const double turned = part * path.direction * (slip_in_answer(hinge) - hinge.slip);
-    account.dissipate(building[hinge.joint].member, hinge.held * turned);
+    from_.account.dissipate(building_[hinge.joint].member, hinge.held * turned);
     hinge.slip += turned;
   }
-  for (JointId joint : checked_joints[static_cast<std::size_t>(c)])
-    if (holds(joint) && label(joint) >= 0) {
-      joints.move_reference(joint, part * path.direction);
-      joints.remember(joint, joints.used(joint, joints.reference(joint)).value);
+  for (JointId joint : from_.components.joints[static_cast<std::size_t>(c)])
+    if (from_.parts.standing(joint)) {
+      from_.joints.move_reference(joint, part * path.direction);
+      from_.joints.remember(joint, from_.joints.used(joint, from_.joints.reference(joint)).value);
     }
-  ductile.move_base(c, part * path.direction);
+  ductile_.move_base(c, part * path.direction);
   path.surplus = std::max(0.0, path.surplus + 2 * energy * (path.direction * part - part * part / 2));
   if (path.direction > 0 && part > 1) path.direction = -1;
 }
 
 /// How far the way goes when nothing else happens.
-double StandingFrame::State::end_of_way(int c, double energy) {
-  const PlasticPath& path = ductile.path(c);
-  if (!path.active) return rules.sudden;
-  if (path.returning || rules.sudden == 1) return 1;
+double YieldingWay::end_of_way(int c, double energy) {
+  const PlasticPath& path = ductile_.path(c);
+  if (!path.active) return from_.sudden;
+  if (path.returning || from_.sudden == 1) return 1;
   return energy > 0 ? path.direction + std::sqrt(1 + path.surplus / energy) : 0;
 }
 
 /// Hinges that would turn against what they hold hold again. True when there were any.
-bool StandingFrame::State::turn_back(int c) {
-  const double direction = ductile.path(c).direction;
+bool YieldingWay::turn_back(int c) {
+  const double direction = ductile_.path(c).direction;
   bool found = false;
-  for (PlasticHinge& hinge : ductile.hinges(c)) {
+  for (PlasticHinge& hinge : ductile_.hinges(c)) {
     if (!hinge.flows) continue;
     const double turned = direction * (slip_in_answer(hinge) - hinge.slip);
     if (!(turned * hinge.held < -no_change * hinge.limit * std::abs(hinge.held))) continue;
@@ -129,14 +134,14 @@ bool StandingFrame::State::turn_back(int c) {
   return found;
 }
 
-StandingFrame::State::NextEvent StandingFrame::State::find_next_event(int c) {
-  const double direction = ductile.path(c).direction;
+YieldingWay::NextEvent YieldingWay::find_next_event(int c) {
+  const double direction = ductile_.path(c).direction;
   const auto borne = [&](JointId joint, const Vec6& demand) {
-    return structure::utilisation(joints.brittle_capacity(joint), demand, joints.strength(joint)).value < 1;
+    return structure::utilisation(from_.joints.brittle_capacity(joint), demand, from_.joints.strength(joint)).value < 1;
   };
   NextEvent next;
-  for (PlasticHinge& hinge : ductile.hinges(c)) {
-    if (!holds(hinge.joint) || label(hinge.joint) < 0) continue;
+  for (PlasticHinge& hinge : ductile_.hinges(c)) {
+    if (!from_.parts.standing(hinge.joint)) continue;
     if (hinge.flows) {
       const double turning = direction * (slip_in_answer(hinge) - hinge.slip);
       const double left = hinge.limit - std::copysign(hinge.slip, turning * hinge.slip);
@@ -144,21 +149,22 @@ StandingFrame::State::NextEvent StandingFrame::State::find_next_event(int c) {
         next.take(std::max(0.0, left / std::abs(turning)), nullptr, hinge.joint);
       continue;
     }
-    const double capacity =
-        building[hinge.joint].capacity.value[static_cast<std::size_t>(hinge.sense())] * joints.strength(hinge.joint);
-    const double from = demand_in_base(hinge), change = direction * (joints.demand(hinge.joint)(hinge.axis) - from);
+    const double capacity = building_[hinge.joint].capacity.value[static_cast<std::size_t>(hinge.sense())] *
+                            from_.joints.strength(hinge.joint);
+    const double from = demand_in_base(hinge),
+                 change = direction * (from_.joints.demand(hinge.joint)(hinge.axis) - from);
     if (std::abs(from) > (1 + no_change) * capacity)
       next.take(0, &hinge, {});
     else if (std::abs(change) > no_change * capacity)
       next.take(std::max(0.0, (capacity - std::copysign(from, from * change)) / std::abs(change)), &hinge, {});
   }
-  for (JointId joint : checked_joints[static_cast<std::size_t>(c)]) {
-    if (!holds(joint) || label(joint) < 0) continue;
-    const Vec6& from = joints.reference(joint);
-    const Vec6 change = direction * (joints.demand(joint) - from);
+  for (JointId joint : from_.components.joints[static_cast<std::size_t>(c)]) {
+    if (!from_.parts.standing(joint)) continue;
+    const Vec6& from = from_.joints.reference(joint);
+    const Vec6 change = direction * (from_.joints.demand(joint) - from);
     // Convex along the way: borne at both ends is borne between them.
     if (next.at < unlimited && borne(joint, from) && borne(joint, from + next.at * change)) continue;
-    const double at = failing_force(joints.brittle_capacity(joint), joints.strength(joint), from, change);
+    const double at = failing_force(from_.joints.brittle_capacity(joint), from_.joints.strength(joint), from, change);
     if (at < unlimited) next.take(std::max(0.0, at), nullptr, joint);
   }
   std::sort(next.breaking.begin(), next.breaking.end());
@@ -166,20 +172,20 @@ StandingFrame::State::NextEvent StandingFrame::State::find_next_event(int c) {
   return next;
 }
 
-StandingFrame::State::Way StandingFrame::State::follow_yielding(int c, std::vector<JointId>& breaking) {
-  if (!ductile.any(c) && !ductile.path(c).active) return Way::unyielding;
-  PlasticPath& path = ductile.path(c);
+YieldingWay::End YieldingWay::follow(int c, std::vector<JointId>& breaking) {
+  if (!ductile_.any(c) && !ductile_.path(c).active) return End::unyielding;
+  PlasticPath& path = ductile_.path(c);
   for (;;) {
     if (path.active && turn_back(c)) {
-      (void)bring_up_to_date();
+      from_.bring_up_to_date();
       ++path.events;
       continue;
     }
     NextEvent next = find_next_event(c);
-    const bool measured = rules.sudden != 1 && !path.returning;
-    const double energy = measured && (path.active || !next.flowing.empty()) ? ductile.difference_energy(c) : 0;
+    const bool measured = from_.sudden != 1 && !path.returning;
+    const double energy = measured && (path.active || !next.flowing.empty()) ? ductile_.difference_energy(c) : 0;
     const double end = end_of_way(c, energy);
-    if (!path.active && (next.flowing.empty() || next.at > end)) return Way::unyielding;
+    if (!path.active && (next.flowing.empty() || next.at > end)) return End::unyielding;
     if (next.at > end) {
       move_base(c, end, energy);
       hold_all_again(c);
@@ -187,14 +193,14 @@ StandingFrame::State::Way StandingFrame::State::follow_yielding(int c, std::vect
       path.direction = 1;
       const bool rests = !measured;
       path.returning = true;
-      (void)bring_up_to_date();
+      from_.bring_up_to_date();
       if (!rests) continue;
       path = {};
-      return Way::resting;
+      return End::resting;
     }
     double at = next.at;
     if (std::abs(at - 1) < least_way && path.direction > 0 && measured) at = 1 - least_way;
-    const bool limit = ++path.events > most_events * (2 + static_cast<int>(ductile.hinges(c).size()));
+    const bool limit = ++path.events > most_events * (2 + static_cast<int>(ductile_.hinges(c).size()));
     path.active = true;
     move_base(c, at, energy);
     if (limit)
@@ -202,52 +208,52 @@ StandingFrame::State::Way StandingFrame::State::follow_yielding(int c, std::vect
     if (!next.breaking.empty()) {
       hold_all_again(c);  // which of them turn on is seen once these are broken
       breaking.insert(breaking.end(), next.breaking.begin(), next.breaking.end());
-      return Way::breaking;
+      return End::breaking;
     }
     // Those that share a member or a node one after the other: the first may be enough for both.
     std::vector<MemberId> members;
     std::vector<NodeId> nodes;
     for (PlasticHinge* hinge : next.flowing) {
-      const Joint& own = building[hinge->joint];
-      const NodeId node = building[own.member].nodes[static_cast<std::size_t>(own.end)];
+      const Joint& own = building_[hinge->joint];
+      const NodeId node = building_[own.member].nodes[static_cast<std::size_t>(own.end)];
       if (std::find(members.begin(), members.end(), own.member) != members.end()) continue;
       if (std::find(nodes.begin(), nodes.end(), node) != nodes.end()) continue;
       members.push_back(own.member);
       nodes.push_back(node);
       const double capacity =
-          own.capacity.value[static_cast<std::size_t>(hinge->sense())] * joints.strength(hinge->joint);
-      const double towards = path.direction * (joints.demand(hinge->joint)(hinge->axis) - demand_in_base(*hinge));
+          own.capacity.value[static_cast<std::size_t>(hinge->sense())] * from_.joints.strength(hinge->joint);
+      const double towards = path.direction * (from_.joints.demand(hinge->joint)(hinge->axis) - demand_in_base(*hinge));
       const double now = demand_in_base(*hinge);
       const double held = std::copysign(capacity, std::abs(now) > no_change * capacity ? now : towards);
-      if (segments.holds(building.joint(own.member, 1 - own.end)))
+      if (from_.parts.segments.holds(building_.joint(own.member, 1 - own.end)))
         let_flow(*hinge, held);
       else if (turns_out_alone(*hinge, held))
         breaking.push_back(hinge->joint);
     }
     if (!breaking.empty()) {
       hold_all_again(c);
-      return Way::breaking;
+      return End::breaking;
     }
-    (void)bring_up_to_date();
+    from_.bring_up_to_date();
   }
 }
 
 /// A member that only this joint holds swings about it: the joint's moment in the answer is what its loads turn it
 /// with. True when it turns too far; else it has come to a stop and holds again.
-bool StandingFrame::State::turns_out_alone(PlasticHinge& hinge, double held) {
-  const Joint& own = building[hinge.joint];
-  PlasticPath& path = ductile.path(component(hinge.joint));
-  const double gain = std::copysign(1.0, held) * joints.demand(hinge.joint)(hinge.axis) - std::abs(held);
+bool YieldingWay::turns_out_alone(PlasticHinge& hinge, double held) {
+  const Joint& own = building_[hinge.joint];
+  PlasticPath& path = ductile_.path(from_.components.of(hinge.joint));
+  const double gain = std::copysign(1.0, held) * from_.joints.demand(hinge.joint)(hinge.axis) - std::abs(held);
   const double left = std::max(0.0, hinge.limit - std::copysign(hinge.slip, hinge.slip * held));
   const double amount = gain < 0 ? std::min(left, path.surplus / -gain) : left;
   tell_yield(hinge, held);
-  joints.remember(hinge.joint, 1);
+  from_.joints.remember(hinge.joint, 1);
   hinge.slip += std::copysign(amount, held);
-  account.dissipate(own.member, amount * std::abs(held));
+  from_.account.dissipate(own.member, amount * std::abs(held));
   path.surplus = std::max(0.0, path.surplus + gain * amount);
   if (amount >= left) return true;
   hold_again(hinge);
-  hold_all_again(component(hinge.joint));
+  hold_all_again(from_.components.of(hinge.joint));
   path.returning = true;
   path.surplus = 0;
   path.direction = 1;
@@ -256,19 +262,19 @@ bool StandingFrame::State::turns_out_alone(PlasticHinge& hinge, double held) {
 
 /// A mechanism of hinges: they turn under what they hold, while the loads do more work or less, until one has turned
 /// too far or the surplus is used up. False when the mechanism is none of theirs.
-bool StandingFrame::State::swing(int c, const FrameMechanism& mechanism) {
+std::optional<std::vector<JointId>> YieldingWay::swing(int c, const FrameMechanism& mechanism) {
   std::vector<std::pair<PlasticHinge*, double>> turning;
-  PlasticPath& path = ductile.path(c);
+  PlasticPath& path = ductile_.path(c);
   double resisted = 0, largest = 0, fastest = 0, loaded = 0;
   const auto rigid = [&](MemberId member) {
-    const auto& nodes = building[member].nodes;
-    return MemberShape(statics.beam(member), solver::Vec12::Zero(),
-                       account.hubs(member, mechanism.motion[index_of(nodes[0])], mechanism.motion[index_of(nodes[1])]),
-                       {});
+    const auto& nodes = building_[member].nodes;
+    return MemberShape(
+        from_.statics.beam(member), solver::Vec12::Zero(),
+        from_.account.hubs(member, mechanism.motion[index_of(nodes[0])], mechanism.motion[index_of(nodes[1])]), {});
   };
-  for (PlasticHinge& hinge : ductile.hinges(c)) {
-    if (!hinge.flows || !holds(hinge.joint) || label(hinge.joint) < 0) continue;
-    const Joint& own = building[hinge.joint];
+  for (PlasticHinge& hinge : ductile_.hinges(c)) {
+    if (!hinge.flows || !from_.parts.standing(hinge.joint)) continue;
+    const Joint& own = building_[hinge.joint];
     const MemberShape shape = rigid(own.member);
     const double rate = shape.hub(own.end)(hinge.axis) - shape.end(own.end)(hinge.axis);
     turning.emplace_back(&hinge, rate);
@@ -276,12 +282,12 @@ bool StandingFrame::State::swing(int c, const FrameMechanism& mechanism) {
     fastest = std::max(fastest, std::abs(rate));
     largest = std::max(largest, std::abs(rate * hinge.held));
   }
-  for (NodeId node : statics.nodes(c)) {
+  for (NodeId node : from_.statics.nodes(c)) {
     const Vec6& motion = mechanism.motion[index_of(node)];
-    if (stands(node)) fastest = std::max(fastest, motion.tail<3>().cwiseAbs().maxCoeff());
+    if (from_.parts.stands(node)) fastest = std::max(fastest, motion.tail<3>().cwiseAbs().maxCoeff());
   }
   std::erase_if(turning, [&](const auto& one) { return std::abs(one.second) <= no_turn * fastest; });
-  if (turning.empty()) return false;
+  if (turning.empty()) return std::nullopt;
   const double sign = resisted < 0 ? -1 : 1;
   bool back = false;
   for (auto& [hinge, rate] : turning) {
@@ -291,15 +297,15 @@ bool StandingFrame::State::swing(int c, const FrameMechanism& mechanism) {
       back = true;
     }
   }
-  if (back || ++path.events > most_events * (2 + static_cast<int>(ductile.hinges(c).size()))) {
+  if (back || ++path.events > most_events * (2 + static_cast<int>(ductile_.hinges(c).size()))) {
     if (!back) hold_all_again(c);
-    return true;
+    return std::vector<JointId>();
   }
-  for (NodeId node : statics.nodes(c))
-    if (node_solved[index_of(node)]) loaded += sign * loads.on(node).dot(mechanism.motion[index_of(node)]);
-  for (MemberId member : statics.members(c))
-    if (stands(member) && !applied[index_of(member)].empty())
-      loaded += sign * rigid(member).work(applied[index_of(member)], Vec3::UnitZ()).sum();
+  for (NodeId node : from_.statics.nodes(c))
+    if (from_.node_solved[index_of(node)]) loaded += sign * from_.loads.on(node).dot(mechanism.motion[index_of(node)]);
+  for (MemberId member : from_.statics.members(c))
+    if (from_.parts.stands(member) && !from_.applied[index_of(member)].empty())
+      loaded += sign * rigid(member).work(from_.applied[index_of(member)], Vec3::UnitZ()).sum();
   const double gain = loaded - std::abs(resisted);
   double amount = unlimited;
   for (const auto& [hinge, rate] : turning)
@@ -309,16 +315,16 @@ bool StandingFrame::State::swing(int c, const FrameMechanism& mechanism) {
   if (arrested) amount = path.surplus / -gain;
   for (const auto& [hinge, rate] : turning) {
     hinge->slip += amount * rate;
-    account.dissipate(building[hinge->joint].member, amount * rate * hinge->held);
+    from_.account.dissipate(building_[hinge->joint].member, amount * rate * hinge->held);
   }
-  ductile.move_base(c, mechanism.motion, sign * amount);
+  ductile_.move_base(c, mechanism.motion, sign * amount);
   path.surplus = std::max(0.0, path.surplus + gain * amount);
   if (arrested) {
     hold_all_again(c);
     path.returning = true;
     path.surplus = 0;
     path.direction = 1;
-    return true;
+    return std::vector<JointId>();
   }
   std::vector<JointId> turned_out;
   for (const auto& [hinge, rate] : turning)
@@ -326,8 +332,7 @@ bool StandingFrame::State::swing(int c, const FrameMechanism& mechanism) {
   std::sort(turned_out.begin(), turned_out.end());
   turned_out.erase(std::unique(turned_out.begin(), turned_out.end()), turned_out.end());
   hold_all_again(c);
-  break_joints(turned_out, BreakCause::overload);
-  return true;
+  return turned_out;
 }
 
 }  // namespace topple::structure

@@ -1,0 +1,76 @@
+#pragma once
+// The way of a component whose joints turn before they break, from one state of rest to the next: see yielding_way.cpp.
+#include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "failure/ductile_joints.h"
+#include "failure/joint_states.h"
+#include "standing/component_parts.h"
+#include "standing/energy_account.h"
+#include "standing/standing_parts.h"
+
+namespace topple::structure {
+
+class YieldingWay {
+ public:
+  /// What it looks at and moves on; all of it must outlive it.
+  struct Sources {
+    const StandingParts& parts;
+    const ComponentParts& components;
+    const FrameLoads& loads;
+    const std::vector<std::vector<solver::BeamLoad>>& applied;  ///< per member: what the solver has
+    const std::vector<char>& node_solved;                       ///< per node: the solver holds it
+    FrameStatics& statics;
+    JointStates& joints;
+    EnergyAccount& account;
+    double sudden = 1;      ///< factor of a sudden loss
+    const int& generation;  ///< that runs
+    std::function<void()> bring_up_to_date;
+  };
+  explicit YieldingWay(Sources sources);
+
+  /// The component has joints that can turn.
+  [[nodiscard]] bool any(int component) const { return ductile_.any(component); }
+  /// The joint broke.
+  void lose(JointId joint, int component) { ductile_.lose(joint, component); }
+  /// The answer as solved now is where the next way begins.
+  void rest(int component) {
+    if (any(component)) ductile_.base_is_answer(component);
+  }
+
+  enum class End {
+    unyielding,  ///< no hinge has formed since the last state of rest, and none will
+    breaking,    ///< joints break in the state reached
+    resting      ///< the static answer is reached and borne
+  };
+  /// Follows the way of a component that is solved for, from event to event; `breaking` gets the joints that break.
+  [[nodiscard]] End follow(int component, std::vector<JointId>& breaking);
+  /// A mechanism of hinges: they turn under what they hold, until one has turned too far or what moved them is used up.
+  /// The joints that are to break; nothing when the mechanism is none of theirs.
+  [[nodiscard]] std::optional<std::vector<JointId>> swing(int component, const FrameMechanism& mechanism);
+  /// Senses of joints that came to their capacity for the first time, handed out once.
+  [[nodiscard]] std::vector<JointBreak> take_yielded() { return std::exchange(yielded_, {}); }
+
+ private:
+  struct NextEvent;
+  [[nodiscard]] NextEvent find_next_event(int component);
+  [[nodiscard]] double end_of_way(int component, double energy);
+  [[nodiscard]] double slip_in_answer(const PlasticHinge& hinge) const;
+  [[nodiscard]] double demand_in_base(const PlasticHinge& hinge) const;
+  bool turn_back(int component);
+  void move_base(int component, double part, double energy);
+  void let_flow(PlasticHinge& hinge, double held);
+  void hold_again(PlasticHinge& hinge);
+  void hold_all_again(int component);
+  [[nodiscard]] bool turns_out_alone(PlasticHinge& hinge, double held);
+  void tell_yield(PlasticHinge& hinge, double held);
+
+  const Building& building_;
+  Sources from_;
+  DuctileJoints ductile_;
+  std::vector<JointBreak> yielded_;
+};
+
+}  // namespace topple::structure
