@@ -188,6 +188,10 @@ TEST_CASE("a script's mistakes are named with their place") {
             .find("accepted: fire, wrecking ball") != std::string::npos);
   CHECK(refused(R"({"topple": 1, "actions": [{"at": 0, "restart": {"bracing": "some"}}]})")
             .find("accepted: buckling, classic, none") != std::string::npos);
+  CHECK(
+      refused(R"({"topple": 1, "actions": [{"at": 0, "restart": {"generations_per_second": 240}}]})")
+          .find("restart.generations_per_second: nothing limits what may break in a step any more: a step computes all "
+                "that happens in it, and the pace of the steps is the host's") != std::string::npos);
   CHECK(refused(R"({"topple": 1, "actions": [{"at": 0, "look_at": "past"}]})").find("accepted: present") !=
         std::string::npos);
   CHECK(refused(R"({"topple": 2, "actions": []})").find("format 1") != std::string::npos);
