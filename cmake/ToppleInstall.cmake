@@ -13,4 +13,5 @@ install(FILES "${CMAKE_CURRENT_BINARY_DIR}/topple-config.cmake"
               "${CMAKE_CURRENT_BINARY_DIR}/topple-config-version.cmake"
               cmake/FindCHOLMOD.cmake cmake/FindMETIS.cmake cmake/FindBulletDouble.cmake
         DESTINATION "${config_dir}")
+install(FILES LICENSE THIRD-PARTY.md SECURITY.md DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/topple")
 install(DIRECTORY models schemas DESTINATION "${CMAKE_INSTALL_DATADIR}/topple")

@@ -5,7 +5,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <optional>
 #include <stdexcept>
 
@@ -58,7 +61,10 @@ class Reader {
 
   void visit(int index, const Matrix& above, int depth) {
     constexpr int deepest = 64;
+    // One node may stand below several others: a short file can place 2^64 of them.
+    constexpr std::size_t most_placed = 100'000;
     if (depth > deepest) fail("nodes lie more than 64 deep in each other");
+    if (++placed_ > most_placed) fail("more than 100000 nodes are placed; accepted: fewer");
     const tinygltf::Node& node = at(model_.nodes, index, "node");
     const Matrix here = above * transform_of(node);
     if (node.mesh >= 0) {
@@ -81,16 +87,19 @@ class Reader {
       count = accessor.count;
       if (tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)) != components)
         reader.fail("an accessor of another kind than its use needs");
-      size_ = static_cast<std::size_t>(tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(type_)));
+      size_ = size_of(reader, type_);
       const int stride = accessor.ByteStride(view);
-      if (stride <= 0) reader.fail("an accessor without a layout");
+      const std::size_t element = size_ * static_cast<std::size_t>(components), all = buffer.data.size();
+      if (stride <= 0 || static_cast<std::size_t>(stride) < element) reader.fail("an accessor without a layout");
       stride_ = static_cast<std::size_t>(stride);
-      const std::size_t start = view.byteOffset + accessor.byteOffset;
-      const std::size_t length = count == 0 ? 0 : (count - 1) * stride_ + size_ * static_cast<std::size_t>(components);
-      if (start > buffer.data.size() || length > buffer.data.size() - start)
+      // Nothing is added or multiplied before it is known to be small: the file may hold any number.
+      const bool begins = view.byteOffset <= all && accessor.byteOffset <= all - view.byteOffset;
+      const std::size_t left = begins ? all - view.byteOffset - accessor.byteOffset : 0;
+      if (!begins || (count > 0 && (left < element || count - 1 > (left - element) / stride_)))
         reader.fail("an accessor beyond its buffer");
-      data_ = buffer.data.data() + start;
+      data_ = buffer.data.data() + (all - left);
     }
+    [[nodiscard]] bool real() const { return type_ == TINYGLTF_COMPONENT_TYPE_FLOAT; }
     [[nodiscard]] double real(std::size_t i, std::size_t c) const {
       const unsigned char* from = data_ + i * stride_ + c * size_;
       if (type_ == TINYGLTF_COMPONENT_TYPE_FLOAT) return read<float>(from);
@@ -103,6 +112,19 @@ class Reader {
     std::size_t count = 0;
 
    private:
+    static std::size_t size_of(const Reader& reader, int type) {
+      switch (type) {
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+          return 1;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+          return 2;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+        case TINYGLTF_COMPONENT_TYPE_FLOAT:
+          return 4;
+        default:
+          reader.fail("an accessor of another component type than positions, indices and texture coordinates have");
+      }
+    }
     template <class T>
     static T read(const unsigned char* from) {
       T value;
@@ -114,7 +136,7 @@ class Reader {
     int type_ = 0;
   };
 
-  void add(const tinygltf::Primitive& primitive, const Matrix& place, Mesh& mesh) const {
+  void add(const tinygltf::Primitive& primitive, const Matrix& place, Mesh& mesh) {
     if (primitive.mode != TINYGLTF_MODE_TRIANGLES && primitive.mode != -1)
       fail("a mesh of something else than triangles; accepted: triangles");
     const auto attribute = [&](const char* name) {
@@ -123,6 +145,7 @@ class Reader {
     };
     if (attribute("POSITION") < 0) fail("a mesh without POSITION");
     const Numbers positions(*this, attribute("POSITION"), 3);
+    if (!positions.real()) fail("positions that are no floating-point numbers");
     std::vector<Vec3> places(positions.count);
     for (std::size_t i = 0; i < places.size(); ++i) {
       const Vec3 own(positions.real(i, 0), positions.real(i, 1), positions.real(i, 2));
@@ -132,6 +155,7 @@ class Reader {
     std::vector<std::array<std::size_t, 3>> triangles;
     if (primitive.indices >= 0) {
       const Numbers indices(*this, primitive.indices, 1);
+      if (indices.real()) fail("indices that are no whole numbers");
       for (std::size_t i = 0; i + 2 < indices.count; i += 3)
         triangles.push_back({indices.whole(i, 0), indices.whole(i + 1, 0), indices.whole(i + 2, 0)});
     } else {
@@ -140,6 +164,9 @@ class Reader {
     const bool mirrored = place.topLeftCorner<3, 3>().determinant() < 0;
     std::optional<Numbers> texture;
     if (const int accessor = attribute("TEXCOORD_0"); accessor >= 0) texture.emplace(*this, accessor, 2);
+    constexpr std::size_t most_triangles = 5'000'000;
+    triangles_ += triangles.size();
+    if (triangles_ > most_triangles) fail("more than 5000000 triangles; accepted: fewer");
     for (auto [a, b, c] : triangles) {
       if (std::max({a, b, c}) >= places.size()) fail("a triangle of vertices that do not exist");
       if (mirrored) std::swap(b, c);
@@ -159,6 +186,55 @@ class Reader {
   const tinygltf::Model& model_;
   std::string file_;
   std::vector<NamedMesh> meshes_;
+  std::size_t placed_ = 0, triangles_ = 0;
+};
+
+/// The files that a glTF file may name: regular ones in its own folder or below. (tinygltf's own way expands names by
+/// the shell's rules, commands included, and looks wherever they point.)
+class Folder {
+ public:
+  explicit Folder(const std::string& file) {
+    std::error_code ignored;
+    root_ = std::filesystem::weakly_canonical(std::filesystem::path(file).parent_path() / ".", ignored);
+  }
+  [[nodiscard]] bool has(const std::string& file) const {
+    std::error_code error;
+    const std::filesystem::path whole = std::filesystem::weakly_canonical(file, error);
+    if (error || !std::filesystem::is_regular_file(whole, error)) return false;
+    const auto root = root_.has_filename() ? root_ : root_.parent_path();
+    return std::mismatch(root.begin(), root.end(), whole.begin(), whole.end()).first == root.end();
+  }
+  /// Of this and no other size: nothing is allocated for what is not there.
+  static bool read(const std::string& file, std::vector<unsigned char>& bytes, std::string& why) {
+    constexpr std::uintmax_t most = std::uintmax_t{1} << 30;
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error))
+      return why = error ? error.message() : std::string("it is a folder, a pipe or a device"), false;
+    const std::uintmax_t size = std::filesystem::file_size(file, error);
+    if (error) return why = error.message(), false;
+    if (size > most) return why = std::to_string(size) + " bytes; accepted: at most " + std::to_string(most), false;
+    errno = 0;
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream) return why = std::strerror(errno), false;
+    bytes.resize(static_cast<std::size_t>(size));
+    stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
+    if (static_cast<std::uintmax_t>(stream.gcount()) != size) return why = "it became shorter while it was read", false;
+    return true;
+  }
+  [[nodiscard]] tinygltf::FsCallbacks callbacks() {
+    tinygltf::FsCallbacks calls{};
+    calls.FileExists = [](const std::string& file, void* self) { return static_cast<Folder*>(self)->has(file); };
+    calls.ExpandFilePath = [](const std::string& file, void*) { return file; };
+    calls.ReadWholeFile = [](std::vector<unsigned char>* bytes, std::string* why, const std::string& file, void* self) {
+      if (!static_cast<Folder*>(self)->has(file)) return *why += "not in the file's own folder", false;
+      return read(file, *bytes, *why);
+    };
+    calls.user_data = this;
+    return calls;
+  }
+
+ private:
+  std::filesystem::path root_;
 };
 
 }  // namespace
@@ -168,9 +244,17 @@ std::vector<NamedMesh> read_gltf(const std::string& file) {
   loader.SetImageLoader(&skip_image, nullptr);
   tinygltf::Model model;
   std::string error, warning;
+  Folder folder(file);
+  loader.SetFsCallbacks(folder.callbacks());
+  std::vector<unsigned char> bytes;
+  if (!Folder::read(file, bytes, error)) throw std::runtime_error(file + ": cannot be read: " + error);
+  const std::string base = std::filesystem::path(file).parent_path().string();
+  const auto size = static_cast<unsigned int>(bytes.size());
   const bool binary = file.size() > 4 && file.compare(file.size() - 4, 4, ".glb") == 0;
-  const bool read = binary ? loader.LoadBinaryFromFile(&model, &error, &warning, file)
-                           : loader.LoadASCIIFromFile(&model, &error, &warning, file);
+  const bool read =
+      binary ? loader.LoadBinaryFromMemory(&model, &error, &warning, bytes.data(), size, base)
+             : loader.LoadASCIIFromString(&model, &error, &warning, reinterpret_cast<const char*>(bytes.data()), size,
+                                          base.empty() ? "." : base);
   if (!read) throw std::runtime_error(file + ": no glTF 2.0 file: " + (error.empty() ? warning : error));
   return Reader(model, file).read();
 }

@@ -14,8 +14,9 @@
 #include "topple/structure/analysis.h"
 #include "topple/structure/error.h"
 #include "topple/structure/files.h"
+#include "topple/structure/input_files.h"
 #include "topple/structure/member_checks.h"
-#include "write_files.h"
+#include "topple/structure/output_files.h"
 
 namespace topple::app {
 
@@ -142,6 +143,12 @@ void write_diagnosis(const Options& options, const Building& building, const Ana
   write_files(options.output, files);
 }
 
+/// Names of files that a run may write.
+const std::vector<std::string>& result_names() {
+  static const std::vector<std::string> names{"results.json", "report.html", "*.csv", "*.vtu"};
+  return names;
+}
+
 int run(const Options& options) {
   for (const auto& [asked, name] : {std::pair{options.html, "--html"},
                                     {options.csv, "--csv"},
@@ -153,7 +160,10 @@ int run(const Options& options) {
   if (options.sudden && options.lose.empty() && options.lose_each.empty())
     throw InputError("--sudden: nothing is lost; accepted: with --lose or --lose-each");
   StageClock clock;
-  const Building building = read_model(find_model(options.model));
+  const std::filesystem::path file = find_model(options.model);
+  std::optional<OutputFolder> folder;
+  if (!options.output.empty()) folder.emplace(options.output, model_files(file), result_names());
+  const Building building = read_model(file);
   give_back_free_memory();
   clock.stop("read");
   AnalysisRequest request;
@@ -222,22 +232,18 @@ std::function<int()> declare(CLI::App& app) {
       ->expected(1)
       ->take_all();
   app.add_option("--stations", options->stations, "Stations along each member in results.json")
-      ->check(CLI::Range(1, 10000));
+      ->check(whole_number(1, 10000));
   app.add_option("--threads", options->threads, "Threads (else one for each processor); they change no number")
-      ->check(CLI::Range(1, 1024));
+      ->check(whole_number(1, 1024));
   app.add_flag("--p-delta{exact}", options->p_delta,
                "Second order: exact (stability functions) or, with =cubic, the cubic geometric stiffness")
       ->check(CLI::IsMember({"exact", "cubic"}));
   app.add_option("--buckling", options->buckling, "Lowest buckling factors of each combination")
-      ->check(CLI::Range(1, 1000));
+      ->check(whole_number(1, 1000));
   app.add_option("--code", options->code, "Check every member by EN 1993-1-1 or AISC 360")
       ->check(CLI::IsMember({"en1993", "aisc360"}));
   app.add_option("--drift-limit", options->drift_limit, "With --code: limit of the storey drift, height/N")
-      ->check([](const std::string& given) {
-        double number = 0;
-        const bool above_zero = CLI::detail::lexical_cast(given, number) && number > 0;
-        return above_zero ? std::string() : "found " + given + "; accepted: a number above 0";
-      });
+      ->check(in_range({0, 1e6, true}));
   app.add_option("--lose", options->lose, "Member to lose suddenly, alone, with the whole state after it")
       ->expected(1)
       ->take_all();
@@ -245,8 +251,8 @@ std::function<int()> declare(CLI::App& app) {
       ->expected(1)
       ->take_all();
   app.add_option("--sudden", options->sudden, "Factor f of a sudden loss: R0 + f (R1 - R0); 1 is the static state")
-      ->check(CLI::Range(1.0, 10.0));
-  app.add_option("--modes", options->modes, "Lowest natural frequencies and modes")->check(CLI::Range(1, 100000));
+      ->check(in_range(structure::ranges::sudden));
+  app.add_option("--modes", options->modes, "Lowest natural frequencies and modes")->check(whole_number(1, 100000));
   app.add_option("--mass", options->mass, "Mass of elements: consistent (default) or lumped")
       ->check(CLI::IsMember({"consistent", "lumped"}));
   app.add_option("--torsional-mass", options->torsional_mass,

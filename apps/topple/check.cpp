@@ -1,9 +1,14 @@
-// topple check MODEL: reads a model, says what is in it and what can be done with it.
+// topple check FILE: reads a model, scenario or panel, says what is in it and what can be done with it.
+#include <array>
 #include <cstdio>
+#include <variant>
 
 #include "command.h"
+#include "topple/structure/drawn_model.h"
 #include "topple/structure/error.h"
 #include "topple/structure/files.h"
+#include "topple/structure/panel_file.h"
+#include "topple/structure/plain_text.h"
 
 namespace topple::app {
 
@@ -34,29 +39,102 @@ void print_contents(const Building& building) {
   for (const std::string& warning : building.warnings) std::printf("  warning: %s\n", warning.c_str());
 }
 
-void print_readiness(const Building& building, structure::Purpose purpose, const char* command) {
+void print_outcome(const char* command, const std::function<void()>& needed) {
   try {
-    structure::refuse_unbuilt(building, purpose);
+    needed();
     std::printf("  %s: ready\n", command);
   } catch (const structure::InputError& error) {
-    std::printf("  %s: %s\n", command, error.what());
+    std::printf("  %s: %s\n", command, structure::one_line(error.what()).c_str());
   }
 }
 
-int check(const std::string& model) {
-  const Building building = structure::read_model(structure::find_model(model), structure::Purpose::inspect);
+/// Ready is what all files are there for, those that the model names included.
+void print_readiness(const Building& building, const std::filesystem::path& file) {
+  const auto drawings = [&] { (void)structure::read_drawn_meshes(building, file); };
+  bool drawn = true;
+  try {
+    drawings();
+  } catch (const structure::InputError&) {
+    drawn = false;
+  }
+  print_outcome("analyse", [&] {
+    structure::refuse_unbuilt(building, structure::Purpose::analyse);
+    // Drawings count in an analysis by their weight alone.
+    if (!drawn) (void)structure::read_model(file, structure::Purpose::analyse);
+  });
+  print_outcome("demolish", [&] {
+    structure::refuse_unbuilt(building, structure::Purpose::demolish);
+    if (!drawn) drawings();
+  });
+}
+
+int check_model(const std::filesystem::path& file) {
+  const Building building = structure::read_model(file, structure::Purpose::inspect);
   print_contents(building);
-  print_readiness(building, structure::Purpose::analyse, "analyse");
-  print_readiness(building, structure::Purpose::demolish, "demolish");
+  print_readiness(building, file);
   return success;
 }
 
-const Registration registration({"check", "Read a model and say what is in it",
-                                 [](CLI::App& app) -> std::function<int()> {
-                                   auto model = std::make_shared<std::string>();
-                                   app.add_option("MODEL", *model, "A shipped model's name, or a file")->required();
-                                   return [model] { return check(*model); };
-                                 }});
+const char* tool_name(const structure::Tool& tool) {
+  // In the order of the alternatives of structure::Tool.
+  static constexpr std::array names{"projectile", "wrecking_ball", "cut",     "remove",
+                                    "charge",     "weaken",        "gravity", "load"};
+  static_assert(names.size() == std::variant_size_v<structure::Tool>);
+  return names[tool.index()];
+}
+
+int check_scenario(const std::filesystem::path& file) {
+  const auto [building, scenario] = structure::read_scenario(file);
+  std::printf("%s: %s\n", scenario.file.c_str(), scenario.title.empty() ? "(no title)" : scenario.title.c_str());
+  std::printf("  model \"%s\", combination \"%s\"\n", scenario.model.c_str(),
+              building[*scenario.combination].name.c_str());
+  std::printf("  steps of %g s for %g s%s\n", scenario.step, scenario.duration,
+              scenario.until_rest ? ", or until all is at rest" : "");
+  std::printf("  %zu events\n", scenario.events.size());
+  for (const structure::Event& event : scenario.events)
+    std::printf("    at %g s: %s\n", event.at, tool_name(event.tool));
+  print_outcome("demolish", [&, &b = building, &s = scenario] {
+    (void)structure::read_drawn_meshes(b, structure::find_model(s.model, file.parent_path()));
+  });
+  return success;
+}
+
+int check_panel(const std::filesystem::path& file) {
+  const structure::PanelFile panel = structure::read_panel(file);
+  std::printf("%s: a panel\n", panel.file.c_str());
+  std::printf("  %zu corners, %zu openings, %g m thick, %g kg/m3\n", panel.shape.outline.size(),
+              panel.shape.openings.size(), panel.shape.thickness, panel.density);
+  std::printf("  %zu hits\n  fracture: ready\n", panel.hits.size());
+  return success;
+}
+
+/// A path, or what is shipped by this name: a model, else a scenario, else a panel.
+std::filesystem::path find_any(const std::string& name) {
+  try {
+    return structure::find_model(name);
+  } catch (const structure::InputError&) {
+    for (const auto find : {structure::find_scenario, structure::find_panel}) try {
+        return find(name);
+      } catch (const structure::InputError&) {
+        continue;
+      }
+    throw;  // what models there are
+  }
+}
+
+int check(const std::string& name) {
+  const std::filesystem::path file = find_any(name);
+  if (structure::is_scenario(file)) return check_scenario(file);
+  if (structure::is_panel(file)) return check_panel(file);
+  return check_model(file);
+}
+
+const Registration registration(
+    {"check", "Read a model, scenario or panel and say what is in it", [](CLI::App& app) -> std::function<int()> {
+       auto model = std::make_shared<std::string>();
+       app.add_option("MODEL", *model, "A shipped model's, scenario's or panel's name, or a file")->required();
+       return [model] { return check(*model); };
+     }});
 
 }  // namespace
 

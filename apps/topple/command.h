@@ -1,15 +1,13 @@
 #pragma once
-// How a subcommand of `topple` makes itself known: each file of this folder defines one Command and registers it, so that
-// no list of commands has to be kept.
-#include <CLI/CLI.hpp>
+// How a subcommand of `topple` makes itself known: each file of this folder defines one Command and registers it, so
+// that no list of commands has to be kept.
 #include <functional>
 #include <string>
 #include <vector>
 
-namespace topple::app {
+#include "support/command_line.h"
 
-/// Exit statuses of the command line.
-enum Status { success = 0, failure = 1, bad_input = 2, unstable = 3 };
+namespace topple::app {
 
 struct Command {
   std::string name, purpose;

@@ -7,7 +7,7 @@
 #include "command.h"
 #include "topple/structure/error.h"
 #include "topple/structure/files.h"
-#include "write_files.h"
+#include "topple/structure/output_files.h"
 
 namespace topple::app {
 
@@ -29,13 +29,16 @@ void refuse_other_tables(const std::filesystem::path& folder, const structure::C
 int convert(const std::string& in, const std::string& out) {
   const std::filesystem::path target(out);
   const structure::ModelForm form = structure::model_form(target);
-  structure::ConvertedModel model = structure::convert_model(structure::find_model(in), form);
+  const std::filesystem::path file = structure::find_model(in);
+  structure::require_different(file, target);
+  if (form != structure::ModelForm::tables) structure::require_writable(target);
+  structure::ConvertedModel model = structure::convert_model(file, form);
   if (form == structure::ModelForm::tables) {
     refuse_other_tables(target, model);
-    write_files(target, model.files);
+    const structure::OutputFolder folder(target, {file}, {"*.csv"});
+    structure::write_files(target, model.files);
   } else {
-    model.files.front().first = target.filename().string();
-    write_files(target.has_parent_path() ? target.parent_path() : ".", model.files);
+    structure::write_file(target, model.files.front().second);
   }
   return success;
 }

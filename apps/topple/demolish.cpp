@@ -15,8 +15,8 @@
 #include "topple/structure/drawn_model.h"
 #include "topple/structure/error.h"
 #include "topple/structure/files.h"
+#include "topple/structure/output_files.h"
 #include "topple/structure/snapshot.h"
-#include "write_files.h"
 
 namespace topple::app {
 
@@ -74,7 +74,7 @@ class Saves {
     for (; next_ < due_.size() && due_[next_] <= simulation.time() + rounding; ++next_) {
       std::ostringstream name;
       name << "snapshot-" << due_[next_] << ".topple";
-      write_files(folder_, {{name.str(), structure::snapshot_bytes(simulation.save())}});
+      structure::write_file(folder_ / name.str(), structure::snapshot_bytes(simulation.save()));
     }
   }
 
@@ -89,12 +89,27 @@ class Saves {
   std::size_t next_ = 0;
 };
 
+/// Names of files that a run may write.
+const std::vector<std::string>& result_names() {
+  static const std::vector<std::string> names{"events.jsonl", "summary.json", "standing.json",    "meshes.glb",
+                                              "collapse.glb", "frame-*.png",  "snapshot-*.topple"};
+  return names;
+}
+
+std::vector<std::filesystem::path> inputs(const DemolishOptions& options, const std::filesystem::path& scenario) {
+  std::vector<std::filesystem::path> files{scenario};
+  if (!options.resume.empty()) files.emplace_back(options.resume);
+  return files;
+}
+
 int demolish(const DemolishOptions& options) {
   const std::pair<bool, const char*> into_folder[] = {
       {options.images, "--images"}, {options.gltf, "--gltf"}, {!options.save.empty(), "--save"}};
   for (const auto& [asked, name] : into_folder)
     if (asked && options.folder.empty()) throw structure::InputError(std::string(name) + ": -o DIR must say where");
   const std::filesystem::path file = structure::find_scenario(options.scenario);
+  std::optional<structure::OutputFolder> results;
+  if (!options.folder.empty()) results.emplace(options.folder, inputs(options, file), result_names());
   auto [building, scenario] = structure::read_scenario(file);
   structure::Simulation simulation(std::move(building), std::move(scenario), {options.threads, {}});
   const double roof_sag = simulation.frame().roof_sag();
@@ -131,8 +146,9 @@ int demolish(const DemolishOptions& options) {
     }
   }
   if (!options.folder.empty()) structure::write_collapse(options.folder, simulation, times, roof_sag);
-  if (drawn) write_files(options.folder, {{"meshes.glb", structure::drawn_model_glb(*drawn, simulation)}});
-  if (animation) write_files(options.folder, {{"collapse.glb", animation->glb()}});
+  if (drawn) structure::write_files(options.folder, {{"meshes.glb", structure::drawn_model_glb(*drawn, simulation)}});
+  if (animation) structure::write_files(options.folder, {{"collapse.glb", animation->glb()}});
+  if (images) images->finish(*results);
   saves.tell_missed(simulation);
   std::fputs(structure::collapse_text(simulation, times).c_str(), stdout);
   return success;
@@ -145,12 +161,13 @@ const Registration registration{
        app.add_option("-o,--output", options->folder, "Folder for events.jsonl, summary.json and standing.json");
        app.add_flag("--images", options->images, "Draw frame-00000.png and so on into the folder");
        app.add_flag("--gltf", options->gltf, "Write the collapse as an animation, collapse.glb, into the folder");
-       app.add_option("--rate", options->rate, "Frames for each simulated second of both")->check(CLI::PositiveNumber);
+       app.add_option("--rate", options->rate, "Frames for each simulated second of both")
+           ->check(in_range(structure::ranges::rate));
        app.add_option("--save", options->save, "Write snapshot-SECONDS.topple into the folder at this time")
            ->allow_extra_args(false)
-           ->check(CLI::NonNegativeNumber);
+           ->check(in_range(structure::ranges::instant));
        app.add_option("--resume", options->resume, "Go on from a snapshot of the same scenario");
-       app.add_option("--threads", options->threads, "Threads of the solver")->check(CLI::Range(1, 256));
+       app.add_option("--threads", options->threads, "Threads of the solver")->check(whole_number(1, 256));
        return [options] { return demolish(*options); };
      }}};
 

@@ -7,8 +7,8 @@
 #include "command.h"
 #include "fracture_drawing.h"
 #include "topple/fracture/mesh_files.h"
+#include "topple/structure/output_files.h"
 #include "topple/structure/panel_file.h"
-#include "write_files.h"
 
 namespace topple::app {
 
@@ -79,8 +79,22 @@ std::string summary(const PanelFile& file, const BreakablePanel& panel, const Br
   return result.dump(1) + "\n";
 }
 
+/// Chunks of an earlier run would look as if they were this one's.
+void remove_earlier(const structure::OutputFolder& folder, const structure::NamedFiles& files) {
+  std::vector<std::string> written;
+  for (const auto& [name, text] : files) written.push_back(name);
+  for (const char* ending : {".glb", ".obj"}) {
+    folder.remove_numbered("chunk-", ending, written);
+    const std::string panel = std::string("panel") + ending;
+    std::error_code ignored;
+    if (written.front() != panel) std::filesystem::remove(folder.path() / panel, ignored);
+  }
+}
+
 int run(const FractureOptions& options) {
-  const PanelFile file = structure::read_panel(structure::find_panel(options.panel));
+  const std::filesystem::path input = structure::find_panel(options.panel);
+  const structure::OutputFolder folder(options.folder, {input}, {"panel.*", "chunk-*", "pattern.svg", "summary.json"});
+  const PanelFile file = structure::read_panel(input);
   BreakablePanel panel(file.shape, file.settings);
   Broken broken;
   for (std::size_t i = 0; i < file.hits.size(); ++i) {
@@ -107,7 +121,8 @@ int run(const FractureOptions& options) {
   }
   files.emplace_back("pattern.svg", pattern_svg(file, panel, broken.chunks));
   files.emplace_back("summary.json", summary(file, panel, broken, ending));
-  write_files(options.folder, files);
+  structure::write_files(options.folder, files);
+  remove_earlier(folder, files);
   std::printf("%s: %zu hits, %zu chunks, %.4g of %.4g m2 remain; written to %s\n", file.file.c_str(), file.hits.size(),
               broken.chunks.size(), panel.area(), panel.intact_area(), options.folder.c_str());
   return success;

@@ -8,6 +8,7 @@
 
 #include "renderer/picture_renderer.h"
 #include "renderer/snapshot_taker.h"
+#include "topple/structure/input_files.h"
 
 namespace topple::app {
 namespace {
@@ -34,6 +35,7 @@ struct ImageSequence::State {
   viewer::SnapshotTaker taker;
   viewer::Snapshot drawn;
   std::filesystem::path last;
+  std::vector<std::string> written;
   int next = 0;
 
   State(const structure::Simulation& simulation, std::filesystem::path where, double per_second,
@@ -52,12 +54,13 @@ struct ImageSequence::State {
     std::snprintf(name, sizeof name, "frame-%05d.png", next++);
     const std::filesystem::path file = folder / name;
     if (!last.empty() && same_picture(drawn, now)) {
-      std::filesystem::copy_file(last, file, std::filesystem::copy_options::overwrite_existing);
+      structure::write_file(file, structure::read_whole_file(last));
     } else {
       renderer.write(now, camera, {}, file.string());
       drawn = now;
     }
     last = file;
+    written.push_back(name);
   }
 };
 
@@ -72,6 +75,10 @@ void ImageSequence::write_due(const structure::Simulation& simulation) {
   while (state_->next <= due) state_->write(now);
 }
 
+void ImageSequence::finish(const structure::OutputFolder& folder) const {
+  folder.remove_numbered("frame-", ".png", state_->written);
+}
+
 }  // namespace topple::app
 
 #else
@@ -83,6 +90,7 @@ ImageSequence::ImageSequence(const structure::Simulation&, std::filesystem::path
   throw std::runtime_error("--images: this program was built without its renderer (TOPPLE_VIEWER=OFF)");
 }
 void ImageSequence::write_due(const structure::Simulation&) {}
+void ImageSequence::finish(const structure::OutputFolder&) const {}
 
 }  // namespace topple::app
 

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "topple/structure/drawn_model.h"
+#include "topple/structure/output_files.h"
 #include "topple/structure/simulation.h"
 
 namespace topple::app {
@@ -17,6 +18,8 @@ class ImageSequence {
   ~ImageSequence();
   /// Writes the pictures that are due up to the simulation's time.
   void write_due(const structure::Simulation& simulation);
+  /// Takes away the pictures of an earlier, longer run.
+  void finish(const structure::OutputFolder& folder) const;
 
  private:
   struct State;

@@ -3,12 +3,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <exception>
-#include <iostream>
 
 #include "command.h"
 #include "topple/solver/blas_kernel.h"
-#include "topple/structure/error.h"
 
 namespace topple::app {
 
@@ -18,11 +15,6 @@ std::vector<Command>& commands() {
 }
 
 namespace {
-
-int report(const char* what, Status status) {
-  std::fprintf(stderr, "topple: %s\n", what);
-  return status;
-}
 
 int run(int argc, char** argv) {
   CLI::App app{"Topple analyses buildings statically and demolishes them.", "topple"};
@@ -40,7 +32,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::Success& asked) {  // --help, --version
     return app.exit(asked);
   } catch (const CLI::ParseError& error) {
-    return report(error.what(), bad_input);
+    return tell_error("topple", error.what(), bad_input);
   }
   for (auto& [sub, action] : chosen)
     if (sub->parsed()) return action();
@@ -53,16 +45,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   using namespace topple::app;
   topple::solver::prepare_blas(argv);
-  try {
-    const int status = run(argc, argv);
-    std::cout.flush();
-    std::fflush(nullptr);
-    std::quick_exit(status);  // what lives to the end goes with the process
-  } catch (const topple::structure::InputError& error) {
-    return report(error.what(), bad_input);
-  } catch (const topple::structure::UnstableModel& error) {
-    return report(error.what(), unstable);
-  } catch (const std::exception& error) {
-    return report(error.what(), failure);
-  }
+  const int status = run_program("topple", [&] { return run(argc, argv); });
+  std::fflush(nullptr);
+  std::quick_exit(status);  // what lives to the end goes with the process
 }

@@ -11,6 +11,9 @@ if (!output) {
   process.exit(2);
 }
 
+// What the licences of bundled code ask for: their notices, in full, in every page. A comment must hold no "--".
+const notice = readFileSync(join(here, 'node_modules/three/LICENSE'), 'utf8').trim().replaceAll('--', '- -');
+
 async function page(name) {
   const folder = join(here, name);
   const bundle = await build({
@@ -19,6 +22,7 @@ async function page(name) {
   });
   // Functions as replacements: a string would have its "$" read as patterns.
   const html = readFileSync(join(folder, 'page.html'), 'utf8')
+    .replace(/^<!doctype html>\n?/i, (begin) => `${begin}<!--\nThis page contains three.js:\n\n${notice}\n-->\n`)
     .replace('/*STYLE*/', () => readFileSync(join(folder, 'style.css'), 'utf8'))
     .replace('/*SCRIPT*/', () => bundle.outputFiles[0].text);
   mkdirSync(output, { recursive: true });

@@ -14,6 +14,7 @@
 #include "analysis/loads_by_member.h"
 #include "analysis/modal_masses.h"
 #include "analysis/one_way_members.h"
+#include "analysis/request_checks.h"
 #include "analysis/second_order_member.h"
 #include "analysis/shell_results.h"
 #include "analysis/storeys.h"
@@ -293,7 +294,7 @@ class Analysis {
     };
     for (const CombinationResult& c : result.combinations) {
       const std::string of = "combination " + building_[c.combination].name + ": ";
-      if (c.equilibrium_error > few_digits)
+      if (!(c.equilibrium_error <= few_digits))
         result.warnings.push_back(of + "reactions balance the loads to about " + digits(c.equilibrium_error) +
                                   " digits only (equilibrium error " + short_number(c.equilibrium_error) + ")");
       if (!c.quality.converged)
@@ -523,6 +524,8 @@ class Analysis {
 }  // namespace
 
 AnalysisResult analyse(const Building& building, const AnalysisRequest& request) {
+  require_request(building, request);
+  require_stocky(building, request);
   return Analysis(building, request).run();
 }
 

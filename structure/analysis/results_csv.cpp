@@ -2,6 +2,7 @@
 #include <charconv>
 
 #include "analysis/output_units.h"
+#include "formats/tables/formula_guard.h"
 #include "topple/structure/analysis.h"
 
 namespace topple::structure {
@@ -11,9 +12,10 @@ namespace {
 class Table {
  public:
   explicit Table(const std::string& header) : text_(header + "\n") {}
-  Table& cell(std::string_view text) {
+  Table& cell(std::string_view given) {
+    const std::string text = formats::guarded(given);
     separate();
-    if (text.find_first_of(",\"\n\r") == std::string_view::npos) {
+    if (text.find_first_of(",\"\n\r") == std::string::npos) {
       text_ += text;
       return *this;
     }

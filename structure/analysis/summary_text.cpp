@@ -66,7 +66,7 @@ void most_used_members(Text& text, const Building& building, const AnalysisResul
   for (std::size_t m = 0; m < c.designs.size(); ++m) {
     if (c.designs[m].governing.empty()) continue;
     order.push_back(m);
-    if (c.designs[m].utilisation > 1) ++over;
+    if (!(c.designs[m].utilisation <= 1)) ++over;
   }
   if (order.empty()) return;
   const std::size_t shown = std::min(joints_shown, order.size());

@@ -18,14 +18,34 @@ namespace {
 /// A triangle is shared out in pieces whose sides are no longer than this, m.
 constexpr double finest = 0.25;
 
+/// Pieces of the triangles of all meshes: a drawing of a building has far fewer.
+constexpr double most_pieces = 2e7;
+
+/// How many times finer than a triangle its pieces are.
+double fineness(const Vec3& u, const Vec3& v) {
+  return std::max(1.0, std::ceil(std::max({u.norm(), v.norm(), (v - u).norm()}) / finest));
+}
+
+/// A drawing in millimetres, taken for metres, would be cut into a million times as many pieces.
+void require_in_metres(const Building& building, const DrawnMesh& drawn) {
+  double pieces = 0;
+  for (const auto& [a, b, c] : drawn.mesh.triangles) {
+    const auto at = [&](int k) -> const Vec3& { return drawn.mesh.positions[static_cast<std::size_t>(k)]; };
+    pieces += std::pow(fineness(at(b) - at(a), at(c) - at(a)), 2);
+  }
+  if (!(pieces <= most_pieces))
+    throw InputError(building.file + ", meshes: \"" + drawn.name +
+                     "\" has a density and a surface too large to share out over the building's parts; accepted: a "
+                     "mesh in metres, as glTF is");
+}
+
 /// Surface of a mesh that lies nearest to each part, m2.
 std::map<Part, double> nearest_surface(const fracture::Mesh& mesh, const PartPlaces& places) {
   std::map<Part, double> areas;
   for (const auto& triangle : mesh.triangles) {
     const auto at = [&](std::size_t k) -> const Vec3& { return mesh.positions[static_cast<std::size_t>(triangle[k])]; };
     const Vec3 u = at(1) - at(0), v = at(2) - at(0);
-    const double longest = std::max({u.norm(), v.norm(), (v - u).norm()});
-    const int n = std::max(1, static_cast<int>(std::ceil(longest / finest)));
+    const int n = static_cast<int>(fineness(u, v));
     const double area = u.cross(v).norm() / 2 / (n * n);
     // n^2 triangles alike, those that stand on their base before those that hang between them.
     for (int i = 0; i < n; ++i)
@@ -53,6 +73,7 @@ void share_out(const Building& building, const DrawnMesh& drawn, const PartPlace
   } else if (drawn.panel.valid()) {
     carried[Part(drawn.panel)] += mass;
   } else {
+    require_in_metres(building, drawn);
     const std::map<Part, double> areas = nearest_surface(drawn.mesh, places);
     double sum = 0;
     for (const auto& [part, area] : areas) sum += area;

@@ -40,6 +40,8 @@ Vec6 member_joint_demand(const solver::Vec12& end_forces, int end) {
 Utilisation utilisation(const JointCapacity& capacity, const Vec6& demand, double strength) {
   Utilisation worst;
   if (!capacity.breakable) return worst;
+  // What is no number is more than anything bears: std::max would pass over it.
+  if (!demand.allFinite() || !std::isfinite(strength)) return {unlimited, Sense::tension, demand.lpNorm<1>(), 0};
   const auto all = ratios(capacity, demand, strength);
   // Of several equal ones the first in the order of the senses.
   std::size_t governing = 0;

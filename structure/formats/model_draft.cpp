@@ -113,6 +113,12 @@ MemberId ModelDraft::add_member(const MemberDraft& draft, const JsonValue& place
 }
 
 PanelId ModelDraft::add_panel(PanelDraft draft, const JsonValue& place) {
+  constexpr std::int64_t most_mesh_nodes = 500'000;  // their equations and factor take some 10 GB
+  if (draft.panel.model == PanelModel::shell)
+    mesh_nodes_ += (std::int64_t{draft.panel.mesh[0]} + 1) * (std::int64_t{draft.panel.mesh[1]} + 1);
+  if (mesh_nodes_ > most_mesh_nodes)
+    place.fail("the meshes of shells come to " + std::to_string(mesh_nodes_) + " nodes here; accepted: at most " +
+               std::to_string(most_mesh_nodes) + " in the whole model");
   Panel& panel = draft.panel;
   check_part_name(panel.name, place);
   check_groups(panel.groups, place);
@@ -182,6 +188,15 @@ void ModelDraft::add_support(const NodeSupport& support, const JsonValue& place)
 const NodeSupport* ModelDraft::support_of(NodeId node) const {
   const std::int32_t index = support_of_node_[static_cast<std::size_t>(node.index)];
   return index < 0 ? nullptr : &building.supports[static_cast<std::size_t>(index)];
+}
+
+void ModelDraft::require_room(const JsonValue& place, double more) const {
+  constexpr double most = 4e6;  // a part takes about a kilobyte
+  const double all =
+      static_cast<double>(building.nodes.size() + building.members.size() + building.panels.size()) + more;
+  if (!(all <= most))
+    place.fail("the model would have " + std::to_string(static_cast<std::int64_t>(std::min(all, 1e18))) +
+               " nodes, members and panels; accepted: at most " + std::to_string(static_cast<std::int64_t>(most)));
 }
 
 void ModelDraft::reserve(std::size_t nodes, std::size_t members) {

@@ -101,6 +101,9 @@ class ModelDraft {
 
   /// Room for so many more, so that large models do not move what is there again and again.
   void reserve(std::size_t nodes, std::size_t members);
+  /// Refuses, before anything is made, what would bring the whole model beyond what can be held: `more` nodes, members
+  /// and panels together. A short file can ask for any number of them.
+  void require_room(const JsonValue& place, double more) const;
 
   // `place` is where the part is described, for messages.
   NodeId add_node(const std::string& name, const Vec3& position, const JsonValue& place);
@@ -132,6 +135,7 @@ class ModelDraft {
   [[nodiscard]] const NodeSupport* support_of(NodeId node) const;
 
  private:
+  std::int64_t mesh_nodes_ = 0;  ///< of all shells
   void check_name(const std::string& name, const JsonValue& place) const;
   void check_part_name(const std::string& name, const JsonValue& place) const;
   [[nodiscard]] const JointCapacity& capacity_of(JointTypeId type, SectionId section, MaterialId material,

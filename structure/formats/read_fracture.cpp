@@ -7,15 +7,21 @@ namespace {
 constexpr std::int64_t kMostPoints =
     1000;  ///< corners of one hit's damage; the pattern stops looking like one long before
 
+/// A length that chunks can have, in m: what is smaller than a centimetre is dust, and there would be millions of it.
+double read_length(const JsonValue& value, double unit) {
+  constexpr NumberRange metres{1e-2, 1e3};
+  const double length = value.positive() * unit;
+  if (!metres.contains(length)) value.refuse(metres.text() + ", in m");
+  return length;
+}
+
 fracture::PanelSettings read_cells(const JsonValue& value, fracture::Method method, double unit) {
   value.only({"method", "cell", "jitter"});
   fracture::PanelSettings settings;
   settings.method = method;
-  if (const auto cell = value.find("cell")) settings.cell = cell->positive() * unit;
+  if (const auto cell = value.find("cell")) settings.cell = read_length(*cell, unit);
   if (const auto jitter = value.find("jitter")) {
-    const double number = jitter->number("a number from 0 to 1");
-    if (!(number >= 0 && number <= 1)) jitter->refuse("a number from 0 to 1");
-    settings.jitter = number;
+    settings.jitter = jitter->in(ranges::unit);
   }
   return settings;
 }
@@ -33,10 +39,10 @@ fracture::PanelSettings read_local(const JsonValue& value, double unit) {
   if (const auto length = value.find("length")) {
     length->expect_array(2, 2);
     std::size_t i = 0;
-    for (const JsonValue bound : *length) settings.local.length[i++] = bound.positive() * unit;
+    for (const JsonValue bound : *length) settings.local.length[i++] = read_length(bound, unit);
     if (settings.local.length[1] < settings.local.length[0]) length->refuse("the least length, then the greatest");
   }
-  if (const auto ring = value.find("ring")) settings.local.ring = ring->positive() * unit;
+  if (const auto ring = value.find("ring")) settings.local.ring = read_length(*ring, unit);
   return settings;
 }
 

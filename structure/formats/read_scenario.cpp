@@ -15,10 +15,22 @@ namespace formats {
 
 namespace {
 
-double from_zero_to_one(const JsonValue& value) {
-  const double number = value.number("a number from 0 to 1");
-  if (!(number >= 0 && number <= 1)) value.refuse("a number from 0 to 1");
-  return number;
+/// Reads a number of a range.
+auto in(const NumberRange& range) {
+  return [range](const JsonValue& value) { return value.in(range); };
+}
+
+Vec3 place(const JsonValue& value) {
+  value.expect_array(3, 3);
+  for (const JsonValue coordinate : value) (void)coordinate.in(ranges::place);
+  return read_point(value, 1);
+}
+
+/// A vector whose length lies in a range that begins at 0.
+Vec3 vector_within(const JsonValue& value, const NumberRange& length, const char* unit) {
+  const Vec3 vector = read_point(value, 1);
+  if (!length.contains(vector.stableNorm())) value.refuse("three numbers, together " + length.text() + " " + unit);
+  return vector;
 }
 
 /// Keeps the default where the key is absent.
@@ -26,7 +38,6 @@ template <class Target, class Read>
 void take(const JsonValue& object, std::string_view key, Target& target, Read read) {
   if (const auto value = object.find(key)) target = read(*value);
 }
-double positive(const JsonValue& value) { return value.positive(); }
 bool boolean(const JsonValue& value) { return value.boolean(); }
 
 /// Why a key that bounded a step is refused.
@@ -41,12 +52,12 @@ class ScenarioReader {
   Scenario read() {
     scenario_.combination = read_combination();
     take(root_, "title", scenario_.title, [](const JsonValue& v) { return std::string(v.text()); });
-    take(root_, "step", scenario_.step, positive);
-    take(root_, "duration", scenario_.duration, positive);
+    take(root_, "step", scenario_.step, in(ranges::step));
+    take(root_, "duration", scenario_.duration, in(ranges::duration));
     take(root_, "until_rest", scenario_.until_rest, boolean);
     take(root_, "seed", scenario_.seed,
          [](const JsonValue& v) { return static_cast<std::uint64_t>(v.whole(0, std::int64_t{1} << 53)); });
-    take(root_, "ground", scenario_.ground, [](const JsonValue& v) { return v.number(); });
+    take(root_, "ground", scenario_.ground, in(ranges::place));
     if (const auto failure = root_.find("failure")) read_failure(*failure);
     if (const auto impact = root_.find("impact")) read_impact(*impact);
     if (const auto debris = root_.find("debris")) read_debris(*debris);
@@ -89,27 +100,22 @@ class ScenarioReader {
       return rule == "hinge" ? MechanismRule::hinge : MechanismRule::detach;
     });
     take(failure, "second_order", rules.second_order, boolean);
-    take(failure, "sudden", rules.sudden, [](const JsonValue& v) {
-      const double factor = v.number("a number of 1 or above");
-      if (!(factor >= 1)) v.refuse("a number of 1 or above");
-      return factor;
-    });
+    take(failure, "sudden", rules.sudden, in(ranges::sudden));
   }
 
   void read_impact(const JsonValue& impact) {
     impact.only({"restitution", "structure_mass"});
-    take(impact, "restitution", scenario_.impact.restitution, from_zero_to_one);
+    take(impact, "restitution", scenario_.impact.restitution, in(ranges::unit));
     take(impact, "structure_mass", scenario_.impact.structure_mass, boolean);
   }
 
   void read_debris(const JsonValue& debris) {
     debris.only({"friction", "restitution", "limit", "smallest_volume"});
-    take(debris, "friction", scenario_.debris.friction, [](const JsonValue& v) { return v.not_negative(); });
-    take(debris, "restitution", scenario_.debris.restitution, from_zero_to_one);
+    take(debris, "friction", scenario_.debris.friction, in(ranges::friction));
+    take(debris, "restitution", scenario_.debris.restitution, in(ranges::unit));
     take(debris, "limit", scenario_.debris.limit,
          [](const JsonValue& v) { return static_cast<int>(v.whole(0, 1'000'000)); });
-    take(debris, "smallest_volume", scenario_.debris.smallest_volume,
-         [](const JsonValue& v) { return v.not_negative(); });
+    take(debris, "smallest_volume", scenario_.debris.smallest_volume, in(ranges::volume));
   }
 
   void read_events(const JsonValue& events) {
@@ -118,7 +124,7 @@ class ScenarioReader {
       value.expect_object();
       value.only({"at", "projectile", "cut", "remove", "charge", "weaken", "wrecking_ball", "gravity", "load"});
       Event event;
-      event.at = value.require("at").not_negative();
+      event.at = value.require("at").in(ranges::instant);
       if (value.size() != 2)
         value.fail("found " + std::to_string(value.size() - 1) +
                    " tools; accepted: `at` and one of \"projectile\", \"cut\", \"remove\", \"charge\", \"weaken\", "
@@ -133,7 +139,7 @@ class ScenarioReader {
 
   Tool read_tool(const JsonValue& value) const {
     const std::string_view key = value.key();
-    if (key == "gravity") return GravityTool{read_point(value, 1)};
+    if (key == "gravity") return GravityTool{vector_within(value, ranges::gravity, "m/s2")};
     value.expect_object();
     if (key == "projectile") return read_projectile(value);
     if (key == "cut") return read_cut(value);
@@ -146,6 +152,7 @@ class ScenarioReader {
     for (const JsonValue entry : value.require("nodes")) {
       const auto node = names_.node(std::string(entry.key()));
       if (!node) entry.fail("there is no node " + in_quotes(entry.key()) + "; accepted: a node of the model");
+      for (const JsonValue component : entry) (void)component.in(ranges::force);
       load.nodes.push_back({*node, read_components(entry, [](int) { return 1.0; })});
     }
     return load;
@@ -154,21 +161,21 @@ class ScenarioReader {
   static Projectile read_projectile(const JsonValue& value) {
     value.only({"from", "velocity", "mass", "radius"});
     Projectile projectile;
-    projectile.from = read_point(value.require("from"), 1);
-    projectile.velocity = read_point(value.require("velocity"), 1);
-    take(value, "mass", projectile.mass, positive);
-    take(value, "radius", projectile.radius, positive);
+    projectile.from = place(value.require("from"));
+    projectile.velocity = vector_within(value.require("velocity"), ranges::speed, "m/s");
+    take(value, "mass", projectile.mass, in(ranges::mass));
+    take(value, "radius", projectile.radius, in(ranges::radius));
     return projectile;
   }
 
   static WreckingBall read_wrecking_ball(const JsonValue& value) {
     value.only({"anchor", "cable", "from", "mass", "radius"});
     WreckingBall ball;
-    ball.anchor = read_point(value.require("anchor"), 1);
-    ball.from = read_point(value.require("from"), 1);
-    ball.cable = value.require("cable").positive();
-    take(value, "mass", ball.mass, positive);
-    take(value, "radius", ball.radius, positive);
+    ball.anchor = place(value.require("anchor"));
+    ball.from = place(value.require("from"));
+    ball.cable = value.require("cable").in(ranges::length);
+    take(value, "mass", ball.mass, in(ranges::mass));
+    take(value, "radius", ball.radius, in(ranges::radius));
     const double away = (ball.from - ball.anchor).norm();
     if (away > ball.cable)
       value.require("cable").fail("the ball begins " + std::to_string(away) +
@@ -257,12 +264,9 @@ class ScenarioReader {
       value.fail("nothing is named; accepted: \"groups\", \"members\" or \"joints\" with at least one name");
     if (!value.find("strength") && !value.find("stiffness"))
       value.fail("nothing weakens; accepted: \"strength\", \"stiffness\", or both");
-    take(value, "strength", weaken.strength, [](const JsonValue& v) { return v.not_negative(); });
-    take(value, "stiffness", weaken.stiffness, [](const JsonValue& v) {
-      if (!(v.positive() <= 1)) v.refuse("a number above 0 and at most 1");
-      return v.number();
-    });
-    take(value, "over", weaken.over, [](const JsonValue& v) { return v.not_negative(); });
+    take(value, "strength", weaken.strength, in(ranges::strength_factor));
+    take(value, "stiffness", weaken.stiffness, in(ranges::stiffness_factor));
+    take(value, "over", weaken.over, in(ranges::instant));
     take(value, "stages", weaken.stages, [](const JsonValue& v) { return static_cast<int>(v.whole(1, 1'000'000)); });
     return weaken;
   }
@@ -270,14 +274,14 @@ class ScenarioReader {
   static ChargeTool read_charge(const JsonValue& value) {
     value.only({"centre", "radius", "strength"});
     ChargeTool charge;
-    charge.centre = read_point(value.require("centre"), 1);
-    charge.radius = value.require("radius").positive();
+    charge.centre = place(value.require("centre"));
+    charge.radius = value.require("radius").in(ranges::length);
     if (const auto strength = value.find("strength")) {
       strength->expect_array(2, 2);
       auto number = strength->begin();
-      charge.strength_at_centre = (*number).not_negative();
+      charge.strength_at_centre = (*number).in(ranges::strength_factor);
       ++number;
-      charge.strength_at_radius = (*number).not_negative();
+      charge.strength_at_radius = (*number).in(ranges::strength_factor);
     }
     return charge;
   }

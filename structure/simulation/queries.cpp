@@ -1,6 +1,7 @@
 // What a host asks about what stands.
 #include <algorithm>
 
+#include "simulation/call_checks.h"
 #include "simulation/debris/mass_properties.h"
 #include "simulation/simulation_state.h"
 
@@ -23,12 +24,14 @@ Vec3 global_force(const Building& building, JointId id, const Vec6& demand) {
 }  // namespace
 
 std::vector<Carrier> Simulation::what_carries(MemberId member) const {
+  require_id(building(), member, "what_carries");
   const Member& own = building()[member];
   const Vec3 middle = member_start(building(), own) + own.axes.row(0).transpose() * (own.length / 2);
   return state_->what_carries({member, {}, middle});
 }
 
 std::vector<Carrier> Simulation::what_carries(PanelId panel) const {
+  require_id(building(), panel, "what_carries");
   Vec3 middle = Vec3::Zero();
   for (const NodeId node : building()[panel].nodes) middle += building()[node].position / 4;
   return state_->what_carries({{}, panel, middle});

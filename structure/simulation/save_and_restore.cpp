@@ -2,6 +2,7 @@
 #include "simulation/simulation_state.h"
 #include "simulation/step_clock.h"
 #include "topple/structure/error.h"
+#include "topple/structure/number_range.h"
 
 namespace topple::structure {
 
@@ -17,6 +18,7 @@ void Simulation::run_to(std::int64_t last) {
 
 void Simulation::restore(const Snapshot& snapshot) {
   State& now = *state_;
+  require_in({0, 1e15}, static_cast<double>(snapshot.step), "the snapshot's step");
   // What another building would refuse by a crash is refused here by its name.
   for (const Snapshot::Action& action : snapshot.actions) now.require_parts(action);
   auto listeners = std::move(now.listeners);

@@ -2,9 +2,11 @@
 #include "topple/structure/simulation.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "simulation/accounts/replay_hash.h"
+#include "simulation/call_checks.h"
 #include "simulation/simulation_state.h"
 #include "simulation/step_clock.h"
 #include "topple/structure/error.h"
@@ -136,8 +138,10 @@ void Simulation::State::tell(const JointBreak& broken) {
   event.position = broken.position;
 }
 
-Simulation::Simulation(Building building, Scenario scenario, SimulationOptions options)
-    : state_(std::make_unique<State>(std::move(building), std::move(scenario), std::move(options))) {}
+Simulation::Simulation(Building building, Scenario scenario, SimulationOptions options) {
+  require_scene(building, scenario);
+  state_ = std::make_unique<State>(std::move(building), std::move(scenario), std::move(options));
+}
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
@@ -165,6 +169,7 @@ double Simulation::time() const { return state_->time(); }
 std::int64_t Simulation::steps() const { return state_->step; }
 bool Simulation::at_rest() const { return state_->rests(); }
 void Simulation::apply(const Tool& tool) {
+  require_tool(state_->building, tool);
   state_->asked.push_back(tool);
   state_->actions.push_back({state_->step, tool});
 }
@@ -180,13 +185,16 @@ std::span<const double> Simulation::poses() const { return state_->poses; }
 const PieceChanges& Simulation::changes() const { return state_->changes; }
 
 collision::BodyId Simulation::body_of(MemberId member) const {
+  require_id(state_->building, member, "body_of");
   return {state_->body_of_part[static_cast<std::size_t>(member.index)]};
 }
 collision::BodyId Simulation::body_of(PanelId panel) const {
+  require_id(state_->building, panel, "body_of");
   return {state_->body_of_part[static_cast<std::size_t>(part_number(state_->building, Part(panel)))]};
 }
 
 std::shared_ptr<const fracture::Mesh> Simulation::broken_panel(PanelId panel) const {
+  require_id(state_->building, panel, "broken_panel");
   const BrokenPanel* broken = state_->broken_panel(panel);
   return broken ? broken->mesh() : nullptr;
 }
@@ -194,7 +202,8 @@ std::shared_ptr<const fracture::Mesh> Simulation::broken_panel(PanelId panel) co
 std::optional<Simulation::RayHit> Simulation::ray_cast(const Vec3& from, const Vec3& direction) const {
   constexpr double sight = 1e4;  // m, farther than any scene
   const State& s = *state_;
-  const Vec3 n = direction.normalized();
+  const Vec3 n = direction.stableNormalized();
+  if (!from.allFinite() || !(std::abs(n.norm() - 1) < 1e-9)) return std::nullopt;  // it looks nowhere
   RayHit nearest;
   nearest.distance = sight;
   bool found = false;

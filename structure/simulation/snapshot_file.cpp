@@ -1,9 +1,10 @@
 #include <bit>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 
+#include "simulation/accounts/replay_hash.h"
 #include "topple/structure/error.h"
+#include "topple/structure/input_files.h"
+#include "topple/structure/plain_text.h"
 #include "topple/structure/snapshot.h"
 
 namespace topple::structure {
@@ -13,7 +14,14 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "snapshots are written in the byte order of this machine");
 
 constexpr char magic[8] = {'T', 'O', 'P', 'P', 'L', 'E', 'S', 'N'};
-constexpr std::uint32_t format = 1;
+constexpr std::uint32_t format = 2;
+
+/// Of all bytes before it: tells what was damaged on its way from what was made so. FNV-1a, 64 bits.
+std::uint64_t checksum(std::string_view bytes) {
+  ReplayHash hash;
+  hash.add(bytes);
+  return hash.value();
+}
 
 class Writer {
  public:
@@ -44,6 +52,7 @@ class Reader {
     throw InputError(name_ + ": " + what + "; accepted: a snapshot that `topple demolish --save` wrote");
   }
   [[nodiscard]] bool at_end() const { return at_ == bytes_.size(); }
+  [[nodiscard]] std::size_t place() const { return at_; }
 
  private:
   const std::string& bytes_;
@@ -193,6 +202,8 @@ std::string snapshot_bytes(const Snapshot& snapshot) {
   Writer writer;
   writer.bytes.assign(magic, sizeof magic);
   each(writer, number, version, copy);
+  std::uint64_t sum = checksum(writer.bytes);
+  pass(writer, sum);
   return writer.bytes;
 }
 
@@ -212,16 +223,21 @@ Snapshot parse_snapshot(const std::string& bytes, const std::string& name) {
   // Another version may calculate otherwise in the last bit, which a collapse makes visible.
   if (version != TOPPLE_VERSION) reader.fail("was made by version " + version + ", this program is " + TOPPLE_VERSION);
   pass(reader, snapshot);
+  const std::uint64_t sum = checksum(std::string_view(bytes).substr(0, reader.place()));
+  std::uint64_t written = 0;
+  pass(reader, written);
   if (!reader.at_end()) reader.fail("goes on after its end");
+  if (written != sum) reader.fail("is damaged: its checksum is another");
+  std::int64_t before = 0;
+  for (const Snapshot::Action& action : snapshot.actions) {
+    if (action.step < before || action.step > snapshot.step) reader.fail("holds actions out of order");
+    before = action.step;
+  }
   return snapshot;
 }
 
 Snapshot read_snapshot(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in)
-    throw InputError(file.string() + ": cannot be read; accepted: a snapshot that `topple demolish --save` wrote");
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-  return parse_snapshot(bytes, file.string());
+  return parse_snapshot(read_whole_file(file), one_line(file.string()));
 }
 
 }  // namespace topple::structure

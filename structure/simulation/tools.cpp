@@ -1,12 +1,14 @@
 // Tools: what a scenario's events or a person do to the building.
 #include <algorithm>
 
+#include "simulation/call_checks.h"
 #include "simulation/simulation_state.h"
 #include "simulation/step_clock.h"
 
 namespace topple::structure {
 
 void Simulation::set_capacities(std::span<const std::pair<JointId, JointCapacity>> capacities) {
+  require_capacities(state_->building, capacities);
   state_->actions.push_back({state_->step, CapacityChange{{capacities.begin(), capacities.end()}}});
   for (const auto& [joint, capacity] : capacities) {
     JointCapacity& own = state_->building.joints[static_cast<std::size_t>(joint.index)].capacity;

@@ -11,3 +11,12 @@ foreach(stress_source IN LISTS stress_sources)
   target_link_libraries(stress_${stress_topic} PRIVATE topple_options topple::${stress_library})
   target_include_directories(stress_${stress_topic} PRIVATE "${CMAKE_CURRENT_SOURCE_DIR}" "${PROJECT_SOURCE_DIR}/${stress_library}")
 endforeach()
+
+# A few of each kind with every run of the suite; all of them by scripts/stress hostile and scripts/stress faults.
+find_package(Python3 COMPONENTS Interpreter)
+if(Python3_FOUND)
+  add_test(NAME hostile COMMAND "${Python3_EXECUTABLE}" "${CMAKE_CURRENT_LIST_DIR}/hostile.py" "$<TARGET_FILE_DIR:topple>" --cases 150)
+  add_test(NAME faults COMMAND "${Python3_EXECUTABLE}" "${CMAKE_CURRENT_LIST_DIR}/faults/faults.py" "$<TARGET_FILE_DIR:topple>" --short)
+  set_tests_properties(faults PROPERTIES ENVIRONMENT "CXX=${CMAKE_CXX_COMPILER}")
+  set_tests_properties(hostile faults PROPERTIES TIMEOUT 600)
+endif()

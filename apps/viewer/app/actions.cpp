@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "topple/structure/error.h"
+#include "topple/structure/input_files.h"
+#include "topple/structure/number_range.h"
 
 namespace topple::viewer {
 namespace {
@@ -44,8 +45,9 @@ class Value {
     if (expected != 0 && value_.size() != expected) refuse("not a list of " + std::to_string(expected));
     return value_.size();
   }
-  [[nodiscard]] double number() const {
-    if (!value_.is_number() || !std::isfinite(value_.get<double>())) refuse("not a finite number");
+  [[nodiscard]] double number() const { return in(structure::ranges::force); }
+  [[nodiscard]] double in(const structure::NumberRange& range) const {
+    if (!value_.is_number() || !range.contains(value_.get<double>())) refuse("not " + range.text());
     return value_.get<double>();
   }
   [[nodiscard]] double positive() const {
@@ -78,11 +80,13 @@ class Value {
   }
   [[nodiscard]] glm::dvec2 pixel() const {
     (void)count(2);
-    return {item(0).number(), item(1).number()};
+    constexpr structure::NumberRange pixels{-1e6, 1e6};
+    return {item(0).in(pixels), item(1).in(pixels)};
   }
   [[nodiscard]] glm::dvec3 point() const {
     (void)count(3);
-    return {item(0).number(), item(1).number(), item(2).number()};
+    const auto coordinate = [&](std::size_t i) { return item(i).in(structure::ranges::place); };
+    return {coordinate(0), coordinate(1), coordinate(2)};
   }
 
  private:
@@ -96,16 +100,16 @@ Camera camera_of(const Value& value) {
   camera.eye = value["eye"].point();
   camera.target = value["target"].point();
   if (camera.eye == camera.target) value.refuse("eye and target are one point");
-  if (value.has("field_of_view")) camera.field_of_view = value["field_of_view"].positive();
+  if (value.has("field_of_view")) camera.field_of_view = value["field_of_view"].in({1e-3, 179});
   return camera;
 }
 
 FireAction fire_of(const Value& value) {
   value.only({"pixel", "speed", "mass", "radius"});
   FireAction fire{value["pixel"].pixel(), {}};
-  if (value.has("speed")) fire.shot.speed = value["speed"].positive();
-  if (value.has("mass")) fire.shot.mass = value["mass"].positive();
-  if (value.has("radius")) fire.shot.radius = value["radius"].positive();
+  if (value.has("speed")) fire.shot.speed = value["speed"].in(structure::ranges::speed);
+  if (value.has("mass")) fire.shot.mass = value["mass"].in(structure::ranges::mass);
+  if (value.has("radius")) fire.shot.radius = value["radius"].in(structure::ranges::radius);
   return fire;
 }
 
@@ -148,14 +152,14 @@ RestartAction restart_of(const Value& value) {
   if (value.has("bracing")) restart.bracing = static_cast<structure::BracingRule>(value["bracing"].choice(bracings));
   if (value.has("mechanism"))
     restart.mechanism = static_cast<structure::MechanismRule>(value["mechanism"].choice(mechanisms));
-  if (value.has("sudden")) restart.sudden = value["sudden"].positive();
+  if (value.has("sudden")) restart.sudden = value["sudden"].in(structure::ranges::sudden);
   if (value.has("second_order")) restart.second_order = value["second_order"].yes_or_no();
   if (value.has("fracture")) {
     const std::size_t method = value["fracture"].choice(methods);
     restart.panels_stay_whole = method + 1 == methods.size();
     if (!restart.panels_stay_whole) restart.fracture = static_cast<fracture::Method>(method);
   }
-  if (value.has("cell")) restart.cell = value["cell"].positive();
+  if (value.has("cell")) restart.cell = value["cell"].in({1e-3, 1e3});
   if (value.has("materials"))
     for (const std::string& name : value["materials"].keys())
       restart.materials.push_back({name, value["materials"][name].positive()});
@@ -163,7 +167,7 @@ RestartAction restart_of(const Value& value) {
 }
 
 LookAction look_of(const Value& value) {
-  if (!value.is_text()) return {value.number()};
+  if (!value.is_text()) return {value.in(structure::ranges::instant)};
   constexpr std::array accepted{"present"};
   (void)value.choice(accepted);
   return {};
@@ -186,7 +190,10 @@ const std::map<std::string, std::function<Meaning(const Value&)>>& meanings() {
          const auto [from, to] = pixels_of(v);
          return PanAction{from, to};
        }},
-      {"zoom", [](const Value& v) { return ZoomAction{v.number()}; }},
+      {"zoom",
+       [](const Value& v) {
+         return ZoomAction{v.in({-1000, 1000})};
+       }},
       {"fly", [](const Value& v) { return FlyAction{v.point()}; }},
       {"select", [](const Value& v) { return SelectAction{v.text()}; }},
       {"tool", tool_of},
@@ -213,7 +220,7 @@ Action action_of(const Value& value) {
   }
   value.only(keys);
   Action action;
-  action.at = value["at"].number();
+  action.at = value["at"].in(structure::ranges::instant);
   const std::vector<std::string> given = value.keys();
   if (given.size() != 2) value.refuse("one action beside 'at' is needed; accepted: " + accepted);
   const std::string& name = given[0] == "at" ? given[1] : given[0];
@@ -224,11 +231,10 @@ Action action_of(const Value& value) {
 }  // namespace
 
 Script read_script(const std::string& file) {
-  std::ifstream stream(file);
-  if (!stream) throw InputError(file + ": cannot be read");
+  constexpr std::uintmax_t most = std::uintmax_t{1} << 24;
   json document;
   try {
-    document = json::parse(stream);
+    document = json::parse(structure::read_whole_file(file, most));
   } catch (const json::parse_error& error) {
     throw InputError(file + ": not JSON at byte " + std::to_string(error.byte));
   }

@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <future>
 #include <glm/geometric.hpp>
@@ -18,6 +17,7 @@
 #include "app/output/usd_scene.h"
 #include "renderer/instances.h"
 #include "topple/structure/error.h"
+#include "topple/structure/output_files.h"
 
 namespace topple::viewer {
 namespace {
@@ -177,9 +177,7 @@ void Controller::save(const std::string& file) {
   // A run that has stopped with an error carries out no orders.
   if (saved.wait_for(std::chrono::seconds(30)) != std::future_status::ready)
     throw std::runtime_error("the run does not answer: nothing is saved");
-  std::ofstream stream(file, std::ios::binary);
-  stream << saved.get();
-  if (!stream.flush()) throw std::runtime_error("cannot write " + file);
+  structure::write_file(file, saved.get());
   message = "saved to " + file;
 }
 

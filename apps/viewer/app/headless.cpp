@@ -17,6 +17,7 @@
 #include "renderer/headless_context.h"
 #include "renderer/picture_renderer.h"
 #include "topple/structure/error.h"
+#include "topple/structure/output_files.h"
 
 namespace topple::viewer {
 namespace {
@@ -220,8 +221,8 @@ class HeadlessRun {
   bool quit_ = false;
 };
 
-/// Pictures at even times, into a folder, a video, or both.
-void record(HeadlessRun& run, const HeadlessOptions& options, double until) {
+/// Pictures at even times, into a folder, a video, or both; returns how many.
+int record(HeadlessRun& run, const HeadlessOptions& options, double until) {
   std::vector<PictureSequence> sequences;
   sequences.reserve(2);
   if (options.record) sequences.emplace_back(*options.record, options.rate, PictureSequence::Kind::folder);
@@ -236,6 +237,38 @@ void record(HeadlessRun& run, const HeadlessOptions& options, double until) {
     sequence.finish();
     std::printf("%s: %d pictures\n", sequence.target().c_str(), sequence.count());
   }
+  return sequences.front().count();
+}
+
+/// Pictures of an earlier, longer recording would look as if they were this one's.
+void remove_earlier(const structure::OutputFolder& folder, int pictures) {
+  std::vector<std::string> kept;
+  for (int i = 0; i < pictures; ++i) kept.push_back(PictureSequence::picture_name(i));
+  folder.remove_numbered("frame-", ".png", kept);
+}
+
+/// What cannot be written is told before the work.
+void try_outputs(const Scene& scene, const HeadlessOptions& options, const Script& script) {
+  std::vector<std::string> outputs;
+  for (const auto& file :
+       {options.screenshot, options.video, options.replay, options.usd, options.gltf, options.model, options.save})
+    if (file) outputs.push_back(*file);
+  for (const Action& action : script.actions) {
+    if (const auto* saved = std::get_if<SaveAction>(&action.what)) outputs.push_back(saved->file);
+    if (const auto* written = std::get_if<ExportAction>(&action.what)) outputs.push_back(written->file);
+    if (const auto* picture = std::get_if<ScreenshotAction>(&action.what)) outputs.push_back(picture->file);
+  }
+  for (const std::string& output : outputs) {
+    structure::require_writable(output);
+    structure::require_different(scene.model, output);
+    if (options.actions) structure::require_different(*options.actions, output);
+  }
+}
+
+void require_number_of_pictures(double seconds, double rate) {
+  constexpr double most = 1e6;
+  if (!(seconds * rate < most))
+    throw structure::InputError("--rate, --at: more than a million pictures; accepted: fewer");
 }
 
 }  // namespace
@@ -243,9 +276,18 @@ void record(HeadlessRun& run, const HeadlessOptions& options, double until) {
 void run_headless(const Scene& scene, const HeadlessOptions& options) {
   Script script = options.actions ? read_script(*options.actions) : Script();
   const std::array<int, 2> size = options.size ? *options.size : script.size.value_or(std::array<int, 2>{1280, 720});
+  try_outputs(scene, options, script);
+  std::optional<structure::OutputFolder> pictures;
+  if (options.record)
+    pictures.emplace(*options.record, std::vector<std::filesystem::path>{scene.model},
+                     std::vector<std::string>{"frame-*.png"});
   HeadlessRun run(scene, std::move(script), size, options);
   const double end = std::max(options.at, run.last_action());
-  if (options.record || options.video) record(run, options, end);
+  if (options.record || options.video) require_number_of_pictures(end, options.rate);
+  if (options.record || options.video) {
+    const int count = record(run, options, end);
+    if (pictures) remove_earlier(*pictures, count);
+  }
   run.run_until(end);
   if (options.screenshot) run.write(*options.screenshot);
   if (options.replay) write_html_replay(*scene.building, run.recording(), *options.replay);

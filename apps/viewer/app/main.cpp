@@ -1,11 +1,10 @@
 // topple-viewer: a window on a building that stands, is examined, and is demolished; or pictures of it without a
 // window. Exit status: 0 done, 1 failure, 2 bad input, 3 the model is not stable.
-#include <CLI/CLI.hpp>
 #include <cstdio>
-#include <exception>
 
 #include "app/headless.h"
 #include "app/window.h"
+#include "support/command_line.h"
 #include "topple/solver/blas_kernel.h"
 #include "topple/structure/error.h"
 
@@ -15,11 +14,6 @@ extern "C" int dlclose(void*) noexcept { return 0; }
 #endif
 
 namespace {
-
-int report(const char* what, int status) {
-  std::fprintf(stderr, "topple-viewer: %s\n", what);
-  return status;
-}
 
 /// "1280x720"
 std::array<int, 2> parse_size(const std::string& text) {
@@ -33,6 +27,8 @@ std::array<int, 2> parse_size(const std::string& text) {
 
 int run(int argc, char** argv) {
   using namespace topple::viewer;
+  using namespace topple::app;
+  namespace ranges = topple::structure::ranges;
   CLI::App app{"Shows a building under its loads and lets you demolish it.", "topple-viewer"};
   app.set_version_flag("--version", TOPPLE_VERSION);
   std::string name = "seed_building", size;
@@ -42,13 +38,13 @@ int run(int argc, char** argv) {
   app.add_flag("--headless", headless, "draw without a window");
   app.add_option("--screenshot", pictures.screenshot, "file of the picture (in the window: what key P writes)");
   app.add_option("--at", pictures.at, "simulated seconds before the picture, and length of a recording")
-      ->check(CLI::NonNegativeNumber);
+      ->check(in_range(ranges::instant));
   app.add_option("--record", pictures.record, "folder for frame-00000.png and so on");
-  app.add_option("--rate", pictures.rate, "recorded pictures for each simulated second")->check(CLI::PositiveNumber);
+  app.add_option("--rate", pictures.rate, "recorded pictures for each simulated second")->check(in_range(ranges::rate));
   app.add_option("--actions", pictures.actions, "script of what a person would do");
   app.add_option("--show", pictures.show, "how to draw it, as the action `show` says; may be given several times");
   app.add_flag("--panel", pictures.panel, "with the panels, without a window");
-  app.add_option("--scale", pictures.scale, "of the panels' text, without a window")->check(CLI::Range(0.5, 4.0));
+  app.add_option("--scale", pictures.scale, "of the panels' text, without a window")->check(in_range({0.5, 4.0}));
   app.add_option("--video", pictures.video, "file of a video (.mp4, .webm); needs ffmpeg");
   app.add_option("--replay", pictures.replay, "file of a page that shows the run again (.html)");
   app.add_option("--usd", pictures.usd, "file of the run as an animation (.usda)");
@@ -62,14 +58,14 @@ int run(int argc, char** argv) {
   } catch (const CLI::Success& asked) {
     return app.exit(asked);
   } catch (const CLI::ParseError& error) {
-    return report(error.what(), 2);
+    return tell_error("topple-viewer", error.what(), bad_input);
   }
   if (!size.empty()) pictures.size = parse_size(size);
   const bool output = pictures.screenshot || pictures.record || pictures.actions || pictures.video || pictures.replay ||
                       pictures.usd || pictures.gltf || pictures.model || pictures.save;
   if (headless && !output)
-    return report(
-        "--headless needs --screenshot, --record, --actions, --video, --replay, --usd, --gltf, --model or --save", 2);
+    throw topple::structure::InputError(
+        "--headless needs --screenshot, --record, --actions, --video, --replay, --usd, --gltf, --model or --save");
   const Scene scene = open_scene(name);
   if (headless) {
     run_headless(scene, pictures);
@@ -87,13 +83,5 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   topple::solver::prepare_blas(argv);
-  try {
-    return run(argc, argv);
-  } catch (const topple::structure::InputError& error) {
-    return report(error.what(), 2);
-  } catch (const topple::structure::UnstableModel& error) {
-    return report(error.what(), 3);
-  } catch (const std::exception& error) {
-    return report(error.what(), 1);
-  }
+  return topple::app::run_program("topple-viewer", [&] { return run(argc, argv); });
 }

@@ -41,13 +41,13 @@ void Session::begin() {
 void Session::step() { simulation_->step(); }
 
 void Session::apply(const structure::Tool& tool) {
+  carry_out({simulation_->steps(), tool});  // one that throws is not kept
   actions_.push_back({simulation_->steps(), tool});
-  carry_out(actions_.back());
 }
 
 void Session::tune(const structure::JointChange& change) {
+  carry_out({simulation_->steps(), change});
   actions_.push_back({simulation_->steps(), change});
-  carry_out(actions_.back());
 }
 
 void Session::carry_out(const Action& action) {
@@ -81,18 +81,30 @@ void Session::carry_out(const structure::CapacityChange& change) {
 std::string Session::save() const { return structure::snapshot_bytes(simulation_->save()); }
 
 void Session::load(const structure::Snapshot& saved) {
-  actions_.clear();
-  recording_->clear();
+  constexpr std::int64_t longest = 10'000'000;  // steps that are made and kept on the way: 46 hours at 60 a second
+  restart();
+  if (saved.step > longest) return tell_begun_anew("is of more than 10000000 steps");
+  try {
+    go_the_way_of(saved);
+  } catch (const std::exception& error) {
+    return tell_begun_anew(error.what());
+  }
+  if (simulation_->hash() != saved.hash) tell_begun_anew("is of another model, scenario or rules");
+}
+
+void Session::tell_begun_anew(const std::string& why) {
+  restart();
+  recording_->add_event(
+      {0, structure::SimulationEvent::Kind::tool, "the saved run cannot be taken up: it " + why + "; begun anew"});
+}
+
+void Session::go_the_way_of(const structure::Snapshot& saved) {
   for (const auto& action : saved.actions) {
     if (const auto* tool = std::get_if<structure::Tool>(&action.what)) actions_.push_back({action.step, *tool});
     if (const auto* change = std::get_if<structure::CapacityChange>(&action.what))
       actions_.push_back({action.step, *change});
   }
   run_again(saved.step, true);
-  if (simulation_->hash() == saved.hash) return;
-  restart();
-  recording_->add_event({0, structure::SimulationEvent::Kind::tool,
-                         "the saved run was one of another model, scenario or rules: begun anew"});
 }
 
 /// What joints bear, for those who know the building only as it was given.

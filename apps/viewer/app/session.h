@@ -67,6 +67,8 @@ class Session {
     std::variant<structure::Tool, structure::JointChange, structure::CapacityChange> what;
   };
   void begin();
+  void go_the_way_of(const structure::Snapshot& saved);
+  void tell_begun_anew(const std::string& why);
   void tell_capacities();
   void carry_out(const Action& action);
   void carry_out(const structure::CapacityChange& change);

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <stdexcept>
 
 #include "app/widgets.h"
 #include "topple/structure/files.h"
+#include "topple/structure/output_files.h"
 
 namespace topple::viewer {
 namespace {
@@ -35,9 +35,7 @@ void write_tuned_model(const Scene& scene, const Snapshot& moment, const std::st
   const std::string text = structure::model_with_strengths(
       structure::model_with_changes(scene.model, moment.tuned ? moment.tuned->changes : std::vector<JointChange>()),
       materials);
-  std::ofstream stream(file);
-  stream << text;
-  if (!stream.flush()) throw std::runtime_error("cannot write " + file);
+  structure::write_file(file, text);
 }
 
 std::string TuningPanel::selector(const Controller& controller) const {

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "topple/structure/error.h"
+#include "topple/structure/plain_text.h"
 
 namespace topple::structure {
 
@@ -30,7 +31,7 @@ std::string shown(double value) {
 
 }  // namespace
 
-Frame3ddTokens::Frame3ddTokens(std::string_view text, std::string file) : file_(std::move(file)) {
+Frame3ddTokens::Frame3ddTokens(std::string_view text, std::string file) : file_(one_line(file)) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   for (int line = 1; !text.empty(); ++line) {
     const std::size_t end = std::min(text.find('\n'), text.size());
@@ -39,6 +40,8 @@ Frame3ddTokens::Frame3ddTokens(std::string_view text, std::string file) : file_(
     last_line_ = line;
     if (line == 1) {
       title_ = std::string(content.substr(0, content.find_last_not_of(" \t\r") + 1));
+      if (first_not_utf8(title_) != std::string::npos) fail("the title is not UTF-8; accepted: a title in UTF-8");
+      if (first_control(title_) != std::string::npos) fail("a control character in the title; accepted: text");
       continue;
     }
     content = content.substr(0, content.find_first_of(comment_signs));

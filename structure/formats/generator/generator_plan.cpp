@@ -10,7 +10,7 @@ namespace topple::structure::formats {
 
 namespace {
 
-constexpr std::int64_t most_lines = 10'000, most_storeys = 10'000, most_posts = 5'000'000;
+constexpr std::int64_t most_lines = 10'000, most_storeys = 10'000;
 
 class PlanReader {
  public:
@@ -42,8 +42,8 @@ class PlanReader {
     ++count;
     plan_.ny = static_cast<int>((*count).whole(1, most_lines));
     plan_.storeys = static_cast<int>(place_.require("storeys").whole(1, most_storeys));
-    if (std::int64_t{plan_.nx} * plan_.ny * plan_.storeys > most_posts)
-      posts.fail("more than " + std::to_string(most_posts) + " posts; accepted: at most so many");
+    // A node, a post, two beams, a slab and two walls at each crossing of lines on each storey.
+    draft_.require_room(posts, 7.0 * plan_.nx * plan_.ny * plan_.storeys);
     const JsonValue bay = place_.require("bay");
     if (!bay.is_array()) bay.refuse("an array of two: bays along x and along y");
     bay.expect_array(2, 2);

@@ -64,6 +64,8 @@ class PlanGenerator {
 
   void read_levels() {
     storeys_ = static_cast<int>(place_.require("storeys").whole(1, most_storeys));
+    // A node, a post and two beams at each place on each storey.
+    draft_.require_room(place_.require("storeys"), 4.0 * static_cast<double>(points_.size()) * storeys_);
     const JsonValue height = place_.require("storey_height");
     levels_ = {origin_.z()};
     if (height.is_array()) {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 
+#include "formats/physical_model.h"
 #include "topple/structure/error.h"
 #include "topple/structure/files.h"
 #include "topple/structure/frame.h"
@@ -52,6 +53,7 @@ void refuse_unbuilt(const Building& building, Purpose purpose) {
       break;
     case Purpose::demolish:
       for (const Refusal refusal : demolish) refusal(building);
+      formats::require_physical(building);
       break;
     case Purpose::inspect:
       break;

@@ -13,6 +13,8 @@
 #include <string_view>
 #include <vector>
 
+#include "topple/structure/number_range.h"
+
 namespace topple::structure::formats {
 
 class JsonValue;
@@ -71,6 +73,7 @@ class JsonValue {
   [[nodiscard]] double number(std::string_view accepted = "a number") const;
   [[nodiscard]] double positive() const;      ///< above 0
   [[nodiscard]] double not_negative() const;  ///< 0 or above
+  [[nodiscard]] double in(const NumberRange& range) const;
   /// A whole number from `least` to `most`.
   [[nodiscard]] std::int64_t whole(std::int64_t least, std::int64_t most) const;
   [[nodiscard]] bool boolean() const;

@@ -7,6 +7,8 @@
 #include "formats/json/json_document.h"
 #include "formats/json/plain_json.h"
 #include "topple/structure/error.h"
+#include "topple/structure/input_files.h"
+#include "topple/structure/plain_text.h"
 
 namespace topple::structure::formats {
 
@@ -19,9 +21,12 @@ class Characters {
   explicit Characters(std::istream& stream) : stream_(&stream), buffer_(std::size_t{1} << 16) { refill(); }
 
   [[nodiscard]] bool done() const { return at_ == end_; }
+  /// nlohmann takes a zero byte for the end.
+  [[nodiscard]] bool met_zero() const { return zero_; }
   [[nodiscard]] char current() const { return *at_; }
   void advance() {
     const char c = *at_++;
+    zero_ = zero_ || c == '\0';
     ++column_;
     ++since_event_;
     if (c == '\n') {
@@ -54,6 +59,7 @@ class Characters {
   const char* end_ = nullptr;
   std::uint32_t line_ = 1, column_ = 0, token_line_ = 1, token_column_ = 0;
   std::size_t since_event_ = 0;
+  bool zero_ = false;
 };
 
 struct TokenTooLong {};
@@ -123,7 +129,7 @@ class JsonBuilder {
     return number_of(JsonDocument::Type::number, static_cast<double>(value));
   }
   bool number_float(number_float_t value, const string_t&) { return number_of(JsonDocument::Type::number, value); }
-  bool string(const string_t& value) { return string(std::string_view(value)); }
+  bool string(const string_t& value) { return string(plain(value)); }
   bool string(std::string_view value) {
     auto& slot = add(JsonDocument::Type::text);
     slot.text = document_.text_.size();
@@ -139,7 +145,7 @@ class JsonBuilder {
     return close();
   }
   bool end_array() { return close(); }
-  bool key(const string_t& value) { return key(std::string_view(value)); }
+  bool key(const string_t& value) { return key(plain(value)); }
   bool key(std::string_view value) {
     key_ = document_.text_.size();
     key_length_ = static_cast<std::uint32_t>(value.size());
@@ -164,6 +170,12 @@ class JsonBuilder {
   }
 
  private:
+  /// Names and titles reach terminals, tables and pages: what steers one is refused where it comes in.
+  std::string_view plain(const string_t& value) const {
+    if (first_control(value) != std::string_view::npos)
+      fail("a control character in " + in_quotes(value) + "; accepted: text of one line");
+    return value;
+  }
   bool number_of(JsonDocument::Type type, double value) {
     add(type).number = value;
     return true;
@@ -264,16 +276,16 @@ void parse(JsonDocument& document, Characters& characters, const JsonLimits& lim
   } catch (const TokenTooLong&) {
     builder.fail("a name, number or run of spaces of more than " + std::to_string(limits.token) + " characters");
   }
+  if (characters.met_zero()) builder.fail("a zero byte; accepted: nothing after the JSON text");
 }
 
 }  // namespace
 
 JsonDocument JsonDocument::from_file(const std::filesystem::path& file, const JsonLimits& limits) {
   JsonDocument document;
-  document.name_ = file.filename().string();
+  document.name_ = one_line(file.filename().string());
   std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored))
-    throw InputError(file.string() + ": is a folder; accepted: a JSON file");
+  require_readable(file);
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw InputError(file.string() + ": cannot be opened; accepted: a file that exists and can be read");
   constexpr std::uintmax_t held_at_once = std::uintmax_t{1} << 28;
@@ -293,7 +305,7 @@ JsonDocument JsonDocument::from_file(const std::filesystem::path& file, const Js
 JsonDocument JsonDocument::from_text(std::string_view text, const std::string& name, const JsonLimits& limits,
                                      std::vector<std::string> places) {
   JsonDocument document;
-  document.name_ = name;
+  document.name_ = one_line(name);
   document.places_ = std::move(places);
   if (parse_plain(document, text, limits)) return document;
   Characters characters(text);

@@ -4,6 +4,7 @@
 
 #include "formats/json/json_document.h"
 #include "topple/structure/error.h"
+#include "topple/structure/plain_text.h"
 
 namespace topple::structure::formats {
 
@@ -12,7 +13,7 @@ std::string in_quotes(std::string_view text) {
   if (text.size() > longest)  // not in the middle of a UTF-8 character
     while (longest > 0 && (static_cast<unsigned char>(text[longest]) & 0xc0) == 0x80) --longest;
   std::string result = "\"";
-  for (const char c : text.substr(0, longest)) result += static_cast<unsigned char>(c) < 0x20 ? '?' : c;
+  result += one_line(text.substr(0, longest));
   return result + (text.size() > longest ? "...\"" : "\"");
 }
 
@@ -33,18 +34,27 @@ bool JsonValue::is_object() const { return slot().type == JsonDocument::Type::ob
 
 double JsonValue::number(std::string_view accepted) const {
   if (!is_number()) refuse(accepted);
+  // Products and ratios of two numbers are then finite, whatever the file holds.
+  if (!ranges::anything.contains(slot().number)) refuse(ranges::anything.text());
   return slot().number;
 }
 
 double JsonValue::positive() const {
   const double value = number("a number above 0");
   if (!(value > 0)) refuse("a number above 0");
+  if (!ranges::positive.contains(value)) refuse(ranges::positive.text());
   return value;
 }
 
 double JsonValue::not_negative() const {
   const double value = number("a number of 0 or above");
   if (!(value >= 0)) refuse("a number of 0 or above");
+  return value;
+}
+
+double JsonValue::in(const NumberRange& range) const {
+  const double value = number(range.text());
+  if (!range.contains(value)) refuse(range.text());
   return value;
 }
 

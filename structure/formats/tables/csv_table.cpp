@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "formats/json/json_document.h"
+#include "formats/tables/formula_guard.h"
 #include "topple/structure/error.h"
+#include "topple/structure/plain_text.h"
 
 namespace topple::structure {
 
@@ -14,19 +16,14 @@ namespace {
 using formats::in_quotes;
 using formats::quoted_list;
 
-/// First byte that is not UTF-8 (or is 0), or npos.
+/// Where the first byte lies that no cell may hold, or npos: what is not UTF-8, and controls but the ends of lines.
 std::size_t bad_byte(std::string_view text) {
-  for (std::size_t i = 0; i < text.size();) {
-    const auto c = static_cast<unsigned char>(text[i]);
-    const std::size_t length = c < 0x80                ? 1
-                               : c >= 0xC2 && c < 0xE0 ? 2
-                               : c >= 0xE0 && c < 0xF0 ? 3
-                               : c >= 0xF0 && c < 0xF5 ? 4
-                                                       : 0;
-    if (length == 0 || c == 0 || i + length > text.size()) return i;
-    for (std::size_t k = 1; k < length; ++k)
-      if ((static_cast<unsigned char>(text[i + k]) & 0xC0) != 0x80) return i;
-    i += length;
+  if (const std::size_t bad = first_not_utf8(text); bad != std::string_view::npos) return bad;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t found = first_control(text.substr(at));
+    if (found == std::string_view::npos) return found;
+    if (text[at + found] != '\n' && text[at + found] != '\r') return at + found;
+    at += found + 1;
   }
   return std::string_view::npos;
 }
@@ -79,7 +76,8 @@ CsvTable::CsvTable(std::string whole, std::string name, std::vector<std::string_
   if (const std::size_t bad = bad_byte(text); bad != std::string_view::npos)
     fail_line(
         static_cast<std::uint32_t>(1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(bad), '\n')),
-        "the text is not UTF-8; accepted: a table saved as CSV in UTF-8");
+        first_not_utf8(text) == bad ? "the text is not UTF-8; accepted: a table saved as CSV in UTF-8"
+                                    : "a control character; accepted: text");
   const std::string_view header = text.substr(0, text.find('\n'));
   if (header.find(',') == std::string_view::npos)
     separator_ = header.find(';') != std::string_view::npos    ? ';'
@@ -120,7 +118,7 @@ void CsvTable::next_record(std::string_view& rest, std::uint32_t& line) {
     if (!quoted && outside.find('"') != std::string_view::npos)
       fail_line(line,
                 "a quotation mark inside a cell; accepted: the cell in quotation marks, with \"\" for each inside");
-    record_.push_back(quoted ? cell : outside);
+    record_.push_back(formats::unguarded(quoted ? cell : outside));
     const bool last = end == rest.size() || rest[end] == '\n';
     rest.remove_prefix(std::min(end + 1, rest.size()));
     if (last) break;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "formats/json/json_document.h"
+#include "formats/tables/formula_guard.h"
 #include "formats/tables/model_tables.h"
 
 namespace topple::structure::formats {
@@ -27,10 +28,11 @@ class TableText {
     for (const std::string_view column : columns_) text_ += (text_.empty() ? "" : ",") + std::string(column);
     text_ += '\n';
   }
-  TableText& set(std::string_view column, std::string_view text) {
+  TableText& set(std::string_view column, std::string_view given) {
+    const std::string text = guarded(given);
     std::string& cell = cells_[index(column)];
     const bool plain =
-        text.find_first_of(",\"\n\r;\t") == std::string_view::npos && !text.starts_with(' ') && !text.ends_with(' ');
+        text.find_first_of(",\"\n\r;\t") == std::string::npos && !text.starts_with(' ') && !text.ends_with(' ');
     cell = plain ? text : "\"";
     if (plain) return *this;
     for (const char c : text) cell += c == '"' ? std::string("\"\"") : std::string(1, c);

@@ -1,10 +1,10 @@
 // events.jsonl, summary.json and standing.json.
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "topple/structure/collapse_report.h"
+#include "topple/structure/output_files.h"
 
 namespace topple::structure {
 
@@ -238,29 +238,13 @@ std::string standing_json(const Simulation& simulation) {
   return standing.dump() + "\n";
 }
 
-namespace {
-
-void write_whole(const std::filesystem::path& file, const std::string& text) {
-  const std::filesystem::path part = file.string() + ".part";
-  {
-    std::ofstream out(part, std::ios::binary);
-    out << text;
-    out.close();
-    if (!out) throw std::runtime_error(file.string() + ": cannot be written");
-  }
-  std::filesystem::rename(part, file);
-}
-
-}  // namespace
-
 void write_collapse(const std::filesystem::path& folder, const Simulation& simulation, const StepTimes& times,
                     double roof_sag) {
   std::string lines;
   for (const SimulationEvent& event : simulation.events()) lines += event_line(simulation.building(), event) + "\n";
-  std::filesystem::create_directories(folder);
-  write_whole(folder / "events.jsonl", lines);
-  write_whole(folder / "standing.json", standing_json(simulation));
-  write_whole(folder / "summary.json", summary_json(simulation, times, roof_sag));
+  write_files(folder, {{"events.jsonl", lines},
+                       {"standing.json", standing_json(simulation)},
+                       {"summary.json", summary_json(simulation, times, roof_sag)}});
 }
 
 }  // namespace topple::structure

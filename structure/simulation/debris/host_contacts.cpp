@@ -1,9 +1,7 @@
 // Contacts of bodies that the host owns. For the length of its impact such a body is one like any other; then it leaves
 // again and its change of momentum is handed back.
-#include <cmath>
-
+#include "simulation/call_checks.h"
 #include "simulation/simulation_state.h"
-#include "topple/structure/error.h"
 
 namespace topple::structure {
 
@@ -12,19 +10,6 @@ namespace {
 /// Size of the ball that stands for a host's body while it strikes, m; its mass and inertia are its own.
 constexpr double stand_in_radius = 0.05;
 
-void require_sound(const HostContact& contact) {
-  const std::string name = "host contact " + std::to_string(contact.key);
-  if (!(contact.mass > 0) || !std::isfinite(contact.mass)) throw InputError(name + ": its mass must be above zero");
-  if (!(contact.inertia.determinant() > 0) || !contact.inertia.allFinite())
-    throw InputError(name + ": its inertia must be positive definite");
-  if (!(std::abs(contact.normal.norm() - 1) < 1e-9)) throw InputError(name + ": its normal must have length 1");
-  if (!contact.point.allFinite() || !contact.centre.allFinite() || !contact.velocity.allFinite() ||
-      !contact.angular_velocity.allFinite())
-    throw InputError(name + ": its point and velocities must be finite");
-  if (contact.member.valid() + contact.panel.valid() + (contact.body.value >= 0) != 1)
-    throw InputError(name + ": it must touch one member, panel or body");
-}
-
 Vec3 point_velocity(const HostContact& contact) {
   return contact.velocity + contact.angular_velocity.cross(contact.point - contact.centre);
 }
@@ -32,7 +17,7 @@ Vec3 point_velocity(const HostContact& contact) {
 }  // namespace
 
 void Simulation::touch(const HostContact& contact) {
-  require_sound(contact);
+  require_contact(state_->building, contact);
   state_->touches.push_back(contact);
   state_->actions.push_back({state_->step, contact});
 }

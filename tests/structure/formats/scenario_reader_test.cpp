@@ -96,7 +96,7 @@ TEST_CASE("the scenario reader names file, place, what it found and what is acce
         "s.json, line 1: the key \"combination\" is missing and the model has several; accepted: \"service\", "
         "\"collapse\"");
   CHECK(error("\"sudden\": 1.5", "\"sudden\": 0.5") ==
-        "s.json, line 4, failure.sudden: found 0.5; accepted: a number of 1 or above");
+        "s.json, line 4, failure.sudden: found 0.5; accepted: a number from 1 to 10");
   CHECK(error("\"BX-1-1-1:1\"", "\"BX-1-1-1:3\"") ==
         "s.json, line 10, events[2].cut.joints[0]: there is no joint \"BX-1-1-1:3\"; accepted: a name or pattern of "
         "the model");

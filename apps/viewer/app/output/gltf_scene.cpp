@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <stdexcept>
@@ -13,6 +12,7 @@
 #include "app/part_motion.h"
 #include "renderer/shapes/palette.h"
 #include "topple/structure/animated_scene.h"
+#include "topple/structure/output_files.h"
 
 namespace topple::viewer {
 namespace {
@@ -159,10 +159,7 @@ class GltfWriter {
 }  // namespace
 
 void write_gltf(const structure::Building& building, const Recording& recording, const std::string& file, double rate) {
-  const std::string bytes = GltfWriter(building, recording, rate).bytes();
-  std::ofstream out(file, std::ios::binary);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (!out.flush()) throw std::runtime_error("cannot write " + file);
+  structure::write_file(file, GltfWriter(building, recording, rate).bytes());
   std::printf("%s: animation\n", file.c_str());
 }
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -12,6 +11,7 @@
 
 #include "app/part_motion.h"
 #include "renderer/instances.h"
+#include "topple/structure/output_files.h"
 
 #ifdef TOPPLE_REPLAY
 extern "C" const char topple_replay_page_begin[];
@@ -220,10 +220,11 @@ void write_html_replay(const structure::Building& building, const Recording& rec
   const std::string_view whole = page();
   const std::size_t at = whole.find(mark);
   if (at == std::string_view::npos) throw std::runtime_error("the replay page has no place for its data");
-  std::ofstream out(file, std::ios::binary);
-  out << whole.substr(0, at) << in_script(ReplayData(building, recording).write().dump())
-      << whole.substr(at + mark.size());
-  if (!out.flush()) throw std::runtime_error("cannot write " + file);
+  structure::OutputFile out(file);
+  out.write(whole.substr(0, at));
+  out.write(in_script(ReplayData(building, recording).write().dump()));
+  out.write(whole.substr(at + mark.size()));
+  out.commit();
   std::printf("%s: replay\n", file.c_str());
 }
 

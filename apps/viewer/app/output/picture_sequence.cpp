@@ -11,6 +11,12 @@ PictureSequence::Kind PictureSequence::kind_of(const std::string& target) {
   return ending == ".mp4" || ending == ".webm" || ending == ".mkv" || ending == ".mov" ? Kind::video : Kind::folder;
 }
 
+std::string PictureSequence::picture_name(int number) {
+  std::array<char, 32> name{};
+  std::snprintf(name.data(), name.size(), "frame-%05d.png", number);
+  return name.data();
+}
+
 PictureSequence::PictureSequence(std::string target, double rate, Kind kind)
     : target_(std::move(target)), rate_(rate), kind_(kind) {
   if (kind_ == Kind::folder) std::filesystem::create_directories(target_);
@@ -21,9 +27,7 @@ void PictureSequence::add(const Image& image) {
     if (!video_) video_ = std::make_unique<VideoWriter>(target_, glm::ivec2(image.width, image.height), rate_);
     video_->add(image);
   } else {
-    std::array<char, 32> name{};
-    std::snprintf(name.data(), name.size(), "frame-%05d.png", count_);
-    write_png(image, (std::filesystem::path(target_) / name.data()).string());
+    write_png(image, (std::filesystem::path(target_) / picture_name(count_)).string());
   }
   ++count_;
 }

@@ -13,6 +13,8 @@ class PictureSequence {
   enum class Kind { folder, video };
   /// By its ending: .mp4, .webm, .mkv and .mov are videos.
   [[nodiscard]] static Kind kind_of(const std::string& target);
+  /// "frame-00007.png"
+  [[nodiscard]] static std::string picture_name(int number);
   /// Throws std::runtime_error when it cannot be written.
   PictureSequence(std::string target, double rate, Kind kind);
   void add(const Image& image);

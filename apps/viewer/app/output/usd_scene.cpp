@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <set>
@@ -13,6 +12,7 @@
 
 #include "app/part_motion.h"
 #include "renderer/shapes/palette.h"
+#include "topple/structure/output_files.h"
 
 namespace topple::viewer {
 namespace {
@@ -44,7 +44,7 @@ class PrimNames {
 
 class UsdWriter {
  public:
-  UsdWriter(const structure::Building& building, const Recording& recording, std::ofstream& out, double rate)
+  UsdWriter(const structure::Building& building, const Recording& recording, std::ostream& out, double rate)
       : building_(building), recording_(recording), out_(out), rate_(rate), samples_(export_samples(recording, rate)) {}
 
   void write() {
@@ -198,7 +198,7 @@ class UsdWriter {
 
   const structure::Building& building_;
   const Recording& recording_;
-  std::ofstream& out_;
+  std::ostream& out_;
   double rate_;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   std::vector<ExportSample> samples_;
@@ -207,10 +207,9 @@ class UsdWriter {
 }  // namespace
 
 void write_usd(const structure::Building& building, const Recording& recording, const std::string& file, double rate) {
-  std::ofstream out(file);
-  if (!out) throw std::runtime_error("cannot write " + file);
-  UsdWriter(building, recording, out, rate).write();
-  if (!out.flush()) throw std::runtime_error("cannot write " + file);
+  structure::OutputFile out(file);
+  UsdWriter(building, recording, out.stream(), rate).write();
+  out.commit();
   std::printf("%s: animation\n", file.c_str());
 }
 

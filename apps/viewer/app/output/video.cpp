@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <stdexcept>
 #include <vector>
 
@@ -25,20 +26,29 @@ std::string text_of(double number) {
 
 }  // namespace
 
-VideoWriter::VideoWriter(const std::string& file, glm::ivec2 size, double rate) : file_(file) {
+VideoWriter::VideoWriter(const std::string& file, glm::ivec2 size, double rate) : file_(file), out_(file) {
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe to ffmpeg can be made");
   // Sides of an odd number of pixels are padded: the usual forms keep colour for two by two.
-  std::vector<std::string> words{"ffmpeg",   "-loglevel",
-                                 "error",    "-y",
-                                 "-f",       "rawvideo",
-                                 "-pix_fmt", "rgba",
-                                 "-s",       std::to_string(size.x) + "x" + std::to_string(size.y),
-                                 "-r",       text_of(rate),
-                                 "-i",       "-",
-                                 "-vf",      "pad=ceil(iw/2)*2:ceil(ih/2)*2",
-                                 "-pix_fmt", "yuv420p",
-                                 file};
+  std::vector<std::string> words{"ffmpeg",
+                                 "-loglevel",
+                                 "error",
+                                 "-y",
+                                 "-f",
+                                 "rawvideo",
+                                 "-pix_fmt",
+                                 "rgba",
+                                 "-s",
+                                 std::to_string(size.x) + "x" + std::to_string(size.y),
+                                 "-r",
+                                 text_of(rate),
+                                 "-i",
+                                 "-",
+                                 "-vf",
+                                 "pad=ceil(iw/2)*2:ceil(ih/2)*2",
+                                 "-pix_fmt",
+                                 "yuv420p",
+                                 std::filesystem::absolute(out_.temporary()).string()};
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
@@ -80,6 +90,7 @@ void VideoWriter::finish() {
   waitpid(process_, &status, 0);
   process_ = -1;
   if (status != 0) throw std::runtime_error("ffmpeg could not write the video " + file_);
+  out_.commit();
 }
 
 }  // namespace topple::viewer

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "renderer/renderer.h"
+#include "topple/structure/output_files.h"
 
 namespace topple::viewer {
 
@@ -23,6 +24,7 @@ class VideoWriter {
 
  private:
   std::string file_;
+  structure::OutputFile out_;
   pid_t process_ = -1;
   int pipe_ = -1;
 };

@@ -27,6 +27,9 @@ struct PanelFile {
 [[nodiscard]] std::filesystem::path find_panel(const std::string& name_or_path);
 /// Both throw InputError with file, place, what is wrong and what is accepted.
 [[nodiscard]] PanelFile read_panel(const std::filesystem::path& file);
+/// True when the file is a panel file (a JSON object with the key "panel"), false when it is something else that can be
+/// read. Throws InputError for what cannot.
+[[nodiscard]] bool is_panel(const std::filesystem::path& file);
 [[nodiscard]] PanelFile parse_panel(std::string_view text, const std::string& name);
 
 }  // namespace topple::structure
