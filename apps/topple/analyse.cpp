@@ -11,11 +11,13 @@
 
 #include "command.h"
 #include "html_report.h"
+#include "progress.h"
 #include "topple/structure/analysis.h"
 #include "topple/structure/error.h"
 #include "topple/structure/files.h"
 #include "topple/structure/input_files.h"
 #include "topple/structure/member_checks.h"
+#include "topple/structure/modelling_checks.h"
 #include "topple/structure/output_files.h"
 
 namespace topple::app {
@@ -29,6 +31,9 @@ struct Options {
   std::vector<std::string> combinations;
   std::string code;
   std::optional<double> drift_limit;
+  std::string effective_lengths, warping, project, author;
+  std::vector<std::string> stiffeners;
+  bool rigid_end_posts = false;
   int stations = 0, threads = 0;
   std::string p_delta;
   int buckling = 0, modes = 0;
@@ -57,15 +62,18 @@ std::vector<CombinationId> chosen(const Building& building, const std::vector<st
   std::vector<CombinationId> ids;
   for (const std::string& name : names) {
     std::string known;
+    std::vector<std::string> names_known;
     bool found = false;
     for (std::size_t i = 0; i < building.combinations.size(); ++i) {
       known += (known.empty() ? "" : ", ") + building.combinations[i].name;
+      names_known.push_back(building.combinations[i].name);
       if (!matches_pattern(name, building.combinations[i].name)) continue;
       if (std::find(ids.begin(), ids.end(), CombinationId(i)) == ids.end()) ids.emplace_back(i);
       found = true;
     }
     if (!found)
-      throw InputError(building.file + ": --combination " + name + ": no such combination; accepted: " + known);
+      throw InputError(building.file + ": --combination " + name + ": no such combination" +
+                       did_you_mean(name, names_known) + "; accepted: " + known);
   }
   return ids;
 }
@@ -76,11 +84,13 @@ LossRequest losses(const Options& options, const Building& building) {
   if (options.sudden) request.sudden = *options.sudden;
   if (options.lose.empty() && options.lose_each.empty()) return request;
   const NameIndex names(building);
+  std::vector<std::string> members;
+  for (const Member& member : building.members) members.push_back(member.name);
   for (const std::string& name : options.lose) {
     const std::vector<MemberId> found = names.members_matching(name);
     if (found.empty())
-      throw InputError(building.file + ": --lose " + name +
-                       ": no such member; accepted: a member's name, in which * stands for any run of characters");
+      throw InputError(building.file + ": --lose " + name + ": no such member" + did_you_mean(name, members) +
+                       "; accepted: a member's name, in which * stands for any run of characters");
     request.named.insert(request.named.end(), found.begin(), found.end());
   }
   for (const std::string& name : options.lose_each) {
@@ -91,6 +101,23 @@ LossRequest losses(const Options& options, const Building& building) {
     request.each.insert(request.each.end(), group->members.begin(), group->members.end());
   }
   return request;
+}
+
+/// Lengths that the command line gives are in the model's units.
+DesignInput design_input(const Options& options, const Building& building) {
+  DesignInput input;
+  if (options.effective_lengths == "charts") input.lengths = EffectiveLengths::charts;
+  if (options.effective_lengths == "assumed") input.lengths = EffectiveLengths::assumed;
+  input.rigid_end_posts = options.rigid_end_posts;
+  if (!options.warping.empty()) input.warping_held = {options.warping == "held", options.warping == "held"};
+  for (const std::string& given : options.stiffeners) {
+    const std::size_t at = given.rfind('=');
+    double spacing = 0;
+    if (at == std::string::npos || !CLI::detail::lexical_cast(given.substr(at + 1), spacing) || !(spacing > 0))
+      throw InputError("--stiffeners " + given + ": accepted: NAME=SPACING, a number above 0 in the model's length");
+    input.stiffeners.emplace_back(given.substr(0, at), spacing * building.units.length);
+  }
+  return input;
 }
 
 /// What the command line asks for, else what the file asks for itself.
@@ -157,13 +184,21 @@ int run(const Options& options) {
     if (asked && options.output.empty()) throw InputError(std::string(name) + ": name the folder for it with -o");
   if (options.drift_limit && options.code.empty())
     throw InputError("--drift-limit: nothing is checked; accepted: with --code");
+  for (const auto& [asked, name] : {std::pair{!options.effective_lengths.empty(), "--effective-lengths"},
+                                    {!options.warping.empty(), "--warping"},
+                                    {!options.stiffeners.empty(), "--stiffeners"},
+                                    {options.rigid_end_posts, "--rigid-end-posts"}})
+    if (asked && options.code.empty())
+      throw InputError(std::string(name) + ": nothing is checked; accepted: with --code");
   if (options.sudden && options.lose.empty() && options.lose_each.empty())
     throw InputError("--sudden: nothing is lost; accepted: with --lose or --lose-each");
   StageClock clock;
   const std::filesystem::path file = find_model(options.model);
   std::optional<OutputFolder> folder;
   if (!options.output.empty()) folder.emplace(options.output, model_files(file), result_names());
-  const Building building = read_model(file);
+  Building read = read_model(file);
+  for (std::string& warning : modelling_warnings(read)) read.warnings.push_back(std::move(warning));
+  const Building building = std::move(read);
   give_back_free_memory();
   clock.stop("read");
   AnalysisRequest request;
@@ -180,13 +215,17 @@ int run(const Options& options) {
                                options.code.empty() ? 0 : design_stations});
   wider.stations = whole_multiple(request.stations, wanted);
   wider.critical_sections = !options.code.empty();
+  wider.progress = tell_progress;
   // Kept to the end of the process, which gives it back at once: piece by piece that takes longer than a solve.
   static AnalysisResult result;
+  std::optional<UnstableAnalysis> failed;  // some combinations; the others are written all the same
   try {
     result = analyse(building, wider);
   } catch (const UnstableAnalysis& unstable) {
     if (options.diagnose) write_diagnosis(options, building, request, unstable.diagnosis);
-    throw;
+    if (!unstable.partial) throw;
+    failed = unstable;
+    result = std::move(*unstable.partial);
   }
   clock.stop("analyse");
   if (result.combinations.empty() && (options.html || options.vtu || !options.code.empty()))
@@ -194,7 +233,8 @@ int run(const Options& options) {
                      "; accepted: no --html, --vtu and --code, which are about combinations");
   if (!options.code.empty()) {
     const DesignCode code = options.code == "en1993" ? DesignCode::en1993 : DesignCode::aisc360;
-    check_design(building, code, options.drift_limit ? 1 / *options.drift_limit : usual_drift_limit, result);
+    check_design(building, code, options.drift_limit ? 1 / *options.drift_limit : usual_drift_limit, result,
+                 design_input(options, building));
     clock.stop("design");
   }
   clock.seconds["order"] = result.statistics.order_seconds;
@@ -202,12 +242,15 @@ int run(const Options& options) {
   clock.seconds["factor"] = result.statistics.factor_seconds;
   clock.seconds["solve"] = result.statistics.solve_seconds;
   if (request.losses.any()) clock.seconds["losses"] = result.loss_seconds;
-  if (!options.output.empty()) {
+  const bool diagnosed = failed && options.diagnose;  // results.json holds what moves
+  if (!options.output.empty() && !diagnosed) {
     std::vector<std::pair<std::string, std::string>> files;
     std::vector<StreamedFile> streamed;
     if (options.html) {
       files.emplace_back("results.json", results_json(building, request, result, clock.seconds));
-      files.emplace_back("report.html", html_report(building, result, files[0].second));
+      files.emplace_back("report.html",
+                         html_report(building, result, files[0].second,
+                                     {options.project, options.author, design_input(options, building)}));
     } else {
       streamed.push_back({"results.json", [&, seconds = clock.seconds](const auto& sink) {
                             write_results_json(building, request, result, seconds, sink);
@@ -220,6 +263,9 @@ int run(const Options& options) {
     clock.stop("write");
   }
   std::fputs(summary_text(building, result, clock.seconds).c_str(), stdout);
+  if (options.output.empty())
+    std::puts("more: -o DIR writes results.json; --csv, --vtu, --html add tables and drawings");
+  if (failed) throw *failed;
   return success;
 }
 
@@ -242,6 +288,16 @@ std::function<int()> declare(CLI::App& app) {
       ->check(whole_number(1, 1000));
   app.add_option("--code", options->code, "Check every member by EN 1993-1-1 or AISC 360")
       ->check(CLI::IsMember({"en1993", "aisc360"}));
+  app.add_option("--effective-lengths", options->effective_lengths,
+                 "With --code: automatic (charts; with --buckling its modes), charts, or assumed (posts sway)")
+      ->check(CLI::IsMember({"automatic", "charts", "assumed"}));
+  app.add_option("--stiffeners", options->stiffeners,
+                 "With --code: NAME=SPACING of transverse stiffeners, by member, pattern or group")
+      ->expected(1)
+      ->take_all();
+  app.add_flag("--rigid-end-posts", options->rigid_end_posts, "With --code en1993: rigid end posts of webs");
+  app.add_option("--warping", options->warping, "With --code: warping at members' ends, free or held (else the worst)")
+      ->check(CLI::IsMember({"free", "held"}));
   app.add_option("--drift-limit", options->drift_limit, "With --code: limit of the storey drift, height/N")
       ->check(in_range({0, 1e6, true}));
   app.add_option("--lose", options->lose, "Member to lose suddenly, alone, with the whole state after it")
@@ -264,6 +320,8 @@ std::function<int()> declare(CLI::App& app) {
   app.add_flag("--diagnose", options->diagnose,
                "Where the model is not stable, write what moves (results.json, and with --vtu, --html its drawing)");
   app.add_flag("--html", options->html, "Write report.html");
+  app.add_option("--project", options->project, "Name of the project on the report's cover");
+  app.add_option("--author", options->author, "Author on the report's cover");
   return [options] { return run(*options); };
 }
 

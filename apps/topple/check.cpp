@@ -4,9 +4,11 @@
 #include <variant>
 
 #include "command.h"
+#include "topple/structure/analysis.h"
 #include "topple/structure/drawn_model.h"
 #include "topple/structure/error.h"
 #include "topple/structure/files.h"
+#include "topple/structure/modelling_checks.h"
 #include "topple/structure/panel_file.h"
 #include "topple/structure/plain_text.h"
 
@@ -37,13 +39,22 @@ void print_contents(const Building& building) {
   for (const auto& combination : building.combinations) std::printf(" \"%s\"", combination.name.c_str());
   std::printf("\n");
   for (const std::string& warning : building.warnings) std::printf("  warning: %s\n", warning.c_str());
+  for (const std::string& warning : structure::modelling_warnings(building))
+    std::printf("  warning: %s\n", warning.c_str());
+}
+
+/// Only what would run is ready: the first combination is solved.
+void try_one_combination(const Building& building) {
+  structure::AnalysisRequest request;
+  request.combinations = {structure::CombinationId(std::size_t{0})};
+  (void)structure::analyse(building, request);
 }
 
 void print_outcome(const char* command, const std::function<void()>& needed) {
   try {
     needed();
     std::printf("  %s: ready\n", command);
-  } catch (const structure::InputError& error) {
+  } catch (const std::exception& error) {
     std::printf("  %s: %s\n", command, structure::one_line(error.what()).c_str());
   }
 }
@@ -59,6 +70,7 @@ void print_readiness(const Building& building, const std::filesystem::path& file
   }
   print_outcome("analyse", [&] {
     structure::refuse_unbuilt(building, structure::Purpose::analyse);
+    try_one_combination(building);
     // Drawings count in an analysis by their weight alone.
     if (!drawn) (void)structure::read_model(file, structure::Purpose::analyse);
   });

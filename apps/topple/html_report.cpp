@@ -5,11 +5,14 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
 #include <vector>
+
+#include "report_audit.h"
 
 #ifdef TOPPLE_REPORT
 extern "C" const char topple_report_page_begin[];
@@ -307,14 +310,48 @@ bool can_write_report() {
 #endif
 }
 
-std::string html_report(const Building& building, const AnalysisResult& result, const std::string& results_json) {
+namespace {
+
+/// Date of today, as people write it who read numbers of any order.
+std::string today() {
+  const std::time_t now = std::time(nullptr);
+  char text[32];
+  std::tm day{};
+  localtime_r(&now, &day);
+  std::strftime(text, sizeof text, "%Y-%m-%d", &day);
+  return text;
+}
+
+/// What only the printed report has.
+void add_paper(const Building& building, const AnalysisResult& result, const ReportCover& cover, Json& model) {
+  model["project"] = cover.project;
+  model["author"] = cover.author;
+  model["date"] = today();
+#ifdef TOPPLE_COMMIT
+  model["commit"] = TOPPLE_COMMIT;
+#endif
+  model["result_warnings"] = result.warnings;
+  model["load_drawings"] = load_drawings(building);
+  model["audits"] = report_audits(building, result, cover.design);
+  model["audit_selection"] =
+      "Of every section the member that is used most over all combinations is followed below from its properties to "
+      "every "
+      "clause; all members' clauses are in the tables.";
+}
+
+}  // namespace
+
+std::string html_report(const Building& building, const AnalysisResult& result, const std::string& results_json,
+                        const ReportCover& cover) {
   constexpr std::string_view mark = "\"TOPPLE_DATA\"";
   const std::string_view whole = page();
   const std::size_t at = whole.find(mark);
   if (at == std::string_view::npos) throw std::runtime_error("the report page has no place for its data");
   Json names = Json::array();
   for (const char* name : diagram_names) names.push_back(name);
-  std::string data = "{\"model\":" + ModelWriter(building).write().dump() + ",\"diagram_names\":" + names.dump() +
+  Json model = ModelWriter(building).write();
+  add_paper(building, result, cover, model);
+  std::string data = "{\"model\":" + model.dump() + ",\"diagram_names\":" + names.dump() +
                      ",\"diagrams\":" + diagrams(building, result).dump() + ",\"results\":" + shortened(results_json) +
                      "}";
   std::string out(whole.substr(0, at));

@@ -1,5 +1,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -8,9 +9,11 @@
 #include <set>
 #include <span>
 
+#include "analysis/discretisation.h"
 #include "analysis/divided_member.h"
 #include "analysis/equilibrium.h"
 #include "analysis/instability.h"
+#include "analysis/largest_displacement.h"
 #include "analysis/loads_by_member.h"
 #include "analysis/modal_masses.h"
 #include "analysis/one_way_members.h"
@@ -67,7 +70,7 @@ class Analysis {
     AnalysisResult result;
     try {
       solve_and_recover(result);
-      if (request_.modes > 0) find_modes(result);
+      if (request_.modes > 0 && !failed_) find_modes(result);
     } catch (const solver::Instability& unstable) {
       const std::string message = building_.file + ": " + describe_instability(building_, frame_, unstable);
       throw UnstableAnalysis(diagnose(building_, frame_, unstable, "mechanism", combinations_.front(), message));
@@ -75,9 +78,10 @@ class Analysis {
       // What a reader cannot see: settlements that bend a rigid floor, for one.
       throw InputError(building_.file + ": " + error.what());
     }
+    if (failed_ && result.combinations.empty()) throw *failed_;
     const auto& nodes = frame_.model.nodes;
     result.mesh_nodes.assign(nodes.begin() + static_cast<std::ptrdiff_t>(building_.nodes.size()), nodes.end());
-    find_losses_asked_for(result);
+    if (!failed_) find_losses_asked_for(result);
     result.warnings.insert(result.warnings.begin(), building_.warnings.begin(), building_.warnings.end());
     warn_of_frame3dd(result);
     if (result.statistics.nearly_unstable)
@@ -85,6 +89,14 @@ class Analysis {
                                 std::to_string(static_cast<int>(result.statistics.digits_left)) +
                                 " digits of the answer are left");
     warn_of_error(result);
+    warn_of_meshes(result);
+    warn_of_large_deflections(result);
+    if (failed_) {
+      if (request_.modes > 0) result.unfinished.emplace_back("natural modes");
+      if (request_.losses.any()) result.unfinished.emplace_back("losses of members");
+      failed_->partial = std::make_shared<AnalysisResult>(std::move(result));
+      throw *failed_;
+    }
     return result;
   }
 
@@ -105,12 +117,33 @@ class Analysis {
   /// Combinations that are linear to the end stand alone; others share an ordering, and what one leaves behind.
   void recover(std::vector<solver::StaticSolution> solutions, AnalysisResult& result) {
     result.combinations.resize(solutions.size());
-    const auto one = [&](std::size_t k) { result.combinations[k] = analysed(k, std::move(solutions[k])); };
+    std::atomic<std::size_t> done = 0;
+    const auto one = [&](std::size_t k) {
+      result.combinations[k] = analysed(k, std::move(solutions[k]));
+      tell("combinations", static_cast<double>(++done) / static_cast<double>(solutions.size()));
+    };
     if (linear_) {
       side_by_side(solutions.size(), request_.workers, one);
     } else {
-      for (std::size_t k = 0; k < solutions.size(); ++k) one(k);
+      for (std::size_t k = 0; k < solutions.size(); ++k) try_one(k, one, result);
+      std::erase_if(result.combinations, [](const CombinationResult& c) { return !c.combination.valid(); });
     }
+  }
+
+  /// One that is not stable does not keep the others from being computed.
+  template <class One>
+  void try_one(std::size_t k, const One& one, AnalysisResult& result) {
+    try {
+      one(k);
+    } catch (const UnstableAnalysis& unstable) {
+      result.unfinished.push_back("combination " + building_[combinations_[k]].name + ": " +
+                                  unstable.diagnosis.message);
+      if (!failed_) failed_.emplace(unstable);
+    }
+  }
+
+  void tell(std::string_view stage, double share = -1) const {
+    if (request_.progress) request_.progress(stage, share);
   }
 
   /// Fewer cases than combinations: these are found as sums.
@@ -128,6 +161,7 @@ class Analysis {
 
   /// The factor, by far the largest thing there is, goes with the analysis: nothing that follows needs it.
   [[nodiscard]] std::vector<solver::StaticSolution> solve_linear(solver::AnalysisStatistics& statistics) {
+    tell("factorisation");
     if (of_cases()) {
       solver::CaseSums sums =
           solver::solve_case_sums(carrying_both(frame_.model), cases_.sets, cases_.factors, request_.solver);
@@ -197,7 +231,7 @@ class Analysis {
     if (request_.buckling > 0)
       result.buckling = solver::buckling_modes(model, loads_[k].set, request_.buckling, request_.solver,
                                                largest_buckling_factor, hanging_);
-    for (solver::BucklingMode& mode : result.buckling) make_shape_absolute(frame_, mode.shape);
+    for (solver::BucklingMode& mode : result.buckling) scale_shape(mode.shape);
     return result;
   }
 
@@ -230,12 +264,10 @@ class Analysis {
       return iterations;
     } catch (const solver::Buckled& buckled) {
       auto modes = solver::buckling_modes(model, loads_[k].set, 1, request_.solver, largest_buckling_factor, hanging_);
-      const std::string factor = modes.empty() ? "" : " (critical factor " + short_number(modes[0].factor) + ")";
-      const std::string message = place + ": the loads are beyond what the structure bears before it buckles" + factor +
-                                  "; " + describe_instability(building_, frame_, buckled);
+      const std::string message = place + ": " + beyond_buckling(modes, buckled);
       Diagnosis diagnosis = diagnose(building_, frame_, buckled, "buckling", combinations_[k], message);
       if (!modes.empty()) {
-        make_shape_absolute(frame_, modes.front().shape);
+        scale_shape(modes.front().shape);
         diagnosis.shape = modes.front().shape;
       }
       throw UnstableAnalysis(std::move(diagnosis));
@@ -247,8 +279,22 @@ class Analysis {
     }
   }
 
+  /// What a second-order answer that does not exist says of itself. A linear factor above 1 is not the limit:
+  /// deflections that grow with the load bring it down.
+  [[nodiscard]] std::string beyond_buckling(const std::vector<solver::BucklingMode>& modes,
+                                            const solver::Buckled& buckled) const {
+    std::string text = "the loads are beyond what the structure bears before it buckles";
+    if (!modes.empty() && modes[0].factor <= 1)
+      text += " (critical factor " + short_number(modes[0].factor) + ")";
+    else if (!modes.empty())
+      text += ": a limit point lies below these loads (the linear critical factor, " + short_number(modes[0].factor) +
+              ", leaves out that deflections raise axial forces)";
+    return text + "; " + describe_buckling(building_, frame_, buckled);
+  }
+
   /// Without load, all one-way members taut; with second order as the last combination has left the structure.
   void find_modes(AnalysisResult& result) const {
+    tell("natural modes");
     solver::MassModel masses{request_.mass,
                              request_.torsional_mass,
                              request_.rotary_inertia,
@@ -264,11 +310,26 @@ class Analysis {
                                         request_.solver, tangent)
                 : solver::natural_modes(model, masses, request_.modes, request_.solver, tangent);
     result.modes = std::move(answer.modes);
-    for (solver::VibrationMode& mode : result.modes) make_shape_absolute(frame_, mode.shape);
+    for (solver::VibrationMode& mode : result.modes) scale_shape(mode.shape);
     result.moving_mass = answer.moving_mass;
     if (static_cast<int>(result.modes.size()) < request_.modes)
       result.warnings.push_back("the masses have " + std::to_string(result.modes.size()) + " modes, " +
                                 std::to_string(request_.modes) + " were asked for");
+  }
+
+  /// So that no point of any node or member, bent between its ends, moves by more than 1; what is noise beside that is
+  /// nothing.
+  void scale_shape(std::vector<Vec6>& shape) const {
+    make_shape_absolute(frame_, shape);
+    const double largest = largest_in_shape(building_, shape);
+    double most = 0;
+    for (const Vec6& motion : shape) most = std::max(most, motion.cwiseAbs().maxCoeff());
+    constexpr double noise = 1e-12;
+    for (Vec6& motion : shape)
+      for (double& component : motion) {
+        if (std::abs(component) < noise * most) component = 0;
+        if (largest > 0) component /= largest;
+      }
   }
 
   /// Frame3DD takes a thermal strain for an axial force in the end forces that it prints.
@@ -301,6 +362,52 @@ class Analysis {
         result.warnings.push_back(of + "the equations are not solved to rounding (backward error " +
                                   short_number(c.quality.backward_error) + "); about " + digits(c.quality.error_bound) +
                                   " digits of the displacements are certain");
+    }
+  }
+
+  /// Stresses of a mesh that is too coarse; the deflections' error goes with the square.
+  void warn_of_meshes(AnalysisResult& result) const {
+    constexpr double coarse = 0.4;  // deflections are then off by some per cent
+    for (const CombinationResult& c : result.combinations) {
+      if (!(c.discretisation_error > coarse)) continue;
+      const auto worst = std::max_element(c.panels.begin(), c.panels.end(), [](const auto& a, const auto& b) {
+        return a.discretisation_error < b.discretisation_error;
+      });
+      result.warnings.push_back("combination " + building_[c.combination].name +
+                                ": the shells' meshes are coarse: estimated error of stresses " +
+                                short_number(100 * c.discretisation_error) + " %, most in panel " +
+                                building_.panels[static_cast<std::size_t>(worst - c.panels.begin())].name +
+                                "; a larger `mesh` lowers it");
+    }
+  }
+
+  /// Beyond a tenth of the structure's size nothing linear holds.
+  void warn_of_large_deflections(AnalysisResult& result) const {
+    constexpr double large = 0.1;
+    if (building_.nodes.empty()) return;
+    Vec3 low = building_.nodes.front().position, high = low;
+    for (const Node& node : building_.nodes) {
+      low = low.cwiseMin(node.position);
+      high = high.cwiseMax(node.position);
+    }
+    const double size = (high - low).norm();
+    for (const CombinationResult& c : result.combinations) {
+      const std::string of = "combination " + building_[c.combination].name + ": ";
+      if (c.largest.value > large * size) {
+        result.warnings.push_back(of + "the largest displacement (" +
+                                  short_number(c.largest.value / building_.units.length) +
+                                  ") is above a tenth of the structure's size; small displacements are assumed");
+        continue;
+      }
+      for (std::size_t m = 0; m < c.members.size(); ++m) {
+        const auto sag = [&](std::size_t q) {
+          return std::max(std::abs(c.members[m].min[q].value), std::abs(c.members[m].max[q].value));
+        };
+        if (std::max(sag(6), sag(7)) <= large * building_.members[m].length) continue;
+        result.warnings.push_back(of + "member " + building_.members[m].name +
+                                  " deflects by more than a tenth of its length; small displacements are assumed");
+        break;
+      }
     }
   }
 
@@ -357,6 +464,16 @@ class Analysis {
     result.panels = panels(parts, solution);
     result.joints = joints(parts, solution, result);
     result.storeys = storeys_.results(result.displacements, result.members);
+    result.discretisation_error = set_discretisation_errors(building_, frame_, parts, solution, result.panels);
+    result.largest = largest_displacement(building_, result, [&](std::size_t m, double at) {
+      Vec2 bent = Vec2::Zero();
+      solver::Vec12 unused;
+      with_diagram(answer, loads_on(m), m, unused, [&](double, const auto& diagram) {
+        const std::array<double, 8> values = diagram.values(at);
+        bent = {values[6], values[7]};
+      });
+      return bent;
+    });
     return result;
   }
 
@@ -396,16 +513,18 @@ class Analysis {
     }
     for (int s = 0; request_.stations > 0 && s <= request_.stations; ++s)
       member.stations.push_back(diagram.values(length * s / request_.stations));
-    if (request_.critical_sections) member.critical = critical_sections(member, length, diagram);
+    if (request_.critical_sections) add_critical_sections(member, length, diagram);
   }
 
   template <class Diagram>
-  [[nodiscard]] static std::vector<std::array<double, 8>> critical_sections(const MemberResult& member, double length,
-                                                                            const Diagram& diagram) {
-    std::vector<std::array<double, 8>> sections;
+  static void add_critical_sections(MemberResult& member, double length, const Diagram& diagram) {
     const std::vector<double> breaks = diagram.breaks();
+    const auto add = [&](double at, bool beyond) {
+      member.critical.push_back(diagram.values(at, beyond));
+      member.critical_at.push_back(at);
+    };
     for (const double at : breaks)
-      for (const bool beyond : {false, true}) sections.push_back(diagram.values(at, beyond));
+      for (const bool beyond : {false, true}) add(at, beyond);
     // Both sides of a break are there already: the extreme of one side does not go with the others of the other.
     const auto at_a_break = [&](double at) {
       constexpr double rounding = 1e-9;
@@ -414,32 +533,41 @@ class Analysis {
     };
     for (std::size_t q = 0; q < 6; ++q)
       for (const Extreme& extreme : {member.min[q], member.max[q]})
-        if (!at_a_break(extreme.at)) sections.push_back(diagram.values(extreme.at));
-    return sections;
+        if (!at_a_break(extreme.at)) add(extreme.at, false);
   }
 
   template <class LoadsOn>
   [[nodiscard]] std::vector<MemberResult> members(const OneWayAnswer& answer, LoadsOn loads_on) const {
-    const std::vector<solver::Beam>& beams = answer.beams.empty() ? frame_.model.beams : answer.beams;
     const std::vector<solver::Vec12>& end_forces = answer.solution.beam_end_forces;
     std::vector<MemberResult> all(building_.members.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
       MemberResult& member = all[i];
       member.active = answer.active.empty() || answer.active[i] != 0;
-      const std::span<const solver::BeamLoad> on = loads_on(i);
-      if (frame_.pieces[i].empty() && answer.axial.mode == solver::SecondOrder::none) {
-        member.end_forces = end_forces[i];
-        fill(member, beams[i].length, solver::BeamDiagram(beams[i], member.end_forces, on));
-        continue;
-      }
-      const WholeMember whole = whole_member(frame_, i, beams, end_forces, {on.begin(), on.end()});
-      member.end_forces = whole.end_forces;
-      if (answer.axial.mode == solver::SecondOrder::none)
-        fill(member, whole.beam.length, solver::BeamDiagram(whole.beam, member.end_forces, whole.loads));
-      else
-        fill(member, whole.beam.length, SecondOrderMember(frame_, i, beams, answer.axial, answer.solution));
+      member.end_forces = end_forces[i];
+      with_diagram(answer, loads_on(i), i, member.end_forces,
+                   [&](double length, const auto& diagram) { fill(member, length, diagram); });
     }
     return all;
+  }
+
+  /// Hands the diagram of member i, and the length it goes over, to `use`; sets its end forces where it is several
+  /// beams.
+  template <class Use>
+  void with_diagram(const OneWayAnswer& answer, std::span<const solver::BeamLoad> on, std::size_t i,
+                    solver::Vec12& member_end_forces, Use use) const {
+    const std::vector<solver::Beam>& beams = answer.beams.empty() ? frame_.model.beams : answer.beams;
+    const std::vector<solver::Vec12>& end_forces = answer.solution.beam_end_forces;
+    const bool first_order = answer.axial.mode == solver::SecondOrder::none;
+    if (frame_.pieces[i].empty() && first_order) {
+      use(beams[i].length, solver::BeamDiagram(beams[i], end_forces[i], on));
+      return;
+    }
+    const WholeMember whole = whole_member(frame_, i, beams, end_forces, {on.begin(), on.end()});
+    member_end_forces = whole.end_forces;
+    if (first_order)
+      use(whole.beam.length, solver::BeamDiagram(whole.beam, whole.end_forces, whole.loads));
+    else
+      use(whole.beam.length, SecondOrderMember(frame_, i, beams, answer.axial, answer.solution));
   }
 
   /// Mean membrane forces of a membrane panel from its corner forces (the virial theorem), panel axes.
@@ -514,8 +642,9 @@ class Analysis {
   bool linear_ = false;                          ///< to the end: no second order, no buckling, no one-way members
   std::optional<CaseLoadsByMember> case_loads_;  ///< where combinations are added up from these to the end
   std::vector<Balance> case_balances_;
-  std::vector<CombinationLoads> loads_;  ///< per combination; empty where each is made when it is its turn
-  bool floats_ = false;                  ///< nothing but the shift of the modes keeps it in place
+  std::vector<CombinationLoads> loads_;     ///< per combination; empty where each is made when it is its turn
+  std::optional<UnstableAnalysis> failed_;  ///< the first combination that is not stable
+  bool floats_ = false;                     ///< nothing but the shift of the modes keeps it in place
   std::optional<solver::SecondOrderAnalysis> second_order_;
   solver::AxialState tangent_;  ///< of the last combination
   std::vector<solver::Beam> tangent_beams_;

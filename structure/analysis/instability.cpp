@@ -1,5 +1,6 @@
 // An instability of the solver in the building's own names.
 #include <algorithm>
+#include <string_view>
 
 #include "analysis/instability.h"
 #include "standing/unstable_model.h"
@@ -65,8 +66,10 @@ std::string describe_instability(const Building& building, const Frame& frame, c
       text += (i ? ", member " : " member ") + member_name(building, frame, mechanism.beams[i]);
     if (mechanism.beams.size() > named_at_most)
       text += " and " + std::to_string(mechanism.beams.size() - named_at_most) + " more";
-    text +=
-        mechanism.beams.empty() ? " " + std::string(instability.what()) : ", released at both ends, can move by itself";
+    if (!mechanism.beams.empty())
+      text += ", released at both ends, can move by itself";
+    else
+      text = "the model is " + std::string(instability.what());
   }
   const auto hanging = held_by_membranes_only(building, named.nodes);
   if (!hanging.empty())
@@ -74,6 +77,23 @@ std::string describe_instability(const Building& building, const Frame& frame, c
             (hanging.size() > 1 ? " and " + std::to_string(hanging.size() - 1) + " more" : "") +
             ", and a membrane holds nothing across its plane";
   return text;
+}
+
+std::string describe_buckling(const Building& building, const Frame& frame, const solver::Instability& instability) {
+  const solver::Mechanism& mechanism = instability.mechanism;
+  if (!mechanism.nodes.empty()) {
+    const std::string text = describe_instability(building, frame, instability);
+    constexpr std::string_view unstable = "the model is unstable: ";
+    return text.starts_with(unstable) ? text.substr(unstable.size()) : text;
+  }
+  if (mechanism.beams.empty()) return "a member buckles between nodes that stay at rest";
+  std::string text = mechanism.beams.size() > 1 ? "members" : "member";
+  constexpr std::size_t named_at_most = 8;
+  for (std::size_t i = 0; i < std::min(mechanism.beams.size(), named_at_most); ++i)
+    text += (i ? ", " : " ") + member_name(building, frame, mechanism.beams[i]);
+  if (mechanism.beams.size() > named_at_most)
+    text += " and " + std::to_string(mechanism.beams.size() - named_at_most) + " more";
+  return text + (mechanism.beams.size() > 1 ? " buckle" : " buckles") + " between the ends";
 }
 
 Diagnosis diagnose(const Building& building, const Frame& frame, const solver::Instability& instability,

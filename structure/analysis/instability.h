@@ -10,6 +10,9 @@ namespace topple::structure {
 /// One line that names the nodes that move, how, and the members that move, in the building's own names.
 [[nodiscard]] std::string describe_instability(const Building& building, const Frame& frame,
                                                const solver::Instability& instability);
+/// What moves as a structure buckles, of a second-order analysis.
+[[nodiscard]] std::string describe_buckling(const Building& building, const Frame& frame,
+                                            const solver::Instability& instability);
 /// The same as a motion that can be drawn. `kind` as in Diagnosis.
 [[nodiscard]] Diagnosis diagnose(const Building& building, const Frame& frame, const solver::Instability& instability,
                                  const char* kind, CombinationId combination, const std::string& message);

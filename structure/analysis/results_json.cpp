@@ -122,6 +122,11 @@ std::vector<ResultsWriter::Piece> ResultsWriter::pieces() const {
     if (to.request_.losses.any()) to.losses();
     if (to.request_.buckling > 0) to.buckling();
     if (to.request_.modes > 0) to.modes();
+    if (!to.result_.unfinished.empty()) {
+      to.w_.key("unfinished").open('[');
+      for (const std::string& missing : to.result_.unfinished) to.w_.value(missing);
+      to.w_.close(']').newline();
+    }
     to.seconds();
     to.w_.close('}');
   });
@@ -163,7 +168,9 @@ void ResultsWriter::design_header() {
     for (const DesignResult& used : c.designs)
       for (const DesignClause& clause : used.clauses) clauses.insert(clause.clause);
   for (const std::string& clause : clauses) w_.key(clause).value(std::string(design_formula(clause)));
-  w_.close('}').close('}').newline();
+  w_.close('}').key("not_checked").open('[');
+  for (const std::string_view text : design_not_checked(*result_.design_code)) w_.value(std::string(text));
+  w_.close(']').close('}').newline();
 }
 
 void ResultsWriter::node_displacement(std::size_t node, const Vec6& displacement) {
@@ -199,14 +206,33 @@ void ResultsWriter::behind_members(const CombinationResult& c) {
   }
   w_.close('}').newline().key("equilibrium_error").value(c.equilibrium_error);
   w_.key("backward_error").value(c.quality.backward_error).key("condition").value(c.quality.condition);
-  w_.key("error_bound").value(c.quality.error_bound).close('}');
+  w_.key("error_bound").value(c.quality.error_bound);
+  w_.key("discretisation_error").value(c.discretisation_error);
+  largest_displacement(c.largest);
+  w_.close('}');
+}
+
+void ResultsWriter::largest_displacement(const LargestDisplacement& largest) {
+  w_.key("largest_displacement").open('{').key("value").value(largest.value / b_.units.length).key("moved").open('[');
+  for (const double component : largest.moved) w_.value(component / b_.units.length);
+  w_.close(']');
+  if (largest.member.valid())
+    w_.key("member").value(b_[largest.member].name).key("at").value(largest.at / b_.units.length);
+  else if (largest.mesh_node < 0 && largest.node.valid())
+    w_.key("node").value(b_[largest.node].name);
+  w_.close('}');
 }
 
 void ResultsWriter::design(const DesignResult& used) {
   if (used.governing.empty()) return;
   w_.key("utilisation").value(used.utilisation).key("governing").value(used.governing).key("clauses").open('{');
   for (const DesignClause& clause : used.clauses) w_.key(clause.clause).value(clause.utilisation);
-  w_.close('}');
+  w_.close('}').key("lengths").open('{');
+  const double unit = b_.units.length;
+  w_.key("y").value(used.lengths.y / unit).key("y_from").value(std::string(length_source_name(used.length_source[0])));
+  w_.key("z").value(used.lengths.z / unit).key("z_from").value(std::string(length_source_name(used.length_source[1])));
+  w_.key("torsion").value(used.lengths.torsion / unit).key("lateral").value(used.lengths.lateral / unit).close('}');
+  if (!used.refusal.empty()) w_.key("not_verified").value(used.refusal);
 }
 
 /// Written in two strokes without a look at what is between them: by far the most of the text is made here.
@@ -278,7 +304,10 @@ void ResultsWriter::panel(const Panel& panel, const PanelResult& r, const Combin
     w_.close('}');
   }
   w_.close(']');
-  if (!nodes.empty()) mesh(nodes, c);
+  if (!nodes.empty()) {
+    w_.key("discretisation_error").value(r.discretisation_error);
+    mesh(nodes, c);
+  }
   w_.close('}');
 }
 

@@ -76,6 +76,7 @@ class ResultsWriter {
   void member(std::size_t m, const MemberResult& r, const DesignResult* used);
   void design(const DesignResult& used);
   void stations(const Member& member, const MemberResult& r);
+  void largest_displacement(const LargestDisplacement& largest);
   void behind_members(const CombinationResult& c);
   void panel(const Panel& panel, const PanelResult& r, const CombinationResult& c);
   void mesh(const std::vector<int>& nodes, const CombinationResult& c);

@@ -125,6 +125,21 @@ void set_centre(const PanelReader& reader, const Vec3& centre, double size, Pane
 
 }  // namespace
 
+PanelResultants panel_resultants(const Building& building, const Frame& frame, PanelId id, const PartLoads& loads,
+                                 const solver::StaticSolution& solution) {
+  const PanelReader reader(building, frame, id, loads.panels[index_of(id)].strain, solution);
+  const Vec3 x = building[id].axes.row(0);
+  PanelResultants all;
+  constexpr double gauss = 0.57735026918962576;
+  for (std::size_t k = 0; k < reader.elements(); ++k) {
+    all.centre.push_back(reader.resultants(k, x));
+    auto& points = all.gauss.emplace_back();
+    for (std::size_t g = 0; g < 4; ++g)
+      points[g] = reader.resultants(k, x, Vec2((g == 1 || g == 2 ? 1 : -1) * gauss, (g >= 2 ? 1 : -1) * gauss));
+  }
+  return all;
+}
+
 PanelResult shell_panel_result(const Building& building, const Frame& frame, PanelId id, const PartLoads& loads,
                                const solver::StaticSolution& solution) {
   const Panel& panel = building[id];
@@ -187,8 +202,32 @@ std::array<Vec6, 4> shell_edge_demands(const Building& building, const Frame& fr
   return demands;
 }
 
-std::vector<Vec6> edge_reactions(const Building& building, const Frame& frame, const std::vector<Vec6>& reactions) {
+namespace {
+
+/// What holds one component of a node rigidly for several edges, a corner, bears it in equal parts: the solver leaves
+/// it with one of them.
+std::vector<Vec6> shared_at_corners(const Frame& frame, std::vector<Vec6> reactions) {
+  std::map<std::pair<int, int>, std::vector<std::size_t>> holding;  // by node and component
+  for (const std::vector<int>& supports : frame.edge_supports)
+    for (const int s : supports) {
+      const solver::Support& support = frame.model.supports[static_cast<std::size_t>(s)];
+      for (int c = 0; c < 6; ++c)
+        if (support.stiffness(c) == unlimited) holding[{support.node, c}].push_back(static_cast<std::size_t>(s));
+    }
+  for (const auto& [place, supports] : holding) {
+    if (supports.size() < 2) continue;
+    double sum = 0;
+    for (const std::size_t s : supports) sum += reactions[s](place.second);
+    for (const std::size_t s : supports) reactions[s](place.second) = sum / static_cast<double>(supports.size());
+  }
+  return reactions;
+}
+
+}  // namespace
+
+std::vector<Vec6> edge_reactions(const Building& building, const Frame& frame, const std::vector<Vec6>& given) {
   std::vector<Vec6> all;
+  const std::vector<Vec6> reactions = shared_at_corners(frame, given);
   for (std::size_t i = 0; i < building.edge_supports.size(); ++i) {
     const EdgeSupport& support = building.edge_supports[i];
     const auto& nodes = building[support.panel].nodes;

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "analysis/bearing_edges.h"
+#include "topple/solver/shell_resultants.h"
 #include "topple/structure/analysis.h"
 #include "topple/structure/frame.h"
 
@@ -12,6 +13,15 @@ namespace topple::structure {
 /// and forces at the panel's corners.
 [[nodiscard]] PanelResult shell_panel_result(const Building& building, const Frame& frame, PanelId panel,
                                              const PartLoads& loads, const solver::StaticSolution& solution);
+
+/// Resultants in the panel's axes at the centres of its elements, and at their 2 x 2 Gauss points (towards corner 1 to
+/// 4), where the elements' own fields are compared with a smooth one.
+struct PanelResultants {
+  std::vector<solver::ShellResultants> centre;
+  std::vector<std::array<solver::ShellResultants, 4>> gauss;
+};
+[[nodiscard]] PanelResultants panel_resultants(const Building& building, const Frame& frame, PanelId panel,
+                                               const PartLoads& loads, const solver::StaticSolution& solution);
 
 /// What openings leave of the length of each edge of a meshed panel.
 [[nodiscard]] std::array<double, 4> intact_edges(const Frame& frame, PanelId panel);

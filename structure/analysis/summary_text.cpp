@@ -10,6 +10,7 @@ namespace topple::structure {
 namespace {
 
 constexpr std::size_t joints_shown = 10;
+constexpr double no_drift = 1e-12;  // what rounding leaves of none
 
 class Text {
  public:
@@ -59,14 +60,23 @@ void most_used(Text& text, const Building& building, const CombinationResult& c)
   }
 }
 
+/// How a member's effective lengths were found, about y and about z.
+std::string lengths_from(const DesignResult& used) {
+  const auto [y, z] = used.length_source;
+  std::string text(length_source_name(y));
+  if (z != y) text += "; " + std::string(length_source_name(z));
+  return text;
+}
+
 /// The ten most used members with clause, and what the clauses of those say.
 void most_used_members(Text& text, const Building& building, const AnalysisResult& result, const CombinationResult& c) {
-  std::vector<std::size_t> order;
+  std::vector<std::size_t> order, refused;
   std::size_t over = 0;
   for (std::size_t m = 0; m < c.designs.size(); ++m) {
     if (c.designs[m].governing.empty()) continue;
     order.push_back(m);
     if (!(c.designs[m].utilisation <= 1)) ++over;
+    if (!c.designs[m].refusal.empty()) refused.push_back(m);
   }
   if (order.empty()) return;
   const std::size_t shown = std::min(joints_shown, order.size());
@@ -80,12 +90,27 @@ void most_used_members(Text& text, const Building& building, const AnalysisResul
   std::vector<std::string> clauses;
   for (std::size_t k = 0; k < shown; ++k) {
     const DesignResult& used = c.designs[order[k]];
-    text.line("    %-20s %7.1f %%  %s", building.members[order[k]].name.c_str(), 100 * used.utilisation,
-              used.governing.c_str());
+    const double length = building.members[order[k]].length;
+    text.line("    %-20s %7.1f %%  %s  K %.2f, %.2f (%s)", building.members[order[k]].name.c_str(),
+              100 * used.utilisation, used.governing.c_str(), used.lengths.y / length, used.lengths.z / length,
+              lengths_from(used).c_str());
     if (std::find(clauses.begin(), clauses.end(), used.governing) == clauses.end()) clauses.push_back(used.governing);
   }
+  for (std::size_t k = 0; k < std::min<std::size_t>(joints_shown, refused.size()); ++k)
+    text.line("    %-20s is not said to pass: %s", building.members[refused[k]].name.c_str(),
+              c.designs[refused[k]].refusal.c_str());
+  if (refused.size() > joints_shown) text.line("    and %zu more that are not", refused.size() - joints_shown);
   for (const std::string& clause : clauses)
     text.line("    %s: %s", clause.c_str(), std::string(design_formula(clause)).c_str());
+}
+
+/// Where something moves most, in the building's names.
+std::string place_of(const Building& building, const LargestDisplacement& largest) {
+  if (largest.member.valid())
+    return "in member " + building[largest.member].name + ", " + short_number(largest.at / building.units.length) +
+           " from its first end";
+  if (largest.mesh_node >= 0) return "within a shell panel";
+  return largest.node.valid() ? "at node " + building[largest.node].name : "anywhere";
 }
 
 void combination(Text& text, const Building& building, const AnalysisResult& result, const CombinationResult& c) {
@@ -93,27 +118,21 @@ void combination(Text& text, const Building& building, const AnalysisResult& res
   const std::string length = units.consistent ? "" : " " + units.length_name,
                     force = units.consistent ? "" : " " + units.force_name;
   text.line("combination %s", building[c.combination].name.c_str());
-  std::size_t farthest = 0;
-  for (std::size_t i = 1; i < c.displacements.size(); ++i)
-    if (c.displacements[i].head<3>().norm() > c.displacements[farthest].head<3>().norm()) farthest = i;
-  const Vec3 moved = c.displacements[farthest].head<3>() / units.length;
-  text.line("  largest displacement %.4g%s at node %s (x %.4g, y %.4g, z %.4g)", moved.norm(), length.c_str(),
-            building.nodes[farthest].name.c_str(), moved.x(), moved.y(), moved.z());
+  const Vec3 moved = c.largest.moved / units.length;
+  text.line("  largest displacement %.4g%s %s (x %.4g, y %.4g, z %.4g)", c.largest.value / units.length, length.c_str(),
+            place_of(building, c.largest).c_str(), moved.x(), moved.y(), moved.z());
   // What rounding leaves of nothing is shown as nothing.
   const double rounding = 1e-12 * c.total_load.head<3>().norm();
   const auto shown = [&](double f) { return std::abs(f) < rounding ? 0.0 : f / units.force; };
   const auto forces = [&](const char* what, const Vec6& f) {
     text.line("  %-20s x %.6g  y %.6g  z %.6g%s", what, shown(f[0]), shown(f[1]), shown(f[2]), force.c_str());
   };
-  double in_mesh = 0;
-  for (const Vec6& u : c.mesh_displacements) in_mesh = std::max(in_mesh, u.head<3>().norm() / units.length);
-  if (in_mesh > moved.norm()) text.line("  within shell panels  %.4g%s", in_mesh, length.c_str());
   forces("loads", c.total_load);
   forces("reactions", c.total_reaction);
   double drift = 0;
   std::size_t storey = 0;
   for (std::size_t i = 0; i < c.storeys.size(); ++i)
-    if (c.storeys[i].drift > drift) {
+    if (c.storeys[i].drift > std::max(drift, no_drift)) {
       drift = c.storeys[i].drift;
       storey = i + 1;
     }
@@ -132,8 +151,11 @@ void combination(Text& text, const Building& building, const AnalysisResult& res
   if (c.second_order_iterations > 0)
     text.line("  second order: axial forces settled in %d iterations, tangent positive definite",
               c.second_order_iterations);
-  text.line("  backward error %.1e, equilibrium error %.1e, condition %.1e, displacements right to %.1e",
+  text.line("  equations solved: backward error %.1e, equilibrium error %.1e, condition %.1e, rounding below %.1e",
             c.quality.backward_error, c.equilibrium_error, c.quality.condition, c.quality.error_bound);
+  if (c.discretisation_error > 0)
+    text.line("  shell meshes: estimated error of stresses %.1f %% (energy norm, within elements)",
+              100 * c.discretisation_error);
 }
 
 void losses(Text& text, const Building& building, const LossResult& result) {
@@ -199,6 +221,12 @@ std::string summary_text(const Building& building, const AnalysisResult& result,
   const std::string factor =
       result.statistics.factorisation + " factor, " + std::to_string(result.statistics.factor_entries) + " entries; ";
   text.line("%s%s", solved ? factor.c_str() : "", times.c_str());
+  if (result.design_code) {
+    text.line("not checked by %s:", std::string(design_code_name(*result.design_code)).c_str());
+    for (const std::string_view clause : design_not_checked(*result.design_code))
+      text.line("  %s", std::string(clause).c_str());
+  }
+  for (const std::string& missing : result.unfinished) text.line("not computed: %s", missing.c_str());
   for (const std::string& warning : result.warnings) text.line("warning: %s", warning.c_str());
   return text.take();
 }

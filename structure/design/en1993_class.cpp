@@ -1,4 +1,4 @@
-#include "en1993_class.h"
+#include "design/en1993_class.h"
 
 #include <algorithm>
 

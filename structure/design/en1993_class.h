@@ -1,5 +1,5 @@
 #pragma once
-#include "steel_section.h"
+#include "design/steel_section.h"
 
 namespace topple::structure {
 

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <stdexcept>
 
+#include "design/alignment_chart.h"
+#include "design/bracing.h"
+#include "design/mode_lengths.h"
 #include "topple/structure/error.h"
 
 namespace topple::structure {
@@ -13,92 +15,221 @@ namespace {
 
 constexpr double sway_factor = 2;  // of a cantilever, fixed at one end and free to move at the other
 
-/// For every node: how many members, panels, supports and rigid floors hold it.
-std::vector<int> holds_of_nodes(const Building& building) {
-  std::vector<int> holds(building.nodes.size(), 0);
-  const auto hold = [&](NodeId node) { ++holds[static_cast<std::size_t>(node.index)]; };
-  for (const Member& member : building.members)
-    for (const NodeId node : member.nodes) hold(node);
-  for (const Panel& panel : building.panels)
-    if (panel.model != PanelModel::cladding)
-      for (const NodeId node : panel.nodes) hold(node);
-  for (const NodeSupport& support : building.supports) hold(support.node);
-  for (const Diaphragm& diaphragm : building.diaphragms)
-    for (const NodeId node : diaphragm.nodes) hold(node);
-  return holds;
-}
-
-/// Longest stretch of the compression flange between lateral restraints.
-double lateral_length(const Member& member) {
-  if (member.design.restrained_throughout) return 0;
-  double longest = 0, last = 0;
-  for (const double at : member.design.restraints) {
-    longest = std::max(longest, at - last);
+/// The stretches of the compression flange between the member's restraints, and what lies between the nodes that hold
+/// it where it goes on beyond its ends.
+std::vector<LateralStretch> stretches(const Member& member, const HeldLength& held) {
+  const MemberDesign& given = member.design;
+  if (given.restrained_throughout) return {{0, member.length, 0, true}};
+  if (given.restraints.empty() && held.free_end) return {{0, member.length, sway_factor * held.length, false}};
+  if (given.restraints.empty() && !held.own) return {{0, member.length, held.length, false}};
+  std::vector<LateralStretch> all;
+  double last = 0;
+  for (const double at : given.restraints) {
+    if (at > last) all.push_back({last, at, at - last, true});
     last = at;
   }
-  return std::max(longest, member.length - last);
+  if (member.length > last) all.push_back({last, member.length, member.length - last, true});
+  return all;
 }
 
-/// Forces at the stations and at the critical sections.
-std::vector<SectionForces> forces_along(const MemberResult& member) {
-  std::vector<SectionForces> all;
-  for (const auto& sections : {std::span(member.stations), std::span(member.critical)})
-    for (const std::array<double, 8>& at : sections) {
-      SectionForces& forces = all.emplace_back();
-      std::copy_n(at.begin(), forces.size(), forces.begin());
-    }
-  return all;
+struct FoundLength {
+  double length = 0;
+  LengthSource source = LengthSource::own;
+};
+
+/// About y (way 0: sideways along z) or about z (way 1).
+FoundLength flexural_length(const Building& building, const Bracing& bracing, EffectiveLengths method, MemberId id,
+                            std::size_t way) {
+  const Member& member = building[id];
+  const MemberDesign& given = member.design;
+  const int direction = way == 0 ? 2 : 1;
+  if (given.lengths[way]) return {*given.lengths[way], LengthSource::given};
+  if (given.factors[way]) return {*given.factors[way] * member.length, LengthSource::given};
+  const HeldLength held = bracing.held_length(id, direction);
+  if (held.free_end) return {sway_factor * held.length, LengthSource::cantilever};
+  if (member.kind != MemberKind::post) return {held.length, LengthSource::own};
+  if (method == EffectiveLengths::assumed) return {sway_factor * held.length, LengthSource::assumed_sway};
+  const double ga = bracing.end_stiffness(held, 0, direction), gb = bracing.end_stiffness(held, 1, direction);
+  if (bracing.braced(id, direction)) return {chart_braced(ga, gb) * held.length, LengthSource::chart_braced};
+  if (std::min(ga, gb) >= released_end) return {held.length, LengthSource::leaning};
+  return {chart_sway(ga, gb) * held.length, LengthSource::chart_sway};
+}
+
+DesignMember prepared(const Building& building, const Bracing& bracing, EffectiveLengths method, MemberId id) {
+  const Member& member = building[id];
+  const MemberDesign& given = member.design;
+  DesignMember checked;
+  checked.section = &building[member.section];
+  checked.material = &building[member.material];
+  for (std::size_t way = 0; way < 2; ++way) {
+    const FoundLength found = flexural_length(building, bracing, method, id, way);
+    (way == 0 ? checked.lengths.y : checked.lengths.z) = found.length;
+    checked.length_source[way] = found.source;
+  }
+  const HeldLength held = bracing.held_length(id, 1);
+  checked.lengths.torsion =
+      given.lengths[2] ? *given.lengths[2] : (given.factors[2] ? *given.factors[2] * member.length : held.length);
+  checked.stretches = stretches(member, held);
+  for (const LateralStretch& stretch : checked.stretches)
+    checked.lengths.lateral = std::max(checked.lengths.lateral, stretch.length);
+  // A factor of 1 is what a member has that says nothing of it: it is then found from the moments.
+  const double factor = given.moment_factor == 1 ? 0 : given.moment_factor;
+  checked.factors = {factor, given.equivalent_moment_y, given.equivalent_moment_z};
+  return checked;
+}
+
+/// Codes' formulas are for factored loads: a combination whose factors are all 1 or less looks as if it had none.
+void warn_of_unfactored(const Building& building, AnalysisResult& result) {
+  std::string names;
+  for (const CombinationResult& c : result.combinations) {
+    const auto& factors = building[c.combination].factors;
+    const bool factored = std::any_of(factors.begin(), factors.end(), [](const auto& f) { return f.second > 1; });
+    if (!factored) names += (names.empty() ? "" : ", ") + building[c.combination].name;
+  }
+  if (!names.empty())
+    result.warnings.push_back("design: no load has a factor above 1 in " + names +
+                              "; the code's checks are for factored loads (EN 1990, LRFD)");
+}
+
+DesignResult checked(DesignCode code, const DesignMember& member, const Building& building, std::size_t m,
+                     const MemberResult& forces, std::vector<DesignStep>* steps) {
+  if (forces.stations.size() < 2 || forces.critical.empty())
+    throw std::invalid_argument("check_design: the analysis was made without stations or critical sections");
+  PlacedForces placed = forces_along(building.members[m], forces);
+  DesignMember with_places = member;
+  with_places.at = std::move(placed.at);
+  try {
+    if (steps == nullptr) return check_member(code, with_places, placed.forces);
+    DesignAudit audit = audit_member(code, with_places, placed.forces);
+    *steps = std::move(audit.steps);
+    return audit.result;
+  } catch (const InputError& error) {
+    throw InputError(building.file + ": members." + building.members[m].name + ": " + error.what() +
+                     "; or \"design\": \"none\" for a member that is not to be checked");
+  }
 }
 
 }  // namespace
 
-DesignMember design_member(const Building& building, MemberId id, bool has_free_end) {
-  const Member& member = building[id];
-  const MemberDesign& given = member.design;
-  const double sway = member.kind == MemberKind::post || has_free_end ? sway_factor : 1;
-  const auto length = [&](std::size_t way, double factor) {
-    if (given.lengths[way]) return *given.lengths[way];
-    return given.factors[way].value_or(factor) * member.length;
+PlacedForces forces_along(const Member& member, const MemberResult& result) {
+  struct Place {
+    double at = 0;
+    const std::array<double, 8>* values = nullptr;
   };
-  DesignMember checked;
-  checked.section = &building[member.section];
-  checked.material = &building[member.material];
-  checked.lengths = {length(0, sway), length(1, sway), length(2, 1), lateral_length(member)};
-  if (has_free_end && given.restraints.empty()) checked.lengths.lateral *= sway_factor;
-  checked.factors = {given.moment_factor, given.equivalent_moment_y, given.equivalent_moment_z};
+  std::vector<Place> places;
+  constexpr double same = 1e-9;
+  const auto is_critical = [&](double at) {
+    return std::any_of(result.critical_at.begin(), result.critical_at.end(),
+                       [&](double place) { return std::abs(place - at) <= same * member.length; });
+  };
+  const double steps = static_cast<double>(result.stations.size()) - 1;
+  for (std::size_t s = 0; s < result.stations.size(); ++s)
+    if (const double at = member.length * static_cast<double>(s) / steps; !is_critical(at))
+      places.push_back({at, &result.stations[s]});
+  for (std::size_t s = 0; s < result.critical.size(); ++s)
+    places.push_back({result.critical_at[s], &result.critical[s]});
+  // Both sides of a place keep their order.
+  std::stable_sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.at < b.at; });
+  PlacedForces placed;
+  for (const Place& place : places) {
+    placed.at.push_back(place.at);
+    SectionForces& forces = placed.forces.emplace_back();
+    std::copy_n(place.values->begin(), forces.size(), forces.begin());
+  }
+  return placed;
+}
+
+DesignMembers::DesignMembers(const Building& building, const DesignInput& input)
+    : building_(building), method_(input.lengths), members_(building.members.size()) {
+  const Bracing bracing(building);
+  for (std::size_t m = 0; m < members_.size(); ++m) {
+    if (!building.members[m].design.checked) continue;
+    members_[m] = prepared(building, bracing, method_, MemberId(m));
+    members_[m].rigid_end_post = input.rigid_end_posts;
+    members_[m].warping_held = input.warping_held;
+  }
+  if (input.stiffeners.empty()) return;
+  const NameIndex names(building);
+  for (const auto& [name, spacing] : input.stiffeners) {
+    std::vector<MemberId> stiffened = names.members_matching(name);
+    if (const NameIndex::Group* group = names.group(name))
+      stiffened.insert(stiffened.end(), group->members.begin(), group->members.end());
+    if (stiffened.empty())
+      throw InputError(building.file + ": stiffeners of " + name +
+                       ": no such member; accepted: members' names, patterns with *, and groups");
+    for (const MemberId id : stiffened) members_[static_cast<std::size_t>(id.index)].stiffener_spacing = spacing;
+  }
+}
+
+/// sqrt(all compression of a storey/that of its posts that hold it up), as AISC 360 commentary C-A-7-8 has it for a
+/// storey whose posts have the same critical force for their load.
+DesignMembers::State DesignMembers::state(const CombinationResult& combination) const {
+  State found;
+  found.bends = largest_bends(building_, combination);
+  std::map<StoreyLevels, std::array<double, 4>> sums;  // all and holding, about y and about z
+  for (std::size_t m = 0; m < members_.size(); ++m) {
+    if (building_.members[m].kind != MemberKind::post || members_[m].section == nullptr) continue;
+    const solver::Vec12& forces = combination.members[m].end_forces;
+    const double compression = std::max(0.0, (forces(0) - forces(6)) / 2);
+    auto& sum = sums[storey_levels(building_, building_.members[m])];
+    for (std::size_t way = 0; way < 2; ++way) {
+      sum[2 * way] += compression;
+      if (members_[m].length_source[way] != LengthSource::leaning) sum[2 * way + 1] += compression;
+    }
+  }
+  for (const auto& [levels, sum] : sums)
+    for (std::size_t way = 0; way < 2; ++way)
+      found.leaning[levels][way] = sum[2 * way + 1] > 0 ? std::sqrt(sum[2 * way] / sum[2 * way + 1]) : 1;
+  return found;
+}
+
+DesignMember DesignMembers::member(MemberId id, const CombinationResult& combination, const State& state) const {
+  DesignMember checked = members_[static_cast<std::size_t>(id.index)];
+  if (checked.section == nullptr) return checked;
+  const auto length = [&](std::size_t way) -> double& { return way == 0 ? checked.lengths.y : checked.lengths.z; };
+  for (std::size_t way = 0; way < 2; ++way)
+    if (checked.length_source[way] == LengthSource::chart_sway)
+      length(way) *= state.leaning.at(storey_levels(building_, building_[id]))[way];
+  if (method_ != EffectiveLengths::automatic || combination.buckling.empty()) return checked;
+  const auto lengths = lengths_from_modes(building_, id, combination, state.bends);
+  const auto longest = longest_by_modes(building_, id, combination);
+  for (std::size_t way = 0; way < 2; ++way) {
+    if (checked.length_source[way] == LengthSource::given) continue;
+    if (!lengths[way] && !(longest[way] && *longest[way] < length(way))) continue;
+    length(way) = lengths[way].value_or(longest[way].value_or(length(way)));
+    checked.length_source[way] = LengthSource::buckling_analysis;
+  }
   return checked;
 }
 
-void check_design(const Building& building, DesignCode code, double drift_limit, AnalysisResult& result) {
+void check_design(const Building& building, DesignCode code, double drift_limit, AnalysisResult& result,
+                  const DesignInput& input) {
   if (building.units.consistent)
     throw InputError(building.file +
                      ": the units are \"consistent\", and a design check has units in its formulas; accepted: a model "
                      "that names its units");
-  const std::vector<int> holds = holds_of_nodes(building);
-  std::vector<DesignMember> members(building.members.size());
-  for (std::size_t m = 0; m < members.size(); ++m) {
-    const auto& nodes = building.members[m].nodes;
-    const bool free_end = std::any_of(nodes.begin(), nodes.end(),
-                                      [&](NodeId node) { return holds[static_cast<std::size_t>(node.index)] == 1; });
-    if (building.members[m].design.checked) members[m] = design_member(building, MemberId(m), free_end);
-  }
+  const DesignMembers members(building, input);
   for (CombinationResult& combination : result.combinations) {
-    combination.designs.assign(members.size(), {});
-    for (std::size_t m = 0; m < members.size(); ++m) {
-      if (members[m].section == nullptr) continue;
-      const MemberResult& forces = combination.members[m];
-      if (forces.stations.size() < 2 || forces.critical.empty())
-        throw std::invalid_argument("check_design: the analysis was made without stations or critical sections");
-      try {
-        combination.designs[m] = check_member(code, members[m], forces_along(forces));
-      } catch (const InputError& error) {
-        throw InputError(building.file + ": members." + building.members[m].name + ": " + error.what() +
-                         "; or \"design\": \"none\" for a member that is not to be checked");
-      }
+    combination.designs.assign(building.members.size(), {});
+    const DesignMembers::State state = members.state(combination);
+    for (std::size_t m = 0; m < building.members.size(); ++m) {
+      const DesignMember member = members.member(MemberId(m), combination, state);
+      if (member.section != nullptr)
+        combination.designs[m] = checked(code, member, building, m, combination.members[m], nullptr);
     }
   }
+  warn_of_unfactored(building, result);
   result.design_code = code;
   result.drift_limit = drift_limit;
+}
+
+DesignAudit audit_design(const DesignMembers& members, DesignCode code, MemberId member, const Building& building,
+                         const CombinationResult& combination) {
+  const auto m = static_cast<std::size_t>(member.index);
+  const DesignMember taken = members.member(member, combination, members.state(combination));
+  DesignAudit audit;
+  if (taken.section != nullptr) audit.result = checked(code, taken, building, m, combination.members[m], &audit.steps);
+  return audit;
 }
 
 }  // namespace topple::structure

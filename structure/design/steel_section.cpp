@@ -1,4 +1,4 @@
-#include "steel_section.h"
+#include "design/steel_section.h"
 
 #include <algorithm>
 
@@ -75,6 +75,39 @@ LargestForces largest_forces(std::span<const SectionForces> stations) {
   return largest;
 }
 
+void tell_section(const SteelSection& s, const Trail& trail) {
+  if (!trail.on()) return;
+  trail.add("section", "f_y", "given", s.fy, of_stress);
+  trail.add("section", "E", "given", s.E, of_stress);
+  trail.add("section", "G", "given", s.G, of_stress);
+  trail.add("section", "h", "given", s.depth, of_length);
+  trail.add("section", "b", "given", s.width, of_length);
+  if (s.web > 0) trail.add("section", "t_w", "given", s.web, of_length);
+  if (s.flange > 0) trail.add("section", "t_f", "given", s.flange, of_length);
+  if (s.fillet > 0) trail.add("section", "r", "given", s.fillet, of_length);
+  trail.add("section", "A", "given or from the outline", s.area, of_area);
+  trail.add("section", "I_y", "given or from the outline", s.Iy, of_inertia);
+  trail.add("section", "I_z", "given or from the outline", s.Iz, of_inertia);
+  trail.add("section", "I_t (J)", "given or from the outline", s.J, of_inertia);
+  if (s.warping > 0) trail.add("section", "I_w (C_w)", "I_z (h - t_f)^2/4", s.warping, of_warping);
+  trail.add("section", "W_el,y (S_x)", "2 I_y/h", s.elastic_y, of_modulus);
+  trail.add("section", "W_el,z (S_y)", "2 I_z/b", s.elastic_z, of_modulus);
+  if (!s.has_plastic) return;
+  trail.add("section", "W_pl,y (Z_x)", "given or from the outline", s.plastic_y, of_modulus);
+  trail.add("section", "W_pl,z (Z_y)", "given or from the outline", s.plastic_z, of_modulus);
+}
+
+void tell_forces(const LargestForces& f, const Trail& trail) {
+  if (!trail.on()) return;
+  trail.add("forces", "N_c", "largest compression along the member", f.compression, of_force);
+  trail.add("forces", "N_t", "largest tension along the member", f.tension, of_force);
+  trail.add("forces", "V_y", "largest along the member", f.shear_y, of_force);
+  trail.add("forces", "V_z", "largest along the member", f.shear_z, of_force);
+  trail.add("forces", "T", "largest along the member", f.torsion, of_moment);
+  trail.add("forces", "M_y", "largest along the member", f.moment_y, of_moment);
+  trail.add("forces", "M_z", "largest along the member", f.moment_z, of_moment);
+}
+
 void ClauseList::add(const std::string& clause, double utilisation) {
   const auto known = std::find_if(clauses_.begin(), clauses_.end(), [&](const auto& c) { return c.clause == clause; });
   if (known == clauses_.end())
@@ -86,6 +119,7 @@ void ClauseList::add(const std::string& clause, double utilisation) {
 DesignResult ClauseList::result() const {
   DesignResult result;
   result.clauses = clauses_;
+  result.refusal = refusal_;
   for (const DesignClause& clause : clauses_)
     if (result.governing.empty() || clause.utilisation > result.utilisation) {
       result.utilisation = clause.utilisation;
@@ -94,8 +128,30 @@ DesignResult ClauseList::result() const {
   return result;
 }
 
+DesignAudit audit_member(DesignCode code, const DesignMember& member, std::span<const SectionForces> stations) {
+  DesignAudit audit;
+  const Trail trail(audit.steps);
+  audit.result =
+      code == DesignCode::en1993 ? check_en1993(member, stations, trail) : check_aisc360(member, stations, trail);
+  audit.result.lengths = member.lengths;
+  audit.result.length_source = member.length_source;
+  return audit;
+}
+
 DesignResult check_member(DesignCode code, const DesignMember& member, std::span<const SectionForces> stations) {
-  return code == DesignCode::en1993 ? check_en1993(member, stations) : check_aisc360(member, stations);
+  DesignResult result =
+      code == DesignCode::en1993 ? check_en1993(member, stations, {}) : check_aisc360(member, stations, {});
+  result.lengths = member.lengths;
+  result.length_source = member.length_source;
+  return result;
+}
+
+std::string_view length_source_name(LengthSource source) {
+  constexpr std::array<std::string_view, 8> names{
+      "given",           "between nodes that hold it", "cantilever",
+      "assumed to sway", "alignment chart, braced",    "alignment chart, sway",
+      "pinned, leaning", "buckling analysis"};
+  return names[static_cast<std::size_t>(source)];
 }
 
 }  // namespace topple::structure

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "design/design_trail.h"
 #include "topple/structure/design_check.h"
 
 namespace topple::structure {
@@ -23,28 +24,39 @@ struct SteelSection {
 
   [[nodiscard]] double radius_y() const { return std::sqrt(Iy / area); }
   [[nodiscard]] double radius_z() const { return std::sqrt(Iz / area); }
+  /// Clear height between the flanges (walls of a box); 0 where there is no web.
+  [[nodiscard]] double web_height() const { return kind == Kind::I || kind == Kind::box ? depth - 2 * flange : 0; }
 };
 
 /// Throws InputError naming the key that is missing.
 [[nodiscard]] SteelSection steel_section(const Section& section, const Material& material);
+/// The section's properties, as the first steps of an audit.
+void tell_section(const SteelSection& steel, const Trail& trail);
 
 /// Largest absolute forces over the stations, axial kept apart by sign.
 struct LargestForces {
   double tension = 0, compression = 0, shear_y = 0, shear_z = 0, torsion = 0, moment_y = 0, moment_z = 0;
 };
 [[nodiscard]] LargestForces largest_forces(std::span<const SectionForces> stations);
+void tell_forces(const LargestForces& forces, const Trail& trail);
 
 /// Keeps each clause at its largest value, in order of first appearance.
 class ClauseList {
  public:
   void add(const std::string& clause, double utilisation);
+  void refuse(const std::string& why) {
+    if (refusal_.empty()) refusal_ = why;
+  }
   [[nodiscard]] DesignResult result() const;
 
  private:
   std::vector<DesignClause> clauses_;
+  std::string refusal_;
 };
 
-[[nodiscard]] DesignResult check_en1993(const DesignMember& member, std::span<const SectionForces> stations);
-[[nodiscard]] DesignResult check_aisc360(const DesignMember& member, std::span<const SectionForces> stations);
+[[nodiscard]] DesignResult check_en1993(const DesignMember& member, std::span<const SectionForces> stations,
+                                        const Trail& trail);
+[[nodiscard]] DesignResult check_aisc360(const DesignMember& member, std::span<const SectionForces> stations,
+                                         const Trail& trail);
 
 }  // namespace topple::structure

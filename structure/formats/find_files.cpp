@@ -6,6 +6,7 @@
 #include "formats/json/json_document.h"
 #include "topple/structure/error.h"
 #include "topple/structure/files.h"
+#include "topple/structure/modelling_checks.h"
 #include "topple/structure/panel_file.h"
 
 namespace topple::structure {
@@ -46,8 +47,9 @@ fs::path find(const std::string& name_or_path, const fs::path& folder, const cha
       shipped.insert(entry.path().stem().string());
     }
   }
-  throw InputError(name_or_path + ": there is no such " + kind + "; accepted: a path to a file, or a shipped one: " +
-                   formats::quoted_list({shipped.begin(), shipped.end()}));
+  throw InputError(
+      name_or_path + ": there is no such " + kind + did_you_mean(name_or_path, {shipped.begin(), shipped.end()}) +
+      "; accepted: a path to a file, or a shipped one: " + formats::quoted_list({shipped.begin(), shipped.end()}));
 }
 
 }  // namespace

@@ -186,13 +186,21 @@ void read_case(const JsonValue& value, const ModelDraft& draft, LoadCase& load_c
   }
 }
 
+/// Said once, whatever the number of combinations.
 void warn_without_self_weight(Building& building) {
+  std::string names;
+  std::size_t count = 0;
+  constexpr std::size_t named = 3;
   for (const Combination& combination : building.combinations) {
     Vec3 weight = Vec3::Zero();
     for (const auto& [load_case, factor] : combination.factors) weight += factor * building[load_case].self_weight;
-    if (weight.isZero(0))
-      building.warnings.push_back("combination " + in_quotes(combination.name) + " has no self weight");
+    if (!weight.isZero(0)) continue;
+    if (++count <= named) names += (count > 1 ? ", " : "") + in_quotes(combination.name);
   }
+  if (count == 0) return;
+  if (count > named) names += " and " + std::to_string(count - named) + " more";
+  building.warnings.push_back((count == 1 ? "combination " : "combinations ") + names +
+                              (count == 1 ? " has" : " have") + " no self weight");
 }
 
 }  // namespace

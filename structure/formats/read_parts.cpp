@@ -155,7 +155,10 @@ void read_panel(const JsonValue& value, ModelDraft& draft) {
   panel.material = draft.material(value.require("material"));
   if (const auto model = value.find("model")) panel.model = read_panel_model(*model);
   if (const auto span = value.find("span")) panel.span = read_span(*span);
-  if (const auto mesh = value.find("mesh")) panel.mesh = read_mesh(*mesh);
+  if (const auto mesh = value.find("mesh"))
+    panel.mesh = read_mesh(*mesh);
+  else if (panel.model == PanelModel::shell)
+    panel.mesh = {0, 0};  // by its size (ModelDraft::add_panel)
   if (const auto fracture = value.find("fracture")) panel.fracture = read_fracture(*fracture, draft.scale.length);
   if (const auto openings = value.find("openings")) panel.openings = read_openings(*openings, draft.scale);
   if (const auto joint = value.find("joint")) draft_panel.joint = draft.joint_type(*joint);

@@ -1,6 +1,7 @@
 // The analysis report: one page, no network. The data stand in the page as JSON; see docs/report.md.
 import { css, gradient, signedColour, useColour } from './colours.js';
 import { forceLabel, number, percent, units } from './format.js';
+import { buildPaper, setPaper } from './print.js';
 import { StructureView } from './scene.js';
 import { TableView } from './table_view.js';
 import { tables } from './tables.js';
@@ -12,7 +13,7 @@ const nodeIndex = new Map(model.node_names.map((name, k) => [name, k]));
 const DIAGRAMS = ['axial', 'shear_y', 'shear_z', 'torsion', 'moment_y', 'moment_z'];
 const DIAGRAM_AXIS = { axial: 2, shear_y: 1, shear_z: 2, torsion: 2, moment_y: 2, moment_z: 1 };
 
-const state = { combination: Object.keys(results.combinations ?? {})[0], shape: 'deformed', scale: 1, colour: results.design ? 'members' : 'joints', diagram: 'none', reactions: true, panels: true, moving: false, selected: null };
+const state = { paper: /letter/i.test(location.hash) ? 'Letter' : 'A4', combination: Object.keys(results.combinations ?? {})[0], shape: 'deformed', scale: 1, colour: results.design ? 'members' : 'joints', diagram: 'none', reactions: true, panels: true, moving: false, selected: null };
 
 const byNode = (shape) => {
   if (!shape) return null;
@@ -31,7 +32,9 @@ function movement() {
   if (kind === 'mode') shape = results.modes?.[Number(k)]?.shape;
   if (kind === 'buckling') shape = results.buckling?.[state.combination]?.[Number(k)]?.shape;
   const list = byNode(shape);
-  let largest = 0;
+  // Modes are scaled so that no point of any member moves by more than 1; the deformed shape says what moves most.
+  if (list && kind !== 'deformed') return { list, largest: 1 };
+  let largest = combination().largest_displacement?.value ?? 0;
   for (const d of list ?? []) if (d) largest = Math.max(largest, Math.hypot(d[0], d[1], d[2]));
   return { list, largest };
 }
@@ -121,9 +124,9 @@ function baseScale(largest) {
 function showShape(phase = 1) {
   const { list, largest } = movement();
   view.setShape(list, list ? baseScale(largest) * state.scale * phase : 0, state.shape === 'deformed' ? bows() : null);
-  let at = -1;
-  if (state.shape === 'deformed' && !state.moving && largest > 0) at = list.findIndex((d) => d && Math.hypot(d[0], d[1], d[2]) === largest);
-  view.setNodeLabels('largest', at >= 0 ? [{ node: at, text: `${model.node_names[at]}: ${number(largest)} ${unit.length}` }] : []);
+  const most = combination().largest_displacement;
+  const at = state.shape === 'deformed' && !state.moving && most?.node ? nodeIndex.get(most.node) : -1;
+  view.setNodeLabels('largest', at >= 0 ? [{ node: at, text: `${most.node}: ${number(most.value)} ${unit.length}` }] : []);
   document.getElementById('factor').textContent = list ? `drawn ${number(Number((baseScale(largest) * state.scale).toPrecision(2)))} times as large` : '';
 }
 
@@ -192,6 +195,12 @@ function buildControls() {
     view.home();
     view.draw();
   });
+  const print = document.createElement('button');
+  print.textContent = 'Print';
+  print.addEventListener('click', () => {
+    buildPaper(data);
+    window.print();
+  });
   aside.replaceChildren(
     control('Combination', Object.keys(results.combinations).map((c) => [c, c]), 'combination', () => {
       buildControls();
@@ -203,7 +212,8 @@ function buildControls() {
     check('move to and fro', 'moving', animate),
     control('Colour', colours, 'colour', refresh),
     control('Diagram', [['none', 'None'], ...DIAGRAMS.map((d) => [d, d.replace('_', ' ')])], 'diagram', refresh),
-    check('reactions', 'reactions', refresh), check('panels', 'panels', refresh), home);
+    check('reactions', 'reactions', refresh), check('panels', 'panels', refresh), home,
+    control('Paper', [['A4', 'A4'], ['Letter', 'US Letter']], 'paper', () => setPaper(state.paper)), print);
 }
 
 function animate() {
@@ -230,11 +240,8 @@ function definitions(title, pairs) {
 
 function showSummary() {
   const c = combination();
-  let largest = ['', 0];
-  for (const [name, d] of Object.entries(c.displacements ?? {})) {
-    const size = Math.hypot(d[0], d[1], d[2]);
-    if (size > largest[1]) largest = [name, size];
-  }
+  const largest = c.largest_displacement ?? { value: 0 };
+  const place = largest.member ? ['in member', `${largest.member}, ${number(largest.at)} ${unit.length} from its first end`] : largest.node ? ['at node', largest.node] : ['within', 'a shell panel'];
   const worst = Object.entries(c.joints ?? {}).reduce((a, [name, j]) => (j.utilisation > a[1] ? [name, j.utilisation, j.governing] : a), ['', 0, '']);
   const worstMember = Object.entries(c.members ?? {}).reduce((a, [name, m]) => ((m.utilisation ?? -1) > a[1] ? [name, m.utilisation, m.governing] : a), ['', -1, '']);
   const total = [0, 0, 0];
@@ -243,7 +250,7 @@ function showSummary() {
   const boxes = [
     definitions('Model', [['nodes', model.nodes.length], ['members', model.members.length], ['panels', model.panels.length], ['equations', results.model.freedoms]]),
     definitions(`Combination ${state.combination}`, [
-      ['largest displacement', `${number(largest[1])} ${unit.length}`], ['at node', largest[0]],
+      ['largest displacement', `${number(largest.value)} ${unit.length}`], place,
       ['sum of reactions z', `${number(total[2])} ${unit.force}`],
       ...(worstMember[0] ? [['most used member', `${worstMember[0]} (${worstMember[2]})`], ['its use', percent(worstMember[1])]] : []),
       ...(worst[0] ? [['most used joint', `${worst[0]} (${worst[2]})`], ['its use', percent(worst[1])]] : []),
@@ -251,10 +258,11 @@ function showSummary() {
     definitions('How exact', [['backward error', number(c.backward_error)], ['equilibrium error', number(c.equilibrium_error)], ['condition', number(c.condition)], ['error bound', number(c.error_bound)]]),
     definitions('How', [['second order', results.settings?.p_delta ?? 'none'], ...(results.design ? [['design code', results.design.code], ['drift limit', `height/${number(1 / results.design.drift_limit)}`]] : []), ['factorisation', results.settings?.factorisation ?? ''], ['seconds', number(seconds)], ['Topple', results.topple]]),
   ];
-  if (model.warnings.length) {
+  const warnings = [...new Set([...model.warnings, ...(model.result_warnings ?? [])])];
+  if (warnings.length) {
     const box = document.createElement('div');
     box.innerHTML = '<h2>Warnings</h2>';
-    for (const text of model.warnings) {
+    for (const text of warnings) {
       const p = document.createElement('p');
       p.className = 'warning';
       p.textContent = text;
@@ -323,3 +331,6 @@ showSummary();
 hover(document.getElementById('canvas'));
 refresh();
 if (state.moving) animate();
+setPaper(state.paper);
+window.addEventListener('beforeprint', () => buildPaper(data));
+if (/print/i.test(location.hash)) buildPaper(data);

@@ -155,7 +155,10 @@ class PlanReader {
     if (const auto joint = value.find("joint")) rule.draft.joint = draft_.joint_type(*joint);
     if (const auto model = value.find("model")) panel.model = read_panel_model(*model);
     if (const auto span = value.find("span")) panel.span = read_span(*span);
-    if (const auto mesh = value.find("mesh")) panel.mesh = read_mesh(*mesh);
+    if (const auto mesh = value.find("mesh"))
+      panel.mesh = read_mesh(*mesh);
+    else if (panel.model == PanelModel::shell)
+      panel.mesh = {0, 0};  // by its size (ModelDraft::add_panel)
     if (const auto fracture = value.find("fracture")) panel.fracture = read_fracture(*fracture, draft_.scale.length);
     if (const auto openings = value.find("openings")) panel.openings = read_openings(*openings, draft_.scale);
     if (const auto groups = value.find("groups")) panel.groups = read_names(*groups);

@@ -178,7 +178,7 @@ TEST_CASE("a demolition refuses edges that give") {
       parse_model(R"({"topple": 1, "materials": {"c": {"youngs_modulus": 30e9, "poisson_ratio": 0.2, "density": 2500}},
       "nodes": {"A": [0, 0, 0], "B": [4, 0, 0], "C": [4, 4, 0], "D": [0, 4, 0]},
       "joints": {"hinge": {"stiffness": {"ry": 0}}}, "supports": {"S:1": "fixed"},
-      "panels": {"S": {"nodes": ["A", "B", "C", "D"], "thickness": 0.2, "material": "c", "model": "shell", "joint": "hinge"}}})",
+      "panels": {"S": {"nodes": ["A", "B", "C", "D"], "thickness": 0.2, "material": "c", "model": "shell", "mesh": 1, "joint": "hinge"}}})",
                   "model.json", Purpose::demolish),
       Catch::Contains("joint S:1: `stiffness` of a shell's edge"));
 }

@@ -93,7 +93,7 @@ TEST_CASE("a meshed wall and its edge members answer as the same wall drawn elem
   for (int j = 0; j < 2; ++j)
     for (int i = 0; i < 3; ++i)
       panels += std::string(panels.empty() ? "" : ", ") + "\"W" + std::to_string(i) + std::to_string(j) +
-                R"(": {"kind": "wall", "thickness": 0.15, "material": "c", "model": "shell", "nodes": [")" +
+                R"(": {"kind": "wall", "thickness": 0.15, "material": "c", "model": "shell", "mesh": 1, "nodes": [")" +
                 name(i, j) + "\", \"" + name(i + 1, j) + "\", \"" + name(i + 1, j + 1) + "\", \"" + name(i, j + 1) +
                 "\"]}";
   const auto beam = [](const std::string& id, const std::string& a, const std::string& b) {
@@ -204,7 +204,7 @@ TEST_CASE("panels and members that only lie at the same place are not joined") {
   const std::string nodes = R"("nodes": {"A": [0, 0, 0], "B": [4, 0, 0], "C": [4, 0, 3], "D": [0, 0, 3],
     "E": [1, 0, 3], "F": [3, 0, 3], "G": [3, 0, 5], "H": [1, 0, 5]}, "supports": {"A": "fixed", "E": "fixed"},)";
   const std::string lower =
-      R"("W": {"nodes": ["A", "B", "C", "D"], "thickness": 0.2, "material": "c", "model": "shell"})";
+      R"("W": {"nodes": ["A", "B", "C", "D"], "thickness": 0.2, "material": "c", "model": "shell", "mesh": 1})";
   const Frame apart = make_frame(model(nodes +
                                        R"("members": {"b": {"nodes": ["E", "F"], "section": "s", "material": "c"}},
     "panels": {)" + lower + R"(, "V": {"nodes": ["E", "F", "G", "H"], "thickness": 0.2, "material": "c",
@@ -221,7 +221,7 @@ TEST_CASE("panels and members that only lie at the same place are not joined") {
 TEST_CASE("openings that overlap are cut out together") {
   const Frame frame = make_frame(
       model(R"("nodes": {"A": [0, 0, 0], "B": [4, 0, 0], "C": [4, 4, 0], "D": [0, 4, 0]}, "supports": {"A": "fixed"},
-      "panels": {"S": {"nodes": ["A", "B", "C", "D"], "thickness": 0.2, "material": "c", "model": "shell", "openings":
+      "panels": {"S": {"nodes": ["A", "B", "C", "D"], "thickness": 0.2, "material": "c", "model": "shell", "mesh": 1, "openings":
         [[[1, 1], [2, 1], [3, 3], [2, 3]], [[1, 1.8], [3.2, 1.8], [3.2, 2.2], [1, 2.2]]]}})"));
   CHECK(total_area(frame) == Approx(16 - (2 + 0.4 * 2.2 - 0.4)).epsilon(1e-9));
   CHECK(border(frame) > 16);  // and no side has more than two elements
@@ -231,7 +231,7 @@ TEST_CASE("openings that leave nothing are refused by name") {
   const auto with = [&](const std::string& openings) {
     return model(
         R"("nodes": {"A": [0, 0, 0], "B": [4, 0, 0], "C": [4, 4, 0], "D": [0, 4, 0]}, "supports": {"A": "fixed"},
-      "panels": {"S": {"nodes": ["A", "B", "C", "D"], "thickness": 0.2, "material": "c", "model": "shell",
+      "panels": {"S": {"nodes": ["A", "B", "C", "D"], "thickness": 0.2, "material": "c", "model": "shell", "mesh": 1,
                        "openings": )" +
         openings + "}}");
   };

@@ -2,6 +2,7 @@
 // Static analysis of a building: what `topple analyse` does, as a library call.
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -32,6 +33,8 @@ struct AnalysisRequest {
   solver::MassDistribution mass = solver::MassDistribution::consistent;
   solver::TorsionalMass torsional_mass = solver::TorsionalMass::polar;
   bool rotary_inertia = false;
+  /// Told what is done, and how far it is (0 to 1; below 0 where nothing can tell).
+  std::function<void(std::string_view stage, double share)> progress;
   /// Threads that recover and write combinations side by side; 0: one for each processor. Changes no number.
   int workers = 0;
 };
@@ -51,6 +54,7 @@ struct MemberResult {
   /// Where asked for: on both sides of every place between the ends where a load begins, ends or acts, and where an
   /// internal force is at its extreme.
   std::vector<std::array<double, 8>> critical;
+  std::vector<double> critical_at;  ///< distances of these from the first end
   bool active = true;
 };
 /// One element of a shell panel's mesh: stress resultants per length at its centre, in the panel's axes.
@@ -64,10 +68,21 @@ struct PanelResult {
   std::array<double, 2> shears{};
   std::array<Vec6, 4> corner_forces{};
   std::vector<PanelElement> elements;  ///< of a shell panel
+  /// Of a shell panel: estimated error of its mesh, in the energy norm, relative to the structure's shells together.
+  double discretisation_error = 0;
 };
 struct StoreyResult {
   double drift = 0;
   std::array<double, 2> shear{};
+};
+/// Where something moves most: a node, a place along a member, or a node of a shell's mesh.
+struct LargestDisplacement {
+  double value = 0;
+  Vec3 moved = Vec3::Zero();
+  NodeId node;      ///< valid for a node ...
+  MemberId member;  ///< ... or for a member, at this distance from its first end ...
+  double at = 0;
+  int mesh_node = -1;  ///< ... or an entry of AnalysisResult::mesh_nodes
 };
 struct CombinationResult {
   CombinationId combination;
@@ -81,6 +96,10 @@ struct CombinationResult {
   std::vector<StoreyResult> storeys;
   std::vector<DesignResult> designs;  ///< per member, empty without a design check; no `governing`: not checked
   Vec6 total_load = Vec6::Zero(), total_reaction = Vec6::Zero();  ///< about the model's centroid
+  LargestDisplacement largest;
+  /// Estimated error of the shells' meshes: energy norm of the error of stresses over that of the stresses (Zienkiewicz
+  /// and Zhu). That of deflections is smaller, about its square or less. 0 without shells.
+  double discretisation_error = 0;
   double equilibrium_error = 0;
   int second_order_iterations = 0;
   std::vector<solver::BucklingMode> buckling;  ///< lowest first; fewer than asked for when there are no more
@@ -95,6 +114,7 @@ struct AnalysisResult {
   Vec3 moving_mass = Vec3::Zero();           ///< along x, y, z: what takes part in the modes
   solver::AnalysisStatistics statistics;
   std::vector<std::string> warnings;
+  std::vector<std::string> unfinished;    ///< what was asked for and not computed, and why
   std::optional<DesignCode> design_code;  ///< set by check_design() (member_checks.h)
   double drift_limit = 0;                 ///< with it: storey drift that counts as a use of 1
 };
@@ -112,6 +132,8 @@ class UnstableAnalysis : public UnstableModel {
  public:
   explicit UnstableAnalysis(Diagnosis found) : UnstableModel(found.message), diagnosis(std::move(found)) {}
   Diagnosis diagnosis;
+  /// What was computed before, where that was something: its `unfinished` says what is missing.
+  std::shared_ptr<AnalysisResult> partial;
 };
 
 /// Throws UnstableAnalysis, with names: a model that can move without strain, or loads beyond what it bears before it

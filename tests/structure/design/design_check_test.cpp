@@ -61,7 +61,8 @@ SectionForces forces(double axial, double my = 0, double mz = 0, double vz = 0) 
 // tables' values are rounded to three digits: 0.5 %.
 TEST_CASE("AISC 360: column of design example E.1A has its published strength") {
   const Material a992 = steel(50 * ksi);
-  const DesignMember member{&w14x132, &a992, {30 * foot, 30 * foot, 30 * foot, 30 * foot}, {}};
+  const DesignMember member{
+      .section = &w14x132, .material = &a992, .lengths = {30 * foot, 30 * foot, 30 * foot, 30 * foot}};
   const SectionForces at[] = {forces(-840 * kip)};
   const double strength = 840 / clause(check_member(DesignCode::aisc360, member, at), "AISC 360 E1");
   CHECK(strength == Approx(893).epsilon(0.005));
@@ -73,7 +74,8 @@ TEST_CASE("AISC 360: beam of design examples F.1 has its published strengths") {
   const Material a992 = steel(50 * ksi);
   const SectionForces at[] = {forces(0, 100 * kip * foot)};
   const auto strength = [&](double unbraced, double cb) {
-    const DesignMember member{&w18x50, &a992, {0, 0, 0, unbraced * foot}, {cb, 1, 1}};
+    const DesignMember member{
+        .section = &w18x50, .material = &a992, .lengths = {0, 0, 0, unbraced * foot}, .factors = {cb, 1, 1}};
     return 100 / clause(check_member(DesignCode::aisc360, member, at), "AISC 360 F1");
   };
   CHECK(strength(0, 1) == Approx(379).epsilon(0.01));
@@ -85,7 +87,10 @@ TEST_CASE("AISC 360: beam of design examples F.1 has its published strengths") {
 // 0.928. The moment about the strong axis is limited by yielding and the published figure has three digits: 1 %.
 TEST_CASE("AISC 360: beam-column of design example H.1A has its published interaction") {
   const Material a992 = steel(50 * ksi);
-  const DesignMember member{&w14x99, &a992, {14 * foot, 14 * foot, 14 * foot, 14 * foot}, {1.14, 1, 1}};
+  const DesignMember member{.section = &w14x99,
+                            .material = &a992,
+                            .lengths = {14 * foot, 14 * foot, 14 * foot, 14 * foot},
+                            .factors = {1.14, 1, 1}};
   const SectionForces at[] = {forces(-400 * kip, 250 * kip * foot, 80 * kip * foot)};
   const DesignResult result = check_member(DesignCode::aisc360, member, at);
   CHECK(clause(result, "AISC 360 H1-1") == Approx(0.928).epsilon(0.01));
@@ -95,7 +100,7 @@ TEST_CASE("AISC 360: beam-column of design example H.1A has its published intera
 // AISC Manual, table 3-2: phi Vn of W18x50 (Fy = 50 ksi) is 192 kip.
 TEST_CASE("AISC 360: the shear strength of a rolled web is the Manual's") {
   const Material a992 = steel(50 * ksi);
-  const DesignMember member{&w18x50, &a992, {}, {}};
+  const DesignMember member{.section = &w18x50, .material = &a992, .lengths = {}};
   const SectionForces at[] = {forces(0, 0, 0, 100 * kip)};
   CHECK(100 / clause(check_member(DesignCode::aisc360, member, at), "AISC 360 G1") == Approx(192).epsilon(0.01));
 }
@@ -113,7 +118,7 @@ TEST_CASE("EN 1993: buckling reduces a column as the published curves do") {
   box.J = 6.859e-5;
   const Material s235 = steel(235e6, 210e9, 81e9);
   const double length = std::numbers::pi * std::sqrt(s235.youngs_modulus * box.Iy / (box.area * 235e6));
-  const DesignMember member{&box, &s235, {length, length, 0, 0}, {}};
+  const DesignMember member{.section = &box, .material = &s235, .lengths = {length, length, 0, 0}};
   const SectionForces at[] = {forces(-1e6)};
   const DesignResult result = check_member(DesignCode::en1993, member, at);
   CHECK(1e6 / (box.area * 235e6) / clause(result, "EN 1993-1-1 6.3.1 (6.46)") == Approx(0.540).margin(0.0006));
@@ -142,7 +147,7 @@ TEST_CASE("EN 1993: a rolled beam without lateral restraint loses what the gener
   const double slenderness = std::sqrt(642.5e-6 * 235e6 / mcr);
   const double phi = 0.5 * (1 + 0.21 * (slenderness - 0.2) + slenderness * slenderness);
   const double chi = 1 / (phi + std::sqrt(phi * phi - slenderness * slenderness));
-  const DesignMember member{&heb, &s235, {6, 6, 6, 6}, {}};
+  const DesignMember member{.section = &heb, .material = &s235, .lengths = {6, 6, 6, 6}};
   const SectionForces at[] = {forces(0, 100e3)};
   const DesignResult result = check_member(DesignCode::en1993, member, at);
   CHECK(clause(result, "EN 1993-1-1 6.3.2 (6.54)") == Approx(100e3 / (chi * 642.5e-6 * 235e6)).epsilon(1e-12));
@@ -173,7 +178,7 @@ TEST_CASE("EN 1993: the critical moment of an IPE 500 is that of ECCS 119's work
   const double slenderness = 0.757, phi = 0.5 * (1 + 0.34 * (slenderness - 0.2) + slenderness * slenderness);
   const double chi = 1 / (phi + std::sqrt(phi * phi - slenderness * slenderness));
   CHECK(chi == Approx(0.751).margin(0.0006));
-  const DesignMember member{&ipe, &s235, {3.75, 3.75, 3.75, 3.75}, {}};
+  const DesignMember member{.section = &ipe, .material = &s235, .lengths = {3.75, 3.75, 3.75, 3.75}};
   const SectionForces at[] = {forces(0, 300e3)};
   CHECK(clause(check_member(DesignCode::en1993, member, at), "EN 1993-1-1 6.3.2 (6.54)") ==
         Approx(300e3 / (chi * 2194.26e-6 * 235e6)).epsilon(0.003));
@@ -189,7 +194,7 @@ TEST_CASE("a class 4 section counts for less than its yield strength, a class 1 
   const Material s355 = steel(355e6, 210e9, 81e9);
   const SectionForces at[] = {forces(-1e6)};
   box.thickness = 0.02;
-  DesignMember member{&box, &s355, {}, {}};
+  DesignMember member{.section = &box, .material = &s355};
   CHECK(clause(check_member(DesignCode::en1993, member, at), "EN 1993-1-1 6.2.1 (6.2)") == Approx(1e6 / 355e6));
   box.thickness = 0.005;  // c/t = 77 where class 3 ends at 42 epsilon = 34.2
   const double epsilon = std::sqrt(235.0 / 355.0);
@@ -200,7 +205,7 @@ TEST_CASE("a class 4 section counts for less than its yield strength, a class 1 
 TEST_CASE("a design check without a yield strength names the key that is missing") {
   Material m = steel(235e6);
   m.yield_strength.reset();
-  const DesignMember member{&w18x50, &m, {}, {}};
+  const DesignMember member{.section = &w18x50, .material = &m, .lengths = {}};
   const SectionForces at[] = {forces(1)};
   CHECK_THROWS_WITH(check_member(DesignCode::en1993, member, at), Catch::Contains("materials.steel.yield_strength"));
 }

@@ -1,0 +1,216 @@
+// The report on paper: cover, contents, drawings, results, checks with every intermediate value, tables whole. Built when the
+// page is printed (or at once for `#print`, as a headless browser does), from the same data as the screen's.
+import { deformedDrawing, diagramDrawing, loadDrawing, LOOKS, modelDrawing } from './drawings.js';
+import { number, percent, units } from './format.js';
+import { tables } from './tables.js';
+
+/** A table with more rows than this is printed by a selection that it states. */
+const WHOLE = 600;
+const SELECTED = 150;
+
+function make(name, text = '', className = '') {
+  const made = document.createElement(name);
+  if (text !== '') made.textContent = text;
+  if (className) made.className = className;
+  return made;
+}
+
+class Paper {
+  constructor(root) {
+    this.root = root;
+    this.contents = make('ol');
+    this.count = 0;
+  }
+
+  chapter(title) {
+    const id = `p${++this.count}`;
+    const section = make('section', '', 'chapter');
+    section.id = id;
+    section.append(make('h2', `${this.count}. ${title}`));
+    const link = make('a', title);
+    link.href = `#${id}`;
+    const item = make('li');
+    item.append(link);
+    this.contents.append(item);
+    this.root.append(section);
+    return section;
+  }
+}
+
+function table(columns, rows) {
+  const made = make('table', '', 'print');
+  const head = made.createTHead().insertRow();
+  for (const [name, unit] of columns) head.append(make('th', unit ? `${name}, ${unit}` : name));
+  const body = made.createTBody();
+  for (const row of rows) {
+    const line = body.insertRow();
+    row.forEach((cell) => {
+      const td = line.insertCell();
+      td.textContent = number(cell);
+      if (typeof cell === 'string') td.className = 'text';
+    });
+  }
+  return made;
+}
+
+function figure(svg, caption) {
+  const made = make('figure');
+  made.append(svg, make('figcaption', caption));
+  return made;
+}
+
+function cover(data, root) {
+  const { model, results } = data;
+  const page = make('section', '', 'cover');
+  page.append(make('p', 'Structural analysis', 'kind'), make('h1', model.title || model.file));
+  const u = results.units;
+  const facts = [['Project', model.project || 'not given (--project)'], ['Author', model.author || 'not given (--author)'], ['Date', model.date],
+    ['Model', model.file], ['Units', u.length === 'consistent' ? 'consistent' : `${u.length}, ${u.force}, ${u.mass}, rad`],
+    ['Program', `Topple ${results.topple}${model.commit ? `, commit ${model.commit}` : ''}`],
+    ['Second order', results.settings?.p_delta ?? 'none'], ['Design code', results.design?.code ?? 'not checked']];
+  const list = make('dl');
+  for (const [term, value] of facts) list.append(make('dt', term), make('dd', value));
+  page.append(list);
+  root.append(page);
+}
+
+function drawModel(paper, data, u) {
+  const chapter = paper.chapter('Model');
+  const { model } = data;
+  chapter.append(make('p', `${model.nodes.length} nodes, ${model.members.length} members, ${model.panels.length} panels, ${data.results.model.freedoms} equations. Posts are drawn black, beams blue, braces brown; supports as triangles.`));
+  for (const look of Object.values(LOOKS)) chapter.append(figure(modelDrawing(model, look, u.length), look.title));
+}
+
+function drawLoads(paper, data) {
+  const chapter = paper.chapter('Loads and combinations');
+  const { model } = data;
+  chapter.append(table([['combination', ''], ['factors', '']], model.combinations));
+  for (const load of model.load_drawings ?? []) {
+    const text = `Case ${load.name}${load.self_weight ? ', with self weight' : ''}${load.left_out ? `; ${load.left_out} loads are not drawn` : ''}. Arrows as long as their loads, loaded panels red.`;
+    chapter.append(figure(loadDrawing(model, LOOKS.view, load.arrows, load.panels), text));
+  }
+}
+
+function byNode(model, shape) {
+  return model.node_names.map((name) => shape?.[name] ?? null);
+}
+
+function drawResults(paper, data, u) {
+  const { model, results } = data;
+  const [y, z] = ['deflection_y', 'deflection_z'].map((name) => data.diagram_names.indexOf(name));
+  for (const [name, c] of Object.entries(results.combinations ?? {})) {
+    const chapter = paper.chapter(`Results: ${name}`);
+    const largest = c.largest_displacement ?? { value: 0 };
+    const where = largest.member ? `in member ${largest.member}, ${number(largest.at)} ${u.length} from its first end` : largest.node ? `at node ${largest.node}` : 'within a shell panel';
+    const sum = [0, 1, 2].map((i) => Object.values(c.reactions ?? {}).reduce((a, r) => a + r[i], 0));
+    const facts = [['largest displacement', `${number(largest.value)} ${u.length} ${where}`], ['sum of reactions x, y, z', `${sum.map((v) => number(Math.abs(v) < 1e-9 * Math.hypot(...sum) ? 0 : v)).join(', ')} ${u.force}`],
+      ['equations solved', `backward error ${number(c.backward_error)}, equilibrium error ${number(c.equilibrium_error)}`],
+      ...(c.discretisation_error ? [['shell meshes', `estimated error of stresses ${percent(c.discretisation_error)}`]] : [])];
+    const list = make('dl');
+    for (const [term, value] of facts) list.append(make('dt', term), make('dd', value));
+    chapter.append(list);
+    const bows = data.diagrams?.[name]?.map((rows) => rows?.map((row) => [row[y], row[z]]) ?? null);
+    const drawing = deformedDrawing(model, LOOKS.view, byNode(model, c.displacements), largest.value, bows);
+    chapter.append(figure(drawing.svg, `Deformed, ${number(Number(drawing.scale.toPrecision(2)))} times as large`));
+    (results.buckling?.[name] ?? []).slice(0, 3).forEach((mode, k) => {
+      const shape = deformedDrawing(model, LOOKS.view, byNode(model, mode.shape), 1, null);
+      chapter.append(figure(shape.svg, `Buckling mode ${k + 1}, factor ${number(mode.factor)}`));
+    });
+  }
+  (results.modes ?? []).slice(0, 6).forEach((mode, k) => {
+    if (k === 0) paper.modes = paper.chapter('Natural modes');
+    paper.modes.append(figure(deformedDrawing(model, LOOKS.view, byNode(model, mode.shape), 1, null).svg, `Mode ${k + 1}, ${number(mode.frequency)} Hz`));
+  });
+}
+
+function audit(data, check, u) {
+  const made = make('section', '', 'audit');
+  made.append(make('h3', `${check.member}: ${percent(check.use)} by ${check.governing}, combination ${check.combination}`));
+  made.append(make('p', `Section ${check.section}, material ${check.material}, length ${number(check.length)} ${u.length}. ${check.formula}`));
+  made.append(make('p', check.lengths));
+  if (check.refusal) made.append(make('p', `Not said to pass: ${check.refusal}.`, 'warning'));
+  const stations = data.diagrams?.[check.combination]?.[data.model.members.findIndex((m) => m.name === check.member)];
+  if (stations) {
+    const row = make('div', '', 'diagrams');
+    for (const [quantity, unit] of [['axial', u.force], ['shear_z', u.force], ['moment_y', u.moment], ['deflection_z', u.length]])
+      row.append(diagramDrawing(quantity.replace('_', ' '), stations.map((s) => s[data.diagram_names.indexOf(quantity)]), check.length, unit, u.length));
+    made.append(row);
+  }
+  made.append(table([['clause', ''], ['quantity', ''], ['how', ''], ['value', ''], ['unit', '']], check.steps));
+  made.append(table([['clause', ''], ['use', ''], ['formula', '']], check.clauses));
+  return made;
+}
+
+function drawChecks(paper, data, u) {
+  if (!data.results.design) return;
+  const chapter = paper.chapter('Design checks');
+  chapter.append(make('p', `${data.results.design.code}. ${data.model.audit_selection ?? ''}`));
+  chapter.append(make('h3', 'Not checked'));
+  const list = make('ul');
+  for (const text of data.results.design.not_checked ?? []) list.append(make('li', text));
+  chapter.append(list);
+  for (const check of data.model.audits ?? []) chapter.append(audit(data, check, u));
+}
+
+/** Whole, or the rows with the largest use (else the first ones), with a word. */
+function selection(rows, columns) {
+  if (rows.length <= WHOLE) return [rows, `${rows.length} rows, all.`];
+  const use = columns.findIndex(([name]) => name === 'use' || name === 'worst use');
+  const chosen = use < 0 ? rows.slice(0, SELECTED) : [...rows].sort((a, b) => (b[use] ?? -1) - (a[use] ?? -1)).slice(0, SELECTED);
+  return [chosen, `${chosen.length} of ${rows.length} rows: ${use < 0 ? 'the first ones' : 'those of the largest use'}; all are in results.json and the tables of --csv.`];
+}
+
+/** Wide tables go over several, each with the first column. */
+function drawTables(paper, data) {
+  const most = 9;
+  for (const combination of Object.keys(data.results.combinations ?? {})) {
+    for (const t of tables(data, combination)) {
+      const shared = ['sections', 'materials', 'loads', 'combinations', 'modes', 'formulas', 'envelope'].includes(t.id);
+      if (shared && combination !== Object.keys(data.results.combinations)[0]) continue;
+      const chapter = paper.chapter(shared ? t.title : `${t.title}: ${combination}`);
+      const [rows, words] = selection(t.rows(), t.columns);
+      chapter.append(make('p', words));
+      const used = t.columns.map((_, k) => k).filter((k) => k === 0 || rows.some((row) => row[k] !== null && row[k] !== undefined && row[k] !== ''));
+      for (let from = 1; from < Math.max(2, used.length); from += most - 1) {
+        const part = [0, ...used.slice(from, from + most - 1)];
+        chapter.append(table(part.map((k) => t.columns[k]), rows.map((row) => part.map((k) => row[k]))));
+      }
+    }
+  }
+}
+
+/** Builds the paper once. */
+export function buildPaper(data) {
+  const root = document.getElementById('paper');
+  if (root.childElementCount > 0) return;
+  const u = units(data.results.units);
+  cover(data, root);
+  const contents = make('section', '', 'contents');
+  contents.append(make('h2', 'Contents'));
+  root.append(contents);
+  const paper = new Paper(root);
+  contents.append(paper.contents);
+  const warnings = [...new Set([...(data.model.warnings ?? []), ...(data.model.result_warnings ?? [])])];
+  if (warnings.length || data.results.unfinished) {
+    const chapter = paper.chapter('Warnings');
+    const list = make('ul');
+    for (const text of [...(data.results.unfinished ?? []).map((t) => `not computed: ${t}`), ...warnings]) list.append(make('li', text));
+    chapter.append(list);
+  }
+  drawModel(paper, data, u);
+  drawLoads(paper, data);
+  drawResults(paper, data, u);
+  drawChecks(paper, data, u);
+  drawTables(paper, data);
+}
+
+/** Size of the sheet: 'A4' or 'Letter'. */
+export function setPaper(size) {
+  let style = document.getElementById('papersize');
+  if (!style) {
+    style = make('style');
+    style.id = 'papersize';
+    document.head.append(style);
+  }
+  style.textContent = `@page { size: ${size === 'Letter' ? 'Letter' : 'A4'}; }`;
+}

@@ -1,0 +1,215 @@
+#include "topple/structure/modelling_checks.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <unordered_map>
+
+namespace topple::structure {
+
+namespace {
+
+constexpr std::size_t named_at_most = 3;
+constexpr double softest = 1e7, stiffest = 2e12;  // Pa: rubber, diamond; engineers' materials lie between
+
+/// Collects things of one kind: the first few by name, the rest by number.
+class Several {
+ public:
+  void add(const std::string& what) {
+    if (++count_ <= named_at_most) text_ += (count_ > 1 ? "; " : "") + what;
+  }
+  void tell(std::vector<std::string>& warnings, const std::string& meaning) const {
+    if (count_ == 0) return;
+    const std::string more = count_ > named_at_most ? " and " + std::to_string(count_ - named_at_most) + " more" : "";
+    warnings.push_back(text_ + more + ": " + meaning);
+  }
+
+ private:
+  std::string text_;
+  std::size_t count_ = 0;
+};
+
+/// Nodes by cubes in space.
+class NodeGrid {
+ public:
+  NodeGrid(const Building& building, double size) : building_(building), size_(size) {
+    for (std::size_t n = 0; n < building.nodes.size(); ++n) cells_[key(cell(building.nodes[n].position))].push_back(n);
+  }
+  /// Hands every node within a cube's side of `place` to `use`, some that are further too.
+  template <class Use>
+  void near(const Vec3& place, Use use) const {
+    const auto middle = cell(place);
+    for (int x = -1; x <= 1; ++x)
+      for (int y = -1; y <= 1; ++y)
+        for (int z = -1; z <= 1; ++z) {
+          const auto found = cells_.find(key({middle[0] + x, middle[1] + y, middle[2] + z}));
+          if (found == cells_.end()) continue;
+          for (const std::size_t n : found->second) use(n);
+        }
+  }
+
+ private:
+  using Cell = std::array<std::int64_t, 3>;
+  [[nodiscard]] Cell cell(const Vec3& p) const {
+    const auto along = [&](double x) { return static_cast<std::int64_t>(std::floor(x / size_)); };
+    return {along(p.x()), along(p.y()), along(p.z())};
+  }
+  static std::uint64_t key(const Cell& c) {
+    std::uint64_t hash = 1469598103934665603ULL;
+    for (const std::int64_t i : c) hash = (hash ^ static_cast<std::uint64_t>(i)) * 1099511628211ULL;
+    return hash;
+  }
+  const Building& building_;
+  double size_;
+  std::unordered_map<std::uint64_t, std::vector<std::size_t>> cells_;
+};
+
+double tolerance_of(const Building& building) {
+  if (!building.units.consistent) return usual_join_tolerance;
+  double longest = 0;
+  for (const Member& member : building.members) longest = std::max(longest, member.length);
+  return 1e-4 * longest;
+}
+
+/// Members along a shell's edge are divided at its mesh's nodes, which joins what lies there.
+bool along_a_shell(const Building& building, const Member& member) {
+  return std::any_of(building.panels.begin(), building.panels.end(), [&](const Panel& panel) {
+    if (panel.model != PanelModel::shell) return false;
+    const auto has = [&](NodeId node) {
+      return std::find(panel.nodes.begin(), panel.nodes.end(), node) != panel.nodes.end();
+    };
+    return has(member.nodes[0]) || has(member.nodes[1]);
+  });
+}
+
+void find_nodes_on_members(const Building& building, double tolerance, std::vector<std::string>& warnings) {
+  double mean = 0;
+  for (const Member& member : building.members) mean += member.length / static_cast<double>(building.members.size());
+  const double size = std::max(mean / 2, 4 * tolerance);
+  const NodeGrid grid(building, size);
+  const bool shells = std::any_of(building.panels.begin(), building.panels.end(),
+                                  [](const Panel& panel) { return panel.model == PanelModel::shell; });
+  Several on;
+  for (const Member& member : building.members) {
+    const Vec3 a = building[member.nodes[0]].position + member.offsets[0],
+               along = building[member.nodes[1]].position + member.offsets[1] - a;
+    const int steps = 1 + static_cast<int>(member.length / size);
+    std::vector<std::size_t> found;
+    for (int i = 0; i <= steps; ++i)
+      grid.near(a + along * (static_cast<double>(i) / steps), [&](std::size_t n) {
+        const Vec3 away = building.nodes[n].position - a;
+        const double at = away.dot(along) / along.squaredNorm();
+        if (at * member.length < 2 * tolerance || (1 - at) * member.length < 2 * tolerance) return;
+        if ((away - at * along).norm() > tolerance) return;
+        if (std::find(found.begin(), found.end(), n) == found.end()) found.push_back(n);
+      });
+    if (!found.empty() && shells && along_a_shell(building, member)) continue;
+    for (const std::size_t n : found) on.add("node " + building.nodes[n].name + " lies on member " + member.name);
+  }
+  on.tell(warnings,
+          "what lies on a member between its ends is not joined to it; \"connect\": true in the model, or topple "
+          "convert --join, divides the member there");
+}
+
+void find_near_nodes(const Building& building, double tolerance, std::vector<std::string>& warnings) {
+  const NodeGrid grid(building, 2 * tolerance);
+  Several close;
+  for (std::size_t n = 0; n < building.nodes.size(); ++n)
+    grid.near(building.nodes[n].position, [&](std::size_t other) {
+      if (other <= n) return;
+      const double apart = (building.nodes[other].position - building.nodes[n].position).norm();
+      if (apart > tolerance) return;
+      char distance[32];
+      std::snprintf(distance, sizeof distance, "%.3g", apart / building.units.length);
+      close.add("nodes " + building.nodes[n].name + " and " + building.nodes[other].name + " are " + distance +
+                " apart");
+    });
+  close.tell(warnings, "they are not joined; \"connect\": true in the model, or topple convert --join, makes them one");
+}
+
+/// Members on one line through a node that go the same way from it lie over each other for the shorter's length.
+void find_overlapping_members(const Building& building, std::vector<std::string>& warnings) {
+  std::vector<std::vector<std::size_t>> at(building.nodes.size());
+  for (std::size_t m = 0; m < building.members.size(); ++m)
+    for (const NodeId node : building.members[m].nodes) at[static_cast<std::size_t>(node.index)].push_back(m);
+  constexpr double same_way = 1 - 1e-9;
+  Several twice, over;
+  const auto away = [&](std::size_t m, std::size_t node) -> Vec3 {
+    const Member& member = building.members[m];
+    const Vec3 x = member.axes.row(0);
+    return static_cast<std::size_t>(member.nodes[0].index) == node ? x : Vec3(-x);
+  };
+  for (std::size_t n = 0; n < at.size(); ++n)
+    for (std::size_t i = 0; i < at[n].size(); ++i)
+      for (std::size_t j = i + 1; j < at[n].size(); ++j) {
+        const Member &a = building.members[at[n][i]], &b = building.members[at[n][j]];
+        if (away(at[n][i], n).dot(away(at[n][j], n)) < same_way) continue;
+        if (!a.offsets[0].isZero() || !a.offsets[1].isZero() || !b.offsets[0].isZero() || !b.offsets[1].isZero())
+          continue;
+        const bool same = (a.nodes[0] == b.nodes[0] && a.nodes[1] == b.nodes[1]) ||
+                          (a.nodes[0] == b.nodes[1] && a.nodes[1] == b.nodes[0]);
+        if (!same)
+          over.add("members " + a.name + " and " + b.name + " overlap");
+        else if (static_cast<std::size_t>(std::min(a.nodes[0].index, a.nodes[1].index)) == n)
+          twice.add("members " + a.name + " and " + b.name + " join the same nodes");
+      }
+  twice.tell(warnings, "both carry, side by side");
+  over.tell(warnings, "both carry, and the longer one is not joined where the shorter ends");
+}
+
+void find_odd_materials(const Building& building, std::vector<std::string>& warnings) {
+  if (building.units.consistent) return;
+  Several odd;
+  for (const Material& material : building.materials) {
+    const double E = material.youngs_modulus;
+    if (E >= softest && E <= stiffest) continue;
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4g", E);
+    odd.add("material " + material.name + " has a Young's modulus of " + text + " Pa");
+  }
+  odd.tell(warnings, "materials of buildings lie between 1e9 and 1e12 Pa; look at the model's units");
+}
+
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0]++;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t changed = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, changed});
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+std::vector<std::string> modelling_warnings(const Building& building) {
+  std::vector<std::string> warnings;
+  const double tolerance = tolerance_of(building);
+  if (!building.members.empty()) {
+    find_nodes_on_members(building, tolerance, warnings);
+    find_overlapping_members(building, warnings);
+  }
+  find_near_nodes(building, tolerance, warnings);
+  find_odd_materials(building, warnings);
+  return warnings;
+}
+
+std::string did_you_mean(const std::string& name, const std::vector<std::string>& known) {
+  std::size_t least = name.size() / 3 + 1;
+  const std::string* nearest = nullptr;
+  for (const std::string& other : known)
+    if (const std::size_t distance = edit_distance(name, other); distance < least) {
+      least = distance;
+      nearest = &other;
+    }
+  return nearest == nullptr ? "" : " (did you mean " + *nearest + "?)";
+}
+
+}  // namespace topple::structure
