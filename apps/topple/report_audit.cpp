@@ -28,7 +28,9 @@ std::pair<double, std::string> written(const DesignStep& step, const Units& unit
     u = stress ? StepUnits{1, 1e-3, "N", "mm"}
                : StepUnits{1e3, step.force != 0 ? 1 : 1e-3, "kN", step.force != 0 ? "m" : "mm"};
   }
-  const double value = step.value / (std::pow(u.force, step.force) * std::pow(u.length, step.length));
+  constexpr double nothing = 1e-6;  // N, N m: what rounding leaves of no force
+  const bool noise = step.force == 1 && step.length >= 0 && std::abs(step.value) < nothing;
+  const double value = noise ? 0 : step.value / (std::pow(u.force, step.force) * std::pow(u.length, step.length));
   std::string name = step.force != 0 ? u.force_name : "";
   if (step.length < 0)
     name += "/" + u.length_name + (step.length < -1 ? std::to_string(-step.length) : "");

@@ -62,7 +62,11 @@ function figure(svg, caption) {
 function cover(data, root) {
   const { model, results } = data;
   const page = make('section', '', 'cover');
-  page.append(make('p', 'Structural analysis', 'kind'), make('h1', model.title || model.file));
+  // A long title is a name and what is said of it: on the cover the name stands alone.
+  const whole = model.title || model.file;
+  const end = whole.length > 80 ? whole.search(/[.:;,] /) : -1;
+  page.append(make('p', 'Structural analysis', 'kind'), make('h1', end > 0 ? whole.slice(0, end) : whole));
+  if (end > 0) page.append(make('p', whole.slice(end + 2)));
   const u = results.units;
   const facts = [['Project', model.project || 'not given (--project)'], ['Author', model.author || 'not given (--author)'], ['Date', model.date],
     ['Model', model.file], ['Units', u.length === 'consistent' ? 'consistent' : `${u.length}, ${u.force}, ${u.mass}, rad`],
@@ -132,8 +136,11 @@ function audit(data, check, u) {
   const stations = data.diagrams?.[check.combination]?.[data.model.members.findIndex((m) => m.name === check.member)];
   if (stations) {
     const row = make('div', '', 'diagrams');
-    for (const [quantity, unit] of [['axial', u.force], ['shear_z', u.force], ['moment_y', u.moment], ['deflection_z', u.length]])
-      row.append(diagramDrawing(quantity.replace('_', ' '), stations.map((s) => s[data.diagram_names.indexOf(quantity)]), check.length, unit, u.length));
+    const column = (quantity) => stations.map((s) => s[data.diagram_names.indexOf(quantity)]);
+    const most = (quantities) => Math.max(...quantities.flatMap((q) => column(q).map(Math.abs)));
+    const noise = { force: 1e-9 * most(['axial', 'shear_y', 'shear_z']), moment: 1e-9 * most(['torsion', 'moment_y', 'moment_z']), length: 1e-9 * check.length };
+    for (const [quantity, kind] of [['axial', 'force'], ['shear_z', 'force'], ['moment_y', 'moment'], ['deflection_z', 'length']])
+      row.append(diagramDrawing(quantity.replace('_', ' '), column(quantity).map((v) => (Math.abs(v) < noise[kind] ? 0 : v)), check.length, u[kind], u.length));
     made.append(row);
   }
   made.append(table([['clause', ''], ['quantity', ''], ['how', ''], ['value', ''], ['unit', '']], check.steps));
