@@ -205,6 +205,7 @@ struct Case {
   Building building;
   std::vector<Vec6> opensees, ours;
   explicit Case(const std::string& base) : building(read_model(topple::test::shared_path(base + ".json"))) {
+    for (Panel& panel : building.panels) panel.mesh = {1, 1};  // OpenSees' elements, one for each panel
     std::ifstream stream(topple::test::shared_path(base + ".expected.json"));
     const Json expected = Json::parse(stream).at("displacements");
     for (const Node& node : building.nodes) {

@@ -101,7 +101,8 @@ TEST_CASE("OpenSees' cases have OpenSees' answers, each to its own tolerance") {
     const Json expected = read_json(test::shared_path(base + expected_end));
     AnalysisRequest request;
     if (!take_arguments(expected.at("arguments"), request)) continue;
-    const Building building = read_model(test::shared_path(base + ".json"));
+    Building building = read_model(test::shared_path(base + ".json"));
+    for (Panel& panel : building.panels) panel.mesh = {1, 1};  // OpenSees' elements, one for each panel
     const Json found = answer(building, request);
     for (const char* kind : {"displacements", "reactions", "members"}) {
       const bool moves = std::string_view(kind) == "displacements";
