@@ -11,6 +11,7 @@
 
 #include "command.h"
 #include "html_report.h"
+#include "motion_options.h"
 #include "progress.h"
 #include "topple/structure/analysis.h"
 #include "topple/structure/error.h"
@@ -41,6 +42,7 @@ struct Options {
   bool rotary_inertia = false;
   std::vector<std::string> lose, lose_each;
   std::optional<double> sudden;
+  MotionOptions motion;
   bool html = false, csv = false, vtu = false, diagnose = false;
 };
 
@@ -192,6 +194,7 @@ int run(const Options& options) {
       throw InputError(std::string(name) + ": nothing is checked; accepted: with --code");
   if (options.sudden && options.lose.empty() && options.lose_each.empty())
     throw InputError("--sudden: nothing is lost; accepted: with --lose or --lose-each");
+  check_motion_options(options.motion, !options.lose.empty() || !options.lose_each.empty(), !options.output.empty());
   StageClock clock;
   const std::filesystem::path file = find_model(options.model);
   std::optional<OutputFolder> folder;
@@ -209,6 +212,7 @@ int run(const Options& options) {
   request.second_order = second_order(options.p_delta, building);
   request.buckling = options.buckling;
   request.losses = losses(options, building);
+  ask_for_motion(options.motion, building, request);
   ask_for_modes(options, building.requested, request);
   AnalysisRequest wider = request;
   const int wanted = std::max({options.html ? report_stations : 0, options.vtu ? drawing_stations : 0,
@@ -241,7 +245,7 @@ int run(const Options& options) {
   clock.seconds["assemble"] = result.statistics.assemble_seconds;
   clock.seconds["factor"] = result.statistics.factor_seconds;
   clock.seconds["solve"] = result.statistics.solve_seconds;
-  if (request.losses.any()) clock.seconds["losses"] = result.loss_seconds;
+  if (request.losses.any() || request.time_history) clock.seconds["losses"] = result.loss_seconds;
   const bool diagnosed = failed && options.diagnose;  // results.json holds what moves
   if (!options.output.empty() && !diagnosed) {
     std::vector<std::pair<std::string, std::string>> files;
@@ -259,6 +263,7 @@ int run(const Options& options) {
     const auto append = [&](NamedTexts more) { std::move(more.begin(), more.end(), std::back_inserter(files)); };
     if (options.csv) append(results_csv(building, result));
     if (options.vtu) append(results_vtu(building, result));
+    append(motion_csv(building, request, result));
     write_files(options.output, files, streamed);
     clock.stop("write");
   }
@@ -308,6 +313,7 @@ std::function<int()> declare(CLI::App& app) {
       ->take_all();
   app.add_option("--sudden", options->sudden, "Factor f of a sudden loss: R0 + f (R1 - R0); 1 is the static state")
       ->check(in_range(structure::ranges::sudden));
+  declare_motion_options(app, options->motion);
   app.add_option("--modes", options->modes, "Lowest natural frequencies and modes")->check(whole_number(1, 100000));
   app.add_option("--mass", options->mass, "Mass of elements: consistent (default) or lumped")
       ->check(CLI::IsMember({"consistent", "lumped"}));

@@ -26,17 +26,23 @@ Vec12 FrameDynamics::State::end_forces(int beam, bool at_end) const {
                            fixed_end_forces(beam, at_end));
 }
 
+Vec12 FrameDynamics::State::fixed_end_rate(int beam) const {
+  if (system().beam_stands[static_cast<std::size_t>(beam)] == 0) return Vec12::Zero();
+  return (fixed_end_forces(beam, true) - fixed_end_forces(beam, false)) / method.h;
+}
+
+Vec12 FrameDynamics::State::end_force_rates(int beam) const {
+  return core().end_forces(static_cast<std::size_t>(beam), nodes_now.v, fixed_end_rate(beam));
+}
+
 SubstepCourse<Vec12> FrameDynamics::State::course(int beam) const {
   const auto i = static_cast<std::size_t>(beam);
   SubstepCourse<Vec12> course;
   course.start = end_forces(beam, false);
   course.end = end_forces(beam, true);
   course.length = method.h;
-  // Loads that go with time change linearly.
-  Vec12 rate = Vec12::Zero();
-  if (system().beam_stands[i] != 0) rate = (fixed_end_forces(beam, true) - fixed_end_forces(beam, false)) / method.h;
-  course.start_rate = core().end_forces(i, nodes_before.v, rate);
-  course.end_rate = core().end_forces(i, nodes_now.v, rate);
+  course.start_rate = core().end_forces(i, nodes_before.v, fixed_end_rate(beam));
+  course.end_rate = end_force_rates(beam);
   return course;
 }
 
@@ -75,7 +81,7 @@ void FrameDynamics::State::record_break(const JointBreak& found, double share, c
 }
 
 bool FrameDynamics::State::break_joints(const JointLaw& law) {
-  know_nodes();
+  know_end();
   struct Crossing {
     JointBreak joint;
     double share;
@@ -87,6 +93,7 @@ bool FrameDynamics::State::break_joints(const JointLaw& law) {
     if (system().beam_stands[i] == 0) continue;
     const Vec12 forces = end_forces(beam, true);
     if (!(law.beam_use(beam, forces) > 1)) continue;
+    know_nodes();
     const SubstepCourse<Vec12> own = course(beam);
     for (int end = 0; end < 2; ++end) {
       if (system().model.beams[i].end_stiffness[static_cast<std::size_t>(end)].isZero(0)) continue;

@@ -57,8 +57,8 @@ struct FrameDynamics::State {
 
   MotionState before, now;  ///< at the start and at the end of the substep under way
   bool accepted = true;     ///< no substep is under way: `before` is the motion now, `now` that before the last substep
-  NodeMotion nodes_before, nodes_now;  ///< at both ends of the substep under way, or the last one
-  bool nodes_known = false;
+  NodeMotion nodes_before, nodes_now;           ///< at both ends of the substep under way, or the last one
+  bool nodes_known = false, end_known = false;  ///< all of them, the displacements at the end
   [[nodiscard]] const MotionState& current() const { return before; }
   /// Of `before`, with the structure as it stands: M u, M v, M a, and (K + s M) u, (K + s M) v.
   SideBySide<4> mass_products;
@@ -107,6 +107,7 @@ struct FrameDynamics::State {
   void find_collocated_load();
   void solve(Eigen::VectorXd& x);
   void know_nodes();
+  void know_end();
 
   // load_patterns.cpp
   void find_pattern(LoadPattern& pattern);
@@ -120,6 +121,9 @@ struct FrameDynamics::State {
   void record_break(const JointBreak& broken, double share, const SubstepCourse<Vec12>& course);
   [[nodiscard]] Vec12 end_forces(int beam, bool at_end) const;
   [[nodiscard]] Vec12 fixed_end_forces(int beam, bool at_end) const;
+  /// Of loads that go with time, which change linearly within a substep.
+  [[nodiscard]] Vec12 fixed_end_rate(int beam) const;
+  [[nodiscard]] Vec12 end_force_rates(int beam) const;
   [[nodiscard]] SubstepCourse<Vec12> course(int beam) const;
 };
 

@@ -92,7 +92,7 @@ void FrameDynamics::set_state(const std::vector<Vec6>& displacements, const std:
   state.before.a.setZero(state.equations());
   state.clear_dropped();
   state.now = state.before;
-  state.products_known = state.nodes_known = false;
+  state.products_known = state.nodes_known = state.end_known = false;
   state.accepted = true;
   state.stored_energy();
 }
@@ -117,7 +117,7 @@ const std::vector<JointBreak>& FrameDynamics::advance(const JointLaw* law) {
 double FrameDynamics::time() const { return state_->time; }
 double FrameDynamics::substep() const { return state_->method.h; }
 const std::vector<Vec6>& FrameDynamics::displacements() const {
-  state_->know_nodes();
+  state_->know_end();
   return state_->nodes_now.u;
 }
 const std::vector<Vec6>& FrameDynamics::velocities() const {
@@ -139,7 +139,7 @@ SubstepCourse<Vec6> FrameDynamics::node_course(int node) const {
 
 Vec12 FrameDynamics::beam_end_forces(int beam) const {
   (void)state_->core().checked_beam(beam);
-  state_->know_nodes();
+  state_->know_end();
   return state_->end_forces(beam, true);
 }
 
@@ -149,17 +149,16 @@ SubstepCourse<Vec12> FrameDynamics::beam_course(int beam) const {
   return state_->course(beam);
 }
 
-SubstepCourse<Eigen::Matrix<double, 24, 1>> FrameDynamics::shell_course(int shell) const {
+Vec12 FrameDynamics::beam_end_force_rates(int beam) const {
+  (void)state_->core().checked_beam(beam);
+  state_->know_nodes();
+  return state_->end_force_rates(beam);
+}
+
+std::array<Vec6, 4> FrameDynamics::shell_corner_forces(int shell, bool rates) const {
   (void)state_->core().checked_shell(shell);
   state_->know_nodes();
-  const auto forces = [&](const std::vector<Vec6>& motion) {
-    Vec24 all;
-    const std::array<Vec6, 4> corners = state_->system().corner_forces(shell, motion, Vec24::Zero());
-    for (std::size_t k = 0; k < 4; ++k) all.segment<6>(static_cast<Eigen::Index>(6 * k)) = corners[k];
-    return all;
-  };
-  return {forces(state_->nodes_before.u), forces(state_->nodes_before.v), forces(state_->nodes_now.u),
-          forces(state_->nodes_now.v), state_->method.h};
+  return state_->system().corner_forces(shell, rates ? state_->nodes_now.v : state_->nodes_now.u, Vec24::Zero());
 }
 
 Vec6 FrameDynamics::momentum() const {

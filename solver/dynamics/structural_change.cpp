@@ -34,7 +34,7 @@ void FrameDynamics::State::apply_changes() {
   drop_bare_nodes();
   take_changes();
   clear_dropped();
-  products_known = nodes_known = false;
+  products_known = nodes_known = end_known = false;
   if (options.keep_energy) energy.freed += stored - stored_energy();
   find_substep_load();
   for (LoadPattern& pattern : patterns)

@@ -77,19 +77,25 @@ void FrameDynamics::State::take_substep() {
   now.a = (w - q) / method.c;
   now.u = before.u + h * before.v + h * h * ((0.5 - method.beta) * before.a + method.beta * now.a);
   now.v = before.v + h * ((1 - method.gamma) * before.a + method.gamma * now.a);
-  nodes_known = accepted = false;
+  nodes_known = end_known = accepted = false;
 }
 
 /// By nodes, as far as they are asked for.
 void FrameDynamics::State::know_nodes() {
   if (nodes_known) return;
+  know_end();
   nodes_known = true;
   const MotionState& start = accepted ? now : before;
   const MotionState& end = accepted ? before : now;
   system().node_displacements_of_scaled(start.u, nodes_before.u);
   system().node_displacements_of_scaled(start.v, nodes_before.v);
-  system().node_displacements_of_scaled(end.u, nodes_now.u);
   system().node_displacements_of_scaled(end.v, nodes_now.v);
+}
+
+void FrameDynamics::State::know_end() {
+  if (end_known) return;
+  end_known = true;
+  system().node_displacements_of_scaled((accepted ? before : now).u, nodes_now.u);
 }
 
 /// 1/2 v'Mv + 1/2 u'Ku at the start of the substep under way.

@@ -82,6 +82,7 @@ class Analysis {
     const auto& nodes = frame_.model.nodes;
     result.mesh_nodes.assign(nodes.begin() + static_cast<std::ptrdiff_t>(building_.nodes.size()), nodes.end());
     if (!failed_) find_losses_asked_for(result);
+    if (!failed_) find_motions_asked_for(result);
     result.warnings.insert(result.warnings.begin(), building_.warnings.begin(), building_.warnings.end());
     warn_of_frame3dd(result);
     if (result.statistics.nearly_unstable)
@@ -184,6 +185,16 @@ class Analysis {
     const auto start = std::chrono::steady_clock::now();
     result.losses = find_losses(building_, combinations_, request_.losses, request_.solver);
     result.loss_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+
+  void find_motions_asked_for(AnalysisResult& result) const {
+    if (!request_.time_history) return;
+    if (request_.second_order != solver::SecondOrder::none)
+      throw InputError(building_.file + ": time histories are found by first order; accepted: no --p-delta");
+    const auto start = std::chrono::steady_clock::now();
+    result.motions =
+        find_motions(building_, combinations_, *request_.time_history, request_.losses.motion, request_.solver);
+    result.loss_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
 
   [[nodiscard]] std::vector<std::string> member_names() const {

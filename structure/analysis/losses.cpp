@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "analysis/frame_motion.h"
 #include "analysis/lossy_frame.h"
 #include "model/index_of.h"
 #include "standing/unstable_model.h"
@@ -12,27 +13,7 @@ namespace topple::structure {
 
 namespace {
 
-[[noreturn]] void refuse(const Building& building, const std::string& what, const std::string& accepted) {
-  throw InputError(building.file + ": losses of members do not go with " + what + " yet; accepted: " + accepted);
-}
-
-void refuse_what_is_not_built(const Building& building) {
-  for (const Member& member : building.members)
-    if (member.axial != AxialAction::both)
-      refuse(building, "members of one sign (" + member.name + ")", "\"axial\": \"both\"");
-  for (const Joint& joint : building.joints)
-    if (joint.panel.valid() && (joint.stiffness.array() != unlimited).any())
-      refuse(building, "a shell's edge that gives (joint " + joint.name + ")", "an edge joint without `stiffness`");
-}
-
-void refuse_loads_that_are_not_built(const Building& building, CombinationId combination, const PartLoads& loads) {
-  const std::string place = " in combination " + building[combination].name;
-  if (!loads.settlements.empty()) refuse(building, "settlements" + place, "a combination without them");
-  for (std::size_t p = 0; p < building.panels.size(); ++p)
-    if (loads.panels[p].strain != 0 && building.panels[p].model != PanelModel::cladding)
-      refuse(building, "a heated panel (" + building.panels[p].name + ")" + place, "a combination without it");
-}
-
+constexpr const char* what_is_asked = "losses of members";
 /// Losses whose answers are found together: more would not fit the caches beside a block of the factor.
 constexpr std::size_t together = 16;
 
@@ -60,7 +41,7 @@ class Losses {
   LossResult run(const std::vector<CombinationId>& combinations) {
     for (const CombinationId combination : combinations) {
       const PartLoads loads = part_loads(building_, combination);
-      refuse_loads_that_are_not_built(building_, combination, loads);
+      refuse_loads_that_are_not_built(building_, combination, loads, what_is_asked);
       frame_.load(loads);
       if (!frame_.solve().stable)
         throw UnstableModel(building_.file + ": the model is unstable before anything is lost");
@@ -71,6 +52,7 @@ class Losses {
         frame_.lose(loss.member);
         loss.states.push_back(state_after(loss.named));
         loss.states.back().combination = combination;
+        if (request_.motion.asked && loss.states.back().stands()) follow_motion(loss.states.back());
         frame_.restore();
       }
     }
@@ -113,6 +95,35 @@ class Losses {
   template <class Vector>
   [[nodiscard]] Vector sudden(const Vector& before, const Vector& after) const {
     return before + request_.sudden * (after - before);
+  }
+
+  /// From the state before the loss, as the frame that is left swings.
+  void follow_motion(LossState& state) {
+    MotionStart start;
+    start.displacements = reference_.displacements;
+    start.held_over = request_.motion.over;
+    start.rest = frame_.analysis().displacements();
+    frame_.read_demands(demand_, holding_);
+    MotionResult motion = FrameMotion(whole_, divided_, frame_, state.combination, request_.motion).run(start);
+    std::vector<JointId> of_whole(whole_.joints.size());
+    for (const JointId joint : holding_)
+      if (divided_.joint(joint).valid()) of_whole[index_of(divided_.joint(joint))] = joint;
+    for (JointPeak& peak : motion.joints) {
+      const std::size_t j = index_of(of_whole[index_of(peak.joint)]);
+      peak.amplification = amplification(peak, reference_.demand[j], demand_[j]);
+    }
+    state.dynamic = std::move(motion);
+  }
+
+  /// Of the demand in the governing sense.
+  [[nodiscard]] static std::optional<double> amplification(const JointPeak& peak, const Vec6& before,
+                                                           const Vec6& after) {
+    constexpr double least_change = 0.01;  // of the capacity
+    const auto sense = static_cast<Eigen::Index>(peak.use.sense);
+    const Eigen::Index component = std::max<Eigen::Index>(0, sense - 1);  // tension and compression share one
+    const double change = after(component) - before(component);
+    if (std::abs(change) < least_change * peak.use.capacity) return std::nullopt;
+    return (peak.demand(component) - before(component)) / change;
   }
 
   void check_joints(bool in_full, LossState& state) {
@@ -186,7 +197,7 @@ class Losses {
 
 LossResult find_losses(const Building& building, const std::vector<CombinationId>& combinations,
                        const LossRequest& request, const solver::AnalysisOptions& options) {
-  refuse_what_is_not_built(building);
+  refuse_what_is_not_built(building, what_is_asked);
   return Losses(building, request, options).run(combinations);
 }
 

@@ -6,8 +6,38 @@
 #include "failure/panel_demand.h"
 #include "mesh/shell_edges.h"
 #include "model/index_of.h"
+#include "model/panel_area.h"
+#include "topple/structure/error.h"
 
 namespace topple::structure {
+
+namespace {
+
+[[noreturn]] void refuse(const Building& building, const std::string& asked, const std::string& what,
+                         const std::string& accepted) {
+  throw InputError(building.file + ": " + asked + " do not go with " + what + " yet; accepted: " + accepted);
+}
+
+}  // namespace
+
+void refuse_what_is_not_built(const Building& building, const std::string& asked) {
+  for (const Member& member : building.members)
+    if (member.axial != AxialAction::both)
+      refuse(building, asked, "members of one sign (" + member.name + ")", "\"axial\": \"both\"");
+  for (const Joint& joint : building.joints)
+    if (joint.panel.valid() && (joint.stiffness.array() != unlimited).any())
+      refuse(building, asked, "a shell's edge that gives (joint " + joint.name + ")",
+             "an edge joint without `stiffness`");
+}
+
+void refuse_loads_that_are_not_built(const Building& building, CombinationId combination, const PartLoads& loads,
+                                     const std::string& asked) {
+  const std::string place = " in combination " + building[combination].name;
+  if (!loads.settlements.empty()) refuse(building, asked, "settlements" + place, "a combination without them");
+  for (std::size_t p = 0; p < building.panels.size(); ++p)
+    if (loads.panels[p].strain != 0 && building.panels[p].model != PanelModel::cladding)
+      refuse(building, asked, "a heated panel (" + building.panels[p].name + ")" + place, "a combination without it");
+}
 
 LossyFrame::LossyFrame(const DividedBuilding& divided, const std::vector<MemberId>& candidates,
                        const solver::AnalysisOptions& options)
@@ -152,21 +182,42 @@ std::array<bool, 4> LossyFrame::edges_that_bear(PanelId shell) const {
   return bear;
 }
 
-std::array<Vec6, 4> LossyFrame::edge_demands(PanelId shell) const {
+std::array<Vec6, 4> LossyFrame::edge_demands(PanelId shell, const Motion& motion) const {
   std::vector<Vec6> at_nodes;
-  for (const NodeId node : building_[shell].all_nodes()) at_nodes.push_back(analysis_->displacements()[index_of(node)]);
-  return shells_.of(shell)->edge_demands(at_nodes, {loads_->traction(shell), {}}, intact_.at(shell),
-                                         edges_that_bear(shell));
+  for (const NodeId node : building_[shell].all_nodes()) at_nodes.push_back(motion.displacements()[index_of(node)]);
+  const Vec3 traction = motion.rates ? Vec3::Zero() : loads_->traction(shell);
+  return shells_.of(shell)->edge_demands(at_nodes, {traction, {}}, intact_.at(shell), edges_that_bear(shell));
 }
 
+namespace {
+
+class AtRest : public LossyFrame::Motion {
+ public:
+  explicit AtRest(const solver::Reanalysis& analysis) : analysis_(analysis) {}
+  [[nodiscard]] solver::Vec12 beam_end_forces(int beam) const override { return analysis_.beam_end_forces(beam); }
+  [[nodiscard]] std::array<Vec6, 4> shell_corner_forces(int shell) const override {
+    return analysis_.shell_corner_forces(shell);
+  }
+  [[nodiscard]] const std::vector<Vec6>& displacements() const override { return analysis_.displacements(); }
+
+ private:
+  const solver::Reanalysis& analysis_;
+};
+
+}  // namespace
+
 void LossyFrame::read_demands(std::vector<Vec6>& demand, std::vector<JointId>& holding) const {
+  read_demands(AtRest(*analysis_), demand, holding);
+}
+
+void LossyFrame::read_demands(const Motion& motion, std::vector<Vec6>& demand, std::vector<JointId>& holding) const {
   demand.resize(building_.joints.size());
   holding.clear();
   for (std::size_t m = 0; m < building_.members.size(); ++m) {
     if (!stands(MemberId(m))) continue;
     const JointId first = building_.joint(MemberId(m), 0), second = building_.joint(MemberId(m), 1);
     if (!building_[first].capacity.breakable && !building_[second].capacity.breakable) continue;
-    const solver::Vec12 forces = analysis_->beam_end_forces(static_cast<int>(m));
+    const solver::Vec12 forces = motion.beam_end_forces(static_cast<int>(m));
     for (const JointId joint : {first, second}) {
       if (!building_[joint].capacity.breakable) continue;
       demand[index_of(joint)] = member_joint_demand(forces, building_[joint].end);
@@ -179,9 +230,14 @@ void LossyFrame::read_demands(std::vector<Vec6>& demand, std::vector<JointId>& h
     if (!shell && !bearings_.stands(panel)) continue;
     const std::array<bool, 4> holds = shell ? std::array{true, true, true, true} : bearings_.holds(panel);
     std::optional<std::array<Vec6, 4>> corners;
-    if (bearings_.membrane(panel)) corners = analysis_->shell_corner_forces(frame_.shell_of_panel[p]);
-    const std::array<Vec6, 4> of_edges =
-        shell ? edge_demands(panel) : panel_edge_demands(building_, bearings_, *loads_, panel, corners);
+    if (bearings_.membrane(panel)) corners = motion.shell_corner_forces(frame_.shell_of_panel[p]);
+    std::array<Vec6, 4> of_edges{Vec6::Zero(), Vec6::Zero(), Vec6::Zero(), Vec6::Zero()};
+    if (shell)
+      of_edges = edge_demands(panel, motion);
+    else if (!motion.rates)
+      of_edges = panel_edge_demands(building_, bearings_, *loads_, panel, corners);
+    else if (corners)
+      of_edges = membrane_edge_demands(building_, panel, *corners);
     for (int edge = 0; edge < 4; ++edge) {
       const JointId joint = building_.joint(panel, edge);
       const auto e = static_cast<std::size_t>(edge);
@@ -190,6 +246,82 @@ void LossyFrame::read_demands(std::vector<Vec6>& demand, std::vector<JointId>& h
       holding.push_back(joint);
     }
   }
+}
+
+/// Panels whose weight is not among the loads bring their material's mass where their weight would go; those of shells
+/// lie at their corners.
+void LossyFrame::weigh_panels(MovingFrame& moving, std::vector<double>& mass) const {
+  for (std::size_t p = 0; p < building_.panels.size(); ++p) {
+    const PanelId panel(p);
+    const Panel& own = building_.panels[p];
+    const bool shell = !bearings_.serves(panel);
+    const double weighed = loads_->mass(panel), density = building_[own.material].density;
+    if (shell) {
+      const double total = weighed > 0 ? weighed : density * panel_area(building_, own, true) * own.thickness;
+      for (const NodeId node : own.nodes) moving.masses.nodes.push_back({node.index, total / 4, Vec3::Zero()});
+      continue;
+    }
+    if (weighed > 0 || !bearings_.stands(panel) || !(density > 0)) continue;
+    PanelAction weight;
+    weight.body_force = Vec3(0, 0, -density * own.thickness);
+    const HandOver handed =
+        hand_over(building_, edges_, panel, weight, bearings_.holds(panel), bearings_.member_stands());
+    for (const solver::NodeLoad& load : handed.nodes)
+      moving.masses.nodes.push_back({load.node, std::max(0.0, -load.load.z()), Vec3::Zero()});
+    for (const solver::BeamLoad& load : handed.beams) {
+      const auto down = [&](const Vec6& local) {
+        return -(building_.members[static_cast<std::size_t>(load.beam)].axes.transpose() * local.head<3>()).z();
+      };
+      const double amount = load.kind == solver::BeamLoad::Kind::point
+                                ? down(load.first)
+                                : (down(load.first) + down(load.last)) / 2 * (load.to - load.from);
+      mass[static_cast<std::size_t>(load.beam)] += amount;
+    }
+  }
+}
+
+solver::LoadSet LossyFrame::loads_of_case(LoadCaseId load_case) const {
+  Building alone = building_;
+  const std::string name = building_[load_case].name;
+  alone.combinations = {{name, {{load_case, 1.0}}}};
+  const PartLoads parts = part_loads(alone, CombinationId(0));
+  refuse_loads_that_are_not_built(alone, CombinationId(0), parts, "loads that go with time");
+  for (std::size_t p = 0; p < building_.panels.size(); ++p)
+    if (!bearings_.serves(PanelId(p)) && (parts.panels[p].pressure != 0 || !parts.panels[p].body_force.isZero(0)))
+      refuse(building_, "loads that go with time", "a load on a shell panel (" + building_.panels[p].name + ")",
+             "load cases on nodes, members and other panels");
+  return load_set(alone, edges_, parts);
+}
+
+MovingFrame LossyFrame::moving_frame(std::vector<solver::NodeMass> given) const {
+  if (!(building_.gravity > 0))
+    throw InputError(building_.file + ": what moves has its mass by weight over gravity, which must be above 0");
+  MovingFrame moving;
+  moving.model = frame_.model;
+  moving.masses.nodes = std::move(given);
+  std::vector<double> mass(building_.members.size());
+  for (std::size_t m = 0; m < building_.members.size(); ++m) {
+    moving.beam_loads.push_back(loads_->on(MemberId(m)));
+    mass[m] = moving_mass(building_, building_.members[m], moving.beam_loads.back());
+  }
+  for (solver::Shell& shell : moving.model.shells) shell.density = 0;
+  weigh_panels(moving, mass);
+  for (std::size_t n = 0; n < building_.nodes.size(); ++n) {
+    const bool bare = std::find(bare_.begin(), bare_.end(), NodeId(n)) != bare_.end();
+    moving.node_loads.push_back(bare ? Vec6::Zero() : loads_->on(NodeId(n)));
+    if (bare) moving.model.supports.push_back({static_cast<int>(n), Vec6::Constant(solver::rigid)});
+    const double weight = -moving.node_loads.back().z();
+    if (weight > 0) moving.masses.nodes.push_back({static_cast<int>(n), weight / building_.gravity, Vec3::Zero()});
+  }
+  for (std::size_t m = 0; m < building_.members.size(); ++m) {
+    solver::Beam& beam = moving.model.beams[m];
+    beam.density = mass[m] / (beam.area * beam.length);
+    if (!stands(MemberId(m))) beam.end_stiffness = {Vec6::Zero(), Vec6::Zero()};
+  }
+  if (lost_.valid())
+    for (const PanelId panel : changes_.lost_membrane)
+      moving.model.shell_stiffness[frame_.shell_of_panel[index_of(panel)]].setZero();
+  return moving;
 }
 
 }  // namespace topple::structure

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "analysis/divided_building.h"
+#include "analysis/moving_frame.h"
 #include "loads/frame_loads.h"
 #include "topple/solver/reanalysis.h"
 
@@ -35,6 +36,22 @@ class LossyFrame {
   [[nodiscard]] bool stands(MemberId piece) const { return divided_.member(piece) != lost_; }
   /// Demand of each breakable joint that holds, in order; of all others nothing is written.
   void read_demands(std::vector<Vec6>& demand, std::vector<JointId>& holding) const;
+  /// Where demands come from. Of rates (by time, under loads that stay) what loads bring by themselves is no part.
+  class Motion {
+   public:
+    virtual ~Motion() = default;
+    [[nodiscard]] virtual solver::Vec12 beam_end_forces(int beam) const = 0;
+    [[nodiscard]] virtual std::array<Vec6, 4> shell_corner_forces(int shell) const = 0;
+    [[nodiscard]] virtual const std::vector<Vec6>& displacements() const = 0;
+    bool rates = false;
+  };
+  void read_demands(const Motion& motion, std::vector<Vec6>& demand, std::vector<JointId>& holding) const;
+  /// All that stands now, with its mass: what presses it down over gravity (panels' weight where they hand it to; of a
+  /// part without weight its material's), and the masses given. A shell panel's lies in equal parts at its corners.
+  /// The loads of one case with the factor 1, on beams and nodes as panels hand them on now. Throws InputError for
+  /// settlements, heat in panels and what acts on shell panels.
+  [[nodiscard]] solver::LoadSet loads_of_case(LoadCaseId load_case) const;
+  [[nodiscard]] MovingFrame moving_frame(std::vector<solver::NodeMass> given) const;
 
  private:
   void write_loads();
@@ -42,7 +59,8 @@ class LossyFrame {
   void hang_shells();
   [[nodiscard]] std::vector<NodeId> nodes_left_bare(MemberId member) const;
   [[nodiscard]] std::array<bool, 4> edges_that_bear(PanelId shell) const;
-  [[nodiscard]] std::array<Vec6, 4> edge_demands(PanelId shell) const;
+  [[nodiscard]] std::array<Vec6, 4> edge_demands(PanelId shell, const Motion& motion) const;
+  void weigh_panels(MovingFrame& moving, std::vector<double>& mass) const;
 
   const DividedBuilding& divided_;
   const Building& building_;
@@ -60,5 +78,10 @@ class LossyFrame {
   PanelBearings::Changes changes_;
   std::vector<NodeId> bare_;
 };
+
+/// Throw InputError for what such a frame does not go with; `what` is asked for: "losses of members".
+void refuse_what_is_not_built(const Building& building, const std::string& what);
+void refuse_loads_that_are_not_built(const Building& building, CombinationId combination, const PartLoads& loads,
+                                     const std::string& what);
 
 }  // namespace topple::structure

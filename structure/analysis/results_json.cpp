@@ -120,6 +120,7 @@ std::vector<ResultsWriter::Piece> ResultsWriter::pieces() const {
   all.push_back([](ResultsWriter& to) {
     to.w_.close('}').close('}').newline();
     if (to.request_.losses.any()) to.losses();
+    if (to.request_.time_history) to.time_histories();
     if (to.request_.buckling > 0) to.buckling();
     if (to.request_.modes > 0) to.modes();
     if (!to.result_.unfinished.empty()) {

@@ -127,6 +127,7 @@ void ResultsWriter::loss_state(const LossState& state) {
   w_.close('}').key("joints").open('{');
   for (const auto& [id, used] : state.joints) joint(b_[id], used);
   w_.close('}');
+  if (state.dynamic) motion(*state.dynamic);
 }
 
 /// A shape's largest translation is 1, whatever the unit of length; its rotations go with it.

@@ -90,6 +90,8 @@ class ResultsWriter {
   void losses();
   void loss_mechanism(const LossState& state);
   void loss_state(const LossState& state);
+  void motion(const MotionResult& motion);
+  void time_histories();
   void shape_of(const Vec6& motion);
   void shape(const std::vector<Vec6>& motion);
   void buckling();

@@ -186,6 +186,38 @@ void losses(Text& text, const Building& building, const LossResult& result) {
     text.line("  and %zu more, of less use", result.losses.size() - losses_shown);
 }
 
+/// Worst joints of one motion, and how far its peaks are settled.
+void motion(Text& text, const std::string& what, const Building& building, const MotionResult& result) {
+  text.line("%s: lowest period %.4g s, damping %.3g at %.4g and %.4g Hz; %.4g s by substeps of %.4g s", what.c_str(),
+            result.period, result.damping, 1 / result.period, result.shape_frequency, result.duration, result.substep);
+  text.line("  after %d halvings of the substep %s changes by more than %.2g %%%s", result.halvings, "no peak",
+            100 * result.change, result.change > settled_peak ? ": NOT settled to 0.5 %" : "");
+  std::vector<const JointPeak*> order;
+  for (const JointPeak& joint : result.joints) order.push_back(&joint);
+  const std::size_t shown = std::min(joints_shown, order.size());
+  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(shown), order.end(),
+                    [](const JointPeak* a, const JointPeak* b) {
+                      return a->use.value != b->use.value ? a->use.value > b->use.value
+                                                          : a->joint.index < b->joint.index;
+                    });
+  for (std::size_t k = 0; k < shown; ++k) {
+    const JointPeak& joint = *order[k];
+    const std::string times = joint.amplification ? short_number(*joint.amplification) + " x static" : "";
+    text.line("    %-20s %7.1f %%  %-11s at %.4g s  %s", building[joint.joint].name.c_str(), 100 * joint.use.value,
+              sense_names[static_cast<std::size_t>(joint.use.sense)], joint.at, times.c_str());
+  }
+}
+
+void motions(Text& text, const Building& building, const AnalysisResult& result) {
+  for (const MemberLoss& loss : result.losses.losses)
+    for (const LossState& state : loss.states)
+      if (state.dynamic)
+        motion(text, "motion after the loss of " + building[loss.member].name + ", " + building[state.combination].name,
+               building, *state.dynamic);
+  for (const auto& [combination, found] : result.motions)
+    motion(text, "time history, " + building[combination].name, building, found);
+}
+
 void modes(Text& text, const Building& building, const AnalysisResult& result) {
   constexpr double pi = 3.14159265358979323846;
   const Vec3 mass = result.moving_mass / building.units.mass;
@@ -211,6 +243,7 @@ std::string summary_text(const Building& building, const AnalysisResult& result,
             solved ? (", " + std::to_string(result.statistics.freedoms) + " equations").c_str() : "");
   for (const CombinationResult& c : result.combinations) combination(text, building, result, c);
   losses(text, building, result.losses);
+  motions(text, building, result);
   if (!result.modes.empty()) modes(text, building, result);
   std::string times;
   for (const auto& [stage, time] : seconds) {

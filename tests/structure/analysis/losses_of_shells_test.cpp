@@ -67,7 +67,7 @@ TEST_CASE("the state after a loss beside shells is that of the model without the
   for (const std::string name : {"P1", "P2", "P6", "ab", "be", "cf", "ef"}) {
     INFO(name);
     const MemberId lost = names.member(name).value();
-    const LossResult result = find_losses(building, {CombinationId(0u)}, {{lost}, {}, 1}, {});
+    const LossResult result = find_losses(building, {CombinationId(0u)}, {{lost}, {}, 1, {}}, {});
     const LossState& state = result.losses.at(0).states.at(0);
     REQUIRE(state.stands());
     nlohmann::json reduced = model;
@@ -113,10 +113,10 @@ TEST_CASE("losses beside shells leave no trace in the next") {
   const NameIndex names(building);
   std::vector<MemberId> members;
   for (const std::string name : {"P1", "ab", "be", "P5"}) members.push_back(names.member(name).value());
-  const LossResult together = find_losses(building, {CombinationId(0u)}, {{}, members, 2}, {});
+  const LossResult together = find_losses(building, {CombinationId(0u)}, {{}, members, 2, {}}, {});
   REQUIRE(together.losses.size() == members.size());
   for (const MemberLoss& loss : together.losses) {
-    const LossResult alone = find_losses(building, {CombinationId(0u)}, {{loss.member}, {}, 2}, {});
+    const LossResult alone = find_losses(building, {CombinationId(0u)}, {{loss.member}, {}, 2, {}}, {});
     CHECK(alone.losses[0].states[0].use.value == Approx(loss.states[0].use.value).epsilon(1e-9));
     CHECK(alone.losses[0].states[0].worst == loss.states[0].worst);
   }
@@ -127,7 +127,7 @@ TEST_CASE("edges of shells that give, and shells that are heated, are refused in
   giving["joints"]["hinge"] = {{"stiffness", {{"rx", 0.0}}}};
   giving["panels"]["S"]["joint"] = "hinge";
   const Building hinged = parse_model(giving.dump(), "hinged");
-  const LossRequest request{{MemberId(0u)}, {}, 2};
+  const LossRequest request{{MemberId(0u)}, {}, 2, {}};
   CHECK_THROWS_WITH(find_losses(hinged, {CombinationId(0u)}, request, {}), Catch::Contains("S:1"));
   nlohmann::json heated = two_slabs();
   heated["materials"]["concrete"]["thermal_expansion"] = 1e-5;

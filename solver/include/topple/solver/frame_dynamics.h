@@ -3,6 +3,7 @@
 // (J. Chung, G. M. Hulbert, Journal of Applied Mechanics 60 (1993), 371), consistent mass. The matrix of a substep is
 // c (K + s M): it has K's graph, order and map, a joint that breaks is a low-rank change of it, and it is definite even
 // where K alone is a mechanism. A freedom with neither stiffness nor mass is left out.
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -143,8 +144,10 @@ class FrameDynamics {
   [[nodiscard]] SubstepCourse<Vec6> node_course(int node) const;
   /// End forces as Reanalysis has them: elastic, those of damping and of the beam's own inertia apart.
   [[nodiscard]] Vec12 beam_end_forces(int beam) const;
+  [[nodiscard]] Vec12 beam_end_force_rates(int beam) const;  ///< now, by time
   [[nodiscard]] SubstepCourse<Vec12> beam_course(int beam) const;
-  [[nodiscard]] SubstepCourse<Eigen::Matrix<double, 24, 1>> shell_course(int shell) const;  ///< corner forces, global
+  /// Global; `rates`: by time.
+  [[nodiscard]] std::array<Vec6, 4> shell_corner_forces(int shell, bool rates = false) const;
   /// Linear and angular momentum about the origin, of what is free to move.
   [[nodiscard]] Vec6 momentum() const;
   [[nodiscard]] const DynamicEnergy& energy() const;

@@ -29,6 +29,7 @@ struct AnalysisRequest {
   solver::SecondOrder second_order = solver::SecondOrder::none;
   int buckling = 0;  ///< lowest factors to find for each combination
   LossRequest losses;
+  std::optional<TimeHistory> time_history;  ///< followed as losses.motion says, from the state of each combination
   int modes = 0;  ///< lowest natural frequencies; with second order about the tangent of the last combination
   solver::MassDistribution mass = solver::MassDistribution::consistent;
   solver::TorsionalMass torsional_mass = solver::TorsionalMass::polar;
@@ -110,6 +111,7 @@ struct AnalysisResult {
   std::vector<Vec3> mesh_nodes;  ///< of shell panels, beside the building's nodes
   LossResult losses;
   double loss_seconds = 0;
+  std::vector<std::pair<CombinationId, MotionResult>> motions;  ///< under the time history
   std::vector<solver::VibrationMode> modes;  ///< lowest first; fewer than asked for when the mass has no more
   Vec3 moving_mass = Vec3::Zero();           ///< along x, y, z: what takes part in the modes
   solver::AnalysisStatistics statistics;
@@ -140,6 +142,12 @@ class UnstableAnalysis : public UnstableModel {
 /// buckles (second order), with the critical factor.
 [[nodiscard]] AnalysisResult analyse(const Building& building, const AnalysisRequest& request = {});
 
+/// How the building moves from its state under each combination, as AnalysisRequest::time_history asks. Throws
+/// InputError for what losses do not go with either.
+[[nodiscard]] std::vector<std::pair<CombinationId, MotionResult>> find_motions(
+    const Building& building, const std::vector<CombinationId>& combinations, const TimeHistory& history,
+    const MotionRequest& request, const solver::AnalysisOptions& options);
+
 /// results.json as the format has it, in the model's units, every number to its last bit. The result may hold a whole
 /// multiple of the stations that `request` asks for.
 [[nodiscard]] std::string results_json(const Building& building, const AnalysisRequest& request,
@@ -156,6 +164,10 @@ using NamedTexts = std::vector<std::pair<std::string, std::string>>;
 /// displacements.csv, reactions.csv, members.csv, joints.csv, panels.csv: a header line with units, one row for each
 /// combination and part, numbers to their last bit in the model's units.
 [[nodiscard]] NamedTexts results_csv(const Building& building, const AnalysisResult& result);
+/// history-MEMBER.csv for each loss that was followed through time, and history-time-history.csv: the nodes and joints
+/// that request.losses.motion names, a row for each substep.
+[[nodiscard]] NamedTexts motion_csv(const Building& building, const AnalysisRequest& request,
+                                    const AnalysisResult& result);
 /// Stations along each member that a drawing goes through: ask for at least this many before results_vtu().
 inline constexpr int drawing_stations = 10;
 /// COMBINATION.vtu for ParaView, in the model's units: members as lines through their stations, panels as

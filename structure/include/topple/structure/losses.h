@@ -1,5 +1,6 @@
 #pragma once
 // What the sudden loss of a member does: each by an exact correction over one standing factor.
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "topple/solver/reanalysis.h"
 #include "topple/structure/building.h"
 #include "topple/structure/joint_check.h"
+#include "topple/structure/motion.h"
 
 namespace topple::structure {
 
@@ -15,6 +17,7 @@ struct LossRequest {
   std::vector<MemberId> named, each;
   /// f of R0 + f (R1 - R0): 2 is the peak of an undamped elastic system, 1 the static state.
   double sudden = 2;
+  MotionRequest motion;  ///< each loss through time as well, where a static state is left
   [[nodiscard]] bool any() const { return !named.empty() || !each.empty(); }
 };
 
@@ -32,6 +35,7 @@ struct LossState {
   std::vector<Vec6> displacements;
   std::vector<std::pair<MemberId, solver::Vec12>> end_forces;
   std::vector<std::pair<JointId, Utilisation>> joints;
+  std::optional<MotionResult> dynamic;  ///< through time, where that was asked for
 
   [[nodiscard]] bool stands() const { return mechanism.empty(); }
   [[nodiscard]] bool survives() const { return stands() && use.value <= 1; }
@@ -48,8 +52,8 @@ struct LossResult {
   solver::ReanalysisCounters counters;
 };
 
-/// Throws InputError for what losses do not go with: members of one sign, settlements, edges of shells that give, heated
-/// membranes and shells.
+/// Throws InputError for what losses do not go with: members of one sign, settlements, edges of shells that give,
+/// heated membranes and shells.
 [[nodiscard]] LossResult find_losses(const Building& building, const std::vector<CombinationId>& combinations,
                                      const LossRequest& request, const solver::AnalysisOptions& options);
 

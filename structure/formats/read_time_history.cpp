@@ -1,0 +1,84 @@
+// Reads what shakes the ground or lets loads grow and fade: a CSV file with a column for the time.
+#include <algorithm>
+#include <array>
+
+#include "formats/model_files.h"
+#include "formats/tables/csv_table.h"
+#include "topple/structure/error.h"
+#include "topple/structure/motion.h"
+
+namespace topple::structure {
+namespace {
+
+constexpr std::array<std::string_view, 3> ground{"ax", "ay", "az"};
+
+/// The header's cells, to be known before the table is read; quotation marks are not needed in them.
+std::vector<std::string> header_of(const std::string& text) {
+  std::string_view line = std::string_view(text).substr(0, text.find_first_of("\r\n"));
+  if (line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
+  const char separator = line.find(';') != line.npos ? ';' : line.find('\t') != line.npos ? '\t' : ',';
+  std::vector<std::string> cells;
+  while (true) {
+    const std::size_t end = line.find(separator);
+    std::string_view cell = line.substr(0, end);
+    while (!cell.empty() && (cell.front() == ' ' || cell.front() == '"')) cell.remove_prefix(1);
+    while (!cell.empty() && (cell.back() == ' ' || cell.back() == '"')) cell.remove_suffix(1);
+    cells.emplace_back(cell);
+    if (end == line.npos) return cells;
+    line.remove_prefix(end + 1);
+  }
+}
+
+std::string accepted(const Building& building) {
+  std::string names = "time, ax, ay, az";
+  for (const LoadCase& load_case : building.cases) names += ", " + load_case.name;
+  return names;
+}
+
+TimeHistory::Series series_of(const std::string& path, const std::string& column, const Building& building) {
+  TimeHistory::Series series;
+  const auto axis = std::find(ground.begin(), ground.end(), column);
+  for (std::size_t k = 0; k < building.cases.size(); ++k)
+    if (building.cases[k].name == column) series.load_case = LoadCaseId(k);
+  if (series.load_case.valid()) return series;
+  if (axis == ground.end())
+    throw InputError(path + ", line 1: column \"" + column + "\"; accepted: " + accepted(building));
+  series.axis = static_cast<int>(axis - ground.begin());
+  return series;
+}
+
+}  // namespace
+
+TimeHistory read_time_history(const std::string& path, const Building& building) {
+  std::string text = formats::whole_text(path);
+  const std::vector<std::string> names = header_of(text);
+  if (names.empty() || names[0] != "time")
+    throw InputError(path + ", line 1: the first column is \"" + (names.empty() ? "" : names[0]) +
+                     "\"; accepted: time (s)");
+  if (names.size() < 2) throw InputError(path + ", line 1: no column beside time; accepted: " + accepted(building));
+  TimeHistory history;
+  history.file = path;
+  for (std::size_t k = 1; k < names.size(); ++k) history.series.push_back(series_of(path, names[k], building));
+  const std::vector<std::string_view> columns(names.begin(), names.end());
+  const CsvTable table(std::move(text), path, columns);
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const auto number = [&](std::size_t column) {
+      const std::optional<double> value = table.number(row, column);
+      if (!value) table.fail(row, column, "no number; accepted: a number in every cell");
+      return *value;
+    };
+    const double time = number(0);
+    if (time < 0 || (!history.times.empty() && time <= history.times.back()))
+      table.fail(row, 0, "times start at 0 or later and ascend");
+    history.times.push_back(time);
+    for (std::size_t k = 0; k < history.series.size(); ++k) {
+      const double unit = history.series[k].axis >= 0 ? building.units.length : 1;
+      history.series[k].values.push_back(number(k + 1) * unit);
+    }
+  }
+  if (history.times.size() < 2)
+    throw InputError(path + ": fewer than two rows; accepted: two times at least, later than 0 at the end");
+  return history;
+}
+
+}  // namespace topple::structure
