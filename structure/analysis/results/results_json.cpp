@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <set>
 
-#include "analysis/results_writer.h"
+#include "analysis/results/results_writer.h"
 #include "parallel/side_by_side.h"
 #include "topple/solver/blas_kernel.h"
 

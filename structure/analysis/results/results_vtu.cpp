@@ -4,7 +4,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "analysis/output_units.h"
+#include "analysis/results/output_units.h"
 #include "topple/structure/analysis.h"
 
 namespace topple::structure {

@@ -1,7 +1,7 @@
 // What results.json says beyond the single combinations: envelopes, losses, buckling, modes.
 #include <algorithm>
 
-#include "analysis/results_writer.h"
+#include "analysis/results/results_writer.h"
 
 namespace topple::structure {
 

@@ -1,8 +1,8 @@
 // What results.json and tables say of motions.
 #include <charconv>
 
-#include "analysis/output_units.h"
-#include "analysis/results_writer.h"
+#include "analysis/results/output_units.h"
+#include "analysis/results/results_writer.h"
 #include "model/index_of.h"
 
 namespace topple::structure {

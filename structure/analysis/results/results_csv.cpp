@@ -1,7 +1,7 @@
 // Results as tables: one file for each kind of part.
 #include <charconv>
 
-#include "analysis/output_units.h"
+#include "analysis/results/output_units.h"
 #include "formats/tables/formula_guard.h"
 #include "topple/structure/analysis.h"
 
