@@ -90,7 +90,8 @@ TEST_CASE("the scenario reader names file, place, what it found and what is acce
   };
   const std::string unknown = error("\"seed_building\"", "\"seed_bilding\"");
   CHECK(unknown.starts_with(
-      "s.json, line 2, model: seed_bilding: there is no such model; accepted: a path to a file, or a shipped one: \""));
+      "s.json, line 2, model: seed_bilding: there is no such model (did you mean seed_building?); accepted: a path to "
+      "a file, or a shipped one: \""));
   CHECK(unknown.find("\"seed_building\"") != std::string::npos);
   CHECK(error(", \"combination\": \"collapse\"", "") ==
         "s.json, line 1: the key \"combination\" is missing and the model has several; accepted: \"service\", "
