@@ -338,9 +338,9 @@ TEST_CASE("AISC 360 H3.3: a torque at midspan bends the flanges of a W10x49") {
   CHECK(clause(result, "AISC 360 H3-9") == Approx(0.3160).epsilon(1e-3));
 }
 
-// AISC 360-16 (F1-1), user note values in the Manual's table 3-1: uniform load over an unbraced span C_b = 1.14; a load
-// at midspan 1.32; moments of one end 1.67 (the linear diagram from M to 0). Published digits.
-TEST_CASE("AISC 360 F1: C_b is the Manual's for usual moment diagrams") {
+// By hand from AISC 360-16 (F1-1): uniform load over an unbraced span C_b = 1.14; a load
+// at midspan 1.32; moments of one end 1.67 (the linear diagram from M to 0).
+TEST_CASE("AISC 360 F1: C_b of usual moment diagrams is what the formula gives by hand") {
   Section s = welded(18 * inch, 7.5 * inch, 0.355 * inch, 0.57 * inch);
   const auto factor = [&](const std::vector<double>& moments) {
     DesignMember member{.section = &s, .material = &gr50};
