@@ -113,8 +113,11 @@ class ScenarioReader {
     debris.only({"friction", "restitution", "limit", "smallest_volume"});
     take(debris, "friction", scenario_.debris.friction, in(ranges::friction));
     take(debris, "restitution", scenario_.debris.restitution, in(ranges::unit));
-    take(debris, "limit", scenario_.debris.limit,
-         [](const JsonValue& v) { return static_cast<int>(v.whole(0, 1'000'000)); });
+    take(debris, "limit", scenario_.debris.limit, [](const JsonValue& v) -> std::optional<int> {
+      if (v.is_null()) return std::nullopt;
+      if (!v.is_number()) v.refuse("a whole number from 0 to 1000000, or null for none");
+      return static_cast<int>(v.whole(0, 1'000'000));
+    });
     take(debris, "smallest_volume", scenario_.debris.smallest_volume, in(ranges::volume));
   }
 

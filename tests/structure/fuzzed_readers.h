@@ -249,7 +249,7 @@ inline FuzzTally fuzz_scenarios(int rounds) {
     "step": 0.016666666666666666, "duration": 60, "until_rest": true, "seed": 1, "ground": 0.0,
     "failure": {"bracing": "classic", "mechanism": "detach", "sudden": 2.0},
     "impact": {"restitution": 0.1, "structure_mass": true},
-    "debris": {"friction": 0.6, "restitution": 0.1, "limit": 2000, "smallest_volume": 0.002},
+    "debris": {"friction": 0.6, "restitution": 0.1, "limit": null, "smallest_volume": 0.002},
     "events": [{"at": 1.0, "projectile": {"from": [-20, 0, 2], "velocity": [60, 0, 0], "mass": 500, "radius": 0.4}},
       {"at": 2.0, "cut": {"joints": ["P:1"]}}, {"at": 3.0, "remove": {"members": ["P"], "panels": [], "supports": [], "groups": ["posts"]}},
       {"at": 4.0, "charge": {"centre": [0, 0, 1], "radius": 3, "strength": [0.0, 1.0]}},

@@ -269,7 +269,8 @@ void Simulation::State::remove_body(collision::BodyId id, bool keep_weight) {
 /// Above the limit of bodies, sleeping ones are dropped, the smallest first and of equals the oldest. Their weight
 /// stays where it lies.
 void Simulation::State::keep_limit() {
-  const auto limit = static_cast<std::size_t>(std::max(0, scenario.debris.limit));
+  if (!scenario.debris.limit) return;
+  const auto limit = static_cast<std::size_t>(std::max(0, *scenario.debris.limit));
   if (bodies.size() <= limit) return;
   std::vector<std::pair<double, std::int64_t>> sleeping;
   for (const auto& [id, one] : bodies)

@@ -80,7 +80,7 @@ TEST_CASE("a scenario that says little takes the defaults") {
   CHECK_FALSE(scenario.ground.has_value());
   CHECK(scenario.failure.sudden == 2);
   CHECK(scenario.impact.structure_mass);
-  CHECK(scenario.debris.limit == 2000);
+  CHECK_FALSE(scenario.debris.limit.has_value());
   CHECK(scenario.events.empty());
 }
 
@@ -105,6 +105,8 @@ TEST_CASE("the scenario reader names file, place, what it found and what is acce
         std::string::npos);
   CHECK(error("\"limit\": 100", "\"limit\": 1.5") ==
         "s.json, line 6, debris.limit: found 1.5; accepted: a whole number from 0 to 1000000");
+  CHECK(error("\"limit\": 100", "\"limit\": \"none\"") ==
+        "s.json, line 6, debris.limit: found \"none\"; accepted: a whole number from 0 to 1000000, or null for none");
 }
 
 TEST_CASE("keys that bounded what a step computes are refused, and it is said whose the pace is") {

@@ -25,7 +25,7 @@ struct ImpactRules {
 };
 struct DebrisRules {
   double friction = 0.6, restitution = 0.1;
-  int limit = 2000;                ///< bodies
+  std::optional<int> limit;        ///< bodies kept; without one all are, for a limit is a quota
   double smallest_volume = 0.002;  ///< m3
 };
 
