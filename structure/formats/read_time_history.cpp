@@ -1,11 +1,13 @@
 // Reads what shakes the ground or lets loads grow and fade: a CSV file with a column for the time.
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "formats/model_files.h"
 #include "formats/tables/csv_table.h"
 #include "topple/structure/error.h"
 #include "topple/structure/motion.h"
+#include "topple/structure/time_history.h"
 
 namespace topple::structure {
 namespace {
@@ -35,14 +37,13 @@ std::string accepted(const Building& building) {
   return names;
 }
 
-TimeHistory::Series series_of(const std::string& path, const std::string& column, const Building& building) {
+TimeHistory::Series series_of(const std::string& place, const std::string& column, const Building& building) {
   TimeHistory::Series series;
   const auto axis = std::find(ground.begin(), ground.end(), column);
   for (std::size_t k = 0; k < building.cases.size(); ++k)
     if (building.cases[k].name == column) series.load_case = LoadCaseId(k);
   if (series.load_case.valid()) return series;
-  if (axis == ground.end())
-    throw InputError(path + ", line 1: column \"" + column + "\"; accepted: " + accepted(building));
+  if (axis == ground.end()) throw InputError(place + ": column \"" + column + "\"; accepted: " + accepted(building));
   series.axis = static_cast<int>(axis - ground.begin());
   return series;
 }
@@ -58,7 +59,8 @@ TimeHistory read_time_history(const std::string& path, const Building& building)
   if (names.size() < 2) throw InputError(path + ", line 1: no column beside time; accepted: " + accepted(building));
   TimeHistory history;
   history.file = path;
-  for (std::size_t k = 1; k < names.size(); ++k) history.series.push_back(series_of(path, names[k], building));
+  for (std::size_t k = 1; k < names.size(); ++k)
+    history.series.push_back(series_of(path + ", line 1", names[k], building));
   const std::vector<std::string_view> columns(names.begin(), names.end());
   const CsvTable table(std::move(text), path, columns);
   for (std::size_t row = 0; row < table.rows(); ++row) {
@@ -78,6 +80,33 @@ TimeHistory read_time_history(const std::string& path, const Building& building)
   }
   if (history.times.size() < 2)
     throw InputError(path + ": fewer than two rows; accepted: two times at least, later than 0 at the end");
+  return history;
+}
+
+TimeHistory make_time_history(const std::map<std::string, std::vector<double>>& columns, const Building& building) {
+  const std::string place = "time history";
+  const auto times = columns.find("time");
+  if (times == columns.end() || columns.size() < 2)
+    throw InputError(place + ": no column time, or none beside it; accepted: " + accepted(building));
+  TimeHistory history;
+  history.file = place;
+  history.times = times->second;
+  for (std::size_t i = 0; i < history.times.size(); ++i)
+    if (!std::isfinite(history.times[i]) || history.times[i] < 0 || (i > 0 && history.times[i] <= history.times[i - 1]))
+      throw InputError(place + ", time[" + std::to_string(i) + "]: times start at 0 or later and ascend");
+  if (history.times.size() < 2)
+    throw InputError(place + ": fewer than two times; accepted: two at least, later than 0 at the end");
+  for (const auto& [name, values] : columns) {
+    if (name == "time") continue;
+    TimeHistory::Series series = series_of(place, name, building);
+    if (values.size() != history.times.size())
+      throw InputError(place + ", " + name + ": " + std::to_string(values.size()) +
+                       " numbers; accepted: one for each of " + std::to_string(history.times.size()) + " times");
+    if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
+      throw InputError(place + ", " + name + ": a number that is not finite; accepted: finite ones");
+    series.values = values;
+    history.series.push_back(std::move(series));
+  }
   return history;
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "topple/structure/error.h"
+#include "topple/structure/input_place.h"
 #include "topple/structure/plain_text.h"
 
 namespace topple::structure {
@@ -55,14 +56,13 @@ Frame3ddTokens::Frame3ddTokens(std::string_view text, std::string file) : file_(
 }
 
 const Frame3ddTokens::Token& Frame3ddTokens::take(const std::string& what) {
-  if (at_end())
-    throw InputError(file_ + ":" + std::to_string(last_line_) + ": the file ends where " + what + " is expected");
+  if (at_end()) fail("the file ends where " + what + " is expected");
   last_line_ = tokens_[next_].line;
   return tokens_[next_++];
 }
 
 void Frame3ddTokens::fail(const std::string& problem) const {
-  throw InputError(file_ + ":" + std::to_string(last_line_) + ": " + problem);
+  throw PlacedInputError({file_ + ":" + std::to_string(last_line_), {}}, problem);
 }
 
 double Frame3ddTokens::number(const std::string& what) {

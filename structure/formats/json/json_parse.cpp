@@ -8,6 +8,7 @@
 #include "formats/json/plain_json.h"
 #include "topple/structure/error.h"
 #include "topple/structure/input_files.h"
+#include "topple/structure/input_place.h"
 #include "topple/structure/plain_text.h"
 
 namespace topple::structure::formats {
@@ -165,8 +166,10 @@ class JsonBuilder {
     fail(plain_message(error.what()));
   }
   [[noreturn]] void fail(const std::string& what) const {
-    throw InputError(document_.name_ + ", line " + std::to_string(characters_.line()) + ", column " +
-                     std::to_string(characters_.column()) + ": " + what);
+    throw PlacedInputError({document_.name_ + ", line " + std::to_string(characters_.line()) + ", column " +
+                                std::to_string(characters_.column()),
+                            {}},
+                           what);
   }
 
  private:

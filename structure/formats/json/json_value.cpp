@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "formats/json/json_document.h"
-#include "topple/structure/error.h"
+#include "topple/structure/input_place.h"
 #include "topple/structure/plain_text.h"
 
 namespace topple::structure::formats {
@@ -161,8 +161,7 @@ std::string JsonDocument::place(std::uint32_t line) const {
 }
 
 void JsonValue::fail(const std::string& what) const {
-  const std::string place = path();
-  throw InputError(document_->place(slot().line) + (place.empty() ? "" : ", " + place) + ": " + what);
+  throw PlacedInputError({document_->place(slot().line), path()}, what);
 }
 
 void JsonValue::refuse(std::string_view accepted) const {

@@ -7,6 +7,7 @@
 #include "formats/json/json_document.h"
 #include "formats/tables/formula_guard.h"
 #include "topple/structure/error.h"
+#include "topple/structure/input_place.h"
 #include "topple/structure/plain_text.h"
 
 namespace topple::structure {
@@ -226,11 +227,11 @@ std::optional<double> CsvTable::number(std::size_t row, std::size_t column) cons
 }
 
 void CsvTable::fail(std::size_t row, std::size_t column, const std::string& what) const {
-  throw InputError(place(row) + ", " + std::string(columns_[column]) + ": " + what);
+  throw PlacedInputError({place(row), std::string(columns_[column])}, what);
 }
 
 void CsvTable::fail_line(std::uint32_t line, const std::string& what) const {
-  throw InputError(name_ + ", line " + std::to_string(line) + ": " + what);
+  throw PlacedInputError({name_ + ", line " + std::to_string(line), {}}, what);
 }
 
 }  // namespace topple::structure
