@@ -40,10 +40,12 @@ struct BrokenJoint {
   Vec6 mean_force = Vec6::Zero();
 };
 
-/// A beam whose ends changed at the start of the present substep: how its ends followed its hubs before.
+/// A beam whose ends changed at the start of the present substep: how its ends followed its hubs before, and its
+/// momentum then, as FrameDynamics::momentum().
 struct ChangedBeam {
   int beam = -1;
   Mat12 followed;
+  Vec6 momentum = Vec6::Zero();
 };
 
 struct FrameDynamics::State {
@@ -76,6 +78,7 @@ struct FrameDynamics::State {
   SideBySide<4> motion_columns;
   SideBySide<2> moved_columns;
   SideBySide<1> z, mass_z;
+  SideBySide<2> old_products;  ///< M a and K u at the start of the substep that was booked last
   Eigen::VectorXd q, w, residual, moved;
 
   State(FrameModel model, MassModel masses, DynamicOptions given);
@@ -99,10 +102,17 @@ struct FrameDynamics::State {
   void add_on_hubs(int beam, const Vec12& local, Eigen::VectorXd& force) const;
   double stored_energy();
 
+  // momentum.cpp
+  [[nodiscard]] Vec6 momentum_of(int beam, const Mat12& follows, const Eigen::VectorXd& velocities) const;
+  [[nodiscard]] Vec6 momentum_left_with(const ChangedBeam& gone) const;
+  [[nodiscard]] Eigen::VectorXd scaled_impulses(std::span<const Impulse> impulses) const;
+  [[nodiscard]] Eigen::VectorXd velocities_of(Eigen::VectorXd scaled) const;
+
   // substep.cpp
   void take_substep();
   void accept();
   void book();
+  void book_numerical();
   void find_products();
   void find_collocated_load();
   void solve(Eigen::VectorXd& x);

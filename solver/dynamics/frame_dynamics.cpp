@@ -66,6 +66,17 @@ void FrameDynamics::set_patch_stiffness(int patch, Eigen::MatrixXd stiffness) {
 void FrameDynamics::set_beam_stiffness_factor(int beam, double factor) {
   state_->frame.set_beam_stiffness_factor(beam, factor);
 }
+void FrameDynamics::set_shell_stiffness(int shell, const Eigen::Matrix<double, 24, 24>& stiffness) {
+  state_->frame.set_shell_stiffness(shell, stiffness);
+}
+void FrameDynamics::set_beam_density(int beam, double density) {
+  if (!(density >= 0)) throw std::invalid_argument("a density must not be negative");
+  Reanalysis::State& core = state_->core();
+  double& target = core.targets[core.checked_beam(beam)].density;
+  if (target == density) return;
+  target = density;
+  core.mark(beam);
+}
 void FrameDynamics::set_support_stiffness(int support, const Vec6& stiffness) {
   state_->frame.set_support_stiffness(support, stiffness);
 }

@@ -80,7 +80,9 @@ void FrameDynamics::State::remember_changing_beams() {
     if (now_is.density == 0 || system().beam_stands[i] == 0 || now_is.end_stiffness == core().targets[i].end_stiffness)
       continue;
     const bool known = std::any_of(changed.begin(), changed.end(), [&](const auto& c) { return c.beam == beam; });
-    if (!known) changed.push_back({beam, ends_by_hubs(now_is)});
+    if (known) continue;
+    const Mat12 follows = ends_by_hubs(now_is);
+    changed.push_back({beam, follows, momentum_of(beam, follows, before.v)});
   }
 }
 

@@ -117,6 +117,25 @@ void FrameDynamics::State::book() {
   if (a0 > 0) energy.damped += a0 * (mass_products.row(1) + foreseen * mass_products.row(2)).dot(moved.transpose());
   if (a1 > 0)
     energy.damped += a1 * method.af * (matrix_products.row(1) - method.s * mass_products.row(1)).dot(moved.transpose());
+  old_products.resize(2, equations());
+  old_products.row(0) = mass_products.row(2);
+  old_products.row(1) = matrix_products.row(0) - method.s * mass_products.row(0);
+}
+
+/// What the substep's equation, times its displacement du, has beyond the change of energy, all at its end: of K
+/// (1/2 - af) du'K du, and of M what is left of du'M a(n+1-am) once the change of 1/2 v'Mv is taken out, with
+/// du = h (v + v(n+1))/2 + h2 (b - g/2) da and a(n+1-am) = dv/h + (1/2 - af) da.
+void FrameDynamics::State::book_numerical() {
+  const double h = method.h, part = 0.5 - method.af, by_a = method.beta - method.gamma / 2;
+  if (part == 0 && by_a == 0) return;
+  const auto& start = now;  // both were exchanged
+  const auto& end = before;
+  const auto stiff = matrix_products.row(0) - method.s * mass_products.row(0) - old_products.row(1);
+  const auto inert = (mass_products.row(2) - old_products.row(0)).eval();
+  energy.numerical += part * stiff.dot(moved.transpose());
+  energy.numerical += part * h / 2 * inert.dot((start.v + end.v).transpose());
+  energy.numerical += h * by_a * inert.dot((end.v - start.v).transpose());
+  energy.numerical += h * h * by_a * part * inert.dot((end.a - start.a).transpose());
 }
 
 void FrameDynamics::State::accept() {
@@ -126,6 +145,7 @@ void FrameDynamics::State::accept() {
   products_known = false;
   if (options.keep_energy) {
     stored_energy();
+    book_numerical();
     if (options.damping.stiffness > 0)
       energy.damped += options.damping.stiffness * (1 - method.af) *
                        (matrix_products.row(1) - method.s * mass_products.row(1)).dot(moved.transpose());

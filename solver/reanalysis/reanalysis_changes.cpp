@@ -21,7 +21,7 @@ bool may_be_stiffer(const Beam& before, char stood, double factor, const BeamTar
 Reanalysis::State::State(FrameModel model, const AnalysisOptions& given)
     : system(std::make_unique<FrameSystem>(std::move(model))), options(given) {
   const FrameModel& m = system->model;
-  for (const Beam& beam : m.beams) targets.push_back({beam.end_stiffness, false, 1, {}});
+  for (const Beam& beam : m.beams) targets.push_back({beam.end_stiffness, false, 1, beam.density, {}});
   shell_removed.assign(m.shells.size(), 0);
   node_loads.assign(m.nodes.size(), Vec6::Zero());
   displacements.assign(m.nodes.size(), Vec6::Zero());
@@ -143,11 +143,13 @@ void Reanalysis::State::apply_beam(int index, std::vector<int>& touched) {
   const bool stiffness_changed =
       stands != system->beam_stands[i] ||
       (stands != 0 && (beam.end_stiffness[0] != target.end_stiffness[0] ||
-                       beam.end_stiffness[1] != target.end_stiffness[1] || system->beam_factor[i] != target.factor));
+                       beam.end_stiffness[1] != target.end_stiffness[1] || system->beam_factor[i] != target.factor ||
+                       beam.density != target.density));
   if (stiffness_changed) tell_standing([&](StandingFactor& one) { one.remember_beam(index); });
   if (stiffness_changed && restricted && may_be_stiffer(beam, system->beam_stands[i], system->beam_factor[i], target))
     restricted->forget_growths();
   beam.end_stiffness = target.end_stiffness;
+  beam.density = target.density;
   system->beam_factor[i] = target.factor;
   system->beam_stands[i] = stands;
   if (stiffness_changed) touched.insert(touched.end(), beam.node.begin(), beam.node.end());

@@ -29,6 +29,7 @@ struct BeamTarget {
   std::array<Vec6, 2> end_stiffness;
   bool removed = false;
   double factor = 1;
+  double density = 0;  ///< of a frame that moves
   std::vector<BeamLoad> loads;
 };
 

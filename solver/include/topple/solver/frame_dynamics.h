@@ -39,11 +39,13 @@ struct DynamicOptions {
   AnalysisOptions analysis;
 };
 
-/// Joules, since the start. kinetic + elastic + damped + freed = external_work + the first kinetic + elastic, at a
-/// spectral radius of 1 to rounding; below 1 the rest is what the method itself dissipates.
+/// Joules, since the start. kinetic + elastic + damped + numerical + freed = external_work + struck + the first kinetic
+/// + elastic, to rounding.
 struct DynamicEnergy {
   double kinetic = 0, elastic = 0;  ///< now; elastic is 1/2 u'Ku
   double damped = 0;                ///< by C
+  double numerical = 0;             ///< by the method itself; nothing at a spectral radius of 1
+  double struck = 0;                ///< work of impulses
   double external_work = 0;         ///< of loads
   double freed = 0;                 ///< by breaks and other changes of the structure: what left it, and what a member
                                     ///< that swings from one end alone lost
@@ -107,6 +109,9 @@ class FrameDynamics {
   void remove_shell(int shell);
   void set_patch_stiffness(int patch, Eigen::MatrixXd stiffness);
   void set_beam_stiffness_factor(int beam, double factor);
+  void set_shell_stiffness(int shell, const Eigen::Matrix<double, 24, 24>& stiffness);
+  /// Mass comes or goes with the velocity of the beam, and what it takes along is booked as freed.
+  void set_beam_density(int beam, double density);
   void set_support_stiffness(int support, const Vec6& stiffness);
   void drop_nodes(std::span<const int> nodes);
   void set_node_load(int node, const Vec6& load);
@@ -130,6 +135,17 @@ class FrameDynamics {
   /// spectral radius of 1, and little below.
   void set_state(const std::vector<Vec6>& displacements, const std::vector<Vec6>& velocities);
 
+  /// An impulse at a node: N s along the axes, N m s about them, global.
+  struct Impulse {
+    int node = -1;
+    Vec6 impulse = Vec6::Zero();
+  };
+  /// M^-1 J: by how much impulses change the velocities of the frame, per node, changes since the last substep apart.
+  /// Freedoms without mass take none. Conjugate gradients, to 1e-12 of J.
+  [[nodiscard]] std::vector<Vec6> velocities_of(std::span<const Impulse> impulses) const;
+  /// They act now, at once, on the frame with all that changed.
+  void strike(std::span<const Impulse> impulses);
+
   /// One substep. Of the joints over capacity at its end the one that reached it first breaks, with those that follow
   /// within a wave's time, and the substep is taken again without them, their forces until then acting as loads (their
   /// mean over the substep), until none is over. Returns the breaks in order.
@@ -150,6 +166,11 @@ class FrameDynamics {
   [[nodiscard]] std::array<Vec6, 4> shell_corner_forces(int shell, bool rates = false) const;
   /// Linear and angular momentum about the origin, of what is free to move.
   [[nodiscard]] Vec6 momentum() const;
+  /// The same of one beam. Of one whose last joint broke in the last substep: what it left with, from its motion at the
+  /// start of that substep and the forces and loads on it since.
+  [[nodiscard]] Vec6 beam_momentum(int beam) const;
+  /// Of the mass at a node.
+  [[nodiscard]] Vec6 node_momentum(int node) const;
   [[nodiscard]] const DynamicEnergy& energy() const;
   [[nodiscard]] double mass_damping() const;
   /// Rayleigh's quotient u'Ku/u'Mu of a displacement, (rad/s)2; 0 when it moves no mass.

@@ -1,0 +1,160 @@
+// Momentum of parts of a frame that moves, and impulses on it.
+#include <Eigen/Geometry>
+#include <stdexcept>
+#include <utility>
+
+#include "dynamics/dynamic_state.h"
+#include "elements/beam_mass.h"
+
+namespace topple::solver {
+namespace {
+
+/// Conjugate gradients on M stop at this share of the impulses, and never go on beyond so many passes.
+constexpr double solved = 1e-12;
+constexpr int most_passes = 2000;
+
+/// Of a point at `at` in the rigid motion number `component`: translations along the axes, rotations about them through
+/// the origin.
+Vec6 rigid_motion_at(const Vec3& at, int component) {
+  Vec6 motion = Vec6::Zero();
+  motion(component) = 1;
+  if (component >= 3) motion.head<3>() = Vec3::Unit(component - 3).cross(at);
+  return motion;
+}
+
+/// Force and moment about the beam's first end of one of its loads, local axes; what makes no force is left out.
+Vec6 resultant(const BeamLoad& load) {
+  Vec6 sum = Vec6::Zero();
+  const auto add = [&](double at, const Vec6& force) {
+    sum += force;
+    sum.tail<3>() += Vec3(at, 0, 0).cross(Vec3(force.head<3>()));
+  };
+  if (load.kind == BeamLoad::Kind::point) add(load.from, load.first);
+  if (load.kind != BeamLoad::Kind::distributed) return sum;
+  const double length = load.to - load.from;
+  add(load.from + length / 3, load.first * (length / 2));
+  add(load.to - length / 3, load.last * (length / 2));
+  return sum;
+}
+
+}  // namespace
+
+/// Its hubs move with these velocities (scaled equations), its ends follow them.
+Vec6 FrameDynamics::State::momentum_of(int beam, const Mat12& follows, const Eigen::VectorXd& velocities) const {
+  const auto i = static_cast<std::size_t>(beam);
+  const Beam& own = system().model.beams[i];
+  const double spread = i < inertia.masses.beam_lengths.size() ? inertia.masses.beam_lengths[i] : 0;
+  const Vec12 hubs = hub_displacements(own, system().node_displacement_of_scaled(own.node[0], velocities),
+                                       system().node_displacement_of_scaled(own.node[1], velocities));
+  const Vec12 momentum = mass_between_ends(own, inertia.masses, spread > 0 ? spread : own.length) * (follows * hubs);
+  Vec6 sum;
+  for (int c = 0; c < 6; ++c) {
+    const auto at = [&](std::size_t end) {
+      return rigid_motion_at(system().model.nodes[static_cast<std::size_t>(own.node[end])], c);
+    };
+    sum(c) = hub_displacements(own, at(0), at(1)).dot(momentum);
+  }
+  return sum;
+}
+
+/// Its joints' forces until they broke pushed it the other way, and its loads went on.
+Vec6 FrameDynamics::State::momentum_left_with(const ChangedBeam& gone) const {
+  const auto i = static_cast<std::size_t>(gone.beam);
+  const Beam& own = system().model.beams[i];
+  Vec12 impulse = Vec12::Zero();
+  for (const BrokenJoint& joint : broken)
+    if (joint.beam == gone.beam)
+      impulse.segment<6>(static_cast<Eigen::Index>(6 * joint.end)) += method.h * joint.mean_force;
+  for (const BeamLoad& load : core().targets[i].loads) impulse.head<6>() += method.h * resultant(load);
+  Vec6 sum = gone.momentum;
+  for (int c = 0; c < 6; ++c) {
+    const auto at = [&](std::size_t end) {
+      return rigid_motion_at(system().model.nodes[static_cast<std::size_t>(own.node[end])], c);
+    };
+    sum(c) += hub_displacements(own, at(0), at(1)).dot(impulse);
+  }
+  return sum;
+}
+
+Eigen::VectorXd FrameDynamics::State::scaled_impulses(std::span<const Impulse> impulses) const {
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(system().dofs().equations + system().dofs().held);
+  for (const Impulse& one : impulses) {
+    if (one.node < 0 || static_cast<std::size_t>(one.node) >= system().model.nodes.size())
+      throw std::invalid_argument("node " + std::to_string(one.node) + " does not exist");
+    if (system().node_stands[static_cast<std::size_t>(one.node)] != 0)
+      system().dofs().add_node_force(one.node, one.impulse, force.data());
+  }
+  return scaled(force);
+}
+
+/// M^-1 times scaled impulses.
+Eigen::VectorXd FrameDynamics::State::velocities_of(Eigen::VectorXd left) const {
+  const Eigen::Index n = equations();
+  const SparseSymmetric& M = system().mass();
+  Eigen::VectorXd inverse(n), x = Eigen::VectorXd::Zero(n);
+  for (Eigen::Index e = 0; e < n; ++e) {
+    const double diagonal = M.value[static_cast<std::size_t>(M.start[static_cast<std::size_t>(e)])];
+    inverse(e) = diagonal > 0 ? 1 / diagonal : 0;
+    if (!(diagonal > 0)) left(e) = 0;
+  }
+  const auto size = [&](const Eigen::VectorXd& r) { return r.dot(inverse.cwiseProduct(r)); };
+  double now_left = size(left);
+  const double enough = solved * solved * now_left;
+  SideBySide<1> direction = inverse.cwiseProduct(left).transpose(), product;
+  for (int pass = 0; now_left > enough; ++pass) {
+    if (pass == most_passes) throw std::runtime_error("the velocities that an impulse leaves were not found");
+    multiply<1>(M, direction, product);
+    const double step = now_left / direction.row(0).dot(product.row(0));
+    x += step * direction.row(0).transpose();
+    left -= step * product.row(0).transpose();
+    const double before_this = std::exchange(now_left, size(left));
+    direction = (inverse.cwiseProduct(left) + now_left / before_this * direction.row(0).transpose()).transpose();
+  }
+  return x;
+}
+
+std::vector<Vec6> FrameDynamics::velocities_of(std::span<const Impulse> impulses) const {
+  const State& state = *state_;
+  std::vector<Vec6> result(state.frame.model().nodes.size(), Vec6::Zero());
+  state.system().node_displacements_of_scaled(state.velocities_of(state.scaled_impulses(impulses)), result);
+  return result;
+}
+
+void FrameDynamics::strike(std::span<const Impulse> impulses) {
+  State& state = *state_;
+  // What changed comes first; the momentum that it leaves out is an impulse here, and no load of a substep to come.
+  state.begin_substep();
+  state.apply_changes();
+  const Eigen::VectorXd own = state.scaled_impulses(impulses), of_changes = state.method.h * state.substep_load;
+  const Eigen::VectorXd change = state.velocities_of(own + of_changes);
+  const Eigen::VectorXd mean = state.before.v + change / 2;
+  state.energy.struck += own.dot(mean);
+  state.energy.freed -= of_changes.dot(mean);
+  state.substep_load.setZero();
+  state.before.v += change;
+  state.products_known = state.nodes_known = state.end_known = false;
+  state.stored_energy();
+}
+
+Vec6 FrameDynamics::beam_momentum(int beam) const {
+  const State& state = *state_;
+  const auto i = state.core().checked_beam(beam);
+  const Beam& own = state.system().model.beams[i];
+  const bool hangs = !own.end_stiffness[0].isZero(0) || !own.end_stiffness[1].isZero(0);
+  if (state.system().beam_stands[i] != 0 && hangs) return state.momentum_of(beam, ends_by_hubs(own), state.current().v);
+  for (const ChangedBeam& change : state.changed)
+    if (change.beam == beam) return state.momentum_left_with(change);
+  return Vec6::Zero();
+}
+
+Vec6 FrameDynamics::node_momentum(int node) const {
+  const State& state = *state_;
+  const Vec6& mass = state.inertia.at_node.at(static_cast<std::size_t>(node));
+  const Vec6 momentum = mass.cwiseProduct(state.system().node_displacement_of_scaled(node, state.current().v));
+  Vec6 sum;
+  for (int c = 0; c < 6; ++c)
+    sum(c) = rigid_motion_at(state.system().model.nodes[static_cast<std::size_t>(node)], c).dot(momentum);
+  return sum;
+}
+
+}  // namespace topple::solver
