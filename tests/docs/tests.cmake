@@ -1,0 +1,6 @@
+# Files, code, tests and rooms that the documents name are those of the tree; their sentences are short.
+find_package(Python3 COMPONENTS Interpreter)
+if(Python3_FOUND)
+  add_test(NAME "docs: what they name is there"
+           COMMAND "${Python3_EXECUTABLE}" "${CMAKE_CURRENT_LIST_DIR}/check_documents.py" "${PROJECT_SOURCE_DIR}")
+endif()
