@@ -183,6 +183,7 @@ for page in (map_page, *pages):
     check_tests(page)
     check_sentences(page)
     check_words(page)
+check_names(root / "docs" / "glossary.md")
 check_flows()
 if map_page.read_text().count("\n") > 120:
     say(map_page, "is longer than 120 lines: what it tells belongs on a page")
