@@ -1,4 +1,4 @@
-// topple check FILE: reads a model, scenario or panel, says what is in it and what can be done with it.
+// topple check FILE: reads a model, scenario, panel or study, says what is in it and what can be done with it.
 #include <array>
 #include <cstdio>
 #include <variant>
@@ -11,6 +11,7 @@
 #include "topple/structure/modelling_checks.h"
 #include "topple/structure/panel_file.h"
 #include "topple/structure/plain_text.h"
+#include "topple/structure/study.h"
 
 namespace topple::app {
 
@@ -120,12 +121,28 @@ int check_panel(const std::filesystem::path& file) {
   return success;
 }
 
-/// A path, or what is shipped by this name: a model, else a scenario, else a panel.
+int check_study(const std::filesystem::path& file) {
+  const structure::Study study = structure::read_study(file);
+  const structure::StudyTask task = structure::study_task(study);
+  std::printf("%s: %s\n", study.file.c_str(), study.title.empty() ? "(no title)" : study.title.c_str());
+  std::printf("  %llu samples of %zu variables\n", static_cast<unsigned long long>(task.sampler.samples()),
+              task.sampler.variables().size());
+  std::printf("  records:");
+  for (const std::string& output : task.outputs) std::printf(" \"%s\"", output.c_str());
+  std::printf("\n");
+  print_outcome("study", [&] {
+    const structure::Sample first = structure::run_sample(task, *task.make_evaluator(), 0);
+    if (!first.failed.empty()) throw std::runtime_error("sample 0: " + first.failed);
+  });
+  return success;
+}
+
+/// A path, or what is shipped by this name: a model, else a scenario, else a panel, else a study.
 std::filesystem::path find_any(const std::string& name) {
   try {
     return structure::find_model(name);
   } catch (const structure::InputError&) {
-    for (const auto find : {structure::find_scenario, structure::find_panel}) try {
+    for (const auto find : {structure::find_scenario, structure::find_panel, structure::find_study}) try {
         return find(name);
       } catch (const structure::InputError&) {
         continue;
@@ -137,14 +154,16 @@ std::filesystem::path find_any(const std::string& name) {
 int check(const std::string& name) {
   const std::filesystem::path file = find_any(name);
   if (structure::is_scenario(file)) return check_scenario(file);
+  if (structure::is_study(file)) return check_study(file);
   if (structure::is_panel(file)) return check_panel(file);
   return check_model(file);
 }
 
 const Registration registration(
-    {"check", "Read a model, scenario or panel and say what is in it", [](CLI::App& app) -> std::function<int()> {
+    {"check", "Read a model, scenario, panel or study and say what is in it",
+     [](CLI::App& app) -> std::function<int()> {
        auto model = std::make_shared<std::string>();
-       app.add_option("MODEL", *model, "A shipped model's, scenario's or panel's name, or a file")->required();
+       app.add_option("MODEL", *model, "A shipped model's, scenario's, panel's or study's name, or a file")->required();
        return [model] { return check(*model); };
      }});
 

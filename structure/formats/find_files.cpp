@@ -8,6 +8,7 @@
 #include "topple/structure/files.h"
 #include "topple/structure/modelling_checks.h"
 #include "topple/structure/panel_file.h"
+#include "topple/structure/study.h"
 
 namespace topple::structure {
 
@@ -59,6 +60,8 @@ fs::path find_model(const std::string& name_or_path, const fs::path& folder) {
 }
 
 fs::path find_scenario(const std::string& name_or_path) { return find(name_or_path, {}, "scenario", "scenarios"); }
+
+fs::path find_study(const std::string& name_or_path) { return find(name_or_path, {}, "study", "studies"); }
 
 fs::path find_panel(const std::string& name_or_path) { return find(name_or_path, {}, "panel", "panels"); }
 

@@ -3,6 +3,7 @@
 #include <system_error>
 
 #include "drawn/drawn_weight.h"
+#include "formats/documents.h"
 #include "formats/frame3dd/frame3dd.h"
 #include "formats/model_files.h"
 #include "formats/model_forms.h"
@@ -62,6 +63,14 @@ ModelRead read_document(const JsonDocument& document) {
 }
 
 }  // namespace
+
+Building formats::read_model_document(const JsonDocument& document, const std::filesystem::path& file,
+                                      Purpose purpose) {
+  ModelRead read = read_document(document);
+  refuse_unbuilt(read.building, purpose);
+  if (read.drawn_weight && purpose != Purpose::inspect) add_drawn_weight(read.building, file);
+  return std::move(read.building);
+}
 
 Building parse_model(std::string_view text, const std::string& name, Purpose purpose) {
   Building building = read_document(JsonDocument::from_text(text, name)).building;

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "formats/divide_cut_members.h"
+#include "formats/documents.h"
 #include "formats/json/json_document.h"
 #include "formats/model_reader.h"
 #include "formats/read_fracture.h"
@@ -317,7 +318,8 @@ class ScenarioReader {
   Scenario scenario_;
 };
 
-std::pair<Building, Scenario> read_document(const JsonDocument& document, const std::filesystem::path& folder) {
+/// Nothing but what a scenario may hold.
+void require_scenario(const JsonDocument& document) {
   const JsonValue root = document.root();
   if (!root.is_object()) root.refuse("an object");
   if (const auto budget = root.find("budget"))
@@ -326,23 +328,34 @@ std::pair<Building, Scenario> read_document(const JsonDocument& document, const 
              "impact", "debris", "fracture", "events"});
   const JsonValue version = root.require("topple");
   if (!version.is_number() || version.number() != 1) version.refuse("1, the version of the format");
-  const JsonValue model = root.require("model");
-  const std::string name(model.text("a shipped model's name, or a path from the scenario's folder"));
-  std::filesystem::path file;
-  try {
-    file = find_model(name, folder);
-  } catch (const InputError& error) {
-    model.fail(error.what());
-  }
-  Building building = read_model(file, Purpose::demolish);
-  CutPlaces cuts = divide_cut_members(root, building);
-  Scenario scenario = ScenarioReader(root, building, std::move(cuts)).read();
-  scenario.file = document.name();
-  scenario.model = name;
-  return {std::move(building), std::move(scenario)};
+}
+
+std::pair<Building, Scenario> read_document(const JsonDocument& document, const std::filesystem::path& folder) {
+  require_scenario(document);
+  return read_scenario_document(document, read_model(model_of_scenario(document, folder), Purpose::demolish));
 }
 
 }  // namespace
+
+std::filesystem::path model_of_scenario(const JsonDocument& document, const std::filesystem::path& folder) {
+  const JsonValue model = document.root().require("model");
+  const std::string name(model.text("a shipped model's name, or a path from the scenario's folder"));
+  try {
+    return find_model(name, folder);
+  } catch (const InputError& error) {
+    model.fail(error.what());
+  }
+}
+
+std::pair<Building, Scenario> read_scenario_document(const JsonDocument& document, Building building) {
+  require_scenario(document);
+  const JsonValue root = document.root();
+  CutPlaces cuts = divide_cut_members(root, building);
+  Scenario scenario = ScenarioReader(root, building, std::move(cuts)).read();
+  scenario.file = document.name();
+  scenario.model = root.require("model").text();
+  return {std::move(building), std::move(scenario)};
+}
 
 }  // namespace formats
 

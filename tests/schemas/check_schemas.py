@@ -70,7 +70,7 @@ def set_at(value, path, new):
     return changed
 
 
-for name in ["model", "scenario", "results", "events", "summary", "standing", "panel", "actions"]:
+for name in ["model", "scenario", "results", "events", "summary", "standing", "panel", "actions", "study"]:
     jsonschema.Draft202012Validator.check_schema(schema(name))
 
 examples = {}
@@ -81,7 +81,7 @@ for document, kind, text in documented_examples():
     else:
         examples[kind] = value
     expect_valid(kind, value, f"the example in {document}")
-for kind in ["model", "scenario", "results", "events", "summary", "standing", "panel", "actions"]:
+for kind in ["model", "scenario", "results", "events", "summary", "standing", "panel", "actions", "study"]:
     if kind not in examples:
         failures.append(f"docs/ shows no example of {kind}")
 
@@ -89,6 +89,9 @@ for file in sorted((source / "models").glob("*.json")):
     expect_valid("model", json.loads(file.read_text()), file.name)
 for file in sorted((source / "models" / "scenarios").glob("*.json")):
     expect_valid("scenario", json.loads(file.read_text()), file.name)
+
+for file in sorted((source / "models" / "studies").glob("*.json")):
+    expect_valid("study", json.loads(file.read_text()), file.name)
 
 # Each mistake is refused by the schema and, where it is a model, by the reader as well.
 model_mistakes = [
@@ -115,6 +118,12 @@ scenario_mistakes = [
     (["events", 4, "weaken", "stiffness"], 0), (["events", 5, "wrecking_ball", "anchor"], None),
     (["events", 1, "cut", "members", 0, "where"], 1.5),
 ]
+study_mistakes = [
+    (["base"], None), (["base"], {"model": "a", "scenario": "b"}), (["samples"], 0), (["sampling"], "grid"),
+    (["vary", 0, "uniform"], [1]), (["vary", 0, "uniform"], None), (["vary", 0, "at"], None), (["vary", 1, "lognormal", "cov"], 0),
+    (["vary", 2, "strength"], {"mean": 1}), (["record", "down"], "summary"), (["record"], {}), (["collapse_if", "down"], {}),
+    (["record", "down"], "down"),
+]
 with tempfile.TemporaryDirectory() as folder:
     file = pathlib.Path(folder) / "model.json"
 
@@ -135,6 +144,9 @@ with tempfile.TemporaryDirectory() as folder:
 if "scenario" in examples:
     for path, new in scenario_mistakes:
         expect_invalid("scenario", set_at(examples["scenario"], path, new), f"{path} = {new}")
+if "study" in examples:
+    for path, new in study_mistakes:
+        expect_invalid("study", set_at(examples["study"], path, new), f"{path} = {new}")
 
 # What the programs write: an analysis, and the first seconds of a collapse.
 collapse = {"topple": 1, "model": "tower", "combination": "collapse", "duration": 2, "events": [

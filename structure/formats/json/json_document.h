@@ -36,6 +36,8 @@ class JsonDocument {
 
   [[nodiscard]] JsonValue root() const;
   [[nodiscard]] const std::string& name() const { return name_; }
+  /// Puts another number in the place of one.
+  void replace_number(const JsonValue& at, double number);
   /// "model.json, line 12", or what stands for that line.
   [[nodiscard]] std::string place(std::uint32_t line) const;
 
@@ -126,6 +128,7 @@ class JsonValue {
   [[noreturn]] void refuse(std::string_view accepted) const;
 
  private:
+  friend class JsonDocument;
   [[nodiscard]] const JsonDocument::Slot& slot() const { return document_->slots_[index_]; }
 
   const JsonDocument* document_;
@@ -133,6 +136,9 @@ class JsonValue {
 };
 
 inline JsonValue JsonDocument::root() const { return {*this, 0}; }
+
+/// The value as JSON text, on one line.
+[[nodiscard]] std::string text_of(const JsonValue& value);
 
 /// `"a", "b", "c"` for messages; long lists are cut.
 [[nodiscard]] std::string quoted_list(const std::vector<std::string_view>& names);

@@ -1,8 +1,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
+#include <stdexcept>
 
 #include "formats/json/json_document.h"
+#include "formats/json/json_writer.h"
 #include "topple/structure/input_place.h"
 #include "topple/structure/plain_text.h"
 
@@ -155,6 +158,11 @@ std::string JsonValue::path() const {
   return before + "[" + std::to_string(position) + "]";
 }
 
+void JsonDocument::replace_number(const JsonValue& at, double number) {
+  if (slots_[at.index_].type != Type::number) throw std::invalid_argument("there is no number to replace");
+  slots_[at.index_].number = number;
+}
+
 std::string JsonDocument::place(std::uint32_t line) const {
   if (line >= 1 && line <= places_.size()) return places_[line - 1];
   return name_ + ", line " + std::to_string(line);
@@ -166,6 +174,33 @@ void JsonValue::fail(const std::string& what) const {
 
 void JsonValue::refuse(std::string_view accepted) const {
   fail("found " + found() + "; accepted: " + std::string(accepted));
+}
+
+namespace {
+
+void write_value(JsonWriter& writer, const JsonValue& value) {
+  if (value.is_object() || value.is_array()) {
+    writer.open(value.is_object() ? '{' : '[');
+    for (const JsonValue item : value) {
+      if (value.is_object()) writer.key(item.key());
+      write_value(writer, item);
+    }
+    writer.close(value.is_object() ? '}' : ']');
+  } else if (value.is_text()) {
+    writer.value(value.text());
+  } else if (value.is_bool()) {
+    writer.value(value.boolean());
+  } else {
+    writer.value(value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.number());  // NaN becomes null
+  }
+}
+
+}  // namespace
+
+std::string text_of(const JsonValue& value) {
+  JsonWriter writer;
+  write_value(writer, value);
+  return writer.take();
 }
 
 }  // namespace topple::structure::formats

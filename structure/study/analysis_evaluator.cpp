@@ -1,0 +1,114 @@
+// Samples of a model: one analysis each, in memory.
+#include <algorithm>
+#include <limits>
+
+#include "study/analysis_options.h"
+#include "study/evaluators.h"
+
+namespace topple::structure::study {
+
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+double largest_use(const AnalysisResult& result) {
+  double largest = 0;
+  for (const CombinationResult& combination : result.combinations) {
+    for (const Utilisation& used : combination.joints) largest = std::max(largest, used.value);
+    for (const DesignResult& design : combination.designs)
+      if (!design.governing.empty()) largest = std::max(largest, design.utilisation);
+  }
+  return largest;
+}
+
+/// The factor on the loads at which the first joint or member is used up, or the first combination buckles.
+double reserve_factor(const AnalysisResult& result) {
+  const double use = largest_use(result);
+  double factor = use > 0 ? 1 / use : std::numeric_limits<double>::infinity();
+  for (const CombinationResult& combination : result.combinations)
+    if (!combination.buckling.empty()) factor = std::min(factor, combination.buckling.front().factor);
+  return factor;
+}
+
+/// The worst joint after any of the losses; infinite where one leaves a mechanism.
+double worst_loss_use(const LossResult& losses) {
+  double worst = 0;
+  for (const MemberLoss& loss : losses.losses)
+    for (const LossState& state : loss.states)
+      worst = std::max(worst, state.stands() ? state.use.value : std::numeric_limits<double>::infinity());
+  return worst;
+}
+
+double losses_survived(const LossResult& losses) {
+  if (losses.losses.empty()) return none;
+  const auto survived = std::count_if(losses.losses.begin(), losses.losses.end(), [](const MemberLoss& loss) {
+    return std::all_of(loss.states.begin(), loss.states.end(), [](const LossState& state) { return state.survives(); });
+  });
+  return static_cast<double>(survived) / static_cast<double>(losses.losses.size());
+}
+
+double weight(const Building& building) {
+  double mass = 0;
+  for (std::size_t m = 0; m < building.members.size(); ++m) mass += own_mass(building, MemberId(m));
+  for (std::size_t p = 0; p < building.panels.size(); ++p) mass += own_mass(building, PanelId(p));
+  return mass;
+}
+
+double largest_drift(const AnalysisResult& result) {
+  double drift = 0;
+  for (const CombinationResult& combination : result.combinations)
+    for (const StoreyResult& storey : combination.storeys) drift = std::max(drift, storey.drift);
+  return drift;
+}
+
+class AnalysisEvaluator : public SampleEvaluator {
+ public:
+  explicit AnalysisEvaluator(std::shared_ptr<const StudyBase> base) : base_(base), of_sample_(std::move(base)) {}
+
+  void evaluate(Sample& sample) override {
+    of_sample_.apply(sample.inputs);
+    const Building& building = of_sample_.building();
+    AnalysisOfSample asked = analysis_of(base_->study, building);
+    asked.request.losses.each.insert(asked.request.losses.each.end(), of_sample_.lost().begin(),
+                                     of_sample_.lost().end());
+    AnalysisResult result = analyse(building, asked.request);
+    if (asked.code) check_design(building, *asked.code, usual_drift_limit, result);
+    nlohmann::ordered_json results;
+    for (const Recorded& recorded : base_->study.record) {
+      if (recorded.from == Recorded::From::results && results.is_null())
+        results = nlohmann::ordered_json::parse(results_json(building, asked.request, result, {}));
+      sample.outputs.push_back(recorded.from == Recorded::From::results ? number_at(results, recorded)
+                                                                        : ready(recorded.pointer, result));
+    }
+    std::vector<bool> bits(building.members.size() + building.panels.size() + building.joints.size());
+    for (const CombinationResult& combination : result.combinations)
+      for (std::size_t j = 0; j < combination.joints.size(); ++j)
+        if (combination.joints[j].value > 1) bits[building.members.size() + building.panels.size() + j] = true;
+    sample.parts = parts_text(bits);
+  }
+
+ private:
+  [[nodiscard]] double ready(const std::string& name, const AnalysisResult& result) const {
+    if (name == "largest_use") return largest_use(result);
+    if (name == "reserve_factor") return reserve_factor(result);
+    if (name == "worst_loss_use") return worst_loss_use(result.losses);
+    if (name == "losses_survived") return losses_survived(result.losses);
+    if (name == "largest_drift") return largest_drift(result);
+    if (name == "weight") return weight(of_sample_.building());
+    double largest = 0;  // largest_displacement
+    for (const CombinationResult& combination : result.combinations)
+      largest = std::max(largest, combination.largest.value);
+    return largest / of_sample_.building().units.length;
+  }
+
+  std::shared_ptr<const StudyBase> base_;
+  BaseOfSample of_sample_;
+};
+
+}  // namespace
+
+std::unique_ptr<SampleEvaluator> analysis_evaluator(std::shared_ptr<const StudyBase> base) {
+  return std::make_unique<AnalysisEvaluator>(std::move(base));
+}
+
+}  // namespace topple::structure::study

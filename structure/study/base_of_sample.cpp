@@ -1,0 +1,118 @@
+// One sample's building and scenario.
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "formats/documents.h"
+#include "study/study_base.h"
+#include "topple/structure/files.h"
+
+namespace topple::structure::study {
+
+namespace {
+
+std::string unquoted(const StudyValue& value) { return nlohmann::ordered_json::parse(value.json).get<std::string>(); }
+
+}  // namespace
+
+BaseOfSample::BaseOfSample(std::shared_ptr<const StudyBase> base)
+    : base_(std::move(base)), model_(base_->model_text, base_->study.model.filename().string()) {
+  const bool of_scenario = base_->study.base == Study::Base::scenario;
+  if (of_scenario)
+    scenario_document_ =
+        std::make_unique<VariedDocument>(base_->scenario_text, base_->study.scenario.filename().string());
+  for (const Effect& effect : base_->effects) {
+    if (effect.variation.target != Variation::Target::pointer) continue;
+    if (effect.variation.of_model) {
+      model_.add_target(effect.variation);
+      model_targets_.push_back(effect.first);
+    } else {
+      scenario_document_->add_target(effect.variation);
+      scenario_targets_.push_back(effect.first);
+    }
+  }
+  const auto purpose = of_scenario ? Purpose::demolish : Purpose::analyse;
+  if (!model_.varies()) as_read_ = formats::read_model_document(model_.unchanged(), base_->study.model, purpose);
+}
+
+void BaseOfSample::read(const std::vector<StudyValue>& inputs) {
+  const auto values = [&](const std::vector<std::size_t>& targets) {
+    std::vector<const StudyValue*> all;
+    for (const std::size_t variable : targets) all.push_back(&inputs[variable]);
+    return all;
+  };
+  const bool of_scenario = scenario_document_ != nullptr;
+  const auto purpose = of_scenario ? Purpose::demolish : Purpose::analyse;
+  building_ = model_.varies()
+                  ? formats::read_model_document(model_.with(values(model_targets_)), base_->study.model, purpose)
+                  : as_read_;
+  if (of_scenario) {
+    auto both =
+        formats::read_scenario_document(scenario_document_->with(values(scenario_targets_)), std::move(building_));
+    building_ = std::move(both.first);
+    scenario_ = std::move(both.second);
+  }
+}
+
+void BaseOfSample::apply(const std::vector<StudyValue>& inputs) {
+  lost_.clear();
+  charges_ = 0;
+  read(inputs);
+  const bool by_name = std::any_of(base_->effects.begin(), base_->effects.end(), [](const Effect& effect) {
+    return effect.variation.target != Variation::Target::pointer;
+  });
+  // Names keep their places unless something else than numbers of the model changes.
+  if (by_name && (!names_ || !model_.only_numbers() || scenario_document_))
+    names_ = std::make_unique<NameIndex>(building_);
+  for (const Effect& effect : base_->effects) {
+    if (effect.variation.target == Variation::Target::joints) strengthen(effect, inputs);
+    if (effect.variation.target == Variation::Target::loss) lose(effect, inputs[effect.first]);
+    if (effect.variation.target == Variation::Target::charges) charge(effect, inputs);
+  }
+  std::stable_sort(scenario_.events.begin(), scenario_.events.end(),
+                   [](const Event& a, const Event& b) { return a.at < b.at; });
+}
+
+void BaseOfSample::strengthen(const Effect& effect, const std::vector<StudyValue>& inputs) {
+  for (std::size_t v = 0; v < effect.count; ++v) {
+    const double factor = inputs[effect.first + v].number;
+    require_in({1e-9, 1e9}, factor, effect.variation.name);
+    for (const std::string& name : effect.names[v]) {
+      const auto joint = names_->joint(name);
+      if (!joint) throw std::runtime_error("there is no joint " + name + " in this sample");
+      for (double& value : building_.joints[static_cast<std::size_t>(joint->index)].capacity.value) value *= factor;
+    }
+  }
+}
+
+std::vector<MemberId> BaseOfSample::pieces_of(const std::string& member) const {
+  const auto first = names_->member(member);
+  if (!first) throw std::runtime_error("there is no member " + member + " in this sample");
+  std::vector<MemberId> pieces{*first};
+  // A member that the scenario cuts inside is in pieces (divide_member.h).
+  if (names_->node(member + "/cut-1"))
+    for (int n = 2; const auto piece = names_->member(member + "/" + std::to_string(n)); ++n) pieces.push_back(*piece);
+  return pieces;
+}
+
+void BaseOfSample::lose(const Effect&, const StudyValue& name) {
+  lost_ = pieces_of(unquoted(name));
+  RemoveTool remove;
+  remove.members = lost_;
+  if (scenario_document_) scenario_.events.push_back({0, std::move(remove)});
+}
+
+void BaseOfSample::charge(const Effect& effect, const std::vector<StudyValue>& inputs) {
+  const std::size_t stride = effect.variation.used ? 2 : 1;
+  for (std::size_t c = 0; c < effect.names.size(); ++c) {
+    const std::size_t v = effect.first + stride * c;
+    if (effect.variation.used && inputs[v + 1].json != "true") continue;
+    RemoveTool remove;
+    remove.members = pieces_of(effect.names[c][0]);
+    scenario_.events.push_back(
+        {require_in(ranges::instant, inputs[v].number, effect.variation.name), std::move(remove)});
+    ++charges_;
+  }
+}
+
+}  // namespace topple::structure::study

@@ -1,0 +1,28 @@
+#pragma once
+// How samples of collapses and of analyses become numbers.
+#include <memory>
+
+#include "study/study_base.h"
+
+namespace topple::structure::study {
+
+[[nodiscard]] std::unique_ptr<SampleEvaluator> collapse_evaluator(std::shared_ptr<const StudyBase> base);
+[[nodiscard]] std::unique_ptr<SampleEvaluator> analysis_evaluator(std::shared_ptr<const StudyBase> base);
+
+/// Whether a ready output is there for this base.
+[[nodiscard]] bool ready_for(std::string_view output, Study::Base base);
+
+/// The number at a pointer of a JSON text's tree; NaN where there is null. Throws std::runtime_error with what stands
+/// there instead.
+[[nodiscard]] double number_at(const nlohmann::ordered_json& tree, const Recorded& recorded);
+
+/// Members, panels and joints of a building as one bit each, as digits; "" where none is set.
+[[nodiscard]] std::string parts_text(const std::vector<bool>& bits);
+
+/// kg: members and panels by their sections, thicknesses and densities.
+[[nodiscard]] double own_mass(const Building& building, MemberId member);
+[[nodiscard]] double own_mass(const Building& building, PanelId panel);
+/// m2: without its openings.
+[[nodiscard]] double area_of_panel(const Panel& panel, const Building& building);
+
+}  // namespace topple::structure::study

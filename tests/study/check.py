@@ -1,0 +1,196 @@
+#!/usr/bin/env python3
+"""Runs `topple study`: the same bytes of journal whatever computes the samples, also after it was killed; failed samples are told
+and the study goes on; wrong files are refused with one line that names the place.
+
+usage: check.py TOPPLE [MPIRUN]
+"""
+import csv
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+topple = sys.argv[1]
+failures = []
+
+
+def expect(holds, what):
+    if not holds:
+        failures.append(what)
+
+
+def run(*arguments, **options):
+    return subprocess.run([topple, "study", *map(str, arguments)], capture_output=True, text=True, **options)
+
+
+def journal(folder):
+    """Lines in the order of their samples."""
+    lines = (pathlib.Path(folder) / "journal.jsonl").read_text().splitlines()
+    return sorted(lines, key=lambda line: json.loads(line)["sample"])
+
+
+# A third of the samples fails: a projectile of a negative mass is refused.
+hits = {"topple": 1, "base": {"scenario": "house_hit"}, "samples": 24, "seed": 7, "vary": [
+    {"at": "/events/0/projectile/from/1", "uniform": [-0.1, 0.1], "add": True, "name": "aim"},
+    {"at": "/events/0/projectile/mass", "uniform": [-400, 800], "name": "mass"},
+    {"joints": "posts", "each": True, "strength": {"normal": {"mean": 1.0, "sd": 0.1, "low": 0.5}}}],
+    "record": {"down": "summary:/counts/members_down", "hit": "members_down", "rest": "time_to_rest"}}
+
+with tempfile.TemporaryDirectory() as folder:
+    place = pathlib.Path(folder)
+    study = place / "hits.json"
+    study.write_text(json.dumps(hits))
+    done = run(study, "-o", place / "one", "--threads", 1)
+    expect(done.returncode == 0, f"a study ends with {done.returncode}: {done.stderr}")
+    lines = journal(place / "one")
+    samples = [json.loads(line) for line in lines]
+    expect([s["sample"] for s in samples] == list(range(24)), "samples are missing")
+    failed = [s for s in samples if "failed" in s]
+    expect(3 < len(failed) < 14, f"{len(failed)} failed samples")
+    for sample in samples:
+        expect((sample["inputs"]["mass"] <= 0) == ("failed" in sample), f"sample {sample['sample']}: mass and failure")
+        if "failed" in sample:
+            expect("events[0].projectile.mass" in sample["failed"] and "accepted" in sample["failed"], sample["failed"])
+        else:
+            expect(sample["outputs"]["down"] == sample["outputs"]["hit"], "the path and the ready output differ")
+    rows = list(csv.DictReader((place / "one" / "samples.csv").open()))
+    expect(len(rows) == 24 and all(float(r["mass"]) == s["inputs"]["mass"] for r, s in zip(rows, samples)), "samples.csv")
+    times = list(csv.DictReader((place / "one" / "times.csv").open()))
+    expect(len(times) == 24 and all(float(t["seconds"]) >= 0 for t in times), "times.csv")
+
+    # One sample as `topple demolish` has it: the same scenario written out by hand.
+    sample = next(s for s in samples if "failed" not in s)
+    event = {"from": [-20, sample["inputs"]["aim"], 2], "velocity": [60, 0, 0], "mass": sample["inputs"]["mass"], "radius": 0.4}
+    model = json.loads((pathlib.Path(__file__).parents[2] / "models" / "house.json").read_text())
+    model["joint_changes"] = [{"joints": name.removeprefix("strength of posts "), "strength": value}
+                              for name, value in sample["inputs"].items() if name.startswith("strength of posts ")]
+    (place / "by_hand_model.json").write_text(json.dumps(model))
+    (place / "by_hand.json").write_text(json.dumps({"topple": 1, "model": "by_hand_model.json", "combination": "collapse", "duration": 60,
+                                                    "events": [{"at": 1.0, "projectile": event}]}))
+    by_hand = subprocess.run([topple, "demolish", place / "by_hand.json", "-o", place / "by_hand"], capture_output=True, text=True)
+    expect(by_hand.returncode == 0, f"the scenario by hand: {by_hand.stderr}")
+    summary = json.loads((place / "by_hand" / "summary.json").read_text())
+    expect(summary["counts"]["members_down"] == sample["outputs"]["down"] and summary["simulated_seconds"] == sample["outputs"]["rest"],
+           f"sample {sample['sample']} is not what demolish has: {summary['counts']} {sample['outputs']}")
+
+    done = run(study, "-o", place / "two", "--threads", 2)
+    expect(journal(place / "two") == lines, "two threads give another journal")
+    for part in ("0:7", "20:", "7:20"):
+        done = run(study, "-o", place / "slices", "--samples", part, "--resume")
+        expect(done.returncode == 0, f"--samples {part}: {done.stderr}")
+    expect(journal(place / "slices") == lines, "slices give another journal")
+    expect(run(study, "-o", place / "one").returncode == 2, "a journal is written over")
+
+    # Killed in the middle, and gone on with; a line cut in the middle as well.
+    for kill, expected in ((signal.SIGKILL, -signal.SIGKILL), (signal.SIGINT, 1)):
+        out = place / f"killed{kill}"
+        longer = place / f"longer{kill}.json"
+        longer.write_text(json.dumps({**hits, "samples": 400}))
+        process = subprocess.Popen([topple, "study", str(longer), "-o", str(out), "--threads", "2"], stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.DEVNULL)
+        for _ in range(600):
+            if (out / "journal.jsonl").exists() and (out / "journal.jsonl").read_text().count("\n") >= 30:
+                break
+            time.sleep(0.02)
+        process.send_signal(kill)
+        status = process.wait()
+        found = (out / "journal.jsonl").read_text()
+        expect(status == expected or found.count("\n") == 400, f"signal {kill}: status {status}")
+        if kill == signal.SIGKILL:
+            (out / "journal.jsonl").write_text(found[:-40])
+        expect(run(longer, "-o", out, "--resume").returncode == 0, "a killed study does not go on")
+        expect(len(journal(out)) == 400, "a resumed study lacks samples")
+    expect(journal(place / f"killed{signal.SIGKILL}") == journal(place / f"killed{signal.SIGINT}"), "a killed study has another journal")
+    expect("another study" in run(study, "-o", place / f"killed{signal.SIGKILL}", "--resume").stderr, "a foreign journal is taken")
+
+    # Nothing is run: a plan of inputs.
+    plan = place / "plan.json"
+    plan.write_text(json.dumps({"topple": 1, "base": None, "samples": 16, "sampling": "sobol", "vary": [{"at": "x", "uniform": [0, 1]}]}))
+    expect(run(plan, "-o", place / "plan").returncode == 0, "a plan of inputs")
+    xs = sorted(float(row["x"]) for row in csv.DictReader((place / "plan" / "samples.csv").open()))
+    expect(all(i / 16 <= x < (i + 1) / 16 for i, x in enumerate(xs)), "sixteen Sobol points, one in each sixteenth")
+
+    # An analysis: the deflection under a load is proportional to 1 / E.
+    beam = {"topple": 1, "materials": {"m": {"youngs_modulus": 2e11, "poisson_ratio": 0.3}},
+            "sections": {"s": {"area": 0.01, "Iy": 1e-4, "Iz": 1e-4, "J": 1e-4}}, "nodes": {"A": [0, 0, 0], "B": [3, 0, 0]},
+            "members": {"AB": {"nodes": ["A", "B"], "section": "s", "material": "m"}}, "supports": {"A": "fixed"},
+            "loads": {"tip": {"nodes": {"B": {"z": -1000}}}}}
+    (place / "beam.json").write_text(json.dumps(beam))
+    sweep = place / "sweep.json"
+    sweep.write_text(json.dumps({"topple": 1, "base": {"model": "beam.json"}, "vary": [
+        {"at": "/materials/m/youngs_modulus", "grid": [1, 0.5, 0.25], "times": True, "name": "E"},
+        {"at": "/loads/tip/nodes/B/z", "grid": [-1000, -3000], "name": "P"}],
+        "record": {"tip": "results:/combinations/tip/displacements/B/2", "most": "largest_displacement"}}))
+    expect(run(sweep, "-o", place / "sweep").returncode == 0, "a sweep over grids")
+    for row in csv.DictReader((place / "sweep" / "samples.csv").open()):
+        exact = float(row["P"]) * 27 / (3 * 2e11 * float(row["E"]) * 1e-4)
+        expect(abs(float(row["tip"]) - exact) < 1e-12 * abs(exact) and abs(float(row["most"]) + exact) < 1e-12 * abs(exact), f"{row} {exact}")
+
+    if len(sys.argv) > 2:
+        mpirun = [sys.argv[2], "--allow-run-as-root", "--oversubscribe", "--bind-to", "none"]
+        for ranks in (1, 2, 3):
+            done = subprocess.run([*mpirun, "-n", str(ranks), topple, "study", str(study), "-o", str(place / f"ranks{ranks}")],
+                                  capture_output=True, text=True)
+            expect(done.returncode == 0, f"{ranks} ranks end with {done.returncode}: {done.stderr}")
+            expect(journal(place / f"ranks{ranks}") == lines, f"{ranks} ranks give another journal")
+        # A rank dies: the journal is whole, and what is missing is made by one process.
+        longer, out = place / "longer9.json", place / "rank_dies"
+        job = subprocess.Popen([*mpirun, "-n", "3", topple, "study", str(longer), "-o", str(out)], stdout=subprocess.DEVNULL,
+                               stderr=subprocess.DEVNULL, start_new_session=True)
+        for _ in range(1500):
+            if (out / "journal.jsonl").exists() and (out / "journal.jsonl").read_text().count("\n") >= 20:
+                break
+            time.sleep(0.02)
+        children = [int(p) for p in subprocess.run(["ps", "-o", "pid=", "--ppid", str(job.pid)], capture_output=True, text=True).stdout.split()]
+        if len(children) == 3:
+            os.kill(children[2], signal.SIGKILL)
+        expect(len(children) == 3 and job.wait(timeout=120) != 0, f"a dead rank does not end the job: {children}")
+        expect(run(longer, "-o", out, "--resume").returncode == 0, "a study does not go on after a rank has died")
+        expect(journal(out) == journal(place / f"killed{signal.SIGKILL}"), "after a rank has died the journal is another")
+        wrong = place / "wrong.json"
+        wrong.write_text(json.dumps({**hits, "record": {"down": "down"}}))
+        done = subprocess.run([*mpirun, "-n", "2", topple, "study", str(wrong), "-o", str(place / "none")], capture_output=True, text=True)
+        expect(done.returncode == 2 and done.stderr.count("record.down") == 1, f"a wrong study on ranks: {done.returncode} {done.stderr}")
+
+    def varied(**entry):
+        return {**hits, "vary": [entry]}
+
+    wrong = {
+        "base": ({**hits, "base": {}}, "base: found an object"), "nothing varies": ({**hits, "vary": []}, "vary:"),
+        "scenario": ({**hits, "base": {"scenario": "no_such"}}, "base.scenario: no_such"),
+        "pointer": (varied(at="/events/0/projectile/weight/1", uniform=[0, 1]), "vary[0].at: house_hit.json has no \"weight\""),
+        "model pointer": (varied(at="model:/materials/S999/density", uniform=[0, 1]), "vary[0].at: house.json has no \"S999\""),
+        "no number": (varied(at="/title", uniform=[0, 1], add=True), "vary[0].at: \"House, a corner post hit\""),
+        "two distributions": (varied(at="/duration", uniform=[0, 1], normal={"mean": 1, "sd": 1}), "vary[0]: two distributions"),
+        "turned": (varied(at="/duration", uniform=[1, 0]), "vary[0].uniform: found an array of 2"),
+        "no spread": (varied(at="/duration", normal={"mean": 1}), "vary[0].normal: found an object"),
+        "lognormal": (varied(at="/duration", lognormal={"mean": -1, "sd": 1}), "vary[0].lognormal.mean: found -1"),
+        "joints": (varied(joints="columns", strength={"uniform": [0.9, 1.1]}), "vary[0].joints: "),
+        "members": (varied(lose_each="no"), "vary[0].lose_each: there is no member or group \"no\""),
+        "output": ({**hits, "record": {"down": "down"}}, "record.down: found \"down\""),
+        "output of an analysis": ({**hits, "record": {"w": "worst_loss_use"}}, "record.w: worst_loss_use"),
+        "collapse": ({**hits, "collapse_if": {"dwn": {"above": 1}}}, "collapse_if.dwn: there is no output \"dwn\""),
+        "fragility": ({**hits, "collapse_if": {"down": {"above": 1}}, "fragility": "speed"}, "fragility: there is no entry \"speed\""),
+        "groups": ({**hits, "groups": [{"of": ["aim", "mass"], "correlation": [[1, 0.5], [0.4, 1]]}]}, "groups[0].correlation: it is no"),
+        "definite": ({**hits, "groups": [{"of": ["aim", "mass"], "correlation": 1}]}, "not positive definite"),
+        "samples": ({**hits, "samples": 0}, "samples: found 0"), "key": ({**hits, "sample": 1}, "sample: unknown key"),
+        "weights": (varied(at="/duration", choice=[1, 2], weights=[1]), "vary[0].weights: found an array of 1"),
+    }
+    file = place / "wrong.json"
+    for what, (value, named) in wrong.items():
+        file.write_text(json.dumps(value))
+        done = run(file, "-o", place / "none")
+        expect(done.returncode == 2 and done.stderr.count("\n") == 1, f"{what}: {done.returncode} {done.stderr}")
+        expect("wrong.json" in done.stderr and named in done.stderr, f"{what}: {done.stderr}")
+    expect(not (place / "none" / "journal.jsonl").exists(), "something was written for a wrong study")
+    checked = subprocess.run([topple, "check", str(study)], capture_output=True, text=True)
+    expect(checked.returncode == 0 and "24 samples of" in checked.stdout, f"topple check: {checked.stdout} {checked.stderr}")
+
+for failure in failures[:30]:
+    print(failure)
+print(f"{len(failures)} failures")
+sys.exit(1 if failures else 0)
