@@ -8,6 +8,7 @@
 #include "topple/structure/files.h"
 #include "topple/structure/modelling_checks.h"
 #include "topple/structure/panel_file.h"
+#include "topple/structure/shipped_files.h"
 #include "topple/structure/study.h"
 
 namespace topple::structure {
@@ -36,21 +37,26 @@ bool is_folder_of_tables(const fs::path& path) {
   return fs::is_regular_file(path / "nodes.csv", ignored);
 }
 
+std::vector<std::string> shipped(const fs::path& below) {
+  std::set<std::string> names;
+  for (const fs::path& place : shipped_folders()) {
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(place / below, ignored))
+      if (entry.path().extension() == ".json") names.insert(entry.path().stem().string());
+  }
+  return {names.begin(), names.end()};
+}
+
 fs::path find(const std::string& name_or_path, const fs::path& folder, const char* kind, const fs::path& below) {
   const fs::path path = folder / name_or_path;
   if (is_file(path) || (std::string_view(kind) == "model" && is_folder_of_tables(path))) return path;
-  std::set<std::string> shipped;
-  for (const fs::path& place : shipped_folders()) {
-    std::error_code ignored;
-    for (const auto& entry : fs::directory_iterator(place / below, ignored)) {
-      if (entry.path().extension() != ".json") continue;
-      if (entry.path().stem() == name_or_path) return entry.path();
-      shipped.insert(entry.path().stem().string());
-    }
-  }
+  if (fs::path(name_or_path).filename() == name_or_path)  // a path is never one of ours
+    for (const fs::path& place : shipped_folders())
+      if (fs::path file = place / below / (name_or_path + ".json"); is_file(file)) return file;
+  const std::vector<std::string> names = shipped(below);
   throw InputError(
-      name_or_path + ": there is no such " + kind + did_you_mean(name_or_path, {shipped.begin(), shipped.end()}) +
-      "; accepted: a path to a file, or a shipped one: " + formats::quoted_list({shipped.begin(), shipped.end()}));
+      name_or_path + ": there is no such " + kind + did_you_mean(name_or_path, names) +
+      "; accepted: a path to a file, or a shipped one: " + formats::quoted_list({names.begin(), names.end()}));
 }
 
 }  // namespace
@@ -58,6 +64,9 @@ fs::path find(const std::string& name_or_path, const fs::path& folder, const cha
 fs::path find_model(const std::string& name_or_path, const fs::path& folder) {
   return find(name_or_path, folder, "model", {});
 }
+
+std::vector<std::string> shipped_models() { return shipped({}); }
+std::vector<std::string> shipped_scenarios() { return shipped("scenarios"); }
 
 fs::path find_scenario(const std::string& name_or_path) { return find(name_or_path, {}, "scenario", "scenarios"); }
 

@@ -138,7 +138,8 @@ void Controller::swing_at(const Pick& found) {
   ball.anchor = to_eigen(anchor);
   ball.from =
       to_eigen(anchor - swing.cable * (std::sin(swing.angle) * ahead + glm::dvec3(0, 0, std::cos(swing.angle))));
-  ball.cable = swing.cable;
+  // Taut, whatever rounding has made of the place.
+  ball.cable = std::max(swing.cable, (ball.anchor - ball.from).norm());
   ball.mass = swing.mass;
   ball.radius = swing.radius;
   driver_.apply(ball);
@@ -257,7 +258,7 @@ const char* Controller::key_help() {
          "1 2 3 4 5         posts, beams, slabs, walls, braces\n"
          "O                 loads and reactions     Y             back to the present\n"
          "F                 frame the building      P             save a picture\n"
-         "H                 this help               Esc           leave";
+         "H                 this help               Esc           end the program (asks first)";
 }
 
 bool Controller::key(const std::string& name) {
@@ -312,6 +313,7 @@ std::map<std::string, std::function<void()>> Controller::key_meanings() {
           {"3", [this] { options.shown.slabs = !options.shown.slabs; }},
           {"4", [this] { options.shown.walls = !options.shown.walls; }},
           {"5", [this] { options.shown.braces = !options.shown.braces; }},
+          {"escape", [this] { asks_to_leave = !asks_to_leave; }},
           {"h", [this] { help = !help; }}};
 }
 

@@ -49,8 +49,10 @@ class Controller {
   Swing swing;
   Burning burning;
   ToolKind tool = ToolKind::fire;
-  double charge_radius = 3;  ///< m; within it joints lose strength, all of it at the centre
+  double charge_radius = 6;  ///< m; within it joints lose strength, all of it at the centre
   bool help = false;
+  bool asks_to_leave = false;          ///< a person is asked whether the program is to end
+  bool leaves = false;                 ///< and has said so
   std::optional<std::string> message;  ///< for the person, one line
   /// Files that pictures are to be written to (outputs.h); empty: none is wanted.
   std::string picture_wanted, sequence_wanted;

@@ -5,16 +5,31 @@
 
 #include <cmath>
 
+extern "C" const unsigned char topple_font_begin[], topple_font_end[], topple_table_font_begin[],
+    topple_table_font_end[];
+
 namespace topple::viewer {
+namespace {
+
+constexpr float text_pixels = 14, table_pixels = 13;  ///< at scale 1
+
+void add_font(const unsigned char* begin, const unsigned char* end, float pixels) {
+  ImFontConfig font;
+  font.FontDataOwnedByAtlas = false;
+  font.OversampleH = 2;
+  ImGui::GetIO().Fonts->AddFontFromMemoryTTF(const_cast<unsigned char*>(begin), static_cast<int>(end - begin),
+                                             std::round(pixels), &font);
+}
+
+}  // namespace
 
 Interface::Interface(float scale) {
   IMGUI_CHECKVERSION();
   ImGui::CreateContext();
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;
-  ImFontConfig font;
-  font.SizePixels = std::round(13.0F * scale);
-  io.Fonts->AddFontDefault(&font);
+  add_font(topple_font_begin, topple_font_end, text_pixels * scale);
+  add_font(topple_table_font_begin, topple_table_font_end, table_pixels * scale);
   io.Fonts->Build();  // so that sizes in text are known before the first frame
   ImGui::StyleColorsDark();
   ImGui::GetStyle().ScaleAllSizes(scale);

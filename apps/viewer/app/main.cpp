@@ -31,10 +31,10 @@ int run(int argc, char** argv) {
   namespace ranges = topple::structure::ranges;
   CLI::App app{"Shows a building under its loads and lets you demolish it.", "topple-viewer"};
   app.set_version_flag("--version", TOPPLE_VERSION);
-  std::string name = "seed_building", size;
+  std::string name = "town_house", size;
   bool headless = false;
   HeadlessOptions pictures;
-  app.add_option("scene", name, "model or scenario: a shipped name or a file (default: seed_building)");
+  app.add_option("scene", name, "model or scenario: a shipped name or a file (default: town_house)");
   app.add_flag("--headless", headless, "draw without a window");
   app.add_option("--screenshot", pictures.screenshot, "file of the picture (in the window: what key P writes)");
   app.add_option("--at", pictures.at, "simulated seconds before the picture, and length of a recording")
@@ -44,7 +44,7 @@ int run(int argc, char** argv) {
   app.add_option("--actions", pictures.actions, "script of what a person would do");
   app.add_option("--show", pictures.show, "how to draw it, as the action `show` says; may be given several times");
   app.add_flag("--panel", pictures.panel, "with the panels, without a window");
-  app.add_option("--scale", pictures.scale, "of the panels' text, without a window")->check(in_range({0.5, 4.0}));
+  app.add_option("--scale", pictures.scale, "of the panels' text")->check(in_range({0.5, 4.0}));
   app.add_option("--video", pictures.video, "file of a video (.mp4, .webm); needs ffmpeg");
   app.add_option("--replay", pictures.replay, "file of a page that shows the run again (.html)");
   app.add_option("--usd", pictures.usd, "file of the run as an animation (.usda)");
@@ -75,6 +75,7 @@ int run(int argc, char** argv) {
   if (pictures.size) window.width = (*pictures.size)[0], window.height = (*pictures.size)[1];
   if (pictures.screenshot) window.screenshot = *pictures.screenshot;
   window.show = pictures.show;
+  window.scale = pictures.scale;
   run_window(scene, window);
   return 0;
 }

@@ -1,5 +1,6 @@
 #include "app/open_scene.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -9,6 +10,8 @@
 #include "topple/structure/error.h"
 #include "topple/structure/files.h"
 #include "topple/structure/join_shells.h"
+#include "topple/structure/modelling_checks.h"
+#include "topple/structure/shipped_files.h"
 
 namespace topple::viewer {
 namespace {
@@ -38,9 +41,23 @@ std::optional<std::filesystem::path> scenario_file(const std::string& name) {
   }
 }
 
-}  // namespace
+std::string listed(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
 
-namespace {
+std::filesystem::path model_file(const std::string& name) {
+  const std::vector<std::string> models = structure::shipped_models(), scenarios = structure::shipped_scenarios();
+  std::error_code ignored;
+  if (std::filesystem::exists(name, ignored) || std::find(models.begin(), models.end(), name) != models.end())
+    return structure::find_model(name);
+  std::vector<std::string> known = scenarios;
+  known.insert(known.end(), models.begin(), models.end());
+  throw InputError(name + ": there is no such scenario or model" + structure::did_you_mean(name, known) +
+                   "; accepted: a path to a file, or a shipped scenario: " + listed(scenarios) +
+                   "; or a shipped model: " + listed(models));
+}
 
 Scene scene_of(structure::Building building, structure::Scenario scenario, const std::filesystem::path& model) {
   auto drawn = std::make_shared<const std::vector<structure::DrawnMesh>>(structure::read_drawn_meshes(building, model));
@@ -56,7 +73,7 @@ Scene open_scene(const std::string& name) {
     const std::filesystem::path model = structure::find_model(scenario.model, file->parent_path());
     return scene_of(std::move(building), std::move(scenario), model);
   }
-  const std::filesystem::path model = structure::find_model(name);
+  const std::filesystem::path model = model_file(name);
   structure::Building building = structure::read_model(model);
   structure::join_shells(building);
   structure::Scenario scenario = structure::idle_scenario(building);

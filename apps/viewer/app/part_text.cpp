@@ -22,10 +22,11 @@ Sense sense_of(int component, double demand) {
   return static_cast<Sense>(component + 1);
 }
 
-void component_row(int component, double demand, const structure::JointCapacity& capacity, bool edge) {
+/// `strength`: what is left of the capacity.
+void component_row(int component, double demand, const structure::JointCapacity& capacity, double strength, bool edge) {
   constexpr const char* names[] = {"N ", "Vy", "Vz", "T ", "My", "Mz"};
   const char* unit = component < 3 ? (edge ? "kN/m" : "kN  ") : (edge ? "kN  " : "kN m");
-  const double limit = capacity.value[static_cast<std::size_t>(sense_of(component, demand))];
+  const double limit = strength * capacity.value[static_cast<std::size_t>(sense_of(component, demand))];
   if (!capacity.breakable || !std::isfinite(limit))
     ImGui::Text("%s %10.2f %s", names[component], demand / 1e3, unit);
   else
@@ -54,6 +55,7 @@ std::string part_text(const structure::Building& building, structure::JointId id
 }
 
 void draw_joint(Controller& controller, const Snapshot& moment, structure::JointId id, bool with_history) {
+  const TableFont columns;
   const auto& joint = moment.answer->joints[static_cast<std::size_t>(id.index)];
   const char* state = !joint.intact ? "failed" : joint.standing ? "" : "part of a body";
   ImGui::Text("joint %s %s", controller.building()[id].name.c_str(), state);
@@ -64,9 +66,12 @@ void draw_joint(Controller& controller, const Snapshot& moment, structure::Joint
                   structure::sense_names[static_cast<std::size_t>(joint.sense)]);
     else
       ImGui::TextUnformatted("never breaks");
+    if (capacity.breakable && joint.strength < 0.9995F)
+      ImGui::Text("weakened: %.1f %% of its capacity is left", 100.0 * static_cast<double>(joint.strength));
     const bool edge = controller.building()[id].panel.valid();
     for (int c = 0; c < 6; ++c)
-      component_row(c, static_cast<double>(joint.demand[static_cast<std::size_t>(c)]), capacity, edge);
+      component_row(c, static_cast<double>(joint.demand[static_cast<std::size_t>(c)]), capacity,
+                    static_cast<double>(joint.strength), edge);
   }
   if (!with_history) return;
   const auto history = controller.driver().recording().history(id);
@@ -82,7 +87,15 @@ void draw_joint(Controller& controller, const Snapshot& moment, structure::Joint
 
 void draw_hover_text(Controller& controller, const Snapshot& moment) {
   const auto& hovered = controller.hovered();
-  if (!hovered || !hovered->joint.valid() || ImGui::GetIO().WantCaptureMouse) return;
+  if (!hovered || !hovered->joint.valid() || ImGui::GetIO().WantCaptureMouse || controller.asks_to_leave) return;
+  const ImVec2 display = ImGui::GetIO().DisplaySize, pointer = ImGui::GetIO().MousePos;
+  const glm::dvec2 scene = SidePanel::scene_size({display.x, display.y});
+  if (pointer.x > static_cast<float>(scene.x) || pointer.y > static_cast<float>(scene.y)) return;
+  // It grows towards the middle of the scene, so that it lies over no panel.
+  const bool left = 2 * pointer.x > static_cast<float>(scene.x), up = 2 * pointer.y > static_cast<float>(scene.y);
+  const float away = ImGui::GetFontSize();
+  ImGui::SetNextWindowPos(ImVec2(pointer.x + (left ? -away : away), pointer.y + (up ? -away : away)), ImGuiCond_Always,
+                          ImVec2(left ? 1.0F : 0.0F, up ? 1.0F : 0.0F));
   ImGui::BeginTooltip();
   ImGui::TextUnformatted(part_text(controller.building(), hovered->joint).c_str());
   draw_joint(controller, moment, hovered->joint, true);

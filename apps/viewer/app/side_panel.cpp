@@ -139,8 +139,23 @@ void mode_choice(Controller& controller) {
 
 void help_window(bool& open) {
   ImGui::SetNextWindowPos(ImVec2(20, 20), ImGuiCond_FirstUseEver);
-  if (ImGui::Begin("Help", &open, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse))
+  if (ImGui::Begin("Help", &open, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse)) {
+    const TableFont columns;
     ImGui::TextUnformatted(Controller::key_help());
+  }
+  ImGui::End();
+}
+
+void leave_window(Controller& controller, glm::dvec2 scene) {
+  ImGui::SetNextWindowPos(ImVec2(static_cast<float>(scene.x / 2), static_cast<float>(scene.y / 2)), ImGuiCond_Always,
+                          ImVec2(0.5F, 0.5F));
+  if (ImGui::Begin("Leave?", &controller.asks_to_leave,
+                   ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove)) {
+    ImGui::TextUnformatted("End the program? The run is lost unless it was saved.");
+    if (ImGui::Button("End (Enter)")) controller.leaves = true;
+    ImGui::SameLine();
+    if (ImGui::Button("Stay (Esc)")) controller.asks_to_leave = false;
+  }
   ImGui::End();
 }
 
@@ -325,6 +340,7 @@ void SidePanel::performance(const Snapshot& moment) {
 }
 
 void SidePanel::joints(Controller& controller, const Snapshot& moment) {
+  const TableFont columns;
   for (const structure::JointId id : moment.answer->most_used) {
     const auto& joint = moment.answer->joints[static_cast<std::size_t>(id.index)];
     char text[96];
@@ -370,6 +386,7 @@ void SidePanel::draw(Controller& controller, const Snapshot& moment, const Scene
   ImGui::End();
   draw_timeline(controller, moment, left, static_cast<double>(display.y));
   if (controller.help) help_window(controller.help);
+  if (controller.asks_to_leave) leave_window(controller, left);
 }
 
 }  // namespace topple::viewer

@@ -6,6 +6,15 @@
 
 namespace topple::viewer {
 
+/// While it lives, text is written with letters of one width: Interface loads that font second.
+class TableFont {
+ public:
+  TableFont() { ImGui::PushFont(ImGui::GetIO().Fonts->Fonts[1]); }
+  ~TableFont() { ImGui::PopFont(); }
+  TableFont(const TableFont&) = delete;
+  TableFont& operator=(const TableFont&) = delete;
+};
+
 [[nodiscard]] inline ImVec4 to_imgui(Rgba colour) {
   const glm::vec4 c = unpack(colour);
   return {c.r, c.g, c.b, 1.0F};

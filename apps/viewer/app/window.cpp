@@ -86,7 +86,7 @@ float content_scale(GLFWwindow* window) {
 /// Dear ImGui fed by the window. GLFW's callbacks of our own are set before.
 class WindowInterface {
  public:
-  explicit WindowInterface(GLFWwindow* window) : interface_(content_scale(window)) {
+  WindowInterface(GLFWwindow* window, double scale) : interface_(content_scale(window) * static_cast<float>(scale)) {
     ImGui_ImplGlfw_InitForOpenGL(window, true);
   }
   ~WindowInterface() { ImGui_ImplGlfw_Shutdown(); }
@@ -156,7 +156,8 @@ class Input {
     held_ == GLFW_MOUSE_BUTTON_LEFT ? controller_.drag(from, to) : controller_.drag_to_pan(from, to);
   }
   void key(int key) {
-    if (key == GLFW_KEY_ESCAPE) glfwSetWindowShouldClose(window_, GLFW_TRUE);
+    if (key == GLFW_KEY_ESCAPE) controller_.key("escape");
+    if (controller_.asks_to_leave && (key == GLFW_KEY_ENTER || key == GLFW_KEY_KP_ENTER)) controller_.leaves = true;
     if (key == GLFW_KEY_P) controller_.picture_wanted = screenshot_file_;
     if (key == GLFW_KEY_SPACE) controller_.key("space");
     if ((key >= GLFW_KEY_1 && key <= GLFW_KEY_5) || (key >= GLFW_KEY_A && key <= GLFW_KEY_Z))
@@ -186,7 +187,7 @@ void run_window(const Scene& scene, const WindowOptions& options) {
   ThreadDriver driver(std::make_unique<Session>(scene.building, scene.scenario, scene.drawn));
   Controller controller(driver, scene, ground, window.size());
   Input input(window.get(), controller, options.screenshot);
-  const WindowInterface interface(window.get());
+  const WindowInterface interface(window.get(), options.scale);
   SidePanel panel;
   Outputs outputs;
   controller.resize(scene_size(window));
@@ -194,7 +195,7 @@ void run_window(const Scene& scene, const WindowOptions& options) {
   for (const std::string& words : options.show) controller.show(words);
   glm::dvec2 hovered_at{-1};
   double before = glfwGetTime();
-  while (glfwWindowShouldClose(window.get()) == GLFW_FALSE) {
+  while (glfwWindowShouldClose(window.get()) == GLFW_FALSE && !controller.leaves) {
     glfwPollEvents();
     const double now = glfwGetTime();
     input.fly(now - before);

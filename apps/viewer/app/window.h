@@ -11,6 +11,7 @@ struct WindowOptions {
   int width = 1600, height = 900;
   std::string screenshot = "topple.png";  ///< where key P writes
   std::vector<std::string> show;          ///< words of show_words.h
+  double scale = 1;                       ///< of the panels' text, beside that of the display
 };
 
 /// Opens a window on the scene and returns when it is closed. Throws std::runtime_error with one line when no window

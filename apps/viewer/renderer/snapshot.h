@@ -39,6 +39,7 @@ struct FrameAnswer {
     std::array<float, 6> demand{};  ///< joint axes, N and N m (panels: per length)
     float utilisation = 0;
     float force_share = 0, torque_share = 0;  ///< largest ratio of demand to capacity among forces, among moments
+    float strength = 1;  ///< what charges and fires have left of the capacity: multiplies each of its senses
     structure::Sense sense = structure::Sense::tension;
     bool intact = true, standing = true;
   };

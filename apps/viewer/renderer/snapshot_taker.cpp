@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "topple/structure/joint_check.h"
+
 namespace topple::viewer {
 namespace {
 
@@ -44,6 +46,9 @@ FrameAnswer::Joint joint_answer(const structure::StandingFrame& frame, const Bui
   const structure::Utilisation used = frame.utilisation(id);
   result.utilisation = static_cast<float>(used.value);
   result.sense = used.sense;
+  // Both rules of interaction are ratios to the capacity: what is left of it is the share that the use has grown by.
+  if (used.value > 0)
+    result.strength = static_cast<float>(std::min(1.0, structure::utilisation(capacity, demand).value / used.value));
   // The rule of interaction and a weakened joint both lift the utilisation above the plain ratios: scale to meet it.
   const auto [force, torque] = shares(capacity, demand);
   const double largest = std::max(force, torque), lift = largest > 0 ? used.value / largest : 0;

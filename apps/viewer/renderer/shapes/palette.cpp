@@ -31,7 +31,7 @@ double component_share(const FrameAnswer::Joint& joint, const structure::JointCa
                                                    structure::Sense::shear_z,  structure::Sense::torsion,
                                                    structure::Sense::moment_y, structure::Sense::moment_z};
   const structure::Sense sense = c == 0 && demand < 0 ? structure::Sense::compression : senses[c];
-  return demand / capacity.value[static_cast<std::size_t>(sense)];
+  return demand / (joint.strength * capacity.value[static_cast<std::size_t>(sense)]);
 }
 
 }  // namespace
