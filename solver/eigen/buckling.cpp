@@ -7,10 +7,9 @@
 
 #include "assembly/frame_system.h"
 #include "assembly/mass_matrix.h"
-#include "eigen/buckling_start.h"
+#include "eigen/buckling_pairs.h"
 #include "elements/second_order_beam.h"
 #include "factor/factor.h"
-#include "factor/ldl_factor.h"
 
 namespace topple::solver {
 namespace {
@@ -19,6 +18,7 @@ constexpr double enclosed = 1e-11;        // relative width at which a factor co
 constexpr double equal_to_newton = 2e-9;  // relative distance of factors whose shapes it mixes
 constexpr double same_factor = 1e-6;      // modes this close are sought apart from each other
 constexpr int inverse_iterations = 8;
+constexpr int spare_starts = 3;  // beyond those sought: equal factors all come
 
 /// Members held at both ends buckle at 4 pi2 EI/L2 (less by shear); far below it there is nothing to count.
 bool cannot_buckle_between_rigid_ends(const Beam& beam, double axial, const std::vector<BeamLoad>& loads) {
@@ -52,14 +52,42 @@ class Buckling {
     }
     system_.assemble();
     const std::vector<int> order = system_.elimination_order();
-    if (!order.empty()) ldl_ = std::make_unique<LdlFactor>(system_.matrix(), order);
+    unloaded_scale_.assign(system_.scale().begin(), system_.scale().end());
+    if (!order.empty())
+      factor_ = std::make_unique<Factor>(system_.matrix(), order, Factorisation::automatic, options.threads);
     system_.second_order = &axial_;
   }
 
   /// How many critical factors lie below this one. Leaves the factorised tangent behind when it is to be kept.
   int below(double factor, bool keep = false) {
     if (const auto known = counted_.find(factor); known != counted_.end() && !keep) return known->second;
-    return counted_[factor] = count_below(factor, keep);
+    const int inside = buckled_inside(factor);  // leaves the state at this factor
+    int count = inside;
+    if (factor_) {
+      system_.assemble();
+      count += factor_->factorise_indefinite(system_.matrix());
+    }
+    return counted_[factor] = count;
+  }
+
+  /// The lowest pairs at once, proved by one count; none where that does not work.
+  [[nodiscard]] std::vector<BucklingPair> pairs(const std::vector<BucklingStart>& starts, int count) {
+    TangentOperators operators;
+    operators.tangent = [this](double factor) { return tangent(factor); };
+    operators.count = [this](double factor) { return below(factor); };
+    operators.factorise = [this](double factor) {
+      if (buckled_inside(factor) > 0) return -1;
+      return counted_[factor] = factor_->factorise_indefinite(tangent(factor));
+    };
+    operators.solve = [this](Eigen::Ref<Eigen::MatrixXd> x) { factor_->solve(x); };
+    return buckling_pairs(operators, starts, count);
+  }
+
+  [[nodiscard]] std::vector<Vec6> shape_of(const BucklingPair& pair) const {
+    Eigen::VectorXd x = pair.vector;
+    for (Eigen::Index i = 0; i < x.size(); ++i)
+      x(i) *= unloaded_scale_[static_cast<std::size_t>(i)] / system_.scale()[static_cast<std::size_t>(i)];
+    return system_.shape(x);
   }
 
   /// What the counts made so far leave for the k-th factor: `high` stays when none has been beyond it.
@@ -77,22 +105,12 @@ class Buckling {
   /// Estimates to begin with; none where members are not what is compressed.
   [[nodiscard]] std::vector<BucklingStart> starts(int count, const AnalysisOptions& options) {
     const double reference = reference_factor();
-    if (!ldl_ || !(reference > 0)) return {};
-    set_factor(0);
-    system_.assemble();
-    const SparseSymmetric K = system_.matrix();
-    const std::vector<double> scale(system_.scale().begin(), system_.scale().end());
+    if (!factor_ || !(reference > 0)) return {};
+    const SparseSymmetric K = tangent(0);
     constexpr double small = 1e-4;  // of the reference: what is lost is then linear to some digits
-    set_factor(small * reference);
-    system_.assemble();
-    SparseSymmetric G = system_.matrix();
-    for (std::size_t column = 0; column < scale.size(); ++column)
-      for (auto k = static_cast<std::size_t>(G.start[column]); k < static_cast<std::size_t>(G.start[column + 1]); ++k) {
-        const auto row = static_cast<std::size_t>(G.row[k]);
-        const double same = scale[row] / system_.scale()[row] * (scale[column] / system_.scale()[column]);
-        G.value[k] = (K.value[k] - G.value[k] * same) / (small * reference);
-      }
-    Factor factor(K, system_.elimination_order(), options.factorisation);
+    SparseSymmetric G = tangent(small * reference);
+    for (std::size_t k = 0; k < G.value.size(); ++k) G.value[k] = (K.value[k] - G.value[k]) / (small * reference);
+    Factor factor(K, system_.elimination_order(), options.factorisation, options.threads);
     if (!factor.factorise(K).positive_definite) return {};
     const auto times = [&](const Eigen::Ref<const Eigen::MatrixXd>& x) {
       Eigen::MatrixXd y = Eigen::MatrixXd::Zero(x.rows(), x.cols());
@@ -120,7 +138,8 @@ class Buckling {
     return std::max(10 * moved * moved / factor, enclosed / 4 * factor);
   }
 
-  int count_below(double factor, bool keep) {
+  /// Members that have buckled between their ends held; leaves the state at this factor.
+  int buckled_inside(double factor) {
     set_factor(factor);
     int count = 0;
     for (std::size_t i = 0; i < first_axial_.size(); ++i) {
@@ -128,21 +147,19 @@ class Buckling {
       if (cannot_buckle_between_rigid_ends(beam, axial_.first_axial[i], axial_.loads[i])) continue;
       count += SecondOrderBeam(beam, 1, SecondOrder::exact, axial_.first_axial[i], axial_.loads[i]).buckled_modes();
     }
-    if (!ldl_) return count;
-    system_.assemble();
-    return count + ldl_->factorise(system_.matrix(), keep);
+    return count;
   }
 
   /// After below(factor, true): where the tangent's eigenvalue nearest to zero vanishes, by Newton's method on its
   /// Rayleigh quotient.
   double newton(double factor) {
-    if (!ldl_) return factor;
+    if (!factor_) return factor;
     constexpr int turns = 3;
     constexpr double step = 1e-5;
     if (displacement_.size() == 0) displacement_ = start();
     Eigen::VectorXd x = displacement_;
     for (int k = 0; k < turns; ++k) {
-      ldl_->solve(x);
+      factor_->solve(x);
       x.normalize();
     }
     displacement_ = x;
@@ -156,15 +173,15 @@ class Buckling {
   /// The shape at a factor hardly below a critical one, apart from the vectors in `known`.
   std::vector<Vec6> shape(double factor, std::vector<Eigen::VectorXd>& known) {
     std::vector<Vec6> shape(system_.model.nodes.size(), Vec6::Zero());
-    if (!ldl_) return shape;
+    if (!factor_) return shape;
     assemble_in_unloaded_scale(factor);
-    ldl_->factorise(system_.matrix(), true);
+    (void)factor_->factorise_indefinite(system_.matrix());
     Eigen::VectorXd x = start();
     double growth = 0;
     for (int k = 0; k < inverse_iterations; ++k) {
       for (const Eigen::VectorXd& other : known) x -= other.dot(x) * other;
       x.normalize();
-      ldl_->solve(x);
+      factor_->solve(x);
       growth = x.norm();
     }
     for (const Eigen::VectorXd& other : known) x -= other.dot(x) * other;
@@ -192,6 +209,19 @@ class Buckling {
     std::vector<int> nodes(system_.model.nodes.size());
     std::iota(nodes.begin(), nodes.end(), 0);
     system_.reassemble(nodes);
+  }
+
+  /// The tangent in the scale of the unloaded stiffness.
+  [[nodiscard]] SparseSymmetric tangent(double factor) {
+    set_factor(factor);
+    system_.assemble();
+    SparseSymmetric T = system_.matrix();
+    std::vector<double> ratio(unloaded_scale_);
+    for (std::size_t i = 0; i < ratio.size(); ++i) ratio[i] /= system_.scale()[i];  // powers of two: exact
+    for (std::size_t column = 0; column < ratio.size(); ++column)
+      for (auto k = static_cast<std::size_t>(T.start[column]); k < static_cast<std::size_t>(T.start[column + 1]); ++k)
+        T.value[k] *= ratio[static_cast<std::size_t>(T.row[k])] * ratio[column];
+    return T;
   }
 
   /// A vector without any symmetry of its own.
@@ -245,7 +275,8 @@ class Buckling {
   std::map<double, int> counted_;
   std::vector<double> first_axial_;
   std::vector<std::vector<BeamLoad>> loads_;
-  std::unique_ptr<LdlFactor> ldl_;
+  std::unique_ptr<Factor> factor_;
+  std::vector<double> unloaded_scale_;
   Eigen::VectorXd displacement_;  ///< where the last search for an eigenvector ended
 };
 
@@ -294,9 +325,15 @@ std::vector<BucklingMode> buckling_modes(const FrameModel& model, const LoadSet&
   Buckling buckling(model, loads, options, hanging);
   std::vector<BucklingMode> modes;
   if (!buckling.has_compression()) return modes;
+  const std::vector<BucklingStart> starts = buckling.starts(count + spare_starts, options);
+  for (const BucklingPair& pair : buckling.pairs(starts, count))
+    if (static_cast<int>(modes.size()) < count && pair.factor <= largest_factor)
+      modes.push_back({pair.factor, buckling.shape_of(pair)});
+    else
+      return modes;
+  if (!modes.empty()) return modes;
   double low = 0;
   std::vector<Eigen::VectorXd> known;
-  const std::vector<BucklingStart> starts = buckling.starts(count, options);
   for (int k = 1; k <= count; ++k) {
     if (static_cast<std::size_t>(k) <= starts.size())
       count_around(buckling, k, starts[static_cast<std::size_t>(k) - 1]);

@@ -8,6 +8,7 @@ namespace topple::solver {
 namespace {
 
 constexpr Eigen::Index beyond = 3, blocks = 12;  // width of a block beyond what is sought; how many of them
+constexpr double settled = 2e-3;                 // change of the estimates, relative, that ends the iteration
 constexpr double negligible = 1e-10;             // what is left of a vector beside the others when it is but rounding
 
 /// K-orthonormal vectors V with K V and G V.
@@ -20,19 +21,24 @@ class Basis {
   /// Takes in K^-1 times these columns, as far as they bring anything new; returns how many did.
   Eigen::Index add(const Eigen::MatrixXd& forces) {
     const Eigen::Index before = columns_;
-    Eigen::MatrixXd moved = forces;
+    Eigen::MatrixXd moved = forces, Kmoved = forces;
     op_.solve(moved);
+    const Eigen::VectorXd energy = moved.cwiseProduct(Kmoved).colwise().sum();
+    for (int pass = 0; pass < 2; ++pass) {
+      const Eigen::MatrixXd along = KV_.leftCols(before).transpose() * moved;
+      moved.noalias() -= V_.leftCols(before) * along;
+      Kmoved.noalias() -= KV_.leftCols(before) * along;
+    }
     for (Eigen::Index j = 0; j < forces.cols() && columns_ < V_.cols(); ++j) {
-      Eigen::VectorXd v = moved.col(j), Kv = forces.col(j);
-      const double energy = v.dot(Kv);
-      if (!(energy > 0)) continue;
+      if (!(energy(j) > 0)) continue;
+      Eigen::VectorXd v = moved.col(j), Kv = Kmoved.col(j);
       for (int pass = 0; pass < 2; ++pass) {
-        const Eigen::VectorXd along = KV_.leftCols(columns_).transpose() * v;
-        v -= V_.leftCols(columns_) * along;
-        Kv -= KV_.leftCols(columns_) * along;
+        const Eigen::VectorXd along = KV_.middleCols(before, columns_ - before).transpose() * v;
+        v -= V_.middleCols(before, columns_ - before) * along;
+        Kv -= KV_.middleCols(before, columns_ - before) * along;
       }
       const double left = v.dot(Kv);
-      if (!(left > negligible * energy)) continue;
+      if (!(left > negligible * energy(j))) continue;
       V_.col(columns_) = v / std::sqrt(left);
       KV_.col(columns_++) = Kv / std::sqrt(left);
     }
@@ -44,10 +50,17 @@ class Basis {
     return GV_.middleCols(columns_ - count, count);
   }
 
+  /// The lowest factors, at most `count`.
+  [[nodiscard]] std::vector<double> factors(int count) const {
+    std::vector<double> found;
+    for (const double value : ritz().eigenvalues().reverse())
+      if (value > 0 && static_cast<int>(found.size()) < count) found.push_back(1 / value);
+    return found;
+  }
+
   [[nodiscard]] std::vector<BucklingStart> starts(int count) const {
     if (columns_ == 0) return {};
-    const Eigen::MatrixXd H = V_.leftCols(columns_).transpose() * GV_.leftCols(columns_);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> dense(0.5 * (H + H.transpose()));
+    const auto dense = ritz();
     std::vector<BucklingStart> found;
     for (Eigen::Index i = columns_; i-- > 0 && static_cast<int>(found.size()) < count;) {
       const double value = dense.eigenvalues()(i);
@@ -58,10 +71,22 @@ class Basis {
   }
 
  private:
+  [[nodiscard]] Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz() const {
+    const Eigen::MatrixXd H = V_.leftCols(columns_).transpose() * GV_.leftCols(columns_);
+    return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(0.5 * (H + H.transpose()));
+  }
+
   const LinearisedBuckling& op_;
   Eigen::MatrixXd V_, KV_, GV_;
   Eigen::Index columns_ = 0;
 };
+
+bool settled_between(const std::vector<double>& before, const std::vector<double>& now, int count) {
+  if (static_cast<int>(before.size()) < count || now.size() != before.size()) return false;
+  for (std::size_t i = 0; i < now.size(); ++i)
+    if (std::abs(now[i] - before[i]) > settled * now[i]) return false;
+  return true;
+}
 
 }  // namespace
 
@@ -75,7 +100,13 @@ std::vector<BucklingStart> estimate_buckling(const LinearisedBuckling& operators
     for (Eigen::Index i = 0; i < operators.size; ++i)
       start(i, j) = std::sin(1.0 + 0.7 * static_cast<double>(i) + 1.3 * static_cast<double>(j * i % 977));
   Eigen::Index added = basis.add(operators.multiply(start));
-  for (Eigen::Index b = 1; b < blocks && added > 0; ++b) added = basis.add(basis.last_forces(added));
+  std::vector<double> before;
+  for (Eigen::Index b = 1; b < blocks && added > 0; ++b) {
+    added = basis.add(basis.last_forces(added));
+    std::vector<double> now = basis.factors(count);
+    if (settled_between(before, now, count)) break;
+    before = std::move(now);
+  }
   return basis.starts(count);
 }
 

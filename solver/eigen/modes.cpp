@@ -7,7 +7,6 @@
 #include "assembly/mechanism.h"
 #include "eigen/block_krylov.h"
 #include "factor/factor.h"
-#include "factor/ldl_factor.h"
 #include "topple/solver/shifted_modes.h"
 
 namespace topple::solver {
@@ -17,7 +16,7 @@ class Modes {
  public:
   Modes(const FrameModel& model, const MassModel& masses, double shift, const AnalysisOptions& options,
         const AxialState* tangent)
-      : system_(model), shift_(shift) {
+      : system_(model), shift_(shift), threads_(options.threads) {
     system_.second_order = tangent;
     system_.assemble();
     if (shift_ == 0) require_none(system_.defect());
@@ -85,7 +84,8 @@ class Modes {
     SparseSymmetric shifted = stiffness_;
     const SparseSymmetric& M = mass_->matrix();
     for (std::size_t k = 0; k < shifted.value.size(); ++k) shifted.value[k] -= place * M.value[k];
-    return LdlFactor(shifted, order_).factorise(shifted, false) == static_cast<int>(last) + 1;
+    Factor counted(shifted, order_, Factorisation::automatic, threads_);
+    return counted.factorise_indefinite(shifted) == static_cast<int>(last) + 1;
   }
 
   void gather(const KrylovAnswer& found, Eigen::Index count, ModalAnswer& answer) const {
@@ -115,6 +115,7 @@ class Modes {
 
   FrameSystem system_;
   double shift_;
+  int threads_;
   SparseSymmetric stiffness_;  ///< with the shift's share of the mass
   std::vector<int> order_;
   std::unique_ptr<MassMatrix> mass_;

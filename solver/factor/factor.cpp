@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <stdexcept>
 
 #include "factor/cholmod_factor.h"
 #include "factor/multifrontal.h"
@@ -72,6 +73,14 @@ Factor::Outcome Factor::factorise(const SparseSymmetric& matrix) {
     if (!(pivot > 0)) outcome.positive_definite = false;
   });
   return outcome;
+}
+
+int Factor::factorise_indefinite(const SparseSymmetric& matrix) {
+  if (!state_->own) throw std::invalid_argument("only the factorisation `automatic` counts negative pivots");
+  const std::int64_t done = state_->own->factorise_indefinite(matrix);
+  if (done < static_cast<std::int64_t>(view().order.size()))
+    throw std::runtime_error("a count of eigenvalues meets numbers that are not finite");
+  return static_cast<int>(state_->own->negative().size());
 }
 
 void Factor::solve(Eigen::Ref<Eigen::MatrixXd> right_hand_sides) const {

@@ -28,6 +28,11 @@ class Factor {
   };
   /// Numeric factorisation of a matrix with the pattern given at construction.
   [[nodiscard]] Outcome factorise(const SparseSymmetric& matrix);
+  /// L S L', S of signs, of a matrix that need not be positive definite: returns its negative pivots, as many as it has
+  /// negative eigenvalues (Sylvester's law of inertia). In the order given and without pivoting: as in every Sturm
+  /// count, a shift within rounding of an eigenvalue of a leading part may be miscounted. For the kind `automatic`
+  /// alone. Throws std::runtime_error where a pivot is not finite.
+  [[nodiscard]] int factorise_indefinite(const SparseSymmetric& matrix);
   /// Solves in place, all columns together.
   void solve(Eigen::Ref<Eigen::MatrixXd> right_hand_sides) const;
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <new>
+#include <vector>
 
 #include "factor/front_kernels.h"
 #include "parallel/task_team.h"
@@ -22,9 +24,10 @@ constexpr std::size_t alignment = 64;
 /// boundary between the panel and the update.
 class BlockElimination {
  public:
-  BlockElimination(const Front& front, int from, int width, double* packed)
+  BlockElimination(const Front& front, int from, int width, double* packed, NegativePivots* negative)
       : kernels_(front_kernels()),
         front_(front),
+        negative_(negative),
         from_(from),
         width_(width),
         panel_strips_(strips_of(front.pivots - from)),
@@ -119,27 +122,54 @@ class BlockElimination {
       const int columns = std::min(strip_columns, end - c), q = c / strip_rows, r = c % strip_rows;
       double* x = own + static_cast<std::ptrdiff_t>(c) * strip_rows;
       const double* other = strip(q);
-      if (c > 0) kernels_.subtract_product(own, other + r, c, x, strip_rows, strip_rows, columns);
+      if (c > 0) {
+        kernels_.subtract_product(own, other + r, c, x, strip_rows, strip_rows, columns);
+        correct_signs(own, other + r, c, x, strip_rows, strip_rows, columns);
+      }
       if (q == s) {
-        const int done = factorise_diagonal(x + r, columns, inverse_ + c);
+        const int done = factorise_diagonal(x + r, columns, c);
         if (done < columns) return c + done;
         std::copy(x + r, x + r + diagonal_entries(columns), diagonal_);
       }
       const double* triangle = other + static_cast<std::ptrdiff_t>(c) * strip_rows + r;
       if (q == s) {
-        solve_below_diagonal(x, r, columns, inverse_ + c);
+        solve_below_diagonal(x, r, columns, c);
       } else {
-        kernels_.solve_triangle(x, triangle, inverse_ + c, columns);
+        solve_triangle(x, triangle, c, columns);
       }
     }
     return end;
   }
 
+  /// What a product takes with the wrong sign: a negative pivot's columns add where the others subtract.
+  void correct_signs(const double* a, const double* b, int depth, double* to, std::ptrdiff_t stride, int rows,
+                     int columns) const {
+    for (const int k : own_negative_) {
+      if (k >= depth) return;
+      const double *left = a + static_cast<std::ptrdiff_t>(k) * strip_rows,
+                   *right = b + static_cast<std::ptrdiff_t>(k) * strip_rows;
+      for (int j = 0; j < columns; ++j)
+        for (int i = 0; i < rows; ++i) to[j * stride + i] += 2 * left[i] * right[j];
+    }
+  }
+
+  /// X := X T^-T of the columns from c on, S being among the signs: X (S T')^-1.
+  void solve_triangle(double* x, const double* triangle, int c, int columns) const {
+    const auto first = std::lower_bound(own_negative_.begin(), own_negative_.end(), c);
+    if (first == own_negative_.end() || *first >= c + columns)
+      return kernels_.solve_triangle(x, triangle, inverse_ + c, columns);
+    double with_signs[strip_columns * strip_rows];
+    std::copy(triangle, triangle + diagonal_entries(columns), with_signs);
+    for (auto k = first; k != own_negative_.end() && *k < c + columns; ++k)
+      for (int i = *k - c; i < columns; ++i) with_signs[(*k - c) * strip_rows + i] *= -1;
+    kernels_.solve_triangle(x, with_signs, inverse_ + c, columns);
+  }
+
   static std::ptrdiff_t diagonal_entries(int columns) { return (columns - 1) * strip_rows + columns; }
 
   /// Rows of the diagonal's own strip: its triangle lies among them, and is put back afterwards.
-  void solve_below_diagonal(double* x, int r, int columns, const double* inverse) {
-    kernels_.solve_triangle(x, diagonal_, inverse, columns);
+  void solve_below_diagonal(double* x, int r, int columns, int c) {
+    solve_triangle(x, diagonal_, c, columns);
     for (int j = 0; j < columns; ++j) {
       double* column = x + j * strip_rows;
       std::fill(column, column + r + j, 0.0);
@@ -147,18 +177,35 @@ class BlockElimination {
     }
   }
 
-  /// Plain Cholesky of at most eight columns; returns those done.
-  static int factorise_diagonal(double* x, int columns, double* inverse) {
+  /// Plain Cholesky of at most eight columns, from the block's `first`-th on; returns those done.
+  int factorise_diagonal(double* x, int columns, int first) {
+    double* inverse = inverse_ + first;
     for (int j = 0; j < columns; ++j) {
       double* own = x + j * strip_rows;
-      if (!(own[j] > 0) || !std::isfinite(own[j])) return j;
-      own[j] = std::sqrt(own[j]);
-      inverse[j] = 1 / own[j];
+      const double sign = judge_pivot(own[j], first + j);
+      if (sign == 0) return j;
+      own[j] = std::sqrt(sign * own[j]);
+      inverse[j] = sign / own[j];
       for (int i = j + 1; i < columns; ++i) own[i] *= inverse[j];
       for (int c = j + 1; c < columns; ++c)
-        for (int i = c; i < columns; ++i) x[c * strip_rows + i] -= own[i] * own[c];
+        for (int i = c; i < columns; ++i) x[c * strip_rows + i] -= own[i] * (sign * own[c]);
     }
     return columns;
+  }
+
+  /// The pivot's sign; 0 where the elimination ends.
+  double judge_pivot(double& pivot, int column) {
+    if (!std::isfinite(pivot)) return 0;
+    if (pivot > 0) return 1;
+    if (negative_ == nullptr) return 0;
+    // One that is exactly zero stands for a shift that hits an eigenvalue of a part: it counts as positive.
+    if (pivot == 0) {
+      pivot = std::numeric_limits<double>::epsilon();
+      return 1;
+    }
+    own_negative_.push_back(column);
+    negative_->push_back(from_ + column);
+    return -1;
   }
 
   /// Strip s of the rows, strip t of the columns, behind the block.
@@ -171,12 +218,17 @@ class BlockElimination {
     double* to = in_panel ? panel(row, column) : front_.update + (layout.column(behind) + row - front_.pivots);
     // The first block sets the update, the others go on from there.
     const auto product = in_panel || from_ > 0 ? kernels_.subtract_product : kernels_.negative_product;
-    for (int c = 0; c < columns; c += strip_columns)
-      product(strip(s), strip(t) + c, width_, to + c * stride, stride, count, std::min(strip_columns, columns - c));
+    for (int c = 0; c < columns; c += strip_columns) {
+      const int together = std::min(strip_columns, columns - c);
+      product(strip(s), strip(t) + c, width_, to + c * stride, stride, count, together);
+      correct_signs(strip(s), strip(t) + c, width_, to + c * stride, stride, count, together);
+    }
   }
 
   const FrontKernels& kernels_;
   const Front& front_;
+  NegativePivots* negative_;
+  std::vector<int> own_negative_;  ///< columns of this block, ascending
   int from_, width_, panel_strips_, strips_, own_strips_;
   std::ptrdiff_t stride_;
   double* packed_;
@@ -213,7 +265,7 @@ double* FrontWorkspace::reserve(std::size_t entries) {
   return memory_.get();
 }
 
-int eliminate(const Front& front, FrontWorkspace& workspace, TaskTeam* team) {
+int eliminate(const Front& front, FrontWorkspace& workspace, TaskTeam* team, NegativePivots* negative) {
   const auto each = [&](int count, auto&& work) {
     if (team != nullptr) {
       team->split(count, work);
@@ -226,7 +278,7 @@ int eliminate(const Front& front, FrontWorkspace& workspace, TaskTeam* team) {
   double* packed =
       workspace.reserve(static_cast<std::size_t>(most_strips) * strip_rows * static_cast<std::size_t>(widest));
   for (int from = 0; from < front.pivots; from += block_columns) {
-    BlockElimination block(front, from, std::min(block_columns, front.pivots - from), packed);
+    BlockElimination block(front, from, std::min(block_columns, front.pivots - from), packed, negative);
     const int done = block.factorise_triangle();
     if (done < std::min(block_columns, front.pivots - from)) return from + done;
     each(block.chunks(), [&](int chunk) { block.solve_chunk(chunk); });

@@ -1,7 +1,9 @@
 #pragma once
-// Partial Cholesky factorisation of a dense front: its leading columns are eliminated, the rest receives their update.
+// Partial Cholesky factorisation (or, with signs, L S L') of a dense front: its leading columns are eliminated, the
+// rest receives their update.
 #include <cstddef>
 #include <memory>
+#include <vector>
 
 namespace topple::solver {
 
@@ -43,8 +45,13 @@ class FrontWorkspace {
   std::size_t size_ = 0;
 };
 
+/// Columns of a front whose pivots are negative, ascending.
+using NegativePivots = std::vector<int>;
+
 /// Returns how many columns have been eliminated: all `pivots`, or the index of the first whose pivot is not positive.
-/// `team` (unless null) has its idle threads help; the result is the same to the bit.
-[[nodiscard]] int eliminate(const Front& front, FrontWorkspace& workspace, TaskTeam* team);
+/// With `negative` (L S L', S of signs, as a count of eigenvalues needs it) only what is not finite ends it, and those
+/// columns are added to the list. `team` (unless null) has its idle threads help; the result is the same to the bit.
+[[nodiscard]] int eliminate(const Front& front, FrontWorkspace& workspace, TaskTeam* team,
+                            NegativePivots* negative = nullptr);
 
 }  // namespace topple::solver

@@ -72,7 +72,8 @@ MultifrontalFactor::MultifrontalFactor(const MultifrontalFactor& other)
       most_columns_(other.most_columns_),
       most_below_(other.most_below_),
       values_(other.values_.size()),
-      failed_(other.failed_.load()) {
+      failed_(other.failed_.load()),
+      negative_(other.negative_) {
   std::copy_n(other.values_.data(), other.values_.size(), values_.data());
 }
 
@@ -125,6 +126,23 @@ void MultifrontalFactor::find_stacks() {
 }
 
 std::int64_t MultifrontalFactor::factorise(const SparseSymmetric& matrix) {
+  indefinite_ = false;
+  negative_.clear();
+  return factorise_with(matrix);
+}
+
+std::int64_t MultifrontalFactor::factorise_indefinite(const SparseSymmetric& matrix) {
+  indefinite_ = true;
+  negative_.clear();
+  negative_of_front_.assign(static_cast<std::size_t>(fronts_.count()), {});
+  const std::int64_t done = factorise_with(matrix);
+  for (std::size_t f = 0; f < negative_of_front_.size(); ++f)
+    for (const int column : negative_of_front_[f]) negative_.push_back(fronts_.first[f] + column);
+  negative_of_front_.clear();
+  return done;
+}
+
+std::int64_t MultifrontalFactor::factorise_with(const SparseSymmetric& matrix) {
   const auto count = static_cast<std::size_t>(fronts_.count());
   if (values_.size() == 0) values_ = LargeBuffer(static_cast<std::size_t>(fronts_.value_start.back()));
   update_.assign(count, nullptr);
@@ -177,7 +195,7 @@ bool MultifrontalFactor::process(std::size_t f, bool keep_update, Worker& worker
   map_children(f, worker);
   assemble(f, front, worker, 0, front.pivots, team);
   add_entries(f, matrix);
-  const int done = eliminate(front, worker.workspace, team);
+  const int done = eliminate(front, worker.workspace, team, indefinite_ ? &negative_of_front_[f] : nullptr);
   if (done == front.pivots) {
     assemble(f, front, worker, front.pivots, front.rows, team);
     drop_updates(f, worker);
@@ -306,7 +324,7 @@ void MultifrontalFactor::solve(Eigen::Ref<Eigen::MatrixXd> right_hand_sides) con
   });
 }
 
-/// In the order of elimination: y := L^-T L^-1 y.
+/// In the order of elimination: y := L^-T S L^-1 y.
 void MultifrontalFactor::solve_in_order(Eigen::MatrixXd& y) const {
   const auto count = static_cast<int>(y.cols());
   std::vector<double> own_rows(static_cast<std::size_t>(most_columns_) * static_cast<std::size_t>(count)),
@@ -330,6 +348,7 @@ void MultifrontalFactor::solve_in_order(Eigen::MatrixXd& y) const {
         for (int i = 0; i < rest; ++i) to[row[columns + i]] -= update[i];
       });
     });
+  for (const std::int64_t k : negative_) y.row(k) *= -1;
   for (std::size_t f = fronts_.parent.size(); f-- > 0;)
     each_front(f, [&](const double* L, int columns, int rows, const std::int64_t* row) {
       const int rest = rows - columns;

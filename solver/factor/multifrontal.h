@@ -31,6 +31,11 @@ class MultifrontalFactor {
   /// Factorises a matrix with the pattern given at construction. Returns how many columns, in the order of elimination,
   /// come before the first one whose pivot is not positive: all, when there is none.
   [[nodiscard]] std::int64_t factorise(const SparseSymmetric& matrix);
+  /// L S L', S of signs, of a matrix that need not be positive definite, in the order given and without pivoting.
+  /// Returns the same; a column ends it only where its pivot is not finite. negative() tells the signs.
+  [[nodiscard]] std::int64_t factorise_indefinite(const SparseSymmetric& matrix);
+  /// Pivots below zero, in the order of elimination.
+  [[nodiscard]] const std::vector<std::int64_t>& negative() const { return negative_; }
   /// Solves in place, all columns together.
   void solve(Eigen::Ref<Eigen::MatrixXd> right_hand_sides) const;
 
@@ -47,6 +52,7 @@ class MultifrontalFactor {
   struct Worker;
   void find_items();
   void find_stacks();
+  std::int64_t factorise_with(const SparseSymmetric& matrix);
   void run_item(std::size_t item, Worker& worker, const SparseSymmetric& matrix, TaskTeam& team);
   bool process(std::size_t front, bool keep_update, Worker& worker, const SparseSymmetric& matrix, TaskTeam* team);
   void map_children(std::size_t front, Worker& worker) const;
@@ -69,6 +75,9 @@ class MultifrontalFactor {
   std::vector<LargeBuffer> kept_update_;  ///< per front: of the roots of items
   BufferPool spare_;
   std::atomic<std::int64_t> failed_{0};
+  bool indefinite_ = false;
+  std::vector<NegativePivots> negative_of_front_;  ///< while it is factorised as indefinite
+  std::vector<std::int64_t> negative_;
 };
 
 }  // namespace topple::solver

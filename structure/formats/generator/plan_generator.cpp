@@ -109,11 +109,12 @@ class PlanGenerator {
     // A post's top end belongs to its node for good; a beam is jointed at both ends.
     if (kind == MemberKind::beam) draft.joints[1] = draft.joints[0];
     if (const auto groups = rule.find("groups")) draft.groups = read_names(*groups);
+    if (const auto design = rule.find("design")) draft.design = read_member_design(*design, draft_.scale);
     return draft;
   }
 
   void read_posts(const JsonValue& rule) {
-    rule.only({"places", "storeys", "section", "material", "joint", "groups"});
+    rule.only({"places", "storeys", "section", "material", "joint", "groups", "design"});
     const MemberDraft draft = read_member(rule, MemberKind::post);
     const Storeys storeys = read_storeys(rule);
     std::set<std::size_t> chosen;
@@ -133,7 +134,7 @@ class PlanGenerator {
   }
 
   void read_beams(const JsonValue& rule) {
-    rule.only({"between", "storeys", "section", "material", "joint", "groups", "load"});
+    rule.only({"between", "storeys", "section", "material", "joint", "groups", "load", "design"});
     const MemberDraft draft = read_member(rule, MemberKind::beam);
     const Storeys storeys = read_storeys(rule);
     std::vector<std::pair<LoadCaseId, double>> loads;
