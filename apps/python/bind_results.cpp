@@ -414,6 +414,8 @@ void bind_results(py::module_& module) {
       "What one combination of loads does. Arrays are read-only views of the result, SI; they keep it "
       "alive.");
   combination.def_property_readonly(
+      "model", [](const CombinationView& c) { return c.analysis->model; }, "The Model that was analysed.");
+  combination.def_property_readonly(
       "name", [](const CombinationView& c) { return c.building()[c.get().combination].name; }, "Its name.");
   bind_nodes(combination);
   bind_members(combination);

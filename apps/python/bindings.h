@@ -10,5 +10,7 @@ void bind_motion(pybind11::module_& module);
 void bind_losses(pybind11::module_& module);
 void bind_results(pybind11::module_& module);
 void bind_analyse(pybind11::module_& module);
+void bind_scenario(pybind11::module_& module);
+void bind_simulation(pybind11::module_& module);
 
 }  // namespace topple::python

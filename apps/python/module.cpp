@@ -29,6 +29,8 @@ PYBIND11_MODULE(_core, module) {
   bind_losses(module);
   bind_results(module);
   bind_analyse(module);
+  bind_scenario(module);
+  bind_simulation(module);
   module.def("blas_kernel", &solver::blas_kernel, "Name of the kernels that OpenBLAS runs in this process.");
   module.def(
       "better_blas_kernel", &solver::better_blas_kernel,

@@ -9,6 +9,7 @@
 #include "formats/read_fracture.h"
 #include "topple/structure/error.h"
 #include "topple/structure/files.h"
+#include "topple/structure/scenario_text.h"
 
 namespace topple::structure {
 
@@ -65,6 +66,27 @@ class ScenarioReader {
     if (const auto fracture = root_.find("fracture")) scenario_.fracture = read_fracture(*fracture);
     if (const auto events = root_.find("events")) read_events(*events);
     return std::move(scenario_);
+  }
+
+  Tool read_tool(const JsonValue& value) const {
+    const std::string_view key = value.key();
+    if (key == "gravity") return GravityTool{vector_within(value, ranges::gravity, "m/s2")};
+    value.expect_object();
+    if (key == "projectile") return read_projectile(value);
+    if (key == "cut") return read_cut(value);
+    if (key == "remove") return read_remove(value);
+    if (key == "charge") return read_charge(value);
+    if (key == "weaken") return read_weaken(value);
+    if (key == "wrecking_ball") return read_wrecking_ball(value);
+    value.only({"nodes"});
+    LoadTool load;
+    for (const JsonValue entry : value.require("nodes")) {
+      const auto node = names_.node(std::string(entry.key()));
+      if (!node) entry.fail("there is no node " + in_quotes(entry.key()) + "; accepted: a node of the model");
+      for (const JsonValue component : entry) (void)component.in(ranges::force);
+      load.nodes.push_back({*node, read_components(entry, [](int) { return 1.0; })});
+    }
+    return load;
   }
 
  private:
@@ -139,27 +161,6 @@ class ScenarioReader {
     }
     std::stable_sort(scenario_.events.begin(), scenario_.events.end(),
                      [](const Event& a, const Event& b) { return a.at < b.at; });
-  }
-
-  Tool read_tool(const JsonValue& value) const {
-    const std::string_view key = value.key();
-    if (key == "gravity") return GravityTool{vector_within(value, ranges::gravity, "m/s2")};
-    value.expect_object();
-    if (key == "projectile") return read_projectile(value);
-    if (key == "cut") return read_cut(value);
-    if (key == "remove") return read_remove(value);
-    if (key == "charge") return read_charge(value);
-    if (key == "weaken") return read_weaken(value);
-    if (key == "wrecking_ball") return read_wrecking_ball(value);
-    value.only({"nodes"});
-    LoadTool load;
-    for (const JsonValue entry : value.require("nodes")) {
-      const auto node = names_.node(std::string(entry.key()));
-      if (!node) entry.fail("there is no node " + in_quotes(entry.key()) + "; accepted: a node of the model");
-      for (const JsonValue component : entry) (void)component.in(ranges::force);
-      load.nodes.push_back({*node, read_components(entry, [](int) { return 1.0; })});
-    }
-    return load;
   }
 
   static Projectile read_projectile(const JsonValue& value) {
@@ -335,6 +336,35 @@ std::pair<Building, Scenario> read_document(const JsonDocument& document, const 
   return read_scenario_document(document, read_model(model_of_scenario(document, folder), Purpose::demolish));
 }
 
+/// Cuts of a tool that no scenario foresaw: at the members' own joints alone.
+CutPlaces cuts_at_ends(const JsonValue& tool, const NameIndex& names, const Building& building) {
+  CutPlaces cuts;
+  const auto members = tool.key() == "cut" && tool.is_object() ? tool.find("members") : std::nullopt;
+  if (!members) return cuts;
+  members->expect_array(0, ~std::size_t{0});
+  for (const JsonValue entry : *members) {
+    entry.only({"member", "where"});
+    const JsonValue pattern = entry.require("member"), where = entry.require("where");
+    const double place = where.number();
+    if (place != 0 && place != 1)
+      where.refuse("0 or 1; a member that the scenario cuts inside goes by its joint, \"NAME/cut-1:1\"");
+    const auto found = names.members_matching(std::string(pattern.text("a member's name, or a pattern with *")));
+    if (found.empty())
+      pattern.fail("there is no member " + in_quotes(pattern.text()) + "; accepted: a name or pattern of the model");
+    for (const MemberId id : found)
+      cuts[{building[id].name, place}] = building[building.joint(id, place == 0 ? 0 : 1)].name;
+  }
+  return cuts;
+}
+
+Tool read_one_tool(const JsonDocument& document, const Building& building) {
+  const JsonValue root = document.root();
+  root.only({"projectile", "cut", "remove", "charge", "weaken", "wrecking_ball", "gravity", "load"});
+  if (root.size() != 1) root.fail("found " + std::to_string(root.size()) + " tools; accepted: one");
+  const JsonValue tool = *root.begin();
+  return ScenarioReader(root, building, cuts_at_ends(tool, NameIndex(building), building)).read_tool(tool);
+}
+
 }  // namespace
 
 std::filesystem::path model_of_scenario(const JsonDocument& document, const std::filesystem::path& folder) {
@@ -353,7 +383,8 @@ std::pair<Building, Scenario> read_scenario_document(const JsonDocument& documen
   CutPlaces cuts = divide_cut_members(root, building);
   Scenario scenario = ScenarioReader(root, building, std::move(cuts)).read();
   scenario.file = document.name();
-  scenario.model = root.require("model").text();
+  const auto model = root.find("model");
+  scenario.model = model ? std::string(model->text()) : building.file;
   return {std::move(building), std::move(scenario)};
 }
 
@@ -366,6 +397,15 @@ std::pair<Building, Scenario> read_scenario(const std::filesystem::path& file) {
 std::pair<Building, Scenario> parse_scenario(std::string_view text, const std::string& name,
                                              const std::filesystem::path& folder) {
   return formats::read_document(formats::JsonDocument::from_text(text, name), folder);
+}
+
+std::pair<Building, Scenario> parse_scenario(std::string_view text, const std::string& name, Building building) {
+  refuse_unbuilt(building, Purpose::demolish);
+  return formats::read_scenario_document(formats::JsonDocument::from_text(text, name), std::move(building));
+}
+
+Tool parse_tool(std::string_view text, const std::string& name, const Building& building) {
+  return formats::read_one_tool(formats::JsonDocument::from_text(text, name), building);
 }
 
 bool is_scenario(const std::filesystem::path& file) {

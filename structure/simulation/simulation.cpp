@@ -181,7 +181,8 @@ const Building& Simulation::building() const { return state_->building; }
 const Scenario& Simulation::scenario() const { return state_->scenario; }
 const StandingFrame& Simulation::frame() const { return *state_->frame; }
 std::span<const BodyView> Simulation::bodies() const { return state_->views; }
-std::span<const double> Simulation::poses() const { return state_->poses; }
+std::span<const double> Simulation::poses() const { return *state_->poses; }
+std::shared_ptr<const std::vector<double>> Simulation::held_poses() const { return state_->poses; }
 const PieceChanges& Simulation::changes() const { return state_->changes; }
 
 collision::BodyId Simulation::body_of(MemberId member) const {

@@ -352,7 +352,7 @@ struct Simulation::State {
   BodyOverlaps overlaps;
   StageTimer timer;
   std::vector<BodyView> views;
-  std::vector<double> poses;
+  std::shared_ptr<std::vector<double>> poses = std::make_shared<std::vector<double>>();
   PieceChanges changes;
 };
 

@@ -91,15 +91,16 @@ void Simulation::State::update_views() {
     }
     views = std::move(now);
   }
-  poses.clear();
-  poses.reserve(7 * views.size());
+  if (poses.use_count() > 1) poses = std::make_shared<std::vector<double>>();  // a host holds the last ones
+  poses->clear();
+  poses->reserve(7 * views.size());
   for (BodyView& view : views) {
     const collision::BodyState state = world->state(view.id);
     view.pose = state.pose;
     view.asleep = state.asleep;
     const Vec3& at = state.pose.position;
     const Eigen::Vector4d turn = state.pose.orientation.coeffs();
-    poses.insert(poses.end(), {at.x(), at.y(), at.z(), turn[0], turn[1], turn[2], turn[3]});
+    poses->insert(poses->end(), {at.x(), at.y(), at.z(), turn[0], turn[1], turn[2], turn[3]});
     if (cables.empty() && !view.cable_anchor) continue;
     const auto hung = cables.find(view.id.value);
     view.cable_anchor = hung != cables.end() ? std::optional(hung->second.anchor) : std::nullopt;

@@ -172,6 +172,9 @@ class Simulation {
   [[nodiscard]] std::span<const BodyView> bodies() const;
   /// Of all bodies in their order, seven numbers each: position x y z, orientation as a quaternion x y z w.
   [[nodiscard]] std::span<const double> poses() const;
+  /// The same numbers, to be kept: as long as somebody holds them they stay what they are, and a step writes new ones
+  /// elsewhere. Nothing is copied.
+  [[nodiscard]] std::shared_ptr<const std::vector<double>> held_poses() const;
   /// Of the last step.
   [[nodiscard]] const PieceChanges& changes() const;
   /// Body that a member (panel) is part of; value -1: it stands, -2: it is gone.
