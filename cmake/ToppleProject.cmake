@@ -50,6 +50,6 @@ function(topple_library name)
   target_link_libraries(topple_${name}
     PUBLIC Eigen3::Eigen ${ARG_PUBLIC_LINK}
     PRIVATE $<BUILD_INTERFACE:topple_options> ${ARG_PRIVATE_LINK})
-  install(TARGETS topple_${name} EXPORT topple ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
-  install(DIRECTORY include/ DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
+  install(TARGETS topple_${name} EXPORT topple ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT development)
+  install(DIRECTORY include/ DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT development)
 endfunction()

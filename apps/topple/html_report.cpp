@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "report_audit.h"
+#include "support/version.h"
 
 #ifdef TOPPLE_REPORT
 extern "C" const char topple_report_page_begin[];
@@ -327,9 +328,7 @@ void add_paper(const Building& building, const AnalysisResult& result, const Rep
   model["project"] = cover.project;
   model["author"] = cover.author;
   model["date"] = today();
-#ifdef TOPPLE_COMMIT
-  model["commit"] = TOPPLE_COMMIT;
-#endif
+  if (!commit().empty()) model["commit"] = commit();
   model["result_warnings"] = result.warnings;
   model["load_drawings"] = load_drawings(building);
   model["audits"] = report_audits(building, result, cover.design);

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "command.h"
+#include "support/version.h"
 #include "topple/solver/blas_kernel.h"
 
 namespace topple::app {
@@ -18,7 +19,7 @@ namespace {
 
 int run(int argc, char** argv) {
   CLI::App app{"Topple analyses buildings statically and demolishes them.", "topple"};
-  app.set_version_flag("--version", TOPPLE_VERSION);
+  app.set_version_flag("--version", version());
   app.require_subcommand(1);
   auto list = commands();
   std::sort(list.begin(), list.end(), [](const Command& a, const Command& b) { return a.name < b.name; });

@@ -22,7 +22,9 @@ std::vector<fs::path> shipped_folders() {
   std::vector<fs::path> folders;
   if (const char* chosen = std::getenv("TOPPLE_MODELS"); chosen != nullptr && *chosen != '\0')
     folders.emplace_back(chosen);
+#ifdef TOPPLE_SOURCE_MODELS
   folders.emplace_back(TOPPLE_SOURCE_MODELS);
+#endif
   folders.emplace_back(TOPPLE_INSTALLED_MODELS);
   return folders;
 }

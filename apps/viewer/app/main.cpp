@@ -5,6 +5,7 @@
 #include "app/headless.h"
 #include "app/window.h"
 #include "support/command_line.h"
+#include "support/version.h"
 #include "topple/solver/blas_kernel.h"
 #include "topple/structure/error.h"
 
@@ -30,7 +31,7 @@ int run(int argc, char** argv) {
   using namespace topple::app;
   namespace ranges = topple::structure::ranges;
   CLI::App app{"Shows a building under its loads and lets you demolish it.", "topple-viewer"};
-  app.set_version_flag("--version", TOPPLE_VERSION);
+  app.set_version_flag("--version", version());
   std::string name = "town_house", size;
   bool headless = false;
   HeadlessOptions pictures;
