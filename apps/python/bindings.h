@@ -12,5 +12,6 @@ void bind_results(pybind11::module_& module);
 void bind_analyse(pybind11::module_& module);
 void bind_scenario(pybind11::module_& module);
 void bind_simulation(pybind11::module_& module);
+void bind_study(pybind11::module_& module);
 
 }  // namespace topple::python

@@ -31,6 +31,7 @@ PYBIND11_MODULE(_core, module) {
   bind_analyse(module);
   bind_scenario(module);
   bind_simulation(module);
+  bind_study(module);
   module.def("blas_kernel", &solver::blas_kernel, "Name of the kernels that OpenBLAS runs in this process.");
   module.def(
       "better_blas_kernel", &solver::better_blas_kernel,
