@@ -188,7 +188,7 @@ void bind_standing(BoundSimulation& simulation) {
       .def_property_readonly(
           "end_forces",
           [](SimulationHost& h) {
-            return h.with([](Simulation& s) {
+            return h.with([](Simulation& s) -> Doubles {
               return numbers_of(s.building().members.size(), 12,
                                 [&](std::size_t i) { return s.frame().end_forces(MemberId(i)); })
                   .reshape({static_cast<py::ssize_t>(s.building().members.size()), py::ssize_t{2}, py::ssize_t{6}});
