@@ -199,6 +199,7 @@ int run(const Options& options) {
   const std::filesystem::path file = find_model(options.model);
   std::optional<OutputFolder> folder;
   if (!options.output.empty()) folder.emplace(options.output, model_files(file), result_names());
+  tell_progress("reading", -1);
   Building read = read_model(file);
   for (std::string& warning : modelling_warnings(read)) read.warnings.push_back(std::move(warning));
   const Building building = std::move(read);
@@ -236,6 +237,7 @@ int run(const Options& options) {
     throw InputError(building.file + ": " + result.warnings.back() +
                      "; accepted: no --html, --vtu and --code, which are about combinations");
   if (!options.code.empty()) {
+    tell_progress("design checks", -1);
     const DesignCode code = options.code == "en1993" ? DesignCode::en1993 : DesignCode::aisc360;
     check_design(building, code, options.drift_limit ? 1 / *options.drift_limit : usual_drift_limit, result,
                  design_input(options, building));
@@ -248,9 +250,11 @@ int run(const Options& options) {
   if (request.losses.any() || request.time_history) clock.seconds["losses"] = result.loss_seconds;
   const bool diagnosed = failed && options.diagnose;  // results.json holds what moves
   if (!options.output.empty() && !diagnosed) {
+    tell_progress("writing", -1);
     std::vector<std::pair<std::string, std::string>> files;
     std::vector<StreamedFile> streamed;
-    if (options.html) {
+    const bool sample = building.members.size() > most_members_whole;
+    if (options.html && !sample) {
       files.emplace_back("results.json", results_json(building, request, result, clock.seconds));
       files.emplace_back("report.html",
                          html_report(building, result, files[0].second,
@@ -259,6 +263,13 @@ int run(const Options& options) {
       streamed.push_back({"results.json", [&, seconds = clock.seconds](const auto& sink) {
                             write_results_json(building, request, result, seconds, sink);
                           }});
+    }
+    if (options.html && sample) {
+      const ResultsSelection selection = select_members(building, result, members_selected, selected_of_section);
+      files.emplace_back(
+          "report.html",
+          html_report(building, result, results_json(building, request, result, clock.seconds, selection),
+                      {options.project, options.author, design_input(options, building)}, &selection));
     }
     const auto append = [&](NamedTexts more) { std::move(more.begin(), more.end(), std::back_inserter(files)); };
     if (options.csv) append(results_csv(building, result));

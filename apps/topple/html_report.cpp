@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -55,10 +56,18 @@ const char* kind_name(MemberKind kind) {
   }
 }
 
+std::vector<std::size_t> shown_members(const Building& building, const ResultsSelection* selection) {
+  if (selection != nullptr) return selection->members;
+  std::vector<std::size_t> all(building.members.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return all;
+}
+
 /// Builds the page's model in the units of the file.
 class ModelWriter {
  public:
-  explicit ModelWriter(const Building& building) : b_(building), length_(building.units.length) {}
+  ModelWriter(const Building& building, const ResultsSelection* selection)
+      : b_(building), selection_(selection), length_(building.units.length) {}
 
   [[nodiscard]] Json write() const {
     Json model;
@@ -67,6 +76,7 @@ class ModelWriter {
     model["warnings"] = b_.warnings;
     write_nodes(model);
     model["members"] = members();
+    if (selection_ != nullptr) model["lines"] = lines();
     model["panels"] = panels();
     model["supports"] = Json::array();
     for (const NodeSupport& support : b_.supports) model["supports"].push_back(support.node.index);
@@ -89,7 +99,8 @@ class ModelWriter {
 
   [[nodiscard]] Json members() const {
     Json list = Json::array();
-    for (const Member& member : b_.members) {
+    for (const std::size_t m : shown_members(b_, selection_)) {
+      const Member& member = b_.members[m];
       const Section& section = b_[member.section];
       // A section given as numbers alone is drawn as a square of its area.
       const double side = std::sqrt(section.area);
@@ -107,6 +118,16 @@ class ModelWriter {
            {"width", rounded(width / length_)},
            {"section", section.name},
            {"material", b_[member.material].name}});
+    }
+    return list;
+  }
+
+  /// The members that are not selected: their nodes, two by two.
+  [[nodiscard]] Json lines() const {
+    Json list = Json::array();
+    for (std::size_t m = 0; m < b_.members.size(); ++m) {
+      if (std::binary_search(selection_->members.begin(), selection_->members.end(), m)) continue;
+      for (const NodeId node : b_.members[m].nodes) list.push_back(node.index);
     }
     return list;
   }
@@ -234,18 +255,20 @@ class ModelWriter {
   }
 
   const Building& b_;
+  const ResultsSelection* selection_;
   double length_;
 };
 
 /// Values at the stations of every member, in the model's units: [member][station][diagram].
-Json diagrams(const Building& building, const AnalysisResult& result) {
+Json diagrams(const Building& building, const AnalysisResult& result, const ResultsSelection* selection) {
   const double force = building.units.force, length = building.units.length;
   const std::array<double, 8> factor{force,          force,          force,  force * length,
                                      force * length, force * length, length, length};
   Json all = Json::object();
   for (const CombinationResult& c : result.combinations) {
     Json members = Json::array();
-    for (const MemberResult& member : c.members) {
+    for (const std::size_t m : shown_members(building, selection)) {
+      const MemberResult& member = c.members[m];
       Json stations = Json::array();
       for (const auto& values : member.stations) {
         Json row = Json::array();
@@ -341,18 +364,23 @@ void add_paper(const Building& building, const AnalysisResult& result, const Rep
 }  // namespace
 
 std::string html_report(const Building& building, const AnalysisResult& result, const std::string& results_json,
-                        const ReportCover& cover) {
+                        const ReportCover& cover, const ResultsSelection* selection) {
   constexpr std::string_view mark = "\"TOPPLE_DATA\"";
   const std::string_view whole = page();
   const std::size_t at = whole.find(mark);
   if (at == std::string_view::npos) throw std::runtime_error("the report page has no place for its data");
   Json names = Json::array();
   for (const char* name : diagram_names) names.push_back(name);
-  Json model = ModelWriter(building).write();
+  Json model = ModelWriter(building, selection).write();
+  if (selection != nullptr)
+    model["sample"] =
+        "Of " + std::to_string(building.members.size()) + " members this report shows " +
+        std::to_string(selection->members.size()) + ": the " + std::to_string(selected_of_section) +
+        " of every section that are used most, and evenly many of the others; results.json and --csv have all.";
   add_paper(building, result, cover, model);
   std::string data = "{\"model\":" + model.dump() + ",\"diagram_names\":" + names.dump() +
-                     ",\"diagrams\":" + diagrams(building, result).dump() + ",\"results\":" + shortened(results_json) +
-                     "}";
+                     ",\"diagrams\":" + diagrams(building, result, selection).dump() +
+                     ",\"results\":" + shortened(results_json) + "}";
   std::string out(whole.substr(0, at));
   out += in_script(data);
   out += whole.substr(at + mark.size());

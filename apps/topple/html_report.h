@@ -2,6 +2,7 @@
 #include <string>
 
 #include "topple/structure/member_checks.h"
+#include "topple/structure/results_selection.h"
 
 namespace topple::app {
 
@@ -17,9 +18,15 @@ struct ReportCover {
 /// True when this program was built with the report page (npm was there).
 [[nodiscard]] bool can_write_report();
 
-/// The self-contained page: model, results (the text of results.json) and diagrams in one file that needs no network.
-/// Throws std::runtime_error when the program was built without the page.
+/// A building of more members is shown by a selection of them, the others as lines: a page of hundreds of megabytes
+/// opens nowhere.
+inline constexpr std::size_t most_members_whole = 5000, members_selected = 2400, selected_of_section = 40;
+
+/// The self-contained page: model, results (the text of results.json, of the same selection) and diagrams in one file
+/// that needs no network. `selection`: null when every member is there. Throws std::runtime_error when the program was
+/// built without the page.
 [[nodiscard]] std::string html_report(const structure::Building& building, const structure::AnalysisResult& result,
-                                      const std::string& results_json, const ReportCover& cover = {});
+                                      const std::string& results_json, const ReportCover& cover = {},
+                                      const structure::ResultsSelection* selection = nullptr);
 
 }  // namespace topple::app

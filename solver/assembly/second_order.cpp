@@ -62,6 +62,7 @@ struct SecondOrderAnalysis::State {
       before = change;
       if (result.iterations > 1 && (change <= settled || no_closer)) {
         result.axial = axial_;
+        judge(result.solution.quality);
         return result;
       }
       require_straight_members();
@@ -134,16 +135,22 @@ struct SecondOrderAnalysis::State {
       const LinearSolve linear = [this](Eigen::Ref<Eigen::MatrixXd> x) { factor_->solve(x); };
       const RefinedSolution refined = solve_refined(system_.matrix(), linear, b);
       quality = refined.quality.front();
-      quality.condition = estimate_condition(system_.matrix(), linear);
       for (Eigen::Index i = 0; i < n; ++i) b(i, 0) = refined.x(i, 0) * system_.scale()[static_cast<std::size_t>(i)];
     }
     StaticSolution solution = recover(load, b.col(0));
-    quality.condition = std::max(quality.condition, 1.0);
-    quality.error_bound = forward_error_bound(quality.condition, quality.backward_error);
     solution.quality = quality;
-    statistics.digits_left = std::clamp(16 - std::log10(quality.condition), 0.0, 16.0);
     statistics.solve_seconds += seconds_since(start);
     return solution;
+  }
+
+  /// Of the last tangent, which is that of the answer: an estimate takes some solves.
+  void judge(SolveQuality& quality) {
+    if (system_.dofs().equations > 0)
+      quality.condition =
+          estimate_condition(system_.matrix(), [this](Eigen::Ref<Eigen::MatrixXd> x) { factor_->solve(x); });
+    quality.condition = std::max(quality.condition, 1.0);
+    quality.error_bound = forward_error_bound(quality.condition, quality.backward_error);
+    statistics.digits_left = std::clamp(16 - std::log10(quality.condition), 0.0, 16.0);
   }
 
   [[nodiscard]] StaticSolution recover(const LoadVector& load, const Eigen::VectorXd& u) const {

@@ -53,7 +53,8 @@ class Basis {
   /// The lowest factors, at most `count`.
   [[nodiscard]] std::vector<double> factors(int count) const {
     std::vector<double> found;
-    for (const double value : ritz().eigenvalues().reverse())
+    const Eigen::VectorXd largest_first = ritz().eigenvalues().reverse();
+    for (const double value : largest_first)
       if (value > 0 && static_cast<int>(found.size()) < count) found.push_back(1 / value);
     return found;
   }

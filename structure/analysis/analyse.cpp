@@ -232,6 +232,8 @@ class Analysis {
       if (case_loads_) return gather_sum(k, answer);
       return gather(k, answer, loads_.empty() ? loads_of(k) : std::move(loads_[k]));
     }
+    const std::string of = " of " + building_[combinations_[k]].name;
+    if (second_order) tell("second order" + of);
     const int iterations = second_order ? turn_to_second_order(k, answer) : 0;
     solver::FrameModel model = carrying_both(frame_.model);
     if (!answer.beams.empty()) model.beams = answer.beams;
@@ -239,6 +241,7 @@ class Analysis {
     tangent_ = answer.axial;
     tangent_beams_ = model.beams;
     result.second_order_iterations = iterations;
+    if (request_.buckling > 0) tell("buckling" + of);
     if (request_.buckling > 0)
       result.buckling = solver::buckling_modes(model, loads_[k].set, request_.buckling, request_.solver,
                                                largest_buckling_factor, hanging_);

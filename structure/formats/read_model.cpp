@@ -9,8 +9,10 @@
 #include "formats/model_forms.h"
 #include "formats/model_reader.h"
 #include "formats/read_meshes.h"
+#include "model/connect_parts.h"
 #include "topple/structure/error.h"
 #include "topple/structure/files.h"
+#include "topple/structure/modelling_checks.h"
 
 namespace topple::structure {
 
@@ -25,13 +27,29 @@ struct ModelRead {
   bool drawn_weight = false;
 };
 
+/// `true`: within the usual tolerance; a number: within this length.
+void read_connect(const JsonValue& root, formats::ModelDraft& draft) {
+  const auto connect = root.find("connect");
+  if (!connect) return;
+  if (connect->is_number()) {
+    (void)connect->positive();
+    connect_parts(draft.building, formats::scaled(*connect, draft.scale.length));
+    return;
+  }
+  if (!connect->is_bool()) connect->refuse("true, false, or a length");
+  if (!connect->boolean()) return;
+  if (draft.building.units.consistent) connect->refuse("a length, where the units are consistent ones");
+  connect_parts(draft.building, usual_join_tolerance);
+}
+
 ModelRead read_document(const JsonDocument& document) {
   using namespace formats;
   const JsonValue root = document.root();
   if (!root.is_object()) root.refuse("an object");
-  root.only({"topple",       "title",    "units",     "gravity",       "materials",  "sections", "joints",
-             "nodes",        "members",  "panels",    "supports",      "diaphragms", "masses",   "loads",
-             "combinations", "building", "buildings", "joint_changes", "analyses",   "frame3dd", "meshes"});
+  root.only({"topple",   "title",    "units",        "gravity",  "materials", "sections",
+             "joints",   "nodes",    "members",      "panels",   "supports",  "diaphragms",
+             "masses",   "loads",    "combinations", "building", "buildings", "joint_changes",
+             "analyses", "frame3dd", "meshes",       "connect"});
   const JsonValue version = root.require("topple");
   if (!version.is_number() || version.number() != 1) version.refuse("1, the version of the format");
   ModelDraft draft;
@@ -57,6 +75,7 @@ ModelRead read_document(const JsonDocument& document) {
   read_combinations(root, draft);
   read_analyses(root, draft);
   read_frame3dd_remarks(root, draft);
+  read_connect(root, draft);
   const std::vector<MeshEntry> meshes = read_meshes(root);  // what they draw is read when somebody draws or weighs it
   return {std::move(draft.building),
           std::any_of(meshes.begin(), meshes.end(), [](const MeshEntry& mesh) { return mesh.density > 0; })};

@@ -51,6 +51,9 @@ class Division {
         throw std::invalid_argument("a member is divided at ascending fractions above 0 and below 1");
   }
 
+  /// At nodes that are there.
+  void use_nodes(std::vector<NodeId> nodes) { given_ = std::move(nodes); }
+
   std::vector<JointId> carry_out() {
     add_nodes();
     add_pieces();
@@ -70,6 +73,10 @@ class Division {
     const Vec3 first = building_[whole_.nodes[0]].position, second = building_[whole_.nodes[1]].position;
     nodes_.push_back(whole_.nodes[0]);
     for (std::size_t i = 1; i + 1 < places_.size(); ++i) {
+      if (!given_.empty()) {
+        nodes_.push_back(given_[i - 1]);
+        continue;
+      }
       refuse_taken(building_, cut_name(i));
       nodes_.emplace_back(building_.nodes.size());
       building_.nodes.push_back({cut_name(i), at_.empty() ? first + places_[i] * (second - first) : at_[i - 1]});
@@ -162,7 +169,7 @@ class Division {
   Member whole_;
   std::vector<double> places_;
   std::vector<Vec3> at_;
-  std::vector<NodeId> nodes_;
+  std::vector<NodeId> nodes_, given_;
   std::vector<MemberId> pieces_;
 };
 
@@ -173,6 +180,19 @@ std::vector<JointId> divide_member(Building& building, MemberId member, const st
   if (!nodes.empty() && nodes.size() != places.size())
     throw std::invalid_argument("a member is divided with a node for each place, or none");
   return Division(building, member, places, nodes).carry_out();
+}
+
+std::vector<JointId> divide_member_at(Building& building, MemberId member,
+                                      const std::vector<std::pair<double, NodeId>>& nodes) {
+  std::vector<double> places;
+  std::vector<NodeId> given;
+  for (const auto& [place, node] : nodes) {
+    places.push_back(place);
+    given.push_back(node);
+  }
+  Division division(building, member, places, {});
+  division.use_nodes(std::move(given));
+  return division.carry_out();
 }
 
 }  // namespace topple::structure

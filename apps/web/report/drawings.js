@@ -54,6 +54,14 @@ function drawMembers(drawing, model, line, colour = null, width = 0.8) {
   }
 }
 
+/** Members that a large building's report does not hold, as one thin path. */
+function drawLines(drawing, model) {
+  const lines = model.lines ?? [];
+  const parts = [];
+  for (let k = 0; k + 1 < lines.length; k += 2) parts.push(path([model.nodes[lines[k]], model.nodes[lines[k + 1]]].map(drawing.at)));
+  if (parts.length) element('path', { d: parts.join(''), fill: 'none', stroke: '#b9c3cd', 'stroke-width': 0.15 }, drawing.svg);
+}
+
 const straight = (model) => (m) => m.nodes.map((n, end) => model.nodes[n].map((v, i) => v + m.offsets[end][i]));
 
 function drawSupports(drawing, model) {
@@ -81,6 +89,7 @@ export function modelDrawing(model, look, unit) {
   const drawing = sheet(model, look);
   const panels = model.panels.map((p) => `${path(p.nodes.map((n) => drawing.at(model.nodes[n])))}z`);
   if (panels.length) element('path', { d: panels.join(''), fill: '#8fa3b5', 'fill-opacity': 0.12, stroke: 'none' }, drawing.svg);
+  drawLines(drawing, model);
   drawMembers(drawing, model, straight(model));
   drawSupports(drawing, model);
   if (model.nodes.length <= 60)

@@ -248,7 +248,7 @@ function showSummary() {
   for (const r of Object.values(c.reactions ?? {})) for (let i = 0; i < 3; ++i) total[i] += r[i];
   const seconds = Object.values(results.seconds ?? {}).reduce((a, b) => a + b, 0);
   const boxes = [
-    definitions('Model', [['nodes', model.nodes.length], ['members', model.members.length], ['panels', model.panels.length], ['equations', results.model.freedoms]]),
+    definitions('Model', [['nodes', model.nodes.length], ['members', results.model?.members ?? model.members.length], ['panels', model.panels.length], ['equations', results.model.freedoms]]),
     definitions(`Combination ${state.combination}`, [
       ['largest displacement', `${number(largest.value)} ${unit.length}`], place,
       ['sum of reactions z', `${number(total[2])} ${unit.force}`],
@@ -258,7 +258,7 @@ function showSummary() {
     definitions('How exact', [['backward error', number(c.backward_error)], ['equilibrium error', number(c.equilibrium_error)], ['condition', number(c.condition)], ['error bound', number(c.error_bound)]]),
     definitions('How', [['second order', results.settings?.p_delta ?? 'none'], ...(results.design ? [['design code', results.design.code], ['drift limit', `height/${number(1 / results.design.drift_limit)}`]] : []), ['factorisation', results.settings?.factorisation ?? ''], ['seconds', number(seconds)], ['Topple', results.topple]]),
   ];
-  const warnings = [...new Set([...model.warnings, ...(model.result_warnings ?? [])])];
+  const warnings = [...new Set([...(model.sample ? [model.sample] : []), ...model.warnings, ...(model.result_warnings ?? [])])];
   if (warnings.length) {
     const box = document.createElement('div');
     box.innerHTML = '<h2>Warnings</h2>';

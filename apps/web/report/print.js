@@ -81,7 +81,8 @@ function cover(data, root) {
 function drawModel(paper, data, u) {
   const chapter = paper.chapter('Model');
   const { model } = data;
-  chapter.append(make('p', `${model.nodes.length} nodes, ${model.members.length} members, ${model.panels.length} panels, ${data.results.model.freedoms} equations. Posts are drawn black, beams blue, braces brown; supports as triangles.`));
+  chapter.append(make('p', `${model.nodes.length} nodes, ${data.results.model.members} members, ${model.panels.length} panels, ${data.results.model.freedoms} equations. Posts are drawn black, beams blue, braces brown; supports as triangles.`));
+  if (model.sample) chapter.append(make('p', model.sample));
   for (const look of Object.values(LOOKS)) chapter.append(figure(modelDrawing(model, look, u.length), look.title));
 }
 

@@ -25,6 +25,7 @@ export class StructureView {
     this.labels = new Labels(canvas);
     this.#addLights();
     this.#addMembers();
+    this.#addLines();
     this.#addPanels();
     this.#addSupports();
     this.#addAxes();
@@ -209,6 +210,15 @@ export class StructureView {
     });
     position.needsUpdate = true;
     this.members.geometry.computeBoundingSphere();
+  }
+
+  /** Members of a large building that the report does not hold. */
+  #addLines() {
+    const lines = this.model.lines ?? [];
+    if (!lines.length) return;
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(lines.flatMap((n) => this.model.nodes[n])), 3));
+    this.scene.add(new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color: 0x8fa3b5, transparent: true, opacity: 0.25 })));
   }
 
   #addPanels() {

@@ -1,5 +1,6 @@
 // results.json: see docs/results-format.md.
 #include <algorithm>
+#include <numeric>
 #include <set>
 
 #include "analysis/results/results_writer.h"
@@ -28,6 +29,10 @@ ResultsWriter::ResultsWriter(const Building& building, const AnalysisRequest& re
   for (const Member& member : building.members) names->members.push_back(json_key(member.name));
   for (std::size_t j = 0; j < building.joints.size(); ++j)
     if (building.joints[j].capacity.breakable) names->breakable.push_back(j);
+  names->written.nodes.resize(building.nodes.size());
+  std::iota(names->written.nodes.begin(), names->written.nodes.end(), std::size_t{0});
+  names->written.members.resize(building.members.size());
+  std::iota(names->written.members.begin(), names->written.members.end(), std::size_t{0});
   for (const CombinationResult& c : result.combinations)
     names->combinations.push_back(as_value(building[c.combination].name));
   const auto from_last = [](std::size_t i, const char* name) {
@@ -35,6 +40,17 @@ ResultsWriter::ResultsWriter(const Building& building, const AnalysisRequest& re
   };
   for (std::size_t q = 0; q < 8; ++q) names->diagrams[q] = from_last(q, diagram_names[q]);
   for (std::size_t i = 0; i < 6; ++i) names->node_components[i] = from_last(i, component_names[i]);
+  names_ = std::move(names);
+}
+
+void ResultsWriter::select(const ResultsSelection& selection) {
+  auto names = std::make_shared<Names>(*names_);
+  names->written = selection;
+  std::erase_if(names->breakable, [&](std::size_t j) {
+    const MemberId member = b_.joints[j].member;
+    return member.valid() && !std::binary_search(selection.members.begin(), selection.members.end(),
+                                                 static_cast<std::size_t>(member.index));
+  });
   names_ = std::move(names);
 }
 
@@ -100,23 +116,28 @@ std::vector<ResultsWriter::Piece> ResultsWriter::pieces() const {
       if (k > 0) to.w_.follow();
       to.w_.newline().key(to.b_[c.combination].name).open('{').key("displacements").open('{');
     });
-    add_items(all, b_.nodes.size(),
-              [&c](ResultsWriter& to, std::size_t i) { to.node_displacement(i, c.displacements[i]); });
+    add_items(all, names_->written.nodes.size(), [&c](ResultsWriter& to, std::size_t i) {
+      const std::size_t n = to.names_->written.nodes[i];
+      to.node_displacement(n, c.displacements[n]);
+    });
     all.push_back([&c](ResultsWriter& to) { to.reactions(c); });
-    add_items(all, b_.members.size(), [&c](ResultsWriter& to, std::size_t i) {
-      to.member(i, c.members[i], c.designs.empty() ? nullptr : &c.designs[i]);
+    add_items(all, names_->written.members.size(), [&c](ResultsWriter& to, std::size_t i) {
+      const std::size_t m = to.names_->written.members[i];
+      to.member(m, c.members[m], c.designs.empty() ? nullptr : &c.designs[m]);
     });
     all.push_back([&c](ResultsWriter& to) { to.behind_members(c); });
   }
   all.push_back(
       [](ResultsWriter& to) { to.w_.close('}').newline().key("envelope").open('{').key("members").open('{'); });
   const bool any = !result_.combinations.empty();  // a structure that floats has modes alone
-  add_items(all, any ? b_.members.size() : 0, [](ResultsWriter& to, std::size_t i) { to.member_envelope(i); });
+  add_items(all, any ? names_->written.members.size() : 0,
+            [](ResultsWriter& to, std::size_t i) { to.member_envelope(to.names_->written.members[i]); });
   all.push_back([](ResultsWriter& to) {
     to.joint_envelope();
     to.w_.newline().key("displacements").open('{');
   });
-  add_items(all, any ? b_.nodes.size() : 0, [](ResultsWriter& to, std::size_t i) { to.node_envelope(i); });
+  add_items(all, any ? names_->written.nodes.size() : 0,
+            [](ResultsWriter& to, std::size_t i) { to.node_envelope(to.names_->written.nodes[i]); });
   all.push_back([](ResultsWriter& to) {
     to.w_.close('}').close('}').newline();
     if (to.request_.losses.any()) to.losses();
@@ -358,6 +379,15 @@ void write_results_json(const Building& building, const AnalysisRequest& request
                         const std::map<std::string, double>& seconds,
                         const std::function<void(std::string_view)>& sink) {
   ResultsWriter(building, request, result, seconds).write(sink);
+}
+
+std::string results_json(const Building& building, const AnalysisRequest& request, const AnalysisResult& result,
+                         const std::map<std::string, double>& seconds, const ResultsSelection& selection) {
+  std::string text;
+  ResultsWriter writer(building, request, result, seconds);
+  writer.select(selection);
+  writer.write([&](std::string_view piece) { text += piece; });
+  return text;
 }
 
 std::string diagnosis_json(const Building& building, const AnalysisRequest& request, const Diagnosis& diagnosis) {

@@ -165,7 +165,7 @@ void ResultsWriter::modes() {
 
 void ResultsWriter::shape(const std::vector<Vec6>& motion) {
   w_.key("shape").open('{');
-  for (std::size_t n = 0; n < b_.nodes.size(); ++n) {
+  for (const std::size_t n : names_->written.nodes) {
     w_.raw_key(names_->nodes[n]);
     shape_of(motion[n]);
   }

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "formats/json/json_writer.h"
-#include "topple/structure/analysis.h"
+#include "topple/structure/results_selection.h"
 
 namespace topple::structure {
 
@@ -39,6 +39,8 @@ class ResultsWriter {
  public:
   ResultsWriter(const Building& building, const AnalysisRequest& request, const AnalysisResult& result,
                 const std::map<std::string, double>& seconds);
+  /// Of these members and nodes alone.
+  void select(const ResultsSelection& selection);
 
   /// The header keys and what moves.
   [[nodiscard]] std::string diagnosis(const Diagnosis& diagnosis);
@@ -49,6 +51,7 @@ class ResultsWriter {
   /// Names as keys and values, made once.
   struct Names {
     std::vector<std::string> nodes, members;
+    ResultsSelection written;                  ///< all, when none are chosen
     std::vector<std::size_t> breakable;        ///< joints that have a use
     std::vector<std::string> combinations;     ///< of the result, as values
     std::array<ShortText, 8> diagrams;         ///< from behind the last one up to the first number

@@ -163,3 +163,19 @@ TEST_CASE("mistakes in a generator are told by their place") {
   CHECK(too_many.ends_with(" nodes, members and panels; accepted: at most 4000000"));
   CHECK(error("\"base\"", "\"bass\"").find("building.bass: unknown key") != std::string::npos);
 }
+
+TEST_CASE("rules of a building by places take what a design check needs to know") {
+  const Building b = parse_model(R"({"topple": 1,
+    "materials": {"S": {"youngs_modulus": 210e9, "poisson_ratio": 0.3}},
+    "sections": {"s": {"catalogue": "HEB300"}},
+    "building": {"places": {"A": [0, 0], "B": [6, 0]}, "storeys": 2, "storey_height": 3.5,
+      "post": {"section": "s", "material": "S", "design": {"factor_y": 1, "length_z": 2}},
+      "beam": {"between": [["A", "B"]], "section": "s", "material": "S", "design": {"restraints": "continuous"}}}})",
+                                 "plan.json");
+  for (const Member& member : b.members) {
+    const bool post = member.kind == MemberKind::post;
+    CHECK(member.design.factors[0].has_value() == post);
+    if (post) CHECK(*member.design.lengths[1] == 2);
+    CHECK(member.design.restrained_throughout == !post);
+  }
+}

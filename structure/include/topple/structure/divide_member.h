@@ -1,5 +1,6 @@
 #pragma once
 // A member in pieces that hold together rigidly, so that it can be cut inside.
+#include <utility>
 #include <vector>
 
 #include "topple/structure/building.h"
@@ -14,5 +15,10 @@ namespace topple::structure {
 /// InputError for a name that is taken, std::invalid_argument for other places.
 std::vector<JointId> divide_member(Building& building, MemberId member, const std::vector<double>& places,
                                    const std::vector<Vec3>& nodes = {});
+
+/// The same at nodes that are there, each with its fraction of the length; rigid arms reach them from the member's
+/// line.
+std::vector<JointId> divide_member_at(Building& building, MemberId member,
+                                      const std::vector<std::pair<double, NodeId>>& nodes);
 
 }  // namespace topple::structure
