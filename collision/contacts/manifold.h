@@ -16,7 +16,7 @@ struct Placement {
 struct ManifoldPoint {
   Vec3 on_first, on_second;  ///< the two points that meet, each in its solid's frame
   double separation = 0;     ///< along the normal, negative inside, m
-  double impulse = 0;        ///< normal one of a sub-step, to begin the next with, N s
+  double impulse = 0;        ///< normal force of the last sub-step, to begin the next with, N
   double force = 0;          ///< mean normal force of the last step, N
 };
 
@@ -24,11 +24,13 @@ struct Manifold {
   static constexpr int most = 4;
   int count = 0;
   std::array<ManifoldPoint, most> points;
-  Vec3 normal = Vec3::Zero();        ///< from the first into the second, global
-  bool normal_on_first = true;       ///< which of the two it turns with ...
-  Vec3 local_normal = Vec3::Zero();  ///< ... and what it is in that one's frame
-  Vec3 friction = Vec3::Zero();      ///< impulse of a sub-step across the normal on the second, N s, global
-  double twist = 0;                  ///< the same about the normal, N m s
+  Vec3 normal = Vec3::Zero();          ///< from the first into the second, global
+  bool normal_on_first = true;         ///< which of the two it turns with ...
+  Vec3 local_normal = Vec3::Zero();    ///< ... and what it is in that one's frame
+  Vec3 friction = Vec3::Zero();        ///< of the last sub-step, across the normal on the second, N, global
+  double twist = 0;                    ///< the same about the normal, N m
+  Vec3 friction_force = Vec3::Zero();  ///< mean of the last step, N
+  double twist_force = 0;              ///< N m
 };
 
 }  // namespace topple::collision

@@ -43,6 +43,7 @@ struct NearPair {
   double clear = -1;               ///< m: no contact before the second has moved so far; below zero: not known
   double margin = 0;               ///< m, with which they were sought
   Vec3 rest_force = Vec3::Zero();  ///< on the second, of two of which one sleeps at least: what it rests with, N
+  Vec3 pressed = Vec3::Zero();     ///< the same, averaged over the last steps
   bool sought = false;
   bool persistent = false;  ///< it touched in the step before the last
   bool touches = false;     ///< it pushed in the last step, or lay close

@@ -59,6 +59,8 @@ void take_over(const Manifold& old, Manifold& now, double matched) {
   }
   now.friction = old.friction;
   now.twist = old.twist;
+  now.friction_force = old.friction_force;
+  now.twist_force = old.twist_force;
 }
 
 }  // namespace

@@ -14,6 +14,11 @@ constexpr double kFaceFirst = 0.0005, kLastFirst = 0.0005;
 constexpr double kLeftOut = 0.75;
 /// Sine between two edges below which they span no normal.
 constexpr double kParallel = 0.01;
+/// Cosine to a contact's normal from which a face is looked at beside edges that cross: what is steeper comes no nearer
+/// than the edges do.
+constexpr double kLooksAlong = 0.5;
+/// m: a point of the faces that is within this of the crossing's depth is the crossing.
+constexpr double kSame = 1e-6;
 
 struct Found {
   double separation = -1e300;
@@ -170,12 +175,12 @@ void clip(const Vec3& normal, double offset, std::vector<Vec3>& polygon, std::ve
   polygon.swap(out);
 }
 
-/// The face of the other that looks most against the normal, clipped by the sides of the reference face. All in the
-/// reference's frame. Points come out on the incident face.
-void clip_face(const Polyhedron& reference, int face_index, const Polyhedron& other, const Mat3& turn,
-               const std::vector<Vec3>& vertices, Room& work) {
+/// The face of the other that looks most against the normal, clipped by the sides of the reference face along it. All
+/// in the reference's frame. Points come out on the incident face.
+void clip_face(const Polyhedron& reference, int face_index, const Vec3& normal, const Polyhedron& other,
+               const Mat3& turn, const std::vector<Vec3>& vertices, Room& work) {
   const Polyhedron::Face& face = reference.faces[static_cast<std::size_t>(face_index)];
-  const Vec3 in_other = turn.transpose() * face.normal;
+  const Vec3 in_other = turn.transpose() * normal;
   std::size_t incident = 0;
   double least = 1e300;
   for (std::size_t f = 0; f < other.faces.size(); ++f) {
@@ -191,7 +196,7 @@ void clip_face(const Polyhedron& reference, int face_index, const Polyhedron& ot
       return reference
           .vertices[static_cast<std::size_t>(reference.loops[static_cast<std::size_t>(face.first + k % face.count)])];
     };
-    const Vec3 out = (corner(i + 1) - corner(i)).cross(face.normal).normalized();
+    const Vec3 out = (corner(i + 1) - corner(i)).cross(normal).normalized();
     clip(out, out.dot(corner(i)), work.polygon, work.clipped);
   }
 }
@@ -210,6 +215,31 @@ void add_deepest(const Pair& pair, bool of_second, const Vec3& normal, double se
   } else {
     add(deepest, deepest + separation * normal, separation);
   }
+}
+
+/// Where two edges cross, the faces beside them may be about to meet as well: a post that lies across the edge of a
+/// slab touches with one of its edges, and rocks to the other. False when no such point is nearer than the margin.
+template <class Add>
+bool faces_beside(const Pair& pair, const Vec3& normal, double margin, Room& work, const Add& add) {
+  int chosen = -1;
+  double most = kLooksAlong;
+  for (std::size_t f = 0; f < pair.first.faces.size(); ++f) {
+    const double looks = normal.dot(pair.first.faces[f].normal);
+    if (looks > most) most = looks, chosen = static_cast<int>(f);
+  }
+  double least = -kLooksAlong;
+  for (const Polyhedron::Face& face : pair.second.faces) least = std::min(least, normal.dot(pair.turn * face.normal));
+  if (chosen < 0 || !(least < -kLooksAlong)) return false;
+  clip_face(pair.first, chosen, normal, pair.second, pair.turn, work.vertices, work);
+  const Polyhedron::Face& face = pair.first.faces[static_cast<std::size_t>(chosen)];
+  bool any = false;
+  for (const Vec3& place : work.polygon) {
+    const double separation = (face.normal.dot(place) - face.offset) / most;
+    if (separation > margin) continue;
+    add(place - separation * normal, place, separation);
+    any = true;
+  }
+  return any;
 }
 
 /// Nearest points of two edges: of the lines, but no farther along than their ends.
@@ -294,7 +324,7 @@ void collide(const Polyhedron& first, const Placement& first_at, const Polyhedro
   if (axis.kind == SeparatingAxis::Kind::first_face) {
     const Polyhedron::Face& face = first.faces[static_cast<std::size_t>(axis.first)];
     normal = face.normal;
-    clip_face(first, axis.first, second, pair.turn, work.vertices, work);
+    clip_face(first, axis.first, normal, second, pair.turn, work.vertices, work);
     for (const Vec3& place : work.polygon) {
       const double separation = normal.dot(place) - face.offset;
       if (separation <= margin) add(place - separation * normal, place, separation);
@@ -307,7 +337,7 @@ void collide(const Polyhedron& first, const Placement& first_at, const Polyhedro
     std::vector<Vec3>& in_second = work.vertices;
     in_second.resize(first.vertices.size());
     for (std::size_t i = 0; i < first.vertices.size(); ++i) in_second[i] = forth * (first.vertices[i] - pair.shift);
-    clip_face(second, axis.second, first, forth, in_second, work);
+    clip_face(second, axis.second, face.normal, first, forth, in_second, work);
     for (const Vec3& place : work.polygon) {
       const double separation = face.normal.dot(place) - face.offset;
       if (separation > margin) continue;
@@ -324,10 +354,15 @@ void collide(const Polyhedron& first, const Placement& first_at, const Polyhedro
     const auto [near_first, near_second] =
         nearest_of_edges(corner(first.vertices, a.from), corner(first.vertices, a.to), corner(work.vertices, b.from),
                          corner(work.vertices, b.to));
-    // Both on one line along the normal, as far apart as the axis says.
-    const Vec3 middle = (near_first + near_second) / 2;
-    const Vec3 on_first = middle - found.separation / 2 * normal, on_second = middle + found.separation / 2 * normal;
-    add(on_first, on_second, found.separation);
+    const bool beside = faces_beside(pair, normal, margin, work, add);
+    const auto deepest = std::min_element(
+        work.points.begin(), work.points.end(),
+        [](const ManifoldPoint& one, const ManifoldPoint& other) { return one.separation < other.separation; });
+    if (!beside || deepest->separation > found.separation + kSame) {
+      // Both on one line along the normal, as far apart as the axis says.
+      const Vec3 middle = (near_first + near_second) / 2;
+      add(middle - found.separation / 2 * normal, middle + found.separation / 2 * normal, found.separation);
+    }
     manifold.normal_on_first = true;
     manifold.local_normal = normal;
   }

@@ -139,30 +139,32 @@ void solve(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t
   }
 }
 
+/// The patch slides and twists as one: both together are bounded by what presses it.
 TOPPLE_INLINE void rub(ContactPack& pack, const PackPoint* points, Both& now) {
-  Wide pressed = all(0), grip = all(0);
-  for (int i = 0; i < pack.point_count; ++i) {
-    pressed += points[i].impulse;
-    grip += points[i].impulse * points[i].lever;
-  }
+  Wide pressed = all(0);
+  for (int i = 0; i < pack.point_count; ++i) pressed += points[i].impulse;
   const Wide none = all(0), one = all(1);
+  const Lanes grips = pack.lever > none;
+  const Wide lever = grips ? pack.lever : one;
   const Wide turning = dot(pack.twist_second, now.second.angular) - dot(pack.twist_first, now.first.angular);
-  const Wide most = pack.friction * grip;
-  const Wide twist = larger(none - most, smaller(most, pack.twist - pack.twist_mass * turning));
-  turn(pack, twist - pack.twist, now);
-  pack.twist = twist;
+  const Wide held = grips ? pack.twist - pack.twist_mass * turning : none;
+  turn(pack, held - pack.twist, now);
   const Wide x = relative(pack, pack.along[0], pack.along_first[0], pack.along_second[0], now),
              y = relative(pack, pack.along[1], pack.along_first[1], pack.along_second[1], now);
   Wide a = pack.slide[0] - (pack.inverse[0] * x + pack.inverse[1] * y),
        b = pack.slide[1] - (pack.inverse[1] * x + pack.inverse[2] * y);
-  const Wide bound = pack.friction * pressed, size = root(a * a + b * b);
+  const Wide c = held / lever;
+  const Wide bound = pack.friction * pressed, size = root(a * a + b * b + c * c);
   const Wide share = size > bound ? bound / (size > none ? size : one) : one;
   a *= share;
   b *= share;
+  const Wide twist = held * share;
+  turn(pack, twist - held, now);
   push(pack, pack.along[0], pack.along_first[0], pack.along_second[0], a - pack.slide[0], now);
   push(pack, pack.along[1], pack.along_first[1], pack.along_second[1], b - pack.slide[1], now);
   pack.slide[0] = a;
   pack.slide[1] = b;
+  pack.twist = twist;
 }
 
 void relax(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity,
@@ -174,8 +176,11 @@ void relax(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t
     Both now, moved;
     load(pack, velocity, now);
     load(pack, displacement, moved);
+    // Bodies have been moved since with these impulses: those of `solve`, the rest as it began.
+    for (int i = 0; i < 2; ++i) pack.slide_carried[i] += pack.slide_total[i] + pack.slide[i];
     for (int i = 0; i < pack.point_count; ++i) {
       PackPoint& point = own[i];
+      pack.carried += point.total + point.impulse;
       const Wide separation = point.separation + relative(pack, pack.normal, point.first, point.second, moved);
       const Wide bias = separation > none ? separation * rate : none;
       const Wide speed = relative(pack, pack.normal, point.first, point.second, now);

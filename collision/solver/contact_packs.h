@@ -29,7 +29,6 @@ struct alignas(32) PackPoint {
   Wide impulse;              ///< of this sub-step
   Wide total;                ///< over the step
   Wide approach;             ///< relative speed along the normal when the step began, negative when closing
-  Wide lever;                ///< from the centre of friction, m
 };
 
 struct alignas(32) ContactPack {
@@ -47,8 +46,11 @@ struct alignas(32) ContactPack {
   Wide inverse[3];  ///< of the two directions' mass matrix: xx, xy, yy
   Wide twist_mass;
   Wide friction;
+  Wide lever;                        ///< m: a twist counts as so much force
   Wide slide[2], twist;              ///< impulses of this sub-step
   Wide slide_total[2], twist_total;  ///< over the step
+  Wide carried,
+      slide_carried[2];  ///< sums of what had been applied whenever bodies were moved: along the normal, across
 };
 
 struct SubStep {

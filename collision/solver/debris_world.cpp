@@ -219,6 +219,9 @@ void DebrisWorld::wake_up(DebrisBody& woken) {
   if (woken.asleep) ++awake_count_;
   woken.asleep = false;
   woken.slow_for = woken.retry_rest = 0;
+  woken.rest_wait = settings_.rest_again;
+  woken.position_then = woken.at.position;
+  woken.turn_then = woken.turn;
 }
 
 void DebrisWorld::fall_asleep(DebrisBody& sleeping) {

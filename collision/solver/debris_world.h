@@ -24,10 +24,13 @@ struct DebrisBody : TouchingSolid {
   Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();  ///< of the principal axes
   Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();         ///< as BodyState tells them
   bool asleep = false;
-  double slow_for = 0;      ///< s
+  double slow_for = 0;  ///< s that it has stayed near where it was then
+  Vec3 position_then = Vec3::Zero();
+  Eigen::Quaterniond turn_then = Eigen::Quaterniond::Identity();
   double load = 0;          ///< m/s2: force on a contact over its effective mass, the largest; how hard it is pressed
   double substep_rate = 0;  ///< 1/s: sub-steps in the last step
-  double retry_rest = 0;    ///< s until rest is tried again, where it was not found
+  double retry_rest = 0;    ///< s until rest is tried again, where it was not found ...
+  double rest_wait = 0;     ///< ... and how long that will be next time
   int ignored = 0;          ///< pairs that it is in and that are ignored until separated
   int solver = 0;           ///< its number in the step's solver
   int island = 0;
@@ -191,7 +194,8 @@ class DebrisWorld final : public World {
   double ground_height_ = 0, ground_friction_ = 0, ground_restitution_ = 0;
   PolyhedronStore polyhedra_;
   NearPairs pairs_;
-  std::set<SolidPair> ignored_;
+  std::map<SolidPair, bool> ignored_;  ///< true: told again since the last step, and for the next in any case
+  std::set<SolidPair> released_;       ///< by the last step
 
   StepSolver solver_;
   std::vector<Island> islands_;

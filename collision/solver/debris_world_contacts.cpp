@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <tuple>
+#include <utility>
 
 #include "contacts/part_contacts.h"
 #include "solver/debris_world.h"
@@ -212,7 +213,13 @@ void DebrisWorld::ignore_until_separated(BodyId id, const Touched& other) {
       throw std::invalid_argument("body " + std::to_string(pair.body) + " cannot ignore itself");
     if (pair.body > pair.other) std::swap(pair.body, pair.other);
   }
-  if (ignored_.insert(pair).second) ignore(pair, true);
+  // Told in every step (what hangs on a hinge and turns beside what holds it), it is ignored in every step: contacts
+  // push before parts touch.
+  const auto [entry, made] = ignored_.try_emplace(pair, released_.contains(pair));
+  if (made)
+    ignore(pair, true);
+  else
+    entry->second = true;
 }
 
 void DebrisWorld::ignore(const SolidPair& pair, bool ignored) {
@@ -227,8 +234,9 @@ bool DebrisWorld::ignores(const Solid& first, const Solid& second) const {
 
 void DebrisWorld::forget_ignored_of(Touched::Kind kind, std::int64_t id) {
   for (auto pair = ignored_.begin(); pair != ignored_.end();) {
-    const bool names = (pair->kind == kind && pair->other == id) || (kind == Touched::Kind::body && pair->body == id);
-    if (names) ignore(*pair, false);
+    const SolidPair& who = pair->first;
+    const bool names = (who.kind == kind && who.other == id) || (kind == Touched::Kind::body && who.body == id);
+    if (names) ignore(who, false);
     pair = names ? ignored_.erase(pair) : std::next(pair);
   }
 }
@@ -247,13 +255,19 @@ bool DebrisWorld::separated(const Solid& first, const Solid& second) {
 }
 
 void DebrisWorld::release_separated(double dt) {
+  released_.clear();
   for (auto pair = ignored_.begin(); pair != ignored_.end();) {
-    const DebrisBody& first = body(pair->body);
-    const Solid& other = solid(*pair);
-    const bool other_moves = pair->kind == Touched::Kind::body && !static_cast<const DebrisBody&>(other).asleep;
+    const SolidPair& who = pair->first;
+    const DebrisBody& first = body(who.body);
+    const Solid& other = solid(who);
+    const bool other_moves = who.kind == Touched::Kind::body && !static_cast<const DebrisBody&>(other).asleep;
     const bool moves = !first.asleep || other_moves;
-    const bool apart = moves && separated(first, other) && !still_to_pass(first, other, other_moves, dt);
-    if (apart) ignore(*pair, false);
+    const bool kept = std::exchange(pair->second, false);
+    const bool apart = !kept && moves && separated(first, other) && !still_to_pass(first, other, other_moves, dt);
+    if (apart) {
+      ignore(who, false);
+      released_.insert(who);
+    }
     pair = apart ? ignored_.erase(pair) : std::next(pair);
   }
 }

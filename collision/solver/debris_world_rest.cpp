@@ -23,11 +23,15 @@ bool DebrisWorld::come_to_rest(Island& island, double dt) {
   const bool rests = solver_.rest(dt, gravity_, sizes);
   for (std::size_t i = island.bodies.size(); i < whole.bodies.size(); ++i) whole.bodies[i]->asleep = true;
   if (!rests) {
-    for (DebrisBody* one : island.bodies) one->retry_rest = settings_.rest_again;
+    for (DebrisBody* one : island.bodies) {
+      one->retry_rest = one->rest_wait;
+      one->rest_wait = std::min(2 * one->rest_wait, settings_.rest_again_at_most);
+    }
     return false;
   }
   tell_contacts(dt);
-  for (const SolverContact& solved : solver_.contacts()) solved.pair->rest_force = solved.impulse / dt;
+  for (const SolverContact& solved : solver_.contacts())
+    solved.pair->rest_force = solved.pair->pressed = solved.impulse / dt;
   read_joints({&only, 1}, dt);
   for (DebrisBody* one : island.bodies) {
     one->velocity.setZero();
@@ -136,17 +140,19 @@ void DebrisWorld::wake_round(DebrisBody& struck, double momentum) {
   }
 }
 
-/// What a body that sleeps is pressed with has changed: it may not rest any more.
+/// What a body that sleeps is pressed with has changed: it may not rest any more. Forces are averaged over a time, so
+/// that a blow counts by the speed that it would give and not by the length of the step.
 void DebrisWorld::wake_changed(double dt) {
   if (awake_count_ == order_.size()) return;
-  const double weight = gravity_.norm();
+  const double weight = gravity_.norm(), share = 1 - std::exp(-dt / settings_.pressed_over);
   for (const SolverContact& solved : solved_) {
     NearPair& pair = *solved.pair;
+    pair.pressed += share * (solved.impulse / dt - pair.pressed);
     for (const bool second : {false, true}) {
       Solid* solid = pairs_.collider(second ? pair.second : pair.first).solid;
       if (solid->kind != Touched::Kind::body || !static_cast<DebrisBody*>(solid)->asleep) continue;
       auto& sleeps = static_cast<DebrisBody&>(*solid);
-      if ((solved.impulse / dt - pair.rest_force).norm() > settings_.wakes_from * sleeps.mass * weight) wake_up(sleeps);
+      if ((pair.pressed - pair.rest_force).norm() > settings_.wakes_from * sleeps.mass * weight) wake_up(sleeps);
     }
   }
   // And what was pressed by one that has gone.
@@ -158,20 +164,25 @@ void DebrisWorld::wake_changed(double dt) {
       if (solid->kind == Touched::Kind::body) wake_up(static_cast<DebrisBody&>(*solid));
     }
     pair.rest_force.setZero();
+    pair.pressed.setZero();
   }
 }
 
-/// How long each body has been slow.
+/// How long each body has stayed where it is. What rocks to and fro by less than that is slow as well.
 void DebrisWorld::look_for_rest(double dt) {
-  const Vec3 half_kick = gravity_ * (dt / 2);
-  // At rest, speeds at the end of a step are those of half a sub-step's fall.
-  const double slow = settings_.slow + gravity_.norm() * dt / 8;
+  const double far = settings_.slow * settings_.slow_for;
   for (const Island& island : islands_)
     for (DebrisBody* one : island.bodies) {
       if (one->asleep) continue;
-      const double speed = (one->velocity + half_kick).norm() + one->reach * one->spin.norm();
       const bool held = !island.pairs.empty() || !island.hinges.empty() || !island.cables.empty();
-      one->slow_for = held && speed < slow && !swings(*one) ? one->slow_for + dt : 0;
+      const double turned = one->reach * one->turn.angularDistance(one->turn_then);
+      if (!held || (one->at.position - one->position_then).norm() + turned > far || swings(*one)) {
+        one->slow_for = 0;
+        one->rest_wait = settings_.rest_again;
+        one->position_then = one->at.position;
+        one->turn_then = one->turn;
+      }
+      one->slow_for += dt;
       one->retry_rest = std::max(0.0, one->retry_rest - dt);
     }
 }

@@ -77,7 +77,8 @@ Vec3 spin_of(const Solid& solid) {
 
 }  // namespace
 
-/// What could come together within the step is a contact already.
+/// What could come together within the step is a contact already. Two that fly side by side may: the one in front is
+/// stopped in this step, and the one behind goes on.
 double DebrisWorld::margin_of(const NearPair& pair, double dt) const {
   const Collider &a = pairs_.collider(pair.first), &b = pairs_.collider(pair.second);
   const Vec3 half_kick = gravity_ * (dt / 2);
@@ -87,7 +88,7 @@ double DebrisWorld::margin_of(const NearPair& pair, double dt) const {
                : 0;
   };
   const double speed =
-      (velocity_of(*a.solid, half_kick) - velocity_of(*b.solid, half_kick)).norm() + turning(a) + turning(b);
+      velocity_of(*a.solid, half_kick).norm() + velocity_of(*b.solid, half_kick).norm() + turning(a) + turning(b);
   return std::max(settings_.margin, speed * dt);
 }
 
@@ -199,8 +200,16 @@ int DebrisWorld::substeps(const Island& island, double dt) const {
   const double steps = dt / reference;
   const double for_load =
       settings_.substeps_for_weight * std::pow(std::max(1.0, island.load / weight), settings_.substeps_growth);
+  // A stack that lands goes on into itself until the blow has come through all of it, one contact each pass.
+  double mass = 0, energy = 0;
+  for (const DebrisBody* one : island.bodies) {
+    mass += one->mass;
+    energy += one->mass * one->velocity.squaredNorm();
+  }
+  const double for_speed = std::sqrt(energy / mass) * reference / settings_.substep_way;
   const double wanted =
-      std::clamp(for_load, double(settings_.fewest_substeps), double(settings_.most_substeps)) * steps;
+      std::clamp(std::max(for_load, for_speed), double(settings_.fewest_substeps), double(settings_.most_substeps)) *
+      steps;
   // Few different numbers, so that islands can be solved together.
   int count = 1;
   while (count < wanted) count += std::max(1, count / 4);

@@ -1,32 +1,33 @@
 #pragma once
-// Forces that hold bodies at rest: of all that lie within the friction cones and balance each body's weight, near those
-// that a step ended with.
+// Forces that hold bodies at rest: of all that lie within the friction cones and balance each body's weight, the
+// nearest to those that a step ended with, by the energy of springs at the contacts (least complementary energy).
 //
-// Contacts are taken as springs in series with the forces that they have: the bodies give way by y, and a row carries
-//   lambda = P(lambda0 - D J y),
-// D its effective mass, P onto what it can carry (a normal force only pushes, friction stays within its cone). What is
-// sought is the y for which every body is in balance; Newton's steps with the rows that give way, each solved by
-// conjugate gradients with the bodies' own blocks as preconditioner. The energy of such springs is what is least. Where
-// no y is found, there is no such rest near by.
-#include <array>
+// A contact has up to four normal forces, two of friction and a twist about the normal. With l the mean distance of its
+// points from where friction acts, and T = (t1, t2, twist/l), all (n, T) with n >= 0 and |T| <= mu (sum of n) are a
+// convex cone. With D the contacts' effective masses and J their rows, what is sought is
+//   min (lambda - lambda0)' D^-1 (lambda - lambda0) / 2   with   w + J' lambda = 0   and lambda in the cones.
+// Its dual has six unknowns a body, y, the way that it gives: lambda = P(lambda0 - D J y), P the projection on the
+// cones, and y minimises |lambda|^2/2 (in D^-1) - w'y, which is convex and smooth, with what is out of balance as its
+// gradient. Newton's steps with the projection's derivative (how the bound of friction follows the normal force is in
+// it) and a line search find it from anywhere (Zhao, Sun, Toh, "A Newton-CG augmented Lagrangian method", SIAM J.
+// Optim. 20, 2010). Where there are no such forces, y grows without bound: there is no rest.
 #include <vector>
 
 #include "topple/collision/world.h"
 
 namespace topple::collision {
 
-/// The rows of one contact: up to four normal ones, two of friction, one of twist; all on scaled velocities
-/// (contact_packs.h).
+/// One contact; rows on scaled velocities (contact_packs.h): up to four normal ones (zero where there is no point), two
+/// of friction, and the twist times its lever.
 struct RestContact {
   using Rows = Eigen::Matrix<double, 7, 1>;
   using Jacobian = Eigen::Matrix<double, 7, 6>;
+  using Square = Eigen::Matrix<double, 7, 7>;
   int first = 0, second = 0;  ///< bodies; 0: what stands
-  int points = 0;
-  Jacobian on_first = Jacobian::Zero(), on_second = Jacobian::Zero();
-  Rows stiffness = Rows::Zero();  ///< effective masses; friction: of its matrix's diagonal
-  double coupling = 0;            ///< of the two rows of friction
+  int count = 0;              ///< normal rows
   double friction = 0;
-  std::array<double, 4> lever{};
+  Jacobian on_first = Jacobian::Zero(), on_second = Jacobian::Zero();
+  Rows stiffness = Rows::Ones();  ///< effective masses, the last three equal
   Rows start = Rows::Zero(), force = Rows::Zero();
 };
 
@@ -39,6 +40,11 @@ struct RestJoint {
   Jacobian on_first = Jacobian::Zero(), on_second = Jacobian::Zero(), stiffness = Jacobian::Zero();
   Rows start = Rows::Zero(), force = Rows::Zero();
 };
+
+/// The point of the cone n >= 0, |T| <= friction (sum of n) that is nearest to z = (n, T), distances measured in
+/// D^-1 = 1/stiffness; and how it changes with z, times D (symmetric, at least zero).
+void project_on_cone(const RestContact::Rows& z, const RestContact::Rows& stiffness, int count, double friction,
+                     RestContact::Rows& nearest, RestContact::Square& gives);
 
 class Equilibrium {
  public:
@@ -57,23 +63,30 @@ class Equilibrium {
   [[nodiscard]] bool solve(double tolerance, int passes);
   /// Largest share of a body's weight (or weight times size) that is out of balance.
   [[nodiscard]] double residual() const { return residual_; }
+  [[nodiscard]] int newton_steps() const { return newton_steps_; }
+  [[nodiscard]] int passes() const { return passes_; }
 
  private:
   using Vectors = std::vector<Vec6>;
-  /// Forces for y, and what is out of balance.
-  void respond(const Vectors& y, Vectors& out);
+  struct Link {  ///< of two bodies that give: the matrix's block on the second from the first
+    int first = 0, second = 0;
+    Mat6 block;
+  };
+  /// Forces for y, what is out of balance, and the function that is least at balance.
+  double respond(const Vectors& y, Vectors& out);
+  /// The matrix at the y of the last respond().
+  void assemble(double loose);
   void multiply(const Vectors& p, Vectors& out) const;
-  void precondition();
   [[nodiscard]] double size(const Vectors& out) const;
-  [[nodiscard]] double sum_of_squares(const Vectors& out) const;
   /// Returns matrix products.
-  int newton_step(const Vectors& out, Vectors& step, int passes);
+  int newton_step(const Vectors& out, double enough, Vectors& step, int passes);
 
-  std::vector<RestContact::Rows> gives_;  ///< share of a row's stiffness that acts where it is
-  std::vector<Eigen::Matrix2d> slides_;   ///< the same for friction
+  std::vector<RestContact::Square> gives_;  ///< stiffness of each contact that acts where it is
   std::vector<char> pulls_;
-  std::vector<Mat6> blocks_;
+  std::vector<Mat6> blocks_, inverses_;
+  std::vector<Link> links_;
   double residual_ = 0;
+  int newton_steps_ = 0, passes_ = 0;
 };
 
 }  // namespace topple::collision

@@ -15,7 +15,9 @@ struct SolverSettings {
   double substeps_for_weight = 11;  ///< of a 1/60 s step, for a contact that bears the weight of its own mass ...
   double substeps_growth = 0.07;    ///< ... times the load over that weight to this power: a stack of ten rests within
                                     ///< 0.3 mm, a hundredfold mass within 2 mm, a thousandfold within 15
-  double substeps_held = 0.7;       ///< their number falls only when the load asks for less than this share of it
+  double substep_way = 0.0025;  ///< m that an island's bodies go in a sub-step at most, root mean square: what falls on
+                                ///< a heap as a whole is else pressed into it by the way of many sub-steps
+  double substeps_held = 0.7;   ///< their number falls only when the load asks for less than this share of it
   double pushed_apart = 3;  ///< m/s: overlaps are undone no faster (chunks are born inside each other). What is pressed
                             ///< in by a thousandfold mass needs 2.5: held below that, a spring does not bear its load
 
@@ -32,13 +34,17 @@ struct SolverSettings {
   double joint_damping = 2;      ///< ratio
 
   // Rest.
-  double slow = 0.05;         ///< m/s of the fastest point: a body that is slower ...
-  double slow_for = 0.5;      ///< s: ... for so long, and all that touch it, sleep
-  double struck_from = 0.1;   ///< m/s: what sleeps is woken before it is come upon faster than this
-  double wakes_from = 0.1;    ///< of its weight: what sleeps wakes when a force on it changes by more
+  double slow = 0.05;        ///< m/s, mean over `slow_for` of the farthest point: a body that is slower ...
+  double slow_for = 0.5;     ///< s: ... for so long, and all that touch it, sleep
+  double struck_from = 0.1;  ///< m/s: what sleeps is woken before it is come upon faster than this
+  double wakes_from = 0.1;   ///< of its weight: what sleeps wakes when a force on it changes by more ...
+  double pressed_over =
+      0.1;                  ///< s: ... averaged over this: a blow wakes from a speed of 0.1 m/s, as `struck_from` does
+  double touching = 0.001;  ///< m: points that are nearer bear at rest
   double equilibrium = 1e-6;  ///< of a body's weight (moments: times its size): what sleeps is out of balance by less
-  int equilibrium_passes = 800;  ///< over the contacts in the search for that balance, at most: as many as some steps
-  double rest_again = 0.25;      ///< s: where no balance was found, it is sought again after this
+  int equilibrium_passes = 6000;  ///< over the contacts in the search for that balance, at most
+  double rest_again = 0.25;       ///< s: where no balance was found, it is sought again after this, then twice this ...
+  double rest_again_at_most = 2;  ///< s: ... and so on to this, until something moves: what is sought in vain is dear
 };
 
 }  // namespace topple::collision

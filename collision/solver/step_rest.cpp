@@ -8,55 +8,61 @@ namespace topple::collision {
 
 namespace {
 
-Eigen::Matrix<double, 1, 6> row(const Wide* along, const Wide& root, const Wide* angular, int lane) {
-  Eigen::Matrix<double, 1, 6> made;
-  for (int i = 0; i < 3; ++i) {
-    made[i] = along[i][lane] * root[lane];
-    made[3 + i] = angular[i][lane];
-  }
-  return made;
+/// Along the normal and two directions across it.
+std::array<Vec3, 3> directions(const Vec3& normal) {
+  const Vec3 aside = std::abs(normal.z()) < 0.7 ? Vec3(0, 0, 1) : Vec3(1, 0, 0);
+  const Vec3 across = aside.cross(normal).normalized();
+  return {normal, across, normal.cross(across)};
 }
 
-RestContact rest_contact(const SolverContact& contact, const ContactPack& pack, const PackPoint* points, int count) {
-  RestContact made;
-  const int lane = contact.lane;
-  made.first = contact.first;
-  made.second = contact.second;
-  made.points = count;
-  made.friction = contact.friction;
-  for (int i = 0; i < count; ++i) {
-    made.on_first.row(i) = row(pack.normal, pack.first_root, points[i].first, lane);
-    made.on_second.row(i) = row(pack.normal, pack.second_root, points[i].second, lane);
-    made.stiffness[i] = points[i].mass[lane];
-    made.lever[static_cast<std::size_t>(i)] = points[i].lever[lane];
-    made.start[i] = points[i].impulse[lane];
-  }
-  for (int i = 0; i < 2; ++i) {
-    made.on_first.row(4 + i) = row(pack.along[i], pack.first_root, pack.along_first[i], lane);
-    made.on_second.row(4 + i) = row(pack.along[i], pack.second_root, pack.along_second[i], lane);
-    made.start[4 + i] = pack.slide[i][lane];
-  }
-  made.stiffness[4] = pack.inverse[0][lane];
-  made.coupling = pack.inverse[1][lane];
-  made.stiffness[5] = pack.inverse[2][lane];
-  for (int i = 0; i < 3; ++i) {
-    made.on_first(6, 3 + i) = pack.twist_first[i][lane];
-    made.on_second(6, 3 + i) = pack.twist_second[i][lane];
-  }
-  made.stiffness[6] = pack.twist_mass[lane];
-  made.start[6] = pack.twist[lane];
+Vec3 place_of(const SolverContact& contact, const ManifoldPoint& point) {
+  return (*contact.first_at * point.on_first + *contact.second_at * point.on_second) / 2;
+}
+
+Eigen::Matrix<double, 1, 6> row(const SolverBody& body, const Vec3& place, const Vec3& along) {
+  Eigen::Matrix<double, 1, 6> made;
+  made.head<3>() = body.inverse_root_mass * along;
+  made.tail<3>() = body.scaled_moment((place - body.at.position).cross(along));
   return made;
 }
 
 }  // namespace
 
+void StepSolver::add_to(Equilibrium& equilibrium, const SolverContact& contact) const {
+  const SolverBody &first = bodies_[static_cast<std::size_t>(contact.first)],
+                   &second = bodies_[static_cast<std::size_t>(contact.second)];
+  const Manifold& manifold = contact.pair->manifold;
+  const std::array<Vec3, 3> along = directions(manifold.normal);
+  RestContact& made = equilibrium.contacts.emplace_back();
+  made.first = contact.first;
+  made.second = contact.second;
+  made.friction = contact.friction;
+  for (int i = 0; i < manifold.count; ++i) {
+    const ManifoldPoint& point = manifold.points[static_cast<std::size_t>(i)];
+    if (!bears_at_rest(point)) continue;
+    const Vec3 place = place_of(contact, point);
+    made.on_first.row(made.count) = row(first, place, along[0]);
+    made.on_second.row(made.count) = row(second, place, along[0]);
+    made.stiffness[made.count] =
+        1 / (made.on_first.row(made.count).squaredNorm() + made.on_second.row(made.count).squaredNorm());
+    made.start[made.count] = point.force;
+    ++made.count;
+  }
+  for (int i = 0; i < 2; ++i) {
+    made.on_first.row(4 + i) = row(first, contact.anchor, along[static_cast<std::size_t>(1 + i)]);
+    made.on_second.row(4 + i) = row(second, contact.anchor, along[static_cast<std::size_t>(1 + i)]);
+    made.start[4 + i] = manifold.friction_force.dot(along[static_cast<std::size_t>(1 + i)]);
+  }
+  if (contact.lever > 0) {
+    made.on_first.row(6).tail<3>() = contact.lever * first.scaled_moment(along[0]);
+    made.on_second.row(6).tail<3>() = contact.lever * second.scaled_moment(along[0]);
+    made.start[6] = manifold.twist_force / contact.lever;
+  }
+  const double masses = made.on_first.bottomRows<3>().squaredNorm() + made.on_second.bottomRows<3>().squaredNorm();
+  made.stiffness.tail<3>().setConstant((contact.lever > 0 ? 3 : 2) / masses);
+}
+
 bool StepSolver::rest(double dt, const Vec3& gravity, std::span<const double> sizes) {
-  h_ = 1;  // impulses are forces
-  scale_bodies(h_, Vec3::Zero());
-  for (Motion6& motion : velocity_) motion = {};
-  colour();
-  fill_packs();
-  for (SolverContact& contact : contacts_) prepare(contact);
   Equilibrium equilibrium;
   equilibrium.bodies.resize(bodies_.size());
   for (std::size_t i = 1; i < bodies_.size(); ++i) {
@@ -67,10 +73,10 @@ bool StepSolver::rest(double dt, const Vec3& gravity, std::span<const double> si
     made.scale.head<3>().setConstant(1 / (one.inverse_root_mass * weight));
     made.scale.tail<3>() = one.inverse_root_moments.cwiseInverse() / (weight * sizes[i]);
   }
-  for (const SolverContact& contact : contacts_) {
-    const ContactPack& pack = packs_[static_cast<std::size_t>(contact.pack)];
-    equilibrium.contacts.push_back(
-        rest_contact(contact, pack, &points_[pack.first_point], contact.pair->manifold.count));
+  equilibrium.contacts.reserve(contacts_.size());
+  for (SolverContact& contact : contacts_) {
+    place_friction(contact);
+    add_to(equilibrium, contact);
   }
   for (HingeRows* hinge : hinges_) {
     hinge->prepare(bodies_[static_cast<std::size_t>(hinge->body)], bodies_[static_cast<std::size_t>(hinge->holder)], {},
@@ -80,31 +86,30 @@ bool StepSolver::rest(double dt, const Vec3& gravity, std::span<const double> si
   for (const CableRow* cable : cables_)
     equilibrium.joints.push_back(cable->at_rest(bodies_[static_cast<std::size_t>(cable->body)], dt));
   if (!equilibrium.solve(settings_.equilibrium, settings_.equilibrium_passes)) return false;
-  take_forces(equilibrium, dt);
-  return true;
-}
-
-void StepSolver::take_forces(const Equilibrium& equilibrium, double dt) {
-  for (std::size_t k = 0; k < contacts_.size(); ++k) {
-    SolverContact& contact = contacts_[k];
-    const RestContact& found = equilibrium.contacts[k];
-    ContactPack& pack = packs_[static_cast<std::size_t>(contact.pack)];
-    for (int i = 0; i < found.points; ++i) {
-      PackPoint& point = points_[pack.first_point + static_cast<std::size_t>(i)];
-      point.impulse[contact.lane] = found.force[i];
-      point.total[contact.lane] = found.force[i] * dt;
-    }
-    for (int i = 0; i < 2; ++i) {
-      pack.slide[i][contact.lane] = found.force[4 + i];
-      pack.slide_total[i][contact.lane] = found.force[4 + i] * dt;
-    }
-    pack.twist[contact.lane] = found.force[6];
-    pack.twist_total[contact.lane] = found.force[6] * dt;
-    store_contact(contact, dt);
-  }
+  for (std::size_t k = 0; k < contacts_.size(); ++k) take_rest(equilibrium.contacts[k], contacts_[k], dt);
   std::size_t k = 0;
   for (HingeRows* hinge : hinges_) hinge->take_rest(equilibrium.joints[k++].force, dt);
   for (CableRow* cable : cables_) cable->take_rest(equilibrium.joints[k++].force[0], dt);
+  return true;
+}
+
+void StepSolver::take_rest(const RestContact& found, SolverContact& contact, double dt) const {
+  Manifold& manifold = contact.pair->manifold;
+  const std::array<Vec3, 3> along = directions(manifold.normal);
+  double pressed = 0;
+  Vec3 middle = Vec3::Zero();
+  int k = 0;
+  for (int i = 0; i < manifold.count; ++i) {
+    ManifoldPoint& point = manifold.points[static_cast<std::size_t>(i)];
+    point.impulse = point.force = bears_at_rest(point) ? found.force[k++] : 0;
+    pressed += point.force;
+    middle += point.force * place_of(contact, point);
+  }
+  manifold.friction = manifold.friction_force = found.force[4] * along[1] + found.force[5] * along[2];
+  manifold.twist = manifold.twist_force = found.force[6] * contact.lever;
+  contact.centre = pressed > 0 ? Vec3(middle / pressed) : contact.anchor;
+  contact.impulse = (pressed * manifold.normal + manifold.friction) * dt;
+  contact.moment = (manifold.twist * manifold.normal + (contact.anchor - contact.centre).cross(manifold.friction)) * dt;
 }
 
 }  // namespace topple::collision

@@ -142,16 +142,13 @@ void StepSolver::prepare_points(SolverContact& contact, ContactPack& pack, doubl
   }
 }
 
-void StepSolver::prepare_friction(SolverContact& contact, ContactPack& pack, double h) {
-  const SolverBody &first = bodies_[static_cast<std::size_t>(contact.first)],
-                   &second = bodies_[static_cast<std::size_t>(contact.second)];
+/// At the middle of the forces of the last step; where there are none yet, by nearness.
+void StepSolver::place_friction(SolverContact& contact) const {
   const Manifold& manifold = contact.pair->manifold;
-  const Vec3& n = manifold.normal;
-  const int lane = contact.lane;
   std::array<Vec3, Manifold::most> places;
   std::array<double, Manifold::most> weights{};
   double sum = 0;
-  for (int pass = 0; pass < 2 && !(sum > 0); ++pass)  // by force; where there is none yet, by nearness
+  for (int pass = 0; pass < 2 && !(sum > 0); ++pass)
     for (int i = 0; i < manifold.count; ++i) {
       const auto k = static_cast<std::size_t>(i);
       const ManifoldPoint& point = manifold.points[k];
@@ -160,12 +157,23 @@ void StepSolver::prepare_friction(SolverContact& contact, ContactPack& pack, dou
       sum += weights[k];
     }
   contact.anchor.setZero();
+  contact.lever = 0;
   for (int i = 0; i < manifold.count; ++i)
     contact.anchor += weights[static_cast<std::size_t>(i)] / sum * places[static_cast<std::size_t>(i)];
   for (int i = 0; i < manifold.count; ++i) {
     const Vec3 arm = places[static_cast<std::size_t>(i)] - contact.anchor;
-    points_[pack.first_point + static_cast<std::size_t>(i)].lever[lane] = (arm - n.dot(arm) * n).norm();
+    contact.lever +=
+        weights[static_cast<std::size_t>(i)] / sum * (arm - manifold.normal.dot(arm) * manifold.normal).norm();
   }
+}
+
+void StepSolver::prepare_friction(SolverContact& contact, ContactPack& pack, double h) {
+  const SolverBody &first = bodies_[static_cast<std::size_t>(contact.first)],
+                   &second = bodies_[static_cast<std::size_t>(contact.second)];
+  const Manifold& manifold = contact.pair->manifold;
+  const Vec3& n = manifold.normal;
+  const int lane = contact.lane;
+  place_friction(contact);
   const Vec3 aside = std::abs(n.z()) < 0.7 ? Vec3(0, 0, 1) : Vec3(1, 0, 0);
   std::array<Vec3, 2> along;
   along[0] = aside.cross(n).normalized();
@@ -192,6 +200,7 @@ void StepSolver::prepare_friction(SolverContact& contact, ContactPack& pack, dou
   set(pack.twist_second, lane, twist_second);
   pack.twist_mass[lane] = 1 / (twist_first.squaredNorm() + twist_second.squaredNorm());
   pack.twist[lane] = manifold.twist * h;
+  pack.lever[lane] = contact.lever;
 }
 
 void StepSolver::scale_bodies(double dt, const Vec3& gravity) {
@@ -303,7 +312,12 @@ void StepSolver::store_contact(SolverContact& contact, double dt) {
   }
   manifold.friction = slide / h_;
   manifold.twist = pack.twist[lane] / h_;
+  manifold.friction_force = slide_total / dt;
+  manifold.twist_force = pack.twist_total[lane] / dt;
   contact.impulse = total * manifold.normal + slide_total;
+  Vec3 carried = pack.carried[lane] * manifold.normal;
+  for (int i = 0; i < 2; ++i) carried += pack.slide_carried[i][lane] * get(pack.along[i], lane);
+  contact.late = dt * contact.impulse - h_ * carried;
   contact.moment = pack.twist_total[lane] * manifold.normal + (contact.anchor - contact.centre).cross(slide_total);
 }
 
@@ -319,6 +333,21 @@ void StepSolver::run(double dt, int substeps, const Vec3& gravity) {
   for (SolverContact& contact : contacts_) store_contact(contact, dt);
   for (HingeRows* hinge : hinges_) hinge->end_step(h_);
   unscale_bodies(dt, gravity);
+  keep_angular_momentum();
+}
+
+/// The arms of impulses are those of the step's beginning, and the two bodies have moved since: taken together their
+/// impulses P have turned them by too little or too much, by Q x (v2 - v1) with Q = sum of P times the time left, v the
+/// velocities in the end. Half of that is each body's: what acts acts in the middle between them.
+void StepSolver::keep_angular_momentum() {
+  for (SolverContact& contact : contacts_) {
+    if (contact.first == 0 || contact.second == 0 || contact.late.isZero(0)) continue;
+    SolverBody &first = bodies_[static_cast<std::size_t>(contact.first)],
+               &second = bodies_[static_cast<std::size_t>(contact.second)];
+    const Vec3 moment = contact.late.cross(second.velocity - first.velocity) / 2;
+    for (SolverBody* turned : {&first, &second})
+      turned->spin += turned->at.turn * turned->inverse_root_moments.cwiseProduct(turned->scaled_moment(moment));
+  }
 }
 
 }  // namespace topple::collision

@@ -32,10 +32,13 @@ struct SolverContact {
   Vec3 centre = Vec3::Zero();   ///< of the normal impulses
   Vec3 moment = Vec3::Zero();   ///< on the second about the centre, N m s: about the normal
   Vec3 anchor = Vec3::Zero();   ///< where friction acts
+  double lever = 0;             ///< m: mean distance of its points from there; a twist counts as a force there
+  Vec3 late = Vec3::Zero();     ///< N s2: the impulse times the step, less what of that moved the bodies
   double load = 0;              ///< m/s2: the largest force of a point over its effective mass
 };
 
 class Equilibrium;
+struct RestContact;
 
 class StepSolver {
  public:
@@ -72,9 +75,14 @@ class StepSolver {
   void sub_step(int number);
   void begin_sub_step(int number);
   void each_pack(ContactKernels::Pass pass, const SubStep& step);
-  void take_forces(const Equilibrium& equilibrium, double dt);
+  void add_to(Equilibrium& equilibrium, const SolverContact& contact) const;
+  void take_rest(const RestContact& found, SolverContact& contact, double dt) const;
+  /// Only what touches may bear.
+  [[nodiscard]] bool bears_at_rest(const ManifoldPoint& point) const { return point.separation <= settings_.touching; }
+  void place_friction(SolverContact& contact) const;
   void store_contact(SolverContact& contact, double dt);
   void unscale_bodies(double dt, const Vec3& gravity);
+  void keep_angular_momentum();
 
   const SolverSettings& settings_;
   double h_ = 0;
