@@ -14,6 +14,7 @@
 #include "motion_options.h"
 #include "progress.h"
 #include "topple/structure/analysis.h"
+#include "topple/structure/direct_analysis.h"
 #include "topple/structure/error.h"
 #include "topple/structure/files.h"
 #include "topple/structure/input_files.h"
@@ -34,7 +35,7 @@ struct Options {
   std::optional<double> drift_limit;
   std::string effective_lengths, warping, project, author;
   std::vector<std::string> stiffeners;
-  bool rigid_end_posts = false;
+  bool rigid_end_posts = false, direct_analysis = false;
   int stations = 0, threads = 0;
   std::string p_delta;
   int buckling = 0, modes = 0;
@@ -80,6 +81,14 @@ std::vector<CombinationId> chosen(const Building& building, const std::vector<st
   return ids;
 }
 
+/// Those that are named, else all.
+std::vector<CombinationId> combinations_of(const Building& building, const Options& options) {
+  std::vector<CombinationId> ids = chosen(building, options.combinations);
+  if (options.combinations.empty())
+    for (std::size_t i = 0; i < building.combinations.size(); ++i) ids.emplace_back(i);
+  return ids;
+}
+
 /// Members by name or pattern, and all members of groups.
 LossRequest losses(const Options& options, const Building& building) {
   LossRequest request;
@@ -110,6 +119,7 @@ DesignInput design_input(const Options& options, const Building& building) {
   DesignInput input;
   if (options.effective_lengths == "charts") input.lengths = EffectiveLengths::charts;
   if (options.effective_lengths == "assumed") input.lengths = EffectiveLengths::assumed;
+  if (options.direct_analysis) input.lengths = EffectiveLengths::unbraced;
   input.rigid_end_posts = options.rigid_end_posts;
   if (!options.warping.empty()) input.warping_held = {options.warping == "held", options.warping == "held"};
   for (const std::string& given : options.stiffeners) {
@@ -192,6 +202,12 @@ int run(const Options& options) {
                                     {options.rigid_end_posts, "--rigid-end-posts"}})
     if (asked && options.code.empty())
       throw InputError(std::string(name) + ": nothing is checked; accepted: with --code");
+  if (options.direct_analysis && !options.effective_lengths.empty())
+    throw InputError(
+        "--effective-lengths: those of a direct analysis are the unbraced ones; accepted: no "
+        "--direct-analysis");
+  if (options.direct_analysis && (options.code != "aisc360" || options.p_delta.empty()))
+    throw InputError("--direct-analysis: the method of AISC 360 chapter C; accepted: with --code aisc360 --p-delta");
   if (options.sudden && options.lose.empty() && options.lose_each.empty())
     throw InputError("--sudden: nothing is lost; accepted: with --lose or --lose-each");
   check_motion_options(options.motion, !options.lose.empty() || !options.lose_each.empty(), !options.output.empty());
@@ -202,11 +218,12 @@ int run(const Options& options) {
   tell_progress("reading", -1);
   Building read = read_model(file);
   for (std::string& warning : modelling_warnings(read)) read.warnings.push_back(std::move(warning));
-  const Building building = std::move(read);
+  const bool direct = options.direct_analysis;
+  const Building building = direct ? with_notional_loads(read, combinations_of(read, options)) : std::move(read);
   give_back_free_memory();
   clock.stop("read");
   AnalysisRequest request;
-  request.combinations = chosen(building, options.combinations);
+  if (!direct) request.combinations = chosen(building, options.combinations);
   request.stations = options.stations;
   request.workers = options.threads;
   request.solver.threads = options.threads > 0 ? options.threads : std::max(1, processors());
@@ -225,7 +242,7 @@ int run(const Options& options) {
   static AnalysisResult result;
   std::optional<UnstableAnalysis> failed;  // some combinations; the others are written all the same
   try {
-    result = analyse(building, wider);
+    result = analyse(direct ? with_reduced_stiffness(building) : building, wider);
   } catch (const UnstableAnalysis& unstable) {
     if (options.diagnose) write_diagnosis(options, building, request, unstable.diagnosis);
     if (!unstable.partial) throw;
@@ -311,6 +328,8 @@ std::function<int()> declare(CLI::App& app) {
                  "With --code: NAME=SPACING of transverse stiffeners, by member, pattern or group")
       ->expected(1)
       ->take_all();
+  app.add_flag("--direct-analysis", options->direct_analysis,
+               "With --code aisc360 --p-delta: notional loads, reduced stiffness and K = 1 (AISC 360 chapter C)");
   app.add_flag("--rigid-end-posts", options->rigid_end_posts, "With --code en1993: rigid end posts of webs");
   app.add_option("--warping", options->warping, "With --code: warping at members' ends, free or held (else the worst)")
       ->check(CLI::IsMember({"free", "held"}));

@@ -46,6 +46,7 @@ FoundLength flexural_length(const Building& building, const Bracing& bracing, Ef
   if (given.lengths[way]) return {*given.lengths[way], LengthSource::given};
   if (given.factors[way]) return {*given.factors[way] * member.length, LengthSource::given};
   const HeldLength held = bracing.held_length(id, direction);
+  if (method == EffectiveLengths::unbraced) return {held.length, LengthSource::own};
   if (held.free_end) return {sway_factor * held.length, LengthSource::cantilever};
   if (member.kind != MemberKind::post) return {held.length, LengthSource::own};
   if (method == EffectiveLengths::assumed) return {sway_factor * held.length, LengthSource::assumed_sway};

@@ -17,8 +17,9 @@ inline constexpr double usual_drift_limit = 1.0 / 300;
 /// How lengths for flexural buckling are found where a member does not give them.
 enum class EffectiveLengths {
   automatic,  ///< charts; with buckling modes in the result, from these for the members that take part in them
-  charts,   ///< alignment charts for posts, braced or free to sway as the model has it; others between what holds them
-  assumed,  ///< twice the length of posts, which may sway; others between what holds them
+  charts,    ///< alignment charts for posts, braced or free to sway as the model has it; others between what holds them
+  assumed,   ///< twice the length of posts, which may sway; others between what holds them
+  unbraced,  ///< K = 1 for all, between what holds them: for a direct analysis (direct_analysis.h)
 };
 
 /// What a model does not say of its members.
