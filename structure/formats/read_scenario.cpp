@@ -60,6 +60,11 @@ class ScenarioReader {
     take(root_, "seed", scenario_.seed,
          [](const JsonValue& v) { return static_cast<std::uint64_t>(v.whole(0, std::int64_t{1} << 53)); });
     take(root_, "ground", scenario_.ground, in(ranges::place));
+    take(root_, "standing", scenario_.standing, [](const JsonValue& v) {
+      const std::string_view rule = v.text("\"static\" or \"dynamic\"");
+      if (rule != "static" && rule != "dynamic") v.refuse("\"static\" or \"dynamic\"");
+      return rule == "dynamic" ? StandingRule::dynamics : StandingRule::statics;
+    });
     if (const auto failure = root_.find("failure")) read_failure(*failure);
     if (const auto impact = root_.find("impact")) read_impact(*impact);
     if (const auto debris = root_.find("debris")) read_debris(*debris);
@@ -325,8 +330,8 @@ void require_scenario(const JsonDocument& document) {
   if (!root.is_object()) root.refuse("an object");
   if (const auto budget = root.find("budget"))
     budget->fail("nothing limits what a step may compute any more: " + std::string(pace_is_the_hosts));
-  root.only({"topple", "title", "model", "combination", "step", "duration", "until_rest", "seed", "ground", "failure",
-             "impact", "debris", "fracture", "events"});
+  root.only({"topple", "title", "model", "combination", "step", "duration", "until_rest", "seed", "ground", "standing",
+             "failure", "impact", "debris", "fracture", "events"});
   const JsonValue version = root.require("topple");
   if (!version.is_number() || version.number() != 1) version.refuse("1, the version of the format");
 }

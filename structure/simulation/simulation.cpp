@@ -59,6 +59,13 @@ CombinationId combination_of(const Building& building, const Scenario& scenario)
   throw InputError(scenario.file + ": combination: missing; the model has several and needs one to be named");
 }
 
+/// What moves has no factor of a sudden loss.
+FailureRules rules_of(const Scenario& scenario) {
+  FailureRules rules = scenario.failure;
+  if (scenario.standing == StandingRule::dynamics) rules.sudden = 1;
+  return rules;
+}
+
 }  // namespace
 
 Simulation::State::State(Building the_building, Scenario the_scenario, SimulationOptions the_options)
@@ -66,7 +73,7 @@ Simulation::State::State(Building the_building, Scenario the_scenario, Simulatio
       scenario(std::move(the_scenario)),
       options(std::move(the_options)),
       gravity(0, 0, -building.gravity),
-      frame(std::make_unique<StandingFrame>(building, combination_of(building, scenario), scenario.failure,
+      frame(std::make_unique<StandingFrame>(building, combination_of(building, scenario), rules_of(scenario),
                                             options.threads)),
       world(options.make_world ? options.make_world() : collision::make_bullet_world()),
       masses(building, combination_of(building, scenario), *frame),
@@ -78,6 +85,14 @@ Simulation::State::State(Building the_building, Scenario the_scenario, Simulatio
       debris_broken(building.joints.size(), 0),
       stiffness_factors(building.members.size(), 1.0) {
   find_breakable_panels();
+  if (sways()) {
+    std::optional<std::string> reason = why_it_stays_at_rest(building, scenario.failure);
+    if (any_breakable) reason = "panels that break do not move";
+    if (reason)
+      throw InputError((scenario.file.empty() ? "scenario" : scenario.file) +
+                       ": standing: \"dynamic\" is not possible: " + *reason + "; accepted: \"static\"");
+    frame->let_move(scenario.step);
+  }
   open_panels();
   world->set_gravity(gravity);
   world->set_ground(ground_height(building, scenario), scenario.debris.friction, scenario.debris.restitution);

@@ -85,6 +85,7 @@ struct Simulation::State {
   void go_on(JointPush& pushed, const Eigen::VectorXd& shift);
   void send_on(JointPush& pushed);
   void break_generations();
+  [[nodiscard]] bool sways() const { return scenario.standing == StandingRule::dynamics; }
 
   /// Momentum that an impact gave to what it broke off, handed over when that part becomes a body.
   struct Knock {
@@ -107,6 +108,8 @@ struct Simulation::State {
   [[nodiscard]] ImpactSide side_again(const ImpactSide& side, collision::BodyId id) const;
   void set_side(const ImpactSide& side);
   void find_flexibility(ImpactSide& side, const std::vector<ImpactPlace>& places, double sign);
+  void find_held(ImpactSide& side, const std::vector<ImpactPlace>& places);
+  void leave_with_restitution(BodyImpact& impact);
   [[nodiscard]] bool take_up(BodyImpact& impact);
   [[nodiscard]] Impact begin_push(const BodyImpact& impact) const;
   [[nodiscard]] std::vector<StruckJoint> struck_joints(const BodyImpact& impact) const;
@@ -125,7 +128,7 @@ struct Simulation::State {
   [[nodiscard]] Body describe(const Detached& part) const;
   collision::BodyId add_body(Body body, const Vec3& velocity, const Vec3& spin, const Vec3& displacement);
   void knock(const Body& body, Vec3& velocity, Vec3& spin);
-  void check_momentum(const Body& body);
+  void check_momentum(const Body& body, const std::optional<Detached::Motion>& motion);
   [[nodiscard]] static bool was_struck(const Knock& given, const Body& one);
   [[nodiscard]] std::vector<collision::BodyId> breakers_of(const Body& one) const;
   collision::BodyId add_body(Body body, const collision::BodyState& state);
@@ -347,6 +350,7 @@ struct Simulation::State {
   std::size_t events_heard = 0;
   Ledger ledger;
   double body_gravity_work = 0, body_work_put_in = 0;
+  double kinetic_released = 0;  ///< J that parts of what stands took along as they left
   SimulationCounters counters;
   collision::OverlapWatch overlap_watch;
   BodyOverlaps overlaps;

@@ -80,6 +80,7 @@ class EnergyAccount {
   void lines_are_out();
 
   [[nodiscard]] FrameEnergy energy() const;
+  [[nodiscard]] double freed() const { return freed_; }  ///< as in energy()
 
  private:
   struct Opening {

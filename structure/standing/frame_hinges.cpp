@@ -27,7 +27,7 @@ void FrameStatics::write_loads(MemberId member) {
   const Place& place = member_place_[index(member)];
   std::vector<solver::BeamLoad> loads = with_hinges(member, member_loads_[index(member)]);
   for (solver::BeamLoad& load : loads) load.beam = place.local;
-  changing(place).set_beam_loads(place.local, std::move(loads));
+  change(place, [&](auto& frame) { frame.set_beam_loads(place.local, loads); });
   if (!hinges_.contains(member)) return;
   for (const int node : beam(member).node) write_load(parts(place.component).nodes[static_cast<std::size_t>(node)]);
 }
@@ -43,7 +43,7 @@ void FrameStatics::write_load(NodeId node) {
       if (own.node[end] == place.local)
         load.tail<3>() -= own.axes.transpose() * hinges.held.segment<3>(static_cast<Eigen::Index>(6 * end + 3));
   }
-  changing(place).set_node_load(place.local, load);
+  change(place, [&](auto& frame) { frame.set_node_load(place.local, load); });
 }
 
 void FrameStatics::set_hinge(MemberId member, int end, int axis, double stiffness, double held, double slip) {
@@ -55,7 +55,7 @@ void FrameStatics::set_hinge(MemberId member, int end, int axis, double stiffnes
   own(axis) = stiffness;
   hinges.held(6 * end + axis) = held;
   hinges.slip(6 * end + axis) = slip;
-  changing(place).set_end_stiffness(place.local, end, own);
+  change(place, [&](auto& frame) { frame.set_end_stiffness(place.local, end, own); });
   write_loads(member);
 }
 

@@ -122,17 +122,11 @@ std::vector<solver::FrameModel> FrameStatics::split(const Building& building, co
   return models;
 }
 
-solver::Reanalysis& FrameStatics::changing(const Place& place) {
-  Component& component = components_[static_cast<std::size_t>(place.component)];
-  component.changed = true;
-  return *component.analysis;
-}
-
 const solver::Reanalysis& FrameStatics::at(const Place& place) const { return *parts(place.component).analysis; }
 
 void FrameStatics::break_joint(MemberId member, int end) {
   const Place& place = member_place_[index(member)];
-  changing(place).set_end_stiffness(place.local, end, Vec6::Zero());
+  change(place, [&](auto& frame) { frame.set_end_stiffness(place.local, end, Vec6::Zero()); });
   const auto found = hinges_.find(member);
   if (found == hinges_.end()) return;
   found->second.held.segment<6>(6 * end).setZero();
@@ -143,7 +137,7 @@ void FrameStatics::break_joint(MemberId member, int end) {
 
 void FrameStatics::remove(MemberId member) {
   const Place& place = member_place_[index(member)];
-  changing(place).remove_beam(place.local);
+  change(place, [&](auto& frame) { frame.remove_beam(place.local); });
   if (hinges_.erase(member) == 0) return;
   const solver::Beam& beam = at(place).model().beams[static_cast<std::size_t>(place.local)];
   for (const int local : beam.node) write_load(parts(place.component).nodes[static_cast<std::size_t>(local)]);
@@ -153,9 +147,9 @@ void FrameStatics::remove_membrane(PanelId panel) {
   const Place& place = membrane_place_[index(panel)];
   stiff_[index(panel)] = 0;
   if (place.component < 0) return;
-  if (patch_[index(panel)] == 0) return changing(place).remove_shell(place.local);
+  if (patch_[index(panel)] == 0) return change(place, [&](auto& frame) { frame.remove_shell(place.local); });
   const Eigen::Index size = at(place).patch_stiffness(place.local).rows();
-  changing(place).set_patch_stiffness(place.local, Eigen::MatrixXd::Zero(size, size));
+  change(place, [&](auto& frame) { frame.set_patch_stiffness(place.local, Eigen::MatrixXd::Zero(size, size)); });
 }
 
 Mat24 FrameStatics::membrane_stiffness(PanelId panel) const {
@@ -166,9 +160,9 @@ Mat24 FrameStatics::membrane_stiffness(PanelId panel) const {
 void FrameStatics::set_stiffness(PanelId panel, const Eigen::MatrixXd& stiffness) {
   const Place& place = membrane_place_[index(panel)];
   if (patch_[index(panel)] != 0)
-    changing(place).set_patch_stiffness(place.local, stiffness);
+    change(place, [&](auto& frame) { frame.set_patch_stiffness(place.local, stiffness); });
   else
-    changing(place).set_shell_stiffness(place.local, stiffness);
+    change(place, [&](auto& frame) { frame.set_shell_stiffness(place.local, stiffness); });
 }
 
 const Eigen::MatrixXd& FrameStatics::shell_stiffness(PanelId shell) const {
@@ -176,21 +170,24 @@ const Eigen::MatrixXd& FrameStatics::shell_stiffness(PanelId shell) const {
   return at(place).patch_stiffness(place.local);
 }
 
+void FrameStatics::lose_support(std::size_t support) {
+  const Place& place = support_place_[support];
+  change(place, [&](auto& frame) { frame.set_support_stiffness(place.local, Vec6::Zero()); });
+}
+
 void FrameStatics::remove_support(NodeId node) {
   for (std::size_t s = 0; s < support_node_.size(); ++s)
-    if (support_node_[s] == node)
-      changing(support_place_[s]).set_support_stiffness(support_place_[s].local, Vec6::Zero());
+    if (support_node_[s] == node) lose_support(s);
 }
 
 void FrameStatics::remove_support(NodeId node, std::size_t edge_support) {
   for (std::size_t s = 0; s < support_node_.size(); ++s)
-    if (support_node_[s] == node && support_edge_[s] == static_cast<int>(edge_support))
-      changing(support_place_[s]).set_support_stiffness(support_place_[s].local, Vec6::Zero());
+    if (support_node_[s] == node && support_edge_[s] == static_cast<int>(edge_support)) lose_support(s);
 }
 
 void FrameStatics::set_stiffness(MemberId member, double factor) {
   const Place& place = member_place_[index(member)];
-  changing(place).set_beam_stiffness_factor(place.local, factor);
+  change(place, [&](auto& frame) { frame.set_beam_stiffness_factor(place.local, factor); });
   member_stiffness_[index(member)] = factor;
 }
 
@@ -198,7 +195,7 @@ void FrameStatics::drop(const std::vector<NodeId>& nodes) {
   for (NodeId node : nodes) {
     const Place& place = node_place_[index(node)];
     const int local[] = {place.local};
-    changing(place).drop_nodes(local);
+    change(place, [&](auto& frame) { frame.drop_nodes(local); });
   }
 }
 

@@ -2,6 +2,7 @@
 // The solver behind a standing frame, in the building's own ids. Each connected component that the undamaged building
 // has (by members, panels and diaphragms) is one solver::Reanalysis, so that a street of houses costs what was
 // touched.
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "standing/panel_superelements.h"
+#include "topple/solver/frame_dynamics.h"
 #include "topple/solver/reanalysis.h"
 #include "topple/structure/frame.h"
 
@@ -62,6 +64,24 @@ class FrameStatics {
   void hold_again(MemberId member, int end, int axis, double stiffness, double slip);
   /// By how much the hubs have turned against the member's ends at hinges that hold; local axes.
   [[nodiscard]] solver::Vec12 slips(MemberId member) const;
+
+  /// A frame of the same arrays that moves takes every change of the component as well from now on; null: none does.
+  void follow(int component, solver::FrameDynamics* moving) {
+    components_[static_cast<std::size_t>(component)].moving = moving;
+  }
+  /// Called before a component that was solved changes.
+  void before_changes(std::function<void(int component)> told) { before_change_ = std::move(told); }
+  /// As solved last, with nodes, beams, shells and supports numbered within the component.
+  [[nodiscard]] const solver::FrameModel& model(int component) const { return parts(component).analysis->model(); }
+  /// Index in model(component()).
+  [[nodiscard]] int number(NodeId node) const { return node_place_[index(node)].local; }
+  [[nodiscard]] int number(MemberId member) const { return member_place_[index(member)].local; }
+  [[nodiscard]] int number(PanelId panel) const { return membrane_place_[index(panel)].local; }
+  /// What the solver has on a member, hinges included.
+  [[nodiscard]] std::vector<solver::BeamLoad> loads(MemberId member) const {
+    return with_hinges(member, member_loads_[index(member)]);
+  }
+  [[nodiscard]] const Vec6& load(NodeId node) const { return node_loads_[index(node)]; }
 
   [[nodiscard]] int components() const { return static_cast<int>(components_.size()); }
   [[nodiscard]] int component(NodeId node) const { return node_place_[index(node)].component; }
@@ -180,6 +200,7 @@ class FrameStatics {
     bool changed = true, gone = false, diverged = false;
     bool unwatched = false;        ///< the watch has not read all of the answer
     mutable bool partial = false;  ///< end_forces_ of some members are behind
+    solver::FrameDynamics* moving = nullptr;
   };
   template <class Tag>
   static std::size_t index(Id<Tag> id) {
@@ -195,9 +216,12 @@ class FrameStatics {
   [[nodiscard]] solver::LoadSet local(const ResponseLoads& loads) const;
   [[nodiscard]] std::vector<Response> told(int component, std::vector<solver::Reanalysis::Response> answers,
                                            const std::vector<char>& known) const;
-  solver::Reanalysis& changing(const Place& place);
+  /// Does it to the analysis of the component, and to what follows it.
+  template <class Change>
+  void change(const Place& place, const Change& change);
   void read_end_forces(int component);
   bool displace(int component);
+  void lose_support(std::size_t support);
   void write_loads(MemberId member);
   void write_load(NodeId node);
   [[nodiscard]] std::vector<solver::BeamLoad> with_hinges(MemberId member, std::vector<solver::BeamLoad> loads) const;
@@ -222,6 +246,16 @@ class FrameStatics {
   std::vector<Vec6> node_loads_;                             ///< as given
   std::vector<Vec6> geometric_;                              ///< second order: added to them, per node
   bool second_order_ = false;
+  std::function<void(int)> before_change_;
 };
+
+template <class Change>
+void FrameStatics::change(const Place& place, const Change& change) {
+  Component& component = components_[static_cast<std::size_t>(place.component)];
+  if (!component.changed && before_change_) before_change_(place.component);
+  component.changed = true;
+  change(*component.analysis);
+  if (component.moving != nullptr) change(*component.moving);
+}
 
 }  // namespace topple::structure

@@ -30,6 +30,7 @@ void StandingFrame::State::apply(const Change& change) {
                           account.turn_gravity();
                           loads.set_gravity(one.gravity);
                           account.gravity_turned(one.gravity);
+                          gravity = one.gravity;
                         }},
              change);
 }
@@ -131,6 +132,7 @@ void StandingFrame::State::take(const PanelBearings::Changes& changes, std::vect
     settle_edges(panel);
     contacts.drop(panel);
     detached.emplace_back().panels.push_back(panel);
+    if (motion) detached.back().motion = motion_of(detached.back());
   }
   for (const auto& [panel, part] : changes.carried_off) {
     hand_on_anew(panel);

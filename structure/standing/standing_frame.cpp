@@ -27,9 +27,11 @@ PartLoads loads_to_stand(const Building& building, CombinationId combination) {
 
 }  // namespace
 
-StandingFrame::State::State(const Building& given, CombinationId combination, const FailureRules& failure, int threads)
+StandingFrame::State::State(const Building& given, CombinationId combination, const FailureRules& failure,
+                            int given_threads)
     : building(given),
       rules(failure),
+      threads(given_threads),
       parts(given),
       shells(given),
       loads(given, loads_to_stand(given, combination), parts.bearings, shells),
@@ -114,7 +116,11 @@ bool StandingFrame::stands(MemberId member) const { return state_->stands(member
 bool StandingFrame::stands(PanelId panel) const { return state_->stands(panel); }
 bool StandingFrame::stands(NodeId node) const { return state_->stands(node); }
 bool StandingFrame::intact(JointId joint) const { return state_->parts.holds(joint); }
-const Vec6& StandingFrame::displacement(NodeId node) const { return state_->account.displacement(node); }
+const Vec6& StandingFrame::displacement(NodeId node) const {
+  const State& state = *state_;
+  const bool moves = state.moves(state.statics.component(node)) && state.node_solved[index_of(node)] != 0;
+  return moves ? state.motion->displacement(node) : state.account.displacement(node);
+}
 Vec6 StandingFrame::demand(JointId joint) const {
   state_->know_demands();
   return state_->demand(joint);
@@ -125,7 +131,6 @@ double StandingFrame::largest_utilisation_so_far(JointId joint) const {
 }
 std::optional<PanelStress> StandingFrame::stress(PanelId panel) const { return state_->stress(panel); }
 double StandingFrame::elastic_energy() const { return energy().elastic; }
-FrameEnergy StandingFrame::energy() const { return state_->account.energy(); }
 double StandingFrame::mass(MemberId member) const { return state_->loads.mass(member); }
 double StandingFrame::mass(PanelId panel) const { return state_->loads.mass(panel); }
 double StandingFrame::node_mass(NodeId node) const { return state_->loads.mass(node); }
@@ -139,6 +144,7 @@ Utilisation StandingFrame::utilisation(JointId joint) const {
 
 Eigen::Matrix<double, 12, 1> StandingFrame::end_forces(MemberId member) const {
   if (!state_->stands(member)) return Eigen::Matrix<double, 12, 1>::Zero();
+  if (state_->moves(state_->statics.component(member))) return state_->motion->end_forces(member);
   return state_->statics.end_forces(member);
 }
 
@@ -232,6 +238,7 @@ bool StandingFrame::pending() const { return state_->pending; }
 
 std::vector<JointBreak> StandingFrame::settle(int generations) {
   State& state = *state_;
+  if (state.motion) throw std::logic_error("what moves does not settle: move()");
   if (!state.pending) {
     ++state.idle_settles;
     return {};

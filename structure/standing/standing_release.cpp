@@ -58,6 +58,7 @@ void StandingFrame::State::take_unanchored() {
   take(parts.bearings.leave(left), &leaving);
   for (Detached& part : leaving) {
     std::sort(part.panels.begin(), part.panels.end());
+    if (motion) part.motion = motion_of(part);
     detached.push_back(std::move(part));
   }
 }

@@ -50,6 +50,7 @@ void StandingFrame::State::bring_up_to_date() {
 
 void StandingFrame::State::write_loads() {
   const FrameLoads::Changed changed = loads.take_changed();
+  if (motion && !changed.none()) motion->update_masses();
   for (MemberId member : changed.members) {
     if (!stands(member)) continue;
     account.write(member);

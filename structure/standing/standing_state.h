@@ -15,6 +15,7 @@
 #include "standing/energy_account.h"
 #include "standing/frame_response.h"
 #include "standing/panel_superelements.h"
+#include "standing/standing_motion.h"
 #include "standing/standing_parts.h"
 #include "standing/yielding_way.h"
 #include "topple/structure/standing_frame.h"
@@ -104,6 +105,20 @@ struct StandingFrame::State {
   void read_demands(int component, bool slow);
   void read_panel_demands(int component, bool slow);
 
+  // Motion (standing_sway.cpp).
+  void move();
+  void begin_motion();
+  void sway(int component);
+  void break_in_motion(JointId joint, const Vec6& demand, double freed);
+  void break_edges_over(int component);
+  void follow_breaks();
+  void leave_small_displacements(int component);
+  void read_motion(int component);
+  void look_for_rest(int component);
+  [[nodiscard]] Detached::Motion motion_of(const Detached& part);
+  [[nodiscard]] std::map<int, std::vector<Eigen::Index>> places_by_component(const HeldResponse& pushed) const;
+  [[nodiscard]] bool moves(int component) const { return motion && motion->moves(component); }
+
   // Check.
   [[nodiscard]] std::vector<JointId> next_generation();
   void come_to_rest(int component);
@@ -113,6 +128,7 @@ struct StandingFrame::State {
 
   const Building& building;
   FailureRules rules;
+  int threads;
   StandingParts parts;
   PanelSuperelements shells;
   FrameLoads loads;
@@ -147,6 +163,10 @@ struct StandingFrame::State {
   std::vector<JointBreak> breaks;  ///< of the settle() or impact that runs
   int generation = 0;
   int restricted_from = default_restricted_from;  ///< nodes of a component
+  std::unique_ptr<StandingMotion> motion;         ///< where what stands moves
+  int substeps = 1;                               ///< of a move()
+  Vec3 gravity = Vec3::Zero();                    ///< now, of what moves
+  double rested_freed = 0;  ///< J that the account of rest says were freed where motion had its own
   std::uint64_t idle_settles = 0;
   mutable FrameCounters counters;
 };

@@ -144,7 +144,11 @@ void Simulation::State::tell_rest_and_end() {
 void Simulation::State::account_now() {
   const FrameEnergy energy = frame->energy();
   ledger.elastic = energy.elastic;
-  ledger.freed_by_breaks = energy.freed;
+  // What left took its motion along: that energy is the bodies' now.
+  ledger.freed_by_breaks = energy.freed - kinetic_released;
+  ledger.kinetic_standing = energy.kinetic;
+  ledger.damped = energy.damped;
+  ledger.lost_in_integration = energy.numerical;
   ledger.dissipated_in_joints = energy.dissipated;
   // The loads were laid on slowly before time began, and what lies on the frame goes down with it.
   ledger.gravity_work = energy.elastic_at_start + energy.gravity_work + energy.contact_work + body_gravity_work;

@@ -64,6 +64,9 @@ Json ledger_json(const Ledger& ledger) {
                  {"lost_in_impacts", ledger.lost_in_impacts},
                  {"lost_in_contacts", ledger.lost_in_contacts},
                  {"removed", ledger.removed},
+                 {"kinetic_standing", ledger.kinetic_standing},
+                 {"damped", ledger.damped},
+                 {"lost_in_integration", ledger.lost_in_integration},
                  {"residual", ledger.residual()}};
   return {{"energy", std::move(energy)}, {"momentum_error", ledger.momentum_error}};
 }

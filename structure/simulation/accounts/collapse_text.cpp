@@ -73,7 +73,11 @@ std::string collapse_text(const Simulation& simulation, const StepTimes& times) 
          ledger.gravity_work, ledger.work_put_in, ledger.freed_by_breaks, ledger.lost_in_impacts,
          ledger.lost_in_contacts);
   append(text, "          moving %.4g J, elastic %.4g J, residual %.3g %%\n",
-         ledger.kinetic_translation + ledger.kinetic_rotation, ledger.elastic, 100 * ledger.residual());
+         ledger.kinetic_translation + ledger.kinetic_rotation + ledger.kinetic_standing, ledger.elastic,
+         100 * ledger.residual());
+  if (simulation.scenario().standing == StandingRule::dynamics)
+    append(text, "          damped in what stands %.4g J, lost in integration %.4g J\n", ledger.damped,
+           ledger.lost_in_integration);
   add_overlaps(text, simulation.overlaps());
   return text;
 }

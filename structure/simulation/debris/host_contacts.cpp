@@ -65,7 +65,7 @@ void Simulation::State::strike_by_host(const HostContact& contact, Part part, Ho
   };
   const Body& striking = bodies.at(id.value);
   const Kinetic before = kinetic_energy(striking, world->state(id), reading());
-  strike_all({touch});
+  sways() ? strike_bodies({touch}) : strike_all({touch});
   const collision::BodyState after = now();
   const Kinetic left = kinetic_energy(striking, world->state(id), reading());
   body_work_put_in += before.translation + before.rotation - left.translation - left.rotation;

@@ -15,6 +15,10 @@ struct Momentum {
     add_linear(impulse);
     add_moment(at - about, impulse);
   }
+  void add_turn(const Vec3& angular_momentum) {
+    angular += angular_momentum;
+    angular_size += angular_momentum.norm();
+  }
   /// Velocities of `state` as they stand.
   void add(const Body& body, const collision::BodyState& state) {
     const Vec3 own = body.rest.mass * state.velocity;

@@ -114,6 +114,13 @@ void Simulation::State::release(const Detached& part) {
   for (const NodeId node : part.nodes) displacement += frame->displacement(node).head<3>();
   if (!part.nodes.empty()) displacement /= static_cast<double>(part.nodes.size());
   if (displacement.norm() > largest_start) displacement *= largest_start / displacement.norm();
+  Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();
+  if (part.motion) {
+    displacement = part.motion->displacement;
+    velocity = part.motion->momentum / one.rest.mass;
+    spin = one.rest.inertia.inverse() * (part.motion->angular - one.rest.centre.cross(part.motion->momentum));
+    kinetic_released += (part.motion->momentum.dot(velocity) + spin.dot(one.rest.inertia * spin)) / 2;
+  }
   std::vector<Part> gone(part.members.begin(), part.members.end());
   for (const PanelId panel : part.panels) gone.emplace_back(panel);
   parts_are_gone(gone);
@@ -130,10 +137,10 @@ void Simulation::State::release(const Detached& part) {
     for (const MemberId member : part.members) body_of_part[static_cast<std::size_t>(member.index)] = nowhere;
     for (const PanelId panel : part.panels)
       body_of_part[static_cast<std::size_t>(part_number(building, Part(panel)))] = nowhere;
+    ledger.removed += (one.rest.mass * velocity.squaredNorm() + spin.dot(one.rest.inertia * spin)) / 2;
     leave_weight(one.rest);
     return;
   }
-  Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();
   const bool breaks = breakable_of(one).valid() &&
                       std::any_of(knocks.begin(), knocks.end(), [&](const Knock& k) { return was_struck(k, one); });
   if (breaks) {
@@ -143,7 +150,7 @@ void Simulation::State::release(const Detached& part) {
   knock(one, velocity, spin);
   const std::vector<collision::BodyId> passing = breakers_of(one);
   const collision::BodyId id = add_body(std::move(one), velocity, spin, displacement);
-  check_momentum(bodies.at(id.value));
+  check_momentum(bodies.at(id.value), part.motion);
   hang_on(part.hinges, id);
   collision::Touched broken;
   broken.kind = collision::Touched::Kind::body;
@@ -183,12 +190,16 @@ void Simulation::State::knock(const Body& one, Vec3& velocity, Vec3& spin) {
   }
 }
 
-/// A part that detaches was at rest: all the momentum that the world's body has must be what knocks gave it.
-void Simulation::State::check_momentum(const Body& one) {
+/// All the momentum that the world's body has must be what it left with, and what knocks gave it.
+void Simulation::State::check_momentum(const Body& one, const std::optional<Detached::Motion>& motion) {
   collision::BodyState state = world->state(one.id);
   state.velocity = reading().true_velocity(state.velocity);
   Momentum measured{state.pose.position}, given{state.pose.position};
   measured.add(one, state);
+  if (motion) {
+    given.add_impulse(motion->momentum, state.pose.position);
+    given.add_turn(motion->angular - one.rest.centre.cross(motion->momentum));
+  }
   const Mat3 inverse = one.rest.inertia.inverse();
   for (const Knock& blow : knocks)
     if (was_struck(blow, one)) {

@@ -41,6 +41,7 @@ void Simulation::State::load() {
 }
 
 void Simulation::State::strike_all(const std::vector<collision::Contact>& contacts) {
+  if (sways()) return;  // strike_bodies.cpp: what moves is struck as bodies are
   std::vector<collision::Contact> impacts;
   for (const collision::Contact& contact : contacts) {
     if (contact.other.kind != collision::Touched::Kind::obstacle) continue;
@@ -255,6 +256,10 @@ void Simulation::State::check_momentum(const Strike& hit, std::span<const PointI
 /// Until nothing is over capacity and no panel cracks.
 void Simulation::State::break_generations() {
   if (!frame->pending() && step > 1) return;
+  if (sways()) {
+    for (const JointBreak& broken : frame->move()) tell(broken);
+    return;
+  }
   do {
     const std::vector<JointBreak> breaks = frame->settle();
     for (const JointBreak& line : frame->take_yielded()) {

@@ -51,7 +51,10 @@ struct Simulation::State::ImpactSide {
   bool slept = false;
   std::vector<std::int64_t> tags;  ///< of the part that each place is on; -1: none of the building's
   FreeSegment::Flexibility flexibility;
-  std::vector<std::pair<JointId, Vec6>> borne;  ///< by its joints from its spin alone
+  std::vector<std::pair<JointId, Vec6>> borne;  ///< by its joints without the impact
+  /// Of what stands and moves.
+  bool held = false;
+  StandingFrame::HeldResponse response;
 };
 
 /// An impact under way. Side 0 is the body of the contact, side 1 what it comes upon.
@@ -61,9 +64,13 @@ struct Simulation::State::BodyImpact {
   Eigen::MatrixXd compliance;
 
   [[nodiscard]] Eigen::MatrixXd mobility_of_both() const {
-    return mobility(sides[0].motion, places) + mobility(sides[1].motion, places);
+    return mobility(sides[0].motion, places) +
+           (sides[1].held ? sides[1].response.mobility : mobility(sides[1].motion, places));
   }
-  [[nodiscard]] Eigen::VectorXd closing() const { return closing_speeds(sides[0].motion, sides[1].motion, places); }
+  [[nodiscard]] Eigen::VectorXd closing() const {
+    const Eigen::VectorXd speeds = closing_speeds(sides[0].motion, sides[1].motion, places);
+    return sides[1].held ? Eigen::VectorXd(speeds - sides[1].response.speed) : speeds;
+  }
   void keep(const std::vector<int>& kept);
   void give(const Eigen::VectorXd& impulses);
 };
@@ -78,6 +85,13 @@ void Simulation::State::BodyImpact::keep(const std::vector<int>& kept) {
     side.tags = std::move(tags);
     for (auto& [joint, columns] : side.flexibility.demands)
       columns = Eigen::Matrix<double, 6, Eigen::Dynamic>(columns(Eigen::all, kept));
+    if (!side.held) continue;
+    StandingFrame::HeldResponse& own = side.response;
+    own.mobility = Eigen::MatrixXd(own.mobility(kept, kept));
+    own.speed = Eigen::VectorXd(own.speed(kept));
+    std::vector<std::vector<std::pair<NodeId, Vec6>>> at_nodes;
+    for (const int k : kept) at_nodes.push_back(own.at_nodes[static_cast<std::size_t>(k)]);
+    own.at_nodes = std::move(at_nodes);
   }
   compliance = Eigen::MatrixXd(compliance(kept, kept));
 }
@@ -111,12 +125,13 @@ void Simulation::State::strike_bodies(const std::vector<collision::Contact>& con
     const collision::Contact& first = contacts[i];
     if (done[i] != 0 || first.approach_speed < impact_settings.least_speed) continue;
     const bool two = first.other.kind == collision::Touched::Kind::body;
-    if (!may_break(first.body) && !(two && may_break(first.other.body))) continue;
+    const bool on_moving = sways() && first.other.kind == collision::Touched::Kind::obstacle;
+    if (!on_moving && !may_break(first.body) && !(two && may_break(first.other.body))) continue;
     std::vector<const collision::Contact*> together;
     for (std::size_t k = i; k < contacts.size(); ++k) {
       const collision::Contact& next = contacts[k];
       if (next.body != first.body || next.other.kind != first.other.kind || next.other.body != first.other.body ||
-          next.other.obstacle != first.other.obstacle)
+          (!on_moving && next.other.obstacle != first.other.obstacle))
         continue;
       if (k > i && (next.time - first.time) * next.approach_speed > impact_settings.touching) continue;
       together.push_back(&next);
@@ -172,6 +187,7 @@ void Simulation::State::find_flexibility(ImpactSide& side, const std::vector<Imp
   side.flexibility = {};
   side.flexibility.compliance = Eigen::MatrixXd::Zero(n, n);
   side.borne.clear();
+  if (side.held) return find_held(side, places);
   if (side.standing.valid()) {
     // It holds, as strike.cpp found; each place gives way by itself.
     for (Eigen::Index i = 0; i < n; ++i) {
@@ -195,6 +211,21 @@ void Simulation::State::find_flexibility(ImpactSide& side, const std::vector<Imp
   if (segment.can_break()) side.borne = segment.bear({}, back * side.motion.spin, Vec3::Zero()).demands;
 }
 
+/// What stands gives way by the struck parts alone, with its nodes' mass.
+void Simulation::State::find_held(ImpactSide& side, const std::vector<ImpactPlace>& places) {
+  std::vector<ContactPlace> at;
+  std::vector<Vec3> along;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Part part = part_of_number(building, side.tags[i]);
+    at.push_back({part.member, part.panel, places[i].point});
+    along.push_back(places[i].normal);
+  }
+  side.response = frame->respond_held(at, along);
+  side.flexibility.compliance = side.response.compliance;
+  side.flexibility.demands = side.response.demands;
+  for (const auto& [joint, columns] : side.response.demands) side.borne.emplace_back(joint, frame->demand(joint));
+}
+
 std::vector<StruckJoint> Simulation::State::struck_joints(const BodyImpact& impact) const {
   std::vector<StruckJoint> joints;
   for (const ImpactSide& side : impact.sides)
@@ -215,19 +246,23 @@ void Simulation::State::strike_bodies_at(const std::vector<const collision::Cont
   impact.sides[1] = two ? side_at(first.other.body, time_since_state(first.other.body, first.time)) : ImpactSide();
   if (first.other.kind == collision::Touched::Kind::obstacle) {
     impact.sides[1].standing = obstacles.part_of(first.other.obstacle);
-    if (!impact.sides[1].standing.valid() || !stands(impact.sides[1].standing)) return;  // it broke there
+    impact.sides[1].held = sways();
+    if (!sways() && (!impact.sides[1].standing.valid() || !stands(impact.sides[1].standing))) return;  // it broke there
   }
   for (const collision::Contact* contact : contacts) {
+    const Part struck_part = impact.sides[1].held ? obstacles.part_of(contact->other.obstacle) : Part();
+    if (impact.sides[1].held && (!struck_part.valid() || !stands(struck_part))) continue;
     // An area is met at its corners.
     for (int corner = 0; corner < std::max(1, contact->corner_count); ++corner) {
       const Vec3 point =
           contact->corner_count > 0 ? contact->corners[static_cast<std::size_t>(corner)] : contact->point;
       impact.places.push_back({point, contact->normal});
       impact.sides[0].tags.push_back(contact->part_tag);
-      impact.sides[1].tags.push_back(two ? contact->other.part_tag : -1);
+      const std::int64_t tag = struck_part.valid() ? part_number(building, struck_part) : -1;
+      impact.sides[1].tags.push_back(two ? contact->other.part_tag : tag);
     }
   }
-  push_bodies(impact);
+  if (!impact.places.empty()) push_bodies(impact);
 }
 
 /// What has struck something standing in this step has a state from there on (strike.cpp).
@@ -245,7 +280,9 @@ bool Simulation::State::take_up(BodyImpact& impact) {
 }
 
 void Simulation::State::push_bodies(BodyImpact& impact) {
-  if (!(impact.closing().maxCoeff() >= impact_settings.least_speed) || !take_up(impact)) return;
+  const Eigen::VectorXd own = closing_speeds(impact.sides[0].motion, impact.sides[1].motion, impact.places);
+  if (!(own.maxCoeff() >= impact_settings.least_speed) || !take_up(impact)) return;
+  if (!(impact.closing().maxCoeff() >= impact_settings.least_speed)) return;  // what stands makes way
   impact.keep(independent_places(impact.compliance));
   std::optional<Impact> push = begin_push(impact);
   if (push->fastest_over_slowest() > impact_settings.most_unlike) {
@@ -253,22 +290,52 @@ void Simulation::State::push_bodies(BodyImpact& impact) {
     push = begin_push(impact);
   }
   const double speed_in = push->closing_speed()(0);
-  std::optional<std::size_t> told;  // which event tells of it, once something broke
+  std::optional<std::size_t> told;  // which event tells of it: on what moves always, else once something broke
+  if (impact.sides[1].held) told = tell_body_impact(impact, speed_in);
+  bool goes_on = true;
   for (;;) {
     Impact borne = *push;
     (void)borne.push();
     const StruckJoints joints(struck_joints(impact), borne.peak_force());
     const auto used = [&](const Eigen::VectorXd& force) { return joints.utilisation(force); };
+    if (told)
+      events[*told].peak_force = std::max(events[*told].peak_force, joints.empty() ? borne.peak_force().maxCoeff() : 0);
     if (joints.empty() || push->push(used) != Impact::Stop::failed) break;
     if (!told) told = tell_body_impact(impact, speed_in);
     const std::vector<JointBreak> broken = joints.failing(push->force());
     give_impulses(impact, push->take_impulse());
-    const bool goes_on = break_bodies(impact, *push, broken);
+    goes_on = break_bodies(impact, *push, broken);
     SimulationEvent& event = events[*told];
     event.peak_force = std::max(event.peak_force, push->peak_force().maxCoeff());
     event.speed_out = push->closing_speed()(0);
     if (!goes_on) break;
   }
+  if (!impact.sides[1].held || !goes_on) return;
+  leave_with_restitution(impact);
+  SimulationEvent& event = events[*told];
+  event.peak_force = std::max(event.peak_force, push->peak_force().maxCoeff());
+  event.speed_out = impact.closing()(0);
+}
+
+/// Nothing more fails: the impulses after which no place closes, and each that was pushed parts with the scenario's
+/// share of its closing speed (Newton's law of impact for several contacts; Gauss-Seidel over the places).
+void Simulation::State::leave_with_restitution(BodyImpact& impact) {
+  constexpr int most_passes = 1000;
+  constexpr double settled = 1e-12;
+  const Eigen::MatrixXd mobility = impact.mobility_of_both();
+  const Eigen::VectorXd wanted = (1 + scenario.impact.restitution) * impact.closing();
+  Eigen::VectorXd impulses = Eigen::VectorXd::Zero(wanted.size());
+  for (int pass = 0; pass < most_passes; ++pass) {
+    double changed = 0;
+    for (Eigen::Index i = 0; i < wanted.size(); ++i) {
+      const double before = impulses(i);
+      impulses(i) = std::max(0.0, before + (wanted(i) - mobility.row(i).dot(impulses)) / mobility(i, i));
+      changed = std::max(changed, std::abs(impulses(i) - before) * mobility(i, i));
+    }
+    if (changed <= settled * wanted.cwiseAbs().maxCoeff()) break;
+  }
+  if (impulses.isZero(0)) return;
+  give_impulses(impact, impulses);
 }
 
 Impact Simulation::State::begin_push(const BodyImpact& impact) const {
@@ -320,6 +387,11 @@ void Simulation::State::give_impulses(BodyImpact& impact, const Eigen::VectorXd&
   Momentum before{impact.places.front().point}, after{impact.places.front().point};
   const double kinetic = measure(before);
   impact.give(impulses);
+  double given = 0;
+  if (ImpactSide& held = impact.sides[1]; held.held) {
+    given = frame->strike(held.response, impulses);
+    held.response.speed += held.response.mobility * impulses;
+  }
   if (impact.sides[1].id.value < 0)
     for (std::size_t i = 0; i < impact.places.size(); ++i)
       before.add_impulse(-impulses(static_cast<Eigen::Index>(i)) * impact.places[i].normal, impact.places[i].point);
@@ -327,7 +399,7 @@ void Simulation::State::give_impulses(BodyImpact& impact, const Eigen::VectorXd&
     set_side(side);
     if (side.id.value >= 0) side = side_again(side, side.id);
   }
-  ledger.lost_in_impacts += kinetic - measure(after);
+  ledger.lost_in_impacts += kinetic - measure(after) - given;
   ledger.momentum_error = std::max(ledger.momentum_error, after.error(before));
 }
 
@@ -346,15 +418,24 @@ bool Simulation::State::break_bodies(BodyImpact& impact, Impact& push, const std
   const Eigen::VectorXd force = push.force();
   const Eigen::MatrixXd compliance = impact.compliance;
   std::vector<std::size_t> lines;
+  std::vector<JointBreak> of_frame;
   for (const JointBreak& one : broken) {
-    debris_broken[static_cast<std::size_t>(one.joint.index)] = 1;
     JointBreak line = one;
     const collision::BodyId id{body_of_joint(one.joint)};
+    if (id.value < 0) {
+      line.position = joint_position(one.joint);
+      of_frame.push_back(one);
+      lines.push_back(events.size());
+      tell(line);
+      continue;
+    }
+    debris_broken[static_cast<std::size_t>(one.joint.index)] = 1;
     const collision::BodyState state = world->state(id);
     line.position = state.pose * (joint_position(one.joint) - bodies.at(id.value).rest.centre);
     lines.push_back(events.size());
     tell(line);
   }
+  if (!of_frame.empty()) frame->break_in_impact(of_frame);
   std::vector<int> kept;
   for (ImpactSide& side : impact.sides) {
     if (side.id.value < 0) continue;
@@ -368,6 +449,7 @@ bool Simulation::State::break_bodies(BodyImpact& impact, Impact& push, const std
     side = side_again(side, {piece});
   }
   const auto holds = [&](const ImpactSide& side, std::size_t place) {
+    if (side.held) return stands(part_of_number(building, side.tags[place]));
     return side.id.value < 0 || side.tags[place] < 0 ||
            body_of_part[static_cast<std::size_t>(side.tags[place])] == side.id.value;
   };

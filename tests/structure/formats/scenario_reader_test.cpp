@@ -13,7 +13,7 @@ namespace {
 
 const std::string scenario_text = R"({
   "topple": 1, "title": "Corner post hit", "model": "seed_building", "combination": "collapse",
-  "step": 0.01, "duration": 2000, "until_rest": false, "seed": 7, "ground": -0.5,
+  "step": 0.01, "duration": 2000, "until_rest": false, "seed": 7, "ground": -0.5, "standing": "dynamic",
   "failure": {"bracing": "none", "mechanism": "detach", "second_order": false, "sudden": 1.5},
   "impact": {"restitution": 0.2, "structure_mass": false},
   "debris": {"friction": 0.5, "restitution": 0.3, "limit": 100, "smallest_volume": 0.01},
@@ -49,6 +49,7 @@ TEST_CASE("a scenario is read in full, its events in order of time") {
   CHECK_FALSE(scenario.until_rest);
   CHECK(scenario.seed == 7);
   CHECK(scenario.ground == -0.5);
+  CHECK(scenario.standing == StandingRule::dynamics);
   CHECK(scenario.failure.bracing == BracingRule::none);
   CHECK(scenario.failure.mechanism == MechanismRule::detach);
   CHECK(scenario.failure.sudden == 1.5);
@@ -78,6 +79,7 @@ TEST_CASE("a scenario that says little takes the defaults") {
   CHECK(scenario.until_rest);
   CHECK(scenario.seed == 1);
   CHECK_FALSE(scenario.ground.has_value());
+  CHECK(scenario.standing == StandingRule::statics);
   CHECK(scenario.failure.sudden == 2);
   CHECK(scenario.impact.structure_mass);
   CHECK_FALSE(scenario.debris.limit.has_value());

@@ -12,6 +12,8 @@ namespace topple::structure {
 
 enum class BracingRule { buckling, classic, none };
 enum class MechanismRule { hinge, detach };
+/// Whether what stands follows losses and blows in time, or by static states and the factor of a sudden loss.
+enum class StandingRule { statics, dynamics };
 
 struct FailureRules {
   BracingRule bracing = BracingRule::buckling;
@@ -83,6 +85,7 @@ struct Scenario {
   bool until_rest = true;
   std::uint64_t seed = 1;
   std::optional<double> ground;  ///< height; none: the lowest support
+  StandingRule standing = StandingRule::statics;
   FailureRules failure;
   ImpactRules impact;
   DebrisRules debris;

@@ -62,6 +62,8 @@ inline constexpr std::array<const char*, 6> stage_names{"sense", "load", "break"
 struct Ledger {
   double gravity_work = 0, work_put_in = 0, elastic = 0, freed_by_breaks = 0, dissipated_in_joints = 0;
   double kinetic_translation = 0, kinetic_rotation = 0, lost_in_impacts = 0, lost_in_contacts = 0, removed = 0;
+  /// Of what stands: that it has, what was damped in it, and what the integration of its motion took.
+  double kinetic_standing = 0, damped = 0, lost_in_integration = 0;
   double momentum_error = 0;
   [[nodiscard]] double residual() const;
 };

@@ -47,6 +47,13 @@ struct Detached {
   /// It is one member that was cut in two at this fraction of its length from its first end: each piece hangs by the
   /// joint of its own end.
   std::optional<double> cut{};
+  /// How it moved when it left.
+  struct Motion {
+    Vec3 momentum = Vec3::Zero();      ///< N s
+    Vec3 angular = Vec3::Zero();       ///< N m s about the origin, of displacements about the unloaded place
+    Vec3 displacement = Vec3::Zero();  ///< m: mean of its mass
+  };
+  std::optional<Motion> motion{};  ///< none: it was at rest
 };
 
 /// Where a force acts on the standing frame.
@@ -87,7 +94,8 @@ struct FrameCounters {
 /// construction; each is loads times displacements, the elastic energy comes from internal forces, and what a break
 /// frees from Clapeyron's theorem, so that
 ///   elastic - elastic_at_start = gravity_work + other_work + contact_work - freed - dissipated
-/// is a check and not a definition.
+/// is a check and not a definition. Where what stands moves, its kinetic energy and what is damped stand beside these,
+/// the works of all loads on what moves are gravity_work until it rests, and impulses put `struck` in.
 struct FrameEnergy {
   double elastic = 0, elastic_at_start = 0;
   double gravity_work =
@@ -96,6 +104,10 @@ struct FrameEnergy {
   double contact_work = 0;  ///< of contact loads, which are laid on slowly
   double dissipated = 0;    ///< in joints that turned while they held their capacity
   double freed = 0;         ///< by breaks, removals and suddenly changed loads: what the static path does not need
+  double kinetic = 0;       ///< of what stands
+  double damped = 0;        ///< in it, what was left when it came to rest included
+  double numerical = 0;     ///< by the method of integration
+  double struck = 0;        ///< work of impulses on it
 };
 
 class StandingFrame {
@@ -179,6 +191,30 @@ class StandingFrame {
   /// sudden loss and bracing by the rules, mechanisms released. Returns what broke, in order. Whoever wants to look at
   /// a state in between stops after so many `generations`: then pending() stays true.
   std::vector<JointBreak> settle(int generations = std::numeric_limits<int>::max());
+  /// From now on what stands moves, and sudden losses are followed in time (docs/dynamics.md): move() takes the place
+  /// of settle(), and pending() holds until all is at rest. Rules must have `sudden` 1. Throws InputError where
+  /// why_it_stays_at_rest() names a reason.
+  void let_move(double dt);
+  /// Changes act, and all that is not at rest moves on by the time of let_move(). Joints break as they
+  /// are reached, those of members within substeps, those of panels at their ends. Returns what broke, in order.
+  std::vector<JointBreak> move();
+  /// How what stands takes unit pushes at places on different parts, each along its direction, that are faster than its
+  /// motion (the law of impact, simulation/impact/impact.h): the struck part gives way with its nodes held, its own
+  /// joints bear it, and the mass that shares at first touch is that of its nodes, g'M^-1 g.
+  struct HeldResponse {
+    Eigen::MatrixXd compliance;  ///< m/N, of struck parts alone
+    Eigen::MatrixXd mobility;    ///< 1/kg: acceleration of place i under a unit force at place j
+    Eigen::VectorXd speed;       ///< m/s of each place along its direction, now
+    std::vector<std::pair<JointId, Eigen::Matrix<double, 6, Eigen::Dynamic>>> demands;  ///< for each newton at each
+    std::vector<std::vector<std::pair<NodeId, Vec6>>> at_nodes;  ///< per place: what its unit push hands to nodes
+  };
+  /// A component at rest begins to move.
+  [[nodiscard]] HeldResponse respond_held(std::span<const ContactPlace> places, std::span<const Vec3> directions);
+  /// Impulses along the directions of `pushed`, N s, act now. Returns their work, J.
+  double strike(const HeldResponse& pushed, const Eigen::VectorXd& impulses);
+  /// Joints of what moves break now, at an impact. What snaps with them is told by the next move().
+  void break_in_impact(std::span<const JointBreak> breaks);
+
   /// Joints whose moment or torsion came to its capacity, and that have turned since, as they did; each sense of a
   /// joint once. Handed out once.
   std::vector<JointBreak> take_yielded();
@@ -240,5 +276,8 @@ class StandingFrame {
   struct State;
   std::unique_ptr<State> state_;
 };
+
+/// What keeps this building under these rules from moving in a collapse, in words; nothing when it can.
+[[nodiscard]] std::optional<std::string> why_it_stays_at_rest(const Building& building, const FailureRules& rules);
 
 }  // namespace topple::structure

@@ -1,0 +1,46 @@
+#pragma once
+// Which mass moves with each member and node of what stands: its own, and that of the panels that lie on it, as they
+// hand their weight on.
+#include <utility>
+#include <vector>
+
+#include "loads/frame_loads.h"
+
+namespace topple::structure {
+
+class MotionMasses {
+ public:
+  /// kg of a panel that go with what bears it.
+  struct Shares {
+    std::vector<std::pair<MemberId, double>> members;
+    std::vector<std::pair<NodeId, double>> nodes;
+  };
+
+  /// All must outlive it.
+  MotionMasses(const Building& building, const FrameLoads& loads, const PanelBearings& bearings);
+
+  /// Takes over what panels hand on otherwise now. What they hand on without gravity stays as it was.
+  void update();
+  [[nodiscard]] double of(MemberId member) const { return own(member) + hung_members_[index(member)]; }
+  [[nodiscard]] double of(NodeId node) const { return loads_.mass(node) + hung_nodes_[index(node)]; }
+  /// Without panels: its load in the combination over gravity, of a member without weight its material's.
+  [[nodiscard]] double own(MemberId member) const;
+  [[nodiscard]] const Shares& shares(PanelId panel) const { return shares_[index(panel)]; }
+
+ private:
+  template <class Tag>
+  static std::size_t index(Id<Tag> id) {
+    return static_cast<std::size_t>(id.index);
+  }
+  void hang(const Shares& shares, double sign);
+  [[nodiscard]] Shares read(PanelId panel) const;
+
+  const Building& building_;
+  const FrameLoads& loads_;
+  const PanelBearings& bearings_;
+  std::vector<Shares> shares_;                     ///< per panel
+  std::vector<int> version_;                       ///< of what the panel hands on, when it was read
+  std::vector<double> hung_members_, hung_nodes_;  ///< kg
+};
+
+}  // namespace topple::structure

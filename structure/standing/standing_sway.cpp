@@ -1,0 +1,265 @@
+// What stands moves: the step of a frame that is not at rest, from changes to breaks, release and rest.
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "model/index_of.h"
+#include "standing/held_push.h"
+#include "standing/standing_state.h"
+#include "topple/structure/error.h"
+
+namespace topple::structure {
+
+std::optional<std::string> why_it_stays_at_rest(const Building& building, const FailureRules& rules) {
+  if (rules.second_order) return "second order is not followed in motion";
+  for (const Panel& panel : building.panels)
+    if (panel.model == PanelModel::shell) return "shell panels do not move (" + panel.name + ")";
+  for (const Joint& joint : building.joints)
+    if (std::any_of(joint.capacity.ductility.begin(), joint.capacity.ductility.end(), [](double d) { return d > 0; }))
+      return "joints that yield do not move (" + joint.name + ")";
+  if (!(building.gravity > 0)) return "mass is weight over gravity, and the model has none";
+  return std::nullopt;
+}
+
+void StandingFrame::let_move(double dt) {
+  State& state = *state_;
+  if (const auto reason = why_it_stays_at_rest(state.building, state.rules))
+    throw InputError(state.building.file + ": what stands cannot move: " + *reason);
+  if (state.rules.sudden != 1) throw std::invalid_argument("what moves has no factor of a sudden loss: it must be 1");
+  state.motion = std::make_unique<StandingMotion>(
+      StandingMotion::Sources{state.building, state.parts, state.loads, state.statics, state.joints, state.components,
+                              state.node_solved, state.threads},
+      motion_settings);
+  state.statics.before_changes([&state](int c) {
+    if (state.solved_nodes[static_cast<std::size_t>(c)] > 0) state.motion->start(c);
+  });
+  state.substeps = state.motion->set_step(dt);
+  state.gravity = Vec3(0, 0, -state.building.gravity);
+}
+
+std::vector<JointBreak> StandingFrame::move() {
+  State& state = *state_;
+  if (!state.motion) throw std::logic_error("what stands was not let move: let_move()");
+  if (!state.pending) {
+    ++state.idle_settles;
+    return {};
+  }
+  state.move();
+  return std::exchange(state.breaks, {});
+}
+
+FrameEnergy StandingFrame::energy() const {
+  FrameEnergy energy = state_->account.energy();
+  if (!state_->motion) return energy;
+  const MotionEnergy moving = state_->motion->energy();
+  energy.elastic += moving.elastic_change;
+  energy.gravity_work += moving.external_work;
+  energy.freed += moving.freed - state_->rested_freed;
+  energy.kinetic = moving.kinetic;
+  energy.damped = moving.damped;
+  energy.numerical = moving.numerical;
+  energy.struck = moving.struck;
+  return energy;
+}
+
+StandingFrame::HeldResponse StandingFrame::respond_held(std::span<const ContactPlace> places,
+                                                        std::span<const Vec3> directions) {
+  State& state = *state_;
+  HeldResponse answer = HeldPush({state.parts, state.statics, state.response}).respond(places, directions);
+  for (const auto& [c, own] : state.places_by_component(answer)) {
+    state.motion->start(c);
+    std::vector<StandingMotion::NodalForces> forces;
+    for (const Eigen::Index i : own) forces.push_back(answer.at_nodes[static_cast<std::size_t>(i)]);
+    answer.mobility(own, own) = state.motion->mobility(c, forces);
+    for (const Eigen::Index i : own)
+      for (const auto& [node, force] : answer.at_nodes[static_cast<std::size_t>(i)])
+        answer.speed(i) += force.dot(state.motion->velocity(node));
+  }
+  state.pending = true;
+  return answer;
+}
+
+double StandingFrame::strike(const HeldResponse& pushed, const Eigen::VectorXd& impulses) {
+  State& state = *state_;
+  double work = 0;
+  for (const auto& [c, own] : state.places_by_component(pushed)) {
+    if (!state.motion->moves(c)) continue;  // nothing of it stands any more
+    StandingMotion::NodalForces given;
+    for (const Eigen::Index i : own)
+      for (const auto& [node, force] : pushed.at_nodes[static_cast<std::size_t>(i)])
+        given.emplace_back(node, impulses(i) * force);
+    work += state.motion->strike(c, given);
+  }
+  return work;
+}
+
+void StandingFrame::break_in_impact(std::span<const JointBreak> breaks) {
+  State& state = *state_;
+  for (const JointBreak& one : breaks) {
+    if (!state.parts.standing(one.joint)) continue;
+    state.joints.remember(one.joint, 1);
+    state.damage(one.joint, -1);
+  }
+  state.follow_breaks();
+  state.pending = true;
+}
+
+std::map<int, std::vector<Eigen::Index>> StandingFrame::State::places_by_component(const HeldResponse& pushed) const {
+  std::map<int, std::vector<Eigen::Index>> by;
+  for (std::size_t i = 0; i < pushed.at_nodes.size(); ++i)
+    if (!pushed.at_nodes[i].empty())
+      by[statics.component(pushed.at_nodes[i].front().first)].push_back(static_cast<Eigen::Index>(i));
+  return by;
+}
+
+void StandingFrame::State::move() {
+  begin_motion();
+  for (generation = 0; generation < substeps && motion->any(); ++generation)
+    for (const int c : motion->moving()) sway(c);
+  for (const int c : motion->moving()) leave_small_displacements(c);
+  for (const int c : motion->moving()) {
+    look_for_rest(c);
+    if (motion->moves(c)) read_motion(c);
+  }
+  generation = 0;
+  account.lines_are_out();
+  pending = motion->any() || !queue.empty();
+}
+
+/// Tools, contacts and new capacities act.
+void StandingFrame::State::begin_motion() {
+  generation = 0;
+  softened = false;
+  for (const Change& change : std::exchange(queue, {})) apply(change);
+  follow_breaks();
+  for (int c = 0; c < statics.components(); ++c) {
+    if (!std::exchange(to_check[static_cast<std::size_t>(c)], 0) || motion->moves(c)) continue;
+    if (solved_nodes[static_cast<std::size_t>(c)] == 0)
+      statics.forget(c);
+    else if (!bears(c))
+      motion->start(c);
+  }
+}
+
+/// What lost its hold leaves, and what remains bears its loads.
+void StandingFrame::State::follow_breaks() {
+  parts.forget_numbers();
+  do {
+    release();
+    write_loads();
+  } while (!half_held.empty() || !unbraced.empty());
+  for (const int c : motion->moving()) {
+    if (solved_nodes[static_cast<std::size_t>(c)] > 0) continue;
+    motion->stop(c);
+    statics.forget(c);
+  }
+}
+
+/// One substep of a component.
+void StandingFrame::State::sway(int c) {
+  if (!motion->moves(c)) return;
+  const std::size_t before = breaks.size();
+  const std::vector<StandingMotion::Break> broken = motion->advance(c);
+  for (const StandingMotion::Break& one : broken) break_in_motion(one.joint, one.demand, one.freed);
+  break_edges_over(c);
+  if (breaks.size() > before) follow_breaks();
+}
+
+void StandingFrame::State::break_in_motion(JointId joint, const Vec6& demand, double freed) {
+  if (!parts.standing(joint)) return;
+  joints.set_demand(joint, demand);
+  tell(joint, BreakCause::overload);
+  breaks.back().energy = freed;
+  damage(joint, -1);
+}
+
+/// Edges of panels bear what lies on the panel, and the membrane's traction: looked at after each substep.
+void StandingFrame::State::break_edges_over(int c) {
+  for (const PanelId panel : statics.membranes(c))
+    if (parts.bearings.membrane(panel)) edge_loads.set_corner_forces(panel, motion->corner_forces(panel));
+  read_panel_demands(c, false);
+  std::vector<JointId> over;
+  for (const JointId joint : components.edges[static_cast<std::size_t>(c)])
+    if (parts.standing(joint) && joints.check(joint).value > 1) over.push_back(joint);
+  for (const JointId joint : over) break_in_motion(joint, joints.demand(joint), 0);
+}
+
+/// A part that has turned too far for small displacements goes over to the collision world, with its motion, where it
+/// can move without strain; a part that cannot stays.
+void StandingFrame::State::leave_small_displacements(int c) {
+  const double turn = motion->largest_turn(c);
+  if (turn > motion_settings.falling_turn) motion->let_fall(c);
+  if (!(turn > motion_settings.largest_turn)) return;
+  while (motion->moves(c)) {
+    const std::optional<FrameMechanism> mechanism = statics.solve(c);
+    if (!mechanism) return;
+    release_mechanism(*mechanism);
+    follow_breaks();
+  }
+}
+
+/// What joints bear now, for whoever asks.
+void StandingFrame::State::read_motion(int c) {
+  response.forget_bounds(c);
+  MemberId member_read;
+  solver::Vec12 end_forces;
+  for (const JointId joint : components.joints[static_cast<std::size_t>(c)]) {
+    const Joint& own = building[joint];
+    if (!own.member.valid() || !parts.standing(joint)) continue;
+    if (own.member != member_read) end_forces = motion->end_forces(own.member);
+    member_read = own.member;
+    joints.set_demand(joint, member_joint_demand(end_forces, own.end));
+  }
+}
+
+/// It is set to its static state, to the bit, once it is near and that state is borne.
+void StandingFrame::State::look_for_rest(int c) {
+  if (!motion->look_for_rest(c) || statics.solve(c) || !motion->rests(c)) return;
+  for (const PanelId panel : statics.membranes(c))
+    if (parts.bearings.membrane(panel)) edge_loads.set_corner_forces(panel, statics.corner_forces(panel));
+  read_demands(c, false);
+  if (!bears(c)) return;
+  motion->settle(c);
+  const double freed = account.freed();
+  come_to_rest(c);
+  rested_freed += account.freed() - freed;
+  if (buckles(c)) snap_buckled();
+}
+
+/// Its own momentum, and that of the panels that leave with it; those that stay, or fall alone, keep theirs.
+Detached::Motion StandingFrame::State::motion_of(const Detached& part) {
+  Vec6 momentum = Vec6::Zero();
+  Vec3 now = Vec3::Zero(), at_rest = Vec3::Zero();
+  double mass = 0;
+  int component = -1;
+  const auto add = [&](double weighs, std::span<const NodeId> nodes) {
+    mass += weighs;
+    for (const NodeId node : nodes) {
+      component = statics.component(node);
+      const Vec3 rest = account.displacement(node).head<3>();
+      const double share = weighs / static_cast<double>(nodes.size());
+      at_rest += share * rest;
+      now += share * (moves(component) ? Vec3(motion->displacement(node).head<3>()) : rest);
+    }
+  };
+  for (const MemberId member : part.members) {
+    momentum += motion->momentum(member);
+    add(loads.mass(member), building[member].nodes);
+  }
+  for (const PanelId panel : part.panels) {
+    momentum += motion->momentum(panel);
+    add(loads.mass(panel), building[panel].nodes);
+  }
+  for (const NodeId node : part.nodes) {
+    momentum += motion->momentum(node);
+    add(loads.mass(node), {&node, 1});
+  }
+  if (component >= 0) motion->part_leaves(component, gravity.dot(now - at_rest));
+  Detached::Motion found;
+  found.momentum = momentum.head<3>();
+  found.angular = momentum.tail<3>();
+  if (mass > 0) found.displacement = now / mass;
+  return found;
+}
+
+}  // namespace topple::structure
