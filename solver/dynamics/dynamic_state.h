@@ -107,6 +107,7 @@ struct FrameDynamics::State {
   [[nodiscard]] Vec6 momentum_left_with(const ChangedBeam& gone) const;
   [[nodiscard]] Eigen::VectorXd scaled_impulses(std::span<const Impulse> impulses) const;
   [[nodiscard]] Eigen::VectorXd velocities_of(Eigen::VectorXd scaled) const;
+  void follow_jump(const Eigen::VectorXd& change);
 
   // substep.cpp
   void take_substep();

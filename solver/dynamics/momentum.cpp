@@ -113,6 +113,20 @@ Eigen::VectorXd FrameDynamics::State::velocities_of(Eigen::VectorXd left) const 
   return x;
 }
 
+/// Damping answers a jump of velocities at once: accelerations that did not would make the method create energy in
+/// modes that it does not resolve.
+void FrameDynamics::State::follow_jump(const Eigen::VectorXd& change) {
+  const double a0 = options.damping.mass, a1 = options.damping.stiffness;
+  if (a1 > 0) {
+    const SideBySide<1> v = change.transpose();
+    SideBySide<1> whole, inert;
+    multiply<1>(system().matrix(), v, whole);
+    multiply<1>(system().mass(), v, inert);
+    before.a -= a1 * velocities_of((whole.row(0) - method.s * inert.row(0)).transpose());
+  }
+  before.a -= a0 * change;
+}
+
 std::vector<Vec6> FrameDynamics::velocities_of(std::span<const Impulse> impulses) const {
   const State& state = *state_;
   std::vector<Vec6> result(state.frame.model().nodes.size(), Vec6::Zero());
@@ -132,6 +146,7 @@ void FrameDynamics::strike(std::span<const Impulse> impulses) {
   state.energy.freed -= of_changes.dot(mean);
   state.substep_load.setZero();
   state.before.v += change;
+  state.follow_jump(change);
   state.products_known = state.nodes_known = state.end_known = false;
   state.stored_energy();
 }

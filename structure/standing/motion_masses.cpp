@@ -1,5 +1,7 @@
 #include "standing/motion_masses.h"
 
+#include <utility>
+
 namespace topple::structure {
 namespace {
 
@@ -22,7 +24,7 @@ MotionMasses::MotionMasses(const Building& building, const FrameLoads& loads, co
       version_(building.panels.size(), -1),
       hung_members_(building.members.size(), 0.0),
       hung_nodes_(building.nodes.size(), 0.0) {
-  update();
+  (void)update();
 }
 
 double MotionMasses::own(MemberId id) const {
@@ -31,7 +33,8 @@ double MotionMasses::own(MemberId id) const {
   return building_[member.material].density * building_[member.section].area * member.length;
 }
 
-void MotionMasses::update() {
+std::vector<MotionMasses::Rehung> MotionMasses::update() {
+  std::vector<Rehung> rehung;
   for (std::size_t p = 0; p < shares_.size(); ++p) {
     const PanelId panel(p);
     if (version_[p] == loads_.edges_version(panel)) continue;
@@ -39,9 +42,10 @@ void MotionMasses::update() {
     Shares now = read(panel);
     if (now.members.empty() && now.nodes.empty() && bearings_.stands(panel)) continue;  // it weighs nothing now
     hang(shares_[p], -1);
-    shares_[p] = std::move(now);
+    rehung.push_back({panel, std::exchange(shares_[p], std::move(now))});
     hang(shares_[p], 1);
   }
+  return rehung;
 }
 
 void MotionMasses::hang(const Shares& shares, double sign) {

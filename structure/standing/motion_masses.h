@@ -19,8 +19,13 @@ class MotionMasses {
   /// All must outlive it.
   MotionMasses(const Building& building, const FrameLoads& loads, const PanelBearings& bearings);
 
+  /// A panel that lies otherwise now.
+  struct Rehung {
+    PanelId panel;
+    Shares before;
+  };
   /// Takes over what panels hand on otherwise now. What they hand on without gravity stays as it was.
-  void update();
+  std::vector<Rehung> update();
   [[nodiscard]] double of(MemberId member) const { return own(member) + hung_members_[index(member)]; }
   [[nodiscard]] double of(NodeId node) const { return loads_.mass(node) + hung_nodes_[index(node)]; }
   /// Without panels: its load in the combination over gravity, of a member without weight its material's.

@@ -1,5 +1,7 @@
 #include "standing/standing_motion.h"
 
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -214,8 +216,53 @@ void StandingMotion::stop(int c) {
   moving_.erase(found);
 }
 
+/// Its mass has the mean velocity of what bore it, and shares it inelastically with what bears it now: linear and
+/// angular momentum are kept.
+void StandingMotion::bring_along(const MotionMasses::Rehung& panel, std::map<int, NodalForces>& impulses) const {
+  std::map<MemberId, double> gained;
+  for (const auto& [member, mass] : masses_.shares(panel.panel).members) gained[member] += mass;
+  for (const auto& [member, mass] : panel.before.members) gained[member] -= mass;
+  double lost = 0;
+  Vec3 momentum = Vec3::Zero();
+  for (const auto& [member, mass] : gained)
+    if (mass < 0) {
+      lost -= mass;
+      momentum -= mass * specific_momentum(member).head<3>();
+    }
+  for (const auto& [node, mass] : panel.before.nodes) {
+    lost += mass;
+    momentum += mass * velocity(node).head<3>();
+  }
+  for (const auto& [node, mass] : masses_.shares(panel.panel).nodes) {
+    lost -= mass;
+    momentum -= mass * velocity(node).head<3>();
+  }
+  if (!(lost > 0)) return;
+  for (const auto& [id, mass] : gained) {
+    const int c = from_.statics.component(id);
+    if (!(mass > 0) || !moves(c) || !from_.parts.stands(id)) continue;
+    const Member& member = from_.building[id];
+    const Vec3 middle = (from_.building[member.nodes[0]].position + from_.building[member.nodes[1]].position) / 2;
+    const Vec6 own = specific_momentum(id);
+    const Vec3 linear = mass * (momentum / lost - own.head<3>());
+    Vec3 turning = mass * (middle.cross(momentum / lost) - own.tail<3>());  // about the origin
+    std::vector<NodeId> held;
+    for (int end = 0; end < 2; ++end)
+      if (from_.parts.holds(from_.building.joint(id, end))) held.push_back(member.nodes[static_cast<std::size_t>(end)]);
+    const auto share = static_cast<double>(held.size());
+    for (const NodeId node : held) turning -= from_.building[node].position.cross(linear) / share;
+    for (const NodeId node : held) {
+      Vec6 given;
+      given << linear / share, turning / share;
+      impulses[c].emplace_back(node, given);
+    }
+  }
+}
+
 void StandingMotion::update_masses() {
-  masses_.update();
+  std::map<int, NodalForces> impulses;
+  for (const MotionMasses::Rehung& panel : masses_.update())
+    if (from_.parts.stands(panel.panel)) bring_along(panel, impulses);
   for (auto& [c, one] : moving_) {
     Moving& moving = *one;
     const std::vector<MemberId>& members = from_.statics.members(c);
@@ -226,6 +273,8 @@ void StandingMotion::update_masses() {
       const solver::Beam& beam = moving.frame->model().beams[b];
       moving.frame->set_beam_density(static_cast<int>(b), std::max(0.0, mass) / (beam.area * beam.length));
     }
+    // What is among its own parts comes from no blow.
+    if (const auto own = impulses.find(c); own != impulses.end()) past_.within += strike(c, own->second);
   }
 }
 
@@ -261,26 +310,73 @@ std::array<Vec6, 4> StandingMotion::corner_forces(PanelId membrane) const {
   return moving_.at(from_.components.of(membrane))->frame->shell_corner_forces(from_.statics.number(membrane));
 }
 
-Vec6 StandingMotion::whole_momentum(MemberId member) const {
+/// Per kg that moves with the member: what changes of mass the frame has not taken over yet does not count.
+Vec6 StandingMotion::specific_momentum(MemberId member) const {
   const Moving* moving = of(from_.statics.component(member));
-  return moving == nullptr ? Vec6::Zero() : moving->frame->beam_momentum(from_.statics.number(member));
+  if (moving == nullptr) return Vec6::Zero();
+  const int number = from_.statics.number(member);
+  const solver::Beam& beam = moving->frame->model().beams[static_cast<std::size_t>(number)];
+  const double mass = beam.density * beam.area * beam.length;
+  return mass > 0 ? Vec6(moving->frame->beam_momentum(number) / mass) : Vec6(Vec6::Zero());
 }
 
-Vec6 StandingMotion::momentum(MemberId member) const {
-  const double whole = masses_.of(member);
-  return whole > 0 ? Vec6(whole_momentum(member) * (masses_.own(member) / whole)) : Vec6(Vec6::Zero());
+Vec6 StandingMotion::momentum(MemberId member) const { return masses_.own(member) * specific_momentum(member); }
+
+namespace {
+
+/// sum of m (r^2 1 - r r') of points about their centre; `weight` each.
+Mat3 inertia_of(std::span<const Vec3> points, const Vec3& centre, double weight) {
+  Mat3 sum = Mat3::Zero();
+  for (const Vec3& point : points) {
+    const Vec3 r = point - centre;
+    sum += weight * (r.squaredNorm() * Mat3::Identity() - r * r.transpose());
+  }
+  return sum;
 }
 
+Vec3 mean_of(std::span<const Vec3> points) {
+  Vec3 sum = Vec3::Zero();
+  for (const Vec3& point : points) sum += point;
+  return sum / static_cast<double>(points.size());
+}
+
+/// The places of a four-cornered plate that have its second moments, a quarter of its mass each (Gauss's two by two).
+std::array<Vec3, 4> quarters(const std::array<Vec3, 4>& corner) {
+  const double near = (1 + 1 / std::sqrt(3.0)) / 2, far = 1 - near;
+  std::array<Vec3, 4> points;
+  for (std::size_t i = 0; i < 4; ++i)
+    points[i] = near * near * corner[i] + near * far * (corner[(i + 1) % 4] + corner[(i + 3) % 4]) +
+                far * far * corner[(i + 2) % 4];
+  return points;
+}
+
+}  // namespace
+
+/// Its mass moved with what bore it. Once it leaves, that mass lies where the panel is, and turns as its corners do:
+/// the linear momentum is kept.
 Vec6 StandingMotion::momentum(PanelId panel) const {
   Vec6 sum = Vec6::Zero();
   const MotionMasses::Shares& shares = masses_.shares(panel);
-  for (const auto& [member, mass] : shares.members)
-    if (const double whole = masses_.of(member); whole > 0) sum += whole_momentum(member) * (mass / whole);
-  for (const auto& [node, mass] : shares.nodes) {
-    const Vec3 given = mass * velocity(node).head<3>();
-    sum.head<3>() += given;
-    sum.tail<3>() += from_.building[node].position.cross(given);
+  for (const auto& [member, mass] : shares.members) sum += mass * specific_momentum(member);
+  for (const auto& [node, mass] : shares.nodes) sum.head<3>() += mass * velocity(node).head<3>();
+  std::array<Vec3, 4> corner;
+  std::vector<Vec3> places, velocities;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const NodeId node = from_.building[panel].nodes[i];
+    corner[i] = from_.building[node].position;
+    if (from_.parts.segments.degree(node) == 0) continue;  // nothing tells how it moves
+    places.push_back(corner[i]);
+    velocities.emplace_back(velocity(node).head<3>());
   }
+  const std::array<Vec3, 4> mass_at = quarters(corner);
+  const Vec3 centre = mean_of(mass_at), linear = sum.head<3>();
+  sum.tail<3>() = centre.cross(linear);
+  if (places.size() < 3) return sum;
+  const Vec3 middle = mean_of(places), mean = mean_of(velocities);
+  Vec3 turning = Vec3::Zero();
+  for (std::size_t i = 0; i < places.size(); ++i) turning += (places[i] - middle).cross(velocities[i] - mean);
+  const Vec3 spin = inertia_of(places, middle, 1).ldlt().solve(turning);
+  sum.tail<3>() += inertia_of(mass_at, centre, from_.loads.mass(panel) / 4) * spin;
   return sum;
 }
 
@@ -393,6 +489,8 @@ void StandingMotion::part_leaves(int c, double weight_work) {
 
 MotionEnergy StandingMotion::energy() const {
   MotionEnergy sum = past_;
+  sum.struck -= past_.within;
+  sum.freed -= past_.within;
   for (const auto& [c, moving] : moving_) {
     const solver::DynamicEnergy& own = moving->frame->energy();
     sum.kinetic += own.kinetic;

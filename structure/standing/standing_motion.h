@@ -21,6 +21,7 @@ struct MotionEnergy {
   double damped = 0, numerical = 0;  ///< by damping; by the method
   double external_work = 0;          ///< of loads, on what moves now
   double struck = 0, freed = 0;
+  double within = 0;  ///< of `struck`: impulses between its own parts, as panels come to lie otherwise; booked as freed
 };
 
 class StandingMotion {
@@ -111,7 +112,9 @@ class StandingMotion {
   [[nodiscard]] solver::MassModel masses_of(int component) const;
   [[nodiscard]] double damping_of(int component) const;
   void put_loads(int component, solver::FrameDynamics& frame) const;
-  [[nodiscard]] Vec6 whole_momentum(MemberId member) const;
+  [[nodiscard]] Vec6 specific_momentum(MemberId member) const;
+  /// By component: what a panel that lies on other members now brings them beyond their own velocity.
+  void bring_along(const MotionMasses::Rehung& panel, std::map<int, NodalForces>& impulses) const;
 
   Sources from_;
   MotionSettings settings_;

@@ -101,6 +101,8 @@ void StandingFrame::break_in_impact(std::span<const JointBreak> breaks) {
     state.damage(one.joint, -1);
   }
   state.follow_breaks();
+  // The push goes on against what is left.
+  for (const int c : state.motion->moving()) (void)state.motion->strike(c, {});
   state.pending = true;
 }
 

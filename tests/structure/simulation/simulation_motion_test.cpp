@@ -93,6 +93,14 @@ TEST_CASE("What breaks off leaves with its momentum, the ledger balances, and th
   frame.self_weight(7850);
   for (std::size_t m = 0; m < frame.building.members.size(); ++m)
     if (frame.building.members[m].kind == MemberKind::beam) frame.load(MemberId(m), -8000);
+  // A wall that stands on the ground until the post beside it goes: then it hangs on what else is there.
+  const auto at = [&](const char* name) {
+    for (std::size_t n = 0; n < frame.building.nodes.size(); ++n)
+      if (frame.building.nodes[n].name == name) return NodeId(n);
+    return NodeId();
+  };
+  frame.panel("wall", PanelModel::cladding, {at("N-1-1-0"), at("N-2-1-0"), at("N-2-1-1"), at("N-1-1-1")},
+              same_capacity(5e4));
   std::vector<std::uint64_t> hashes;
   for (const int threads : {1, 2}) {
     Scenario scenario;
@@ -106,7 +114,12 @@ TEST_CASE("What breaks off leaves with its momentum, the ledger balances, and th
     ball.mass = 800;
     scenario.events = {{0.1, ball}};
     Simulation simulation(frame.building, scenario, {threads, {}});
-    run(simulation);
+    while (!simulation.finished()) {
+      simulation.skip_idle();
+      simulation.step();
+      // Mass that comes to lie on what moves brings no energy of its own.
+      CHECK(simulation.ledger().freed_by_breaks > -1e-3 * simulation.ledger().work_put_in);
+    }
     const Ledger ledger = simulation.ledger();
     INFO("residual " << ledger.residual() << ", momentum " << ledger.momentum_error << ", damped " << ledger.damped);
     CHECK(!of_kind(simulation, SimulationEvent::Kind::detached).empty());
