@@ -118,7 +118,7 @@ TEST_CASE("What breaks off leaves with its momentum, the ledger balances, and th
       simulation.skip_idle();
       simulation.step();
       // Mass that comes to lie on what moves brings no energy of its own.
-      CHECK(simulation.ledger().freed_by_breaks > -1e-3 * simulation.ledger().work_put_in);
+      CHECK(simulation.ledger().freed_by_breaks >= -1e-3 * simulation.ledger().work_put_in);
     }
     const Ledger ledger = simulation.ledger();
     INFO("residual " << ledger.residual() << ", momentum " << ledger.momentum_error << ", damped " << ledger.damped);
