@@ -16,7 +16,7 @@ find_program(TOPPLE_GZIP gzip)
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME topple)
 set(CPACK_PACKAGE_VERSION "${PROJECT_VERSION}")
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "static analysis and interactive demolition of buildings")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # each package has its own
 set(CPACK_COMPONENTS_ALL topple development python)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -29,32 +29,35 @@ set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXE
     WORLD_EXECUTE)
 set(CPACK_PACKAGE_CONTACT "$ENV{DEBFULLNAME} <$ENV{DEBEMAIL}>")
 
-set(about " Topple analyses frames and panels by a direct solver, breaks joints where the\n"
-  " load path says, and lets what falls be rigid bodies.")
-string(REPLACE ";" "" about "${about}")
+# First line: the synopsis; the rest becomes the extended description.
+set(about "Topple analyses frames and panels by a direct solver, breaks joints where\nthe load path says, and lets what falls be rigid bodies.\n\n")
 set(CPACK_DEBIAN_TOPPLE_PACKAGE_NAME topple)
-set(CPACK_COMPONENT_TOPPLE_DESCRIPTION "static analysis and interactive demolition of buildings\n${about}\n .\n This package has the command line, the viewer, and models.")
+set(CPACK_COMPONENT_TOPPLE_DESCRIPTION 
+  "static analysis and interactive demolition of buildings\n${about}This package has the command line, the viewer, and models.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libtopple-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
   "libeigen3-dev, libsuitesparse-dev, libopenblas-dev, libmetis-dev, libbullet-dev, libtinygltf-dev, pkg-config")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "topple")
-set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "libraries to analyse and demolish buildings\n${about}\n .\n This package has the static libraries and headers; find_package(topple) of CMake\n finds them.")
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION 
+  "libraries to analyse and demolish buildings\n${about}This package has the static libraries and headers, and what CMake\nneeds to find them.")
 if(TARGET topple_python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-topple)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  find_package(Python 3.9 REQUIRED COMPONENTS Interpreter)
   math(EXPR next_minor "${Python_VERSION_MINOR} + 1")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
     "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next_minor}), python3-numpy")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "topple, python3-matplotlib")
-  set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Python module to analyse and demolish buildings\n${about}\n .\n This package has the module topple: answers as numpy arrays.")
+  set(CPACK_COMPONENT_PYTHON_DESCRIPTION 
+    "Python module to analyse and demolish buildings\n${about}This package has the module topple, whose answers are numpy arrays.")
 else()
   list(REMOVE_ITEM CPACK_COMPONENTS_ALL python)
 endif()
 
 if(TOPPLE_GZIP)
   file(WRITE "${documents}/changes"
-    "topple (${PROJECT_VERSION}-1) unstable; urgency=medium\n\n  * See https://semver.org for what a version promises, and CHANGELOG.md for what changed.\n\n")
+    "topple (${PROJECT_VERSION}-1) unstable; urgency=medium\n\n  * changelog.gz says what changed.\n\n")
   string(TIMESTAMP now "%a, %d %b %Y %H:%M:%S +0000" UTC)
   file(APPEND "${documents}/changes" " -- ${CPACK_PACKAGE_CONTACT}  ${now}\n")
   file(REMOVE "${documents}/changelog.Debian.gz" "${documents}/changelog.gz")
