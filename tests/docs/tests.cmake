@@ -4,3 +4,8 @@ if(Python3_FOUND)
   add_test(NAME "docs: what they name is there"
            COMMAND "${Python3_EXECUTABLE}" "${CMAKE_CURRENT_LIST_DIR}/check_documents.py" "${PROJECT_SOURCE_DIR}")
 endif()
+find_program(TOPPLE_DOXYGEN doxygen)
+if(TOPPLE_DOXYGEN AND NOT TOPPLE_SANITIZE)
+  add_test(NAME "docs: public names have comments, but in the headers still to do"
+           COMMAND "${PROJECT_SOURCE_DIR}/scripts/reference" "${PROJECT_BINARY_DIR}/reference")
+endif()
