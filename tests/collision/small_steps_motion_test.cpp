@@ -1,0 +1,69 @@
+// What the contact solver in small steps moves, against closed forms: a ball that rolls, a top, balls in a row.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "solver/solver_settings.h"
+#include "topple/collision/small_steps.h"
+#include "world_builder.h"
+
+using namespace collision_test;
+
+TEST_CASE("small steps: a ball rolls down a slope as its inertia and the resistance to rolling say") {
+  const auto world = make_small_steps_world();
+  world->set_gravity({0, 0, -kGravity});
+  const double angle = 20 * M_PI / 180, radius = 0.3;
+  const Eigen::Quaterniond lean(Eigen::AngleAxisd(angle, Vec3::UnitY()));
+  ObstacleDescription plane = box_obstacle({20, 5, 0.5}, lean * Vec3(0, 0, -0.5));
+  plane.pose.orientation = lean;
+  world->add_obstacle(plane);
+  BodyDescription ball = ball_body(radius, 200, lean * Vec3(0, 0, radius));
+  ball.velocity = entering({0, 0, 0});
+  const BodyId id = world->add_body(ball);
+  run(*world, 120);
+  // m a = m g sin - F and 2/5 m r^2 a/r = F r - c r m g cos: 7/5 a = g (sin - c cos).
+  const double slowed = std::sin(angle) - SolverSettings{}.rolling_resistance * std::cos(angle);
+  const double way = kGravity * slowed / 1.4 * 2 * 2 / 2;
+  // First order in the step: resistance acts at its end.
+  CHECK((world->state(id).pose.position - ball.pose.position).norm() == Approx(way).epsilon(0.02));
+}
+
+TEST_CASE("small steps: a fast top on a joint that turns freely precesses as its spin and weight say") {
+  const auto world = make_small_steps_world();
+  world->set_gravity({0, 0, -kGravity});
+  const double arm = 0.8, mass = 50, spin = 60;
+  BodyDescription top = box_body({0.05, 0.4, 0.4}, mass, {arm, 0, 5});
+  const double along = top.inertia(0, 0), precession = mass * kGravity * arm / (along * spin);  // axis level: exact
+  top.angular_velocity = Vec3(spin, 0, precession);
+  top.velocity = entering(Vec3(0, 0, precession).cross(Vec3(arm, 0, 0)));
+  const BodyId id = world->add_body(top);
+  HingeDescription joint;
+  joint.body = id;
+  joint.point = Vec3(0, 0, 5);
+  joint.held = {true, true, true, false, false, false};
+  world->add_hinge(joint);
+  double turned = 0, before = 0;
+  for (int i = 0; i < 240; ++i) {
+    world->step(1.0 / 240);
+    const Vec3 at = world->state(id).pose.position;
+    const double now = std::atan2(at.y(), at.x());
+    turned += std::remainder(now - before, 2 * M_PI);
+    before = now;
+    CHECK(std::abs(at.z() - 5) < 0.05 * arm);
+  }
+  CHECK(turned == Approx(precession).epsilon(0.03));  // in a second
+}
+
+TEST_CASE("small steps: of balls in a row that do not touch yet, the last takes the speed of the first") {
+  const auto world = make_small_steps_world();
+  std::vector<BodyId> row;
+  for (int i = 0; i < 4; ++i) {
+    BodyDescription ball = ball_body(0.25, 30, {0.8 * i, 0, 0});
+    ball.restitution = 1;
+    ball.friction = 0;
+    if (i == 0) ball.velocity = Vec3(4, 0, 0);
+    row.push_back(world->add_body(ball));
+  }
+  run(*world, 60);
+  for (int i = 0; i < 3; ++i) CHECK(std::abs(world->state(row[static_cast<std::size_t>(i)]).velocity.x()) < 1e-9 * 4);
+  CHECK(world->state(row[3]).velocity.x() == Approx(4).epsilon(1e-9));
+}
