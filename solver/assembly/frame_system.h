@@ -102,11 +102,10 @@ class FrameSystem {
   }
   /// Nodes of an element that is no beam.
   [[nodiscard]] std::span<const int> plate_nodes(std::size_t element) const;
-  /// What a node has besides its elements (support springs, held inert rotations), scaled, in its own equations. For
-  /// nodes of no diaphragm.
-  /// The same in the six components of the node, not scaled.
+  /// What a node has besides its elements (support springs, held inert rotations), in its six components, not scaled.
   [[nodiscard]] Mat6 supports_and_inert_rotations(int node) const;
   using NodeMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
+  /// The same, scaled, in the node's own equations. For nodes of no diaphragm.
   [[nodiscard]] NodeMatrix own_stiffness(int node) const;
 
   [[nodiscard]] LoadVector load_vector(const LoadSet& loads) const;

@@ -171,9 +171,9 @@ struct Reanalysis::State {
   [[nodiscard]] Vec12 end_forces(std::size_t beam, const std::vector<Vec6>& displacements, const Vec12& fixed) const;
   [[nodiscard]] LinearSolve linear_solve() const;
   void scale_force(const Eigen::VectorXd& force, Eigen::VectorXd& result) const;
-  /// Answer to a force that few equations feel; refined to response_error.
   /// The force that loads make, of a structure that stands; throws Instability.
   [[nodiscard]] LoadVector force_on_standing(const LoadSet& loads) const;
+  /// Answer to a force that few equations feel; refined to response_error.
   [[nodiscard]] Eigen::VectorXd solve_sparse(const Eigen::VectorXd& force, double& backward_error) const;
   /// Refines x until its error is within the limit.
   [[nodiscard]] Eigen::VectorXd refine_to(double limit, const Eigen::VectorXd& scaled, Eigen::VectorXd x,

@@ -1,8 +1,8 @@
 #pragma once
-// Answers that are brought up to date only where they may matter. The change of an answer obeys L' du = y with y
-// nonzero on the elimination paths of what changed alone, so that a subtree of the elimination tree away from these
-// paths follows its separator: du inside is L^-T (-L_sep' du_sep), at any later time. It is left out as long as the use
-// (demand over capacity) of nothing inside can matter.
+// Selective back substitution: answers that are brought up to date only where they may matter. The change of an answer
+// obeys L' du = y with y nonzero on the elimination paths of what changed alone, so that a subtree of the elimination
+// tree away from these paths follows its separator: du inside is L^-T (-L_sep' du_sep), at any later time. It is left
+// out as long as the use (demand over capacity) of nothing inside can matter.
 //
 // What the change can do there is bounded by strain energy. With r the residual that the change left, the energy of
 // the whole change is r.du / 2 (r lives on a few rows), every element's is positive, and those of all elements that
@@ -45,9 +45,9 @@ class RestrictedAnswer {
   void forget_uses() { uses_known_ = false; }
   /// What they can grow by may be more than it was.
   void forget_growths() { uses_known_ = growths_known_ = false; }
-  /// Something is not up to date.
   /// Numbers that a copy of it takes along.
   [[nodiscard]] std::size_t size() const { return behind_.size(); }
+  /// Something is not up to date.
   [[nodiscard]] bool partial() const { return partial_; }
   /// Something was brought up to date, and its uses were not read.
   [[nodiscard]] bool unread() const { return any_unread_; }

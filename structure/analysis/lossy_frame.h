@@ -46,11 +46,11 @@ class LossyFrame {
     bool rates = false;
   };
   void read_demands(const Motion& motion, std::vector<Vec6>& demand, std::vector<JointId>& holding) const;
-  /// All that stands now, with its mass: what presses it down over gravity (panels' weight where they hand it to; of a
-  /// part without weight its material's), and the masses given. A shell panel's lies in equal parts at its corners.
   /// The loads of one case with the factor 1, on beams and nodes as panels hand them on now. Throws InputError for
   /// settlements, heat in panels and what acts on shell panels.
   [[nodiscard]] solver::LoadSet loads_of_case(LoadCaseId load_case) const;
+  /// All that stands now, with its mass: what presses it down over gravity (panels' weight where they hand it to; of a
+  /// part without weight its material's), and the masses given. A shell panel's lies in equal parts at its corners.
   [[nodiscard]] MovingFrame moving_frame(std::vector<solver::NodeMass> given) const;
 
  private:

@@ -48,9 +48,6 @@ class PanelSuperelement {
   /// An edge is held no more, neither by its supports nor by what lies along it.
   void release_edge(int edge);
 
-  /// Multiply-adds of one condensation, predicted.
-  /// Of its mesh, those that are gone included.
-
   // Of the panel's nodes in the order of Panel::all_nodes(), global axes. A node that the panel let go of, or at which
   // nothing of it is left, has zeros.
   [[nodiscard]] Eigen::MatrixXd stiffness() const;

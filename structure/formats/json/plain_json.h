@@ -12,9 +12,10 @@
 
 namespace topple::structure::formats {
 
-/// `Events` takes null(), boolean(), number(), string(), key(), start_object() ..., each true; at_line() before each
-/// with the line of its last character; full(): no more values are taken.
-/// Scans a text in which nothing is out of the ordinary; false, wherever it stands, for anything else.
+/// Scans a text in which nothing is out of the ordinary: scan() is false, wherever it stands, for anything else.
+/// `Events` is told what comes by null(), boolean(), number(), string(), key(), start_object() and so on, each of which
+/// returns true to go on. at_line() comes before each, with the line of its last character. full() returns true when no
+/// more values are taken.
 template <class Events>
 class PlainScanner {
  public:

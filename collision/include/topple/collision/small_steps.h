@@ -1,7 +1,7 @@
 #pragma once
-// A collision::World with a contact solver of our own: soft contacts in small steps (docs/architecture.md). Forces are
-// the sums of what was applied, so that they balance weight and momentum to rounding; what sleeps presses with forces
-// in balance. Contacts of bodies that come to rest are told in that step, and not after.
+// A collision::World with a contact solver of our own: soft contacts in small steps (docs/rooms/contact-solvers.md).
+// Forces are the sums of what was applied, so that they balance weight and momentum to rounding; what sleeps presses
+// with forces in balance. Contacts of bodies that come to rest are told in that step, and not after.
 #include "topple/collision/world.h"
 
 namespace topple::collision {

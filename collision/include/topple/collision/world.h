@@ -1,7 +1,7 @@
 #pragma once
-// Rigid debris as the structure sees it: bodies, standing parts as obstacles, contacts, sweeps, hinges. An interface,
-// with Bullet in double precision as its one real implementation, so that a game can put its own engine here and a test
-// a recording one. SI units, global z up.
+// Rigid debris as the structure sees it: bodies, standing parts as obstacles, contacts, sweeps, hinges. An interface:
+// Bullet in double precision and a contact solver of our own (small_steps.h) stand behind it, and a game can put its
+// own engine here, a test a recording one. SI units, global z up.
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
@@ -204,7 +204,7 @@ class World {
   [[nodiscard]] virtual std::vector<ObstacleId> obstacles_in(const Vec3& low, const Vec3& high) const = 0;
 };
 
-/// The real one: Bullet, double precision, deterministic order. Throws std::runtime_error when the Bullet library that
+/// Bullet in double precision, in a deterministic order. Throws std::runtime_error when the Bullet library that
 /// was linked is not the one whose headers were compiled (single precision).
 [[nodiscard]] std::unique_ptr<World> make_bullet_world();
 

@@ -18,9 +18,9 @@ namespace topple::solver {
 
 /// Starts the program again, once, with OPENBLAS_CORETYPE set when that helps; else ends the threads that OpenBLAS has
 /// started when it was loaded: with nothing to do, each keeps a processor busy for some 20 ms before it sleeps, as long
-/// as a small analysis takes. (It starts them anew for who asks for more than one thread later.) For programs that own
-/// their main: call it first thing there, before other threads use BLAS. A library's host calls better_blas_kernel()
-/// and decides. Does nothing where programs cannot replace themselves.
+/// as a small analysis takes. (OpenBLAS starts them anew when more than one thread is asked for later.) For programs
+/// that own their main: call it first thing there, before other threads use BLAS. A library's host calls
+/// better_blas_kernel() and decides. Does nothing where programs cannot replace themselves.
 void prepare_blas(char** argv);
 
 }  // namespace topple::solver

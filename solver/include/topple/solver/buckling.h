@@ -15,8 +15,9 @@ struct BucklingMode {
 
 /// The lowest positive factors in order, at most `count` of them: fewer when no more exist below `largest_factor`. One
 /// member for each column is enough: the beam-column's exact stiffness at a trial factor is factorised, and the number
-/// of critical factors below it is that of negative pivots plus that of members buckled between their hubs (Wittrick
-/// and Williams 1971); each factor is then enclosed by counts and Newton's method. Shells bring the geometric stiffness
+/// of critical factors below it is that of negative pivots plus that of members buckled between held ends (Wittrick
+/// and Williams 1971). The factors are found together by residual inverse iteration, and proved by a count; where that
+/// does not get there, each is enclosed by counts and Newton's method. Shells bring the geometric stiffness
 /// of their membrane forces, which is as fine as their mesh.
 [[nodiscard]] std::vector<BucklingMode> buckling_modes(const FrameModel& model, const LoadSet& loads, int count,
                                                        const AnalysisOptions& options, double largest_factor = 1e6,

@@ -103,14 +103,14 @@ class FrameDynamics {
   FrameDynamics& operator=(FrameDynamics&&) noexcept;
 
   // Changes take effect with the next substep, from its beginning, as in Reanalysis. When a beam's end breaks, its mass
-  // goes to the end still held: the momentum is kept, as an impulse in that substep, and the loss booked as freed.
+  // goes to the end still held: the momentum is kept, as an impulse in that substep, and the loss counted as freed.
   void set_end_stiffness(int beam, int end, const Vec6& stiffness);
   void remove_beam(int beam);
   void remove_shell(int shell);
   void set_patch_stiffness(int patch, Eigen::MatrixXd stiffness);
   void set_beam_stiffness_factor(int beam, double factor);
   void set_shell_stiffness(int shell, const Eigen::Matrix<double, 24, 24>& stiffness);
-  /// Mass comes or goes with the velocity of the beam, and what it takes along is booked as freed.
+  /// Mass comes or goes with the velocity of the beam, and what it takes along is counted as freed.
   void set_beam_density(int beam, double density);
   void set_support_stiffness(int support, const Vec6& stiffness);
   void drop_nodes(std::span<const int> nodes);

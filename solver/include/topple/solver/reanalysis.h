@@ -1,7 +1,11 @@
 #pragma once
-// A standing segment's analysis that takes changes and answers at the cost of the change. The ladder: nothing changed,
-// nothing computed; loads changed, triangular solves only; few joints, an exact low-rank (Woodbury) correction over the
-// standing factor; more, a new factor. The choice is by operation counts with constants that ship.
+// A standing segment's analysis that takes changes and answers at the cost of the change. Nothing changed: nothing is
+// computed. Loads changed: triangular solves only. Few joints broke: an exact low-rank (Woodbury) update of the base
+// factor. More: a new factor. The choice is by operation counts with constants that ship.
+//
+// Functions that take a beam, shell, patch, support or node throw std::invalid_argument for one that does not exist,
+// and for a stiffness, factor or node load that means nothing (below zero, not a number). solve() throws no
+// Instability: a mechanism is an answer.
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -18,7 +22,7 @@ namespace topple::solver {
 
 /// Counters of what was done and what was not.
 struct ReanalysisCounters {
-  std::uint64_t solves = 0;            ///< answers computed (any rung but 0)
+  std::uint64_t solves = 0;            ///< answers computed
   std::uint64_t unchanged = 0;         ///< answers given without computing
   std::uint64_t load_solves = 0;       ///< only loads had changed
   std::uint64_t low_rank = 0;          ///< answered by a low-rank correction
@@ -31,7 +35,7 @@ struct ReanalysisCounters {
   std::uint64_t beams_left = 0;          ///< left out by them
 };
 
-/// What a restricted answer went through and left out.
+/// What a restricted answer (selective back substitution) went through and left out.
 struct RestrictedEffort {
   bool restricted = false;      ///< false: the answer was full
   double visited_entries = 0;   ///< of the factor, by the backward solve
@@ -102,9 +106,9 @@ class Reanalysis {
 
   /// The same, brought up to date only where the watch's uses may matter: no use that was not read anew lies above
   /// (1 - margin) max(1, the largest use). Nothing else may be concluded about what was left out; its displacements or
-  /// forces, when asked for, are found beside the answer, which stays as it is: who looks on changes no bit of what
+  /// forces, when asked for, are found beside the answer, which stays as it is: asking changes no bit of what
   /// follows. The first call reads every use, as does one
-  /// that needs a full answer. Patches have no uses: with any, call solve().
+  /// that needs a full answer. Patches have no uses: with any it throws std::invalid_argument; call solve().
   [[nodiscard]] const ReanalysisAnswer& solve(UseWatch& watch);
   /// Makes a restricted answer whole, with the backward error of a full one; the watch reads the uses of what was left
   /// out.
@@ -115,8 +119,8 @@ class Reanalysis {
   void forget_references();
   /// These beams will be removed one at a time, each restored before the next, with the loads as they are: the factor
   /// is gone through once for all of them (a dozen or two at a time serve best), and each answer then only checks, and
-  /// refines if it must, what was found for it. No effect when anything is removed or broken now; whatever happens
-  /// otherwise is answered as ever.
+  /// refines if it must, what was found for it. No effect when anything is removed or broken now; whatever else
+  /// changes in between is answered as without this call.
   void expect_losses(std::span<const int> beams);
   void set_refresh(RefreshRules rules);
   /// The uses that the last solve(watch) counts on were all read. False while the structure is in the warning band:
@@ -137,7 +141,8 @@ class Reanalysis {
 
   /// Response of the structure as it stands (last solve()) to an extra load set alone, all other loads zero; beam loads
   /// included exactly. Used for compliances under contacts and for the direction of impact forces. One solve each.
-  /// A moment on a hub that nothing keeps from turning is left out: the hub turns until it is none.
+  /// A moment on a node that nothing keeps from turning is left out: the node turns until it is none. Throws
+  /// Instability when the structure does not stand.
   struct Response {
     std::vector<Vec6> displacements;
     std::vector<std::pair<int, Vec12>> fixed_end;  ///< of the beams that bear one of the loads, in order of the beam

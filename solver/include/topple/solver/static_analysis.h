@@ -51,7 +51,7 @@ struct StaticSolution {
   std::vector<Vec6> displacements;  ///< per node, global
   std::vector<Vec6> reactions;      ///< per entry of FrameModel::supports: what the support does to the structure
   std::vector<Vec12>
-      beam_end_forces;  ///< per beam: what the nodes' hubs do to the beam at its ends, local, first then second
+      beam_end_forces;  ///< per beam: what the nodes do to the beam at its ends, local, first then second
   std::vector<std::array<Vec6, 4>> shell_corner_forces;  ///< per shell: what the nodes do to it, global
   SolveQuality quality;
 };
@@ -74,7 +74,8 @@ class StaticAnalysis {
   StaticAnalysis(StaticAnalysis&&) noexcept;
   StaticAnalysis& operator=(StaticAnalysis&&) noexcept;
 
-  /// Solves all right-hand sides together.
+  /// Solves all right-hand sides together. Throws std::invalid_argument for loads on what does not exist or that are
+  /// not finite, Instability for a load on a part that nothing holds.
   [[nodiscard]] std::vector<StaticSolution> solve(std::span<const LoadSet> loads);
   [[nodiscard]] const FrameModel& model() const;
   [[nodiscard]] const AnalysisStatistics& statistics() const;

@@ -28,7 +28,8 @@ class Superelement {
     std::vector<int> kept;          ///< nodes seen from outside
     std::vector<Tie> ties;
   };
-  /// `gone`: shells that are not there from the beginning.
+  /// `gone`: shells that are not there from the beginning. Throws std::invalid_argument for a kept node that does not
+  /// exist, a shell that the formulas cannot use, and a patch that can move by itself while its kept nodes rest.
   explicit Superelement(Patch patch, std::span<const int> gone = {});
   /// From then on each loses its own shells. What does not change is shared: a copy costs far less than a new one.
   Superelement(const Superelement& other);
@@ -41,7 +42,7 @@ class Superelement {
   void remove(std::span<const int> shells);
   /// Of each shell that stands only this share of its material is left, somewhere in it: its stiffness goes with it
   /// (as in the finite cell method, J. Parvizian, A. Duester, E. Rank, Computational Mechanics 41 (2007), 121). 0 takes
-  /// it out.
+  /// it out. Throws std::invalid_argument unless there is a share from 0 to 1 for each shell.
   void keep(const std::vector<double>& share);
   [[nodiscard]] bool stands(int shell) const;
   /// True while a shell stands at a node.

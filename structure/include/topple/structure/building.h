@@ -57,7 +57,7 @@ struct Section {
   std::optional<double> plastic_shear_area_y, plastic_shear_area_z;
 };
 
-/// The seven senses in which a joint can fail.
+/// The seven ways in which a joint can fail: the components of its capacity.
 enum class Sense { tension, compression, shear_y, shear_z, torsion, moment_y, moment_z };
 inline constexpr std::array<const char*, 7> sense_names{"tension", "compression", "shear_y", "shear_z",
                                                         "torsion", "moment_y",    "moment_z"};
@@ -88,7 +88,7 @@ enum class MemberKind { post, beam, brace };
 enum class AxialAction { both, tension, compression };
 
 /// What a design check needs to know of a member beside its section: the `design` of the model format. What is left out
-/// is assumed on the safe side (member_design.h).
+/// is found from the model, or taken on the safe side (docs/design-checks.md).
 struct MemberDesign {
   bool checked = true;
   /// Effective lengths for flexural buckling about y, about z, and torsional buckling: as lengths, or as multiples of

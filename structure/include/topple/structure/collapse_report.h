@@ -1,5 +1,5 @@
 #pragma once
-// What is written of a collapse: events.jsonl, summary.json, standing.json (docs/demolish-output.md has the keys), and
+// What is written of a collapse: events.jsonl, summary.json, standing.json (docs/results-format.md has the keys), and
 // the summary that a person reads. Everything but wall times is the same in every run.
 #include <filesystem>
 #include <string>

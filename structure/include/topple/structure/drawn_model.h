@@ -63,7 +63,7 @@ class DrawnModel {
 
 /// A building as it is bent.
 struct BentBuilding {
-  std::function<Vec6(NodeId)> displacement;  ///< of a node's hub, global
+  std::function<Vec6(NodeId)> displacement;  ///< of a node, global
   std::function<bool(JointId)> holds;
 };
 /// How far a point of the undeformed building moves with the part that it hangs on (numbered as in Piece::bones): its

@@ -5,8 +5,8 @@
 
 namespace topple::structure {
 
-/// What a member's joint carries, local axes: tension positive in x, then shears, torsion, moments as the member's hub
-/// gives them at that end. `end_forces` as in solver::StaticSolution; `end` 0 or 1.
+/// What a member's joint carries, local axes: tension positive in x, then shears, torsion, moments as the node
+/// gives them to the member at that end. `end_forces` as in solver::StaticSolution; `end` 0 or 1.
 [[nodiscard]] Vec6 member_joint_demand(const solver::Vec12& end_forces, int end);
 
 struct Utilisation {

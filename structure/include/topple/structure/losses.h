@@ -1,5 +1,5 @@
 #pragma once
-// What the sudden loss of a member does: each by an exact correction over one standing factor.
+// What the sudden loss of a member does: each by an exact low-rank update of one base factor.
 #include <optional>
 #include <string>
 #include <utility>

@@ -1,6 +1,11 @@
 #pragma once
-// The interactive demolition of a building: what a host (command line, viewer, game) embeds. One step senses, loads,
-// breaks, releases, moves and books; what does not change costs nothing.
+// The interactive demolition of a building: what a host (command line, viewer, game) embeds. One step finds what
+// bodies will touch, loads what stands, breaks what is over capacity, releases what lost its hold, moves what is awake
+// and keeps accounts; what does not change costs nothing.
+//
+// Calls that name a node, member, panel or joint throw std::out_of_range for one that the building does not have; those
+// that take numbers throw InputError for what physics has no use for (number_range.h). A call that throws has done and
+// recorded nothing.
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
@@ -58,7 +63,7 @@ struct SimulationEvent {
 enum class Stage { sense, load, break_, release, move, book };
 inline constexpr std::array<const char*, 6> stage_names{"sense", "load", "break", "release", "move", "book"};
 
-/// Energies in J, each measured on its own; see the design of the ledger in docs/.
+/// Energies in J, each measured on its own, so that the residual is a check (docs/rooms/simulation.md).
 struct Ledger {
   double gravity_work = 0, work_put_in = 0, elastic = 0, freed_by_breaks = 0, dissipated_in_joints = 0;
   double kinetic_translation = 0, kinetic_rotation = 0, lost_in_impacts = 0, lost_in_contacts = 0, removed = 0;
@@ -131,7 +136,8 @@ struct SimulationOptions {
 
 class Simulation {
  public:
-  /// Throws UnstableModel, and InputError for a part whose mass is not above zero.
+  /// Throws UnstableModel; InputError for a part whose mass is not above zero, a combination that is not named, and
+  /// rules, times or events that mean nothing.
   Simulation(Building building, Scenario scenario, SimulationOptions options = {});
   ~Simulation();
   Simulation(Simulation&&) noexcept;

@@ -34,7 +34,7 @@ struct JointBreak {
 
 /// A connected part that lost its hold (or moves as a mechanism): it leaves the frame for good. Joints inside it that
 /// held stay intact(), so that a body made of it can break further along them; the displacements of its nodes stay what
-/// they were when it left. It may be a panel alone, or a hub alone (nodes only): a node whose members all left, with
+/// they were when it left. It may be a panel alone, or a node alone: a node whose members all left, with
 /// whatever node_mass() it has.
 struct Detached {
   std::vector<MemberId> members;
@@ -61,7 +61,7 @@ struct ContactPlace {
   MemberId member;  ///< valid: on a member ...
   PanelId panel;    ///< ... or on a panel
   Vec3 point = Vec3::Zero();
-  NodeId node{};  ///< ... or on a node's hub
+  NodeId node{};  ///< ... or on a node
 };
 struct ContactLoad {
   std::int64_t key = 0;  ///< chosen by the caller; a later load with the same key replaces it
@@ -112,7 +112,8 @@ struct FrameEnergy {
 
 class StandingFrame {
  public:
-  /// Solves the undamaged building under the combination's loads. Throws UnstableModel.
+  /// Solves the undamaged building under the combination's loads. Throws UnstableModel, and InputError for a
+  /// combination that settles a support.
   StandingFrame(const Building& building, CombinationId combination, const FailureRules& rules, int threads = 1);
   ~StandingFrame();
 
@@ -128,13 +129,13 @@ class StandingFrame {
   [[nodiscard]] Vec6 demand(JointId joint) const;
   /// Of the static demand; zero value for a joint without capacity or one that no longer holds.
   [[nodiscard]] Utilisation utilisation(JointId joint) const;
-  /// As solved last: what the nodes' hubs do to a member (local axes, first end then second), what all supports of a
+  /// As solved last: what the nodes do to a member (local axes, first end then second), what all supports of a
   /// node do to the structure (global axes). Zero for what does not stand.
   [[nodiscard]] Eigen::Matrix<double, 12, 1> end_forces(MemberId member) const;
   [[nodiscard]] Vec6 reaction(NodeId node) const;
   /// Over all states that were checked, peaks of sudden losses included.
   [[nodiscard]] double largest_utilisation_so_far(JointId joint) const;
-  /// Segment number of a standing member (segments are numbered from 0 in order of their least node; lone hubs are
+  /// Segment number of a standing member (segments are numbered from 0 in order of their least node; lone nodes are
   /// none). -1 when it does not stand.
   [[nodiscard]] int segment(MemberId member) const;
   [[nodiscard]] int standing_segments() const;
@@ -170,8 +171,8 @@ class StandingFrame {
   /// The owner of the building changed this joint's capacity in place: its utilisation follows at once (no statics are
   /// solved), and if it is over capacity it breaks in the next generations.
   void capacity_changed(JointId joint);
-  /// Factor on E and G, above 0 and at most 1, from now on instead of the one before. It comes on slowly, as in a fire:
-  /// no sudden-loss factor acts on it.
+  /// Factor on E and G, above 0 and at most 1 (else std::invalid_argument), from now on instead of the one before. It
+  /// comes on slowly, as in a fire: no sudden-loss factor acts on it.
   void set_stiffness_factor(MemberId member, double factor);
   void set_gravity(const Vec3& gravity);
   void add_load(NodeId node, const Vec6& load);
@@ -188,8 +189,8 @@ class StandingFrame {
   /// True when a load or joint changed and the answer is not yet settled.
   [[nodiscard]] bool pending() const;
   /// Brings the state up to date: solve, break what is over capacity, one generation after the other until nothing is,
-  /// sudden loss and bracing by the rules, mechanisms released. Returns what broke, in order. Whoever wants to look at
-  /// a state in between stops after so many `generations`: then pending() stays true.
+  /// sudden loss and bracing by the rules, mechanisms released. Returns what broke, in order. To look at a state
+  /// in between, give a number of `generations` to stop after: pending() then stays true.
   std::vector<JointBreak> settle(int generations = std::numeric_limits<int>::max());
   /// From now on what stands moves, and sudden losses are followed in time (docs/dynamics.md): move() takes the place
   /// of settle(), and pending() holds until all is at rest. Rules must have `sudden` 1. Throws InputError where
