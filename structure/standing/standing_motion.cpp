@@ -207,6 +207,10 @@ void StandingMotion::stop(int c) {
   if (found == moving_.end()) return;
   const Moving& moving = *found->second;
   const solver::DynamicEnergy& own = moving.frame->energy();
+  const std::vector<NodeId>& nodes = from_.statics.nodes(c);
+  const bool stands =
+      std::any_of(nodes.begin(), nodes.end(), [&](NodeId node) { return from_.node_solved[index_of(node)] != 0; });
+  if (!stands) past_.freed += own.kinetic + own.elastic;  // all that it had went with what left
   past_.damped += own.damped;
   past_.numerical += own.numerical;
   past_.external_work += moving.left_work;

@@ -154,6 +154,9 @@ void StandingFrame::State::follow_breaks() {
     if (solved_nodes[static_cast<std::size_t>(c)] > 0) continue;
     motion->stop(c);
     statics.forget(c);
+    const double freed = account.freed();
+    come_to_rest(c);
+    rested_freed += account.freed() - freed;
   }
 }
 
