@@ -13,6 +13,7 @@ write_basic_package_version_file("${CMAKE_CURRENT_BINARY_DIR}/topple-config-vers
 install(FILES "${CMAKE_CURRENT_BINARY_DIR}/topple-config.cmake"
               "${CMAKE_CURRENT_BINARY_DIR}/topple-config-version.cmake"
               cmake/FindCHOLMOD.cmake cmake/FindMETIS.cmake cmake/FindBulletDouble.cmake
+              cmake/FindNLopt.cmake
         DESTINATION "${config_dir}" COMPONENT development)
 install(FILES THIRD-PARTY.md SECURITY.md DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/topple" COMPONENT topple)
 install(DIRECTORY models schemas DESTINATION "${CMAKE_INSTALL_DATADIR}/topple" COMPONENT topple)

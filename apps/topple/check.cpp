@@ -12,6 +12,7 @@
 #include "topple/structure/panel_file.h"
 #include "topple/structure/plain_text.h"
 #include "topple/structure/study.h"
+#include "topple/structure/study_optimise.h"
 
 namespace topple::app {
 
@@ -123,7 +124,8 @@ int check_panel(const std::filesystem::path& file) {
 
 int check_study(const std::filesystem::path& file) {
   const structure::Study study = structure::read_study(file);
-  const structure::StudyTask task = structure::study_task(study);
+  const structure::StudyTask task =
+      study.optimise ? structure::StudyOptimiser(study).task() : structure::study_task(study);
   std::printf("%s: %s\n", study.file.c_str(), study.title.empty() ? "(no title)" : study.title.c_str());
   std::printf("  %llu samples of %zu variables\n", static_cast<unsigned long long>(task.sampler.samples()),
               task.sampler.variables().size());

@@ -3,12 +3,19 @@
 #include <atomic>
 #include <csignal>
 #include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
 
 #include "command.h"
 #include "progress.h"
+#include "study_page.h"
+#include "study_ranks.h"
 #include "topple/structure/error.h"
+#include "topple/structure/files.h"
 #include "topple/structure/output_files.h"
 #include "topple/structure/study.h"
+#include "topple/structure/study_optimise.h"
 
 namespace topple::app {
 
@@ -17,7 +24,7 @@ namespace {
 struct StudyOptions {
   std::string study, folder, samples;
   int threads = 0;
-  bool resume = false;
+  bool resume = false, html = false;
 };
 
 std::atomic<bool> interrupted{false};
@@ -50,30 +57,175 @@ std::vector<structure::Sample> sorted(std::vector<structure::Sample> samples) {
   return samples;
 }
 
-int study(const StudyOptions& options) {
-  const std::filesystem::path file = structure::find_study(options.study);
-  const structure::Study study = structure::read_study(file);
-  const structure::StudyTask task = structure::study_task(study);
-  structure::StudyRun run = range_of(options.samples, task.sampler.samples());
-  run.threads = options.threads;
-  const structure::OutputFolder folder(options.folder, {file}, {"journal.jsonl", "times.csv", "samples.csv"});
-  {
-    structure::StudyJournal journal(task, options.folder, options.resume);
-    run.stopped = [] { return interrupted.load(); };
-    run.progress = [](std::uint64_t done, std::uint64_t all) {
-      tell_progress("samples", static_cast<double>(done) / static_cast<double>(all));
-    };
-    std::signal(SIGINT, interrupt);
-    std::signal(SIGTERM, interrupt);
-    structure::run_samples(task, run, journal);
+/// What a run is about; the same on every rank.
+struct Prepared {
+  std::filesystem::path file;
+  structure::Study study;
+  structure::StudyTask task;
+  structure::StudyRun run;
+};
+
+void set_run(const StudyOptions& options, Prepared& all) {
+  all.run = range_of(options.samples, all.task.sampler.samples());
+  all.run.threads = options.threads;
+  all.run.stopped = [] { return interrupted.load(); };
+  all.run.progress = [](std::uint64_t done, std::uint64_t count) {
+    tell_progress("samples", static_cast<double>(done) / static_cast<double>(count));
+  };
+  std::signal(SIGINT, interrupt);
+  std::signal(SIGTERM, interrupt);
+}
+
+Prepared prepared(const StudyOptions& options) {
+  Prepared all;
+  all.file = structure::find_study(options.study);
+  all.study = structure::read_study(all.file);
+  all.task = structure::study_task(all.study);
+  set_run(options, all);
+  return all;
+}
+
+const std::vector<std::string>& result_names() {
+  static const std::vector<std::string> names{"journal.jsonl", "times.csv", "samples.csv", "study.json", "study.html"};
+  return names;
+}
+
+std::optional<structure::Building> building_of(const structure::Study& study) {
+  if (study.base == structure::Study::Base::scenario) return structure::read_scenario(study.scenario).first;
+  if (study.base == structure::Study::Base::model) return structure::read_model(study.model);
+  return std::nullopt;
+}
+
+using structure::OptimiseResult;
+
+/// The answer of an optimisation as a part of study.json.
+nlohmann::ordered_json answer_json(const Prepared& all, const OptimiseResult& result) {
+  using Json = nlohmann::ordered_json;
+  const auto design_json = [&](const structure::StudyDesign& design) {
+    Json inputs = Json::object(), outputs = Json::object();
+    for (std::size_t v = 0; v < design.chosen.size(); ++v)
+      inputs[result.chosen_names[v]] =
+          design.chosen[v].is_number() ? Json(design.chosen[v].number) : Json::parse(design.chosen[v].json);
+    for (std::size_t i = 0; i < design.outputs.size(); ++i) outputs[all.task.outputs[i]] = design.outputs[i];
+    return Json{{"run", design.run}, {"feasible", design.violation == 0}, {"inputs", inputs}, {"outputs", outputs}};
+  };
+  Json json = {{"method", result.method}, {"runs", result.designs.size()}, {"finished", result.finished}};
+  if (result.designs.empty()) return json;
+  json["best"] = design_json(result.best);
+  Json history = Json::array();
+  for (const structure::StudyDesign& design : result.designs) history.push_back({design.objective, design.violation});
+  json["history"] = std::move(history);
+  return json;
+}
+
+/// From the journal as it is now: the table, the statistics, the page.
+int write_results(const StudyOptions& options, const Prepared& all, const OptimiseResult* answer = nullptr) {
+  const std::vector<structure::Sample> journal =
+      sorted(structure::StudyJournal(all.task, options.folder, true).found());
+  // Of an optimisation the statistics are those of its answer.
+  const std::vector<structure::Sample>& samples = answer ? answer->unseen : journal;
+  const std::optional<structure::Building> building = building_of(all.study);
+  const structure::Building* base = building ? &*building : nullptr;
+  const structure::StudyStatistics statistics = structure::study_statistics(all.study, all.task, samples, base);
+  std::string json = structure::study_json(all.study, all.task, samples, statistics, base);
+  if (answer) {
+    auto tree = nlohmann::ordered_json::parse(json);
+    tree["optimise"] = answer_json(all, *answer);
+    json = tree.dump(1) + "\n";
   }
-  const structure::StudyJournal journal(task, options.folder, true);
-  const std::vector<structure::Sample> samples = sorted(journal.found());
-  structure::write_files(options.folder, {{"samples.csv", structure::samples_csv(task, samples)}});
-  const auto failed = std::count_if(samples.begin(), samples.end(), [](const auto& s) { return !s.failed.empty(); });
-  std::printf("%s: %zu of %llu samples, %td failed\n", study.title.empty() ? study.file.c_str() : study.title.c_str(),
-              samples.size(), static_cast<unsigned long long>(task.sampler.samples()), failed);
+  structure::NamedFiles files{{"samples.csv", structure::samples_csv(all.task, journal)}, {"study.json", json}};
+  if (options.html)
+    files.emplace_back("study.html", study_page(all.study, all.task, samples, statistics, base,
+                                                answer ? chosen_section(all.study, all.task, *answer) : ""));
+  structure::write_files(options.folder, files);
+  std::printf("%s: %zu of %zu samples, %zu failed\n",
+              all.study.title.empty() ? all.study.file.c_str() : all.study.title.c_str(), statistics.done,
+              statistics.planned, statistics.failed);
+  for (const structure::OutputStatistics& output : statistics.outputs) {
+    if (output.count == 0) continue;
+    std::printf("  %-24s mean %-12.5g deviation %-12.5g %.5g to %.5g\n", output.name.c_str(), output.mean, output.sd,
+                output.least, output.largest);
+  }
+  if (statistics.collapse) {
+    const structure::Interval wilson = statistics.collapse->wilson();
+    std::printf("  collapse in %.2f %% of the samples (95 %% interval: %.2f to %.2f %%)\n",
+                100 * statistics.collapse->share(), 100 * wilson[0], 100 * wilson[1]);
+  }
+  if (interrupted) std::printf("interrupted: --resume goes on\n");
   return interrupted ? failure : success;
+}
+
+/// One of the processes of mpirun.
+int study_on_ranks(const StudyOptions& options) {
+  const Ranks ranks;
+  Prepared all;
+  std::optional<structure::OutputFolder> folder;
+  std::unique_ptr<structure::StudyJournal> journal;
+  const bool ready = ranks.together([&] {
+    all = prepared(options);
+    if (ranks.rank() != 0) return;
+    folder.emplace(options.folder, std::vector{all.file}, result_names());
+    journal = std::make_unique<structure::StudyJournal>(all.task, options.folder, options.resume);
+  });
+  if (!ready || !ranks.same_on_all(all.task.fingerprint)) return bad_input;
+  if (ranks.rank() != 0) {
+    ranks.work(all.task, all.run);
+    return success;
+  }
+  ranks.serve(all.task, all.run, *journal);
+  journal.reset();
+  return write_results(options, all);
+}
+
+void print_answer(const Prepared& all, const OptimiseResult& result) {
+  if (result.designs.empty()) return;
+  std::printf("  best of %zu designs (%s), run %llu%s:\n", result.designs.size(), result.method.c_str(),
+              static_cast<unsigned long long>(result.best.run),
+              result.best.violation == 0 ? "" : ", which does not keep to all bounds");
+  for (std::size_t v = 0; v < result.best.chosen.size(); ++v) {
+    const structure::StudyValue& value = result.best.chosen[v];
+    std::printf("    %-28s %s\n", result.chosen_names[v].c_str(),
+                value.is_number() ? std::to_string(value.number).c_str() : value.json.c_str());
+  }
+  for (std::size_t i = 0; i < result.best.outputs.size(); ++i)
+    std::printf("    -> %-25s %.6g\n", all.task.outputs[i].c_str(), result.best.outputs[i]);
+}
+
+int optimise(const StudyOptions& options) {
+  if (started_on_ranks())
+    throw structure::InputError(
+        "an optimisation runs in one process, on its threads: each generation waits for the one before; accepted: a "
+        "start "
+        "without mpirun");
+  if (!options.samples.empty())
+    throw structure::InputError("--samples: an optimisation has no slices; accepted: a study without \"optimise\"");
+  Prepared all;
+  all.file = structure::find_study(options.study);
+  all.study = structure::read_study(all.file);
+  const structure::StudyOptimiser optimiser(all.study);
+  all.task = optimiser.task();
+  set_run(options, all);
+  const structure::OutputFolder folder(options.folder, {all.file}, result_names());
+  OptimiseResult result;
+  {
+    structure::StudyJournal journal(all.task, options.folder, options.resume);
+    result = optimiser.run(all.run, journal);
+  }
+  const int status = write_results(options, all, &result);
+  print_answer(all, result);
+  return status;
+}
+
+int study(const StudyOptions& options) {
+  if (structure::read_study(structure::find_study(options.study)).optimise) return optimise(options);
+  if (started_on_ranks()) return study_on_ranks(options);
+  const Prepared all = prepared(options);
+  const structure::OutputFolder folder(options.folder, {all.file}, result_names());
+  {
+    structure::StudyJournal journal(all.task, options.folder, options.resume);
+    structure::run_samples(all.task, all.run, journal);
+  }
+  return write_results(options, all);
 }
 
 const Registration registration{
@@ -83,7 +235,9 @@ const Registration registration{
        app.add_option("-o,--output", options->folder, "Folder for journal.jsonl, samples.csv, study.json")->required();
        app.add_option("--samples", options->samples, "Only samples A:B, from A up to B, without B");
        app.add_flag("--resume", options->resume, "Go on with the journal in the folder: only what is missing");
-       app.add_option("--threads", options->threads, "Samples at once; every processor without it")
+       app.add_flag("--html", options->html, "Write study.html as well, a page with figures that print");
+       app.add_option("--threads", options->threads,
+                      "Samples at once; without it every processor (one in each process of mpirun)")
            ->check(whole_number(1, 1024));
        return [options] { return study(*options); };
      }}};

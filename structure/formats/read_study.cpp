@@ -325,8 +325,9 @@ class StudyReader {
     if (const auto unseen = value.find("unseen")) request.unseen = static_cast<int>(unseen->whole(0, 100'000));
     if (const auto method = value.find("method")) {
       request.method = method->text();
-      if (request.method != "cobyla" && request.method != "isres" && request.method != "cross-entropy")
-        method->refuse(R"("cobyla", "isres" or "cross-entropy")");
+      if (request.method != "cobyla" && request.method != "isres" && request.method != "cross-entropy" &&
+          request.method != "random")
+        method->refuse(R"("cobyla", "isres", "cross-entropy" or "random")");
     }
     // What is chosen: entries of their own, or all of `vary`.
     if (const auto choose = value.find("choose"))

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "parallel/side_by_side.h"
+#include "study/run_each.h"
 #include "topple/structure/plain_text.h"
 #include "topple/structure/study.h"
 
@@ -14,44 +15,9 @@ namespace topple::structure {
 
 namespace {
 
-/// Calls `take` with each sample of `numbers` as it ends, one at a time. What `take` throws ends the run.
-void run_each(const StudyTask& task, const StudyRun& run, const std::vector<std::uint64_t>& numbers,
-              const std::function<void(Sample&&)>& take) {
-  std::atomic<std::size_t> next{0};
-  std::atomic<bool> ended{false};
-  std::mutex mutex;
-  std::exception_ptr failure;
-  std::uint64_t done = 0;
-  const auto work = [&] {
-    try {
-      const std::unique_ptr<SampleEvaluator> evaluator = task.make_evaluator();
-      for (std::size_t i = next++; i < numbers.size() && !ended && !(run.stopped && run.stopped()); i = next++) {
-        Sample sample = run_sample(task, *evaluator, numbers[i]);
-        const std::lock_guard lock(mutex);
-        if (ended) return;
-        take(std::move(sample));
-        if (run.progress) run.progress(++done, numbers.size());
-      }
-    } catch (...) {
-      const std::lock_guard lock(mutex);
-      if (!failure) failure = std::current_exception();
-      ended = true;
-    }
-  };
-  std::vector<std::thread> beside;
-  for (std::size_t t = 1; t < workers_for(numbers.size(), run.threads); ++t) beside.emplace_back(work);
-  work();
-  for (std::thread& thread : beside) thread.join();
-  if (failure) std::rethrow_exception(failure);
-}
-
-}  // namespace
-
-Sample run_sample(const StudyTask& task, SampleEvaluator& evaluator, std::uint64_t k) {
+/// Sets outputs, or the reason why there are none.
+void evaluate(SampleEvaluator& evaluator, Sample& sample) {
   const auto start = std::chrono::steady_clock::now();
-  Sample sample;
-  sample.number = k;
-  sample.inputs = task.sampler.values(k);
   try {
     evaluator.evaluate(sample);
   } catch (const std::exception& error) {
@@ -61,6 +27,59 @@ Sample run_sample(const StudyTask& task, SampleEvaluator& evaluator, std::uint64
     if (sample.failed.empty()) sample.failed = "no reason was given";
   }
   sample.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Calls `make(i)` for the samples 0 ... count - 1 and `take` with each as it ends, one at a time.
+void run_all(const StudyTask& task, const StudyRun& run, std::size_t count,
+             const std::function<Sample(std::size_t)>& make, const std::function<void(Sample&&)>& take) {
+  if (count == 0) return;
+  std::atomic<std::size_t> next{0};
+  std::atomic<bool> ended{false};
+  std::mutex mutex;
+  std::exception_ptr failure;
+  std::uint64_t done = 0;
+  const auto work = [&] {
+    try {
+      const std::unique_ptr<SampleEvaluator> evaluator = task.make_evaluator();
+      for (std::size_t i = next++; i < count && !ended && !(run.stopped && run.stopped()); i = next++) {
+        Sample sample = make(i);
+        evaluate(*evaluator, sample);
+        const std::lock_guard lock(mutex);
+        if (ended) return;
+        take(std::move(sample));
+        if (run.progress) run.progress(++done, count);
+      }
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      if (!failure) failure = std::current_exception();
+      ended = true;
+    }
+  };
+  std::vector<std::thread> beside;
+  for (std::size_t t = 1; t < workers_for(count, run.threads); ++t) beside.emplace_back(work);
+  work();
+  for (std::thread& thread : beside) thread.join();
+  if (failure) std::rethrow_exception(failure);
+}
+
+Sample drawn(const StudyTask& task, std::uint64_t k) {
+  Sample sample;
+  sample.number = k;
+  sample.inputs = task.sampler.values(k);
+  return sample;
+}
+
+}  // namespace
+
+void study::run_each(const StudyTask& task, const StudyRun& run, std::vector<Sample> samples,
+                     const std::function<void(Sample&&)>& take) {
+  run_all(
+      task, run, samples.size(), [&](std::size_t i) { return std::move(samples[i]); }, take);
+}
+
+Sample run_sample(const StudyTask& task, SampleEvaluator& evaluator, std::uint64_t k) {
+  Sample sample = drawn(task, k);
+  evaluate(evaluator, sample);
   return sample;
 }
 
@@ -68,7 +87,9 @@ void run_samples(const StudyTask& task, const StudyRun& run, StudyJournal& journ
   std::vector<std::uint64_t> missing;
   for (std::uint64_t k = run.from; k < std::min(run.to, task.sampler.samples()); ++k)
     if (!journal.has(k)) missing.push_back(k);
-  run_each(task, run, missing, [&](Sample&& sample) { journal.add(sample); });
+  run_all(
+      task, run, missing.size(), [&](std::size_t i) { return drawn(task, missing[i]); },
+      [&](Sample&& sample) { journal.add(sample); });
   journal.sync();
 }
 
@@ -76,7 +97,9 @@ std::vector<Sample> run_samples(const StudyTask& task, const StudyRun& run) {
   std::vector<std::uint64_t> numbers;
   for (std::uint64_t k = run.from; k < std::min(run.to, task.sampler.samples()); ++k) numbers.push_back(k);
   std::vector<Sample> samples;
-  run_each(task, run, numbers, [&](Sample&& sample) { samples.push_back(std::move(sample)); });
+  run_all(
+      task, run, numbers.size(), [&](std::size_t i) { return drawn(task, numbers[i]); },
+      [&](Sample&& sample) { samples.push_back(std::move(sample)); });
   std::sort(samples.begin(), samples.end(), [](const Sample& a, const Sample& b) { return a.number < b.number; });
   return samples;
 }

@@ -6,6 +6,7 @@
 
 #include "study/analysis_options.h"
 #include "study/evaluators.h"
+#include "study/study_tasks.h"
 #include "study/study_value.h"
 #include "topple/structure/error.h"
 #include "topple/structure/files.h"
@@ -138,22 +139,35 @@ std::span<const std::string_view> ready_outputs() {
   return names;
 }
 
+namespace study {
+
+std::shared_ptr<const StudyBase> sound_base(const Study& study, const std::vector<Variation>& variations) {
+  const std::shared_ptr<const StudyBase> base = make_base(study, variations);
+  require_sound(*base);
+  return base;
+}
+
+void complete_task(StudyTask& task, std::shared_ptr<const StudyBase> base) {
+  for (const Recorded& recorded : base->study.record) task.outputs.push_back(recorded.name);
+  task.fingerprint = fingerprint_of(*base);
+  task.make_evaluator = [base]() -> std::unique_ptr<SampleEvaluator> {
+    if (base->study.base == Study::Base::scenario) return collapse_evaluator(base);
+    if (base->study.base == Study::Base::model) return analysis_evaluator(base);
+    return std::make_unique<EmptyEvaluator>();
+  };
+}
+
+}  // namespace study
+
 StudyTask study_task(const Study& study) {
-  const std::shared_ptr<const study::StudyBase> base = study::make_base(study, study.vary);
-  study::require_sound(*base);
+  const std::shared_ptr<const study::StudyBase> base = study::sound_base(study, study.vary);
   StudyTask task;
   try {
     task.sampler = StudySampler(base->variables, base->groups, study.sampling, study.samples, study.seed);
   } catch (const std::invalid_argument& error) {
     throw InputError(study.file + ": " + error.what());
   }
-  for (const Recorded& recorded : study.record) task.outputs.push_back(recorded.name);
-  task.fingerprint = study::fingerprint_of(*base);
-  task.make_evaluator = [base]() -> std::unique_ptr<SampleEvaluator> {
-    if (base->study.base == Study::Base::scenario) return study::collapse_evaluator(base);
-    if (base->study.base == Study::Base::model) return study::analysis_evaluator(base);
-    return std::make_unique<study::EmptyEvaluator>();
-  };
+  study::complete_task(task, base);
   return task;
 }
 

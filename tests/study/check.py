@@ -130,6 +130,38 @@ with tempfile.TemporaryDirectory() as folder:
         exact = float(row["P"]) * 27 / (3 * 2e11 * float(row["E"]) * 1e-4)
         expect(abs(float(row["tip"]) - exact) < 1e-12 * abs(exact) and abs(float(row["most"]) + exact) < 1e-12 * abs(exact), f"{row} {exact}")
 
+    # Optimised: the least weight of a cantilever that bends by 5 mm at most. With a square section of side b the answer is in closed form.
+    side = (1000 * 27 * 12 / (3 * 2e11 * 0.005)) ** 0.25
+    square = {**beam, "sections": {"s": {"shape": "rectangle", "depth": 0.1, "width": 0.1, "shear_deformation": False}}}
+    square["materials"]["m"]["density"] = 7850
+    (place / "square.json").write_text(json.dumps(square))
+
+    def optimised(name, **keys):
+        value = {"topple": 1, "base": {"model": "square.json"}, "seed": 3, "record": {"kg": "weight", "tip": "largest_displacement"},
+                 "optimise": {"least": "kg", "subject_to": {"tip": {"below": 0.005}}, "unseen": 0, **keys}}
+        (place / f"{name}.json").write_text(json.dumps(value))
+        done = run(place / f"{name}.json", "-o", place / name)
+        expect(done.returncode == 0, f"{name}: {done.stderr}")
+        return json.loads((place / name / "study.json").read_text())["optimise"] if done.returncode == 0 else None
+
+    sides = [{"at": f"/sections/s/{key}", "name": key, "uniform": [0.02, 0.2]} for key in ("depth", "width")]
+    best = optimised("cobyla", runs=200, choose=sides)["best"]
+    # Least weight: as narrow and deep as the bounds allow. I = w d^3 / 12 with w = 0.02.
+    deep = (12 * 1000 * 27 / (3 * 2e11 * 0.005) / 0.02) ** (1 / 3)
+    expect(abs(best["outputs"]["kg"] / (7850 * 3 * 0.02 * deep) - 1) < 1e-3 and best["outputs"]["tip"] < 0.005 * (1 + 1e-6), f"COBYLA: {best} {deep}")
+    best = optimised("isres", runs=1500, method="isres", choose=sides)["best"]
+    expect(best["feasible"] and best["outputs"]["kg"] < 7850 * 3 * 0.02 * deep * 1.1, f"ISRES: {best} {deep}")
+    lists = [{"at": f"/sections/s/{key}", "name": key, "choice": [0.02 + 0.01 * i for i in range(19)]} for key in ("depth", "width")]
+    allowed = [w * d for w in lists[0]["choice"] for d in lists[0]["choice"] if 1000 * 27 / (3 * 2e11 * w * d ** 3 / 12) < 0.005]
+    best = optimised("entropy", runs=250, choose=lists)["best"]
+    expect(best["feasible"] and abs(best["outputs"]["kg"] / (7850 * 3 * min(allowed)) - 1) < 1e-9, f"cross-entropy: {best} {min(allowed) * 23550}")
+    whole = journal(place / "entropy")
+    out = place / "entropy_again"
+    done = run(place / "entropy.json", "-o", out, "--threads", 1)
+    (out / "journal.jsonl").write_text("\n".join((out / "journal.jsonl").read_text().splitlines()[:100]) + "\n")
+    done = run(place / "entropy.json", "-o", out, "--resume", "--html")
+    expect(journal(out) == whole and "Chosen" in (out / "study.html").read_text(), "a resumed optimisation goes another way")
+
     if len(sys.argv) > 2:
         mpirun = [sys.argv[2], "--allow-run-as-root", "--oversubscribe", "--bind-to", "none"]
         for ranks in (1, 2, 3):
@@ -150,7 +182,9 @@ with tempfile.TemporaryDirectory() as folder:
             os.kill(children[2], signal.SIGKILL)
         expect(len(children) == 3 and job.wait(timeout=120) != 0, f"a dead rank does not end the job: {children}")
         expect(run(longer, "-o", out, "--resume").returncode == 0, "a study does not go on after a rank has died")
-        expect(journal(out) == journal(place / f"killed{signal.SIGKILL}"), "after a rank has died the journal is another")
+        here, there = journal(out), journal(place / f"killed{signal.SIGKILL}")
+        differ = [(a[:60], b[:60]) for a, b in zip(here, there) if a != b][:2]
+        expect(here == there, f"after a rank has died the journal is another: {len(here)} lines, {len(there)}, {differ}")
         wrong = place / "wrong.json"
         wrong.write_text(json.dumps({**hits, "record": {"down": "down"}}))
         done = subprocess.run([*mpirun, "-n", "2", topple, "study", str(wrong), "-o", str(place / "none")], capture_output=True, text=True)

@@ -1,0 +1,10 @@
+# NLopt, nonlinear optimisation (its C interface): target NLopt::NLopt.
+find_path(NLOPT_INCLUDE_DIR nlopt.h)
+find_library(NLOPT_LIBRARY NAMES nlopt_cxx nlopt)
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(NLopt REQUIRED_VARS NLOPT_LIBRARY NLOPT_INCLUDE_DIR)
+if(NLopt_FOUND AND NOT TARGET NLopt::NLopt)
+  add_library(NLopt::NLopt INTERFACE IMPORTED)
+  target_include_directories(NLopt::NLopt SYSTEM INTERFACE "${NLOPT_INCLUDE_DIR}")
+  target_link_libraries(NLopt::NLopt INTERFACE "${NLOPT_LIBRARY}")
+endif()

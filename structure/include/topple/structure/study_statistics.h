@@ -1,0 +1,94 @@
+#pragma once
+// What the samples of a study say: distributions with their confidence, the probability of collapse, what it hangs on.
+// All intervals are of 95 %. Failed samples and outputs without a number are left out and counted.
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "topple/structure/building.h"
+#include "topple/structure/study.h"
+
+namespace topple::structure {
+
+using Interval = std::array<double, 2>;
+
+struct StudyQuantile {
+  double share = 0, value = 0;       ///< between order statistics, linear (R. J. Hyndman, Y. Fan, 1996, type 7)
+  std::optional<Interval> interval;  ///< between order statistics; none where there are too few samples
+};
+struct OutputStatistics {
+  std::string name;
+  std::size_t count = 0, missing = 0;
+  double mean = 0, sd = 0, least = 0, largest = 0;
+  std::optional<Interval> mean_interval;  ///< Student's t
+  std::vector<StudyQuantile> quantiles;   ///< 0.05, 0.25, 0.5, 0.75, 0.95
+  /// Number of samples, mean and half the width of its interval, as they came by number.
+  std::vector<std::array<double, 3>> convergence;
+};
+
+/// A share of samples with its interval (E. B. Wilson, J. Am. Stat. Assoc. 22, 1927).
+struct Proportion {
+  std::size_t hits = 0, of = 0;
+  [[nodiscard]] double share() const { return of > 0 ? static_cast<double>(hits) / static_cast<double>(of) : 0; }
+  [[nodiscard]] Interval wilson() const;
+};
+
+/// What one output owes to one input.
+struct InputInfluence {
+  std::string input;
+  double rank_correlation = 0;       ///< Spearman's
+  std::optional<Interval> interval;  ///< by Fisher's transformation (E. C. Fieller et al., Biometrika 44, 1957)
+  /// Sobol indices with their standard error by bootstrap. First order: of the variance that goes when the input is
+  /// known; total: that stays when all others are. From a "saltelli" design (Saltelli et al. 2010, M. J. W. Jansen
+  /// 1999); else the first order alone, from classes of equal counts, as a correlation ratio freed of its bias (T. L.
+  /// Kelley, 1935).
+  std::optional<std::array<double, 2>> first_order, total;
+};
+struct OutputInfluences {
+  std::string output;
+  std::vector<InputInfluence> inputs;
+};
+
+/// Probability of collapse over an input: a lognormal curve fitted by maximum likelihood (J. W. Baker, Efficient
+/// analytical fragility function fitting using dynamic structural analysis, Earthq. Spectra 31, 2015).
+struct Fragility {
+  std::string input;
+  struct Class {
+    double from = 0, to = 0;
+    Proportion collapsed;
+  };
+  std::vector<Class> classes;
+  bool falling = false;                      ///< collapse becomes rarer as the input grows (a strength)
+  std::optional<double> median, dispersion;  ///< none: the fit has no finite answer
+};
+
+struct PartShares {
+  std::vector<double> members, panels, joints;  ///< share of samples in which it fell, or broke
+  std::size_t samples = 0;
+};
+
+struct StudyStatistics {
+  std::size_t planned = 0, done = 0, failed = 0;
+  std::vector<OutputStatistics> outputs;
+  std::optional<Proportion> collapse;
+  std::vector<OutputInfluences> influences;  ///< of each output, and of "collapse"
+  std::optional<Fragility> fragility;
+  PartShares parts;
+};
+
+/// `samples` in order of their numbers. `parts` is left empty where the building has other parts than the samples.
+[[nodiscard]] StudyStatistics study_statistics(const Study& study, const StudyTask& task,
+                                               std::span<const Sample> samples, const Building* building);
+/// Whether a sample counts as a collapse; none where it failed or lacks a number that is asked about.
+[[nodiscard]] std::optional<bool> collapsed(const Study& study, const StudyTask& task, const Sample& sample);
+/// An input as a number: that of a choice by its place in the list.
+[[nodiscard]] double input_number(const StudyVariable& variable, const StudyValue& value);
+/// study.json.
+[[nodiscard]] std::string study_json(const Study& study, const StudyTask& task, std::span<const Sample> samples,
+                                     const StudyStatistics& statistics, const Building* building);
+
+}  // namespace topple::structure
