@@ -162,7 +162,14 @@ int study_on_ranks(const StudyOptions& options) {
   std::optional<structure::OutputFolder> folder;
   std::unique_ptr<structure::StudyJournal> journal;
   const bool ready = ranks.together([&] {
+    if (options.threads > 1)
+      throw structure::InputError(
+          "--threads: each process of mpirun computes one sample at a time; accepted: more of them");
     all = prepared(options);
+    if (all.study.optimise)
+      throw structure::InputError(all.study.file +
+                                  ": an optimisation runs in one process, on its threads, as each generation waits for "
+                                  "the one before; accepted: a start without mpirun");
     if (ranks.rank() != 0) return;
     folder.emplace(options.folder, std::vector{all.file}, result_names());
     journal = std::make_unique<structure::StudyJournal>(all.task, options.folder, options.resume);
@@ -192,11 +199,6 @@ void print_answer(const Prepared& all, const OptimiseResult& result) {
 }
 
 int optimise(const StudyOptions& options) {
-  if (started_on_ranks())
-    throw structure::InputError(
-        "an optimisation runs in one process, on its threads: each generation waits for the one before; accepted: a "
-        "start "
-        "without mpirun");
   if (!options.samples.empty())
     throw structure::InputError("--samples: an optimisation has no slices; accepted: a study without \"optimise\"");
   Prepared all;
@@ -217,8 +219,8 @@ int optimise(const StudyOptions& options) {
 }
 
 int study(const StudyOptions& options) {
-  if (structure::read_study(structure::find_study(options.study)).optimise) return optimise(options);
   if (started_on_ranks()) return study_on_ranks(options);
+  if (structure::read_study(structure::find_study(options.study)).optimise) return optimise(options);
   const Prepared all = prepared(options);
   const structure::OutputFolder folder(options.folder, {all.file}, result_names());
   {

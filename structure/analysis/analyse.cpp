@@ -9,6 +9,7 @@
 #include <set>
 #include <span>
 
+#include "analysis/brief_analysis.h"
 #include "analysis/discretisation.h"
 #include "analysis/divided_member.h"
 #include "analysis/equilibrium.h"
@@ -40,9 +41,10 @@ namespace {
 /// Everything that the combinations share.
 class Analysis {
  public:
-  Analysis(const Building& building, const AnalysisRequest& request)
+  Analysis(const Building& building, const AnalysisRequest& request, bool brief = false)
       : building_(building),
         request_(request),
+        brief_(brief),
         frame_(make_frame(building)),
         hanging_(hanging_shells(frame_)),
         edges_(building),
@@ -478,6 +480,7 @@ class Analysis {
     result.panels = panels(parts, solution);
     result.joints = joints(parts, solution, result);
     result.storeys = storeys_.results(result.displacements, result.members);
+    if (brief_) return result;
     result.discretisation_error = set_discretisation_errors(building_, frame_, parts, solution, result.panels);
     result.largest = largest_displacement(building_, result, [&](std::size_t m, double at) {
       Vec2 bent = Vec2::Zero();
@@ -520,6 +523,7 @@ class Analysis {
 
   template <class Diagram>
   void fill(MemberResult& member, double length, const Diagram& diagram) const {
+    if (brief_) return;
     for (std::size_t q = 0; q < 8; ++q) {
       const auto range = diagram.extremes(static_cast<solver::BeamDiagram::Quantity>(q));
       member.min[q] = {range.least.value, range.least.at};
@@ -644,6 +648,7 @@ class Analysis {
   static constexpr double largest_buckling_factor = 1e6;
 
   const AnalysisRequest& request_;
+  bool brief_ = false;  ///< analyse_briefly()
   Frame frame_;
   std::vector<solver::HangingShell> hanging_;
   EdgeMembers edges_;
@@ -670,6 +675,12 @@ AnalysisResult analyse(const Building& building, const AnalysisRequest& request)
   require_request(building, request);
   require_stocky(building, request);
   return Analysis(building, request).run();
+}
+
+AnalysisResult analyse_briefly(const Building& building, const AnalysisRequest& request) {
+  require_request(building, request);
+  require_stocky(building, request);
+  return Analysis(building, request, true).run();
 }
 
 }  // namespace topple::structure

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "analysis/brief_analysis.h"
 #include "study/analysis_options.h"
 #include "study/evaluators.h"
 
@@ -71,7 +72,7 @@ class AnalysisEvaluator : public SampleEvaluator {
     AnalysisOfSample asked = analysis_of(base_->study, building);
     asked.request.losses.each.insert(asked.request.losses.each.end(), of_sample_.lost().begin(),
                                      of_sample_.lost().end());
-    AnalysisResult result = analyse(building, asked.request);
+    AnalysisResult result = whole(asked) ? analyse(building, asked.request) : analyse_briefly(building, asked.request);
     if (asked.code) check_design(building, *asked.code, usual_drift_limit, result);
     nlohmann::ordered_json results;
     for (const Recorded& recorded : base_->study.record) {
@@ -88,6 +89,13 @@ class AnalysisEvaluator : public SampleEvaluator {
   }
 
  private:
+  /// What is recorded needs more than the ends of members.
+  [[nodiscard]] bool whole(const AnalysisOfSample& asked) const {
+    return asked.code || std::any_of(base_->study.record.begin(), base_->study.record.end(), [](const Recorded& r) {
+             return r.from == Recorded::From::results || r.pointer == "largest_displacement";
+           });
+  }
+
   [[nodiscard]] double ready(const std::string& name, const AnalysisResult& result) const {
     if (name == "largest_use") return largest_use(result);
     if (name == "reserve_factor") return reserve_factor(result);

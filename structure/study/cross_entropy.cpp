@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include "study/counter_random.h"
 #include "study/design_search.h"
@@ -79,6 +80,22 @@ void learn(Belief& belief, const std::vector<double>& places) {
                               moved * std::sqrt(squares) + (1 - moved) * std::min(belief.deviation, uniform_deviation));
 }
 
+/// A design near one of the best: a step or two along the list, or a normal step, in about one variable (mutation of an
+/// evolution strategy, H.-G. Beyer, H.-P. Schwefel, Natural Computing 1, 2002). Where independent distributions cannot
+/// follow how variables depend on each other, these go on.
+double mutated(const Belief& belief, double place, double share, double chance, double step) {
+  if (chance >= share) return place;
+  if (belief.probability.empty()) {
+    constexpr double deviation = 0.1;
+    return std::clamp(place + deviation * normal_quantile(step), 0.0, 1.0);
+  }
+  const double last = static_cast<double>(belief.probability.size() - 1);
+  constexpr double far = 0.2;  // anywhere in the list
+  if (step < far) return std::floor(step / far * (last + 1));
+  const double by = std::floor((step - far) / (1 - far) * 4);  // -2, -1, 1, 2
+  return std::clamp(place + (by < 2 ? by - 2 : by - 1), 0.0, last);
+}
+
 /// Generations of about the square root of all runs: as many of them as there are designs in each.
 int generation_size(int runs) { return std::clamp(static_cast<int>(std::lround(1.2 * std::sqrt(runs))), 4, 200); }
 
@@ -89,22 +106,47 @@ struct Tried {
 
 }  // namespace
 
+namespace {
+
+/// Design d: every other one of later generations is drawn near one of the elite.
+std::vector<double> next_design(const SearchSpace& space, const std::vector<Belief>& beliefs,
+                                const std::vector<Tried>& elite, int d, int again) {
+  const auto u = [&](std::size_t what) {
+    const auto k = static_cast<std::uint64_t>(d) | (static_cast<std::uint64_t>(again) << 32);
+    return unit_interval(random_bits(space.seed, Drawn::search, k, static_cast<std::uint32_t>(what)));
+  };
+  const std::size_t n = beliefs.size();
+  const bool near = !elite.empty() && d % 2 == 1;
+  const std::size_t parent = elite.empty() ? 0 : static_cast<std::size_t>(u(3 * n) * static_cast<double>(elite.size()));
+  std::vector<double> place;
+  for (std::size_t v = 0; v < n; ++v)
+    place.push_back(
+        near ? mutated(beliefs[v], elite[parent].places[v], 1.5 / static_cast<double>(n), u(n + v), u(2 * n + v))
+             : draw(beliefs[v], u(v)));
+  return place;
+}
+
+}  // namespace
+
 void cross_entropy(const SearchSpace& space, const TryDesigns& attempt, const Better& better) {
   std::vector<Belief> beliefs = first_beliefs(space);
   const int size = generation_size(space.runs);
   std::vector<Tried> elite;
+  std::set<std::vector<double>> known;
   for (int first = 0; first < space.runs; first += size) {
     std::vector<std::vector<double>> places;
     std::vector<std::vector<StudyValue>> designs;
     for (int d = first; d < std::min(first + size, space.runs); ++d) {
-      auto& place = places.emplace_back();
-      auto& design = designs.emplace_back();
-      for (std::size_t v = 0; v < beliefs.size(); ++v) {
-        const auto bits =
-            random_bits(space.seed, Drawn::search, static_cast<std::uint64_t>(d), static_cast<std::uint32_t>(v));
-        place.push_back(draw(beliefs[v], unit_interval(bits)));
-        design.push_back(value_of(space.variables[v], place.back()));
+      std::vector<double> place;
+      // One that was tried already says nothing new.
+      constexpr int attempts = 20;
+      for (int again = 0; again < attempts; ++again) {
+        place = next_design(space, beliefs, elite, d, again);
+        if (known.insert(place).second) break;
       }
+      auto& design = designs.emplace_back();
+      for (std::size_t v = 0; v < beliefs.size(); ++v) design.push_back(value_of(space.variables[v], place[v]));
+      places.push_back(std::move(place));
     }
     const std::size_t asked = designs.size();
     const std::vector<StudyDesign> done = attempt(std::move(designs));

@@ -27,7 +27,7 @@ using TryDesigns = std::function<std::vector<StudyDesign>(std::vector<std::vecto
 using Better = std::function<bool(const StudyDesign& a, const StudyDesign& b)>;
 
 /// The cross-entropy method (R. Y. Rubinstein, D. P. Kroese, The Cross-Entropy Method, 2004): designs are drawn from
-/// independent distributions, which move towards the best quarter of each generation.
+/// independent distributions, which move towards the best of all so far; every other one is a mutation of one of these.
 void cross_entropy(const SearchSpace& space, const TryDesigns& attempt, const Better& better);
 /// Designs at random, for comparison.
 void random_search(const SearchSpace& space, const TryDesigns& attempt);

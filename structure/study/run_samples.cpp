@@ -8,15 +8,13 @@
 
 #include "parallel/side_by_side.h"
 #include "study/run_each.h"
+#include "study/worker_processes.h"
 #include "topple/structure/plain_text.h"
 #include "topple/structure/study.h"
 
 namespace topple::structure {
 
-namespace {
-
-/// Sets outputs, or the reason why there are none.
-void evaluate(SampleEvaluator& evaluator, Sample& sample) {
+void study::evaluate(SampleEvaluator& evaluator, Sample& sample) {
   const auto start = std::chrono::steady_clock::now();
   try {
     evaluator.evaluate(sample);
@@ -29,10 +27,16 @@ void evaluate(SampleEvaluator& evaluator, Sample& sample) {
   sample.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+namespace {
+
+using study::evaluate;
+
 /// Calls `make(i)` for the samples 0 ... count - 1 and `take` with each as it ends, one at a time.
 void run_all(const StudyTask& task, const StudyRun& run, std::size_t count,
              const std::function<Sample(std::size_t)>& make, const std::function<void(Sample&&)>& take) {
   if (count == 0) return;
+  if (const std::size_t workers = workers_for(count, run.threads); task.apart && workers > 1)
+    return study::run_in_processes(task, run, count, workers, make, take);
   std::atomic<std::size_t> next{0};
   std::atomic<bool> ended{false};
   std::mutex mutex;

@@ -150,6 +150,7 @@ std::shared_ptr<const StudyBase> sound_base(const Study& study, const std::vecto
 void complete_task(StudyTask& task, std::shared_ptr<const StudyBase> base) {
   for (const Recorded& recorded : base->study.record) task.outputs.push_back(recorded.name);
   task.fingerprint = fingerprint_of(*base);
+  task.apart = base->study.base == Study::Base::scenario;
   task.make_evaluator = [base]() -> std::unique_ptr<SampleEvaluator> {
     if (base->study.base == Study::Base::scenario) return collapse_evaluator(base);
     if (base->study.base == Study::Base::model) return analysis_evaluator(base);

@@ -111,6 +111,9 @@ struct StudyTask {
   /// Of all that the samples depend on (files, program): the journal of another fingerprint is refused.
   std::uint64_t fingerprint = 0;
   std::function<std::unique_ptr<SampleEvaluator>()> make_evaluator;  ///< called on the thread that uses it
+  /// Two samples must not be computed at once in one process (collapses: the collision engine has state that all of a
+  /// process share): side by side they run in processes that are forked, each with one thread.
+  bool apart = false;
 };
 
 /// Sample k of the task: its inputs, evaluated; never throws for a sample that fails.
@@ -157,7 +160,7 @@ struct StudyRun {
   std::function<bool()> stopped;                   ///< true: no further sample is begun
   std::function<void(std::uint64_t done, std::uint64_t all)> progress;
 };
-/// Computes what the journal lacks, on threads of this process.
+/// Computes what the journal lacks, on threads of this process, or in forked ones where samples must be apart.
 void run_samples(const StudyTask& task, const StudyRun& run, StudyJournal& journal);
 /// The same without a journal: all samples in their order.
 [[nodiscard]] std::vector<Sample> run_samples(const StudyTask& task, const StudyRun& run = {});
