@@ -37,7 +37,7 @@ set(CPACK_COMPONENT_TOPPLE_DESCRIPTION
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libtopple-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-  "libeigen3-dev, libsuitesparse-dev, libopenblas-dev, libmetis-dev, libbullet-dev, libtinygltf-dev, pkg-config")
+  "libeigen3-dev, libsuitesparse-dev, libopenblas-dev, libmetis-dev, libbullet-dev, libtinygltf-dev, libnlopt-cxx-dev, pkg-config")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "topple")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION 
   "libraries to analyse and demolish buildings\n${about}This package has the static libraries and headers, and what CMake\nneeds to find them.")
