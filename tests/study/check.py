@@ -89,7 +89,7 @@ with tempfile.TemporaryDirectory() as folder:
     for kill, expected in ((signal.SIGKILL, -signal.SIGKILL), (signal.SIGINT, 1)):
         out = place / f"killed{kill}"
         longer = place / f"longer{kill}.json"
-        longer.write_text(json.dumps({**hits, "samples": 400}))
+        longer.write_text(json.dumps({**hits, "samples": 120}))
         process = subprocess.Popen([topple, "study", str(longer), "-o", str(out), "--threads", "2"], stdout=subprocess.DEVNULL,
                                    stderr=subprocess.DEVNULL)
         for _ in range(600):
@@ -99,11 +99,11 @@ with tempfile.TemporaryDirectory() as folder:
         process.send_signal(kill)
         status = process.wait()
         found = (out / "journal.jsonl").read_text()
-        expect(status == expected or found.count("\n") == 400, f"signal {kill}: status {status}")
+        expect(status == expected or found.count("\n") == 120, f"signal {kill}: status {status}")
         if kill == signal.SIGKILL:
             (out / "journal.jsonl").write_text(found[:-40])
         expect(run(longer, "-o", out, "--resume").returncode == 0, "a killed study does not go on")
-        expect(len(journal(out)) == 400, "a resumed study lacks samples")
+        expect(len(journal(out)) == 120, "a resumed study lacks samples")
     expect(journal(place / f"killed{signal.SIGKILL}") == journal(place / f"killed{signal.SIGINT}"), "a killed study has another journal")
     expect("another study" in run(study, "-o", place / f"killed{signal.SIGKILL}", "--resume").stderr, "a foreign journal is taken")
 
