@@ -53,10 +53,17 @@ float least_difference(const JointPalette& p, const glm::mat3& seen) {
   return least;
 }
 
+/// The view in which joints are coloured.
+ViewOptions of_joints() {
+  ViewOptions options;
+  options.colouring = Colouring::joints;
+  return options;
+}
+
 }  // namespace
 
 TEST_CASE("each of the six components is coloured alone, by its sign and its share of its own capacity") {
-  ViewOptions options;
+  ViewOptions options = of_joints();
   options.colouring = Colouring::component;
   const double limits[] = {100, 300, 400, 500, 600, 700};
   for (int c = 0; c < 6; ++c) {
@@ -80,7 +87,7 @@ TEST_CASE("each of the six components is coloured alone, by its sign and its sha
 }
 
 TEST_CASE("colours of joints grow with their use, against the capacity or the largest in view") {
-  ViewOptions options;
+  ViewOptions options = of_joints();
   FrameAnswer::Joint joint;
   const auto strength = [&](double largest) { return unpack(joint_colour(joint, capacities(), options, largest)).a; };
   joint.force_share = 0.25F;
@@ -101,7 +108,7 @@ TEST_CASE("colours of joints grow with their use, against the capacity or the la
 }
 
 TEST_CASE("failed joints are blue, black where blue says something else, or hidden") {
-  ViewOptions options;
+  ViewOptions options = of_joints();
   FrameAnswer::Joint failed;
   failed.intact = false;
   CHECK(joint_colour(failed, capacities(), options, 1) == joint_palette(false).failed);
@@ -139,7 +146,7 @@ TEST_CASE("coloured members are drawn plain, and their colour fades from the joi
   for (auto& joint : answer->joints) joint.force_share = 1;
   snapshot.answer = answer;
   SceneInstances instances(*scene.building);
-  ViewOptions options;
+  ViewOptions options = of_joints();
   const auto base = [&] {
     instances.update(snapshot, options);
     return instances.members()[0].instances[0];

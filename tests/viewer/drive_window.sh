@@ -12,7 +12,7 @@ trap 'kill $program $server 2>/dev/null || true' EXIT
 program=
 for _ in $(seq 100); do [ -s display ] && break; sleep 0.1; done
 export DISPLAY=:$(cat display)
-"$viewer" seed_building --size 900x600 --screenshot "$folder/shot.png" >viewer.log 2>&1 &
+"$viewer" seed_building --show joints --size 900x600 --screenshot "$folder/shot.png" >viewer.log 2>&1 &
 program=$!
 xdotool search --sync --onlyvisible --name Topple >/dev/null
 # A picture is there when its file has stopped growing.
@@ -28,7 +28,7 @@ xdotool mousemove 250 300
 sleep 2
 picture start.png
 xdotool mousedown 1
-for x in 270 290 310; do xdotool mousemove "$x" 300; sleep 0.3; done
+for x in 270 290 310; do xdotool mousemove "$x" 300; sleep 1.5; done
 xdotool mouseup 1
 sleep 1
 picture orbited.png
@@ -41,9 +41,9 @@ xdotool key g
 xdotool click 1
 sleep 6
 picture hit.png
-# The slider of time (panels: 25 texts of 13 pixels wide, 6.2 high) dragged to the beginning; Y returns to the present.
+# The slider of time (panels: 25 texts of 14 pixels wide, 6.2 high; a picture may take a second without a graphics card) dragged to the beginning; Y returns to the present.
 xdotool mousemove 500 558 mousedown 1
-for x in 300 100 14; do xdotool mousemove "$x" 558; sleep 0.3; done
+for x in 300 100 14; do xdotool mousemove "$x" 558; sleep 2; done
 xdotool mouseup 1
 sleep 1
 picture scrubbed.png

@@ -76,6 +76,7 @@ Snapshot with_joints(const Building& building, const FrameAnswer::Joint& state) 
 
 ViewOptions bare_frame() {
   ViewOptions options;
+  options.colouring = Colouring::joints;
   options.shown.slabs = options.shown.walls = false;
   return options;
 }

@@ -18,6 +18,8 @@ Settings settings_of(ToolKind kind, Controller& c) {
           {"cable", &c.swing.cable}, {"angle", &c.swing.angle}, {"mass", &c.swing.mass}, {"radius", &c.swing.radius}};
     case ToolKind::charge:
       return {{"reach", &c.charge_radius}};
+    case ToolKind::explosion:
+      return {{"charge", &c.explosive}};
     case ToolKind::burn:
       return {{"reach", &c.burning.reach},
               {"over", &c.burning.over},

@@ -4,6 +4,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <future>
@@ -15,6 +16,7 @@
 #include "app/output/gltf_scene.h"
 #include "app/output/html_replay.h"
 #include "app/output/usd_scene.h"
+#include "app/target_building.h"
 #include "renderer/instances.h"
 #include "topple/structure/error.h"
 #include "topple/structure/output_files.h"
@@ -54,7 +56,11 @@ Controller::Controller(Driver& driver, const Scene& scene, double ground, glm::d
   frame_building();
 }
 
-void Controller::frame_building() { camera = frame(bounds_of(building_), size_.x / size_.y); }
+void Controller::frame_building() { camera = frame(bounds_of_target(building_, scene_.scenario), size_.x / size_.y); }
+
+void Controller::view_from(double azimuth, double elevation) {
+  camera = frame(bounds_of_target(building_, scene_.scenario), size_.x / size_.y, 0.12, azimuth, elevation);
+}
 
 Snapshot Controller::now() const {
   return looking_at_ ? driver_.recording().at(*looking_at_) : driver_.moment().interpolated();
@@ -98,6 +104,8 @@ void Controller::use(const Pick& found) {
       return swing_at(found);
     case ToolKind::burn:
       return burn_at(found);
+    case ToolKind::explosion:
+      return explode_at(found);
     case ToolKind::path: {
       const structure::ContactPlace place{found.member, found.panel, to_eigen(found.point)};
       driver_.order_and_show([place](Session& session) { session.find_path(place); });
@@ -144,6 +152,17 @@ void Controller::swing_at(const Pick& found) {
   ball.radius = swing.radius;
   driver_.apply(ball);
   message = "a ball swings at " + building_[found.joint].name;
+}
+
+/// The charge hangs half a metre before what is seen.
+void Controller::explode_at(const Pick& found) {
+  constexpr double before = 0.5;
+  const glm::dvec3 back = glm::normalize(camera.eye - found.point);
+  const Explosion explosion{to_eigen(found.point + before * back), explosive};
+  driver_.order_and_show([explosion](Session& session) { session.explode(explosion); });
+  char text[48];
+  std::snprintf(text, sizeof text, "%.3g kg of TNT explode at ", explosive);
+  message = text + building_[found.joint].name;
 }
 
 void Controller::burn_at(const Pick& found) {
@@ -256,6 +275,8 @@ const char* Controller::key_help() {
          "C                 next colouring          X             panels clear or not\n"
          "Z                 burn                    I             next diagram\n"
          "1 2 3 4 5         posts, beams, slabs, walls, braces\n"
+         "6                 explosion\n"
+         "7 8 9 0           seen from the front, the side, above, behind\n"
          "O                 loads and reactions     Y             back to the present\n"
          "F                 frame the building      P             save a picture\n"
          "H                 this help               Esc           end the program (asks first)";
@@ -303,11 +324,16 @@ std::map<std::string, std::function<void()>> Controller::key_meanings() {
           {"l", hold(ToolKind::path)},
           {"t", hold(ToolKind::support)},
           {"v", hold(ToolKind::select)},
-          {"x", [this] { show(options.slab_opacity < 0.5F ? "panels" : "frame"); }},
-          {"c", [this] { options.colouring = static_cast<Colouring>((static_cast<int>(options.colouring) + 1) % 5); }},
+          {"x", [this] { show(options.slab_opacity_now() < 0.5F ? "panels" : "frame"); }},
+          {"c", [this] { options.colouring = static_cast<Colouring>((static_cast<int>(options.colouring) + 1) % 6); }},
           {"i", [this] { options.diagram = options.diagram == 5 ? -1 : options.diagram + 1; }},
           {"o", [this] { options.loads = options.reactions = options.contacts = !options.loads; }},
           {"y", [this] { look_at_present(); }},
+          {"6", hold(ToolKind::explosion)},
+          {"7", [this] { view_from(-glm::half_pi<double>(), 0.05); }},
+          {"8", [this] { view_from(0, 0.05); }},
+          {"9", [this] { view_from(-0.95, 0.9); }},
+          {"0", [this] { view_from(2.2, 0.3); }},
           {"1", [this] { options.shown.posts = !options.shown.posts; }},
           {"2", [this] { options.shown.beams = !options.shown.beams; }},
           {"3", [this] { options.shown.slabs = !options.shown.slabs; }},

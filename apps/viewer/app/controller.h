@@ -34,9 +34,10 @@ struct Burning {
 inline constexpr int burning_stages = 10;
 
 /// What a click does.
-enum class ToolKind { fire, swing, cut, remove, support, charge, burn, path, select };
-inline constexpr std::array<const char*, 9> tool_names{
-    "fire", "wrecking ball", "cut joint", "remove part", "remove support", "charge", "burn", "load path", "select"};
+enum class ToolKind { fire, swing, cut, remove, support, charge, explosion, burn, path, select };
+inline constexpr std::array<const char*, 10> tool_names{"fire",           "wrecking ball", "cut joint", "remove part",
+                                                        "remove support", "charge",        "explosion", "burn",
+                                                        "load path",      "select"};
 
 class Controller {
  public:
@@ -49,10 +50,13 @@ class Controller {
   Swing swing;
   Burning burning;
   ToolKind tool = ToolKind::fire;
-  double charge_radius = 6;  ///< m; within it joints lose strength, all of it at the centre
+  double charge_radius = 6;      ///< m; within it joints lose strength, all of it at the centre
+  double explosive = 20;         ///< kg of TNT
+  double picture_processor = 0;  ///< ms of processor time that the last picture took on the window's thread
   bool help = false;
   bool asks_to_leave = false;          ///< a person is asked whether the program is to end
   bool leaves = false;                 ///< and has said so
+  bool wants_another = false;          ///< scene, from the start page
   std::optional<std::string> message;  ///< for the person, one line
   /// Files that pictures are to be written to (outputs.h); empty: none is wanted.
   std::string picture_wanted, sequence_wanted;
@@ -98,7 +102,10 @@ class Controller {
   /// Joints, members and panels whose name holds the text or matches it as a pattern, at most `most`; joints only when
   /// the text holds a colon.
   [[nodiscard]] std::vector<structure::JointId> search(const std::string& text, std::size_t most) const;
+  /// Of several buildings, the one that the scenario's first ball flies at.
   void frame_building();
+  /// Frames it seen along a direction (radians: to the right of +x from the side of -y, upwards).
+  void view_from(double azimuth, double elevation);
 
   /// To be called before each picture: tells the driver what the view needs to know, and moves a replay on.
   void update(double seconds);
@@ -129,6 +136,7 @@ class Controller {
   void remove_support_at(const Pick& pick);
   void swing_at(const Pick& pick);
   void burn_at(const Pick& pick);
+  void explode_at(const Pick& pick);
   Driver& driver_;
   const Scene& scene_;
   const structure::Building& building_;

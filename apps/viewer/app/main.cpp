@@ -3,6 +3,8 @@
 #include <cstdio>
 
 #include "app/headless.h"
+#include "app/start/recent_files.h"
+#include "app/start/shipped_scenes.h"
 #include "app/window.h"
 #include "support/command_line.h"
 #include "support/version.h"
@@ -32,10 +34,12 @@ int run(int argc, char** argv) {
   namespace ranges = topple::structure::ranges;
   CLI::App app{"Shows a building under its loads and lets you demolish it.", "topple-viewer"};
   app.set_version_flag("--version", version());
-  std::string name = "town_house", size;
+  std::string name, size;
   bool headless = false;
   HeadlessOptions pictures;
-  app.add_option("scene", name, "model or scenario: a shipped name or a file (default: town_house)");
+  app.add_option(
+      "scene", name,
+      "model or scenario: a shipped name or a file (in a window by default the start page, else town_house)");
   app.add_flag("--headless", headless, "draw without a window");
   app.add_option("--screenshot", pictures.screenshot, "file of the picture (in the window: what key P writes)");
   app.add_option("--at", pictures.at, "simulated seconds before the picture, and length of a recording")
@@ -67,17 +71,21 @@ int run(int argc, char** argv) {
   if (headless && !output)
     throw topple::structure::InputError(
         "--headless needs --screenshot, --record, --actions, --video, --replay, --usd, --gltf, --model or --save");
-  const Scene scene = open_scene(name);
   if (headless) {
-    run_headless(scene, pictures);
+    run_headless(open_scene(name.empty() ? opening_scene : name), pictures);
     return 0;
+  }
+  std::optional<Scene> scene;
+  if (!name.empty()) {
+    scene = open_scene(name);
+    remember_file(name);
   }
   WindowOptions window;
   if (pictures.size) window.width = (*pictures.size)[0], window.height = (*pictures.size)[1];
   if (pictures.screenshot) window.screenshot = *pictures.screenshot;
   window.show = pictures.show;
   window.scale = pictures.scale;
-  run_window(scene, window);
+  run_window(std::move(scene), window);
   return 0;
 }
 

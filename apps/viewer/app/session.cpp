@@ -1,6 +1,7 @@
 #include "app/session.h"
 
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 #include "app/event_text.h"
@@ -45,6 +46,14 @@ void Session::apply(const structure::Tool& tool) {
   actions_.push_back({simulation_->steps(), tool});
 }
 
+void Session::explode(const Explosion& explosion) {
+  carry_out({simulation_->steps(), explosion});
+  actions_.push_back({simulation_->steps(), explosion});
+  char text[64];
+  std::snprintf(text, sizeof text, "explosion of %.3g kg of TNT", explosion.charge);
+  recording_->add_event({simulation_->time(), structure::SimulationEvent::Kind::tool, text});
+}
+
 void Session::tune(const structure::JointChange& change) {
   carry_out({simulation_->steps(), change});
   actions_.push_back({simulation_->steps(), change});
@@ -53,6 +62,11 @@ void Session::tune(const structure::JointChange& change) {
 void Session::carry_out(const Action& action) {
   if (const auto* tool = std::get_if<structure::Tool>(&action.what)) return simulation_->apply(*tool);
   if (const auto* change = std::get_if<structure::CapacityChange>(&action.what)) return carry_out(*change);
+  if (const auto* contact = std::get_if<structure::HostContact>(&action.what)) return simulation_->touch(*contact);
+  if (const auto* explosion = std::get_if<Explosion>(&action.what)) {
+    for (const structure::HostContact& contact : blast_contacts(*simulation_, *explosion)) simulation_->touch(contact);
+    return;
+  }
   std::vector<std::pair<structure::JointId, structure::JointCapacity>> capacities;
   for (const structure::JointId joint : tuning_->apply(std::get<structure::JointChange>(action.what)))
     capacities.emplace_back(joint, tuning_->capacity(joint));
@@ -103,6 +117,8 @@ void Session::go_the_way_of(const structure::Snapshot& saved) {
     if (const auto* tool = std::get_if<structure::Tool>(&action.what)) actions_.push_back({action.step, *tool});
     if (const auto* change = std::get_if<structure::CapacityChange>(&action.what))
       actions_.push_back({action.step, *change});
+    if (const auto* contact = std::get_if<structure::HostContact>(&action.what))
+      actions_.push_back({action.step, *contact});
   }
   run_again(saved.step, true);
 }

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "app/tools/explosion.h"
 #include "renderer/recording.h"
 #include "renderer/snapshot_taker.h"
 #include "topple/structure/joint_tuning.h"
@@ -32,6 +33,8 @@ class Session {
 
   void step();
   void apply(const structure::Tool& tool);
+  /// Its wave acts in the next step, on what stands.
+  void explode(const Explosion& explosion);
   /// Changes capacities at once. Throws structure::InputError for a change that means no joint.
   void tune(const structure::JointChange& change);
   /// Back to the beginning; actions are forgotten, rules stay.
@@ -64,7 +67,8 @@ class Session {
  private:
   struct Action {
     std::int64_t step;
-    std::variant<structure::Tool, structure::JointChange, structure::CapacityChange> what;
+    std::variant<structure::Tool, structure::JointChange, structure::CapacityChange, structure::HostContact, Explosion>
+        what;
   };
   void begin();
   void go_the_way_of(const structure::Snapshot& saved);

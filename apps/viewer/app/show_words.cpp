@@ -51,6 +51,7 @@ const std::map<std::string, Plain>& plain_words() {
   const auto flag = [](bool ViewOptions::*what, bool on) { return [=](ViewOptions& o, ModeView&) { o.*what = on; }; };
   static const std::map<std::string, Plain> words = [&] {
     std::map<std::string, Plain> all{
+        {"materials", colour(Colouring::materials)},
         {"plain", colour(Colouring::plain)},
         {"joints", colour(Colouring::joints)},
         {"utilisation", colour(Colouring::utilisation)},

@@ -67,7 +67,7 @@ void legend(const ViewOptions& options, const SceneInstances& scene) {
     default:
       break;
   }
-  legend_entry("failed", failed_colour(options));
+  if (options.colouring != Colouring::materials) legend_entry("failed", failed_colour(options));
 }
 
 void switches(const char* title, PartSwitches& parts) {
@@ -187,6 +187,8 @@ void SidePanel::run_bar(Controller& controller) {
   key_button("Undo", "u");
   key_button("Restart", "r");
   key_button("Help", "h");
+  ImGui::SameLine();
+  if (ImGui::Button("Scenes")) controller.wants_another = true;
   double speed = driver.speed();
   const std::string pace = driver.paused() ? "x %.2f, paused" : "x %.2f, runs at " + ratio_text(driver.ratio());
   if (slider("speed", speed, 0.02, 1, pace.c_str())) driver.set_speed(speed);
@@ -214,6 +216,7 @@ void SidePanel::run_bar(Controller& controller) {
     slider("strength left", controller.burning.strength, 0, 1, "x %.2f", ImGuiSliderFlags_None);
     slider("stiffness left", controller.burning.stiffness, 0.01, 1, "x %.2f", ImGuiSliderFlags_None);
   }
+  if (controller.tool == ToolKind::explosion) slider("TNT", controller.explosive, 0.5, 1000, "%.1f kg");
   if (controller.tool == ToolKind::charge) slider("reach", controller.charge_radius, 0.5, 20, "%.1f m");
   ImGui::InputText("##saved", saved_.data(), saved_.size());
   const auto with_file = [&](const char* label, void (Controller::*what)(const std::string&)) {
@@ -232,7 +235,7 @@ void SidePanel::run_bar(Controller& controller) {
 void SidePanel::view(Controller& controller, const Snapshot& moment, const SceneInstances& scene) {
   ViewOptions& options = controller.options;
   constexpr const char* colourings[] = {
-      "parts", "joints: force and moment", "utilisation", "one component", "segments", "load path"};
+      "materials", "parts", "joints: force and moment", "utilisation", "one component", "segments", "load path"};
   int colouring = static_cast<int>(options.colouring);
   if (ImGui::Combo("colours", &colouring, colourings, IM_ARRAYSIZE(colourings)))
     options.colouring = static_cast<Colouring>(colouring);
@@ -253,8 +256,11 @@ void SidePanel::view(Controller& controller, const Snapshot& moment, const Scene
   ImGui::Checkbox("failed joints", &options.failed_joints);
   ImGui::SameLine();
   ImGui::Checkbox("colour-blind safe", &options.colour_blind_safe);
-  ImGui::SliderFloat("slabs##opacity", &options.slab_opacity, 0.05F, 1, "%.2f");
-  ImGui::SliderFloat("walls##opacity", &options.wall_opacity, 0.05F, 1, "%.2f");
+  const auto opacity = [](const char* label, float& value, float now) {
+    if (ImGui::SliderFloat(label, &now, 0.05F, 1, "%.2f")) value = now;
+  };
+  opacity("slabs##opacity", options.slab_opacity, options.slab_opacity_now());
+  opacity("walls##opacity", options.wall_opacity, options.wall_opacity_now());
   ImGui::Checkbox("shadows", &options.shadows);
   ImGui::SameLine();
   ImGui::Checkbox("occlusion", &options.ambient_occlusion);
@@ -307,7 +313,10 @@ void SidePanel::state(const Controller& controller, const Snapshot& moment) {
   ImGui::Text("bodies: %zu, asleep %zu", moment.bodies.size(), static_cast<std::size_t>(asleep));
 }
 
-void SidePanel::performance(const Snapshot& moment) {
+void SidePanel::performance(const Controller& controller, const Snapshot& moment) {
+  const Driver& driver = controller.driver();
+  ImGui::Text("pace: %s asked, %s reached", ratio_text(driver.speed()).c_str(),
+              driver.paused() ? "paused," : ratio_text(driver.ratio()).c_str());
   const auto& c = moment.counters;
   const auto number = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
   ImGui::TextUnformatted("solved");
@@ -336,7 +345,14 @@ void SidePanel::performance(const Snapshot& moment) {
     ImGui::PlotLines(name, values.data(), static_cast<int>(values.size()), 0, text, 0, FLT_MAX,
                      ImVec2(0, 1.6F * ImGui::GetFontSize()));
   }
-  ImGui::Text("picture: %.1f ms", static_cast<double>(1000.0F / ImGui::GetIO().Framerate));
+  picture_history_.push_back(static_cast<float>(controller.picture_processor));
+  if (picture_history_.size() > history_length) picture_history_.erase(picture_history_.begin());
+  char text[64];
+  std::snprintf(text, sizeof text, "%.2f ms of processor time", controller.picture_processor);
+  ImGui::PlotLines("picture", picture_history_.data(), static_cast<int>(picture_history_.size()), 0, text, 0, FLT_MAX,
+                   ImVec2(0, 1.6F * ImGui::GetFontSize()));
+  ImGui::Text("a picture each %.1f ms, drawing and waiting included",
+              static_cast<double>(1000.0F / ImGui::GetIO().Framerate));
 }
 
 void SidePanel::joints(Controller& controller, const Snapshot& moment) {
@@ -379,7 +395,7 @@ void SidePanel::draw(Controller& controller, const Snapshot& moment, const Scene
     tab("Part", [&] { part(controller, moment); });
     tab("Tune", [&] { tuning_.draw(controller, moment); });
     tab("Files", [&] { output_.draw(controller); });
-    tab("Times", [&] { performance(moment); });
+    tab("Times", [&] { performance(controller, moment); });
     ImGui::EndTabBar();
   }
   ImGui::PopItemWidth();

@@ -24,12 +24,13 @@ class SidePanel {
   void view(Controller& controller, const Snapshot& moment, const SceneInstances& scene);
   void part(Controller& controller, const Snapshot& moment);
   void state(const Controller& controller, const Snapshot& moment);
-  void performance(const Snapshot& moment);
+  void performance(const Controller& controller, const Snapshot& moment);
   void joints(Controller& controller, const Snapshot& moment);
   TuningPanel tuning_;
   OutputPanel output_;
   static constexpr std::size_t history_length = 240;  ///< steps drawn: four seconds
   std::array<std::vector<float>, 7> history_;         ///< milliseconds by stage, and of the whole
+  std::vector<float> picture_history_;                ///< ms of processor time
   std::int64_t last_step_ = -1;
   std::array<char, 64> search_{};
   std::array<char, 256> saved_{"run.topple"};

@@ -8,6 +8,7 @@
 #include <imgui.h>
 
 #include <cmath>
+#include <ctime>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <memory>
@@ -17,6 +18,8 @@
 #include "app/interface.h"
 #include "app/output/outputs.h"
 #include "app/side_panel.h"
+#include "app/start/recent_files.h"
+#include "app/start/start_page.h"
 #include "renderer/frame_composer.h"
 #include "renderer/gl_errors.h"
 #include "renderer/picture_renderer.h"
@@ -105,29 +108,33 @@ class WindowInterface {
 /// From GLFW's callbacks to the controller. Set before ImGui's, which pass events on.
 class Input {
  public:
-  Input(GLFWwindow* window, Controller& controller, std::string screenshot)
-      : window_(window), controller_(controller), screenshot_file_(std::move(screenshot)) {
+  Input(GLFWwindow* window, std::string screenshot) : window_(window), screenshot_file_(std::move(screenshot)) {
     glfwSetWindowUserPointer(window, this);
     glfwSetMouseButtonCallback(window,
                                [](GLFWwindow* w, int button, int action, int) { of(w).button(button, action); });
     glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) { of(w).move({x, y}); });
     glfwSetScrollCallback(window, [](GLFWwindow* w, double, double y) {
-      if (!ImGui::GetIO().WantCaptureMouse) of(w).controller_.scroll(y);
+      if (of(w).controller_ && !ImGui::GetIO().WantCaptureMouse) of(w).controller_->scroll(y);
     });
     glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int) {
       if (action == GLFW_PRESS && !ImGui::GetIO().WantTextInput) of(w).key(key);
     });
   }
+  /// Whose scene is seen; null: none is, and Esc closes the window.
+  void serve(Controller* controller) {
+    controller_ = controller;
+    held_ = -1;
+  }
   /// Keys held down move the eye, by how long they are held.
   void fly(double seconds) {
-    if (ImGui::GetIO().WantTextInput) return;
-    const double way = seconds * 0.5 * controller_.camera.distance();
+    if (controller_ == nullptr || ImGui::GetIO().WantTextInput) return;
+    const double way = seconds * 0.5 * controller_->camera.distance();
     const auto held = [&](int plus, int minus) {
       return (glfwGetKey(window_, plus) == GLFW_PRESS ? 1.0 : 0.0) -
              (glfwGetKey(window_, minus) == GLFW_PRESS ? 1.0 : 0.0);
     };
-    controller_.camera.fly(way * held(GLFW_KEY_W, GLFW_KEY_S), way * held(GLFW_KEY_D, GLFW_KEY_A),
-                           way * held(GLFW_KEY_E, GLFW_KEY_Q));
+    controller_->camera.fly(way * held(GLFW_KEY_W, GLFW_KEY_S), way * held(GLFW_KEY_D, GLFW_KEY_A),
+                            way * held(GLFW_KEY_E, GLFW_KEY_Q));
   }
   [[nodiscard]] glm::dvec2 pointer() const { return pointer_; }
 
@@ -135,7 +142,7 @@ class Input {
   static Input& of(GLFWwindow* window) { return *static_cast<Input*>(glfwGetWindowUserPointer(window)); }
 
   void button(int which, int action) {
-    if (action == GLFW_PRESS && ImGui::GetIO().WantCaptureMouse) return;
+    if (controller_ == nullptr || (action == GLFW_PRESS && ImGui::GetIO().WantCaptureMouse)) return;
     if (action == GLFW_PRESS) {
       held_ = which;
       pressed_at_ = pointer_;
@@ -143,29 +150,33 @@ class Input {
     } else if (which == held_) {
       held_ = -1;
       if (dragged_) return;
-      if (which == GLFW_MOUSE_BUTTON_LEFT) controller_.click(pressed_at_);
-      if (which == GLFW_MOUSE_BUTTON_RIGHT && controller_.hovered()) controller_.select(*controller_.hovered());
+      if (which == GLFW_MOUSE_BUTTON_LEFT) controller_->click(pressed_at_);
+      if (which == GLFW_MOUSE_BUTTON_RIGHT && controller_->hovered()) controller_->select(*controller_->hovered());
     }
   }
   void move(glm::dvec2 to) {
     constexpr double still = 4;  // pixels that a click may wander
     const glm::dvec2 from = std::exchange(pointer_, to);
-    if (held_ < 0) return;
+    if (held_ < 0 || controller_ == nullptr) return;
     if (!dragged_ && glm::length(to - pressed_at_) < still) return;
     dragged_ = true;
-    held_ == GLFW_MOUSE_BUTTON_LEFT ? controller_.drag(from, to) : controller_.drag_to_pan(from, to);
+    held_ == GLFW_MOUSE_BUTTON_LEFT ? controller_->drag(from, to) : controller_->drag_to_pan(from, to);
   }
   void key(int key) {
-    if (key == GLFW_KEY_ESCAPE) controller_.key("escape");
-    if (controller_.asks_to_leave && (key == GLFW_KEY_ENTER || key == GLFW_KEY_KP_ENTER)) controller_.leaves = true;
-    if (key == GLFW_KEY_P) controller_.picture_wanted = screenshot_file_;
-    if (key == GLFW_KEY_SPACE) controller_.key("space");
-    if ((key >= GLFW_KEY_1 && key <= GLFW_KEY_5) || (key >= GLFW_KEY_A && key <= GLFW_KEY_Z))
-      controller_.key(std::string(1, static_cast<char>(key >= GLFW_KEY_A ? key - GLFW_KEY_A + 'a' : key)));
+    if (controller_ == nullptr) {
+      if (key == GLFW_KEY_ESCAPE) glfwSetWindowShouldClose(window_, GLFW_TRUE);
+      return;
+    }
+    if (key == GLFW_KEY_ESCAPE) controller_->key("escape");
+    if (controller_->asks_to_leave && (key == GLFW_KEY_ENTER || key == GLFW_KEY_KP_ENTER)) controller_->leaves = true;
+    if (key == GLFW_KEY_P) controller_->picture_wanted = screenshot_file_;
+    if (key == GLFW_KEY_SPACE) controller_->key("space");
+    if ((key >= GLFW_KEY_0 && key <= GLFW_KEY_9) || (key >= GLFW_KEY_A && key <= GLFW_KEY_Z))
+      controller_->key(std::string(1, static_cast<char>(key >= GLFW_KEY_A ? key - GLFW_KEY_A + 'a' : key)));
   }
 
   GLFWwindow* window_;
-  Controller& controller_;
+  Controller* controller_ = nullptr;
   std::string screenshot_file_;
   glm::dvec2 pointer_{0}, pressed_at_{0};
   int held_ = -1;
@@ -177,25 +188,28 @@ glm::ivec2 scene_pixels(const Window& window) {
   return glm::ivec2(glm::round(scene_size(window) / window.size() * glm::dvec2(window.pixels())));
 }
 
-}  // namespace
+double processor_milliseconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
 
-void run_window(const Scene& scene, const WindowOptions& options) {
-  const Window window(options.width, options.height, "Topple");
+/// What a person does with one scene. True: another is asked for; false: the window closes.
+bool run_scene(const Window& window, Input& input, const Scene& scene, const WindowOptions& options) {
   const double ground = ground_height(*scene.building, scene.scenario);
   SceneInstances instances(*scene.building);
   Renderer renderer(instances, ground);
   ThreadDriver driver(std::make_unique<Session>(scene.building, scene.scenario, scene.drawn));
   Controller controller(driver, scene, ground, window.size());
-  Input input(window.get(), controller, options.screenshot);
-  const WindowInterface interface(window.get(), options.scale);
   SidePanel panel;
   Outputs outputs;
   controller.resize(scene_size(window));
   controller.frame_building();
   for (const std::string& words : options.show) controller.show(words);
+  input.serve(&controller);
   glm::dvec2 hovered_at{-1};
   double before = glfwGetTime();
-  while (glfwWindowShouldClose(window.get()) == GLFW_FALSE && !controller.leaves) {
+  while (glfwWindowShouldClose(window.get()) == GLFW_FALSE && !controller.leaves && !controller.wants_another) {
     glfwPollEvents();
     const double now = glfwGetTime();
     input.fly(now - before);
@@ -203,6 +217,7 @@ void run_window(const Scene& scene, const WindowOptions& options) {
     controller.update(now - before);
     before = now;
     if (input.pointer() != hovered_at && !Interface::wants_pointer()) controller.hover(hovered_at = input.pointer());
+    const double started = processor_milliseconds();
     outputs.before_picture(controller);
     const Snapshot moment = controller.shown(false);
     instances.update(moment, controller.options);
@@ -214,8 +229,48 @@ void run_window(const Scene& scene, const WindowOptions& options) {
     draw_hover_text(controller, moment);
     Interface::end_frame();
     check_gl_errors();
+    controller.picture_processor = processor_milliseconds() - started;
     glfwSwapBuffers(window.get());
   }
+  input.serve(nullptr);
+  return controller.wants_another;
+}
+
+/// The scene that a person chooses on the start page; none: the window closes.
+std::optional<Scene> choose_scene(const Window& window) {
+  StartPage page;
+  while (glfwWindowShouldClose(window.get()) == GLFW_FALSE) {
+    glfwWaitEventsTimeout(0.1);
+    const glm::ivec2 pixels = window.pixels();
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glViewport(0, 0, pixels.x, pixels.y);
+    glClear(GL_COLOR_BUFFER_BIT);
+    WindowInterface::begin_frame();
+    const std::optional<std::string> chosen = page.draw();
+    Interface::end_frame();
+    check_gl_errors();
+    glfwSwapBuffers(window.get());
+    if (!chosen) continue;
+    try {
+      Scene scene = open_scene(*chosen);
+      remember_file(*chosen);
+      return scene;
+    } catch (const std::exception& failed) {
+      page.message = failed.what();
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void run_window(std::optional<Scene> scene, const WindowOptions& options) {
+  const Window window(options.width, options.height, "Topple");
+  Input input(window.get(), options.screenshot);
+  const WindowInterface interface(window.get(), options.scale);
+  do {
+    if (!scene) scene = choose_scene(window);
+  } while (scene && run_scene(window, input, *std::exchange(scene, std::nullopt), options));
 }
 
 }  // namespace topple::viewer

@@ -14,8 +14,8 @@ struct WindowOptions {
   double scale = 1;                       ///< of the panels' text, beside that of the display
 };
 
-/// Opens a window on the scene and returns when it is closed. Throws std::runtime_error with one line when no window
-/// can be opened.
-void run_window(const Scene& scene, const WindowOptions& options);
+/// Opens a window on the scene, or on the start page where there is none, and returns when it is closed. Throws
+/// std::runtime_error with one line when no window can be opened.
+void run_window(std::optional<Scene> scene, const WindowOptions& options);
 
 }  // namespace topple::viewer

@@ -7,6 +7,9 @@ namespace {
 
 using Attributes = std::vector<GpuBatch::Attribute>;
 
+/// The last that OpenGL 3.3 has for certain; instances have those between.
+constexpr GLuint broken_location = 15;
+
 const Attributes& member_attributes() {
   static const Attributes list{
       {3, GL_FLOAT, offsetof(MemberInstance, first_end)},    {4, GL_FLOAT, offsetof(MemberInstance, rotation)},
@@ -26,6 +29,8 @@ const Attributes& panel_attributes() {
     a.push_back({4, GL_UNSIGNED_BYTE, offsetof(PanelInstance, base)});
     for (std::size_t e = 0; e < 4; ++e)
       a.push_back({4, GL_UNSIGNED_BYTE, offsetof(PanelInstance, edge) + e * sizeof(Rgba)});
+    for (std::size_t c = 0; c < 3; ++c)
+      a.push_back({3, GL_FLOAT, offsetof(PanelInstance, rest) + c * sizeof(glm::vec3)});
     return a;
   }();
   return list;
@@ -34,7 +39,8 @@ const Attributes& rigid_attributes() {
   static const Attributes list{{3, GL_FLOAT, offsetof(RigidInstance, position)},
                                {4, GL_FLOAT, offsetof(RigidInstance, rotation)},
                                {3, GL_FLOAT, offsetof(RigidInstance, scale)},
-                               {4, GL_UNSIGNED_BYTE, offsetof(RigidInstance, colour)}};
+                               {4, GL_UNSIGNED_BYTE, offsetof(RigidInstance, colour)},
+                               {3, GL_FLOAT, offsetof(RigidInstance, rest)}};
   return list;
 }
 
@@ -59,6 +65,8 @@ GpuBatch::GpuBatch(const Mesh& mesh, const Attributes& attributes, std::size_t s
       glEnableVertexAttribArray(a);
       glVertexAttribPointer(a, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex), at(a * sizeof(glm::vec3)));
     }
+    glEnableVertexAttribArray(broken_location);
+    glVertexAttribPointer(broken_location, 1, GL_FLOAT, GL_FALSE, sizeof(Vertex), at(offsetof(Vertex, broken)));
     glBindBuffer(GL_ARRAY_BUFFER, instances_[which].get());
     GLuint location = 2;
     for (const Attribute& a : attributes) {

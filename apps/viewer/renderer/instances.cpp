@@ -9,6 +9,7 @@
 
 #include "renderer/shapes/arrows.h"
 #include "renderer/shapes/diagram.h"
+#include "renderer/shapes/looks.h"
 #include "topple/structure/drawn_model.h"
 
 namespace topple::viewer {
@@ -40,6 +41,14 @@ Rgba part_colour(int place, int segment, const Snapshot& snapshot, const ViewOpt
   const std::int64_t number =
       place >= 0 ? after_segments + snapshot.bodies[static_cast<std::size_t>(place)].id : segment;
   return segment_colour(std::max<std::int64_t>(number, 0), options.colour_blind_safe);
+}
+
+/// What cracks a panel shows along an edge, as an alpha: the first at 0.7 of what the edge bears, all where it has
+/// failed.
+Rgba crack_of(const FrameAnswer::Joint& joint) {
+  constexpr float first = 0.7F;
+  const float open = joint.intact ? (joint.utilisation - first) / (1 - first) : 1.0F;
+  return rgba(0, 0, 0, static_cast<unsigned>(255 * std::clamp(open, 0.0F, 1.0F)));
 }
 
 /// Displacements as they are drawn: those of a mode when there is one.
@@ -119,6 +128,7 @@ void SceneInstances::place_panels() {
     for (std::size_t c = 0; c < 4; ++c)
       part.rest.corner[c] = glm::vec3(to_glm(building_[panel.nodes[c]].position) - origin_);
     part.rest.thickness = static_cast<float>(panel.thickness);
+    for (std::size_t c = 0; c < 3; ++c) part.rest.rest[c] = part.rest.corner[c + (c == 2 ? 1 : 0)];
     part.rest.base = panel_colour(panel.kind);
     panel_parts_.push_back(part);
   }
@@ -141,8 +151,13 @@ void SceneInstances::colour_member(std::size_t index, const Snapshot& snapshot, 
   MemberInstance& instance = member_parts_[index].rest;
   const structure::MemberId id(index);
   const bool coloured = shown(member, options.coloured);
-  // Beside the colours of joints, those of kinds would only be read as more of them.
-  instance.base = coloured && options.colouring == Colouring::joints ? plain_member : member_colour(member.kind);
+  if (options.colouring == Colouring::materials) {
+    // Names of materials are read once: the alpha tells that this was done.
+    if (instance.base >> 24U == 255) instance.base = look_colour(look_of(building_[member.material]));
+  } else {
+    // Beside the colours of joints, those of kinds would only be read as more of them.
+    instance.base = coloured && options.colouring == Colouring::joints ? plain_member : member_colour(member.kind);
+  }
   if (options.colouring == Colouring::segments)
     instance.base =
         part_colour(snapshot.membership->member[index], snapshot.membership->segment[index], snapshot, options);
@@ -164,7 +179,10 @@ void SceneInstances::colour_panel(std::size_t index, const Snapshot& snapshot, c
   const Panel& panel = building_.panels[index];
   PanelInstance& instance = panel_parts_[index].rest;
   const structure::PanelId id(index);
-  instance.base = panel_colour(panel.kind);
+  if (options.colouring != Colouring::materials)
+    instance.base = panel_colour(panel.kind);
+  else if (instance.base >> 24U == 255)
+    instance.base = look_colour(look_of(building_[panel.material]));
   // Which segment a standing panel hangs on is not asked for: it keeps its colour.
   if (const int place = snapshot.membership->panel[index]; options.colouring == Colouring::segments && place >= 0)
     instance.base = part_colour(place, -1, snapshot, options);
@@ -174,6 +192,10 @@ void SceneInstances::colour_panel(std::size_t index, const Snapshot& snapshot, c
   for (int edge = 0; edge < 4; ++edge) {
     const auto j = static_cast<std::size_t>(building_.joint(id, edge).index);
     const FrameAnswer::Joint& joint = snapshot.answer->joints[j];
+    if (options.colouring == Colouring::materials) {
+      instance.edge[edge] = joint.standing ? crack_of(joint) : 0;
+      continue;
+    }
     const bool plain = !coloured || (map && joint.intact);
     instance.edge[edge] =
         plain ? 0
@@ -376,12 +398,13 @@ void SceneInstances::append_moving(const Snapshot& snapshot) {
   for (const BodyPose& body : snapshot.bodies)
     if (body.radius > 0)
       projectiles_.instances.push_back({glm::vec3(to_glm(body.position) - origin_), packed(to_glm(body.orientation)),
-                                        glm::vec3(static_cast<float>(body.radius)), projectile_colour});
+                                        glm::vec3(static_cast<float>(body.radius)), projectile_colour, glm::vec3(0)});
 }
 
 void SceneInstances::place_chunks(const Snapshot& snapshot) {
   for (auto& batch : chunks_) batch.instances.clear();
   if (!built_options_.debris) return;
+  const bool materials = built_options_.colouring == Colouring::materials;
   for (const BodyPose& body : snapshot.bodies) {
     if (!body.chunk) continue;
     if (!is_shown(built_options_, body.chunk_of)) continue;
@@ -389,11 +412,20 @@ void SceneInstances::place_chunks(const Snapshot& snapshot) {
     if (is_new) {
       chunks_.emplace_back();
       chunks_.back().mesh = chunk_mesh(*body.chunk);
+      mark_broken(chunks_.back().mesh, nullptr, nullptr);
     }
-    chunks_[found->second].instances.push_back({glm::vec3(to_glm(body.position) - origin_),
-                                                packed(to_glm(body.orientation)), glm::vec3(1),
-                                                piece_colour(body.chunk_of)});
+    chunks_[found->second].instances.push_back(
+        {glm::vec3(to_glm(body.position) - origin_), packed(to_glm(body.orientation)), glm::vec3(1),
+         materials && body.material.valid() ? look_colour(look_of(building_[body.material]))
+                                            : piece_colour(body.chunk_of),
+         glm::vec3(to_glm(body.rest_centre) - origin_)});
   }
+}
+
+Rgba SceneInstances::broken_colour(std::size_t panel) const {
+  return built_options_.colouring == Colouring::materials
+             ? look_colour(look_of(building_[building_.panels[panel].material]))
+             : panel_colour(building_.panels[panel].kind);
 }
 
 /// What remains of panels that are broken in part: at rest where it stood, else moved with its body.
@@ -411,6 +443,7 @@ void SceneInstances::place_broken_panels(const Snapshot& snapshot) {
       batch = chunks_.size();
       chunks_.emplace_back();
       chunks_.back().mesh = chunk_mesh(*mesh);
+      mark_broken(chunks_.back().mesh, &building_, &building_.panels[i]);
     }
     glm::dvec3 position(0);
     glm::dquat turn(1, 0, 0, 0);
@@ -420,7 +453,7 @@ void SceneInstances::place_broken_panels(const Snapshot& snapshot) {
       turn = motion.turn;
     }
     chunks_[batch].instances.push_back(
-        {glm::vec3(position - origin_), packed(turn), glm::vec3(1), panel_parts_[i].rest.base});
+        {glm::vec3(position - origin_), packed(turn), glm::vec3(1), broken_colour(i), glm::vec3(-origin_)});
   }
 }
 
@@ -471,7 +504,8 @@ void SceneInstances::place_drawn(const Snapshot& snapshot, bool bend) {
       position = motion(glm::dvec3(0));
       turn = motion.turn;
     }
-    batch.instances.push_back({glm::vec3(position - origin_), packed(turn), glm::vec3(1), drawn_colour});
+    const Rgba colour = built_options_.colouring == Colouring::materials ? look_colour(Look::plaster) : drawn_colour;
+    batch.instances.push_back({glm::vec3(position - origin_), packed(turn), glm::vec3(1), colour, glm::vec3(-origin_)});
   }
 }
 

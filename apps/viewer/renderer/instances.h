@@ -26,19 +26,21 @@ struct MemberInstance {
   glm::vec4 rotation;  ///< quaternion x, y, z, w: member axes to global
   float length;
   glm::vec3 displacement1, rotation1, displacement2, rotation2;  ///< of the two ends, global, scaled
-  glm::vec3 bulge;  ///< of the middle beside that, global, scaled; the ends keep their turns
-  Rgba base, end1, end2;
+  glm::vec3 bulge;        ///< of the middle beside that, global, scaled; the ends keep their turns
+  Rgba base, end1, end2;  ///< base: with its material as alpha (looks.h), or 255
 };
 struct PanelInstance {
   glm::vec3 corner[4];
   float thickness;
-  Rgba base, edge[4];
+  Rgba base, edge[4];  ///< of edges in the view of materials: cracks, by their alpha
+  glm::vec3 rest[3];   ///< corners 1, 2 and 4 in the undeformed building
 };
 struct RigidInstance {
   glm::vec3 position;
   glm::vec4 rotation;
   glm::vec3 scale;
   Rgba colour;
+  glm::vec3 rest{0};  ///< where the mesh's origin was in the undeformed building
 };
 
 /// Instances that share a mesh. The first `standing` of them change rarely.
@@ -109,6 +111,7 @@ class SceneInstances {
                                              const ViewOptions& options) const;
   void place_chunks(const Snapshot& snapshot);
   void place_broken_panels(const Snapshot& snapshot);
+  [[nodiscard]] Rgba broken_colour(std::size_t panel) const;
   void place_drawn(const Snapshot& snapshot, bool bend);
   void bend_drawn(const DrawnPiece& piece, const Snapshot& snapshot, InstanceBatch<RigidInstance>& batch) const;
   void colour_member(std::size_t index, const Snapshot& snapshot, const ViewOptions& options);

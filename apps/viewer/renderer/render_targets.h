@@ -1,6 +1,7 @@
 #pragma once
 // What is drawn into: a multisampled picture in linear light, its resolved copy, the occlusion map, the finished
 // picture.
+#include <array>
 #include <glm/vec2.hpp>
 
 #include "renderer/gl_object.h"
@@ -32,18 +33,19 @@ class RenderTargets {
   Target resolved_, occlusion_, finished_;
 };
 
-/// A depth texture seen from the sun, compared in hardware.
+/// Depths seen from the sun, compared in hardware: one layer for each cascade.
 class ShadowMap {
  public:
+  static constexpr int layers = 3;
   explicit ShadowMap(int size);
-  [[nodiscard]] GLuint framebuffer() const { return framebuffer_.get(); }
+  [[nodiscard]] GLuint framebuffer(int layer) const { return framebuffers_[static_cast<std::size_t>(layer)].get(); }
   [[nodiscard]] GLuint texture() const { return texture_.get(); }
   [[nodiscard]] int size() const { return size_; }
 
  private:
   int size_;
   GlTexture texture_;
-  GlFramebuffer framebuffer_;
+  std::array<GlFramebuffer, layers> framebuffers_;
 };
 
 }  // namespace topple::viewer

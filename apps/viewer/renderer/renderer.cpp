@@ -45,10 +45,31 @@ float drawn_radius(const SceneInstances& scene) {
   return std::min(radius * 1.1F, 4 * own);
 }
 
-glm::mat4 light_matrix(float radius) {
+/// A square of half this width around a place, seen from the sun; everything within `all` of the origin casts into it.
+/// It moves by whole texels, so that shadows do not swim when the eye does.
+glm::mat4 light_matrix(glm::vec3 centre, float half, float all) {
   const glm::vec3 sun = glm::normalize(to_sun);
-  return glm::ortho(-radius, radius, -radius, radius, 0.0F, 4 * radius) *
-         glm::lookAt(sun * 2.0F * radius, glm::vec3(0), glm::vec3(0, 0, 1));
+  const glm::mat4 turned = glm::lookAt(sun, glm::vec3(0), glm::vec3(0, 0, 1));
+  const float texel = 2 * half / shadow_size;
+  const glm::vec3 at = glm::vec3(turned * glm::vec4(centre, 1));
+  const glm::vec2 middle = glm::floor(glm::vec2(at) / texel) * texel;
+  return glm::ortho(middle.x - half, middle.x + half, middle.y - half, middle.y + half, -2 * all, 2 * all) * turned;
+}
+
+/// Layers of the shadow map: the last holds all that is drawn, those before a third and a ninth of that around where
+/// the eye looks.
+void place_lights(PictureBlock& picture, const Camera& camera, const glm::dvec3& origin, float reach) {
+  const glm::vec3 eye(camera.eye - origin), ahead(camera.forward());
+  float half = reach;
+  for (int k = ShadowMap::layers - 1; k >= 0; --k, half /= 3) {
+    const bool last = k == ShadowMap::layers - 1;
+    // What is near the eye in the picture, as far as the layer reaches.
+    const float way = std::min(static_cast<float>(camera.distance()), 1.2F * half);
+    const glm::vec3 centre = last ? glm::vec3(0) : eye + way * ahead;
+    picture.light[k] = light_matrix(centre, half, 2 * reach);
+    picture.reaches[k] = half;
+    picture.texels[k] = 2 * half / shadow_size;
+  }
 }
 
 }  // namespace
@@ -100,17 +121,17 @@ void Renderer::State::fill_block(const SceneInstances& instances, const Camera& 
   picture.view_projection =
       camera.projection(static_cast<double>(size.x) / size.y, near, far) * camera.view(instances.origin());
   picture.inverse_view_projection = glm::inverse(picture.view_projection);
-  picture.light = light_matrix(reach);
+  place_lights(picture, camera, instances.origin(), reach);
   picture.eye = glm::vec4(eye, static_cast<float>(ground_height - instances.origin().z));
   picture.sun = glm::vec4(glm::normalize(to_sun), options.shadows ? 1.0F : 0.0F);
   const auto spacing = options.grid ? static_cast<float>(round_spacing(radius / 4)) : 0.0F;
-  picture.sizes = glm::vec4(radius, spacing, 2 * reach / shadow_size, fade_share * radius);
+  picture.sizes = glm::vec4(radius, spacing, 0, fade_share * radius);
   picture.picture = glm::vec4(size, near, far);
   const bool map = options.colouring == Colouring::utilisation || options.colouring == Colouring::component ||
                    options.colouring == Colouring::path;
   picture.mode = glm::vec4(map ? 1.0F : 0.0F, options.ambient_occlusion ? 1.0F : 0.0F, occlusion_share * radius,
-                           options.colouring == Colouring::plain ? 0.0F : colour_light);
-  picture.opacity = glm::vec4(1);
+                           options.analysis() ? colour_light : 0.0F);
+  picture.opacity = glm::vec4(1, options.colouring == Colouring::materials ? 1 : 0, 0, 0);
 }
 
 void Renderer::State::send_block() {
@@ -120,24 +141,28 @@ void Renderer::State::send_block() {
 }
 
 void Renderer::State::draw_shadows() {
-  glBindFramebuffer(GL_FRAMEBUFFER, shadow.framebuffer());
   glViewport(0, 0, shadow.size(), shadow.size());
-  glClear(GL_DEPTH_BUFFER_BIT);
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(1.5F, 2.0F);
-  glUseProgram(programs.member_shadow.get());
-  scene.draw_members();
-  glUseProgram(programs.panel_shadow.get());
-  scene.draw_panels(PanelKind::slab);
-  scene.draw_panels(PanelKind::wall);
-  glUseProgram(programs.rigid_shadow.get());
-  scene.draw_rigid();
+  for (int layer = 0; layer < ShadowMap::layers; ++layer) {
+    picture.opacity.z = static_cast<float>(layer);
+    send_block();
+    glBindFramebuffer(GL_FRAMEBUFFER, shadow.framebuffer(layer));
+    glClear(GL_DEPTH_BUFFER_BIT);
+    glUseProgram(programs.member_shadow.get());
+    scene.draw_members();
+    glUseProgram(programs.panel_shadow.get());
+    scene.draw_panels(PanelKind::slab);
+    scene.draw_panels(PanelKind::wall);
+    glUseProgram(programs.rigid_shadow.get());
+    scene.draw_rigid();
+  }
   glDisable(GL_POLYGON_OFFSET_FILL);
 }
 
 void Renderer::State::draw_panels(PanelKind kind, float opacity) {
   if (opacity <= 0) return;
-  picture.opacity = glm::vec4(opacity);
+  picture.opacity.x = opacity;
   send_block();
   glUseProgram(programs.panel.get());
   // A panel's face in the plane of a member's hides it.
@@ -207,15 +232,16 @@ void Renderer::State::draw_scene(const SceneInstances& instances, const ViewOpti
   glBindFramebuffer(GL_FRAMEBUFFER, targets.multisampled());
   glViewport(0, 0, targets.size().x, targets.size().y);
   glActiveTexture(GL_TEXTURE0 + shadow_unit);
-  glBindTexture(GL_TEXTURE_2D, shadow.texture());
+  glBindTexture(GL_TEXTURE_2D_ARRAY, shadow.texture());
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   glUseProgram(programs.member.get());
   scene.draw_members();
   glUseProgram(programs.rigid.get());
   scene.draw_rigid();
   scene.draw_arrows();
-  if (options.slab_opacity >= 1) draw_panels(PanelKind::slab, 1);
-  if (options.wall_opacity >= 1) draw_panels(PanelKind::wall, 1);
+  const float slabs = options.slab_opacity_now(), walls = options.wall_opacity_now();
+  if (slabs >= 1) draw_panels(PanelKind::slab, 1);
+  if (walls >= 1) draw_panels(PanelKind::wall, 1);
   glUseProgram(programs.ground.get());
   glDisable(GL_CULL_FACE);
   glBindVertexArray(ground.get());
@@ -228,8 +254,8 @@ void Renderer::State::draw_scene(const SceneInstances& instances, const ViewOpti
   // Before what shows through, whose depth would hide it.
   draw_buried_arrows();
   draw_overlay(instances, lines);
-  if (options.slab_opacity < 1) draw_panels(PanelKind::slab, options.slab_opacity);
-  if (options.wall_opacity < 1) draw_panels(PanelKind::wall, options.wall_opacity);
+  if (slabs < 1) draw_panels(PanelKind::slab, slabs);
+  if (walls < 1) draw_panels(PanelKind::wall, walls);
   draw_dust(instances);
   draw_on_top();
 }

@@ -4,54 +4,10 @@
 #include <utility>
 #include <vector>
 
+#include "renderer/glsl/glsl.h"
+
 namespace topple::viewer {
 namespace {
-
-constexpr const char* picture_block = R"(#version 330 core
-layout(std140) uniform Picture {
-  mat4 view_projection, inverse_view_projection, light;
-  vec4 eye, sun, sizes, picture, mode, opacity;
-};
-vec3 linear(vec3 srgb) { return pow(srgb, vec3(2.2)); }
-vec3 turn(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
-const vec3 horizon = vec3(0.72, 0.84, 0.96), zenith = vec3(0.16, 0.37, 0.74), earth = vec3(0.42, 0.38, 0.33);
-)";
-
-/// Lighting of a surface: sun with soft shadow, and a sky brighter above than below.
-constexpr const char* lighting = R"(
-uniform sampler2DShadow shadow_map;
-float gradient_noise(vec2 p) { return fract(52.9829189 * fract(dot(p, vec2(0.06711056, 0.00583715)))); }
-float sunlight(vec3 point, vec3 normal) {
-  if (sun.w < 0.5) return 1.0;
-  float slope = 1.0 - max(0.0, dot(normal, sun.xyz));
-  vec4 clip = light * vec4(point + normal * sizes.z * (1.0 + 3.0 * slope), 1.0);
-  vec3 p = clip.xyz / clip.w * 0.5 + 0.5;
-  if (any(lessThan(p, vec3(0.0))) || any(greaterThan(p, vec3(1.0)))) return 1.0;
-  float texel = 1.0 / float(textureSize(shadow_map, 0).x);
-  float angle = 6.2831853 * gradient_noise(gl_FragCoord.xy), lit = 0.0;
-  for (int i = 0; i < 12; ++i) {  // Vogel's disk
-    float r = sqrt((float(i) + 0.5) / 12.0) * 2.2 * texel, a = angle + 2.3999632 * float(i);
-    lit += texture(shadow_map, vec3(p.xy + r * vec2(cos(a), sin(a)), p.z));
-  }
-  return lit / 12.0;
-}
-vec3 shade(vec3 albedo, vec3 normal, vec3 point, float gloss) {
-  vec3 to_eye = normalize(eye.xyz - point);
-  float facing = max(0.0, dot(normal, sun.xyz));
-  float lit = facing > 0.0 ? sunlight(point, normal) : 0.0;
-  vec3 sky = mix(earth * 0.55, zenith * 0.55 + horizon * 0.45, 0.5 + 0.5 * normal.z);
-  // Light that comes back from the ground and from the side away from the sun.
-  float fill = 0.12 * max(0.0, dot(normal, normalize(vec3(-sun.x, -sun.y, 0.25))));
-  vec3 half_way = normalize(sun.xyz + to_eye);
-  float shine = gloss * pow(max(0.0, dot(normal, half_way)), 48.0) * lit;
-  return albedo * (vec3(2.55, 2.38, 2.10) * facing * lit + 0.74 * sky + fill) + shine;
-}
-// Of members, whose colours may carry a meaning.
-vec3 shade_even(vec3 albedo, vec3 normal, vec3 point, float gloss) {
-  vec3 even = albedo * (1.35 + 0.25 * normal.z + 0.15 * dot(normal, normalize(eye.xyz - point)));
-  return mix(shade(albedo, normal, point, gloss), even, mode.w);
-}
-)";
 
 constexpr const char* member_vertex = R"(
 layout(location = 0) in vec3 position;
@@ -68,7 +24,8 @@ layout(location = 10) in vec4 base;
 layout(location = 11) in vec4 end1;
 layout(location = 12) in vec4 end2;
 out vec3 point, surface_normal;
-out vec3 plain;
+out vec3 plain, part_point, part_normal;
+flat out int material;
 out vec4 colour1, colour2;
 out vec2 along;  // distances from the two ends
 // Axis bent as a cubic between the ends' displacements and rotations, section turned with it.
@@ -100,6 +57,9 @@ void main() {
   point = first_end + x * position.x * span + moves + arm;
   surface_normal = n;
   plain = linear(base.rgb);
+  material = int(base.a * 255.0 + 0.5);
+  part_point = vec3(position.x * span, position.yz);
+  part_normal = normal;
   colour1 = vec4(linear(end1.rgb), end1.a);
   colour2 = vec4(linear(end2.rgb), end2.a);
   along = span * vec2(position.x, 1.0 - position.x);
@@ -109,12 +69,20 @@ void main() {
 
 constexpr const char* member_fragment = R"(
 in vec3 point, surface_normal;
-in vec3 plain;
+in vec3 plain, part_point, part_normal;
+flat in int material;
 in vec4 colour1, colour2;
 in vec2 along;
 out vec4 result;
 float fade(float distance, float reach) { float t = clamp(1.0 - distance / reach, 0.0, 1.0); return t * t * (3.0 - 2.0 * t); }
 void main() {
+  if (material < 255) {
+    // The ends of what has come off are torn; those of what stands lie in joints.
+    vec3 normal = normalize(surface_normal);
+    Surface s = surface_of(material, plain, part_point, part_normal, abs(part_normal.x) > 0.9 && material != 2 ? 1.0 : 0.0);
+    result = vec4(shade(s, bumped(normal, point, s.height), point, normal), 1.0);
+    return;
+  }
   float span = along.x + along.y, reach = min(sizes.w, 0.5 * span);
   vec3 albedo;
   if (mode.x > 0.5 && colour1.a + colour2.a > 0.0) {
@@ -123,7 +91,7 @@ void main() {
     albedo = mix(plain, colour1.rgb, colour1.a * fade(along.x, reach));
     albedo = mix(albedo, colour2.rgb, colour2.a * fade(along.y, reach));
   }
-  result = vec4(shade_even(albedo, normalize(surface_normal), point, 0.10), 1.0);
+  result = vec4(shade_even(albedo, normalize(surface_normal), point), 1.0);
 }
 )";
 
@@ -140,8 +108,12 @@ layout(location = 8) in vec4 edge1;
 layout(location = 9) in vec4 edge2;
 layout(location = 10) in vec4 edge3;
 layout(location = 11) in vec4 edge4;
+layout(location = 12) in vec3 rest1;
+layout(location = 13) in vec3 rest2;
+layout(location = 14) in vec3 rest4;
 out vec3 point, surface_normal;
-out vec3 plain;
+out vec3 plain, part_point, part_normal;
+flat out int material;
 out vec4 colours[4];
 out vec4 distances;
 vec4 tint(vec4 edge) { return vec4(linear(edge.rgb), edge.a); }
@@ -152,7 +124,11 @@ void main() {
   point = mix(mix(corner1, corner2, s), mix(corner4, corner3, s), t) + across * position.z * thickness;
   surface_normal = normal.x * along_s / dot(along_s, along_s) + normal.y * along_t / dot(along_t, along_t) + normal.z * across;
   surface_normal = normalize(surface_normal);
+  vec3 side = rest2 - rest1, up = rest4 - rest1, out_of = normalize(cross(side, up));
+  part_point = rest1 + s * side + t * up + out_of * position.z * thickness;
+  part_normal = normalize(normal.x * side / dot(side, side) + normal.y * up / dot(up, up) + normal.z * out_of);
   plain = linear(base.rgb);
+  material = int(base.a * 255.0 + 0.5);
   colours = vec4[4](tint(edge1), tint(edge2), tint(edge3), tint(edge4));
   float width = length(along_s), height = length(along_t);
   distances = vec4(t * height, (1.0 - s) * width, (1.0 - t) * height, s * width);
@@ -162,19 +138,28 @@ void main() {
 
 constexpr const char* panel_fragment = R"(
 in vec3 point, surface_normal;
-in vec3 plain;
+in vec3 plain, part_point, part_normal;
+flat in int material;
 in vec4 colours[4];
 in vec4 distances;
 out vec4 result;
 void main() {
+  vec3 normal = normalize(surface_normal);
+  if (material < 255) {
+    Surface s = surface_of(material, plain, part_point, part_normal, 0.0);
+    float open = 0.0;
+    for (int e = 0; e < 4; ++e) open = max(open, colours[e].a * clamp(1.0 - distances[e] / 2.2, 0.0, 1.0));
+    crack(s, on_face(part_point, part_normal), open, length(fwidth(part_point)));
+    result = vec4(shade(s, bumped(normal, point, s.height), point, normal), opacity.x);
+    return;
+  }
   vec3 albedo = plain;
   float reach = 0.6 * sizes.w;
   for (int e = 0; e < 4; ++e) {
     float t = clamp(1.0 - distances[e] / reach, 0.0, 1.0);
     albedo = mix(albedo, colours[e].rgb, 0.85 * colours[e].a * t * t);
   }
-  vec3 normal = normalize(surface_normal);
-  result = vec4(shade(albedo, normal, point, 0.0), opacity.x);
+  result = vec4(shade_plain(albedo, normal, point, 0.9), opacity.x);
 }
 )";
 
@@ -185,9 +170,17 @@ layout(location = 2) in vec3 place;
 layout(location = 3) in vec4 rotation;
 layout(location = 4) in vec3 scale;
 layout(location = 5) in vec4 colour;
+layout(location = 6) in vec3 rest;
+layout(location = 15) in float torn;
 out vec3 point, surface_normal;
-out vec3 albedo;
+out vec3 albedo, part_point, part_normal;
+out float broken;
+flat out int material;
 void main() {
+  part_point = position * scale + rest;
+  part_normal = normalize(normal / scale);
+  broken = torn;
+  material = int(colour.a * 255.0 + 0.5);
   point = place + turn(rotation, position * scale);
   surface_normal = turn(rotation, normal / scale);
   albedo = linear(colour.rgb);
@@ -197,9 +190,19 @@ void main() {
 
 constexpr const char* rigid_fragment = R"(
 in vec3 point, surface_normal;
-in vec3 albedo;
+in vec3 albedo, part_point, part_normal;
+in float broken;
+flat in int material;
 out vec4 result;
-void main() { result = vec4(shade(albedo, normalize(surface_normal), point, 0.5), 1.0); }
+void main() {
+  vec3 normal = normalize(surface_normal);
+  if (material == 255) {
+    result = vec4(shade_plain(albedo, normal, point, 0.45), 1.0);
+    return;
+  }
+  Surface s = surface_of(material, albedo, part_point, normalize(part_normal), broken);
+  result = vec4(shade(s, bumped(normal, point, s.height), point, normal), 1.0);
+}
 )";
 
 constexpr const char* depth_fragment = "void main() {}\n";
@@ -221,8 +224,9 @@ vec3 direction(vec2 clip) {
   return normalize(p.xyz / p.w - eye.xyz);
 }
 void main() {
-  float rise = max(0.0, direction(place).z);
-  result = vec4(mix(horizon, zenith, 1.0 - exp(-2.6 * rise)) * 1.12, 1.0);
+  vec3 way = direction(place);
+  vec3 disc = sun_light() * 6.0 * smoothstep(0.99985, 0.99995, dot(way, sun.xyz));
+  result = vec4(sky_light(normalize(vec3(way.xy, max(way.z, 0.004)))) + disc, 1.0);
 }
 )";
 
@@ -246,13 +250,18 @@ float lines(vec2 p, float spacing, float pixels) {
 }
 void main() {
   float away = length(point.xy - eye.xy), far = 1.0 - exp(-away / (9.0 * sizes.x));
-  vec3 albedo = linear(vec3(0.655, 0.650, 0.625));
+  // Gravel.
+  float pixel = length(fwidth(point)), fine = mix(0.5, clouds(9.0 * point), seen(0.15, pixel));
+  vec3 albedo = linear(vec3(0.580, 0.570, 0.545)) * (0.82 + 0.16 * fine + 0.20 * clouds(0.11 * point));
+  float height = 0.02 * (fine - 0.5);
   if (sizes.y > 0.0) {
-    float calm = exp(-length(point.xy) / (5.0 * sizes.x));
+    float calm = exp(-length(point.xy) / (5.0 * sizes.x)) * (opacity.y > 0.5 ? 0.35 : 1.0);
     albedo *= 1.0 - 0.16 * calm * lines(point.xy, sizes.y, 1.0) - 0.20 * calm * lines(point.xy, sizes.y * 5.0, 1.3);
   }
-  vec3 lit = shade(albedo, vec3(0, 0, 1), point, 0.0);
-  result = vec4(mix(lit, horizon * 1.12, far * far), 1.0);
+  vec3 up = vec3(0, 0, 1);
+  vec3 lit = shade(Surface(albedo, 0.95, 0.0, 0.0), bumped(up, point, height), point, up);
+  vec3 way = normalize(point - eye.xyz);
+  result = vec4(mix(lit, sky_light(normalize(vec3(way.xy, 0.004))), far * far), 1.0);
 }
 )";
 
@@ -356,7 +365,9 @@ void main() {
   vec3 colour = texture(colour_map, uv).rgb;
   float depth = texture(depth_map, uv).r;
   if (mode.y > 0.5 && depth < 1.0) colour *= mix(1.0, occlusion(uv, depth), 0.8);
-  result = vec4(pow(tone(colour * 0.62), vec3(1.0 / 2.2)), 1.0);
+  // Rounding to 8 bits at random, so that no steps are seen on large faces.
+  float grain = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715)))) - 0.5;
+  result = vec4(pow(tone(colour * 0.62), vec3(1.0 / 2.2)) + grain / 255.0, 1.0);
 }
 )";
 
@@ -400,8 +411,8 @@ void bind_names(GLuint program) {
 }
 
 GlProgram link(const std::string& name, const char* vertex, const std::string& fragment, const std::string& transform) {
-  const GlShader v = compile(GL_VERTEX_SHADER, {picture_block, with_transform(vertex, transform)}, name);
-  const GlShader f = compile(GL_FRAGMENT_SHADER, {picture_block, fragment}, name);
+  const GlShader v = compile(GL_VERTEX_SHADER, {picture_glsl, with_transform(vertex, transform)}, name);
+  const GlShader f = compile(GL_FRAGMENT_SHADER, {picture_glsl, fragment}, name);
   GlProgram program(glCreateProgram());
   glAttachShader(program.get(), v.get());
   glAttachShader(program.get(), f.get());
@@ -422,9 +433,11 @@ GlProgram link(const std::string& name, const char* vertex, const std::string& f
 }
 
 GlProgram lit(const std::string& name, const char* vertex, const char* fragment) {
-  return link(name, vertex, std::string(lighting) + fragment, "view_projection");
+  return link(name, vertex, std::string(sky_glsl) + materials_glsl + lighting_glsl + fragment, "view_projection");
 }
-GlProgram shadow(const std::string& name, const char* vertex) { return link(name, vertex, depth_fragment, "light"); }
+GlProgram shadow(const std::string& name, const char* vertex) {
+  return link(name, vertex, depth_fragment, "light[int(opacity.z + 0.5)]");
+}
 
 }  // namespace
 
@@ -435,7 +448,7 @@ Programs::Programs()
       panel_shadow(shadow("panel shadow", panel_vertex)),
       rigid(lit("rigid", rigid_vertex, rigid_fragment)),
       rigid_shadow(shadow("rigid shadow", rigid_vertex)),
-      sky(link("sky", cover_vertex, sky_fragment, "")),
+      sky(link("sky", cover_vertex, std::string(sky_glsl) + sky_fragment, "")),
       ground(lit("ground", ground_vertex, ground_fragment)),
       line(link("line", line_vertex, line_fragment, "")),
       dust(link("dust", dust_vertex, dust_fragment, "")),

@@ -73,6 +73,7 @@ struct BodyPose {
   bool asleep = false;
   std::shared_ptr<const fracture::Mesh> chunk;  ///< of a broken panel or member: about its centre of mass
   structure::PieceKind chunk_of = structure::PieceKind::slab;
+  structure::MaterialId material;               ///< of a chunk; none where that is not known
   std::optional<Eigen::Vector3d> cable_anchor;  ///< of a wrecking ball
 };
 

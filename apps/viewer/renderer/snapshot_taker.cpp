@@ -164,8 +164,16 @@ std::shared_ptr<const Membership> read_membership(const Simulation& simulation) 
 }
 
 BodyPose pose_of(const structure::BodyView& body) {
-  return {body.id.value, body.pose.position, body.rest_centre, body.pose.orientation, body.radius,
-          body.asleep,   body.chunk,         body.chunk_of,    body.cable_anchor};
+  return {body.id.value,
+          body.pose.position,
+          body.rest_centre,
+          body.pose.orientation,
+          body.radius,
+          body.asleep,
+          body.chunk,
+          body.chunk_of,
+          {},
+          body.cable_anchor};
 }
 
 std::shared_ptr<const std::vector<DrawnPiece>> read_drawn(const structure::DrawnModel& model) {
@@ -181,6 +189,17 @@ bool same(const structure::FrameCounters& a, const structure::FrameCounters& b) 
 }
 
 }  // namespace
+
+/// Chunks are named after the panel or member that they broke out of: "W#3".
+structure::MaterialId SnapshotTaker::material_of(const Simulation& simulation, const structure::BodyView& body) {
+  const auto [known, is_new] = material_of_chunk_.try_emplace(body.id.value);
+  if (!is_new) return known->second;
+  if (!names_) names_ = std::make_unique<structure::NameIndex>(simulation.building());
+  const std::string name(body.name.substr(0, body.name.rfind('#')));
+  if (const auto panel = names_->panel(name)) return known->second = simulation.building()[*panel].material;
+  if (const auto member = names_->member(name)) return known->second = simulation.building()[*member].material;
+  return known->second;
+}
 
 bool SnapshotTaker::answer_is_old(const Simulation& simulation) const {
   return !answer_ || !(wanted_ == read_) || was_pending_ || !same(seen_, simulation.frame().counters()) ||
@@ -206,7 +225,10 @@ Snapshot SnapshotTaker::take(const Simulation& simulation, structure::DrawnModel
   snapshot.finished = simulation.finished();
   snapshot.answer = answer_;
   snapshot.membership = membership_;
-  for (const structure::BodyView& body : simulation.bodies()) snapshot.bodies.push_back(pose_of(body));
+  for (const structure::BodyView& body : simulation.bodies()) {
+    snapshot.bodies.push_back(pose_of(body));
+    if (body.chunk) snapshot.bodies.back().material = material_of(simulation, body);
+  }
   snapshot.dust = dust_.watch(simulation);
   if (drawn) {
     drawn->update(simulation);

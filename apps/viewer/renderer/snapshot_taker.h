@@ -1,4 +1,6 @@
 #pragma once
+#include <map>
+#include <memory>
 #include <vector>
 
 #include "renderer/shapes/dust.h"
@@ -18,6 +20,8 @@ class SnapshotTaker {
   void forget_answer() { answer_ = nullptr; }
 
  private:
+  [[nodiscard]] structure::MaterialId material_of(const structure::Simulation& simulation,
+                                                  const structure::BodyView& body);
   [[nodiscard]] bool answer_is_old(const structure::Simulation& simulation) const;
   Wanted wanted_, read_;
   structure::FrameCounters seen_;
@@ -29,6 +33,8 @@ class SnapshotTaker {
   std::shared_ptr<const Membership> membership_;
   std::shared_ptr<const std::vector<DrawnPiece>> drawn_;
   std::uint64_t drawn_revision_ = 0;
+  std::unique_ptr<structure::NameIndex> names_;
+  std::map<std::int64_t, structure::MaterialId> material_of_chunk_;
 };
 
 }  // namespace topple::viewer

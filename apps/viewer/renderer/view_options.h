@@ -5,6 +5,7 @@
 namespace topple::viewer {
 
 enum class Colouring {
+  materials,    ///< as they are: no colour means anything
   plain,        ///< by kind of part
   joints,       ///< at each end: force red, torque green, both yellow
   utilisation,  ///< along each member between its ends' utilisations, by the legend's map
@@ -21,16 +22,19 @@ struct PartSwitches {
 };
 
 struct ViewOptions {
-  Colouring colouring = Colouring::joints;
+  static constexpr float usual_opacity = -1;
+  Colouring colouring = Colouring::materials;
   Scale scale = Scale::capacity;
   int component = 4;             ///< Colouring::component: 0 to 5 (x, y, z, rx, ry, rz in joint axes)
   PartSwitches shown, coloured;  ///< what is drawn at all; whose joints are coloured
   bool failed_joints = true;     ///< show failed joints in their colour
   bool colour_blind_safe = false;
-  float deflection_scale = 1;                   ///< standing parts are drawn at this multiple of their displacement
-  float slab_opacity = 1, wall_opacity = 0.4F;  ///< below 1, what is behind shows through
-  int diagram = -1;                             ///< 0 to 5: that internal force drawn along each member; -1: none
-  float diagram_scale = 1;                      ///< 1: the largest is drawn as a tenth of the building's radius
+  float deflection_scale = 1;  ///< standing parts are drawn at this multiple of their displacement
+  /// Below 1, what is behind shows through; `usual_opacity`: slabs not, walls only in views that colours give a
+  /// meaning.
+  float slab_opacity = usual_opacity, wall_opacity = usual_opacity;
+  int diagram = -1;         ///< 0 to 5: that internal force drawn along each member; -1: none
+  float diagram_scale = 1;  ///< 1: the largest is drawn as a tenth of the building's radius
   bool loads = false, reactions = false, contacts = false;  ///< as arrows
   float arrow_scale = 1;
   bool shadows = true, ambient_occlusion = true, grid = true, debris = true, dust = true;
@@ -38,6 +42,10 @@ struct ViewOptions {
   structure::JointId selected_joint;
   structure::MemberId hovered_member, selected_member;
   structure::PanelId hovered_panel, selected_panel;
+  /// True where colours carry a meaning.
+  [[nodiscard]] bool analysis() const { return colouring != Colouring::materials && colouring != Colouring::plain; }
+  [[nodiscard]] float slab_opacity_now() const { return slab_opacity < 0 ? 1 : slab_opacity; }
+  [[nodiscard]] float wall_opacity_now() const { return wall_opacity < 0 ? (analysis() ? 0.4F : 1.0F) : wall_opacity; }
   bool operator==(const ViewOptions&) const = default;
   /// Equal but for what is hovered over and selected, which are marks over the scene.
   [[nodiscard]] bool same_but_marks(ViewOptions other) const {

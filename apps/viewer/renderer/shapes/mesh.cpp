@@ -1,9 +1,13 @@
 #include "renderer/shapes/mesh.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
+#include <utility>
+#include <vector>
 
 #include "renderer/shapes/triangulation.h"
 
@@ -186,6 +190,62 @@ Mesh chunk_mesh(const fracture::Mesh& chunk) {
   for (const auto& triangle : chunk.triangles)
     for (const int corner : triangle) mesh.indices.push_back(static_cast<std::uint32_t>(corner));
   return mesh;
+}
+
+namespace {
+
+/// The direction (or its opposite) that the largest area of a mesh of flat faces looks.
+glm::vec3 main_direction(const Mesh& mesh) {
+  std::vector<std::pair<glm::vec3, float>> directions;
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const Vertex &a = mesh.vertices[mesh.indices[i]], &b = mesh.vertices[mesh.indices[i + 1]],
+                 &c = mesh.vertices[mesh.indices[i + 2]];
+    const float area = glm::length(glm::cross(b.position - a.position, c.position - a.position));
+    const auto same = std::find_if(directions.begin(), directions.end(), [&](const auto& known) {
+      return std::abs(glm::dot(known.first, a.normal)) > 0.999F;
+    });
+    if (same == directions.end())
+      directions.emplace_back(a.normal, area);
+    else
+      same->second += area;
+  }
+  const auto most = std::max_element(directions.begin(), directions.end(),
+                                     [](const auto& a, const auto& b) { return a.second < b.second; });
+  return most == directions.end() ? glm::vec3(0, 0, 1) : most->first;
+}
+
+/// Where a panel ended before anything broke: its border and its openings, in the undeformed building.
+std::vector<std::array<Eigen::Vector3d, 2>> own_edges(const structure::Building& building,
+                                                      const structure::Panel& panel) {
+  std::vector<std::array<Eigen::Vector3d, 2>> edges;
+  const auto corner = [&](std::size_t i) -> const Eigen::Vector3d& { return building[panel.nodes[i % 4]].position; };
+  for (std::size_t i = 0; i < 4; ++i) edges.push_back({corner(i), corner(i + 1)});
+  const Eigen::Vector3d x = (corner(1) - corner(0)).normalized();
+  const Eigen::Vector3d normal = x.cross(corner(3) - corner(0)).normalized(), y = normal.cross(x);
+  for (const auto& opening : panel.openings)
+    for (std::size_t i = 0; i < opening.size(); ++i) {
+      const auto &a = opening[i], &b = opening[(i + 1) % opening.size()];
+      edges.push_back({corner(0) + a.x() * x + a.y() * y, corner(0) + b.x() * x + b.y() * y});
+    }
+  return edges;
+}
+
+}  // namespace
+
+void mark_broken(Mesh& mesh, const structure::Building* building, const structure::Panel* panel) {
+  const glm::vec3 across = main_direction(mesh);
+  const Eigen::Vector3d normal(across.x, across.y, across.z);
+  std::vector<std::array<Eigen::Vector3d, 2>> edges;
+  if (panel != nullptr) edges = own_edges(*building, *panel);
+  for (Vertex& v : mesh.vertices) {
+    if (std::abs(glm::dot(v.normal, across)) > 0.9F) continue;
+    const Eigen::Vector3d at(v.position.x, v.position.y, v.position.z), facing(v.normal.x, v.normal.y, v.normal.z);
+    const bool own = std::any_of(edges.begin(), edges.end(), [&](const auto& edge) {
+      const Eigen::Vector3d out = normal.cross(edge[1] - edge[0]).normalized();
+      return std::abs(out.dot(at - edge[0])) < 2e-3 && std::abs(out.dot(facing)) > 0.99;
+    });
+    v.broken = own ? 0.0F : 1.0F;
+  }
 }
 
 Mesh sphere_mesh(int rings) {

@@ -12,6 +12,7 @@ namespace topple::viewer {
 
 struct Vertex {
   glm::vec3 position, normal;
+  float broken = 0;  ///< 1: of a face where it was torn
 };
 struct Mesh {
   std::vector<Vertex> vertices;
@@ -27,8 +28,11 @@ struct Mesh {
 /// thickness.
 [[nodiscard]] Mesh panel_mesh(const structure::Building& building, const structure::Panel& panel);
 
-/// A piece of a broken panel as it is.
+/// A piece of a broken panel as it is, or of a model drawn around a building.
 [[nodiscard]] Mesh chunk_mesh(const fracture::Mesh& chunk);
+/// Marks as broken what does not face the way that most of the mesh's surface does, which is a panel's faces; but not
+/// the given panel's own borders and openings, where there is one (positions in the undeformed building).
+void mark_broken(Mesh& mesh, const structure::Building* building, const structure::Panel* panel);
 
 /// Radius 1, about the origin.
 [[nodiscard]] Mesh sphere_mesh(int rings);

@@ -129,6 +129,7 @@ double joint_value(const FrameAnswer::Joint& joint, const ViewOptions& options) 
 Rgba joint_colour(const FrameAnswer::Joint& joint, const structure::JointCapacity& capacity, const ViewOptions& options,
                   double largest) {
   const JointPalette palette = joint_palette(options.colour_blind_safe);
+  if (options.colouring == Colouring::materials) return 0;
   if (!joint.intact) return with_alpha(failed_colour(options), options.failed_joints ? 1 : 0);
   if (options.colouring == Colouring::plain || options.colouring == Colouring::segments ||
       options.colouring == Colouring::path || !joint.standing)
