@@ -1,4 +1,5 @@
 // Snapshots: what was done, and doing it again.
+#include "simulation/scene_hash.h"
 #include "simulation/simulation_state.h"
 #include "simulation/step_clock.h"
 #include "topple/structure/error.h"
@@ -6,7 +7,16 @@
 
 namespace topple::structure {
 
-Snapshot Simulation::save() const { return {state_->step, hash(), state_->actions}; }
+Building Simulation::State::building_at_start() const {
+  Building start = building;
+  for (const auto& [joint, capacity] : given_capacities)
+    start.joints[static_cast<std::size_t>(joint.index)].capacity = capacity;
+  return start;
+}
+
+Snapshot Simulation::save() const {
+  return {state_->step, hash(), scene_hash(state_->building_at_start(), state_->scenario), state_->actions};
+}
 
 /// Steps over idle time at once, but no farther than `last`.
 void Simulation::run_to(std::int64_t last) {
@@ -21,12 +31,12 @@ void Simulation::restore(const Snapshot& snapshot) {
   require_in({0, 1e15}, static_cast<double>(snapshot.step), "the snapshot's step");
   // What another building would refuse by a crash is refused here by its name.
   for (const Snapshot::Action& action : snapshot.actions) now.require_parts(action);
+  Building start = now.building_at_start();
+  if (snapshot.scene != scene_hash(start, now.scenario))
+    throw InputError("the snapshot is of another scene: its model, its scenario or what was tuned in them differs");
   auto listeners = std::move(now.listeners);
   std::unique_ptr<State> left = std::move(state_);
   try {
-    Building start = left->building;
-    for (const auto& [joint, capacity] : left->given_capacities)
-      start.joints[static_cast<std::size_t>(joint.index)].capacity = capacity;
     state_ = std::make_unique<State>(std::move(start), left->scenario, left->options);
     for (const Snapshot::Action& action : snapshot.actions) {
       run_to(action.step);
@@ -39,8 +49,8 @@ void Simulation::restore(const Snapshot& snapshot) {
     }
     run_to(snapshot.step);
     if (hash() != snapshot.hash)
-      throw InputError("the snapshot is not of this model and scenario: they come to another state at step " +
-                       std::to_string(snapshot.step));
+      throw InputError("the snapshot does not lead to the state that it was taken in, at step " +
+                       std::to_string(snapshot.step) + ": another program made it");
   } catch (...) {
     state_ = std::move(left);
     state_->listeners = std::move(listeners);

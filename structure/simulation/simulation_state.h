@@ -256,6 +256,7 @@ struct Simulation::State {
 
   // save_and_restore.cpp
   void require_parts(const Snapshot::Action& action) const;
+  [[nodiscard]] Building building_at_start() const;
 
   // host_contacts.cpp: bodies that the host owns.
   void strike_by_host();

@@ -14,7 +14,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "snapshots are written in the byte order of this machine");
 
 constexpr char magic[8] = {'T', 'O', 'P', 'P', 'L', 'E', 'S', 'N'};
-constexpr std::uint32_t format = 2;
+constexpr std::uint32_t format = 3;
 
 /// Of all bytes before it: tells what was damaged on its way from what was made so. FNV-1a, 64 bits.
 std::uint64_t checksum(std::string_view bytes) {
@@ -182,7 +182,7 @@ void fields(A& archive, Snapshot::Action& action) {
 }
 template <class A>
 void fields(A& archive, Snapshot& snapshot) {
-  each(archive, snapshot.step, snapshot.hash, snapshot.actions);
+  each(archive, snapshot.step, snapshot.hash, snapshot.scene, snapshot.actions);
 }
 
 template <class A, class T>

@@ -98,12 +98,13 @@ void Session::load(const structure::Snapshot& saved) {
   constexpr std::int64_t longest = 10'000'000;  // steps that are made and kept on the way: 46 hours at 60 a second
   restart();
   if (saved.step > longest) return tell_begun_anew("is of more than 10000000 steps");
+  if (saved.scene != simulation_->save().scene) return tell_begun_anew("is of another model, scenario or rules");
   try {
     go_the_way_of(saved);
   } catch (const std::exception& error) {
     return tell_begun_anew(error.what());
   }
-  if (simulation_->hash() != saved.hash) tell_begun_anew("is of another model, scenario or rules");
+  if (simulation_->hash() != saved.hash) tell_begun_anew("does not lead to the state that it was taken in");
 }
 
 void Session::tell_begun_anew(const std::string& why) {

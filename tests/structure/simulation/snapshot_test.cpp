@@ -2,11 +2,15 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
+#include "frame_builder.h"
 #include "topple/structure/error.h"
 #include "topple/structure/files.h"
 #include "topple/structure/simulation.h"
 
 using namespace topple::structure;
+using topple::test::FrameBuilder;
+using topple::test::grid_building;
+using topple::test::same_capacity;
 
 namespace {
 
@@ -153,12 +157,42 @@ TEST_CASE("a snapshot of another model or scenario is refused, and the simulatio
   CHECK_THROWS_AS(one.restore(wrong), InputError);
   CHECK(one.hash() == hash);
   wrong = one.save();
+  wrong.scene ^= 1;
+  CHECK_THROWS_WITH(one.restore(wrong), Catch::Contains("of another scene"));
+  wrong = one.save();
   RemoveTool beyond;
   beyond.members = {MemberId(one.building().members.size())};
   wrong.actions.push_back({0, Tool(beyond)});
   CHECK_THROWS_WITH(one.restore(wrong), Catch::Contains("parts that the model does not have"));
   run_to(one, 2);
   CHECK(one.hash() != hash);
+}
+
+TEST_CASE(
+    "each number of a model and a scenario tells its snapshots from another's, and a longer run is the same scene") {
+  FrameBuilder frame = grid_building(2, 2, 1, 4, 3, same_capacity(1e6), same_capacity(1e6));
+  frame.self_weight(7850);
+  const auto scene = [](const Building& building, const Scenario& scenario) {
+    return Simulation(building, scenario).save().scene;
+  };
+  Scenario scenario;
+  scenario.combination = CombinationId(0u);
+  const std::uint64_t own = scene(frame.building, scenario);
+  const auto changed = [&](auto change) {
+    Building building = frame.building;
+    Scenario other = scenario;
+    change(building, other);
+    return scene(building, other) != own;
+  };
+  CHECK(changed([](Building& b, Scenario&) { b.nodes[5].position.z() += 1e-9; }));
+  CHECK(changed([](Building& b, Scenario&) { b.joints[3].capacity.value[2] *= 2; }));
+  CHECK(changed([](Building& b, Scenario&) { b.materials[0].youngs_modulus *= 1.001; }));
+  CHECK(changed([](Building& b, Scenario&) { b.cases[0].self_weight.z() = -1.01; }));
+  CHECK(changed([](Building&, Scenario& s) { s.step = 1.0 / 120; }));
+  CHECK(changed([](Building&, Scenario& s) { s.debris.limit = 5; }));
+  CHECK(changed([](Building&, Scenario& s) { s.events.push_back({50, GravityTool{Vec3(0, 0, -9)}}); }));
+  CHECK_FALSE(changed([](Building&, Scenario& s) { s.duration = 100; }));
+  CHECK_FALSE(changed([](Building& b, Scenario&) { b.title = "another title"; }));
 }
 
 TEST_CASE("snapshot files that are none, damaged or of another format are refused by their name") {
@@ -169,7 +203,7 @@ TEST_CASE("snapshot files that are none, damaged or of another format are refuse
   CHECK_THROWS_WITH(parse_snapshot(bytes + "x", "a.topple"), Catch::Contains("goes on after its end"));
   std::string other = bytes;
   other[8] = 9;
-  CHECK_THROWS_WITH(parse_snapshot(other, "a.topple"), Catch::Contains("is of format 9, this program reads 2"));
+  CHECK_THROWS_WITH(parse_snapshot(other, "a.topple"), Catch::Contains("is of format 9, this program reads 3"));
   CHECK_THROWS_WITH(read_snapshot("/nowhere/a.topple"), Catch::Contains("cannot be opened: No such file"));
   for (std::size_t cut = 0; cut < bytes.size(); ++cut)
     CHECK_THROWS_AS(parse_snapshot(bytes.substr(0, cut), "a.topple"), InputError);

@@ -23,7 +23,8 @@ struct CapacityChange {
 
 struct Snapshot {
   std::int64_t step = 0;
-  std::uint64_t hash = 0;  ///< of the simulation then
+  std::uint64_t hash = 0;   ///< of the simulation then
+  std::uint64_t scene = 0;  ///< hash of the building and the scenario that it began with
   struct Action {
     std::int64_t step = 0;  ///< after which it was asked for; it acts in the next
     std::variant<Tool, HostContact, CapacityChange> what;
@@ -31,7 +32,7 @@ struct Snapshot {
   std::vector<Action> actions;  ///< beside the scenario's events, in order
 };
 
-/// Format 1: magic, format, version of Topple, and the snapshot; little endian, doubles as raw bits.
+/// Format 3: magic, format, version of Topple, the snapshot and a checksum; little endian, doubles as raw bits.
 [[nodiscard]] std::string snapshot_bytes(const Snapshot& snapshot);
 /// Throws InputError naming the file: no snapshot, another format, cut short.
 [[nodiscard]] Snapshot read_snapshot(const std::filesystem::path& file);
