@@ -39,7 +39,7 @@ struct Options {
   int stations = 0, threads = 0;
   std::string p_delta;
   int buckling = 0, modes = 0;
-  std::string mass, torsional_mass;
+  std::string mass, torsional_mass, factor;
   bool rotary_inertia = false;
   std::vector<std::string> lose, lose_each;
   std::optional<double> sudden;
@@ -227,6 +227,7 @@ int run(const Options& options) {
   request.stations = options.stations;
   request.workers = options.threads;
   request.solver.threads = options.threads > 0 ? options.threads : std::max(1, processors());
+  if (options.factor == "cholmod") request.solver.factorisation = solver::Factorisation::supernodal;
   request.second_order = second_order(options.p_delta, building);
   request.buckling = options.buckling;
   request.losses = losses(options, building);
@@ -314,6 +315,9 @@ std::function<int()> declare(CLI::App& app) {
       ->check(whole_number(1, 10000));
   app.add_option("--threads", options->threads, "Threads (else one for each processor); they change no number")
       ->check(whole_number(1, 1024));
+  app.add_option("--factor", options->factor,
+                 "Whose factorisation: multifrontal (ours, the default) or cholmod; answers agree to rounding")
+      ->check(CLI::IsMember({"multifrontal", "cholmod"}));
   app.add_flag("--p-delta{exact}", options->p_delta,
                "Second order: exact (stability functions) or, with =cubic, the cubic geometric stiffness")
       ->check(CLI::IsMember({"exact", "cubic"}));

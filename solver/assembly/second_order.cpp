@@ -118,7 +118,7 @@ struct SecondOrderAnalysis::State {
     if (factor_) {
       const Stability stability = factorise_and_judge(system_, *factor_, options_);
       if (stability.defect) throw Buckled(stability.defect->message, stability.defect->motion);
-      statistics.factorisation = factor_->kind() == Factorisation::supernodal ? "supernodal" : "simplicial";
+      statistics.factorisation = factor_->name();
       statistics.ordering = "node graph METIS";
       statistics.factor_entries = factor_->entries();
       statistics.factor_operations = factor_->operations();

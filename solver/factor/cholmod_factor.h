@@ -1,5 +1,5 @@
 #pragma once
-// CHOLMOD's factorisations, on one BLAS thread, always: what ours is compared with.
+// CHOLMOD's factorisations, on one BLAS thread, always. This is the only file that knows of CHOLMOD.
 #include <Eigen/Core>
 #include <cstdint>
 #include <memory>

@@ -119,9 +119,9 @@ Factorisation Factor::kind() const { return state_->own ? Factorisation::automat
 const char* Factor::name() const {
   switch (kind()) {
     case Factorisation::simplicial:
-      return "simplicial";
+      return "CHOLMOD simplicial";
     case Factorisation::supernodal:
-      return "supernodal";
+      return "CHOLMOD supernodal";
     default:
       return "multifrontal";
   }

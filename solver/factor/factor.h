@@ -15,7 +15,8 @@ namespace topple::solver {
 class Factor {
  public:
   /// Symbolic analysis. `permutation[k]` is the row eliminated k-th. What comes out does not depend on `threads`.
-  /// `automatic`: our own, which is the fastest at every size. The others are CHOLMOD's, to compare with.
+  /// `automatic`: our own, which is the fastest at every size. The others are CHOLMOD's: supernodal is simplicial where
+  /// its GPL modules are left out.
   Factor(const SparseSymmetric& pattern, const std::vector<int>& permutation, Factorisation kind, int threads = 1);
   ~Factor();
   Factor(Factor&&) noexcept;
@@ -41,7 +42,7 @@ class Factor {
   /// Borrowed from the last numeric factorisation, until the next.
   [[nodiscard]] FactorView view() const;
   [[nodiscard]] Factorisation kind() const;
-  [[nodiscard]] const char* name() const;  ///< multifrontal (ours), supernodal or simplicial
+  [[nodiscard]] const char* name() const;  ///< "multifrontal" (ours), "CHOLMOD supernodal" or "CHOLMOD simplicial"
 
  private:
   struct State;
