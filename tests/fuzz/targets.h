@@ -165,6 +165,7 @@ inline void snapshot(std::string_view bytes) {
     file.append(reinterpret_cast<const char*>(&value), sizeof value);
     Snapshot saved = parse_snapshot(file, "saved");
     if (saved.step > 100) return;
+    saved.scene = bay.save().scene;  // nor this
     bay.restore(saved);
   });
 }
