@@ -255,6 +255,8 @@ def test_energies_balance():
     kinetic = ledger["kinetic_translation"] + ledger["kinetic_rotation"]
     assert kinetic == pytest.approx(ledger["gravity_work"], rel=0.05)
     assert abs(ledger["residual"]) < 1e-2
+    # The ledger is the command's, entry by entry.
+    assert ledger == run.summary()["ledger"]["energy"]
 
 
 def test_two_threads_may_use_one_run():
