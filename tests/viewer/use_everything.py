@@ -92,9 +92,9 @@ def acting():
     yield seen(0)
     yield {"at": 0, "key": "h"}
     yield {"at": 0, "key": "v"}
-    for tab in ([600, 285], [640, 285], [690, 285], [730, 285], [780, 285], [690, 285]):
+    for tab in ([576, 309], [616, 309], [657, 309], [698, 309], [744, 309], [657, 309]):
         yield {"at": 0, "click": tab}
-    yield {"at": 0, "drag": [[683, 346], [700, 346]]}  # the strength of all joints, in the tab that tunes
+    yield {"at": 0, "drag": [[681, 375], [700, 375]]}  # the strength of all joints, in the tab that tunes
     yield seen(0, "tuned.png")
     yield {"at": 0.05, "set": {"joints": "posts", "strength": 2, "moment_y": 5e5}}
     yield {"at": 0.05, "tool": {"name": "load path"}}
@@ -121,8 +121,8 @@ def acting():
     yield {"at": 1.2, "drag": [[500, 599], [200, 599]]}  # the slider of time
     yield {"at": 1.2, "look_at": "present"}
     yield {"at": 1.2, "key": "v"}
-    yield {"at": 1.2, "click": [730, 285]}
-    for button in ([818, 322], [818, 389]):  # the picture, all pictures
+    yield {"at": 1.2, "click": [698, 309]}
+    for button in ([808, 350], [811, 406]):  # the picture, all pictures
         yield {"at": 1.2, "click": button}
     yield {"at": 1.25, "gravity": 4}
     yield {"at": 1.3, "restart": {"bracing": "classic", "mechanism": "detach", "sudden": 1.5,
