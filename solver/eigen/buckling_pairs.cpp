@@ -66,7 +66,7 @@ class Subspace {
       const Eigen::MatrixXd images = product(tangent_[s], V_.rightCols(added));
       projected_[s].conservativeResize(V_.cols(), V_.cols());
       projected_[s].rightCols(added) = V_.transpose() * images;
-      projected_[s].bottomRows(added) = projected_[s].rightCols(added).transpose();
+      projected_[s].bottomRows(added) = projected_[s].rightCols(added).transpose().eval();  // they share a corner
     }
   }
 
