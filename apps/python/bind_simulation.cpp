@@ -52,21 +52,7 @@ py::dict changes_of(SimulationHost& host) {
 py::dict ledger_of(SimulationHost& host) {
   const Ledger ledger = host.compute([](Simulation& s) { return s.ledger(); });
   py::dict found;
-  for (const auto& [name, value] : {std::pair{"gravity_work", ledger.gravity_work},
-                                    {"work_put_in", ledger.work_put_in},
-                                    {"elastic", ledger.elastic},
-                                    {"freed_by_breaks", ledger.freed_by_breaks},
-                                    {"dissipated_in_joints", ledger.dissipated_in_joints},
-                                    {"kinetic_translation", ledger.kinetic_translation},
-                                    {"kinetic_rotation", ledger.kinetic_rotation},
-                                    {"kinetic_standing", ledger.kinetic_standing},
-                                    {"damped", ledger.damped},
-                                    {"lost_in_integration", ledger.lost_in_integration},
-                                    {"lost_in_impacts", ledger.lost_in_impacts},
-                                    {"lost_in_contacts", ledger.lost_in_contacts},
-                                    {"removed", ledger.removed},
-                                    {"residual", ledger.residual()}})
-    found[name] = value;
+  for (const auto& [name, value] : ledger_entries(ledger)) found[name] = value;
   return found;
 }
 

@@ -54,20 +54,8 @@ Json percentiles(const StepTimes::Percentiles& p) {
 }
 
 Json ledger_json(const Ledger& ledger) {
-  Json energy = {{"gravity_work", ledger.gravity_work},
-                 {"work_put_in", ledger.work_put_in},
-                 {"elastic", ledger.elastic},
-                 {"freed_by_breaks", ledger.freed_by_breaks},
-                 {"dissipated_in_joints", ledger.dissipated_in_joints},
-                 {"kinetic_translation", ledger.kinetic_translation},
-                 {"kinetic_rotation", ledger.kinetic_rotation},
-                 {"lost_in_impacts", ledger.lost_in_impacts},
-                 {"lost_in_contacts", ledger.lost_in_contacts},
-                 {"removed", ledger.removed},
-                 {"kinetic_standing", ledger.kinetic_standing},
-                 {"damped", ledger.damped},
-                 {"lost_in_integration", ledger.lost_in_integration},
-                 {"residual", ledger.residual()}};
+  Json energy = Json::object();
+  for (const auto& [name, value] : ledger_entries(ledger)) energy[name] = value;
   return {{"energy", std::move(energy)}, {"momentum_error", ledger.momentum_error}};
 }
 

@@ -3,6 +3,7 @@
 // the summary that a person reads. Everything but wall times is the same in every run.
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "topple/structure/simulation.h"
@@ -36,6 +37,9 @@ struct CollapseCounts {
   std::size_t joints_broken = 0, members_down = 0, panels_down = 0, bodies = 0, standing_segments = 0;
 };
 [[nodiscard]] CollapseCounts collapse_counts(const Simulation& simulation);
+
+/// The ledger's energies in J by the names that summary.json gives them, the residual last.
+[[nodiscard]] std::vector<std::pair<const char*, double>> ledger_entries(const Ledger& ledger);
 
 /// One line of events.jsonl, without the line's end.
 [[nodiscard]] std::string event_line(const Building& building, const SimulationEvent& event);
