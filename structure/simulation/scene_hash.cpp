@@ -3,6 +3,7 @@
 #include <type_traits>
 
 #include "simulation/accounts/replay_hash.h"
+#include "topple/structure/snapshot.h"
 
 namespace topple::structure {
 
@@ -148,42 +149,10 @@ class SceneHash {
          cases, combinations);
   }
 
-  void add(const Projectile& tool) {
-    const auto& [from, velocity, mass, radius] = tool;
-    each(from, velocity, mass, radius);
-  }
-  void add(const WreckingBall& tool) {
-    const auto& [anchor, from, cable, mass, radius] = tool;
-    each(anchor, from, cable, mass, radius);
-  }
-  void add(const CutTool& tool) {
-    const auto& [joints] = tool;
-    each(joints);
-  }
-  void add(const RemoveTool& tool) {
-    const auto& [members, panels, supports] = tool;
-    each(members, panels, supports);
-  }
-  void add(const ChargeTool& tool) {
-    const auto& [centre, radius, at_centre, at_radius] = tool;
-    each(centre, radius, at_centre, at_radius);
-  }
-  void add(const WeakenTool& tool) {
-    const auto& [joints, members, strength, stiffness, over, stages] = tool;
-    each(joints, members, strength, stiffness, over, stages);
-  }
-  void add(const GravityTool& tool) {
-    const auto& [gravity] = tool;
-    each(gravity);
-  }
-  void add(const LoadTool& tool) {
-    const auto& [nodes] = tool;
-    each(nodes);
-  }
+  /// The tool as a snapshot holds it.
   void add(const Event& event) {
     const auto& [at, tool] = event;
-    each(at, tool.index());
-    std::visit([&](const auto& one) { add(one); }, tool);
+    each(at, snapshot_bytes({0, 0, 0, {{0, tool}}}));
   }
   void add(const FailureRules& rules) {
     const auto& [bracing, mechanism, second_order, sudden] = rules;
