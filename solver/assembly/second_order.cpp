@@ -104,6 +104,7 @@ struct SecondOrderAnalysis::State {
 
   void require_straight_members() const {
     for (std::size_t i = 0; i < system_.model.beams.size(); ++i) {
+      if (far_from_buckling_inside(system_.model.beams[i], axial_.first_axial[i], axial_.loads[i])) continue;
       const SecondOrderBeam beam(system_.model.beams[i], 1, axial_.mode, axial_.first_axial[i], axial_.loads[i]);
       if (beam.buckled_modes() == 0) continue;
       Mechanism mechanism;

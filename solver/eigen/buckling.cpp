@@ -20,20 +20,6 @@ constexpr double same_factor = 1e-6;      // modes this close are sought apart f
 constexpr int inverse_iterations = 8;
 constexpr int spare_starts = 3;  // beyond those sought: equal factors all come
 
-/// Members held at both ends buckle at 4 pi2 EI/L2 (less by shear); far below it there is nothing to count.
-bool cannot_buckle_between_rigid_ends(const Beam& beam, double axial, const std::vector<BeamLoad>& loads) {
-  if (!loads.empty()) return false;
-  for (const Vec6& end : beam.end_stiffness)
-    if (!(end.array() == rigid).all()) return false;
-  constexpr double pi = 3.14159265358979323846, far_below = 0.9;
-  for (const auto& [I, area] : {std::pair(beam.Iy, beam.shear_area_z), std::pair(beam.Iz, beam.shear_area_y)}) {
-    const double euler = 4 * pi * pi * beam.youngs_modulus * I / (beam.length * beam.length);
-    const double critical = area > 0 ? euler / (1 + euler / (beam.shear_modulus * area)) : euler;
-    if (-axial > far_below * critical) return false;
-  }
-  return true;
-}
-
 class Buckling {
  public:
   Buckling(const FrameModel& model, const LoadSet& loads, const AnalysisOptions& options,
@@ -144,7 +130,7 @@ class Buckling {
     int count = 0;
     for (std::size_t i = 0; i < first_axial_.size(); ++i) {
       const Beam& beam = system_.model.beams[i];
-      if (cannot_buckle_between_rigid_ends(beam, axial_.first_axial[i], axial_.loads[i])) continue;
+      if (far_from_buckling_inside(beam, axial_.first_axial[i], axial_.loads[i])) continue;
       count += SecondOrderBeam(beam, 1, SecondOrder::exact, axial_.first_axial[i], axial_.loads[i]).buckled_modes();
     }
     return count;

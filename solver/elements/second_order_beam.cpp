@@ -225,6 +225,24 @@ SecondOrderBeam::SecondOrderBeam(const Beam& beam, double factor, SecondOrder mo
   }
 }
 
+bool far_from_buckling_inside(const Beam& beam, double axial, std::span<const BeamLoad> loads) {
+  for (const Vec6& end : beam.end_stiffness)
+    if (!(end.array() == rigid).all()) return false;
+  double pressed = -axial;
+  for (const BeamLoad& load : loads) {
+    if (load.kind == BeamLoad::Kind::point) pressed += std::abs(load.first(0));
+    if (load.kind == BeamLoad::Kind::distributed)
+      pressed += std::max(std::abs(load.first(0)), std::abs(load.last(0))) * (load.to - load.from);
+  }
+  constexpr double pi = 3.14159265358979323846, far_below = 0.9;
+  for (const auto& [I, area] : {std::pair(beam.Iy, beam.shear_area_z), std::pair(beam.Iz, beam.shear_area_y)}) {
+    const double euler = 4 * pi * pi * beam.youngs_modulus * I / (beam.length * beam.length);
+    const double critical = area > 0 ? euler / (1 + euler / (beam.shear_modulus * area)) : euler;
+    if (pressed > far_below * critical) return false;
+  }
+  return true;
+}
+
 Vec12 frame3dd_end_forces(const Beam& beam, const Vec12& hubs, const Vec12& fixed_end, double ends_apart) {
   const double strain = (hubs(6) - hubs(0)) / beam.length;
   const CondensedBeam linear(beam, 1);

@@ -27,6 +27,11 @@ class SecondOrderBeam {
   BeamColumn in_xy_, in_xz_;
 };
 
+/// Whether a beam is far from buckling between its ends held, without its stiffness being worked out: these buckle at
+/// 4 pi2 EI/L2 (less by shear) under an even force; axial loads along it are added to what presses. `axial`: tension at
+/// the first end.
+[[nodiscard]] bool far_from_buckling_inside(const Beam& beam, double axial, std::span<const BeamLoad> loads);
+
 /// The end forces that Frame3DD prints: its geometric part goes with the axial force of the elastic strain, E A times
 /// the change of length, which leaves out loads along the element and thermal strain; torsion has no such part.
 [[nodiscard]] Vec12 frame3dd_end_forces(const Beam& beam, const Vec12& hub_displacements, const Vec12& fixed_end,
