@@ -69,14 +69,18 @@ std::vector<Chosen> governing_members(const Building& building, const AnalysisRe
 }
 
 std::string lengths_text(const DesignResult& used, const Building& building, const Member& member) {
-  char text[256];
   const double unit = building.units.length;
+  const auto source = [&](std::size_t way) {
+    const std::string_view why = mode_part_reason(used.mode_part[way]);
+    return std::string(length_source_name(used.length_source[way])) +
+           (why.empty() ? "" : "; not from the buckling modes: " + std::string(why));
+  };
+  char text[512];
   std::snprintf(text, sizeof text,
                 "Effective lengths: about y %.4g (K %.3f, %s), about z %.4g (K %.3f, %s), torsion %.4g, lateral %.4g.",
-                used.lengths.y / unit, used.lengths.y / member.length,
-                std::string(length_source_name(used.length_source[0])).c_str(), used.lengths.z / unit,
-                used.lengths.z / member.length, std::string(length_source_name(used.length_source[1])).c_str(),
-                used.lengths.torsion / unit, used.lengths.lateral / unit);
+                used.lengths.y / unit, used.lengths.y / member.length, source(0).c_str(), used.lengths.z / unit,
+                used.lengths.z / member.length, source(1).c_str(), used.lengths.torsion / unit,
+                used.lengths.lateral / unit);
   return text;
 }
 

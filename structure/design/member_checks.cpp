@@ -192,13 +192,18 @@ DesignMember DesignMembers::member(MemberId id, const CombinationResult& combina
     if (checked.length_source[way] == LengthSource::chart_sway)
       length(way) *= state.leaning.at(storey_levels(building_, building_[id]))[way];
   if (method_ != EffectiveLengths::automatic || combination.buckling.empty()) return checked;
-  const auto lengths = lengths_from_modes(building_, id, combination, state.bends);
+  const auto from_modes = lengths_from_modes(building_, id, combination, state.bends);
   const auto longest = longest_by_modes(building_, id, combination);
   for (std::size_t way = 0; way < 2; ++way) {
     if (checked.length_source[way] == LengthSource::given) continue;
-    if (!lengths[way] && !(longest[way] && *longest[way] < length(way))) continue;
-    length(way) = lengths[way].value_or(longest[way].value_or(length(way)));
-    checked.length_source[way] = LengthSource::buckling_analysis;
+    checked.mode_part[way] = from_modes[way].part;
+    if (from_modes[way].part == ModePart::takes_part) {
+      length(way) = from_modes[way].length;
+      checked.length_source[way] = LengthSource::buckling_analysis;
+    } else if (longest[way] && *longest[way] < length(way)) {
+      length(way) = *longest[way];
+      checked.length_source[way] = LengthSource::lowest_factor;
+    }
   }
   return checked;
 }

@@ -135,6 +135,7 @@ DesignAudit audit_member(DesignCode code, const DesignMember& member, std::span<
       code == DesignCode::en1993 ? check_en1993(member, stations, trail) : check_aisc360(member, stations, trail);
   audit.result.lengths = member.lengths;
   audit.result.length_source = member.length_source;
+  audit.result.mode_part = member.mode_part;
   return audit;
 }
 
@@ -143,15 +144,22 @@ DesignResult check_member(DesignCode code, const DesignMember& member, std::span
       code == DesignCode::en1993 ? check_en1993(member, stations, {}) : check_aisc360(member, stations, {});
   result.lengths = member.lengths;
   result.length_source = member.length_source;
+  result.mode_part = member.mode_part;
   return result;
 }
 
 std::string_view length_source_name(LengthSource source) {
-  constexpr std::array<std::string_view, 8> names{
+  constexpr std::array<std::string_view, 9> names{
       "given",           "between nodes that hold it", "cantilever",
       "assumed to sway", "alignment chart, braced",    "alignment chart, sway",
-      "pinned, leaning", "buckling analysis"};
+      "pinned, leaning", "buckling analysis",          "lowest buckling factor"};
   return names[static_cast<std::size_t>(source)];
+}
+
+std::string_view mode_part_reason(ModePart part) {
+  constexpr std::array<std::string_view, 5> reasons{"", "", "no compression", "hardly bends in the modes",
+                                                    "bent by others in the modes, not by its compression"};
+  return reasons[static_cast<std::size_t>(part)];
 }
 
 }  // namespace topple::structure

@@ -253,6 +253,9 @@ void ResultsWriter::design(const DesignResult& used) {
   const double unit = b_.units.length;
   w_.key("y").value(used.lengths.y / unit).key("y_from").value(std::string(length_source_name(used.length_source[0])));
   w_.key("z").value(used.lengths.z / unit).key("z_from").value(std::string(length_source_name(used.length_source[1])));
+  for (const auto& [key, way] : {std::pair("y_not_from_modes", 0U), std::pair("z_not_from_modes", 1U)})
+    if (const std::string_view why = mode_part_reason(used.mode_part[way]); !why.empty())
+      w_.key(key).value(std::string(why));
   w_.key("torsion").value(used.lengths.torsion / unit).key("lateral").value(used.lengths.lateral / unit).close('}');
   if (!used.refusal.empty()) w_.key("not_verified").value(used.refusal);
 }

@@ -65,6 +65,10 @@ std::string lengths_from(const DesignResult& used) {
   const auto [y, z] = used.length_source;
   std::string text(length_source_name(y));
   if (z != y) text += "; " + std::string(length_source_name(z));
+  const auto [of_y, of_z] = used.mode_part;
+  const std::string_view why = mode_part_reason(of_y), why_z = mode_part_reason(of_z);
+  if (!why.empty()) text += ": " + std::string(why);
+  if (!why_z.empty() && of_z != of_y) text += (why.empty() ? ": " : "; ") + std::string(why_z);
   return text;
 }
 

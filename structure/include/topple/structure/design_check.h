@@ -52,14 +52,27 @@ enum class LengthSource {
   chart_sway,         ///< alignment chart, sidesway uninhibited; with what leans on it
   leaning,            ///< pinned at both ends: factor 1, the others of its storey hold it up
   buckling_analysis,  ///< from the lowest buckling factor in whose shape the member takes part
+  lowest_factor,      ///< from the lowest buckling factor, though it takes no part: shorter than what was found else
 };
 [[nodiscard]] std::string_view length_source_name(LengthSource source);
+
+/// What a member does in the buckling modes that were found, so that they say something of its effective length or not.
+enum class ModePart {
+  not_asked,     ///< no modes were found, or its length is given
+  takes_part,    ///< in one of them
+  not_pressed,   ///< no compression
+  hardly_bends,  ///< in all of them it bends too little beside those that buckle
+  is_bent,       ///< its compression does too little of the work that bends it: it holds others, or goes along
+};
+/// Why the member's length does not come from a mode, in words; empty for not_asked and takes_part.
+[[nodiscard]] std::string_view mode_part_reason(ModePart part);
 
 struct DesignMember {
   const Section* section = nullptr;
   const Material* material = nullptr;
   BucklingLengths lengths{};
   std::array<LengthSource, 2> length_source{};  ///< of those about y and z
+  std::array<ModePart, 2> mode_part{};          ///< likewise
   MomentFactors factors{};
   double stiffener_spacing = 0;  ///< of transverse stiffeners of the web, m; 0: at the supports alone
   bool rigid_end_post = false;   ///< EN 1993-1-5 9.3
@@ -82,6 +95,7 @@ struct DesignResult {
   std::vector<DesignClause> clauses;            ///< all that were evaluated
   BucklingLengths lengths;                      ///< that it was checked with
   std::array<LengthSource, 2> length_source{};  ///< of those for buckling about y and z
+  std::array<ModePart, 2> mode_part{};          ///< likewise
   std::string refusal;  ///< why the member cannot be said to pass whatever its utilisation; else empty
   [[nodiscard]] bool passes() const { return refusal.empty() && utilisation <= 1; }
 };
