@@ -12,6 +12,10 @@ namespace topple::structure::formats {
 /// within 1e-6 rad of the axis.
 [[nodiscard]] std::optional<Mat3> member_axes(const Vec3& along, const std::optional<Vec3>& up, double roll);
 
+/// Largest warp of a panel. Shells are meshed on the warped surface (MacNeal and Harder's twisted beam); what is one
+/// element, or load alone, counts as plane.
+inline constexpr double largest_warp = 0.01, largest_warp_of_shells = 0.1;
+
 /// What a panel's four corners make.
 struct PanelGeometry {
   Mat3 axes = Mat3::Identity();  ///< rows: x from node 1 to 2, y, z normal by the right-hand rule around the nodes

@@ -9,22 +9,6 @@ namespace topple::structure::formats {
 
 namespace {
 
-constexpr int least_elements = 8, most_elements = 64;  // along a side of a shell whose mesh is not given
-
-/// Elements along local x and y of a shell that says nothing of them: an eighth of the shorter side each, as square as
-/// whole numbers allow.
-std::array<int, 2> usual_mesh(const std::array<Vec2, 4>& outline) {
-  const auto side = [&](std::size_t i) { return (outline[(i + 1) % 4] - outline[i]).norm(); };
-  const double x = std::max(side(0), side(2)), y = std::max(side(1), side(3));
-  const double size = std::min(x, y) / least_elements;
-  const auto elements = [&](double length) {
-    return std::clamp(static_cast<int>(std::lround(length / size)), least_elements, most_elements);
-  };
-  return {elements(x), elements(y)};
-}
-
-constexpr double largest_warp = 0.01;  // of the longer diagonal
-
 template <class Part>
 std::string names_of(const std::vector<Part>& parts) {
   std::vector<std::string_view> names;
@@ -142,13 +126,12 @@ PanelId ModelDraft::add_panel(PanelDraft draft, const JsonValue& place) {
   const PanelGeometry geometry = panel_geometry(corners);
   if (!geometry.convex)
     place.fail("the four nodes do not go round a convex quadrilateral; accepted: four corners in order");
-  if (geometry.warp > largest_warp)
+  if (geometry.warp > (panel.model == PanelModel::shell ? largest_warp_of_shells : largest_warp))
     place.fail("the panel is warped by " + std::to_string(100 * geometry.warp) +
-               " % of its longer diagonal; accepted: at most 1 %");
+               " % of its longer diagonal; accepted: at most 10 % for shells, 1 % for other panels");
   panel.axes = geometry.axes;
   std::array<Vec2, 4> outline;
   for (std::size_t i = 0; i < 4; ++i) outline[i] = (panel.axes * (corners[i] - corners[0])).head<2>();
-  if (panel.mesh[0] == 0) panel.mesh = usual_mesh(outline);
   for (const auto& opening : panel.openings)
     if (const std::string fault = opening_fault(opening, outline); !fault.empty()) place.fail(fault);
   const Material& material = building[panel.material];

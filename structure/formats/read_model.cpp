@@ -9,6 +9,7 @@
 #include "formats/model_forms.h"
 #include "formats/model_reader.h"
 #include "formats/read_meshes.h"
+#include "mesh/usual_mesh.h"
 #include "model/connect_parts.h"
 #include "topple/structure/error.h"
 #include "topple/structure/files.h"
@@ -76,6 +77,7 @@ ModelRead read_document(const JsonDocument& document) {
   read_analyses(root, draft);
   read_frame3dd_remarks(root, draft);
   read_connect(root, draft);
+  set_usual_meshes(draft.building);
   const std::vector<MeshEntry> meshes = read_meshes(root);  // what they draw is read when somebody draws or weighs it
   return {std::move(draft.building),
           std::any_of(meshes.begin(), meshes.end(), [](const MeshEntry& mesh) { return mesh.density > 0; })};

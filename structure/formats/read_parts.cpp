@@ -1,6 +1,7 @@
 // Nodes, members and panels that the file lists one by one.
 #include "formats/model_reader.h"
 #include "formats/read_fracture.h"
+#include "mesh/usual_mesh.h"
 
 namespace topple::structure::formats {
 
@@ -158,7 +159,7 @@ void read_panel(const JsonValue& value, ModelDraft& draft) {
   if (const auto mesh = value.find("mesh"))
     panel.mesh = read_mesh(*mesh);
   else if (panel.model == PanelModel::shell)
-    panel.mesh = {0, 0};  // by its size (ModelDraft::add_panel)
+    panel.mesh = mesh_not_given;  // by its span, when the whole model is read
   if (const auto fracture = value.find("fracture")) panel.fracture = read_fracture(*fracture, draft.scale.length);
   if (const auto openings = value.find("openings")) panel.openings = read_openings(*openings, draft.scale);
   if (const auto joint = value.find("joint")) draft_panel.joint = draft.joint_type(*joint);

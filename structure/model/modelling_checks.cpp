@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <unordered_map>
 
+#include "mesh/usual_mesh.h"
+
 namespace topple::structure {
 
 namespace {
@@ -185,6 +187,22 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
   return row[b.size()];
 }
 
+/// A curved shell drawn by flat panels is a folded plate: with folds of 11 degrees the pinched hemisphere moves 25 %
+/// too little on any mesh, with 6 degrees 4 %.
+void find_folds(const Building& building, std::vector<std::string>& warnings) {
+  constexpr double degree = 3.14159265358979323846 / 180, most = 7 * degree;
+  const std::vector<ShellFold> folds = shell_folds(building, most);
+  if (folds.empty()) return;
+  const auto widest = std::max_element(folds.begin(), folds.end(),
+                                       [](const ShellFold& a, const ShellFold& b) { return a.angle < b.angle; });
+  char text[64];
+  std::snprintf(text, sizeof text, "%.1f degrees", widest->angle / degree);
+  warnings.push_back(
+      "shells " + building[widest->panel].name + " and " + building[widest->next].name + " meet at a fold of " + text +
+      (folds.size() > 1 ? " (and " + std::to_string(folds.size() - 1) + " more edges are folded so)" : "") +
+      ": if a curved surface is meant, it is too stiff; draw it by panels that turn by 6 degrees or less");
+}
+
 }  // namespace
 
 std::vector<std::string> modelling_warnings(const Building& building) {
@@ -196,6 +214,7 @@ std::vector<std::string> modelling_warnings(const Building& building) {
   }
   find_near_nodes(building, tolerance, warnings);
   find_odd_materials(building, warnings);
+  find_folds(building, warnings);
   return warnings;
 }
 

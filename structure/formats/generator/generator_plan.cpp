@@ -5,6 +5,7 @@
 
 #include "formats/model_reader.h"
 #include "formats/read_fracture.h"
+#include "mesh/usual_mesh.h"
 
 namespace topple::structure::formats {
 
@@ -158,7 +159,7 @@ class PlanReader {
     if (const auto mesh = value.find("mesh"))
       panel.mesh = read_mesh(*mesh);
     else if (panel.model == PanelModel::shell)
-      panel.mesh = {0, 0};  // by its size (ModelDraft::add_panel)
+      panel.mesh = mesh_not_given;  // by its span, when the whole model is read
     if (const auto fracture = value.find("fracture")) panel.fracture = read_fracture(*fracture, draft_.scale.length);
     if (const auto openings = value.find("openings")) panel.openings = read_openings(*openings, draft_.scale);
     if (const auto groups = value.find("groups")) panel.groups = read_names(*groups);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 
+#include "formats/geometry.h"
 #include "formats/physical_model.h"
 #include "topple/structure/error.h"
 #include "topple/structure/files.h"
@@ -35,6 +36,15 @@ void refuse_one_way_members(const Building& building) {
       refuse(building, "members." + member.name + ".axial",
              member.axial == AxialAction::tension ? "\"tension\"" : "\"compression\"");
 }
+/// Bodies and fractures of panels are plane.
+void refuse_warped_shells(const Building& building) {
+  for (const Panel& panel : building.panels) {
+    std::array<Vec3, 4> corners;
+    for (std::size_t i = 0; i < 4; ++i) corners[i] = building[panel.nodes[i]].position;
+    if (formats::panel_geometry(corners).warp > formats::largest_warp)
+      refuse(building, "panels." + panel.name, "a panel that is warped by more than 1 % of its longer diagonal");
+  }
+}
 void refuse_diaphragms(const Building& building) {
   for (const Diaphragm& diaphragm : building.diaphragms)
     refuse(building, "diaphragms." + diaphragm.name, "a diaphragm");
@@ -45,8 +55,8 @@ void refuse_diaphragms(const Building& building) {
 void refuse_unbuilt(const Building& building, Purpose purpose) {
   using Refusal = void (*)(const Building&);
   static constexpr std::array<Refusal, 1> analyse{refuse_meshes_of_panels};
-  static constexpr std::array<Refusal, 4> demolish{refuse_meshes_of_panels, refuse_giving_edges, refuse_one_way_members,
-                                                   refuse_diaphragms};
+  static constexpr std::array<Refusal, 5> demolish{refuse_meshes_of_panels, refuse_giving_edges, refuse_one_way_members,
+                                                   refuse_warped_shells, refuse_diaphragms};
   switch (purpose) {
     case Purpose::analyse:
       for (const Refusal refusal : analyse) refusal(building);
