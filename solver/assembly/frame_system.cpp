@@ -13,29 +13,6 @@
 namespace topple::solver {
 namespace {
 
-void check_patch(const Patch& patch, std::size_t index, int nodes) {
-  const std::string name = "patch " + std::to_string(index);
-  const auto size = static_cast<Eigen::Index>(6 * patch.node.size());
-  for (const int node : patch.node)
-    if (node < 0 || node >= nodes)
-      throw std::invalid_argument(name + ": node " + std::to_string(node) + " does not exist");
-  if (patch.stiffness.rows() != size || patch.stiffness.cols() != size || !patch.stiffness.allFinite())
-    throw std::invalid_argument(name + ": its stiffness is not a finite matrix of six freedoms for each node");
-}
-
-FrameModel checked(FrameModel model) {
-  const int nodes = static_cast<int>(model.nodes.size());
-  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
-    if (!model.nodes[i].allFinite()) throw std::invalid_argument("node " + std::to_string(i) + " is not finite");
-  }
-  for (std::size_t i = 0; i < model.beams.size(); ++i) check_beam(model.beams[i], static_cast<int>(i), nodes);
-  for (std::size_t i = 0; i < model.shells.size(); ++i) {
-    check_shell(model.shells[i], static_cast<int>(i), model.nodes);
-  }
-  for (std::size_t i = 0; i < model.patches.size(); ++i) check_patch(model.patches[i], i, nodes);
-  return model;
-}
-
 ScatterMap make_scatter(const FrameModel& model, const DofMap& dofs) {
   std::vector<int> freedoms;
   std::vector<std::int64_t> start{0};
@@ -69,7 +46,7 @@ std::string list_nodes(std::span<const int> nodes) {
 }
 
 FrameSystem::FrameSystem(FrameModel given)
-    : model(checked(std::move(given))),
+    : model(checked_model(std::move(given))),
       beam_factor(model.beams.size(), 1.0),
       beam_stands(model.beams.size(), 1),
       shell_stands(model.shells.size(), 1),
@@ -184,15 +161,16 @@ const Mat24& FrameSystem::shell_node_stiffness(int index) const {
   if (const auto given = model.shell_stiffness.find(index); given != model.shell_stiffness.end()) return given->second;
   const Shell& shell = model.shells[static_cast<std::size_t>(index)];
   const std::array<Vec3, 4> corners = corner_places(shell, model.nodes);
-  const bool kept = kept_shell_.thickness == shell.thickness && kept_shell_.youngs_modulus == shell.youngs_modulus &&
-                    kept_shell_.poisson_ratio == shell.poisson_ratio && kept_shell_.bending == shell.bending &&
-                    kept_corners_ == corners;
-  if (!kept) {
-    kept_shell_ = shell;
-    kept_corners_ = corners;
-    kept_stiffness_ = ShellElement(shell, corners).stiffness();
+  KeptShell& kept = kept_shells_[kept_shells_.size() > 1 ? static_cast<std::size_t>(index) : 0];
+  const bool same = kept.shell.thickness == shell.thickness && kept.shell.youngs_modulus == shell.youngs_modulus &&
+                    kept.shell.poisson_ratio == shell.poisson_ratio && kept.shell.bending == shell.bending &&
+                    kept.corners == corners;
+  if (!same) {
+    kept.shell = shell;
+    kept.corners = corners;
+    kept.stiffness = ShellElement(shell, corners).stiffness();
   }
-  return kept_stiffness_;
+  return kept.stiffness;
 }
 
 Mat24 FrameSystem::shell_stiffness(int index) const {

@@ -42,6 +42,12 @@ class FrameSystem {
   FrameSystem(const FrameSystem&) = delete;
   FrameSystem& operator=(const FrameSystem&) = delete;
 
+  /// Takes a model of the same elements between the same nodes, held in the same freedoms, whose numbers are others, in
+  /// the place of its own: numbering and pattern stay; what comes next is assemble(). False for any other model, which
+  /// is left as it was given. Throws std::invalid_argument as the constructor does. From then on the stiffness of each
+  /// shell is kept as long as its numbers are the same.
+  [[nodiscard]] bool take_numbers(FrameModel& given);
+
   // What stands. After a change call reassemble() with the nodes that it touched; a support may only change between
   // springs.
   FrameModel model;
@@ -210,10 +216,17 @@ class FrameSystem {
   std::vector<char> wanted_;  ///< per vertex; all 0 between calls
   std::vector<int> wanted_nodes_, wanted_elements_;
   mutable std::vector<int> judged_nodes_, judged_beams_;
-  mutable Shell kept_shell_;
-  mutable std::array<Vec3, 4> kept_corners_{};
-  mutable Mat24 kept_stiffness_;
+  struct KeptShell {
+    Shell shell;
+    std::array<Vec3, 4> corners{};
+    Mat24 stiffness;
+  };
+  /// The last one; per shell, where frames follow each other.
+  mutable std::vector<KeptShell> kept_shells_ = std::vector<KeptShell>(1);
 };
+
+/// The model, or std::invalid_argument with what is wrong in it.
+[[nodiscard]] FrameModel checked_model(FrameModel model);
 
 /// "node 3, node 7 and 12 more".
 [[nodiscard]] std::string list_nodes(std::span<const int> nodes);

@@ -12,6 +12,7 @@
 #include "factor/factor.h"
 #include "parallel/each_on_threads.h"
 #include "topple/solver/case_sums.h"
+#include "topple/solver/kept_equations.h"
 
 namespace topple::solver {
 namespace {
@@ -151,6 +152,28 @@ std::unique_ptr<Prepared> prepare(FrameModel model, const AnalysisOptions& optio
   return prepared;
 }
 
+/// The same equations with the numbers of another frame; false where they are others.
+bool prepare_again(Prepared& prepared, FrameModel& model, const AnalysisOptions& options) {
+  const AnalysisOptions& kept = prepared.options;
+  if (kept.factorisation != options.factorisation || kept.threads != options.threads) return false;
+  const AnalysisStatistics before = prepared.statistics;
+  AnalysisStatistics& statistics = prepared.statistics = {};
+  statistics.factor_entries = before.factor_entries;
+  statistics.factor_operations = before.factor_operations;
+  statistics.factorisation = before.factorisation;
+  statistics.ordering = before.ordering;
+  prepared.stability = {};
+  prepared.options = options;
+  {
+    const Stopwatch watch(statistics.assemble_seconds);
+    if (!prepared.system.take_numbers(model)) return false;
+  }
+  prepared.assemble();
+  require_stable(prepared.system.defect());
+  if (prepared.factor) prepared.factorise();
+  return true;
+}
+
 std::vector<StaticSolution> solve_each(Prepared& prepared, std::span<const LoadSet> loads) {
   ConditionBeside condition(prepared);
   std::vector<StaticSolution> solutions;
@@ -278,21 +301,64 @@ std::vector<StaticSolution> StaticAnalysis::solve(std::span<const LoadSet> loads
 const FrameModel& StaticAnalysis::model() const { return state_->prepared->system.model; }
 const AnalysisStatistics& StaticAnalysis::statistics() const { return state_->prepared->statistics; }
 
-CaseSums solve_case_sums(FrameModel model, std::span<const LoadSet> cases, const Eigen::MatrixXd& factors,
-                         const AnalysisOptions& options) {
+namespace {
+
+void require_factors(std::span<const LoadSet> cases, const Eigen::MatrixXd& factors) {
   if (factors.rows() != static_cast<Eigen::Index>(cases.size()))
     throw std::invalid_argument("sums of load cases: " + std::to_string(factors.rows()) + " factors for " +
                                 std::to_string(cases.size()) + " cases");
-  const std::unique_ptr<Prepared> prepared = prepare(std::move(model), options);
+}
+
+CaseSums sums_with(Prepared& prepared, std::span<const LoadSet> cases, const Eigen::MatrixXd& factors) {
   std::optional<std::vector<StaticSolution>> solutions;
-  if (!cases.empty() && factors.rows() < factors.cols() && prepared->system.dofs().equations > 0)
-    solutions = add_up(*prepared, cases, factors);
+  if (!cases.empty() && factors.rows() < factors.cols() && prepared.system.dofs().equations > 0)
+    solutions = add_up(prepared, cases, factors);
   if (!solutions) {
     std::vector<LoadSet> sums;
     for (Eigen::Index j = 0; j < factors.cols(); ++j) sums.push_back(sum_of(cases, factors.col(j)));
-    solutions = solve_each(*prepared, sums);
+    solutions = solve_each(prepared, sums);
   }
-  return {std::move(*solutions), prepared->statistics};
+  return {std::move(*solutions), prepared.statistics};
+}
+
+}  // namespace
+
+CaseSums solve_case_sums(FrameModel model, std::span<const LoadSet> cases, const Eigen::MatrixXd& factors,
+                         const AnalysisOptions& options) {
+  require_factors(cases, factors);
+  return sums_with(*prepare(std::move(model), options), cases, factors);
+}
+
+struct KeptEquations::State {
+  std::unique_ptr<Prepared> prepared;
+
+  /// True where what is kept serves.
+  bool take(FrameModel model, const AnalysisOptions& options) {
+    if (prepared && prepare_again(*prepared, model, options)) return true;
+    prepared.reset();
+    prepared = prepare(std::move(model), options);
+    return false;
+  }
+};
+
+KeptEquations::KeptEquations() : state_(std::make_unique<State>()) {}
+KeptEquations::~KeptEquations() = default;
+KeptEquations::KeptEquations(KeptEquations&&) noexcept = default;
+KeptEquations& KeptEquations::operator=(KeptEquations&&) noexcept = default;
+
+std::vector<StaticSolution> KeptEquations::solve(FrameModel model, std::span<const LoadSet> loads,
+                                                 const AnalysisOptions& options, AnalysisStatistics& statistics) {
+  reused_ += state_->take(std::move(model), options) ? 1 : 0;
+  std::vector<StaticSolution> solutions = solve_each(*state_->prepared, loads);
+  statistics = state_->prepared->statistics;
+  return solutions;
+}
+
+CaseSums KeptEquations::solve_case_sums(FrameModel model, std::span<const LoadSet> cases,
+                                        const Eigen::MatrixXd& factors, const AnalysisOptions& options) {
+  require_factors(cases, factors);
+  reused_ += state_->take(std::move(model), options) ? 1 : 0;
+  return sums_with(*state_->prepared, cases, factors);
 }
 
 }  // namespace topple::solver

@@ -41,9 +41,11 @@ namespace {
 /// Everything that the combinations share.
 class Analysis {
  public:
-  Analysis(const Building& building, const AnalysisRequest& request, bool brief = false)
+  Analysis(const Building& building, const AnalysisRequest& request, solver::KeptEquations* kept = nullptr,
+           bool brief = false)
       : building_(building),
         request_(request),
+        kept_(kept),
         brief_(brief),
         frame_(make_frame(building)),
         hanging_(hanging_shells(frame_)),
@@ -167,16 +169,22 @@ class Analysis {
     tell("factorisation");
     if (of_cases()) {
       solver::CaseSums sums =
-          solver::solve_case_sums(carrying_both(frame_.model), cases_.sets, cases_.factors, request_.solver);
+          kept_ ? kept_->solve_case_sums(carrying_both(frame_.model), cases_.sets, cases_.factors, request_.solver)
+                : solver::solve_case_sums(carrying_both(frame_.model), cases_.sets, cases_.factors, request_.solver);
       statistics = sums.statistics;
       return std::move(sums.solutions);
     }
     std::vector<solver::LoadSet> sets;
     for (CombinationLoads& loads : loads_) sets.push_back(std::move(loads.set));
-    solver::StaticAnalysis analysis(carrying_both(frame_.model), request_.solver);
-    std::vector<solver::StaticSolution> solutions = analysis.solve(sets);
+    std::vector<solver::StaticSolution> solutions;
+    if (kept_) {
+      solutions = kept_->solve(carrying_both(frame_.model), sets, request_.solver, statistics);
+    } else {
+      solver::StaticAnalysis analysis(carrying_both(frame_.model), request_.solver);
+      solutions = analysis.solve(sets);
+      statistics = analysis.statistics();
+    }
     for (std::size_t k = 0; k < sets.size(); ++k) loads_[k].set = std::move(sets[k]);
-    statistics = analysis.statistics();
     return solutions;
   }
 
@@ -648,7 +656,8 @@ class Analysis {
   static constexpr double largest_buckling_factor = 1e6;
 
   const AnalysisRequest& request_;
-  bool brief_ = false;  ///< analyse_briefly()
+  solver::KeptEquations* kept_;  ///< null: nothing is kept
+  bool brief_ = false;           ///< analyse_briefly()
   Frame frame_;
   std::vector<solver::HangingShell> hanging_;
   EdgeMembers edges_;
@@ -677,10 +686,16 @@ AnalysisResult analyse(const Building& building, const AnalysisRequest& request)
   return Analysis(building, request).run();
 }
 
-AnalysisResult analyse_briefly(const Building& building, const AnalysisRequest& request) {
+AnalysisResult analyse_with(solver::KeptEquations& kept, const Building& building, const AnalysisRequest& request) {
   require_request(building, request);
   require_stocky(building, request);
-  return Analysis(building, request, true).run();
+  return Analysis(building, request, &kept).run();
+}
+
+AnalysisResult analyse_briefly(solver::KeptEquations& kept, const Building& building, const AnalysisRequest& request) {
+  require_request(building, request);
+  require_stocky(building, request);
+  return Analysis(building, request, &kept, true).run();
 }
 
 }  // namespace topple::structure

@@ -72,7 +72,8 @@ class AnalysisEvaluator : public SampleEvaluator {
     AnalysisOfSample asked = analysis_of(base_->study, building);
     asked.request.losses.each.insert(asked.request.losses.each.end(), of_sample_.lost().begin(),
                                      of_sample_.lost().end());
-    AnalysisResult result = whole(asked) ? analyse(building, asked.request) : analyse_briefly(building, asked.request);
+    AnalysisResult result =
+        whole(asked) ? analyse_with(kept_, building, asked.request) : analyse_briefly(kept_, building, asked.request);
     if (asked.code) check_design(building, *asked.code, usual_drift_limit, result);
     nlohmann::ordered_json results;
     for (const Recorded& recorded : base_->study.record) {
@@ -111,6 +112,7 @@ class AnalysisEvaluator : public SampleEvaluator {
 
   std::shared_ptr<const StudyBase> base_;
   BaseOfSample of_sample_;
+  solver::KeptEquations kept_;
 };
 
 }  // namespace
