@@ -9,11 +9,12 @@ CaseLoads case_loads(const Building& building, const Frame& frame, const EdgeMem
   for (Eigen::Index j = 0; j < count; ++j)
     for (const auto& [id, factor] : building[combinations[static_cast<std::size_t>(j)]].factors)
       of_all(id.index, j) += factor;
-  CaseLoads result;
   std::vector<Eigen::Index> used;
-  for (Eigen::Index c = 0; c < of_all.rows(); ++c) {
-    if (of_all.row(c).isZero(0)) continue;
-    used.push_back(c);
+  for (Eigen::Index c = 0; c < of_all.rows(); ++c)
+    if (!of_all.row(c).isZero(0)) used.push_back(c);
+  CaseLoads result;
+  if (used.size() >= combinations.size()) return result;
+  for (const Eigen::Index c : used) {
     const Combination alone{{}, {{LoadCaseId(static_cast<std::size_t>(c)), 1.0}}};
     result.sets.push_back(combination_loads(building, frame, edges, alone).set);
   }

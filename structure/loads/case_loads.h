@@ -30,7 +30,7 @@ struct CombinationLoads {
 [[nodiscard]] solver::LoadSet load_set(const Building& building, const EdgeMembers& edges, const PartLoads& loads,
                                        std::vector<solver::BeamLoad> on_members);
 
-/// Everything standing, on the frame.
+/// Everything standing, on the frame. Nothing where there are not fewer cases than combinations.
 [[nodiscard]] CaseLoads case_loads(const Building& building, const Frame& frame, const EdgeMembers& edges,
                                    const std::vector<CombinationId>& combinations);
 /// What a combination that need not be the building's own brings.

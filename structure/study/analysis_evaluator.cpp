@@ -1,6 +1,7 @@
 // Samples of a model: one analysis each, in memory.
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "analysis/brief_analysis.h"
 #include "study/analysis_options.h"
@@ -69,7 +70,8 @@ class AnalysisEvaluator : public SampleEvaluator {
   void evaluate(Sample& sample) override {
     of_sample_.apply(sample.inputs);
     const Building& building = of_sample_.building();
-    AnalysisOfSample asked = analysis_of(base_->study, building);
+    if (!asked_ || !of_sample_.same_names()) asked_ = analysis_of(base_->study, building);
+    AnalysisOfSample asked = *asked_;
     asked.request.losses.each.insert(asked.request.losses.each.end(), of_sample_.lost().begin(),
                                      of_sample_.lost().end());
     AnalysisResult result =
@@ -113,6 +115,7 @@ class AnalysisEvaluator : public SampleEvaluator {
   std::shared_ptr<const StudyBase> base_;
   BaseOfSample of_sample_;
   solver::KeptEquations kept_;
+  std::optional<AnalysisOfSample> asked_;  ///< by the options
 };
 
 }  // namespace

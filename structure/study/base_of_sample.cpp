@@ -1,5 +1,6 @@
 // One sample's building and scenario.
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -10,6 +11,14 @@
 namespace topple::structure::study {
 
 namespace {
+
+/// No number there makes, joins or names a part, as those of a generated building and of nodes do.
+bool names_nothing(const std::string& pointer) {
+  constexpr std::array<std::string_view, 8> tables{"/materials/", "/sections/", "/joints/",       "/supports/",
+                                                   "/masses/",    "/loads/",    "/combinations/", "/gravity"};
+  return std::any_of(tables.begin(), tables.end(),
+                     [&](std::string_view table) { return std::string_view(pointer).starts_with(table); });
+}
 
 std::string unquoted(const StudyValue& value) { return nlohmann::ordered_json::parse(value.json).get<std::string>(); }
 
@@ -31,6 +40,8 @@ BaseOfSample::BaseOfSample(std::shared_ptr<const StudyBase> base)
       scenario_targets_.push_back(effect.first);
     }
   }
+  const std::vector<std::string>& changed = model_.pointers();
+  same_names_ = !of_scenario && model_.only_numbers() && std::all_of(changed.begin(), changed.end(), names_nothing);
   const auto purpose = of_scenario ? Purpose::demolish : Purpose::analyse;
   if (!model_.varies()) as_read_ = formats::read_model_document(model_.unchanged(), base_->study.model, purpose);
 }
@@ -61,9 +72,7 @@ void BaseOfSample::apply(const std::vector<StudyValue>& inputs) {
   const bool by_name = std::any_of(base_->effects.begin(), base_->effects.end(), [](const Effect& effect) {
     return effect.variation.target != Variation::Target::pointer;
   });
-  // Names keep their places unless something else than numbers of the model changes.
-  if (by_name && (!names_ || !model_.only_numbers() || scenario_document_))
-    names_ = std::make_unique<NameIndex>(building_);
+  if (by_name && (!names_ || !same_names_)) names_ = std::make_unique<NameIndex>(building_);
   for (const Effect& effect : base_->effects) {
     if (effect.variation.target == Variation::Target::joints) strengthen(effect, inputs);
     if (effect.variation.target == Variation::Target::loss) lose(effect, inputs[effect.first]);

@@ -41,6 +41,8 @@ class BaseOfSample {
   [[nodiscard]] const Building& building() const { return building_; }
   [[nodiscard]] Building& building() { return building_; }
   [[nodiscard]] Scenario& scenario() { return scenario_; }
+  /// All samples have the same names in the same places, and the same groups.
+  [[nodiscard]] bool same_names() const { return same_names_; }
   /// Members that the sample loses.
   [[nodiscard]] const std::vector<MemberId>& lost() const { return lost_; }
   /// Charges that go off.
@@ -61,6 +63,7 @@ class BaseOfSample {
   Building building_;
   Scenario scenario_;
   std::unique_ptr<NameIndex> names_;
+  bool same_names_ = false;
   std::vector<MemberId> lost_;
   int charges_ = 0;
 };
