@@ -256,7 +256,7 @@ Doubles table(const std::vector<Sample>& samples, std::size_t columns, bool inpu
 }
 
 std::shared_ptr<StudyResult> run(const StudyHost& host, const py::object& function, const py::object& outputs,
-                                 const py::object& folder, bool resume,
+                                 const py::object& folder, bool resume, bool retry_failed,
                                  const std::optional<std::pair<std::uint64_t, std::uint64_t>>& samples, int threads,
                                  const std::string& version, const py::object& progress) {
   if (host.of_file() != function.is_none())
@@ -311,10 +311,12 @@ std::shared_ptr<StudyResult> run(const StudyHost& host, const py::object& functi
       }
       const OutputFolder claimed(into, {}, {"journal.jsonl", "times.csv", "samples.csv"});
       {
-        StudyJournal journal(task, into, resume);
+        using Found = StudyJournal::Found;
+        const Found found = retry_failed ? Found::retry_failed : resume ? Found::resume : Found::refuse;
+        StudyJournal journal(task, into, found);
         run_samples(task, asked, journal);
       }
-      const StudyJournal journal(task, into, true);
+      const StudyJournal journal(task, into, StudyJournal::Found::resume);
       result->samples = journal.found();
       std::sort(result->samples.begin(), result->samples.end(),
                 [](const Sample& a, const Sample& b) { return a.number < b.number; });
@@ -436,8 +438,9 @@ void bind_study(py::module_& module) {
           },
           py::arg("sample"), "What a sample is fed, by name. Raises IndexError.")
       .def("run", &run, py::arg("function") = py::none(), py::kw_only(), py::arg("outputs") = "value",
-           py::arg("folder") = py::none(), py::arg("resume") = false, py::arg("samples") = py::none(),
-           py::arg("threads") = 1, py::arg("version") = "", py::arg("progress") = py::none(),
+           py::arg("folder") = py::none(), py::arg("resume") = false, py::arg("retry_failed") = false,
+           py::arg("samples") = py::none(), py::arg("threads") = 1, py::arg("version") = "",
+           py::arg("progress") = py::none(),
            "Computes samples.\n\n"
            "function: called with the variables by their names; returns a number, a sequence of them, or a dict, as "
            "outputs "
@@ -446,7 +449,8 @@ void bind_study(py::module_& module) {
            "none.)\n"
            "folder: where the journal goes, a line for each sample as it ends; resume=True takes in what is there and "
            "computes "
-           "only what is missing. version: of the function; the journal of another version, or of another study, is "
+           "only what is missing; retry_failed=True does the same, and computes samples that failed once more. "
+           "version: of the function; the journal of another version, or of another study, is "
            "refused.\n"
            "samples: (first, past the last). threads: samples at once; worth it where the function analyses or "
            "simulates, "

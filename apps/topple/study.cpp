@@ -24,8 +24,14 @@ namespace {
 struct StudyOptions {
   std::string study, folder, samples;
   int threads = 0;
-  bool resume = false, html = false;
+  bool resume = false, retry_failed = false, html = false;
 };
+
+using Found = structure::StudyJournal::Found;
+Found found_of(const StudyOptions& options) {
+  if (options.retry_failed) return Found::retry_failed;
+  return options.resume ? Found::resume : Found::refuse;
+}
 
 std::atomic<bool> interrupted{false};
 void interrupt(int) { interrupted = true; }
@@ -121,12 +127,13 @@ nlohmann::ordered_json answer_json(const Prepared& all, const OptimiseResult& re
 /// From the journal as it is now: the table, the statistics, the page.
 int write_results(const StudyOptions& options, const Prepared& all, const OptimiseResult* answer = nullptr) {
   const std::vector<structure::Sample> journal =
-      sorted(structure::StudyJournal(all.task, options.folder, true).found());
+      sorted(structure::StudyJournal(all.task, options.folder, Found::resume).found());
   // Of an optimisation the statistics are those of its answer.
   const std::vector<structure::Sample>& samples = answer ? answer->unseen : journal;
   const std::optional<structure::Building> building = building_of(all.study);
   const structure::Building* base = building ? &*building : nullptr;
-  const structure::StudyStatistics statistics = structure::study_statistics(all.study, all.task, samples, base);
+  structure::StudyStatistics statistics = structure::study_statistics(all.study, all.task, samples, base);
+  if (answer) statistics.planned = static_cast<std::size_t>(all.study.optimise->unseen);
   std::string json = structure::study_json(all.study, all.task, samples, statistics, base);
   if (answer) {
     auto tree = nlohmann::ordered_json::parse(json);
@@ -138,9 +145,17 @@ int write_results(const StudyOptions& options, const Prepared& all, const Optimi
     files.emplace_back("study.html", study_page(all.study, all.task, samples, statistics, base,
                                                 answer ? chosen_section(all.study, all.task, *answer) : ""));
   structure::write_files(options.folder, files);
-  std::printf("%s: %zu of %zu samples, %zu failed\n",
-              all.study.title.empty() ? all.study.file.c_str() : all.study.title.c_str(), statistics.done,
-              statistics.planned, statistics.failed);
+  std::printf("%s: ", all.study.title.empty() ? all.study.file.c_str() : all.study.title.c_str());
+  if (answer) {
+    const auto failed =
+        std::count_if(journal.begin(), journal.end(), [](const auto& one) { return !one.failed.empty(); });
+    std::printf("%zu of %d designs tried, %zu runs failed\n", answer->designs.size(), all.study.optimise->runs,
+                static_cast<std::size_t>(failed));
+    if (statistics.done > 0)
+      std::printf("  the best one on %zu unseen samples, %zu failed:\n", statistics.done, statistics.failed);
+  } else {
+    std::printf("%zu of %zu samples, %zu failed\n", statistics.done, statistics.planned, statistics.failed);
+  }
   for (const structure::OutputStatistics& output : statistics.outputs) {
     if (output.count == 0) continue;
     std::printf("  %-24s mean %-12.5g deviation %-12.5g %.5g to %.5g\n", output.name.c_str(), output.mean, output.sd,
@@ -172,7 +187,7 @@ int study_on_ranks(const StudyOptions& options) {
                                   "the one before; accepted: a start without mpirun");
     if (ranks.rank() != 0) return;
     folder.emplace(options.folder, std::vector{all.file}, result_names());
-    journal = std::make_unique<structure::StudyJournal>(all.task, options.folder, options.resume);
+    journal = std::make_unique<structure::StudyJournal>(all.task, options.folder, found_of(options));
   });
   if (!ready || !ranks.same_on_all(all.task.fingerprint)) return bad_input;
   if (ranks.rank() != 0) {
@@ -210,7 +225,7 @@ int optimise(const StudyOptions& options) {
   const structure::OutputFolder folder(options.folder, {all.file}, result_names());
   OptimiseResult result;
   {
-    structure::StudyJournal journal(all.task, options.folder, options.resume);
+    structure::StudyJournal journal(all.task, options.folder, found_of(options));
     result = optimiser.run(all.run, journal);
   }
   const int status = write_results(options, all, &result);
@@ -224,7 +239,7 @@ int study(const StudyOptions& options) {
   const Prepared all = prepared(options);
   const structure::OutputFolder folder(options.folder, {all.file}, result_names());
   {
-    structure::StudyJournal journal(all.task, options.folder, options.resume);
+    structure::StudyJournal journal(all.task, options.folder, found_of(options));
     structure::run_samples(all.task, all.run, journal);
   }
   return write_results(options, all);
@@ -237,6 +252,8 @@ const Registration registration{
        app.add_option("-o,--output", options->folder, "Folder for journal.jsonl, samples.csv, study.json")->required();
        app.add_option("--samples", options->samples, "Only samples A:B, from A up to B, without B");
        app.add_flag("--resume", options->resume, "Go on with the journal in the folder: only what is missing");
+       app.add_flag("--retry-failed", options->retry_failed,
+                    "Go on like --resume, and run samples that failed once more");
        app.add_flag("--html", options->html, "Write study.html as well, a page with figures that print");
        app.add_option("--threads", options->threads,
                       "Samples at once; without it every processor (one in each process of mpirun)")

@@ -9,7 +9,6 @@
 #include <set>
 #include <span>
 
-#include "analysis/brief_analysis.h"
 #include "analysis/discretisation.h"
 #include "analysis/divided_member.h"
 #include "analysis/equilibrium.h"
@@ -19,6 +18,7 @@
 #include "analysis/modal_masses.h"
 #include "analysis/one_way_members.h"
 #include "analysis/request_checks.h"
+#include "analysis/sample_analysis.h"
 #include "analysis/second_order_member.h"
 #include "analysis/shell_results.h"
 #include "analysis/storeys.h"

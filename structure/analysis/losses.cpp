@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 
 #include "analysis/frame_motion.h"
 #include "analysis/lossy_frame.h"
+#include "analysis/sample_analysis.h"
 #include "model/index_of.h"
 #include "standing/unstable_model.h"
 #include "topple/structure/error.h"
@@ -40,12 +42,8 @@ class Losses {
 
   LossResult run(const std::vector<CombinationId>& combinations) {
     for (const CombinationId combination : combinations) {
-      const PartLoads loads = part_loads(building_, combination);
-      refuse_loads_that_are_not_built(building_, combination, loads, what_is_asked);
-      frame_.load(loads);
-      if (!frame_.solve().stable)
-        throw UnstableModel(building_.file + ": the model is unstable before anything is lost");
-      keep_reference();
+      load(combination);
+      keep_reference(references_[combination]);
       for (std::size_t i = 0; i < result_.losses.size(); ++i) {
         MemberLoss& loss = result_.losses[i];
         if (i % together == 0) frame_.expect(std::span(members_).subspan(i, std::min(together, members_.size() - i)));
@@ -61,7 +59,45 @@ class Losses {
     return std::move(result_);
   }
 
+  /// The state in which the factor is made: nothing lost, under this combination.
+  void begin(CombinationId combination) {
+    load(combination);
+    begun_ = frame_.analysis().counters();
+    at_first_ = frame_.analysis().displacements();
+  }
+  /// One member alone, beginning and ending in that state.
+  [[nodiscard]] MemberLoss one(MemberId member, const std::vector<CombinationId>& combinations) {
+    MemberLoss loss{member, false, {}};
+    for (const CombinationId combination : combinations) {
+      if (combination != combinations.front()) load(combination);
+      if (references_.contains(combination))
+        reference_ = &references_[combination];
+      else
+        keep_reference(references_[combination]);
+      frame_.expect({&member, 1});
+      frame_.lose(member);
+      loss.states.push_back(state_after(false));
+      loss.states.back().combination = combination;
+      frame_.restore();
+      if (combination != combinations.front()) load(combinations.front());
+    }
+    (void)frame_.solve();
+    return loss;
+  }
+  [[nodiscard]] bool as_begun() const {
+    const solver::ReanalysisCounters& now = frame_.analysis().counters();
+    return now.refactorisations == begun_.refactorisations && now.orderings == begun_.orderings &&
+           now.background_factors == begun_.background_factors && frame_.analysis().displacements() == at_first_;
+  }
+
  private:
+  void load(CombinationId combination) {
+    const PartLoads loads = part_loads(building_, combination);
+    refuse_loads_that_are_not_built(building_, combination, loads, what_is_asked);
+    frame_.load(loads);
+    if (!frame_.solve().stable) throw UnstableModel(building_.file + ": the model is unstable before anything is lost");
+  }
+
   static std::vector<MemberId> all_of(const LossRequest& request) {
     std::vector<MemberId> members = request.named;
     members.insert(members.end(), request.each.begin(), request.each.end());
@@ -70,13 +106,14 @@ class Losses {
     return members;
   }
 
-  void keep_reference() {
+  void keep_reference(Reference& reference) {
+    reference_ = &reference;
     std::vector<JointId> holding;
-    frame_.read_demands(reference_.demand, holding);
-    reference_.displacements = frame_.analysis().displacements();
-    reference_.end_forces.clear();
+    frame_.read_demands(reference.demand, holding);
+    reference.displacements = frame_.analysis().displacements();
+    reference.end_forces.clear();
     for (std::size_t m = 0; m < building_.members.size(); ++m)
-      reference_.end_forces.push_back(frame_.analysis().beam_end_forces(static_cast<int>(m)));
+      reference.end_forces.push_back(frame_.analysis().beam_end_forces(static_cast<int>(m)));
   }
 
   [[nodiscard]] LossState state_after(bool in_full) {
@@ -100,7 +137,7 @@ class Losses {
   /// From the state before the loss, as the frame that is left swings.
   void follow_motion(LossState& state) {
     MotionStart start;
-    start.displacements = reference_.displacements;
+    start.displacements = reference_->displacements;
     start.held_over = request_.motion.over;
     start.rest = frame_.analysis().displacements();
     frame_.read_demands(demand_, holding_);
@@ -110,7 +147,7 @@ class Losses {
       if (divided_.joint(joint).valid()) of_whole[index_of(divided_.joint(joint))] = joint;
     for (JointPeak& peak : motion.joints) {
       const std::size_t j = index_of(of_whole[index_of(peak.joint)]);
-      peak.amplification = amplification(peak, reference_.demand[j], demand_[j]);
+      peak.amplification = amplification(peak, reference_->demand[j], demand_[j]);
     }
     state.dynamic = std::move(motion);
   }
@@ -129,7 +166,7 @@ class Losses {
   void check_joints(bool in_full, LossState& state) {
     frame_.read_demands(demand_, holding_);
     for (const JointId joint : holding_) {
-      const Vec6 felt = sudden(reference_.demand[index_of(joint)], demand_[index_of(joint)]);
+      const Vec6 felt = sudden(reference_->demand[index_of(joint)], demand_[index_of(joint)]);
       const Utilisation used = utilisation(building_[joint].capacity, felt);
       if (in_full) state.joints.emplace_back(divided_.joint(joint), used);
       if (state.worst.valid() && !(used.value > state.use.value)) continue;
@@ -141,12 +178,12 @@ class Losses {
   void take_state(LossState& state) const {
     const std::vector<Vec6>& after = frame_.analysis().displacements();
     for (std::size_t n = 0; n < whole_.nodes.size(); ++n)
-      state.displacements.push_back(sudden(reference_.displacements[n], after[n]));
+      state.displacements.push_back(sudden(reference_->displacements[n], after[n]));
     for (std::size_t m = 0; m < whole_.members.size(); ++m) {
       if (!frame_.stands(MemberId(m))) continue;
       const std::vector<MemberId>& pieces = divided_.pieces(MemberId(m));
       const auto of_piece = [&](MemberId piece) {
-        return sudden(reference_.end_forces[index_of(piece)], frame_.analysis().beam_end_forces(piece.index));
+        return sudden(reference_->end_forces[index_of(piece)], frame_.analysis().beam_end_forces(piece.index));
       };
       solver::Vec12 forces = of_piece(pieces.front());
       if (pieces.size() > 1) forces.tail<6>() = of_piece(pieces.back()).tail<6>();
@@ -187,10 +224,13 @@ class Losses {
   const LossRequest& request_;
   std::vector<MemberId> members_;
   LossyFrame frame_;
-  Reference reference_;
+  std::map<CombinationId, Reference> references_;
+  const Reference* reference_ = nullptr;  ///< of the present combination
   std::vector<Vec6> demand_;
   std::vector<JointId> holding_;
   LossResult result_;
+  solver::ReanalysisCounters begun_;
+  std::vector<Vec6> at_first_;  ///< displacements of the state that begin() made
 };
 
 }  // namespace
@@ -200,5 +240,40 @@ LossResult find_losses(const Building& building, const std::vector<CombinationId
   refuse_what_is_not_built(building, what_is_asked);
   return Losses(building, request, options).run(combinations);
 }
+
+struct LossSweep::State {
+  const Building& building;
+  std::vector<CombinationId> combinations;
+  LossRequest request;
+  solver::AnalysisOptions options;
+  std::unique_ptr<Losses> losses;
+  std::size_t factors = 0;
+
+  void begin() {
+    losses.reset();  // one factor at a time
+    losses = std::make_unique<Losses>(building, request, options);
+    losses->begin(combinations.front());
+    ++factors;
+  }
+};
+
+LossSweep::LossSweep(const Building& building, std::vector<CombinationId> combinations, LossRequest request,
+                     const solver::AnalysisOptions& options)
+    : state_(
+          std::make_unique<State>(State{building, std::move(combinations), std::move(request), options, nullptr, 0})) {
+  refuse_what_is_not_built(building, what_is_asked);
+  if (state_->combinations.empty())
+    for (std::size_t c = 0; c < building.combinations.size(); ++c) state_->combinations.emplace_back(c);
+  state_->begin();
+}
+
+LossSweep::~LossSweep() = default;
+
+MemberLoss LossSweep::lose(MemberId member) {
+  if (!state_->losses->as_begun()) state_->begin();
+  return state_->losses->one(member, state_->combinations);
+}
+
+std::size_t LossSweep::factors() const { return state_->factors; }
 
 }  // namespace topple::structure

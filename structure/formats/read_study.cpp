@@ -104,6 +104,9 @@ class StudyReader {
       variation.place = place_of(entry);
       if (const auto name = entry.find("name")) variation.name = name->text("a name");
       if (variation.name.empty()) entry.fail("the name is empty; accepted: a name");
+      const bool lost = variation.target == Variation::Target::loss;
+      if (lost && study_.base == Study::Base::model && ++losses_ > 1)
+        entry.fail("another entry loses members as well; accepted of a model: one, whose samples lose one each");
       if (!names_.insert(variation.name).second)
         entry.fail("another entry is called " + in_quotes(variation.name) +
                    " as well; accepted: a \"name\" of its own");
@@ -342,6 +345,7 @@ class StudyReader {
   std::filesystem::path folder_;
   Study study_;
   std::set<std::string> names_;
+  int losses_ = 0;  ///< entries that lose members
 };
 
 }  // namespace

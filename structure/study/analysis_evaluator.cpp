@@ -3,7 +3,7 @@
 #include <limits>
 #include <optional>
 
-#include "analysis/brief_analysis.h"
+#include "analysis/sample_analysis.h"
 #include "study/analysis_options.h"
 #include "study/evaluators.h"
 
@@ -70,13 +70,10 @@ class AnalysisEvaluator : public SampleEvaluator {
   void evaluate(Sample& sample) override {
     of_sample_.apply(sample.inputs);
     const Building& building = of_sample_.building();
-    if (!asked_ || !of_sample_.same_names()) asked_ = analysis_of(base_->study, building);
+    if (!of_sample_.same_building() || !result_) analyse_building();
     AnalysisOfSample asked = *asked_;
-    asked.request.losses.each.insert(asked.request.losses.each.end(), of_sample_.lost().begin(),
-                                     of_sample_.lost().end());
-    AnalysisResult result =
-        whole(asked) ? analyse_with(kept_, building, asked.request) : analyse_briefly(kept_, building, asked.request);
-    if (asked.code) check_design(building, *asked.code, usual_drift_limit, result);
+    AnalysisResult& result = *result_;
+    lose(asked, result);
     nlohmann::ordered_json results;
     for (const Recorded& recorded : base_->study.record) {
       if (recorded.from == Recorded::From::results && results.is_null())
@@ -92,6 +89,34 @@ class AnalysisEvaluator : public SampleEvaluator {
   }
 
  private:
+  /// What all samples that differ in what is lost share.
+  void analyse_building() {
+    const Building& building = of_sample_.building();
+    result_.reset();
+    sweep_.reset();
+    if (!asked_ || !of_sample_.same_names()) asked_ = analysis_of(base_->study, building);
+    AnalysisResult result = whole(*asked_) ? analyse_with(kept_, building, asked_->request)
+                                           : analyse_briefly(kept_, building, asked_->request);
+    if (asked_->code) check_design(building, *asked_->code, usual_drift_limit, result);
+    losses_ = result.losses.losses;
+    result_ = std::move(result);
+  }
+
+  /// The sample's own loss, behind those that the options ask for.
+  void lose(AnalysisOfSample& asked, AnalysisResult& result) {
+    result.losses.losses = losses_;
+    if (of_sample_.lost().empty()) return;
+    LossRequest& losses = asked.request.losses;
+    if (!sweep_) {
+      LossRequest any{{}, of_sample_.may_be_lost(), losses.sudden, {}};
+      sweep_.emplace(of_sample_.building(), asked.request.combinations, std::move(any), asked.request.solver);
+    }
+    for (const MemberId member : of_sample_.lost()) {
+      losses.each.push_back(member);
+      result.losses.losses.push_back(sweep_->lose(member));
+    }
+  }
+
   /// What is recorded needs more than the ends of members.
   [[nodiscard]] bool whole(const AnalysisOfSample& asked) const {
     return asked.code || std::any_of(base_->study.record.begin(), base_->study.record.end(), [](const Recorded& r) {
@@ -116,6 +141,10 @@ class AnalysisEvaluator : public SampleEvaluator {
   BaseOfSample of_sample_;
   solver::KeptEquations kept_;
   std::optional<AnalysisOfSample> asked_;  ///< by the options
+  // Of the building as it is.
+  std::optional<AnalysisResult> result_;
+  std::vector<MemberLoss> losses_;  ///< that the options ask for
+  std::optional<LossSweep> sweep_;
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "formats/documents.h"
 #include "study/study_base.h"
+#include "study/study_value.h"
 #include "topple/structure/files.h"
 
 namespace topple::structure::study {
@@ -65,9 +66,36 @@ void BaseOfSample::read(const std::vector<StudyValue>& inputs) {
   }
 }
 
+std::vector<std::string> BaseOfSample::beside_losses(const std::vector<StudyValue>& inputs) const {
+  std::vector<std::string> texts;
+  for (const Effect& effect : base_->effects)
+    for (std::size_t v = 0; v < effect.count && effect.variation.target != Variation::Target::loss; ++v)
+      texts.push_back(text_of(inputs[effect.first + v]));
+  return texts;
+}
+
+std::vector<MemberId> BaseOfSample::may_be_lost() const {
+  std::vector<MemberId> members;
+  for (const Effect& effect : base_->effects)
+    if (effect.variation.target == Variation::Target::loss)
+      for (const std::string& name : effect.names[0])
+        if (const auto member = names_->member(name)) members.push_back(*member);
+  return members;
+}
+
 void BaseOfSample::apply(const std::vector<StudyValue>& inputs) {
   lost_.clear();
   charges_ = 0;
+  // A scenario is used up by its run.
+  std::optional<std::vector<std::string>> made_with;
+  if (!scenario_document_) made_with = beside_losses(inputs);
+  same_building_ = made_with && applied_ == made_with;
+  if (same_building_) {
+    for (const Effect& effect : base_->effects)
+      if (effect.variation.target == Variation::Target::loss) lose(effect, inputs[effect.first]);
+    return;
+  }
+  applied_.reset();
   read(inputs);
   const bool by_name = std::any_of(base_->effects.begin(), base_->effects.end(), [](const Effect& effect) {
     return effect.variation.target != Variation::Target::pointer;
@@ -80,6 +108,7 @@ void BaseOfSample::apply(const std::vector<StudyValue>& inputs) {
   }
   std::stable_sort(scenario_.events.begin(), scenario_.events.end(),
                    [](const Event& a, const Event& b) { return a.at < b.at; });
+  applied_ = std::move(made_with);
 }
 
 void BaseOfSample::strengthen(const Effect& effect, const std::vector<StudyValue>& inputs) {

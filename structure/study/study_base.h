@@ -1,6 +1,7 @@
 #pragma once
 // What all samples of a study of a model or scenario share: the files as they stand, and what each variable changes.
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -43,12 +44,16 @@ class BaseOfSample {
   [[nodiscard]] Scenario& scenario() { return scenario_; }
   /// All samples have the same names in the same places, and the same groups.
   [[nodiscard]] bool same_names() const { return same_names_; }
-  /// Members that the sample loses.
+  /// The building is as it was in the sample before, whatever either loses.
+  [[nodiscard]] bool same_building() const { return same_building_; }
+  /// Members that the sample loses, and those that any sample of such a building may lose.
   [[nodiscard]] const std::vector<MemberId>& lost() const { return lost_; }
+  [[nodiscard]] std::vector<MemberId> may_be_lost() const;
   /// Charges that go off.
   [[nodiscard]] int charges() const { return charges_; }
 
  private:
+  [[nodiscard]] std::vector<std::string> beside_losses(const std::vector<StudyValue>& inputs) const;
   void read(const std::vector<StudyValue>& inputs);
   void strengthen(const Effect& effect, const std::vector<StudyValue>& inputs);
   void lose(const Effect& effect, const StudyValue& name);
@@ -63,7 +68,8 @@ class BaseOfSample {
   Building building_;
   Scenario scenario_;
   std::unique_ptr<NameIndex> names_;
-  bool same_names_ = false;
+  bool same_names_ = false, same_building_ = false;
+  std::optional<std::vector<std::string>> applied_;  ///< what the building is made with, as text
   std::vector<MemberId> lost_;
   int charges_ = 0;
 };

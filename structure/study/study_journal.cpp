@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
@@ -44,12 +45,13 @@ void append(int file, std::string_view text, const std::filesystem::path& name) 
 
 }  // namespace
 
-StudyJournal::StudyJournal(const StudyTask& task, const std::filesystem::path& folder, bool resume)
+StudyJournal::StudyJournal(const StudyTask& task, const std::filesystem::path& folder, Found found)
     : task_(task), folder_(folder), has_(task.sampler.samples()) {
   const std::filesystem::path file = folder / journal_name;
   std::size_t whole = 0;
   if (std::filesystem::exists(file)) {
-    if (!resume) throw InputError(file.string() + ": is there already; accepted: --resume, or another folder");
+    if (found == Found::refuse)
+      throw InputError(file.string() + ": is there already; accepted: --resume, or another folder");
     const std::string text = read_whole_file(file, std::uintmax_t{1} << 36);
     std::size_t line_number = 0;
     for (std::size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n', whole)) {
@@ -59,11 +61,15 @@ StudyJournal::StudyJournal(const StudyTask& task, const std::filesystem::path& f
         throw InputError(file.string() + ", line " + std::to_string(line_number) +
                          ": it is damaged, or of another study; accepted: the journal of this study, its files and "
                          "this version of the program");
-      if (!has_[sample->number]) found_.push_back(std::move(*sample));
-      has_[found_.back().number] = true;
+      take(std::move(*sample));
       whole = end + 1;
     }
   }
+  if (found == Found::retry_failed)
+    std::erase_if(found_, [&](const Sample& sample) {
+      if (!sample.failed.empty()) has_[sample.number] = false;
+      return !sample.failed.empty();
+    });
   file_ = open_to_append(file);
   // A run that was killed in the middle of a line.
   if (::ftruncate(file_, static_cast<off_t>(whole)) != 0) cannot("written", file);
@@ -71,6 +77,18 @@ StudyJournal::StudyJournal(const StudyTask& task, const std::filesystem::path& f
   struct stat state {};
   if (::fstat(times_, &state) == 0 && state.st_size == 0) append(times_, "sample,seconds,where\n", folder / times_name);
   synced_at_ = now();
+}
+
+/// One that failed may have been tried again further on.
+void StudyJournal::take(Sample sample) {
+  if (!has_[sample.number]) {
+    has_[sample.number] = true;
+    found_.push_back(std::move(sample));
+    return;
+  }
+  const auto before =
+      std::find_if(found_.begin(), found_.end(), [&](const Sample& one) { return one.number == sample.number; });
+  if (!before->failed.empty()) *before = std::move(sample);
 }
 
 StudyJournal::~StudyJournal() {

@@ -1,4 +1,5 @@
 // The journal of a study, and studies over a function of the host's own.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
@@ -72,17 +73,17 @@ TEST_CASE("A journal takes in what is there, drops half a line, and refuses what
   const topple::test::ScratchFolder folder;
   StudyTask task = squares();
   {
-    StudyJournal journal(task, folder.path(), false);
+    StudyJournal journal(task, folder.path(), StudyJournal::Found::refuse);
     StudyRun run;
     run.threads = 2;
     run_samples(task, run, journal);
   }
-  CHECK_THROWS_AS(StudyJournal(task, folder.path(), false), InputError);
+  CHECK_THROWS_AS(StudyJournal(task, folder.path(), StudyJournal::Found::refuse), InputError);
   const std::filesystem::path file = folder.path() / "journal.jsonl";
   const std::string whole = text_of(file);
   std::ofstream(file, std::ios::trunc) << whole.substr(0, whole.size() - 20);
   {
-    StudyJournal journal(task, folder.path(), true);
+    StudyJournal journal(task, folder.path(), StudyJournal::Found::resume);
     CHECK(journal.found().size() == 49);
     StudyRun run;
     run.threads = 1;
@@ -91,13 +92,58 @@ TEST_CASE("A journal takes in what is there, drops half a line, and refuses what
   CHECK(text_of(file) == whole);  // the one that was cut is the last
   {
     task.fingerprint = 18;
-    CHECK_THROWS_AS(StudyJournal(task, folder.path(), true), InputError);
+    CHECK_THROWS_AS(StudyJournal(task, folder.path(), StudyJournal::Found::resume), InputError);
     task.fingerprint = 17;
   }
   std::string damaged = whole;
   damaged[whole.size() / 2] ^= 4;
   std::ofstream(file, std::ios::trunc) << damaged;
-  CHECK_THROWS_AS(StudyJournal(task, folder.path(), true), InputError);
+  CHECK_THROWS_AS(StudyJournal(task, folder.path(), StudyJournal::Found::resume), InputError);
+}
+
+TEST_CASE("Samples that failed are taken for done, and run once more where that is asked for") {
+  const topple::test::ScratchFolder folder;
+  StudyTask task = squares();
+  StudyRun run;
+  run.threads = 1;
+  const auto failed = [&](const std::vector<Sample>& samples) {
+    return std::count_if(samples.begin(), samples.end(), [](const Sample& one) { return !one.failed.empty(); });
+  };
+  {
+    StudyJournal journal(task, folder.path(), StudyJournal::Found::refuse);
+    run_samples(task, run, journal);
+  }
+  const std::filesystem::path file = folder.path() / "journal.jsonl";
+  const std::string first = text_of(file);
+  {
+    StudyJournal journal(task, folder.path(), StudyJournal::Found::resume);
+    CHECK(journal.found().size() == 50);
+    CHECK(failed(journal.found()) == 5);
+    run_samples(task, run, journal);
+  }
+  CHECK(text_of(file) == first);  // nothing is missing
+  std::size_t again = 0;
+  task.make_evaluator = [&]() -> std::unique_ptr<SampleEvaluator> {
+    struct Mended : SampleEvaluator {
+      std::size_t& again;
+      explicit Mended(std::size_t& count) : again(count) {}
+      void evaluate(Sample& sample) override {
+        ++again;
+        sample.outputs = {sample.inputs[0].number, 0};
+      }
+    };
+    return std::make_unique<Mended>(again);
+  };
+  {
+    StudyJournal journal(task, folder.path(), StudyJournal::Found::retry_failed);
+    CHECK(journal.found().size() == 45);
+    run_samples(task, run, journal);
+  }
+  CHECK(again == 5);
+  CHECK(text_of(file).starts_with(first));  // nothing is taken back
+  const StudyJournal journal(task, folder.path(), StudyJournal::Found::resume);
+  CHECK(journal.found().size() == 50);
+  CHECK(failed(journal.found()) == 0);
 }
 
 TEST_CASE("A study over a function gives the same samples for any number of threads") {

@@ -129,13 +129,15 @@ struct StudyTask {
 /// second later. times.csv has the wall times.
 class StudyJournal {
  public:
-  /// Opens or makes it. With `resume` what a killed run left is taken in, half a line at its end dropped; without it a
-  /// journal that is there is refused. Throws InputError: for a journal of another study with the line.
-  StudyJournal(const StudyTask& task, const std::filesystem::path& folder, bool resume);
+  /// What becomes of a journal that is there: it is refused; it is taken in, half a line at its end dropped; the same,
+  /// but samples that failed count as missing, and of several lines of a sample the last one holds.
+  enum class Found { refuse, resume, retry_failed };
+  /// Opens or makes it. Throws InputError: for a journal of another study with the line.
+  StudyJournal(const StudyTask& task, const std::filesystem::path& folder, Found found);
   StudyJournal(const StudyJournal&) = delete;
   StudyJournal& operator=(const StudyJournal&) = delete;
   ~StudyJournal();
-  /// Samples found when it was opened.
+  /// Samples found when it was opened, but for those that are to be tried again.
   [[nodiscard]] const std::vector<Sample>& found() const { return found_; }
   [[nodiscard]] bool has(std::uint64_t sample) const;
   /// Throws std::runtime_error when it cannot be written.
@@ -146,6 +148,8 @@ class StudyJournal {
   void sync();
 
  private:
+  void take(Sample sample);
+
   const StudyTask& task_;
   std::filesystem::path folder_;
   std::vector<Sample> found_;
