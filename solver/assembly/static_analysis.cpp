@@ -343,8 +343,6 @@ struct KeptEquations::State {
 
 KeptEquations::KeptEquations() : state_(std::make_unique<State>()) {}
 KeptEquations::~KeptEquations() = default;
-KeptEquations::KeptEquations(KeptEquations&&) noexcept = default;
-KeptEquations& KeptEquations::operator=(KeptEquations&&) noexcept = default;
 
 std::vector<StaticSolution> KeptEquations::solve(FrameModel model, std::span<const LoadSet> loads,
                                                  const AnalysisOptions& options, AnalysisStatistics& statistics) {

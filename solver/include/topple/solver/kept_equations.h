@@ -16,12 +16,13 @@ class KeptEquations {
  public:
   KeptEquations();
   ~KeptEquations();
-  KeptEquations(KeptEquations&&) noexcept;
-  KeptEquations& operator=(KeptEquations&&) noexcept;
+  KeptEquations(const KeptEquations&) = delete;
+  KeptEquations& operator=(const KeptEquations&) = delete;
 
   /// As StaticAnalysis does. Throws as it does; what is kept serves further frames all the same.
   [[nodiscard]] std::vector<StaticSolution> solve(FrameModel model, std::span<const LoadSet> loads,
                                                   const AnalysisOptions& options, AnalysisStatistics& statistics);
+  /// As the function of this name does.
   [[nodiscard]] CaseSums solve_case_sums(FrameModel model, std::span<const LoadSet> cases,
                                          const Eigen::MatrixXd& factors, const AnalysisOptions& options = {});
   /// Frames that needed no ordering.
