@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <mutex>
 #include <stdexcept>
 #include <string>
 
@@ -84,6 +85,10 @@ std::vector<int> order_nodes(int node_count, std::span<const std::pair<int, int>
   const bool uniform = node_count >= middle_graph &&
                        std::all_of(weight.begin(), weight.end(), [&](idx_t w) { return w == weight.front(); });
   std::vector<idx_t> permutation(order.size()), inverse(order.size());
+  // METIS draws numbers from the C library's rand(), which it seeds at each call: of two at once each would take some
+  // of the other's, and the order would hang on the clock.
+  static std::mutex one_at_a_time;
+  const std::lock_guard lock(one_at_a_time);
   const int status = METIS_NodeND(&count, graph.start.data(), graph.neighbour.data(), uniform ? nullptr : weight.data(),
                                   options, permutation.data(), inverse.data());
   if (status == METIS_ERROR_MEMORY) throw std::runtime_error("ordering: METIS ran out of memory");

@@ -1,7 +1,9 @@
 // Frames one after the other with equations that are kept, against each analysed by itself.
 #include "topple/solver/kept_equations.h"
 
+#include <atomic>
 #include <catch2/catch.hpp>
+#include <thread>
 
 #include "frames.h"
 
@@ -124,4 +126,20 @@ TEST_CASE("Sums of load cases have the same bits with equations that are kept") 
                     solve_case_sums(model, cases, factors).solutions);
   }
   CHECK(kept.reused() == 2);
+}
+
+TEST_CASE("Frames analysed at once on several threads have the bits of each by itself") {
+  const FrameModel model = tower(5, 8);
+  LoadSet load;
+  for (int n = 0; n < static_cast<int>(model.nodes.size()); ++n)
+    load.nodes.push_back({n, components(900, 400, -2e4, 0, 0, 50)});
+  const StaticSolution alone = solve_one(model, load);
+  std::atomic<int> others{0};
+  const auto repeat = [&] {
+    for (int i = 0; i < 20; ++i) others += solve_one(model, load).displacements == alone.displacements ? 0 : 1;
+  };
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 4; ++t) threads.emplace_back(repeat);
+  for (std::thread& thread : threads) thread.join();
+  CHECK(others == 0);
 }
