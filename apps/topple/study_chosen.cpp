@@ -40,8 +40,10 @@ std::string chosen_section(const Study& study, const StudyTask& task, const Opti
                      escaped(study.optimise->objective) + " of " + std::to_string(result.designs.size()) + " tried (" +
                      result.method + "), run " + std::to_string(result.best.run) + ".";
   if (result.best.violation > 0) text += " <strong>It does not keep to all bounds.</strong>";
-  text += " What follows below is of " + std::to_string(result.unseen.size()) +
-          " samples of it that the search has not used.</p>\n<table><tr><th>chosen</th><th>value</th></tr>\n";
+  if (!result.unseen.empty())
+    text += " What follows below is of " + std::to_string(result.unseen.size()) +
+            " samples of it that the search has not used.";
+  text += "</p>\n<table><tr><th>chosen</th><th>value</th></tr>\n";
   for (std::size_t v = 0; v < result.best.chosen.size(); ++v) {
     const StudyValue& value = result.best.chosen[v];
     text += "<tr><td>" + escaped(result.chosen_names[v]) + "</td><td>" +

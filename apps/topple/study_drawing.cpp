@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "study_page.h"
+#include "svg_figure.h"
 
 namespace topple::app {
 
@@ -12,10 +13,11 @@ namespace {
 
 using namespace structure;
 
-/// From light grey over yellow and orange to dark red.
+/// Light grey where it never happens; from yellow over orange to dark red.
 std::string colour_of(double share) {
+  if (share <= 0) return "#cdd2d6";
   constexpr std::array<std::array<double, 3>, 5> steps{
-      {{205, 210, 214}, {254, 217, 118}, {253, 141, 60}, {227, 26, 28}, {110, 0, 26}}};
+      {{254, 225, 130}, {254, 190, 80}, {253, 125, 50}, {227, 26, 28}, {110, 0, 26}}};
   const double at = std::clamp(share, 0.0, 1.0) * 4;
   const auto below = std::min<std::size_t>(3, static_cast<std::size_t>(at));
   std::array<int, 3> rgb{};
@@ -65,7 +67,7 @@ struct Shape {
 std::string titled(const std::string& element, const std::string& name, double share, const char* what) {
   char text[64];
   std::snprintf(text, sizeof text, ": %s in %.1f %%", what, 100 * share);
-  return element + "><title>" + name + text + "</title>";
+  return element + "><title>" + escaped(name) + text + "</title>";
 }
 
 void add_panels(const Building& building, const PartShares& shares, const View& view, std::vector<Shape>& shapes) {
@@ -104,7 +106,7 @@ void add_members(const Building& building, const PartShares& shares, const View&
       const std::string where = view.point(at);
       const std::size_t comma = where.find(',');
       shapes.push_back(
-          {View::depth(at), titled("<circle r='2.6' stroke='#333' stroke-width='0.4' cx='" + where.substr(0, comma) +
+          {View::depth(at), titled("<circle r='3.4' stroke='#333' stroke-width='0.4' cx='" + where.substr(0, comma) +
                                        "' cy='" + where.substr(comma + 1) + "' fill='" + colour_of(broken) + "'",
                                    building.joints[j].name, broken, "broken or overloaded") +
                                 "</circle>\n"});
@@ -126,18 +128,25 @@ std::string building_drawing(const Building& building, const PartShares& shares)
   std::string text = size;
   for (const Shape& shape : shapes) text += shape.svg;
   // The scale.
-  for (int i = 0; i <= 20; ++i) {
-    char bar[160];
-    std::snprintf(bar, sizeof bar, "<rect x='%d' y='%.0f' width='12' height='10' fill='%s'/>", 20 + 12 * i,
-                  view.tall() + 4, colour_of(i / 20.0).c_str());
-    text += bar;
-  }
-  char ends[240];
-  std::snprintf(
-      ends, sizeof ends,
-      "<text x='20' y='%.0f'>never</text><text x='272' y='%.0f' text-anchor='end'>in every sample</text></svg>\n",
-      view.tall() + 28, view.tall() + 28);
-  return text + ends;
+  const auto bar = [&](double x, double width, double share) {
+    char rect[160];
+    std::snprintf(rect, sizeof rect, "<rect x='%.0f' y='%.0f' width='%.0f' height='10' fill='%s'/>", x, view.tall() + 4,
+                  width, colour_of(share).c_str());
+    text += rect;
+  };
+  const auto label = [&](double x, const char* says) {
+    char element[120];
+    std::snprintf(element, sizeof element, "<text x='%.0f' y='%.0f' text-anchor='middle'>%s</text>", x,
+                  view.tall() + 28, says);
+    text += element;
+  };
+  bar(20, 40, 0);
+  label(40, "never");
+  constexpr double from = 76, step = 12;
+  for (int i = 0; i < 20; ++i) bar(from + step * i, step, (i + 0.5) / 20.0);
+  for (const auto& [share, says] : {std::pair(0.0, "0"), {0.25, "25 %"}, {0.5, "50 %"}, {0.75, "75 %"}, {1.0, "100 %"}})
+    label(from + step * 20 * share, says);
+  return text + "</svg>\n";
 }
 
 }  // namespace topple::app

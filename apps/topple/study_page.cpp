@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "svg_figure.h"
 
@@ -19,7 +20,7 @@ constexpr const char* head = R"(<!doctype html><html lang="en"><head><meta chars
 constexpr const char* style = R"(</title><style>
 body{font:15px/1.45 system-ui,sans-serif;margin:2em auto;max-width:1000px;color:#1a202c;padding:0 1em}
 h1{font-size:1.5em;margin-bottom:.2em}h2{font-size:1.15em;margin-top:2em;border-bottom:1px solid #cbd5e0}
-table{border-collapse:collapse;font-size:14px}td,th{padding:.2em .7em;text-align:right;border-bottom:1px solid #e2e8f0}
+table{border-collapse:collapse;font-size:13px}td,th{padding:.2em .7em;text-align:right;white-space:nowrap;border-bottom:1px solid #e2e8f0}
 td:first-child,th:first-child{text-align:left}.figures{display:grid;grid-template-columns:1fr 1fr;gap:1em}
 figure{margin:0;break-inside:avoid}figcaption{font-size:13px;color:#4a5568}svg{width:100%;height:auto;font:11px system-ui,sans-serif}
 svg text{fill:#2d3748}.building{max-width:820px}.bar{display:inline-block;height:.7em;background:#2b6cb0}
@@ -77,10 +78,9 @@ std::string histogram(const OutputStatistics& output, const std::vector<double>&
   for (std::size_t c = 0; c < classes; ++c)
     figure.bar(from + step * static_cast<double>(c), from + step * static_cast<double>(c + 1), counts[c], "#90cdf4");
   figure.vertical(output.mean, blue, false);
-  figure.note("mean", blue);
   for (const std::size_t q : {0U, 2U, 4U}) figure.vertical(output.quantiles[q].value, grey, true);
-  figure.note("5 %, median, 95 %", grey);
-  return "<figure>" + figure.svg() + "<figcaption>Distribution of " + escaped(output.name) + "</figcaption></figure>\n";
+  return "<figure>" + figure.svg() + "<figcaption>Distribution of " + escaped(output.name) +
+         ": mean (line), 5 %, median and 95 % (dashed)</figcaption></figure>\n";
 }
 
 std::string convergence(const OutputStatistics& output) {
@@ -102,8 +102,15 @@ std::string convergence(const OutputStatistics& output) {
          "<figcaption>Convergence of the mean, with its 95 % interval</figcaption></figure>\n";
 }
 
+/// A share or correlation: three decimals.
+std::string share_text(double share) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3f", share);
+  return std::string(text) == "-0.000" ? "0.000" : text;
+}
+
 std::string index_text(const std::optional<std::array<double, 2>>& index) {
-  return index ? short_text((*index)[0]) + " &plusmn; " + short_text((*index)[1]) : "";
+  return index ? share_text((*index)[0]) + " &plusmn; " + share_text((*index)[1]) : "";
 }
 
 std::string influences_table(const OutputInfluences& influences) {
@@ -118,12 +125,14 @@ std::string influences_table(const OutputInfluences& influences) {
                      (total ? "<th>total index</th>" : "") + "</tr>\n";
   for (std::size_t i = 0; i < std::min(most, inputs.size()); ++i) {
     const InputInfluence& one = inputs[i];
-    text += "<tr><td>" + escaped(one.input) + "</td><td>" + short_text(one.rank_correlation) + "</td><td>" +
-            interval_text(one.interval) + "</td><td style='text-align:left;min-width:130px'><span class='bar" +
-            (one.rank_correlation < 0 ? " negative" : "") +
-            "' style='width:" + std::to_string(static_cast<int>(120 * std::abs(one.rank_correlation))) +
-            "px'></span></td><td>" + index_text(one.first_order) + "</td>" +
-            (total ? "<td>" + index_text(one.total) + "</td>" : "") + "</tr>\n";
+    text +=
+        "<tr><td>" + escaped(one.input) + "</td><td>" + share_text(one.rank_correlation) + "</td><td>" +
+        (one.interval ? share_text((*one.interval)[0]) + " to " + share_text((*one.interval)[1]) : "too few samples") +
+        "</td><td style='text-align:left;min-width:130px'><span class='bar" +
+        (one.rank_correlation < 0 ? " negative" : "") +
+        "' style='width:" + std::to_string(static_cast<int>(120 * std::abs(one.rank_correlation))) +
+        "px'></span></td><td>" + index_text(one.first_order) + "</td>" +
+        (total ? "<td>" + index_text(one.total) + "</td>" : "") + "</tr>\n";
   }
   text += "</table>\n";
   if (inputs.size() > most) text += "<p>and " + std::to_string(inputs.size() - most) + " inputs of less weight</p>\n";
@@ -170,15 +179,36 @@ std::string failures_section(std::span<const Sample> samples) {
   return "<h2>Samples that failed</h2><p>" + std::to_string(count) + " in all.</p><ul>" + text + "</ul>\n";
 }
 
+/// The parts with the largest shares, by name: what is printed has no tips.
+std::string most_often(const Building& building, const PartShares& shares) {
+  std::vector<std::pair<double, std::string>> parts;
+  const auto add = [&](const std::vector<double>& of, const auto& named, const char* kind) {
+    for (std::size_t i = 0; i < std::min(of.size(), named.size()); ++i)
+      if (of[i] > 0) parts.emplace_back(of[i], std::string(kind) + named[i].name);
+  };
+  add(shares.members, building.members, "member ");
+  add(shares.panels, building.panels, "panel ");
+  add(shares.joints, building.joints, "joint ");
+  if (parts.empty()) return "<p>Nothing fell, broke or was overloaded in any sample.</p>\n";
+  std::stable_sort(parts.begin(), parts.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  constexpr std::size_t most = 10;
+  std::string text = "<p>Most often: ";
+  for (std::size_t i = 0; i < std::min(most, parts.size()); ++i)
+    text += (i > 0 ? ", " : "") + escaped(parts[i].second) + " (" + percent(parts[i].first) + ")";
+  return text + (parts.size() > most ? " and " + std::to_string(parts.size() - most) + " more" : "") + ".</p>\n";
+}
+
 }  // namespace
 
 std::string study_page(const Study& study, const StudyTask& task, std::span<const Sample> samples,
                        const StudyStatistics& statistics, const Building* building, const std::string& chosen) {
   const std::string title = escaped(study.title.empty() ? "Study" : study.title);
-  std::string text = head + title + style + "<h1>" + title + "</h1>\n<p>" + std::to_string(statistics.done) + " of " +
-                     std::to_string(statistics.planned) + " samples of " +
-                     std::to_string(task.sampler.variables().size()) + " variables, " +
-                     std::to_string(statistics.failed) + " failed. Intervals are of 95 %.</p>\n" + chosen;
+  std::string text = head + title + style + "<h1>" + title + "</h1>\n" + chosen;
+  if (chosen.empty() || statistics.done > 0)
+    text += "<p>" + std::to_string(statistics.done) + " of " + std::to_string(statistics.planned) +
+            (chosen.empty() ? "" : " unseen") + " samples of " + std::to_string(task.sampler.variables().size()) +
+            (task.sampler.variables().size() == 1 ? " variable, " : " variables, ") +
+            std::to_string(statistics.failed) + " failed. Intervals are of 95 %.</p>\n";
   if (statistics.collapse) {
     const Interval wilson = statistics.collapse->wilson();
     text += "<h2>Probability of collapse</h2><p><strong>" + percent(statistics.collapse->share()) + "</strong> (" +
@@ -198,7 +228,8 @@ std::string study_page(const Study& study, const StudyTask& task, std::span<cons
     text += "<h2>Where it breaks</h2><figure>" + building_drawing(*building, statistics.parts) +
             "<figcaption>Members and panels by the share of samples in which they fell, joints (dots) by that in which "
             "they "
-            "broke or were overloaded</figcaption></figure>\n";
+            "broke or were overloaded</figcaption></figure>\n" +
+            most_often(*building, statistics.parts);
   return text + failures_section(samples) + "</body></html>\n";
 }
 

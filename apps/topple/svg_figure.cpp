@@ -99,11 +99,6 @@ void SvgFigure::mark(double x, double y, double low, double high, const char* co
   body_ += "<circle r='3' cx='" + number(at_x(x)) + "' cy='" + number(at_y(y)) + "' fill='" + colour + "'/>\n";
 }
 
-void SvgFigure::note(const std::string& text, const char* colour) {
-  body_ += "<text text-anchor='end' x='" + number(width - right - 4) + "' y='" + number(top + 13 + 14 * notes_++) +
-           "' fill='" + colour + "'>" + escaped(text) + "</text>\n";
-}
-
 std::string SvgFigure::svg() const {
   std::string text = "<svg viewBox='0 0 460 260' role='img'>\n<rect x='" + number(left) + "' y='" + number(top) +
                      "' width='" + number(width - left - right) + "' height='" + number(height - top - bottom) +

@@ -24,8 +24,6 @@ class SvgFigure {
   void vertical(double x, const char* colour, bool dashed);
   /// A point with its interval.
   void mark(double x, double y, double low, double high, const char* colour);
-  /// A line of text in the upper right corner; further ones below.
-  void note(const std::string& text, const char* colour);
   [[nodiscard]] std::string svg() const;
 
  private:
@@ -33,7 +31,6 @@ class SvgFigure {
   [[nodiscard]] double at_y(double y) const;
   std::string x_label_, y_label_, body_;
   std::array<double, 2> x_, y_;
-  int notes_ = 0;
 };
 
 }  // namespace topple::app
