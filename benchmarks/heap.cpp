@@ -12,6 +12,7 @@
 
 #include "support/provenance.h"
 #include "topple/collision/overlap_watch.h"
+#include "topple/collision/sequential_impulse.h"
 #include "topple/collision/small_steps.h"
 #include "topple/collision/world.h"
 
@@ -91,7 +92,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   topple::bench::print_provenance(("Steps of a heap of chunks, " + solver).c_str(), 1);
-  const auto world = solver == "small-steps" ? make_small_steps_world() : make_bullet_world();
+  const auto world = solver == "small-steps" ? make_small_steps_world() : make_sequential_impulse_world();
   world->set_gravity({0, 0, -kGravity});
   world->set_ground(0, 0.6, 0);
   ObstacleDescription wall;

@@ -7,6 +7,7 @@
 
 #include "bullet/library_check.h"
 #include "shapes/principal_inertia.h"
+#include "topple/collision/sequential_impulse.h"
 
 namespace topple::collision {
 
@@ -378,7 +379,7 @@ void BulletWorld::resist_rolling() {
   }
 }
 
-std::unique_ptr<World> make_bullet_world() {
+std::unique_ptr<World> make_sequential_impulse_world() {
   require_double_precision_library();
   return std::make_unique<BulletWorld>();
 }

@@ -113,6 +113,7 @@ Contact merged(std::span<const Contact* const> points) {
     sum.depth = std::max(sum.depth, point.depth);
     if (sum.corner_count < 4) sum.corners[static_cast<std::size_t>(sum.corner_count++)] = point.point;
   }
+  for (const Contact* one : points) sum.moment += (one->point - sum.point).cross(one->impulse);
   if (sum.normal.norm() < 1e-9) sum.normal = points.front()->normal;  // squeezed from both sides
   sum.normal.normalize();
   return sum;

@@ -45,8 +45,9 @@ struct NearPair {
   Vec3 rest_force = Vec3::Zero();  ///< on the second, of two of which one sleeps at least: what it rests with, N
   Vec3 pressed = Vec3::Zero();     ///< the same, averaged over the last steps
   bool sought = false;
-  bool persistent = false;  ///< it touched in the step before the last
-  bool touches = false;     ///< it pushed in the last step, or lay close
+  std::uint64_t told_in = 0;  ///< the last step that told of it
+  bool persistent = false;    ///< it touched in the step before the last
+  bool touches = false;       ///< it pushed in the last step, or lay close
 };
 
 class NearPairs {

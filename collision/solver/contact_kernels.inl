@@ -115,9 +115,15 @@ void warm_start(ContactPack* packs, PackPoint* points, std::size_t begin, std::s
   }
 }
 
+TOPPLE_INLINE Wide size(const Wide& a) { return a > all(0) ? a : -a; }
+TOPPLE_INLINE bool any(const Wide& a) { return a[0] > 0 || a[1] > 0 || a[2] > 0 || a[3] > 0; }
+
 void solve(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity,
            const Motion6* displacement, const SubStep& step) {
   const Wide rate = all(1 / step.length), none = all(0), one = all(1), fastest = all(-step.pushed_apart);
+  const Wide settled = all(step.again->settled);
+  Wide over = none, energy = none;
+  Wide* const changes = step.again->change;
   for (std::size_t k = begin; k < end; ++k) {
     ContactPack& pack = packs[k];
     Both now, moved;
@@ -132,6 +138,36 @@ void solve(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t
       const Wide speed = relative(pack, pack.normal, point.first, point.second, now);
       const Wide wanted = point.impulse - point.mass * (scale * speed + bias) - given_back * point.impulse;
       const Wide impulse = larger(wanted, none), change = impulse - point.impulse;
+      point.impulse = impulse;
+      const Wide excess = size(change) - settled * point.mass;
+      over = larger(over, excess);
+      if (changes) {
+        changes[pack.first_point + static_cast<std::size_t>(i)] = change;
+        energy += point.mass > none ? change * change / (point.mass > none ? point.mass : one) : none;
+      }
+      push(pack, pack.normal, point.first, point.second, change, now);
+    }
+    store(pack, now, velocity);
+  }
+  if (any(over)) step.again->unsettled = true;
+  step.again->energy += energy[0] + energy[1] + energy[2] + energy[3];
+}
+
+/// Farther the way that passes have gone.
+void go_on(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity, const Motion6*,
+           const SubStep& step) {
+  const Wide share = all(step.again->share), none = all(0);
+  for (std::size_t k = begin; k < end; ++k) {
+    const ContactPack& pack = packs[k];
+    Both now;
+    load(pack, velocity, now);
+    for (int i = 0; i < pack.point_count; ++i) {
+      const std::size_t number = pack.first_point + static_cast<std::size_t>(i);
+      PackPoint& point = points[number];
+      Wide& way = step.again->way[number];
+      const Wide farther = share * way, impulse = larger(point.impulse + farther, none),
+                 change = impulse - point.impulse;
+      way = farther + step.again->change[number];
       point.impulse = impulse;
       push(pack, pack.normal, point.first, point.second, change, now);
     }
@@ -221,7 +257,7 @@ void restitute(ContactPack* packs, PackPoint* points, std::size_t begin, std::si
 }  // namespace
 
 extern const ContactKernels kernels;
-const ContactKernels kernels{warm_start, solve, relax, restitute};
+const ContactKernels kernels{warm_start, solve, go_on, relax, restitute};
 
 }  // namespace TOPPLE_KERNELS
 }  // namespace topple::collision

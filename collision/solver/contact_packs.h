@@ -15,6 +15,10 @@ namespace topple::collision {
 inline constexpr int kLanes = 4;
 typedef double Wide __attribute__((vector_size(kLanes * sizeof(double)), may_alias));
 
+struct alignas(32) PackWide {
+  Wide value;
+};
+
 /// Of a body in the sub-steps: scaled velocity, or displacement since the step began.
 struct alignas(64) Motion6 {
   double linear[3]{}, angular[3]{}, unused[2]{};  ///< read as two rows of four
@@ -53,10 +57,22 @@ struct alignas(32) ContactPack {
       slide_carried[2];  ///< sums of what had been applied whenever bodies were moved: along the normal, across
 };
 
+/// Passes that are repeated in a sub-step, as long as a blow goes on through a stack: each goes on the way of those
+/// before it, by the rule of Fletcher and Reeves (Silcowitz, Niebe and Erleben, Vis. Comput. 26, 2010).
+struct Again {
+  double settled = 0;      ///< m/s: a pass that changes no point's speed by more is the last
+  Wide* change = nullptr;  ///< of each point's impulse in the last pass; null: not kept
+  Wide* way = nullptr;     ///< of each point
+  double share = 0;        ///< of the way that is gone on
+  bool unsettled = false;
+  double energy = 0;  ///< J: sum of the changes' squares over their masses
+};
+
 struct SubStep {
   double length = 0;        ///< s
   double pushed_apart = 0;  ///< m/s
   double restitution_from = 0;
+  Again* again = nullptr;
 };
 
 /// The inner loops, in the widest instructions that the processor has; the bits are the same in all.
@@ -65,6 +81,7 @@ struct ContactKernels {
                         const Motion6* displacement, const SubStep& step);
   Pass warm_start;  ///< applies the impulses that the packs hold
   Pass solve;       ///< normal rows, with the springs
+  Pass go_on;       ///< goes on the way of the last passes
   Pass relax;       ///< normal rows without springs, then friction; adds up the totals
   Pass restitute;   ///< after the last sub-step
 };

@@ -216,7 +216,10 @@ void DebrisWorld::apply_impulse(BodyId id, const Vec3& impulse, const Vec3& poin
 void DebrisWorld::wake(BodyId id) { wake_up(body(id.value)); }
 
 void DebrisWorld::wake_up(DebrisBody& woken) {
-  if (woken.asleep) ++awake_count_;
+  if (woken.asleep) {
+    ++awake_count_;
+    woken.velocity += reading_;
+  }
   woken.asleep = false;
   woken.slow_for = woken.retry_rest = 0;
   woken.rest_wait = settings_.rest_again;
@@ -247,5 +250,7 @@ std::unique_ptr<World> make_small_steps_world() {
   require_double_precision_library();
   return std::make_unique<DebrisWorld>(SolverSettings{});
 }
+
+std::unique_ptr<World> make_bullet_world() { return make_small_steps_world(); }
 
 }  // namespace topple::collision

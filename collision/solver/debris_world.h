@@ -52,6 +52,11 @@ struct DebrisHinge {
   std::int64_t body = -1, other = -1;
   Eigen::Matrix<double, 6, 1> force = Eigen::Matrix<double, 6, 1>::Zero();
   double work_lost = 0;
+
+  void forget_step() {
+    force.setZero();
+    work_lost = 0;
+  }
 };
 
 struct DebrisCable {
@@ -122,6 +127,9 @@ class DebrisWorld final : public World {
   [[nodiscard]] static Box3 bounds_of(const PartShape& shape, const Placement& at);
 
   // The step.
+  [[nodiscard]] int parts_of_step(double dt) const;
+  void read_velocities_by(const Vec3& more);
+  void move_on(double dt);
   void update_bounds(double dt);
   void find_contacts(double dt);
   void seek(std::uint32_t index, double dt);
@@ -199,7 +207,10 @@ class DebrisWorld final : public World {
 
   StepSolver solver_;
   std::vector<Island> islands_;
-  std::vector<SolverContact> solved_;  ///< of the last step
+  std::vector<SolverContact> solved_;  ///< of the last part of a step
+  std::uint64_t step_number_ = 0;
+  int parts_ = 1;                ///< of this step
+  Vec3 reading_ = Vec3::Zero();  ///< by which velocities are read otherwise than between steps
   std::vector<Contact> contacts_;
 };
 

@@ -33,6 +33,7 @@ Touched touched(const Solid& solid, std::int64_t tag) {
 void merge(const Contact& more, Contact& sum) {
   const double a = sum.impulse.norm(), b = more.impulse.norm(), share = a + b > 0 ? b / (a + b) : 0.5;
   const Vec3 point = (1 - share) * sum.point + share * more.point;
+  sum.moment += more.moment + (sum.point - point).cross(sum.impulse) + (more.point - point).cross(more.impulse);
   sum.point = point;
   const Vec3 normal = (1 - share) * sum.normal + share * more.normal;
   if (normal.norm() > 1e-9) sum.normal = normal.normalized();  // else squeezed from both sides
@@ -65,7 +66,8 @@ void DebrisWorld::tell(const SolverContact& solved, double dt) {
   double nearest = 1e300;
   for (int i = 0; i < manifold.count; ++i)
     nearest = std::min(nearest, manifold.points[static_cast<std::size_t>(i)].separation);
-  pair.persistent = pair.touches;
+  if (pair.told_in != step_number_) pair.persistent = pair.touches;
+  pair.told_in = step_number_;
   pair.touches = !solved.impulse.isZero(0) || nearest <= kTouching;
   if (!pair.touches) return;
   const Collider &a = pairs_.collider(pair.first), &b = pairs_.collider(pair.second);
@@ -79,6 +81,7 @@ void DebrisWorld::tell(const SolverContact& solved, double dt) {
   contact.point = solved.centre;
   contact.normal = manifold.normal;
   contact.impulse = solved.impulse;
+  contact.moment = solved.moment;
   contact.depth = std::max(0.0, -nearest);
   contact.thickness = other ? std::min(part.thickness, other->thickness) : part.thickness;
   contact.persistent = pair.persistent;
@@ -133,12 +136,12 @@ void DebrisWorld::book_work(std::span<Island* const> islands, double dt) {
   }
   for (const Island* island : islands) {
     for (DebrisHinge* hinge : island->hinges) {
-      hinge->work_lost = work(body(hinge->body), hinge->rows.force_total, hinge->rows.body_moment);
+      hinge->work_lost += work(body(hinge->body), hinge->rows.force_total, hinge->rows.body_moment);
       if (hinge->other >= 0)
         hinge->work_lost += work(body(hinge->other), -hinge->rows.force_total, hinge->rows.holder_moment);
     }
     for (DebrisCable* cable : island->cables)
-      cable->pull.work_lost = work(body(cable->body), cable->row.impulse, Vec3::Zero());
+      cable->pull.work_lost += work(body(cable->body), cable->row.impulse, Vec3::Zero());
   }
   const auto share = [&](const DebrisBody& on, double size) {
     if (!(on.pushed > 0)) return 0.0;

@@ -95,16 +95,16 @@ CablePull DebrisWorld::cable_pull(CableId id) const {
   return pull;
 }
 
-/// Of the bodies that moved: what sleeps pulls as it did.
+/// Of the bodies that moved, means over the parts of the step: what sleeps pulls as it did.
 void DebrisWorld::read_joints(std::span<Island* const> islands, double dt) {
   for (const Island* island : islands) {
     for (DebrisHinge* hinge : island->hinges) {
       const HingeRows& rows = hinge->rows;
       const Mat3 axes = (solver_.body(rows.holder).at.turn * rows.axes_in_holder).transpose();
-      hinge->force.head<3>() = -(axes * rows.force_total) / dt;
-      hinge->force.tail<3>() = -(axes * rows.moment_total) / dt;
+      hinge->force.head<3>() -= axes * rows.force_total / (dt * parts_);
+      hinge->force.tail<3>() -= axes * rows.moment_total / (dt * parts_);
     }
-    for (DebrisCable* cable : island->cables) cable->pull.tension = cable->row.pulled / dt;
+    for (DebrisCable* cable : island->cables) cable->pull.tension += cable->row.pulled / (dt * parts_);
   }
 }
 

@@ -32,6 +32,8 @@ bool DebrisWorld::come_to_rest(Island& island, double dt) {
   tell_contacts(dt);
   for (const SolverContact& solved : solver_.contacts())
     solved.pair->rest_force = solved.pair->pressed = solved.impulse / dt;
+  for (DebrisHinge* hinge : whole.hinges) hinge->forget_step();
+  for (DebrisCable* cable : whole.cables) cable->pull = {};
   read_joints({&only, 1}, dt);
   for (DebrisBody* one : island.bodies) {
     one->velocity.setZero();

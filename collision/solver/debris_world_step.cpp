@@ -14,22 +14,66 @@ void DebrisWorld::step(double dt) {
     throw std::invalid_argument("step of " + std::to_string(dt) + " s; it must be above zero");
   release_separated(dt);
   contacts_.clear();
-  solved_.clear();
   if (awake_count_ == 0) return;
+  ++step_number_;
+  for (auto& [id, hinge] : hinges_)
+    if (!body(hinge->body).asleep) hinge->forget_step();
+  for (auto& [id, cable] : cables_)
+    if (!body(cable->body).asleep) cable->pull = {};
   find_contacts(dt);
+  parts_ = parts_of_step(dt);
+  read_velocities_by(gravity_ * ((1 - 1.0 / parts_) * dt / 2));
+  for (int part = 0; part < parts_; ++part) {
+    if (part > 0) find_contacts(dt / parts_);
+    move_on(dt / parts_);
+  }
+  read_velocities_by(Vec3::Zero());
+  merge_contacts();
+}
+
+/// One part of a step, once contacts are found.
+void DebrisWorld::move_on(double dt) {
+  solved_.clear();
   gather_islands();
   std::map<int, std::vector<Island*>> by_substeps;
   for (Island& island : islands_) {
-    if (come_to_rest(island, dt)) continue;
+    if (parts_ == 1 && come_to_rest(island, dt)) continue;
     if (island.pairs.empty() && island.hinges.empty() && island.cables.empty())
       fly(*island.bodies.front(), dt);
     else
       by_substeps[substeps(island, dt)].push_back(&island);
   }
   for (const auto& [count, islands] : by_substeps) solve(islands, count, dt);
-  merge_contacts();
   wake_changed(dt);
   look_for_rest(dt);
+}
+
+/// Contacts are planes at points that stay through a step. A body that spins leaves them by reach (1 - cos(w dt)): the
+/// step is taken in so many parts, each with contacts of its own, that this is small for all that touch.
+int DebrisWorld::parts_of_step(double dt) const {
+  double most = 0;
+  const auto look_at = [&](std::uint32_t collider) {
+    const Solid& solid = *pairs_.collider(collider).solid;
+    if (solid.kind != Touched::Kind::body) return;
+    const auto& one = static_cast<const DebrisBody&>(solid);
+    if (one.asleep || one.ball_radius > 0) return;
+    const double angle = std::min(M_PI, one.spin.norm() * dt);
+    most = std::max(most, one.reach * (1 - std::cos(angle)));
+  };
+  for (const std::uint32_t index : pairs_.order()) {
+    const NearPair& pair = pairs_.pair(index);
+    if (pair.manifold.count == 0) continue;
+    look_at(pair.first);
+    if (pair.second != NearPairs::ground) look_at(pair.second);
+  }
+  return std::clamp(static_cast<int>(std::ceil(std::sqrt(most / settings_.leaves_plane))), 1, settings_.most_parts);
+}
+
+/// Stored velocities are those of the middle of a step; in its parts, those of the middle of a part: this much more.
+void DebrisWorld::read_velocities_by(const Vec3& more) {
+  for (const BodyId id : order_)
+    if (DebrisBody& one = body(id.value); !one.asleep) one.velocity += more - reading_;
+  reading_ = more;
 }
 
 void DebrisWorld::update_bounds(double dt) {

@@ -21,6 +21,13 @@ struct SolverSettings {
   double pushed_apart = 3;  ///< m/s: overlaps are undone no faster (chunks are born inside each other). What is pressed
                             ///< in by a thousandfold mass needs 2.5: held below that, a spring does not bear its load
 
+  double settled = 0.05;  ///< m/s: passes are repeated in a sub-step that changes a contact's speed by more
+  int most_passes = 100;  ///< in a sub-step: a blow through a stack of that many comes through
+
+  double leaves_plane = 0.005;  ///< m: a step is taken in parts where a body that touches leaves the planes of its
+                                ///< contacts by more as it spins
+  int most_parts = 16;          ///< of a step: 1/60 s at 40 rad/s, 2 m from the middle, need that many
+
   // Contacts.
   double margin = 0.02;  ///< m: parts nearer than this are looked at as contacts about to be
   double kept = 0.005;   ///< m: contacts are sought anew when a point of the pair has moved farther against the other

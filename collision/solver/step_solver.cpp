@@ -242,8 +242,32 @@ void StepSolver::begin_sub_step(int number) {
   }
 }
 
+/// One pass over the contacts serves what rests or goes on evenly: impulses of the sub-step before are near. A blow
+/// comes through one contact in a pass; as long as it is on its way passes are repeated.
+void StepSolver::push_apart(SubStep step) {
+  const ContactKernels& kernels = contact_kernels();
+  Again again;
+  again.settled = settings_.settled;
+  step.again = &again;
+  each_pack(kernels.solve, step);
+  if (!again.unsettled) return;
+  changes_.assign(points_.size(), PackWide{});
+  ways_.assign(points_.size(), PackWide{});
+  again.change = &changes_.data()->value;
+  again.way = &ways_.data()->value;
+  double before = 0;
+  for (int pass = 1; pass < settings_.most_passes && again.unsettled; ++pass) {
+    again.unsettled = false;
+    again.energy = 0;
+    each_pack(kernels.solve, step);
+    again.share = again.energy < before ? again.energy / before : 0;
+    before = again.energy;
+    if (again.unsettled) each_pack(kernels.go_on, step);
+  }
+}
+
 void StepSolver::sub_step(int number) {
-  const SubStep step{h_, settings_.pushed_apart, settings_.restitution_from};
+  const SubStep step{h_, settings_.pushed_apart, settings_.restitution_from, nullptr};
   const ContactKernels& kernels = contact_kernels();
   for (std::size_t i = 1; i < bodies_.size(); ++i) {
     begun_[i] = velocity_[i];
@@ -268,7 +292,7 @@ void StepSolver::sub_step(int number) {
   hold_cables();
   for (HingeRows* hinge : hinges_)
     hinge->solve(frequency, settings_.joint_damping, h_, velocity_.data(), begun_.data());
-  each_pack(kernels.solve, step);
+  push_apart(step);
   hold_cables();
   for (std::size_t i = 1; i < bodies_.size(); ++i)
     for (int k = 0; k < 3; ++k) {
@@ -329,7 +353,7 @@ void StepSolver::run(double dt, int substeps, const Vec3& gravity) {
   for (SolverContact& contact : contacts_) prepare(contact);
   for (HingeRows* hinge : hinges_) hinge->begin_step(h_);
   for (int i = 0; i < substeps; ++i) sub_step(i);
-  each_pack(contact_kernels().restitute, {h_, settings_.pushed_apart, settings_.restitution_from});
+  each_pack(contact_kernels().restitute, {h_, settings_.pushed_apart, settings_.restitution_from, nullptr});
   for (SolverContact& contact : contacts_) store_contact(contact, dt);
   for (HingeRows* hinge : hinges_) hinge->end_step(h_);
   unscale_bodies(dt, gravity);

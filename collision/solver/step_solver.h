@@ -75,6 +75,7 @@ class StepSolver {
   void sub_step(int number);
   void begin_sub_step(int number);
   void each_pack(ContactKernels::Pass pass, const SubStep& step);
+  void push_apart(SubStep step);
   void add_to(Equilibrium& equilibrium, const SolverContact& contact) const;
   void take_rest(const RestContact& found, SolverContact& contact, double dt) const;
   /// Only what touches may bear.
@@ -95,7 +96,8 @@ class StepSolver {
   std::vector<Motion6> velocity_, displacement_, kick_, pushed_, begun_;
   std::vector<ContactPack> packs_;
   std::vector<PackPoint> points_;
-  std::vector<std::size_t> colours_;  ///< first pack of each, and the end
+  std::vector<PackWide> changes_, ways_;  ///< of points, where passes are repeated
+  std::vector<std::size_t> colours_;      ///< first pack of each, and the end
   std::vector<std::vector<std::uint32_t>> by_colour_;
   std::vector<std::vector<std::uint64_t>> used_;
 };

@@ -276,18 +276,18 @@ void EnergyAccount::lightened(PanelId panel, const HandOver& before, const HandO
   if (const auto at_rest = change.handed.find(panel); at_rest != change.handed.end()) at_rest->second = after;
 }
 
-/// A panel that leaves keeps the work that its load has done; one that stays moves to where its new bearings are, and
-/// what its lost bearings bore is among the load changes of what stands.
+/// A panel that leaves keeps the work that its load has done. So does one that stays, where its lost bearings bore it:
+/// its load comes to the others as they are bent now, and does not rise because they have sunk less.
 void EnergyAccount::settle_panels(Change& change) {
   for (const auto& [panel, handed] : change.handed) {
     const Shares own = shares(handed);
-    if (from_.bearings.serves(panel) ? from_.bearings.stands(panel) : from_.segments.label(panel) >= 0) {
-      change.freed -= own.left.sum();
-      continue;
-    }
     change.left += own.standing;
     change.left += own.left;
     change.freed += own.standing.sum();
+    if (!(from_.bearings.serves(panel) ? from_.bearings.stands(panel) : from_.segments.label(panel) >= 0)) continue;
+    const LoadWork now = shares(from_.loads.handed(panel)).standing;
+    change.left += LoadWork{-now.gravity, -now.other};
+    change.freed -= now.sum();
   }
 }
 

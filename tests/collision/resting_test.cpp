@@ -68,18 +68,14 @@ TEST_CASE("what contacts took out of a box that falls, bounces and slides is wha
            spin.dot(axes * box.inertia * axes.transpose() * spin) / 2;
   };
   const double start = energy();
-  double lost = 0, pushed_out = 0;
+  double lost = 0;
   for (int step = 0; step < 1440; ++step) {
-    const Vec3 before = world->state(id).pose.position;
     world->step(dt);
     for (const Contact& contact : world->contacts()) lost += contact.work_lost;
-    // Overlaps are undone by displacements that are no velocity: their work against gravity is not the contacts'.
-    pushed_out +=
-        mass * kGravity * (world->state(id).pose.position.z() - before.z() - world->state(id).velocity.z() * dt);
   }
   CHECK(lost > 0.9 * (start - mass * kGravity * 0.2));  // it lies still, on one of its faces
   // Rotation is of second order in a step of this length.
-  CHECK(start - energy() == Approx(lost - pushed_out).epsilon(0.01));
+  CHECK(start - energy() == Approx(lost).epsilon(0.01));
 }
 
 TEST_CASE("a stack of boxes rests, falls asleep and then costs no step") {
@@ -90,7 +86,8 @@ TEST_CASE("a stack of boxes rests, falls asleep and then costs no step") {
   CHECK(world->awake_count() == 5);
   for (int i = 0; i < 60; ++i) {
     world->step(kStep);
-    if (i > 30) CHECK(-impulse_on_ground(*world).z() == Approx(5 * 600 * kGravity * kStep).epsilon(0.02));
+    if (i > 20 && world->awake_count() > 0)
+      CHECK(-impulse_on_ground(*world).z() == Approx(5 * 600 * kGravity * kStep).epsilon(0.02));
   }
   run(*world, 240);
   CHECK(world->awake_count() == 0);

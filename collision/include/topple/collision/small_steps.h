@@ -6,9 +6,8 @@
 
 namespace topple::collision {
 
-/// Where it differs from make_bullet_world(): gravity's work is a body's weight times its way, so that what pushes
-/// overlaps apart counts as work of the contacts; an island rests when all of its bodies have been slow for half a
-/// second and forces within their friction cones hold each of them.
+/// An island rests when all of its bodies have been slow for half a second and forces within their friction cones hold
+/// each of them.
 [[nodiscard]] std::unique_ptr<World> make_small_steps_world();
 
 }  // namespace topple::collision

@@ -1,7 +1,7 @@
 #pragma once
 // Rigid debris as the structure sees it: bodies, standing parts as obstacles, contacts, sweeps, hinges. An interface:
-// Bullet in double precision and a contact solver of our own (small_steps.h) stand behind it, and a game can put its
-// own engine here, a test a recording one. SI units, global z up.
+// a contact solver of our own (small_steps.h) stands behind it, on Bullet's shapes; a game can put its own engine here,
+// a test a recording one. SI units, global z up.
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
@@ -90,9 +90,11 @@ struct Contact {
       0;            ///< relative speed at the point along the normal, rotation included, positive when closing
   double time = 0;  ///< sweep: time of impact from now; step: 0
   Vec3 impulse = Vec3::Zero();  ///< step: what the body did to the other during the last step, friction included, N s
-  double work_lost = 0;         ///< step: energy that it took out of the bodies (velocities read at mid-step), J
-  double depth = 0;         ///< step: how far the two were inside each other when it began (m; a hull's skin counts)
-  double thickness = 0;     ///< step: of the thinner of the two parts (the ground has none), m
+  Vec3 moment = Vec3::Zero();   ///< step: the same about the point, N m s: friction that turns about the normal
+  double work_lost = 0;  ///< step: energy, of motion (velocities read at mid-step) and of height, that it took out of
+                         ///< the bodies, J
+  double depth = 0;      ///< step: how far the two were inside each other when it began (m; a hull's skin counts)
+  double thickness = 0;  ///< step: of the thinner of the two parts (the ground has none), m
   bool persistent = false;  ///< it was there in the step before as well
   int corner_count = 0;     ///< corners of the area of contact, 1 to 4: a slab that falls flat has 4
   std::array<Vec3, 4> corners{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
@@ -204,8 +206,9 @@ class World {
   [[nodiscard]] virtual std::vector<ObstacleId> obstacles_in(const Vec3& low, const Vec3& high) const = 0;
 };
 
-/// Bullet in double precision, in a deterministic order. Throws std::runtime_error when the Bullet library that
-/// was linked is not the one whose headers were compiled (single precision).
+/// The world of simulations whose host gives none: make_small_steps_world(). Shapes and distances are Bullet's, in
+/// double precision. Throws std::runtime_error when the Bullet library that was linked is not the one whose headers
+/// were compiled (single precision).
 [[nodiscard]] std::unique_ptr<World> make_bullet_world();
 
 }  // namespace topple::collision
