@@ -111,7 +111,11 @@ struct Simulation::State {
   void find_held(ImpactSide& side, const std::vector<ImpactPlace>& places);
   void leave_with_restitution(BodyImpact& impact);
   [[nodiscard]] bool take_up(BodyImpact& impact);
-  [[nodiscard]] Impact begin_push(const BodyImpact& impact) const;
+  [[nodiscard]] Impact begin_push(const BodyImpact& impact, bool follows) const;
+  [[nodiscard]] Impact::Utilisation note_uses(const std::vector<StruckJoint>& joints, std::vector<double>& uses) const;
+  [[nodiscard]] double deepest_push(const BodyImpact& impact) const;
+  [[nodiscard]] static Eigen::VectorXd carried_over(const ImpactSide& before, const Eigen::VectorXd& moved,
+                                                    const ImpactSide& now);
   [[nodiscard]] std::vector<StruckJoint> struck_joints(const BodyImpact& impact) const;
   std::size_t tell_body_impact(const BodyImpact& impact, double speed_in);
   void give_impulses(BodyImpact& impact, const Eigen::VectorXd& impulses);

@@ -213,7 +213,9 @@ void StandingMotion::stop(int c) {
   if (!stands) past_.freed += own.kinetic + own.elastic;  // all that it had went with what left
   past_.damped += own.damped;
   past_.numerical += own.numerical;
-  past_.external_work += moving.left_work;
+  // Where it comes to rest the account of rest has the works of its loads, but those of what left. Where nothing of it
+  // stands any more nobody else has them.
+  past_.external_work += stands ? moving.left_work : own.external_work;
   past_.struck += own.struck;
   past_.freed += own.freed;
   from_.statics.follow(c, nullptr);
@@ -418,6 +420,41 @@ Eigen::MatrixXd StandingMotion::mobility(int c, std::span<const NodalForces> for
     }
   }
   return (result + result.transpose()) / 2;
+}
+
+solver::LocalModes StandingMotion::local_modes(int c, std::span<const NodalForces> forces) const {
+  std::vector<int> nodes;
+  std::vector<std::vector<solver::FrameDynamics::Impulse>> pushes;
+  for (const NodalForces& one : forces) {
+    pushes.push_back(numbered(from_.statics, one));
+    for (const auto& [node, force] : one)
+      if (const int number = from_.statics.number(node); std::find(nodes.begin(), nodes.end(), number) == nodes.end())
+        nodes.push_back(number);
+  }
+  return moving_.at(c)->frame->local_modes(nodes, pushes);
+}
+
+StandingMotion::ModeDemands StandingMotion::node_demands(int c, std::span<const NodalForces> forces,
+                                                         const solver::LocalModes& modes) const {
+  const auto pushed = [&](NodeId node) {
+    return std::any_of(forces.begin(), forces.end(), [node](const NodalForces& one) {
+      return std::any_of(one.begin(), one.end(), [node](const auto& force) { return force.first == node; });
+    });
+  };
+  ModeDemands demands;
+  for (const auto& [beam, end_forces] : modes.end_forces) {
+    const MemberId member = from_.statics.members(c)[static_cast<std::size_t>(beam)];
+    for (int end = 0; end < 2; ++end) {
+      const JointId joint = from_.building.joint(member, end);
+      if (!from_.building[joint].capacity.breakable || !from_.parts.standing(joint) ||
+          !pushed(from_.building[member].nodes[static_cast<std::size_t>(end)]))
+        continue;
+      Eigen::Matrix<double, 6, Eigen::Dynamic> columns(6, end_forces.cols());
+      for (Eigen::Index k = 0; k < end_forces.cols(); ++k) columns.col(k) = member_joint_demand(end_forces.col(k), end);
+      demands.emplace_back(joint, std::move(columns));
+    }
+  }
+  return demands;
 }
 
 double StandingMotion::strike(int c, const NodalForces& impulses) {

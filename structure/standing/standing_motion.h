@@ -83,6 +83,12 @@ class StandingMotion {
   using NodalForces = std::vector<std::pair<NodeId, Vec6>>;
   /// g_i' M^-1 g_j of forces on one component that moves.
   [[nodiscard]] Eigen::MatrixXd mobility(int component, std::span<const NodalForces> forces) const;
+  /// The nodes that forces of one component act on, others held (solver::FrameDynamics::local_modes()).
+  [[nodiscard]] solver::LocalModes local_modes(int component, std::span<const NodalForces> forces) const;
+  /// What joints at these nodes bear for a unit of each coordinate.
+  using ModeDemands = std::vector<std::pair<JointId, Eigen::Matrix<double, 6, Eigen::Dynamic>>>;
+  [[nodiscard]] ModeDemands node_demands(int component, std::span<const NodalForces> forces,
+                                         const solver::LocalModes& modes) const;
   /// Returns the work of the impulses, J. What changed before is taken over first.
   double strike(int component, const NodalForces& impulses);
 

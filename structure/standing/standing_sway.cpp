@@ -62,10 +62,36 @@ FrameEnergy StandingFrame::energy() const {
   return energy;
 }
 
+namespace {
+
+/// Of the modes of one more component.
+void add_modes(int component, solver::LocalModes modes, const std::vector<Eigen::Index>& places,
+               StandingMotion::ModeDemands demands, StandingFrame::HeldResponse& answer) {
+  const Eigen::Index before = answer.squared.size(), own = modes.squared.size();
+  answer.squared.conservativeResize(before + own);
+  answer.squared.tail(own) = modes.squared;
+  answer.pushed.conservativeResize(before + own, answer.compliance.cols());
+  answer.pushed.bottomRows(own).setZero();
+  answer.pushed.bottomRows(own)(Eigen::all, places) = modes.pushed;
+  for (auto& [joint, columns] : answer.node_demands) {
+    columns.conservativeResize(6, before + own);
+    columns.rightCols(own).setZero();
+  }
+  for (auto& [joint, columns] : demands) {
+    Eigen::Matrix<double, 6, Eigen::Dynamic> wide = Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, before + own);
+    wide.rightCols(own) = columns;
+    answer.node_demands.emplace_back(joint, std::move(wide));
+  }
+  answer.local.emplace_back(component, std::move(modes));
+}
+
+}  // namespace
+
 StandingFrame::HeldResponse StandingFrame::respond_held(std::span<const ContactPlace> places,
                                                         std::span<const Vec3> directions) {
   State& state = *state_;
   HeldResponse answer = HeldPush({state.parts, state.statics, state.response}).respond(places, directions);
+  answer.pushed.resize(0, static_cast<Eigen::Index>(places.size()));
   for (const auto& [c, own] : state.places_by_component(answer)) {
     state.motion->start(c);
     std::vector<StandingMotion::NodalForces> forces;
@@ -74,6 +100,9 @@ StandingFrame::HeldResponse StandingFrame::respond_held(std::span<const ContactP
     for (const Eigen::Index i : own)
       for (const auto& [node, force] : answer.at_nodes[static_cast<std::size_t>(i)])
         answer.speed(i) += force.dot(state.motion->velocity(node));
+    solver::LocalModes modes = state.motion->local_modes(c, forces);
+    StandingMotion::ModeDemands demands = state.motion->node_demands(c, forces, modes);
+    add_modes(c, std::move(modes), own, std::move(demands), answer);
   }
   state.pending = true;
   return answer;
@@ -92,6 +121,8 @@ double StandingFrame::strike(const HeldResponse& pushed, const Eigen::VectorXd& 
   }
   return work;
 }
+
+void StandingFrame::remember_utilisation(JointId joint, double value) { state_->joints.remember(joint, value); }
 
 void StandingFrame::break_in_impact(std::span<const JointBreak> breaks) {
   State& state = *state_;

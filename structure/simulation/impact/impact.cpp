@@ -20,6 +20,9 @@ constexpr double pi = 3.14159265358979323846;
 constexpr double free_motion = 1e-12;
 /// A force below this share of the largest peak is none.
 constexpr double no_force = 1e-12;
+/// What is bound may swing more slowly than what pushes it: a push that has not ended after so many periods of its own,
+/// with nothing moving behind the place, is left to the motion of what stands.
+constexpr double most_periods = 4;
 constexpr double never = std::numeric_limits<double>::infinity();
 
 /// The first time in (from, to] at which `passed` holds, which it does at `to`.
@@ -104,7 +107,7 @@ Eigen::VectorXd Impact::Modes::coordinates(double t, int order) const {
 }
 
 Impact::Impact(Eigen::MatrixXd mobility, Eigen::MatrixXd compliance, Eigen::VectorXd closing_speed,
-               Eigen::VectorXd acceleration)
+               Eigen::VectorXd acceleration, int bound)
     : mobility_(std::move(mobility)),
       compliance_(std::move(compliance)),
       depth_(Eigen::VectorXd::Zero(closing_speed.size())),
@@ -113,14 +116,15 @@ Impact::Impact(Eigen::MatrixXd mobility, Eigen::MatrixXd compliance, Eigen::Vect
       unloaded_(depth_),
       impulse_(depth_),
       peak_(depth_),
-      state_(static_cast<std::size_t>(speed_.size()), Touch::touching) {
+      state_(static_cast<std::size_t>(speed_.size()), Touch::touching),
+      bound_(bound) {
   check();
 }
 
 void Impact::check() const {
   const Eigen::Index n = speed_.size();
-  if (n == 0 || mobility_.rows() != n || mobility_.cols() != n || compliance_.rows() != n || compliance_.cols() != n ||
-      acceleration_.size() != n)
+  if (bound_ < 0 || n <= bound_ || mobility_.rows() != n || mobility_.cols() != n || compliance_.rows() != n ||
+      compliance_.cols() != n || acceleration_.size() != n)
     throw std::invalid_argument(
         "an impact needs a place, and for each a row of mobility and compliance, a speed and an acceleration");
   if (!mobility_.allFinite() || !compliance_.allFinite() || !speed_.allFinite() || !acceleration_.allFinite())
@@ -131,7 +135,10 @@ void Impact::check() const {
     throw std::invalid_argument("the compliance of an impact is not positive definite");
 }
 
-bool Impact::any(Touch state) const { return std::find(state_.begin(), state_.end(), state) != state_.end(); }
+bool Impact::any(Touch state) const {
+  const auto end = state_.begin() + places();
+  return std::find(state_.begin(), end, state) != end;
+}
 bool Impact::goes_on() const { return any(Touch::touching) || any(Touch::behind); }
 
 void Impact::change(Eigen::MatrixXd mobility, Eigen::MatrixXd compliance, const Eigen::VectorXd& shift) {
@@ -145,7 +152,24 @@ void Impact::change(Eigen::MatrixXd mobility, Eigen::MatrixXd compliance, const 
   }
 }
 
+void Impact::bind(Eigen::MatrixXd mobility, Eigen::MatrixXd compliance, const Eigen::VectorXd& coordinates,
+                  const Eigen::VectorXd& rates) {
+  mobility_ = std::move(mobility);
+  compliance_ = std::move(compliance);
+  bound_ = coordinates.size();
+  const Eigen::Index n = depth_.size();
+  for (Eigen::VectorXd* each : {&acceleration_, &unloaded_, &impulse_, &peak_, &depth_, &speed_}) {
+    each->conservativeResize(n + bound_);
+    each->tail(bound_).setZero();
+  }
+  depth_.tail(bound_) = coordinates;
+  speed_.tail(bound_) = rates;
+  state_.resize(static_cast<std::size_t>(n + bound_), Touch::touching);
+  check();
+}
+
 void Impact::keep(const std::vector<int>& places) {
+  bound_ = 0;
   mobility_ = Eigen::MatrixXd(mobility_(places, places));
   compliance_ = Eigen::MatrixXd(compliance_(places, places));
   for (Eigen::VectorXd* each : {&depth_, &speed_, &acceleration_, &unloaded_, &impulse_, &peak_})
@@ -177,6 +201,17 @@ Impact::Modes Impact::modes() const {
   return m;
 }
 
+/// s: as long as any swing is followed.
+double Impact::longest_swing(const Modes& m) const {
+  const double whole = 2 * pi / m.slowest();
+  if (bound_ == 0) return whole;
+  double own = 0;
+  for (Eigen::Index i = 0; i < places(); ++i)
+    if (state_[static_cast<std::size_t>(i)] != Touch::gone)
+      own = std::max(own, 2 * pi * std::sqrt(compliance_(i, i) / mobility_(i, i)));
+  return std::min(whole, most_periods * own);
+}
+
 double Impact::fastest_over_slowest() const {
   if (!any(Touch::touching)) return 1;
   const Modes m = modes();
@@ -185,7 +220,7 @@ double Impact::fastest_over_slowest() const {
 
 Eigen::VectorXd Impact::force() const {
   Eigen::VectorXd all = Eigen::VectorXd::Zero(depth_.size());
-  if (!any(Touch::touching)) return all;
+  if (bound_ == 0 && !any(Touch::touching)) return all;
   const Modes m = modes();
   all(m.touching) = m.force(0);
   return all;
@@ -216,10 +251,14 @@ void Impact::note_peaks(const Modes& m, double from, double to) {
   for (std::size_t k = 0; k < m.touching.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
     double& peak = peak_(m.touching[k]);
-    peak = std::max(peak, end(i));
-    if (!(at_from(i) > 0 && at_to(i) < 0)) continue;
-    const double at = passes_zero(from, to, at_from(i), at_to(i), [&](double t) { return m.force(t, -1)(i); });
-    peak = std::max(peak, m.force(at)(i));
+    // What is bound peaks either way.
+    for (int sign = 1; sign >= (m.touching[k] < places() ? 1 : -1); sign -= 2) {
+      peak = std::max(peak, sign * end(i));
+      if (!(sign * at_from(i) > 0 && sign * at_to(i) < 0)) continue;
+      const double at =
+          passes_zero(from, to, sign * at_from(i), sign * at_to(i), [&](double t) { return sign * m.force(t, -1)(i); });
+      peak = std::max(peak, sign * m.force(at)(i));
+    }
   }
 }
 
@@ -244,12 +283,15 @@ bool Impact::fly_to_next_touch() {
 }
 
 /// Until a place lets go or is met (`changed`), something fails, or a full swing of the slowest mode has been seen.
-Impact::Stop Impact::swing(const Utilisation& utilisation, bool& changed) {
+Impact::Stop Impact::swing(const Utilisation& utilisation, double deepest, bool& changed) {
   const Modes m = modes();
-  const auto least = [&](double t) { return m.force(t).minCoeff(); };
+  // Places come first among what touches.
+  const auto touching = static_cast<Eigen::Index>(m.touching.size()) - bound_;
+  const auto least = [&](double t) { return touching > 0 ? m.force(t).head(touching).minCoeff() : 0.0; };
   const auto used = [&](double t) {
     Eigen::VectorXd all = Eigen::VectorXd::Zero(depth_.size());
-    all(m.touching) = m.force(t).cwiseMax(0.0);
+    all(m.touching) = m.force(t);
+    all.head(places()) = all.head(places()).cwiseMax(0.0);
     return utilisation(all);
   };
   // Of the places left behind, the largest overlap with the surface as the other forces move it: above zero they touch.
@@ -268,13 +310,16 @@ Impact::Stop Impact::swing(const Utilisation& utilisation, bool& changed) {
     }
     return most;
   };
-  const double step = 2 * pi / m.fastest() / samples_per_period, end = 2 * pi / m.slowest();
+  const auto depth = [&](double t) {
+    return touching > 0 ? (m.root * (m.shape * m.coordinates(t, 0))).head(touching).maxCoeff() : 0.0;
+  };
+  const double step = 2 * pi / m.fastest() / samples_per_period, end = longest_swing(m);
   changed = false;
   double at = 0;
   if (utilisation && used(0) >= 1) return Stop::failed;
   Eigen::Index touched = -1;
-  bool parted = false, failed = false;
-  while (at < end && !parted && !failed && touched < 0) {
+  bool parted = false, failed = false, deep = depth(0) > deepest;
+  while (at < end && !parted && !failed && !deep && touched < 0) {
     double to = std::min(at + step, end);
     parted = least(to) < 0;
     if (parted) to = first_time(at, to, [&](double t) { return least(t) < 0 && t > at; });
@@ -289,28 +334,36 @@ Impact::Stop Impact::swing(const Utilisation& utilisation, bool& changed) {
       touched = -1;
       to = first_time(at, to, [&](double t) { return used(t) >= 1; });
     }
+    if (depth(to) > deepest) {
+      deep = true;
+      parted = failed = false;
+      touched = -1;
+      to = first_time(at, to, [&](double t) { return depth(t) > deepest; });
+    }
     note_peaks(m, at, to);
     at = to;
   }
   advance(m, at);
   if (failed) return Stop::failed;
+  if (deep) return Stop::deep;
   changed = parted || touched >= 0;
   if (touched >= 0) state_[static_cast<std::size_t>(touched)] = Touch::touching;
   if (parted) {
     const Eigen::VectorXd last = m.force(at);
-    const double none = no_force * std::max(peak_.maxCoeff(), std::numeric_limits<double>::min());
-    for (std::size_t k = 0; k < m.touching.size(); ++k)
+    const double none = no_force * std::max(peak_.head(places()).maxCoeff(), std::numeric_limits<double>::min());
+    for (std::size_t k = 0; static_cast<Eigen::Index>(k) < touching; ++k)
       if (last(static_cast<Eigen::Index>(k)) <= none) state_[static_cast<std::size_t>(m.touching[k])] = Touch::gone;
   }
   return Stop::held;
 }
 
-Impact::Stop Impact::push(const Utilisation& utilisation) {
+Impact::Stop Impact::push(const Utilisation& utilisation, double deepest) {
   for (;;) {
-    if (!any(Touch::touching) && !fly_to_next_touch()) return Stop::parted;
+    if (!any(Touch::touching) && (bound_ == 0 ? !fly_to_next_touch() : !any(Touch::behind))) return Stop::parted;
     bool changed = false;
-    const Stop stop = swing(utilisation, changed);
-    if (stop == Stop::failed || !changed) return stop;
+    const Stop stop = swing(utilisation, deepest, changed);
+    if (stop == Stop::failed || stop == Stop::deep) return stop;
+    if (!changed) return any(Touch::touching) ? stop : Stop::parted;
   }
 }
 

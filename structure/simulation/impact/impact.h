@@ -13,10 +13,13 @@
 //   speed when a joint fails     v'^2 = v^2 - (F^2 - 2 w F)/(k m).
 // A place whose force comes to zero has let go. One that a break has left behind is met again when d reaches D and what
 // the other forces move it by.
+// Coordinates that hold both ways may be `bound` behind the places: springs that the push moves and that never let go
+// (the nodes of what is struck, by modes), with d their displacement from rest.
 // Source: free vibration by modes (Clough and Penzien, Dynamics of Structures, ch. 12); a weight dropped on an elastic
 // beam (Timoshenko and Young, Vibration Problems in Engineering).
 #include <Eigen/Core>
 #include <functional>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -26,24 +29,30 @@ class Impact {
  public:
   /// Mobility symmetric positive semidefinite with a positive diagonal, 1/kg; compliance symmetric positive definite,
   /// m/N; closing speeds, m/s, and accelerations, m/s2, one for each place, positive into each other. Throws
-  /// std::invalid_argument when sizes differ, there is no place, or a matrix is not of its kind.
+  /// std::invalid_argument when sizes differ, there is no place, or a matrix is not of its kind. The last `bound` are
+  /// no places but coordinates that hold both ways.
   Impact(Eigen::MatrixXd mobility, Eigen::MatrixXd compliance, Eigen::VectorXd closing_speed,
-         Eigen::VectorXd acceleration);
+         Eigen::VectorXd acceleration, int bound = 0);
 
   enum class Stop {
     parted,  ///< nothing touches any more, nor will
     failed,  ///< `utilisation` has reached 1
-    held     ///< the places that touch never let go (a weight holds them together): a full swing has been seen
+    held,    ///< the places that touch never let go (a weight holds them together): a full swing has been seen
+    deep     ///< a place is pressed in as far as it may be
   };
   /// Utilisation of what bears the forces (one for each place, N, not negative): convex in them.
   using Utilisation = std::function<double(const Eigen::VectorXd& force)>;
-  /// Goes on from where it is. Without `utilisation` nothing fails.
-  Stop push(const Utilisation& utilisation = {});
+  /// Goes on from where it is. Without `utilisation` nothing fails. `deepest`: m, of each place from where it touches.
+  Stop push(const Utilisation& utilisation = {}, double deepest = std::numeric_limits<double>::infinity());
 
   /// After a break: mobility and compliance from now on, and by how much each unloaded place has moved (positive away
   /// from what pushes it). Speeds stay. The same errors as the constructor's.
   void change(Eigen::MatrixXd mobility, Eigen::MatrixXd compliance, const Eigen::VectorXd& shift);
-  /// Only these places from now on, in this order.
+  /// After a break, with places alone: coordinates that hold both ways are bound behind them, as they are and move
+  /// now. Mobility and compliance of all.
+  void bind(Eigen::MatrixXd mobility, Eigen::MatrixXd compliance, const Eigen::VectorXd& coordinates,
+            const Eigen::VectorXd& rates);
+  /// Only these places from now on, in this order; what was bound is let go.
   void keep(const std::vector<int>& places);
   [[nodiscard]] bool touches(std::size_t place) const { return state_[place] == Touch::touching; }
   /// It touches, or a break has moved it ahead of what will meet it again.
@@ -51,8 +60,9 @@ class Impact {
   /// Whether any place touches or may still come to.
   [[nodiscard]] bool goes_on() const;
 
+  // Of places and, behind them, of what is bound.
   [[nodiscard]] Eigen::VectorXd force() const;                               ///< now, N
-  [[nodiscard]] const Eigen::VectorXd& peak_force() const { return peak_; }  ///< so far, N
+  [[nodiscard]] const Eigen::VectorXd& peak_force() const { return peak_; }  ///< so far, N; of what is bound either way
   [[nodiscard]] const Eigen::VectorXd& impulse() const { return impulse_; }  ///< of each place since taken last, N s
   /// Hands them out: from now on they are counted anew.
   [[nodiscard]] Eigen::VectorXd take_impulse() {
@@ -74,13 +84,16 @@ class Impact {
   void check() const;
   void advance(const Modes& modes, double time);
   bool fly_to_next_touch();
-  Stop swing(const Utilisation& utilisation, bool& changed);
+  Stop swing(const Utilisation& utilisation, double deepest, bool& changed);
   void note_peaks(const Modes& modes, double from, double to);
-  [[nodiscard]] bool any(Touch state) const;
+  [[nodiscard]] bool any(Touch state) const;  ///< of places
+  [[nodiscard]] Eigen::Index places() const { return depth_.size() - bound_; }
+  [[nodiscard]] double longest_swing(const Modes& modes) const;
 
   Eigen::MatrixXd mobility_, compliance_;
   Eigen::VectorXd depth_, speed_, acceleration_, unloaded_, impulse_, peak_;
   std::vector<Touch> state_;
+  Eigen::Index bound_ = 0;
   double time_ = 0;
 };
 

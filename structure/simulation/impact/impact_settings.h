@@ -15,6 +15,16 @@ struct ImpactSettings {
   /// A stiff place among soft ones (by their frequencies) is over before these feel anything: they are followed one
   /// after the other. Larger: more is followed together, at a cost of as many samples.
   double most_unlike = 30;
+  /// m. When a break would move an unloaded place by more, the statics are on their way to a mechanism that the
+  /// structure has had no time to reach: the push ends there, and the body keeps the speed it has.
+  double largest_shift = 0.1;
+  /// Of the larger extent of what is pushed in: displacements are small up to there. What gives way by more is bent out
+  /// of shape by its weight and its speed, slower than any impact, and the push ends. Larger: soft things break by
+  /// slower pushes.
+  double small_displacements = 0.1;
+  /// Nodes of what is struck move while the push lasts, by modes. Those faster than the push by this factor bear it as
+  /// at rest (to 1/64), those slower by its square float. Larger: more is followed, at a cost of as many samples.
+  double follows = 8;
   /// s. What lies on debris presses on its joints with its force over this time: longer than the contact solver's
   /// chatter, shorter than anything that settles.
   double pressing_time = 0.1;

@@ -177,7 +177,7 @@ void Simulation::State::push_in(Strike& hit) {
     const double stored = pushing.stored(response.compliance);
     const double shift = frame->break_in_impact(first.joints, hit.place, hit.normal);
     hit.through = !stands(hit.part);
-    const bool ends = hit.through || std::abs(shift) > largest_shift;
+    const bool ends = hit.through || std::abs(shift) > impact_settings.largest_shift;
     if (!ends) {
       pushing.shift(shift);
       response = frame->respond(hit.place, hit.normal);

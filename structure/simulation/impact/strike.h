@@ -21,10 +21,6 @@ struct Simulation::State::Strike {
   std::vector<collision::BodyId> chunks;  ///< that it broke out of a standing panel
 };
 
-/// When a break would move an unloaded contact place by more than this, m, the statics are on their way to a mechanism
-/// that the structure has had no time to reach: the push ends there, and the body keeps the speed it has.
-constexpr double largest_shift = 0.1;
-
 /// N s at a global point, on the body.
 struct Simulation::State::PointImpulse {
   Vec3 impulse, point;

@@ -4,6 +4,9 @@
 // Each side gives way by its own flexibility as a free body (free_segment.h); chunks, balls and the ground are rigid.
 // What breaks takes its energy out of the approach, the parts that are left go on, and when nothing more fails the
 // collision world has the rest: where nothing breaks an impact leaves no trace here.
+//
+// What stands and moves is struck where it is: the part that is hit gives way between its nodes, and these nodes move
+// by modes while all others are held, so that a joint bears what the push brings to it in the time that it lasts.
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -55,6 +58,10 @@ struct Simulation::State::ImpactSide {
   /// Of what stands and moves.
   bool held = false;
   StandingFrame::HeldResponse response;
+  std::vector<int> modes;  ///< of its nodes, that the push moves
+  Eigen::VectorXd give;    ///< their compliances
+  /// In the order of `flexibility.demands`: by a unit of each of those modes' forces.
+  std::vector<Eigen::Matrix<double, 6, Eigen::Dynamic>> mode_demands;
 };
 
 /// An impact under way. Side 0 is the body of the contact, side 1 what it comes upon.
@@ -71,9 +78,78 @@ struct Simulation::State::BodyImpact {
     const Eigen::VectorXd speeds = closing_speeds(sides[0].motion, sides[1].motion, places);
     return sides[1].held ? Eigen::VectorXd(speeds - sides[1].response.speed) : speeds;
   }
+  /// Of the law: places, and behind them the modes that the push moves.
+  [[nodiscard]] Eigen::MatrixXd followed_mobility() const;
+  [[nodiscard]] Eigen::MatrixXd followed_compliance() const;
+  void follow();
   void keep(const std::vector<int>& kept);
   void give(const Eigen::VectorXd& impulses);
 };
+
+/// Which modes of the struck nodes the push moves. The faster ones bear it as at rest.
+void Simulation::State::BodyImpact::follow() {
+  ImpactSide& side = sides[1];
+  const StandingFrame::HeldResponse& response = side.response;
+  const Eigen::MatrixXd body = mobility(sides[0].motion, places);
+  const Eigen::VectorXd local = response.pushed.colwise().squaredNorm();
+  double own = 0;  // rad/s, of the push by itself
+  for (Eigen::Index i = 0; i < local.size(); ++i)
+    own = std::max(own, std::sqrt((body(i, i) + local(i)) / compliance(i, i)));
+  const double fast = impact_settings.follows * own, slow = own / (impact_settings.follows * impact_settings.follows);
+  const auto reached = [&](Eigen::Index mode) {
+    constexpr double none = 1e-9;
+    for (Eigen::Index i = 0; i < local.size(); ++i)
+      if (std::pow(response.pushed(mode, i), 2) > none * local(i)) return true;
+    return false;
+  };
+  const auto demands_of = [&](JointId joint) {
+    const auto same = [joint](const auto& one) { return one.first == joint; };
+    const auto found = std::find_if(response.node_demands.begin(), response.node_demands.end(), same);
+    return found == response.node_demands.end() ? nullptr : &found->second;
+  };
+  side.modes.clear();
+  std::vector<double> give;
+  for (Eigen::Index mode = 0; mode < response.squared.size(); ++mode) {
+    if (!reached(mode)) continue;
+    const double squared = response.squared(mode);
+    if (squared <= fast * fast) {
+      side.modes.push_back(static_cast<int>(mode));
+      give.push_back(1 / std::max(squared, slow * slow));
+      continue;
+    }
+    const Eigen::RowVectorXd moved = response.pushed.row(mode) / squared;
+    compliance += response.pushed.row(mode).transpose() * moved;
+    for (auto& [joint, columns] : side.flexibility.demands)
+      if (const auto* by_mode = demands_of(joint)) columns += by_mode->col(mode) * moved;
+  }
+  side.give = Eigen::Map<const Eigen::VectorXd>(give.data(), static_cast<Eigen::Index>(give.size()));
+  side.mode_demands.clear();
+  for (const auto& [joint, columns] : side.flexibility.demands) {
+    const auto* by_mode = demands_of(joint);
+    side.mode_demands.emplace_back(
+        by_mode ? Eigen::Matrix<double, 6, Eigen::Dynamic>((*by_mode)(Eigen::all, side.modes) * side.give.asDiagonal())
+                : Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, side.give.size()));
+  }
+}
+
+Eigen::MatrixXd Simulation::State::BodyImpact::followed_mobility() const {
+  if (!sides[1].held) return mobility_of_both();
+  const Eigen::MatrixXd pushed = sides[1].response.pushed(sides[1].modes, Eigen::all);
+  const Eigen::Index n = compliance.rows(), m = pushed.rows();
+  Eigen::MatrixXd all = Eigen::MatrixXd::Identity(n + m, n + m);
+  all.topLeftCorner(n, n) = mobility(sides[0].motion, places) + pushed.transpose() * pushed;
+  all.topRightCorner(n, m) = -pushed.transpose();
+  all.bottomLeftCorner(m, n) = -pushed;
+  return all;
+}
+
+Eigen::MatrixXd Simulation::State::BodyImpact::followed_compliance() const {
+  const Eigen::Index n = compliance.rows(), m = sides[1].give.size();
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(n + m, n + m);
+  all.topLeftCorner(n, n) = compliance;
+  all.diagonal().tail(m) = sides[1].give;
+  return all;
+}
 
 void Simulation::State::BodyImpact::keep(const std::vector<int>& kept) {
   std::vector<ImpactPlace> fewer;
@@ -88,6 +164,7 @@ void Simulation::State::BodyImpact::keep(const std::vector<int>& kept) {
     if (!side.held) continue;
     StandingFrame::HeldResponse& own = side.response;
     own.mobility = Eigen::MatrixXd(own.mobility(kept, kept));
+    own.pushed = Eigen::MatrixXd(own.pushed(Eigen::all, kept));
     own.speed = Eigen::VectorXd(own.speed(kept));
     std::vector<std::vector<std::pair<NodeId, Vec6>>> at_nodes;
     for (const int k : kept) at_nodes.push_back(own.at_nodes[static_cast<std::size_t>(k)]);
@@ -223,16 +300,26 @@ void Simulation::State::find_held(ImpactSide& side, const std::vector<ImpactPlac
   side.response = frame->respond_held(at, along);
   side.flexibility.compliance = side.response.compliance;
   side.flexibility.demands = side.response.demands;
-  for (const auto& [joint, columns] : side.response.demands) side.borne.emplace_back(joint, frame->demand(joint));
+  for (const auto& [joint, modes] : side.response.node_demands) {
+    const auto same = [id = joint](const auto& one) { return one.first == id; };
+    auto& demands = side.flexibility.demands;
+    if (std::none_of(demands.begin(), demands.end(), same))
+      demands.emplace_back(joint, Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, side.response.compliance.cols()));
+  }
+  for (const auto& [joint, columns] : side.flexibility.demands) side.borne.emplace_back(joint, frame->demand(joint));
 }
 
 std::vector<StruckJoint> Simulation::State::struck_joints(const BodyImpact& impact) const {
   std::vector<StruckJoint> joints;
+  const Eigen::Index n = impact.compliance.rows(), m = impact.sides[1].give.size();
   for (const ImpactSide& side : impact.sides)
     for (std::size_t k = 0; k < side.flexibility.demands.size(); ++k) {
       const auto& [joint, columns] = side.flexibility.demands[k];
+      Eigen::Matrix<double, 6, Eigen::Dynamic> by_force = Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, n + m);
+      by_force.leftCols(n) = columns;
+      if (side.held) by_force.rightCols(m) = side.mode_demands[k];
       joints.push_back({joint, &building[joint].capacity, strength_factors[static_cast<std::size_t>(joint.index)],
-                        side.borne[k].second, columns});
+                        side.borne[k].second, std::move(by_force)});
     }
   return joints;
 }
@@ -276,7 +363,9 @@ bool Simulation::State::take_up(BodyImpact& impact) {
   find_flexibility(impact.sides[0], impact.places, -1);
   find_flexibility(impact.sides[1], impact.places, 1);
   impact.compliance = impact.sides[0].flexibility.compliance + impact.sides[1].flexibility.compliance;
-  return impact.compliance.diagonal().minCoeff() > 0;
+  if (!(impact.compliance.diagonal().minCoeff() > 0)) return false;
+  if (impact.sides[1].held) impact.follow();
+  return true;
 }
 
 void Simulation::State::push_bodies(BodyImpact& impact) {
@@ -284,37 +373,73 @@ void Simulation::State::push_bodies(BodyImpact& impact) {
   if (!(own.maxCoeff() >= impact_settings.least_speed) || !take_up(impact)) return;
   if (!(impact.closing().maxCoeff() >= impact_settings.least_speed)) return;  // what stands makes way
   impact.keep(independent_places(impact.compliance));
-  std::optional<Impact> push = begin_push(impact);
-  if (push->fastest_over_slowest() > impact_settings.most_unlike) {
-    impact.keep({0});
-    push = begin_push(impact);
-  }
+  if (begin_push(impact, false).fastest_over_slowest() > impact_settings.most_unlike) impact.keep({0});
+  std::optional<Impact> push = begin_push(impact, true);
   const double speed_in = push->closing_speed()(0);
   std::optional<std::size_t> told;  // which event tells of it: on what moves always, else once something broke
   if (impact.sides[1].held) told = tell_body_impact(impact, speed_in);
   bool goes_on = true;
   for (;;) {
+    const double deepest = deepest_push(impact);
+    const std::vector<StruckJoint> all = struck_joints(impact);
     Impact borne = *push;
-    (void)borne.push();
-    const StruckJoints joints(struck_joints(impact), borne.peak_force());
+    std::vector<double> uses(all.size(), 0);
+    (void)borne.push(impact.sides[1].held ? note_uses(all, uses) : Impact::Utilisation(), deepest);
+    const Eigen::Index n = impact.compliance.rows();
+    const StruckJoints joints(all, borne.peak_force(), static_cast<int>(impact.sides[1].give.size()));
+    const double hardest = borne.peak_force().head(n).maxCoeff();
     const auto used = [&](const Eigen::VectorXd& force) { return joints.utilisation(force); };
-    if (told)
-      events[*told].peak_force = std::max(events[*told].peak_force, joints.empty() ? borne.peak_force().maxCoeff() : 0);
-    if (joints.empty() || push->push(used) != Impact::Stop::failed) break;
+    if (told) events[*told].peak_force = std::max(events[*told].peak_force, joints.empty() ? hardest : 0);
+    if (joints.empty() || push->push(used, deepest) != Impact::Stop::failed) {
+      for (std::size_t k = 0; k < all.size(); ++k)
+        if (uses[k] > 0) frame->remember_utilisation(all[k].joint, std::min(uses[k], 1.0));
+      break;
+    }
     if (!told) told = tell_body_impact(impact, speed_in);
     const std::vector<JointBreak> broken = joints.failing(push->force());
-    give_impulses(impact, push->take_impulse());
-    goes_on = break_bodies(impact, *push, broken);
     SimulationEvent& event = events[*told];
-    event.peak_force = std::max(event.peak_force, push->peak_force().maxCoeff());
-    event.speed_out = push->closing_speed()(0);
+    event.peak_force = std::max(event.peak_force, push->peak_force().head(n).maxCoeff());
+    give_impulses(impact, push->take_impulse().head(n));
+    goes_on = break_bodies(impact, *push, broken);
+    events[*told].speed_out = push->closing_speed()(0);
     if (!goes_on) break;
   }
   if (!impact.sides[1].held || !goes_on) return;
   leave_with_restitution(impact);
   SimulationEvent& event = events[*told];
-  event.peak_force = std::max(event.peak_force, push->peak_force().maxCoeff());
+  event.peak_force = std::max(event.peak_force, push->peak_force().head(impact.compliance.rows()).maxCoeff());
   event.speed_out = impact.closing()(0);
+}
+
+/// Fails nothing, and keeps the largest utilisation of each joint of what stands.
+Impact::Utilisation Simulation::State::note_uses(const std::vector<StruckJoint>& joints,
+                                                 std::vector<double>& uses) const {
+  return [&](const Eigen::VectorXd& force) {
+    for (std::size_t k = 0; k < joints.size(); ++k) {
+      const StruckJoint& one = joints[k];
+      if (body_of_joint(one.joint) >= 0) continue;
+      uses[k] = std::max(uses[k], utilisation(*one.capacity, one.demand + one.step * force, one.strength).value);
+    }
+    return 0.0;
+  };
+}
+
+/// m: as far as displacements are small in what is pushed in.
+double Simulation::State::deepest_push(const BodyImpact& impact) const {
+  double extent = 0;
+  for (const ImpactSide& side : impact.sides) {
+    if (side.id.value >= 0) {
+      const Bounds& bounds = bodies.at(side.id.value).bounds;
+      extent = std::max(extent, (bounds.high - bounds.low).norm());
+      continue;
+    }
+    const Part part = side.held ? part_of_number(building, side.tags.front()) : side.standing;
+    if (part.member.valid()) extent = std::max(extent, building[part.member].length);
+    if (!part.panel.valid()) continue;
+    const Panel& panel = building[part.panel];
+    extent = std::max(extent, (building[panel.nodes[2]].position - building[panel.nodes[0]].position).norm());
+  }
+  return impact_settings.small_displacements * extent;
 }
 
 /// Nothing more fails: the impulses after which no place closes, and each that was pushed parts with the scenario's
@@ -338,8 +463,11 @@ void Simulation::State::leave_with_restitution(BodyImpact& impact) {
   give_impulses(impact, impulses);
 }
 
-Impact Simulation::State::begin_push(const BodyImpact& impact) const {
-  Eigen::VectorXd acceleration(static_cast<Eigen::Index>(impact.places.size()));
+/// `follows`: with the modes of the struck nodes.
+Impact Simulation::State::begin_push(const BodyImpact& impact, bool follows) const {
+  const Eigen::Index n = impact.compliance.rows(), bound = follows ? impact.sides[1].give.size() : 0;
+  Eigen::VectorXd acceleration = Eigen::VectorXd::Zero(n + bound), closing = acceleration;
+  closing.head(n) = impact.closing();
   for (std::size_t i = 0; i < impact.places.size(); ++i) {
     // What lies asleep is held up by what it lies on.
     const auto falls = [&](const ImpactSide& side) {
@@ -347,7 +475,9 @@ Impact Simulation::State::begin_push(const BodyImpact& impact) const {
     };
     acceleration(static_cast<Eigen::Index>(i)) = falls(impact.sides[0]) - falls(impact.sides[1]);
   }
-  return Impact(impact.mobility_of_both(), impact.compliance, impact.closing(), acceleration);
+  return Impact(impact.followed_mobility().topLeftCorner(n + bound, n + bound),
+                impact.followed_compliance().topLeftCorner(n + bound, n + bound), closing, acceleration,
+                static_cast<int>(bound));
 }
 
 std::size_t Simulation::State::tell_body_impact(const BodyImpact& impact, double speed_in) {
@@ -412,11 +542,34 @@ Simulation::State::ImpactSide Simulation::State::side_again(const ImpactSide& si
   return now;
 }
 
+/// Of the modes of the struck nodes that the push moves: coordinates, or their rates.
+Eigen::VectorXd Simulation::State::carried_over(const ImpactSide& before, const Eigen::VectorXd& moved,
+                                                const ImpactSide& now) {
+  Eigen::VectorXd from = Eigen::VectorXd::Zero(before.response.squared.size()),
+                  to = Eigen::VectorXd::Zero(now.response.squared.size());
+  from(before.modes) = moved;
+  Eigen::Index from_row = 0;
+  for (const auto& [component, modes] : before.response.local) {
+    Eigen::Index to_row = 0;
+    for (const auto& [same, changed] : now.response.local) {
+      if (same == component)
+        to.segment(to_row, changed.squared.size()) =
+            solver::carried_over(modes, from.segment(from_row, modes.squared.size()), changed);
+      to_row += changed.squared.size();
+    }
+    from_row += modes.squared.size();
+  }
+  return to(now.modes);
+}
+
 /// These joints fail; bodies fall apart, and the push goes on with the pieces that touch. False: it is over.
 bool Simulation::State::break_bodies(BodyImpact& impact, Impact& push, const std::vector<JointBreak>& broken) {
   const double stored = push.stored();
-  const Eigen::VectorXd force = push.force();
   const Eigen::MatrixXd compliance = impact.compliance;
+  const Eigen::VectorXd force = push.force().head(compliance.rows());
+  const ImpactSide before_break = impact.sides[1];
+  const Eigen::VectorXd moved = push.indentation().tail(before_break.give.size()),
+                        moving = push.closing_speed().tail(before_break.give.size());
   std::vector<std::size_t> lines;
   std::vector<JointBreak> of_frame;
   for (const JointBreak& one : broken) {
@@ -471,7 +624,12 @@ bool Simulation::State::break_bodies(BodyImpact& impact, Impact& push, const std
     Eigen::VectorXd pressed = force(kept);
     before = Eigen::MatrixXd(before(apart, apart));
     pressed = Eigen::VectorXd(pressed(apart));
-    push.change(impact.mobility_of_both(), impact.compliance, shift_of_break(before, impact.compliance, pressed));
+    const Eigen::Index n = impact.compliance.rows();
+    push.change(impact.followed_mobility().topLeftCorner(n, n), impact.compliance,
+                shift_of_break(before, impact.compliance, pressed));
+    if (impact.sides[1].held)
+      push.bind(impact.followed_mobility(), impact.followed_compliance(), carried_over(before_break, moved, impact.sides[1]),
+                carried_over(before_break, moving, impact.sides[1]));
     left = push.stored();
   }
   for (const std::size_t line : lines)

@@ -8,6 +8,7 @@
 #include "simulation/debris/momentum.h"
 #include "simulation/impact/coupled_push.h"
 #include "simulation/impact/first_failure.h"
+#include "simulation/impact/impact_settings.h"
 #include "simulation/impact/push_impulses.h"
 #include "simulation/impact/strike.h"
 #include "simulation/step_clock.h"
@@ -231,7 +232,7 @@ void Simulation::State::push_in(JointPush& pushed) {
       hit.through = !stands(hit.part);
       if (hit.through) push.let_go(i);
       stays = stays || push.touches(i);
-      slips = slips || std::abs(shift(static_cast<Eigen::Index>(i))) > largest_shift;
+      slips = slips || std::abs(shift(static_cast<Eigen::Index>(i))) > impact_settings.largest_shift;
     }
     const bool ends = !stays || slips;
     if (!ends) go_on(pushed, shift);

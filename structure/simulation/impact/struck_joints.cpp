@@ -15,7 +15,7 @@ Utilisation used(const StruckJoint& one, const Eigen::VectorXd& force) {
 }
 }  // namespace
 
-StruckJoints::StruckJoints(std::vector<StruckJoint> all, const Eigen::VectorXd& most) {
+StruckJoints::StruckJoints(std::vector<StruckJoint> all, const Eigen::VectorXd& most, int bound) {
   std::vector<double> now;
   std::vector<Eigen::VectorXd> slopes;
   for (StruckJoint& one : all) {
@@ -23,8 +23,12 @@ StruckJoints::StruckJoints(std::vector<StruckJoint> all, const Eigen::VectorXd& 
     const double before = structure::utilisation(*one.capacity, one.demand, one.strength).value;
     if (!(before < 1)) continue;
     Eigen::VectorXd slope(most.size());
-    for (Eigen::Index place = 0; place < most.size(); ++place)
+    for (Eigen::Index place = 0; place < most.size(); ++place) {
       slope(place) = structure::utilisation(*one.capacity, Vec6(one.step.col(place)), one.strength).value;
+      if (place < most.size() - bound) continue;
+      const double other = structure::utilisation(*one.capacity, Vec6(-one.step.col(place)), one.strength).value;
+      slope(place) = std::max(slope(place), other);
+    }
     if (before + slope.dot(most) < 1) continue;
     joints_.push_back(std::move(one));
     now.push_back(before);
@@ -36,7 +40,7 @@ StruckJoints::StruckJoints(std::vector<StruckJoint> all, const Eigen::VectorXd& 
 }
 
 double StruckJoints::utilisation(const Eigen::VectorXd& force) const {
-  const Eigen::VectorXd most = now_ + slopes_ * force;
+  const Eigen::VectorXd most = now_ + slopes_ * force.cwiseAbs();
   double below = 0, worst = 0;
   for (Eigen::Index i = 0; i < most.size(); ++i) {
     if (most(i) < 1)

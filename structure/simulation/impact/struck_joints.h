@@ -23,7 +23,8 @@ class StruckJoints {
   /// Those of `all` that may come to their capacity under forces up to `most`, one for each place, N. A joint's
   /// utilisation is convex, so that it is at most the sum of those of its parts: nearly all are told by that. Joints
   /// over capacity without the impact are left out: they are not its doing.
-  StruckJoints(std::vector<StruckJoint> all, const Eigen::VectorXd& most);
+  /// Forces of the last `bound` places may have either sign.
+  StruckJoints(std::vector<StruckJoint> all, const Eigen::VectorXd& most, int bound = 0);
 
   [[nodiscard]] bool empty() const { return joints_.empty(); }
   /// The largest utilisation under these forces: exact from 1 on, below it at least what it is.

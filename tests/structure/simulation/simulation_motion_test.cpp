@@ -1,4 +1,5 @@
 // Collapses in which what stands moves.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -52,12 +53,42 @@ Scenario struck_by(double speed, double body_mass, double step) {
 
 }  // namespace
 
-TEST_CASE("A bar is struck with its nodes held: the peak is v sqrt(k m) of the pair, at every length of step") {
-  const double E = 200e9, body = 100, squeeze = 0.2 / (E * 0.04), bar = 7850 * 0.04 * length;
-  // Half of the push and a moment of length / 8 go to the node between the bars, whose mass is its own and theirs
-  // (consistent, symmetric about it).
-  const double sideways = mass + 2 * 156.0 / 420 * bar, turning = 2 * 4.0 / 420 * bar * length * length;
-  const double m = 1 / (1 / body + 0.25 / sideways + length * length / 64 / turning);
+namespace {
+
+struct Pushed {
+  double peak = 0;      ///< N
+  double at_break = 0;  ///< N: force when the joint at the foot comes to its shear; 0: it never does
+};
+/// A body comes upon the middle of the lower bar, which gives way between its ends; half of the push and a moment of
+/// length / 8 go to the node between the bars, whose mass is its own and theirs (consistent) and which both bars hold:
+/// symmetric about it, so that its two freedoms are apart. Semi-implicit steps of 1e-7 s.
+Pushed integrated(double body, double speed, double I) {
+  const double E = 200e9, squeeze = 0.2 / (E * 0.04), bar = 7850 * 0.04 * length, h = 1e-7;
+  const double give = length * length * length / (192 * E * I) + squeeze;
+  const double inertia[] = {mass + 2 * 156.0 / 420 * bar, 2 * 4.0 / 420 * bar * length * length};
+  const double hold[] = {2 * 12 * E * I / (length * length * length), 2 * 4 * E * I / length};
+  const double share[] = {0.5, length / 8};
+  double u[] = {0, 0}, v[] = {0, 0}, x = 0;
+  Pushed found;
+  for (double force = 1; force > 0;) {
+    x += h * speed;
+    for (int k = 0; k < 2; ++k) u[k] += h * v[k];
+    force = (x - share[0] * u[0] - share[1] * u[1]) / give;
+    found.peak = std::max(found.peak, force);
+    // What the node does adds to the foot's half.
+    const double foot =
+        force / 2 + 12 * E * I / (length * length * length) * u[0] + 6 * E * I / (length * length) * u[1];
+    if (foot >= shear && found.at_break == 0) found.at_break = force;
+    speed -= h * force / body;
+    for (int k = 0; k < 2; ++k) v[k] += h * (share[k] * force - hold[k] * u[k]) / inertia[k];
+  }
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("A bar is struck between its nodes, which give way while the push lasts, at every length of step") {
+  const double body = 100;
   for (const double step : {1.0 / 30, 1.0 / 60, 1.0 / 240}) {
     for (const double speed : {2.0, 4.0, 12.0}) {
       const FrameBuilder frame = mass_on_bars();
@@ -70,15 +101,15 @@ TEST_CASE("A bar is struck with its nodes held: the peak is v sqrt(k m) of the p
       for (const SimulationEvent& event : of_kind(simulation, SimulationEvent::Kind::joint_broke))
         broke = broke || (event.step == impacts[0].step && event.joint.cause == BreakCause::impact);
       INFO("step " << step << ", speed " << speed << ": " << impacts[0].peak_force << ", broke " << broke);
-      // The joint at the foot bears half of the push, or of what is a millimetre beside the middle. The bar bends about
-      // whichever of its axes lies across.
+      // The bar bends about whichever of its axes lies across.
       bool fits = false;
       for (const double I : {1e-4, 2e-4}) {
-        const double peak = speed * std::sqrt(m / (length * length * length / (192 * E * I) + squeeze));
-        if (peak / 2 < shear)
-          fits = fits || (!broke && std::abs(impacts[0].peak_force / peak - 1) < 1e-4);
+        const Pushed exact = integrated(body, speed, I);
+        // The law looks 48 times in a period of its fastest mode, and leaves out what mode is 64 times slower.
+        if (exact.at_break == 0)
+          fits = fits || (!broke && std::abs(impacts[0].peak_force / exact.peak - 1) < 2e-3);
         else
-          fits = fits || (broke && impacts[0].peak_force >= 2 * shear * (1 - 1e-3));
+          fits = fits || (broke && impacts[0].peak_force >= exact.at_break * (1 - 2e-3));
       }
       CHECK(fits);
       CHECK(impacts[0].speed_in == Approx(speed).epsilon(1e-9));

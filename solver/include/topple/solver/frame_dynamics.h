@@ -87,6 +87,22 @@ struct SubstepCourse {
   }
 };
 
+/// How some nodes of a frame move while all others are held: for what is faster than the frame.
+struct LocalModes {
+  Eigen::VectorXd squared;  ///< angular frequencies squared, (rad/s)2, ascending; 0: without strain
+  /// Modes by pushes: what each push does to a mode of unit modal mass, kg^-1/2 for one newton.
+  Eigen::MatrixXd pushed;
+  /// Of each beam that ends at one of the nodes: its end forces (local, as StaticSolution has them) by modes, for a
+  /// unit of each coordinate (m kg^1/2).
+  std::vector<std::pair<int, Eigen::Matrix<double, 12, Eigen::Dynamic>>> end_forces;
+  /// By numbers of equations: shapes, and what mass makes of them. For carried_over() alone.
+  std::vector<int> equations;
+  Eigen::MatrixXd shape, momentum;
+};
+/// The same motion in the modes of the same nodes after a change: coordinates, or their rates.
+[[nodiscard]] Eigen::VectorXd carried_over(const LocalModes& from, const Eigen::VectorXd& coordinates,
+                                           const LocalModes& to);
+
 struct DynamicCounters {
   std::uint64_t substeps = 0;
   std::uint64_t retaken = 0;  ///< taken again because joints broke
@@ -143,6 +159,9 @@ class FrameDynamics {
   /// M^-1 J: by how much impulses change the velocities of the frame, per node, changes since the last substep apart.
   /// Freedoms without mass take none. Conjugate gradients, to 1e-12 of J.
   [[nodiscard]] std::vector<Vec6> velocities_of(std::span<const Impulse> impulses) const;
+  /// Of these nodes, with all others held, changes since the last substep apart: K and M as they stand. Freedoms
+  /// without mass follow the others.
+  [[nodiscard]] LocalModes local_modes(std::span<const int> nodes, std::span<const std::vector<Impulse>> pushes) const;
   /// They act now, at once, on the frame with all that changed.
   void strike(std::span<const Impulse> impulses);
 

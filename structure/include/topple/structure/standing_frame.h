@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "topple/solver/frame_dynamics.h"
 #include "topple/solver/frame_model.h"
 #include "topple/structure/building.h"
 #include "topple/structure/joint_check.h"
@@ -201,18 +202,28 @@ class StandingFrame {
   std::vector<JointBreak> move();
   /// How what stands takes unit pushes at places on different parts, each along its direction, that are faster than its
   /// motion (the law of impact, simulation/impact/impact.h): the struck part gives way with its nodes held, its own
-  /// joints bear it, and the mass that shares at first touch is that of its nodes, g'M^-1 g.
+  /// joints bear it, and the mass that shares at first touch is that of its nodes, g'M^-1 g. The joints of whatever
+  /// meets it there bear what these nodes move while it lasts.
   struct HeldResponse {
     Eigen::MatrixXd compliance;  ///< m/N, of struck parts alone
     Eigen::MatrixXd mobility;    ///< 1/kg: acceleration of place i under a unit force at place j
     Eigen::VectorXd speed;       ///< m/s of each place along its direction, now
     std::vector<std::pair<JointId, Eigen::Matrix<double, 6, Eigen::Dynamic>>> demands;  ///< for each newton at each
     std::vector<std::vector<std::pair<NodeId, Vec6>>> at_nodes;  ///< per place: what its unit push hands to nodes
+    /// The nodes of the struck parts while all others are held: what gives way next, while the push lasts. Rows of
+    /// `pushed` and columns of `node_demands` are modes of unit modal mass, component after component.
+    std::vector<std::pair<int, solver::LocalModes>> local;  ///< with the number of its component
+    Eigen::VectorXd squared;  ///< angular frequencies squared, (rad/s)2; 0: without strain
+    Eigen::MatrixXd pushed;   ///< by a unit force at each place, kg^-1/2
+    /// Of joints at those nodes, for a unit of each coordinate.
+    std::vector<std::pair<JointId, Eigen::Matrix<double, 6, Eigen::Dynamic>>> node_demands;
   };
   /// A component at rest begins to move.
   [[nodiscard]] HeldResponse respond_held(std::span<const ContactPlace> places, std::span<const Vec3> directions);
   /// Impulses along the directions of `pushed`, N s, act now. Returns their work, J.
   double strike(const HeldResponse& pushed, const Eigen::VectorXd& impulses);
+  /// What a joint bore in an impact that it survived, for largest_utilisation_so_far().
+  void remember_utilisation(JointId joint, double value);
   /// Joints of what moves break now, at an impact. What snaps with them is told by the next move().
   void break_in_impact(std::span<const JointBreak> breaks);
 

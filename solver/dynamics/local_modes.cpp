@@ -1,0 +1,128 @@
+// How some nodes of a frame that moves answer while all others are held.
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <stdexcept>
+
+#include "dynamics/dynamic_state.h"
+
+namespace topple::solver {
+namespace {
+
+/// Of the largest: squared frequencies below it are those of motions without strain.
+constexpr double no_strain = 1e-12;
+
+/// Rows and columns of a symmetric matrix, ascending.
+Eigen::MatrixXd part_of(const SparseSymmetric& matrix, const std::vector<int>& equations) {
+  const auto n = static_cast<Eigen::Index>(equations.size());
+  Eigen::MatrixXd part = Eigen::MatrixXd::Zero(n, n);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const auto column = static_cast<std::size_t>(equations[static_cast<std::size_t>(j)]);
+    auto k = static_cast<std::size_t>(matrix.start[column]);
+    const auto end = static_cast<std::size_t>(matrix.start[column + 1]);
+    for (Eigen::Index i = j; i < n && k < end; ++i) {
+      const int row = equations[static_cast<std::size_t>(i)];
+      while (k < end && matrix.row[k] < row) ++k;
+      if (k < end && matrix.row[k] == row) part(i, j) = part(j, i) = matrix.value[k];
+    }
+  }
+  return part;
+}
+
+/// Equations of the nodes that stand, ascending.
+std::vector<int> equations_of(const FrameSystem& system, std::span<const int> nodes) {
+  std::vector<int> found;
+  for (const int node : nodes) {
+    if (node < 0 || static_cast<std::size_t>(node) >= system.model.nodes.size())
+      throw std::invalid_argument("node " + std::to_string(node) + " does not exist");
+    if (system.node_stands[static_cast<std::size_t>(node)] == 0) continue;
+    for (const int e : system.dofs().number[static_cast<std::size_t>(node)])
+      if (e < system.dofs().equations) found.push_back(e);
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+}  // namespace
+
+LocalModes FrameDynamics::local_modes(std::span<const int> nodes, std::span<const std::vector<Impulse>> pushes) const {
+  const State& state = *state_;
+  const FrameSystem& system = state.system();
+  LocalModes local;
+  std::vector<int> all = equations_of(system, nodes), without_mass;
+  for (const int e : all) {
+    const SparseSymmetric& M = system.mass();
+    const bool has_mass = M.value[static_cast<std::size_t>(M.start[static_cast<std::size_t>(e)])] > 0;
+    (has_mass ? local.equations : without_mass).push_back(e);
+  }
+  const auto n = static_cast<Eigen::Index>(local.equations.size());
+  const auto bare = static_cast<Eigen::Index>(without_mass.size());
+  all = local.equations;
+  all.insert(all.end(), without_mass.begin(), without_mass.end());
+  std::vector<int> order(all.size());  // part_of() wants them ascending
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
+  std::sort(order.begin(), order.end(),
+            [&](int a, int b) { return all[static_cast<std::size_t>(a)] < all[static_cast<std::size_t>(b)]; });
+  std::vector<int> sorted;
+  for (const int i : order) sorted.push_back(all[static_cast<std::size_t>(i)]);
+  Eigen::MatrixXd K(n + bare, n + bare), M(n + bare, n + bare);
+  const Eigen::MatrixXd inert = part_of(system.mass(), sorted);
+  K(order, order) = part_of(system.matrix(), sorted) - state.method.s * inert;
+  M(order, order) = inert;
+  Eigen::MatrixXd follow = Eigen::MatrixXd::Identity(n + bare, n);  // what has no mass follows what has
+  if (bare > 0)
+    follow.bottomRows(bare) =
+        -K.bottomRightCorner(bare, bare).completeOrthogonalDecomposition().solve(K.bottomLeftCorner(bare, n));
+  if (n == 0) {
+    local.pushed.resize(0, static_cast<Eigen::Index>(pushes.size()));
+    return local;
+  }
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(follow.transpose() * K * follow,
+                                                                        M.topLeftCorner(n, n));
+  if (modes.info() != Eigen::Success) throw std::runtime_error("local modes of a frame were not found");
+  local.squared = modes.eigenvalues();
+  const double least = no_strain * local.squared.cwiseAbs().maxCoeff();
+  for (double& one : local.squared)
+    if (one < least) one = 0;
+  local.shape = modes.eigenvectors();
+  local.momentum = M.topLeftCorner(n, n) * local.shape;
+
+  local.pushed.resize(n, static_cast<Eigen::Index>(pushes.size()));
+  const Eigen::MatrixXd whole = follow * local.shape;
+  for (std::size_t k = 0; k < pushes.size(); ++k) {
+    const Eigen::VectorXd force = state.scaled_impulses(pushes[k]);
+    local.pushed.col(static_cast<Eigen::Index>(k)) = whole.transpose() * force(all);
+  }
+  std::vector<int> beams;
+  for (const int node : nodes)
+    for (const int beam : system.beams_of_node(node))
+      if (system.beam_stands[static_cast<std::size_t>(beam)] != 0) beams.push_back(beam);
+  std::sort(beams.begin(), beams.end());
+  beams.erase(std::unique(beams.begin(), beams.end()), beams.end());
+  for (const int beam : beams)
+    local.end_forces.emplace_back(beam, Eigen::Matrix<double, 12, Eigen::Dynamic>::Zero(12, n));
+  Eigen::VectorXd moved = Eigen::VectorXd::Zero(state.equations());
+  std::vector<Vec6> by_node(system.model.nodes.size(), Vec6::Zero());
+  for (Eigen::Index mode = 0; mode < n; ++mode) {
+    for (std::size_t i = 0; i < all.size(); ++i) moved(all[i]) = whole(static_cast<Eigen::Index>(i), mode);
+    for (const auto& [beam, forces] : local.end_forces)
+      for (const int node : system.model.beams[static_cast<std::size_t>(beam)].node)
+        by_node[static_cast<std::size_t>(node)] = system.node_displacement_of_scaled(node, moved);
+    for (auto& [beam, forces] : local.end_forces) forces.col(mode) = system.end_forces(beam, by_node, Vec12::Zero());
+  }
+  return local;
+}
+
+Eigen::VectorXd carried_over(const LocalModes& from, const Eigen::VectorXd& coordinates, const LocalModes& to) {
+  const Eigen::VectorXd motion = from.shape * coordinates;
+  Eigen::VectorXd kept = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(to.equations.size()));
+  for (std::size_t i = 0; i < to.equations.size(); ++i) {
+    const auto same = std::lower_bound(from.equations.begin(), from.equations.end(), to.equations[i]);
+    if (same != from.equations.end() && *same == to.equations[i])
+      kept(static_cast<Eigen::Index>(i)) = motion(same - from.equations.begin());
+  }
+  return to.momentum.transpose() * kept;
+}
+
+}  // namespace topple::solver
