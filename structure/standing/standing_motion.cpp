@@ -147,7 +147,9 @@ StandingMotion::Known StandingMotion::find(int c, const solver::FrameModel& mode
   still.analysis.threads = from_.threads;
   still.keep_energy = false;
   Known found;
-  found.first_frequency = solver::natural_modes(model, masses, 1, still.analysis).modes.front().angular_frequency;
+  const std::vector<solver::VibrationMode> modes = solver::natural_modes(model, masses, 1, still.analysis).modes;
+  found.first_frequency = modes.empty() ? 1 : modes.front().angular_frequency;  // supports may hold every node
+  if (modes.empty()) return found;
   const double quotient = solver::FrameDynamics(model, masses, still).rayleigh_quotient(rest);
   const double shape = quotient > 0 ? std::sqrt(quotient) : found.first_frequency;
   found.damping = solver::rayleigh_damping(damping_of(c), found.first_frequency, shape);
