@@ -127,7 +127,7 @@ Json load_drawings(const Building& building) {
     const auto arrow = [&](const Vec3& at, const Vec3& to) {
       if (to.isZero(0)) return;
       if (arrows.size() < most_arrows)
-        arrows.push_back({{"at", vector(at / length)}, {"to", vector(to)}});
+        arrows.push_back({{"at", vector(at / length)}, {"to", vector(to / building.units.force)}});
       else
         ++left_out;
     };

@@ -2,6 +2,8 @@
 // page is printed (or at once for `#print`, as a headless browser does), from the same data as the screen's.
 import { deformedDrawing, diagramDrawing, loadDrawing, LOOKS, modelDrawing } from './drawings.js';
 import { number, percent, units } from './format.js';
+import { combinationRows, sectionRows, verdict } from './paper_summary.js';
+import { loadRows, onPaper, paperUnit, quantity } from './paper_units.js';
 import { tables } from './tables.js';
 
 /** A table with more rows than this is printed by a selection that it states. */
@@ -53,6 +55,24 @@ function table(columns, rows) {
   return made;
 }
 
+/** A table in the units of paper. */
+function measured(columns, rows, u, apart) {
+  const converted = onPaper(columns, rows, u, apart);
+  const made = make('table', '', 'print');
+  const head = made.createTHead().insertRow();
+  for (const [name, unit] of converted.columns) head.append(make('th', unit ? `${name}, ${unit}` : name));
+  const body = made.createTBody();
+  for (const row of converted.rows) {
+    const line = body.insertRow();
+    for (const cell of row) {
+      const td = line.insertCell();
+      td.textContent = cell.text;
+      if (!cell.number) td.className = 'text';
+    }
+  }
+  return made;
+}
+
 function figure(svg, caption) {
   const made = make('figure');
   made.append(svg, make('figcaption', caption));
@@ -78,6 +98,26 @@ function cover(data, root) {
   root.append(page);
 }
 
+function drawSummary(paper, data, u) {
+  const chapter = paper.chapter('Summary');
+  chapter.append(make('p', verdict(data), 'verdict'));
+  const combinations = Object.keys(data.results.combinations ?? {});
+  if (combinations.length) {
+    // Side by side up to four; more go below each other.
+    for (let from = 0; from < combinations.length; from += 4) {
+      const rows = combinationRows(data, u).map((row) => [row[0], ...row.slice(1 + from, 5 + from)]);
+      chapter.append(table([['', ''], ...combinations.slice(from, from + 4).map((name) => [name, ''])], rows));
+    }
+  }
+  const modes = data.results.modes ?? [];
+  if (modes.length) chapter.append(make('p', `Natural frequencies: ${modes.slice(0, 6).map((m) => `${Number(m.frequency.toPrecision(4))} Hz`).join(', ')}.`));
+  const sections = data.results.design ? sectionRows(data) : [];
+  if (sections.length) {
+    chapter.append(make('h3', 'Most used member of every section'));
+    chapter.append(table([['section', ''], ['members', ''], ['most used', ''], ['combination', ''], ['clause', ''], ['use', ''], ['passes', '']], sections));
+  }
+}
+
 function drawModel(paper, data, u) {
   const chapter = paper.chapter('Model');
   const { model } = data;
@@ -91,9 +131,25 @@ function drawLoads(paper, data) {
   const { model } = data;
   chapter.append(table([['combination', ''], ['factors', '']], model.combinations));
   for (const load of model.load_drawings ?? []) {
-    const text = `Case ${load.name}${load.self_weight ? ', with self weight' : ''}${load.left_out ? `; ${load.left_out} loads are not drawn` : ''}. Arrows as long as their loads, loaded panels red.`;
+    const text = `Case ${load.name}${load.self_weight ? ', with self weight' : ''}${load.left_out ? `; ${load.left_out} loads are not drawn` : ''}. ${whatIsDrawn(data, load)}`;
     chapter.append(figure(loadDrawing(model, LOOKS.view, load.arrows, load.panels), text));
   }
+}
+
+/** The values behind a drawing of loads. */
+function whatIsDrawn(data, load) {
+  const { units: names } = data.results;
+  const parts = [];
+  const pressures = data.model.loads.filter(([name, , what]) => name === load.name && what.endsWith('pressure'));
+  const values = [...new Set(pressures.map(([, , , value]) => value))].sort((a, b) => a - b);
+  const texts = values.map((v) => loadRows([[load.name, '', 'pressure', v]], names)[0][3]);
+  if (texts.length) parts.push(`Loaded panels (${pressures.length}) are red: ${texts.length > 4 ? `${texts[0]} to ${texts[texts.length - 1]}` : texts.join(', ')}.`);
+  const largest = load.arrows.reduce((most, a) => Math.max(most, Math.hypot(...a.to)), 0);
+  if (largest > 0) {
+    const [factor, name] = paperUnit(names.force, names);
+    parts.push(`Arrows are as long as their loads, resultants where they are spread; the longest is ${number(largest * factor)} ${name}.`);
+  }
+  return parts.join(' ');
 }
 
 function byNode(model, shape) {
@@ -108,7 +164,8 @@ function drawResults(paper, data, u) {
     const largest = c.largest_displacement ?? { value: 0 };
     const where = largest.member ? `in member ${largest.member}, ${number(largest.at)} ${u.length} from its first end` : largest.node ? `at node ${largest.node}` : 'within a shell panel';
     const sum = [0, 1, 2].map((i) => Object.values(c.reactions ?? {}).reduce((a, r) => a + r[i], 0));
-    const facts = [['largest displacement', `${number(largest.value)} ${u.length} ${where}`], ['sum of reactions x, y, z', `${sum.map((v) => number(Math.abs(v) < 1e-9 * Math.hypot(...sum) ? 0 : v)).join(', ')} ${u.force}`],
+    const facts = [['largest displacement', `${quantity(largest.value, u.length, results.units)} ${where}`],
+      ['sum of reactions x, y, z', sum.map((v) => quantity(Math.abs(v) < 1e-9 * Math.hypot(...sum) ? 0 : v, u.force, results.units)).join(', ')],
       ['equations solved', `backward error ${number(c.backward_error)}, equilibrium error ${number(c.equilibrium_error)}`],
       ...(c.discretisation_error ? [['shell meshes', `estimated error of stresses ${percent(c.discretisation_error)}`]] : [])];
     const list = make('dl');
@@ -117,14 +174,17 @@ function drawResults(paper, data, u) {
     const bows = data.diagrams?.[name]?.map((rows) => rows?.map((row) => [row[y], row[z]]) ?? null);
     const drawing = deformedDrawing(model, LOOKS.view, byNode(model, c.displacements), largest.value, bows);
     chapter.append(figure(drawing.svg, `Deformed, ${number(Number(drawing.scale.toPrecision(2)))} times as large`));
-    (results.buckling?.[name] ?? []).slice(0, 3).forEach((mode, k) => {
+    const pairs = make('div', '', 'pairs');
+    (results.buckling?.[name] ?? []).slice(0, 4).forEach((mode, k) => {
       const shape = deformedDrawing(model, LOOKS.view, byNode(model, mode.shape), 1, null);
-      chapter.append(figure(shape.svg, `Buckling mode ${k + 1}, factor ${number(mode.factor)}`));
+      pairs.append(figure(shape.svg, `Buckling mode ${k + 1}, factor ${number(mode.factor)}`));
     });
+    chapter.append(pairs);
   }
+  const pairs = make('div', '', 'pairs');
   (results.modes ?? []).slice(0, 6).forEach((mode, k) => {
-    if (k === 0) paper.modes = paper.chapter('Natural modes');
-    paper.modes.append(figure(deformedDrawing(model, LOOKS.view, byNode(model, mode.shape), 1, null).svg, `Mode ${k + 1}, ${number(mode.frequency)} Hz`));
+    if (k === 0) paper.chapter('Natural modes').append(pairs);
+    pairs.append(figure(deformedDrawing(model, LOOKS.view, byNode(model, mode.shape), 1, null).svg, `Mode ${k + 1}, ${number(mode.frequency)} Hz`));
   });
 }
 
@@ -137,15 +197,20 @@ function audit(data, check, u) {
   const stations = data.diagrams?.[check.combination]?.[data.model.members.findIndex((m) => m.name === check.member)];
   if (stations) {
     const row = make('div', '', 'diagrams');
-    const column = (quantity) => stations.map((s) => s[data.diagram_names.indexOf(quantity)]);
+    const column = (name) => stations.map((s) => s[data.diagram_names.indexOf(name)]);
     const most = (quantities) => Math.max(...quantities.flatMap((q) => column(q).map(Math.abs)));
     const noise = { force: 1e-9 * most(['axial', 'shear_y', 'shear_z']), moment: 1e-9 * most(['torsion', 'moment_y', 'moment_z']), length: 1e-9 * check.length };
-    for (const [quantity, kind] of [['axial', 'force'], ['shear_z', 'force'], ['moment_y', 'moment'], ['deflection_z', 'length']])
-      row.append(diagramDrawing(quantity.replace('_', ' '), column(quantity).map((v) => (Math.abs(v) < noise[kind] ? 0 : v)), check.length, u[kind], u.length));
+    for (const [name, kind] of [['axial', 'force'], ['shear_z', 'force'], ['moment_y', 'moment'], ['deflection_z', 'length']]) {
+      const [factor, unit] = paperUnit(u[kind], data.results.units);
+      const values = column(name).map((v) => (Math.abs(v) < noise[kind] ? 0 : factor * v));
+      row.append(diagramDrawing(name.replace('_', ' '), values, check.length, unit, u.length));
+    }
     made.append(row);
   }
-  made.append(table([['clause', ''], ['quantity', ''], ['how', ''], ['value', ''], ['unit', '']], check.steps));
-  made.append(table([['clause', ''], ['use', ''], ['formula', '']], check.clauses));
+  const steps = table([['clause', ''], ['quantity', ''], ['how', ''], ['value', ''], ['unit', '']], check.steps);
+  const clauses = table([['clause', ''], ['use', ''], ['formula', '']], check.clauses.map(([clause, use, formula]) => [clause, percent(use), formula]));
+  for (const part of [steps, clauses]) part.classList.add('steps');
+  made.append(steps, clauses);
   return made;
 }
 
@@ -168,6 +233,9 @@ function selection(rows, columns) {
   return [chosen, `${chosen.length} of ${rows.length} rows: ${use < 0 ? 'the first ones' : 'those of the largest use'}; all are in results.json and the tables of --csv.`];
 }
 
+/** What all clauses of a code begin with says nothing at the head of a column. */
+const CODES = /^(EN 1993-1-1|AISC 360) /;
+
 /** Wide tables go over several, each with the first column. */
 function drawTables(paper, data) {
   const most = 9;
@@ -176,12 +244,17 @@ function drawTables(paper, data) {
       const shared = ['sections', 'materials', 'loads', 'combinations', 'modes', 'formulas', 'envelope'].includes(t.id);
       if (shared && combination !== Object.keys(data.results.combinations)[0]) continue;
       const chapter = paper.chapter(shared ? t.title : `${t.title}: ${combination}`);
+      if (t.id === 'loads') {
+        chapter.append(table(t.columns, loadRows(t.rows(), data.results.units)));
+        continue;
+      }
       const [rows, words] = selection(t.rows(), t.columns);
       chapter.append(make('p', words));
       const used = t.columns.map((_, k) => k).filter((k) => k === 0 || rows.some((row) => row[k] !== null && row[k] !== undefined && row[k] !== ''));
       for (let from = 1; from < Math.max(2, used.length); from += most - 1) {
         const part = [0, ...used.slice(from, from + most - 1)];
-        chapter.append(table(part.map((k) => t.columns[k]), rows.map((row) => part.map((k) => row[k]))));
+        const columns = part.map((k) => [t.columns[k][0].replace(CODES, ''), t.columns[k][1]]);
+        chapter.append(measured(columns, rows.map((row) => part.map((k) => row[k])), data.results.units, t.id === 'sections'));
       }
     }
   }
@@ -198,6 +271,7 @@ export function buildPaper(data) {
   root.append(contents);
   const paper = new Paper(root);
   contents.append(paper.contents);
+  drawSummary(paper, data, u);
   const warnings = [...new Set([...(data.model.warnings ?? []), ...(data.model.result_warnings ?? [])])];
   if (warnings.length || data.results.unfinished) {
     const chapter = paper.chapter('Warnings');

@@ -85,13 +85,36 @@ async function exercise(browser, report) {
   await page.context().close();
 }
 
+/** What is printed: a summary first, numbers with units that a person reads, no column beyond the sheet. */
+async function printed(browser, report) {
+  const context = await browser.newContext({ viewport: { width: 674, height: 900 }, offline: true });  // A4 less its margins
+  const page = await context.newPage();
+  await page.emulateMedia({ media: 'print' });
+  await page.goto(`${pathToFileURL(report).href}#print`);
+  await page.waitForFunction(() => document.querySelectorAll('#paper .chapter').length > 3, null, { timeout: 60000 });
+  const found = await page.evaluate(() => ({
+    chapters: [...document.querySelectorAll('#paper h2')].map((h) => h.textContent),
+    text: document.getElementById('paper').textContent,
+    si: document.getElementById('data').textContent.includes('"force":"N"'),
+    beyond: [...document.querySelectorAll('#paper table, #paper svg')].filter((e) => e.getBoundingClientRect().right > document.getElementById('paper').getBoundingClientRect().right + 1).length,
+  }));
+  check(found.chapters[1] === '1. Summary', 'paper begins with a summary');
+  check(!/undefined|NaN|\[object/.test(found.text), 'no cell of the paper is without a value');
+  check(!found.si || (found.text.includes('kNm') && !found.text.includes('N m,')), 'forces are printed in kN and kNm');
+  check(found.beyond === 0, 'no table or drawing goes beyond the sheet');
+  await context.close();
+}
+
 const browser = await chromium.launch({
   executablePath,
   args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist', '--disable-quic', '--no-first-run', '--disable-background-networking',
     '--disable-component-update', '--disable-sync'],
 });
 try {
-  for (const report of reports) await exercise(browser, report);
+  for (const report of reports) {
+    await exercise(browser, report);
+    await printed(browser, report);
+  }
 } finally {
   await browser.close();
 }
