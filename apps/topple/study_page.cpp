@@ -23,7 +23,7 @@ h1{font-size:1.5em;margin-bottom:.2em}h2{font-size:1.15em;margin-top:2em;border-
 table{border-collapse:collapse;font-size:13px}td,th{padding:.2em .7em;text-align:right;white-space:nowrap;border-bottom:1px solid #e2e8f0}
 td:first-child,th:first-child{text-align:left}.figures{display:grid;grid-template-columns:1fr 1fr;gap:1em}
 figure{margin:0;break-inside:avoid}figcaption{font-size:13px;color:#4a5568}svg{width:100%;height:auto;font:11px system-ui,sans-serif}
-svg text{fill:#2d3748}.building{max-width:820px}.bar{display:inline-block;height:.7em;background:#2b6cb0}
+svg text{fill:#2d3748}.building{max-width:820px}.bar{print-color-adjust:exact;-webkit-print-color-adjust:exact;display:inline-block;height:.7em;background:#2b6cb0}
 .bar.negative{background:#c53030}@media print{body{margin:0;max-width:none}h2{break-after:avoid}}
 </style></head><body>
 )";
