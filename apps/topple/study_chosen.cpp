@@ -1,6 +1,7 @@
 // What an optimisation has chosen, and how it came there.
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "study_page.h"
 #include "svg_figure.h"
@@ -21,14 +22,23 @@ std::string history(const Study& study, const OptimiseResult& result) {
     if (best.empty() || (greatest ? design.objective > so_far : design.objective < so_far)) so_far = design.objective;
     least = best.empty() ? so_far : std::min(least, so_far);
     largest = best.empty() ? so_far : std::max(largest, so_far);
+    if (!best.empty()) best.emplace_back(static_cast<double>(design.run), best.back().second);
     best.emplace_back(static_cast<double>(design.run), so_far);
   }
   if (best.size() < 2) return {};
+  best.emplace_back(static_cast<double>(result.designs.size()), so_far);
+  const double margin = 0.05 * (largest - least);
   SvgFigure figure("designs tried", "best " + study.optimise->objective + " so far",
-                   {0, static_cast<double>(result.designs.size())}, {least, largest});
+                   {0, static_cast<double>(result.designs.size())}, {least - margin, largest + margin});
   figure.line(best, "#2b6cb0");
   return "<div class='figures'><figure>" + figure.svg() +
          "<figcaption>The best design that keeps to all bounds, as the search goes on</figcaption></figure></div>\n";
+}
+
+std::string chosen_text(const StudyValue& value) {
+  if (value.is_number()) return short_text(value.number);
+  const auto json = nlohmann::ordered_json::parse(value.json);
+  return json.is_string() ? json.get<std::string>() : value.json;
 }
 
 }  // namespace
@@ -46,8 +56,7 @@ std::string chosen_section(const Study& study, const StudyTask& task, const Opti
   text += "</p>\n<table><tr><th>chosen</th><th>value</th></tr>\n";
   for (std::size_t v = 0; v < result.best.chosen.size(); ++v) {
     const StudyValue& value = result.best.chosen[v];
-    text += "<tr><td>" + escaped(result.chosen_names[v]) + "</td><td>" +
-            (value.is_number() ? short_text(value.number) : escaped(value.json)) + "</td></tr>\n";
+    text += "<tr><td>" + escaped(result.chosen_names[v]) + "</td><td>" + escaped(chosen_text(value)) + "</td></tr>\n";
   }
   for (std::size_t i = 0; i < result.best.outputs.size(); ++i)
     text += "<tr><td>" + escaped(task.outputs[i]) + " in the search</td><td>" + short_text(result.best.outputs[i]) +

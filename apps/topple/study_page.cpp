@@ -20,8 +20,8 @@ constexpr const char* head = R"(<!doctype html><html lang="en"><head><meta chars
 constexpr const char* style = R"(</title><style>
 body{font:15px/1.45 system-ui,sans-serif;margin:2em auto;max-width:1000px;color:#1a202c;padding:0 1em}
 h1{font-size:1.5em;margin-bottom:.2em}h2{font-size:1.15em;margin-top:2em;border-bottom:1px solid #cbd5e0}
-table{border-collapse:collapse;font-size:13px}td,th{padding:.2em .7em;text-align:right;white-space:nowrap;border-bottom:1px solid #e2e8f0}
-td:first-child,th:first-child{text-align:left}.figures{display:grid;grid-template-columns:1fr 1fr;gap:1em}
+table{border-collapse:collapse;font-size:13px}td,th{padding:.2em .7em;text-align:right;border-bottom:1px solid #e2e8f0}
+td{white-space:nowrap}td:first-child,th:first-child{text-align:left}.figures{display:grid;grid-template-columns:1fr 1fr;gap:1em}
 figure{margin:0;break-inside:avoid}figcaption{font-size:13px;color:#4a5568}svg{width:100%;height:auto;font:11px system-ui,sans-serif}
 svg text{fill:#2d3748}.building{max-width:820px}.bar{print-color-adjust:exact;-webkit-print-color-adjust:exact;display:inline-block;height:.7em;background:#2b6cb0}
 .bar.negative{background:#c53030}@media print{body{margin:0;max-width:none}h2{break-after:avoid}}
@@ -65,7 +65,7 @@ std::vector<double> values_of(std::span<const Sample> samples, std::size_t outpu
 std::string histogram(const OutputStatistics& output, const std::vector<double>& values) {
   const double spread = output.quantiles[3].value - output.quantiles[1].value, range = output.largest - output.least;
   const double wide = 2 * spread / std::cbrt(static_cast<double>(values.size()));
-  const auto classes = static_cast<std::size_t>(std::clamp(wide > 0 ? std::ceil(range / wide) : 12.0, 5.0, 60.0));
+  const auto classes = static_cast<std::size_t>(std::clamp(wide > 0 ? std::ceil(range / wide) : 11.0, 5.0, 60.0));
   std::vector<double> counts(classes);
   for (const double value : values)
     ++counts[range > 0 ? std::min(classes - 1, static_cast<std::size_t>((value - output.least) / range *

@@ -8,7 +8,7 @@ namespace topple::app {
 
 namespace {
 
-constexpr double width = 460, height = 260, left = 62, right = 14, top = 12, bottom = 44;
+constexpr double width = 460, height = 260, left = 76, right = 14, top = 12, bottom = 44;
 
 /// Round numbers within a range, five or so.
 std::vector<double> ticks(const std::array<double, 2>& range) {
