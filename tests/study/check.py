@@ -107,6 +107,14 @@ with tempfile.TemporaryDirectory() as folder:
     expect(journal(place / f"killed{signal.SIGKILL}") == journal(place / f"killed{signal.SIGINT}"), "a killed study has another journal")
     expect("another study" in run(study, "-o", place / f"killed{signal.SIGKILL}", "--resume").stderr, "a foreign journal is taken")
 
+    # Samples that failed are done; they are run once more where that is asked for, and fail again.
+    count = len((place / "one" / "journal.jsonl").read_text().splitlines())
+    expect(run(study, "-o", place / "one", "--resume").returncode == 0, "resuming what is done")
+    expect(len((place / "one" / "journal.jsonl").read_text().splitlines()) == count, "a failed sample was run again unasked")
+    expect(run(study, "-o", place / "one", "--retry-failed").returncode == 0, "--retry-failed")
+    expect(len((place / "one" / "journal.jsonl").read_text().splitlines()) == count + len(failed), "--retry-failed runs what failed")
+    expect(sorted(set((place / "one" / "journal.jsonl").read_text().splitlines())) == sorted(lines), "failed samples fail alike")
+
     # Nothing is run: a plan of inputs.
     plan = place / "plan.json"
     plan.write_text(json.dumps({"topple": 1, "base": None, "samples": 16, "sampling": "sobol", "vary": [{"at": "x", "uniform": [0, 1]}]}))
@@ -169,6 +177,19 @@ with tempfile.TemporaryDirectory() as folder:
                                   capture_output=True, text=True)
             expect(done.returncode == 0, f"{ranks} ranks end with {done.returncode}: {done.stderr}")
             expect(journal(place / f"ranks{ranks}") == lines, f"{ranks} ranks give another journal")
+        # Losses: a factor of its own for each rank, which answers whatever losses come to it.
+        losses = place / "losses.json"
+        losses.write_text(json.dumps({"topple": 1, "base": {"model": "la3"}, "vary": [{"lose_each": "posts"}],
+                                      "record": {"worst": "worst_loss_use", "survived": "losses_survived"}}))
+        expect(run(losses, "-o", place / "losses1", "--threads", 1).returncode == 0, "losses as samples")
+        expect(run(losses, "-o", place / "losses2", "--threads", 2).returncode == 0, "losses on two threads")
+        lost = journal(place / "losses1")
+        expect(len(lost) == 105 and len({json.loads(line)["inputs"]["lost"] for line in lost}) == 105, f"{len(lost)} losses")
+        expect(journal(place / "losses2") == lost, "losses on two threads give another journal")
+        for ranks in (2, 3):
+            done = subprocess.run([*mpirun, "-n", str(ranks), topple, "study", str(losses), "-o", str(place / f"losses_of{ranks}")],
+                                  capture_output=True, text=True)
+            expect(done.returncode == 0 and journal(place / f"losses_of{ranks}") == lost, f"losses on {ranks} ranks give another journal")
         # A rank dies: the journal is whole, and what is missing is made by one process.
         longer, out = place / "longer9.json", place / "rank_dies"
         job = subprocess.Popen([*mpirun, "-n", "3", topple, "study", str(longer), "-o", str(out)], stdout=subprocess.DEVNULL,
