@@ -22,6 +22,7 @@
 #include "analysis/second_order_member.h"
 #include "analysis/shell_results.h"
 #include "analysis/storeys.h"
+#include "analysis/undivided_members.h"
 #include "failure/panel_bearings.h"
 #include "failure/panel_demand.h"
 #include "loads/case_loads.h"
@@ -190,8 +191,6 @@ class Analysis {
 
   void find_losses_asked_for(AnalysisResult& result) const {
     if (!request_.losses.any()) return;
-    if (request_.second_order != solver::SecondOrder::none)
-      throw InputError(building_.file + ": losses of members are found by first order; accepted: no --p-delta");
     const auto start = std::chrono::steady_clock::now();
     result.losses = find_losses(building_, combinations_, request_.losses, request_.solver);
     result.loss_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -339,6 +338,10 @@ class Analysis {
     if (static_cast<int>(result.modes.size()) < request_.modes)
       result.warnings.push_back("the masses have " + std::to_string(result.modes.size()) + " modes, " +
                                 std::to_string(request_.modes) + " were asked for");
+    // Frame3DD's files ask for modes themselves, and for elements as they are.
+    if (building_.requested.modes > 0) return;
+    if (std::string told = told_undivided(building_, frame_, result.modes); !told.empty())
+      result.warnings.push_back(std::move(told));
   }
 
   /// So that no point of any node or member, bent between its ends, moves by more than 1; what is noise beside that is

@@ -34,6 +34,8 @@ void require_request(const Building& building, const AnalysisRequest& request) {
   require_in({0, 100'000}, request.stations, "stations");
   require_in({0, 1'000'000}, request.buckling, "buckling");
   require_in({0, 1'000'000}, request.modes, "modes");
+  if (request.losses.any() && request.second_order != solver::SecondOrder::none)
+    throw InputError(building.file + ": losses of members are found by first order; accepted: no --p-delta");
 }
 
 /// The exact functions of a member under axial force take work with its slenderness: a rod of a kilometre and a

@@ -225,6 +225,48 @@ TEST_CASE("modes are scaled by what moves most of members too") {
   CHECK(turn * 7 * 4 / 27 == Approx(1).epsilon(0.01));
 }
 
+// An IPE 300 of 8 m, pinned: pi/2 sqrt(2.1e11 x 604e-8/(7850 x 53.8e-4))/64 = 4.253 Hz about its weak axis, 15.82 about
+// its strong one. One cubic element has sqrt(120/pi^4) = 1.1099 times as much, two have 1.0039 times.
+TEST_CASE("a member of one element that would swing by itself is told with its frequency") {
+  const auto beam = [](const std::string& nodes, const std::string& members) {
+    return parse_model(
+        R"({"topple": 1, "materials": {"s": {"youngs_modulus": 2.1e11, "poisson_ratio": 0.3, "density": 7850}},
+        "sections": {"b": {"area": 53.8e-4, "Iy": 8356e-8, "Iz": 604e-8, "J": 2e-7}}, "nodes": {)" +
+            nodes + R"(}, "members": {)" + members +
+            R"(}, "supports": {"A": {"x": true, "y": true, "z": true, "rx": true}, "B": {"y": true, "z": true}},
+        "loads": {"g": {"self_weight": 1}}})",
+        "beam.json");
+  };
+  AnalysisRequest request;
+  request.modes = 1;
+  const double exact = 4.2535 * 2 * 3.14159265358979;
+  const AnalysisResult whole =
+      analyse(beam(R"("A": [0,0,0], "B": [8,0,0])", R"("AB": {"nodes": ["A", "B"], "section": "b", "material": "s"})"),
+              request);
+  CHECK(whole.modes.at(0).angular_frequency == Approx(1.1099 * exact).epsilon(1e-3));
+  CHECK(told(whole.warnings, "member AB of one element would swing by itself at 4.25"));
+  const AnalysisResult divided = analyse(
+      beam(
+          R"("A": [0,0,0], "M": [4,0,0], "B": [8,0,0])",
+          R"("AM": {"nodes": ["A", "M"], "section": "b", "material": "s"}, "MB": {"nodes": ["M", "B"], "section": "b", "material": "s"})"),
+      request);
+  CHECK(divided.modes.at(0).angular_frequency == Approx(1.0039 * exact).epsilon(1e-3));
+  CHECK_FALSE(told(divided.warnings, "of one element"));
+}
+
+TEST_CASE("losses with second order are refused before anything is solved") {
+  const Building mechanism = parse_model(
+      R"({"topple": 1, "materials": {"s": {"youngs_modulus": 2.1e11, "poisson_ratio": 0.3}},
+      "sections": {"b": {"area": 0.01, "Iy": 1e-4, "Iz": 1e-4, "J": 1e-4}}, "nodes": {"A": [0,0,0], "B": [6,0,0]},
+      "members": {"AB": {"nodes": ["A", "B"], "section": "b", "material": "s"}},
+      "supports": {"A": {"x": true}}, "loads": {"u": {"nodes": {"B": {"z": -1}}}}})",
+      "m.json");
+  AnalysisRequest request;
+  request.losses.named = {MemberId(0)};
+  request.second_order = topple::solver::SecondOrder::exact;
+  CHECK_THROWS_WITH(analyse(mechanism, request), Catch::Contains("losses of members are found by first order"));
+}
+
 TEST_CASE("modelling errors are told by name") {
   const auto warnings = [](const std::string& parts, const std::string& materials = "") {
     return modelling_warnings(parse_model(
