@@ -37,6 +37,7 @@ struct DebrisBody : TouchingSolid {
   // Of the step: what it began with, for the account of energy.
   Vec3 velocity_before = Vec3::Zero(), spin_before = Vec3::Zero();
   double energy_before = 0, pushed = 0, booked = 0;
+  double swung = 0;  ///< J by which its free rotation missed its energy: comes back, and is no contact's
   std::vector<std::uint32_t> colliders;  ///< by part
   std::set<std::int64_t> hinges, cables;
 };
@@ -159,7 +160,7 @@ class DebrisWorld final : public World {
   void forget_ignored_of(Touched::Kind kind, std::int64_t id);
   [[nodiscard]] bool ignores(const Solid& first, const Solid& second) const;
   [[nodiscard]] bool still_to_pass(const DebrisBody& first, const Solid& other, bool other_moves, double dt) const;
-  void release_separated(double dt);
+  void release_separated(double dt, bool about_to_step);
   [[nodiscard]] static bool separated(const Solid& first, const Solid& second);
 
   // Rest.
@@ -202,8 +203,8 @@ class DebrisWorld final : public World {
   double ground_height_ = 0, ground_friction_ = 0, ground_restitution_ = 0;
   PolyhedronStore polyhedra_;
   NearPairs pairs_;
-  std::map<SolidPair, bool> ignored_;  ///< true: told again since the last step, and for the next in any case
-  std::set<SolidPair> released_;       ///< by the last step
+  std::map<SolidPair, bool> ignored_;            ///< true: told again since the last step, and for the next in any case
+  std::map<SolidPair, std::uint64_t> released_;  ///< after which step
 
   StepSolver solver_;
   std::vector<Island> islands_;

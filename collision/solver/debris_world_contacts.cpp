@@ -14,6 +14,9 @@ namespace {
 
 /// Points that are farther apart than this (m) and carried nothing are only near.
 constexpr double kTouching = 0.001;
+/// N s: what a contact counts for beside its impulse where energy is shared. One may have pushed two apart and told
+/// none.
+constexpr double kLeastPush = 1e-12;
 
 auto parts_of(const Contact& c) {
   return std::make_tuple(c.body.value, c.other.kind, c.other.body.value, c.other.obstacle.value, c.part_tag,
@@ -118,7 +121,7 @@ void DebrisWorld::book_work(std::span<Island* const> islands, double dt) {
     const double taken =
         -impulse.dot((on.velocity_before + on.velocity) / 2 + half_kick) - moment.dot((on.spin_before + on.spin) / 2);
     on.booked += taken;
-    on.pushed += impulse.norm();
+    on.pushed += impulse.norm() + kLeastPush;
     return taken;
   };
   const auto first = solved_.size() - solver_.contacts().size();
@@ -145,20 +148,21 @@ void DebrisWorld::book_work(std::span<Island* const> islands, double dt) {
   }
   const auto share = [&](const DebrisBody& on, double size) {
     if (!(on.pushed > 0)) return 0.0;
-    return size / on.pushed * (on.energy_before - energy(on, dt) - on.booked);
+    return size / on.pushed * (on.energy_before - (energy(on, dt) - on.swung) - on.booked);
   };
   for (std::size_t i = first; i < solved_.size(); ++i)
     for (const bool second : {false, true})
       if (const DebrisBody* on = moving(solved_[i], second); on && solved_[i].told >= 0)
-        contacts_[static_cast<std::size_t>(solved_[i].told)].work_lost += share(*on, solved_[i].impulse.norm());
+        contacts_[static_cast<std::size_t>(solved_[i].told)].work_lost +=
+            share(*on, solved_[i].impulse.norm() + kLeastPush);
   for (const Island* island : islands) {
     for (DebrisHinge* hinge : island->hinges) {
-      const double size = hinge->rows.force_total.norm();
+      const double size = hinge->rows.force_total.norm() + kLeastPush;
       hinge->work_lost += share(body(hinge->body), size);
       if (hinge->other >= 0) hinge->work_lost += share(body(hinge->other), size);
     }
     for (DebrisCable* cable : island->cables)
-      cable->pull.work_lost += share(body(cable->body), cable->row.impulse.norm());
+      cable->pull.work_lost += share(body(cable->body), cable->row.impulse.norm() + kLeastPush);
   }
   read_joints(islands, dt);
 }
@@ -218,7 +222,9 @@ void DebrisWorld::ignore_until_separated(BodyId id, const Touched& other) {
   }
   // Told in every step (what hangs on a hinge and turns beside what holds it), it is ignored in every step: contacts
   // push before parts touch.
-  const auto [entry, made] = ignored_.try_emplace(pair, released_.contains(pair));
+  const auto released = released_.find(pair);
+  const bool again = released != released_.end() && released->second + 1 >= step_number_;
+  const auto [entry, made] = ignored_.try_emplace(pair, again);
   if (made)
     ignore(pair, true);
   else
@@ -257,19 +263,20 @@ bool DebrisWorld::separated(const Solid& first, const Solid& second) {
   return true;
 }
 
-void DebrisWorld::release_separated(double dt) {
-  released_.clear();
+/// `about_to_step`: what was told again is ignored in the step that begins now, and after that if it is told once more.
+void DebrisWorld::release_separated(double dt, bool about_to_step) {
   for (auto pair = ignored_.begin(); pair != ignored_.end();) {
     const SolidPair& who = pair->first;
     const DebrisBody& first = body(who.body);
     const Solid& other = solid(who);
     const bool other_moves = who.kind == Touched::Kind::body && !static_cast<const DebrisBody&>(other).asleep;
     const bool moves = !first.asleep || other_moves;
-    const bool kept = std::exchange(pair->second, false);
+    const bool kept = pair->second;
+    if (about_to_step) pair->second = false;
     const bool apart = !kept && moves && separated(first, other) && !still_to_pass(first, other, other_moves, dt);
     if (apart) {
       ignore(who, false);
-      released_.insert(who);
+      released_[who] = step_number_;
     }
     pair = apart ? ignored_.erase(pair) : std::next(pair);
   }

@@ -12,7 +12,8 @@ namespace topple::collision {
 void DebrisWorld::step(double dt) {
   if (!(dt > 0) || !std::isfinite(dt))
     throw std::invalid_argument("step of " + std::to_string(dt) + " s; it must be above zero");
-  release_separated(dt);
+  std::erase_if(released_, [&](const auto& one) { return one.second + 1 < step_number_; });
+  release_separated(dt, true);
   contacts_.clear();
   if (awake_count_ == 0) return;
   ++step_number_;
@@ -273,6 +274,7 @@ void DebrisWorld::fly(DebrisBody& one, double dt) const {
 /// As a free body that has the momentum with which the step ended, and by what its contacts turned it otherwise: the
 /// momentum stays, to rounding.
 void DebrisWorld::turn(DebrisBody& one, const Vec3& turned, double dt) const {
+  one.swung = 0;
   if (one.spin.isZero(0) && turned.isZero(0)) return;
   const Vec3 more = turned - one.spin * dt;
   FreeRotation free{one.turn, one.spin};
@@ -284,7 +286,13 @@ void DebrisWorld::turn(DebrisBody& one, const Vec3& turned, double dt) const {
     one.at.turn = one.turn.toRotationMatrix();
     return;
   }
+  const auto spinning = [&](const FreeRotation& now) {
+    const Vec3 spin = now.orientation.conjugate() * now.spin;
+    return spin.dot(one.moments.cwiseProduct(spin)) / 2;
+  };
+  const double before_turning = spinning(free);
   free = rotated_freely(free, one.moments, dt);
+  one.swung = spinning(free) - before_turning;
   one.turn = free.orientation;
   one.spin = free.spin;
   const double angle = more.norm();

@@ -230,7 +230,7 @@ void DebrisWorld::sweep_movers(const std::vector<Mover>& movers, const SweepRang
 std::vector<Contact> DebrisWorld::sweep(double dt, Sweep what, double least_speed) {
   if (!(dt > 0) || !std::isfinite(dt))
     throw std::invalid_argument("sweep of " + std::to_string(dt) + " s; it must be above zero");
-  release_separated(dt);
+  release_separated(dt, false);
   std::vector<Contact> found;
   if (what == Sweep::obstacles && obstacles_.empty()) return found;
   const std::vector<Mover> awake = movers(dt);

@@ -6,27 +6,27 @@ namespace topple::collision {
 struct SolverSettings {
   // Sub-steps. A contact is a spring whose rate is its effective mass times (2 pi f)^2 with f = 1/(stiffness h): under
   // a load of R times the weight of that mass it rests R g/(2 pi f)^2 deep.
-  double stiffness = 8;             ///< sub-steps in a period: with fewer, one pass over the contacts does not converge
-  double damping = 10;              ///< ratio: overlaps are pushed apart without bouncing
-  double standing_stiffer = 2;      ///< f against what stands, times this: nothing there gives way
-  double standing_damping = 0.5;    ///< and the damping ratio
-  int fewest_substeps = 4;          ///< of a step: below, friction and stacks of two creep
-  int most_substeps = 64;           ///< of a step: a thousandfold mass needs 40
-  double substeps_for_weight = 11;  ///< of a 1/60 s step, for a contact that bears the weight of its own mass ...
-  double substeps_growth = 0.07;    ///< ... times the load over that weight to this power: a stack of ten rests within
-                                    ///< 0.3 mm, a hundredfold mass within 2 mm, a thousandfold within 15
+  double stiffness = 4;            ///< sub-steps in a period: with fewer, passes over the contacts do not converge
+  double damping = 10;             ///< ratio: overlaps are pushed apart without bouncing
+  double standing_stiffer = 2;     ///< f against what stands, times this: nothing there gives way
+  double standing_damping = 0.5;   ///< and the damping ratio
+  int fewest_substeps = 4;         ///< of a step: below, friction and stacks of two creep
+  int most_substeps = 64;          ///< of a step: a thousandfold mass needs 40
+  double substeps_for_weight = 8;  ///< of a 1/60 s step, for a contact that bears the weight of its own mass ...
+  double substeps_growth = 0.07;   ///< ... times the load over that weight to this power: a stack of ten rests within
+                                   ///< 0.3 mm, a hundredfold mass within 2 mm, a thousandfold within 15
   double substep_way = 0.0025;  ///< m that an island's bodies go in a sub-step at most, root mean square: what falls on
                                 ///< a heap as a whole is else pressed into it by the way of many sub-steps
   double substeps_held = 0.7;   ///< their number falls only when the load asks for less than this share of it
   double pushed_apart = 3;  ///< m/s: overlaps are undone no faster (chunks are born inside each other). What is pressed
                             ///< in by a thousandfold mass needs 2.5: held below that, a spring does not bear its load
 
-  double settled = 0.05;  ///< m/s: passes are repeated in a sub-step that changes a contact's speed by more
+  double settled = 0.3;   ///< m/s: passes are repeated in a sub-step that changes a contact's speed by more
   int most_passes = 100;  ///< in a sub-step: a blow through a stack of that many comes through
 
-  double leaves_plane = 0.005;  ///< m: a step is taken in parts where a body that touches leaves the planes of its
-                                ///< contacts by more as it spins
-  int most_parts = 16;          ///< of a step: 1/60 s at 40 rad/s, 2 m from the middle, need that many
+  double leaves_plane = 0.02;  ///< m: a step is taken in parts where a body that touches leaves the planes of its
+                               ///< contacts by more as it spins
+  int most_parts = 16;         ///< of a step: 1/60 s at 40 rad/s, 2 m from the middle, need that many
 
   // Contacts.
   double margin = 0.02;  ///< m: parts nearer than this are looked at as contacts about to be

@@ -96,26 +96,21 @@ TEST_CASE("a box with a thousand times its mass on it holds, and how deep the tw
   const BodyId light = world->add_body(box_body({0.5, 0.5, 0.5}, 100, {0, 0, 0.5}));
   const BodyId heavy = world->add_body(box_body({0.5, 0.5, 0.5}, 1e5, {0, 0, 1.5}));
   OverlapWatch watch;
-  std::vector<double> inside;  // how far the two are inside each other
+  int told = 0;
   for (int i = 0; i < 300 && world->awake_count() > 0; ++i) {
     const auto height = [&](BodyId id) { return world->state(id).pose.position.z(); };
-    inside.push_back(1 - (height(heavy) - height(light)));
+    const double inside = 1 - (height(heavy) - height(light));  // when the step begins, as contacts tell it
     world->step(kStep);
     watch.read(world->contacts(), kStep);
+    CHECK(inside < 0.017);
+    for (const Contact& contact : world->contacts()) {
+      if (contact.body != light || contact.other.body != heavy) continue;
+      CHECK(contact.depth == Approx(std::max(0.0, inside)).margin(3e-3));  // one that leans has a corner deeper
+      CHECK(contact.thickness == Approx(1).epsilon(1e-12));
+      ++told;
+    }
   }
   REQUIRE(world->awake_count() == 0);
-  double lasted = 0;  // the most that they were inside each other by all through some quarter of a second
-  for (std::size_t i = 0; i + 15 <= inside.size(); ++i)
-    lasted = std::max(lasted, *std::min_element(inside.begin() + static_cast<std::ptrdiff_t>(i),
-                                                inside.begin() + static_cast<std::ptrdiff_t>(i) + 15));
-  CHECK(lasted > OverlapWatch::tolerance);
-  CHECK(lasted < 0.017);
-  REQUIRE(watch.deepest());
-  CHECK(watch.deepest()->body == light);
-  CHECK(watch.deepest()->other.body == heavy);
-  CHECK(watch.deepest()->thickness == Approx(1).epsilon(1e-12));
-  // It falls asleep in half a second and is sinking in before: the least of a time is less than what lasts at its end.
-  CHECK(watch.deepest()->depth > 0.4 * lasted);
-  CHECK(watch.deepest()->depth < 1.3 * lasted);
+  CHECK(told > 20);
   CHECK(watch.deep_count() == 0);
 }

@@ -67,3 +67,83 @@ TEST_CASE("small steps: of balls in a row that do not touch yet, the last takes 
   for (int i = 0; i < 3; ++i) CHECK(std::abs(world->state(row[static_cast<std::size_t>(i)]).velocity.x()) < 1e-9 * 4);
   CHECK(world->state(row[3]).velocity.x() == Approx(4).epsilon(1e-9));
 }
+
+TEST_CASE("small steps: a post that spins end over end does not go into the ground that it falls on") {
+  const auto world = make_small_steps_world();
+  world->set_gravity({0, 0, -kGravity});
+  world->set_ground(0, 0.6, 0.1);
+  BodyDescription post = box_body({2, 0.15, 0.15}, 900, {0, 0, 3});
+  post.angular_velocity = Vec3(0, 20, 0);  // its ends at 40 m/s: 19 degrees in a step
+  post.velocity = Vec3(0, 0, -4);
+  const BodyId id = world->add_body(post);
+  double deepest = 0;
+  for (int i = 0; i < 180; ++i) {
+    world->step(kStep);
+    const Pose pose = world->state(id).pose;
+    for (const double x : {-2.0, 2.0})
+      for (const double y : {-0.15, 0.15})
+        for (const double z : {-0.15, 0.15}) deepest = std::max(deepest, -(pose * Vec3(x, y, z)).z());
+  }
+  CHECK(deepest < 0.01);  // what a body may leave the planes of its contacts by in a part of a step
+}
+
+TEST_CASE("small steps: a pile that falls as one is stopped where it lands, all through") {
+  const auto world = make_small_steps_world();
+  world->set_gravity({0, 0, -kGravity});
+  world->set_ground(0, 0.6, 0.1);
+  const double gap = 0.05, thick = 0.2, begin = 3;
+  std::vector<BodyId> pile;
+  for (int i = 0; i < 20; ++i) {
+    BodyDescription slab = box_body({2, 2, thick / 2}, 2000, {0, 0, begin + i * (thick + gap)});
+    slab.restitution = 0;
+    pile.push_back(world->add_body(slab));
+  }
+  double deepest = 0, lost = 0, created = 0;
+  const auto energy = [&] {
+    double sum = 0;
+    for (const BodyId id : pile) {
+      const BodyState state = world->state(id);
+      const Vec3 velocity = state.velocity - Vec3(0, 0, kGravity * kStep / 2);
+      sum += 2000 * (velocity.squaredNorm() / 2 + kGravity * state.pose.position.z());
+    }
+    return sum;
+  };
+  const double first = energy();
+  double before = first;
+  for (int i = 0; i < 180; ++i) {
+    world->step(kStep);
+    for (const Contact& contact : world->contacts()) lost += contact.work_lost;
+    for (std::size_t k = 0; k < pile.size(); ++k) {
+      const double low = k > 0 ? world->state(pile[k - 1]).pose.position.z() + thick / 2 : 0;
+      deepest = std::max(deepest, low - (world->state(pile[k]).pose.position.z() - thick / 2));
+    }
+    if (world->awake_count() < pile.size()) break;  // what sleeps has no velocity
+    created += std::max(0.0, energy() - before);
+    before = energy();
+  }
+  CHECK(deepest < 0.01);
+  CHECK(created < 0.01 * (first - before));
+  CHECK(lost == Approx(first - before).epsilon(1e-5));  // the slabs' turning is left out
+}
+
+TEST_CASE(
+    "small steps: what is told after each step to pass an obstacle passes it, though each step is swept as well") {
+  const auto world = world_with_gravity();
+  const ObstacleId mast = world->add_obstacle(box_obstacle({0.1, 0.1, 5}, {-0.1, 0, 5}));
+  const BodyId beam = world->add_body(box_body({2, 0.1, 0.1}, 230, {2, 0, 9.9}));
+  HingeDescription pin;
+  pin.body = beam;
+  pin.point = Vec3(0, 0, 9.9);
+  pin.held = {true, true, true, true, false, true};
+  world->add_hinge(pin);
+  Touched touched;
+  touched.kind = Touched::Kind::obstacle;
+  touched.obstacle = mast;
+  world->ignore_until_separated(beam, touched);
+  for (int i = 0; i < 60; ++i) {
+    CHECK(world->sweep(kStep).empty());
+    world->step(kStep);
+    CHECK(world->contacts().empty());
+    world->ignore_until_separated(beam, touched);
+  }
+}
