@@ -20,6 +20,9 @@ Moments moments(std::span<const double> values) {
   Moments result;
   const auto n = static_cast<double>(values.size());
   if (values.empty()) return result;
+  // What is the same in all samples hangs on nothing, and must not seem to by rounding.
+  if (std::all_of(values.begin(), values.end(), [&](double value) { return value == values.front(); }))
+    return {values.front(), 0};
   for (const double value : values) result.mean += value / n;
   double squares = 0;
   for (const double value : values) squares += (value - result.mean) * (value - result.mean);

@@ -56,6 +56,14 @@ TEST_CASE("Wilson's interval, Student's t and quantiles are those of tables") {
   CHECK((*median.interval)[1] == 60);
 }
 
+TEST_CASE("What is the same in all samples has no deviation, whatever rounding adds up to") {
+  for (const int count : {2, 3, 25, 999}) {
+    const std::vector<double> alike(static_cast<std::size_t>(count), 0.1);
+    CHECK(moments(alike).mean == 0.1);
+    CHECK(moments(alike).sd == 0);
+  }
+}
+
 TEST_CASE("Rank correlation is that of Spearman, equal values included") {
   const std::vector<double> x{106, 100, 86, 101, 99, 103, 97, 113, 112, 110}, y{7, 27, 2, 50, 28, 29, 20, 12, 6, 17};
   CHECK(correlation(ranks(x), ranks(y)) == Approx(-29.0 / 165).epsilon(1e-12));  // 1 - 6 * 194 / (10 * 99)
