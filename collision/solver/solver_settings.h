@@ -26,7 +26,7 @@ struct SolverSettings {
 
   double leaves_plane = 0.02;  ///< m: a step is taken in parts where a body that touches leaves the planes of its
                                ///< contacts by more as it spins
-  int most_parts = 16;         ///< of a step: 1/60 s at 40 rad/s, 2 m from the middle, need that many
+  int most_parts = 16;         ///< of a step: a post 4 m long that turns half around in a step needs 15
 
   // Contacts.
   double margin = 0.02;  ///< m: parts nearer than this are looked at as contacts about to be

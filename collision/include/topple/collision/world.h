@@ -206,9 +206,9 @@ class World {
   [[nodiscard]] virtual std::vector<ObstacleId> obstacles_in(const Vec3& low, const Vec3& high) const = 0;
 };
 
-/// The world of simulations whose host gives none: make_small_steps_world(). Shapes and distances are Bullet's, in
-/// double precision. Throws std::runtime_error when the Bullet library that was linked is not the one whose headers
-/// were compiled (single precision).
+/// Today the same as make_small_steps_world(): shapes and distances are Bullet's, in double precision. Throws
+/// std::runtime_error when the Bullet library that was linked is not the one whose headers were compiled (single
+/// precision). Simulations whose host gives no world run on make_sequential_impulse_world().
 [[nodiscard]] std::unique_ptr<World> make_bullet_world();
 
 }  // namespace topple::collision
