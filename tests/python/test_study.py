@@ -125,6 +125,18 @@ def test_a_sample_that_fails_is_told_and_the_study_goes_on(tmp_path):
     assert "TypeError" in study.run(lambda load: 1).failed[0]
     assert found.csv().count("\n") >= 17
 
+    # Failed samples are done; they are computed once more where that is asked for.
+    calls = []
+
+    def patient(load, factor):
+        calls.append(load)
+        return load
+    again = study.run(patient, folder=tmp_path / "out", resume=True)
+    assert not calls and again.failed == found.failed
+    again = study.run(patient, folder=tmp_path / "out", retry_failed=True)
+    assert len(calls) == heavy.sum() and not again.failed
+    assert np.array_equal(again.outputs[:, 0], found.inputs[:, 0])
+
 
 def test_an_interrupt_ends_the_run_and_is_no_failure(tmp_path):
     def interrupted(load, factor):
