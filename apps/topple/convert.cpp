@@ -2,6 +2,8 @@
 #include "topple/structure/convert.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <optional>
 #include <system_error>
 
 #include "command.h"
@@ -26,11 +28,24 @@ void refuse_other_tables(const std::filesystem::path& folder, const structure::C
   }
 }
 
-int convert(const std::string& in, const std::string& out) {
+/// Writes a model with its parts joined, and says what that joins.
+int join(const std::filesystem::path& file, const std::filesystem::path& target, double tolerance) {
+  if (structure::model_form(target) != structure::ModelForm::json)
+    throw structure::InputError(target.string() +
+                                ": joined models are written as JSON, by its `connect`; accepted: .json");
+  structure::require_writable(target);
+  const structure::JoinedModel joined = structure::joined_model(file, tolerance);
+  structure::write_file(target, joined.text);
+  std::printf("%zu nodes merged, members divided into %zu more pieces\n", joined.nodes_merged, joined.members_divided);
+  return success;
+}
+
+int convert(const std::string& in, const std::string& out, const std::optional<double>& tolerance) {
   const std::filesystem::path target(out);
   const structure::ModelForm form = structure::model_form(target);
   const std::filesystem::path file = structure::find_model(in);
   structure::require_different(file, target);
+  if (tolerance) return join(file, target, *tolerance);
   if (form != structure::ModelForm::tables) structure::require_writable(target);
   structure::ConvertedModel model = structure::convert_model(file, form);
   if (form == structure::ModelForm::tables) {
@@ -49,7 +64,12 @@ const Registration registration(
        app.add_option("IN", *in, "A shipped model's name, a file (.json, .3dd), or a folder of tables (.csv)")
            ->required();
        app.add_option("OUT", *out, "The file to write (.json, .3dd), or a folder for tables")->required();
-       return [in, out] { return convert(*in, *out); };
+       auto tolerance = std::make_shared<std::optional<double>>();
+       app.add_option(
+           "--join", *tolerance,
+           "Merge nodes within this distance and divide members at nodes that lie on them (the model's length; to "
+           ".json)");
+       return [in, out, tolerance] { return convert(*in, *out, *tolerance); };
      }});
 
 }  // namespace

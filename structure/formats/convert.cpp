@@ -1,6 +1,7 @@
 #include "topple/structure/convert.h"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "formats/generator/written_out.h"
 #include "formats/json/json_document.h"
@@ -70,6 +71,24 @@ ConvertedModel convert_model(const std::filesystem::path& in, ModelForm to) {
     default:
       return {tables_of_model(json_model(in))};
   }
+}
+
+JoinedModel joined_model(const std::filesystem::path& in, double tolerance) {
+  if (!(tolerance > 0)) throw InputError(in.string() + ": a model is joined within a length; accepted: above 0");
+  const Building apart = read_model(in, Purpose::inspect);
+  const std::string text = json_text(in), name = in.filename().string();
+  if (formats::JsonDocument::from_text(text, name).root().find("connect"))
+    throw InputError(in.string() + ": the model says `connect` itself; accepted: one without it");
+  char key[64];
+  std::snprintf(key, sizeof key, "\"connect\": %.17g, ", tolerance);
+  JoinedModel joined;
+  joined.text = text;
+  joined.text.insert(joined.text.find('{') + 1, key);
+  const Building together = parse_model(joined.text, name, Purpose::inspect);
+  joined.members_divided = std::max(together.members.size(), apart.members.size()) - apart.members.size();
+  // Only merging takes nodes away, and dividing at nodes that are there adds none.
+  joined.nodes_merged = apart.nodes.size() - together.nodes.size();
+  return joined;
 }
 
 }  // namespace topple::structure

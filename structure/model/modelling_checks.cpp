@@ -111,7 +111,9 @@ void find_nodes_on_members(const Building& building, double tolerance, std::vect
     if (!found.empty() && shells && along_a_shell(building, member)) continue;
     for (const std::size_t n : found) on.add("node " + building.nodes[n].name + " lies on member " + member.name);
   }
-  on.tell(warnings, "what lies on a member between its ends is not joined to it; divide the member at the node");
+  on.tell(
+      warnings,
+      "what lies on a member between its ends is not joined to it; divide the member at the node, or say `connect`");
 }
 
 void find_near_nodes(const Building& building, double tolerance, std::vector<std::string>& warnings) {
@@ -127,7 +129,7 @@ void find_near_nodes(const Building& building, double tolerance, std::vector<std
       close.add("nodes " + building.nodes[n].name + " and " + building.nodes[other].name + " are " + distance +
                 " apart");
     });
-  close.tell(warnings, "they are not joined; use one node where one is meant");
+  close.tell(warnings, "they are not joined; use one node where one is meant, or say `connect`");
 }
 
 /// Members on one line through a node that go the same way from it lie over each other for the shorter's length.

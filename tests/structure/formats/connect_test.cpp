@@ -1,8 +1,11 @@
 // `connect`: what lies together is joined. Against closed forms and the same structure written out by hand.
 #include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
 #include <string>
 
 #include "topple/structure/analysis.h"
+#include "topple/structure/convert.h"
 #include "topple/structure/error.h"
 #include "topple/structure/files.h"
 #include "topple/structure/modelling_checks.h"
@@ -109,4 +112,21 @@ TEST_CASE("ties stay whole, and what is shorter than the tolerance cannot be con
                     Contains("member one") && Contains("tolerance of `connect`"));
   CHECK_THROWS_WITH(parse_model(model(nodes, members, R"("supports": {"A": "fixed"}, "connect": "yes")"), "m.json"),
                     Contains("connect") && Contains("true, false, or a length"));
+}
+
+// Two spans of 5 m under 8 kN/m on a stiff post: 5 q L/4 = 50 kN on the post.
+TEST_CASE("a model that is converted with --join bears as one whose parts are joined") {
+  const auto folder = std::filesystem::temp_directory_path() / "topple_joined_test";
+  std::filesystem::create_directories(folder);
+  const auto file = folder / "apart.json";
+  std::ofstream(file) << propped("");
+  const JoinedModel joined = joined_model(file, 0.001);
+  CHECK(joined.members_divided == 1);
+  CHECK(joined.nodes_merged == 0);
+  const Building building = parse_model(joined.text, "joined.json");
+  CHECK(vertical(building, analyse(building), "foot") == Approx(50e3).epsilon(1e-3));
+  CHECK_THROWS_WITH(joined_model(file, 0), Contains("above 0"));
+  std::ofstream(file) << joined.text;
+  CHECK_THROWS_WITH(joined_model(file, 0.001), Contains("`connect` itself"));
+  std::filesystem::remove_all(folder);
 }

@@ -23,4 +23,14 @@ struct ConvertedModel {
 /// comments.
 [[nodiscard]] ConvertedModel convert_model(const std::filesystem::path& in, ModelForm to);
 
+/// A model as JSON whose parts are joined: `"connect": tolerance` (in the model's length) is written into it, by which
+/// every reading merges nodes within that distance and divides members at nodes that lie on them.
+struct JoinedModel {
+  std::string text;
+  std::size_t nodes_merged = 0, members_divided = 0;  ///< members_divided: pieces that there are more
+};
+/// Throws InputError as convert_model() does, for a tolerance that is not above 0, and for a model that says `connect`
+/// itself.
+[[nodiscard]] JoinedModel joined_model(const std::filesystem::path& in, double tolerance);
+
 }  // namespace topple::structure
