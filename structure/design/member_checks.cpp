@@ -146,6 +146,7 @@ DesignMembers::DesignMembers(const Building& building, const DesignInput& input)
   for (std::size_t m = 0; m < members_.size(); ++m) {
     if (!building.members[m].design.checked) continue;
     members_[m] = prepared(building, bracing, method_, MemberId(m));
+    members_[m].stiffener_spacing = building.members[m].design.stiffener_spacing;
     members_[m].rigid_end_post = input.rigid_end_posts;
     members_[m].warping_held = input.warping_held;
   }

@@ -32,7 +32,7 @@ MemberDesign read_member_design(const JsonValue& value, const Scale& scale) {
     return design;
   }
   value.only({"length_y", "length_z", "length_torsion", "factor_y", "factor_z", "factor_torsion", "restraints",
-              "moment_factor", "equivalent_moment_y", "equivalent_moment_z"});
+              "moment_factor", "equivalent_moment_y", "equivalent_moment_z", "stiffener_spacing"});
   constexpr std::array<const char*, 3> ways{"y", "z", "torsion"};
   for (std::size_t i = 0; i < 3; ++i) {
     const std::string way = ways[i];
@@ -48,6 +48,10 @@ MemberDesign read_member_design(const JsonValue& value, const Scale& scale) {
   if (const auto factor = value.find("moment_factor")) design.moment_factor = factor->positive();
   if (const auto factor = value.find("equivalent_moment_y")) design.equivalent_moment_y = factor->positive();
   if (const auto factor = value.find("equivalent_moment_z")) design.equivalent_moment_z = factor->positive();
+  if (const auto spacing = value.find("stiffener_spacing")) {
+    (void)spacing->positive();
+    design.stiffener_spacing = scaled(*spacing, scale.length);
+  }
   return design;
 }
 

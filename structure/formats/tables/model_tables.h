@@ -61,7 +61,7 @@ inline const Columns members{
     "axial", "offset1x", "offset1y", "offset1z", "offset2x", "offset2y", "offset2z",
     // `design`: "none", or what follows
     "design", "length_y", "length_z", "length_torsion", "factor_y", "factor_z", "factor_torsion", "restraints",
-    "moment_factor", "equivalent_moment_y", "equivalent_moment_z"};
+    "moment_factor", "equivalent_moment_y", "equivalent_moment_z", "stiffener_spacing"};
 inline constexpr std::size_t design_column = 20, restraints_column = 27;
 inline const Columns restraints{"member", "at"};
 inline const Columns panels{"name",     "kind",  "node1", "node2", "node3", "node4", "thickness",

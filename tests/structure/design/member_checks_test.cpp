@@ -86,6 +86,21 @@ TEST_CASE("a column read from a file has the resistance of worked example A.5 of
   CHECK(column_resistance(factors) == Approx(column_resistance(lengths)).epsilon(1e-12));
 }
 
+TEST_CASE("stiffeners that the model gives stand in its length, and those of the command line come before them") {
+  const Building building = pinned_column(R"(, "design": {"stiffener_spacing": 1250})");
+  AnalysisRequest request;
+  const AnalysisResult result = analyse(building, request);
+  const CombinationResult& c = result.combinations[0];
+  const auto spacing = [&](const DesignInput& input) {
+    const DesignMembers members(building, input);
+    return members.member(MemberId(std::size_t{0}), c, members.state(c)).stiffener_spacing;
+  };
+  CHECK(spacing({}) == Approx(1.25).epsilon(1e-12));
+  DesignInput given;
+  given.stiffeners = {{"*", 2.5}};
+  CHECK(spacing(given) == 2.5);
+}
+
 // Supports that let both ends turn: G = 10 at either by the commentary of AISC 360. (G_A G_B/4)(pi/K)^2 + (G_A + G_B)/2
 // (1
 // - (pi/K)/tan(pi/K)) + 2 tan(pi/2K)/(pi/K) = 1: by hand u = pi/K = 3.2640 solves it, K = 0.9625.

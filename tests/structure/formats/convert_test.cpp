@@ -65,7 +65,7 @@ const std::string full_model = R"({"topple": 1, "title": "All, of \"it\"; tables
    "PC": {"kind": "post", "nodes": ["C0", "C1"], "section": "raw", "material": "S 355", "design": {"factor_y": 2.1, "length_z": 3100.7,
      "restraints": [1000.3, 2000.1], "moment_factor": 1.13}},
    "AB": {"nodes": ["A1", "B1"], "section": "w", "material": "S 355", "joints": ["pin", "pin"]},
-   "BC": {"nodes": ["B1", "C1"], "section": "w", "material": "S 355", "design": {"restraints": "continuous", "equivalent_moment_z": 0.9}}, "CD": {"nodes": ["C1", "D1"], "section": "w", "material": "S 355"},
+   "BC": {"nodes": ["B1", "C1"], "section": "w", "material": "S 355", "design": {"restraints": "continuous", "equivalent_moment_z": 0.9, "stiffener_spacing": 1.25}}, "CD": {"nodes": ["C1", "D1"], "section": "w", "material": "S 355"},
    "DA": {"nodes": ["D1", "A1"], "section": "w", "material": "S 355"}},
  "panels": {"S1": {"kind": "slab", "nodes": ["A1", "B1", "C1", "D1"], "thickness": 200.7, "material": "C,30", "model": "membrane", "mesh": [4, 3],
    "openings": [[[1000.1, 700], [2000, 700], [2000, 1500.3]], [[3000, 3000], [3500, 3000], [3500, 4000.7], [3000, 4000.7]]]}},
@@ -120,6 +120,7 @@ void check_same(const Building& a, const Building& b) {
     CHECK(p.moment_factor == q.moment_factor);
     CHECK(p.equivalent_moment_y == q.equivalent_moment_y);
     CHECK(p.equivalent_moment_z == q.equivalent_moment_z);
+    CHECK(p.stiffener_spacing == q.stiffener_spacing);
   }
   REQUIRE(a.panels.size() == b.panels.size());
   for (std::size_t i = 0; i < a.panels.size(); ++i) CHECK(a.panels[i].openings == b.panels[i].openings);

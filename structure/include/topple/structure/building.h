@@ -98,6 +98,7 @@ struct MemberDesign {
   std::vector<double> restraints;      ///< where it is held between the ends: distances from the first end
   double moment_factor = 1;            ///< C1 of EN 1993-1-1, Cb of AISC 360
   double equivalent_moment_y = 1, equivalent_moment_z = 1;  ///< C_my (and C_mLT), C_mz of EN 1993-1-1 annex B
+  double stiffener_spacing = 0;  ///< of transverse stiffeners of the web, m; 0: at the supports alone
 };
 
 struct Member {
