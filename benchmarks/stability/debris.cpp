@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "topple/collision/overlap_watch.h"
-#include "topple/collision/world.h"
+#include "topple/collision/sequential_impulse.h"
 
 namespace topple::bench {
 
@@ -28,7 +28,7 @@ BodyDescription box(double side, double mass, double height) {
 DebrisVerdict pile(double side, double ratio) {
   constexpr int settling = 540, averaged = 60;
   constexpr double light = 100;
-  const auto world = make_bullet_world();
+  const auto world = make_sequential_impulse_world();  // what simulations run on
   world->set_gravity({0, 0, -gravity});
   world->set_ground(0, 0.6, 0);
   const BodyId lower = world->add_body(box(side, light, side / 2)),
