@@ -8,15 +8,13 @@
 // What stands and moves is struck where it is: the part that is hit gives way between its nodes, and these nodes move
 // by modes while all others are held, so that a joint bears what the push brings to it in the time that it lasts.
 #include <algorithm>
-#include <array>
 #include <optional>
 
 #include "simulation/debris/momentum.h"
+#include "simulation/impact/body_impact.h"
 #include "simulation/impact/impact.h"
 #include "simulation/impact/impact_settings.h"
-#include "simulation/impact/rigid_mobility.h"
 #include "simulation/impact/struck_joints.h"
-#include "simulation/simulation_state.h"
 
 namespace topple::structure {
 
@@ -44,143 +42,6 @@ std::vector<int> independent_places(const Eigen::MatrixXd& compliance) {
 }
 
 }  // namespace
-
-struct Simulation::State::ImpactSide {
-  collision::BodyId id;  ///< -1: the ground, or a part that stands
-  Part standing;         ///< valid: that part
-  double time = 0;       ///< of the impact, since the body's state
-  RigidMotion motion;    ///< at the instant, true velocities
-  collision::Pose pose;  ///< at the instant
-  bool slept = false;
-  std::vector<std::int64_t> tags;  ///< of the part that each place is on; -1: none of the building's
-  FreeSegment::Flexibility flexibility;
-  std::vector<std::pair<JointId, Vec6>> borne;  ///< by its joints without the impact
-  /// Of what stands and moves.
-  bool held = false;
-  StandingFrame::HeldResponse response;
-  std::vector<int> modes;  ///< of its nodes, that the push moves
-  Eigen::VectorXd give;    ///< their compliances
-  /// In the order of `flexibility.demands`: by a unit of each of those modes' forces.
-  std::vector<Eigen::Matrix<double, 6, Eigen::Dynamic>> mode_demands;
-};
-
-/// An impact under way. Side 0 is the body of the contact, side 1 what it comes upon.
-struct Simulation::State::BodyImpact {
-  std::vector<ImpactPlace> places;
-  std::array<ImpactSide, 2> sides;
-  Eigen::MatrixXd compliance;
-
-  [[nodiscard]] Eigen::MatrixXd mobility_of_both() const {
-    return mobility(sides[0].motion, places) +
-           (sides[1].held ? sides[1].response.mobility : mobility(sides[1].motion, places));
-  }
-  [[nodiscard]] Eigen::VectorXd closing() const {
-    const Eigen::VectorXd speeds = closing_speeds(sides[0].motion, sides[1].motion, places);
-    return sides[1].held ? Eigen::VectorXd(speeds - sides[1].response.speed) : speeds;
-  }
-  /// Of the law: places, and behind them the modes that the push moves.
-  [[nodiscard]] Eigen::MatrixXd followed_mobility() const;
-  [[nodiscard]] Eigen::MatrixXd followed_compliance() const;
-  void follow();
-  void keep(const std::vector<int>& kept);
-  void give(const Eigen::VectorXd& impulses);
-};
-
-/// Which modes of the struck nodes the push moves. The faster ones bear it as at rest.
-void Simulation::State::BodyImpact::follow() {
-  ImpactSide& side = sides[1];
-  const StandingFrame::HeldResponse& response = side.response;
-  const Eigen::MatrixXd body = mobility(sides[0].motion, places);
-  const Eigen::VectorXd local = response.pushed.colwise().squaredNorm();
-  double own = 0;  // rad/s, of the push by itself
-  for (Eigen::Index i = 0; i < local.size(); ++i)
-    own = std::max(own, std::sqrt((body(i, i) + local(i)) / compliance(i, i)));
-  const double fast = impact_settings.follows * own, slow = own / (impact_settings.follows * impact_settings.follows);
-  const auto reached = [&](Eigen::Index mode) {
-    constexpr double none = 1e-9;
-    for (Eigen::Index i = 0; i < local.size(); ++i)
-      if (std::pow(response.pushed(mode, i), 2) > none * local(i)) return true;
-    return false;
-  };
-  const auto demands_of = [&](JointId joint) {
-    const auto same = [joint](const auto& one) { return one.first == joint; };
-    const auto found = std::find_if(response.node_demands.begin(), response.node_demands.end(), same);
-    return found == response.node_demands.end() ? nullptr : &found->second;
-  };
-  side.modes.clear();
-  std::vector<double> give;
-  for (Eigen::Index mode = 0; mode < response.squared.size(); ++mode) {
-    if (!reached(mode)) continue;
-    const double squared = response.squared(mode);
-    if (squared <= fast * fast) {
-      side.modes.push_back(static_cast<int>(mode));
-      give.push_back(1 / std::max(squared, slow * slow));
-      continue;
-    }
-    const Eigen::RowVectorXd moved = response.pushed.row(mode) / squared;
-    compliance += response.pushed.row(mode).transpose() * moved;
-    for (auto& [joint, columns] : side.flexibility.demands)
-      if (const auto* by_mode = demands_of(joint)) columns += by_mode->col(mode) * moved;
-  }
-  side.give = Eigen::Map<const Eigen::VectorXd>(give.data(), static_cast<Eigen::Index>(give.size()));
-  side.mode_demands.clear();
-  for (const auto& [joint, columns] : side.flexibility.demands) {
-    const auto* by_mode = demands_of(joint);
-    side.mode_demands.emplace_back(
-        by_mode ? Eigen::Matrix<double, 6, Eigen::Dynamic>((*by_mode)(Eigen::all, side.modes) * side.give.asDiagonal())
-                : Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, side.give.size()));
-  }
-}
-
-Eigen::MatrixXd Simulation::State::BodyImpact::followed_mobility() const {
-  if (!sides[1].held) return mobility_of_both();
-  const Eigen::MatrixXd pushed = sides[1].response.pushed(sides[1].modes, Eigen::all);
-  const Eigen::Index n = compliance.rows(), m = pushed.rows();
-  Eigen::MatrixXd all = Eigen::MatrixXd::Identity(n + m, n + m);
-  all.topLeftCorner(n, n) = mobility(sides[0].motion, places) + pushed.transpose() * pushed;
-  all.topRightCorner(n, m) = -pushed.transpose();
-  all.bottomLeftCorner(m, n) = -pushed;
-  return all;
-}
-
-Eigen::MatrixXd Simulation::State::BodyImpact::followed_compliance() const {
-  const Eigen::Index n = compliance.rows(), m = sides[1].give.size();
-  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(n + m, n + m);
-  all.topLeftCorner(n, n) = compliance;
-  all.diagonal().tail(m) = sides[1].give;
-  return all;
-}
-
-void Simulation::State::BodyImpact::keep(const std::vector<int>& kept) {
-  std::vector<ImpactPlace> fewer;
-  for (const int k : kept) fewer.push_back(places[static_cast<std::size_t>(k)]);
-  places = std::move(fewer);
-  for (ImpactSide& side : sides) {
-    std::vector<std::int64_t> tags;
-    for (const int k : kept) tags.push_back(side.tags[static_cast<std::size_t>(k)]);
-    side.tags = std::move(tags);
-    for (auto& [joint, columns] : side.flexibility.demands)
-      columns = Eigen::Matrix<double, 6, Eigen::Dynamic>(columns(Eigen::all, kept));
-    if (!side.held) continue;
-    StandingFrame::HeldResponse& own = side.response;
-    own.mobility = Eigen::MatrixXd(own.mobility(kept, kept));
-    own.pushed = Eigen::MatrixXd(own.pushed(Eigen::all, kept));
-    own.speed = Eigen::VectorXd(own.speed(kept));
-    std::vector<std::vector<std::pair<NodeId, Vec6>>> at_nodes;
-    for (const int k : kept) at_nodes.push_back(own.at_nodes[static_cast<std::size_t>(k)]);
-    own.at_nodes = std::move(at_nodes);
-  }
-  compliance = Eigen::MatrixXd(compliance(kept, kept));
-}
-
-/// To both sides at once, opposite and equal.
-void Simulation::State::BodyImpact::give(const Eigen::VectorXd& impulses) {
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const Vec3 impulse = impulses(static_cast<Eigen::Index>(i)) * places[i].normal;
-    sides[0].motion.push(-impulse, places[i].point);
-    sides[1].motion.push(impulse, places[i].point);
-  }
-}
 
 /// Of the body that holds the joint's member or panel.
 std::int64_t Simulation::State::body_of_joint(JointId joint) const {
@@ -311,7 +172,7 @@ void Simulation::State::find_held(ImpactSide& side, const std::vector<ImpactPlac
 
 std::vector<StruckJoint> Simulation::State::struck_joints(const BodyImpact& impact) const {
   std::vector<StruckJoint> joints;
-  const Eigen::Index n = impact.compliance.rows(), m = impact.sides[1].give.size();
+  const Eigen::Index n = impact.compliance.rows(), m = impact.sides[1].mode_compliance.size();
   for (const ImpactSide& side : impact.sides)
     for (std::size_t k = 0; k < side.flexibility.demands.size(); ++k) {
       const auto& [joint, columns] = side.flexibility.demands[k];
@@ -386,7 +247,7 @@ void Simulation::State::push_bodies(BodyImpact& impact) {
     std::vector<double> uses(all.size(), 0);
     (void)borne.push(impact.sides[1].held ? note_uses(all, uses) : Impact::Utilisation(), deepest);
     const Eigen::Index n = impact.compliance.rows();
-    const StruckJoints joints(all, borne.peak_force(), static_cast<int>(impact.sides[1].give.size()));
+    const StruckJoints joints(all, borne.peak_force(), static_cast<int>(impact.sides[1].mode_compliance.size()));
     const double hardest = borne.peak_force().head(n).maxCoeff();
     const auto used = [&](const Eigen::VectorXd& force) { return joints.utilisation(force); };
     if (told) events[*told].peak_force = std::max(events[*told].peak_force, joints.empty() ? hardest : 0);
@@ -465,7 +326,7 @@ void Simulation::State::leave_with_restitution(BodyImpact& impact) {
 
 /// `follows`: with the modes of the struck nodes.
 Impact Simulation::State::begin_push(const BodyImpact& impact, bool follows) const {
-  const Eigen::Index n = impact.compliance.rows(), bound = follows ? impact.sides[1].give.size() : 0;
+  const Eigen::Index n = impact.compliance.rows(), bound = follows ? impact.sides[1].mode_compliance.size() : 0;
   Eigen::VectorXd acceleration = Eigen::VectorXd::Zero(n + bound), closing = acceleration;
   closing.head(n) = impact.closing();
   for (std::size_t i = 0; i < impact.places.size(); ++i) {
@@ -542,34 +403,14 @@ Simulation::State::ImpactSide Simulation::State::side_again(const ImpactSide& si
   return now;
 }
 
-/// Of the modes of the struck nodes that the push moves: coordinates, or their rates.
-Eigen::VectorXd Simulation::State::carried_over(const ImpactSide& before, const Eigen::VectorXd& moved,
-                                                const ImpactSide& now) {
-  Eigen::VectorXd from = Eigen::VectorXd::Zero(before.response.squared.size()),
-                  to = Eigen::VectorXd::Zero(now.response.squared.size());
-  from(before.modes) = moved;
-  Eigen::Index from_row = 0;
-  for (const auto& [component, modes] : before.response.local) {
-    Eigen::Index to_row = 0;
-    for (const auto& [same, changed] : now.response.local) {
-      if (same == component)
-        to.segment(to_row, changed.squared.size()) =
-            solver::carried_over(modes, from.segment(from_row, modes.squared.size()), changed);
-      to_row += changed.squared.size();
-    }
-    from_row += modes.squared.size();
-  }
-  return to(now.modes);
-}
-
 /// These joints fail; bodies fall apart, and the push goes on with the pieces that touch. False: it is over.
 bool Simulation::State::break_bodies(BodyImpact& impact, Impact& push, const std::vector<JointBreak>& broken) {
   const double stored = push.stored();
   const Eigen::MatrixXd compliance = impact.compliance;
   const Eigen::VectorXd force = push.force().head(compliance.rows());
   const ImpactSide before_break = impact.sides[1];
-  const Eigen::VectorXd moved = push.indentation().tail(before_break.give.size()),
-                        moving = push.closing_speed().tail(before_break.give.size());
+  const Eigen::VectorXd moved = push.indentation().tail(before_break.mode_compliance.size()),
+                        moving = push.closing_speed().tail(before_break.mode_compliance.size());
   std::vector<std::size_t> lines;
   std::vector<JointBreak> of_frame;
   for (const JointBreak& one : broken) {
@@ -628,7 +469,8 @@ bool Simulation::State::break_bodies(BodyImpact& impact, Impact& push, const std
     push.change(impact.followed_mobility().topLeftCorner(n, n), impact.compliance,
                 shift_of_break(before, impact.compliance, pressed));
     if (impact.sides[1].held)
-      push.bind(impact.followed_mobility(), impact.followed_compliance(), carried_over(before_break, moved, impact.sides[1]),
+      push.bind(impact.followed_mobility(), impact.followed_compliance(),
+                carried_over(before_break, moved, impact.sides[1]),
                 carried_over(before_break, moving, impact.sides[1]));
     left = push.stored();
   }
