@@ -3,23 +3,13 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "structure/design/design_steel.h"
 #include "topple/structure/design_check.h"
 
 using namespace topple::structure;
+using namespace topple::test;
 
 namespace {
-
-constexpr double inch = 0.0254, kip = 4448.2216152605, ksi = kip / (inch * inch), foot = 12 * inch;
-constexpr double mm = 1e-3, kN = 1e3, kNm = 1e3, MPa = 1e6;
-
-Material steel(double fy, double e, double g) {
-  Material m;
-  m.name = "steel";
-  m.youngs_modulus = e;
-  m.shear_modulus = g;
-  m.yield_strength = fy;
-  return m;
-}
 
 /// A doubly symmetric I of plates, in metres, its properties by rectangles (as the tests' hand calculations have them).
 Section welded(double h, double b, double tw, double tf) {

@@ -3,14 +3,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "structure/design/design_steel.h"
 #include "topple/structure/design_check.h"
 #include "topple/structure/error.h"
 
 using namespace topple::structure;
+using namespace topple::test;
 
 namespace {
-
-constexpr double inch = 0.0254, kip = 4448.2216152605, foot = 0.3048, ksi = kip / (inch * inch);
 
 /// A W shape from its table in inches (AISC Manual): d, bf, tf, tw, A, Ix, Iy, J, Zx, Zy, kdes.
 Section w_shape(double d, double bf, double tf, double tw, double area, double ix, double iy, double j, double zx,
@@ -36,15 +36,6 @@ Section w_shape(double d, double bf, double tf, double tw, double area, double i
 const Section w14x99 = w_shape(14.2, 14.6, 0.780, 0.485, 29.1, 1110, 402, 5.37, 173, 83.6, 1.38);
 const Section w14x132 = w_shape(14.7, 14.7, 1.03, 0.645, 38.8, 1530, 548, 12.3, 234, 113, 1.63);
 const Section w18x50 = w_shape(18.0, 7.50, 0.570, 0.355, 14.7, 800, 40.1, 1.24, 101, 16.6, 0.972);
-
-Material steel(double fy, double e = 29000 * ksi, double g = 11200 * ksi) {
-  Material m;
-  m.name = "steel";
-  m.youngs_modulus = e;
-  m.shear_modulus = g;
-  m.yield_strength = fy;
-  return m;
-}
 
 double clause(const DesignResult& result, const std::string& name) {
   for (const DesignClause& c : result.clauses)

@@ -4,23 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "structure/design/design_steel.h"
 #include "topple/structure/design_check.h"
 
 using namespace topple::structure;
+using namespace topple::test;
 
 namespace {
-
-constexpr double inch = 0.0254, kip = 4448.2216152605, ksi = kip / (inch * inch), foot = 12 * inch;
-constexpr double mm = 1e-3, cm = 1e-2, kN = 1e3, kNm = 1e3, MPa = 1e6;
-
-Material steel(double fy, double e, double g) {
-  Material m;
-  m.name = "steel";
-  m.youngs_modulus = e;
-  m.shear_modulus = g;
-  m.yield_strength = fy;
-  return m;
-}
 
 const Material s235 = steel(235 * MPa, 210e9, 81e9), s275 = steel(275 * MPa, 210e9, 81e9),
                s355 = steel(355 * MPa, 210e9, 81e9);

@@ -6,6 +6,7 @@
 #include "structure/ballistic_world.h"
 #include "structure/frame_builder.h"
 #include "structure/simulation_run.h"
+#include "structure/struck_post.h"
 #include "topple/structure/error.h"
 #include "topple/structure/simulation.h"
 
@@ -34,26 +35,8 @@ FrameBuilder mass_on_bars() {
 }
 
 Scenario struck_by(double speed, double body_mass, double step) {
-  Scenario scenario;
-  scenario.combination = CombinationId(0u);
-  scenario.standing = StandingRule::dynamics;
-  scenario.step = step;
-  scenario.duration = 0.3;
-  scenario.failure.bracing = BracingRule::none;
-  scenario.impact.restitution = 0;
-  Projectile ball;
-  ball.radius = 0.25;
-  const double flight = 0.05;  // s, in which it falls to the middle of the bar
-  ball.from = Vec3(-0.1 - ball.radius - flight * speed, 0, length / 2 + 10 * flight * flight / 2);
-  ball.velocity = Vec3(speed, 0, 0);
-  ball.mass = body_mass;
-  scenario.events = {{0, ball}};
-  return scenario;
+  return struck_post(length / 2, speed, body_mass, step, 0.3);
 }
-
-}  // namespace
-
-namespace {
 
 struct Pushed {
   double peak = 0;      ///< N

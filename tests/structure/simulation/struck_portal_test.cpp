@@ -9,6 +9,7 @@
 #include "structure/ballistic_world.h"
 #include "structure/frame_builder.h"
 #include "structure/simulation_run.h"
+#include "structure/struck_post.h"
 #include "topple/structure/simulation.h"
 
 namespace {
@@ -194,24 +195,6 @@ class Portal {
   bool foot_holds = true, beam_holds = true;
 };
 
-Scenario struck(double speed, double step) {
-  Scenario scenario;
-  scenario.combination = CombinationId(0u);
-  scenario.standing = StandingRule::dynamics;
-  scenario.step = step;
-  scenario.duration = 0.4;
-  scenario.failure.bracing = BracingRule::none;
-  scenario.impact.restitution = 0;
-  Projectile ball;
-  ball.radius = 0.25;
-  const double flight = 0.05;
-  ball.from = Vec3(-0.1 - ball.radius - flight * speed, 0, at + 10 * flight * flight / 2);
-  ball.velocity = Vec3(speed, 0, 0);
-  ball.mass = body_mass;
-  scenario.events = {{0, ball}};
-  return scenario;
-}
-
 }  // namespace
 
 TEST_CASE(
@@ -220,7 +203,7 @@ TEST_CASE(
   for (const double speed : {2.0, 6.0, 20.0}) {
     const Portal::Answer exact = Portal().strike(speed, capacity, 0.05);
     for (const double step : {1.0 / 30, 1.0 / 60, 1.0 / 240}) {
-      Simulation simulation(portal(capacity).building, struck(speed, step),
+      Simulation simulation(portal(capacity).building, struck_post(at, speed, body_mass, step, 0.4),
                             {1, [] { return std::make_unique<BallisticWorld>(); }});
       run(simulation);
       const auto impacts = of_kind(simulation, SimulationEvent::Kind::impact);
