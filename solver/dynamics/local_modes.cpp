@@ -2,6 +2,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
 
 #include "dynamics/dynamic_state.h"
@@ -50,26 +51,22 @@ LocalModes FrameDynamics::local_modes(std::span<const int> nodes, std::span<cons
   const State& state = *state_;
   const FrameSystem& system = state.system();
   LocalModes local;
-  std::vector<int> all = equations_of(system, nodes), without_mass;
-  for (const int e : all) {
-    const SparseSymmetric& M = system.mass();
-    const bool has_mass = M.value[static_cast<std::size_t>(M.start[static_cast<std::size_t>(e)])] > 0;
-    (has_mass ? local.equations : without_mass).push_back(e);
-  }
-  const auto n = static_cast<Eigen::Index>(local.equations.size());
-  const auto bare = static_cast<Eigen::Index>(without_mass.size());
-  all = local.equations;
-  all.insert(all.end(), without_mass.begin(), without_mass.end());
-  std::vector<int> order(all.size());  // part_of() wants them ascending
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
-  std::sort(order.begin(), order.end(),
-            [&](int a, int b) { return all[static_cast<std::size_t>(a)] < all[static_cast<std::size_t>(b)]; });
-  std::vector<int> sorted;
-  for (const int i : order) sorted.push_back(all[static_cast<std::size_t>(i)]);
-  Eigen::MatrixXd K(n + bare, n + bare), M(n + bare, n + bare);
-  const Eigen::MatrixXd inert = part_of(system.mass(), sorted);
-  K(order, order) = part_of(system.matrix(), sorted) - state.method.s * inert;
-  M(order, order) = inert;
+  const SparseSymmetric& mass = system.mass();
+  const std::vector<int> sorted = equations_of(system, nodes);
+  const auto has_mass = [&](int place) {
+    const auto e = static_cast<std::size_t>(sorted[static_cast<std::size_t>(place)]);
+    return mass.value[static_cast<std::size_t>(mass.start[e])] > 0;
+  };
+  std::vector<int> order(sorted.size());  // those with mass first
+  std::iota(order.begin(), order.end(), 0);
+  const auto first_bare = std::stable_partition(order.begin(), order.end(), has_mass);
+  const Eigen::Index n = first_bare - order.begin(), bare = order.end() - first_bare;
+  std::vector<int> all;
+  for (const int place : order) all.push_back(sorted[static_cast<std::size_t>(place)]);
+  local.equations.assign(all.begin(), all.begin() + n);
+  const Eigen::MatrixXd inert = part_of(mass, sorted);
+  const Eigen::MatrixXd stiff = part_of(system.matrix(), sorted) - state.method.s * inert;
+  const Eigen::MatrixXd K = stiff(order, order), M = inert(order, order);
   Eigen::MatrixXd follow = Eigen::MatrixXd::Identity(n + bare, n);  // what has no mass follows what has
   if (bare > 0)
     follow.bottomRows(bare) =

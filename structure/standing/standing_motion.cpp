@@ -148,8 +148,8 @@ StandingMotion::Known StandingMotion::find(int c, const solver::FrameModel& mode
   still.keep_energy = false;
   Known found;
   const std::vector<solver::VibrationMode> modes = solver::natural_modes(model, masses, 1, still.analysis).modes;
-  found.first_frequency = modes.empty() ? 1 : modes.front().angular_frequency;  // supports may hold every node
-  if (modes.empty()) return found;
+  if (modes.empty()) return found;  // supports hold every node
+  found.first_frequency = modes.front().angular_frequency;
   const double quotient = solver::FrameDynamics(model, masses, still).rayleigh_quotient(rest);
   const double shape = quotient > 0 ? std::sqrt(quotient) : found.first_frequency;
   found.damping = solver::rayleigh_damping(damping_of(c), found.first_frequency, shape);
@@ -424,39 +424,29 @@ Eigen::MatrixXd StandingMotion::mobility(int c, std::span<const NodalForces> for
   return (result + result.transpose()) / 2;
 }
 
-solver::LocalModes StandingMotion::local_modes(int c, std::span<const NodalForces> forces) const {
+StandingMotion::LocalMotion StandingMotion::local_motion(int c, std::span<const NodalForces> forces) const {
   std::vector<int> nodes;
   std::vector<std::vector<solver::FrameDynamics::Impulse>> pushes;
+  const auto pushed = [&](int node) { return std::find(nodes.begin(), nodes.end(), node) != nodes.end(); };
   for (const NodalForces& one : forces) {
     pushes.push_back(numbered(from_.statics, one));
-    for (const auto& [node, force] : one)
-      if (const int number = from_.statics.number(node); std::find(nodes.begin(), nodes.end(), number) == nodes.end())
-        nodes.push_back(number);
+    for (const solver::FrameDynamics::Impulse& force : pushes.back())
+      if (!pushed(force.node)) nodes.push_back(force.node);
   }
-  return moving_.at(c)->frame->local_modes(nodes, pushes);
-}
-
-StandingMotion::ModeDemands StandingMotion::node_demands(int c, std::span<const NodalForces> forces,
-                                                         const solver::LocalModes& modes) const {
-  const auto pushed = [&](NodeId node) {
-    return std::any_of(forces.begin(), forces.end(), [node](const NodalForces& one) {
-      return std::any_of(one.begin(), one.end(), [node](const auto& force) { return force.first == node; });
-    });
-  };
-  ModeDemands demands;
-  for (const auto& [beam, end_forces] : modes.end_forces) {
+  LocalMotion local{moving_.at(c)->frame->local_modes(nodes, pushes), {}};
+  for (const auto& [beam, end_forces] : local.modes.end_forces) {
     const MemberId member = from_.statics.members(c)[static_cast<std::size_t>(beam)];
     for (int end = 0; end < 2; ++end) {
       const JointId joint = from_.building.joint(member, end);
       if (!from_.building[joint].capacity.breakable || !from_.parts.standing(joint) ||
-          !pushed(from_.building[member].nodes[static_cast<std::size_t>(end)]))
+          !pushed(from_.statics.number(from_.building[member].nodes[static_cast<std::size_t>(end)])))
         continue;
       Eigen::Matrix<double, 6, Eigen::Dynamic> columns(6, end_forces.cols());
       for (Eigen::Index k = 0; k < end_forces.cols(); ++k) columns.col(k) = member_joint_demand(end_forces.col(k), end);
-      demands.emplace_back(joint, std::move(columns));
+      local.demands.emplace_back(joint, std::move(columns));
     }
   }
-  return demands;
+  return local;
 }
 
 double StandingMotion::strike(int c, const NodalForces& impulses) {

@@ -83,12 +83,13 @@ class StandingMotion {
   using NodalForces = std::vector<std::pair<NodeId, Vec6>>;
   /// g_i' M^-1 g_j of forces on one component that moves.
   [[nodiscard]] Eigen::MatrixXd mobility(int component, std::span<const NodalForces> forces) const;
-  /// The nodes that forces of one component act on, others held (solver::FrameDynamics::local_modes()).
-  [[nodiscard]] solver::LocalModes local_modes(int component, std::span<const NodalForces> forces) const;
-  /// What joints at these nodes bear for a unit of each coordinate.
-  using ModeDemands = std::vector<std::pair<JointId, Eigen::Matrix<double, 6, Eigen::Dynamic>>>;
-  [[nodiscard]] ModeDemands node_demands(int component, std::span<const NodalForces> forces,
-                                         const solver::LocalModes& modes) const;
+  /// The nodes that forces of one component act on, others held (solver::FrameDynamics::local_modes()), and what joints
+  /// at these nodes bear for a unit of each coordinate.
+  struct LocalMotion {
+    solver::LocalModes modes;
+    std::vector<std::pair<JointId, Eigen::Matrix<double, 6, Eigen::Dynamic>>> demands;
+  };
+  [[nodiscard]] LocalMotion local_motion(int component, std::span<const NodalForces> forces) const;
   /// Returns the work of the impulses, J. What changed before is taken over first.
   double strike(int component, const NodalForces& impulses);
 
@@ -108,7 +109,7 @@ class StandingMotion {
   class Law;
   /// Found once for each component.
   struct Known {
-    double first_frequency = 0;  ///< rad/s
+    double first_frequency = 1;  ///< rad/s; of what cannot move any
     solver::RayleighDamping damping;
   };
   [[nodiscard]] Known find(int component, const solver::FrameModel& model, const solver::MassModel& masses,

@@ -65,8 +65,9 @@ FrameEnergy StandingFrame::energy() const {
 namespace {
 
 /// Of the modes of one more component.
-void add_modes(int component, solver::LocalModes modes, const std::vector<Eigen::Index>& places,
-               StandingMotion::ModeDemands demands, StandingFrame::HeldResponse& answer) {
+void add_modes(int component, StandingMotion::LocalMotion local, const std::vector<Eigen::Index>& places,
+               StandingFrame::HeldResponse& answer) {
+  const solver::LocalModes& modes = local.modes;
   const Eigen::Index before = answer.squared.size(), own = modes.squared.size();
   answer.squared.conservativeResize(before + own);
   answer.squared.tail(own) = modes.squared;
@@ -77,12 +78,12 @@ void add_modes(int component, solver::LocalModes modes, const std::vector<Eigen:
     columns.conservativeResize(6, before + own);
     columns.rightCols(own).setZero();
   }
-  for (auto& [joint, columns] : demands) {
+  for (const auto& [joint, columns] : local.demands) {
     Eigen::Matrix<double, 6, Eigen::Dynamic> wide = Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, before + own);
     wide.rightCols(own) = columns;
     answer.node_demands.emplace_back(joint, std::move(wide));
   }
-  answer.local.emplace_back(component, std::move(modes));
+  answer.local.emplace_back(component, std::move(local.modes));
 }
 
 }  // namespace
@@ -100,9 +101,7 @@ StandingFrame::HeldResponse StandingFrame::respond_held(std::span<const ContactP
     for (const Eigen::Index i : own)
       for (const auto& [node, force] : answer.at_nodes[static_cast<std::size_t>(i)])
         answer.speed(i) += force.dot(state.motion->velocity(node));
-    solver::LocalModes modes = state.motion->local_modes(c, forces);
-    StandingMotion::ModeDemands demands = state.motion->node_demands(c, forces, modes);
-    add_modes(c, std::move(modes), own, std::move(demands), answer);
+    add_modes(c, state.motion->local_motion(c, forces), own, answer);
   }
   state.pending = true;
   return answer;
