@@ -75,12 +75,16 @@ std::string lengths_text(const DesignResult& used, const Building& building, con
     return std::string(length_source_name(used.length_source[way])) +
            (why.empty() ? "" : "; not from the buckling modes: " + std::string(why));
   };
-  char text[512];
+  const std::string name = building.units.consistent ? "" : " " + building.units.length_name;
+  char lateral[64] = "flanges held along its length";
+  if (used.lengths.lateral > 0)
+    std::snprintf(lateral, sizeof lateral, "lateral %.4g%s", used.lengths.lateral / unit, name.c_str());
+  char text[640];
   std::snprintf(text, sizeof text,
-                "Effective lengths: about y %.4g (K %.3f, %s), about z %.4g (K %.3f, %s), torsion %.4g, lateral %.4g.",
-                used.lengths.y / unit, used.lengths.y / member.length, source(0).c_str(), used.lengths.z / unit,
-                used.lengths.z / member.length, source(1).c_str(), used.lengths.torsion / unit,
-                used.lengths.lateral / unit);
+                "Effective lengths: about y %.4g%s (K %.3f, %s), about z %.4g%s (K %.3f, %s), torsion %.4g%s; %s.",
+                used.lengths.y / unit, name.c_str(), used.lengths.y / member.length, source(0).c_str(),
+                used.lengths.z / unit, name.c_str(), used.lengths.z / member.length, source(1).c_str(),
+                used.lengths.torsion / unit, name.c_str(), lateral);
   return text;
 }
 

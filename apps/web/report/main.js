@@ -198,7 +198,7 @@ function buildControls() {
   const print = document.createElement('button');
   print.textContent = 'Print';
   print.addEventListener('click', () => {
-    buildPaper(data);
+    buildPaper(data, state.paper);
     window.print();
   });
   aside.replaceChildren(
@@ -332,5 +332,5 @@ hover(document.getElementById('canvas'));
 refresh();
 if (state.moving) animate();
 setPaper(state.paper);
-window.addEventListener('beforeprint', () => buildPaper(data));
-if (/print/i.test(location.hash)) buildPaper(data);
+window.addEventListener('beforeprint', () => buildPaper(data, state.paper));
+if (/print/i.test(location.hash)) buildPaper(data, state.paper);

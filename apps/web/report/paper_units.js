@@ -23,7 +23,8 @@ export function quantity(value, unit, units) {
   return `${scaled.toFixed(digits)} ${name}`.trim();
 }
 
-/** Columns and rows of a table, converted; numbers become texts. `apart`: each column has decimals of its own. */
+/** Columns and rows of a table, converted; numbers become texts. `apart`: each column has decimals of its own. What has
+ * the unit % is a share of 1. */
 export function onPaper(columns, rows, units, apart) {
   const conversions = columns.map(([, unit]) => paperUnit(unit, units));
   const made = columns.map(([name], k) => [name, conversions[k][1]]);
@@ -35,6 +36,7 @@ export function onPaper(columns, rows, units, apart) {
     const decimals = largest > 0 ? 4 - Math.floor(Math.log10(largest)) : 0;
     return (v) => {
       if (typeof v !== 'number') return v ?? '';
+      if (unit === '%') return (100 * v).toFixed(1);
       const scaled = v * factor;
       if (scaled === 0 || (factor !== 1 && Math.abs(scaled) < NOTHING)) return '0';
       if (decimals > 8) return scaled.toExponential(3);

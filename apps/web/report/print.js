@@ -1,9 +1,10 @@
 // The report on paper: cover, contents, drawings, results, checks with every intermediate value, tables whole. Built when the
 // page is printed (or at once for `#print`, as a headless browser does), from the same data as the screen's.
-import { deformedDrawing, diagramDrawing, loadDrawing, LOOKS, modelDrawing } from './drawings.js';
+import { deformedDrawing, diagramDrawing, loadDrawing, LOOKS, membersDrawing, modelDrawing } from './drawings.js';
 import { number, percent, units } from './format.js';
 import { combinationRows, sectionRows, verdict } from './paper_summary.js';
 import { loadRows, onPaper, paperUnit, quantity } from './paper_units.js';
+import { layOut } from './sheets.js';
 import { tables } from './tables.js';
 
 /** A table with more rows than this is printed by a selection that it states. */
@@ -17,60 +18,87 @@ function make(name, text = '', className = '') {
   return made;
 }
 
+/** A line of the contents: a link and, once the sheets are laid out, the page. */
+function contentsLine(title, id, level) {
+  const link = make('a', '', `level${level}`);
+  link.href = `#${id}`;
+  link.append(make('span', title), make('span', '', 'dots'), make('span', '0', 'page'));
+  return link;
+}
+
 class Paper {
-  constructor(root) {
+  constructor(root, contents) {
     this.root = root;
-    this.contents = make('ol');
+    this.contents = contents;
     this.count = 0;
+    this.parts = 0;
   }
 
   chapter(title) {
-    const id = `p${++this.count}`;
-    const section = make('section', '', 'chapter');
-    section.id = id;
-    section.append(make('h2', `${this.count}. ${title}`));
-    const link = make('a', title);
-    link.href = `#${id}`;
-    const item = make('li');
-    item.append(link);
-    this.contents.append(item);
+    const section = make('section', '', this.count ? 'chapter' : 'chapter fresh');
+    const heading = make('h2', `${++this.count}. ${title}`);
+    heading.id = `p${this.count}`;
+    this.parts = 0;
+    section.append(heading);
+    this.contents.append(contentsLine(heading.textContent, heading.id, 1));
     this.root.append(section);
     return section;
   }
+
+  /** A heading within the last chapter that the contents name as well. */
+  part(title, short = title) {
+    const heading = make('h3', title);
+    heading.id = `p${this.count}-${++this.parts}`;
+    this.contents.append(contentsLine(short, heading.id, 2));
+    return heading;
+  }
 }
 
-function table(columns, rows) {
+/** A cell with more characters goes over several rows, so that no row is taller than a sheet. */
+const LONGEST = 1500;
+
+/** Texts of at most LONGEST characters, parted at blanks. */
+function parted(text) {
+  const parts = [];
+  let rest = text;
+  while (rest.length > LONGEST) {
+    const at = rest.lastIndexOf(' ', LONGEST);
+    parts.push(rest.slice(0, at > 0 ? at : LONGEST));
+    rest = rest.slice(at > 0 ? at + 1 : LONGEST);
+  }
+  return [...parts, rest];
+}
+
+/** A table of cells {text, number}; columns of numbers are aligned at the right, heads included. */
+function tableOf(columns, rows) {
   const made = make('table', '', 'print');
   const head = made.createTHead().insertRow();
-  for (const [name, unit] of columns) head.append(make('th', unit ? `${name}, ${unit}` : name));
+  columns.forEach(([name, unit], k) => {
+    const cell = make('th', name.replaceAll('_', ' '), rows.some((row) => row[k].text !== '' && !row[k].number) || !rows.length ? 'text' : '');
+    if (unit) cell.append(make('span', unit, 'unit'));
+    head.append(cell);
+  });
   const body = made.createTBody();
   for (const row of rows) {
-    const line = body.insertRow();
-    row.forEach((cell) => {
-      const td = line.insertCell();
-      td.textContent = number(cell);
-      if (typeof cell === 'string') td.className = 'text';
-    });
+    const texts = row.map((cell) => parted(String(cell.text)));
+    for (let part = 0; part < Math.max(...texts.map((t) => t.length)); ++part) {
+      const line = body.insertRow();
+      row.forEach((cell, k) => {
+        const td = line.insertCell();
+        td.textContent = texts[k][part] ?? '';
+        if (!cell.number) td.className = 'text';
+      });
+    }
   }
   return made;
 }
+
+const table = (columns, rows) => tableOf(columns, rows.map((row) => row.map((cell) => ({ text: number(cell), number: typeof cell !== 'string' }))));
 
 /** A table in the units of paper. */
 function measured(columns, rows, u, apart) {
   const converted = onPaper(columns, rows, u, apart);
-  const made = make('table', '', 'print');
-  const head = made.createTHead().insertRow();
-  for (const [name, unit] of converted.columns) head.append(make('th', unit ? `${name}, ${unit}` : name));
-  const body = made.createTBody();
-  for (const row of converted.rows) {
-    const line = body.insertRow();
-    for (const cell of row) {
-      const td = line.insertCell();
-      td.textContent = cell.text;
-      if (!cell.number) td.className = 'text';
-    }
-  }
-  return made;
+  return tableOf(converted.columns, converted.rows);
 }
 
 function figure(svg, caption) {
@@ -79,9 +107,19 @@ function figure(svg, caption) {
   return made;
 }
 
+/** Drawings [{svg, narrow}, caption] below each other; narrow ones that follow one another stand two by two. */
+function place(chapter, drawings) {
+  let pair = null;
+  for (const [drawing, caption] of drawings) {
+    if (!drawing.narrow) pair = null;
+    else if (!pair || pair.childElementCount === 2) chapter.append((pair = make('div', '', 'pairs')));
+    (drawing.narrow ? pair : chapter).append(figure(drawing.svg, caption));
+  }
+}
+
 function cover(data, root) {
   const { model, results } = data;
-  const page = make('section', '', 'cover');
+  const page = make('section', '', 'cover fresh');
   // A long title is a name and what is said of it: on the cover the name stands alone.
   const whole = model.title || model.file;
   const end = whole.length > 80 ? whole.search(/[.:;,] /) : -1;
@@ -121,19 +159,19 @@ function drawSummary(paper, data, u) {
 function drawModel(paper, data, u) {
   const chapter = paper.chapter('Model');
   const { model } = data;
-  chapter.append(make('p', `${model.nodes.length} nodes, ${data.results.model.members} members, ${model.panels.length} panels, ${data.results.model.freedoms} equations. Posts are drawn black, beams blue, braces brown; supports as triangles.`));
+  chapter.append(make('p', `${model.nodes.length} nodes, ${data.results.model.members} members, ${model.panels.length} panels, ${data.results.model.freedoms} equations. Posts are drawn black, beams blue, braces brown; supports as triangles; numbers along the drawings are coordinates of posts and storeys in ${u.length || 'units of length'}.`, 'intro'));
   if (model.sample) chapter.append(make('p', model.sample));
-  for (const look of Object.values(LOOKS)) chapter.append(figure(modelDrawing(model, look, u.length), look.title));
+  place(chapter, Object.values(LOOKS).map((look) => [modelDrawing(model, look, u.length), look.title]));
 }
 
 function drawLoads(paper, data) {
   const chapter = paper.chapter('Loads and combinations');
   const { model } = data;
   chapter.append(table([['combination', ''], ['factors', '']], model.combinations));
-  for (const load of model.load_drawings ?? []) {
+  place(chapter, (model.load_drawings ?? []).map((load) => {
     const text = `Case ${load.name}${load.self_weight ? ', with self weight' : ''}${load.left_out ? `; ${load.left_out} loads are not drawn` : ''}. ${whatIsDrawn(data, load)}`;
-    chapter.append(figure(loadDrawing(model, LOOKS.view, load.arrows, load.panels), text));
-  }
+    return [loadDrawing(model, LOOKS.view, load.arrows, load.panels), text];
+  }));
 }
 
 /** The values behind a drawing of loads. */
@@ -173,7 +211,7 @@ function drawResults(paper, data, u) {
     chapter.append(list);
     const bows = data.diagrams?.[name]?.map((rows) => rows?.map((row) => [row[y], row[z]]) ?? null);
     const drawing = deformedDrawing(model, LOOKS.view, byNode(model, c.displacements), largest.value, bows);
-    chapter.append(figure(drawing.svg, `Deformed, ${number(Number(drawing.scale.toPrecision(2)))} times as large`));
+    place(chapter, [[drawing, `Deformed, ${number(Number(drawing.scale.toPrecision(2)))} times as large`]]);
     const pairs = make('div', '', 'pairs');
     (results.buckling?.[name] ?? []).slice(0, 4).forEach((mode, k) => {
       const shape = deformedDrawing(model, LOOKS.view, byNode(model, mode.shape), 1, null);
@@ -188,9 +226,9 @@ function drawResults(paper, data, u) {
   });
 }
 
-function audit(data, check, u) {
+function audit(data, check, u, paper) {
   const made = make('section', '', 'audit');
-  made.append(make('h3', `${check.member}: ${percent(check.use)} by ${check.governing}, combination ${check.combination}`));
+  made.append(paper.part(`${check.member}: ${percent(check.use)} by ${check.governing}, combination ${check.combination}`, `${check.member}, ${check.section}`));
   made.append(make('p', `Section ${check.section}, material ${check.material}, length ${number(check.length)} ${u.length}. ${check.formula}`));
   made.append(make('p', check.lengths));
   if (check.refusal) made.append(make('p', `Not said to pass: ${check.refusal}.`, 'warning'));
@@ -199,7 +237,8 @@ function audit(data, check, u) {
     const row = make('div', '', 'diagrams');
     const column = (name) => stations.map((s) => s[data.diagram_names.indexOf(name)]);
     const most = (quantities) => Math.max(...quantities.flatMap((q) => column(q).map(Math.abs)));
-    const noise = { force: 1e-9 * most(['axial', 'shear_y', 'shear_z']), moment: 1e-9 * most(['torsion', 'moment_y', 'moment_z']), length: 1e-9 * check.length };
+    const force = most(['axial', 'shear_y', 'shear_z']), moment = Math.max(most(['torsion', 'moment_y', 'moment_z']), force * check.length);
+    const noise = { force: 1e-9 * force, moment: 1e-9 * moment, length: 1e-9 * check.length };
     for (const [name, kind] of [['axial', 'force'], ['shear_z', 'force'], ['moment_y', 'moment'], ['deflection_z', 'length']]) {
       const [factor, unit] = paperUnit(u[kind], data.results.units);
       const values = column(name).map((v) => (Math.abs(v) < noise[kind] ? 0 : factor * v));
@@ -218,11 +257,17 @@ function drawChecks(paper, data, u) {
   if (!data.results.design) return;
   const chapter = paper.chapter('Design checks');
   chapter.append(make('p', `${data.results.design.code}. ${data.model.audit_selection ?? ''}`));
-  chapter.append(make('h3', 'Not checked'));
+  chapter.append(paper.part('Not checked'));
   const list = make('ul');
   for (const text of data.results.design.not_checked ?? []) list.append(make('li', text));
   chapter.append(list);
-  for (const check of data.model.audits ?? []) chapter.append(audit(data, check, u));
+  const audits = data.model.audits ?? [];
+  const chosen = audits.map((check) => data.model.members.find((m) => m.name === check.member)).filter(Boolean);
+  if (chosen.length) {
+    const where = membersDrawing(data.model, LOOKS.view, chosen);
+    place(chapter, [[where, `Members that are followed below${where.left ? `; ${where.left} names find no room` : ''}`]]);
+  }
+  for (const check of audits) chapter.append(audit(data, check, u, paper));
 }
 
 /** Whole, or the rows with the largest use (else the first ones), with a word. */
@@ -238,7 +283,7 @@ const CODES = /^(EN 1993-1-1|AISC 360) /;
 
 /** Wide tables go over several, each with the first column. */
 function drawTables(paper, data) {
-  const most = 9;
+  const most = 10;  // columns beside the first
   for (const combination of Object.keys(data.results.combinations ?? {})) {
     for (const t of tables(data, combination)) {
       const shared = ['sections', 'materials', 'loads', 'combinations', 'modes', 'formulas', 'envelope'].includes(t.id);
@@ -249,28 +294,34 @@ function drawTables(paper, data) {
         continue;
       }
       const [rows, words] = selection(t.rows(), t.columns);
-      chapter.append(make('p', words));
-      const used = t.columns.map((_, k) => k).filter((k) => k === 0 || rows.some((row) => row[k] !== null && row[k] !== undefined && row[k] !== ''));
-      for (let from = 1; from < Math.max(2, used.length); from += most - 1) {
-        const part = [0, ...used.slice(from, from + most - 1)];
-        const columns = part.map((k) => [t.columns[k][0].replace(CODES, ''), t.columns[k][1]]);
-        chapter.append(measured(columns, rows.map((row) => part.map((k) => row[k])), data.results.units, t.id === 'sections'));
+      chapter.append(make('p', words, 'intro'));
+      const used = t.columns.map((_, k) => k).filter((k) => k > 0 && rows.some((row) => row[k] !== null && row[k] !== undefined && row[k] !== ''));
+      const wide = Math.ceil(used.length / Math.ceil(used.length / most)) || 1;  // parts of about the same width
+      for (let from = 0; from < Math.max(1, used.length); from += wide) {
+        const part = [0, ...used.slice(from, from + wide)];
+        const isUse = (k) => k > 0 && (t.id === 'design' ? t.columns[k][0] !== 'governing' : /^(worst )?use$/.test(t.columns[k][0]));
+        const columns = part.map((k) => [t.columns[k][0].replace(CODES, ''), isUse(k) ? '%' : t.columns[k][1]]);
+        const bare = (cell, k) => (t.columns[k][0] === 'governing' ? cell?.replace(CODES, '') : cell);
+        chapter.append(measured(columns, rows.map((row) => part.map((k) => bare(row[k], k))), data.results.units, t.id === 'sections'));
       }
     }
   }
 }
 
-/** Builds the paper once. */
-export function buildPaper(data) {
+let built = null;  // the size of the sheets that stand in the page
+
+/** Builds the sheets of `size` ('A4' or 'Letter') where they are not there yet. */
+export function buildPaper(data, size) {
+  if (built === size) return;
+  built = size;
   const root = document.getElementById('paper');
-  if (root.childElementCount > 0) return;
   const u = units(data.results.units);
+  root.replaceChildren();
   cover(data, root);
-  const contents = make('section', '', 'contents');
+  const contents = make('section', '', 'contents fresh');
   contents.append(make('h2', 'Contents'));
   root.append(contents);
-  const paper = new Paper(root);
-  contents.append(paper.contents);
+  const paper = new Paper(root, contents);
   drawSummary(paper, data, u);
   const warnings = [...new Set([...(data.model.warnings ?? []), ...(data.model.result_warnings ?? [])])];
   if (warnings.length || data.results.unfinished) {
@@ -284,6 +335,7 @@ export function buildPaper(data) {
   drawResults(paper, data, u);
   drawChecks(paper, data, u);
   drawTables(paper, data);
+  layOut(root, size);
 }
 
 /** Size of the sheet: 'A4' or 'Letter'. */
@@ -294,5 +346,5 @@ export function setPaper(size) {
     style.id = 'papersize';
     document.head.append(style);
   }
-  style.textContent = `@page { size: ${size === 'Letter' ? 'Letter' : 'A4'}; }`;
+  style.textContent = `@page { size: ${size}; }`;
 }
