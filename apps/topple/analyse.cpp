@@ -35,7 +35,8 @@ struct Options {
   std::optional<double> drift_limit;
   std::string effective_lengths, warping, project, author;
   std::vector<std::string> stiffeners;
-  bool rigid_end_posts = false, direct_analysis = false;
+  bool rigid_end_posts = false;
+  std::string direct_analysis;
   int stations = 0, threads = 0;
   std::string p_delta;
   int buckling = 0, modes = 0;
@@ -44,6 +45,7 @@ struct Options {
   std::vector<std::string> lose, lose_each;
   std::optional<double> sudden;
   MotionOptions motion;
+  std::string cuts;
   bool html = false, csv = false, vtu = false, diagnose = false;
 };
 
@@ -119,7 +121,7 @@ DesignInput design_input(const Options& options, const Building& building) {
   DesignInput input;
   if (options.effective_lengths == "charts") input.lengths = EffectiveLengths::charts;
   if (options.effective_lengths == "assumed") input.lengths = EffectiveLengths::assumed;
-  if (options.direct_analysis) input.lengths = EffectiveLengths::unbraced;
+  if (!options.direct_analysis.empty()) input.lengths = EffectiveLengths::unbraced;
   input.rigid_end_posts = options.rigid_end_posts;
   if (!options.warping.empty()) input.warping_held = {options.warping == "held", options.warping == "held"};
   for (const std::string& given : options.stiffeners) {
@@ -202,11 +204,11 @@ int run(const Options& options) {
                                     {options.rigid_end_posts, "--rigid-end-posts"}})
     if (asked && options.code.empty())
       throw InputError(std::string(name) + ": nothing is checked; accepted: with --code");
-  if (options.direct_analysis && !options.effective_lengths.empty())
+  if (!options.direct_analysis.empty() && !options.effective_lengths.empty())
     throw InputError(
         "--effective-lengths: those of a direct analysis are the unbraced ones; accepted: no "
         "--direct-analysis");
-  if (options.direct_analysis && (options.code != "aisc360" || options.p_delta.empty()))
+  if (!options.direct_analysis.empty() && (options.code != "aisc360" || options.p_delta.empty()))
     throw InputError("--direct-analysis: the method of AISC 360 chapter C; accepted: with --code aisc360 --p-delta");
   if (options.sudden && options.lose.empty() && options.lose_each.empty())
     throw InputError("--sudden: nothing is lost; accepted: with --lose or --lose-each");
@@ -218,8 +220,9 @@ int run(const Options& options) {
   tell_progress("reading", -1);
   Building read = read_model(file);
   for (std::string& warning : modelling_warnings(read)) read.warnings.push_back(std::move(warning));
-  const bool direct = options.direct_analysis;
-  const Building building = direct ? with_notional_loads(read, combinations_of(read, options)) : std::move(read);
+  const bool direct = !options.direct_analysis.empty(), computes_tau_b = options.direct_analysis == "tau-b";
+  const double share = computes_tau_b ? out_of_plumb : out_of_plumb + in_place_of_tau_b;
+  const Building building = direct ? with_notional_loads(read, combinations_of(read, options), share) : std::move(read);
   give_back_free_memory();
   clock.stop("read");
   AnalysisRequest request;
@@ -232,6 +235,7 @@ int run(const Options& options) {
   request.buckling = options.buckling;
   request.losses = losses(options, building);
   ask_for_motion(options.motion, building, request);
+  if (!options.cuts.empty()) request.cuts = read_section_cuts(options.cuts, building);
   ask_for_modes(options, building.requested, request);
   AnalysisRequest wider = request;
   const int wanted = std::max({options.html ? report_stations : 0, options.vtu ? drawing_stations : 0,
@@ -241,9 +245,16 @@ int run(const Options& options) {
   wider.progress = tell_progress;
   // Kept to the end of the process, which gives it back at once: piece by piece that takes longer than a solve.
   static AnalysisResult result;
+  std::vector<YieldedStiffness> yielded;
   std::optional<UnstableAnalysis> failed;  // some combinations; the others are written all the same
   try {
-    result = analyse(direct ? with_reduced_stiffness(building) : building, wider);
+    if (computes_tau_b) {
+      DirectAnalysis found = analyse_directly(building, wider);
+      result = std::move(found.result);
+      yielded = std::move(found.yielded);
+    } else {
+      result = analyse(direct ? with_reduced_stiffness(building) : building, wider);
+    }
   } catch (const UnstableAnalysis& unstable) {
     if (options.diagnose) write_diagnosis(options, building, request, unstable.diagnosis);
     if (!unstable.partial) throw;
@@ -254,11 +265,12 @@ int run(const Options& options) {
   if (result.combinations.empty() && (options.html || options.vtu || !options.code.empty()))
     throw InputError(building.file + ": " + result.warnings.back() +
                      "; accepted: no --html, --vtu and --code, which are about combinations");
+  DesignInput design = design_input(options, building);
+  design.yielded = std::move(yielded);
   if (!options.code.empty()) {
     tell_progress("design checks", -1);
     const DesignCode code = options.code == "en1993" ? DesignCode::en1993 : DesignCode::aisc360;
-    check_design(building, code, options.drift_limit ? 1 / *options.drift_limit : usual_drift_limit, result,
-                 design_input(options, building));
+    check_design(building, code, options.drift_limit ? 1 / *options.drift_limit : usual_drift_limit, result, design);
     clock.stop("design");
   }
   clock.seconds["order"] = result.statistics.order_seconds;
@@ -275,8 +287,7 @@ int run(const Options& options) {
     if (options.html && !sample) {
       files.emplace_back("results.json", results_json(building, request, result, clock.seconds));
       files.emplace_back("report.html",
-                         html_report(building, result, files[0].second,
-                                     {options.project, options.author, design_input(options, building)}));
+                         html_report(building, result, files[0].second, {options.project, options.author, design}));
     } else {
       streamed.push_back({"results.json", [&, seconds = clock.seconds](const auto& sink) {
                             write_results_json(building, request, result, seconds, sink);
@@ -284,10 +295,9 @@ int run(const Options& options) {
     }
     if (options.html && sample) {
       const ResultsSelection selection = select_members(building, result, members_selected, selected_of_section);
-      files.emplace_back(
-          "report.html",
-          html_report(building, result, results_json(building, request, result, clock.seconds, selection),
-                      {options.project, options.author, design_input(options, building)}, &selection));
+      files.emplace_back("report.html", html_report(building, result,
+                                                    results_json(building, request, result, clock.seconds, selection),
+                                                    {options.project, options.author, design}, &selection));
     }
     const auto append = [&](NamedTexts more) { std::move(more.begin(), more.end(), std::back_inserter(files)); };
     if (options.csv) append(results_csv(building, result));
@@ -332,8 +342,10 @@ std::function<int()> declare(CLI::App& app) {
                  "With --code: NAME=SPACING of transverse stiffeners, by member, pattern or group")
       ->expected(1)
       ->take_all();
-  app.add_flag("--direct-analysis", options->direct_analysis,
-               "With --code aisc360 --p-delta: notional loads, reduced stiffness and K = 1 (AISC 360 chapter C)");
+  app.add_flag("--direct-analysis{notional}", options->direct_analysis,
+               "With --code aisc360 --p-delta: notional loads, reduced stiffness and K = 1 (AISC 360 chapter C); with "
+               "=tau-b, tau_b from the axial forces")
+      ->check(CLI::IsMember({"notional", "tau-b"}));
   app.add_flag("--rigid-end-posts", options->rigid_end_posts, "With --code en1993: rigid end posts of webs");
   app.add_option("--warping", options->warping, "With --code: warping at members' ends, free or held (else the worst)")
       ->check(CLI::IsMember({"free", "held"}));
@@ -347,6 +359,7 @@ std::function<int()> declare(CLI::App& app) {
       ->take_all();
   app.add_option("--sudden", options->sudden, "Factor f of a sudden loss: R0 + f (R1 - R0); 1 is the static state")
       ->check(in_range(structure::ranges::sudden));
+  app.add_option("--cuts", options->cuts, "JSON file of planes: resultants of all that passes each of them");
   declare_motion_options(app, options->motion);
   app.add_option("--modes", options->modes, "Lowest natural frequencies and modes")->check(whole_number(1, 100000));
   app.add_option("--mass", options->mass, "Mass of elements: consistent (default) or lumped")

@@ -9,7 +9,6 @@
 #include <set>
 #include <span>
 
-#include "analysis/discretisation.h"
 #include "analysis/divided_member.h"
 #include "analysis/equilibrium.h"
 #include "analysis/instability.h"
@@ -18,9 +17,11 @@
 #include "analysis/modal_masses.h"
 #include "analysis/one_way_members.h"
 #include "analysis/request_checks.h"
+#include "analysis/resultants/discretisation.h"
+#include "analysis/resultants/section_cuts.h"
+#include "analysis/resultants/shell_results.h"
 #include "analysis/sample_analysis.h"
 #include "analysis/second_order_member.h"
-#include "analysis/shell_results.h"
 #include "analysis/storeys.h"
 #include "analysis/undivided_members.h"
 #include "failure/panel_bearings.h"
@@ -73,6 +74,7 @@ class Analysis {
 
   AnalysisResult run() {
     AnalysisResult result;
+    result.cuts = request_.cuts;
     try {
       solve_and_recover(result);
       if (request_.modes > 0 && !failed_) find_modes(result);
@@ -454,6 +456,8 @@ class Analysis {
     const LoadsByMember by_member(building_.members.size(), loads.whole ? loads.whole->beams : loads.set.beams);
     CombinationResult result =
         gathered(k, answer, solution, loads.parts, [&](std::size_t member) { return by_member.on(member); });
+    result.cuts = cut_results(building_, frame_, request_.cuts, loads.parts, loads.set, solution,
+                              answer.axial.mode != solver::SecondOrder::none);
     std::vector<solver::NodeLoad> pushes = pushes_of_supports(loads.parts, result.reactions);
     loads.set.nodes.insert(loads.set.nodes.end(), pushes.begin(), pushes.end());
     leave_out_giving_sides(frame_, loads.set, result.reactions);
@@ -468,6 +472,10 @@ class Analysis {
       case_loads_->add_up(k, member, sum);
       return std::span<const solver::BeamLoad>(sum);
     });
+    if (!request_.cuts.empty()) {
+      const CombinationLoads loads = loads_of(k);
+      result.cuts = cut_results(building_, frame_, request_.cuts, loads.parts, loads.set, answer.solution, false);
+    }
     Balance applied = balance_of(frame_.model, pushes_of_supports(parts, result.reactions));
     for (std::size_t c = 0; c < case_balances_.size(); ++c)
       applied.add(case_balances_[c], cases_.factors(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(k)));
@@ -492,7 +500,7 @@ class Analysis {
     result.joints = joints(parts, solution, result);
     result.storeys = storeys_.results(result.displacements, result.members);
     if (brief_) return result;
-    result.discretisation_error = set_discretisation_errors(building_, frame_, parts, solution, result.panels);
+    result.discretisation_error = recover_resultants(building_, frame_, parts, solution, result.panels);
     result.largest = largest_displacement(building_, result, [&](std::size_t m, double at) {
       Vec2 bent = Vec2::Zero();
       solver::Vec12 unused;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "analysis/shell_results.h"
+#include "analysis/resultants/shell_results.h"
 #include "failure/panel_demand.h"
 #include "mesh/shell_edges.h"
 #include "model/index_of.h"

@@ -64,6 +64,17 @@ void check_closed_torsion(ClauseList& clauses, const Strengths& r, const Largest
   clauses.add("AISC 360 H3-6", axial + moments + std::pow(shear + torsion, 2));
 }
 
+/// C2.3(b): the stiffness of the analysis that the forces come from.
+void tell_stiffness(const SteelSection& s, const DesignMember& member, const Trail& trail) {
+  if (!member.yielded || !trail.on()) return;
+  const char* const clause = "AISC 360 C2.3";
+  trail.add(clause, "P_ns", "F_y A_g, or F_y A_e of slender elements (E7)", section_strength(s), of_force);
+  trail.add(clause, "alpha P_r/P_ns", "alpha = 1; largest compression of all combinations", member.yielded->ratio,
+            plain_number);
+  trail.add(clause, "tau_b", "1 up to 0.5 (C2-2a), else 4 (P_r/P_ns)(1 - P_r/P_ns) (C2-2b)", member.yielded->tau_b,
+            plain_number);
+}
+
 void tell_interaction(const Strengths& r, const LargestForces& forces, const Trail& trail) {
   const char* const clause = "AISC 360 H1-1";
   trail.add(clause, "P_u/P_c", "compression over phi_c P_n", forces.compression / r.compression, plain_number);
@@ -79,6 +90,7 @@ DesignResult check_aisc360(const DesignMember& member, std::span<const SectionFo
   const LargestForces forces = largest_forces(stations);
   tell_section(steel, trail);
   tell_forces(forces, trail);
+  tell_stiffness(steel, member, trail);
   const Strengths r = strengths(steel, member, stations, trail);
   tell_interaction(r, forces, trail);
   ClauseList clauses;

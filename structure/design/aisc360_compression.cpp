@@ -51,6 +51,8 @@ double effective_area(const SteelSection& s, double fcr) {
 
 }  // namespace
 
+double section_strength(const SteelSection& s) { return s.fy * effective_area(s, s.fy); }
+
 double compressive_strength(const SteelSection& s, const BucklingLengths& lengths, const Trail& trail) {
   const char* const clause = "AISC 360 E1";
   double elastic = unlimited;

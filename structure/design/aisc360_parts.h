@@ -25,6 +25,9 @@ struct Slenderness {
 /// Chapter E: nominal compressive strength (E3, E4, E7).
 [[nodiscard]] double compressive_strength(const SteelSection& s, const BucklingLengths& lengths, const Trail& trail);
 
+/// P_ns of C2.3(b): F_y times what of the area counts when all of it yields (E7 with F_n = F_y).
+[[nodiscard]] double section_strength(const SteelSection& s);
+
 /// Chapter F: nominal strength about the strong axis over a length with its C_b, and about the weak one.
 [[nodiscard]] double strong_strength(const SteelSection& s, double length, double cb, const Trail& trail);
 [[nodiscard]] double weak_strength(const SteelSection& s, const Trail& trail);

@@ -1,8 +1,12 @@
 #include "topple/structure/direct_analysis.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <stdexcept>
 
+#include "design/aisc360_parts.h"
 #include "model/panel_area.h"
 #include "topple/structure/error.h"
 
@@ -19,7 +23,7 @@ constexpr std::array<Direction, 4> directions{{{"+x", 0, 1}, {"-x", 0, -1}, {"+y
 
 /// What is downward of a load along a member, turned sideways, global; a load along the axes of the member or of its
 /// projection is taken as it acts.
-MemberLoad sideways(const MemberLoad& load, const Member& member, Eigen::Index axis) {
+MemberLoad sideways(const MemberLoad& load, const Member& member, Eigen::Index axis, double share) {
   MemberLoad turned = load;
   turned.frame = LoadFrame::global;
   const double level =
@@ -29,26 +33,26 @@ MemberLoad sideways(const MemberLoad& load, const Member& member, Eigen::Index a
     if (load.frame == LoadFrame::local) force = member.axes.transpose() * force;
     if (load.frame == LoadFrame::projected && load.kind == MemberLoad::Kind::distributed) force *= level;
     to->setZero();
-    (*to)(axis) = -notional_share * force.z();
+    (*to)(axis) = -share * force.z();
   }
   return turned;
 }
 
 /// A case's downward loads, sideways.
-LoadCase notional_case(const Building& building, const LoadCase& whole, std::size_t direction) {
+LoadCase notional_case(const Building& building, const LoadCase& whole, std::size_t direction, double share) {
   const auto axis = static_cast<Eigen::Index>(direction);
   LoadCase turned;
   turned.name = whole.name + (direction == 0 ? " notional x" : " notional y");
-  turned.self_weight(axis) = -notional_share * whole.self_weight.z();
+  turned.self_weight(axis) = -share * whole.self_weight.z();
   const auto at_node = [&](NodeId node, double downward) {
     NodeLoad load{node, Vec6::Zero()};
-    load.load(axis) = notional_share * downward;
+    load.load(axis) = share * downward;
     if (downward != 0) turned.nodes.push_back(load);
   };
   for (const NodeLoad& load : whole.nodes) at_node(load.node, -load.load(2));
   for (const MemberLoad& load : whole.members)
     if (load.kind != MemberLoad::Kind::temperature)
-      turned.members.push_back(sideways(load, building[load.member], axis));
+      turned.members.push_back(sideways(load, building[load.member], axis, share));
   for (const PanelLoad& load : whole.panels) {
     const Panel& panel = building[load.panel];
     // Pressure acts against the normal.
@@ -60,12 +64,12 @@ LoadCase notional_case(const Building& building, const LoadCase& whole, std::siz
 
 }  // namespace
 
-Building with_notional_loads(const Building& building, const std::vector<CombinationId>& combinations) {
+Building with_notional_loads(const Building& building, const std::vector<CombinationId>& combinations, double share) {
   Building leaning = building;
   const std::size_t cases = building.cases.size();
   for (std::size_t direction = 0; direction < 2; ++direction)
     for (std::size_t c = 0; c < cases; ++c)
-      leaning.cases.push_back(notional_case(building, building.cases[c], direction));
+      leaning.cases.push_back(notional_case(building, building.cases[c], direction, share));
   leaning.combinations.clear();
   for (const CombinationId id : combinations)
     for (const Direction& to : directions) {
@@ -82,12 +86,72 @@ Building with_notional_loads(const Building& building, const std::vector<Combina
   return leaning;
 }
 
-Building with_reduced_stiffness(Building building) {
+Building with_reduced_stiffness(Building building, const std::vector<YieldedStiffness>& yielded) {
   for (Material& material : building.materials) {
     material.youngs_modulus *= stiffness_share;
     material.shear_modulus *= stiffness_share;
   }
+  for (std::size_t m = 0; m < yielded.size(); ++m) {
+    if (yielded[m].tau_b == 1) continue;
+    Section softened = building[building.members[m].section];
+    softened.Iy *= yielded[m].tau_b;
+    softened.Iz *= yielded[m].tau_b;
+    building.members[m].section = SectionId(building.sections.size());
+    building.sections.push_back(std::move(softened));
+  }
   return building;
+}
+
+double tau_b(double ratio) { return ratio <= 0.5 ? 1 : 4 * ratio * (1 - ratio); }
+
+std::vector<YieldedStiffness> yielded_stiffness(const Building& building, const AnalysisResult& result) {
+  std::vector<YieldedStiffness> all(building.members.size());
+  for (std::size_t m = 0; m < all.size(); ++m) {
+    const Member& member = building.members[m];
+    const Material& material = building[member.material];
+    if (!member.design.checked || !material.yield_strength) continue;
+    double compression = 0;
+    for (const CombinationResult& c : result.combinations)
+      compression = std::max(compression, -c.members[m].min[0].value);
+    all[m].ratio = compression / aisc360::section_strength(steel_section(building[member.section], material));
+    if (!(all[m].ratio < 1)) {
+      char ratio[32];
+      std::snprintf(ratio, sizeof ratio, "%.3g", all[m].ratio);
+      throw InputError(building.file + ": members." + member.name + ": its compression is " + ratio +
+                       " of what its section bears: no stiffness is left (AISC 360 C2.3(b)); accepted: a stronger "
+                       "section, or --direct-analysis without tau-b");
+    }
+    all[m].tau_b = tau_b(all[m].ratio);
+  }
+  return all;
+}
+
+DirectAnalysis analyse_directly(const Building& building, const AnalysisRequest& request) {
+  constexpr int most_rounds = 30;
+  constexpr double settled = 1e-3;
+  AnalysisRequest forces_alone;  // all that the rounds need
+  forces_alone.combinations = request.combinations;
+  forces_alone.solver = request.solver;
+  forces_alone.second_order = request.second_order;
+  forces_alone.workers = request.workers;
+  DirectAnalysis found;
+  for (found.yielded.assign(building.members.size(), {}); found.rounds < most_rounds;) {
+    if (request.progress) request.progress("stiffness that yielding leaves", -1);
+    ++found.rounds;
+    const auto next =
+        yielded_stiffness(building, analyse(with_reduced_stiffness(building, found.yielded), forces_alone));
+    double change = 0;
+    for (std::size_t m = 0; m < next.size(); ++m)
+      change = std::max(change, std::abs(next[m].tau_b - found.yielded[m].tau_b));
+    if (change > settled) {
+      found.yielded = next;
+      continue;
+    }
+    for (std::size_t m = 0; m < next.size(); ++m) found.yielded[m].ratio = next[m].ratio;
+    found.result = analyse(with_reduced_stiffness(building, found.yielded), request);
+    return found;
+  }
+  throw std::runtime_error(building.file + ": tau_b does not settle (AISC 360 C2.3(b))");
 }
 
 }  // namespace topple::structure

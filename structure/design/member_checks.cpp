@@ -51,7 +51,12 @@ FoundLength flexural_length(const Building& building, const Bracing& bracing, Ef
   if (member.kind != MemberKind::post) return {held.length, LengthSource::own};
   if (method == EffectiveLengths::assumed) return {sway_factor * held.length, LengthSource::assumed_sway};
   const double ga = bracing.end_stiffness(held, 0, direction), gb = bracing.end_stiffness(held, 1, direction);
-  if (bracing.braced(id, direction)) return {chart_braced(ga, gb) * held.length, LengthSource::chart_braced};
+  if (bracing.braced(id, direction)) {
+    // The chart's 10 for a pinned foot counts on a hold that the model does not have: two hinges would have K = 0.96.
+    const auto hinge = [](double g) { return g >= pinned_end ? released_end : g; };
+    if (std::min(ga, gb) >= pinned_end) return {held.length, LengthSource::own};
+    return {chart_braced(hinge(ga), hinge(gb)) * held.length, LengthSource::chart_braced};
+  }
   if (std::min(ga, gb) >= released_end) return {held.length, LengthSource::leaning};
   return {chart_sway(ga, gb) * held.length, LengthSource::chart_sway};
 }
@@ -149,6 +154,7 @@ DesignMembers::DesignMembers(const Building& building, const DesignInput& input)
     members_[m].stiffener_spacing = building.members[m].design.stiffener_spacing;
     members_[m].rigid_end_post = input.rigid_end_posts;
     members_[m].warping_held = input.warping_held;
+    if (!input.yielded.empty()) members_[m].yielded = input.yielded[m];
   }
   if (input.stiffeners.empty()) return;
   const NameIndex names(building);

@@ -136,6 +136,7 @@ DesignAudit audit_member(DesignCode code, const DesignMember& member, std::span<
   audit.result.lengths = member.lengths;
   audit.result.length_source = member.length_source;
   audit.result.mode_part = member.mode_part;
+  audit.result.yielded = member.yielded;
   return audit;
 }
 
@@ -145,6 +146,7 @@ DesignResult check_member(DesignCode code, const DesignMember& member, std::span
   result.lengths = member.lengths;
   result.length_source = member.length_source;
   result.mode_part = member.mode_part;
+  result.yielded = member.yielded;
   return result;
 }
 

@@ -15,6 +15,7 @@ namespace topple::structure {
 namespace {
 
 constexpr std::size_t named_at_most = 3;
+constexpr double weakest = 1e6, strongest = 1e10, lightest = 10, heaviest = 25e3;  // Pa, kg/m3
 constexpr double softest = 1e7, stiffest = 2e12;  // Pa: rubber, diamond; engineers' materials lie between
 
 /// Collects things of one kind: the first few by name, the rest by number.
@@ -173,6 +174,51 @@ void find_odd_materials(const Building& building, std::vector<std::string>& warn
     odd.add("material " + material.name + " has a Young's modulus of " + text + " Pa");
   }
   odd.tell(warnings, "materials of buildings lie between 1e9 and 1e12 Pa; look at the model's units");
+  const auto outside = [&](double value, double least, double most) {
+    return value > 0 && (value < least || value > most);
+  };
+  Several weak, light;
+  for (const Material& material : building.materials) {
+    char text[32];
+    if (const double yield = material.yield_strength.value_or(0); outside(yield, weakest, strongest)) {
+      std::snprintf(text, sizeof text, "%.4g", yield);
+      weak.add("material " + material.name + " yields at " + text + " Pa");
+    }
+    if (outside(material.density, lightest, heaviest)) {
+      std::snprintf(text, sizeof text, "%.4g", material.density);
+      light.add("material " + material.name + " has a density of " + text + " kg/m3");
+    }
+  }
+  weak.tell(warnings, "metals yield between 1e7 and 2e9 Pa; look at the model's units");
+  light.tell(warnings, "materials of buildings have 10 to 25,000 kg/m3; look at the model's units");
+}
+
+/// Sections given in the units of a catalogue make members deeper than they are long. A large area alone may be meant
+/// (a link that is to be stiff), unless all members have one.
+void find_thick_members(const Building& building, std::vector<std::string>& warnings) {
+  Several thick;
+  std::size_t large = 0;
+  for (const Member& member : building.members) {
+    const Section& section = building[member.section];
+    if (std::sqrt(section.area) > member.length) ++large;
+    if (section.depth > member.length) thick.add("member " + member.name + " is deeper than it is long");
+  }
+  thick.tell(warnings, "look at its section and the model's units");
+  if (large > 0 && large == building.members.size())
+    warnings.emplace_back("all members are thicker than they are long: look at their sections and the model's units");
+}
+
+/// A case whose combination was forgotten loads nothing; one that is mass serves that alone.
+void find_idle_cases(const Building& building, std::vector<std::string>& warnings) {
+  std::vector<bool> used(building.cases.size(), false);
+  const auto use = [&](LoadCaseId id) { used[static_cast<std::size_t>(id.index)] = true; };
+  for (const Combination& combination : building.combinations)
+    for (const auto& [id, factor] : combination.factors) use(id);
+  for (const auto& [id, factor] : building.masses.loads) use(id);
+  Several idle;
+  for (std::size_t c = 0; c < used.size(); ++c)
+    if (!used[c]) idle.add("load case " + building.cases[c].name);
+  idle.tell(warnings, "no combination has it, so that it loads nothing");
 }
 
 std::size_t edit_distance(const std::string& a, const std::string& b) {
@@ -216,6 +262,8 @@ std::vector<std::string> modelling_warnings(const Building& building) {
   }
   find_near_nodes(building, tolerance, warnings);
   find_odd_materials(building, warnings);
+  find_thick_members(building, warnings);
+  find_idle_cases(building, warnings);
   find_folds(building, warnings);
   return warnings;
 }

@@ -281,6 +281,15 @@ function selection(rows, columns) {
 /** What all clauses of a code begin with says nothing at the head of a column. */
 const CODES = /^(EN 1993-1-1|AISC 360) /;
 
+/** [columns beside the first that hold something, names of those that hold zeros alone]. */
+function telling(columns, rows, u) {
+  const texts = onPaper(columns, rows, u).rows;
+  const holds = (k, empty) => texts.some((row) => !empty.includes(String(row[k].text)));
+  const behind = columns.map((_, k) => k).slice(1);
+  const zeros = behind.filter((k) => columns[k][1] && columns[k][1] !== '%' && holds(k, ['']) && !holds(k, ['', '0']));
+  return [behind.filter((k) => holds(k, ['']) && !zeros.includes(k)), zeros.map((k) => columns[k][0])];
+}
+
 /** Wide tables go over several, each with the first column. */
 function drawTables(paper, data) {
   const most = 10;  // columns beside the first
@@ -294,13 +303,14 @@ function drawTables(paper, data) {
         continue;
       }
       const [rows, words] = selection(t.rows(), t.columns);
-      chapter.append(make('p', words, 'intro'));
-      const used = t.columns.map((_, k) => k).filter((k) => k > 0 && rows.some((row) => row[k] !== null && row[k] !== undefined && row[k] !== ''));
+      const isShare = (k) => k > 0 && (t.id === 'design' ? t.columns[k][0] !== 'governing' : /^(worst )?use$|^mass share/.test(t.columns[k][0]));
+      const all = t.columns.map(([name, unit], k) => [name.replace(CODES, ''), isShare(k) ? '%' : unit]);
+      const [used, zeros] = telling(all, rows, data.results.units);
+      chapter.append(make('p', `${words}${zeros.length ? ` Left out, as all of it is 0: ${zeros.join(', ').replaceAll('_', ' ')}.` : ''}`, 'intro'));
       const wide = Math.ceil(used.length / Math.ceil(used.length / most)) || 1;  // parts of about the same width
       for (let from = 0; from < Math.max(1, used.length); from += wide) {
         const part = [0, ...used.slice(from, from + wide)];
-        const isUse = (k) => k > 0 && (t.id === 'design' ? t.columns[k][0] !== 'governing' : /^(worst )?use$/.test(t.columns[k][0]));
-        const columns = part.map((k) => [t.columns[k][0].replace(CODES, ''), isUse(k) ? '%' : t.columns[k][1]]);
+        const columns = part.map((k) => all[k]);
         const bare = (cell, k) => (t.columns[k][0] === 'governing' ? cell?.replace(CODES, '') : cell);
         chapter.append(measured(columns, rows.map((row) => part.map((k) => bare(row[k], k))), data.results.units, t.id === 'sections'));
       }

@@ -61,14 +61,35 @@ class Tables {
   }
 
   NamedTexts write() const {
-    return {{"displacements.csv", displacements()},
-            {"reactions.csv", reactions()},
-            {"members.csv", members()},
-            {"joints.csv", joints()},
-            {"panels.csv", panels()}};
+    NamedTexts files = {{"displacements.csv", displacements()},
+                        {"reactions.csv", reactions()},
+                        {"members.csv", members()},
+                        {"joints.csv", joints()},
+                        {"panels.csv", panels()}};
+    if (!result_.cuts.empty()) files.emplace_back("cuts.csv", cuts());
+    return files;
   }
 
  private:
+  /// A row for the whole of every cut, then one for each part of it.
+  [[nodiscard]] std::string cuts() const {
+    Table table("combination,cut,part,normal" + force_ + ",shear along" + force_ + ",shear across" + force_ +
+                ",torsion" + moment_ + ",moment about along" + moment_ + ",moment about across" + moment_);
+    for (const CombinationResult& c : result_.combinations)
+      for (std::size_t k = 0; k < c.cuts.size(); ++k) {
+        const auto row = [&](const std::string& part, const Vec6& force) {
+          table.cell(name(c)).cell(result_.cuts[k].name).cell(part);
+          for (const double number : units_.load(force)) table.cell(number);
+          table.end_row();
+        };
+        row("", c.cuts[k].force);
+        for (const auto& [id, force] : c.cuts[k].members) row(building_[id].name, force);
+        for (const auto& [id, force] : c.cuts[k].panels) row(building_[id].name, force);
+        for (const auto& [d, force] : c.cuts[k].diaphragms) row(building_.diaphragms[d].name, force);
+      }
+    return table.take();
+  }
+
   [[nodiscard]] std::string six_names(const std::string& prefix, const std::string& first,
                                       const std::string& second) const {
     std::string names;

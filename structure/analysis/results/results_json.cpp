@@ -226,12 +226,45 @@ void ResultsWriter::behind_members(const CombinationResult& c) {
     if (result_.design_code) w_.key("utilisation").value(c.storeys[i].drift / result_.drift_limit);
     w_.close('}');
   }
-  w_.close('}').newline().key("equilibrium_error").value(c.equilibrium_error);
+  w_.close('}');
+  if (!c.cuts.empty()) {
+    w_.newline().key("cuts").open('{');
+    for (std::size_t i = 0; i < c.cuts.size(); ++i) cut(result_.cuts[i], c.cuts[i]);
+    w_.close('}');
+  }
+  w_.newline().key("equilibrium_error").value(c.equilibrium_error);
   w_.key("backward_error").value(c.quality.backward_error).key("condition").value(c.quality.condition);
   w_.key("error_bound").value(c.quality.error_bound);
   w_.key("discretisation_error").value(c.discretisation_error);
   largest_displacement(c.largest);
   w_.close('}');
+}
+
+/// Where it lies, all that passes it, and what each part has of it: six components in its axes about its point.
+void ResultsWriter::cut(const SectionCut& cut, const CutResult& r) {
+  const std::array<double, 1> length{b_.units.length}, one{1};
+  w_.newline().key(cut.name).open('{').key("at");
+  list(cut.at, length, 3);
+  w_.key("axes").open('[');
+  for (Eigen::Index row = 0; row < 3; ++row) list(Vec3(cut.axes.row(row)), one, 3);
+  w_.close(']').key("resultant");
+  list(r.force, force_, 6);
+  w_.key("members").open('{');
+  for (const auto& [id, force] : r.members) {
+    w_.key(b_[id].name);
+    list(force, force_, 6);
+  }
+  w_.close('}').key("panels").open('{');
+  for (const auto& [id, force] : r.panels) {
+    w_.key(b_[id].name);
+    list(force, force_, 6);
+  }
+  w_.close('}').key("diaphragms").open('{');
+  for (const auto& [d, force] : r.diaphragms) {
+    w_.key(b_.diaphragms[d].name);
+    list(force, force_, 6);
+  }
+  w_.close('}').close('}');
 }
 
 void ResultsWriter::largest_displacement(const LargestDisplacement& largest) {
@@ -257,6 +290,7 @@ void ResultsWriter::design(const DesignResult& used) {
     if (const std::string_view why = mode_part_reason(used.mode_part[way]); !why.empty())
       w_.key(key).value(std::string(why));
   w_.key("torsion").value(used.lengths.torsion / unit).key("lateral").value(used.lengths.lateral / unit).close('}');
+  if (used.yielded) w_.key("tau_b").value(used.yielded->tau_b);
   if (!used.refusal.empty()) w_.key("not_verified").value(used.refusal);
 }
 
@@ -329,6 +363,16 @@ void ResultsWriter::panel(const Panel& panel, const PanelResult& r, const Combin
     w_.close('}');
   }
   w_.close(']');
+  if (!r.nodes.empty()) {
+    w_.key("nodes").open('[');
+    for (const PanelNode& node : r.nodes) {
+      const auto at = std::find(nodes.begin(), nodes.end(), node.node);
+      w_.newline().open('{').key("node").value(static_cast<std::size_t>(at - nodes.begin()));
+      resultants(node);
+      w_.close('}');
+    }
+    w_.close(']');
+  }
   if (!nodes.empty()) {
     w_.key("discretisation_error").value(r.discretisation_error);
     mesh(nodes, c);

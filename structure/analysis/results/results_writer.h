@@ -86,6 +86,7 @@ class ResultsWriter {
   template <class Result>
   void resultants(const Result& r);
   void joint(const Joint& joint, const Utilisation& used);
+  void cut(const SectionCut& cut, const CutResult& r);
 
   void member_envelope(std::size_t m);
   void joint_envelope();

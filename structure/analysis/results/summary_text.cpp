@@ -117,6 +117,44 @@ std::string place_of(const Building& building, const LargestDisplacement& larges
   return largest.node.valid() ? "at node " + building[largest.node].name : "anywhere";
 }
 
+/// What passes each cut; what rounding leaves of nothing is shown as nothing.
+void cuts(Text& text, const Building& building, const AnalysisResult& result, const CombinationResult& c) {
+  const Units& units = building.units;
+  double far = 0;
+  for (const Node& node : building.nodes) far = std::max(far, (node.position - building.nodes[0].position).norm());
+  for (std::size_t k = 0; k < c.cuts.size(); ++k) {
+    const Vec6& f = c.cuts[k].force;
+    const double force = 1e-12 * c.total_load.head<3>().norm(), moment = force * far;
+    const auto shown = [&](int i) {
+      const double unit = i < 3 ? units.force : units.force * units.length;
+      return std::abs(f[i]) <= (i < 3 ? force : moment) ? 0.0 : f[i] / unit;
+    };
+    text.line(
+        "  cut %-16s normal %.6g  shear along %.6g, across %.6g  torsion %.6g  moment about along %.6g, across %.6g",
+        result.cuts[k].name.c_str(), shown(0), shown(1), shown(2), shown(3), shown(4), shown(5));
+  }
+}
+
+/// Of a direct analysis with tau_b: how many members are softer, and which most.
+void softened(Text& text, const Building& building, const CombinationResult& c) {
+  std::size_t count = 0, softest = c.designs.size();
+  bool asked = false;
+  for (std::size_t m = 0; m < c.designs.size(); ++m) {
+    const auto& yielded = c.designs[m].yielded;
+    asked = asked || yielded.has_value();
+    if (!yielded || yielded->tau_b == 1) continue;
+    ++count;
+    if (softest == c.designs.size() || yielded->tau_b < c.designs[softest].yielded->tau_b) softest = m;
+  }
+  if (!asked) return;
+  if (count == 0)
+    text.line("  tau_b is 1 for all members: P_r is nowhere above half of P_ns");
+  else
+    text.line("  tau_b is below 1 for %zu members, least in %s: %.3f (P_r/P_ns %.3f)", count,
+              building.members[softest].name.c_str(), c.designs[softest].yielded->tau_b,
+              c.designs[softest].yielded->ratio);
+}
+
 void combination(Text& text, const Building& building, const AnalysisResult& result, const CombinationResult& c) {
   const Units& units = building.units;
   const std::string length = units.consistent ? "" : " " + units.length_name,
@@ -145,6 +183,8 @@ void combination(Text& text, const Building& building, const AnalysisResult& res
               storey, 100 * drift / result.drift_limit, 1 / result.drift_limit);
   else if (drift > 0)
     text.line("  largest drift        1/%s in storey %zu", whole_number(1 / drift).c_str(), storey);
+  cuts(text, building, result, c);
+  softened(text, building, c);
   most_used_members(text, building, result, c);
   most_used(text, building, c);
   if (!c.buckling.empty()) {

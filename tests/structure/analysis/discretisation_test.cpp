@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <functional>
 
-#include "analysis/discretisation.h"
-#include "analysis/shell_results.h"
+#include "analysis/resultants/discretisation.h"
+#include "analysis/resultants/shell_results.h"
 #include "topple/solver/static_analysis.h"
 #include "topple/structure/files.h"
 
@@ -91,7 +91,7 @@ Solved solved(const Benchmark& b, int n) {
   const solver::StaticSolution solution = analysis.solve(sets).front();
   Solved all;
   std::vector<PanelResult> results(building.panels.size());
-  all.estimate = set_discretisation_errors(building, frame, parts, solution, results);
+  all.estimate = recover_resultants(building, frame, parts, solution, results);
   for (std::size_t p = 0; p < building.panels.size(); ++p)
     all.panels.push_back(panel_resultants(building, frame, PanelId(p), parts, solution));
   return all;

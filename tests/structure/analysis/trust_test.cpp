@@ -293,6 +293,29 @@ TEST_CASE("modelling errors are told by name") {
       warnings(nodes + R"("members": {"AB": {"nodes": ["A", "B"], "section": "b", "material": "odd"},)" + post + "}",
                R"(, "odd": {"youngs_modulus": 210, "poisson_ratio": 0.3})"),
       "Young's modulus of 210 Pa"));
+  const std::string light =
+      R"("members": {"AB": {"nodes": ["A", "B"], "section": "b", "material": "odd"},)" + post + "}";
+  CHECK(told(warnings(nodes + light, R"(, "odd": {"youngs_modulus": 2e11, "poisson_ratio": 0.3, "density": 7.85})"),
+             "material odd has a density of 7.85 kg/m3"));
+  CHECK(
+      told(warnings(nodes + light, R"(, "odd": {"youngs_modulus": 2e11, "poisson_ratio": 0.3, "yield_strength": 355})"),
+           "material odd yields at 355 Pa"));
+  const std::string thick = R"(, "sections": {"b": {"area": 53.8, "Iy": 1, "Iz": 1, "J": 1, "depth": 300}})";
+  const std::vector<std::string> large = modelling_warnings(parse_model(
+      R"({"topple": 1, "materials": {"s": {"youngs_modulus": 2e11, "poisson_ratio": 0.3}}, "nodes": {"A": [0,0,0], "B": [6,0,0]},
+      "members": {"AB": {"nodes": ["A", "B"], "section": "b", "material": "s"}}, "supports": {"A": "fixed"},
+      "loads": {"g": {"self_weight": 1}}, "combinations": {"u": {"g": 1}})" +
+          thick + "}",
+      "m.json"));
+  CHECK(told(large, "all members are thicker than they are long"));
+  CHECK(told(large, "member AB is deeper than it is long"));
+  const auto idle = modelling_warnings(parse_model(
+      R"({"topple": 1, "materials": {"s": {"youngs_modulus": 2e11, "poisson_ratio": 0.3}}, "sections": {"b": {"catalogue": "IPE200"}},
+      "nodes": {"A": [0,0,0], "B": [6,0,0]}, "members": {"AB": {"nodes": ["A", "B"], "section": "b", "material": "s"}},
+      "supports": {"A": "fixed"}, "loads": {"g": {"self_weight": 1}, "w": {"nodes": {"B": {"y": 1}}}}, "combinations": {"u": {"g": 1}}})",
+      "m.json"));
+  REQUIRE(idle.size() == 1);
+  CHECK(told(idle, "load case w: no combination has it"));
   CHECK(did_you_mean("tover", {"hall", "tower", "wall"}) == " (did you mean tower?)");
   CHECK(did_you_mean("x", {"hall"}).empty());
 }

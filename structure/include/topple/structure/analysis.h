@@ -21,6 +21,27 @@
 
 namespace topple::structure {
 
+/// A plane through the structure, and what counts of all that it passes.
+struct SectionCut {
+  std::string name;
+  Vec3 at = Vec3::Zero();         ///< a point of the plane; moments are about it
+  Mat3 axes = Mat3::Identity();   ///< rows: the plane's normal, along, across; right-handed
+  bool everything = true;         ///< else these members and panels alone
+  std::vector<MemberId> members;  ///< ascending
+  std::vector<PanelId> panels;    ///< ascending
+};
+/// What the part of the structure that the normal looks to does to the part behind the plane, so that tension is
+/// positive: normal force, shears along and across, torsion, moments about along and across, in the cut's axes about
+/// its point. Each part is cut as a free body: the forces of its nodes behind the plane, and the loads on what of it
+/// lies behind, exactly. So the cut through everything balances all loads and reactions behind it, to rounding. What
+/// lies in the plane counts as behind it.
+struct CutResult {
+  Vec6 force = Vec6::Zero();
+  std::vector<std::pair<MemberId, Vec6>> members;  ///< what each of them has of it
+  std::vector<std::pair<PanelId, Vec6>> panels;
+  std::vector<std::pair<std::size_t, Vec6>> diaphragms;
+};
+
 struct AnalysisRequest {
   std::vector<CombinationId> combinations;  ///< empty: all
   int stations = 0;
@@ -28,6 +49,7 @@ struct AnalysisRequest {
   solver::AnalysisOptions solver;
   solver::SecondOrder second_order = solver::SecondOrder::none;
   int buckling = 0;  ///< lowest factors to find for each combination
+  std::vector<SectionCut> cuts;
   LossRequest losses;
   std::optional<TimeHistory> time_history;  ///< followed as losses.motion says, from the state of each combination
   int modes = 0;  ///< lowest natural frequencies; with second order about the tangent of the last combination
@@ -64,11 +86,19 @@ struct PanelElement {
   std::array<double, 3> membrane{}, moments{};
   std::array<double, 2> shears{};
 };
+/// At a node of a shell panel's mesh: resultants recovered from those of the elements round it (linear fields over
+/// patches of elements), in the panel's axes. Panels that share the node have their own each.
+struct PanelNode {
+  int node = -1;  ///< as PanelElement's
+  std::array<double, 3> membrane{}, moments{};
+  std::array<double, 2> shears{};
+};
 struct PanelResult {
   std::array<double, 3> membrane{}, moments{};
   std::array<double, 2> shears{};
   std::array<Vec6, 4> corner_forces{};
   std::vector<PanelElement> elements;  ///< of a shell panel
+  std::vector<PanelNode> nodes;        ///< of a shell panel's mesh, in order of their numbers
   /// Of a shell panel: estimated error of its mesh, in the energy norm, relative to the structure's shells together.
   double discretisation_error = 0;
 };
@@ -95,6 +125,7 @@ struct CombinationResult {
   std::vector<PanelResult> panels;
   std::vector<Utilisation> joints;  ///< per Building::joints; value 0 where it has no capacity
   std::vector<StoreyResult> storeys;
+  std::vector<CutResult> cuts;        ///< per AnalysisResult::cuts
   std::vector<DesignResult> designs;  ///< per member, empty without a design check; no `governing`: not checked
   Vec6 total_load = Vec6::Zero(), total_reaction = Vec6::Zero();  ///< about the model's centroid
   LargestDisplacement largest;
@@ -109,6 +140,7 @@ struct CombinationResult {
 struct AnalysisResult {
   std::vector<CombinationResult> combinations;
   std::vector<Vec3> mesh_nodes;  ///< of shell panels, beside the building's nodes
+  std::vector<SectionCut> cuts;  ///< AnalysisRequest::cuts
   LossResult losses;
   double loss_seconds = 0;
   std::vector<std::pair<CombinationId, MotionResult>> motions;  ///< under the time history
@@ -138,6 +170,10 @@ class UnstableAnalysis : public UnstableModel {
   std::shared_ptr<AnalysisResult> partial;
 };
 
+/// Cuts from a JSON file ({"cuts": {NAME: {"at", "normal", "along", "parts"}}}, docs/results-format.md), in the
+/// model's length. Throws InputError.
+[[nodiscard]] std::vector<SectionCut> read_section_cuts(const std::string& path, const Building& building);
+
 /// Throws UnstableAnalysis, with names: a model that can move without strain, or loads beyond what it bears before it
 /// buckles (second order), with the critical factor.
 [[nodiscard]] AnalysisResult analyse(const Building& building, const AnalysisRequest& request = {});
@@ -161,8 +197,8 @@ void write_results_json(const Building& building, const AnalysisRequest& request
                                          const Diagnosis& diagnosis);
 /// Files by name and text.
 using NamedTexts = std::vector<std::pair<std::string, std::string>>;
-/// displacements.csv, reactions.csv, members.csv, joints.csv, panels.csv: a header line with units, one row for each
-/// combination and part, numbers to their last bit in the model's units.
+/// displacements.csv, reactions.csv, members.csv, joints.csv, panels.csv, with cuts cuts.csv: a header line with units,
+/// one row for each combination and part, numbers to their last bit in the model's units.
 [[nodiscard]] NamedTexts results_csv(const Building& building, const AnalysisResult& result);
 /// history-MEMBER.csv for each loss that was followed through time, and history-time-history.csv: the nodes and joints
 /// that request.losses.motion names, a row for each substep.

@@ -67,6 +67,12 @@ enum class ModePart {
 /// Why the member's length does not come from a mode, in words; empty for not_asked and takes_part.
 [[nodiscard]] std::string_view mode_part_reason(ModePart part);
 
+/// AISC 360 C2.3(b): what yielding under compression leaves of a member's flexural stiffness.
+struct YieldedStiffness {
+  double ratio = 0;  ///< alpha P_r/P_ns, alpha = 1: the largest compression over the cross section's strength
+  double tau_b = 1;
+};
+
 struct DesignMember {
   const Section* section = nullptr;
   const Material* material = nullptr;
@@ -80,7 +86,8 @@ struct DesignMember {
   /// Distance of each station from the first end, m, in order (two of the same place are its two sides). Empty: not
   /// known, then torsion of open sections is refused and the moment's shape is taken as uniform.
   std::vector<double> at{};
-  std::vector<LateralStretch> stretches{};  ///< with `at` and critical_moment 0; empty: lengths.lateral alone
+  std::vector<LateralStretch> stretches{};    ///< with `at` and critical_moment 0; empty: lengths.lateral alone
+  std::optional<YieldedStiffness> yielded{};  ///< where the forces are those of an analysis with it
 };
 
 /// One formula of the code and what it gave (1 is the limit).
@@ -96,6 +103,7 @@ struct DesignResult {
   BucklingLengths lengths;                      ///< that it was checked with
   std::array<LengthSource, 2> length_source{};  ///< of those for buckling about y and z
   std::array<ModePart, 2> mode_part{};          ///< likewise
+  std::optional<YieldedStiffness> yielded;      ///< that the analysis had
   std::string refusal;  ///< why the member cannot be said to pass whatever its utilisation; else empty
   [[nodiscard]] bool passes() const { return refusal.empty() && utilisation <= 1; }
 };

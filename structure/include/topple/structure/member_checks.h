@@ -30,6 +30,8 @@ struct DesignInput {
   bool rigid_end_posts = false;  ///< EN 1993-1-5 9.3: tension fields of webs are anchored at the members' ends
   /// Whether warping is held at either end of every member; none: not known, the worst of both is taken.
   std::optional<std::array<bool, 2>> warping_held;
+  /// Per member, of a direct analysis with tau_b (direct_analysis.h); else empty.
+  std::vector<YieldedStiffness> yielded;
 };
 
 /// The members of a building as a check of one combination takes them; `section` is null for one that is not checked.

@@ -1,4 +1,4 @@
-#include "analysis/shell_results.h"
+#include "analysis/resultants/shell_results.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -75,17 +75,6 @@ class PanelReader {
   const solver::StaticSolution& solution_;
 };
 
-/// What the nodes of element `k` of a meshed panel do to it, global.
-std::array<Vec6, 4> corner_forces(const Building& building, const Frame& frame, PanelId id, std::size_t k,
-                                  const PartLoads& loads, const solver::StaticSolution& solution) {
-  const int shell = frame.meshes[index_of(id)].first_shell + static_cast<int>(k);
-  const GivingElement* giving = giving_element(frame, shell);
-  if (giving == nullptr) return solution.shell_corner_forces[static_cast<std::size_t>(shell)];
-  const PanelAction& action = loads.panels[index_of(id)];
-  const Vec3 traction = action.body_force - action.pressure * Vec3(building[id].axes.row(2));
-  return element_corner_forces(frame, *giving, solution, traction, action.strain);
-}
-
 bool contains(const std::vector<int>& nodes, int node) {
   return std::find(nodes.begin(), nodes.end(), node) != nodes.end();
 }
@@ -125,6 +114,16 @@ void set_centre(const PanelReader& reader, const Vec3& centre, double size, Pane
 
 }  // namespace
 
+std::array<Vec6, 4> element_forces(const Building& building, const Frame& frame, PanelId id, std::size_t k,
+                                   const PartLoads& loads, const solver::StaticSolution& solution) {
+  const int shell = frame.meshes[index_of(id)].first_shell + static_cast<int>(k);
+  const GivingElement* giving = giving_element(frame, shell);
+  if (giving == nullptr) return solution.shell_corner_forces[static_cast<std::size_t>(shell)];
+  const PanelAction& action = loads.panels[index_of(id)];
+  const Vec3 traction = action.body_force - action.pressure * Vec3(building[id].axes.row(2));
+  return element_corner_forces(frame, *giving, solution, traction, action.strain);
+}
+
 PanelResultants panel_resultants(const Building& building, const Frame& frame, PanelId id, const PartLoads& loads,
                                  const solver::StaticSolution& solution) {
   const PanelReader reader(building, frame, id, loads.panels[index_of(id)].strain, solution);
@@ -149,7 +148,7 @@ PanelResult shell_panel_result(const Building& building, const Frame& frame, Pan
   result.corner_forces.fill(Vec6::Zero());
   for (std::size_t k = 0; k < mesh.elements.size(); ++k) {
     result.elements.push_back(element_of(reader.resultants(k, panel.axes.row(0)), mesh.elements[k]));
-    const std::array<Vec6, 4> forces = corner_forces(building, frame, id, k, loads, solution);
+    const std::array<Vec6, 4> forces = element_forces(building, frame, id, k, loads, solution);
     const auto& nodes = frame.model.shells[static_cast<std::size_t>(mesh.first_shell) + k].node;
     for (std::size_t c = 0; c < 4; ++c)
       for (std::size_t corner = 0; corner < 4; ++corner)
@@ -183,7 +182,7 @@ std::array<Vec6, 4> shell_edge_demands(const Building& building, const Frame& fr
   for (const auto& on_edge : mesh.edge_nodes)
     for (const int node : on_edge) at_node.emplace(node, Vec6::Zero());
   for (std::size_t k = 0; k < mesh.elements.size(); ++k) {
-    const std::array<Vec6, 4> forces = corner_forces(building, frame, id, k, loads, solution);
+    const std::array<Vec6, 4> forces = element_forces(building, frame, id, k, loads, solution);
     for (std::size_t c = 0; c < 4; ++c)
       if (const auto own = at_node.find(mesh.elements[k][c]); own != at_node.end()) own->second += forces[c];
   }

@@ -9,6 +9,11 @@
 
 namespace topple::structure {
 
+/// What the nodes of element `element` of a meshed panel do to it, global.
+[[nodiscard]] std::array<Vec6, 4> element_forces(const Building& building, const Frame& frame, PanelId panel,
+                                                 std::size_t element, const PartLoads& loads,
+                                                 const solver::StaticSolution& solution);
+
 /// Resultants of every element of a meshed panel, those at the panel's centre (the mean of the elements nearest to it),
 /// and forces at the panel's corners.
 [[nodiscard]] PanelResult shell_panel_result(const Building& building, const Frame& frame, PanelId panel,

@@ -9,10 +9,10 @@
 
 namespace topple::structure {
 
-/// Sets `discretisation_error` of every shell panel and returns that of all of them: sqrt(sum of the errors' energy /
-/// energy of the shells). A panel that is loaded across its plane and has no node inside cannot tell: its error is 1. 0
-/// without shells, or where they bear nothing.
-double set_discretisation_errors(const Building& building, const Frame& frame, const PartLoads& loads,
-                                 const solver::StaticSolution& solution, std::vector<PanelResult>& panels);
+/// Sets `nodes` and `discretisation_error` of every shell panel and returns that of all of them: sqrt(sum of the
+/// errors' energy / energy of the shells). A panel that is loaded across its plane and has no node inside cannot tell:
+/// its error is 1. 0 without shells, or where they bear nothing.
+double recover_resultants(const Building& building, const Frame& frame, const PartLoads& loads,
+                          const solver::StaticSolution& solution, std::vector<PanelResult>& panels);
 
 }  // namespace topple::structure

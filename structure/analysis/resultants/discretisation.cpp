@@ -1,11 +1,11 @@
-#include "analysis/discretisation.h"
+#include "analysis/resultants/discretisation.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <map>
 
-#include "analysis/shell_results.h"
+#include "analysis/resultants/shell_results.h"
 #include "model/index_of.h"
 
 namespace topple::structure {
@@ -65,6 +65,20 @@ class Patches {
     std::array<Resultants, 4> values;
     for (std::size_t c = 0; c < 4; ++c) values[c] = nodes_.at(mesh_.elements[element][c]).recovered;
     return values;
+  }
+  /// Of every node of the mesh.
+  [[nodiscard]] std::vector<PanelNode> at_nodes() const {
+    std::vector<PanelNode> all;
+    for (const auto& [id, node] : nodes_) {
+      PanelNode& at = all.emplace_back();
+      at.node = id;
+      for (std::size_t i = 0; i < 3; ++i) {
+        at.membrane[i] = node.recovered(static_cast<Eigen::Index>(i));
+        at.moments[i] = node.recovered(static_cast<Eigen::Index>(3 + i));
+        if (i < 2) at.shears[i] = node.recovered(static_cast<Eigen::Index>(6 + i));
+      }
+    }
+    return all;
   }
   [[nodiscard]] double area(std::size_t element) const {
     const auto at = [&](std::size_t c) { return nodes_.at(mesh_.elements[element][c]).place; };
@@ -176,8 +190,8 @@ bool loaded_across(const Building& building, PanelId id, const PanelAction& acti
 
 }  // namespace
 
-double set_discretisation_errors(const Building& building, const Frame& frame, const PartLoads& loads,
-                                 const solver::StaticSolution& solution, std::vector<PanelResult>& panels) {
+double recover_resultants(const Building& building, const Frame& frame, const PartLoads& loads,
+                          const solver::StaticSolution& solution, std::vector<PanelResult>& panels) {
   Energies all;
   std::vector<std::pair<std::size_t, double>> errors;
   bool unknown = false;
@@ -186,6 +200,7 @@ double set_discretisation_errors(const Building& building, const Frame& frame, c
     const PanelId id(p);
     const PanelResultants found = panel_resultants(building, frame, id, loads, solution);
     const Patches patches(building, frame, id, found);
+    panels[p].nodes = patches.at_nodes();
     if (!patches.has_inside() && loaded_across(building, id, loads.panels[p])) {
       panels[p].discretisation_error = 1;
       unknown = true;
