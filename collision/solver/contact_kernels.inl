@@ -24,12 +24,12 @@ struct Gathered {
 
 /// Rows of four become columns.
 TOPPLE_INLINE void transpose(Wide& a, Wide& b, Wide& c, Wide& d) {
-  const Wide ab_low = __builtin_shuffle(a, b, Lanes{0, 4, 2, 6}), ab_high = __builtin_shuffle(a, b, Lanes{1, 5, 3, 7});
-  const Wide cd_low = __builtin_shuffle(c, d, Lanes{0, 4, 2, 6}), cd_high = __builtin_shuffle(c, d, Lanes{1, 5, 3, 7});
-  a = __builtin_shuffle(ab_low, cd_low, Lanes{0, 1, 4, 5});
-  b = __builtin_shuffle(ab_high, cd_high, Lanes{0, 1, 4, 5});
-  c = __builtin_shuffle(ab_low, cd_low, Lanes{2, 3, 6, 7});
-  d = __builtin_shuffle(ab_high, cd_high, Lanes{2, 3, 6, 7});
+  const Wide ab_low = __builtin_shufflevector(a, b, 0, 4, 2, 6), ab_high = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+  const Wide cd_low = __builtin_shufflevector(c, d, 0, 4, 2, 6), cd_high = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+  a = __builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5);
+  b = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5);
+  c = __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7);
+  d = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
 }
 
 TOPPLE_INLINE Wide row(const double* from) { return *reinterpret_cast<const Wide*>(from); }
