@@ -2,11 +2,11 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "command.h"
 #include "fracture_drawing.h"
 #include "topple/fracture/mesh_files.h"
+#include "topple/structure/json_tree.h"
 #include "topple/structure/output_files.h"
 #include "topple/structure/panel_file.h"
 
@@ -16,6 +16,7 @@ namespace {
 
 using fracture::BreakablePanel;
 using fracture::Chunk;
+using structure::JsonTree;
 using structure::PanelFile;
 
 struct FractureOptions {
@@ -34,14 +35,14 @@ std::string mesh_text(const fracture::Mesh& mesh, const fracture::MeshFileInfo& 
   return obj ? fracture::obj_text(mesh, info.name) : fracture::glb_text(mesh, info);
 }
 
-nlohmann::ordered_json row(const auto& values) {
-  auto list = nlohmann::ordered_json::array();
+JsonTree row(const auto& values) {
+  auto list = JsonTree::array();
   for (const double value : values) list.push_back(value);
   return list;
 }
 
 std::string summary(const PanelFile& file, const BreakablePanel& panel, const Broken& broken, const char* ending) {
-  nlohmann::ordered_json chunks = nlohmann::ordered_json::array(), areas = chunks, volumes = chunks;
+  JsonTree chunks = JsonTree::array(), areas = chunks, volumes = chunks;
   const double thickness = file.shape.thickness;
   double sum = panel.area();
   std::size_t loose = 0;
@@ -62,7 +63,7 @@ std::string summary(const PanelFile& file, const BreakablePanel& panel, const Br
           {row(properties.inertia.row(0)), row(properties.inertia.row(1)), row(properties.inertia.row(2))}}});
   }
   const double whole = panel.intact_area();
-  const nlohmann::ordered_json result{
+  const JsonTree result{
       {"topple", TOPPLE_VERSION},
       {"panel", file.file},
       {"seed", file.settings.seed},

@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
-#include <nlohmann/json.hpp>
 #include <numeric>
 #include <stdexcept>
 #include <string_view>
@@ -24,7 +23,7 @@ extern "C" const char topple_report_page_end[];
 namespace topple::app {
 
 using namespace topple::structure;
-using Json = nlohmann::ordered_json;
+using Json = structure::JsonTree;
 
 namespace {
 

@@ -8,7 +8,7 @@
 namespace topple::app {
 
 using namespace topple::structure;
-using Json = nlohmann::ordered_json;
+using Json = structure::JsonTree;
 
 namespace {
 

@@ -4,7 +4,6 @@
 #include <csignal>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "command.h"
@@ -13,6 +12,7 @@
 #include "study_ranks.h"
 #include "topple/structure/error.h"
 #include "topple/structure/files.h"
+#include "topple/structure/json_tree.h"
 #include "topple/structure/output_files.h"
 #include "topple/structure/study.h"
 #include "topple/structure/study_optimise.h"
@@ -105,8 +105,8 @@ std::optional<structure::Building> building_of(const structure::Study& study) {
 using structure::OptimiseResult;
 
 /// The answer of an optimisation as a part of study.json.
-nlohmann::ordered_json answer_json(const Prepared& all, const OptimiseResult& result) {
-  using Json = nlohmann::ordered_json;
+structure::JsonTree answer_json(const Prepared& all, const OptimiseResult& result) {
+  using Json = structure::JsonTree;
   const auto design_json = [&](const structure::StudyDesign& design) {
     Json inputs = Json::object(), outputs = Json::object();
     for (std::size_t v = 0; v < design.chosen.size(); ++v)
@@ -134,12 +134,8 @@ int write_results(const StudyOptions& options, const Prepared& all, const Optimi
   const structure::Building* base = building ? &*building : nullptr;
   structure::StudyStatistics statistics = structure::study_statistics(all.study, all.task, samples, base);
   if (answer) statistics.planned = static_cast<std::size_t>(all.study.optimise->unseen);
-  std::string json = structure::study_json(all.study, all.task, samples, statistics, base);
-  if (answer) {
-    auto tree = nlohmann::ordered_json::parse(json);
-    tree["optimise"] = answer_json(all, *answer);
-    json = tree.dump(1) + "\n";
-  }
+  const std::string json = structure::study_json(all.study, all.task, samples, statistics, base,
+                                                 answer ? answer_json(all, *answer) : structure::JsonTree());
   structure::NamedFiles files{{"samples.csv", structure::samples_csv(all.task, journal)}, {"study.json", json}};
   if (options.html)
     files.emplace_back("study.html", study_page(all.study, all.task, samples, statistics, base,

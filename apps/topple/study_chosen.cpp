@@ -1,10 +1,10 @@
 // What an optimisation has chosen, and how it came there.
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "study_page.h"
 #include "svg_figure.h"
+#include "topple/structure/json_tree.h"
 
 namespace topple::app {
 
@@ -37,8 +37,8 @@ std::string history(const Study& study, const OptimiseResult& result) {
 
 std::string chosen_text(const StudyValue& value) {
   if (value.is_number()) return short_text(value.number);
-  const auto json = nlohmann::ordered_json::parse(value.json);
-  return json.is_string() ? json.get<std::string>() : value.json;
+  const JsonTree json = JsonTree::parse(value.json);
+  return json.is_text() ? json.text() : value.json;
 }
 
 }  // namespace

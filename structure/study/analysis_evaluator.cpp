@@ -74,11 +74,11 @@ class AnalysisEvaluator : public SampleEvaluator {
     AnalysisOfSample asked = *asked_;
     AnalysisResult& result = *result_;
     lose(asked, result);
-    nlohmann::ordered_json results;
+    std::optional<formats::JsonDocument> results;
     for (const Recorded& recorded : base_->study.record) {
-      if (recorded.from == Recorded::From::results && results.is_null())
-        results = nlohmann::ordered_json::parse(results_json(building, asked.request, result, {}));
-      sample.outputs.push_back(recorded.from == Recorded::From::results ? number_at(results, recorded)
+      if (recorded.from == Recorded::From::results && !results)
+        results = formats::JsonDocument::from_text(results_json(building, asked.request, result, {}), "results.json");
+      sample.outputs.push_back(recorded.from == Recorded::From::results ? number_at(*results, recorded)
                                                                         : ready(recorded.pointer, result));
     }
     std::vector<bool> bits(building.members.size() + building.panels.size() + building.joints.size());

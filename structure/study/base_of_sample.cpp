@@ -1,7 +1,6 @@
 // One sample's building and scenario.
 #include <algorithm>
 #include <array>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "formats/documents.h"
@@ -21,7 +20,7 @@ bool names_nothing(const std::string& pointer) {
                      [&](std::string_view table) { return std::string_view(pointer).starts_with(table); });
 }
 
-std::string unquoted(const StudyValue& value) { return nlohmann::ordered_json::parse(value.json).get<std::string>(); }
+std::string unquoted(const StudyValue& value) { return JsonTree::parse(value.json).text(); }
 
 }  // namespace
 

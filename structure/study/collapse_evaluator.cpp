@@ -99,13 +99,13 @@ class CollapseEvaluator : public SampleEvaluator {
       history.look(simulation);
     }
     history.look(simulation);
-    nlohmann::ordered_json summary;
+    std::optional<formats::JsonDocument> summary;
     const DebrisField debris = debris_field(simulation);
     for (const Recorded& recorded : base_->study.record) {
-      if (recorded.from == Recorded::From::summary && summary.is_null())
-        summary = nlohmann::ordered_json::parse(summary_json(simulation, times, sag));
+      if (recorded.from == Recorded::From::summary && !summary)
+        summary = formats::JsonDocument::from_text(summary_json(simulation, times, sag), "summary.json");
       sample.outputs.push_back(recorded.from == Recorded::From::summary
-                                   ? number_at(summary, recorded)
+                                   ? number_at(*summary, recorded)
                                    : ready(recorded.pointer, simulation, history, debris));
     }
     sample.parts = parts_of(simulation);

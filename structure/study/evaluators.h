@@ -12,9 +12,9 @@ namespace topple::structure::study {
 /// Whether a ready output is there for this base.
 [[nodiscard]] bool ready_for(std::string_view output, Study::Base base);
 
-/// The number at a pointer of a JSON text's tree; NaN where there is null. Throws std::runtime_error with what stands
+/// The number at a pointer of a JSON text; NaN where there is null. Throws std::runtime_error with what stands
 /// there instead.
-[[nodiscard]] double number_at(const nlohmann::ordered_json& tree, const Recorded& recorded);
+[[nodiscard]] double number_at(const formats::JsonDocument& results, const Recorded& recorded);
 
 /// Members, panels and joints of a building as one bit each, as digits; "" where none is set.
 [[nodiscard]] std::string parts_text(const std::vector<bool>& bits);

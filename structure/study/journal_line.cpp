@@ -1,10 +1,12 @@
 // Samples as lines of journal.jsonl, and as a table.
 #include <cstdio>
-#include <nlohmann/json.hpp>
+#include <limits>
 
+#include "formats/json/json_document.h"
 #include "formats/json/json_writer.h"
 #include "formats/tables/formula_guard.h"
 #include "study/study_value.h"
+#include "topple/structure/error.h"
 
 namespace topple::structure {
 
@@ -25,7 +27,7 @@ std::string hexadecimal(std::uint64_t value) {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using formats::JsonValue;
 
 constexpr std::string_view before_check = ",\"check\":\"", after_check = "\"}";
 
@@ -40,6 +42,24 @@ std::string cell(std::string_view given) {
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
   return quoted + '"';
+}
+
+Sample sample_of(const JsonValue& line) {
+  Sample sample;
+  constexpr std::int64_t most = std::int64_t{1} << 53;
+  sample.number = static_cast<std::uint64_t>(line.require("sample").whole(0, most));
+  for (const JsonValue value : line.require("inputs")) {
+    StudyValue& input = sample.inputs.emplace_back();
+    value.is_number() ? void(input.number = value.number()) : void(input.json = text_of(value));
+  }
+  if (const auto failed = line.find("failed")) {
+    sample.failed = failed->text();
+    return sample;
+  }
+  for (const JsonValue value : line.require("outputs"))
+    sample.outputs.push_back(value.is_number() ? value.number() : std::numeric_limits<double>::quiet_NaN());
+  if (const auto parts = line.find("parts")) sample.parts = parts->text();
+  return sample;
 }
 
 }  // namespace
@@ -75,25 +95,14 @@ std::optional<Sample> read_journal_line(const StudyTask& task, std::string_view 
   if (!end.starts_with(before_check) || !end.ends_with(after_check) ||
       end.substr(before_check.size(), expected.size()) != expected)
     return std::nullopt;
-  const Json json = Json::parse(std::string(body) + "}", nullptr, false);
-  if (!json.is_object()) return std::nullopt;
-  Sample sample;
-  sample.number = json.at("sample").get<std::uint64_t>();
-  for (const Json& value : json.at("inputs")) {
-    StudyValue& input = sample.inputs.emplace_back();
-    value.is_number() ? void(input.number = value.get<double>()) : void(input.json = value.dump());
-  }
-  if (json.contains("failed")) {
-    sample.failed = json.at("failed").get<std::string>();
-  } else {
-    for (const Json& value : json.at("outputs"))
-      sample.outputs.push_back(value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN());
-    sample.parts = json.value("parts", "");
-  }
-  if (sample.inputs.size() != task.sampler.variables().size() ||
-      (sample.failed.empty() && sample.outputs.size() != task.outputs.size()))
+  try {
+    Sample sample = sample_of(formats::JsonDocument::from_text(std::string(body) + "}", "journal").root());
+    const bool all = sample.inputs.size() == task.sampler.variables().size() &&
+                     (!sample.failed.empty() || sample.outputs.size() == task.outputs.size());
+    return all ? std::optional(std::move(sample)) : std::nullopt;
+  } catch (const InputError&) {  // a line of something else
     return std::nullopt;
-  return sample;
+  }
 }
 
 std::string samples_csv(const StudyTask& task, std::span<const Sample> samples) {

@@ -27,7 +27,7 @@ std::vector<std::string> members_named(const NameIndex& names, const Building& b
 
 StudyValue text_value(const std::string& text) {
   StudyValue value;
-  value.json = nlohmann::ordered_json(text).dump();
+  value.json = JsonTree(text).dump();
   return value;
 }
 

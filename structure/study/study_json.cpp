@@ -1,14 +1,14 @@
 // study.json.
 #include <cmath>
-#include <nlohmann/json.hpp>
 
+#include "topple/structure/json_tree.h"
 #include "topple/structure/study_statistics.h"
 
 namespace topple::structure {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = JsonTree;
 
 Json interval_json(const std::optional<Interval>& interval) {
   return interval ? Json{(*interval)[0], (*interval)[1]} : Json(nullptr);
@@ -77,14 +77,14 @@ template <class Parts>
 Json shares_json(const Parts& parts, const std::vector<double>& shares) {
   Json json = Json::object();
   for (std::size_t i = 0; i < shares.size(); ++i)
-    if (shares[i] > 0) json[parts[i].name] = shares[i];
+    if (shares[i] > 0) json.add(parts[i].name, shares[i]);
   return json;
 }
 
 }  // namespace
 
 std::string study_json(const Study& study, const StudyTask&, std::span<const Sample> samples,
-                       const StudyStatistics& statistics, const Building* building) {
+                       const StudyStatistics& statistics, const Building* building, const JsonTree& optimise) {
   Json json = {
       {"topple", TOPPLE_VERSION},
       {"study", {{"title", study.title}, {"file", std::filesystem::path(study.file).filename().string()}}},
@@ -106,6 +106,7 @@ std::string study_json(const Study& study, const StudyTask&, std::span<const Sam
     if (!sample.failed.empty() && failures.size() < most)
       failures.push_back({{"sample", sample.number}, {"reason", sample.failed}});
   json["failures"] = std::move(failures);
+  if (!optimise.is_null()) json["optimise"] = optimise;
   return json.dump(1) + "\n";
 }
 

@@ -79,17 +79,15 @@ bool ready_for(std::string_view output, Study::Base base) {
   });
 }
 
-double number_at(const nlohmann::ordered_json& tree, const Recorded& recorded) {
-  const nlohmann::ordered_json::json_pointer pointer(recorded.pointer);
-  if (!tree.contains(pointer))
-    throw std::runtime_error(recorded.name + ": there is nothing at " + recorded.pointer + " in the results");
-  const nlohmann::ordered_json& value = tree.at(pointer);
-  if (value.is_boolean()) return value.get<bool>() ? 1 : 0;
-  if (value.is_null()) return std::numeric_limits<double>::quiet_NaN();
-  if (!value.is_number())
-    throw std::runtime_error(recorded.name + ": " + std::string(value.type_name()) + " stands at " + recorded.pointer +
+double number_at(const formats::JsonDocument& results, const Recorded& recorded) {
+  const std::optional<formats::JsonValue> value = value_at(results, recorded.pointer);
+  if (!value) throw std::runtime_error(recorded.name + ": there is nothing at " + recorded.pointer + " in the results");
+  if (value->is_bool()) return value->boolean() ? 1 : 0;
+  if (value->is_null()) return std::numeric_limits<double>::quiet_NaN();
+  if (!value->is_number())
+    throw std::runtime_error(recorded.name + ": " + value->found() + " stands at " + recorded.pointer +
                              "; accepted: a number");
-  return value.get<double>();
+  return value->number();
 }
 
 std::string parts_text(const std::vector<bool>& bits) {

@@ -28,6 +28,14 @@ std::vector<std::string> steps_of(const std::string& pointer) {
   return steps;
 }
 
+/// RFC 6901: nothing, or steps behind strokes, in which ~ is followed by 0 or 1.
+bool is_pointer(const std::string& text) {
+  if (!text.empty() && text[0] != '/') return false;
+  for (std::size_t i = text.find('~'); i != std::string::npos; i = text.find('~', i + 1))
+    if (i + 1 == text.size() || (text[i + 1] != '0' && text[i + 1] != '1')) return false;
+  return true;
+}
+
 std::optional<JsonValue> child(const JsonValue& value, const std::string& step) {
   if (value.is_object()) return value.find(step);
   if (!value.is_array() || step.empty() || step.find_first_not_of("0123456789") != std::string::npos) return {};
@@ -66,12 +74,10 @@ std::size_t VariedDocument::add_target(const Variation& variation) {
   const std::vector<std::string> steps = steps_of(variation.pointer);
   Target target;
   target.change = variation.change;
-  try {
-    target.pointer = nlohmann::ordered_json::json_pointer(variation.pointer);
-  } catch (const nlohmann::json::exception&) {
+  target.steps = steps;
+  if (!is_pointer(variation.pointer))
     throw InputError(variation.place + ".at: found " + formats::in_quotes(variation.pointer) +
                      "; accepted: a JSON pointer, in which ~ is written ~0 and / in a name ~1");
-  }
   bool there = true;
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const auto next = child(value, steps[i]);
@@ -114,14 +120,15 @@ const JsonDocument& VariedDocument::with(const std::vector<const StudyValue*>& v
                                changed(targets_[t], targets_[t].number->number(), values[t]->number));
     return document_;
   }
-  if (tree_.is_null()) tree_ = nlohmann::ordered_json::parse(text_);
-  nlohmann::ordered_json tree = tree_;
+  if (tree_.is_null()) tree_ = JsonTree::parse(text_);
+  JsonTree tree = tree_;
   for (std::size_t t = 0; t < targets_.size(); ++t) {
-    nlohmann::ordered_json& place = tree[targets_[t].pointer];
-    if (values[t]->is_number())
-      place = changed(targets_[t], place.is_number() ? place.get<double>() : 0, values[t]->number);
-    else
-      place = nlohmann::ordered_json::parse(values[t]->json);
+    JsonTree* place = &tree;
+    for (const std::string& step : targets_[t].steps)
+      place = place->is_array() ? &(*place)[std::stoul(step)] : &(*place)[step];
+    *place = values[t]->is_number()
+                 ? JsonTree(changed(targets_[t], place->is_number() ? place->number() : 0, values[t]->number))
+                 : JsonTree::parse(values[t]->json);
   }
   parsed_ = JsonDocument::from_text(tree.dump(), name_);
   return parsed_;

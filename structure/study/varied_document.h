@@ -1,12 +1,12 @@
 #pragma once
 // A JSON document some of whose values change from sample to sample. Where all of them are numbers that stand in it,
 // they are put into the parsed document; else it is parsed again.
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "formats/json/json_document.h"
+#include "topple/structure/json_tree.h"
 #include "topple/structure/study.h"
 
 namespace topple::structure::study {
@@ -38,7 +38,7 @@ class VariedDocument {
  private:
   struct Target {
     Variation::Change change = Variation::Change::replace;
-    nlohmann::ordered_json::json_pointer pointer;
+    std::vector<std::string> steps;            ///< of the pointer
     std::optional<formats::JsonValue> number;  ///< in document_, where one stands there
     double base = 0;
   };
@@ -48,7 +48,7 @@ class VariedDocument {
   formats::JsonDocument document_, parsed_;
   std::vector<Target> targets_;
   std::vector<std::string> pointers_;
-  nlohmann::ordered_json tree_;
+  JsonTree tree_;
   bool only_numbers_ = true;
 };
 

@@ -3,15 +3,15 @@
 #include <bit>
 #include <cstring>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "topple/structure/animated_scene.h"
+#include "topple/structure/json_tree.h"
 
 namespace topple::structure {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = JsonTree;
 
 static_assert(std::endian::native == std::endian::little, "glTF is written in the byte order of this machine");
 

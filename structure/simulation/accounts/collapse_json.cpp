@@ -1,16 +1,16 @@
 // events.jsonl, summary.json and standing.json.
 #include <algorithm>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
 #include "topple/structure/collapse_report.h"
+#include "topple/structure/json_tree.h"
 #include "topple/structure/output_files.h"
 
 namespace topple::structure {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = JsonTree;
 
 constexpr std::array<const char*, 11> kind_names{
     "tool",  "impact",  "joint_yielded", "joint_broke", "panel_fractured", "mechanism", "detached",
@@ -174,7 +174,7 @@ namespace {
 Json standing_reactions(const Building& building, const StandingFrame& frame) {
   Json reactions = Json::object();
   for (const NodeSupport& support : building.supports)
-    if (frame.stands(support.node)) reactions[building[support.node].name] = array(frame.reaction(support.node));
+    if (frame.stands(support.node)) reactions.add(building[support.node].name, array(frame.reaction(support.node)));
   return reactions;
 }
 
@@ -189,7 +189,7 @@ Json standing_members(const Building& building, const StandingFrame& frame) {
     for (int f = 0; f < 12; ++f) forces.push_back(end_forces(f));
     const double used =
         std::max(frame.utilisation(building.joint(id, 0)).value, frame.utilisation(building.joint(id, 1)).value);
-    members[building[id].name] = {{"end_forces", std::move(forces)}, {"utilisation", used}};
+    members.add(building[id].name, {{"end_forces", std::move(forces)}, {"utilisation", used}});
   }
   return members;
 }
@@ -201,7 +201,7 @@ std::string standing_json(const Simulation& simulation) {
   const StandingFrame& frame = simulation.frame();
   Json displacements = Json::object(), joints = Json::object();
   for (std::size_t i = 0; i < building.nodes.size(); ++i)
-    if (frame.stands(NodeId(i))) displacements[building.nodes[i].name] = array(frame.displacement(NodeId(i)));
+    if (frame.stands(NodeId(i))) displacements.add(building.nodes[i].name, array(frame.displacement(NodeId(i))));
   for (std::size_t i = 0; i < building.joints.size(); ++i) {
     const JointId id(i);
     const Joint& joint = building.joints[i];
@@ -216,7 +216,7 @@ std::string standing_json(const Simulation& simulation) {
     }
     entry["holds"] = holds;
     entry["largest_utilisation"] = frame.largest_utilisation_so_far(id);
-    joints[joint.name] = std::move(entry);
+    joints.add(joint.name, std::move(entry));
   }
   Json standing = {{"topple", TOPPLE_VERSION},
                    {"scenario", std::filesystem::path(simulation.scenario().file).filename().string()},

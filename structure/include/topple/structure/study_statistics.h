@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "topple/structure/building.h"
+#include "topple/structure/json_tree.h"
 #include "topple/structure/study.h"
 
 namespace topple::structure {
@@ -87,8 +88,9 @@ struct StudyStatistics {
 [[nodiscard]] std::optional<bool> collapsed(const Study& study, const StudyTask& task, const Sample& sample);
 /// An input as a number: that of a choice by its place in the list.
 [[nodiscard]] double input_number(const StudyVariable& variable, const StudyValue& value);
-/// study.json.
+/// study.json; `optimise` is the answer of an optimisation, where there was one.
 [[nodiscard]] std::string study_json(const Study& study, const StudyTask& task, std::span<const Sample> samples,
-                                     const StudyStatistics& statistics, const Building* building);
+                                     const StudyStatistics& statistics, const Building* building,
+                                     const JsonTree& optimise = {});
 
 }  // namespace topple::structure
