@@ -8,6 +8,7 @@
 #include <new>
 
 #include "topple/structure/error.h"
+#include "topple/structure/output_files.h"
 #include "topple/structure/plain_text.h"
 
 namespace topple::app {
@@ -19,6 +20,7 @@ int tell_error(const char* program, const std::string& what, Status status) {
 
 int run_program(const char* program, const std::function<int()>& run) {
   try {
+    structure::remove_temporaries_on_signals();
     const int status = run();
     std::cout.flush();
     errno = 0;

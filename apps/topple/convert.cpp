@@ -9,7 +9,9 @@
 #include "command.h"
 #include "topple/structure/error.h"
 #include "topple/structure/files.h"
+#include "topple/structure/input_files.h"
 #include "topple/structure/output_files.h"
+#include "topple/structure/plain_text.h"
 
 namespace topple::app {
 
@@ -18,12 +20,11 @@ namespace {
 /// A table that is left from something else would become part of the model.
 void refuse_other_tables(const std::filesystem::path& folder, const structure::ConvertedModel& model) {
   std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
-    if (entry.path().extension() != ".csv") continue;
-    const std::string name = entry.path().filename().string();
+  for (const std::string& name : structure::names_in(folder, ignored)) {
+    if (std::filesystem::path(name).extension() != ".csv") continue;
     if (std::none_of(model.files.begin(), model.files.end(), [&](const auto& file) { return file.first == name; }))
       throw structure::InputError(
-          entry.path().string() +
+          structure::one_line((folder / name).string()) +
           ": is there already and would become part of the tables; accepted: a folder without it");
   }
 }

@@ -151,7 +151,7 @@ class OwnSamples {
   OwnSamples(const OwnSamples&) = delete;
   OwnSamples& operator=(const OwnSamples&) = delete;
   ~OwnSamples() {
-    for (std::thread& thread : threads_) thread.join();
+    for (std::jthread& thread : threads_) thread.join();
   }
   [[nodiscard]] std::deque<Line> take() {
     const std::lock_guard lock(mutex_);
@@ -189,7 +189,7 @@ class OwnSamples {
   std::deque<Line> made_;
   std::exception_ptr failure_;
   int running_;
-  std::vector<std::thread> threads_;
+  std::vector<std::jthread> threads_;
 };
 
 /// Receives one message of results if there is one; its rank, or -1.
@@ -318,10 +318,11 @@ void Ranks::work(const StudyTask& task, const StudyRun& run) const {
           failure = std::current_exception();
         }
       };
-      std::vector<std::thread> beside;
-      for (std::size_t t = 1; t < evaluators.size(); ++t) beside.emplace_back(compute, t);
-      compute(0);
-      for (std::thread& thread : beside) thread.join();
+      {
+        std::vector<std::jthread> beside;
+        for (std::size_t t = 1; t < evaluators.size(); ++t) beside.emplace_back(compute, t);
+        compute(0);
+      }
       if (failure) std::rethrow_exception(failure);
       seconds = now() - start;
     }

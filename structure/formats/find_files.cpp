@@ -6,6 +6,7 @@
 #include "formats/json/json_document.h"
 #include "topple/structure/error.h"
 #include "topple/structure/files.h"
+#include "topple/structure/input_files.h"
 #include "topple/structure/modelling_checks.h"
 #include "topple/structure/panel_file.h"
 #include "topple/structure/shipped_files.h"
@@ -43,8 +44,8 @@ std::vector<std::string> shipped(const fs::path& below) {
   std::set<std::string> names;
   for (const fs::path& place : shipped_folders()) {
     std::error_code ignored;
-    for (const auto& entry : fs::directory_iterator(place / below, ignored))
-      if (entry.path().extension() == ".json") names.insert(entry.path().stem().string());
+    for (const fs::path name : names_in(place / below, ignored))
+      if (name.extension() == ".json") names.insert(name.stem().string());
   }
   return {names.begin(), names.end()};
 }

@@ -17,15 +17,13 @@ std::string ending_of(const std::filesystem::path& file) {
 std::string whole_text(const std::filesystem::path& file) { return read_whole_file(file); }
 
 std::vector<std::pair<std::string, std::string>> read_tables(const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> files;
   std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
-    if (ending_of(entry.path()) == ".csv") files.push_back(entry.path());
+  const std::vector<std::string> names = names_in(folder, error);
   if (error)
     throw InputError(folder.string() + ": cannot be opened: " + error.message() + "; accepted: a folder of tables");
-  std::sort(files.begin(), files.end());
   std::vector<std::pair<std::string, std::string>> tables;
-  for (const auto& file : files) tables.emplace_back(file.filename().string(), whole_text(file));
+  for (const std::string& name : names)
+    if (ending_of(name) == ".csv") tables.emplace_back(name, whole_text(folder / name));
   return tables;
 }
 
@@ -36,8 +34,8 @@ namespace topple::structure {
 std::vector<std::filesystem::path> model_files(const std::filesystem::path& model) {
   std::vector<std::filesystem::path> files{model};
   std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(model, ignored))
-    if (formats::ending_of(entry.path()) == ".csv") files.push_back(entry.path());
+  for (const std::string& name : names_in(model, ignored))
+    if (formats::ending_of(name) == ".csv") files.push_back(model / name);
   return files;
 }
 

@@ -16,13 +16,15 @@ LoadFrame read_frame(const JsonValue& load, bool point) {
   value->refuse(accepted);
 }
 
-/// A distance from the first end: within the member, but for rounding of the file's decimals, which is taken away.
+/// A distance from the first end: within the member, but for rounding of the file's decimals, which is taken away. What
+/// is as good as an end is one: no part of the member is shorter.
 double read_place(const JsonValue& value, const Member& member, const Scale& scale) {
   const double place = scaled(value, scale.length), slack = 1e-6 * member.length;
   if (place < -slack || place > member.length + slack)
     value.refuse("a distance from the first end, from 0 to the member's length of " +
                  std::to_string(member.length / scale.length));
-  return std::min(std::max(place, 0.0), member.length);
+  const double end = 1e-9 * member.length;
+  return place < end ? 0 : place > member.length - end ? member.length : place;
 }
 
 void read_extent(const JsonValue& load, const Member& member, const Scale& scale, MemberLoad& result) {

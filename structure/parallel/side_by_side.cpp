@@ -8,6 +8,8 @@
 #include <thread>
 #include <vector>
 
+#include "parallel/threads_beside.h"
+
 namespace topple::structure {
 
 std::size_t workers_for(std::size_t count, int threads) {
@@ -32,10 +34,10 @@ void side_by_side(std::size_t count, int threads, const std::function<void(std::
       }
     }
   };
-  std::vector<std::thread> threads_beside;
-  for (std::size_t t = 1; t < workers; ++t) threads_beside.emplace_back(run);
-  run();
-  for (std::thread& thread : threads_beside) thread.join();
+  {
+    const ThreadsBeside beside(workers - 1, run);
+    run();
+  }
   for (const std::exception_ptr& failure : failures)
     if (failure) std::rethrow_exception(failure);
 }
@@ -75,10 +77,10 @@ void in_order(std::size_t count, int threads, const std::function<void(std::size
       hand_on(i, text, own);
     }
   };
-  std::vector<std::thread> threads_beside;
-  for (std::size_t t = 1; t < workers_for(count, threads); ++t) threads_beside.emplace_back(run);
-  run();
-  for (std::thread& thread : threads_beside) thread.join();
+  {
+    const ThreadsBeside beside(workers_for(count, threads) - 1, run);
+    run();
+  }
   if (failure) std::rethrow_exception(failure);
 }
 

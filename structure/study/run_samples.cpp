@@ -4,9 +4,10 @@
 #include <chrono>
 #include <exception>
 #include <mutex>
-#include <thread>
+#include <new>
 
 #include "parallel/side_by_side.h"
+#include "parallel/threads_beside.h"
 #include "study/run_each.h"
 #include "study/worker_processes.h"
 #include "topple/structure/plain_text.h"
@@ -18,6 +19,8 @@ void study::evaluate(SampleEvaluator& evaluator, Sample& sample) {
   const auto start = std::chrono::steady_clock::now();
   try {
     evaluator.evaluate(sample);
+  } catch (const std::bad_alloc&) {
+    throw;  // no fault of the sample: the run ends, and goes on where there is more memory
   } catch (const std::exception& error) {
     sample.outputs.clear();
     sample.parts.clear();
@@ -59,10 +62,10 @@ void run_all(const StudyTask& task, const StudyRun& run, std::size_t count,
       ended = true;
     }
   };
-  std::vector<std::thread> beside;
-  for (std::size_t t = 1; t < workers_for(count, run.threads); ++t) beside.emplace_back(work);
-  work();
-  for (std::thread& thread : beside) thread.join();
+  {
+    const ThreadsBeside beside(workers_for(count, run.threads) - 1, work);
+    work();
+  }
   if (failure) std::rethrow_exception(failure);
 }
 

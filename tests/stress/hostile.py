@@ -11,61 +11,15 @@ ends within ten seconds with a status that says what happened and one line that 
 import argparse, copy, json, os, pathlib, random, re, shutil, struct, subprocess, sys, tempfile
 from concurrent.futures import ThreadPoolExecutor
 
+from hostile_scenes import (ACTIONS, BRITTLE, BUILDING, FRAME3DD, HISTORY, LOCAL, MODEL, MOVING, PANEL, PLAIN, QUADS, SCENARIO,
+                            STUDY, WIDE)
+
 LIMIT = 10  # s
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 WORDS = ["nan", "-nan", "inf", "-inf", "1e400", "-1e400", "-0", "", "1e300", "-1", "0x10", "1e18", "abc", "1 2",
          "99999999999999999999", "5e-324", "\u0661", "1,5"]
 NUMBERS = [0, -0.0, 5e-324, 1e-300, 1e-30, 1e30, 1e300, -1e300, -1, 2**31, 2**63, 1e18, 0.5, 3]
 OTHERS = [None, True, "", "nan", [], {}, "\u001b[31m", "a\nb", "x" * 70000]
-
-MODEL = {
-    "topple": 1, "title": "bay",
-    "materials": {"steel": {"youngs_modulus": 2.1e11, "poisson_ratio": 0.3, "density": 7850, "yield_strength": 2.35e8, "thermal_expansion": 1.2e-5},
-                  "concrete": {"youngs_modulus": 3e10, "poisson_ratio": 0.2, "density": 2500,
-                               "compressive_strength": 3e7, "tensile_strength": 3e6,
-                               "fracture": {"method": "voronoi", "cell": 0.5, "jitter": 0.9}}},
-    "sections": {"col": {"catalogue": "HEB200"}, "beam": {"shape": "rectangle", "depth": 0.3, "width": 0.2}},
-    "nodes": {"A": [0, 0, 0], "B": [4, 0, 0], "C": [4, 4, 0], "D": [0, 4, 0],
-              "E": [0, 0, 3], "F": [4, 0, 3], "G": [4, 4, 3], "H": [0, 4, 3]},
-    "members": {"P1": {"nodes": ["A", "E"], "section": "col", "material": "steel", "joints": ["j", "j"]},
-                "P2": {"nodes": ["B", "F"], "section": "col", "material": "steel", "joints": ["j", "j"]},
-                "P3": {"nodes": ["C", "G"], "section": "col", "material": "steel", "joints": ["j", "j"]},
-                "P4": {"nodes": ["D", "H"], "section": "col", "material": "steel", "joints": ["j", "j"]},
-                "B1": {"nodes": ["E", "F"], "section": "beam", "material": "steel", "joints": ["j", "j"]},
-                "B2": {"nodes": ["F", "G"], "section": "beam", "material": "steel", "joints": ["j", "j"]},
-                "B3": {"nodes": ["G", "H"], "section": "beam", "material": "steel", "joints": ["j", "j"]},
-                "B4": {"nodes": ["H", "E"], "section": "beam", "material": "steel", "joints": ["j", "j"]}},
-    "joints": {"j": {"capacity": {"force": [4e6, 2e5, 2e5], "moment": [1e5, 2e5, 2e5]}, "strength": 1.0,
-                     "ductility": {"moment_y": 0.02}},
-               "edge": {"capacity_per_length": {"tension": 4e5, "compression": 4e6, "shear_y": 4e5, "shear_z": 6e4}}},
-    "panels": {"S": {"nodes": ["E", "F", "G", "H"], "thickness": 0.2, "material": "concrete", "joint": "edge"}},
-    "supports": {"A": "fixed", "B": "fixed", "C": "fixed", "D": "fixed"},
-    "loads": {"dead": {"self_weight": 1.0},
-              "live": {"nodes": {"E": {"x": 1000}}, "members": {"B1": [{"uniform": {"z": -2000}, "from": 0.5, "to": 3}, {"temperature": {"uniform": 20, "gradient_z": 15}}]}, "panels": {"S": {"pressure": 1500}}}},
-    "combinations": {"collapse": {"dead": 1, "live": 0.5}},
-}
-PLAIN = json.loads(json.dumps(MODEL))  # what tables can hold
-del PLAIN["materials"]["concrete"]["fracture"]
-SCENARIO = {
-    "topple": 1, "model": "m.json", "combination": "collapse", "step": 0.02, "duration": 1.0, "seed": 3,
-    "failure": {"sudden": 1.5}, "impact": {"restitution": 0.2},
-    "debris": {"friction": 0.6, "restitution": 0.1, "limit": 100, "smallest_volume": 0.001},
-    "fracture": {"method": "local", "points": [5, 9], "length": [0.3, 0.9], "ring": 0.4},
-    "events": [
-        {"at": 0.0, "projectile": {"from": [-3, 2, 2], "velocity": [20, 0, 0], "mass": 200, "radius": 0.3}},
-        {"at": 0.1, "cut": {"joints": ["P1:1"]}},
-        {"at": 0.1, "remove": {"members": ["B3"]}},
-        {"at": 0.2, "charge": {"centre": [4, 0, 1], "radius": 2, "strength": [0.1, 1]}},
-        {"at": 0.2, "weaken": {"members": ["P4"], "strength": 0.4, "stiffness": 0.5, "over": 0.3, "stages": 3}},
-        {"at": 0.3, "wrecking_ball": {"anchor": [0, 0, 9], "from": [-3, 0, 5], "cable": 6, "mass": 500, "radius": 0.5}},
-        {"at": 0.4, "gravity": [0.5, 0, -9.8]},
-        {"at": 0.5, "load": {"nodes": {"H": {"z": -1000}}}}],
-}
-PANEL = {"topple": 1, "seed": 2, "panel": {"outline": [[0, 0], [3, 0], [3, 2], [0, 2]], "thickness": 0.2, "density": 2400},
-         "fracture": {"method": "voronoi", "cell": 0.4, "jitter": 0.8}, "hits": [{"at": [1.5, 1], "radius": 0.2}]}
-LOCAL = dict(PANEL, fracture={"method": "local", "points": [5, 9], "length": [0.3, 0.7], "ring": 0.3})
-QUADS = dict(PANEL, fracture={"method": "quadrilateral", "cell": 0.4, "jitter": 0.3})
-
 
 def places(tree, at=()):
     """Every leaf of a JSON tree as a path."""
@@ -155,6 +109,59 @@ def tree_cases(kind, tree, name, words, beside=None):
             yield Case(label, words, {**(beside or {}), name: text(put(tree, at, other))})
 
 
+def token_cases(kind, whole, apart, words, files):
+    """A text whose every token (what `apart` does not match) becomes another one."""
+    for token in re.finditer(f"(?:(?!{apart}).)+", whole, re.S):
+        for other in WORDS + ["0", "\"", "\0", "=1+1", "x" * 70000, "2147483648", "9223372036854775808"]:
+            changed = whole[:token.start()] + other + whole[token.end():]
+            yield Case(f"{kind} at {token.start()} {token[0][:12]!r} = {other[:20]!r}", words, files(changed))
+
+
+def text_cases(bin_dir):
+    with tempfile.TemporaryDirectory() as place:
+        folder = pathlib.Path(place)
+        lay_down(folder, {"m.json": text(PLAIN), "b.json": text(BRITTLE), "s.json": text(dict(MOVING, model="b.json", duration=0.1))})
+        for words in (["convert", "m.json", "t"], ["demolish", "s.json", "-o", "o", "--save", "0.06"]):
+            subprocess.run([bin_dir / "topple", *words], cwd=folder, check=True, capture_output=True)
+        tables = {path.name: path.read_text() for path in (folder / "t").iterdir()}
+        saved = next((folder / "o").glob("*.topple")).read_bytes()
+    for name, whole in tables.items():
+        few = "".join(whole.splitlines(True)[:3])  # the header and two rows
+        for case in token_cases(f"table {name}", few, r"[,\n]", ["analyse", "t", "-o", "o"],
+                                lambda changed: {f"t/{n}": t for n, t in tables.items()} |
+                                {f"t/{name}": changed + whole[len(few):]}):
+            yield case
+    yield from token_cases("3dd", FRAME3DD, r"\s", ["analyse", "m.3dd", "-o", "o"], lambda changed: {"m.3dd": changed})
+    yield from token_cases("history", HISTORY, r"[,\n]", ["analyse", "m.json", "--time-history", "h.csv", "--history", "E", "-o", "o"],
+                           lambda changed: {"m.json": text(MODEL), "h.csv": changed})
+    scene = {"b.json": text(BRITTLE), "s.json": text(dict(MOVING, model="b.json", duration=0.1))}
+    for at in range(0, len(saved), 7):
+        yield Case(f"snapshot with byte {at} changed", ["demolish", "s.json", "--resume", "x.topple"],
+                   {**scene, "x.topple": saved[:at] + bytes([saved[at] ^ 0x41]) + saved[at + 1:]}, (2,))
+        yield Case(f"snapshot of {at} bytes", ["demolish", "s.json", "--resume", "x.topple"], {**scene, "x.topple": saved[:at]}, (2,))
+
+
+def word_cases(bin_dir):
+    """Every option and argument that takes a text."""
+    words = ["", "-", "nan", "../..", "/", "x" * 5000, os.fsdecode(b"b\xe4y"), "a\nb", "\x1b[31m", "*", "m.json", "/dev/full", "%s%n"]
+    scene = {"m.json": text(MODEL), "s.json": text(dict(SCENARIO, duration=0.1)), "p.json": text(PANEL), "t.json": text(STUDY)}
+    first = {"analyse": ["m.json"], "demolish": ["s.json"], "fracture": ["p.json", "-o", "o"], "convert": ["m.json", "n.3dd"],
+             "study": ["t.json", "-o", "o"], "check": ["m.json"]}
+    for command, arguments in first.items():
+        shown = subprocess.run([bin_dir / "topple", command, "--help"], capture_output=True, text=True).stdout
+        for option in re.findall(r"^  (?:-\w,)?(--[\w-]+) TEXT", shown, re.M):
+            for word in words:
+                yield Case(f"word {command} {option} {word[:20]!r}", [command, *arguments, f"{option}={word}"], scene)
+        for at in range(len(arguments)):
+            for word in words:
+                if not (arguments[at - 1] == "-o" and word in ("/", "../..", "-")):
+                    yield Case(f"word {command} {at} {word[:20]!r}", [command, *arguments[:at], word, *arguments[at + 1:]], scene)
+    for name in (b"b\xe4y.json", b"\x1b[31m.json", "\u202ex.json".encode()):
+        for command, content in (("analyse", MODEL), ("demolish", dict(SCENARIO, duration=0.1)), ("fracture", PANEL), ("check", MODEL)):
+            yield Case(f"word {command} of a file {name!r}", [command, os.fsdecode(name), *(["-o", "o"] if command != "check" else [])],
+                       {"m.json": text(MODEL), os.fsdecode(name): text(content)})
+
+
 def count_cases():
     for count in [0, 1000, 10**6, 2**31, 2**53, 2**63]:
         shell = put(MODEL, ("panels", "S", "model"), "shell")
@@ -221,6 +228,15 @@ def drawing_cases():
     points = {"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"}
     whole = {"bufferView": 1, "componentType": 5123, "count": 12, "type": "SCALAR"}
     views = [{"buffer": 0, "byteOffset": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 24}]
+    sound = glb(mesh, [{"mesh": 0}])
+    head = json.loads(sound[20:20 + struct.unpack("<I", sound[12:16])[0]])
+    for at in places(head):
+        for other in NUMBERS + OTHERS:
+            header = text(put(head, at, other)).encode()
+            header += b" " * (-len(header) % 4)
+            body = struct.pack("<II", len(header), 0x4E4F534A) + header + sound[20 + struct.unpack("<I", sound[12:16])[0]:]
+            yield Case(f"drawing {'.'.join(map(str, at))} = {str(other)[:20]!r}", ["analyse", "m.json"],
+                       {**scene, "x.glb": struct.pack("<III", 0x46546C67, 2, 12 + len(body)) + body})
     drawings = {"sound": glb(mesh, [{"mesh": 0}]),
                 "nested": glb(mesh, [{"children": [i + 1, i + 1]} for i in range(40)] + [{"mesh": 0}]),
                 "cycle": glb(mesh, [{"children": [0], "mesh": 0}]),
@@ -338,14 +354,36 @@ def fault(case, bin_dir, folder):
 def base_cases():
     """What everything else is a change of: refused, nothing would be tried."""
     files = {"m.json": text(MODEL), "s.json": text(SCENARIO), "plain.json": text(PLAIN)}
+    more = {"w.json": text(WIDE), "b.json": text(BUILDING), "v.json": text(dict(MOVING, model="p.json")), "p.json": text(BRITTLE), "t.json": text(STUDY), "f.3dd": FRAME3DD, "h.csv": HISTORY,
+            "m.json": text(MODEL), "a.json": text(ACTIONS)}
+    for words in (["analyse", "w.json", *ALL], ["analyse", "b.json"], ["demolish", "v.json"], ["study", "t.json", "-o", "o"],
+                  ["analyse", "f.3dd"], ["analyse", "m.json", "--time-history", "h.csv", "--history", "E", "-o", "o"]):
+        yield Case(f"base {' '.join(words[:2])}", words, more, (0,))
+    yield Case("base actions", [*ACT, "a.json"], more, (0,), program="topple-viewer")
     for words in (["analyse", "m.json", "-o", "o"], ["demolish", "s.json", "-o", "o"], ["convert", "plain.json", "t"]):
         yield Case(f"base {words[0]}", words, files, (0,))
     for name, panel in [("voronoi", PANEL), ("local", LOCAL), ("quadrilateral", QUADS)]:
         yield Case(f"base {name}", ["fracture", "p.json", "-o", "o"], {"p.json": text(panel)}, (0,))
 
 
+ALL = ["--modes", "2", "--buckling", "1", "--code", "en1993", "--p-delta", "--stations", "3", "-o", "o", "--csv"]
+ACT = ["m.json", "--headless", "--actions"]
+
+
 def all_cases(bin_dir):
     yield from base_cases()
+    yield from tree_cases("wide model", WIDE, "m.json", ["analyse", "m.json", *ALL])
+    yield from tree_cases("wide model as 3dd", WIDE, "m.json", ["convert", "m.json", "m.3dd"])
+    yield from tree_cases("building", BUILDING, "m.json", ["analyse", "m.json", "-o", "o"])
+    yield from tree_cases("moving scenario", MOVING, "s.json", ["demolish", "s.json", "-o", "o"], {"m.json": text(BRITTLE)})
+    yield from tree_cases("study", STUDY, "t.json", ["study", "t.json", "-o", "o", "--threads", "1"], {"m.json": text(MODEL)})
+    for name, tree in [("study", STUDY), ("scenario", SCENARIO), ("panel", PANEL), ("model", MODEL)]:
+        yield from tree_cases(f"checked {name}", tree, "x.json", ["check", "x.json"], {"m.json": text(MODEL)})
+    for case in tree_cases("actions", ACTIONS, "a.json", [*ACT, "a.json"], {"m.json": text(MODEL)}):
+        case.program = "topple-viewer"
+        yield case
+    yield from text_cases(bin_dir)
+    yield from word_cases(bin_dir)
     yield from option_cases(bin_dir)
     yield from tree_cases("model", MODEL, "m.json", ["analyse", "m.json", "-o", "o", "--buckling", "1"])
     yield from tree_cases("demolished model", MODEL, "m.json", ["demolish", "s.json", "-o", "o"],

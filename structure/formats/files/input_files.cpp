@@ -1,11 +1,15 @@
 #include "topple/structure/input_files.h"
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <memory>
+#include <string_view>
 
 #include "topple/structure/error.h"
 #include "topple/structure/plain_text.h"
@@ -69,6 +73,21 @@ void require_readable(const std::filesystem::path& file, std::uintmax_t most) { 
 
 std::string read_whole_file(const std::filesystem::path& file, std::uintmax_t most) {
   return OpenFile(file, most).read(most);
+}
+
+std::vector<std::string> names_in(const std::filesystem::path& folder, std::error_code& error) {
+  error.clear();
+  const auto close = [](DIR* open) { ::closedir(open); };
+  const std::unique_ptr<DIR, decltype(close)> open(::opendir(folder.c_str()), close);
+  if (!open) {
+    error = {errno, std::generic_category()};
+    return {};
+  }
+  std::vector<std::string> names;
+  while (const dirent* entry = ::readdir(open.get()))
+    if (const std::string_view name = entry->d_name; name != "." && name != "..") names.emplace_back(name);
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 }  // namespace topple::structure

@@ -9,6 +9,7 @@
 #include <optional>
 #include <streambuf>
 
+#include "formats/files/temporary_name.h"
 #include "topple/structure/error.h"
 #include "topple/structure/output_files.h"
 #include "topple/structure/plain_text.h"
@@ -86,6 +87,7 @@ fs::path own_name(const fs::path& target, int attempt) {
 
 struct OutputFile::State {
   fs::path target, temporary;
+  TemporaryName name;
   int descriptor = -1;
   bool replaces = false, named = false;
   std::unique_ptr<DescriptorBuffer> buffer;
@@ -111,11 +113,13 @@ struct OutputFile::State {
   void open() {
     constexpr int attempts = 1000;
     for (int i = 0; i < attempts && descriptor < 0; ++i) {
-      const fs::path name = own_name(target, i);
-      descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666);
-      if (descriptor >= 0)
-        temporary = name;
-      else if (errno != EEXIST)
+      fs::path own = own_name(target, i);
+      name = TemporaryName(own);
+      descriptor = ::open(own.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666);
+      if (descriptor >= 0) {  // nothing here takes memory: what was made is known
+        name.known();
+        temporary = std::move(own);
+      } else if (errno != EEXIST)
         break;
     }
     if (descriptor < 0)
@@ -157,6 +161,7 @@ void OutputFile::commit() {
   finish();
   if (::rename(state_->temporary.c_str(), state_->target.c_str()) != 0) state_->fail(errno);
   state_->named = true;
+  state_->name.forget();
 }
 
 void write_file(const fs::path& target, std::string_view text) {

@@ -8,8 +8,10 @@
 #include <cerrno>
 #include <cstring>
 
+#include "formats/files/temporary_name.h"
 #include "topple/structure/building.h"
 #include "topple/structure/error.h"
+#include "topple/structure/input_files.h"
 #include "topple/structure/output_files.h"
 #include "topple/structure/plain_text.h"
 
@@ -24,11 +26,10 @@ void refuse_inputs(const fs::path& folder, const std::vector<fs::path>& inputs,
                    const std::vector<std::string>& results) {
   for (const fs::path& input : inputs) {
     std::error_code ignored;
-    for (const auto& entry : fs::directory_iterator(folder, ignored)) {
-      const std::string name = entry.path().filename().string();
+    for (const std::string& name : names_in(folder, ignored)) {
       const bool result = std::any_of(results.begin(), results.end(),
                                       [&](const std::string& pattern) { return matches_pattern(pattern, name); });
-      if (result) require_different(input, entry.path());
+      if (result) require_different(input, folder / name);
     }
   }
 }
@@ -43,7 +44,9 @@ OutputFolder::OutputFolder(fs::path folder, const std::vector<fs::path>& inputs,
     throw InputError(one_line(folder_.string()) + ": " + why + "; accepted: " + accepted);
   };
   std::error_code error;
+  name_ = std::make_unique<TemporaryName>(folder_);
   made_ = fs::create_directories(folder_, error);
+  made_ ? name_->known() : name_->forget();
   if (error) refuse("cannot be made: " + error.message(), "a folder for the results");
   claim_ = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (claim_ < 0) refuse("cannot be opened: " + std::string(std::strerror(errno)), "a folder for the results");
@@ -66,16 +69,13 @@ OutputFolder::~OutputFolder() {
 
 void OutputFolder::remove_numbered(std::string_view prefix, std::string_view ending,
                                    const std::vector<std::string>& kept) const {
-  std::vector<fs::path> old;
   std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(folder_, ignored)) {
-    const std::string name = entry.path().filename().string();
+  for (const std::string& name : names_in(folder_, ignored)) {
     if (name.size() <= prefix.size() + ending.size() || !name.starts_with(prefix) || !name.ends_with(ending)) continue;
     const std::string number = name.substr(prefix.size(), name.size() - prefix.size() - ending.size());
     const bool digits = std::all_of(number.begin(), number.end(), [](char c) { return c >= '0' && c <= '9'; });
-    if (digits && std::find(kept.begin(), kept.end(), name) == kept.end()) old.push_back(entry.path());
+    if (digits && std::find(kept.begin(), kept.end(), name) == kept.end()) fs::remove(folder_ / name, ignored);
   }
-  for (const fs::path& file : old) fs::remove(file, ignored);
 }
 
 }  // namespace topple::structure

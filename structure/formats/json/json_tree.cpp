@@ -90,7 +90,7 @@ JsonTree::JsonTree(std::initializer_list<Item> items) {
     *this = array(items);
     return;
   }
-  Fields& fields = value_.emplace<Fields>();
+  std::vector<Field>& fields = value_.emplace<Fields>().all;
   fields.reserve(items.size());
   for (const Item& item : items) {
     JsonTree pair = item.take();
@@ -124,7 +124,7 @@ bool JsonTree::is_number() const {
 
 std::size_t JsonTree::size() const {
   if (const List* list = std::get_if<List>(&value_)) return list->size();
-  if (const Fields* fields = std::get_if<Fields>(&value_)) return fields->size();
+  if (const Fields* fields = std::get_if<Fields>(&value_)) return fields->all.size();
   return 0;
 }
 
@@ -136,7 +136,7 @@ double JsonTree::number() const {
 
 JsonTree& JsonTree::operator[](std::string_view name) {
   if (is_null()) value_.emplace<Fields>();
-  Fields& fields = std::get<Fields>(value_);
+  std::vector<Field>& fields = std::get<Fields>(value_).all;
   for (Field& field : fields)
     if (field.name == name) return field.value;
   fields.push_back({std::string(name), {}});
@@ -145,14 +145,14 @@ JsonTree& JsonTree::operator[](std::string_view name) {
 
 const JsonTree* JsonTree::find(std::string_view name) const {
   if (const Fields* fields = std::get_if<Fields>(&value_))
-    for (const Field& field : *fields)
+    for (const Field& field : fields->all)
       if (field.name == name) return &field.value;
   return nullptr;
 }
 
 void JsonTree::add(std::string_view name, JsonTree value) {
   if (is_null()) value_.emplace<Fields>();
-  std::get<Fields>(value_).push_back({std::string(name), std::move(value)});
+  std::get<Fields>(value_).all.push_back({std::string(name), std::move(value)});
 }
 
 void JsonTree::push_back(JsonTree item) {
@@ -181,7 +181,7 @@ void JsonTree::write(std::string& out, int indent, int depth) const {
   if (const List* list = std::get_if<List>(&value_))
     all(*list, "[]", [&](const JsonTree& item) { item.write(out, indent, depth + 1); });
   else if (const Fields* fields = std::get_if<Fields>(&value_))
-    all(*fields, "{}", [&](const Field& field) {
+    all(fields->all, "{}", [&](const Field& field) {
       write_text(out, field.name);
       out += indent < 0 ? ":" : ": ";
       field.value.write(out, indent, depth + 1);

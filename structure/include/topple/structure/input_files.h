@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace topple::structure {
@@ -15,6 +16,10 @@ void require_readable(const std::filesystem::path& file, std::uintmax_t most = s
 /// All bytes of a file; throws as require_readable() does.
 [[nodiscard]] std::string read_whole_file(const std::filesystem::path& file,
                                           std::uintmax_t most = std::uintmax_t{1} << 28);
+
+/// The names of what lies in a folder, sorted; none where it cannot be opened, and why. (The standard library's
+/// iterator ends the program where memory is short.)
+[[nodiscard]] std::vector<std::string> names_in(const std::filesystem::path& folder, std::error_code& error);
 
 /// The files that a model is read from: itself, or the tables of its folder.
 [[nodiscard]] std::vector<std::filesystem::path> model_files(const std::filesystem::path& model);

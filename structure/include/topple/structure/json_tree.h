@@ -18,7 +18,6 @@ class JsonTree {
   struct Field;
   class Item;
   using List = std::vector<JsonTree>;
-  using Fields = std::vector<Field>;
 
   JsonTree() = default;  ///< null
   JsonTree(std::nullptr_t) {}
@@ -53,7 +52,7 @@ class JsonTree {
   // These throw std::bad_variant_access where another kind of value stands.
   [[nodiscard]] double number() const;
   [[nodiscard]] const std::string& text() const { return std::get<std::string>(value_); }
-  [[nodiscard]] const Fields& fields() const { return std::get<Fields>(value_); }
+  [[nodiscard]] const std::vector<Field>& fields() const { return std::get<Fields>(value_).all; }
   /// The value under a name, null at first. What was null becomes an object.
   JsonTree& operator[](std::string_view name);
   JsonTree& operator[](std::size_t index) { return std::get<List>(value_)[index]; }
@@ -69,6 +68,11 @@ class JsonTree {
   [[nodiscard]] std::string dump(int indent = -1) const;
 
  private:
+  /// Not the vector itself: libstdc++ 12 takes a variant of nothing but vectors, texts and numbers for one that always
+  /// has a value, and when the copy of one throws it destroys a value that was never there.
+  struct Fields {
+    std::vector<Field> all;
+  };
   using Value = std::variant<std::monostate, bool, std::int64_t, std::uint64_t, double, std::string, List, Fields>;
 
   template <std::integral Number>

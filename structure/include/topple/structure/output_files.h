@@ -15,6 +15,8 @@
 
 namespace topple::structure {
 
+class TemporaryName;
+
 class OutputFile {
  public:
   /// Throws InputError where no file can be made there: there is no such folder, no right to write, or what has the
@@ -42,6 +44,10 @@ class OutputFile {
   struct State;
   std::unique_ptr<State> state_;
 };
+
+/// From now on SIGINT, SIGTERM and SIGHUP, where they would end the program, first take away what is being written and
+/// folders that were made for it: for programs. A host that has handlers of its own keeps them.
+void remove_temporaries_on_signals();
 
 /// The text as one file: OutputFile, written and committed.
 void write_file(const std::filesystem::path& target, std::string_view text);
@@ -82,6 +88,7 @@ class OutputFolder {
   std::filesystem::path folder_;
   bool made_ = false;
   int claim_ = -1;
+  std::unique_ptr<TemporaryName> name_;  ///< while the folder is new: it goes when a signal ends the program
 };
 
 }  // namespace topple::structure

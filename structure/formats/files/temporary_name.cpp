@@ -1,0 +1,121 @@
+#include "formats/files/temporary_name.h"
+
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "topple/structure/output_files.h"
+
+namespace topple::structure {
+
+/// One name at a time, again and again; a slot that was made stays until the program ends, as a signal may read it.
+struct TemporaryName::Slot {
+  std::atomic<char*> path{nullptr};
+  Slot* next = nullptr;
+};
+
+namespace {
+
+std::atomic<TemporaryName::Slot*> slots{nullptr};
+std::atomic<bool> ending{false};
+
+/// Slots that no name has: handed out under a lock, which a signal's handler never takes.
+struct FreeSlots {
+  std::mutex mutex;
+  std::vector<TemporaryName::Slot*> all;
+};
+FreeSlots& free_slots() {
+  static FreeSlots* const kept = new FreeSlots;  // outlives whatever is written at the very end
+  return *kept;
+}
+
+TemporaryName::Slot* take_slot() {
+  FreeSlots& free = free_slots();
+  const std::lock_guard lock(free.mutex);
+  if (!free.all.empty()) {
+    TemporaryName::Slot* const slot = free.all.back();
+    free.all.pop_back();
+    return slot;
+  }
+  std::size_t count = 1;
+  for (const TemporaryName::Slot* slot = slots; slot != nullptr; slot = slot->next) ++count;
+  free.all.reserve(count);  // to give one back takes no memory
+  auto* const slot = new TemporaryName::Slot;
+  slot->next = slots.load();
+  slots = slot;
+  return slot;
+}
+
+/// Only what a handler may do (signal-safety(7)). Files first: a folder goes when it is empty.
+void remove_and_end(int signal) {
+  const int error = errno;
+  ending = true;
+  const auto each = [](auto remove) {
+    for (const TemporaryName::Slot* slot = slots; slot != nullptr; slot = slot->next)
+      if (const char* path = slot->path) (void)remove(path);
+  };
+  each(::unlink);
+  each(::rmdir);
+  errno = error;
+  std::signal(signal, SIG_DFL);
+  (void)::raise(signal);  // ends the program when this handler returns
+}
+
+}  // namespace
+
+TemporaryName::TemporaryName(const std::filesystem::path& path) : slot_(take_slot()) {
+  const std::string& text = path.native();
+  try {
+    path_ = new char[text.size() + 1];
+  } catch (...) {
+    forget();
+    throw;
+  }
+  std::memcpy(path_, text.c_str(), text.size() + 1);
+}
+
+TemporaryName::TemporaryName(TemporaryName&& other) noexcept
+    : slot_(std::exchange(other.slot_, nullptr)), path_(std::exchange(other.path_, nullptr)) {}
+
+TemporaryName& TemporaryName::operator=(TemporaryName&& other) noexcept {
+  std::swap(slot_, other.slot_);
+  std::swap(path_, other.path_);
+  return *this;
+}
+
+TemporaryName::~TemporaryName() { forget(); }
+
+void TemporaryName::known() noexcept {
+  slot_->path = path_;
+  if (ending) (void)::unlink(path_);  // the handler may have passed this slot already
+}
+
+void TemporaryName::forget() noexcept {
+  if (slot_ == nullptr) return;
+  slot_->path = nullptr;
+  if (!ending) delete[] path_;  // else the handler may be reading it
+  path_ = nullptr;
+  FreeSlots& free = free_slots();
+  const std::lock_guard lock(free.mutex);
+  free.all.push_back(std::exchange(slot_, nullptr));
+}
+
+void remove_temporaries_on_signals() {
+  (void)free_slots();
+  for (const int signal : std::array{SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction now {};
+    if (::sigaction(signal, nullptr, &now) != 0 || now.sa_handler != SIG_DFL) continue;  // nohup ignores SIGHUP
+    now = {};
+    now.sa_handler = remove_and_end;
+    ::sigaction(signal, &now, nullptr);
+  }
+}
+
+}  // namespace topple::structure
