@@ -75,7 +75,9 @@ struct Frame3ddFile {
   };
   std::vector<LoadCase> cases;
 
+  // Constructors of their own: clang has none for them as long as the class around them is not whole.
   struct Condensation {
+    Condensation() {}
     int method = 0;
     struct NodeFlags {
       int node = 0;
@@ -85,6 +87,7 @@ struct Frame3ddFile {
     std::vector<int> modes;
   };
   struct Modes {
+    Modes() {}
     int count = 0, method = 1;
     bool lumped = false;
     double tolerance = 1e-9, shift = 0, exaggeration = 10;

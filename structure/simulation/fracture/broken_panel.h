@@ -68,6 +68,7 @@ class BrokenPanel {
   [[nodiscard]] std::vector<PanelChunk> take(const fracture::Fracture& fracture);
   [[nodiscard]] PanelChunk lift(const fracture::Chunk& chunk) const;
   struct Description {
+    Description() {}  // clang makes none as long as the class around it is not whole
     double volume = 0;
     MassProperties rest;
     std::vector<std::vector<Vec3>> hulls;

@@ -2,9 +2,11 @@
 // and a power cut do. FAULT_CALL names the call, FAULT_AT says which one (from 1), FAULT_HOW is "fail" or "kill";
 // FAULT_COUNT names a file that takes how many there were, when nothing is to fail.
 //   write, rename, fsync, close, open: through which files are made (open: for writing alone; write: to regular files)
-//   new: operator new
+//   new: operator new, called by the program itself (through the C++ library or not), not by libraries of the system
 #include <dlfcn.h>
+#include <execinfo.h>
 #include <fcntl.h>
+#include <link.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -12,6 +14,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdarg>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -53,6 +56,41 @@ void tell_count() {
   }
 }
 
+/// Where the program and the C++ library lie in memory.
+struct Range {
+  std::uintptr_t from = 0, to = 0;
+  [[nodiscard]] bool has(const void* at) const {
+    const auto place = reinterpret_cast<std::uintptr_t>(at);
+    return place >= from && place < to;
+  }
+};
+Range own, library;
+
+int note_range(dl_phdr_info* info, std::size_t, void*) {
+  Range all{~std::uintptr_t{0}, 0};
+  for (int i = 0; i < info->dlpi_phnum; ++i) {
+    if (info->dlpi_phdr[i].p_type != PT_LOAD) continue;
+    const std::uintptr_t from = info->dlpi_addr + info->dlpi_phdr[i].p_vaddr;
+    all.from = from < all.from ? from : all.from;
+    const std::uintptr_t to = from + info->dlpi_phdr[i].p_memsz;
+    all.to = to > all.to ? to : all.to;
+  }
+  if (info->dlpi_name[0] == '\0' && own.to == 0) own = all;
+  if (std::strstr(info->dlpi_name, "libstdc++") != nullptr) library = all;
+  return 0;
+}
+
+/// Whether the program asks, by itself or in the C++ library: an exception through others would break them.
+__attribute__((noinline)) bool asked_by_program(const void* caller) {
+  if (own.has(caller)) return true;
+  if (!library.has(caller)) return false;
+  void* frames[12];
+  const int count = backtrace(frames, 12);
+  for (int i = 1; i < count; ++i)
+    if (!library.has(frames[i])) return own.has(frames[i]);
+  return false;
+}
+
 int (*program)(int, char**, char**) = nullptr;
 
 int counted_program(int argc, char** argv, char** environment) {
@@ -61,6 +99,9 @@ int counted_program(int argc, char** argv, char** environment) {
   if (const char* at = getenv("FAULT_AT")) fault_at = atol(at);
   const char* how = getenv("FAULT_HOW");
   kills = how != nullptr && std::strcmp(how, "kill") == 0;
+  void* frame = nullptr;
+  (void)backtrace(&frame, 1);  // takes memory the first time
+  dl_iterate_phdr(note_range, nullptr);
   counting = true;
   const int status = program(argc, argv, environment);
   tell_count();
@@ -119,7 +160,9 @@ int open(const char* path, int flags, ...) {
 }  // extern "C"
 
 void* operator new(std::size_t size) {
-  if (fails("new")) throw std::bad_alloc();
+  if (counting.load() && wanted != nullptr && std::strcmp(wanted, "new") == 0 &&
+      asked_by_program(__builtin_return_address(0)) && fails("new"))
+    throw std::bad_alloc();
   if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
   throw std::bad_alloc();
 }
