@@ -15,6 +15,7 @@
 #include "progress.h"
 #include "topple/structure/analysis.h"
 #include "topple/structure/direct_analysis.h"
+#include "topple/structure/divide_member.h"
 #include "topple/structure/error.h"
 #include "topple/structure/files.h"
 #include "topple/structure/input_files.h"
@@ -39,7 +40,7 @@ struct Options {
   std::string direct_analysis;
   int stations = 0, threads = 0;
   std::string p_delta;
-  int buckling = 0, modes = 0;
+  int buckling = 0, modes = 0, divide = 1;
   std::string mass, torsional_mass, factor;
   bool rotary_inertia = false;
   std::vector<std::string> lose, lose_each;
@@ -210,6 +211,11 @@ int run(const Options& options) {
         "--direct-analysis");
   if (!options.direct_analysis.empty() && (options.code != "aisc360" || options.p_delta.empty()))
     throw InputError("--direct-analysis: the method of AISC 360 chapter C; accepted: with --code aisc360 --p-delta");
+  if (options.divide > 1 && options.modes == 0)
+    throw InputError("--divide: it is for natural modes; accepted: with --modes");
+  if (options.divide > 1 && (!options.code.empty() || !options.lose.empty() || !options.lose_each.empty()))
+    throw InputError(
+        "--divide: pieces of members are neither checked nor lost; accepted: no --code, --lose, --lose-each");
   if (options.sudden && options.lose.empty() && options.lose_each.empty())
     throw InputError("--sudden: nothing is lost; accepted: with --lose or --lose-each");
   check_motion_options(options.motion, !options.lose.empty() || !options.lose_each.empty(), !options.output.empty());
@@ -220,6 +226,7 @@ int run(const Options& options) {
   tell_progress("reading", -1);
   Building read = read_model(file);
   for (std::string& warning : modelling_warnings(read)) read.warnings.push_back(std::move(warning));
+  if (options.divide > 1) divide_all_members(read, options.divide);
   const bool direct = !options.direct_analysis.empty(), computes_tau_b = options.direct_analysis == "tau-b";
   const double share = computes_tau_b ? out_of_plumb : out_of_plumb + in_place_of_tau_b;
   const Building building = direct ? with_notional_loads(read, combinations_of(read, options), share) : std::move(read);
@@ -362,6 +369,9 @@ std::function<int()> declare(CLI::App& app) {
   app.add_option("--cuts", options->cuts, "JSON file of planes: resultants of all that passes each of them");
   declare_motion_options(app, options->motion);
   app.add_option("--modes", options->modes, "Lowest natural frequencies and modes")->check(whole_number(1, 100000));
+  app.add_option("--divide", options->divide,
+                 "With --modes: elements of every member, which then swing by themselves as well (1)")
+      ->check(whole_number(1, 64));
   app.add_option("--mass", options->mass, "Mass of elements: consistent (default) or lumped")
       ->check(CLI::IsMember({"consistent", "lumped"}));
   app.add_option("--torsional-mass", options->torsional_mass,

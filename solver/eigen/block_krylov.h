@@ -20,10 +20,11 @@ struct KrylovAnswer {
   int converged = 0;
   bool complete = false;  ///< the subspace is all that M sees: there are no more eigenvalues
   double residual = 0;    ///< the largest among those asked for, relative
+  bool settled = true;    ///< false: not `count` of them converged in as many restarts as were allowed
 };
 
-/// At least `count` converged values unless the subspace is complete before; throws std::runtime_error otherwise.
-/// `extra`: width of the block beyond `count`.
-[[nodiscard]] KrylovAnswer largest_eigenvalues(const KrylovOperators& operators, int count, int extra);
+/// At least `count` converged values unless the subspace is complete before, or `restarts` do not settle them: so where
+/// many eigenvalues lie as close to each other as the block is wide. `extra`: width of the block beyond `count`.
+[[nodiscard]] KrylovAnswer largest_eigenvalues(const KrylovOperators& operators, int count, int extra, int restarts);
 
 }  // namespace topple::solver

@@ -47,8 +47,14 @@ class Modes {
     count = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(count), order_.size()));
     // A wider block where the count says that some are missing.
     const int first = least_extra + count / 8, last = std::max(first, most_extra);
+    // So too where it does not settle: the beams of a floor all swing at the same frequency.
     for (int extra = first; extra <= last; extra *= 4) {
-      const KrylovAnswer found = largest_eigenvalues(operators, count, extra);
+      const bool widest = 4 * extra > last || count + extra >= static_cast<int>(order_.size());
+      const KrylovAnswer found = largest_eigenvalues(operators, count, extra, widest ? most_restarts : few_restarts);
+      if (!found.settled && !widest) continue;
+      if (!found.settled)
+        throw std::runtime_error("the eigenvalue iteration does not converge: relative residual " +
+                                 std::to_string(found.residual));
       if (!none_missing(found, count)) continue;
       gather(found, std::min<Eigen::Index>(count, found.values.size()), answer);
       return answer;
@@ -57,7 +63,7 @@ class Modes {
   }
 
  private:
-  static constexpr int least_extra = 4, most_extra = 4096;
+  static constexpr int least_extra = 4, most_extra = 4096, few_restarts = 15, most_restarts = 200;
 
   static void require_none(const std::optional<Defect>& defect) {
     if (defect) throw Instability(defect->message, defect->motion);

@@ -38,7 +38,7 @@ std::string told_undivided(const Building& building, const Frame& frame,
       text, sizeof text,
       "modes: member %s%s of one element would swing by %s at %.4g Hz between pinned ends, which is within the "
       "frequencies told; one element makes that up to 11 %% too quick, and leaves it out between held ends; "
-      "accepted: nodes that divide it in two (0.4 %%) or more",
+      "accepted: --divide 2 (0.4 %%) or more, or nodes that divide it",
       building.members[slowest].name.c_str(), count > 1 ? (" and " + std::to_string(count - 1) + " more").c_str() : "",
       count > 1 ? "themselves" : "itself", lowest);
   return text;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <stdexcept>
 
 #include "design/aisc360_parts.h"
@@ -44,10 +45,9 @@ LoadCase notional_case(const Building& building, const LoadCase& whole, std::siz
   LoadCase turned;
   turned.name = whole.name + (direction == 0 ? " notional x" : " notional y");
   turned.self_weight(axis) = -share * whole.self_weight.z();
+  std::map<NodeId, double> at_nodes;  // one load for each: panels meet at most of them
   const auto at_node = [&](NodeId node, double downward) {
-    NodeLoad load{node, Vec6::Zero()};
-    load.load(axis) = share * downward;
-    if (downward != 0) turned.nodes.push_back(load);
+    if (downward != 0) at_nodes[node] += share * downward;
   };
   for (const NodeLoad& load : whole.nodes) at_node(load.node, -load.load(2));
   for (const MemberLoad& load : whole.members)
@@ -58,6 +58,11 @@ LoadCase notional_case(const Building& building, const LoadCase& whole, std::siz
     // Pressure acts against the normal.
     const double downward = load.pressure * panel.axes(2, 2) * panel_area(building, panel, true);
     for (const NodeId node : panel.nodes) at_node(node, downward / 4);
+  }
+  for (const auto& [node, force] : at_nodes) {
+    NodeLoad load{node, Vec6::Zero()};
+    load.load(axis) = force;
+    turned.nodes.push_back(load);
   }
   return turned;
 }

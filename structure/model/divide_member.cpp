@@ -195,4 +195,11 @@ std::vector<JointId> divide_member_at(Building& building, MemberId member,
   return division.carry_out();
 }
 
+void divide_all_members(Building& building, int pieces) {
+  std::vector<double> places;
+  for (int i = 1; i < pieces; ++i) places.push_back(static_cast<double>(i) / pieces);
+  const std::size_t count = building.members.size();
+  for (std::size_t m = 0; m < count && !places.empty(); ++m) divide_member(building, MemberId(m), places);
+}
+
 }  // namespace topple::structure

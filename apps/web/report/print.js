@@ -98,7 +98,9 @@ const table = (columns, rows) => tableOf(columns, rows.map((row) => row.map((cel
 /** A table in the units of paper. */
 function measured(columns, rows, u, apart) {
   const converted = onPaper(columns, rows, u, apart);
-  return tableOf(converted.columns, converted.rows);
+  const made = tableOf(converted.columns, converted.rows);
+  if (columns.length <= 3) made.classList.add('narrow');
+  return made;
 }
 
 function figure(svg, caption) {

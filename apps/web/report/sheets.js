@@ -55,6 +55,7 @@ function fixColumns(table) {
     group.append(column);
   }
   table.prepend(group);
+  table.style.width = `${table.getBoundingClientRect().width}px`;
   table.style.tableLayout = 'fixed';
 }
 

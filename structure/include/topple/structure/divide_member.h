@@ -21,4 +21,7 @@ std::vector<JointId> divide_member(Building& building, MemberId member, const st
 std::vector<JointId> divide_member_at(Building& building, MemberId member,
                                       const std::vector<std::pair<double, NodeId>>& nodes);
 
+/// Every member in `pieces` of the same length, for natural modes: one element hides a member's own swing.
+void divide_all_members(Building& building, int pieces);
+
 }  // namespace topple::structure
