@@ -193,15 +193,17 @@ void find_odd_materials(const Building& building, std::vector<std::string>& warn
   light.tell(warnings, "materials of buildings have 10 to 25,000 kg/m3; look at the model's units");
 }
 
-/// Sections given in the units of a catalogue make members deeper than they are long. A large area alone may be meant
-/// (a link that is to be stiff), unless all members have one.
+/// Sections given in the units of a catalogue make members far deeper than they are long (spandrels of tubes are 1.3
+/// times). A large area alone may be meant (a link that is to be stiff), unless all members have one.
 void find_thick_members(const Building& building, std::vector<std::string>& warnings) {
+  constexpr double deepest = 5;  // of its length
   Several thick;
   std::size_t large = 0;
   for (const Member& member : building.members) {
     const Section& section = building[member.section];
     if (std::sqrt(section.area) > member.length) ++large;
-    if (section.depth > member.length) thick.add("member " + member.name + " is deeper than it is long");
+    if (section.depth > deepest * member.length)
+      thick.add("member " + member.name + " is over five times as deep as it is long");
   }
   thick.tell(warnings, "look at its section and the model's units");
   if (large > 0 && large == building.members.size())
