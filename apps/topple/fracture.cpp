@@ -9,6 +9,7 @@
 #include "topple/structure/json_tree.h"
 #include "topple/structure/output_files.h"
 #include "topple/structure/panel_file.h"
+#include "topple/structure/plain_text.h"
 
 namespace topple::app {
 
@@ -125,7 +126,7 @@ int run(const FractureOptions& options) {
   structure::write_files(options.folder, files);
   remove_earlier(folder, files);
   std::printf("%s: %zu hits, %zu chunks, %.4g of %.4g m2 remain; written to %s\n", file.file.c_str(), file.hits.size(),
-              broken.chunks.size(), panel.area(), panel.intact_area(), options.folder.c_str());
+              broken.chunks.size(), panel.area(), panel.intact_area(), structure::one_line(options.folder).c_str());
   return success;
 }
 

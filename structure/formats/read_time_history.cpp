@@ -7,12 +7,19 @@
 #include "formats/tables/csv_table.h"
 #include "topple/structure/error.h"
 #include "topple/structure/motion.h"
+#include "topple/structure/number_range.h"
 #include "topple/structure/time_history.h"
 
 namespace topple::structure {
 namespace {
 
 constexpr std::array<std::string_view, 3> ground{"ax", "ay", "az"};
+
+/// What is accepted of a column, in SI: accelerations as of gravity (ranges::gravity), factors of load cases.
+constexpr NumberRange acceleration{-1e5, 1e5}, factor{-1e6, 1e6};
+constexpr const NumberRange& range_of(const TimeHistory::Series& series) {
+  return series.axis >= 0 ? acceleration : factor;
+}
 
 /// The header's cells, to be known before the table is read; quotation marks are not needed in them.
 std::vector<std::string> header_of(const std::string& text) {
@@ -70,12 +77,16 @@ TimeHistory read_time_history(const std::string& path, const Building& building)
       return *value;
     };
     const double time = number(0);
-    if (time < 0 || (!history.times.empty() && time <= history.times.back()))
+    if (!ranges::instant.contains(time)) table.fail(row, 0, "accepted: " + ranges::instant.text());
+    if (!history.times.empty() && time <= history.times.back())
       table.fail(row, 0, "times start at 0 or later and ascend");
     history.times.push_back(time);
     for (std::size_t k = 0; k < history.series.size(); ++k) {
       const double unit = history.series[k].axis >= 0 ? building.units.length : 1;
-      history.series[k].values.push_back(number(k + 1) * unit);
+      const double value = number(k + 1) * unit;
+      const NumberRange& range = range_of(history.series[k]);
+      if (!range.contains(value)) table.fail(row, k + 1, "accepted (in SI): " + range.text());
+      history.series[k].values.push_back(value);
     }
   }
   if (history.times.size() < 2)
@@ -92,7 +103,7 @@ TimeHistory make_time_history(const std::map<std::string, std::vector<double>>& 
   history.file = place;
   history.times = times->second;
   for (std::size_t i = 0; i < history.times.size(); ++i)
-    if (!std::isfinite(history.times[i]) || history.times[i] < 0 || (i > 0 && history.times[i] <= history.times[i - 1]))
+    if (!ranges::instant.contains(history.times[i]) || (i > 0 && history.times[i] <= history.times[i - 1]))
       throw InputError(place + ", time[" + std::to_string(i) + "]: times start at 0 or later and ascend");
   if (history.times.size() < 2)
     throw InputError(place + ": fewer than two times; accepted: two at least, later than 0 at the end");
@@ -102,8 +113,9 @@ TimeHistory make_time_history(const std::map<std::string, std::vector<double>>& 
     if (values.size() != history.times.size())
       throw InputError(place + ", " + name + ": " + std::to_string(values.size()) +
                        " numbers; accepted: one for each of " + std::to_string(history.times.size()) + " times");
-    if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
-      throw InputError(place + ", " + name + ": a number that is not finite; accepted: finite ones");
+    const NumberRange& range = range_of(series);
+    if (!std::all_of(values.begin(), values.end(), [&](double value) { return range.contains(value); }))
+      throw InputError(place + ", " + name + ": a number out of range; accepted: " + range.text());
     series.values = values;
     history.series.push_back(std::move(series));
   }

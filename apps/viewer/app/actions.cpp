@@ -237,6 +237,8 @@ Script read_script(const std::string& file) {
     document = json::parse(structure::read_whole_file(file, most));
   } catch (const json::parse_error& error) {
     throw InputError(file + ": not JSON at byte " + std::to_string(error.byte));
+  } catch (const json::out_of_range&) {
+    throw InputError(file + ": a number that is too large to hold; accepted: finite numbers");
   }
   const Value root(document, file);
   root.only({"topple", "size", "actions"});

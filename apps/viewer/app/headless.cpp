@@ -18,6 +18,7 @@
 #include "renderer/picture_renderer.h"
 #include "topple/structure/error.h"
 #include "topple/structure/output_files.h"
+#include "topple/structure/plain_text.h"
 
 namespace topple::viewer {
 namespace {
@@ -145,7 +146,7 @@ class HeadlessRun {
   }
   void write(const std::string& file) {
     write_png(draw(), file);
-    std::printf("%s at %.3f s\n", file.c_str(), driver_.moment().later->time);
+    std::printf("%s at %.3f s\n", structure::one_line(file).c_str(), driver_.moment().later->time);
   }
   void save(const std::string& file) { controller_.save(file); }
   [[nodiscard]] const Recording& recording() const { return driver_.recording(); }
@@ -235,7 +236,7 @@ int record(HeadlessRun& run, const HeadlessOptions& options, double until) {
   }
   for (PictureSequence& sequence : sequences) {
     sequence.finish();
-    std::printf("%s: %d pictures\n", sequence.target().c_str(), sequence.count());
+    std::printf("%s: %d pictures\n", structure::one_line(sequence.target()).c_str(), sequence.count());
   }
   return sequences.front().count();
 }

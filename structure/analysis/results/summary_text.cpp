@@ -42,6 +42,17 @@ std::string whole_number(double number) {
   return buffer;
 }
 
+/// A use in percent, as wide as its column. Where there is next to no resistance it says no more than that.
+std::string percent(double use) {
+  constexpr double told = 1e6;  // percent
+  char buffer[32];
+  if (100 * use <= told)
+    std::snprintf(buffer, sizeof buffer, "%7.1f %%", 100 * use);
+  else
+    std::snprintf(buffer, sizeof buffer, ">%.0f %%", told);
+  return buffer;
+}
+
 void most_used(Text& text, const Building& building, const CombinationResult& c) {
   std::vector<std::size_t> order;
   for (std::size_t j = 0; j < c.joints.size(); ++j)
@@ -55,7 +66,7 @@ void most_used(Text& text, const Building& building, const CombinationResult& c)
   text.line("  most used joints");
   for (std::size_t k = 0; k < shown; ++k) {
     const Utilisation& used = c.joints[order[k]];
-    text.line("    %-20s %7.1f %%  %s", building.joints[order[k]].name.c_str(), 100 * used.value,
+    text.line("    %-20s %s  %s", building.joints[order[k]].name.c_str(), percent(used.value).c_str(),
               sense_names[static_cast<std::size_t>(used.sense)]);
   }
 }
@@ -95,9 +106,9 @@ void most_used_members(Text& text, const Building& building, const AnalysisResul
   for (std::size_t k = 0; k < shown; ++k) {
     const DesignResult& used = c.designs[order[k]];
     const double length = building.members[order[k]].length;
-    text.line("    %-20s %7.1f %%  %s  K %.2f, %.2f (%s)", building.members[order[k]].name.c_str(),
-              100 * used.utilisation, used.governing.c_str(), used.lengths.y / length, used.lengths.z / length,
-              lengths_from(used).c_str());
+    text.line("    %-20s %s  %s  K %.2f, %.2f (%s)", building.members[order[k]].name.c_str(),
+              percent(used.utilisation).c_str(), used.governing.c_str(), used.lengths.y / length,
+              used.lengths.z / length, lengths_from(used).c_str());
     if (std::find(clauses.begin(), clauses.end(), used.governing) == clauses.end()) clauses.push_back(used.governing);
   }
   for (std::size_t k = 0; k < std::min<std::size_t>(joints_shown, refused.size()); ++k)
@@ -220,7 +231,7 @@ void losses(Text& text, const Building& building, const LossResult& result) {
       if (!state.stands())
         text.line("  %-20s %-16s mechanism  %.300s", lost, under, state.mechanism.c_str());
       else if (state.worst.valid())
-        text.line("  %-20s %-16s %7.1f %%  %s %s", lost, under, 100 * state.use.value,
+        text.line("  %-20s %-16s %s  %s %s", lost, under, percent(state.use.value).c_str(),
                   building[state.worst].name.c_str(), sense_names[static_cast<std::size_t>(state.use.sense)]);
       else
         text.line("  %-20s %-16s    stands  no joint has a capacity", lost, under);
@@ -247,7 +258,7 @@ void motion(Text& text, const std::string& what, const Building& building, const
   for (std::size_t k = 0; k < shown; ++k) {
     const JointPeak& joint = *order[k];
     const std::string times = joint.amplification ? short_number(*joint.amplification) + " x static" : "";
-    text.line("    %-20s %7.1f %%  %-11s at %.4g s  %s", building[joint.joint].name.c_str(), 100 * joint.use.value,
+    text.line("    %-20s %s  %-11s at %.4g s  %s", building[joint.joint].name.c_str(), percent(joint.use.value).c_str(),
               sense_names[static_cast<std::size_t>(joint.use.sense)], joint.at, times.c_str());
   }
 }

@@ -13,6 +13,7 @@
 #include "renderer/shapes/palette.h"
 #include "topple/structure/animated_scene.h"
 #include "topple/structure/output_files.h"
+#include "topple/structure/plain_text.h"
 
 namespace topple::viewer {
 namespace {
@@ -160,7 +161,7 @@ class GltfWriter {
 
 void write_gltf(const structure::Building& building, const Recording& recording, const std::string& file, double rate) {
   structure::write_file(file, GltfWriter(building, recording, rate).bytes());
-  std::printf("%s: animation\n", file.c_str());
+  std::printf("%s: animation\n", structure::one_line(file).c_str());
 }
 
 }  // namespace topple::viewer

@@ -12,6 +12,7 @@
 #include "app/part_motion.h"
 #include "renderer/instances.h"
 #include "topple/structure/output_files.h"
+#include "topple/structure/plain_text.h"
 
 #ifdef TOPPLE_REPLAY
 extern "C" const char topple_replay_page_begin[];
@@ -225,7 +226,7 @@ void write_html_replay(const structure::Building& building, const Recording& rec
   out.write(in_script(ReplayData(building, recording).write().dump()));
   out.write(whole.substr(at + mark.size()));
   out.commit();
-  std::printf("%s: replay\n", file.c_str());
+  std::printf("%s: replay\n", structure::one_line(file).c_str());
 }
 
 }  // namespace topple::viewer

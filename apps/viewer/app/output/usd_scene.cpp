@@ -13,6 +13,7 @@
 #include "app/part_motion.h"
 #include "renderer/shapes/palette.h"
 #include "topple/structure/output_files.h"
+#include "topple/structure/plain_text.h"
 
 namespace topple::viewer {
 namespace {
@@ -210,7 +211,7 @@ void write_usd(const structure::Building& building, const Recording& recording, 
   structure::OutputFile out(file);
   UsdWriter(building, recording, out.stream(), rate).write();
   out.commit();
-  std::printf("%s: animation\n", file.c_str());
+  std::printf("%s: animation\n", structure::one_line(file).c_str());
 }
 
 }  // namespace topple::viewer
