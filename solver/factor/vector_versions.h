@@ -35,6 +35,46 @@ struct OneLane {
   using Vector = double;
 };
 
+#if defined(__clang__)
+/// clang forgets in templates that a vector may lie anywhere, and would load it as an aligned one: it is copied
+/// instead.
+template <class Lanes>
+class LanesPlace {
+ public:
+  using Vector = typename Lanes::Vector;
+  explicit LanesPlace(double* p) : p_(p) {}
+  operator Vector() const {
+    Vector value;
+    __builtin_memcpy(&value, p_, sizeof value);
+    return value;
+  }
+  LanesPlace& operator=(const Vector& value) {
+    __builtin_memcpy(p_, &value, sizeof value);
+    return *this;
+  }
+  LanesPlace& operator=(const LanesPlace& other) { return *this = Vector(other); }
+  LanesPlace& operator+=(const Vector& value) { return *this = Vector(*this) + value; }
+  LanesPlace& operator-=(const Vector& value) { return *this = Vector(*this) - value; }
+  friend Vector operator-(const LanesPlace& place) { return -Vector(place); }
+  template <class Factor>
+  friend Vector operator*(const LanesPlace& place, const Factor& factor) {
+    return Vector(place) * factor;
+  }
+
+ private:
+  double* p_;
+};
+template <class Lanes>
+[[gnu::always_inline]] inline typename Lanes::Vector lanes_at(const double* p) {
+  typename Lanes::Vector value;
+  __builtin_memcpy(&value, p, sizeof value);
+  return value;
+}
+template <class Lanes>
+[[gnu::always_inline]] inline LanesPlace<Lanes> lanes_at(double* p) {
+  return LanesPlace<Lanes>(p);
+}
+#else
 template <class Lanes>
 [[gnu::always_inline]] inline const typename Lanes::Vector& lanes_at(const double* p) {
   return *reinterpret_cast<const typename Lanes::Vector*>(p);
@@ -43,6 +83,7 @@ template <class Lanes>
 [[gnu::always_inline]] inline typename Lanes::Vector& lanes_at(double* p) {
   return *reinterpret_cast<typename Lanes::Vector*>(p);
 }
+#endif
 
 /// work(lanes, i) for rows i, i + 1, ... of `rows`, as many at a time as there are lanes: eight while there are so
 /// many, then four, two, one.
