@@ -4,9 +4,10 @@
 
 namespace topple::structure {
 
-/// Relative stiffness of an end, sum(E I/L) of columns over that of beams: recommended values of the commentary for a
-/// pinned and for a rigid foot, and a number that is as good as infinite for an end that is released.
-inline constexpr double pinned_end = 10, fixed_end = 1, released_end = 1000;
+/// Relative stiffness of an end, sum(E I/L) of columns over that of beams: the commentary's recommended value for a
+/// rigid foot, and a number that is as good as infinite for a hinge. (Its 10 for a pinned foot counts on a hold that a
+/// model with a hinge there does not have.)
+inline constexpr double fixed_end = 1, released_end = 1000;
 
 /// Sidesway inhibited: between 0.5 and 1.
 [[nodiscard]] double chart_braced(double ga, double gb);

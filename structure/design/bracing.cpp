@@ -138,8 +138,7 @@ double Bracing::end_stiffness(const HeldLength& held, int end, int direction) co
     for (int i = 0; i < 3; ++i)
       if (std::abs(about(i)) > holds_along && stiffness(3 + i) == unlimited) return fixed_end;
   }
-  const bool foot = support_of_[index(node)] >= 0;
-  return std::min(beams > 0 ? columns / beams : released_end, foot ? pinned_end : released_end);
+  return std::min(beams > 0 ? columns / beams : released_end, released_end);
 }
 
 /// Braces count with E A/L, walls in shear with G t b/h, posts with 12 E I/h^3.

@@ -52,10 +52,8 @@ FoundLength flexural_length(const Building& building, const Bracing& bracing, Ef
   if (method == EffectiveLengths::assumed) return {sway_factor * held.length, LengthSource::assumed_sway};
   const double ga = bracing.end_stiffness(held, 0, direction), gb = bracing.end_stiffness(held, 1, direction);
   if (bracing.braced(id, direction)) {
-    // The chart's 10 for a pinned foot counts on a hold that the model does not have: two hinges would have K = 0.96.
-    const auto hinge = [](double g) { return g >= pinned_end ? released_end : g; };
-    if (std::min(ga, gb) >= pinned_end) return {held.length, LengthSource::own};
-    return {chart_braced(hinge(ga), hinge(gb)) * held.length, LengthSource::chart_braced};
+    if (std::min(ga, gb) >= released_end) return {held.length, LengthSource::own};
+    return {chart_braced(ga, gb) * held.length, LengthSource::chart_braced};
   }
   if (std::min(ga, gb) >= released_end) return {held.length, LengthSource::leaning};
   return {chart_sway(ga, gb) * held.length, LengthSource::chart_sway};
