@@ -197,6 +197,7 @@ void DebrisWorld::set_state(BodyId id, const BodyState& state) {
   place(set, state.pose);
   set.velocity = state.velocity;
   set.spin = state.angular_velocity;
+  set.acceleration = gravity_;
   for (std::size_t i = 0; i < set.parts.size(); ++i)
     pairs_.move(set.colliders[i], bounds_of(set.shapes[i], set.at), settings_.fat);
   if (state.asleep)
@@ -219,6 +220,7 @@ void DebrisWorld::wake_up(DebrisBody& woken) {
   if (woken.asleep) {
     ++awake_count_;
     woken.velocity += reading_;
+    woken.acceleration = gravity_;
   }
   woken.asleep = false;
   woken.slow_for = woken.retry_rest = 0;

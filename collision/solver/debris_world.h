@@ -37,6 +37,7 @@ struct DebrisBody : TouchingSolid {
   // Of the step: what it began with, for the account of energy.
   Vec3 velocity_before = Vec3::Zero(), spin_before = Vec3::Zero();
   double energy_before = 0, pushed = 0, booked = 0;
+  Vec3 acceleration = Vec3::Zero();  ///< of the last step, m/s2: what lies does not fall
   double swung = 0;  ///< J by which its free rotation missed its energy: comes back, and is no contact's
   std::vector<std::uint32_t> colliders;  ///< by part
   std::set<std::int64_t> hinges, cables;

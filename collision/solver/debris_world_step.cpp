@@ -265,6 +265,7 @@ int DebrisWorld::substeps(const Island& island, double dt) const {
 
 /// A body that nothing touches: exactly.
 void DebrisWorld::fly(DebrisBody& one, double dt) const {
+  one.acceleration = gravity_;
   one.velocity += gravity_ * dt;
   one.at.position += one.velocity * dt;
   one.load = one.substep_rate = 0;
@@ -383,6 +384,7 @@ void DebrisWorld::take_results(std::span<Island* const> islands, double dt) {
     for (DebrisBody* one : island->bodies) {
       const SolverBody& moved = solver_.body(one->solver);
       one->velocity = moved.velocity;
+      one->acceleration = (moved.velocity - one->velocity_before) / dt;
       one->spin = moved.spin;
       one->at.position += moved.moved;
       one->load *= 0.9;  // so that the number of sub-steps does not follow the solver's chatter

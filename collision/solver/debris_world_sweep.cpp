@@ -80,9 +80,15 @@ struct DebrisWorld::Mover {
 Motion DebrisWorld::motion_of(const DebrisBody& body, double dt) const {
   Motion motion;
   motion.start = transform_of(body);
-  motion.acceleration = body.asleep ? btVector3(0, 0, 0) : to_bullet(gravity_);
-  // Stored velocities are those of mid-step.
-  motion.velocity = to_bullet(body.velocity) + motion.acceleration * (dt / 2);
+  if (!body.asleep) {
+    // What lies is borne in this step as in the last: it does not fall upon what is near. What was struck falls on.
+    const bool struck = body.acceleration.squaredNorm() > gravity_.squaredNorm();
+    const Vec3 acceleration = struck ? gravity_ : body.acceleration;
+    motion.acceleration = to_bullet(acceleration);
+    // Stored velocities are those of mid-step; they came from the middle of the last sub-step.
+    const double substep = body.substep_rate > 0 ? 1 / body.substep_rate : 0;
+    motion.velocity = to_bullet(body.velocity + gravity_ * (dt / 2) + (acceleration - gravity_) * (substep / 2));
+  }
   motion.angular_velocity = to_bullet(body.spin);
   return motion;
 }

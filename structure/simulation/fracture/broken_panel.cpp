@@ -10,8 +10,8 @@ namespace {
 
 /// Distance by which collision shapes stay within their outlines, m, and the largest share of their size.
 constexpr double inset = 0.006, largest_inset = 0.2;
-/// Of a piece's area: with less of it inside the panel's own shape, its collision shape is a small one in its middle.
-constexpr double least_inside = 0.05, small_share = 0.4;
+/// Of a piece's size: its collision shape where what lies inside of the panel's own shape would not do.
+constexpr double small_share = 0.4;
 
 /// The part of an outline that lies within the space of the panel's own shape.
 fracture::Polygon inside(const fracture::Polygon& outline, const fracture::Polygon& space) {
@@ -48,11 +48,12 @@ void leave_out_corners(fracture::Polygon& outline) {
   }
 }
 
-/// The outline of a piece's collision shape.
+/// The outline of a piece's collision shape. It holds the centre of mass: a piece that hung from a shape beside it would
+/// swing through the ground.
 fracture::Polygon shape_within(const fracture::Polygon& outline, const fracture::Polygon& space) {
   fracture::Polygon kept = inside(outline, space);
   double most = largest_inset;
-  if (kept.size() < 3 || fracture::area(kept) < least_inside * fracture::area(outline)) {
+  if (kept.size() < 3 || !fracture::contains(kept, fracture::centroid(outline))) {
     kept = outline;
     most = 1 - small_share;
   }

@@ -45,7 +45,8 @@ void Simulation::State::strike_all(const std::vector<collision::Contact>& contac
   std::vector<collision::Contact> impacts;
   for (const collision::Contact& contact : contacts) {
     if (contact.other.kind != collision::Touched::Kind::obstacle) continue;
-    if (!contact.persistent || contact.approach_speed > impact_settings.least_speed) impacts.push_back(contact);
+    if (contact.approach_speed > (contact.persistent ? impact_settings.least_speed : impact_settings.lies_down))
+      impacts.push_back(contact);
   }
   std::vector<char> done(impacts.size(), 0);
   for (std::size_t i = 0; i < impacts.size(); ++i) {
