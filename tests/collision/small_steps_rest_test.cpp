@@ -160,3 +160,27 @@ TEST_CASE("a post that lies across the edge of a slab comes to rest on it, and d
   run(*world, 300);
   CHECK(world->state(id).asleep);
 }
+
+TEST_CASE("small steps: a stone stays on its base, though corners beside it are near the ground as well") {
+  const auto world = make_small_steps_world();
+  world->set_gravity({0, 0, -kGravity});
+  world->set_ground(0, 0.6, 0);
+  BodyDescription stone = box_body({0.15, 0.15, 0.1}, 40, {0, 0, 0.1});
+  ConvexPart hull;
+  hull.kind = ConvexPart::Kind::hull;
+  // Four corners of the base, two 7 mm over the ground farther out, and the top.
+  hull.points = {{0.054, -0.150, -0.1},   {0.160, 0.019, -0.1},   {-0.067, 0.159, -0.1}, {-0.172, -0.011, -0.1},
+                 {0.070, -0.160, -0.093}, {0.175, 0.009, -0.093}, {0.054, -0.150, 0.1},  {0.160, 0.019, 0.1},
+                 {-0.067, 0.159, 0.1},    {-0.172, -0.011, 0.1}};
+  stone.parts = {hull};
+  const BodyId id = world->add_body(stone);
+  run(*world, 30);
+  double turning = 0;
+  for (int i = 0; i < 30; ++i) {
+    world->step(kStep);
+    turning = std::max(turning, world->state(id).angular_velocity.norm());
+  }
+  CHECK(turning < 1e-3);  // it rocked at 0.1 rad/s when a corner of the base gave way to one over the ground
+  run(*world, 60);
+  CHECK(world->state(id).asleep);
+}

@@ -48,23 +48,23 @@ void leave_out_corners(fracture::Polygon& outline) {
   }
 }
 
-/// The outline of a piece's collision shape. It holds the centre of mass: a piece that hung from a shape beside it would
-/// swing through the ground.
+/// Each corner drawn towards the middle, by a share that its distance from there tells.
+template <class Share>
+fracture::Polygon drawn_in(fracture::Polygon outline, const Share& share) {
+  leave_out_corners(outline);
+  const Vec2 middle = fracture::centroid(outline);
+  for (Vec2& corner : outline) corner = middle + (1 - share((corner - middle).norm())) * (corner - middle);
+  return outline;
+}
+
+/// The outline of a piece's collision shape. It is about the centre of mass: a piece that hung from a shape beside it
+/// would swing through the ground.
 fracture::Polygon shape_within(const fracture::Polygon& outline, const fracture::Polygon& space) {
-  fracture::Polygon kept = inside(outline, space);
-  double most = largest_inset;
-  if (kept.size() < 3 || !fracture::contains(kept, fracture::centroid(outline))) {
-    kept = outline;
-    most = 1 - small_share;
+  if (fracture::Polygon kept = inside(outline, space); kept.size() > 2) {
+    kept = drawn_in(std::move(kept), [](double out) { return std::min(largest_inset, inset / std::max(out, 1e-9)); });
+    if (fracture::contains(kept, fracture::centroid(outline))) return kept;
   }
-  leave_out_corners(kept);
-  const Vec2 middle = fracture::centroid(kept);
-  for (Vec2& corner : kept) {
-    const Vec2 out = corner - middle;
-    const double share = most > largest_inset ? most : std::min(most, inset / std::max(out.norm(), 1e-9));
-    corner = middle + (1 - share) * out;
-  }
-  return kept;
+  return drawn_in(outline, [](double) { return 1 - small_share; });
 }
 
 /// Something of the panel is nearer to a point than this.
