@@ -49,7 +49,7 @@ class Reader {
     return value;
   }
   [[noreturn]] void fail(const std::string& what) const {
-    throw InputError(name_ + ": " + what + "; accepted: a snapshot that `topple demolish --save` wrote");
+    throw InputError(one_line(name_ + ": " + what) + "; accepted: a snapshot that `topple demolish --save` wrote");
   }
   [[nodiscard]] bool at_end() const { return at_ == bytes_.size(); }
   [[nodiscard]] std::size_t place() const { return at_; }

@@ -31,9 +31,9 @@ inline constexpr double stiffness_share = 0.8;
 /// Of every member, by its largest compression over the combinations; ratio 0 and tau_b 1 for those that are not
 /// checked. Throws InputError for one whose cross section yields as a whole: no stiffness is left.
 [[nodiscard]] std::vector<YieldedStiffness> yielded_stiffness(const Building& building, const AnalysisResult& result);
-
+/// What analyse_directly() found, and with what stiffness.
 struct DirectAnalysis {
-  AnalysisResult result;
+  AnalysisResult result;                  ///< of the members with their reduced stiffness
   std::vector<YieldedStiffness> yielded;  ///< that the result was found with
   int rounds = 0;                         ///< of analyses, until tau_b of no member changed by more than 1e-3
 };
