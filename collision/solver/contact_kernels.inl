@@ -120,7 +120,7 @@ TOPPLE_INLINE bool any(const Wide& a) { return a[0] > 0 || a[1] > 0 || a[2] > 0 
 
 void solve(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity,
            const Motion6* displacement, const SubStep& step) {
-  const Wide rate = all(1 / step.length), none = all(0), one = all(1), fastest = all(-step.pushed_apart);
+  const Wide rate = all(1 / step.length), none = all(0), one = all(1);
   const Wide settled = all(step.again->settled);
   Wide over = none, energy = none;
   Wide* const changes = step.again->change;
@@ -132,11 +132,9 @@ void solve(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t
     for (int i = 0; i < pack.point_count; ++i) {
       PackPoint& point = points[pack.first_point + static_cast<std::size_t>(i)];
       const Wide separation = point.separation + relative(pack, pack.normal, point.first, point.second, moved);
-      const Lanes apart = separation > none;
-      const Wide bias = apart ? separation * rate : larger(pack.mass_scale * pack.bias_rate * separation, fastest);
-      const Wide scale = apart ? one : pack.mass_scale, given_back = apart ? none : pack.impulse_scale;
-      const Wide speed = relative(pack, pack.normal, point.first, point.second, now);
-      const Wide wanted = point.impulse - point.mass * (scale * speed + bias) - given_back * point.impulse;
+      const Wide bias = separation > none ? separation * rate : none;
+      const Wide wanted =
+          point.impulse - point.mass * (relative(pack, pack.normal, point.first, point.second, now) + bias);
       const Wide impulse = larger(wanted, none), change = impulse - point.impulse;
       point.impulse = impulse;
       const Wide excess = size(change) - settled * point.mass;
@@ -212,23 +210,50 @@ void relax(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t
     Both now, moved;
     load(pack, velocity, now);
     load(pack, displacement, moved);
-    // Bodies have been moved since with these impulses: those of `solve`, the rest as it began.
-    for (int i = 0; i < 2; ++i) pack.slide_carried[i] += pack.slide_total[i] + pack.slide[i];
     for (int i = 0; i < pack.point_count; ++i) {
       PackPoint& point = own[i];
-      pack.carried += point.total + point.impulse;
       const Wide separation = point.separation + relative(pack, pack.normal, point.first, point.second, moved);
       const Wide bias = separation > none ? separation * rate : none;
       const Wide speed = relative(pack, pack.normal, point.first, point.second, now);
       const Wide impulse = larger(point.impulse - point.mass * (speed + bias), none), change = impulse - point.impulse;
       point.impulse = impulse;
+      point.parting = impulse;
       point.total += impulse;
+      pack.carried += point.total;
       push(pack, pack.normal, point.first, point.second, change, now);
     }
     // Last, so that friction is bounded by the normal impulses that are told.
     rub(pack, own, now);
-    for (int i = 0; i < 2; ++i) pack.slide_total[i] += pack.slide[i];
+    for (int i = 0; i < 2; ++i) {
+      pack.slide_total[i] += pack.slide[i];
+      pack.slide_carried[i] += pack.slide_total[i];
+    }
     pack.twist_total += pack.twist;
+    store(pack, now, velocity);
+  }
+}
+
+void separate(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity,
+              const Motion6* displacement, const SubStep& step) {
+  const Wide rate = all(1 / step.length), none = all(0), one = all(1), fastest = all(-step.pushed_apart);
+  for (std::size_t k = begin; k < end; ++k) {
+    ContactPack& pack = packs[k];
+    Both now, moved;
+    load(pack, velocity, now);
+    load(pack, displacement, moved);
+    for (int i = 0; i < pack.point_count; ++i) {
+      PackPoint& point = points[pack.first_point + static_cast<std::size_t>(i)];
+      const Wide separation = point.separation + relative(pack, pack.normal, point.first, point.second, moved);
+      const Lanes apart = separation > none;
+      const Wide bias = apart ? separation * rate : larger(pack.mass_scale * pack.bias_rate * separation, fastest);
+      const Wide scale = apart ? one : pack.mass_scale, given_back = apart ? none : pack.impulse_scale;
+      const Wide speed = relative(pack, pack.normal, point.first, point.second, now);
+      const Wide wanted = point.parting - point.mass * (scale * speed + bias) - given_back * point.parting;
+      const Wide impulse = larger(wanted, none), change = impulse - point.parting;
+      point.parting = impulse;
+      pack.carried += change;
+      push(pack, pack.normal, point.first, point.second, change, now);
+    }
     store(pack, now, velocity);
   }
 }
@@ -257,7 +282,7 @@ void restitute(ContactPack* packs, PackPoint* points, std::size_t begin, std::si
 }  // namespace
 
 extern const ContactKernels kernels;
-const ContactKernels kernels{warm_start, solve, go_on, relax, restitute};
+const ContactKernels kernels{warm_start, solve, go_on, relax, separate, restitute};
 
 }  // namespace TOPPLE_KERNELS
 }  // namespace topple::collision

@@ -32,6 +32,7 @@ struct alignas(32) PackPoint {
   Wide mass;                 ///< effective, of the row; 0: no point in this lane
   Wide impulse;              ///< of this sub-step
   Wide total;                ///< over the step
+  Wide parting;              ///< impulse of this sub-step and what pushes an overlap apart
   Wide approach;             ///< relative speed along the normal when the step began, negative when closing
 };
 
@@ -80,9 +81,10 @@ struct ContactKernels {
   using Pass = void (*)(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity,
                         const Motion6* displacement, const SubStep& step);
   Pass warm_start;  ///< applies the impulses that the packs hold
-  Pass solve;       ///< normal rows, with the springs
+  Pass solve;       ///< normal rows
   Pass go_on;       ///< goes on the way of the last passes
-  Pass relax;       ///< normal rows without springs, then friction; adds up the totals
+  Pass relax;       ///< normal rows, then friction; adds up the totals
+  Pass separate;    ///< normal rows with the springs: nothing but `parting` changes
   Pass restitute;   ///< after the last sub-step
 };
 [[nodiscard]] const ContactKernels& contact_kernels();

@@ -228,9 +228,9 @@ void StepSolver::unscale_bodies(double dt, const Vec3& gravity) {
   }
 }
 
-void StepSolver::each_pack(ContactKernels::Pass pass, const SubStep& step) {
+void StepSolver::each_pack(ContactKernels::Pass pass, const SubStep& step, std::vector<Motion6>& velocity) {
   for (std::size_t c = 0; c + 1 < colours_.size(); ++c)
-    pass(packs_.data(), points_.data(), colours_[c], colours_[c + 1], velocity_.data(), displacement_.data(), step);
+    pass(packs_.data(), points_.data(), colours_[c], colours_[c + 1], velocity.data(), displacement_.data(), step);
 }
 
 /// Gravity, and what contacts did in the sub-step before: Jacobians stay through a step, so that the sum over a body's
@@ -244,7 +244,7 @@ void StepSolver::begin_sub_step(int number) {
 
 /// One pass over the contacts serves what rests or goes on evenly: impulses of the sub-step before are near. A blow
 /// comes through one contact in a pass; as long as it is on its way passes are repeated.
-void StepSolver::push_apart(SubStep step) {
+void StepSolver::stop_closing(SubStep step) {
   const ContactKernels& kernels = contact_kernels();
   Again again;
   again.settled = settings_.settled;
@@ -277,7 +277,6 @@ void StepSolver::sub_step(int number) {
   if (number == 0) each_pack(kernels.warm_start, step);
   const auto of = [&](int body) -> const SolverBody& { return bodies_[static_cast<std::size_t>(body)]; };
   const auto displacement = [&](int body) -> const Motion6& { return displacement_[static_cast<std::size_t>(body)]; };
-  const double frequency = std::min(settings_.joint_frequency, 0.25 / h_);
   // What joints do is told apart from what contacts do (`begun_`): their rows turn with the bodies.
   for (HingeRows* hinge : hinges_) {
     hinge->prepare(of(hinge->body), of(hinge->holder), displacement(hinge->body), displacement(hinge->holder));
@@ -289,23 +288,37 @@ void StepSolver::sub_step(int number) {
       cable->hold(bodies_[i], h_, displacement_[i], velocity_[i], begun_[i]);
     }
   };
+  const auto hold_hinges = [&] {
+    for (HingeRows* hinge : hinges_) hinge->solve(0, 0, h_, velocity_.data(), begun_.data());
+  };
   hold_cables();
-  for (HingeRows* hinge : hinges_)
-    hinge->solve(frequency, settings_.joint_damping, h_, velocity_.data(), begun_.data());
-  push_apart(step);
+  hold_hinges();
+  stop_closing(step);
   hold_cables();
-  for (std::size_t i = 1; i < bodies_.size(); ++i)
-    for (int k = 0; k < 3; ++k) {
-      displacement_[i].linear[k] += h_ * velocity_[i].linear[k];
-      displacement_[i].angular[k] += h_ * velocity_[i].angular[k];
-    }
-  for (HingeRows* hinge : hinges_) hinge->solve(0, 0, h_, velocity_.data(), begun_.data());
+  hold_hinges();
   each_pack(kernels.relax, step);
   for (HingeRows* hinge : hinges_) hinge->add_up();
   for (std::size_t i = 1; i < bodies_.size(); ++i)
     for (int k = 0; k < 3; ++k) {
       pushed_[i].linear[k] = velocity_[i].linear[k] - begun_[i].linear[k];
       pushed_[i].angular[k] = velocity_[i].angular[k] - begun_[i].angular[k];
+    }
+  move(step);
+}
+
+/// Bodies move by their velocities, and by what pushes overlaps apart: that is no speed and no force, or what is jammed
+/// between two parts would press them by the stiffness of springs that nothing has.
+void StepSolver::move(const SubStep& step) {
+  moving_ = velocity_;
+  ignored_.assign(bodies_.size(), {});
+  const double frequency = std::min(settings_.joint_frequency, 0.25 / h_);
+  for (const HingeRows* hinge : hinges_)
+    HingeRows(*hinge).solve(frequency, settings_.joint_damping, h_, moving_.data(), ignored_.data());
+  for (int pass = 0; pass < settings_.moving_passes; ++pass) each_pack(contact_kernels().separate, step, moving_);
+  for (std::size_t i = 1; i < bodies_.size(); ++i)
+    for (int k = 0; k < 3; ++k) {
+      displacement_[i].linear[k] += h_ * moving_[i].linear[k];
+      displacement_[i].angular[k] += h_ * moving_[i].angular[k];
     }
 }
 

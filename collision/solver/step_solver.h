@@ -1,8 +1,9 @@
 #pragma once
-// Bodies that touch or hang together, taken through one step in sub-steps with soft contacts: collide once, then in
-// each sub-step velocities by gravity and the last impulses, contacts as damped springs, positions, contacts again
-// without springs, so that what pushes overlaps apart is no speed (Macklin et al., "Small steps in physics simulation",
-// 2019; Catto, "Solver2D", 2024).
+// Bodies that touch or hang together, taken through one step in sub-steps: collide once, then in each sub-step
+// velocities by gravity and the last impulses, contacts that stop what closes, friction; and positions by these
+// velocities and by damped springs that push overlaps apart, which are neither speed nor force (Macklin et al., "Small
+// steps in physics simulation", 2019; Catto, "Solver2D", 2024; the split of velocities is that of Guendelman et al.,
+// "Nonconvex rigid bodies with stacking", 2003).
 //
 // Velocities inside are those of the middle of a sub-step, so that free flight is exact. Forces are the sums over
 // sub-steps of what was applied: they balance weight and momentum to rounding.
@@ -74,8 +75,10 @@ class StepSolver {
   void scale_bodies(double dt, const Vec3& gravity);
   void sub_step(int number);
   void begin_sub_step(int number);
-  void each_pack(ContactKernels::Pass pass, const SubStep& step);
-  void push_apart(SubStep step);
+  void each_pack(ContactKernels::Pass pass, const SubStep& step) { each_pack(pass, step, velocity_); }
+  void each_pack(ContactKernels::Pass pass, const SubStep& step, std::vector<Motion6>& velocity);
+  void stop_closing(SubStep step);
+  void move(const SubStep& step);
   void add_to(Equilibrium& equilibrium, const SolverContact& contact) const;
   void take_rest(const RestContact& found, SolverContact& contact, double dt) const;
   /// Only what touches may bear.
@@ -94,6 +97,7 @@ class StepSolver {
 
   // Hot.
   std::vector<Motion6> velocity_, displacement_, kick_, pushed_, begun_;
+  std::vector<Motion6> moving_, ignored_;  ///< velocities by which bodies move, and what joints changed of those
   std::vector<ContactPack> packs_;
   std::vector<PackPoint> points_;
   std::vector<PackWide> changes_, ways_;  ///< of points, where passes are repeated

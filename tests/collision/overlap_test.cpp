@@ -105,7 +105,7 @@ TEST_CASE("a box with a thousand times its mass on it holds, and how deep the tw
     CHECK(inside < 0.017);
     for (const Contact& contact : world->contacts()) {
       if (contact.body != light || contact.other.body != heavy) continue;
-      CHECK(contact.depth == Approx(std::max(0.0, inside)).margin(3e-3));  // one that leans has a corner deeper
+      CHECK(contact.depth == Approx(std::max(0.0, inside)).margin(5e-3));  // one that leans has a corner deeper
       CHECK(contact.thickness == Approx(1).epsilon(1e-12));
       ++told;
     }
