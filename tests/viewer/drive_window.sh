@@ -53,7 +53,8 @@ sleep 1
 # A shot in flight stands still while paused.
 xdotool click 1
 xdotool key space
-sleep 1
+# Where a picture takes a second, keys wait for some of them.
+sleep 5
 picture paused1.png
 sleep 1
 picture paused2.png
