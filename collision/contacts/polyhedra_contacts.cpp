@@ -252,13 +252,11 @@ std::pair<Vec3, Vec3> nearest_of_edges(const Vec3& a, const Vec3& a_end, const V
   return {a + s * u, b + t * v};
 }
 
-}  // namespace
-
-namespace {
 /// m: points within this of the deepest bear like it; it is more than what springs give way under a heap.
 constexpr double same_depth = 0.003;
 /// Of the patch's squared extent: what adds less to its width or area adds no bearing.
 constexpr double least_aspect = 0.02;
+
 }  // namespace
 
 void keep_four(const Vec3& normal, std::vector<ManifoldPoint>& points, std::vector<Vec3>& places, Manifold& manifold) {
@@ -273,11 +271,9 @@ void keep_four(const Vec3& normal, std::vector<ManifoldPoint>& points, std::vect
     return;
   }
   // What nearly touches bears before what is only near: a body that lost a corner under it each step would rock on it.
-  const auto deepest = [&] {
-    return std::min_element(points.begin(), points.end(),
-                            [](const auto& p, const auto& q) { return p.separation < q.separation; });
-  };
-  auto chosen = static_cast<std::size_t>(deepest() - points.begin());
+  const auto deepest = std::min_element(points.begin(), points.end(),
+                                        [](const auto& p, const auto& q) { return p.separation < q.separation; });
+  auto chosen = static_cast<std::size_t>(deepest - points.begin());
   const double bearing = points[chosen].separation + same_depth;
   const auto most = [&](double useful, const auto& value) {
     std::size_t best = 0;

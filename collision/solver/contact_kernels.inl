@@ -118,6 +118,16 @@ void warm_start(ContactPack* packs, PackPoint* points, std::size_t begin, std::s
 TOPPLE_INLINE Wide size(const Wide& a) { return a > all(0) ? a : -a; }
 TOPPLE_INLINE bool any(const Wide& a) { return a[0] > 0 || a[1] > 0 || a[2] > 0 || a[3] > 0; }
 
+/// The normal impulse with which a point closes no faster than it comes to touch.
+TOPPLE_INLINE Wide stopping(const ContactPack& pack, const PackPoint& point, const Both& now, const Both& moved,
+                            const Wide& rate) {
+  const Wide none = all(0);
+  const Wide separation = point.separation + relative(pack, pack.normal, point.first, point.second, moved);
+  const Wide bias = separation > none ? separation * rate : none;
+  const Wide speed = relative(pack, pack.normal, point.first, point.second, now);
+  return larger(point.impulse - point.mass * (speed + bias), none);
+}
+
 void solve(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity,
            const Motion6* displacement, const SubStep& step) {
   const Wide rate = all(1 / step.length), none = all(0), one = all(1);
@@ -131,11 +141,7 @@ void solve(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t
     load(pack, displacement, moved);
     for (int i = 0; i < pack.point_count; ++i) {
       PackPoint& point = points[pack.first_point + static_cast<std::size_t>(i)];
-      const Wide separation = point.separation + relative(pack, pack.normal, point.first, point.second, moved);
-      const Wide bias = separation > none ? separation * rate : none;
-      const Wide wanted =
-          point.impulse - point.mass * (relative(pack, pack.normal, point.first, point.second, now) + bias);
-      const Wide impulse = larger(wanted, none), change = impulse - point.impulse;
+      const Wide impulse = stopping(pack, point, now, moved, rate), change = impulse - point.impulse;
       point.impulse = impulse;
       const Wide excess = size(change) - settled * point.mass;
       over = larger(over, excess);
@@ -203,7 +209,7 @@ TOPPLE_INLINE void rub(ContactPack& pack, const PackPoint* points, Both& now) {
 
 void relax(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity,
            const Motion6* displacement, const SubStep& step) {
-  const Wide rate = all(1 / step.length), none = all(0);
+  const Wide rate = all(1 / step.length);
   for (std::size_t k = begin; k < end; ++k) {
     ContactPack& pack = packs[k];
     PackPoint* const own = points + pack.first_point;
@@ -212,10 +218,7 @@ void relax(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t
     load(pack, displacement, moved);
     for (int i = 0; i < pack.point_count; ++i) {
       PackPoint& point = own[i];
-      const Wide separation = point.separation + relative(pack, pack.normal, point.first, point.second, moved);
-      const Wide bias = separation > none ? separation * rate : none;
-      const Wide speed = relative(pack, pack.normal, point.first, point.second, now);
-      const Wide impulse = larger(point.impulse - point.mass * (speed + bias), none), change = impulse - point.impulse;
+      const Wide impulse = stopping(pack, point, now, moved, rate), change = impulse - point.impulse;
       point.impulse = impulse;
       point.parting = impulse;
       point.total += impulse;
