@@ -88,8 +88,15 @@ class JsonTree {
 
  private:
   /// Not the vector itself: libstdc++ 12 takes a variant of nothing but vectors, texts and numbers for one that always
-  /// has a value, and when the copy of one throws it destroys a value that was never there.
+  /// has a value, and when the copy of one throws it destroys a value that was never there. Its members are defined
+  /// where a field is known: clang asks for them earlier.
   struct Fields {
+    Fields();
+    Fields(const Fields&);
+    Fields(Fields&&) noexcept;
+    Fields& operator=(const Fields&);
+    Fields& operator=(Fields&&) noexcept;
+    ~Fields();
     std::vector<Field> all;
   };
   using Value = std::variant<std::monostate, bool, std::int64_t, std::uint64_t, double, std::string, List, Fields>;
@@ -113,6 +120,13 @@ struct JsonTree::Field {
   std::string name;  ///< once in an object
   JsonTree value;    ///< of any kind
 };
+
+inline JsonTree::Fields::Fields() = default;
+inline JsonTree::Fields::Fields(const Fields&) = default;
+inline JsonTree::Fields::Fields(Fields&&) noexcept = default;
+inline JsonTree::Fields& JsonTree::Fields::operator=(const Fields&) = default;
+inline JsonTree::Fields& JsonTree::Fields::operator=(Fields&&) noexcept = default;
+inline JsonTree::Fields::~Fields() = default;
 
 /// One item between braces: what a value is made from, moved where it can be.
 class JsonTree::Item {
