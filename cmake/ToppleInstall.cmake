@@ -15,5 +15,5 @@ install(FILES "${CMAKE_CURRENT_BINARY_DIR}/topple-config.cmake"
               cmake/FindCHOLMOD.cmake cmake/FindMETIS.cmake cmake/FindBulletDouble.cmake
               cmake/FindNLopt.cmake
         DESTINATION "${config_dir}" COMPONENT development)
-install(FILES THIRD-PARTY.md SECURITY.md DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/topple" COMPONENT topple)
+install(FILES LICENSE THIRD-PARTY.md SECURITY.md DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/topple" COMPONENT topple)
 install(DIRECTORY models schemas DESTINATION "${CMAKE_INSTALL_DATADIR}/topple" COMPONENT topple)
