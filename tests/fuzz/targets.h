@@ -1,15 +1,10 @@
 #pragma once
 // What is fuzzed: each target takes any bytes as one file, or as one sequence of calls. It returns when they were taken
 // or refused as the interface promises; anything else (another exception, a state that is none) ends the program.
-#include <unistd.h>
-
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <cstring>
-#include <functional>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -17,40 +12,18 @@
 #include <vector>
 
 #include "formats/frame3dd/frame3dd.h"
+#include "fuzz/promised.h"
+#include "fuzz/side_targets.h"
 #include "simulation/accounts/replay_hash.h"
 #include "structure/fuzzed_readers.h"
-#include "support/scratch_folder.h"
 #include "topple/fracture/gltf_reader.h"
 #include "topple/fracture/panel.h"
 #include "topple/structure/analysis.h"
-#include "topple/structure/error.h"
 #include "topple/structure/files.h"
-#include "topple/structure/output_files.h"
 #include "topple/structure/panel_file.h"
-#include "topple/structure/plain_text.h"
 #include "topple/structure/simulation.h"
 
 namespace topple::fuzz {
-
-using namespace topple::structure;
-
-[[noreturn]] inline void found(const std::string& what) {
-  std::fprintf(stderr, "fuzz: %s\n", what.c_str());
-  std::abort();
-}
-
-/// Reads; a refusal has to be one printable line.
-inline void promised(const std::function<void()>& read) {
-  try {
-    read();
-  } catch (const InputError& error) {
-    const std::string_view line = error.what();
-    if (line.empty()) found("a refusal without a word");
-    if (one_line(line) != line) found("a refusal that is no plain line: " + std::string(line));
-  } catch (const UnstableModel&) {
-    return;
-  }
-}
 
 /// What a reader took is a building, and a small one is analysed or refused.
 inline void use(const Building& building) {
@@ -86,26 +59,6 @@ inline void tables(std::string_view text) {
       all.back().second += std::string(line) + "\n";
   }
   promised([&] { use(parse_tables(all, "t", Purpose::inspect)); });
-}
-
-/// Two posts and a beam, with a panel between them: what scenarios and calls act on.
-inline const char* const bay_model = R"({"topple": 1,
- "materials": {"S": {"youngs_modulus": 210e9, "poisson_ratio": 0.3, "density": 7850},
-               "C": {"youngs_modulus": 30e9, "poisson_ratio": 0.2, "density": 2400, "compressive_strength": 3e7}},
- "sections": {"tube": {"shape": "box", "depth": 0.3, "width": 0.3, "thickness": 0.015}},
- "joints": {"j": {"capacity": {"force": [1e6, 1e6, 1e6], "moment": [1e5, 1e5, 1e5]}},
-            "e": {"capacity_per_length": {"tension": 4e5, "compression": 4e6, "shear_y": 4e5, "shear_z": 6e4}}},
- "nodes": {"A": [0, 0, 0], "B": [0, 0, 4], "C": [6, 0, 4], "D": [6, 0, 0]},
- "members": {"P": {"kind": "post", "nodes": ["A", "B"], "section": "tube", "material": "S", "joints": ["j", null]},
-             "Q": {"kind": "post", "nodes": ["D", "C"], "section": "tube", "material": "S", "joints": ["j", null]},
-             "T": {"nodes": ["B", "C"], "section": "tube", "material": "S", "joints": ["j", "j"]}},
- "panels": {"W": {"kind": "wall", "nodes": ["A", "D", "C", "B"], "thickness": 0.15, "material": "C", "joint": "e"}},
- "supports": {"A": "fixed", "D": "fixed"}})";
-
-inline const test::ScratchFolder& folder() {
-  static const test::ScratchFolder own;
-  [[maybe_unused]] static const bool laid = (write_file(own / "bay.json", bay_model), true);
-  return own;
 }
 
 /// So many steps at most: a fuzzer lives by the number of its runs.
@@ -305,7 +258,8 @@ inline void host(std::string_view bytes) {
 inline const std::map<std::string, void (*)(std::string_view)>& targets() {
   static const std::map<std::string, void (*)(std::string_view)> all{
       {"model", model}, {"tables", tables},     {"frame3dd", frame3dd}, {"scenario", scenario},
-      {"panel", panel}, {"snapshot", snapshot}, {"gltf", gltf},         {"host", host}};
+      {"panel", panel}, {"snapshot", snapshot}, {"gltf", gltf},         {"host", host},
+      {"study", study}, {"journal", journal},   {"history", history},   {"cuts", cuts}};
   return all;
 }
 

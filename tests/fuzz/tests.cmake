@@ -1,7 +1,7 @@
 # Fuzzers, built when asked for (scripts/stress fuzz) by a clang with libFuzzer: -DTOPPLE_FUZZ=ON.
 option(TOPPLE_FUZZ "Build the fuzzers (clang only)" OFF)
 if(TOPPLE_FUZZ)
-  foreach(fuzz_name IN ITEMS model tables frame3dd scenario panel snapshot gltf host)
+  foreach(fuzz_name IN ITEMS model tables frame3dd scenario panel snapshot gltf host study journal history cuts)
     add_executable(fuzz_${fuzz_name} EXCLUDE_FROM_ALL "${CMAKE_CURRENT_LIST_DIR}/fuzz_target.cpp")
     target_compile_definitions(fuzz_${fuzz_name} PRIVATE FUZZ_TARGET=${fuzz_name})
     target_link_libraries(fuzz_${fuzz_name} PRIVATE topple_options topple::structure)
