@@ -12,6 +12,20 @@ foreach(stress_source IN LISTS stress_sources)
   target_include_directories(stress_${stress_topic} PRIVATE "${CMAKE_CURRENT_SOURCE_DIR}" "${PROJECT_SOURCE_DIR}/${stress_library}")
 endforeach()
 
+# Tests of what runs on threads of its own: scripts/stress threads, under the thread sanitizer.
+set(threads_tests solver/multifrontal_test solver/factor_refresh_test solver/kept_equations_test
+  structure/simulation/pacer_test structure/simulation/snapshot_test structure/simulation/simulation_motion_test
+  structure/standing/limits_and_charges_test structure/study/journal_test)
+list(TRANSFORM threads_tests REPLACE "(.+)" "${CMAKE_CURRENT_SOURCE_DIR}/\\1.cpp")
+add_executable(test_threads EXCLUDE_FROM_ALL ${threads_tests})
+target_link_libraries(test_threads PRIVATE topple_options topple_test_main topple::structure)
+target_include_directories(test_threads PRIVATE "${PROJECT_SOURCE_DIR}/structure" "${PROJECT_SOURCE_DIR}/solver"
+  "${CMAKE_CURRENT_SOURCE_DIR}/structure" "${CMAKE_CURRENT_SOURCE_DIR}/solver")
+if(TOPPLE_VIEWER)
+  add_executable(test_driver_threads EXCLUDE_FROM_ALL "${CMAKE_CURRENT_SOURCE_DIR}/viewer/drawing_and_stepping_test.cpp")
+  target_link_libraries(test_driver_threads PRIVATE topple_options topple_test_main topple_viewer_app)
+endif()
+
 # A few of each kind with every run of the suite; all of them by scripts/stress hostile and scripts/stress faults.
 find_package(Python3 COMPONENTS Interpreter)
 if(Python3_FOUND)
