@@ -23,6 +23,6 @@ for file in tests/structure/formats/*_test.cpp tests/structure/study/*_test.cpp;
 readers+=("[#snapshot_test]" "[#section_cuts_test]" "[#trust_test]")
 $build/bin/test_structure -# "$(IFS=,; echo "${readers[*]}")"
 
-$build/bin/test_viewer -# "[#viewer_test],[#start_page_test]"
+$build/bin/test_viewer -# "a script*,[#start_page_test]"
 python3 tests/stress/hostile.py $build/bin --cases 300
 python3 tests/coverage/table.py $build --least 95 "${lines[@]}"

@@ -12,7 +12,22 @@ foreach(stress_source IN LISTS stress_sources)
   target_include_directories(stress_${stress_topic} PRIVATE "${CMAKE_CURRENT_SOURCE_DIR}" "${PROJECT_SOURCE_DIR}/${stress_library}")
 endforeach()
 
-# Tests of what runs on threads of its own: scripts/stress threads, under the thread sanitizer.
+# Tests of what runs on threads of its own: scripts/stress threads, under the thread sanitizer. The solver and what of the
+# structure and the viewer threads share is compiled for it; what only computes is as in the release.
+option(TOPPLE_WATCH_THREADS "The thread sanitizer in what has threads (link with -fsanitize=thread)" OFF)
+if(TOPPLE_WATCH_THREADS)
+  function(watch_threads folder)  # FOLDER of a target, PATTERN...
+    list(TRANSFORM ARGN PREPEND "${PROJECT_SOURCE_DIR}/${folder}/")
+    file(GLOB_RECURSE watched ${ARGN})
+    set_source_files_properties(${watched} DIRECTORY "${PROJECT_SOURCE_DIR}/${folder}"
+      PROPERTIES COMPILE_OPTIONS "-fsanitize=thread;-g1;-O1")
+  endfunction()
+  watch_threads(solver *.cpp)
+  watch_threads(structure parallel/*.cpp simulation/*.cpp standing/*.cpp study/*.cpp)
+  if(TOPPLE_VIEWER)
+    watch_threads(apps/viewer app/driver.cpp app/session.cpp renderer/recording.cpp renderer/snapshot*.cpp)
+  endif()
+endif()
 set(threads_tests solver/multifrontal_test solver/factor_refresh_test solver/kept_equations_test
   structure/simulation/pacer_test structure/simulation/snapshot_test structure/simulation/simulation_motion_test
   structure/standing/limits_and_charges_test structure/study/journal_test)
@@ -24,6 +39,9 @@ target_include_directories(test_threads PRIVATE "${PROJECT_SOURCE_DIR}/structure
 if(TOPPLE_VIEWER)
   add_executable(test_driver_threads EXCLUDE_FROM_ALL "${CMAKE_CURRENT_SOURCE_DIR}/viewer/drawing_and_stepping_test.cpp")
   target_link_libraries(test_driver_threads PRIVATE topple_options topple_test_main topple_viewer_app)
+endif()
+if(TOPPLE_WATCH_THREADS)
+  target_compile_options(test_threads PRIVATE -fsanitize=thread -g1)
 endif()
 
 # A few of each kind with every run of the suite; all of them by scripts/stress hostile and scripts/stress faults.
