@@ -113,7 +113,8 @@ std::vector<StaticSolution> FrameSystem::recover(std::span<LoadVector> loads, co
   };
   constexpr std::size_t together = 1024;
   const std::size_t beams = model.beams.size();
-  each_on_threads(static_cast<int>((beams + together - 1) / together), count > 1 ? threads : 1, [&](int chunk) {
+  const int used = count > 1 || second_order != nullptr ? threads : 1;  // what one linear set asks for is little
+  each_on_threads(static_cast<int>((beams + together - 1) / together), used, [&](int chunk) {
     const std::size_t first = static_cast<std::size_t>(chunk) * together;
     for (std::size_t i = first; i < std::min(beams, first + together); ++i)
       if (beam_stands[i] != 0)

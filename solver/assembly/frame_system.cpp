@@ -9,6 +9,7 @@
 
 #include "elements/second_order_beam.h"
 #include "factor/ordering.h"
+#include "parallel/each_on_threads.h"
 
 namespace topple::solver {
 namespace {
@@ -382,11 +383,36 @@ void FrameSystem::set_support(int support, const Vec6& stiffness) {
   support_ = support_stiffness(model);
 }
 
-void FrameSystem::assemble() {
+/// Stiffnesses of second order are power series, and take longer to find than to add: those of many beams are found
+/// side by side, then added in order.
+void FrameSystem::add_beams(int threads) {
+  constexpr std::size_t together = 8192, share = 512;
+  const std::size_t beams = model.beams.size();
+  if (threads <= 1 || second_order == nullptr || beams < 2 * share) {
+    for (std::size_t i = 0; i < beams; ++i) add_element(i, {});
+    return;
+  }
+  std::vector<Mat12> stiffness(std::min(beams, together));
+  for (std::size_t first = 0; first < beams; first += together) {
+    const std::size_t count = std::min(together, beams - first);
+    each_on_threads(static_cast<int>((count + share - 1) / share), threads, [&](int part) {
+      const std::size_t from = static_cast<std::size_t>(part) * share;
+      for (std::size_t i = from; i < std::min(count, from + share); ++i)
+        if (beam_stands[first + i] != 0) stiffness[i] = beam_stiffness(static_cast<int>(first + i));
+    });
+    for (std::size_t i = 0; i < count; ++i) {
+      if (inertia != nullptr) add_element_mass(first + i, {});
+      if (beam_stands[first + i] != 0) scatter_.add(first + i, stiffness[i].data(), scale_, {}, matrix_);
+    }
+  }
+}
+
+void FrameSystem::assemble(int threads) {
   std::fill(matrix_.value.begin(), matrix_.value.end(), 0.0);
   mass_ = inertia != nullptr ? scatter_.empty_matrix() : SparseSymmetric();
   std::fill(scale_.begin(), scale_.end(), 1.0);
-  for (std::size_t i = 0; i < element_of_patch(0) + model.patches.size(); ++i) add_element(i, {});
+  add_beams(threads);
+  for (std::size_t i = model.beams.size(); i < element_of_patch(0) + model.patches.size(); ++i) add_element(i, {});
   for (std::size_t node = 0; node < model.nodes.size(); ++node) finish_node(static_cast<int>(node));
   finish_diaphragms({});
   set_scale();

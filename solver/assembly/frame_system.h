@@ -74,8 +74,8 @@ class FrameSystem {
   void elements_of_vertex(int vertex, std::vector<int>& elements) const;
   /// Elimination order of the equations: nodes by nested dissection, the equations of a node together.
   [[nodiscard]] std::vector<int> elimination_order() const;
-  /// Assembles everything and sets the scale.
-  void assemble();
+  /// Assembles everything and sets the scale; the same to the bit on any number of threads.
+  void assemble(int threads = 1);
   /// Assembles anew every entry in the rows and columns of these nodes (and the diaphragms they belong to); the scale
   /// stays.
   void reassemble(std::span<const int> nodes);
@@ -160,6 +160,7 @@ class FrameSystem {
   /// K of a beam in the local freedoms of its hubs.
   [[nodiscard]] Mat12 hub_stiffness(std::size_t beam) const;
   void add_element(std::size_t element, const std::vector<char>& wanted);
+  void add_beams(int threads);
   void want_node(int node);
   void want_vertices_of(std::span<const int> nodes);
   void finish_node(int node);

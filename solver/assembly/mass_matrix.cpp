@@ -3,11 +3,15 @@
 #include <Eigen/Geometry>
 
 #include "assembly/element_masses.h"
+#include "parallel/each_on_threads.h"
 
 namespace topple::solver {
 
-void multiply_symmetric(const SparseSymmetric& A, const Eigen::Ref<const Eigen::MatrixXd>& x, Eigen::MatrixXd& y) {
-  for (Eigen::Index c = 0; c < x.cols(); ++c)
+void multiply_symmetric(const SparseSymmetric& A, const Eigen::Ref<const Eigen::MatrixXd>& x, Eigen::MatrixXd& y,
+                        int threads) {
+  constexpr std::size_t worth_a_thread = 300000;  // entries: fewer are gone through before a thread has started
+  const int used = A.value.size() >= worth_a_thread ? threads : 1;
+  each_on_threads(static_cast<int>(x.cols()), used, [&](int c) {
     for (int column = 0; column < A.size; ++column) {
       double sum = 0;
       const double at = x(column, c);
@@ -20,10 +24,11 @@ void multiply_symmetric(const SparseSymmetric& A, const Eigen::Ref<const Eigen::
       }
       y(column, c) += sum;
     }
+  });
 }
 
-MassMatrix::MassMatrix(const FrameSystem& system, const MassModel& masses)
-    : system_(system), hanging_(masses.hanging), matrix_(system.scatter().empty_matrix()) {
+MassMatrix::MassMatrix(const FrameSystem& system, const MassModel& masses, int threads)
+    : system_(system), threads_(threads), hanging_(masses.hanging), matrix_(system.scatter().empty_matrix()) {
   const FrameModel& model = system.model;
   for (std::size_t i = 0; i < model.beams.size(); ++i) {
     if (model.beams[i].density == 0) continue;
@@ -71,7 +76,7 @@ void MassMatrix::add_node(int node, const Vec6& diagonal) {
 
 Eigen::MatrixXd MassMatrix::times(const Eigen::Ref<const Eigen::MatrixXd>& x) const {
   Eigen::MatrixXd y = Eigen::MatrixXd::Zero(x.rows(), x.cols());
-  multiply_symmetric(matrix_, x, y);
+  multiply_symmetric(matrix_, x, y, threads_);
   return y;
 }
 

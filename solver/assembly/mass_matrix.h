@@ -10,7 +10,7 @@ namespace topple::solver {
 class MassMatrix {
  public:
   /// Throws std::invalid_argument for a mass at a node that does not exist or a negative one.
-  MassMatrix(const FrameSystem& system, const MassModel& masses);
+  MassMatrix(const FrameSystem& system, const MassModel& masses, int threads = 1);
 
   [[nodiscard]] const SparseSymmetric& matrix() const { return matrix_; }
   [[nodiscard]] Eigen::MatrixXd times(const Eigen::Ref<const Eigen::MatrixXd>& x) const;
@@ -23,11 +23,13 @@ class MassMatrix {
   void add_shell(int shell, const MassModel& masses);
   void add_node(int node, const Vec6& diagonal);
   const FrameSystem& system_;
+  int threads_;
   std::vector<HangingShell> hanging_;
   SparseSymmetric matrix_;
 };
 
 /// y += A x for the whole of a symmetric matrix given by its lower triangle.
-void multiply_symmetric(const SparseSymmetric& A, const Eigen::Ref<const Eigen::MatrixXd>& x, Eigen::MatrixXd& y);
+void multiply_symmetric(const SparseSymmetric& A, const Eigen::Ref<const Eigen::MatrixXd>& x, Eigen::MatrixXd& y,
+                        int threads = 1);
 
 }  // namespace topple::solver

@@ -52,6 +52,7 @@ struct SecondOrderAnalysis::State {
     axial_.loads.assign(beams, {});
     for (const BeamLoad& load : loads.beams) axial_.loads[static_cast<std::size_t>(load.beam)].push_back(load);
     axial_.shell_displacements.clear();
+    of_this_tangent_ = usable_ = false;
     if (!system_.model.shells.empty()) axial_.shell_strain = shell_strains(system_.model, loads);
     SecondOrderSolution result;
     result.solution = first_order;  // the axial forces to begin with
@@ -66,7 +67,7 @@ struct SecondOrderAnalysis::State {
         return result;
       }
       require_straight_members();
-      system_.assemble();
+      system_.assemble(options_.threads);
       result.solution = solve(loads);
     }
     throw std::runtime_error("the axial forces of the second-order analysis do not settle in " +
@@ -114,18 +115,44 @@ struct SecondOrderAnalysis::State {
     }
   }
 
-  StaticSolution solve(const LoadSet& loads) {
-    auto start = std::chrono::steady_clock::now();
-    if (factor_) {
-      const Stability stability = factorise_and_judge(system_, *factor_, options_);
-      if (stability.defect) throw Buckled(stability.defect->message, stability.defect->motion);
-      statistics.factorisation = factor_->name();
-      statistics.ordering = "node graph METIS";
-      statistics.factor_entries = factor_->entries();
-      statistics.factor_operations = factor_->operations();
-    }
+  void factorise() {
+    const auto start = std::chrono::steady_clock::now();
+    const Stability stability = factorise_and_judge(system_, *factor_, options_);
+    if (stability.defect) throw Buckled(stability.defect->message, stability.defect->motion);
+    of_this_tangent_ = usable_ = true;
+    factor_scale_.assign(system_.scale().begin(), system_.scale().end());
+    statistics.factorisation = factor_->name();
+    statistics.ordering = "node graph METIS";
+    statistics.factor_entries = factor_->entries();
+    statistics.factor_operations = factor_->operations();
     statistics.factor_seconds += seconds_since(start);
-    start = std::chrono::steady_clock::now();
+  }
+
+  /// Scaled. From one iteration to the next the tangent hardly changes: the factor of an earlier one, and the last
+  /// answer, lead to the same backward error in a few solves, or else the tangent is factorised.
+  RefinedSolution solve_scaled(const Eigen::MatrixXd& b) {
+    const Eigen::Map<const Eigen::VectorXd> scale(system_.scale().data(), b.rows());
+    of_this_tangent_ = false;
+    if (usable_) {
+      // Scales are powers of two: the factor serves in another one as well.
+      const Eigen::VectorXd ratio =
+          Eigen::Map<const Eigen::VectorXd>(factor_scale_.data(), b.rows()).cwiseQuotient(scale);
+      const LinearSolve earlier = [&](Eigen::Ref<Eigen::MatrixXd> x) {
+        x.array().colwise() *= ratio.array();
+        factor_->solve(x);
+        x.array().colwise() *= ratio.array();
+      };
+      RefinedSolution refined = refine(ExtendedResidual(system_.matrix()), earlier, b, last_.cwiseQuotient(scale));
+      if (refined.quality.front().converged) return refined;
+    }
+    factorise();
+    const LinearSolve linear = [this](Eigen::Ref<Eigen::MatrixXd> x) { factor_->solve(x); };
+    return solve_refined(system_.matrix(), linear, b);
+  }
+
+  StaticSolution solve(const LoadSet& loads) {
+    const auto start = std::chrono::steady_clock::now();
+    const double factorising = statistics.factor_seconds;
     const LoadVector load = system_.load_vector(loads);
     if (const auto defect = system_.unbalanced_load(load)) throw Instability(defect->message, defect->motion);
     const Eigen::Index n = system_.dofs().equations;
@@ -133,20 +160,21 @@ struct SecondOrderAnalysis::State {
     for (Eigen::Index i = 0; i < n; ++i) b(i, 0) = load.force(i) * system_.scale()[static_cast<std::size_t>(i)];
     SolveQuality quality;
     if (n > 0) {
-      const LinearSolve linear = [this](Eigen::Ref<Eigen::MatrixXd> x) { factor_->solve(x); };
-      const RefinedSolution refined = solve_refined(system_.matrix(), linear, b);
+      const RefinedSolution refined = solve_scaled(b);
       quality = refined.quality.front();
       for (Eigen::Index i = 0; i < n; ++i) b(i, 0) = refined.x(i, 0) * system_.scale()[static_cast<std::size_t>(i)];
+      last_ = b.col(0);
     }
     StaticSolution solution = recover(load, b.col(0));
     solution.quality = quality;
-    statistics.solve_seconds += seconds_since(start);
+    statistics.solve_seconds += seconds_since(start) - (statistics.factor_seconds - factorising);
     return solution;
   }
 
   /// Of the last tangent, which is that of the answer: an estimate takes some solves.
   void judge(SolveQuality& quality) {
-    if (system_.dofs().equations > 0)
+    if (factor_ && !of_this_tangent_) factorise();
+    if (factor_)
       quality.condition =
           estimate_condition(system_.matrix(), [this](Eigen::Ref<Eigen::MatrixXd> x) { factor_->solve(x); });
     quality.condition = std::max(quality.condition, 1.0);
@@ -156,7 +184,7 @@ struct SecondOrderAnalysis::State {
 
   [[nodiscard]] StaticSolution recover(const LoadVector& load, const Eigen::VectorXd& u) const {
     LoadVector used_up = load;
-    StaticSolution solution = std::move(system_.recover({&used_up, 1}, u).front());
+    StaticSolution solution = std::move(system_.recover({&used_up, 1}, u, options_.threads).front());
     if (axial_.mode == SecondOrder::frame3dd) print_as_frame3dd(load, solution);
     return solution;
   }
@@ -174,6 +202,10 @@ struct SecondOrderAnalysis::State {
   AnalysisOptions options_;
   AxialState axial_;
   std::unique_ptr<Factor> factor_;
+  bool usable_ = false;           ///< the factor is of a tangent under these loads,
+  bool of_this_tangent_ = false;  ///< of the last one
+  std::vector<double> factor_scale_;
+  Eigen::VectorXd last_;  ///< the last answer, not scaled
 };
 
 SecondOrderAnalysis::SecondOrderAnalysis(const FrameModel& model, SecondOrder mode, const AnalysisOptions& options,
@@ -198,7 +230,8 @@ struct SecondOrderDiagram::State {
   BeamDiagram linear;  ///< axial force and torsion; for `cubic` everything
   bool exact = false;
   BeamColumn::Curve xy, xz;
-  std::vector<double> marks;  ///< where curves may kink
+  std::array<double, 2> ends_xy{}, ends_xz{};  ///< v at both ends of the curves
+  std::vector<double> marks;                   ///< where curves may kink
 
   /// In second order bending alone is another than the linear diagram's.
   [[nodiscard]] bool bends(BeamDiagram::Quantity quantity) const {
@@ -208,9 +241,9 @@ struct SecondOrderDiagram::State {
   /// Where it jumps, the value just before, or just `beyond`.
   [[nodiscard]] double value(BeamDiagram::Quantity quantity, double x, bool beyond = false) const {
     enum { v, rotation, M, T };
-    const auto from_chord = [&](const BeamColumn::Curve& curve) {
+    const auto from_chord = [&](const BeamColumn::Curve& curve, const std::array<double, 2>& ends) {
       const double f = x / length;
-      return curve.value(v, x) - (1 - f) * curve.value(v, 0) - f * curve.value(v, length);
+      return curve.value(v, x) - (1 - f) * ends[0] - f * ends[1];
     };
     if (!bends(quantity)) return linear.value(quantity, x, beyond);
     switch (quantity) {
@@ -223,9 +256,9 @@ struct SecondOrderDiagram::State {
       case BeamDiagram::moment_y:
         return -xz.value(M, x, beyond);
       case BeamDiagram::deflection_y:
-        return from_chord(xy);
+        return from_chord(xy, ends_xy);
       default:
-        return from_chord(xz);
+        return from_chord(xz, ends_xz);
     }
   }
 
@@ -264,11 +297,15 @@ SecondOrderDiagram::SecondOrderDiagram(const Beam& beam, const AxialState& axial
                          exact,
                          {},
                          {},
+                         {},
+                         {},
                          {0, beam.length}});
   if (exact) {
     const SecondOrderBeam column(beam, 1, axial.mode, axial.first_axial[i], loads);
     state_->xy = column.in_xy().curve(plane_part(hubs, false));
     state_->xz = column.in_xz().curve(plane_part(hubs, true));
+    state_->ends_xy = {state_->xy.value(0, 0), state_->xy.value(0, beam.length)};
+    state_->ends_xz = {state_->xz.value(0, 0), state_->xz.value(0, beam.length)};
   }
   for (const BeamLoad& load : loads) {
     if (load.kind == BeamLoad::Kind::temperature) continue;

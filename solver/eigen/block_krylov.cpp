@@ -3,11 +3,14 @@
 #include <Eigen/Eigenvalues>
 #include <cstdint>
 
+#include "eigen/tall_products.h"
+
 namespace topple::solver {
 namespace {
 
 constexpr int blocks = 3;
 constexpr double negligible = 1e-11;   // what is left of a vector beside the subspace when it is but rounding
+constexpr double cancelled = 1e-4;     // the same when differences of M v have lost digits
 constexpr double vanishing = 1e-13;    // eigenvalues below this share of the largest are rounding of zero
 constexpr double small_enough = 1e-9;  // relative residual: eigenvalues are right to its square
 
@@ -36,14 +39,22 @@ class Subspace {
   Eigen::Index add(Eigen::MatrixXd block) {
     const Eigen::Index before = columns_;
     Eigen::MatrixXd M = op_.multiply(block);
+    const Eigen::VectorXd lengths = block.cwiseProduct(M).colwise().sum().cwiseMax(0).cwiseSqrt();
+    for (int pass = 0; pass < 2 && before > 0; ++pass)
+      subtract_tall(V_.leftCols(before), tall_product(MV_.leftCols(before), block, op_.threads), block, op_.threads);
+    if (before > 0) M = op_.multiply(block);
     for (Eigen::Index j = 0; j < block.cols() && columns_ < V_.cols(); ++j) {
       Eigen::VectorXd v = block.col(j), Mv = M.col(j);
-      const double length = std::sqrt(std::max(v.dot(Mv), 0.0));
+      const double length = lengths(j);
       if (!(length > 0)) continue;
-      double left = length;
       for (int pass = 0; pass < 2; ++pass) {
-        const Eigen::VectorXd along = MV_.leftCols(columns_).transpose() * v;
-        v -= V_.leftCols(columns_) * along;
+        const Eigen::Index own = columns_ - before;
+        const Eigen::VectorXd along = MV_.middleCols(before, own).transpose() * v;
+        v -= V_.middleCols(before, own) * along;
+        Mv -= MV_.middleCols(before, own) * along;
+      }
+      double left = std::sqrt(std::max(v.dot(Mv), 0.0));
+      if (left < cancelled * length) {
         Mv = op_.multiply(v);
         left = std::sqrt(std::max(v.dot(Mv), 0.0));
       }
@@ -66,7 +77,7 @@ class Subspace {
     Eigen::MatrixXd vectors, images;    ///< images: A times the vectors
   };
   [[nodiscard]] Ritz ritz(Eigen::Index wanted) const {
-    const Eigen::MatrixXd H = MV_.leftCols(columns_).transpose() * W_.leftCols(columns_);
+    const Eigen::MatrixXd H = tall_product(MV_.leftCols(columns_), W_.leftCols(columns_), op_.threads);
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> dense(0.5 * (H + H.transpose()));
     const Eigen::VectorXd all = dense.eigenvalues().reverse();
     Eigen::Index n = 0;

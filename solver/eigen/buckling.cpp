@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <numeric>
+#include <optional>
 
 #include "assembly/frame_system.h"
 #include "assembly/mass_matrix.h"
@@ -23,20 +24,18 @@ constexpr int spare_starts = 3;  // beyond those sought: equal factors all come
 class Buckling {
  public:
   Buckling(const FrameModel& model, const LoadSet& loads, const AnalysisOptions& options,
-           const std::vector<HangingShell>& hanging)
-      : system_(model) {
-    StaticAnalysis linear(model, options);
-    const std::vector<StaticSolution> solution = linear.solve({&loads, 1});
-    for (const Vec12& forces : solution.front().beam_end_forces) first_axial_.push_back(-forces(0));
+           const std::vector<HangingShell>& hanging, const StaticSolution& first_order)
+      : system_(model), threads_(options.threads) {
+    for (const Vec12& forces : first_order.beam_end_forces) first_axial_.push_back(-forces(0));
     loads_.resize(model.beams.size());
     for (const BeamLoad& load : loads.beams) loads_[static_cast<std::size_t>(load.beam)].push_back(load);
     axial_.mode = SecondOrder::exact;
     axial_.hanging = hanging;
     if (!model.shells.empty()) {
-      axial_.shell_displacements = solution.front().displacements;
+      axial_.shell_displacements = first_order.displacements;
       axial_.shell_strain = shell_strains(model, loads);
     }
-    system_.assemble();
+    system_.assemble(threads_);
     const std::vector<int> order = system_.elimination_order();
     unloaded_scale_.assign(system_.scale().begin(), system_.scale().end());
     if (!order.empty())
@@ -50,7 +49,7 @@ class Buckling {
     const int inside = buckled_inside(factor);  // leaves the state at this factor
     int count = inside;
     if (factor_) {
-      system_.assemble();
+      system_.assemble(threads_);
       count += factor_->factorise_indefinite(system_.matrix());
     }
     return counted_[factor] = count;
@@ -89,21 +88,21 @@ class Buckling {
   }
 
   /// Estimates to begin with; none where members are not what is compressed.
-  [[nodiscard]] std::vector<BucklingStart> starts(int count, const AnalysisOptions& options) {
+  [[nodiscard]] std::vector<BucklingStart> starts(int count) {
     const double reference = reference_factor();
     if (!factor_ || !(reference > 0)) return {};
     const SparseSymmetric K = tangent(0);
     constexpr double small = 1e-4;  // of the reference: what is lost is then linear to some digits
     SparseSymmetric G = tangent(small * reference);
     for (std::size_t k = 0; k < G.value.size(); ++k) G.value[k] = (K.value[k] - G.value[k]) / (small * reference);
-    Factor factor(K, system_.elimination_order(), options.factorisation, options.threads);
-    if (!factor.factorise(K).positive_definite) return {};
+    if (!factor_->factorise(K).positive_definite) return {};
     const auto times = [&](const Eigen::Ref<const Eigen::MatrixXd>& x) {
       Eigen::MatrixXd y = Eigen::MatrixXd::Zero(x.rows(), x.cols());
-      multiply_symmetric(G, x, y);
+      multiply_symmetric(G, x, y, threads_);
       return y;
     };
-    return estimate_buckling({K.size, [&](Eigen::Ref<Eigen::MatrixXd> x) { factor.solve(x); }, times}, count);
+    return estimate_buckling({K.size, [&](Eigen::Ref<Eigen::MatrixXd> x) { factor_->solve(x); }, times, threads_},
+                             count);
   }
 
   /// From an estimate to the factor nearby: inverse iteration and Newton's method in turn, until it moves no more than
@@ -152,7 +151,7 @@ class Buckling {
     const Eigen::VectorXd u = unscaled(x);
     const double here = energy(u);
     set_factor(factor * (1 + step));
-    system_.assemble();
+    system_.assemble(threads_);
     return factor - here * step * factor / (energy(u) - here);
   }
 
@@ -190,7 +189,7 @@ class Buckling {
   /// buckles alone (the middle of a post between held ends) would look as stiff as any other.
   void assemble_in_unloaded_scale(double factor) {
     set_factor(0);
-    system_.assemble();
+    system_.assemble(threads_);
     set_factor(factor);
     std::vector<int> nodes(system_.model.nodes.size());
     std::iota(nodes.begin(), nodes.end(), 0);
@@ -200,7 +199,7 @@ class Buckling {
   /// The tangent in the scale of the unloaded stiffness.
   [[nodiscard]] SparseSymmetric tangent(double factor) {
     set_factor(factor);
-    system_.assemble();
+    system_.assemble(threads_);
     SparseSymmetric T = system_.matrix();
     std::vector<double> ratio(unloaded_scale_);
     for (std::size_t i = 0; i < ratio.size(); ++i) ratio[i] /= system_.scale()[i];  // powers of two: exact
@@ -257,6 +256,7 @@ class Buckling {
   }
 
   FrameSystem system_;
+  int threads_;
   AxialState axial_;
   std::map<double, int> counted_;
   std::vector<double> first_axial_;
@@ -307,11 +307,13 @@ void count_around(Buckling& buckling, int k, const BucklingStart& start) {
 
 std::vector<BucklingMode> buckling_modes(const FrameModel& model, const LoadSet& loads, int count,
                                          const AnalysisOptions& options, double largest_factor,
-                                         const std::vector<HangingShell>& hanging) {
-  Buckling buckling(model, loads, options, hanging);
+                                         const std::vector<HangingShell>& hanging, const StaticSolution* first_order) {
+  std::optional<StaticSolution> found;
+  if (first_order == nullptr) found = std::move(StaticAnalysis(model, options).solve({&loads, 1}).front());
+  Buckling buckling(model, loads, options, hanging, found ? *found : *first_order);
   std::vector<BucklingMode> modes;
   if (!buckling.has_compression()) return modes;
-  const std::vector<BucklingStart> starts = buckling.starts(count + spare_starts, options);
+  const std::vector<BucklingStart> starts = buckling.starts(count + spare_starts);
   for (const BucklingPair& pair : buckling.pairs(starts, count))
     if (static_cast<int>(modes.size()) < count && pair.factor <= largest_factor)
       modes.push_back({pair.factor, buckling.shape_of(pair)});

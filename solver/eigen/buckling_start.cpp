@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "eigen/tall_products.h"
+
 namespace topple::solver {
 namespace {
 
@@ -25,9 +27,9 @@ class Basis {
     op_.solve(moved);
     const Eigen::VectorXd energy = moved.cwiseProduct(Kmoved).colwise().sum();
     for (int pass = 0; pass < 2; ++pass) {
-      const Eigen::MatrixXd along = KV_.leftCols(before).transpose() * moved;
-      moved.noalias() -= V_.leftCols(before) * along;
-      Kmoved.noalias() -= KV_.leftCols(before) * along;
+      const Eigen::MatrixXd along = tall_product(KV_.leftCols(before), moved, op_.threads);
+      subtract_tall(V_.leftCols(before), along, moved, op_.threads);
+      subtract_tall(KV_.leftCols(before), along, Kmoved, op_.threads);
     }
     for (Eigen::Index j = 0; j < forces.cols() && columns_ < V_.cols(); ++j) {
       if (!(energy(j) > 0)) continue;
@@ -73,7 +75,7 @@ class Basis {
 
  private:
   [[nodiscard]] Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz() const {
-    const Eigen::MatrixXd H = V_.leftCols(columns_).transpose() * GV_.leftCols(columns_);
+    const Eigen::MatrixXd H = tall_product(V_.leftCols(columns_), GV_.leftCols(columns_), op_.threads);
     return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(0.5 * (H + H.transpose()));
   }
 

@@ -12,6 +12,7 @@ struct LinearisedBuckling {
   Eigen::Index size = 0;
   std::function<void(Eigen::Ref<Eigen::MatrixXd>)> solve;                             ///< x := K^-1 x
   std::function<Eigen::MatrixXd(const Eigen::Ref<const Eigen::MatrixXd>&)> multiply;  ///< G x
+  int threads = 1;
 };
 
 struct BucklingStart {

@@ -18,10 +18,10 @@ class Modes {
         const AxialState* tangent)
       : system_(model), shift_(shift), threads_(options.threads) {
     system_.second_order = tangent;
-    system_.assemble();
+    system_.assemble(threads_);
     if (shift_ == 0) require_none(system_.defect());
     order_ = system_.elimination_order();
-    mass_ = std::make_unique<MassMatrix>(system_, masses);
+    mass_ = std::make_unique<MassMatrix>(system_, masses, threads_);
     stiffness_ = system_.matrix();
     for (std::size_t k = 0; shift_ != 0 && k < stiffness_.value.size(); ++k)
       stiffness_.value[k] += shift_ * mass_->matrix().value[k];
@@ -40,9 +40,9 @@ class Modes {
     if (mass_->matrix().value.empty() ||
         *std::max_element(mass_->matrix().value.begin(), mass_->matrix().value.end()) <= 0)
       throw std::invalid_argument("natural modes need mass: no density, no masses");
-    const KrylovOperators operators{static_cast<Eigen::Index>(order_.size()),
-                                    [this](Eigen::Ref<Eigen::MatrixXd> x) { factor_->solve(x); },
-                                    [this](const Eigen::Ref<const Eigen::MatrixXd>& x) { return mass_->times(x); }};
+    const KrylovOperators operators{
+        static_cast<Eigen::Index>(order_.size()), [this](Eigen::Ref<Eigen::MatrixXd> x) { solve(x); },
+        [this](const Eigen::Ref<const Eigen::MatrixXd>& x) { return mass_->times(x); }, threads_};
     // More than there are freedoms are never found: asking for them is asking for all.
     count = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(count), order_.size()));
     // A wider block where the count says that some are missing.
@@ -78,7 +78,7 @@ class Modes {
   }
 
   /// Counts the eigenvalues of (K + shift M) x = s M x below a place s behind the last one asked for.
-  [[nodiscard]] bool none_missing(const KrylovAnswer& found, int count) const {
+  [[nodiscard]] bool none_missing(const KrylovAnswer& found, int count) {
     constexpr double apart = 1e-3, beyond = 1e-2;
     const Eigen::Index known = found.values.size();
     if (known == 0) return true;
@@ -90,8 +90,21 @@ class Modes {
     SparseSymmetric shifted = stiffness_;
     const SparseSymmetric& M = mass_->matrix();
     for (std::size_t k = 0; k < shifted.value.size(); ++k) shifted.value[k] -= place * M.value[k];
-    Factor counted(shifted, order_, Factorisation::automatic, threads_);
-    return counted.factorise_indefinite(shifted) == static_cast<int>(last) + 1;
+    return negative_pivots(shifted) == static_cast<int>(last) + 1;
+  }
+
+  /// In the place of the stiffness' own factor, which comes back where it is asked for again.
+  [[nodiscard]] int negative_pivots(const SparseSymmetric& matrix) {
+    if (factor_->kind() != Factorisation::automatic)
+      return Factor(matrix, order_, Factorisation::automatic, threads_).factorise_indefinite(matrix);
+    of_stiffness_ = false;
+    return factor_->factorise_indefinite(matrix);
+  }
+
+  void solve(Eigen::Ref<Eigen::MatrixXd> x) {
+    if (!of_stiffness_) (void)factor_->factorise(stiffness_);
+    of_stiffness_ = true;
+    factor_->solve(x);
   }
 
   void gather(const KrylovAnswer& found, Eigen::Index count, ModalAnswer& answer) const {
@@ -126,6 +139,7 @@ class Modes {
   std::vector<int> order_;
   std::unique_ptr<MassMatrix> mass_;
   std::unique_ptr<Factor> factor_;
+  bool of_stiffness_ = true;  ///< what `factor_` is the factor of
 };
 
 }  // namespace

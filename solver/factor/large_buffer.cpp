@@ -1,5 +1,7 @@
 #include "factor/large_buffer.h"
 
+#include "topple/solver/kept_memory.h"
+
 #include <algorithm>
 #include <new>
 #include <utility>
@@ -9,13 +11,73 @@ namespace {
 constexpr std::size_t line = 64;
 /// Entries that may lie idle in a pool: 32 MiB.
 constexpr std::size_t most_spare = std::size_t{1} << 22;
+/// Kept are so many blocks at most, none below so many entries (8 MiB).
+constexpr std::size_t most_kept = 4, least_kept = std::size_t{1} << 20;
+
+/// What is kept while somebody asks for it (KeptMemory).
+struct KeptBlocks {
+  struct Block {
+    double* memory;
+    std::size_t size;
+  };
+  std::mutex mutex;
+  int users = 0;
+  std::vector<Block> blocks;
+
+  /// Null where none fits.
+  Block take(std::size_t entries) {
+    const std::lock_guard lock(mutex);
+    auto best = blocks.end();
+    for (auto block = blocks.begin(); block != blocks.end(); ++block)
+      if (block->size >= entries && block->size / 2 <= entries && (best == blocks.end() || block->size < best->size))
+        best = block;
+    if (best == blocks.end()) return {nullptr, 0};
+    const Block found = *best;
+    blocks.erase(best);
+    return found;
+  }
+
+  /// False where it is to be freed.
+  bool keep(const Block& block) {
+    const std::lock_guard lock(mutex);
+    if (users == 0 || block.size < least_kept || blocks.size() >= most_kept) return false;
+    blocks.push_back(block);
+    return true;
+  }
+};
+
+KeptBlocks& kept_blocks() {
+  static KeptBlocks kept;
+  return kept;
+}
+
+void free_memory(double* p) { ::operator delete (p, std::align_val_t{line}); }
+
 }  // namespace
 
-void LargeBuffer::Free::operator()(double* p) const { ::operator delete (p, std::align_val_t{line}); }
+KeptMemory::KeptMemory() {
+  const std::lock_guard lock(kept_blocks().mutex);
+  ++kept_blocks().users;
+}
 
-LargeBuffer::LargeBuffer(std::size_t entries)
-    : memory_(static_cast<double*>(::operator new (entries * sizeof(double), std::align_val_t{line}))),
-      size_(entries) {}
+KeptMemory::~KeptMemory() {
+  const std::lock_guard lock(kept_blocks().mutex);
+  if (--kept_blocks().users > 0) return;
+  for (const KeptBlocks::Block& block : kept_blocks().blocks) free_memory(block.memory);
+  kept_blocks().blocks.clear();
+}
+
+void LargeBuffer::Free::operator()(double* p) const {
+  if (!kept_blocks().keep({p, size})) free_memory(p);
+}
+
+LargeBuffer::LargeBuffer(std::size_t entries) : size_(entries) {
+  KeptBlocks::Block block{nullptr, entries};
+  if (entries >= least_kept) block = kept_blocks().take(entries);
+  if (block.memory == nullptr)
+    block = {static_cast<double*>(::operator new (entries * sizeof(double), std::align_val_t{line})), entries};
+  memory_ = std::unique_ptr<double, Free>(block.memory, Free{block.size});
+}
 
 LargeBuffer BufferPool::take(std::size_t entries) {
   const std::lock_guard lock(mutex_);

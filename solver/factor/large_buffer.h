@@ -19,7 +19,10 @@ class LargeBuffer {
 
  private:
   struct Free {
+    Free() {}  // NOLINT(modernize-use-equals-default): a default one is not there before the class around it ends
+    explicit Free(std::size_t entries) : size(entries) {}
     void operator()(double* p) const;
+    std::size_t size = 0;  ///< of the block, which may be larger than what was asked for
   };
   std::unique_ptr<double, Free> memory_;
   std::size_t size_ = 0;

@@ -31,6 +31,7 @@
 #include "parallel/side_by_side.h"
 #include "topple/solver/beam_diagram.h"
 #include "topple/solver/case_sums.h"
+#include "topple/solver/kept_memory.h"
 #include "topple/solver/shifted_modes.h"
 #include "topple/structure/analysis.h"
 #include "topple/structure/error.h"
@@ -73,6 +74,8 @@ class Analysis {
   }
 
   AnalysisResult run() {
+    std::optional<solver::KeptMemory> kept;  // for what follows the linear answer
+    if (!linear_ || request_.modes > 0) kept.emplace();
     AnalysisResult result;
     result.cuts = request_.cuts;
     try {
@@ -245,6 +248,10 @@ class Analysis {
     }
     const std::string of = " of " + building_[combinations_[k]].name;
     if (second_order) tell("second order" + of);
+    // Where no member goes slack, buckling begins with the same linear answer.
+    const bool taut = !OneWayMembers(frame_.model).any();
+    solver::StaticSolution first_order;
+    if (request_.buckling > 0 && taut) first_order = answer.solution;
     const int iterations = second_order ? turn_to_second_order(k, answer) : 0;
     solver::FrameModel model = carrying_both(frame_.model);
     if (!answer.beams.empty()) model.beams = answer.beams;
@@ -253,9 +260,10 @@ class Analysis {
     tangent_beams_ = model.beams;
     result.second_order_iterations = iterations;
     if (request_.buckling > 0) tell("buckling" + of);
+    if (k + 1 == combinations_.size()) second_order_.reset();  // its factor is as large as the one to come
     if (request_.buckling > 0)
       result.buckling = solver::buckling_modes(model, loads_[k].set, request_.buckling, request_.solver,
-                                               largest_buckling_factor, hanging_);
+                                               largest_buckling_factor, hanging_, taut ? &first_order : nullptr);
     for (solver::BucklingMode& mode : result.buckling) scale_shape(mode.shape);
     return result;
   }
@@ -577,13 +585,18 @@ class Analysis {
   [[nodiscard]] std::vector<MemberResult> members(const OneWayAnswer& answer, LoadsOn loads_on) const {
     const std::vector<solver::Vec12>& end_forces = answer.solution.beam_end_forces;
     std::vector<MemberResult> all(building_.members.size());
-    for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto one = [&](std::size_t i) {
       MemberResult& member = all[i];
       member.active = answer.active.empty() || answer.active[i] != 0;
       member.end_forces = end_forces[i];
       with_diagram(answer, loads_on(i), i, member.end_forces,
                    [&](double length, const auto& diagram) { fill(member, length, diagram); });
-    }
+    };
+    // Linear combinations go side by side themselves, and the sums of their loads have one place.
+    constexpr std::size_t together = 256;
+    side_by_side((all.size() + together - 1) / together, linear_ ? 1 : request_.workers, [&](std::size_t part) {
+      for (std::size_t i = part * together; i < std::min(all.size(), (part + 1) * together); ++i) one(i);
+    });
     return all;
   }
 

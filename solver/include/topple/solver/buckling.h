@@ -18,9 +18,11 @@ struct BucklingMode {
 /// of critical factors below it is that of negative pivots plus that of members buckled between held ends (Wittrick
 /// and Williams 1971). The factors are found together by residual inverse iteration, and proved by a count; where that
 /// does not get there, each is enclosed by counts and Newton's method. Shells bring the geometric stiffness
-/// of their membrane forces, which is as fine as their mesh.
+/// of their membrane forces, which is as fine as their mesh. `first_order`: the linear answer of this model to these
+/// loads, where it is known; null: it is found here. Throws Instability where the model is a mechanism.
 [[nodiscard]] std::vector<BucklingMode> buckling_modes(const FrameModel& model, const LoadSet& loads, int count,
                                                        const AnalysisOptions& options, double largest_factor = 1e6,
-                                                       const std::vector<HangingShell>& hanging = {});
+                                                       const std::vector<HangingShell>& hanging = {},
+                                                       const StaticSolution* first_order = nullptr);
 
 }  // namespace topple::solver

@@ -51,7 +51,7 @@ class Buckled : public Instability {
   using Instability::Instability;
 };
 
-/// One ordering for any number of load sets; each of its own iterations costs one factorisation.
+/// One ordering for any number of load sets; each costs two factorisations where its axial forces settle fast.
 class SecondOrderAnalysis {
  public:
   /// Throws Instability where a freedom has no stiffness at all.
