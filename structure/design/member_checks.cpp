@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 
 #include "design/alignment_chart.h"
@@ -93,6 +94,47 @@ void warn_of_unfactored(const Building& building, AnalysisResult& result) {
   if (!names.empty())
     result.warnings.push_back("design: no load has a factor above 1 in " + names +
                               "; the code's checks are for factored loads (EN 1990, LRFD)");
+}
+
+/// Of what clauses say, the part that effective lengths of compression have a hand in.
+bool governed_by_buckling(const DesignResult& design) {
+  constexpr std::string_view clauses[] = {"6.3.1", "6.3.3", "360 E", "360 H1"};
+  return std::any_of(std::begin(clauses), std::end(clauses),
+                     [&](std::string_view clause) { return design.governing.find(clause) != std::string::npos; });
+}
+
+/// Members that fail by lengths which nobody has found for this structure: charts are of a storey whose posts all sway
+/// at once, a given K = 2 of none at all.
+void warn_of_lengths(const Building& building, EffectiveLengths method, AnalysisResult& result) {
+  std::size_t worst = 0;
+  double most = 1;
+  LengthSource source = LengthSource::own;
+  std::set<std::size_t> members;
+  for (const CombinationResult& c : result.combinations) {
+    if (!c.buckling.empty()) return;
+    for (std::size_t m = 0; m < c.designs.size(); ++m) {
+      const DesignResult& design = c.designs[m];
+      if (!(design.utilisation > 1) || !governed_by_buckling(design)) continue;
+      const auto assumed = std::find_if(design.length_source.begin(), design.length_source.end(), [](LengthSource s) {
+        return s == LengthSource::chart_sway || s == LengthSource::assumed_sway;
+      });
+      if (assumed == design.length_source.end()) continue;
+      members.insert(m);
+      if (!(design.utilisation > most)) continue;
+      worst = m;
+      most = design.utilisation;
+      source = *assumed;
+    }
+  }
+  if (members.empty()) return;
+  const std::string count = members.size() == 1 ? "" : " and " + std::to_string(members.size() - 1) + " more";
+  std::string way = "the whole frame's buckling modes give them where members take part (--buckling N)";
+  if (method == EffectiveLengths::assumed)
+    way += ", alignment charts by the stiffness at the ends (without this option)";
+  if (method == EffectiveLengths::charts) way += " without --effective-lengths charts";
+  result.warnings.push_back("design: effective lengths are assumed where members are above 100 % by buckling (" +
+                            building.members[worst].name + count + ": " + std::string(length_source_name(source)) +
+                            "); " + way + ", `length_y`, `factor_y` ... in a member's \"design\" set them");
 }
 
 DesignResult checked(DesignCode code, const DesignMember& member, const Building& building, std::size_t m,
@@ -230,6 +272,7 @@ void check_design(const Building& building, DesignCode code, double drift_limit,
     }
   }
   warn_of_unfactored(building, result);
+  warn_of_lengths(building, input.lengths, result);
   result.design_code = code;
   result.drift_limit = drift_limit;
 }

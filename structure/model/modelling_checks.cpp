@@ -253,6 +253,62 @@ void find_folds(const Building& building, std::vector<std::string>& warnings) {
       ": if a curved surface is meant, it is too stiff; draw it by panels that turn by 6 degrees or less");
 }
 
+/// What loads bend members by, over all cases.
+struct Bending {
+  bool vertical = false, sideways = false;
+};
+
+std::vector<Bending> bending_of_members(const Building& building) {
+  std::vector<Bending> all(building.members.size());
+  const auto bend = [&](std::size_t m, const Vec3& force) {
+    const Vec3 x = building.members[m].axes.row(0), across = force - x.dot(force) * x;
+    constexpr double rounding = 1e-9;
+    const double least = rounding * force.norm();
+    if (std::abs(across.z()) > least) all[m].vertical = true;
+    if (across.head<2>().norm() > least) all[m].sideways = true;
+  };
+  for (const LoadCase& load_case : building.cases) {
+    for (const MemberLoad& load : load_case.members) {
+      if (load.kind == MemberLoad::Kind::temperature) continue;
+      const auto m = static_cast<std::size_t>(load.member.index);
+      for (const Vec6& at : {load.first, load.last}) {
+        const Vec3 force = at.head<3>();
+        bend(m, load.frame == LoadFrame::local ? Vec3(building.members[m].axes.transpose() * force) : force);
+      }
+    }
+    for (std::size_t m = 0; m < all.size(); ++m)
+      if (building[building.members[m].material].density > 0) bend(m, load_case.self_weight);
+  }
+  return all;
+}
+
+/// Iy and Iz in each other's place: level members that nothing bends but what acts vertically, and that about the weak
+/// axis. Told where nobody can see it from the section's shape: of sections given by numbers, and of members turned on
+/// their side.
+void find_weak_bending(const Building& building, std::vector<std::string>& warnings) {
+  constexpr double level = 0.1, upright = 0.9, weaker = 3;
+  const std::vector<Bending> bending = bending_of_members(building);
+  Several weak;
+  for (std::size_t m = 0; m < building.members.size(); ++m) {
+    const Member& member = building.members[m];
+    const Section& section = building[member.section];
+    const double z_up = std::abs(member.axes(2, 2)), y_up = std::abs(member.axes(1, 2));
+    const bool turned = y_up > upright;
+    if (member.kind != MemberKind::beam || member.axial != AxialAction::both) continue;
+    if (std::abs(member.axes(0, 2)) > level || std::max(z_up, y_up) < upright) continue;
+    if (!bending[m].vertical || bending[m].sideways) continue;
+    const bool numbers = section.shape == Section::Shape::numbers && section.catalogue.empty();
+    if (!numbers && !turned) continue;
+    const double I = turned ? section.Iz : section.Iy, other = turned ? section.Iy : section.Iz;
+    if (!(weaker * I < other)) continue;
+    char text[64];
+    std::snprintf(text, sizeof text, "%s, 1/%.3g of %s", turned ? "Iz" : "Iy", other / I, turned ? "Iy" : "Iz");
+    weak.add("member " + member.name + " (section " + section.name + ") bends by its " + text);
+  }
+  weak.tell(warnings,
+            "level members bend vertically by Iy unless `up` turns them; are Iy and Iz, or the axes, exchanged?");
+}
+
 }  // namespace
 
 std::vector<std::string> modelling_warnings(const Building& building) {
@@ -266,6 +322,7 @@ std::vector<std::string> modelling_warnings(const Building& building) {
   find_odd_materials(building, warnings);
   find_thick_members(building, warnings);
   find_idle_cases(building, warnings);
+  find_weak_bending(building, warnings);
   find_folds(building, warnings);
   return warnings;
 }

@@ -55,12 +55,35 @@ struct State {
   }
 };
 
+/// What hangs and acts on each node, for cuts through rigid floors.
+struct AtNodes {
+  std::vector<std::vector<std::pair<int, std::size_t>>> beams, shells;  ///< with the end, the corner
+  std::vector<Vec6> given;                                              ///< loads and reactions
+
+  explicit AtNodes(const State& s) {
+    const auto& model = s.frame.model;
+    if (model.diaphragms.empty()) return;
+    const auto add = [&](auto& lists, const auto& elements) {
+      lists.resize(model.nodes.size());
+      for (std::size_t e = 0; e < elements.size(); ++e)
+        for (std::size_t k = 0; k < elements[e].node.size(); ++k)
+          lists[static_cast<std::size_t>(elements[e].node[k])].emplace_back(static_cast<int>(e), k);
+    };
+    add(beams, model.beams);
+    add(shells, model.shells);
+    given.assign(model.nodes.size(), Vec6::Zero());
+    for (const solver::NodeLoad& load : s.loads.nodes) given[static_cast<std::size_t>(load.node)] += load.load;
+    for (std::size_t r = 0; r < model.supports.size(); ++r)
+      given[static_cast<std::size_t>(model.supports[r].node)] += s.solution.reactions[r];
+  }
+};
+
 /// Reads one cut.
 class Cut {
  public:
   Cut(const State& state, const SectionCut& cut, const std::vector<std::vector<const solver::BeamLoad*>>& beam_loads,
-      double size)
-      : s_(state), cut_(cut), beam_loads_(beam_loads), tolerance_(rounding * size) {}
+      const AtNodes& at_nodes, double size)
+      : s_(state), cut_(cut), beam_loads_(beam_loads), at_nodes_(at_nodes), tolerance_(rounding * size) {}
 
   [[nodiscard]] CutResult read() const {
     CutResult result;
@@ -216,11 +239,7 @@ class Cut {
     Resultant sum(cut_.at);
     for (const int node : nodes) {
       if (!behind(s_.rest(node))) continue;
-      Vec6 left = demand_of_elements(node);
-      for (const solver::NodeLoad& load : s_.loads.nodes)
-        if (load.node == node) left -= load.load;
-      for (std::size_t r = 0; r < s_.frame.model.supports.size(); ++r)
-        if (s_.frame.model.supports[r].node == node) left -= s_.solution.reactions[r];
+      const Vec6 left = demand_of_elements(node) - at_nodes_.given[static_cast<std::size_t>(node)];
       sum.add(s_.place(node), Vec3(left.x(), left.y(), 0), Vec3(0, 0, left(5)));
     }
     return sum.sum();
@@ -228,20 +247,17 @@ class Cut {
   /// What a node does to all that hangs on it, about itself.
   [[nodiscard]] Vec6 demand_of_elements(int node) const {
     Resultant sum(s_.place(node));
-    const auto& model = s_.frame.model;
-    for (std::size_t b = 0; b < model.beams.size(); ++b)
-      for (std::size_t end = 0; end < 2; ++end)
-        if (model.beams[b].node[end] == node)
-          sum.add(s_.place(node, model.beams[b].offset[end]), s_.end_force(static_cast<int>(b), end));
-    for (std::size_t k = 0; k < model.shells.size(); ++k)
-      for (std::size_t c = 0; c < 4; ++c)
-        if (model.shells[k].node[c] == node) sum.add(s_.place(node), s_.solution.shell_corner_forces[k][c]);
+    for (const auto& [b, end] : at_nodes_.beams[static_cast<std::size_t>(node)])
+      sum.add(s_.place(node, s_.frame.model.beams[static_cast<std::size_t>(b)].offset[end]), s_.end_force(b, end));
+    for (const auto& [k, corner] : at_nodes_.shells[static_cast<std::size_t>(node)])
+      sum.add(s_.place(node), s_.solution.shell_corner_forces[static_cast<std::size_t>(k)][corner]);
     return sum.sum();
   }
 
   const State& s_;
   const SectionCut& cut_;
   const std::vector<std::vector<const solver::BeamLoad*>>& beam_loads_;
+  const AtNodes& at_nodes_;
   double tolerance_;
 };
 
@@ -260,7 +276,9 @@ std::vector<CutResult> cut_results(const Building& building, const Frame& frame,
     low = low.cwiseMin(node);
     high = high.cwiseMax(node);
   }
-  for (const SectionCut& cut : cuts) results.push_back(Cut(state, cut, beam_loads, (high - low).norm()).read());
+  const AtNodes at_nodes(state);
+  for (const SectionCut& cut : cuts)
+    results.push_back(Cut(state, cut, beam_loads, at_nodes, (high - low).norm()).read());
   return results;
 }
 

@@ -316,6 +316,31 @@ TEST_CASE("modelling errors are told by name") {
       "m.json"));
   REQUIRE(idle.size() == 1);
   CHECK(told(idle, "load case w: no combination has it"));
+  const auto turned = [&](const std::string& section, const std::string& more, const std::string& loads) {
+    return modelling_warnings(parse_model(
+        R"({"topple": 1, "materials": {"s": {"youngs_modulus": 2e11, "poisson_ratio": 0.3, "density": 7850}},
+      "sections": {"b": )" +
+            section + R"(}, "nodes": {"A": [0,0,0], "B": [6,0,0]}, "supports": {"A": "fixed", "B": "fixed"},
+      "members": {"AB": {"nodes": ["A", "B"], "section": "b", "material": "s")" +
+            more + R"(}}, "loads": {"g": )" + loads + "}}",
+        "m.json"));
+  };
+  const std::string exchanged = R"({"area": 0.01, "Iy": 1e-5, "Iz": 8e-5, "J": 1e-6})",
+                    right = R"({"area": 0.01, "Iy": 8e-5, "Iz": 1e-5, "J": 1e-6})";
+  const std::string weight = R"({"self_weight": 1})", sag = R"({"members": {"AB": [{"uniform": {"z": -1000}}]}})",
+                    wind = R"({"members": {"AB": [{"uniform": {"y": 1000}}]}})",
+                    both = R"({"self_weight": 1, "members": {"AB": [{"uniform": {"y": 1000}}]}})";
+  for (const std::string& load : {weight, sag})
+    CHECK(told(turned(exchanged, "", load), "member AB (section b) bends by its Iy, 1/8 of Iz"));
+  CHECK(
+      told(turned(right, R"(, "roll": 1.5707963267948966)", sag), "member AB (section b) bends by its Iz, 1/8 of Iy"));
+  CHECK(told(turned(R"({"catalogue": "IPE200"})", R"(, "roll": 1.5707963267948966)", sag), "bends by its Iz"));
+  // The strong axis has something to do, or nothing bends, or the shape shows how the section lies.
+  CHECK(turned(exchanged, "", wind).empty());
+  CHECK(turned(exchanged, "", both).empty());
+  CHECK(turned(right, "", sag).empty());
+  CHECK(turned(exchanged, R"(, "roll": 1.5707963267948966)", sag).empty());
+  CHECK(turned(R"({"shape": "rectangle", "depth": 0.1, "width": 1})", "", sag).empty());
   CHECK(did_you_mean("tover", {"hall", "tower", "wall"}) == " (did you mean tower?)");
   CHECK(did_you_mean("x", {"hall"}).empty());
 }

@@ -178,6 +178,31 @@ TEST_CASE("posts of a portal have the chart's factor, and that of the buckling a
   CHECK(mode.lengths.z <= chart.lengths.z);
 }
 
+TEST_CASE("posts above 100 % by lengths of a chart are told what finds their own") {
+  const Building building = portal(R"({"B": {"z": -1.6e6}, "C": {"z": -1.6e6}})");
+  AnalysisRequest request;
+  request.stations = design_stations;
+  request.critical_sections = true;
+  const auto told = [&](const AnalysisRequest& asked, const DesignInput& input) {
+    AnalysisResult result = analyse(building, asked);
+    check_design(building, DesignCode::en1993, usual_drift_limit, result, input);
+    REQUIRE(result.combinations[0].designs[0].utilisation > 1);
+    std::string all;
+    for (const std::string& warning : result.warnings)
+      if (warning.find("effective lengths are assumed") != std::string::npos) all += warning;
+    return all;
+  };
+  CHECK_THAT(told(request, {}), Catch::Contains("--buckling N") && Catch::Contains("and 1 more: alignment chart"));
+  DesignInput assumed;
+  assumed.lengths = EffectiveLengths::assumed;
+  CHECK_THAT(told(request, assumed), Catch::Contains("alignment charts by the stiffness"));
+  DesignInput unbraced;
+  unbraced.lengths = EffectiveLengths::unbraced;
+  CHECK(told(request, unbraced).empty());
+  request.buckling = 1;
+  CHECK(told(request, {}).empty());  // found, and too weak all the same
+}
+
 // The portal again, swaying by itself: one post bears 500 kN, the other 25 kN, and the beam is pressed by 1 kN. By
 // factor times axial force the light post would have K = 1.40 sqrt(500/25), 6 at least, and the beam more than 50,
 // though both hold the heavy post and would buckle far later themselves. The heavy post has K of both posts' sway
