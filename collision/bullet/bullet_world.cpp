@@ -348,8 +348,13 @@ void BulletWorld::step(double dt) {
     return;
   }
   world_.before_solving([&] { let_go_struck(dt); });
+  std::vector<std::pair<BodyId, Vec3>> before;
+  for (const BodyId id : bodies())
+    if (const btRigidBody& one = *body(id.value).rigid; one.isActive())
+      before.emplace_back(id, from_bullet(one.getWorldTransform().getOrigin()));
   world_.stepSimulation(dt, 0);
   gather_contacts();
+  book_pushes(before, dt);
   read_forces(dt);
   resist_rolling();
   keep_swinging();

@@ -3,6 +3,7 @@
 #include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
 
 #include <algorithm>
+#include <map>
 #include <stdexcept>
 #include <tuple>
 
@@ -163,6 +164,25 @@ void BulletWorld::gather_contacts() {
   std::merge(touching_.begin(), touching_.end(), contacts_.begin(), contacts_.end(), std::back_inserter(next_),
              before_by_parts);
   std::swap(touching_, next_);
+}
+
+/// What bodies were moved beyond their velocities, out of each other, is work of their contacts as well.
+void BulletWorld::book_pushes(std::span<const std::pair<BodyId, Vec3>> before, double dt) {
+  std::map<std::int64_t, Contact*> largest;
+  for (Contact& contact : contacts_)
+    for (const BodyId id : {contact.body, contact.other.body}) {
+      Contact*& known = largest[id.value];
+      if (!known || contact.impulse.norm() > known->impulse.norm()) known = &contact;
+    }
+  const Vec3 gravity = from_bullet(world_.getGravity());
+  for (const auto& [id, at] : before) {
+    const auto contact = largest.find(id.value);
+    if (contact == largest.end()) continue;
+    const btRigidBody& moved = *body(id.value).rigid;
+    const Vec3 free = at + dt * from_bullet(moved.getLinearVelocity());
+    contact->second->work_lost +=
+        body(id.value).mass * gravity.dot(from_bullet(moved.getWorldTransform().getOrigin()) - free);
+  }
 }
 
 bool BulletWorld::is_awake(const Contact& contact) const {

@@ -9,7 +9,6 @@
 #include "simulation/call_checks.h"
 #include "simulation/simulation_state.h"
 #include "simulation/step_clock.h"
-#include "topple/collision/sequential_impulse.h"
 #include "topple/structure/error.h"
 
 namespace topple::structure {
@@ -76,7 +75,7 @@ Simulation::State::State(Building the_building, Scenario the_scenario, Simulatio
       gravity(0, 0, -building.gravity),
       frame(std::make_unique<StandingFrame>(building, combination_of(building, scenario), rules_of(scenario),
                                             options.threads)),
-      world(options.make_world ? options.make_world() : collision::make_sequential_impulse_world()),
+      world(options.make_world ? options.make_world() : collision::make_bullet_world()),
       masses(building, combination_of(building, scenario), *frame),
       shapes(building),
       grid(building, shapes),

@@ -46,9 +46,6 @@ void Simulation::State::book_body(BodyMotion& one) {
   if (one.asleep && after.asleep) return;
   const Vec3 weight = one.mass * gravity;
   body_gravity_work += weight.dot(after.pose.position - one.step_start);
-  // What the collision world moved beyond its velocity (pushing things out of each other) is work of the contacts.
-  const Vec3 pushed = after.pose.position - one.before.pose.position - after.velocity * scenario.step;
-  ledger.lost_in_contacts += weight.dot(pushed);
   if (one.asleep != after.asleep) {  // a body at rest is read as having no velocity at all, and does not move
     collision::BodyState awake = one.before;
     awake.asleep = false;
