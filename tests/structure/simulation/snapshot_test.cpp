@@ -96,7 +96,7 @@ TEST_CASE("a panel that is broken in part comes back with a snapshot, and breaks
   };
   Simulation through = panels(), resumed = panels();
   shoot(through, 15);
-  run_to(through, 1.5);
+  run_to(through, 1);
   const Snapshot snapshot = through.save();
   REQUIRE(broken(through) > 0);
   resumed.restore(parse_snapshot(snapshot_bytes(snapshot), "snapshot"));
