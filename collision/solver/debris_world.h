@@ -175,14 +175,14 @@ class DebrisWorld final : public World {
   [[nodiscard]] Motion motion_of(const DebrisBody& body, double dt) const;
   [[nodiscard]] std::vector<Mover> movers(double dt) const;
   [[nodiscard]] static Mover mover_of(const DebrisBody& body, const Motion& motion, double duration);
-  static void find_touches(const Mover& mover, const Solid& other, const Motion& other_motion, double dt,
-                           std::vector<Contact>& found);
-  void sweep_pair(const Mover& mover, const Solid& other, const Motion& other_motion, double dt,
-                  std::vector<Contact>& found) const;
   struct SweepRange {
     Sweep what;
     double dt, least_speed;
   };
+  static void find_touches(const Mover& mover, const Solid& other, const Motion& other_motion, const SweepRange& range,
+                           std::vector<Contact>& found);
+  void sweep_pair(const Mover& mover, const Solid& other, const Motion& other_motion, const SweepRange& range,
+                  std::vector<Contact>& found) const;
   void sweep_ground(const Mover& mover, const SweepRange& range, std::vector<Contact>& found) const;
   void sweep_standing(const Mover& mover, const SweepRange& range, std::vector<Contact>& found) const;
   void sweep_movers(const std::vector<Mover>& movers, const SweepRange& range, std::vector<Contact>& found) const;

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "contacts/apart.h"
 #include "solver/debris_world.h"
 
 namespace topple::collision {
@@ -36,6 +37,8 @@ btTransform transform_of(const Solid& solid) {
   return btTransform(btMatrix3x3(m(0, 0), m(0, 1), m(0, 2), m(1, 0), m(1, 1), m(1, 2), m(2, 0), m(2, 1), m(2, 2)),
                      to_bullet(placed.position));
 }
+
+Placement placement_of(const btTransform& at) { return {from_bullet(at.getOrigin()), from_bullet(at.getBasis())}; }
 
 bool is_awake(const Solid& solid) {
   return solid.kind == Touched::Kind::body && !static_cast<const DebrisBody&>(solid).asleep;
@@ -73,6 +76,7 @@ Box3 box_of(const Bounds& bounds) { return {from_bullet(bounds.low), from_bullet
 struct DebrisWorld::Mover {
   const DebrisBody* body = nullptr;
   Motion motion;
+  Placement end;
   std::vector<Bounds> parts;
   Bounds whole;
 };
@@ -97,6 +101,7 @@ DebrisWorld::Mover DebrisWorld::mover_of(const DebrisBody& body, const Motion& m
   Mover mover;
   mover.body = &body;
   mover.motion = motion;
+  mover.end = placement_of(motion.at(duration));
   for (const SolidPart& part : body.parts) mover.parts.push_back(swept_bounds(part, motion, duration));
   mover.whole = mover.parts.front();
   for (const Bounds& part : mover.parts) {
@@ -143,26 +148,44 @@ void put_lower_first(Contact& contact) {
 
 }  // namespace
 
-void DebrisWorld::sweep_pair(const Mover& mover, const Solid& other, const Motion& other_motion, double dt,
-                             std::vector<Contact>& found) const {
+void DebrisWorld::sweep_pair(const Mover& mover, const Solid& other, const Motion& other_motion,
+                             const SweepRange& range, std::vector<Contact>& found) const {
   const bool other_first = other.kind == Touched::Kind::body && other.id < mover.body->id;
   if (other_first ? ignores(other, *mover.body) : ignores(*mover.body, other)) return;
-  find_touches(mover, other, other_motion, dt, found);
+  // Slow meetings are told of what stands: who lies down on it is told from who strikes it by the caller.
+  const double least = other.kind == Touched::Kind::body ? range.least_speed : 0;
+  find_touches(mover, other, other_motion, {range.what, range.dt, least}, found);
 }
 
-/// Of each part of the one with each part of the other.
-void DebrisWorld::find_touches(const Mover& mover, const Solid& other, const Motion& other_motion, double dt,
-                               std::vector<Contact>& found) {
-  for (const SolidPart& other_part : other.parts) {
-    const Bounds other_bounds = swept_bounds(other_part, other_motion, dt);
+/// Of each part of the one with each part of the other. What meets slowly matters beside what meets fast alone: a body
+/// that comes down on several places at once.
+void DebrisWorld::find_touches(const Mover& mover, const Solid& other, const Motion& other_motion,
+                               const SweepRange& range, std::vector<Contact>& found) {
+  const double dt = range.dt;
+  const Placement other_end = placement_of(other_motion.at(dt));
+  std::vector<std::pair<std::size_t, std::size_t>> slow;
+  bool fast = false;
+  const auto cast = [&](std::size_t i, std::size_t j) {
+    const SolidPart &part = mover.body->parts[i], &other_part = other.parts[j];
+    const std::optional<Touch> touch = first_touch(part, mover.motion, other_part, other_motion, dt);
+    if (!touch) return;
+    found.push_back(contact_of(*mover.body, part.tag, other, other_part.tag, *touch));
+    fast = fast || touch->approach_speed >= range.least_speed;
+  };
+  for (std::size_t j = 0; j < other.parts.size(); ++j) {
+    const Bounds other_bounds = swept_bounds(other.parts[j], other_motion, dt);
     if (!other_bounds.meets(mover.whole)) continue;
     for (std::size_t i = 0; i < mover.parts.size(); ++i) {
       if (!mover.parts[i].meets(other_bounds)) continue;
-      const SolidPart& part = mover.body->parts[i];
-      const std::optional<Touch> touch = first_touch(part, mover.motion, other_part, other_motion, dt);
-      if (touch) found.push_back(contact_of(*mover.body, part.tag, other, other_part.tag, *touch));
+      const Meeting meeting =
+          meeting_of({*mover.body, i, mover.motion, mover.end},
+                     {static_cast<const TouchingSolid&>(other), j, other_motion, other_end}, dt, range.least_speed);
+      if (meeting == Meeting::unknown) cast(i, j);
+      if (meeting == Meeting::slow) slow.emplace_back(i, j);
     }
   }
+  if (fast)
+    for (const auto& [i, j] : slow) cast(i, j);
 }
 
 /// Whether they meet within this step or the next, faster than what rests does: one that is about to go through the
@@ -174,7 +197,8 @@ bool DebrisWorld::still_to_pass(const DebrisBody& first, const Solid& other, boo
   if (other_moves) other_motion = motion_of(static_cast<const DebrisBody&>(other), dt);
   const double resting_speed = 2 * gravity_.norm() * dt;
   std::vector<Contact> found;
-  find_touches(mover_of(first, motion_of(first, dt), ahead), other, other_motion, ahead, found);
+  find_touches(mover_of(first, motion_of(first, dt), ahead), other, other_motion,
+               {Sweep::everything, ahead, resting_speed}, found);
   return std::any_of(found.begin(), found.end(),
                      [&](const Contact& contact) { return contact.approach_speed > resting_speed; });
 }
@@ -210,7 +234,7 @@ void DebrisWorld::sweep_standing(const Mover& mover, const SweepRange& range, st
     if (other->kind == Touched::Kind::body &&
         fastest_closing(*mover.body, mover.motion, *other, still, dt) < least_speed)
       continue;
-    sweep_pair(mover, *other, still, dt, found);
+    sweep_pair(mover, *other, still, range, found);
   }
 }
 
@@ -228,7 +252,7 @@ void DebrisWorld::sweep_movers(const std::vector<Mover>& movers, const SweepRang
       const Mover &first = *by_x[forward ? i : j], &second = *by_x[forward ? j : i];
       if (fastest_closing(*first.body, first.motion, *second.body, second.motion, range.dt) < range.least_speed)
         continue;
-      sweep_pair(first, *second.body, second.motion, range.dt, found);
+      sweep_pair(first, *second.body, second.motion, range, found);
     }
   }
 }
