@@ -14,7 +14,8 @@ import output
 import scatter
 
 # Scenario, samples, samples of a quick run.
-SCENARIOS = [("seed_hit", 128, 12), ("tower_hit", 128, 12), ("house_hit", 128, 12), ("bridge_hit", 128, 12), ("tower_fire", 12, 2)]
+# Of the hits with a mass in their names some bring all down and some do not: there the test has power.
+SCENARIOS = [("seed_hit", 128, 12), ("seed_hit_500", 128, 12), ("tower_hit", 128, 12), ("tower_hit_2000", 128, 12), ("house_hit", 128, 12), ("bridge_hit", 128, 12), ("tower_fire", 12, 2)]
 STEPS = [30, 60, 120, 240, 480]  # a second
 COARSE, FINE = 60, 240           # compared with each other
 ASKED_SHARE, ASKED_TIME, ASKED_P = 0.12, 0.10, 0.01
@@ -31,7 +32,7 @@ TEXT = ("Each sample moves the projectile's line sideways by up to %g m and up o
 
 
 def members_of(context, scenario):
-    with open(os.path.join(context.root, "models", "scenarios", scenario + ".json"), encoding="utf-8") as stored:
+    with open(scatter.path_of(context.root, scenario), encoding="utf-8") as stored:
         model = json.load(stored)["model"]
     told = subprocess.run([os.path.join(context.programs, "topple"), "check", os.path.join(context.root, "models", model + ".json")], capture_output=True, text=True, check=True).stdout
     return int(re.search(r"(\d+) members", told).group(1))

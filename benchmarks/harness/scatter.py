@@ -17,9 +17,15 @@ def uniform(seed, scenario, sample, which):
 SIDEWAYS, UP = 0.1, 0.2
 
 
+def path_of(root, scenario):
+    """Of a shipped scenario, or of one that serves the benchmarks alone."""
+    shipped = os.path.join(root, "models", "scenarios", scenario + ".json")
+    return shipped if os.path.exists(shipped) else os.path.join(root, "benchmarks", "models", "scenarios", scenario + ".json")
+
+
 def moved(root, scenario, seed, sample):
-    """A shipped scenario whose projectiles are moved at random, as a scenario file's content; its model by an absolute path."""
-    with open(os.path.join(root, "models", "scenarios", scenario + ".json"), encoding="utf-8") as stored:
+    """A scenario whose projectiles are moved at random, as a scenario file's content; its model by an absolute path."""
+    with open(path_of(root, scenario), encoding="utf-8") as stored:
         content = copy.deepcopy(json.load(stored))
     number = 0
     for event in content.get("events", []):

@@ -59,14 +59,14 @@ TEST_CASE("a hit on the corner post brings down what it carried, the same in eve
         freed = now;
       }
     };
-    run_until(2.5);  // the corner alone hung on that post
+    run_until(2);  // the shot at 1 s took the corner and what stands behind it
     const CollapseCounts first = collapse_counts(simulation);
     CHECK(first.members_down >= 6);
     CHECK(first.members_down < 40);
     CHECK(first.standing_segments == 1);
     run_until(6);
     hash = simulation.hash();
-    CHECK(collapse_counts(simulation).members_down >= first.members_down);
+    CHECK(collapse_counts(simulation).members_down > first.members_down);  // slabs of 26 t sweep the posts beside them
     for (const BodyView& body : simulation.bodies()) {
       CHECK(body.pose.position.allFinite());
       CHECK(body.pose.position.z() > -0.5);  // nothing sinks into the ground: no part is thicker than a metre

@@ -208,7 +208,7 @@ class World {
 
 /// Today the same as make_small_steps_world(): shapes and distances are Bullet's, in double precision. Throws
 /// std::runtime_error when the Bullet library that was linked is not the one whose headers were compiled (single
-/// precision). Simulations whose host gives no world run on make_sequential_impulse_world().
+/// precision). Simulations whose host gives no world run on it.
 [[nodiscard]] std::unique_ptr<World> make_bullet_world();
 
 }  // namespace topple::collision

@@ -131,7 +131,7 @@ struct Carrier {
 
 struct SimulationOptions {
   int threads = 1;
-  std::function<std::unique_ptr<collision::World>()> make_world;  ///< none: Bullet
+  std::function<std::unique_ptr<collision::World>()> make_world;  ///< none: collision::make_bullet_world()
 };
 
 class Simulation {
