@@ -1,8 +1,9 @@
 #include "motion_options.h"
 
-#include <cmath>
+#include <optional>
 
 #include "topple/structure/error.h"
+#include "topple/structure/number_range.h"
 
 namespace topple::app {
 
@@ -10,27 +11,24 @@ using namespace topple::structure;
 
 namespace {
 
-/// A finite number, not below `least` (above it, where `open`).
-std::string number_from(const std::string& given, double least, bool open) {
-  double number = 0;
-  const bool fits =
-      CLI::detail::lexical_cast(given, number) && std::isfinite(number) && (open ? number > least : number >= least);
-  const std::string text = open ? "a number above 0" : "a number of 0 or more";
-  return fits ? std::string() : "found " + given + "; accepted: " + text;
+/// As a check of an option.
+auto within(const NumberRange& range) {
+  return [range](const std::string& given) {
+    const std::optional<double> number = number_of(given);
+    return number && range.contains(*number) ? std::string() : "found " + given + "; accepted: " + range.text();
+  };
 }
 
 }  // namespace
 
 void declare_motion_options(CLI::App& app, MotionOptions& options) {
-  const auto from_zero = [](const std::string& given) { return number_from(given, 0, false); };
-  const auto above_zero = [](const std::string& given) { return number_from(given, 0, true); };
   app.add_flag("--dynamic", options.dynamic, "Follow each loss through time: peaks, and how much statics fall short");
   app.add_option("--over", options.over, "With --dynamic: seconds through which the member is lost (0: at once)")
-      ->check(from_zero);
+      ->check(within(ranges::instant));
   app.add_option("--for", options.duration,
                  "Seconds to follow (two of the lowest period, or the time history's length)")
-      ->check(above_zero);
-  app.add_option("--damping", options.damping, "Share of the critical damping (0.02); 0: none")->check(from_zero);
+      ->check(within(ranges::duration));
+  app.add_option("--damping", options.damping, "Share of the critical damping (0.02); 0: none")->check(within({0, 10}));
   app.add_option("--history", options.history, "Node or joint whose course is written to history-NAME.csv")
       ->expected(1)
       ->take_all();

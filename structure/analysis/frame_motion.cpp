@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "analysis/request_checks.h"
 #include "model/index_of.h"
 #include "topple/solver/modes.h"
 #include "topple/structure/error.h"
@@ -18,6 +19,9 @@ constexpr double substeps_of_period = 20;
 /// Of the lowest period: how long a loss is followed when nothing else is asked for.
 constexpr double periods_followed = 2;
 constexpr int most_halvings = 8;
+constexpr double shortest = 1e-6;  // s: squares of shorter substeps are lost beside stiffness
+/// More are refused at first (seven minutes at first_substep), and four times as many are not gone on to.
+constexpr double most_substeps = 200'000;
 /// Peaks below this share of the largest are measured against it.
 constexpr double counts_as = 0.1;
 
@@ -136,9 +140,18 @@ MotionResult FrameMotion::run(const MotionStart& start) const {
   if (start.history != nullptr) result.duration = start.history->times.back();
   if (request_.duration) result.duration = *request_.duration;
   result.substep = std::min({first_substep, result.period / substeps_of_period, result.duration});
+  if (!(result.duration >= shortest))
+    throw InputError(whole_.file + ": followed for " + shown(result.duration) + " s; accepted: " + shown(shortest) +
+                     " s at least");
+  const double substeps = result.duration / result.substep;
+  if (!(substeps <= most_substeps))
+    throw InputError(whole_.file + ": to follow it for " + shown(result.duration) + " s takes " +
+                     shown(std::ceil(substeps)) + " substeps of " + shown(result.substep) +
+                     " s; accepted: " + shown(most_substeps) + " at most, by a shorter time (--for)");
   std::unique_ptr<MotionPeaks> peaks = follow(start, result, damping);
   result.change = std::numeric_limits<double>::infinity();
-  while (result.change > settled_peak && result.halvings < most_halvings) {
+  while (result.change > settled_peak && result.halvings < most_halvings &&
+         result.duration / result.substep <= 2 * most_substeps) {
     result.substep /= 2;
     ++result.halvings;
     std::unique_ptr<MotionPeaks> finer = follow(start, result, damping);

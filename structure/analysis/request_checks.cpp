@@ -9,15 +9,11 @@
 
 namespace topple::structure {
 
-namespace {
-
 std::string shown(double number) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", number);
   return text;
 }
-
-}  // namespace
 
 /// What a caller asks for beside the model: ids of its own, numbers that mean something.
 void require_request(const Building& building, const AnalysisRequest& request) {
@@ -31,6 +27,10 @@ void require_request(const Building& building, const AnalysisRequest& request) {
   require_ids(request.losses.named, building.members.size(), "member");
   require_ids(request.losses.each, building.members.size(), "member");
   require_in(ranges::sudden, request.losses.sudden, "sudden");
+  const MotionRequest& motion = request.losses.motion;
+  require_in(ranges::instant, motion.over, "seconds through which a member is lost");
+  if (motion.duration) require_in({1e-6, ranges::duration.most}, *motion.duration, "seconds to follow");
+  require_in({0, 10}, motion.damping, "damping");
   require_in({0, 100'000}, request.stations, "stations");
   require_in({0, 1'000'000}, request.buckling, "buckling");
   require_in({0, 1'000'000}, request.modes, "modes");
