@@ -27,8 +27,16 @@ double now() { return std::chrono::duration<double>(std::chrono::steady_clock::n
   throw std::runtime_error(file.string() + ": cannot be " + what + ": " + std::strerror(errno));
 }
 
+/// A file, not a pipe that would keep the run waiting, nor a device or a link to somewhere else.
 int open_to_append(const std::filesystem::path& file) {
-  const int opened = ::open(file.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+  const int opened = ::open(file.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
+  struct stat state {};
+  const bool other = opened < 0 ? errno == ENXIO || errno == ELOOP || errno == EISDIR
+                                : ::fstat(opened, &state) == 0 && !S_ISREG(state.st_mode);
+  if (other) {
+    if (opened >= 0) ::close(opened);
+    throw InputError(file.string() + ": is no regular file; accepted: another folder (-o)");
+  }
   if (opened < 0) cannot("opened", file);
   return opened;
 }
@@ -49,7 +57,7 @@ StudyJournal::StudyJournal(const StudyTask& task, const std::filesystem::path& f
     : task_(task), folder_(folder), has_(task.sampler.samples()) {
   const std::filesystem::path file = folder / journal_name;
   std::size_t whole = 0;
-  if (std::filesystem::exists(file)) {
+  if (std::filesystem::exists(std::filesystem::symlink_status(file))) {
     if (found == Found::refuse)
       throw InputError(file.string() + ": is there already; accepted: --resume, or another folder");
     const std::string text = read_whole_file(file, std::uintmax_t{1} << 36);

@@ -1,5 +1,6 @@
 // Where a person begins: shipped scenes, files opened lately, a new building.
 #include <imgui.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -84,6 +85,21 @@ TEST_CASE("files opened lately are kept, the latest first, each once, and no mor
   for (int i = 0; i < 20; ++i) remember_file("scene" + std::to_string(i));
   CHECK(recent_files().size() == most_recent_files);
   CHECK(recent_files().front() == "scene19");
+}
+
+TEST_CASE("where the list of recent files is a pipe or a folder, nothing is kept, and nothing waits") {
+  const topple::test::ScratchFolder folder;
+  const Variable state("XDG_STATE_HOME", folder.path().string());
+  std::filesystem::create_directories(recent_files_place().parent_path());
+  REQUIRE(mkfifo(recent_files_place().c_str(), 0600) == 0);
+  remember_file("seed_hit");
+  CHECK(recent_files().empty());
+  CHECK(std::filesystem::is_fifo(recent_files_place()));
+  std::filesystem::remove(recent_files_place());
+  std::filesystem::create_directory(recent_files_place());
+  remember_file("seed_hit");
+  CHECK(recent_files().empty());
+  CHECK(std::filesystem::is_directory(recent_files_place()));
 }
 
 TEST_CASE("a building of the editor can be read, and stands under its loads, in concrete and in steel") {

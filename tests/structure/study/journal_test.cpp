@@ -1,4 +1,6 @@
 // The journal of a study, and studies over a function of the host's own.
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -46,6 +48,21 @@ std::string text_of(const std::filesystem::path& file) {
 }
 
 }  // namespace
+
+TEST_CASE("What is no file where a study keeps its journal is refused, and nothing waits for it") {
+  const StudyTask task = squares();
+  for (const std::string name : {"journal.jsonl", "times.csv"})
+    for (const std::string kind : {"pipe", "folder", "device", "loop"}) {
+      CAPTURE(name, kind);
+      const topple::test::ScratchFolder folder;
+      const std::filesystem::path place = folder / name;
+      if (kind == "pipe") REQUIRE(mkfifo(place.c_str(), 0600) == 0);
+      if (kind == "folder") std::filesystem::create_directory(place);
+      if (kind == "device") std::filesystem::create_symlink("/dev/full", place);
+      if (kind == "loop") std::filesystem::create_symlink(name, place);
+      CHECK_THROWS_AS(StudyJournal(task, folder.path(), StudyJournal::Found::resume), InputError);
+    }
+}
 
 TEST_CASE("A line of the journal reads back to the same bits, and shows each change of a byte") {
   const StudyTask task = squares();

@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
+#include <sstream>
+
+#include "topple/structure/error.h"
+#include "topple/structure/input_files.h"
+#include "topple/structure/output_files.h"
 
 namespace topple::viewer {
 namespace {
@@ -10,8 +14,15 @@ namespace {
 namespace fs = std::filesystem;
 
 std::vector<std::string> lines_of(const fs::path& file) {
+  constexpr std::uintmax_t most = std::uintmax_t{1} << 16;
   std::vector<std::string> lines;
-  std::ifstream stream(file);
+  std::string text;
+  try {
+    text = structure::read_whole_file(file, most);
+  } catch (const structure::InputError&) {  // none, or a pipe, a device, another's: nothing is remembered
+    return lines;
+  }
+  std::istringstream stream(text);
   for (std::string line; std::getline(stream, line) && lines.size() < most_recent_files;)
     if (!line.empty()) lines.push_back(line);
   return lines;
@@ -50,13 +61,13 @@ void remember_file(const std::string& name) {
   if (names.size() > most_recent_files) names.resize(most_recent_files);
   fs::create_directories(place.parent_path(), failed);
   if (failed) return;
-  const fs::path whole = place.string() + ".new";  // never half a list
-  {
-    std::ofstream stream(whole);
-    for (const std::string& line : names) stream << line << '\n';
-    if (!stream.flush()) return;
+  std::string text;
+  for (const std::string& line : names) text += line + '\n';
+  try {
+    structure::write_file(place, text);
+  } catch (const std::exception&) {  // a list of convenience is no reason to end
+    return;
   }
-  fs::rename(whole, place, failed);
 }
 
 }  // namespace topple::viewer
