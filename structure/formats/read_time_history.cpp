@@ -8,6 +8,7 @@
 #include "topple/structure/error.h"
 #include "topple/structure/motion.h"
 #include "topple/structure/number_range.h"
+#include "topple/structure/plain_text.h"
 #include "topple/structure/time_history.h"
 
 namespace topple::structure {
@@ -50,7 +51,8 @@ TimeHistory::Series series_of(const std::string& place, const std::string& colum
   for (std::size_t k = 0; k < building.cases.size(); ++k)
     if (building.cases[k].name == column) series.load_case = LoadCaseId(k);
   if (series.load_case.valid()) return series;
-  if (axis == ground.end()) throw InputError(place + ": column \"" + column + "\"; accepted: " + accepted(building));
+  if (axis == ground.end())
+    throw InputError(place + ": column \"" + one_line(column) + "\"; accepted: " + accepted(building));
   series.axis = static_cast<int>(axis - ground.begin());
   return series;
 }
@@ -61,7 +63,7 @@ TimeHistory read_time_history(const std::string& path, const Building& building)
   std::string text = formats::whole_text(path);
   const std::vector<std::string> names = header_of(text);
   if (names.empty() || names[0] != "time")
-    throw InputError(path + ", line 1: the first column is \"" + (names.empty() ? "" : names[0]) +
+    throw InputError(path + ", line 1: the first column is \"" + (names.empty() ? "" : one_line(names[0])) +
                      "\"; accepted: time (s)");
   if (names.size() < 2) throw InputError(path + ", line 1: no column beside time; accepted: " + accepted(building));
   TimeHistory history;

@@ -14,6 +14,7 @@ if(TOPPLE_COVERAGE)
   count_lines(structure ${readers} drawn/read_drawn_meshes.cpp simulation/snapshot_file.cpp study/study_journal.cpp
     study/journal_line.cpp study/study_base.cpp study/varied_document.cpp study/analysis_options.cpp)
   count_lines(fracture gltf_reader.cpp)
+  target_sources(topple PRIVATE "${CMAKE_CURRENT_LIST_DIR}/count_at_quick_exit.cpp")
   if(TOPPLE_VIEWER)
     count_lines(apps/viewer app/actions.cpp app/open_scene.cpp app/start/recent_files.cpp app/start/shipped_scenes.cpp)
   endif()

@@ -20,9 +20,12 @@ $again || find $build -name '*.gcda' -delete
 # By the files that tests lie in: Catch2 tags each test with its file's name (-#).
 readers=()
 for file in tests/structure/formats/*_test.cpp tests/structure/study/*_test.cpp; do readers+=("[#$(basename "$file" .cpp)]"); done
-readers+=("[#snapshot_test]" "[#section_cuts_test]" "[#trust_test]")
+readers+=("[#snapshot_test]" "[#section_cuts_test]" "[#trust_test]" "[#joint_tuning_test]")
 $build/bin/test_structure -# "$(IFS=,; echo "${readers[*]}")"
-
 $build/bin/test_viewer -# "a script*,[#start_page_test]"
+tests/analyse_command/run "$PWD/$build/bin/topple"
+python3 tests/fracture_command/check.py $build/bin/topple
+python3 tests/study/check.py $build/bin/topple
 python3 tests/stress/hostile.py $build/bin --cases 300
+python3 tests/stress/hostile.py $build/bin --only beside
 python3 tests/coverage/table.py $build --least 95 "${lines[@]}"
