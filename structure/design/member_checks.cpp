@@ -98,7 +98,7 @@ void warn_of_unfactored(const Building& building, AnalysisResult& result) {
 
 /// Of what clauses say, the part that effective lengths of compression have a hand in.
 bool governed_by_buckling(const DesignResult& design) {
-  constexpr std::string_view clauses[] = {"6.3.1", "6.3.3", "360 E", "360 H1"};
+  constexpr std::string_view clauses[] = {"6.3.1", "6.3.3", "360 E", "360 H"};
   return std::any_of(std::begin(clauses), std::end(clauses),
                      [&](std::string_view clause) { return design.governing.find(clause) != std::string::npos; });
 }

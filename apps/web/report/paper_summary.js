@@ -4,18 +4,20 @@ import { quantity } from './paper_units.js';
 
 const entries = (object) => Object.entries(object ?? {});
 
-/** Members that are checked, the most used first. */
-function checks(results) {
+/** Members that are checked, the most used first; of equally used ones those that the report follows. */
+function checks({ results, model }) {
+  const followed = new Set((model.audits ?? []).map((check) => check.member));
+  const digits = (use) => Math.round(use * 1e6), last = (check) => Number(!followed.has(check.member));
   return entries(results.combinations).flatMap(([combination, c]) =>
     entries(c.members).filter(([, m]) => m.utilisation !== undefined && m.governing)
       .map(([member, m]) => ({ member, combination, use: m.utilisation, clause: m.governing, refused: m.not_verified })))
-    .sort((a, b) => b.use - a.use);
+    .sort((a, b) => digits(b.use) - digits(a.use) || last(a) - last(b));
 }
 
 /** One sentence: whether all that was checked passes. */
 export function verdict(data) {
   if (!data.results.design) return 'Members were not checked by a design code.';
-  const all = checks(data.results), names = (list) => new Set(list.map((c) => c.member)).size;
+  const all = checks(data), names = (list) => new Set(list.map((c) => c.member)).size;
   const over = names(all.filter((c) => c.use > 1)), refused = names(all.filter((c) => c.refused));
   const of = `${names(all)} members${data.model.sample ? ' in this report' : ''} by ${data.results.design.code}`;
   const clauses = 'What the code asks for beside that is listed under "Not checked".';
@@ -39,7 +41,7 @@ export function combinationRows(data, u) {
     rows.push(row('largest storey drift', (c) => (drift(c).value > 1e-9 ? `1/${Math.round(1 / drift(c).value)} in storey ${drift(c).name}` : '0')));
   if (results.buckling) rows.push(row('lowest buckling factor', (_, name) => results.buckling[name]?.[0]?.factor.toFixed(3) ?? 'none found'));
   if (results.design) {
-    const most = checks(results);
+    const most = checks(data);
     rows.push(row('most used member', (_, name) => {
       const first = most.find((c) => c.combination === name);
       return first ? `${first.member}, ${percent(first.use)}` : '';
@@ -52,7 +54,7 @@ export function combinationRows(data, u) {
 export function sectionRows(data) {
   const section = new Map(data.model.members.map((m) => [m.name, m.section]));
   const found = new Map();
-  for (const check of checks(data.results)) {
+  for (const check of checks(data)) {
     const name = section.get(check.member);
     if (!found.has(name)) found.set(name, { worst: check, members: new Set() });
     found.get(name).members.add(check.member);
