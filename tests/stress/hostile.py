@@ -12,7 +12,7 @@ import argparse, copy, json, os, pathlib, random, re, shutil, signal, struct, su
 from concurrent.futures import ThreadPoolExecutor
 
 from hostile_odd import odd_cases
-from hostile_scenes import (ACTIONS, BRITTLE, BUILDING, FRAME3DD, HISTORY, LOCAL, MODEL, MOVING, PANEL, PLAIN, QUADS, SCENARIO,
+from hostile_scenes import (ACTIONS, BRITTLE, BUILDING, FRAME3DD, HISTORY, LOCAL, MODEL, MORE_ACTIONS, MOVING, PANEL, PLAIN, QUADS, SCENARIO,
                             STUDY, WIDE)
 
 LIMIT = 10  # s of a processor
@@ -368,7 +368,8 @@ def base_cases():
     for words in (["analyse", "w.json", *ALL], ["analyse", "b.json"], ["demolish", "v.json"], ["study", "t.json", "-o", "o"],
                   ["analyse", "f.3dd"], ["analyse", "m.json", "--time-history", "h.csv", "--history", "E", "-o", "o"]):
         yield Case(f"base {' '.join(words[:2])}", words, more, (0,))
-    yield Case("base actions", [*ACT, "a.json"], more, (0,), program="topple-viewer")
+    for name, tree in [("actions", ACTIONS), ("more actions", MORE_ACTIONS)]:
+        yield Case(f"base {name}", [*ACT, "a.json"], {**more, "a.json": text(tree)}, (0,), program="topple-viewer")
     for words in (["analyse", "m.json", "-o", "o"], ["demolish", "s.json", "-o", "o"], ["convert", "plain.json", "t"]):
         yield Case(f"base {words[0]}", words, files, (0,))
     for name, panel in [("voronoi", PANEL), ("local", LOCAL), ("quadrilateral", QUADS)]:
@@ -388,9 +389,10 @@ def all_cases(bin_dir):
     yield from tree_cases("study", STUDY, "t.json", ["study", "t.json", "-o", "o", "--threads", "1"], {"m.json": text(MODEL)})
     for name, tree in [("study", STUDY), ("scenario", SCENARIO), ("panel", PANEL), ("model", MODEL)]:
         yield from tree_cases(f"checked {name}", tree, "x.json", ["check", "x.json"], {"m.json": text(MODEL)})
-    for case in tree_cases("actions", ACTIONS, "a.json", [*ACT, "a.json"], {"m.json": text(MODEL)}):
-        case.program = "topple-viewer"
-        yield case
+    for name, tree in [("actions", ACTIONS), ("more actions", MORE_ACTIONS)]:
+        for case in tree_cases(name, tree, "a.json", [*ACT, "a.json"], {"m.json": text(MODEL)}):
+            case.program = "topple-viewer"
+            yield case
     yield from text_cases(bin_dir)
     yield from word_cases(bin_dir)
     yield from option_cases(bin_dir)

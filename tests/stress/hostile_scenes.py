@@ -127,6 +127,14 @@ ACTIONS = {"topple": 1, "size": [160, 120], "actions": [
     {"at": 0.04, "fire": {"pixel": [64, 40], "speed": 60, "mass": 500, "radius": 0.4}}, {"at": 0.06, "key": "space"},
     {"at": 0.08, "drag": [[60, 30], [70, 30]]}, {"at": 0.1, "set": {"joints": "beams", "moment_y": 5e5}}, {"at": 0.1, "show": "moment_y"},
     {"at": 0.12, "screenshot": "after.png"}, {"at": 0.14, "quit": True}]}
+MORE_ACTIONS = {"topple": 1, "size": [64, 48], "actions": [
+    {"at": 0.0, "pan": [[20, 10], [30, 10]]}, {"at": 0.01, "zoom": 2}, {"at": 0.01, "fly": [1, 0, 0]}, {"at": 0.02, "select": "P1"},
+    {"at": 0.02, "tool": {"name": "charge", "reach": 2}}, {"at": 0.02, "click": [24, 16]}, {"at": 0.04, "gravity": 12},
+    {"at": 0.06, "look_at": 0.02}, {"at": 0.06, "go_on": True},
+    {"at": 0.08, "restart": {"bracing": "classic", "mechanism": "detach", "sudden": 1.5, "second_order": False, "fracture": "local", "cell": 0.5,
+                             "materials": {"steel": 0.9}}},
+    {"at": 0.1, "save": "x.topple"}, {"at": 0.1, "load": "x.topple"}, {"at": 0.1, "export": "x.glb"}, {"at": 0.1, "look_at": "present"},
+    {"at": 0.12, "quit": True}]}
 HISTORY = "time,ax,live\n0,0,1\n0.1,1.5,0.5\n0.2,-1,0\n0.4,0,0\n"
 FRAME3DD = """two members
 3

@@ -28,20 +28,22 @@ if(TOPPLE_WATCH_THREADS)
     watch_threads(apps/viewer app/driver.cpp app/session.cpp renderer/recording.cpp renderer/snapshot*.cpp)
   endif()
 endif()
-set(threads_tests solver/multifrontal_test solver/factor_refresh_test solver/kept_equations_test
-  structure/simulation/pacer_test structure/simulation/snapshot_test structure/simulation/simulation_motion_test
-  structure/standing/limits_and_charges_test structure/study/journal_test)
-list(TRANSFORM threads_tests REPLACE "(.+)" "${CMAKE_CURRENT_SOURCE_DIR}/\\1.cpp")
-add_executable(test_threads EXCLUDE_FROM_ALL ${threads_tests})
-target_link_libraries(test_threads PRIVATE topple_options topple_test_main topple::structure)
-target_include_directories(test_threads PRIVATE "${PROJECT_SOURCE_DIR}/structure" "${PROJECT_SOURCE_DIR}/solver"
-  "${CMAKE_CURRENT_SOURCE_DIR}/structure" "${CMAKE_CURRENT_SOURCE_DIR}/solver")
+# threads_tests(NAME LIBRARY TEST...): tests of other folders by themselves.
+function(threads_tests name library)
+  list(TRANSFORM ARGN PREPEND "${CMAKE_CURRENT_SOURCE_DIR}/" OUTPUT_VARIABLE files)
+  add_executable(${name} EXCLUDE_FROM_ALL ${files})
+  target_link_libraries(${name} PRIVATE topple_options topple_test_main topple::${library})
+  target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}/${library}" "${CMAKE_CURRENT_SOURCE_DIR}/${library}")
+  if(TOPPLE_WATCH_THREADS)
+    target_compile_options(${name} PRIVATE -fsanitize=thread -g1)
+  endif()
+endfunction()
+threads_tests(test_solver_threads solver solver/multifrontal_test.cpp solver/factor_refresh_test.cpp solver/kept_equations_test.cpp)
+threads_tests(test_structure_threads structure structure/simulation/pacer_test.cpp structure/simulation/snapshot_test.cpp
+  structure/simulation/simulation_motion_test.cpp structure/standing/limits_and_charges_test.cpp structure/study/journal_test.cpp)
 if(TOPPLE_VIEWER)
   add_executable(test_driver_threads EXCLUDE_FROM_ALL "${CMAKE_CURRENT_SOURCE_DIR}/viewer/drawing_and_stepping_test.cpp")
   target_link_libraries(test_driver_threads PRIVATE topple_options topple_test_main topple_viewer_app)
-endif()
-if(TOPPLE_WATCH_THREADS)
-  target_compile_options(test_threads PRIVATE -fsanitize=thread -g1)
 endif()
 
 # A few of each kind with every run of the suite; all of them by scripts/stress hostile and scripts/stress faults.

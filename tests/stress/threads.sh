@@ -5,10 +5,10 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 shift  # the preset: this has one of its own
-scripts/build thread test_threads test_driver_threads
 export TSAN_OPTIONS="halt_on_error=1 second_deadlock_stack=1"
-tests="[#multifrontal_test],[#factor_refresh_test],[#kept_equations_test],[#pacer_test],[#journal_test]"
-tests+=",one thread and two come to the same bits,who looks at a collapse changes nothing of it*"
-tests+=",What breaks off leaves with its momentum*"
-build/thread/bin/test_threads -# "$tests" --durations yes
+scripts/build thread test_solver_threads
+build/thread/bin/test_solver_threads --durations yes
+scripts/build thread test_structure_threads test_driver_threads
+tests="[#pacer_test],[#journal_test],one thread and two come to the same bits,who looks at a collapse changes nothing of it*"
+build/thread/bin/test_structure_threads -# "$tests,What breaks off leaves with its momentum*" --durations yes
 build/thread/bin/test_driver_threads -# "~sixty pictures*" --durations yes

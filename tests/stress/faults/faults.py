@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Faults of the machine: faults.py BIN [--short] [--only WORD].
+"""Faults of the machine: faults.py BIN [--short] [--only WORD] [--calls CALL,...].
 
 Each program writes into a folder that holds an earlier run's results, and one call of it fails (a write, rename, fsync,
 close or open; an allocation) or is its last (SIGKILL, at any system call too); or Ctrl-C ends it at any system call.
@@ -155,6 +155,7 @@ def main():
     parser.add_argument("bin", type=pathlib.Path)
     parser.add_argument("--short", action="store_true", help="a few of each kind, for the suite of tests")
     parser.add_argument("--only", default="")
+    parser.add_argument("--calls", default="write,rename,fsync,close,open,new,any", help="calls that fail: of these, new, any")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--seed", type=int, default=3)
     options = parser.parse_args()
@@ -181,6 +182,7 @@ def main():
             faults += [("new", at, "fail") for at in spread(allocations, 500, options.seed)]
         for how, most in (("kill", 4 if options.short else 125), ("interrupt", 4 if options.short else 60)):
             faults += [("any", at, how) for at in chance.sample(range(1, calls + 1), min(most, calls))]
+        faults = [fault for fault in faults if fault[0] in options.calls.split(",")]
         with ThreadPoolExecutor(options.jobs) as pool:
             for fault, what in zip(faults, pool.map(lambda one: trial.fault(*one), faults)):
                 tried += 1
