@@ -10,6 +10,7 @@
 #include "topple/structure/error.h"
 #include "topple/structure/member_checks.h"
 #include "topple/structure/modelling_checks.h"
+#include "topple/structure/parse_cuts.h"
 #include "topple/structure/time_history.h"
 
 namespace topple::python {
@@ -230,15 +231,22 @@ TimeHistory time_history_of(const py::object& given, const Building& building) {
   return make_time_history(columns, building);
 }
 
+std::vector<SectionCut> cuts_of(const py::object& given, const Building& building) {
+  if (const auto path = path_of(given)) return read_section_cuts(*path, building);
+  if (!py::isinstance<py::dict>(given)) throw py::type_error("cuts: accepted: a path, or a dict of cuts by name");
+  return parse_section_cuts("{\"cuts\": " + json_text(given) + "}", "cuts", building);
+}
+
 std::shared_ptr<Analysis> analyse(const py::object& source, const py::object& combinations, int stations,
                                   const OptionalName& second_order, int buckling, std::optional<int> modes,
                                   const OptionalName& mass, const OptionalName& torsional_mass, bool rotary_inertia,
                                   const py::object& lose, const py::object& lose_each, double sudden, bool dynamic,
                                   double over, std::optional<double> duration, double damping,
-                                  const py::object& history, const py::object& time_history, const OptionalName& code,
-                                  std::optional<double> drift_limit, const std::string& effective_lengths,
-                                  std::optional<bool> warping_held, const std::map<std::string, double>& stiffeners,
-                                  bool rigid_end_posts, int threads, const py::object& progress) {
+                                  const py::object& history, const py::object& time_history, const py::object& cuts,
+                                  const OptionalName& code, std::optional<double> drift_limit,
+                                  const std::string& effective_lengths, std::optional<bool> warping_held,
+                                  const std::map<std::string, double>& stiffeners, bool rigid_end_posts, int threads,
+                                  const py::object& progress) {
   const std::shared_ptr<Model> model = model_of(source);
   const Building& building = model->building();
   AnalysisRequest request;
@@ -258,6 +266,7 @@ std::shared_ptr<Analysis> analyse(const py::object& source, const py::object& co
   motion.damping = damping;
   ask_for_histories(*model, names_in(history, "history"), motion);
   if (!time_history.is_none()) request.time_history = time_history_of(time_history, building);
+  if (!cuts.is_none()) request.cuts = cuts_of(cuts, building);
   if (dynamic && !request.losses.any())
     throw py::value_error("dynamic: nothing is lost; accepted: with lose or lose_each");
   if (request.time_history && request.losses.any())
@@ -283,6 +292,9 @@ dynamic: follow each loss through time; over: seconds through which the member i
     damping: share of the critical damping; history: nodes and joints whose course is kept.
 time_history: how the ground shakes or loads act: a CSV file, or a dict of arrays: time (s), and ax, ay, az (m/s2) or names of
     load cases (factors).
+cuts: planes through the building: a JSON file as --cuts has it, or a dict of what stands under its key "cuts":
+    {name: {"at": [x, y, z], "normal": [x, y, z], "along": [x, y, z], "parts": [names]}}; CombinationResult.cuts has what
+    passes them.
 code: "en1993" or "aisc360": design checks of steel members; drift_limit: N of height/N; effective_lengths: "automatic",
     "charts" or "assumed"; warping_held; stiffeners: spacing (m) by member, pattern or group; rigid_end_posts.
 threads: 0: one for each processor.
@@ -300,10 +312,10 @@ void bind_analyse(py::module_& module) {
              py::arg("rotary_inertia") = false, py::arg("lose") = py::none(), py::arg("lose_each") = py::none(),
              py::arg("sudden") = 2.0, py::arg("dynamic") = false, py::arg("over") = 0.0,
              py::arg("duration") = py::none(), py::arg("damping") = 0.02, py::arg("history") = py::none(),
-             py::arg("time_history") = py::none(), py::arg("code") = py::none(), py::arg("drift_limit") = py::none(),
-             py::arg("effective_lengths") = "automatic", py::arg("warping_held") = py::none(),
-             py::arg("stiffeners") = std::map<std::string, double>{}, py::arg("rigid_end_posts") = false,
-             py::arg("threads") = 0, py::arg("progress") = py::none());
+             py::arg("time_history") = py::none(), py::arg("cuts") = py::none(), py::arg("code") = py::none(),
+             py::arg("drift_limit") = py::none(), py::arg("effective_lengths") = "automatic",
+             py::arg("warping_held") = py::none(), py::arg("stiffeners") = std::map<std::string, double>{},
+             py::arg("rigid_end_posts") = false, py::arg("threads") = 0, py::arg("progress") = py::none());
 }
 
 }  // namespace topple::python

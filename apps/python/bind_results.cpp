@@ -93,6 +93,23 @@ py::dict quality_of(const CombinationView& c) {
   return found;
 }
 
+py::dict cuts_of(const CombinationView& c) {
+  const std::vector<SectionCut>& cuts = c.analysis->result->cuts;
+  py::dict found;
+  for (std::size_t k = 0; k < c.get().cuts.size(); ++k) {
+    const CutResult& cut = c.get().cuts[k];
+    py::dict parts;
+    for (const auto& [id, force] : cut.members) parts[py::str(c.building()[id].name)] = vector_of(force);
+    for (const auto& [id, force] : cut.panels) parts[py::str(c.building()[id].name)] = vector_of(force);
+    for (const auto& [d, force] : cut.diaphragms) parts[py::str(c.building().diaphragms[d].name)] = vector_of(force);
+    py::dict one;
+    one["force"] = vector_of(cut.force);
+    one["parts"] = std::move(parts);
+    found[py::str(cuts[k].name)] = std::move(one);
+  }
+  return found;
+}
+
 void bind_nodes(Combination& combination) {
   combination
       .def_property_readonly(
@@ -131,7 +148,12 @@ void bind_nodes(Combination& combination) {
             return field_of<StoreyResult, double>(c.get().storeys, [](const StoreyResult& s) { return s.shear.data(); },
                                                   c.owner(), {2}, {sizeof(double)});
           },
-          "Horizontal forces through the storeys, shape (storeys, 2): along global x and y, N.");
+          "Horizontal forces through the storeys, shape (storeys, 2): along global x and y, N.")
+      .def_property_readonly(
+          "cuts", &cuts_of,
+          "What passes the cuts that analyse() was given, a dict by name of dicts: force (6,), and parts, "
+          "a dict of the same by member, panel or diaphragm. N, and N m about the cut's `at`, along its "
+          "normal, along and across: what the part that the normal looks to does to the one behind.");
 }
 
 void bind_members(Combination& combination) {

@@ -215,7 +215,9 @@ int run(const Options& options) {
     throw InputError("--divide: it is for natural modes; accepted: with --modes");
   if (options.divide > 1 && (!options.code.empty() || !options.lose.empty() || !options.lose_each.empty()))
     throw InputError(
-        "--divide: pieces of members are neither checked nor lost; accepted: no --code, --lose, --lose-each");
+        "--divide: checks and losses are of whole members (effective lengths, joints at their ends), of which pieces "
+        "would have neither; accepted: without --code, --lose and --lose-each, which a run of its own without --divide "
+        "takes; modes need the pieces, forces do not: within members they are exact");
   if (options.sudden && options.lose.empty() && options.lose_each.empty())
     throw InputError("--sudden: nothing is lost; accepted: with --lose or --lose-each");
   check_motion_options(options.motion, !options.lose.empty() || !options.lose_each.empty(), !options.output.empty());

@@ -8,6 +8,7 @@
 #include "formats/model_reader.h"
 #include "topple/structure/analysis.h"
 #include "topple/structure/modelling_checks.h"
+#include "topple/structure/parse_cuts.h"
 
 namespace topple::structure {
 
@@ -73,7 +74,11 @@ void read_parts(const JsonValue& list, const Building& building, const NameIndex
 }  // namespace
 
 std::vector<SectionCut> read_section_cuts(const std::string& path, const Building& building) {
-  const auto document = formats::JsonDocument::from_text(formats::whole_text(path), path);
+  return parse_section_cuts(formats::whole_text(path), path, building);
+}
+
+std::vector<SectionCut> parse_section_cuts(std::string_view text, const std::string& name, const Building& building) {
+  const auto document = formats::JsonDocument::from_text(std::string(text), name);
   const JsonValue root = document.root();
   if (!root.is_object()) root.refuse("an object");
   root.only({"cuts"});

@@ -162,6 +162,26 @@ def test_a_time_history_comes_from_arrays_as_from_a_file(tmp_path):
             topple.analyse(model, time_history=wrong, **options)
 
 
+def test_a_cut_has_what_the_part_above_does_to_the_part_below(tmp_path):
+    push = 1e3
+    cuts = {"middle": {"at": [0, 0, LENGTH / 2], "normal": [0, 0, 1], "along": [1, 0, 0]}}
+    file = tmp_path / "cuts.json"
+    file.write_text(json.dumps({"cuts": cuts}))
+    column = frames.column({"push": {"x": push}, "press": {"z": -5e3}})
+    for given in (cuts, str(file)):
+        found = topple.analyse(column, cuts=given)
+        middle = found["push"].cuts["middle"]
+        # Along the normal (up), x and y: the push, and its moment about the cut.
+        assert middle["force"] == pytest.approx([0, push, 0, 0, 0, push * LENGTH / 2], abs=1e-6)
+        assert list(middle["parts"].values())[0] == pytest.approx(middle["force"])
+        assert found["press"].cuts["middle"]["force"] == pytest.approx([-5e3, 0, 0, 0, 0, 0], abs=1e-6)
+    assert topple.analyse(column)["push"].cuts == {}
+    with pytest.raises(topple.InputError, match="cuts.low: the key \"at\" is missing"):
+        topple.analyse(column, cuts={"low": {"normal": [0, 0, 1]}})
+    with pytest.raises(TypeError, match="cuts: accepted"):
+        topple.analyse(column, cuts=3)
+
+
 def test_arrays_hold_what_the_command_writes(tmp_path):
     program = os.path.join(os.environ["TOPPLE_BIN"], "topple")
     subprocess.run([program, "analyse", "la3", "--code", "aisc360", "-o", str(tmp_path)], check=True, capture_output=True)
