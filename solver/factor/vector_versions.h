@@ -1,7 +1,8 @@
 #pragma once
 // TOPPLE_VECTOR_VERSIONS before a function: one build for every processor. The compiler makes a version for each kind
-// of vector, the loader takes the best.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+// of vector, the loader takes the best. (It asks before a sanitizer has begun, and would end there.)
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__)
 #define TOPPLE_VECTOR_VERSIONS __attribute__((target_clones("avx512f", "avx2", "default")))
 #else
 #define TOPPLE_VECTOR_VERSIONS
