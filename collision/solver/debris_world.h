@@ -149,7 +149,7 @@ class DebrisWorld final : public World {
   void resist_rolling(double dt);
 
   // Contacts.
-  void tell_contacts(double dt);
+  void tell_contacts(double dt, std::span<const char> left_out = {});
   void tell(const SolverContact& solved, double dt);
   void book_work(std::span<Island* const> islands, double dt);
   [[nodiscard]] DebrisBody* moving(const SolverContact& solved, bool second) const;

@@ -102,8 +102,11 @@ void DebrisWorld::tell(const SolverContact& solved, double dt) {
   contact.approach_speed = (velocity_at(false) - velocity_at(true)).dot(contact.normal);
 }
 
-void DebrisWorld::tell_contacts(double dt) {
+/// But those of bodies that are left out, by their numbers in the solver.
+void DebrisWorld::tell_contacts(double dt, std::span<const char> left_out) {
+  const auto is_left_out = [&](int number) { return !left_out.empty() && left_out[static_cast<std::size_t>(number)]; };
   for (const SolverContact& solved : solver_.contacts()) {
+    if (is_left_out(solved.first) || is_left_out(solved.second)) continue;
     const std::size_t before = contacts_.size();
     tell(solved, dt);
     solved_.push_back(solved);

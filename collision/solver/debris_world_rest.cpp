@@ -8,7 +8,8 @@
 namespace topple::collision {
 
 /// Before the step is solved: an island all of whose bodies have been slow for some time stays where it is, if there
-/// are forces that hold it; with it, what it lies on and sleeps already is asked, for these forces change.
+/// are forces that hold it; with it, what it lies on and sleeps already is asked, for these forces change. A few bodies
+/// that no forces hold go on without it. True when any fell asleep.
 bool DebrisWorld::come_to_rest(Island& island, double dt) {
   for (DebrisBody* one : island.bodies) {
     if (one->slow_for < settings_.slow_for - 1e-9) return false;
@@ -20,22 +21,29 @@ bool DebrisWorld::come_to_rest(Island& island, double dt) {
   fill_solver({&only, 1});
   std::vector<double> sizes{1};
   for (const DebrisBody* one : whole.bodies) sizes.push_back(one->reach);
-  const bool rests = solver_.rest(dt, gravity_, sizes);
-  for (std::size_t i = island.bodies.size(); i < whole.bodies.size(); ++i) whole.bodies[i]->asleep = true;
-  if (!rests) {
-    for (DebrisBody* one : island.bodies) {
+  std::vector<char> moves;
+  bool rests = solver_.rest(dt, gravity_, sizes, moves);
+  for (std::size_t i = island.bodies.size(); i < whole.bodies.size(); ++i) {
+    whole.bodies[i]->asleep = true;
+    rests = rests && !moves[static_cast<std::size_t>(whole.bodies[i]->solver)];
+  }
+  const auto goes_on = [&](const DebrisBody& one) {
+    return !rests || moves[static_cast<std::size_t>(one.solver)] != 0;
+  };
+  for (DebrisBody* one : island.bodies)
+    if (goes_on(*one)) {
       one->retry_rest = one->rest_wait;
       one->rest_wait = std::min(2 * one->rest_wait, settings_.rest_again_at_most);
     }
-    return false;
-  }
-  tell_contacts(dt);
+  if (!rests) return false;
+  tell_contacts(dt, moves);
   for (const SolverContact& solved : solver_.contacts())
     solved.pair->rest_force = solved.pair->pressed = solved.impulse / dt;
   for (DebrisHinge* hinge : whole.hinges) hinge->forget_step();
   for (DebrisCable* cable : whole.cables) cable->pull = {};
   read_joints({&only, 1}, dt);
   for (DebrisBody* one : island.bodies) {
+    if (goes_on(*one)) continue;
     one->velocity.setZero();
     one->spin.setZero();
     one->asleep = true;

@@ -36,9 +36,12 @@ void DebrisWorld::step(double dt) {
 void DebrisWorld::move_on(double dt) {
   solved_.clear();
   gather_islands();
+  bool slept = false;
+  if (parts_ == 1)
+    for (Island& island : islands_) slept = come_to_rest(island, dt) || slept;
+  if (slept) gather_islands();
   std::map<int, std::vector<Island*>> by_substeps;
   for (Island& island : islands_) {
-    if (parts_ == 1 && come_to_rest(island, dt)) continue;
     if (island.pairs.empty() && island.hinges.empty() && island.cables.empty())
       fly(*island.bodies.front(), dt);
     else

@@ -13,6 +13,7 @@ namespace {
 constexpr double kLoose = 1e-3, kLeastLoose = 1e-10;
 constexpr double kInner = 0.02;    ///< residual of the linear equations, of what they began with
 constexpr double kDescent = 1e-4;  ///< share of the decrease that the slope promises which a step must bring (Armijo)
+constexpr double kGives = 0.02;    ///< of the largest way: what gives as much is in the mechanism
 constexpr int kNewtonSteps = 40;
 constexpr int kCuts = 20;  ///< halvings of a step
 }  // namespace
@@ -78,7 +79,13 @@ double Equilibrium::respond(const Vectors& y, Vectors& out) {
     const RestContact::Rows way = one.on_second * y[second] - one.on_first * y[first];
     project_on_cone(one.start - one.stiffness.cwiseProduct(way), one.stiffness, one.count, one.friction, one.force,
                     gives_[k]);
-    energy += one.force.cwiseAbs2().cwiseQuotient(one.stiffness).sum() / 2;
+    if (either_moves(one.first, one.second)) {
+      project_on_cone(one.start, one.stiffness, one.count, one.friction, one.force, gives_[k]);
+      gives_[k].setZero();
+      energy -= one.force.dot(way);
+    } else {
+      energy += one.force.cwiseAbs2().cwiseQuotient(one.stiffness).sum() / 2;
+    }
     out[first] -= one.on_first.transpose() * one.force;
     out[second] += one.on_second.transpose() * one.force;
   }
@@ -98,6 +105,8 @@ double Equilibrium::respond(const Vectors& y, Vectors& out) {
     out[second] += one.on_second.transpose() * one.force;
   }
   out[0].setZero();
+  for (std::size_t i = 1; i < bodies.size(); ++i)
+    if (bodies[i].moves) out[i].setZero();
   return energy;
 }
 
@@ -200,7 +209,26 @@ bool Equilibrium::solve(double tolerance, int passes) {
   }
   respond(y, out);
   residual_ = size(out);
+  y_.swap(y);
   return residual_ <= tolerance;
+}
+
+bool Equilibrium::leave_out_what_gives(double share) {
+  const auto way = [&](std::size_t i) { return y_[i].cwiseQuotient(bodies[i].scale).norm(); };
+  double most = 0;
+  std::size_t asked = 0, left_out = 0;
+  for (std::size_t i = 1; i < bodies.size(); ++i) {
+    most = std::max(most, way(i));
+    asked += bodies[i].moves ? 0 : 1;
+  }
+  for (std::size_t i = 1; i < bodies.size(); ++i) {
+    if (bodies[i].moves || way(i) < kGives * most) continue;
+    bodies[i].moves = true;
+    ++left_out;
+  }
+  for (const RestJoint& one : joints)
+    if (either_moves(one.first, one.second)) return false;
+  return static_cast<double>(left_out) <= share * static_cast<double>(asked);
 }
 
 }  // namespace topple::collision

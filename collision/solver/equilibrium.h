@@ -11,6 +11,7 @@
 // gradient. Newton's steps with the projection's derivative (how the bound of friction follows the normal force is in
 // it) and a line search find it from anywhere (Zhao, Sun, Toh, "A Newton-CG augmented Lagrangian method", SIAM J.
 // Optim. 20, 2010). Where there are no such forces, y grows without bound: there is no rest.
+// What grows is the motion of the bodies that are not held (a theorem of the alternative).
 #include <vector>
 
 #include "topple/collision/world.h"
@@ -53,6 +54,7 @@ class Equilibrium {
   struct Body {
     Vec6 weight = Vec6::Zero();  ///< scaled
     Vec6 scale = Vec6::Zero();   ///< a residual of this size counts as one (its weight; its weight times its size)
+    bool moves = false;          ///< nothing is asked of its balance: it presses with the forces of the start
   };
 
   std::vector<Body> bodies;  ///< 0: what stands
@@ -61,6 +63,9 @@ class Equilibrium {
 
   /// True when every body's residual is below `tolerance`. `passes`: matrix products at most.
   [[nodiscard]] bool solve(double tolerance, int passes);
+  /// After a search in vain: bodies that give most by far, in the mechanism that no forces hold (y without bound).
+  /// Marks them as moving; false when they are more than `share` of all that do not yet, or hang on joints.
+  [[nodiscard]] bool leave_out_what_gives(double share);
   /// Largest share of a body's weight (or weight times size) that is out of balance.
   [[nodiscard]] double residual() const { return residual_; }
   [[nodiscard]] int newton_steps() const { return newton_steps_; }
@@ -74,6 +79,9 @@ class Equilibrium {
   };
   /// Forces for y, what is out of balance, and the function that is least at balance.
   double respond(const Vectors& y, Vectors& out);
+  [[nodiscard]] bool either_moves(int first, int second) const {
+    return bodies[static_cast<std::size_t>(first)].moves || bodies[static_cast<std::size_t>(second)].moves;
+  }
   /// The matrix at the y of the last respond().
   void assemble(double loose);
   void multiply(const Vectors& p, Vectors& out) const;
@@ -81,6 +89,7 @@ class Equilibrium {
   /// Returns matrix products.
   int newton_step(const Vectors& out, double enough, Vectors& step, int passes);
 
+  Vectors y_;
   std::vector<RestContact::Square> gives_;  ///< stiffness of each contact that acts where it is
   std::vector<char> pulls_;
   std::vector<Mat6> blocks_, inverses_;

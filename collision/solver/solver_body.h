@@ -19,6 +19,10 @@ struct SolverBody {
   [[nodiscard]] Vec3 scaled_moment(const Vec3& moment) const {
     return inverse_root_moments.cwiseProduct(at.turn.transpose() * moment);
   }
+  /// Global, kg m2.
+  [[nodiscard]] Mat3 inertia() const {
+    return at.turn * inverse_root_moments.cwiseAbs2().cwiseInverse().asDiagonal() * at.turn.transpose();
+  }
   [[nodiscard]] Vec3 linear(const Motion6& scaled) const {
     return inverse_root_mass * Vec3(scaled.linear[0], scaled.linear[1], scaled.linear[2]);
   }

@@ -51,6 +51,9 @@ struct SolverSettings {
   double touching = 0.001;  ///< m: points that are nearer bear at rest
   double equilibrium = 1e-6;  ///< of a body's weight (moments: times its size): what sleeps is out of balance by less
   int equilibrium_passes = 6000;  ///< over the contacts in the search for that balance, at most
+  int rest_searches = 6;   ///< for a balance of an island, each without the bodies that no forces held in the last ...
+  double left_out = 0.05;  ///< ... which are no more than this share of the others: one slab that rocks on a heap does
+                           ///< not keep the heap awake
   double rest_again = 0.25;       ///< s: where no balance was found, it is sought again after this, then twice this ...
   double rest_again_at_most = 2;  ///< s: ... and so on to this, until something moves: what is sought in vain is dear
 };

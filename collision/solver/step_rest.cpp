@@ -62,7 +62,7 @@ void StepSolver::add_to(Equilibrium& equilibrium, const SolverContact& contact) 
   made.stiffness.tail<3>().setConstant((contact.lever > 0 ? 3 : 2) / masses);
 }
 
-bool StepSolver::rest(double dt, const Vec3& gravity, std::span<const double> sizes) {
+bool StepSolver::rest(double dt, const Vec3& gravity, std::span<const double> sizes, std::vector<char>& moves) {
   Equilibrium equilibrium;
   equilibrium.bodies.resize(bodies_.size());
   for (std::size_t i = 1; i < bodies_.size(); ++i) {
@@ -85,7 +85,11 @@ bool StepSolver::rest(double dt, const Vec3& gravity, std::span<const double> si
   }
   for (const CableRow* cable : cables_)
     equilibrium.joints.push_back(cable->at_rest(bodies_[static_cast<std::size_t>(cable->body)], dt));
-  if (!equilibrium.solve(settings_.equilibrium, settings_.equilibrium_passes)) return false;
+  int searches = 1;
+  while (!equilibrium.solve(settings_.equilibrium, settings_.equilibrium_passes))
+    if (++searches > settings_.rest_searches || !equilibrium.leave_out_what_gives(settings_.left_out)) return false;
+  moves.assign(bodies_.size(), 0);
+  for (std::size_t i = 1; i < bodies_.size(); ++i) moves[i] = equilibrium.bodies[i].moves ? 1 : 0;
   for (std::size_t k = 0; k < contacts_.size(); ++k) take_rest(equilibrium.contacts[k], contacts_[k], dt);
   std::size_t k = 0;
   for (HingeRows* hinge : hinges_) hinge->take_rest(equilibrium.joints[k++].force, dt);

@@ -1,5 +1,6 @@
 #include "solver/step_solver.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -375,15 +376,17 @@ void StepSolver::run(double dt, int substeps, const Vec3& gravity) {
 
 /// The arms of impulses are those of the step's beginning, and the two bodies have moved since: taken together their
 /// impulses P have turned them by too little or too much, by Q x (v2 - v1) with Q = sum of P times the time left, v the
-/// velocities in the end. Half of that is each body's: what acts acts in the middle between them.
+/// velocities in the end. It is given back by the same change of spin of both: that costs the least energy, and does
+/// not set a slender body spinning about its length beside a heavy one.
 void StepSolver::keep_angular_momentum() {
   for (SolverContact& contact : contacts_) {
     if (contact.first == 0 || contact.second == 0 || contact.late.isZero(0)) continue;
     SolverBody &first = bodies_[static_cast<std::size_t>(contact.first)],
                &second = bodies_[static_cast<std::size_t>(contact.second)];
-    const Vec3 moment = contact.late.cross(second.velocity - first.velocity) / 2;
-    for (SolverBody* turned : {&first, &second})
-      turned->spin += turned->at.turn * turned->inverse_root_moments.cwiseProduct(turned->scaled_moment(moment));
+    const Vec3 moment = contact.late.cross(second.velocity - first.velocity);
+    const Vec3 change = Mat3(first.inertia() + second.inertia()).ldlt().solve(moment);
+    first.spin += change;
+    second.spin += change;
   }
 }
 

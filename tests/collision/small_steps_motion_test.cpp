@@ -147,3 +147,46 @@ TEST_CASE(
     world->ignore_until_separated(beam, touched);
   }
 }
+
+TEST_CASE(
+    "small steps: a heavy body that strikes a slender one aslant keeps momentum, and spins it up from nothing else") {
+  const auto world = make_small_steps_world();
+  // A beam of 6 m lies on one; the other strikes its overhanging end, and goes sideways as well.
+  const double mass = 300, heavy = 1e5;
+  const Vec3 coming(0, 25, -20);
+  const BodyDescription beam = box_body({3, 0.1, 0.2}, mass, {2.7, 0, 0.2});
+  const BodyDescription below = box_body({1.5, 1, 0.5}, heavy, {1.7, 0, -0.5});
+  BodyDescription strikes = box_body({1.5, 1, 0.5}, heavy, {-1.6, 0, 0.95});
+  strikes.velocity = coming;
+  std::vector<std::pair<BodyId, const BodyDescription*>> all;
+  for (const BodyDescription* one : {&beam, &below, static_cast<const BodyDescription*>(&strikes)})
+    all.emplace_back(world->add_body(*one), one);
+  struct Sums {
+    Vec3 momentum = Vec3::Zero(), angular = Vec3::Zero();
+    double energy = 0;
+  };
+  const auto sums = [&] {
+    Sums result;
+    for (const auto& [id, made] : all) {
+      const BodyState state = world->state(id);
+      const Mat3 turn = state.pose.orientation.toRotationMatrix();
+      const Vec3 spin = turn * made->inertia * turn.transpose() * state.angular_velocity;
+      result.momentum += made->mass * state.velocity;
+      result.angular += made->mass * state.pose.position.cross(state.velocity) + spin;
+      result.energy += (made->mass * state.velocity.squaredNorm() + state.angular_velocity.dot(spin)) / 2;
+    }
+    return result;
+  };
+  const Sums before = sums();
+  double spun = 0;
+  for (int i = 0; i < 60; ++i) {
+    world->step(kStep);
+    const Sums now = sums();
+    CHECK((now.momentum - before.momentum).norm() < 1e-12 * before.momentum.norm());
+    CHECK((now.angular - before.angular).norm() < 1e-6 * before.angular.norm());
+    CHECK(now.energy < before.energy * (1 + 1e-9));
+    spun = std::max(spun, world->state(all[0].first).angular_velocity.norm());
+  }
+  CHECK(spun > 1);
+  CHECK(spun < 250);  // rolled by what slides over it: 25 m/s at 0.1 m from its axis
+}
