@@ -25,6 +25,8 @@ struct SolverSettings {
   double settled = 0.3;   ///< m/s: passes are repeated in a sub-step that changes a contact's speed by more
   int most_passes = 100;  ///< in a sub-step: a blow through a stack of that many comes through
 
+  double spins_by = 5;  ///< rad/s: where half of what angular momentum lacks would turn a body faster, both turn alike
+
   double leaves_plane = 0.02;  ///< m: a step is taken in parts where a body that touches leaves the planes of its
                                ///< contacts by more as it spins
   int most_parts = 16;         ///< of a step: a post 4 m long that turns half around in a step needs 15

@@ -384,9 +384,14 @@ void StepSolver::keep_angular_momentum() {
     SolverBody &first = bodies_[static_cast<std::size_t>(contact.first)],
                &second = bodies_[static_cast<std::size_t>(contact.second)];
     const Vec3 moment = contact.late.cross(second.velocity - first.velocity);
-    const Vec3 change = Mat3(first.inertia() + second.inertia()).ldlt().solve(moment);
-    first.spin += change;
-    second.spin += change;
+    const auto half = [&](const SolverBody& turned) {
+      return Vec3(turned.at.turn * turned.inverse_root_moments.cwiseProduct(turned.scaled_moment(moment / 2)));
+    };
+    Vec3 of_first = half(first), of_second = half(second);
+    if (std::max(of_first.norm(), of_second.norm()) > settings_.spins_by)
+      of_first = of_second = Mat3(first.inertia() + second.inertia()).ldlt().solve(moment);
+    first.spin += of_first;
+    second.spin += of_second;
   }
 }
 
