@@ -7,9 +7,10 @@
 
 namespace topple::fracture {
 
+/// A mesh with the name of the glTF node that has it.
 struct NamedMesh {
   std::string name;  ///< of its node
-  Mesh mesh;
+  Mesh mesh;         ///< in the scene's frame, z up
 };
 
 /// Every node of the file's scene that has a mesh of triangles, where the scene places it, turned from y up to z up.

@@ -15,12 +15,13 @@ using Vec3 = Eigen::Vector3d;
 /// Triangles go counter-clockwise seen from outside. Vertices are shared by triangles of one smooth face only, so that
 /// each has one normal; where faces meet at an edge, vertices with equal positions lie on each other, bit for bit.
 struct Mesh {
-  std::vector<Vec3> positions;  ///< m
-  std::vector<Vec3> normals;    ///< unit, outwards
-  std::vector<Vec2> texture;    ///< texture coordinates
-  std::vector<std::array<int, 3>> triangles;
+  std::vector<Vec3> positions;                ///< m
+  std::vector<Vec3> normals;                  ///< unit, outwards
+  std::vector<Vec2> texture;                  ///< texture coordinates
+  std::vector<std::array<int, 3>> triangles;  ///< three vertices each, counter-clockwise from outside
 };
 
+/// What audit() finds wrong in a mesh.
 struct MeshAudit {
   /// Edges (between positions) that are not used as often in one direction as in the other: holes, wrongly turned
   /// triangles, vertices in the middle of another triangle's edge.
@@ -31,9 +32,11 @@ struct MeshAudit {
   std::size_t wrong_normals = 0;         ///< a triangle's corner whose normal is not unit or not the triangle's
   double volume = 0;                     ///< m3; negative when the mesh is inside out
   double area = 0;                       ///< of the surface, m2
+  /// Closed, without degenerate triangles or wrong normals, and not inside out.
   [[nodiscard]] bool sound() const {
     return open_edges == 0 && degenerate_triangles == 0 && wrong_normals == 0 && volume > 0;
   }
+  /// What is wrong, in words, for messages.
   [[nodiscard]] std::string text() const;
 };
 

@@ -8,8 +8,9 @@
 
 namespace topple::fracture {
 
+/// The node of a mesh in a file.
 struct MeshFileInfo {
-  std::string name;
+  std::string name;  ///< of the node
   Vec3 origin =
       Vec3::Zero();  ///< where the node stands; positions are written relative to it, which keeps their digits
   std::vector<std::pair<std::string, double>> extras;  ///< numbers for the node, such as mass
@@ -20,9 +21,9 @@ struct MeshFileInfo {
 [[nodiscard]] std::string glb_text(const Mesh& mesh, const MeshFileInfo& info);
 /// One of several meshes in a file: its node stands at `info.origin`, turned by a quaternion x, y, z, w.
 struct PlacedMesh {
-  const Mesh* mesh = nullptr;
-  MeshFileInfo info;
-  Eigen::Vector4d rotation{0, 0, 0, 1};
+  const Mesh* mesh = nullptr;            ///< not owned; must outlive the call
+  MeshFileInfo info;                     ///< its node
+  Eigen::Vector4d rotation{0, 0, 0, 1};  ///< unit quaternion x, y, z, w
 };
 /// The same with a node for each mesh, all under one node that turns z up to glTF's y up. Positions are written as they
 /// are, about the node. Meshes without triangles are left out.

@@ -17,6 +17,7 @@
 
 namespace topple::fracture {
 
+/// A panel before anything hit it: a flat plate in its own axes.
 struct PanelShape {
   /// Counter-clockwise, m. A convex quadrilateral; with Method::local any simple polygon.
   Polygon outline;
@@ -36,19 +37,23 @@ struct Chunk {
 
 /// What one hit did.
 struct Fracture {
-  std::vector<Chunk> chunks;
+  std::vector<Chunk> chunks;          ///< convex pieces that left
   std::size_t cells = 0;              ///< that the method broke
   std::size_t triangles_changed = 0;  ///< of the triangulation: the measure of the work done
 };
 
+/// One panel that is hit again and again: it keeps what remains as a triangulation.
 class BreakablePanel {
  public:
   /// Throws std::invalid_argument that says what is wrong with shape or settings.
   BreakablePanel(const PanelShape& shape, const PanelSettings& settings);
   ~BreakablePanel();
+  /// A panel of its own with the same damage.
   BreakablePanel(const BreakablePanel& other);
+  /// Moves: what is moved from may only be destroyed or assigned to.
   BreakablePanel(BreakablePanel&&) noexcept;
   BreakablePanel& operator=(const BreakablePanel&) = delete;
+  /// Moves, as the constructor does.
   BreakablePanel& operator=(BreakablePanel&&) noexcept;
 
   /// Breaks every cell whose site (voronoi) or any part (quadrilateral) lies within `radius` of a point, and at least
@@ -67,6 +72,7 @@ class BreakablePanel {
   /// What remains, kept up to date hit by hit at the cost of what changed. Some vertices may be without a triangle
   /// (`compact` drops them).
   [[nodiscard]] const Mesh& mesh() const;
+  /// As it was given.
   [[nodiscard]] const PanelShape& shape() const;
   [[nodiscard]] double area() const;                  ///< of what remains, m2
   [[nodiscard]] double intact_area() const;           ///< before the first hit, openings taken off, m2
@@ -77,6 +83,7 @@ class BreakablePanel {
   [[nodiscard]] std::vector<Chunk> pieces() const;
   /// Triangles of what remains, panel axes: for moments, loads and element meshes.
   [[nodiscard]] std::vector<std::array<Vec2, 3>> triangles() const;
+  /// How many hits there were so far.
   [[nodiscard]] std::uint64_t hits() const;
   /// What comes closer to something than this is joined with it, m: 1e-7 of the panel's size.
   [[nodiscard]] double tolerance() const;

@@ -23,8 +23,8 @@ using Polygon = std::vector<Vec2>;
 
 /// A convex polygon each of whose edges says what it came from: edge i runs from vertex i to vertex i + 1.
 struct LabelledPolygon {
-  Polygon vertices;
-  std::vector<int> labels;
+  Polygon vertices;         ///< convex, counter-clockwise
+  std::vector<int> labels;  ///< one for each edge
 };
 
 /// Keeps the part of a convex polygon with normal . (p - point) <= 0; the new edge gets the label. Empty when nothing

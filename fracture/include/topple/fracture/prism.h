@@ -10,6 +10,7 @@
 
 namespace topple::fracture {
 
+/// What the motion of a rigid body of even density depends on.
 struct MassProperties {
   double volume = 0;                                  ///< m3
   double mass = 0;                                    ///< kg

@@ -15,21 +15,26 @@ namespace topple::fracture {
 
 class Grid;
 
+/// Size, irregularity and seed of a grid of quadrilaterals.
 struct QuadrilateralSettings {
-  double cell = 0.5;    ///< size of a cell, m
-  double jitter = 0.5;  ///< 0: a regular grid, 1: points move by up to half a cell
-  std::uint64_t seed = 1;
+  double cell = 0.5;                   ///< size of a cell, m
+  double jitter = 0.5;                 ///< 0: a regular grid, 1: points move by up to half a cell
+  std::uint64_t seed = 1;              ///< of the points' random offsets
   std::array<int, 2> divisions{0, 0};  ///< columns and rows; 0: as many as bring the cells closest to `cell`
 };
 
+/// The cells of one panel.
 class QuadrilateralGrid {
  public:
   /// `outline`: a convex quadrilateral, counter-clockwise. Throws std::invalid_argument when it is not, or a setting is
   /// out of range.
   QuadrilateralGrid(const std::array<Vec2, 4>& outline, const QuadrilateralSettings& settings);
 
+  /// Number of cells along the outline's first edge.
   [[nodiscard]] int columns() const;
+  /// Number of cells across it.
   [[nodiscard]] int rows() const;
+  /// Number of cells.
   [[nodiscard]] int size() const { return columns() * rows(); }
   /// Point of the grid, column from 0 to columns() and row from 0 to rows(), both included.
   [[nodiscard]] const Vec2& point(int column, int row) const;

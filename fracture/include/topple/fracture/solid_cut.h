@@ -7,15 +7,16 @@
 
 namespace topple::fracture {
 
+/// A plane with a side: the normal points to what is above it.
 struct Plane {
-  Vec3 point = Vec3::Zero();
+  Vec3 point = Vec3::Zero();    ///< any point of it, m
   Vec3 normal = Vec3::UnitZ();  ///< of any length but zero
 };
 
 /// Both parts closed, as the mesh was: the cut faces are capped. Either may be without triangles.
 struct CutSolid {
   Mesh below;  ///< where normal . (p - point) <= 0
-  Mesh above;
+  Mesh above;  ///< where normal . (p - point) >= 0
 };
 
 /// Cuts a closed mesh by a plane. Both parts get the same points along the cut, bit for bit, and keep normals and

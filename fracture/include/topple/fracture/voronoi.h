@@ -11,18 +11,19 @@ namespace topple::fracture {
 
 class Grid;
 
+/// Size, irregularity and seed of the sites.
 struct VoronoiSettings {
-  double cell = 0.5;    ///< size of a grid cell, m
-  double jitter = 1.0;  ///< 0: sites at the cells' centres, 1: anywhere in their cells
-  std::uint64_t seed = 1;
+  double cell = 0.5;                   ///< size of a grid cell, m
+  double jitter = 1.0;                 ///< 0: sites at the cells' centres, 1: anywhere in their cells
+  std::uint64_t seed = 1;              ///< of the sites' random places
   std::array<int, 2> divisions{0, 0};  ///< columns and rows; 0: as many as bring the cells closest to `cell`
 };
 
 /// One cell of the diagram. The label of an edge is the site on its other side, or -1 - k on edge k of the panel's
 /// border.
 struct VoronoiCell {
-  Vec2 site;
-  LabelledPolygon polygon;
+  Vec2 site;                ///< in the panel, m
+  LabelledPolygon polygon;  ///< convex; neighbours along its edges
 };
 
 /// The panel's sites; cells are made when they are asked for, at a cost that does not depend on the panel's size.
@@ -36,9 +37,13 @@ class VoronoiGrid {
   /// range.
   VoronoiGrid(const std::array<Vec2, 4>& outline, const VoronoiSettings& settings, std::span<const Vec2> places);
 
+  /// Number of grid cells along the outline's first edge.
   [[nodiscard]] int columns() const;
+  /// Number of grid cells across it.
   [[nodiscard]] int rows() const;
+  /// Number of sites, one for each cell of the grid.
   [[nodiscard]] int size() const { return columns() * rows(); }
+  /// Place of a site in the panel, m. The index is row * columns() + column.
   [[nodiscard]] const Vec2& site(int index) const { return sites_[static_cast<std::size_t>(index)]; }
 
   /// Exact: neighbours are taken ring by ring of the grid until the ring lies farther away than twice the cell's

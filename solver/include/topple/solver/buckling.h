@@ -8,8 +8,9 @@
 
 namespace topple::solver {
 
+/// A load factor at which the structure buckles, and the shape in which it does.
 struct BucklingMode {
-  double factor = 0;
+  double factor = 0;        ///< multiplies all loads of the set
   std::vector<Vec6> shape;  ///< per node, largest translation 1; all zero when a member buckles between nodes at rest
 };
 

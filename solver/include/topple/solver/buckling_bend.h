@@ -12,6 +12,7 @@
 
 namespace topple::solver {
 
+/// Where and how much a member bends in a buckling shape.
 struct BucklingBend {
   double moment = 0;  ///< the largest, in the plane where it is larger; N m, in the scale of the hubs' motion
   double place =

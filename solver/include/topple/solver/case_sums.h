@@ -8,9 +8,10 @@
 
 namespace topple::solver {
 
+/// Answers of solve_case_sums().
 struct CaseSums {
-  std::vector<StaticSolution> solutions;
-  AnalysisStatistics statistics;
+  std::vector<StaticSolution> solutions;  ///< one for each column of `factors`
+  AnalysisStatistics statistics;          ///< of the one analysis behind all of them
 };
 
 /// Answer j is that of the sum over c of factors(c, j) cases[c]. Where there are fewer cases than sums, the cases are

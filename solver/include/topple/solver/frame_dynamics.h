@@ -25,30 +25,32 @@ struct RayleighDamping {
 /// >= 0 and both frequencies > 0.
 [[nodiscard]] RayleighDamping rayleigh_damping(double ratio, double first, double second);
 
+/// How the motion is integrated.
 struct DynamicOptions {
   double substep = 1.0 / 240;  ///< s
   /// At infinite frequency, 0 to 1: what a substep leaves of motion that it cannot resolve. 1 keeps energy exactly;
   /// below it the shock of a break dies away in some substeps, and what resolved motion loses falls with the third
   /// power of the substep.
   double spectral_radius = 0.8;
-  RayleighDamping damping;
+  RayleighDamping damping;  ///< C of the equations of motion
   bool keep_energy = true;  ///< false: no ledger, and a cheaper substep
   /// Per beam, s: how long a wave takes along it. Joints that reach their capacity within that time of the first one,
   /// whose beam counts, break together. Empty: its length over the speed of sound of its Young's modulus and density.
   std::vector<double> wave_times;
-  AnalysisOptions analysis;
+  AnalysisOptions analysis;  ///< threads and limits of the factorisation
 };
 
 /// Joules, since the start. kinetic + elastic + damped + numerical + freed = external_work + struck + the first kinetic
 /// + elastic, to rounding.
 struct DynamicEnergy {
-  double kinetic = 0, elastic = 0;  ///< now; elastic is 1/2 u'Ku
-  double damped = 0;                ///< by C
-  double numerical = 0;             ///< by the method itself; nothing at a spectral radius of 1
-  double struck = 0;                ///< work of impulses
-  double external_work = 0;         ///< of loads
-  double freed = 0;                 ///< by breaks and other changes of the structure: what left it, and what a member
-                                    ///< that swings from one end alone lost
+  double kinetic = 0;        ///< of all that moves, 1/2 v'Mv, now
+  double elastic = 0;        ///< now; elastic is 1/2 u'Ku
+  double damped = 0;         ///< by C
+  double numerical = 0;      ///< by the method itself; nothing at a spectral radius of 1
+  double struck = 0;         ///< work of impulses
+  double external_work = 0;  ///< of loads
+  double freed = 0;          ///< by breaks and other changes of the structure: what left it, and what a member
+                             ///< that swings from one end alone lost
 };
 
 /// What joints can bear: by whatever rule, a use of 1 is the capacity.
@@ -62,8 +64,10 @@ class JointLaw {
   [[nodiscard]] virtual double end_use(int beam, int end, const Vec12& end_forces) const = 0;
 };
 
+/// An end of a beam that reached its capacity within a substep.
 struct JointBreak {
-  int beam = -1, end = 0;
+  int beam = -1;                 ///< index in FrameModel::beams
+  int end = 0;                   ///< 0 or 1
   double time = 0;               ///< at which it reached its capacity, s
   Vec12 forces = Vec12::Zero();  ///< of its beam then
 };
@@ -71,7 +75,10 @@ struct JointBreak {
 /// A motion in one substep as a cubic of time: values and rates at its two ends.
 template <class Vector>
 struct SubstepCourse {
-  Vector start, start_rate, end, end_rate;
+  Vector start;       ///< value at the substep's start
+  Vector start_rate;  ///< rate there, 1/s
+  Vector end;         ///< value at its end
+  Vector end_rate;    ///< rate there, 1/s
   double length = 0;  ///< s
   /// At a share of the substep, 0 to 1.
   [[nodiscard]] Vector at(double share) const {
@@ -97,46 +104,63 @@ struct LocalModes {
   std::vector<std::pair<int, Eigen::Matrix<double, 12, Eigen::Dynamic>>> end_forces;
   /// By numbers of equations: shapes, and what mass makes of them. For carried_over() alone.
   std::vector<int> equations;
-  Eigen::MatrixXd shape, momentum;
+  Eigen::MatrixXd shape;     ///< columns: modes, by the numbers in `equations`
+  Eigen::MatrixXd momentum;  ///< mass times shape
 };
 /// The same motion in the modes of the same nodes after a change: coordinates, or their rates.
 [[nodiscard]] Eigen::VectorXd carried_over(const LocalModes& from, const Eigen::VectorXd& coordinates,
                                            const LocalModes& to);
 
+/// What was done so far.
 struct DynamicCounters {
-  std::uint64_t substeps = 0;
-  std::uint64_t retaken = 0;  ///< taken again because joints broke
-  std::uint64_t breaks = 0;
+  std::uint64_t substeps = 0;  ///< taken, each counted once
+  std::uint64_t retaken = 0;   ///< taken again because joints broke
+  std::uint64_t breaks = 0;    ///< of ends of beams
 };
 
+/// The motion of a frame, substep by substep. Functions that take a beam, shell, patch, support or node throw
+/// std::invalid_argument for one that does not exist, as Reanalysis does.
 class FrameDynamics {
  public:
   /// At rest at its unloaded place, all as the model has it. Consistent mass only; throws std::invalid_argument for
   /// what cannot be used, Instability where a freedom has neither stiffness nor mass or a beam can move by itself.
   FrameDynamics(FrameModel model, MassModel masses, DynamicOptions options);
   ~FrameDynamics();
+  /// Moves: what is moved from may only be destroyed or assigned to.
   FrameDynamics(FrameDynamics&&) noexcept;
+  /// Moves, as the constructor does.
   FrameDynamics& operator=(FrameDynamics&&) noexcept;
 
   // Changes take effect with the next substep, from its beginning, as in Reanalysis. When a beam's end breaks, its mass
   // goes to the end still held: the momentum is kept, as an impulse in that substep, and the loss counted as freed.
+  /// Stiffness between a beam's end (0 or 1) and its node, local components; zero breaks the joint.
   void set_end_stiffness(int beam, int end, const Vec6& stiffness);
+  /// The beam is no longer there: stiffness, mass and loads go.
   void remove_beam(int beam);
+  /// The shell is no longer there: stiffness, mass and loads go.
   void remove_shell(int shell);
+  /// Stiffness of a patch in the global freedoms of its nodes; zero takes it away.
   void set_patch_stiffness(int patch, Eigen::MatrixXd stiffness);
+  /// Factor on the beam's E and G, above 0.
   void set_beam_stiffness_factor(int beam, double factor);
+  /// Stiffness of a shell in the global freedoms of its four nodes, condensed elsewhere.
   void set_shell_stiffness(int shell, const Eigen::Matrix<double, 24, 24>& stiffness);
   /// Mass comes or goes with the velocity of the beam, and what it takes along is counted as freed.
   void set_beam_density(int beam, double density);
+  /// Stiffness of the support at its index in FrameModel::supports, global axes; 0: free.
   void set_support_stiffness(int support, const Vec6& stiffness);
+  /// These nodes, and all that reaches them, are no longer part of the frame.
   void drop_nodes(std::span<const int> nodes);
+  /// Replaces the load on a node: N and N m, global axes.
   void set_node_load(int node, const Vec6& load);
+  /// Replaces the loads on a beam, local axes.
   void set_beam_loads(int beam, std::vector<BeamLoad> loads);
   /// From now on; a1 stays as it is.
   void set_mass_damping(double a0);
 
   // Loads that go with time, beside those: a distribution in space times a value that changes linearly within each
   // substep. Each returns the pattern's number; its value is 0.
+  /// See above. The loads are held for the whole motion; only their value changes.
   [[nodiscard]] int add_pattern(const LoadSet& loads);
   /// The inertia of the frame against a ground that accelerates along `direction`: -M times a rigid translation, of
   /// what stands at the time. The frame's motion is then relative to the ground.
@@ -153,8 +177,8 @@ class FrameDynamics {
 
   /// An impulse at a node: N s along the axes, N m s about them, global.
   struct Impulse {
-    int node = -1;
-    Vec6 impulse = Vec6::Zero();
+    int node = -1;                ///< that is struck
+    Vec6 impulse = Vec6::Zero();  ///< x y z rx ry rz, global axes
   };
   /// M^-1 J: by how much impulses change the velocities of the frame, per node, changes since the last substep apart.
   /// Freedoms without mass take none. Conjugate gradients, to 1e-12 of J.
@@ -170,16 +194,22 @@ class FrameDynamics {
   /// mean over the substep), until none is over. Returns the breaks in order.
   const std::vector<JointBreak>& advance(const JointLaw* law = nullptr);
 
+  /// s since the start.
   [[nodiscard]] double time() const;
+  /// Length of a substep, s.
   [[nodiscard]] double substep() const;
+  /// Per node, global axes, from the unloaded place, now: m and rad.
   [[nodiscard]] const std::vector<Vec6>& displacements() const;
+  /// Per node, global axes, now: m/s and rad/s.
   [[nodiscard]] const std::vector<Vec6>& velocities() const;
+  /// Per node, global axes, now: m/s2 and rad/s2.
   [[nodiscard]] std::vector<Vec6> accelerations() const;
   /// In the last substep.
   [[nodiscard]] SubstepCourse<Vec6> node_course(int node) const;
   /// End forces as Reanalysis has them: elastic, those of damping and of the beam's own inertia apart.
   [[nodiscard]] Vec12 beam_end_forces(int beam) const;
   [[nodiscard]] Vec12 beam_end_force_rates(int beam) const;  ///< now, by time
+  /// Of a beam's end forces in the last substep, as beam_end_forces() has them.
   [[nodiscard]] SubstepCourse<Vec12> beam_course(int beam) const;
   /// Global; `rates`: by time.
   [[nodiscard]] std::array<Vec6, 4> shell_corner_forces(int shell, bool rates = false) const;
@@ -190,12 +220,17 @@ class FrameDynamics {
   [[nodiscard]] Vec6 beam_momentum(int beam) const;
   /// Of the mass at a node.
   [[nodiscard]] Vec6 node_momentum(int node) const;
+  /// Since the start; not kept where DynamicOptions::keep_energy is false.
   [[nodiscard]] const DynamicEnergy& energy() const;
+  /// a0 of the Rayleigh damping, 1/s.
   [[nodiscard]] double mass_damping() const;
   /// Rayleigh's quotient u'Ku/u'Mu of a displacement, (rad/s)2; 0 when it moves no mass.
   [[nodiscard]] double rayleigh_quotient(const std::vector<Vec6>& displacements) const;
+  /// As it stands now, with all changes.
   [[nodiscard]] const FrameModel& model() const;
+  /// Substeps and breaks so far.
   [[nodiscard]] const DynamicCounters& counters() const;
+  /// How the equations were solved.
   [[nodiscard]] const ReanalysisCounters& reanalysis_counters() const;
 
  private:

@@ -9,7 +9,7 @@ namespace topple::solver {
 /// The stiffness of such a shell is a patch of the model (its own is given as zero); its mass, and what its membrane
 /// forces do to displaced corners, act in the patch's freedoms too.
 struct HangingShell {
-  int shell = -1;
+  int shell = -1;  ///< index in FrameModel::shells
   int patch = -1;  ///< its first four nodes are those of the shell; others have freedoms of their own
   /// Displacements of the four corners (global, 24) by the freedoms of the patch's nodes. The freedoms of a node beyond
   /// the first four are the motion of one corner against the shell's node there, along orthonormal axes.

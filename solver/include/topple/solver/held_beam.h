@@ -7,6 +7,7 @@
 
 namespace topple::solver {
 
+/// What a beam with held nodes does under its own loads.
 struct HeldBeam {
   Vec12 end_forces = Vec12::Zero();                          ///< local, as StaticSolution has them
   std::array<Vec6, 2> on_nodes{Vec6::Zero(), Vec6::Zero()};  ///< what it hands to its nodes, global

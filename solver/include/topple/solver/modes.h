@@ -18,31 +18,34 @@ enum class TorsionalMass { polar, torsion_constant };
 
 /// Mass at a node beside the elements' own; inertias about the global axes through the node.
 struct NodeMass {
-  int node = -1;
-  double mass = 0;
-  Vec3 inertia = Vec3::Zero();
+  int node = -1;                ///< index in FrameModel::nodes
+  double mass = 0;              ///< in all three directions
+  Vec3 inertia = Vec3::Zero();  ///< about x, y, z
 };
 
+/// How the frame's mass is modelled. Units as in FrameModel.
 struct MassModel {
-  MassDistribution distribution = MassDistribution::consistent;
-  TorsionalMass torsional = TorsionalMass::polar;
+  MassDistribution distribution = MassDistribution::consistent;  ///< of beams and shells
+  TorsionalMass torsional = TorsionalMass::polar;                ///< of beams
   /// Rotary inertia of beams' sections in bending, density times Iy and Iz.
   bool rotary_inertia = false;
-  std::vector<NodeMass> nodes;
+  std::vector<NodeMass> nodes;  ///< masses beside those of elements
   /// Per beam: the length over which its mass, as great as it is, lies, its ends going with its hubs as if they stood
   /// that far apart; 0, or an empty list: its own length.
   std::vector<double> beam_lengths;
   std::vector<HangingShell> hanging;  ///< in order of shells
 };
 
+/// One natural mode.
 struct VibrationMode {
-  double angular_frequency = 0;
+  double angular_frequency = 0;  ///< rad/s
   /// Effective mass along x, y, z and moment of inertia about x, y, z through the centre of mass, as a share of what is
   /// free to move: over all modes each adds up to 1. 0 where nothing can move.
   std::array<double, 6> mass_share{};
   std::vector<Vec6> shape;  ///< per node; largest translation 1 (largest rotation, where nothing translates)
 };
 
+/// Answer of natural_modes().
 struct ModalAnswer {
   std::vector<VibrationMode> modes;  ///< lowest first; fewer than asked for when the mass has no more
   Vec3 moving_mass = Vec3::Zero();   ///< along x, y, z: what is free to move

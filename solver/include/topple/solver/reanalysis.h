@@ -22,12 +22,12 @@ namespace topple::solver {
 
 /// Counters of what was done and what was not.
 struct ReanalysisCounters {
-  std::uint64_t solves = 0;            ///< answers computed
-  std::uint64_t unchanged = 0;         ///< answers given without computing
-  std::uint64_t load_solves = 0;       ///< only loads had changed
-  std::uint64_t low_rank = 0;          ///< answered by a low-rank correction
-  std::uint64_t refactorisations = 0;  ///< new numeric factor on the same ordering
-  std::uint64_t orderings = 0;
+  std::uint64_t solves = 0;              ///< answers computed
+  std::uint64_t unchanged = 0;           ///< answers given without computing
+  std::uint64_t load_solves = 0;         ///< only loads had changed
+  std::uint64_t low_rank = 0;            ///< answered by a low-rank correction
+  std::uint64_t refactorisations = 0;    ///< new numeric factor on the same ordering
+  std::uint64_t orderings = 0;           ///< new fill-reducing orders
   std::uint64_t background_factors = 0;  ///< new factors made on another thread while the old one served
   std::uint64_t late_factors = 0;        ///< of them: those that had to be waited for
   std::uint64_t restricted = 0;          ///< answers that left out what could not matter
@@ -40,18 +40,20 @@ struct RestrictedEffort {
   bool restricted = false;      ///< false: the answer was full
   double visited_entries = 0;   ///< of the factor, by the backward solve
   double factor_entries = 0;    ///< of the whole factor
-  int beams = 0, shells = 0;    ///< visited
+  int beams = 0;                ///< visited
+  int shells = 0;               ///< visited
   double energy = 0;            ///< strain energy of the change (J)
   double energy_left_out = 0;   ///< of it in the parts left out, at most (J)
   double largest_left_out = 0;  ///< bound of the uses there
 };
 
+/// The answer's state; displacements and forces are asked of Reanalysis.
 struct ReanalysisAnswer {
-  bool stable = true;
+  bool stable = true;  ///< false: a mechanism
   /// When not stable: the motion; displacements are then those of the last stable answer.
   Mechanism mechanism;
-  bool nearly_unstable = false;
-  SolveQuality quality;
+  bool nearly_unstable = false;  ///< inside the warning band of AnalysisOptions
+  SolveQuality quality;          ///< of the displacements
 };
 
 /// When a new factor is made on another thread while the old one serves. It is due at the first answer after the
@@ -59,19 +61,22 @@ struct ReanalysisAnswer {
 /// says; if it is late, that answer waits. Then it catches up with what changed since it was begun, a part of it
 /// beside each answer, and takes over. So the bits do not depend on how fast the other thread is.
 struct RefreshRules {
-  int columns = 120;              ///< begun when the correction has more than so many
-  double least_operations = 1e9;  ///< and a new factor takes at least so many; smaller ones are made at once
-  double share = 1.5;
+  int columns = 120;                ///< begun when the correction has more than so many
+  double least_operations = 1e9;    ///< and a new factor takes at least so many; smaller ones are made at once
+  double share = 1.5;               ///< of the new factor's predicted work
   std::function<void()> on_worker;  ///< runs on the other thread before it begins (tests slow it down)
 };
 
+/// One segment's equations with all that changed since it was made.
 class Reanalysis {
  public:
   /// Takes the model (all joints as in `beams[i].end_stiffness`); factorises on the first solve(). Nodes that nothing
   /// holds may be given; see drop_nodes().
   explicit Reanalysis(FrameModel model, const AnalysisOptions& options = {});
   ~Reanalysis();
+  /// Moves: what is moved from may only be destroyed or assigned to.
   Reanalysis(Reanalysis&&) noexcept;
+  /// Moves, as the constructor does.
   Reanalysis& operator=(Reanalysis&&) noexcept;
 
   // Changes: recorded, and take effect together in the next solve(). Each may be undone by setting the old value.
@@ -79,8 +84,11 @@ class Reanalysis {
   void set_end_stiffness(int beam, int end, const Vec6& stiffness);
   /// The beam is no longer there (stiffness and its loads).
   void remove_beam(int beam);
+  /// Undoes remove_beam().
   void restore_beam(int beam);
+  /// The shell is no longer there: stiffness and loads go.
   void remove_shell(int shell);
+  /// Undoes remove_shell().
   void restore_shell(int shell);
   /// Of a shell that stands, in the global freedoms of its four nodes.
   [[nodiscard]] Eigen::Matrix<double, 24, 24> shell_stiffness(int shell) const;
@@ -89,6 +97,7 @@ class Reanalysis {
   void set_shell_stiffness(int shell, const Eigen::Matrix<double, 24, 24>& stiffness);
   /// The same for a patch, in the freedoms of its nodes. Zero takes it away.
   void set_patch_stiffness(int patch, Eigen::MatrixXd stiffness);
+  /// As it was last set, in the global freedoms of the patch's nodes.
   [[nodiscard]] const Eigen::MatrixXd& patch_stiffness(int patch) const;
   /// Factor on the beam's E and G.
   void set_beam_stiffness_factor(int beam, double factor);
@@ -99,6 +108,7 @@ class Reanalysis {
   void drop_nodes(std::span<const int> nodes);
   /// Loads: the values replace what was there. Changing loads never touches the factor.
   void set_node_load(int node, const Vec6& load);
+  /// Replaces the loads on a beam, local axes.
   void set_beam_loads(int beam, std::vector<BeamLoad> loads);
 
   /// Brings the answer up to date. A mechanism is an answer (stable == false), not an exception.
@@ -122,6 +132,7 @@ class Reanalysis {
   /// refines if it must, what was found for it. No effect when anything is removed or broken now; whatever else
   /// changes in between is answered as without this call.
   void expect_losses(std::span<const int> beams);
+  /// Replaces the rules for background factors.
   void set_refresh(RefreshRules rules);
   /// The uses that the last solve(watch) counts on were all read. False while the structure is in the warning band:
   /// its answers are full, and nothing is read.
@@ -130,12 +141,15 @@ class Reanalysis {
   [[nodiscard]] const RestrictedEffort& restricted_effort() const;
 
   // The current answer.
+  /// Per node, global axes: m and rad.
   [[nodiscard]] const std::vector<Vec6>& displacements() const;
   /// Displacements that hold at these nodes, and perhaps nowhere else: as much less work as the answer has left out.
   [[nodiscard]] const std::vector<Vec6>& displacements_at(std::span<const int> nodes) const;
   [[nodiscard]] Vec12 beam_end_forces(int beam) const;  ///< local, as in StaticSolution
+  /// What the nodes do to the shell, per corner, global axes.
   [[nodiscard]] std::array<Vec6, 4> shell_corner_forces(int shell) const;
   [[nodiscard]] std::vector<Vec6> patch_forces(int patch) const;  ///< per node: what it does to the patch, global
+  /// What the support at this index does to its node, global axes.
   [[nodiscard]] Vec6 reaction(int support) const;
   [[nodiscard]] double strain_energy() const;  ///< 1/2 f.u of what stands (with the loads as they are)
 
@@ -144,10 +158,11 @@ class Reanalysis {
   /// A moment on a node that nothing keeps from turning is left out: the node turns until it is none. Throws
   /// Instability when the structure does not stand.
   struct Response {
-    std::vector<Vec6> displacements;
+    std::vector<Vec6> displacements;               ///< per node, global axes
     std::vector<std::pair<int, Vec12>> fixed_end;  ///< of the beams that bear one of the loads, in order of the beam
-    double backward_error = 0;
+    double backward_error = 0;                     ///< as SolveQuality's
   };
+  /// The answer for one load set.
   [[nodiscard]] Response respond(const LoadSet& loads) const;
   /// The same for the nodes alone that lie on the elimination paths of those that bear the loads, these and both of
   /// every loaded beam's among them: a part of the work. Not refined, so that no backward error is told. `known` (per
@@ -155,6 +170,7 @@ class Reanalysis {
   [[nodiscard]] Response respond_near(const LoadSet& loads, std::vector<char>& known) const;
   /// Both for several load sets, the factor gone through once for all; `known` on the paths of all of them.
   [[nodiscard]] std::vector<Response> respond(std::span<const LoadSet> loads) const;
+  /// The near answers for several load sets; `known` holds where every one of them does.
   [[nodiscard]] std::vector<Response> respond_near(std::span<const LoadSet> loads, std::vector<char>& known) const;
   /// Diagonal of a beam's stiffness as it stands (local axes, its joints included): what one freedom of an end meets
   /// while all others are held.
@@ -165,7 +181,9 @@ class Reanalysis {
   [[nodiscard]] Vec3 point_displacement(int beam, double distance, const std::vector<Vec6>& node_displacements,
                                         std::span<const BeamLoad> own) const;
 
+  /// What was done since construction.
   [[nodiscard]] const ReanalysisCounters& counters() const;
+  /// As it stands now, with all changes.
   [[nodiscard]] const FrameModel& model() const;
   /// Predicted operations of the last solve().
   [[nodiscard]] double last_operations() const;

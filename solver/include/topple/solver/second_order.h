@@ -28,26 +28,28 @@ enum class SecondOrder {
 
 /// The forces that one second-order solution rests on: axial forces of beams, membrane forces of shells.
 struct AxialState {
-  SecondOrder mode = SecondOrder::none;
+  SecondOrder mode = SecondOrder::none;      ///< that was used
   std::vector<double> first_axial;           ///< per beam: tension at its first end
   std::vector<std::vector<BeamLoad>> loads;  ///< per beam
   /// Shells' membrane forces are `shell_factor` times those of these displacements (per node; empty: none) and free
   /// strains (per shell; empty: none).
   std::vector<Vec6> shell_displacements;
-  std::vector<double> shell_strain;
-  double shell_factor = 1;
+  std::vector<double> shell_strain;   ///< per shell; see shell_displacements
+  double shell_factor = 1;            ///< see shell_displacements
   std::vector<HangingShell> hanging;  ///< in order of shells and of patches
 };
 
+/// A second-order answer with the forces that it rests on.
 struct SecondOrderSolution {
-  StaticSolution solution;
-  AxialState axial;
-  int iterations = 0;
+  StaticSolution solution;  ///< displacements, reactions and end forces in the displaced structure
+  AxialState axial;         ///< at which the iteration ended
+  int iterations = 0;       ///< of the axial forces
 };
 
 /// Thrown when the loads are at or beyond what the structure bears before it buckles.
 class Buckled : public Instability {
  public:
+  /// As Instability's: the motion is the shape in which the structure buckles.
   using Instability::Instability;
 };
 
@@ -58,12 +60,15 @@ class SecondOrderAnalysis {
   SecondOrderAnalysis(const FrameModel& model, SecondOrder mode, const AnalysisOptions& options = {},
                       std::vector<HangingShell> hanging = {});
   ~SecondOrderAnalysis();
+  /// Moves: what is moved from may only be destroyed or assigned to.
   SecondOrderAnalysis(SecondOrderAnalysis&&) noexcept;
+  /// Moves, as the constructor does.
   SecondOrderAnalysis& operator=(SecondOrderAnalysis&&) noexcept;
 
   /// `first_order`: the linear answer to the same loads. Throws Buckled when the structure is not stable under the
   /// loads, std::runtime_error when the axial forces do not settle.
   [[nodiscard]] SecondOrderSolution solve(const LoadSet& loads, const StaticSolution& first_order);
+  /// Sizes and times so far.
   [[nodiscard]] const AnalysisStatistics& statistics() const;
 
  private:
@@ -79,11 +84,15 @@ class SecondOrderDiagram {
   SecondOrderDiagram(const Beam& beam, const AxialState& axial, int index, const Vec12& end_forces,
                      const Vec12& hub_displacements);
   ~SecondOrderDiagram();
+  /// Moves: what is moved from may only be destroyed or assigned to.
   SecondOrderDiagram(SecondOrderDiagram&&) noexcept;
+  /// Moves, as the constructor does.
   SecondOrderDiagram& operator=(SecondOrderDiagram&&) noexcept;
   /// As BeamDiagram's.
   [[nodiscard]] std::array<double, 8> values(double distance, bool beyond = false) const;
+  /// As BeamDiagram::breaks().
   [[nodiscard]] std::vector<double> breaks() const;
+  /// As BeamDiagram::extremes().
   [[nodiscard]] BeamDiagram::Range extremes(BeamDiagram::Quantity quantity) const;
 
  private:

@@ -12,21 +12,23 @@
 
 namespace topple::solver {
 
+/// The condensed patch. Lengths, forces and angles in the units of its nodes and shells.
 class Superelement {
  public:
   /// A node that moves with two kept ones: (1 - share) of the first and share of the second (places in `kept`).
   struct Tie {
-    int node = -1;
-    std::array<int, 2> kept{};
-    double share = 0;
-    bool turns = true;  ///< false: it turns as it likes
+    int node = -1;              ///< of the patch, not kept
+    std::array<int, 2> kept{};  ///< places in Patch::kept
+    double share = 0;           ///< 0 to 1
+    bool turns = true;          ///< false: it turns as it likes
   };
+  /// The patch before it is condensed. Indices point into `nodes`.
   struct Patch {
-    std::vector<Vec3> nodes;
-    std::vector<Shell> shells;
+    std::vector<Vec3> nodes;        ///< positions, global axes
+    std::vector<Shell> shells;      ///< with `node` into `nodes`
     std::vector<Support> supports;  ///< of nodes that are not kept
     std::vector<int> kept;          ///< nodes seen from outside
-    std::vector<Tie> ties;
+    std::vector<Tie> ties;          ///< of nodes that are not kept
   };
   /// `gone`: shells that are not there from the beginning. Throws std::invalid_argument for a kept node that does not
   /// exist, a shell that the formulas cannot use, and a patch that can move by itself while its kept nodes rest.
@@ -34,7 +36,9 @@ class Superelement {
   /// From then on each loses its own shells. What does not change is shared: a copy costs far less than a new one.
   Superelement(const Superelement& other);
   ~Superelement();
+  /// Moves: what is moved from may only be destroyed or assigned to.
   Superelement(Superelement&&) noexcept;
+  /// Moves, as the constructor does.
   Superelement& operator=(Superelement&&) noexcept;
 
   /// Takes these shells out for good and condenses anew. So are shells that hang on nothing any more: on no kept, tied
@@ -44,6 +48,7 @@ class Superelement {
   /// (as in the finite cell method, J. Parvizian, A. Duester, E. Rank, Computational Mechanics 41 (2007), 121). 0 takes
   /// it out. Throws std::invalid_argument unless there is a share from 0 to 1 for each shell.
   void keep(const std::vector<double>& share);
+  /// False for a shell that was removed, or of which nothing is left.
   [[nodiscard]] bool stands(int shell) const;
   /// True while a shell stands at a node.
   [[nodiscard]] bool has_shells(int node) const;
@@ -58,6 +63,7 @@ class Superelement {
   /// and of what holds the kept nodes; rounding elsewhere.
   [[nodiscard]] std::vector<Vec6> reactions(const std::vector<Vec6>& displacements,
                                             const std::vector<Vec6>& loads) const;
+  /// As it was given.
   [[nodiscard]] const Patch& patch() const;
 
  private:

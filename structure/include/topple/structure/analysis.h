@@ -23,7 +23,7 @@ namespace topple::structure {
 
 /// A plane through the structure, and what counts of all that it passes.
 struct SectionCut {
-  std::string name;
+  std::string name;               ///< the key in the cuts file
   Vec3 at = Vec3::Zero();         ///< a point of the plane; moments are about it
   Mat3 axes = Mat3::Identity();   ///< rows: the plane's normal, along, across; right-handed
   bool everything = true;         ///< else these members and panels alone
@@ -36,26 +36,28 @@ struct SectionCut {
 /// lies behind, exactly. So the cut through everything balances all loads and reactions behind it, to rounding. What
 /// lies in the plane counts as behind it.
 struct CutResult {
-  Vec6 force = Vec6::Zero();
-  std::vector<std::pair<MemberId, Vec6>> members;  ///< what each of them has of it
-  std::vector<std::pair<PanelId, Vec6>> panels;
-  std::vector<std::pair<std::size_t, Vec6>> diaphragms;
+  Vec6 force = Vec6::Zero();                             ///< N and N m, in the cut's axes
+  std::vector<std::pair<MemberId, Vec6>> members;        ///< what each of them has of it
+  std::vector<std::pair<PanelId, Vec6>> panels;          ///< likewise
+  std::vector<std::pair<std::size_t, Vec6>> diaphragms;  ///< likewise, by index in Building::diaphragms
 };
 
+/// What is to be computed. Each part that is left at its default costs nothing.
 struct AnalysisRequest {
   std::vector<CombinationId> combinations;  ///< empty: all
-  int stations = 0;
+  int stations = 0;  ///< even intervals along each member at which internal forces are told; 0: extremes alone
   bool critical_sections = false;  ///< asked for by design checks
-  solver::AnalysisOptions solver;
-  solver::SecondOrder second_order = solver::SecondOrder::none;
-  int buckling = 0;  ///< lowest factors to find for each combination
-  std::vector<SectionCut> cuts;
-  LossRequest losses;
+  solver::AnalysisOptions solver;  ///< threads, factorisation and limits
+  solver::SecondOrder second_order =
+      solver::SecondOrder::none;            ///< whether and how axial forces act on the displaced structure
+  int buckling = 0;                         ///< lowest factors to find for each combination
+  std::vector<SectionCut> cuts;             ///< planes whose resultants are wanted
+  LossRequest losses;                       ///< members to remove, one at a time
   std::optional<TimeHistory> time_history;  ///< followed as losses.motion says, from the state of each combination
   int modes = 0;  ///< lowest natural frequencies; with second order about the tangent of the last combination
-  solver::MassDistribution mass = solver::MassDistribution::consistent;
-  solver::TorsionalMass torsional_mass = solver::TorsionalMass::polar;
-  bool rotary_inertia = false;
+  solver::MassDistribution mass = solver::MassDistribution::consistent;  ///< of members and panels, in the modes
+  solver::TorsionalMass torsional_mass = solver::TorsionalMass::polar;   ///< of members, in the modes
+  bool rotary_inertia = false;  ///< of members' sections in bending, in the modes
   /// Told what is done, and how far it is (0 to 1; below 0 where nothing can tell).
   std::function<void(std::string_view stage, double share)> progress;
   /// Threads that recover and write combinations side by side; 0: one for each processor. Changes no number.
@@ -64,108 +66,121 @@ struct AnalysisRequest {
 
 /// [value, distance from the first end]
 struct Extreme {
-  double value = 0, at = 0;
+  double value = 0;  ///< of the quantity
+  double at = 0;     ///< distance from the first end, m
 };
 /// Internal forces and deflections along a member, in the order axial, shear_y, shear_z, torsion, moment_y, moment_z,
 /// deflection_y, deflection_z.
 inline constexpr std::array<const char*, 8> diagram_names{"axial",    "shear_y",  "shear_z",      "torsion",
                                                           "moment_y", "moment_z", "deflection_y", "deflection_z"};
+/// One member under one combination, SI, member axes. Quantities are in the order of diagram_names.
 struct MemberResult {
-  solver::Vec12 end_forces = solver::Vec12::Zero();
-  std::array<Extreme, 8> min, max;
-  std::vector<std::array<double, 8>> stations;
+  solver::Vec12 end_forces = solver::Vec12::Zero();  ///< what the nodes do to the member, first end then second
+  std::array<Extreme, 8> min;                        ///< most negative of each quantity
+  std::array<Extreme, 8> max;                        ///< most positive of each
+  std::vector<std::array<double, 8>> stations;       ///< AnalysisRequest::stations + 1 of them, from the first end
   /// Where asked for: on both sides of every place between the ends where a load begins, ends or acts, and where an
   /// internal force is at its extreme.
   std::vector<std::array<double, 8>> critical;
   std::vector<double> critical_at;  ///< distances of these from the first end
-  bool active = true;
+  bool active = true;               ///< false: a tie or strut that carries nothing under this combination
 };
 /// One element of a shell panel's mesh: stress resultants per length at its centre, in the panel's axes.
 struct PanelElement {
-  std::array<int, 4> nodes{};  ///< of the building, and beyond those of AnalysisResult::mesh_nodes
-  std::array<double, 3> membrane{}, moments{};
-  std::array<double, 2> shears{};
+  std::array<int, 4> nodes{};        ///< of the building, and beyond those of AnalysisResult::mesh_nodes
+  std::array<double, 3> membrane{};  ///< N/m: xx, yy, xy
+  std::array<double, 3> moments{};   ///< N m/m: xx, yy, xy
+  std::array<double, 2> shears{};    ///< N/m: xz, yz
 };
 /// At a node of a shell panel's mesh: resultants recovered from those of the elements round it (linear fields over
 /// patches of elements), in the panel's axes. Panels that share the node have their own each.
 struct PanelNode {
-  int node = -1;  ///< as PanelElement's
-  std::array<double, 3> membrane{}, moments{};
-  std::array<double, 2> shears{};
+  int node = -1;                     ///< as PanelElement's
+  std::array<double, 3> membrane{};  ///< as PanelElement's
+  std::array<double, 3> moments{};   ///< as PanelElement's
+  std::array<double, 2> shears{};    ///< as PanelElement's
 };
+/// One panel under one combination.
 struct PanelResult {
-  std::array<double, 3> membrane{}, moments{};
-  std::array<double, 2> shears{};
-  std::array<Vec6, 4> corner_forces{};
-  std::vector<PanelElement> elements;  ///< of a shell panel
-  std::vector<PanelNode> nodes;        ///< of a shell panel's mesh, in order of their numbers
+  std::array<double, 3> membrane{};     ///< mean over the panel, as PanelElement's
+  std::array<double, 3> moments{};      ///< mean over the panel
+  std::array<double, 2> shears{};       ///< mean over the panel
+  std::array<Vec6, 4> corner_forces{};  ///< what the nodes do to the panel, per corner, global axes
+  std::vector<PanelElement> elements;   ///< of a shell panel
+  std::vector<PanelNode> nodes;         ///< of a shell panel's mesh, in order of their numbers
   /// Of a shell panel: estimated error of its mesh, in the energy norm, relative to the structure's shells together.
   double discretisation_error = 0;
 };
+/// One storey under one combination.
 struct StoreyResult {
-  double drift = 0;
-  std::array<double, 2> shear{};
+  double drift = 0;  ///< largest horizontal displacement of a post's top against its bottom, over its height
+  std::array<double, 2> shear{};  ///< N, along x and y
 };
 /// Where something moves most: a node, a place along a member, or a node of a shell's mesh.
 struct LargestDisplacement {
-  double value = 0;
-  Vec3 moved = Vec3::Zero();
-  NodeId node;      ///< valid for a node ...
-  MemberId member;  ///< ... or for a member, at this distance from its first end ...
-  double at = 0;
-  int mesh_node = -1;  ///< ... or an entry of AnalysisResult::mesh_nodes
+  double value = 0;           ///< its size, m
+  Vec3 moved = Vec3::Zero();  ///< the displacement, global axes, m
+  NodeId node;                ///< valid for a node ...
+  MemberId member;            ///< ... or for a member, at this distance from its first end ...
+  double at = 0;              ///< m
+  int mesh_node = -1;         ///< ... or an entry of AnalysisResult::mesh_nodes
 };
+/// All answers under one combination, SI.
 struct CombinationResult {
-  CombinationId combination;
+  CombinationId combination;             ///< the one that is meant
   std::vector<Vec6> displacements;       ///< per node
   std::vector<Vec6> mesh_displacements;  ///< per AnalysisResult::mesh_nodes
   std::vector<Vec6> reactions;           ///< per Building::supports
   std::vector<Vec6> edge_reactions;      ///< per Building::edge_supports; moments about the middle of the edge
-  std::vector<MemberResult> members;
-  std::vector<PanelResult> panels;
-  std::vector<Utilisation> joints;  ///< per Building::joints; value 0 where it has no capacity
-  std::vector<StoreyResult> storeys;
-  std::vector<CutResult> cuts;        ///< per AnalysisResult::cuts
-  std::vector<DesignResult> designs;  ///< per member, empty without a design check; no `governing`: not checked
-  Vec6 total_load = Vec6::Zero(), total_reaction = Vec6::Zero();  ///< about the model's centroid
-  LargestDisplacement largest;
+  std::vector<MemberResult> members;     ///< per member
+  std::vector<PanelResult> panels;       ///< per panel
+  std::vector<Utilisation> joints;       ///< per Building::joints; value 0 where it has no capacity
+  std::vector<StoreyResult> storeys;     ///< from the lowest up
+  std::vector<CutResult> cuts;           ///< per AnalysisResult::cuts
+  std::vector<DesignResult> designs;     ///< per member, empty without a design check; no `governing`: not checked
+  Vec6 total_load = Vec6::Zero();        ///< all loads, about the model's centroid, N and N m
+  Vec6 total_reaction = Vec6::Zero();    ///< about the model's centroid
+  LargestDisplacement largest;           ///< over nodes, members and meshes
   /// Estimated error of the shells' meshes: energy norm of the error of stresses over that of the stresses (Zienkiewicz
   /// and Zhu). That of deflections is smaller, about its square or less. 0 without shells.
   double discretisation_error = 0;
-  double equilibrium_error = 0;
-  int second_order_iterations = 0;
+  double equilibrium_error = 0;                ///< of total_load plus total_reaction, relative
+  int second_order_iterations = 0;             ///< 0 in a first-order analysis
   std::vector<solver::BucklingMode> buckling;  ///< lowest first; fewer than asked for when there are no more
-  solver::SolveQuality quality;
+  solver::SolveQuality quality;                ///< how far to trust the displacements
 };
+/// What analyse() returns.
 struct AnalysisResult {
-  std::vector<CombinationResult> combinations;
-  std::vector<Vec3> mesh_nodes;  ///< of shell panels, beside the building's nodes
-  std::vector<SectionCut> cuts;  ///< AnalysisRequest::cuts
-  LossResult losses;
-  double loss_seconds = 0;
+  std::vector<CombinationResult> combinations;                  ///< in the order of the request
+  std::vector<Vec3> mesh_nodes;                                 ///< of shell panels, beside the building's nodes
+  std::vector<SectionCut> cuts;                                 ///< AnalysisRequest::cuts
+  LossResult losses;                                            ///< of AnalysisRequest::losses
+  double loss_seconds = 0;                                      ///< wall time that the losses took
   std::vector<std::pair<CombinationId, MotionResult>> motions;  ///< under the time history
   std::vector<solver::VibrationMode> modes;  ///< lowest first; fewer than asked for when the mass has no more
   Vec3 moving_mass = Vec3::Zero();           ///< along x, y, z: what takes part in the modes
-  solver::AnalysisStatistics statistics;
-  std::vector<std::string> warnings;
-  std::vector<std::string> unfinished;    ///< what was asked for and not computed, and why
-  std::optional<DesignCode> design_code;  ///< set by check_design() (member_checks.h)
-  double drift_limit = 0;                 ///< with it: storey drift that counts as a use of 1
+  solver::AnalysisStatistics statistics;     ///< sizes and times of the factorisation
+  std::vector<std::string> warnings;         ///< sentences for a person
+  std::vector<std::string> unfinished;       ///< what was asked for and not computed, and why
+  std::optional<DesignCode> design_code;     ///< set by check_design() (member_checks.h)
+  double drift_limit = 0;                    ///< with it: storey drift that counts as a use of 1
 };
 
 /// What moves when a model is not stable, for reports and drawings.
 struct Diagnosis {
-  std::string message;
+  std::string message;        ///< what() of the exception
   CombinationId combination;  ///< the first one analysed, where the loads have no part in it
   const char* kind = "";      ///< "mechanism": moves without strain; "buckling": the loads are beyond the critical ones
   std::vector<NodeId> nodes;  ///< that move, most first
-  std::vector<MemberId> members;
+  std::vector<MemberId> members;  ///< that move
   std::vector<Vec6> shape;  ///< per node; largest translation 1, all zero when a member moves between nodes at rest
 };
+/// Thrown for a model that is not stable under a combination.
 class UnstableAnalysis : public UnstableModel {
  public:
+  /// The message becomes what().
   explicit UnstableAnalysis(Diagnosis found) : UnstableModel(found.message), diagnosis(std::move(found)) {}
-  Diagnosis diagnosis;
+  Diagnosis diagnosis;  ///< what moves
   /// What was computed before, where that was something: its `unfinished` says what is missing.
   std::shared_ptr<AnalysisResult> partial;
 };

@@ -10,36 +10,44 @@
 
 namespace topple::structure {
 
+/// Where a node is in a frame.
 struct AnimatedPose {
-  Vec3 position = Vec3::Zero();
-  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+  Vec3 position = Vec3::Zero();                                     ///< m
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< unit
+  /// Equal to the bit.
   bool operator==(const AnimatedPose& other) const {
     return position == other.position && orientation.coeffs() == other.orientation.coeffs();
   }
 };
 
+/// A node of the scene: one mesh, moved and shown by frames.
 struct AnimatedNode {
-  std::string name;
-  int mesh = -1;
+  std::string name;                                 ///< of the glTF node
+  int mesh = -1;                                    ///< index in AnimatedScene::meshes; -1: none
   std::vector<std::pair<int, AnimatedPose>> poses;  ///< by frame, ascending
   std::vector<std::pair<int, bool>> visible;        ///< from that frame on; the first is frame 0
 
+  /// A key for this frame, unless the pose is that of the last key.
   void pose(int frame, const AnimatedPose& now);
+  /// A key for this frame, unless the node was shown (hidden) already.
   void show(int frame, bool now);
 };
 
+/// A triangle mesh of the scene.
 struct SceneMesh {
-  std::vector<Vec3> positions, normals;
-  std::vector<Vec2> texture;  ///< coordinates; empty: none
-  std::vector<std::array<int, 3>> triangles;
-  int material = 0;
+  std::vector<Vec3> positions;                ///< m, about the node
+  std::vector<Vec3> normals;                  ///< unit, outwards
+  std::vector<Vec2> texture;                  ///< coordinates; empty: none
+  std::vector<std::array<int, 3>> triangles;  ///< three vertices each, counter-clockwise from outside
+  int material = 0;                           ///< index in AnimatedScene::materials
 };
 
+/// All that a glTF animation holds.
 struct AnimatedScene {
-  double rate = 30;
+  double rate = 30;                                                     ///< frames per second
   std::vector<std::pair<std::string, std::array<float, 3>>> materials;  ///< name and colour
-  std::vector<SceneMesh> meshes;
-  std::vector<AnimatedNode> nodes;
+  std::vector<SceneMesh> meshes;                                        ///< shared by nodes
+  std::vector<AnimatedNode> nodes;                                      ///< in the order of the file
 };
 
 [[nodiscard]] SceneMesh box_mesh(const Vec3& half, int material);

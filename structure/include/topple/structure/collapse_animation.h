@@ -20,6 +20,7 @@ class CollapseAnimation {
 
   /// Records the frames that are due up to the simulation's time; call after every step and after steps were skipped.
   void add_due(const Simulation& simulation);
+  /// Recorded so far.
   [[nodiscard]] int frames() const;
   /// glTF 2.0 in its binary form, y up, m and s. Poses are keyed where they change, so that linear interpolation gives
   /// every frame's own; a node has scale 1 from its birth to its removal, else 0.

@@ -18,12 +18,21 @@ class StepTimes {
 
   /// Milliseconds.
   struct Percentiles {
-    double mean = 0, p50 = 0, p95 = 0, p99 = 0, max = 0;
+    double mean = 0;  ///< of all steps
+    double p50 = 0;   ///< median
+    double p95 = 0;   ///< 95 % took no longer
+    double p99 = 0;   ///< 99 % took no longer
+    double max = 0;   ///< of the longest step
   };
+  /// Of whole steps, ms.
   [[nodiscard]] Percentiles whole() const;
+  /// Of steps less the time within the collision engine, ms.
   [[nodiscard]] Percentiles without_collision_engine() const;
+  /// ms, in the order of stage_names.
   [[nodiscard]] std::array<double, 6> mean_by_stage() const;
+  /// ms within the collision engine.
   [[nodiscard]] double mean_collision_engine() const;
+  /// How many steps were added.
   [[nodiscard]] std::size_t steps() const { return whole_.size(); }
 
  private:
@@ -34,7 +43,11 @@ class StepTimes {
 
 /// How many parts are down, bodies lie about and segments stand.
 struct CollapseCounts {
-  std::size_t joints_broken = 0, members_down = 0, panels_down = 0, bodies = 0, standing_segments = 0;
+  std::size_t joints_broken = 0;      ///< of members and panels
+  std::size_t members_down = 0;       ///< no longer part of what stands
+  std::size_t panels_down = 0;        ///< no longer part of what stands
+  std::size_t bodies = 0;             ///< moving pieces
+  std::size_t standing_segments = 0;  ///< connected parts that reach a support
 };
 [[nodiscard]] CollapseCounts collapse_counts(const Simulation& simulation);
 

@@ -13,6 +13,7 @@ enum class ModelForm { json, frame3dd, tables };
 /// By the ending: .json, .3dd, none (a folder of tables). Throws InputError for any other.
 [[nodiscard]] ModelForm model_form(const std::filesystem::path& path);
 
+/// A model in another form, as files.
 struct ConvertedModel {
   /// Names and texts: one with an empty name for .json and .3dd, one for each table.
   std::vector<std::pair<std::string, std::string>> files;
@@ -26,8 +27,9 @@ struct ConvertedModel {
 /// A model as JSON whose parts are joined: `"connect": tolerance` (in the model's length) is written into it, by which
 /// every reading merges nodes within that distance and divides members at nodes that lie on them.
 struct JoinedModel {
-  std::string text;
-  std::size_t nodes_merged = 0, members_divided = 0;  ///< members_divided: pieces that there are more
+  std::string text;  ///< JSON
+  std::size_t nodes_merged = 0;     ///< how many nodes became one with another
+  std::size_t members_divided = 0;  ///< how many more members there are
 };
 /// Throws InputError as convert_model() does, for a tolerance that is not above 0, and for a model that says `connect`
 /// itself.

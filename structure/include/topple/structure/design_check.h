@@ -33,7 +33,8 @@ struct MomentFactors {
 
 /// A stretch of the compression flange between lateral restraints.
 struct LateralStretch {
-  double from = 0, to = 0;        ///< distances from the member's first end, m
+  double from = 0;                ///< m from the member's first end
+  double to = 0;                  ///< m from the member's first end
   double length = 0;              ///< that lateral-torsional buckling is checked over, m
   bool moments_are_known = true;  ///< false: it goes on beyond the member, or has a free end: uniform moment is taken
 };
@@ -70,18 +71,19 @@ enum class ModePart {
 /// AISC 360 C2.3(b): what yielding under compression leaves of a member's flexural stiffness.
 struct YieldedStiffness {
   double ratio = 0;  ///< alpha P_r/P_ns, alpha = 1: the largest compression over the cross section's strength
-  double tau_b = 1;
+  double tau_b = 1;  ///< the factor on its flexural stiffness, 0 to 1
 };
 
+/// One member as its check takes it. Pointers are not owned and must outlive the check.
 struct DesignMember {
-  const Section* section = nullptr;
-  const Material* material = nullptr;
-  BucklingLengths lengths{};
+  const Section* section = nullptr;             ///< its dimensions and properties
+  const Material* material = nullptr;           ///< with a yield strength
+  BucklingLengths lengths{};                    ///< the effective length factors included
   std::array<LengthSource, 2> length_source{};  ///< of those about y and z
   std::array<ModePart, 2> mode_part{};          ///< likewise
-  MomentFactors factors{};
-  double stiffener_spacing = 0;  ///< of transverse stiffeners of the web, m; 0: at the supports alone
-  bool rigid_end_post = false;   ///< EN 1993-1-5 9.3
+  MomentFactors factors{};                      ///< of moment diagrams
+  double stiffener_spacing = 0;                 ///< of transverse stiffeners of the web, m; 0: at the supports alone
+  bool rigid_end_post = false;                  ///< EN 1993-1-5 9.3
   std::optional<std::array<bool, 2>> warping_held{};  ///< at either end; none: not known, the worst of both is taken
   /// Distance of each station from the first end, m, in order (two of the same place are its two sides). Empty: not
   /// known, then torsion of open sections is refused and the moment's shape is taken as uniform.
@@ -92,12 +94,13 @@ struct DesignMember {
 
 /// One formula of the code and what it gave (1 is the limit).
 struct DesignClause {
-  std::string clause;
-  double utilisation = 0;
+  std::string clause;      ///< as the code numbers it
+  double utilisation = 0;  ///< demand over resistance
 };
 
+/// What the check of one member found.
 struct DesignResult {
-  double utilisation = 0;
+  double utilisation = 0;                       ///< the largest of all clauses
   std::string governing;                        ///< clause of the largest utilisation
   std::vector<DesignClause> clauses;            ///< all that were evaluated
   BucklingLengths lengths;                      ///< that it was checked with
@@ -105,19 +108,23 @@ struct DesignResult {
   std::array<ModePart, 2> mode_part{};          ///< likewise
   std::optional<YieldedStiffness> yielded;      ///< that the analysis had
   std::string refusal;  ///< why the member cannot be said to pass whatever its utilisation; else empty
+  /// Nothing was refused and no clause is above 1.
   [[nodiscard]] bool passes() const { return refusal.empty() && utilisation <= 1; }
 };
 
 /// A value on the way to a clause. Its unit is force^`force` length^`length`.
 struct DesignStep {
-  std::string clause, symbol, formula;
-  double value = 0;
-  int force = 0, length = 0;
+  std::string clause;   ///< as the code numbers it
+  std::string symbol;   ///< in the code's notation
+  std::string formula;  ///< with its numbers, or empty
+  double value = 0;     ///< in SI
+  int force = 0;        ///< power of force in the unit
+  int length = 0;       ///< power of length in the unit
 };
 
 /// A check with all that lies between the section and the clauses.
 struct DesignAudit {
-  DesignResult result;
+  DesignResult result;            ///< as check_member() gives it
   std::vector<DesignStep> steps;  ///< in the order in which they are needed
 };
 

@@ -22,17 +22,18 @@ namespace topple::structure {
 
 /// One closed mesh of a model, global axes (z up), m.
 struct DrawnMesh {
-  std::string name;  ///< of its glTF node
-  fracture::Mesh mesh;
-  MemberId member;  ///< what it is bound to by name, if it is
-  PanelId panel;
-  double density = 0;  ///< kg/m3; 0: it weighs nothing
+  std::string name;     ///< of its glTF node
+  fracture::Mesh mesh;  ///< m, global axes
+  MemberId member;      ///< what it is bound to by name, if it is
+  PanelId panel;        ///< or this
+  double density = 0;   ///< kg/m3; 0: it weighs nothing
 };
 
 /// The `meshes` of the file that the building was read from, from their glTF files; empty when it has none. Throws
 /// InputError.
 [[nodiscard]] std::vector<DrawnMesh> read_drawn_meshes(const Building& building, const std::filesystem::path& file);
 
+/// Drawn meshes that follow a simulation.
 class DrawnModel {
  public:
   /// Throws InputError, naming the mesh, for one that is not closed.
@@ -42,6 +43,7 @@ class DrawnModel {
   /// Cuts what has parted since the last call.
   void update(const Simulation& simulation);
 
+  /// One closed piece of a mesh, and what it follows.
   struct Piece {
     std::string name;                            ///< of the mesh, numbered when it is in pieces
     std::shared_ptr<const fracture::Mesh> mesh;  ///< where it was in the undeformed building
@@ -50,6 +52,7 @@ class DrawnModel {
     /// Of a standing piece: the part that each vertex hangs on, members first, then panels; null: it does not stand.
     std::shared_ptr<const std::vector<std::int32_t>> bones;
   };
+  /// As of the last update().
   [[nodiscard]] const std::vector<Piece>& pieces() const;
   /// Changes whenever pieces() may have.
   [[nodiscard]] std::uint64_t revision() const;
@@ -64,7 +67,7 @@ class DrawnModel {
 /// A building as it is bent.
 struct BentBuilding {
   std::function<Vec6(NodeId)> displacement;  ///< of a node, global
-  std::function<bool(JointId)> holds;
+  std::function<bool(JointId)> holds;        ///< whether a joint still connects its two sides
 };
 /// How far a point of the undeformed building moves with the part that it hangs on (numbered as in Piece::bones): its
 /// foot on the part moves and turns with the part, a member as it bends.

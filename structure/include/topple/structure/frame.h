@@ -11,13 +11,13 @@ namespace topple::structure {
 
 /// One of the beams of a member that is divided at the nodes of a mesh.
 struct MemberPiece {
-  int beam = -1;
+  int beam = -1;     ///< index in FrameModel::beams
   double start = 0;  ///< distance of its first end from the member's
 };
 
 /// Elements of one shell panel; element k is shell `first_shell` + k.
 struct PanelMesh {
-  int first_shell = -1;
+  int first_shell = -1;                        ///< index in FrameModel::shells; -1: the panel is no shell
   std::vector<std::array<int, 4>> elements;    ///< frame nodes, counter-clockwise against the panel's normal
   std::array<std::vector<int>, 4> edge_nodes;  ///< frame nodes along edge i, from the panel's node i to i + 1
 };
@@ -25,13 +25,15 @@ struct PanelMesh {
 /// The panel's side of a joint that gives at one node of an edge. Its six freedoms are its motion against `hub`, along
 /// the columns of `translations` and about those of `rotations`.
 struct GivingNode {
-  int node = -1, hub = -1;
-  Mat3 translations = Mat3::Identity(), rotations = Mat3::Identity();
+  int node = -1;                         ///< of the frame, with its freedoms
+  int hub = -1;                          ///< node of the frame that it moves against
+  Mat3 translations = Mat3::Identity();  ///< columns: unit directions, global
+  Mat3 rotations = Mat3::Identity();     ///< columns: unit axes, global
 };
 /// An element of a shell panel with a corner at a joint that gives: a patch over its four nodes and `giving` ones. The
 /// shell of the same number is left for its mass.
 struct GivingElement {
-  int shell = -1;
+  int shell = -1;                             ///< index in FrameModel::shells
   std::array<int, 4> giving{-1, -1, -1, -1};  ///< of each corner, in Frame::giving_nodes
   Eigen::Matrix<double, 24, 24> stiffness;    ///< in the absolute freedoms of its corners
 };
@@ -40,8 +42,8 @@ struct GivingElement {
 /// come after them. Member i is beam i, or the first of its pieces. Panels of model `membrane` become shells without
 /// bending while all four edge joints hold: `shell_of_panel` gives their index, or -1.
 struct Frame {
-  solver::FrameModel model;
-  std::vector<int> shell_of_panel;
+  solver::FrameModel model;                      ///< nodes, beams, shells and supports
+  std::vector<int> shell_of_panel;               ///< per panel
   std::vector<PanelMesh> meshes;                 ///< per panel; without elements when it is no shell
   std::vector<std::vector<MemberPiece>> pieces;  ///< per member, in order; empty when it is one beam
   std::vector<std::vector<int>> edge_supports;   ///< per Building::edge_supports: supports of the frame
@@ -63,7 +65,7 @@ struct PartLoads {
   std::vector<std::vector<solver::BeamLoad>> members;  ///< per member: self weight and member loads, local axes
   std::vector<PanelAction> panels;                     ///< per panel
   std::vector<Vec6> nodes;                             ///< per node, global
-  std::vector<solver::Settlement> settlements;
+  std::vector<solver::Settlement> settlements;         ///< of supports, global
 };
 /// Loads in the frame `projected` count each component per length of the member seen along that global axis; moments
 /// always per length of member.
@@ -73,7 +75,9 @@ struct PartLoads {
 /// order; empty where an edge has none. Built once.
 class EdgeMembers {
  public:
+  /// Throws nothing. The building's nodes and members must not change afterwards.
   explicit EdgeMembers(const Building& building);
+  /// In order along the edge (0 to 3), from its first node.
   [[nodiscard]] const std::vector<MemberId>& of(PanelId panel, int edge) const {
     return members_[static_cast<std::size_t>(4 * panel.index + edge)];
   }
@@ -85,9 +89,9 @@ class EdgeMembers {
 /// What a membrane or cladding panel hands on, given which of its edge joints hold and which members still stand
 /// (`member_stands` empty: all). Force and moments are those of the panel's action, exactly.
 struct HandOver {
-  std::vector<solver::BeamLoad> beams;
-  std::vector<solver::NodeLoad> nodes;
-  std::array<Vec3, 4> edge_force;  ///< resultant over each edge, global (the demand of the edge joints)
+  std::vector<solver::BeamLoad> beams;  ///< with `beam` the member's number
+  std::vector<solver::NodeLoad> nodes;  ///< global axes
+  std::array<Vec3, 4> edge_force;       ///< resultant over each edge, global (the demand of the edge joints)
 };
 /// Nothing is handed over when no opposite pair of edges holds (the panel leaves), nor by a shell.
 [[nodiscard]] HandOver hand_over(const Building& building, const EdgeMembers& edges, PanelId panel,

@@ -9,10 +9,13 @@ namespace topple::structure {
 /// Index into the array of one kind of thing; distinct types that do not convert into each other.
 template <class Tag>
 struct Id {
-  std::int32_t index = -1;
+  std::int32_t index = -1;  ///< place in the array; -1: none
   constexpr Id() = default;
+  /// The id of place i.
   constexpr explicit Id(std::size_t i) : index(static_cast<std::int32_t>(i)) {}
+  /// False for a default-made id. Whether the array is that long is not known here.
   [[nodiscard]] constexpr bool valid() const { return index >= 0; }
+  /// By index.
   constexpr auto operator<=>(const Id&) const = default;
 };
 

@@ -9,10 +9,12 @@ namespace topple::structure {
 /// gives them to the member at that end. `end_forces` as in solver::StaticSolution; `end` 0 or 1.
 [[nodiscard]] Vec6 member_joint_demand(const solver::Vec12& end_forces, int end);
 
+/// How much of its capacity a joint bears.
 struct Utilisation {
-  double value = 0;
+  double value = 0;              ///< demand over capacity by the joint's rule; 1 breaks it; 0 without a capacity
   Sense sense = Sense::tension;  ///< the sense with the largest ratio
-  double demand = 0, capacity = 0;
+  double demand = 0;             ///< in that sense, N or N m
+  double capacity = 0;           ///< in that sense, N or N m
 };
 /// Ratio of demand to capacity by the joint's interaction rule, with capacities multiplied by `strength`.
 [[nodiscard]] Utilisation utilisation(const JointCapacity& capacity, const Vec6& demand, double strength = 1.0);

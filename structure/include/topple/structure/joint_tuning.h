@@ -16,6 +16,7 @@ struct JointChange {
   std::string joints;                             ///< a group, a joint's name or pattern, or "*"
   std::optional<double> strength;                 ///< multiplies the capacities; 1: as in the model
   std::array<std::optional<double>, 7> capacity;  ///< per Sense, before it is multiplied by the strength
+  /// Whether it changes nothing.
   [[nodiscard]] bool empty() const;
 };
 
@@ -36,7 +37,9 @@ class JointTuning {
   /// Back to the model's.
   void reset();
 
+  /// As it is now, the strength included, SI.
   [[nodiscard]] JointCapacity capacity(JointId joint) const;
+  /// The factor on the capacities as it is now.
   [[nodiscard]] double strength(JointId joint) const { return strength_[static_cast<std::size_t>(joint.index)]; }
   /// The shortest list that says the same.
   [[nodiscard]] const std::vector<JointChange>& changes() const { return changes_; }

@@ -6,9 +6,10 @@
 
 namespace topple::structure {
 
+/// One material's strengths times a factor.
 struct MaterialChange {
-  std::string material;
-  double strength = 1;  ///< multiplies yield, compressive and tensile strength, as far as the material has them
+  std::string material;  ///< its name in the model
+  double strength = 1;   ///< multiplies yield, compressive and tensile strength, as far as the material has them
 };
 
 /// `model`: a model as JSON (convert_model makes it of the other forms). All else keeps its value to the bit. Throws

@@ -24,7 +24,7 @@ enum class EffectiveLengths {
 
 /// What a model does not say of its members.
 struct DesignInput {
-  EffectiveLengths lengths = EffectiveLengths::automatic;
+  EffectiveLengths lengths = EffectiveLengths::automatic;  ///< where the model gives none
   /// Spacing of transverse stiffeners of webs, m, by member, pattern or group; of several that match the last.
   std::vector<std::pair<std::string, double>> stiffeners;
   bool rigid_end_posts = false;  ///< EN 1993-1-5 9.3: tension fields of webs are anchored at the members' ends
@@ -45,6 +45,7 @@ class DesignMembers {
     std::vector<double> bends;                                       ///< per mode
     std::map<std::pair<long, long>, std::array<double, 2>> leaning;  ///< by levels: about y, about z
   };
+  /// Of one combination; for member().
   [[nodiscard]] State state(const CombinationResult& combination) const;
   /// `at` is left empty.
   [[nodiscard]] DesignMember member(MemberId id, const CombinationResult& combination, const State& state) const;
@@ -57,8 +58,8 @@ class DesignMembers {
 
 /// Forces of a member at the stations and at the critical sections, in order along it, with their places.
 struct PlacedForces {
-  std::vector<double> at;
-  std::vector<SectionForces> forces;
+  std::vector<double> at;             ///< m from the first end, ascending
+  std::vector<SectionForces> forces;  ///< one for each place
 };
 [[nodiscard]] PlacedForces forces_along(const Member& member, const MemberResult& result);
 

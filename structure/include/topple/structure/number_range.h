@@ -7,8 +7,10 @@
 
 namespace topple::structure {
 
+/// The numbers that something may take.
 struct NumberRange {
-  double least = 0, most = 0;
+  double least = 0;          ///< smallest
+  double most = 0;           ///< largest, itself accepted
   bool above_least = false;  ///< `least` itself is not accepted
 
   /// False for NaN and infinities.

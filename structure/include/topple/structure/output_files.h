@@ -17,12 +17,15 @@ namespace topple::structure {
 
 class TemporaryName;
 
+/// A file while it is written. Without commit() nothing is left of it.
 class OutputFile {
  public:
   /// Throws InputError where no file can be made there: there is no such folder, no right to write, or what has the
   /// name is no regular file. A link at the target is replaced, not followed.
   explicit OutputFile(std::filesystem::path target);
+  /// Moves: what is moved from may only be destroyed or assigned to.
   OutputFile(OutputFile&&) noexcept;
+  /// Moves, as the constructor does.
   OutputFile& operator=(OutputFile&&) noexcept;
   /// Takes the temporary away unless the file has its name.
   ~OutputFile();
@@ -33,6 +36,7 @@ class OutputFile {
   [[nodiscard]] std::ostream& stream();
   /// For a program that writes the file itself: the temporary, whose ending is the target's.
   [[nodiscard]] const std::filesystem::path& temporary() const;
+  /// As it was given.
   [[nodiscard]] const std::filesystem::path& target() const;
 
   /// Writes out what is left and closes the temporary. Throws std::runtime_error.
@@ -59,8 +63,8 @@ void require_different(const std::filesystem::path& input, const std::filesystem
 
 /// A file that is made as it is written: `write` hands its text to a sink, in order.
 struct StreamedFile {
-  std::string name;
-  std::function<void(const std::function<void(std::string_view)>& sink)> write;
+  std::string name;                                                              ///< in the folder
+  std::function<void(const std::function<void(std::string_view)>& sink)> write;  ///< makes it
 };
 using NamedFiles = std::vector<std::pair<std::string, std::string>>;  ///< names and texts
 
@@ -80,6 +84,7 @@ class OutputFolder {
   OutputFolder& operator=(const OutputFolder&) = delete;
   /// A folder that was made for nothing goes again.
   ~OutputFolder();
+  /// As it was given.
   [[nodiscard]] const std::filesystem::path& path() const { return folder_; }
   /// Takes away the files named PREFIX, digits, ENDING that are not among `kept`: those of an earlier run.
   void remove_numbered(std::string_view prefix, std::string_view ending, const std::vector<std::string>& kept) const;

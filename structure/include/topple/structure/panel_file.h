@@ -10,17 +10,19 @@
 
 namespace topple::structure {
 
+/// Something that hits the panel.
 struct PanelHit {
-  fracture::Vec2 at = fracture::Vec2::Zero();
-  std::optional<double> radius;  ///< none: the method's own reach
+  fracture::Vec2 at = fracture::Vec2::Zero();  ///< where, m, panel axes
+  std::optional<double> radius;                ///< none: the method's own reach
 };
 
+/// What a panel file says.
 struct PanelFile {
-  std::string file;
-  fracture::PanelShape shape;  ///< counter-clockwise, whichever way the file goes
-  double density = 0;          ///< kg/m3
-  fracture::PanelSettings settings;
-  std::vector<PanelHit> hits;
+  std::string file;                  ///< its path or name, for messages
+  fracture::PanelShape shape;        ///< counter-clockwise, whichever way the file goes
+  double density = 0;                ///< kg/m3
+  fracture::PanelSettings settings;  ///< how it breaks
+  std::vector<PanelHit> hits;        ///< in order
 };
 
 /// A shipped panel's name ("wall_local"), or a path. Throws InputError.

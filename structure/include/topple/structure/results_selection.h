@@ -12,7 +12,8 @@ namespace topple::structure {
 /// Which members and nodes are written, in ascending order. Supports, panels, storeys and what concerns the whole are
 /// written all the same; of joints those of the members that are.
 struct ResultsSelection {
-  std::vector<std::size_t> members, nodes;
+  std::vector<std::size_t> members;  ///< ascending, into Building::members
+  std::vector<std::size_t> nodes;    ///< ascending, into Building::nodes
 };
 
 /// Of every section the members that are used most over all combinations (with design checks; else the first ones), at

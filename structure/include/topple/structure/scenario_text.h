@@ -14,9 +14,9 @@ namespace topple::structure {
 [[nodiscard]] std::pair<Building, Scenario> parse_scenario(std::string_view text, const std::string& name,
                                                            Building building);
 
-/// A tool as an event of a scenario has it, without `at`: {"projectile": {"from": [-20, 0, 2], "velocity": [60, 0, 0]}}.
-/// Joints, members, nodes and groups are named as the building of the simulation has them. A member is cut inside only
-/// where a cut of the scenario divided it. Throws InputError with the place.
+/// A tool as an event of a scenario has it, without `at`: {"projectile": {"from": [-20, 0, 2], "velocity": [60, 0,
+/// 0]}}. Joints, members, nodes and groups are named as the building of the simulation has them. A member is cut inside
+/// only where a cut of the scenario divided it. Throws InputError with the place.
 [[nodiscard]] Tool parse_tool(std::string_view text, const std::string& name, const Building& building);
 
 }  // namespace topple::structure

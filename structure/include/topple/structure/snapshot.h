@@ -18,16 +18,18 @@ namespace topple::structure {
 
 /// Joints that were given other capacities.
 struct CapacityChange {
-  std::vector<std::pair<JointId, JointCapacity>> joints;
+  std::vector<std::pair<JointId, JointCapacity>> joints;  ///< each with what it bears from then on, SI
 };
 
+/// What was done to a simulation from outside, and when.
 struct Snapshot {
-  std::int64_t step = 0;
+  std::int64_t step = 0;    ///< steps made so far
   std::uint64_t hash = 0;   ///< of the simulation then
   std::uint64_t scene = 0;  ///< hash of the building and the scenario that it began with
+  /// One thing that was done.
   struct Action {
-    std::int64_t step = 0;  ///< after which it was asked for; it acts in the next
-    std::variant<Tool, HostContact, CapacityChange> what;
+    std::int64_t step = 0;                                 ///< after which it was asked for; it acts in the next
+    std::variant<Tool, HostContact, CapacityChange> what;  ///< a tool, a contact of the host's, or other capacities
   };
   std::vector<Action> actions;  ///< beside the scenario's events, in order
 };

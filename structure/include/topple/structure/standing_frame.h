@@ -21,14 +21,16 @@ namespace topple::structure {
 
 enum class BreakCause { impact, overload, buckling, bracing, tool };
 
+/// A joint that broke, or yielded, and why.
 struct JointBreak {
-  JointId joint;
-  BreakCause cause = BreakCause::overload;
-  Sense sense = Sense::tension;
-  double demand = 0, capacity = 0;
-  int generation = 0;  ///< within the step
-  double energy = 0;   ///< elastic energy that the break sets free
-  Vec3 position = Vec3::Zero();
+  JointId joint;                            ///< that broke
+  BreakCause cause = BreakCause::overload;  ///< what broke it
+  Sense sense = Sense::tension;             ///< in which it was over capacity
+  double demand = 0;                        ///< in that sense, N or N m
+  double capacity = 0;                      ///< in that sense, N or N m
+  int generation = 0;                       ///< within the step
+  double energy = 0;                        ///< elastic energy that the break sets free
+  Vec3 position = Vec3::Zero();             ///< of the joint, m
   /// No joint broke: the member of this one was cut in two here, as a fraction of its length from its first end.
   std::optional<double> inside{};
 };
@@ -38,10 +40,10 @@ struct JointBreak {
 /// they were when it left. It may be a panel alone, or a node alone: a node whose members all left, with
 /// whatever node_mass() it has.
 struct Detached {
-  std::vector<MemberId> members;
-  std::vector<PanelId> panels;
-  std::vector<NodeId> nodes;
-  bool mechanism = false;
+  std::vector<MemberId> members;  ///< of the part
+  std::vector<PanelId> panels;    ///< of the part
+  std::vector<NodeId> nodes;      ///< of the part
+  bool mechanism = false;         ///< true: it can move without strain
   /// Joints of members by which it still hangs on what stands (`mechanism: hinge`, pieces of a post that was cut in
   /// two): free to turn in what is released, holding in the rest until the host breaks them.
   std::vector<JointId> hinges;
@@ -59,15 +61,16 @@ struct Detached {
 
 /// Where a force acts on the standing frame.
 struct ContactPlace {
-  MemberId member;  ///< valid: on a member ...
-  PanelId panel;    ///< ... or on a panel
-  Vec3 point = Vec3::Zero();
-  NodeId node{};  ///< ... or on a node
+  MemberId member;            ///< valid: on a member ...
+  PanelId panel;              ///< ... or on a panel
+  Vec3 point = Vec3::Zero();  ///< m, in the undeformed building
+  NodeId node{};              ///< ... or on a node
 };
+/// A force that something presses on the frame with.
 struct ContactLoad {
-  std::int64_t key = 0;  ///< chosen by the caller; a later load with the same key replaces it
-  ContactPlace place;
-  Vec3 force = Vec3::Zero();
+  std::int64_t key = 0;        ///< chosen by the caller; a later load with the same key replaces it
+  ContactPlace place;          ///< where it acts
+  Vec3 force = Vec3::Zero();   ///< N, global axes
   Vec3 moment = Vec3::Zero();  ///< about the point, on members and nodes alone
 };
 
@@ -80,15 +83,23 @@ struct PanelRemains {
 
 /// Principal stresses of a panel at their largest, Pa, both positive, and where they are.
 struct PanelStress {
-  double tension = 0, compression = 0;
-  Vec3 tension_at = Vec3::Zero(), compression_at = Vec3::Zero();
+  double tension = 0;                  ///< the largest
+  double compression = 0;              ///< the largest
+  Vec3 tension_at = Vec3::Zero();      ///< of `tension`, m
+  Vec3 compression_at = Vec3::Zero();  ///< of `compression`, m
 };
 
+/// What was done and what was not. The first four are as in solver::ReanalysisCounters, over all components.
 struct FrameCounters {
-  std::uint64_t solves = 0, low_rank = 0, refactorisations = 0, segmentations = 0, unchanged = 0;
-  std::uint64_t restricted = 0;                            ///< answers that left out what could not break
-  std::uint64_t background_factors = 0, late_factors = 0;  ///< as solver::ReanalysisCounters
-  std::uint64_t vertices_searched = 0;                     ///< nodes and members that segmentation looked at
+  std::uint64_t solves = 0;              ///< answers computed
+  std::uint64_t low_rank = 0;            ///< by low-rank updates
+  std::uint64_t refactorisations = 0;    ///< new factors
+  std::uint64_t segmentations = 0;       ///< searches for connected parts
+  std::uint64_t unchanged = 0;           ///< answers given without computing
+  std::uint64_t restricted = 0;          ///< answers that left out what could not break
+  std::uint64_t background_factors = 0;  ///< as solver::ReanalysisCounters
+  std::uint64_t late_factors = 0;        ///< as solver::ReanalysisCounters
+  std::uint64_t vertices_searched = 0;   ///< nodes and members that segmentation looked at
 };
 
 /// Energies of the standing frame in J, in the last state of rest. The works are sums over the changes since
@@ -98,7 +109,8 @@ struct FrameCounters {
 /// is a check and not a definition. Where what stands moves, its kinetic energy and what is damped stand beside these,
 /// the works of all loads on what moves are gravity_work until it rests, and impulses put `struck` in.
 struct FrameEnergy {
-  double elastic = 0, elastic_at_start = 0;
+  double elastic = 0;           ///< of what stands
+  double elastic_at_start = 0;  ///< before the first change
   double gravity_work =
       0;  ///< of all that counts as mass, through the frame's displacements; parts that left: up to then
   double other_work = 0;    ///< of horizontal loads, moments and event loads
@@ -111,6 +123,8 @@ struct FrameEnergy {
   double struck = 0;        ///< work of impulses on it
 };
 
+/// What stands, with its damage. Every function that names a part throws std::out_of_range where the building has none
+/// such.
 class StandingFrame {
  public:
   /// Solves the undamaged building under the combination's loads. Throws UnstableModel, and InputError for a
@@ -119,9 +133,13 @@ class StandingFrame {
   ~StandingFrame();
 
   // What stands.
+  /// Whether the member is still part of the frame.
   [[nodiscard]] bool stands(MemberId member) const;
+  /// Whether the panel is still part of the frame.
   [[nodiscard]] bool stands(PanelId panel) const;
+  /// Whether the node is still part of the frame.
   [[nodiscard]] bool stands(NodeId node) const;
+  /// Whether the joint holds, in the frame or in a part that left it.
   [[nodiscard]] bool intact(JointId joint) const;
   /// In the last state of rest, in which nothing was over capacity: static states on the way of a collapse are never
   /// reached. Of a node that left: as it was then.
@@ -133,21 +151,27 @@ class StandingFrame {
   /// As solved last: what the nodes do to a member (local axes, first end then second), what all supports of a
   /// node do to the structure (global axes). Zero for what does not stand.
   [[nodiscard]] Eigen::Matrix<double, 12, 1> end_forces(MemberId member) const;
+  /// What all supports of the node do to the structure, N and N m, global axes.
   [[nodiscard]] Vec6 reaction(NodeId node) const;
   /// Over all states that were checked, peaks of sudden losses included.
   [[nodiscard]] double largest_utilisation_so_far(JointId joint) const;
   /// Segment number of a standing member (segments are numbered from 0 in order of their least node; lone nodes are
   /// none). -1 when it does not stand.
   [[nodiscard]] int segment(MemberId member) const;
+  /// How many segments stand.
   [[nodiscard]] int standing_segments() const;
+  /// J, of what stands, in the last state of rest.
   [[nodiscard]] double elastic_energy() const;
+  /// J, as FrameEnergy says.
   [[nodiscard]] FrameEnergy energy() const;
   /// Of a standing shell panel in either face (at the centres of its elements), or of a membrane by its mean stress, in
   /// the static state solved last. Nothing for a panel that bears no stress.
   [[nodiscard]] std::optional<PanelStress> stress(PanelId panel) const;
   /// Downward load of a part in the combination over gravity, node loads apart.
   [[nodiscard]] double mass(MemberId member) const;
+  /// Of the panel, kg.
   [[nodiscard]] double mass(PanelId panel) const;
+  /// Of the node's own loads, kg.
   [[nodiscard]] double node_mass(NodeId node) const;
   /// Mean downward displacement of the nodes at the greatest height.
   [[nodiscard]] double roof_sag() const;
@@ -164,9 +188,13 @@ class StandingFrame {
   [[nodiscard]] std::vector<ContactLoad> contact_loads() const;  ///< in order of key
 
   // Changes by tools and contacts: they take effect in the next generations.
+  /// From outside: the cause is told in the event.
   void break_joint(JointId joint, BreakCause cause);
+  /// Takes the member away, at once.
   void remove(MemberId member);
+  /// Takes the panel away, at once.
   void remove(PanelId panel);
+  /// Takes every support of the node away.
   void remove_support(NodeId node);
   void set_strength_factor(JointId joint, double factor);  ///< on top of the capacity
   /// The owner of the building changed this joint's capacity in place: its utilisation follows at once (no statics are
@@ -175,9 +203,13 @@ class StandingFrame {
   /// Factor on E and G, above 0 and at most 1 (else std::invalid_argument), from now on instead of the one before. It
   /// comes on slowly, as in a fire: no sudden-loss factor acts on it.
   void set_stiffness_factor(MemberId member, double factor);
+  /// m/s2, global axes.
   void set_gravity(const Vec3& gravity);
+  /// N and N m, global axes, on top of what acts there.
   void add_load(NodeId node, const Vec6& load);
+  /// Replaces the load with the same key.
   void set_contact_load(const ContactLoad& load);
+  /// The load with this key no longer acts.
   void remove_contact_load(std::int64_t key);
 
   /// While joints break, components of at least this many nodes are brought up to date only where a joint may break
@@ -185,7 +217,7 @@ class StandingFrame {
   /// numbers differ by rounding; what a joint bore in between, where it could not break, may be missing from its
   /// largest_utilisation_so_far(). Below, telling the two apart costs more than a whole answer.
   void restrict_answers_from(int nodes);
-  static constexpr int default_restricted_from = 1000;
+  static constexpr int default_restricted_from = 1000;  ///< nodes; below, a whole answer is cheaper
 
   /// True when a load or joint changed and the answer is not yet settled.
   [[nodiscard]] bool pending() const;
@@ -237,21 +269,22 @@ class StandingFrame {
   /// Response to a unit force at a place: how far the place gives way along it (compliance, m/N), the demand that it
   /// adds to each joint (sparse: only joints that change), and the Rayleigh mass of the static shape.
   struct UnitResponse {
-    double compliance = 0;
-    double rayleigh_mass = 0;
-    std::vector<std::pair<JointId, Vec6>> demands;
+    double compliance = 0;                          ///< m/N
+    double rayleigh_mass = 0;                       ///< kg; a lower bound where the answer is a partial one
+    std::vector<std::pair<JointId, Vec6>> demands;  ///< N and N m for one newton, in the joints' axes
   };
   /// The place must stand. A place on a member is taken at the nearest point of its axis, on a panel at the nearest
   /// point of its plane; a panel hands the force by the lever rule to two opposite edges along its shorter span.
   [[nodiscard]] UnitResponse respond(const ContactPlace& place, const Vec3& direction) const;
   /// Response to unit forces at several places on different parts, each along its direction.
   struct CoupledResponse {
-    std::vector<UnitResponse> places;
-    Eigen::MatrixXd compliance;  ///< m/N: by how much place i gives way under a unit force at place j; symmetric
+    std::vector<UnitResponse> places;  ///< of each place by itself
+    Eigen::MatrixXd compliance;        ///< m/N: by how much place i gives way under a unit force at place j; symmetric
     /// kg (m/N)2: the product of the static shapes under unit forces at i and j, integrated over the structure's mass;
     /// between the places Rayleigh's masses are compliance^-1 inertia compliance^-1.
     Eigen::MatrixXd inertia;
   };
+  /// The directions are unit vectors.
   [[nodiscard]] CoupledResponse respond(std::span<const ContactPlace> places, std::span<const Vec3> directions) const;
   /// The same as far as it is known at a part of the cost: the compliance, a lower bound of the Rayleigh mass, and the
   /// demands of the joints at the members and the panel that bear the force directly.
@@ -281,7 +314,9 @@ class StandingFrame {
   /// Of a shell panel as it is, or was when it left: in the freedoms of its nodes (Panel::all_nodes()), global.
   [[nodiscard]] Eigen::MatrixXd shell_stiffness(PanelId shell) const;
 
+  /// What was done since construction.
   [[nodiscard]] const FrameCounters& counters() const;
+  /// As it was given.
   [[nodiscard]] const Building& building() const;
 
  private:

@@ -8,8 +8,10 @@
 
 namespace topple::structure {
 
+/// A thread that makes steps.
 class StepThread {
  public:
+  /// What the thread does. All is called on it.
   struct Work {
     double length = 1.0 / 60;    ///< of a step, simulated s
     std::function<bool()> step;  ///< makes one; false: there is none to make before the next order
@@ -18,6 +20,7 @@ class StepThread {
     std::function<void(bool follows)> publish;
     bool paused = false;  ///< at first
   };
+  /// Begins at once, unless Work::paused.
   explicit StepThread(Work work);
   /// Waits for the step under way.
   ~StepThread();
@@ -32,10 +35,13 @@ class StepThread {
   /// gone through as slowly as it was made.
   void look(const std::function<void(double share)>& at) const;
 
+  /// Stops before the next step, or goes on.
   void set_paused(bool paused);
+  /// As it was last set.
   [[nodiscard]] bool paused() const;
   /// Simulated seconds for each second, above 0; at most so many where steps do not keep up.
   void set_speed(double speed);
+  /// As it was last set.
   [[nodiscard]] double speed() const;
   /// Simulated seconds for each second that there are: speed() while steps keep up, less while they do not. Over about
   /// the last second, or the step under way where that takes longer; 0 while paused or without a step to make.

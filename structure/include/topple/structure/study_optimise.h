@@ -22,9 +22,10 @@ struct StudyDesign {
   std::size_t failed = 0;          ///< samples
 };
 
+/// The answer of an optimisation.
 struct OptimiseResult {
-  std::string method;
-  StudyDesign best;
+  std::string method;                     ///< that was used
+  StudyDesign best;                       ///< of all designs whose bounds hold, else the one closest to them
   std::vector<StudyDesign> designs;       ///< in order of their runs
   std::vector<Sample> unseen;             ///< of the best, on samples that the search has not used
   std::vector<std::string> chosen_names;  ///< of StudyDesign::chosen
@@ -35,9 +36,12 @@ struct OptimiseResult {
 /// the answer. Throws InputError.
 class StudyOptimiser {
  public:
+  /// Reads the model and scenario. Throws InputError.
   explicit StudyOptimiser(const Study& study);
   ~StudyOptimiser();
+  /// Moves: what is moved from may only be destroyed or assigned to.
   StudyOptimiser(StudyOptimiser&&) noexcept;
+  /// For the journal.
   [[nodiscard]] const StudyTask& task() const;
   /// Goes on from what the journal has.
   [[nodiscard]] OptimiseResult run(const StudyRun& run, StudyJournal& journal) const;
