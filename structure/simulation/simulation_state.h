@@ -99,7 +99,8 @@ struct Simulation::State {
   struct BodyImpact;
   struct ImpactSide;
   void strike_bodies(const std::vector<collision::Contact>& contacts);
-  void strike_bodies_at(const std::vector<const collision::Contact*>& contacts);
+  [[nodiscard]] std::optional<collision::Contact> sensed_now(const collision::Contact& sensed) const;
+  void strike_bodies_at(const std::vector<collision::Contact>& contacts);
   void push_bodies(BodyImpact& impact);
   [[nodiscard]] bool may_break(collision::BodyId id) const;
   [[nodiscard]] std::int64_t body_of_joint(JointId joint) const;

@@ -55,24 +55,44 @@ bool Simulation::State::may_break(collision::BodyId id) const {
   return found != bodies.end() && may_fall_apart(found->second);
 }
 
+/// The contact as it is now: of a body that has fallen apart since it was sensed, that of the piece which has the part.
+/// Nothing where that is no body any more.
+std::optional<collision::Contact> Simulation::State::sensed_now(const collision::Contact& sensed) const {
+  const auto now = [&](collision::BodyId& id, std::int64_t tag) {
+    if (bodies.contains(id.value)) return true;
+    if (tag < 0) return false;
+    id = {body_of_part[static_cast<std::size_t>(tag)]};
+    return bodies.contains(id.value);
+  };
+  collision::Contact contact = sensed;
+  if (!now(contact.body, contact.part_tag)) return std::nullopt;
+  const bool two = contact.other.kind == collision::Touched::Kind::body;
+  if (two && !now(contact.other.body, contact.other.part_tag)) return std::nullopt;
+  if (two && contact.other.body == contact.body) return std::nullopt;
+  return contact;
+}
+
 /// Those of one pair at one instant, in order of time; pairs of which nothing can break are left to the collision
-/// world.
+/// world. What comes later in the step comes upon the pieces of what broke before.
 void Simulation::State::strike_bodies(const std::vector<collision::Contact>& contacts) {
   std::vector<char> done(contacts.size(), 0);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const collision::Contact& first = contacts[i];
-    if (done[i] != 0 || first.approach_speed < impact_settings.least_speed) continue;
-    const bool two = first.other.kind == collision::Touched::Kind::body;
-    const bool on_moving = sways() && first.other.kind == collision::Touched::Kind::obstacle;
-    if (!on_moving && !may_break(first.body) && !(two && may_break(first.other.body))) continue;
-    std::vector<const collision::Contact*> together;
+    if (done[i] != 0 || contacts[i].approach_speed < impact_settings.least_speed) continue;
+    const std::optional<collision::Contact> first = sensed_now(contacts[i]);
+    if (!first) continue;
+    const bool two = first->other.kind == collision::Touched::Kind::body;
+    const bool on_moving = sways() && first->other.kind == collision::Touched::Kind::obstacle;
+    if (!on_moving && !may_break(first->body) && !(two && may_break(first->other.body))) continue;
+    std::vector<collision::Contact> together;
     for (std::size_t k = i; k < contacts.size(); ++k) {
-      const collision::Contact& next = contacts[k];
-      if (next.body != first.body || next.other.kind != first.other.kind || next.other.body != first.other.body ||
-          (!on_moving && next.other.obstacle != first.other.obstacle))
+      if (done[k] != 0 ||
+          (k > i && (contacts[k].time - first->time) * contacts[k].approach_speed > impact_settings.touching))
         continue;
-      if (k > i && (next.time - first.time) * next.approach_speed > impact_settings.touching) continue;
-      together.push_back(&next);
+      const std::optional<collision::Contact> next = sensed_now(contacts[k]);
+      if (!next || next->body != first->body || next->other.kind != first->other.kind ||
+          next->other.body != first->other.body || (!on_moving && next->other.obstacle != first->other.obstacle))
+        continue;
+      together.push_back(*next);
       done[k] = 1;
     }
     strike_bodies_at(together);
@@ -185,10 +205,9 @@ std::vector<StruckJoint> Simulation::State::struck_joints(const BodyImpact& impa
   return joints;
 }
 
-void Simulation::State::strike_bodies_at(const std::vector<const collision::Contact*>& contacts) {
-  const collision::Contact& first = *contacts.front();
+void Simulation::State::strike_bodies_at(const std::vector<collision::Contact>& contacts) {
+  const collision::Contact& first = contacts.front();
   const bool two = first.other.kind == collision::Touched::Kind::body;
-  if (!bodies.contains(first.body.value) || (two && !bodies.contains(first.other.body.value))) return;
   BodyImpact impact;
   impact.sides[0] = side_at(first.body, time_since_state(first.body, first.time));
   impact.sides[1] = two ? side_at(first.other.body, time_since_state(first.other.body, first.time)) : ImpactSide();
@@ -197,17 +216,16 @@ void Simulation::State::strike_bodies_at(const std::vector<const collision::Cont
     impact.sides[1].held = sways();
     if (!sways() && (!impact.sides[1].standing.valid() || !stands(impact.sides[1].standing))) return;  // it broke there
   }
-  for (const collision::Contact* contact : contacts) {
-    const Part struck_part = impact.sides[1].held ? obstacles.part_of(contact->other.obstacle) : Part();
+  for (const collision::Contact& contact : contacts) {
+    const Part struck_part = impact.sides[1].held ? obstacles.part_of(contact.other.obstacle) : Part();
     if (impact.sides[1].held && (!struck_part.valid() || !stands(struck_part))) continue;
     // An area is met at its corners.
-    for (int corner = 0; corner < std::max(1, contact->corner_count); ++corner) {
-      const Vec3 point =
-          contact->corner_count > 0 ? contact->corners[static_cast<std::size_t>(corner)] : contact->point;
-      impact.places.push_back({point, contact->normal});
-      impact.sides[0].tags.push_back(contact->part_tag);
+    for (int corner = 0; corner < std::max(1, contact.corner_count); ++corner) {
+      const Vec3 point = contact.corner_count > 0 ? contact.corners[static_cast<std::size_t>(corner)] : contact.point;
+      impact.places.push_back({point, contact.normal});
+      impact.sides[0].tags.push_back(contact.part_tag);
       const std::int64_t tag = struck_part.valid() ? part_number(building, struck_part) : -1;
-      impact.sides[1].tags.push_back(two ? contact->other.part_tag : tag);
+      impact.sides[1].tags.push_back(two ? contact.other.part_tag : tag);
     }
   }
   if (!impact.places.empty()) push_bodies(impact);
