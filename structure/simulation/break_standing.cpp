@@ -10,21 +10,15 @@
 #include <cmath>
 #include <utility>
 
+#include "simulation/debris/debris_settings.h"
 #include "simulation/impact/strike.h"
 
 namespace topple::structure {
 
-namespace {
-/// Blows flatter to the panel than this (sine) do not punch it.
-constexpr double steepest = 0.5;
-/// A chunk starts where the statics had its panel, but no farther from the undeformed place than this, m.
-constexpr double largest_start = 0.05;
-}  // namespace
-
 double Simulation::State::punching_force(PanelId id, const Vec3& along, double radius) const {
   const Panel& panel = building[id];
   const BreakablePanel& breakable = breakable_panels[static_cast<std::size_t>(id.index)];
-  if (!breakable.settings || std::abs(panel.axes.row(2).dot(along)) < steepest) return unlimited;
+  if (!breakable.settings || std::abs(panel.axes.row(2).dot(along)) < debris_settings.flattest_punch) return unlimited;
   return breakable.tensile_strength * M_PI * panel.thickness * (2 * radius + panel.thickness);
 }
 
@@ -169,7 +163,7 @@ std::vector<collision::BodyId> Simulation::State::break_standing(PanelId panel, 
   const Part part(panel);
   Vec3 sunk = Vec3::Zero();
   for (const NodeId node : building[panel].nodes) sunk += frame->displacement(node).head<3>() / 4;
-  if (sunk.norm() > largest_start) sunk *= largest_start / sunk.norm();
+  if (sunk.norm() > debris_settings.largest_start) sunk *= debris_settings.largest_start / sunk.norm();
 
   frame->fracture(panel, left.remains());
   if (left.hulls().empty()) {

@@ -2,18 +2,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulation/debris/debris_settings.h"
 #include "simulation/impact/impact_settings.h"
 #include "simulation/simulation_state.h"
 
 namespace topple::structure {
-
-namespace {
-/// Room around a body's swept bounds, m: what its shapes' skins and a step's turn may add.
-constexpr double sense_margin = 0.25;
-/// Room around that which is looked over with it, m: a body that lies or rolls stays in it, one that falls for some
-/// steps.
-constexpr double look_ahead = 1;
-}  // namespace
 
 /// Of a body in this step: its way, and how far its turn takes a point that is `radius` from its centre.
 Simulation::State::Sweep Simulation::State::sweep_of(const collision::BodyState& state, double radius) const {
@@ -27,7 +20,7 @@ Bounds Simulation::State::swept_bounds(const Body& body, const collision::BodySt
   const Vec3 middle = state.pose.position + turn * ((body.bounds.low + body.bounds.high) / 2);
   const Vec3 half = turn.cwiseAbs() * ((body.bounds.high - body.bounds.low) / 2);
   const auto [travel, turned_by] = sweep_of(state, (body.bounds.high - body.bounds.low).norm() / 2);
-  const Vec3 margin = half + Vec3::Constant(sense_margin + turned_by);
+  const Vec3 margin = half + Vec3::Constant(debris_settings.sense_margin + turned_by);
   Bounds swept;
   for (const Vec3& at : {middle, Vec3(middle + travel)}) {
     swept.add(at - margin);
@@ -63,8 +56,8 @@ void Simulation::State::approach(BodyMotion& one, const collision::BodyState& st
   std::vector<Part>& near = one.body->near;
   if (!one.looked_over.holds(swept)) {
     one.looked_over = swept;
-    one.looked_over.add(Vec3(swept.low - Vec3::Constant(look_ahead)));
-    one.looked_over.add(Vec3(swept.high + Vec3::Constant(look_ahead)));
+    one.looked_over.add(Vec3(swept.low - Vec3::Constant(debris_settings.look_ahead)));
+    one.looked_over.add(Vec3(swept.high + Vec3::Constant(debris_settings.look_ahead)));
     near = obstacles.without_shape(one.looked_over);
   }
   if (!near.empty()) obstacles.approach(near, swept, *frame, *world);

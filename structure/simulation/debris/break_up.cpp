@@ -15,11 +15,6 @@
 
 namespace topple::structure {
 
-namespace {
-/// Joints within this share of the most used break together: symmetric ones differ by rounding only.
-constexpr double same_time = 1e-6;
-}  // namespace
-
 bool Simulation::State::holds_in_debris(JointId joint) const {
   return frame->intact(joint) && debris_broken[static_cast<std::size_t>(joint.index)] == 0;
 }
@@ -141,7 +136,8 @@ bool Simulation::State::break_joints_of(const Blow& blow) {
     largest = std::max(largest, used.value);
   }
   if (over.empty()) return false;
-  std::erase_if(over, [&](const auto& each) { return each.second.value < (1 - same_time) * largest; });
+  std::erase_if(over,
+                [&](const auto& each) { return each.second.value < (1 - impact_settings.same_instant) * largest; });
   tell_broken_in_debris(one, over, blow.generation);
   free_segments.erase(blow.on.value);
   return true;

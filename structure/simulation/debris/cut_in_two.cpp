@@ -3,15 +3,13 @@
 // one that hangs from the node above.
 #include <algorithm>
 
+#include "simulation/debris/debris_settings.h"
 #include "simulation/debris/momentum.h"
 #include "simulation/simulation_state.h"
 
 namespace topple::structure {
 
 namespace {
-
-/// A piece starts where the statics had its end, but no farther from the undeformed place than this, m.
-constexpr double largest_start = 0.05;
 
 /// A box from one stretch of a member's axis to the other, its centre at the origin; global axes.
 fracture::Mesh box(const Vec3& half, const Mat3& axes, const Vec3& from_centre) {
@@ -93,7 +91,8 @@ void Simulation::State::release_in_two(const Detached& part) {
     const Vec3 moves = velocity + spin.cross(piece.rest.centre - whole.rest.centre);
     const NodeId node = building[member].nodes[static_cast<std::size_t>(end)];
     Vec3 displacement = frame->displacement(node).head<3>();
-    if (displacement.norm() > largest_start) displacement *= largest_start / displacement.norm();
+    if (displacement.norm() > debris_settings.largest_start)
+      displacement *= debris_settings.largest_start / displacement.norm();
     if (piece.volume < scenario.debris.smallest_volume) {
       tell(SimulationEvent::Kind::limited, piece.name).mass = piece.rest.mass;
       handed_on.add(piece, {{piece.rest.centre, Eigen::Quaterniond::Identity()}, moves, spin});

@@ -4,18 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulation/debris/debris_settings.h"
 #include "simulation/simulation_state.h"
 #include "topple/structure/joint_check.h"
 
 namespace topple::structure {
 
 namespace {
-/// Time over which a hinge's pull on what stands is averaged, s (as that of what lies on it: resting_loads.cpp).
-constexpr double smoothing_time = 0.1;
-/// A change of the pull below this share of the body's weight is not told to the frame.
-constexpr double band_of_weight = 0.05;
-/// What stands so near to a hinge, m, is passed by what hangs on it.
-constexpr double joint_room = 0.3;
 
 template <class Id>
 bool has(const std::vector<Id>& list, Id id) {
@@ -86,8 +81,8 @@ void Simulation::State::pass_what_holds(collision::BodyId id, const Vec3& point,
     return;
   }
   Bounds around;
-  around.add(point - Vec3::Constant(joint_room));
-  around.add(point + Vec3::Constant(joint_room));
+  around.add(point - Vec3::Constant(debris_settings.joint_room));
+  around.add(point + Vec3::Constant(debris_settings.joint_room));
   obstacles.approach(around, *frame, *world);
   touched.kind = collision::Touched::Kind::obstacle;
   for (const Part part : grid.near(around)) {
@@ -196,10 +191,10 @@ Utilisation Simulation::State::utilisation_of(const Hung& hung, const Vec3& forc
 
 /// The smoothed pull on what stands, told when it has changed beyond a band.
 void Simulation::State::load_by(Hung& hung, const Vec3& force, const Vec3& moment) {
-  const double share = std::min(1.0, scenario.step / smoothing_time);
+  const double share = std::min(1.0, scenario.step / debris_settings.smoothing_time);
   hung.force += share * (force - hung.force);
   hung.moment += share * (moment - hung.moment);
-  const double band = band_of_weight * bodies.at(hung.body.value).rest.mass * building.gravity;
+  const double band = debris_settings.hinge_band * bodies.at(hung.body.value).rest.mass * building.gravity;
   const double arm = building[building[hung.joint].member].length;
   const double changed = (hung.force - hung.applied).norm() + (hung.moment - hung.moment_applied).norm() / arm;
   if (changed <= band) return;

@@ -1,14 +1,12 @@
 // Contacts of bodies that the host owns. For the length of its impact such a body is one like any other; then it leaves
 // again and its change of momentum is handed back.
 #include "simulation/call_checks.h"
+#include "simulation/debris/debris_settings.h"
 #include "simulation/simulation_state.h"
 
 namespace topple::structure {
 
 namespace {
-
-/// Size of the ball that stands for a host's body while it strikes, m; its mass and inertia are its own.
-constexpr double stand_in_radius = 0.05;
 
 Vec3 point_velocity(const HostContact& contact) {
   return contact.velocity + contact.angular_velocity.cross(contact.point - contact.centre);
@@ -47,7 +45,7 @@ void Simulation::State::strike_by_host(const HostContact& contact, Part part, Ho
   guest.rest.mass = contact.mass;
   guest.rest.centre = contact.centre;
   guest.rest.inertia = contact.inertia;
-  guest.radius = stand_in_radius;
+  guest.radius = debris_settings.stand_in_radius;
   const collision::BodyId id = add_body(std::move(guest), contact.velocity, contact.angular_velocity, Vec3::Zero());
   obstacles.approach(shapes.bounds(part), *frame, *world);
 

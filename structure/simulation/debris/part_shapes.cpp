@@ -1,4 +1,5 @@
 #include "simulation/debris/part_shapes.h"
+#include "simulation/debris/debris_settings.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -10,15 +11,6 @@
 namespace topple::structure {
 
 namespace {
-
-/// Gap left between neighbours beyond their own size, m: more than the skin of any collision shape.
-constexpr double neighbour_gap = 0.01;
-/// No end is shortened by more than this share of the length, so that stubby parts keep a body.
-constexpr double largest_cut = 0.4;
-/// Members within this angle (cosine) of an edge count as lying along it.
-constexpr double along_edge = 0.999;
-/// Members steeper than this to a panel's plane (sine) pierce it.
-constexpr double piercing = 0.1;
 
 /// Half of what a section covers along a direction across its member.
 double half_extent(const Member& member, const Vec2& size, const Vec3& direction) {
@@ -69,8 +61,8 @@ PartShapes::Shape PartShapes::member_shape(const Building& building, MemberId id
   for (int end = 0; end < 2; ++end) {
     const auto e = static_cast<std::size_t>(end);
     const double arm = (end == 0 ? 1 : -1) * member.offsets[e].dot(x);
-    const double wanted = clearance(building, member.nodes[e], id, x) - arm + neighbour_gap;
-    cut[e] = std::clamp(wanted, 0.0, largest_cut * member.length);
+    const double wanted = clearance(building, member.nodes[e], id, x) - arm + debris_settings.neighbour_gap;
+    cut[e] = std::clamp(wanted, 0.0, debris_settings.largest_cut * member.length);
   }
   Shape shape;
   shape.axes = member.axes;
@@ -93,12 +85,12 @@ double PartShapes::edge_inset(const Building& building, const Panel& panel, int 
       const Member& member = building[id];
       // Members along the edge, and those that pierce the panel's plane at its corners (posts through a floor): a slab
       // that falls must not start inside the posts beside it, nor hang between them.
-      const bool lies_along = std::abs(member.axes.row(0).dot(along)) >= along_edge;
-      const bool pierces = std::abs(member.axes.row(0).dot(panel.axes.row(2))) > piercing;
+      const bool lies_along = std::abs(member.axes.row(0).dot(along)) >= debris_settings.along_edge;
+      const bool pierces = std::abs(member.axes.row(0).dot(panel.axes.row(2))) > debris_settings.piercing;
       if (!lies_along && !pierces) continue;
       inset = std::max(inset, half_extent(member, section_size(building[member.section]), across));
     }
-  return inset + neighbour_gap;
+  return inset + debris_settings.neighbour_gap;
 }
 
 /// A plate whose corners are those of a box along its axes becomes one: boxes touch each other at a fraction of the
@@ -129,7 +121,8 @@ PartShapes::Shape PartShapes::panel_shape(const Building& building, PanelId id) 
     along[i] = (outline[(i + 1) % 4] - outline[i]).normalized();
     const Vec2 normal(-along[i].y(), along[i].x());
     const double depth = normal.dot(middle - outline[i]);  // positive when the nodes run counter-clockwise
-    const double inset = std::min(edge_inset(building, panel, static_cast<int>(i)), largest_cut * std::abs(depth));
+    const double inset =
+        std::min(edge_inset(building, panel, static_cast<int>(i)), debris_settings.largest_cut * std::abs(depth));
     inward[i] = outline[i] + normal * std::copysign(inset, depth);
   }
   Shape shape;
@@ -201,12 +194,13 @@ std::vector<Vec3> PartShapes::corners(const Building& building, MemberId id, dou
   const Member& member = building[id];
   const Shape& shape = of(Part(id));
   const Vec3 x = shape.axes.row(0).transpose(), start = member_start(building, member);
-  const double middle = (shape.centre - start).dot(x), long_enough = (1 - 2 * largest_cut) * (to - from);
-  double low = std::max(from > 0 ? from + neighbour_gap / 2 : from, middle - shape.half.x());
-  double high = std::min(to < member.length ? to - neighbour_gap / 2 : to, middle + shape.half.x());
+  const double middle = (shape.centre - start).dot(x),
+               long_enough = (1 - 2 * debris_settings.largest_cut) * (to - from);
+  double low = std::max(from > 0 ? from + debris_settings.neighbour_gap / 2 : from, middle - shape.half.x());
+  double high = std::min(to < member.length ? to - debris_settings.neighbour_gap / 2 : to, middle + shape.half.x());
   if (high - low < long_enough) {
-    low = from + largest_cut * (to - from);
-    high = to - largest_cut * (to - from);
+    low = from + debris_settings.largest_cut * (to - from);
+    high = to - debris_settings.largest_cut * (to - from);
   }
   std::vector<Vec3> corners;
   for (const double y : {-1.0, 1.0})

@@ -1,17 +1,13 @@
 // Release: what lost its hold on the frame becomes rigid bodies with true mass, centre and inertia.
 #include <algorithm>
 
+#include "simulation/debris/debris_settings.h"
 #include "simulation/debris/momentum.h"
 #include "simulation/simulation_state.h"
 
 namespace topple::structure {
 
 namespace {
-/// Radius of the sphere that stands for a node's point mass falling alone, m.
-constexpr double hub_radius = 0.1;
-/// A part starts where its statics had it, but no farther from the undeformed place than this, m: a segment on its way
-/// to a mechanism has static answers of metres, which it has had no time to reach.
-constexpr double largest_start = 0.05;
 
 std::string name_of(const Building& building, const Detached& part) {
   if (!part.members.empty()) return building[part.members.front()].name;
@@ -94,11 +90,12 @@ Body Simulation::State::describe(const Detached& part) const {
     one.bounds.add(shapes.bounds(Part(panel)));
   }
   if (part.members.empty() && part.panels.empty()) {
-    one.radius = hub_radius;
-    one.rest = sphere_mass(one.rest.centre, one.rest.mass, hub_radius);
-    one.volume = 4.0 / 3.0 * M_PI * hub_radius * hub_radius * hub_radius;
-    one.bounds.low = one.rest.centre - Vec3::Constant(hub_radius);
-    one.bounds.high = one.rest.centre + Vec3::Constant(hub_radius);
+    one.radius = debris_settings.node_radius;
+    one.rest = sphere_mass(one.rest.centre, one.rest.mass, debris_settings.node_radius);
+    one.volume =
+        4.0 / 3.0 * M_PI * debris_settings.node_radius * debris_settings.node_radius * debris_settings.node_radius;
+    one.bounds.low = one.rest.centre - Vec3::Constant(debris_settings.node_radius);
+    one.bounds.high = one.rest.centre + Vec3::Constant(debris_settings.node_radius);
   }
   one.bounds.low -= one.rest.centre;
   one.bounds.high -= one.rest.centre;
@@ -113,7 +110,8 @@ void Simulation::State::release(const Detached& part) {
   Vec3 displacement = Vec3::Zero();
   for (const NodeId node : part.nodes) displacement += frame->displacement(node).head<3>();
   if (!part.nodes.empty()) displacement /= static_cast<double>(part.nodes.size());
-  if (displacement.norm() > largest_start) displacement *= largest_start / displacement.norm();
+  if (displacement.norm() > debris_settings.largest_start)
+    displacement *= debris_settings.largest_start / displacement.norm();
   Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();
   if (part.motion) {
     displacement = part.motion->displacement;

@@ -1,4 +1,5 @@
 #include "simulation/debris/resting_loads.h"
+#include "simulation/debris/debris_settings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,15 +9,6 @@
 namespace topple::structure {
 
 namespace {
-/// Time over which contact forces are averaged, s: longer than the solver's chatter, shorter than anything that
-/// settles.
-constexpr double smoothing_time = 0.1;
-/// Share of what a part can still bear that a change of load may have without being told to the frame.
-constexpr double band_of_margin = 0.1;
-/// The band is never more nor less than these shares of the body's weight, whatever the joints can bear.
-constexpr double largest_band = 0.25, smallest_band = 0.01;
-/// A load that moved by this share of the member's length counts as changed.
-constexpr double moved_share = 0.1;
 
 /// Least force across the part that one of its joints can bear, with the moment of a force at midspan.
 double local_capacity(const Building& building, Part part, std::span<const double> strength) {
@@ -72,7 +64,7 @@ void RestingLoads::gather(std::span<const FeltContact> contacts, const Obstacles
 }
 
 void RestingLoads::smooth(Resting& resting, double dt) {
-  const double share = std::min(1.0, dt / smoothing_time);
+  const double share = std::min(1.0, dt / debris_settings.smoothing_time);
   resting.force += share * (resting.seen_force - resting.force);
   if (resting.seen_weight == 0) return;
   const Vec3 at = resting.seen_point / resting.seen_weight;
@@ -83,8 +75,9 @@ void RestingLoads::smooth(Resting& resting, double dt) {
 double RestingLoads::band(const StandingFrame& frame, std::span<const double> strength_factors, Part part,
                           double weight) {
   const double margin = std::max(0.0, 1 - largest_utilisation(frame, part));
-  const double bearable = band_of_margin * margin * local_capacity(frame.building(), part, strength_factors);
-  return std::clamp(bearable, smallest_band * weight, largest_band * weight);
+  const double bearable =
+      debris_settings.band_of_margin * margin * local_capacity(frame.building(), part, strength_factors);
+  return std::clamp(bearable, debris_settings.smallest_band * weight, debris_settings.largest_band * weight);
 }
 
 /// True when the frame was told.
@@ -97,7 +90,7 @@ bool RestingLoads::lay_one(const Key& key, Resting& resting, StandingFrame& fram
                             : std::sqrt(panel_volume(frame.building(), frame.building()[key.part.panel]) /
                                         frame.building()[key.part.panel].thickness);
   const bool changed = (resting.force - resting.applied).norm() > allowed;
-  const bool moved = resting.laid && (resting.point - resting.applied_at).norm() > moved_share * length;
+  const bool moved = resting.laid && (resting.point - resting.applied_at).norm() > debris_settings.moved_share * length;
   const bool left = resting.laid && resting.seen_weight == 0 && resting.force.norm() < allowed;
   if (left) {
     frame.remove_contact_load(resting.load_key);

@@ -1,14 +1,10 @@
 #include "simulation/impact/first_failure.h"
+#include "simulation/impact/impact_settings.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace topple::structure {
-
-namespace {
-/// Joints that fail within this share of the least force fail with it: symmetric ones differ by rounding only.
-constexpr double same_force = 1e-6;
-}  // namespace
 
 double failing_force(const JointCapacity& capacity, double strength, const Vec6& demand, const Vec6& step) {
   const auto used = [&](double force) { return utilisation(capacity, demand + force * step, strength).value; };
@@ -57,15 +53,15 @@ FirstFailure first_failure(const StandingFrame& frame, const StandingFrame::Unit
     const Vec6 demand = frame.demand(id);
     const double now = utilisation(capacity, demand, strength).value;
     const double slope = utilisation(capacity, step, strength).value;
-    if (now >= 1 || !(slope * least * (1 + same_force) >= 1 - now)) continue;
+    if (now >= 1 || !(slope * least * (1 + impact_settings.same_instant) >= 1 - now)) continue;
     const double force = failing_force(capacity, strength, demand, step);
-    if (force > least * (1 + same_force)) continue;
+    if (force > least * (1 + impact_settings.same_instant)) continue;
     failing.push_back({id, force, demand + force * step});
     least = std::min(least, force);
   }
   FirstFailure first;
   for (const Failing& one : failing) {
-    if (one.force > least * (1 + same_force)) continue;
+    if (one.force > least * (1 + impact_settings.same_instant)) continue;
     const double strength = strength_factors[static_cast<std::size_t>(one.joint.index)];
     const Utilisation used = utilisation(building[one.joint].capacity, one.demand, strength);
     first.joints.push_back(impact_break(one.joint, used));

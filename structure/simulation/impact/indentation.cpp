@@ -1,15 +1,10 @@
 #include "simulation/impact/indentation.h"
+#include "simulation/impact/impact_settings.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace topple::structure {
-
-namespace {
-/// A place that gives way farther than this, m, without bearing the body is part of something that swings or falls with
-/// it, which linear statics say nothing about.
-constexpr double largest_depth = 3;
-}  // namespace
 
 Indentation::Indentation(double body_mass, double approach_speed, double weight, double structure_mass)
     : mass_(body_mass + structure_mass),
@@ -22,7 +17,7 @@ Indentation::Stop Indentation::push(double compliance, double failure_force) {
   compliance_ = compliance;
   force_ = 0;
   if (depth_ < unloaded_) {
-    if (unloaded_ > largest_depth) return Stop::missed;
+    if (unloaded_ > impact_settings.largest_depth) return Stop::missed;
     const double squared = speed_ * speed_ + 2 * weight_ * (unloaded_ - depth_) / mass_;
     if (squared < 0) return Stop::missed;
     speed_ = std::sqrt(squared);
@@ -33,7 +28,7 @@ Indentation::Stop Indentation::push(double compliance, double failure_force) {
 
   const double excess = force_ - weight_;
   const double stopping_force = weight_ + std::sqrt(excess * excess + mass_ * speed_ * speed_ / compliance_);
-  const double deepest_force = std::max(force_, (largest_depth - unloaded_) / compliance);
+  const double deepest_force = std::max(force_, (impact_settings.largest_depth - unloaded_) / compliance);
   const double end_force = std::min({stopping_force, failure_force, deepest_force});
   const double travel = (end_force - force_) * compliance_;
   const double squared =

@@ -17,18 +17,11 @@ namespace topple::structure {
 
 namespace {
 
-/// Places that give way alike to this share are one place (a beam and a post hit at their common node).
-constexpr double same_place = 1e-6;
-/// A stiff place among soft ones is over before they feel anything: they are pushed one after the other.
-constexpr double most_unlike = 30;
-/// Joints that come this near (relative) to failing fail with the first.
-constexpr double same_use = 1e-6;
-
 /// Whether each place gives way in a way of its own.
 bool independent(const Eigen::MatrixXd& compliance) {
   Eigen::MatrixXd left = compliance;
   for (Eigen::Index k = 0; k < left.rows(); ++k) {
-    if (!(left(k, k) > same_place * compliance(k, k))) return false;
+    if (!(left(k, k) > impact_settings.same_place * compliance(k, k))) return false;
     const Eigen::VectorXd column = left.col(k) / left(k, k);
     left -= (column * left.row(k)).eval();
   }
@@ -117,7 +110,8 @@ std::vector<JointBreak> WatchedJoints::failing(const Eigen::VectorXd& force) con
   }
   std::vector<JointBreak> found;
   for (std::size_t i = 0; i < joints_.size(); ++i) {
-    if (uses[i].value >= worst * (1 - same_use)) found.push_back(impact_break(joints_[i].joint, uses[i]));
+    if (uses[i].value >= worst * (1 - impact_settings.same_instant))
+      found.push_back(impact_break(joints_[i].joint, uses[i]));
   }
   return found;
 }
@@ -195,7 +189,7 @@ bool Simulation::State::take_up(JointPush& pushed) const {
     for (std::size_t i = 0; i < hits.size(); ++i) hits[i].structure_mass = pushed.response.places[i].rayleigh_mass;
   }
   pushed.push.emplace(pushed.body, pushed.pushed_at, pushed.response.compliance, share);
-  return pushed.push->fastest_over_slowest() <= most_unlike;
+  return pushed.push->fastest_over_slowest() <= impact_settings.most_unlike;
 }
 
 /// As for one place (strike.cpp): the joints that bear the push directly do not fail under its peaks, and the strain

@@ -1,4 +1,5 @@
 #include "simulation/impact/struck_joints.h"
+#include "simulation/impact/impact_settings.h"
 
 #include <algorithm>
 
@@ -7,8 +8,6 @@
 namespace topple::structure {
 
 namespace {
-/// Joints that come this near (relative) to failing fail with the first.
-constexpr double same_time = 1e-6;
 
 Utilisation used(const StruckJoint& one, const Eigen::VectorXd& force) {
   return structure::utilisation(*one.capacity, one.demand + one.step * force, one.strength);
@@ -60,7 +59,8 @@ std::vector<JointBreak> StruckJoints::failing(const Eigen::VectorXd& force) cons
   }
   std::vector<JointBreak> found;
   for (std::size_t i = 0; i < joints_.size(); ++i)
-    if (uses[i].value >= worst * (1 - same_time)) found.push_back(impact_break(joints_[i].joint, uses[i]));
+    if (uses[i].value >= worst * (1 - impact_settings.same_instant))
+      found.push_back(impact_break(joints_[i].joint, uses[i]));
   std::sort(found.begin(), found.end(), [](const JointBreak& a, const JointBreak& b) { return a.joint < b.joint; });
   return found;
 }
