@@ -15,13 +15,23 @@ struct Strengths {
   double moment_y_use = 0;  ///< of the stretch between restraints in which it is largest
 };
 
+/// H1.2: tension along the whole member holds the compressed flange; what C_b is multiplied by.
+double tension_factor(const SteelSection& s, double length, double tension) {
+  if (!(tension > 0) || !(length > 0)) return 1;
+  const double euler = pi2 * s.E * s.Iz / (length * length);  // P_ey
+  return std::sqrt(1 + tension / euler);
+}
+
 /// Chapter F for every stretch between lateral restraints; the strength is that of the stretch that is used most.
 void set_flexure(Strengths& r, const SteelSection& s, const DesignMember& member,
                  std::span<const SectionForces> stations, const Trail& trail) {
   const std::vector<CheckedStretch> stretches = checked_stretches(member, stations, moment_factor_aisc);
+  double tension = unlimited;  // the least one; 0 where any part is compressed
+  for (const SectionForces& at : stations) tension = std::min(tension, std::max(0.0, at[0]));
   const CheckedStretch* worst = nullptr;
   for (const CheckedStretch& stretch : stretches) {
-    const double strength = phi_flexure * strong_strength(s, stretch.length, stretch.factor, {});
+    const double cb = stretch.factor * tension_factor(s, stretch.length, tension);
+    const double strength = phi_flexure * strong_strength(s, stretch.length, cb, {});
     const double use = stretch.moment / strength;
     if (worst != nullptr && use <= r.moment_y_use) continue;
     worst = &stretch;
@@ -29,7 +39,11 @@ void set_flexure(Strengths& r, const SteelSection& s, const DesignMember& member
     r.moment_y = strength;
   }
   if (!trail.on() || worst == nullptr) return;
-  (void)strong_strength(s, worst->length, worst->factor, trail);
+  const double held = tension_factor(s, worst->length, tension);
+  if (held > 1)
+    trail.add("AISC 360 F1", "sqrt(1 + P_r/P_ey)", "tension along the whole member, C_b times this (H1.2)", held,
+              plain_number);
+  (void)strong_strength(s, worst->length, worst->factor * held, trail);
   trail.add("AISC 360 F1", "phi_b M_nx", "0.90 M_n, the least of yielding, lateral-torsional and local buckling",
             r.moment_y, of_moment);
 }

@@ -7,14 +7,12 @@ DesignResult check_en1993(const DesignMember& member, std::span<const SectionFor
   const SteelSection steel = steel_section(*member.section, *member.material);
   const LargestForces forces = largest_forces(stations);
   const SectionClass cls = classify_en1993(steel, forces.compression);
-  const en1993::Resistance section = en1993::cross_section(steel, cls);
+  const en1993::Resistance section = en1993::cross_section(steel, cls, forces.compression > 0);
   tell_section(steel, trail);
   tell_forces(forces, trail);
   trail.add("EN 1993-1-1 5.5 (table 5.2)", "class", "of the web and the flanges, under the compression and M_y",
             cls.number, plain_number);
-  if (cls.number == 4)
-    trail.add("EN 1993-1-5 10", "f_y, reduced", "the stress at which the slenderest part is at the limit of class 3",
-              cls.fy, of_stress);
+  if (cls.number == 4 && steel.kind != SteelSection::Kind::pipe) tell_effective(cls.counts, trail);
   ClauseList clauses;
   en1993::check_sections(clauses, steel, cls, section, stations, trail);
   en1993::check_plates(clauses, steel, cls, member, stations, trail);

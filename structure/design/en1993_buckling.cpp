@@ -65,10 +65,10 @@ double reduction_of(double squash, double critical, double imperfection, double&
   return reduction(slenderness, imperfection);
 }
 
-Reductions reductions(const SteelSection& steel, const DesignMember& member, double fy, const Trail& trail) {
+/// `squash`: A f_y, in class 4 A_eff f_y.
+Reductions reductions(const SteelSection& steel, const DesignMember& member, double squash, const Trail& trail) {
   const Curves curve = buckling_curves(steel);
   Reductions r;
-  const double squash = steel.area * fy;
   if (member.lengths.y > 0) {
     const double ncr = euler(steel.E, steel.Iy, member.lengths.y);
     r.y = reduction_of(squash, ncr, curve.y, r.slenderness_y);
@@ -208,7 +208,7 @@ void check_with_bimoment(ClauseList& clauses, const SteelSection& s, const Momen
 void check_buckling(ClauseList& clauses, const SteelSection& steel, const DesignMember& member, const SectionClass& cls,
                     const Resistance& section, const LargestForces& forces, double bimoment,
                     std::span<const SectionForces> stations, const Trail& trail) {
-  const Reductions r = reductions(steel, member, cls.fy, trail);
+  const Reductions r = reductions(steel, member, section.axial * gamma_m0, trail);
   const LateralUse lateral_buckling = lateral_use(steel, member, cls, section.moment_y, stations, trail);
   const double moment_y = lateral_buckling.use;
   const double moment_z = forces.moment_z / (section.moment_z * gamma_m0 / gamma_m1);

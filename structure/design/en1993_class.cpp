@@ -29,15 +29,16 @@ int class_of(const Plate& plate, double epsilon) {
 }  // namespace
 
 SectionClass classify_en1993(const SteelSection& steel, double compression) {
-  if (steel.kind == SteelSection::Kind::solid) return {1, steel.fy};
-  if (steel.kind == SteelSection::Kind::other) return {3, steel.fy};  // elastic: its parts are not known
+  const EffectiveSection whole{steel.area, steel.elastic_y, steel.elastic_z};
+  if (steel.kind == SteelSection::Kind::solid) return {1, steel.fy, whole};
+  if (steel.kind == SteelSection::Kind::other) return {3, steel.fy, whole};  // elastic: its parts are not known
   const double epsilon = std::sqrt(235e6 / steel.fy);
   if (steel.kind == SteelSection::Kind::pipe) {  // table 5.2, sheet 3: limits in epsilon squared
     const double slenderness = steel.depth / steel.web;
     const double e2 = epsilon * epsilon;
     for (int k = 0; k < 3; ++k)
-      if (slenderness <= (50 + 20 * k) * e2) return {k + 1, steel.fy};
-    return {4, 235e6 * 90 / slenderness};
+      if (slenderness <= (50 + 20 * k) * e2) return {k + 1, steel.fy, whole};
+    return {4, 235e6 * 90 / slenderness, whole};
   }
   const bool box = steel.kind == SteelSection::Kind::box;
   // Clear widths: between fillets (I), inside the corners (box: 3 t off the outside, as for hollow sections).
@@ -47,10 +48,8 @@ SectionClass classify_en1993(const SteelSection& steel, double compression) {
   const Plate flange = box ? Plate{(steel.width - 3 * steel.web) / steel.web, {33, 38, 42}}
                            : Plate{((steel.width - steel.web) / 2 - steel.fillet) / steel.flange, {9, 10, 14}};
   const int number = std::max(class_of(web, epsilon), class_of(flange, epsilon));
-  if (number < 4) return {number, steel.fy};
-  const double reduction = std::min({1.0, std::pow(web.limit[2] * epsilon / web.slenderness, 2),
-                                     std::pow(flange.limit[2] * epsilon / flange.slenderness, 2)});
-  return {4, steel.fy * reduction};
+  if (number < 4) return {number, steel.fy, whole};
+  return {4, steel.fy, effective_section(steel)};
 }
 
 }  // namespace topple::structure

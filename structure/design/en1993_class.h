@@ -1,14 +1,15 @@
 #pragma once
-#include "design/steel_section.h"
+#include "design/en1993_effective.h"
 
 namespace topple::structure {
 
-/// Cross-section class (EN 1993-1-1, table 5.2) under a compression force and bending about the strong axis, and the
-/// yield strength to calculate with: for class 4 the section is treated as class 3 at a lower stress (the reduced
-/// stress method, EN 1993-1-5 section 10), in which its slenderest part is just at the limit.
+/// Cross-section class (EN 1993-1-1, table 5.2) under a compression force and bending about the strong axis, and what
+/// of the section counts elastically: in class 4 the effective section of EN 1993-1-5 section 4. A tube of class 4 is
+/// a shell: it has the stress at which it would be at the limit of class 3.
 struct SectionClass {
   int number = 1;
   double fy = 0;
+  EffectiveSection counts;
 };
 [[nodiscard]] SectionClass classify_en1993(const SteelSection& steel, double compression);
 

@@ -15,7 +15,9 @@ inline constexpr double negligible_torsion = 0.02;
 struct Resistance {
   double axial, moment_y, moment_z, shear_y, shear_z, torsion;
 };
-[[nodiscard]] Resistance cross_section(const SteelSection& steel, const SectionClass& cls);
+/// `compressed`: N is a compression somewhere, and N_Rd that of the effective area; else it is tension, of the whole
+/// one.
+[[nodiscard]] Resistance cross_section(const SteelSection& steel, const SectionClass& cls, bool compressed);
 
 /// 6.2.3 to 6.2.10 at every station.
 void check_sections(ClauseList& clauses, const SteelSection& steel, const SectionClass& cls, const Resistance& r,

@@ -98,15 +98,24 @@ void tell(const Trail& trail, const SectionForces& at, const Resistance& r, cons
 
 }  // namespace
 
-Resistance cross_section(const SteelSection& steel, const SectionClass& cls) {
+/// EN 10210-2 and EN 10219-2 W_t of hollow sections, in which the largest shear stress counts; else that of the
+/// section.
+double torsion_modulus(const SteelSection& s) {
+  if (s.kind == SteelSection::Kind::pipe) return 2 * s.J / s.depth;
+  if (s.kind != SteelSection::Kind::box) return s.torsion;
+  const double wide = s.width - s.web, high = s.depth - s.web;
+  return s.J / (s.web + wide * high / (wide + high));  // t + 2 A_h/h, h the mean perimeter
+}
+
+Resistance cross_section(const SteelSection& steel, const SectionClass& cls, bool compressed) {
   const bool plastic = cls.number <= 2 && steel.has_plastic;
   const double shear_strength = steel.fy / std::sqrt(3.0) / gamma_m0;  // class 4 is one of direct stress
-  return {steel.area * cls.fy / gamma_m0,
-          (plastic ? steel.plastic_y : steel.elastic_y) * cls.fy / gamma_m0,
-          (plastic ? steel.plastic_z : steel.elastic_z) * cls.fy / gamma_m0,
+  return {(compressed ? cls.counts.area : steel.area) * cls.fy / gamma_m0,
+          (plastic ? steel.plastic_y : cls.counts.modulus_y) * cls.fy / gamma_m0,
+          (plastic ? steel.plastic_z : cls.counts.modulus_z) * cls.fy / gamma_m0,
           steel.shear_y * shear_strength,
           steel.shear_z * shear_strength,
-          steel.torsion * shear_strength};
+          torsion_modulus(steel) * shear_strength};
 }
 
 void check_sections(ClauseList& clauses, const SteelSection& steel, const SectionClass& cls, const Resistance& r,

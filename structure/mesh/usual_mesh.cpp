@@ -1,5 +1,6 @@
 #include "mesh/usual_mesh.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -15,6 +16,7 @@ namespace {
 
 constexpr int elements_of_span = 12, least_elements = 2, most_elements = 64;
 constexpr double degree = std::numbers::pi / 180, most_turn = 2.5 * degree, widest_fold = 30 * degree;
+constexpr double square_enough = 0.95;             // sine of a corner: 18 degrees off square
 constexpr std::int64_t most_mesh_nodes = 500'000;  // their equations and factor take some 10 GB
 
 /// Where a walk over panels arrives.
@@ -26,9 +28,13 @@ struct Neighbour {
 class UsualMeshes {
  public:
   explicit UsualMeshes(const Building& building)
-      : b_(building), held_(building.nodes.size(), 0), edges_held_(building.panels.size()) {
+      : b_(building),
+        held_(building.nodes.size(), 0),
+        has_member_(building.nodes.size(), 0),
+        edges_held_(building.panels.size()),
+        shells_at_(building.nodes.size()) {
     for (const Member& member : b_.members)
-      for (const NodeId node : member.nodes) held_[index_of(node)] = 1;
+      for (const NodeId node : member.nodes) held_[index_of(node)] = has_member_[index_of(node)] = 1;
     for (const NodeSupport& support : b_.supports) held_[index_of(support.node)] = 1;
     for (const Diaphragm& diaphragm : b_.diaphragms)
       for (const NodeId node : diaphragm.nodes) held_[index_of(node)] = 1;
@@ -39,12 +45,15 @@ class UsualMeshes {
         edges_held_[index_of(joint.panel)][static_cast<std::size_t>(joint.end)] = true;
     for (std::size_t p = 0; p < b_.panels.size(); ++p)
       if (b_.panels[p].model != PanelModel::cladding)
-        for (std::size_t edge = 0; edge < 4; ++edge) at_[key(p, edge)].push_back({p, edge, 0});
+        for (std::size_t edge = 0; edge < 4; ++edge) {
+          at_[key(p, edge)].push_back({p, edge, 0});
+          if (b_.panels[p].model == PanelModel::shell) shells_at_[index_of(node(p, edge))].push_back({p, edge});
+        }
   }
 
   [[nodiscard]] std::array<int, 2> mesh(std::size_t panel) const {
     const std::array<Span, 2> spans{span(panel, 1), span(panel, 2)};
-    const double size = std::min(spans[0].length, spans[1].length) / elements_of_span;
+    const double size = std::min(spans[0].length, spans[1].length) / (elements_of_span * refinement(panel));
     std::array<int, 2> mesh{};
     for (std::size_t way = 0; way < 2; ++way) {
       constexpr double rounding = 1e-9;
@@ -85,6 +94,36 @@ class UsualMeshes {
     return std::max(edge(way), edge(way + 2));
   }
 
+  [[nodiscard]] double angle(std::size_t panel, std::size_t corner) const {
+    const Vec3 at = b_[node(panel, corner)].position;
+    const Vec3 next = b_[node(panel, corner + 1)].position - at, last = b_[node(panel, corner + 3)].position - at;
+    return std::atan2(next.cross(last).norm(), next.dot(last));
+  }
+
+  /// True where shells of about the panel's plane go round a corner of it by more than half a turn and leave a gap, as
+  /// at the inner corner of an L. Without a member there: beams along the edges of slabs take what is singular.
+  [[nodiscard]] bool inner_corner(std::size_t panel, std::size_t corner) const {
+    constexpr double margin = 10 * degree;
+    const std::size_t at = index_of(node(panel, corner));
+    if (has_member_[at] != 0) return false;
+    double round = 0;
+    for (const auto& [other, own_corner] : shells_at_[at])
+      if (std::abs(b_.panels[panel].axes.row(2).dot(b_.panels[other].axes.row(2))) > std::cos(widest_fold))
+        round += angle(other, own_corner);
+    return round > std::numbers::pi + margin && round < 2 * std::numbers::pi - margin;
+  }
+
+  /// How many times as many elements as on a rectangle: stresses are singular at the blunt corners of skew slabs and
+  /// at inner corners, and meshes of one size converge slowly there.
+  [[nodiscard]] double refinement(std::size_t panel) const {
+    double sine = 1;
+    for (std::size_t corner = 0; corner < 4; ++corner) {
+      if (inner_corner(panel, corner)) return 2;
+      sine = std::min(sine, std::sin(angle(panel, corner)));
+    }
+    return sine > square_enough ? 1 : std::min(2.0, 1 / sine);
+  }
+
   [[nodiscard]] std::optional<Neighbour> beyond(std::size_t panel, std::size_t edge) const {
     const std::vector<Neighbour>& both = at_.at(key(panel, edge));
     if (both.size() != 2 || held_[index_of(node(panel, edge))] != 0 || held_[index_of(node(panel, edge + 1))] != 0)
@@ -119,8 +158,9 @@ class UsualMeshes {
   }
 
   const Building& b_;
-  std::vector<char> held_;
+  std::vector<char> held_, has_member_;
   std::vector<std::array<bool, 4>> edges_held_;
+  std::vector<std::vector<std::pair<std::size_t, std::size_t>>> shells_at_;  ///< per node: panel, corner
   std::map<std::pair<int, int>, std::vector<Neighbour>> at_;
 };
 
