@@ -266,7 +266,9 @@ std::shared_ptr<Analysis> analyse(const py::object& source, const py::object& co
   motion.damping = damping;
   ask_for_histories(*model, names_in(history, "history"), motion);
   if (!time_history.is_none()) request.time_history = time_history_of(time_history, building);
-  if (!cuts.is_none()) request.cuts = cuts_of(cuts, building);
+  request.cuts = model->cuts();
+  if (!cuts.is_none())
+    for (SectionCut& cut : cuts_of(cuts, building)) request.cuts.push_back(std::move(cut));
   if (dynamic && !request.losses.any())
     throw py::value_error("dynamic: nothing is lost; accepted: with lose or lose_each");
   if (request.time_history && request.losses.any())
@@ -294,7 +296,7 @@ time_history: how the ground shakes or loads act: a CSV file, or a dict of array
     load cases (factors).
 cuts: planes through the building: a JSON file as --cuts has it, or a dict of what stands under its key "cuts":
     {name: {"at": [x, y, z], "normal": [x, y, z], "along": [x, y, z], "parts": [names]}}; CombinationResult.cuts has what
-    passes them.
+    passes them, after those of the model itself (its key "cuts").
 code: "en1993" or "aisc360": design checks of steel members; drift_limit: N of height/N; effective_lengths: "automatic",
     "charts" or "assumed"; warping_held; stiffeners: spacing (m) by member, pattern or group; rigid_end_posts.
 threads: 0: one for each processor.

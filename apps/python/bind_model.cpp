@@ -11,6 +11,7 @@
 #include "topple/structure/error.h"
 #include "topple/structure/files.h"
 #include "topple/structure/modelling_checks.h"
+#include "topple/structure/parse_cuts.h"
 
 namespace topple::python {
 
@@ -75,14 +76,21 @@ Building with_warnings(Building building) {
 std::shared_ptr<Model> read(const py::object& source) {
   if (const auto path = path_of(source)) {
     const py::gil_scoped_release others_run;
-    return std::make_shared<Model>(with_warnings(read_model(find_model(*path))));
+    const std::filesystem::path file = find_model(*path);
+    Building building = with_warnings(read_model(file));
+    std::vector<SectionCut> cuts = read_model_cuts(file, building);
+    return std::make_shared<Model>(std::move(building), std::move(cuts));
   }
   if (!py::isinstance<py::dict>(source))
     throw py::type_error("Model: found " + std::string(py::str(source.get_type().attr("__name__"))) +
                          "; accepted: a shipped model's name, a path, or a dict in the model format");
   const std::string text = json_text(source);
   const py::gil_scoped_release others_run;
-  return read_from_objects("model", [&] { return std::make_shared<Model>(with_warnings(parse_model(text, "model"))); });
+  return read_from_objects("model", [&] {
+    Building building = with_warnings(parse_model(text, "model"));
+    std::vector<SectionCut> cuts = parse_model_cuts(text, "model", building);
+    return std::make_shared<Model>(std::move(building), std::move(cuts));
+  });
 }
 
 /// The index of what a name names; raises KeyError with what may have been meant.

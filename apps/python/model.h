@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "topple/structure/analysis.h"
 #include "topple/structure/building.h"
 
 namespace topple::python {
@@ -15,8 +16,12 @@ namespace py = pybind11;
 
 class Model {
  public:
-  explicit Model(structure::Building building)
-      : building_(std::make_shared<const structure::Building>(std::move(building))), names_(*building_) {}
+  explicit Model(structure::Building building, std::vector<structure::SectionCut> cuts = {})
+      : building_(std::make_shared<const structure::Building>(std::move(building))),
+        names_(*building_),
+        cuts_(std::move(cuts)) {}
+  /// Those that the model asks for itself.
+  [[nodiscard]] const std::vector<structure::SectionCut>& cuts() const { return cuts_; }
   [[nodiscard]] const structure::Building& building() const { return *building_; }
   [[nodiscard]] const std::shared_ptr<const structure::Building>& shared() const { return building_; }
   [[nodiscard]] const structure::NameIndex& names() const { return names_; }
@@ -24,6 +29,7 @@ class Model {
  private:
   std::shared_ptr<const structure::Building> building_;
   structure::NameIndex names_;
+  std::vector<structure::SectionCut> cuts_;
 };
 
 /// The names of a list of things.

@@ -22,6 +22,7 @@
 #include "topple/structure/member_checks.h"
 #include "topple/structure/modelling_checks.h"
 #include "topple/structure/output_files.h"
+#include "topple/structure/parse_cuts.h"
 
 namespace topple::app {
 
@@ -135,6 +136,20 @@ DesignInput design_input(const Options& options, const Building& building) {
   return input;
 }
 
+/// Those of the model, then those of the command line's file.
+std::vector<SectionCut> cuts(const Options& options, const std::filesystem::path& model, const Building& building) {
+  std::vector<SectionCut> all = read_model_cuts(model, building);
+  if (options.cuts.empty()) return all;
+  for (SectionCut& cut : read_section_cuts(options.cuts, building)) {
+    for (const SectionCut& known : all)
+      if (known.name == cut.name)
+        throw InputError(options.cuts + ", cuts." + cut.name +
+                         ": the model has a cut of that name; accepted: another name");
+    all.push_back(std::move(cut));
+  }
+  return all;
+}
+
 /// What the command line asks for, else what the file asks for itself.
 solver::SecondOrder second_order(const std::string& asked, const Building& building) {
   if (asked == "exact") return solver::SecondOrder::exact;
@@ -244,7 +259,7 @@ int run(const Options& options) {
   request.buckling = options.buckling;
   request.losses = losses(options, building);
   ask_for_motion(options.motion, building, request);
-  if (!options.cuts.empty()) request.cuts = read_section_cuts(options.cuts, building);
+  request.cuts = cuts(options, file, building);
   ask_for_modes(options, building.requested, request);
   AnalysisRequest wider = request;
   const int wanted = std::max({options.html ? report_stations : 0, options.vtu ? drawing_stations : 0,
@@ -368,7 +383,8 @@ std::function<int()> declare(CLI::App& app) {
       ->take_all();
   app.add_option("--sudden", options->sudden, "Factor f of a sudden loss: R0 + f (R1 - R0); 1 is the static state")
       ->check(in_range(structure::ranges::sudden));
-  app.add_option("--cuts", options->cuts, "JSON file of planes: resultants of all that passes each of them");
+  app.add_option("--cuts", options->cuts,
+                 "JSON file of planes: resultants of all that passes each of them, beside the model's own `cuts`");
   declare_motion_options(app, options->motion);
   app.add_option("--modes", options->modes, "Lowest natural frequencies and modes")->check(whole_number(1, 100000));
   app.add_option("--divide", options->divide,

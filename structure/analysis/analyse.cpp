@@ -101,6 +101,7 @@ class Analysis {
                                 " digits of the answer are left");
     warn_of_error(result);
     warn_of_meshes(result);
+    warn_of_lifting_loads(result);
     warn_of_large_deflections(result);
     if (failed_) {
       if (request_.modes > 0) result.unfinished.emplace_back("natural modes");
@@ -416,6 +417,17 @@ class Analysis {
                                 building_.panels[static_cast<std::size_t>(worst - c.panels.begin())].name +
                                 "; a larger `mesh` lowers it");
     }
+  }
+
+  /// Loads that lift the whole are mostly signs that are missing.
+  void warn_of_lifting_loads(AnalysisResult& result) const {
+    constexpr double rounding = 1e-9;
+    if (building_.units.consistent) return;  // up may be any way
+    for (const CombinationResult& c : result.combinations)
+      if (c.total_load[2] > rounding * c.total_load.head<3>().norm())
+        result.warnings.push_back("combination " + building_[c.combination].name + ": its loads lift the structure (" +
+                                  short_number(c.total_load[2] / building_.units.force) +
+                                  " upwards on balance); loads that act downwards are negative along z");
   }
 
   /// Beyond a tenth of the structure's size nothing linear holds.

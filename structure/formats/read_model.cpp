@@ -9,6 +9,7 @@
 #include "formats/model_forms.h"
 #include "formats/model_reader.h"
 #include "formats/read_meshes.h"
+#include "formats/section_cuts.h"
 #include "mesh/usual_mesh.h"
 #include "model/connect_parts.h"
 #include "topple/structure/error.h"
@@ -50,7 +51,7 @@ ModelRead read_document(const JsonDocument& document) {
   root.only({"topple",   "title",    "units",        "gravity",  "materials", "sections",
              "joints",   "nodes",    "members",      "panels",   "supports",  "diaphragms",
              "masses",   "loads",    "combinations", "building", "buildings", "joint_changes",
-             "analyses", "frame3dd", "meshes",       "connect"});
+             "analyses", "frame3dd", "meshes",       "connect",  "cuts"});
   const JsonValue version = root.require("topple");
   if (!version.is_number() || version.number() != 1) version.refuse("1, the version of the format");
   ModelDraft draft;
@@ -77,6 +78,7 @@ ModelRead read_document(const JsonDocument& document) {
   read_analyses(root, draft);
   read_frame3dd_remarks(root, draft);
   read_connect(root, draft);
+  if (const auto cuts = root.find("cuts")) (void)section_cuts(*cuts, draft.building);  // analyses read them again
   set_usual_meshes(draft.building);
   const std::vector<MeshEntry> meshes = read_meshes(root);  // what they draw is read when somebody draws or weighs it
   return {std::move(draft.building),

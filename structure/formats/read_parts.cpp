@@ -1,4 +1,6 @@
 // Nodes, members and panels that the file lists one by one.
+#include <cmath>
+
 #include "formats/model_reader.h"
 #include "formats/read_fracture.h"
 #include "mesh/usual_mesh.h"
@@ -116,6 +118,10 @@ void read_member(const JsonValue& value, ModelDraft& draft) {
       if (member.up->isZero(0)) entry.refuse("a direction");
     } else if (key == "roll") {
       member.roll = entry.number();
+      constexpr double turn = 2 * 3.14159265358979323846;
+      if (std::abs(member.roll) > turn)
+        draft.building.warnings.push_back("member " + member.name +
+                                          ": its roll is more than a turn; angles are in radians");
     } else if (key == "joints") {
       if (entry.is_null()) continue;
       if (!entry.is_array()) entry.refuse("an array of two joints, or null");

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "formats/json/json_document.h"
+#include "formats/documents.h"
 #include "formats/model_files.h"
+#include "formats/model_forms.h"
 #include "formats/model_reader.h"
+#include "formats/section_cuts.h"
 #include "topple/structure/analysis.h"
 #include "topple/structure/modelling_checks.h"
 #include "topple/structure/parse_cuts.h"
@@ -46,6 +48,17 @@ void put_in_order(std::vector<Id>& ids) {
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
 }
 
+/// A member that was divided by `connect` or --divide is its pieces together: M, M/2, M/3 ...
+void add_pieces(const Building& building, const NameIndex& names, std::vector<MemberId>& members) {
+  const std::vector<MemberId> first = members;
+  for (const MemberId member : first)
+    for (int piece = 2;; ++piece) {
+      const auto next = names.member(building[member].name + "/" + std::to_string(piece));
+      if (!next) break;
+      members.push_back(*next);
+    }
+}
+
 /// Members and panels by name, pattern or group.
 void read_parts(const JsonValue& list, const Building& building, const NameIndex& names, SectionCut& cut) {
   cut.everything = false;
@@ -64,6 +77,7 @@ void read_parts(const JsonValue& list, const Building& building, const NameIndex
       for (const Panel& panel : building.panels) known.push_back(panel.name);
       item.fail("no member, panel or group " + name + did_you_mean(name, known));
     }
+    add_pieces(building, names, members);
     cut.members.insert(cut.members.end(), members.begin(), members.end());
     cut.panels.insert(cut.panels.end(), panels.begin(), panels.end());
   }
@@ -71,7 +85,47 @@ void read_parts(const JsonValue& list, const Building& building, const NameIndex
   put_in_order(cut.panels);
 }
 
+/// The `cuts` of a model's root object.
+std::vector<SectionCut> cuts_of_model(const JsonValue& root, const Building& building) {
+  if (!root.is_object()) return {};
+  const auto list = root.find("cuts");
+  return list ? formats::section_cuts(*list, building) : std::vector<SectionCut>{};
+}
+
 }  // namespace
+
+std::vector<SectionCut> formats::section_cuts(const JsonValue& list, const Building& building) {
+  list.expect_object();
+  if (list.size() == 0) list.refuse("one cut at least");
+  const NameIndex names(building);
+  std::vector<SectionCut> cuts;
+  for (const JsonValue value : list) {
+    value.only({"at", "normal", "along", "parts"});
+    SectionCut& cut = cuts.emplace_back();
+    cut.name = value.key();
+    cut.at = read_point(value.require("at"), building.units.length);
+    cut.axes = axes_of(value);
+    if (const auto parts = value.find("parts")) read_parts(*parts, building, names, cut);
+  }
+  return cuts;
+}
+
+std::vector<SectionCut> parse_model_cuts(std::string_view text, const std::string& name, const Building& building) {
+  // Most models have none: their text is not read twice. A key may be written with escapes.
+  if (text.find("cuts\"") == std::string_view::npos && text.find("\\u") == std::string_view::npos) return {};
+  return cuts_of_model(formats::JsonDocument::from_text(std::string(text), name).root(), building);
+}
+
+std::vector<SectionCut> read_model_cuts(const std::filesystem::path& file, const Building& building) {
+  if (std::error_code ignored; std::filesystem::is_directory(file, ignored)) {
+    if (!std::filesystem::exists(file / "cuts.csv", ignored)) return {};
+    ModelOfTables model = model_of_tables(formats::read_tables(file), file.string());
+    const auto document = formats::JsonDocument::from_text(model.json, file.string(), {}, std::move(model.places));
+    return cuts_of_model(document.root(), building);
+  }
+  if (formats::ending_of(file) != ".json") return {};
+  return parse_model_cuts(formats::whole_text(file), file.filename().string(), building);
+}
 
 std::vector<SectionCut> read_section_cuts(const std::string& path, const Building& building) {
   return parse_section_cuts(formats::whole_text(path), path, building);
@@ -82,20 +136,7 @@ std::vector<SectionCut> parse_section_cuts(std::string_view text, const std::str
   const JsonValue root = document.root();
   if (!root.is_object()) root.refuse("an object");
   root.only({"cuts"});
-  const JsonValue list = root.require("cuts");
-  list.expect_object();
-  if (list.size() == 0) list.refuse("one cut at least");
-  const NameIndex names(building);
-  std::vector<SectionCut> cuts;
-  for (const JsonValue value : list) {
-    value.only({"at", "normal", "along", "parts"});
-    SectionCut& cut = cuts.emplace_back();
-    cut.name = value.key();
-    cut.at = formats::read_point(value.require("at"), building.units.length);
-    cut.axes = axes_of(value);
-    if (const auto parts = value.find("parts")) read_parts(*parts, building, names, cut);
-  }
-  return cuts;
+  return formats::section_cuts(root.require("cuts"), building);
 }
 
 }  // namespace topple::structure

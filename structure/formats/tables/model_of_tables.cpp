@@ -60,6 +60,7 @@ class ModelMaker {
     lines("masses.csv", ",\"masses\":{", formats::mass_lines);
     loads();
     combinations();
+    lines("cuts.csv", ",\"cuts\":{", formats::cut_lines);
     put("}");
     return std::move(made_);
   }

@@ -68,6 +68,8 @@ inline const Columns panels{"name",     "kind",  "node1", "node2", "node3", "nod
                             "material", "model", "mesh",  "joint", "span",  "groups"};
 inline const Columns openings{"panel", "opening", "x", "y"};
 inline const Columns diaphragms{"name", "node"};
+inline const Columns cuts{"name",     "x",       "y",       "z",       "normal_x", "normal_y",
+                          "normal_z", "along_x", "along_y", "along_z", "parts"};
 inline const Columns masses{"on", "name", "value", "Ixx", "Iyy", "Izz"};
 inline const Columns supports{"node", "x", "y", "z", "rx", "ry", "rz"};
 inline const Columns loads{"case", "on", "name", "type", "component", "value", "value2", "from", "to", "frame"};
@@ -78,7 +80,7 @@ struct Table {
   const Columns* columns;
 };
 /// In the order in which they are written.
-inline const std::array<Table, 14> all{{{"model.csv", &model},
+inline const std::array<Table, 15> all{{{"model.csv", &model},
                                         {"materials.csv", &materials},
                                         {"sections.csv", &sections},
                                         {"joints.csv", &joints},
@@ -91,7 +93,8 @@ inline const std::array<Table, 14> all{{{"model.csv", &model},
                                         {"diaphragms.csv", &diaphragms},
                                         {"masses.csv", &masses},
                                         {"loads.csv", &loads},
-                                        {"combinations.csv", &combinations}}};
+                                        {"combinations.csv", &combinations},
+                                        {"cuts.csv", &cuts}}};
 
 /// Names of groups in one cell stand between these.
 inline constexpr char group_separator = ';';

@@ -132,4 +132,29 @@ std::vector<MadeLine> mass_lines(const CsvTable& table) {
   return lines;
 }
 
+std::vector<MadeLine> cut_lines(const CsvTable& table) {
+  enum Column : std::size_t { name, at, normal = at + 3, along = normal + 3, parts = along + 3 };
+  const auto vector = [&](std::size_t row, std::size_t first) {
+    return "[" + needed(table, row, first) + "," + needed(table, row, first + 1) + "," + needed(table, row, first + 2) +
+           "]";
+  };
+  std::vector<MadeLine> lines;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    std::string line = (lines.empty() ? "" : ",") + json_text(table.text(row, name)) + ":{\"at\":" + vector(row, at) +
+                       ",\"normal\":" + vector(row, normal);
+    bool directed = false;
+    for (std::size_t c = along; c < parts; ++c) directed = directed || !table.cell(row, c).empty();
+    if (directed) line += ",\"along\":" + vector(row, along);
+    std::string list;
+    for (std::string_view left = table.cell(row, parts); !left.empty();) {
+      const std::size_t end = std::min(left.find(model_tables::group_separator), left.size());
+      list += (list.empty() ? "" : ",") + json_text(left.substr(0, end));
+      left.remove_prefix(std::min(end + 1, left.size()));
+    }
+    if (!list.empty()) line += ",\"parts\":[" + list + "]";
+    lines.push_back({line + "}", table.place(row)});
+  }
+  return lines;
+}
+
 }  // namespace topple::structure::formats

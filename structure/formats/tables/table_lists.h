@@ -43,5 +43,7 @@ class ListsByPart {
 /// The values of `diaphragms` and of `masses`, line by line.
 [[nodiscard]] std::vector<MadeLine> diaphragm_lines(const CsvTable& table);
 [[nodiscard]] std::vector<MadeLine> mass_lines(const CsvTable& table);
+/// The values of `cuts`, a row for each.
+[[nodiscard]] std::vector<MadeLine> cut_lines(const CsvTable& table);
 
 }  // namespace topple::structure::formats

@@ -22,10 +22,11 @@ class TableMaker {
   explicit TableMaker(const JsonDocument& model) : root_(model.root()) {}
 
   TextsByName make() {
-    hold_only(root_,
-              {"topple", "title", "units", "gravity", "materials", "sections", "joints", "nodes", "members", "panels",
-               "supports", "diaphragms", "masses", "loads", "combinations"},
-              "materials, sections, joints, nodes, members, panels, supports, diaphragms, masses, loads, combinations");
+    hold_only(
+        root_,
+        {"topple", "title", "units", "gravity", "materials", "sections", "joints", "nodes", "members", "panels",
+         "supports", "diaphragms", "masses", "loads", "combinations", "cuts"},
+        "materials, sections, joints, nodes, members, panels, supports, diaphragms, masses, loads, combinations, cuts");
     model();
     plain("materials.csv", "materials", model_tables::materials);
     plain("sections.csv", "sections", model_tables::sections);
@@ -42,6 +43,7 @@ class TableMaker {
     inner("masses.csv", "masses", model_tables::masses, formats::mass_rows);
     loads();
     combinations();
+    each("cuts.csv", "cuts", model_tables::cuts, [](TableText& t, const JsonValue& v) { cut(t, v); });
     return std::move(files_);
   }
 
@@ -233,15 +235,24 @@ class TableMaker {
   }
 
   static void groups(TableText& table, const JsonValue& value) {
-    const auto groups = value.find("groups");
-    if (!groups) return;
+    if (const auto groups = value.find("groups")) names(table, "groups", *groups, "names of groups without \";\"");
+  }
+  static void names(TableText& table, std::string_view column, const JsonValue& list, const char* accepted) {
     std::string cell;
-    for (const JsonValue group : *groups) {
-      if (group.text().empty() || group.text().find(model_tables::group_separator) != std::string_view::npos)
-        refuse(group, "names of groups without \";\"");
-      cell += (cell.empty() ? "" : std::string(1, model_tables::group_separator)) + std::string(group.text());
+    for (const JsonValue name : list) {
+      if (name.text().empty() || name.text().find(model_tables::group_separator) != std::string_view::npos)
+        refuse(name, accepted);
+      cell += (cell.empty() ? "" : std::string(1, model_tables::group_separator)) + std::string(name.text());
     }
-    if (!cell.empty()) table.set("groups", cell);
+    if (!cell.empty()) table.set(column, cell);
+  }
+
+  static void cut(TableText& table, const JsonValue& value) {
+    list(table, std::array<const char*, 3>{"x", "y", "z"}, value.require("at"));
+    list(table, std::array<const char*, 3>{"normal_x", "normal_y", "normal_z"}, value.require("normal"));
+    if (const auto along = value.find("along"))
+      list(table, std::array<const char*, 3>{"along_x", "along_y", "along_z"}, *along);
+    if (const auto parts = value.find("parts")) names(table, "parts", *parts, "names of parts without \";\"");
   }
 
   static void panel(TableText& table, const JsonValue& value) {

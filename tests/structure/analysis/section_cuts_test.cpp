@@ -7,7 +7,9 @@
 
 #include "../example_model.h"
 #include "topple/structure/analysis.h"
+#include "topple/structure/convert.h"
 #include "topple/structure/files.h"
+#include "topple/structure/parse_cuts.h"
 
 using namespace topple::structure;
 namespace solver = topple::solver;
@@ -237,4 +239,52 @@ TEST_CASE("Cuts of a file have their place, axes and parts, and what is wrong is
                     Catch::Contains("no member, panel or group W11 (did you mean W1?)"));
   CHECK_THROWS_WITH(read(R"({"at": [0, 0, 0], "normal": [0, 0, 1], "part": []})"), Catch::Contains("part"));
   std::filesystem::remove(file);
+}
+
+TEST_CASE("A model has cuts of its own, tables hold them, and a divided member counts whole") {
+  const std::string frame = R"({"topple": 1,
+    "materials": {"s": {"youngs_modulus": 210e9, "poisson_ratio": 0.3}},
+    "sections": {"c": {"area": 0.01, "Iy": 1e-4, "Iz": 1e-4, "J": 1e-4}},
+    "nodes": {"A": [0, 0, 0], "B": [0, 0, 4], "M": [0, 0, 1], "N": [3, 0, 1]},
+    "members": {"P": {"kind": "post", "nodes": ["A", "B"], "section": "c", "material": "s"},
+                "arm": {"nodes": ["M", "N"], "section": "c", "material": "s"}},
+    "supports": {"A": "fixed"}, "loads": {"p": {"nodes": {"B": {"x": 7, "z": -5}}}}, "combinations": {"c": {"p": 1}},
+    "connect": true,
+    "cuts": {"high": {"at": [0, 0, 3], "normal": [0, 0, 1], "parts": ["P"]},
+             "slanted": {"at": [0, 0, 0.5], "normal": [0, 0, 1], "along": [0, 1, 0]}}})";
+  const Building building = parse_model(frame, "frame.json");
+  AnalysisRequest request;
+  request.cuts = parse_model_cuts(frame, "frame.json", building);
+  REQUIRE(request.cuts.size() == 2);
+  CHECK(request.cuts[0].members.size() == 2);  // P and its piece P/2, which is the one that is cut
+  const AnalysisResult result = analyse(building, request);
+  const Vec6 high = result.combinations[0].cuts[0].force, slanted = result.combinations[0].cuts[1].force;
+  CHECK(high[0] == Approx(-5));
+  CHECK(high[1] == Approx(7));
+  CHECK(high[5] == Approx(7 * (4 - 3)));
+  CHECK(slanted[1] == Approx(0).margin(1e-9));
+  CHECK(std::abs(slanted[2]) == Approx(7));
+  std::string none = frame;
+  none.replace(none.find("\"cuts\""), 6, "\"cats\"");
+  CHECK_THROWS_WITH(parse_model(none, "frame.json"), Catch::Contains("cats"));
+  std::string wrong = frame;
+  wrong.replace(wrong.find("[\"P\"]"), 5, "[\"Q\"]");
+  CHECK_THROWS_WITH(parse_model(wrong, "frame.json"), Catch::Contains("cuts.high.parts") && Catch::Contains("Q"));
+  // Through tables and back.
+  const auto folder = std::filesystem::temp_directory_path() / "topple_model_cuts";
+  std::filesystem::create_directories(folder);
+  std::string plain = frame;
+  plain.replace(plain.find("\"connect\": true,"), 16, "");
+  std::ofstream(folder / "frame.json") << plain;
+  std::filesystem::create_directories(folder / "tables");
+  for (const auto& [name, text] : convert_model(folder / "frame.json", ModelForm::tables).files)
+    std::ofstream(folder / "tables" / name) << text;
+  const Building back = read_model(folder / "tables");
+  const std::vector<SectionCut> cuts = read_model_cuts(folder / "tables", back);
+  REQUIRE(cuts.size() == 2);
+  CHECK(cuts[0].name == "high");
+  CHECK(cuts[0].members.size() == 1);
+  CHECK(cuts[1].axes == request.cuts[1].axes);
+  CHECK(read_model_cuts(folder / "frame.json", back).size() == 2);
+  std::filesystem::remove_all(folder);
 }

@@ -1,0 +1,14 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "topple/structure/building.h"
+
+namespace topple::structure {
+
+/// Warnings of parts that are most likely not meant as they are: members that end beside what they should meet, cross
+/// without a joint or have the slenderness of a wire; supports that hold nothing; panels over each other, thicker than
+/// wide or loaded from below; weight that lifts. `tolerance`: what is nearer is told as nodes that are not joined.
+void find_odd_parts(const Building& building, double tolerance, std::vector<std::string>& warnings);
+
+}  // namespace topple::structure
