@@ -77,9 +77,8 @@ class Moment {
 
   void step(double seconds) { world_.stepSimulation(btScalar(seconds), 0); }
   [[nodiscard]] int awake() const {
-    return static_cast<int>(std::count_if(bodies_.begin(), bodies_.end(), [](const auto& body) {
-      return !body->isStaticObject() && body->isActive();
-    }));
+    return static_cast<int>(std::count_if(
+        bodies_.begin(), bodies_.end(), [](const auto& body) { return !body->isStaticObject() && body->isActive(); }));
   }
 
  private:
@@ -151,7 +150,8 @@ int main(int argc, char** argv) {
     for (int i = 0; i < steps; ++i) {
       const auto start = std::chrono::steady_clock::now();
       moment.step(1.0 / 60);
-      milliseconds.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+      milliseconds.push_back(
+          std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
     }
     std::nth_element(milliseconds.begin(), milliseconds.begin() + steps / 2, milliseconds.end());
     std::cout << scene.bodies.size() << ' ' << scene.joints.size() << ' ' << awake << ' '

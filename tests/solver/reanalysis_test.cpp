@@ -283,7 +283,8 @@ TEST_CASE("the response to one more load is that load's alone, and reciprocal") 
   }
 }
 
-TEST_CASE("a response leaves out a moment on a hub that nothing keeps from turning, as if it had turned out of the way") {
+TEST_CASE(
+    "a response leaves out a moment on a hub that nothing keeps from turning, as if it had turned out of the way") {
   FrameModel model =
       single_beam(2, components(rigid, rigid, rigid, rigid, rigid, rigid), components(0, rigid, rigid, 0, 0, 0));
   model.beams[0].end_stiffness[1].tail<3>().setZero();

@@ -1,7 +1,7 @@
 // Built against an installed Topple: a cantilever's tip deflection, by the solver alone.
+#include <topple/solver/static_analysis.h>
 #include <cmath>
 #include <cstdio>
-#include <topple/solver/static_analysis.h>
 
 int main() {
   using namespace topple::solver;

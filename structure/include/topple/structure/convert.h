@@ -27,7 +27,7 @@ struct ConvertedModel {
 /// A model as JSON whose parts are joined: `"connect": tolerance` (in the model's length) is written into it, by which
 /// every reading merges nodes within that distance and divides members at nodes that lie on them.
 struct JoinedModel {
-  std::string text;  ///< JSON
+  std::string text;                 ///< JSON
   std::size_t nodes_merged = 0;     ///< how many nodes became one with another
   std::size_t members_divided = 0;  ///< how many more members there are
 };
