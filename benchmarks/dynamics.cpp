@@ -8,7 +8,7 @@
 
 #include "assembly/frame_system.h"
 #include "factor/factor.h"
-#include "reanalysis/standing_factor.h"
+#include "reanalysis/base_factor.h"
 #include "support/changed_frame.h"
 #include "support/measure.h"
 #include "support/provenance.h"
@@ -63,7 +63,7 @@ void measure(int nx, int ny, int storeys) {
   system.assemble();
   solver::Factor factor(system.matrix(), system.elimination_order(), solver::Factorisation::automatic);
   (void)factor.factorise(system.matrix());
-  solver::StandingFactor pair(system);
+  solver::BaseFactor pair(system);
   pair.serve(factor);
   Eigen::VectorXd x = Eigen::VectorXd::Ones(system.matrix().size);
   solver::FrameDynamics with_energy = swaying(regular, true), without = swaying(regular, false);

@@ -8,8 +8,8 @@
 #include "assembly/frame_system.h"
 #include "assembly/refinement.h"
 #include "factor/factor.h"
-#include "reanalysis/ladder_costs.h"
-#include "reanalysis/standing_factor.h"
+#include "reanalysis/base_factor.h"
+#include "reanalysis/update_costs.h"
 #include "support/changed_frame.h"
 #include "support/measure.h"
 #include "support/provenance.h"
@@ -33,7 +33,7 @@ Times break_at_once(const RegularFrame& frame, solver::Factor& whole, std::span<
   (void)whole.factorise(system.matrix());
   solver::Factor anew(system.matrix(), system.elimination_order(), solver::Factorisation::automatic);
   (void)anew.factorise(system.matrix());
-  solver::StandingFactor standing(system);
+  solver::BaseFactor standing(system);
   standing.serve(whole);
   const auto change = [&](std::span<const int> changed, const solver::Vec6& stiffness) {
     std::vector<int> nodes;
@@ -58,7 +58,7 @@ Times break_at_once(const RegularFrame& frame, solver::Factor& whole, std::span<
   Times times;
   Eigen::VectorXd x = Eigen::VectorXd::Ones(system.matrix().size);
   times.correction = seconds([&] {
-    const solver::StandingFactor::Plan plan = standing.plan();
+    const solver::BaseFactor::Plan plan = standing.plan();
     if (!plan.possible) std::exit(1);
     times.work = plan.work;
     standing.update();
@@ -69,7 +69,7 @@ Times break_at_once(const RegularFrame& frame, solver::Factor& whole, std::span<
     (void)anew.factorise(system.matrix());
     const auto solve = [&](Eigen::Ref<Eigen::MatrixXd> b) { anew.solve(b); };
     if (!(solver::estimate_condition(system.matrix(), solve) > 0)) std::exit(1);
-    solver::StandingFactor next(system);
+    solver::BaseFactor next(system);
     next.serve(anew);
     anew.solve(y);
   });

@@ -7,7 +7,7 @@
 #include "assembly/refinement.h"
 #include "factor/large_buffer.h"
 #include "factor/vector_versions.h"
-#include "parallel/each_on_threads.h"
+#include "topple/solver/parallel_for.h"
 
 namespace topple::solver {
 namespace {
@@ -129,7 +129,7 @@ std::vector<double> ExtendedResidual::operator()(const Eigen::Ref<const Eigen::M
     const Eigen::Index first = g * b.cols() / groups, end = (g + 1) * b.cols() / groups;
     columns(first, end - first, b, x, r, errors.data() + first);
   };
-  each_on_threads(groups, threads_, group);
+  parallel_for(groups, threads_, group);
   return errors;
 }
 

@@ -25,7 +25,7 @@ void FrameSystem::add_diagonal(int node, const Vec6& diagonal, SparseSymmetric& 
       const int row = dofs_.number[n][static_cast<std::size_t>(i)],
                 column = dofs_.number[n][static_cast<std::size_t>(j)];
       if (K(i, j) == 0 || row >= dofs_.equations || column >= dofs_.equations) continue;
-      matrix.value[static_cast<std::size_t>(scatter_.position(row, column))] +=
+      matrix.value[static_cast<std::size_t>(assembly_map_.position(row, column))] +=
           K(i, j) * scale_[static_cast<std::size_t>(row)] * scale_[static_cast<std::size_t>(column)];
     }
   }
@@ -40,13 +40,13 @@ void FrameSystem::add_element_mass(std::size_t element, const std::vector<char>&
   if (element < beams) {
     if (beam_stands[element] == 0 || model.beams[element].density == 0) return;
     const Mat12 M = beam_mass(*this, inertia->masses, static_cast<int>(element));
-    scatter_.add(element, M.data(), scale_, wanted, mass_);
+    assembly_map_.add(element, M.data(), scale_, wanted, mass_);
   } else if (element < beams + model.shells.size() && shell_stands[element - beams] != 0) {
     const Shell& shell = model.shells[element - beams];
     if (shell.density == 0) return;
     Mat24 M = shell_mass(*this, inertia->masses, static_cast<int>(element - beams));
     add_diaphragm_arms(shell.node, M);
-    scatter_.add(element, M.data(), scale_, wanted, mass_);
+    assembly_map_.add(element, M.data(), scale_, wanted, mass_);
   }
 }
 
@@ -55,9 +55,9 @@ void FrameSystem::clear_mass(std::span<const int> nodes, std::span<const int> el
     const auto node = static_cast<std::size_t>(n);
     for (int e = dofs_.first_equation[node]; e < dofs_.first_equation[node + 1]; ++e)
       for (int f = dofs_.first_equation[node]; f <= e; ++f)
-        mass_.value[static_cast<std::size_t>(scatter_.position(e, f))] = 0;
+        mass_.value[static_cast<std::size_t>(assembly_map_.position(e, f))] = 0;
   }
-  for (const int element : elements) scatter_.clear(static_cast<std::size_t>(element), wanted_, mass_);
+  for (const int element : elements) assembly_map_.clear(static_cast<std::size_t>(element), wanted_, mass_);
 }
 
 void FrameSystem::scale_mass() {

@@ -224,7 +224,7 @@ void FrameSystem::add_shell_loads(const std::vector<ShellLoad>& loads, LoadVecto
 void FrameSystem::add_settlement_forces(LoadVector& result) const {
   const std::size_t beams = model.beams.size();
   for (std::size_t element = 0; element < element_of_patch(0) + model.patches.size(); ++element) {
-    const auto freedoms = scatter_.freedoms(element);
+    const auto freedoms = assembly_map_.freedoms(element);
     Eigen::VectorXd u = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(freedoms.size()));
     for (std::size_t k = 0; k < freedoms.size(); ++k) {
       if (freedoms[k] < dofs_.equations) continue;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "assembly/frame_system.h"
-#include "parallel/each_on_threads.h"
+#include "topple/solver/parallel_for.h"
 
 namespace topple::solver {
 
@@ -86,7 +86,7 @@ std::vector<StaticSolution> FrameSystem::recover(std::span<LoadVector> loads, co
                                                  int threads) const {
   std::vector<StaticSolution> solutions(loads.size());
   const auto count = static_cast<int>(loads.size());
-  each_on_threads(count, threads, [&](int set) {
+  parallel_for(count, threads, [&](int set) {
     const auto k = static_cast<std::size_t>(set);
     solutions[k].displacements =
         node_displacements(displacements.col(static_cast<Eigen::Index>(k)), loads[k].held_displacement);
@@ -114,8 +114,8 @@ std::vector<StaticSolution> FrameSystem::recover(std::span<LoadVector> loads, co
   constexpr std::size_t together = 1024;
   const std::size_t beams = model.beams.size();
   const int used = count > 1 || second_order != nullptr ? threads : 1;  // what one linear set asks for is little
-  each_on_threads(static_cast<int>((beams + together - 1) / together), used, [&](int chunk) {
-    const std::size_t first = static_cast<std::size_t>(chunk) * together;
+  parallel_for((beams + together - 1) / together, used, [&](std::size_t chunk) {
+    const std::size_t first = chunk * together;
     for (std::size_t i = first; i < std::min(beams, first + together); ++i)
       if (beam_stands[i] != 0)
         recover_beam(i);
@@ -127,7 +127,7 @@ std::vector<StaticSolution> FrameSystem::recover(std::span<LoadVector> loads, co
       const Vec24 fixed = loads[k].shell_fixed.empty() ? Vec24::Zero() : loads[k].shell_fixed[i];
       solutions[k].shell_corner_forces[i] = corner_forces(static_cast<int>(i), solutions[k].displacements, fixed);
     }
-  each_on_threads(count, threads, [&](int set) {
+  parallel_for(count, threads, [&](int set) {
     const auto k = static_cast<std::size_t>(set);
     solutions[k].reactions = reactions(solutions[k].displacements, solutions[k].beam_end_forces,
                                        solutions[k].shell_corner_forces, loads[k].node_load);

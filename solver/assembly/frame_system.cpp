@@ -9,12 +9,12 @@
 
 #include "elements/second_order_beam.h"
 #include "factor/ordering.h"
-#include "parallel/each_on_threads.h"
+#include "topple/solver/parallel_for.h"
 
 namespace topple::solver {
 namespace {
 
-ScatterMap make_scatter(const FrameModel& model, const DofMap& dofs) {
+AssemblyMap make_assembly_map(const FrameModel& model, const DofMap& dofs) {
   std::vector<int> freedoms;
   std::vector<std::int64_t> start{0};
   const auto add = [&](std::span<const int> nodes) {
@@ -54,9 +54,9 @@ FrameSystem::FrameSystem(FrameModel given)
       node_stands(model.nodes.size(), 1),
       support_(support_stiffness(model)),
       dofs_(model),
-      scatter_(make_scatter(model, dofs_)),
+      assembly_map_(make_assembly_map(model, dofs_)),
       elements_of_node_(model.nodes.size()),
-      matrix_(scatter_.empty_matrix()),
+      matrix_(assembly_map_.empty_matrix()),
       scale_(static_cast<std::size_t>(dofs_.equations), 1.0),
       inert_(model.nodes.size()) {
   int element = 0;
@@ -115,8 +115,8 @@ std::vector<int> FrameSystem::elimination_order() const {
     freedoms.push_back(dofs_.first_equation[n + 1] - dofs_.first_equation[n]);
   }
   std::vector<std::pair<int, int>> edges;
-  edges.reserve(scatter_.edges().size());
-  for (const auto& [v, w] : scatter_.edges()) {
+  edges.reserve(assembly_map_.edges().size());
+  for (const auto& [v, w] : assembly_map_.edges()) {
     edges.emplace_back(index[static_cast<std::size_t>(v)], index[static_cast<std::size_t>(w)]);
   }
   std::vector<int> order;
@@ -263,18 +263,18 @@ void FrameSystem::add_element(std::size_t element, const std::vector<char>& want
   if (element < beams) {
     if (beam_stands[element] == 0) return;
     const Mat12 K = beam_stiffness(static_cast<int>(element));
-    scatter_.add(element, K.data(), scale_, wanted, matrix_);
+    assembly_map_.add(element, K.data(), scale_, wanted, matrix_);
   } else if (element < beams + model.shells.size() && shell_stands[element - beams] != 0) {
     const Mat24 K = shell_stiffness(static_cast<int>(element - beams));
-    scatter_.add(element, K.data(), scale_, wanted, matrix_);
+    assembly_map_.add(element, K.data(), scale_, wanted, matrix_);
   } else if (element >= element_of_patch(0) && element < element_of_patch(0) + model.patches.size()) {
     const Eigen::MatrixXd K = patch_stiffness(static_cast<int>(element - element_of_patch(0)));
-    scatter_.add(element, K.data(), scale_, wanted, matrix_);
+    assembly_map_.add(element, K.data(), scale_, wanted, matrix_);
   }
 }
 
 double& FrameSystem::entry(int equation, int other) {
-  return matrix_.value[static_cast<std::size_t>(scatter_.position(equation, other))];
+  return matrix_.value[static_cast<std::size_t>(assembly_map_.position(equation, other))];
 }
 
 void FrameSystem::add_support_springs(int node) { add_diagonal(node, own_springs(node), matrix_); }
@@ -395,21 +395,21 @@ void FrameSystem::add_beams(int threads) {
   std::vector<Mat12> stiffness(std::min(beams, together));
   for (std::size_t first = 0; first < beams; first += together) {
     const std::size_t count = std::min(together, beams - first);
-    each_on_threads(static_cast<int>((count + share - 1) / share), threads, [&](int part) {
-      const std::size_t from = static_cast<std::size_t>(part) * share;
+    parallel_for((count + share - 1) / share, threads, [&](std::size_t part) {
+      const std::size_t from = part * share;
       for (std::size_t i = from; i < std::min(count, from + share); ++i)
         if (beam_stands[first + i] != 0) stiffness[i] = beam_stiffness(static_cast<int>(first + i));
     });
     for (std::size_t i = 0; i < count; ++i) {
       if (inertia != nullptr) add_element_mass(first + i, {});
-      if (beam_stands[first + i] != 0) scatter_.add(first + i, stiffness[i].data(), scale_, {}, matrix_);
+      if (beam_stands[first + i] != 0) assembly_map_.add(first + i, stiffness[i].data(), scale_, {}, matrix_);
     }
   }
 }
 
 void FrameSystem::assemble(int threads) {
   std::fill(matrix_.value.begin(), matrix_.value.end(), 0.0);
-  mass_ = inertia != nullptr ? scatter_.empty_matrix() : SparseSymmetric();
+  mass_ = inertia != nullptr ? assembly_map_.empty_matrix() : SparseSymmetric();
   std::fill(scale_.begin(), scale_.end(), 1.0);
   add_beams(threads);
   for (std::size_t i = model.beams.size(); i < element_of_patch(0) + model.patches.size(); ++i) add_element(i, {});
@@ -452,7 +452,7 @@ void FrameSystem::reassemble(std::span<const int> nodes) {
   }
   std::sort(wanted_elements_.begin(), wanted_elements_.end());
   wanted_elements_.erase(std::unique(wanted_elements_.begin(), wanted_elements_.end()), wanted_elements_.end());
-  for (int element : wanted_elements_) scatter_.clear(static_cast<std::size_t>(element), wanted_, matrix_);
+  for (int element : wanted_elements_) assembly_map_.clear(static_cast<std::size_t>(element), wanted_, matrix_);
   if (inertia != nullptr) clear_mass(wanted_nodes_, wanted_elements_);
   for (int element : wanted_elements_) add_element(static_cast<std::size_t>(element), wanted_);
   for (const int node : wanted_nodes_) finish_node(node);

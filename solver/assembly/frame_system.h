@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "assembly/assembly_map.h"
 #include "assembly/dof_map.h"
 #include "assembly/element_masses.h"
-#include "assembly/scatter_map.h"
 #include "elements/beam.h"
 #include "elements/shell.h"
 #include "topple/solver/frame_model.h"
@@ -60,7 +60,7 @@ class FrameSystem {
   const SystemInertia* inertia = nullptr;
 
   [[nodiscard]] const DofMap& dofs() const { return dofs_; }
-  [[nodiscard]] const ScatterMap& scatter() const { return scatter_; }
+  [[nodiscard]] const AssemblyMap& assembly_map() const { return assembly_map_; }
   [[nodiscard]] const SparseSymmetric& matrix() const { return matrix_; }
   [[nodiscard]] std::span<const double> scale() const { return scale_; }
   /// M in the scaled equations, on the same pattern; without inertia its values are not there.
@@ -70,7 +70,7 @@ class FrameSystem {
   [[nodiscard]] std::span<const int> beams_of_node(int node) const;
   [[nodiscard]] std::vector<int> shells_of_node(int node) const;
   [[nodiscard]] std::vector<int> patches_of_node(int node) const;
-  /// Elements (numbers of the scatter map) that reach a vertex: those of a node, of all nodes of a diaphragm.
+  /// Elements (numbers of the assembly map) that reach a vertex: those of a node, of all nodes of a diaphragm.
   void elements_of_vertex(int vertex, std::vector<int>& elements) const;
   /// Elimination order of the equations: nodes by nested dissection, the equations of a node together.
   [[nodiscard]] std::vector<int> elimination_order() const;
@@ -97,9 +97,9 @@ class FrameSystem {
   [[nodiscard]] Eigen::MatrixXd patch_stiffness(int patch) const;
   /// Takes a matrix from the freedoms of these nodes to those of their diaphragms.
   void add_diaphragm_arms(std::span<const int> nodes, Eigen::Ref<Eigen::MatrixXd> K) const;
-  /// K of an element that is no beam, by its number in the scatter map, in its freedoms; zero where it does not stand.
+  /// K of an element that is no beam, by its number in the assembly map, in its freedoms; zero where it does not stand.
   [[nodiscard]] Eigen::MatrixXd plate_stiffness(std::size_t element) const;
-  /// Numbers in the scatter map.
+  /// Numbers in the assembly map.
   [[nodiscard]] std::size_t element_of_shell(int shell) const {
     return model.beams.size() + static_cast<std::size_t>(shell);
   }
@@ -201,7 +201,7 @@ class FrameSystem {
 
   std::vector<Vec6> support_;
   DofMap dofs_;
-  ScatterMap scatter_;
+  AssemblyMap assembly_map_;
   std::vector<std::vector<int>> elements_of_node_;
   SparseSymmetric matrix_, mass_;
   std::vector<double> scale_;

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "assembly/element_masses.h"
-#include "parallel/each_on_threads.h"
+#include "topple/solver/parallel_for.h"
 
 namespace topple::solver {
 
@@ -11,7 +11,7 @@ void multiply_symmetric(const SparseSymmetric& A, const Eigen::Ref<const Eigen::
                         int threads) {
   constexpr std::size_t worth_a_thread = 300000;  // entries: fewer are gone through before a thread has started
   const int used = A.value.size() >= worth_a_thread ? threads : 1;
-  each_on_threads(static_cast<int>(x.cols()), used, [&](int c) {
+  parallel_for(x.cols(), used, [&](Eigen::Index c) {
     for (int column = 0; column < A.size; ++column) {
       double sum = 0;
       const double at = x(column, c);
@@ -28,12 +28,12 @@ void multiply_symmetric(const SparseSymmetric& A, const Eigen::Ref<const Eigen::
 }
 
 MassMatrix::MassMatrix(const FrameSystem& system, const MassModel& masses, int threads)
-    : system_(system), threads_(threads), hanging_(masses.hanging), matrix_(system.scatter().empty_matrix()) {
+    : system_(system), threads_(threads), hanging_(masses.hanging), matrix_(system.assembly_map().empty_matrix()) {
   const FrameModel& model = system.model;
   for (std::size_t i = 0; i < model.beams.size(); ++i) {
     if (model.beams[i].density == 0) continue;
     const Mat12 M = beam_mass(system, masses, static_cast<int>(i));
-    system.scatter().add(i, M.data(), system.scale(), {}, matrix_);
+    system.assembly_map().add(i, M.data(), system.scale(), {}, matrix_);
   }
   for (std::size_t i = 0; i < model.shells.size(); ++i)
     if (model.shells[i].density != 0) add_shell(static_cast<int>(i), masses);
@@ -49,12 +49,12 @@ void MassMatrix::add_shell(int index, const MassModel& masses) {
   const HangingShell* hung = hanging_shell(hanging_, index);
   if (hung == nullptr) {
     system_.add_diaphragm_arms(shell.node, M);
-    system_.scatter().add(system_.element_of_shell(index), M.data(), system_.scale(), {}, matrix_);
+    system_.assembly_map().add(system_.element_of_shell(index), M.data(), system_.scale(), {}, matrix_);
     return;
   }
   Eigen::MatrixXd all = hung->corners.transpose() * M * hung->corners;
   system_.add_diaphragm_arms(model.patches[static_cast<std::size_t>(hung->patch)].node, all);
-  system_.scatter().add(system_.element_of_patch(hung->patch), all.data(), system_.scale(), {}, matrix_);
+  system_.assembly_map().add(system_.element_of_patch(hung->patch), all.data(), system_.scale(), {}, matrix_);
 }
 
 void MassMatrix::add_node(int node, const Vec6& diagonal) {
@@ -69,7 +69,7 @@ void MassMatrix::add_node(int node, const Vec6& diagonal) {
       const int row = dofs.number[n][i], column = dofs.number[n][j];
       const double entry = M(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
       if (entry == 0 || row >= dofs.equations || column >= dofs.equations) continue;
-      matrix_.value[static_cast<std::size_t>(system_.scatter().position(row, column))] +=
+      matrix_.value[static_cast<std::size_t>(system_.assembly_map().position(row, column))] +=
           entry * scale[static_cast<std::size_t>(row)] * scale[static_cast<std::size_t>(column)];
     }
 }

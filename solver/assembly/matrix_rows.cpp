@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "factor/vector_versions.h"
-#include "reanalysis/ladder_costs.h"
+#include "reanalysis/update_costs.h"
 #include "reanalysis/work_count.h"
 
 namespace topple::solver {

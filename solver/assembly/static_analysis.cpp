@@ -10,9 +10,9 @@
 #include "assembly/mechanism.h"
 #include "assembly/refinement.h"
 #include "factor/factor.h"
-#include "parallel/each_on_threads.h"
 #include "topple/solver/case_sums.h"
 #include "topple/solver/kept_equations.h"
+#include "topple/solver/parallel_for.h"
 
 namespace topple::solver {
 namespace {
@@ -133,7 +133,7 @@ void tell_condition(const Prepared& prepared, ConditionBeside& condition, std::v
 }
 
 std::unique_ptr<Prepared> prepare(FrameModel model, const AnalysisOptions& options) {
-  double map_seconds = 0;  // numbering the freedoms and building the scatter map
+  double map_seconds = 0;  // numbering the freedoms and building the assembly map
   std::unique_ptr<Prepared> prepared;
   {
     const Stopwatch watch(map_seconds);
@@ -245,7 +245,7 @@ LoadVector sum_of(std::span<const LoadVector> cases, const Eigen::VectorXd& fact
 /// In more digits than the answers have: where cases cancel, what is left is right to its own last digit.
 Eigen::MatrixXd sums_of(const OnceRefined& cases, const Eigen::MatrixXd& factors, int threads) {
   Eigen::MatrixXd sums(cases.x.rows(), factors.cols());
-  each_on_threads(static_cast<int>(factors.cols()), threads, [&](int j) {
+  parallel_for(factors.cols(), threads, [&](Eigen::Index j) {
     for (Eigen::Index i = 0; i < sums.rows(); ++i) {
       long double sum = 0;
       for (Eigen::Index c = 0; c < factors.rows(); ++c)
@@ -270,8 +270,8 @@ std::optional<std::vector<StaticSolution>> add_up(Prepared& prepared, std::span<
       if (system.unbalanced_load(vector)) return std::nullopt;
     const int threads = prepared.options.threads;
     std::vector<LoadVector> sums(static_cast<std::size_t>(factors.cols()));
-    each_on_threads(static_cast<int>(factors.cols()), threads,
-                    [&](int j) { sums[static_cast<std::size_t>(j)] = sum_of(vectors, factors.col(j)); });
+    parallel_for(factors.cols(), threads,
+                 [&](Eigen::Index j) { sums[static_cast<std::size_t>(j)] = sum_of(vectors, factors.col(j)); });
     const ExtendedResidual residual(system.matrix(), threads);
     const OnceRefined of_cases = refine_once(residual, prepared.linear_solve(), prepared.right_hand_sides(vectors));
     RefinedSolution refined =

@@ -10,7 +10,7 @@ namespace {
 /// Keeps the rows of freedoms that are equations, scaled.
 ElementModes in_equations(const FrameSystem& system, std::size_t element, const Eigen::MatrixXd& B) {
   ElementModes modes;
-  const auto freedoms = system.scatter().freedoms(element);
+  const auto freedoms = system.assembly_map().freedoms(element);
   modes.B.resize(B.rows(), B.cols());
   Eigen::Index kept = 0;
   for (std::size_t k = 0; k < freedoms.size(); ++k) {
@@ -24,7 +24,7 @@ ElementModes in_equations(const FrameSystem& system, std::size_t element, const 
 
 /// Of a beam's 12 freedoms those that are equations.
 int equations_of_beam(const FrameSystem& system, int beam, std::array<int, 12>& kept) {
-  const auto freedoms = system.scatter().freedoms(static_cast<std::size_t>(beam));
+  const auto freedoms = system.assembly_map().freedoms(static_cast<std::size_t>(beam));
   std::size_t count = 0;
   for (std::size_t k = 0; k < 12; ++k)
     if (freedoms[k] < system.dofs().equations) kept[count++] = static_cast<int>(k);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "parallel/each_on_threads.h"
+#include "topple/solver/parallel_for.h"
 
 namespace topple::solver {
 namespace {
@@ -15,7 +15,7 @@ int blocks_of(Eigen::Index rows) { return static_cast<int>((rows + block_rows - 
 /// Calls visit(block, first row, rows).
 template <class Visit>
 void each_block(Eigen::Index rows, int threads, const Visit& visit) {
-  each_on_threads(blocks_of(rows), threads, [&](int block) {
+  parallel_for(blocks_of(rows), threads, [&](int block) {
     const Eigen::Index first = block * block_rows;
     visit(static_cast<std::size_t>(block), first, std::min(block_rows, rows - first));
   });

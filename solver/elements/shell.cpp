@@ -133,13 +133,17 @@ Mat24 ShellElement::stiffness() const {
       if (i != j) K.block<3, 3>(3 * j, 3 * i) = block.transpose();
     }
   }
+  add_arms(K);
+  return K;
+}
+
+void ShellElement::add_arms(Mat24& K) const {
   for (int n = 0; n < 4; ++n) {
     const Mat3& C = arm_[static_cast<std::size_t>(n)];
     if ((C.array() == 0).all()) continue;
     K.middleRows<3>(6 * n + 3) += C.transpose() * K.middleRows<3>(6 * n);
     K.middleCols<3>(6 * n + 3) += K.middleCols<3>(6 * n) * C;
   }
-  return K;
 }
 
 Vec24 ShellElement::fixed_forces(const Vec3& traction, double strain) const {

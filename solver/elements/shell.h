@@ -35,6 +35,7 @@ class ShellElement {
   [[nodiscard]] Vec24 to_local(const Vec24& global) const;
   [[nodiscard]] Vec24 to_global(const Vec24& local) const;
   [[nodiscard]] Mat24 on_translations(const Eigen::Matrix4d& entry) const;
+  void add_arms(Mat24& K) const;  ///< of a warped quadrilateral, whose nodes lie off its plane
 
   bool bending_;
   Mat3 axes_;

@@ -10,12 +10,7 @@ Mat24 ShellElement::on_translations(const Eigen::Matrix4d& entry) const {
   Mat24 K = Mat24::Zero();
   for (int a = 0; a < 4; ++a)
     for (int b = 0; b < 4; ++b) K.block<3, 3>(6 * a, 6 * b) = entry(a, b) * Mat3::Identity();
-  for (int n = 0; n < 4; ++n) {
-    const Mat3& C = arm_[static_cast<std::size_t>(n)];
-    if ((C.array() == 0).all()) continue;
-    K.middleRows<3>(6 * n + 3) += C.transpose() * K.middleRows<3>(6 * n);
-    K.middleCols<3>(6 * n + 3) += K.middleCols<3>(6 * n) * C;
-  }
+  add_arms(K);
   return K;
 }
 

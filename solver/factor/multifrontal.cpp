@@ -6,10 +6,10 @@
 #include <numeric>
 #include <utility>
 
-#include "factor/few_columns.h"
+#include "factor/multiple_right_hand_sides.h"
 #include "factor/panel_substitution.h"
-#include "parallel/each_on_threads.h"
 #include "parallel/task_team.h"
+#include "topple/solver/parallel_for.h"
 
 namespace topple::solver {
 namespace {
@@ -311,7 +311,7 @@ void MultifrontalFactor::solve(Eigen::Ref<Eigen::MatrixXd> right_hand_sides) con
   const auto groups = static_cast<int>(
       std::max<Eigen::Index>((columns + most_together - 1) / most_together,
                              std::min<Eigen::Index>(threads, (columns + worth_a_group - 1) / worth_a_group)));
-  each_on_threads(groups, threads, [&](int g) {
+  parallel_for(groups, threads, [&](int g) {
     const Eigen::Index first = g * columns / groups, count = (g + 1) * columns / groups - first;
     Eigen::MatrixXd y(n, count);
     for (Eigen::Index j = 0; j < count; ++j)
@@ -341,7 +341,7 @@ void MultifrontalFactor::solve_in_order(Eigen::MatrixXd& y) const {
     each_front(f, [&](const double* L, int columns, int rows, const std::int64_t* row) {
       const int rest = rows - columns;
       each_column([&](const double* from, int j) { std::copy_n(from + row[0], columns, own + j * columns); });
-      eliminate_few_columns(L, columns, rows, own, count, below);
+      eliminate_right_hand_sides(L, columns, rows, own, count, below);
       each_column([&](double* to, int j) {
         std::copy_n(own + j * columns, columns, to + row[0]);
         const double* update = below + static_cast<std::ptrdiff_t>(j) * rest;

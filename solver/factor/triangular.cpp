@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "factor/few_columns.h"
+#include "factor/multiple_right_hand_sides.h"
 #include "factor/panel_substitution.h"
 #include "factor/vector_versions.h"
 #include "reanalysis/work_count.h"
@@ -21,7 +21,7 @@ namespace {
 /// Blocks with fewer entries than this are done by plain passes: a call of BLAS costs more than they do.
 constexpr int small_block = 1024;
 /// Up to so many right-hand sides BLAS loses to a plain pass over the block.
-constexpr int few_columns = 12;
+constexpr int few_right_hand_sides = 12;
 constexpr double plus = 1, none = 0;
 
 /// One block of the factor: `columns` dense columns of `rows` entries, the triangle first.
@@ -35,8 +35,8 @@ struct Block {
 /// x (the block's own rows, a column each) := triangle^-1 x; below := rectangle x.
 void forward_block(const Block& b, double* x, int count, double* below) {
   const int below_rows = b.below();
-  if (count <= few_columns || b.small()) {
-    eliminate_few_columns(b.value, b.columns, b.rows, x, count, below);
+  if (count <= few_right_hand_sides || b.small()) {
+    eliminate_right_hand_sides(b.value, b.columns, b.rows, x, count, below);
     return;
   }
   dtrsm_("L", "L", "N", "N", &b.columns, &count, &plus, b.value, &b.rows, x, &b.columns);
@@ -267,8 +267,8 @@ void TriangularSolver::forward(Eigen::VectorXd& y, const std::vector<char>* mark
   for (std::size_t b = 0; b < parent_.size(); ++b) {
     if (marked != nullptr && (*marked)[b] == 0) continue;
     work += pass_cost(static_cast<int>(b));
-    eliminate_few_columns(value_.data() + value_start_[b], static_cast<int>(first_[b + 1] - first_[b]),
-                          static_cast<int>(row_start_[b + 1] - row_start_[b]), y.data() + first_[b], 1, below);
+    eliminate_right_hand_sides(value_.data() + value_start_[b], static_cast<int>(first_[b + 1] - first_[b]),
+                               static_cast<int>(row_start_[b + 1] - row_start_[b]), y.data() + first_[b], 1, below);
     subtract_rows(runs(b), below, y.data());
   }
   count_work(work);
@@ -327,7 +327,7 @@ void TriangularSolver::forward(Eigen::MatrixXd& y, const std::vector<char>* mark
     const auto columns = static_cast<int>(first_[b + 1] - first_[b]);
     const auto rows = static_cast<int>(row_start_[b + 1] - row_start_[b]);
     double* own = own_rows(b, y);
-    eliminate_few_columns(value_.data() + value_start_[b], columns, rows, own, count, below_.data());
+    eliminate_right_hand_sides(value_.data() + value_start_[b], columns, rows, own, count, below_.data());
     put_own_rows(b, y);
     for (int c = 0; c < count; ++c)
       subtract_rows(runs(b), below_.data() + static_cast<std::ptrdiff_t>(c) * (rows - columns), y.col(c).data());

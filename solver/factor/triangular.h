@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "factor/factor.h"
-#include "reanalysis/ladder_costs.h"
+#include "reanalysis/update_costs.h"
 
 namespace topple::solver {
 
@@ -61,7 +61,7 @@ class TriangularSolver {
   /// Marks the blocks on the paths of any rows.
   void mark_paths(std::span<const int> rows, std::vector<char>& marked) const;
 
-  /// Nanoseconds of a pass over one block, for so many columns at once (ladder_costs.h).
+  /// Nanoseconds of a pass over one block, for so many columns at once (update_costs.h).
   [[nodiscard]] double pass_cost(int block, int count = 1) const;
 
   /// One block: its columns (consecutive in elimination order) and the rows below them.

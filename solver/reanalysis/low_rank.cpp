@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "factor/few_columns.h"
-#include "reanalysis/ladder_costs.h"
+#include "factor/multiple_right_hand_sides.h"
+#include "reanalysis/update_costs.h"
 #include "reanalysis/work_count.h"
 
 namespace topple::solver {

@@ -1,5 +1,5 @@
 #pragma once
-// Exact answers of a changed matrix over a standing factor: K + B D B', K = L L' (in elimination order). With W = L^-1
+// Exact answers of a changed matrix over a base factor: K + B D B', K = L L' (in elimination order). With W = L^-1
 // B,
 //   (K + B D B')^-1 = L^-T (I - W (I + D G)^-1 D W') L^-1,   G = W'W
 // (Woodbury, in the form that takes a singular D). One backward solve serves an answer; W is nonzero on the elimination

@@ -5,8 +5,8 @@
 #include <stdexcept>
 
 #include "elements/beam_energy.h"
-#include "reanalysis/ladder_costs.h"
 #include "reanalysis/reanalysis_state.h"
+#include "reanalysis/update_costs.h"
 #include "topple/solver/beam_diagram.h"
 
 namespace topple::solver {

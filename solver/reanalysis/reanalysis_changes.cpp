@@ -111,7 +111,7 @@ void Reanalysis::State::apply_dropped_nodes(std::vector<int>& touched) {
       touched.insert(touched.end(), nodes.begin(), nodes.end());
     }
     stands = 0;
-    tell_standing([&](StandingFactor& one) { one.drop_node(node); });
+    tell_standing([&](BaseFactor& one) { one.drop_node(node); });
     // Corrections leave it alone from now on: the answer that they start from must have it at rest.
     const auto& first = system->dofs().first_equation;
     for (int e = first[static_cast<std::size_t>(node)]; e < first[static_cast<std::size_t>(node) + 1]; ++e)
@@ -142,10 +142,10 @@ void Reanalysis::State::apply_beam(int index, std::vector<int>& touched) {
   const char stands = !target.removed && free_of_dropped(0) && free_of_dropped(1) ? 1 : 0;
   const bool stiffness_changed =
       stands != system->beam_stands[i] ||
-      (stands != 0 && (beam.end_stiffness[0] != target.end_stiffness[0] ||
-                       beam.end_stiffness[1] != target.end_stiffness[1] || system->beam_factor[i] != target.factor ||
-                       beam.density != target.density));
-  if (stiffness_changed) tell_standing([&](StandingFactor& one) { one.remember_beam(index); });
+      (stands != 0 &&
+       (beam.end_stiffness[0] != target.end_stiffness[0] || beam.end_stiffness[1] != target.end_stiffness[1] ||
+        system->beam_factor[i] != target.factor || beam.density != target.density));
+  if (stiffness_changed) tell_standing([&](BaseFactor& one) { one.remember_beam(index); });
   if (stiffness_changed && restricted && may_be_stiffer(beam, system->beam_stands[i], system->beam_factor[i], target))
     restricted->forget_growths();
   beam.end_stiffness = target.end_stiffness;
@@ -164,7 +164,7 @@ void Reanalysis::State::apply_beam(int index, std::vector<int>& touched) {
 
 /// To be told before the element changes.
 void Reanalysis::State::remember_plate(std::size_t element) {
-  const auto remembers = [&](std::unique_ptr<StandingFactor>& one) { return !one || one->remember_plate(element); };
+  const auto remembers = [&](std::unique_ptr<BaseFactor>& one) { return !one || one->remember_plate(element); };
   if (!remembers(next)) drop_refresh();
   if (remembers(standing)) return;
   complete(nullptr);
@@ -209,7 +209,7 @@ void Reanalysis::State::apply_shells(std::vector<int>& touched) {
     if (system->model.shell_stiffness.contains(index))
       remember_plate(system->element_of_shell(index));
     else
-      tell_standing([&](StandingFactor& one) { one.remember_shell(index); });
+      tell_standing([&](BaseFactor& one) { one.remember_shell(index); });
     system->shell_stands[i] = stands;
     if (stands != 0 && restricted) restricted->forget_growths();
     touched.insert(touched.end(), nodes.begin(), nodes.end());

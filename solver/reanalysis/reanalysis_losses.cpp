@@ -17,8 +17,8 @@ void Reanalysis::expect_losses(std::span<const int> beams) {
 }
 
 /// What the present answer leaves over when the beam is gone.
-StandingFactor::Loss Reanalysis::State::residual_without(int beam) {
-  StandingFactor::Loss loss{beam, {}, {}};
+BaseFactor::Loss Reanalysis::State::residual_without(int beam) {
+  BaseFactor::Loss loss{beam, {}, {}};
   const auto change = [&](bool removed) {
     targets[static_cast<std::size_t>(beam)].removed = removed;
     mark(beam);
@@ -45,7 +45,7 @@ void Reanalysis::State::expect_losses(std::span<const int> beams) {
   expected.clear();
   if (!answer.stable || !structure_stands || !standing || standing->changed()) return;
   if (solution.size() != system->dofs().equations) return;
-  std::vector<StandingFactor::Loss> losses;
+  std::vector<BaseFactor::Loss> losses;
   for (const int beam : beams)
     if (system->beam_stands[static_cast<std::size_t>(beam)] != 0) losses.push_back(residual_without(beam));
   (void)standing->plan();  // takes note that all stand again

@@ -1,8 +1,8 @@
 // New factors made on another thread, and how they take over.
 #include <utility>
 
-#include "reanalysis/ladder_costs.h"
 #include "reanalysis/reanalysis_state.h"
+#include "reanalysis/update_costs.h"
 
 namespace topple::solver {
 
@@ -18,8 +18,8 @@ void Reanalysis::State::begin_refresh_if_due() {
   const double anew = factor_operations();
   if (anew < refresh_rules.least_operations) return;
   unwanted.reset();
-  next = std::make_unique<StandingFactor>(*system);
-  refresh = std::make_unique<FactorRefresh>(system->matrix(), order, options, refresh_rules.on_worker);
+  next = std::make_unique<BaseFactor>(*system);
+  refresh = std::make_unique<BackgroundFactor>(system->matrix(), order, options, refresh_rules.on_worker);
   refresh_paid = 0;
   refresh_due = refresh_rules.share * predicted_cost(factor_work());
 }
@@ -27,7 +27,7 @@ void Reanalysis::State::begin_refresh_if_due() {
 /// Waits for the new factor. False: it is of no use.
 bool Reanalysis::State::take_refreshed() {
   bool late = false;
-  FactorRefresh::Result made = refresh->take(late);
+  BackgroundFactor::Result made = refresh->take(late);
   refresh.reset();
   if (late) ++counters.late_factors;
   if (!made.factor) {
@@ -45,7 +45,7 @@ bool Reanalysis::State::take_refreshed() {
 void Reanalysis::State::go_on_with_refresh() {
   if (refresh && refresh_paid >= refresh_due) (void)take_refreshed();
   if (!next_factor) return;
-  const StandingFactor::CaughtUp done = next->catch_up(places_at_once);
+  const BaseFactor::CaughtUp done = next->catch_up(places_at_once);
   operations += done.operations;
   if (done.all) switch_factors();
 }
@@ -59,7 +59,7 @@ bool Reanalysis::State::switch_now() {
 
 void Reanalysis::State::switch_factors() {
   complete(nullptr);
-  const std::unique_ptr<StandingFactor> before = std::exchange(standing, std::move(next));
+  const std::unique_ptr<BaseFactor> before = std::exchange(standing, std::move(next));
   const std::unique_ptr<Factor> factor_before = std::exchange(factor, std::move(next_factor));
   if (restricted && !restricted->serve(standing->triangles())) restricted.reset();
   correction_paid = looked_at_softening = 0;

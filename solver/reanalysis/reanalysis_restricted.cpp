@@ -8,7 +8,7 @@
 namespace topple::solver {
 namespace {
 
-/// A restricted answer whose changed rows are left with more than this is found again in full, and refined.
+/// A selective answer whose changed rows are left with more than this is found again in full, and refined.
 constexpr double acceptable_error = 1e-13;
 
 }  // namespace
@@ -16,7 +16,7 @@ constexpr double acceptable_error = 1e-13;
 void Reanalysis::State::read_all_uses(UseWatch& watch) {
   if (!standing) return;
   if (!restricted)
-    restricted = std::make_unique<RestrictedAnswer>(
+    restricted = std::make_unique<SelectiveSolution>(
         *system, standing->triangles(),
         [this](int beam) -> const BeamStrainForces& { return strain_forces_of(static_cast<std::size_t>(beam)); });
   if (restricted->uses_known()) return;
@@ -30,7 +30,7 @@ bool Reanalysis::State::answer_in_part(UseWatch& watch) {
   if (!standing->changed() && first_solution.size() != n) return false;
   scale_force(load.force, scaled_force);
   if ((scaled_force.array() == 0).all() || (!standing->changed() && first_force == scaled_force)) return false;
-  const RestrictedAnswer::Answer whole{solution, displacements};
+  const SelectiveSolution::Answer whole{solution, displacements};
   if (std::exchange(eliminated_along, false)) {
     (void)restricted->begin(rows_to_change, whole);
     standing->forward_along(eliminated);
@@ -59,7 +59,7 @@ bool Reanalysis::State::answer_in_part(UseWatch& watch) {
 }
 
 void Reanalysis::State::tell_effort() {
-  const RestrictedAnswer::Effort& done = restricted->effort();
+  const SelectiveSolution::Effort& done = restricted->effort();
   effort = {true,        done.entries,  standing->triangles().entries(), done.beams, done.shells,
             done.energy, done.left_out, restricted->bound_left_out()};
   operations += standing->solve_operations() * (1 + done.entries / effort.factor_entries) / 2;
@@ -76,7 +76,7 @@ const std::vector<Vec6>& Reanalysis::State::whole() const {
 
 /// As complete(), beside the answer, to what a restricted one is held to.
 void Reanalysis::State::find_whole() const {
-  RestrictedAnswer beside = *restricted;
+  SelectiveSolution beside = *restricted;
   Eigen::VectorXd u = solution;
   whole_displacements = displacements;
   beside.complete({u, whole_displacements}, nullptr);

@@ -1,10 +1,10 @@
-// The answer over the rung that a change took.
+// The answer by the way that was chosen for a change.
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "reanalysis/ladder_costs.h"
 #include "reanalysis/reanalysis_state.h"
+#include "reanalysis/update_costs.h"
 #include "reanalysis/work_count.h"
 
 namespace topple::solver {

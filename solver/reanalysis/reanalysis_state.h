@@ -13,9 +13,9 @@
 #include "assembly/refinement.h"
 #include "elements/beam_strain_forces.h"
 #include "factor/factor.h"
-#include "reanalysis/factor_refresh.h"
-#include "reanalysis/restricted_answer.h"
-#include "reanalysis/standing_factor.h"
+#include "reanalysis/background_factor.h"
+#include "reanalysis/base_factor.h"
+#include "reanalysis/selective_solution.h"
 #include "topple/solver/reanalysis.h"
 
 namespace topple::solver {
@@ -38,20 +38,20 @@ struct Reanalysis::State {
   AnalysisOptions options;
   std::vector<int> order;  ///< of elimination
   std::unique_ptr<Factor> factor;
-  std::unique_ptr<MatrixRows> rows;              ///< of the system's matrix; made with its order
-  std::unique_ptr<StandingFactor> standing;      ///< none while there is no valid factor
-  std::unique_ptr<RestrictedAnswer> restricted;  ///< over the standing factor; made when first asked for
+  std::unique_ptr<MatrixRows> rows;               ///< of the system's matrix; made with its order
+  std::unique_ptr<BaseFactor> standing;           ///< none while there is no valid factor
+  std::unique_ptr<SelectiveSolution> restricted;  ///< over the base factor; made when first asked for
   RefreshRules refresh_rules;
-  std::unique_ptr<StandingFactor> next;      ///< remembers the changes since the refresh was begun
-  std::unique_ptr<FactorRefresh> refresh;    ///< the factor that `next` is to serve with
-  std::unique_ptr<FactorRefresh> unwanted;   ///< dropped on the way
-  std::unique_ptr<Factor> next_factor;       ///< what the refresh made: `next` catches up over it
-  double next_condition = 0;                 ///< of the matrix that it was made of
-  double refresh_paid = 0, refresh_due = 0;  ///< spent by answers since then; after which it is taken
-  double correction_paid = 0;                ///< predicted cost of changes from before, since the factor was made
-  double looked_at_softening = 0;            ///< at which the softest motion was looked at last
-  bool needs_new_factor = false;             ///< the last change alone is more than a correction takes
-  bool refresh_failed = false;               ///< not to be tried again before there is another factor
+  std::unique_ptr<BaseFactor> next;            ///< remembers the changes since the refresh was begun
+  std::unique_ptr<BackgroundFactor> refresh;   ///< the factor that `next` is to serve with
+  std::unique_ptr<BackgroundFactor> unwanted;  ///< dropped on the way
+  std::unique_ptr<Factor> next_factor;         ///< what the refresh made: `next` catches up over it
+  double next_condition = 0;                   ///< of the matrix that it was made of
+  double refresh_paid = 0, refresh_due = 0;    ///< spent by answers since then; after which it is taken
+  double correction_paid = 0;                  ///< predicted cost of changes from before, since the factor was made
+  double looked_at_softening = 0;              ///< at which the softest motion was looked at last
+  bool needs_new_factor = false;               ///< the last change alone is more than a correction takes
+  bool refresh_failed = false;                 ///< not to be tried again before there is another factor
   bool assembled = false, factor_valid = false;
   bool structure_stands = false;  ///< the structure as it is was judged, and is stable
 
@@ -82,7 +82,7 @@ struct Reanalysis::State {
   std::vector<int> loaded_nodes;  ///< of beams that changed, and loaded otherwise, since then
   RestrictedEffort effort;
   std::vector<Vec6> displacements;
-  mutable std::vector<Vec6> whole_displacements;  ///< of a restricted answer, when asked for
+  mutable std::vector<Vec6> whole_displacements;  ///< of a selective answer, when asked for
   mutable bool whole_known = false;
   std::vector<Vec12> fixed_end;                         ///< per beam, local
   std::vector<Vec12> fixed_at_nodes;                    ///< per beam: the same reversed, on its nodes, global
@@ -115,7 +115,7 @@ struct Reanalysis::State {
 
   /// Brings matrix, factor and correction up to date; a defect when the structure does not stand.
   [[nodiscard]] std::optional<Defect> update_structure(const std::vector<int>& touched);
-  /// The rung below a new factor. False: not worth it, or it cannot decide.
+  /// Answers by a low-rank update. False: a new factor is cheaper, or the update cannot decide.
   [[nodiscard]] bool correct_factor(const std::vector<int>& touched, std::optional<Defect>& defect);
   [[nodiscard]] std::optional<Defect> refactorise();
   [[nodiscard]] FactorWork factor_work() const;
@@ -143,7 +143,7 @@ struct Reanalysis::State {
   /// Starts from the answer that was found beforehand for what stands now. False: there is none.
   [[nodiscard]] bool take_expected(const Eigen::VectorXd& force);
   void expect_losses(std::span<const int> beams);
-  [[nodiscard]] StandingFactor::Loss residual_without(int beam);
+  [[nodiscard]] BaseFactor::Loss residual_without(int beam);
   void improve(const Eigen::VectorXd& force, bool first);
   void solve_for_rest(bool first);
   void find_changed_rows(const Eigen::VectorXd& force);
@@ -157,7 +157,7 @@ struct Reanalysis::State {
   /// Displacements everywhere, whatever the answer under way has left out.
   [[nodiscard]] const std::vector<Vec6>& whole() const;
   void find_whole() const;
-  /// Makes a restricted answer whole.
+  /// Makes a selective answer whole.
   void complete(UseWatch* watch);
   void bring_up_to_date(UseWatch* watch);
   void read_all_uses(UseWatch& watch);
@@ -179,7 +179,7 @@ struct Reanalysis::State {
   [[nodiscard]] Eigen::VectorXd refine_to(double limit, const Eigen::VectorXd& scaled, Eigen::VectorXd x,
                                           double& error) const;
   /// The same for several forces, a column each, the factor gone through once for all of them; and on elimination paths
-  /// (StandingFactor::solve_on_paths()), not refined.
+  /// (BaseFactor::solve_on_paths()), not refined.
   [[nodiscard]] Eigen::MatrixXd solve_sparse(const Eigen::MatrixXd& force, std::vector<double>& backward_error) const;
   [[nodiscard]] Eigen::MatrixXd solve_on_paths(const Eigen::MatrixXd& force, std::span<const int> nodes,
                                                std::vector<char>& known) const;

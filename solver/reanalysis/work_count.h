@@ -4,7 +4,7 @@
 
 namespace topple::solver {
 
-/// Adds what something takes, in nanoseconds of the machine that the costs in ladder_costs.cpp were measured on.
+/// Adds what something takes, in nanoseconds of the machine that the costs in update_costs.cpp were measured on.
 void count_work(double nanoseconds);
 /// All that this thread has counted.
 [[nodiscard]] double counted_work();

@@ -28,10 +28,11 @@
 #include "failure/panel_demand.h"
 #include "loads/case_loads.h"
 #include "mesh/giving_edges.h"
-#include "parallel/side_by_side.h"
+#include "parallel/in_order.h"
 #include "topple/solver/beam_diagram.h"
 #include "topple/solver/case_sums.h"
 #include "topple/solver/kept_memory.h"
+#include "topple/solver/parallel_for.h"
 #include "topple/solver/shifted_modes.h"
 #include "topple/structure/analysis.h"
 #include "topple/structure/error.h"
@@ -70,7 +71,8 @@ class Analysis {
       return;
     }
     loads_.resize(combinations_.size());
-    side_by_side(loads_.size(), request.workers, [&](std::size_t k) { loads_[k] = loads_of(k); });
+    solver::parallel_for(loads_.size(), workers_for(loads_.size(), request.workers),
+                         [&](std::size_t k) { loads_[k] = loads_of(k); });
   }
 
   AnalysisResult run() {
@@ -135,7 +137,7 @@ class Analysis {
       tell("combinations", static_cast<double>(++done) / static_cast<double>(solutions.size()));
     };
     if (linear_) {
-      side_by_side(solutions.size(), request_.workers, one);
+      solver::parallel_for(solutions.size(), workers_for(solutions.size(), request_.workers), one);
     } else {
       for (std::size_t k = 0; k < solutions.size(); ++k) try_one(k, one, result);
       std::erase_if(result.combinations, [](const CombinationResult& c) { return !c.combination.valid(); });
@@ -606,7 +608,8 @@ class Analysis {
     };
     // Linear combinations go side by side themselves, and the sums of their loads have one place.
     constexpr std::size_t together = 256;
-    side_by_side((all.size() + together - 1) / together, linear_ ? 1 : request_.workers, [&](std::size_t part) {
+    const std::size_t parts = (all.size() + together - 1) / together;
+    solver::parallel_for(parts, workers_for(parts, linear_ ? 1 : request_.workers), [&](std::size_t part) {
       for (std::size_t i = part * together; i < std::min(all.size(), (part + 1) * together); ++i) one(i);
     });
     return all;

@@ -6,10 +6,10 @@
 #include <mutex>
 #include <new>
 
-#include "parallel/side_by_side.h"
-#include "parallel/threads_beside.h"
+#include "parallel/in_order.h"
 #include "study/run_each.h"
 #include "study/worker_processes.h"
+#include "topple/solver/parallel_for.h"
 #include "topple/structure/plain_text.h"
 #include "topple/structure/study.h"
 
@@ -38,14 +38,15 @@ using study::evaluate;
 void run_all(const StudyTask& task, const StudyRun& run, std::size_t count,
              const std::function<Sample(std::size_t)>& make, const std::function<void(Sample&&)>& take) {
   if (count == 0) return;
-  if (const std::size_t workers = workers_for(count, run.threads); task.apart && workers > 1)
-    return study::run_in_processes(task, run, count, workers, make, take);
+  const int workers = workers_for(count, run.threads);
+  if (task.apart && workers > 1)
+    return study::run_in_processes(task, run, count, static_cast<std::size_t>(workers), make, take);
   std::atomic<std::size_t> next{0};
   std::atomic<bool> ended{false};
   std::mutex mutex;
   std::exception_ptr failure;
   std::uint64_t done = 0;
-  const auto work = [&] {
+  const auto work = [&](int /*worker*/) {
     try {
       const std::unique_ptr<SampleEvaluator> evaluator = task.make_evaluator();
       for (std::size_t i = next++; i < count && !ended && !(run.stopped && run.stopped()); i = next++) {
@@ -62,10 +63,7 @@ void run_all(const StudyTask& task, const StudyRun& run, std::size_t count,
       ended = true;
     }
   };
-  {
-    const ThreadsBeside beside(workers_for(count, run.threads) - 1, work);
-    work();
-  }
+  solver::parallel_for(workers, workers, work);
   if (failure) std::rethrow_exception(failure);
 }
 

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "analysis/results/results_writer.h"
-#include "parallel/side_by_side.h"
+#include "parallel/in_order.h"
 #include "topple/solver/blas_kernel.h"
 
 namespace topple::structure {

@@ -1,4 +1,4 @@
-#include "reanalysis/standing_factor.h"
+#include "reanalysis/base_factor.h"
 
 #include <algorithm>
 #include <iterator>
@@ -12,7 +12,7 @@ constexpr double entry_cost = 10, correction_cost = 4;
 
 }  // namespace
 
-StandingFactor::StandingFactor(const FrameSystem& system) : system_(system) {
+BaseFactor::BaseFactor(const FrameSystem& system) : system_(system) {
   for (int node = 0; node < static_cast<int>(system.model.nodes.size()); ++node) {
     if (system.dofs().diaphragm_of_node[static_cast<std::size_t>(node)] >= 0) {
       diaphragm_node_before_.emplace(node, system.supports_and_inert_rotations(node));
@@ -23,14 +23,14 @@ StandingFactor::StandingFactor(const FrameSystem& system) : system_(system) {
   }
 }
 
-void StandingFactor::serve(const Factor& factor) { serve(TriangularSolver(factor)); }
+void BaseFactor::serve(const Factor& factor) { serve(TriangularSolver(factor)); }
 
-void StandingFactor::serve(TriangularSolver triangles) {
+void BaseFactor::serve(TriangularSolver triangles) {
   solver_.emplace(std::move(triangles));
   correction_.emplace(*solver_);
 }
 
-StandingFactor::CaughtUp StandingFactor::catch_up(int places) {
+BaseFactor::CaughtUp BaseFactor::catch_up(int places) {
   const Plan whole = plan();
   if (!whole.possible) return {};
   const std::size_t wanted = planned_.size(), taken = std::min(wanted, static_cast<std::size_t>(places));
@@ -44,23 +44,23 @@ StandingFactor::CaughtUp StandingFactor::catch_up(int places) {
   return {taken == wanted, share * (whole.operations - solve_operations())};
 }
 
-void StandingFactor::remember_beam(int beam) {
+void BaseFactor::remember_beam(int beam) {
   if (!beam_before_.contains(beam)) beam_before_.emplace(beam, beam_mode_stiffness(system_, beam));
   stale_beams_.push_back(beam);
 }
 
-void StandingFactor::remember_shell(int shell) {
+void BaseFactor::remember_shell(int shell) {
   shell_before_.emplace(shell, system_.shell_stands[static_cast<std::size_t>(shell)]);
   know_modes(shell);
 }
 
 /// What it strains by does not change: found once, while it stands.
-void StandingFactor::know_modes(int shell) {
+void BaseFactor::know_modes(int shell) {
   if (system_.shell_stands[static_cast<std::size_t>(shell)] != 0 && !shell_modes_.contains(shell))
     shell_modes_.emplace(shell, shell_modes(system_, system_.shell_stiffness(shell), shell));
 }
 
-bool StandingFactor::remember_plate(std::size_t element) {
+bool BaseFactor::remember_plate(std::size_t element) {
   if (element < system_.element_of_patch(0) &&
       shell_before_.contains(static_cast<int>(element - system_.element_of_shell(0))))
     return false;
@@ -68,19 +68,19 @@ bool StandingFactor::remember_plate(std::size_t element) {
   return true;
 }
 
-bool StandingFactor::inside_dropped(std::span<const int> nodes) const {
+bool BaseFactor::inside_dropped(std::span<const int> nodes) const {
   return std::all_of(nodes.begin(), nodes.end(),
                      [&](int n) { return std::binary_search(dropped_.begin(), dropped_.end(), n); });
 }
 
-ElementModes StandingFactor::modes(Key key) const {
+ElementModes BaseFactor::modes(Key key) const {
   if (key.kind == Kind::beam) return beam_modes(system_, key.index);
   if (key.kind == Kind::shell) return shell_modes_.at(key.index);
   if (key.kind == Kind::plate) {
     const auto element = static_cast<std::size_t>(key.index);
     ElementModes own;
     for (const int place : equations_of(element))
-      own.rows.push_back(system_.scatter().freedoms(element)[static_cast<std::size_t>(place)]);
+      own.rows.push_back(system_.assembly_map().freedoms(element)[static_cast<std::size_t>(place)]);
     const auto count = static_cast<Eigen::Index>(own.rows.size());
     own.B = Eigen::MatrixXd::Identity(count, count);
     return own;
@@ -89,7 +89,7 @@ ElementModes StandingFactor::modes(Key key) const {
 }
 
 /// What was restored is as the factor has it: no need to look at it again until it changes again.
-void StandingFactor::forget_unchanged(std::optional<Eigen::Index> kept) {
+void BaseFactor::forget_unchanged(std::optional<Eigen::Index> kept) {
   const std::vector<int> number = kept ? correction_->forget_unchanged(*kept) : correction_->forget_unchanged();
   if (number.empty()) return;
   for (auto place = place_.begin(); place != place_.end();) {
@@ -108,7 +108,7 @@ void StandingFactor::forget_unchanged(std::optional<Eigen::Index> kept) {
 }
 
 /// Takes what changed over, and adds what changed for the first time.
-void StandingFactor::add_planned() {
+void BaseFactor::add_planned() {
   set_wanted();
   forget_unchanged();
   for (const auto& [key, wanted] : wanted_) {
@@ -119,7 +119,7 @@ void StandingFactor::add_planned() {
   planned_.clear();
 }
 
-void StandingFactor::set_wanted() {
+void BaseFactor::set_wanted() {
   for (const auto& [key, place] : place_) {
     Wanted& wanted = wanted_.at(key);
     if (!wanted.set) correction_->set(place, wanted.D);
@@ -127,14 +127,14 @@ void StandingFactor::set_wanted() {
   }
 }
 
-void StandingFactor::update() {
+void BaseFactor::update() {
   add_planned();
   correction_->finish_adding();
   set_wanted();
   correction_->update();
 }
 
-void StandingFactor::update(std::span<const int> rows, const Eigen::VectorXd& right_hand_side) {
+void BaseFactor::update(std::span<const int> rows, const Eigen::VectorXd& right_hand_side) {
   add_planned();
   solver_->permute(right_hand_side, along_);
   solver_->mark_paths(rows, marked_);
@@ -143,7 +143,7 @@ void StandingFactor::update(std::span<const int> rows, const Eigen::VectorXd& ri
   correction_->update();
 }
 
-void StandingFactor::solve(Eigen::VectorXd& x, const std::vector<int>* rows) const {
+void BaseFactor::solve(Eigen::VectorXd& x, const std::vector<int>* rows) const {
   solver_->permute(x, eliminated_);
   if (rows != nullptr) {
     solver_->mark_paths(*rows, marked_);
@@ -154,25 +154,25 @@ void StandingFactor::solve(Eigen::VectorXd& x, const std::vector<int>* rows) con
   finish_solve(x);
 }
 
-void StandingFactor::forward_along(Eigen::VectorXd& y) const {
+void BaseFactor::forward_along(Eigen::VectorXd& y) const {
   y = along_;
   correction_->correct(y);
 }
 
-void StandingFactor::solve_along(Eigen::VectorXd& x) const {
+void BaseFactor::solve_along(Eigen::VectorXd& x) const {
   eliminated_ = along_;
   finish_solve(x);
 }
 
 /// From the eliminated right-hand side to the answer.
-void StandingFactor::finish_solve(Eigen::VectorXd& x) const {
+void BaseFactor::finish_solve(Eigen::VectorXd& x) const {
   correction_->correct(eliminated_);
   solver_->backward(eliminated_);
   solver_->restore(eliminated_, x);
   forget_dropped(x);
 }
 
-void StandingFactor::forget_dropped(Eigen::VectorXd& x) const {
+void BaseFactor::forget_dropped(Eigen::VectorXd& x) const {
   for (const int node : dropped_) {
     const auto n = static_cast<std::size_t>(node);
     for (int e = system_.dofs().first_equation[n]; e < system_.dofs().first_equation[n + 1]; ++e) x(e) = 0;
@@ -180,7 +180,7 @@ void StandingFactor::forget_dropped(Eigen::VectorXd& x) const {
 }
 
 /// All columns as far as the backward solve, in columns_.
-void StandingFactor::eliminate(const Eigen::MatrixXd& X, const std::vector<int>& rows) const {
+void BaseFactor::eliminate(const Eigen::MatrixXd& X, const std::vector<int>& rows) const {
   columns_.resize(X.rows(), X.cols());
   for (Eigen::Index j = 0; j < X.cols(); ++j) {
     column_ = X.col(j);
@@ -196,7 +196,7 @@ void StandingFactor::eliminate(const Eigen::MatrixXd& X, const std::vector<int>&
   }
 }
 
-void StandingFactor::restore(Eigen::MatrixXd& X) const {
+void BaseFactor::restore(Eigen::MatrixXd& X) const {
   for (Eigen::Index j = 0; j < X.cols(); ++j) {
     eliminated_ = columns_.col(j);
     solver_->restore(eliminated_, column_);
@@ -205,13 +205,13 @@ void StandingFactor::restore(Eigen::MatrixXd& X) const {
   }
 }
 
-void StandingFactor::solve(Eigen::MatrixXd& X, const std::vector<int>& rows) const {
+void BaseFactor::solve(Eigen::MatrixXd& X, const std::vector<int>& rows) const {
   eliminate(X, rows);
   solver_->backward(columns_);
   restore(X);
 }
 
-void StandingFactor::solve_on_paths(Eigen::MatrixXd& X, const std::vector<int>& rows, std::vector<char>& known) const {
+void BaseFactor::solve_on_paths(Eigen::MatrixXd& X, const std::vector<int>& rows, std::vector<char>& known) const {
   eliminate(X, rows);
   solver_->backward(columns_, &marked_);
   restore(X);
@@ -222,13 +222,13 @@ void StandingFactor::solve_on_paths(Eigen::MatrixXd& X, const std::vector<int>& 
   }
 }
 
-void StandingFactor::forward(const Eigen::VectorXd& x, const std::vector<char>& marked, Eigen::VectorXd& y) const {
+void BaseFactor::forward(const Eigen::VectorXd& x, const std::vector<char>& marked, Eigen::VectorXd& y) const {
   solver_->permute(x, y);
   solver_->forward(y, &marked);
   correction_->correct(y);
 }
 
-Eigen::MatrixXd StandingFactor::solve_without(std::span<const Loss> losses) {
+Eigen::MatrixXd BaseFactor::solve_without(std::span<const Loss> losses) {
   forget_unchanged(0);
   std::vector<int> places;
   std::vector<Eigen::MatrixXd> y;
@@ -271,7 +271,7 @@ Eigen::MatrixXd StandingFactor::solve_without(std::span<const Loss> losses) {
   return Y;
 }
 
-Eigen::VectorXd StandingFactor::softest_motion() const {
+Eigen::VectorXd BaseFactor::softest_motion() const {
   Eigen::VectorXd y = correction_->softest_motion(), x;
   solver_->backward(y);
   solver_->restore(y, x);
@@ -280,7 +280,7 @@ Eigen::VectorXd StandingFactor::softest_motion() const {
   return x;
 }
 
-double StandingFactor::solve_operations() const {
+double BaseFactor::solve_operations() const {
   return 2 * entry_cost * solver_->entries() + correction_cost * correction_->entries();
 }
 

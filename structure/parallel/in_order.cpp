@@ -1,4 +1,4 @@
-#include "parallel/side_by_side.h"
+#include "parallel/in_order.h"
 
 #include <algorithm>
 #include <atomic>
@@ -6,40 +6,14 @@
 #include <exception>
 #include <mutex>
 #include <thread>
-#include <vector>
 
-#include "parallel/threads_beside.h"
+#include "topple/solver/parallel_for.h"
 
 namespace topple::structure {
 
-std::size_t workers_for(std::size_t count, int threads) {
+int workers_for(std::size_t count, int threads) {
   const std::size_t wanted = threads > 0 ? static_cast<std::size_t>(threads) : std::thread::hardware_concurrency();
-  return std::clamp<std::size_t>(wanted, 1, std::max<std::size_t>(count, 1));
-}
-
-void side_by_side(std::size_t count, int threads, const std::function<void(std::size_t)>& work) {
-  const std::size_t workers = workers_for(count, threads);
-  if (workers == 1) {
-    for (std::size_t i = 0; i < count; ++i) work(i);
-    return;
-  }
-  std::atomic<std::size_t> next{0};
-  std::vector<std::exception_ptr> failures(count);
-  const auto run = [&] {
-    for (std::size_t i = next++; i < count; i = next++) {
-      try {
-        work(i);
-      } catch (...) {
-        failures[i] = std::current_exception();
-      }
-    }
-  };
-  {
-    const ThreadsBeside beside(workers - 1, run);
-    run();
-  }
-  for (const std::exception_ptr& failure : failures)
-    if (failure) std::rethrow_exception(failure);
+  return static_cast<int>(std::clamp<std::size_t>(wanted, 1, std::max<std::size_t>(count, 1)));
 }
 
 void in_order(std::size_t count, int threads, const std::function<void(std::size_t, std::string& text)>& make,
@@ -65,7 +39,7 @@ void in_order(std::size_t count, int threads, const std::function<void(std::size
     ++turn;
     changed.notify_all();
   };
-  const auto run = [&] {
+  const auto run = [&](int /*worker*/) {
     std::string text;
     for (std::size_t i = next++; i < count; i = next++) {
       std::exception_ptr own;
@@ -77,10 +51,8 @@ void in_order(std::size_t count, int threads, const std::function<void(std::size
       hand_on(i, text, own);
     }
   };
-  {
-    const ThreadsBeside beside(workers_for(count, threads) - 1, run);
-    run();
-  }
+  const int workers = workers_for(count, threads);
+  solver::parallel_for(workers, workers, run);
   if (failure) std::rethrow_exception(failure);
 }
 

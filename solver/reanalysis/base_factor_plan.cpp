@@ -1,8 +1,8 @@
-// What a standing factor would have to correct: the changes compared with what it remembers, and what that costs.
+// What a base factor would have to correct: the changes compared with what it remembers, and what that costs.
 #include <algorithm>
 #include <numeric>
 
-#include "reanalysis/standing_factor.h"
+#include "reanalysis/base_factor.h"
 
 namespace topple::solver {
 namespace {
@@ -28,7 +28,7 @@ void sort_unique(std::vector<int>& values) {
 
 }  // namespace
 
-void StandingFactor::want(Key key, const Eigen::Ref<const Eigen::MatrixXd>& D) {
+void BaseFactor::want(Key key, const Eigen::Ref<const Eigen::MatrixXd>& D) {
   const auto known = wanted_.find(key);
   if (known != wanted_.end()) {
     if (known->second.D.size() == D.size() && known->second.D == D) return;
@@ -39,14 +39,14 @@ void StandingFactor::want(Key key, const Eigen::Ref<const Eigen::MatrixXd>& D) {
   }
 }
 
-void StandingFactor::plan_beam(int beam, const BeamModeMatrix& before) {
+void BaseFactor::plan_beam(int beam, const BeamModeMatrix& before) {
   const auto& nodes = system_.model.beams[static_cast<std::size_t>(beam)].node;
   BeamModeMatrix D = BeamModeMatrix::Zero(before.rows(), before.cols());
   if (!inside_dropped(nodes)) D = beam_mode_stiffness(system_, beam) - before;
   want({Kind::beam, beam}, D);
 }
 
-void StandingFactor::plan_beams() {
+void BaseFactor::plan_beams() {
   if (dropped_more_) {
     for (const auto& [beam, before] : beam_before_) plan_beam(beam, before);
   } else {
@@ -55,7 +55,7 @@ void StandingFactor::plan_beams() {
   stale_beams_.clear();
 }
 
-void StandingFactor::plan_shells() {
+void BaseFactor::plan_shells() {
   for (const auto& [shell, before] : shell_before_) {
     const auto s = static_cast<std::size_t>(shell);
     const bool inside = inside_dropped(system_.model.shells[s].node);
@@ -69,8 +69,8 @@ void StandingFactor::plan_shells() {
 }
 
 /// Places among an element's freedoms of those that are equations.
-std::vector<int> StandingFactor::equations_of(std::size_t element) const {
-  const auto freedoms = system_.scatter().freedoms(element);
+std::vector<int> BaseFactor::equations_of(std::size_t element) const {
+  const auto freedoms = system_.assembly_map().freedoms(element);
   std::vector<int> kept;
   for (std::size_t k = 0; k < freedoms.size(); ++k)
     if (freedoms[k] < system_.dofs().equations) kept.push_back(static_cast<int>(k));
@@ -78,10 +78,10 @@ std::vector<int> StandingFactor::equations_of(std::size_t element) const {
 }
 
 /// A change of any shape is one of all the element's freedoms, each a column of its own.
-void StandingFactor::plan_plates() {
+void BaseFactor::plan_plates() {
   for (const auto& [element, before] : plate_before_) {
     const std::vector<int> kept = equations_of(element);
-    const auto freedoms = system_.scatter().freedoms(element);
+    const auto freedoms = system_.assembly_map().freedoms(element);
     const auto size = static_cast<Eigen::Index>(kept.size());
     Eigen::MatrixXd D = Eigen::MatrixXd::Zero(size, size);
     if (!inside_dropped(system_.plate_nodes(element))) {
@@ -99,7 +99,7 @@ void StandingFactor::plan_plates() {
 }
 
 /// What nodes have besides their elements: springs of supports, held rotations. False where a diaphragm shares it.
-bool StandingFactor::plan_nodes() {
+bool BaseFactor::plan_nodes() {
   sort_unique(touched_);
   for (const int node : touched_) {
     const auto n = static_cast<std::size_t>(node);
@@ -120,7 +120,7 @@ bool StandingFactor::plan_nodes() {
 }
 
 /// One node of each dropped part that held together is held, so that the part is not loose.
-void StandingFactor::plan_grounds() {
+void BaseFactor::plan_grounds() {
   for (auto& [key, wanted] : wanted_) {
     if (key.kind != Kind::ground) continue;
     wanted.D.setZero();
@@ -159,7 +159,7 @@ void StandingFactor::plan_grounds() {
   }
 }
 
-StandingFactor::Plan StandingFactor::plan() {
+BaseFactor::Plan BaseFactor::plan() {
   Plan plan;
   sort_unique(dropped_);
   plan_beams();

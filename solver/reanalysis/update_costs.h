@@ -1,6 +1,6 @@
 #pragma once
-// What the rungs of the ladder cost, predicted from counts: the choice between a correction and a new factor is by
-// these, and the same on every machine. bench_ladder prints the counts beside measured times.
+// What a low-rank update and a new factor cost, predicted from counts: the choice between them is by these, and the
+// same on every machine. bench_ladder prints the counts beside measured times.
 
 namespace topple::solver {
 

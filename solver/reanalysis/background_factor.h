@@ -13,15 +13,15 @@
 
 namespace topple::solver {
 
-class FactorRefresh {
+class BackgroundFactor {
  public:
   /// Copies what it needs and begins. `on_worker` (may be empty) runs first, on the new thread.
-  FactorRefresh(const SparseSymmetric& matrix, const std::vector<int>& order, const AnalysisOptions& options,
-                std::function<void()> on_worker);
+  BackgroundFactor(const SparseSymmetric& matrix, const std::vector<int>& order, const AnalysisOptions& options,
+                   std::function<void()> on_worker);
   /// Waits for the thread.
-  ~FactorRefresh();
-  FactorRefresh(const FactorRefresh&) = delete;
-  FactorRefresh& operator=(const FactorRefresh&) = delete;
+  ~BackgroundFactor();
+  BackgroundFactor(const BackgroundFactor&) = delete;
+  BackgroundFactor& operator=(const BackgroundFactor&) = delete;
 
   struct Result {
     std::unique_ptr<Factor> factor;  ///< none: the matrix is not definite, or lies in the warning band

@@ -16,16 +16,16 @@
 #include "eigen/element_modes.h"
 #include "factor/factor.h"
 #include "factor/triangular.h"
-#include "reanalysis/ladder_costs.h"
 #include "reanalysis/low_rank.h"
+#include "reanalysis/update_costs.h"
 
 namespace topple::solver {
 
-class StandingFactor {
+class BaseFactor {
  public:
   /// From now on it can be told of changes; the factor of the system's matrix as it is now may come later. The system
   /// must outlive this.
-  explicit StandingFactor(const FrameSystem& system);
+  explicit BaseFactor(const FrameSystem& system);
   /// That factor, which must outlive this. Only now it can plan and solve.
   void serve(const Factor& factor);
   /// The same with the triangles over that factor, made elsewhere.
@@ -56,7 +56,7 @@ class StandingFactor {
     bool possible = false;  ///< false: the change is of a kind that only a new factor takes
     int rank = 0;           ///< columns of the correction
     double operations = 0;  ///< to bring it up to date and for one answer
-    CorrectionWork work;    ///< the same by kind, as the rungs are compared by
+    CorrectionWork work;    ///< the same by kind, as ways are compared by
   };
   [[nodiscard]] Plan plan();
   /// Carries the last plan out.

@@ -1,4 +1,4 @@
-#include "reanalysis/ladder_costs.h"
+#include "reanalysis/update_costs.h"
 
 namespace topple::solver {
 namespace {

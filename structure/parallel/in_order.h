@@ -1,6 +1,5 @@
 #pragma once
-// Independent pieces of work on several threads. Each writes what is its own, so that results do not depend on the
-// number of threads.
+// Texts that are made on several threads and taken in their order.
 #include <cstddef>
 #include <functional>
 #include <string>
@@ -8,11 +7,8 @@
 
 namespace topple::structure {
 
-/// As many threads as asked for; 0: one for each processor, at most `count`.
-[[nodiscard]] std::size_t workers_for(std::size_t count, int threads);
-
-/// Calls work(0) ... work(count - 1), in any order and at once; throws what the first of them in order threw.
-void side_by_side(std::size_t count, int threads, const std::function<void(std::size_t)>& work);
+/// As many threads as asked for; 0: one for each processor. At least 1, at most `count`.
+[[nodiscard]] int workers_for(std::size_t count, int threads);
 
 /// Calls make(0, text) ... make(count - 1, text) in any order and at once, and take() with each of the texts in their
 /// order, one at a time, while later ones are made. `text` arrives with the storage of an earlier one, to be written

@@ -11,11 +11,11 @@
 
 namespace topple::solver {
 
-class ScatterMap {
+class AssemblyMap {
  public:
   /// `freedoms[start[e]] ... freedoms[start[e + 1] - 1]` are the numbers of element e's freedoms; numbers from
   /// dofs.equations on are held and left out.
-  ScatterMap(const DofMap& dofs, std::vector<int> freedoms, std::vector<std::int64_t> start);
+  AssemblyMap(const DofMap& dofs, std::vector<int> freedoms, std::vector<std::int64_t> start);
 
   /// The pattern, with values 0.
   [[nodiscard]] SparseSymmetric empty_matrix() const;

@@ -1,4 +1,4 @@
-#include "reanalysis/restricted_answer.h"
+#include "reanalysis/selective_solution.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,7 +34,7 @@ std::span<const int> listed(const std::vector<int>& start, const std::vector<int
 
 }  // namespace
 
-RestrictedAnswer::RestrictedAnswer(const FrameSystem& system, const TriangularSolver& solver, BeamStiffness stiffness)
+SelectiveSolution::SelectiveSolution(const FrameSystem& system, const TriangularSolver& solver, BeamStiffness stiffness)
     : system_(system), solver_(&solver), beam_stiffness_(std::move(stiffness)) {
   const auto blocks = static_cast<std::size_t>(solver.blocks());
   std::vector<int> parents(blocks);
@@ -62,7 +62,7 @@ RestrictedAnswer::RestrictedAnswer(const FrameSystem& system, const TriangularSo
   waiting_ = change_ = past_ = Eigen::VectorXd::Zero(solver.size());
 }
 
-bool RestrictedAnswer::serve(const TriangularSolver& solver) {
+bool SelectiveSolution::serve(const TriangularSolver& solver) {
   if (solver.size() != solver_->size() || solver.blocks() != solver_->blocks()) return false;
   for (int k = 0; k < solver.size(); ++k)
     if (solver.row_at(k) != solver_->row_at(k)) return false;
@@ -76,18 +76,18 @@ bool RestrictedAnswer::serve(const TriangularSolver& solver) {
   return true;
 }
 
-int RestrictedAnswer::lowest_block(std::span<const int> equations) const {
+int SelectiveSolution::lowest_block(std::span<const int> equations) const {
   int lowest = solver_->size();
   for (const int e : equations)
     if (e >= 0 && e < system_.dofs().equations) lowest = std::min(lowest, solver_->position(e));
   return lowest < solver_->size() ? solver_->block_of(solver_->row_at(lowest)) : -1;
 }
 
-void RestrictedAnswer::list_elements() {
+void SelectiveSolution::list_elements() {
   const auto blocks = static_cast<std::size_t>(solver_->blocks());
   const std::size_t beams = system_.model.beams.size(), shells = system_.model.shells.size();
   for (std::size_t i = 0; i < beams + shells; ++i) {
-    const int block = lowest_block(system_.scatter().freedoms(i));
+    const int block = lowest_block(system_.assembly_map().freedoms(i));
     (i < beams ? beam_block_ : shell_block_).push_back(block);
     if (block < 0) (i < beams ? held_beams_ : held_shells_).push_back(static_cast<int>(i < beams ? i : i - beams));
   }
@@ -97,7 +97,7 @@ void RestrictedAnswer::list_elements() {
   list_by_block(node_block_, blocks, node_start_, node_);
 }
 
-bool RestrictedAnswer::is_current(int block) const {
+bool SelectiveSolution::is_current(int block) const {
   if (!partial_) return true;
   for (; block >= 0; block = solver_->parent(block))
     if (older_[static_cast<std::size_t>(block)] != 0) return false;
@@ -105,7 +105,7 @@ bool RestrictedAnswer::is_current(int block) const {
 }
 
 /// Adds past_ or change_ of the block's rows to the answer: nodes that left stay at rest.
-void RestrictedAnswer::add_to_solution(int block, Answer answer) {
+void SelectiveSolution::add_to_solution(int block, Answer answer) {
   const auto own = solver_->block(block);
   const auto& vertex = system_.dofs().vertex_of_equation;
   for (int k = own.first; k < own.first + own.columns; ++k) {
@@ -116,13 +116,13 @@ void RestrictedAnswer::add_to_solution(int block, Answer answer) {
   }
 }
 
-void RestrictedAnswer::read_nodes(int block, Answer answer) const {
+void SelectiveSolution::read_nodes(int block, Answer answer) const {
   for (const int node : listed(node_start_, node_, block))
     answer.displacements[static_cast<std::size_t>(node)] = system_.node_displacement_of_scaled(node, answer.solution);
 }
 
 /// Carries the changes that the block missed through it, and hands them on to its children.
-void RestrictedAnswer::bring_older(int block, Answer answer) {
+void SelectiveSolution::bring_older(int block, Answer answer) {
   const auto b = static_cast<std::size_t>(block);
   const auto own = solver_->block(block);
   count_work(block_by_block * solver_->pass_cost(block));
@@ -147,7 +147,7 @@ void RestrictedAnswer::bring_older(int block, Answer answer) {
   older_[b] = 0;
 }
 
-void RestrictedAnswer::complete(Answer answer, UseWatch* watch) {
+void SelectiveSolution::complete(Answer answer, UseWatch* watch) {
   if (partial_) {
     for (int block = solver_->blocks() - 1; block >= 0; --block) {
       const auto b = static_cast<std::size_t>(block);
@@ -163,7 +163,7 @@ void RestrictedAnswer::complete(Answer answer, UseWatch* watch) {
   if (watch != nullptr && uses_known_ && any_unread_) read_unread(*watch);
 }
 
-void RestrictedAnswer::read_unread(UseWatch& watch) {
+void SelectiveSolution::read_unread(UseWatch& watch) {
   for (int block = 0; block < solver_->blocks(); ++block) {
     if (unread_[static_cast<std::size_t>(block)] != 0) read_uses(block, watch);
     update_bound(block);
@@ -171,9 +171,9 @@ void RestrictedAnswer::read_unread(UseWatch& watch) {
   any_unread_ = false;
 }
 
-void RestrictedAnswer::note(double use) { worst_ = std::max(worst_, use); }
+void SelectiveSolution::note(double use) { worst_ = std::max(worst_, use); }
 
-void RestrictedAnswer::read_uses(int block, UseWatch& watch) {
+void SelectiveSolution::read_uses(int block, UseWatch& watch) {
   constexpr double element = 750;  // ns, of its energy and its uses
   double use = 0;
   count_work(element * static_cast<double>(listed(beam_start_, beam_, block).size() +
@@ -187,14 +187,14 @@ void RestrictedAnswer::read_uses(int block, UseWatch& watch) {
   effort_.shells += static_cast<int>(listed(shell_start_, shell_, block).size());
 }
 
-void RestrictedAnswer::update_bound(int block) {
+void SelectiveSolution::update_bound(int block) {
   const auto b = static_cast<std::size_t>(block);
   bound_[b] = own_use_[b];
   for (const int child : listed(child_start_, child_, block))
     bound_[b] = std::max(bound_[b], bound_[static_cast<std::size_t>(child)]);
 }
 
-void RestrictedAnswer::read_all(UseWatch& watch) {
+void SelectiveSolution::read_all(UseWatch& watch) {
   worst_ = 0;
   read_growths(watch);
   for (int block = 0; block < solver_->blocks(); ++block) {
@@ -208,7 +208,7 @@ void RestrictedAnswer::read_all(UseWatch& watch) {
   any_unread_ = false;
 }
 
-void RestrictedAnswer::read_growths(UseWatch& watch) {
+void SelectiveSolution::read_growths(UseWatch& watch) {
   if (growths_known_) return;
   growths_known_ = true;
   for (int block = 0; block < solver_->blocks(); ++block) {
@@ -238,7 +238,7 @@ void RestrictedAnswer::read_growths(UseWatch& watch) {
 }
 
 /// Rows that share an element with any of these, these included.
-void RestrictedAnswer::reach_neighbours(std::span<const int> rows) {
+void SelectiveSolution::reach_neighbours(std::span<const int> rows) {
   near_rows_.assign(rows.begin(), rows.end());
   int last = -1;
   for (const int row : rows) {
@@ -248,13 +248,13 @@ void RestrictedAnswer::reach_neighbours(std::span<const int> rows) {
     elements_.clear();
     system_.elements_of_vertex(vertex, elements_);
     for (const int element : elements_) {
-      for (const int e : system_.scatter().freedoms(static_cast<std::size_t>(element)))
+      for (const int e : system_.assembly_map().freedoms(static_cast<std::size_t>(element)))
         if (e >= 0 && e < system_.dofs().equations) near_rows_.push_back(e);
     }
   }
 }
 
-const std::vector<char>& RestrictedAnswer::begin(std::span<const int> rows, Answer answer) {
+const std::vector<char>& SelectiveSolution::begin(std::span<const int> rows, Answer answer) {
   reach_neighbours(rows);
   solver_->mark_paths(near_rows_, path_);
   if (!partial_) return path_;
@@ -268,7 +268,7 @@ const std::vector<char>& RestrictedAnswer::begin(std::span<const int> rows, Answ
 }
 
 /// This change alone, in a block whose ancestors have it.
-void RestrictedAnswer::step_now(int block, const Eigen::VectorXd& y, Answer answer) {
+void SelectiveSolution::step_now(int block, const Eigen::VectorXd& y, Answer answer) {
   const auto own = solver_->block(block);
   count_work(block_by_block * solver_->pass_cost(block));
   for (std::size_t i = 0; i < own.below.size(); ++i) below_[i] = change_(own.below[i]);
@@ -282,7 +282,7 @@ void RestrictedAnswer::step_now(int block, const Eigen::VectorXd& y, Answer answ
   effort_.entries += static_cast<double>(own.columns) * static_cast<double>(own.columns + own.below.size());
 }
 
-Vec6 RestrictedAnswer::node_change(int node) const {
+Vec6 SelectiveSolution::node_change(int node) const {
   const auto n = static_cast<std::size_t>(node);
   Vec6 u = Vec6::Zero();
   if (system_.node_stands[n] == 0) return u;
@@ -296,7 +296,7 @@ Vec6 RestrictedAnswer::node_change(int node) const {
   return u;
 }
 
-double RestrictedAnswer::twice_energy_of_beam(int index) const {
+double SelectiveSolution::twice_energy_of_beam(int index) const {
   const auto i = static_cast<std::size_t>(index);
   if (system_.beam_stands[i] == 0) return 0;
   const Beam& beam = system_.model.beams[i];
@@ -305,7 +305,7 @@ double RestrictedAnswer::twice_energy_of_beam(int index) const {
   return beam_stiffness_(index).twice_energy(strain);
 }
 
-double RestrictedAnswer::twice_energy_of_shell(int index) const {
+double SelectiveSolution::twice_energy_of_shell(int index) const {
   const auto i = static_cast<std::size_t>(index);
   if (system_.shell_stands[i] == 0) return 0;
   Vec24 u;
@@ -314,7 +314,7 @@ double RestrictedAnswer::twice_energy_of_shell(int index) const {
   return u.dot(system_.shell_node_stiffness(index) * u);
 }
 
-double RestrictedAnswer::twice_energy_of_elements(int block) const {
+double SelectiveSolution::twice_energy_of_elements(int block) const {
   double sum = 0;
   for (const int beam : listed(beam_start_, beam_, block)) sum += twice_energy_of_beam(beam);
   for (const int shell : listed(shell_start_, shell_, block)) sum += twice_energy_of_shell(shell);
@@ -322,7 +322,7 @@ double RestrictedAnswer::twice_energy_of_elements(int block) const {
 }
 
 /// What the block missed of this change waits for it.
-void RestrictedAnswer::leave_out(int block) {
+void SelectiveSolution::leave_out(int block) {
   const auto b = static_cast<std::size_t>(block);
   const auto below = solver_->block(block).below;
   double* behind = behind_.data() + below_start_[b];
@@ -332,7 +332,7 @@ void RestrictedAnswer::leave_out(int block) {
 }
 
 /// From the children of what was visited downwards, those deepest in the tree (nearest to the change) first.
-void RestrictedAnswer::descend(const Eigen::VectorXd& y, UseWatch& watch, Answer answer) {
+void SelectiveSolution::descend(const Eigen::VectorXd& y, UseWatch& watch, Answer answer) {
   open_.clear();
   for (const int block : visits_)
     for (const int child : listed(child_start_, child_, block))
@@ -361,12 +361,12 @@ void RestrictedAnswer::descend(const Eigen::VectorXd& y, UseWatch& watch, Answer
 }
 
 /// Twice the energy of this change in what was not visited, at most.
-double RestrictedAnswer::energy_left_out() const {
+double SelectiveSolution::energy_left_out() const {
   return std::max(0.0, remaining_) + energy_rounding * 2 * effort_.energy;
 }
 
 /// What was left out waits, with a bound of what it missed.
-void RestrictedAnswer::finish(const Eigen::VectorXd& y) {
+void SelectiveSolution::finish(const Eigen::VectorXd& y) {
   const double root = std::sqrt(energy_left_out());
   for (const int block : left_out_) {
     const auto b = static_cast<std::size_t>(block);
@@ -386,8 +386,8 @@ void RestrictedAnswer::finish(const Eigen::VectorXd& y) {
   effort_.left_out = energy_left_out() / 2;
 }
 
-void RestrictedAnswer::advance(std::span<const int> rows, const Eigen::VectorXd& residual, const Eigen::VectorXd& y,
-                               UseWatch& watch, Answer answer) {
+void SelectiveSolution::advance(std::span<const int> rows, const Eigen::VectorXd& residual, const Eigen::VectorXd& y,
+                                UseWatch& watch, Answer answer) {
   effort_ = {};
   visits_.clear();
   worst_ = bound_left_out_ = 0;

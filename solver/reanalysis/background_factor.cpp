@@ -1,4 +1,4 @@
-#include "reanalysis/factor_refresh.h"
+#include "reanalysis/background_factor.h"
 
 #include <exception>
 #include <utility>
@@ -7,8 +7,8 @@
 
 namespace topple::solver {
 
-FactorRefresh::FactorRefresh(const SparseSymmetric& matrix, const std::vector<int>& order,
-                             const AnalysisOptions& options, std::function<void()> on_worker)
+BackgroundFactor::BackgroundFactor(const SparseSymmetric& matrix, const std::vector<int>& order,
+                                   const AnalysisOptions& options, std::function<void()> on_worker)
     : matrix_(matrix) {
   thread_ = std::thread([this, order, options, begin = std::move(on_worker)] {
     if (begin) begin();
@@ -21,11 +21,11 @@ FactorRefresh::FactorRefresh(const SparseSymmetric& matrix, const std::vector<in
   });
 }
 
-FactorRefresh::~FactorRefresh() {
+BackgroundFactor::~BackgroundFactor() {
   if (thread_.joinable()) thread_.join();
 }
 
-void FactorRefresh::make(const std::vector<int>& order, const AnalysisOptions& options) {
+void BackgroundFactor::make(const std::vector<int>& order, const AnalysisOptions& options) {
   auto factor = std::make_unique<Factor>(matrix_, order, options.factorisation, 1);
   const Factor::Outcome outcome = factor->factorise(matrix_);
   if (!outcome.positive_definite || outcome.worst_pivot < options.warning_limit) return;
@@ -35,7 +35,7 @@ void FactorRefresh::make(const std::vector<int>& order, const AnalysisOptions& o
   result_ = {std::move(factor), condition, std::move(triangles)};
 }
 
-FactorRefresh::Result FactorRefresh::take(bool& late) {
+BackgroundFactor::Result BackgroundFactor::take(bool& late) {
   late = !done_;
   thread_.join();
   return std::move(result_);

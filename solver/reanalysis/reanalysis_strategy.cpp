@@ -1,8 +1,8 @@
-// The ladder: which rung a change takes.
+// How a change is answered: by a low-rank update or by a new factor.
 #include <algorithm>
 
-#include "reanalysis/ladder_costs.h"
 #include "reanalysis/reanalysis_state.h"
+#include "reanalysis/update_costs.h"
 #include "reanalysis/work_count.h"
 
 namespace topple::solver {
@@ -65,7 +65,7 @@ std::optional<Defect> Reanalysis::State::update_structure(const std::vector<int>
   } else {
     defect = system->defect();
   }
-  tell_standing([&](StandingFactor& one) { one.touch(touched); });
+  tell_standing([&](BaseFactor& one) { one.touch(touched); });
   stale_nodes.insert(stale_nodes.end(), touched.begin(), touched.end());
   if (defect) return defect;
   if (system->dofs().equations == 0) {  // everything is held: nothing to factorise, every answer is exact
@@ -114,7 +114,7 @@ void Reanalysis::State::update_correction(bool adds) {
 bool Reanalysis::State::correct_factor(const std::vector<int>& touched, std::optional<Defect>& defect) {
   eliminated_along = needs_new_factor = false;
   if (!standing || condition > ill_conditioned) return false;
-  const StandingFactor::Plan plan = standing->plan();
+  const BaseFactor::Plan plan = standing->plan();
   const double anew = predicted_cost(factor_work());
   const auto too_much = [anew](bool possible, const CorrectionWork& work) {
     return !possible || work.rank > most_columns || predicted_cost(work) > anew;
@@ -191,7 +191,7 @@ std::optional<Defect> Reanalysis::State::refactorise() {
   answer.nearly_unstable = stability.nearly_unstable || 1 / condition < options.warning_limit;
   refresh_failed = answer.nearly_unstable;
   if (!answer.nearly_unstable) {
-    standing = std::make_unique<StandingFactor>(*system);
+    standing = std::make_unique<BaseFactor>(*system);
     standing->serve(*factor);
   }
   return std::nullopt;

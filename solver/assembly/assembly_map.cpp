@@ -1,4 +1,4 @@
-#include "assembly/scatter_map.h"
+#include "assembly/assembly_map.h"
 
 #include <algorithm>
 #include <array>
@@ -7,17 +7,17 @@
 
 namespace topple::solver {
 
-ScatterMap::ScatterMap(const DofMap& dofs, std::vector<int> freedoms, std::vector<std::int64_t> start)
+AssemblyMap::AssemblyMap(const DofMap& dofs, std::vector<int> freedoms, std::vector<std::int64_t> start)
     : dofs_(dofs), freedoms_(std::move(freedoms)), start_(std::move(start)) {
   build_pattern();
 }
 
-std::span<const int> ScatterMap::freedoms(std::size_t element) const {
+std::span<const int> AssemblyMap::freedoms(std::size_t element) const {
   return std::span(freedoms_).subspan(static_cast<std::size_t>(start_[element]),
                                       static_cast<std::size_t>(start_[element + 1] - start_[element]));
 }
 
-void ScatterMap::build_pattern() {
+void AssemblyMap::build_pattern() {
   std::vector<int> touched;
   for (std::size_t element = 0; element + 1 < start_.size(); ++element) {
     touched.clear();
@@ -63,7 +63,7 @@ void ScatterMap::build_pattern() {
   }
 }
 
-std::int32_t ScatterMap::offset_of(int v, int w) const {
+std::int32_t AssemblyMap::offset_of(int v, int w) const {
   const auto begin = edges_.begin() + first_edge_[static_cast<std::size_t>(v)];
   const auto end = edges_.begin() + first_edge_[static_cast<std::size_t>(v) + 1];
   const auto edge = std::lower_bound(begin, end, std::pair(v, w));
@@ -71,7 +71,7 @@ std::int32_t ScatterMap::offset_of(int v, int w) const {
   return edge_offset_[static_cast<std::size_t>(edge - edges_.begin())];
 }
 
-std::int64_t ScatterMap::position(int equation, int other) const {
+std::int64_t AssemblyMap::position(int equation, int other) const {
   const int column = std::min(equation, other), row = std::max(equation, other);
   const int v = dofs_.vertex_of_equation[static_cast<std::size_t>(column)];
   const int w = dofs_.vertex_of_equation[static_cast<std::size_t>(row)];
@@ -81,20 +81,20 @@ std::int64_t ScatterMap::position(int equation, int other) const {
          dofs_.first_equation[static_cast<std::size_t>(w)];
 }
 
-SparseSymmetric ScatterMap::empty_matrix() const {
+SparseSymmetric AssemblyMap::empty_matrix() const {
   SparseSymmetric matrix = pattern_;
   matrix.value.assign(matrix.row.size(), 0.0);
   return matrix;
 }
 
-bool ScatterMap::is_wanted(int equation, const std::vector<char>& wanted) const {
+bool AssemblyMap::is_wanted(int equation, const std::vector<char>& wanted) const {
   return wanted[static_cast<std::size_t>(dofs_.vertex_of_equation[static_cast<std::size_t>(equation)])] != 0;
 }
 
 /// Calls visit(i, j, place, twice) for the element's entries that belong to the matrix and are wanted, i >= j; twice:
 /// two of its freedoms are the same equation, so that the entry and its mirror image meet.
 template <class Visit>
-void ScatterMap::each_entry(std::size_t element, const std::vector<char>& wanted, const Visit& visit) const {
+void AssemblyMap::each_entry(std::size_t element, const std::vector<char>& wanted, const Visit& visit) const {
   const auto numbers = freedoms(element);
   const std::size_t n = numbers.size();
   constexpr std::size_t most_kept = 24;  // of beams and shells; those of larger patches are looked up each time
@@ -128,8 +128,8 @@ void ScatterMap::each_entry(std::size_t element, const std::vector<char>& wanted
   }
 }
 
-void ScatterMap::add(std::size_t element, const double* k, std::span<const double> scale,
-                     const std::vector<char>& wanted, SparseSymmetric& matrix) const {
+void AssemblyMap::add(std::size_t element, const double* k, std::span<const double> scale,
+                      const std::vector<char>& wanted, SparseSymmetric& matrix) const {
   const auto numbers = freedoms(element);
   const std::size_t n = numbers.size();
   each_entry(element, wanted, [&](std::size_t i, std::size_t j, std::size_t place, bool twice) {
@@ -139,7 +139,7 @@ void ScatterMap::add(std::size_t element, const double* k, std::span<const doubl
   });
 }
 
-void ScatterMap::clear(std::size_t element, const std::vector<char>& wanted, SparseSymmetric& matrix) const {
+void AssemblyMap::clear(std::size_t element, const std::vector<char>& wanted, SparseSymmetric& matrix) const {
   each_entry(element, wanted, [&](std::size_t, std::size_t, std::size_t place, bool) { matrix.value[place] = 0; });
 }
 

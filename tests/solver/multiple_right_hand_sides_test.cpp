@@ -1,6 +1,6 @@
 // Passes over a dense block of a factor for a few right-hand sides, against sums in extended precision: every number of
 // columns, of rows and of right-hand sides takes another way through them.
-#include "factor/few_columns.h"
+#include "factor/multiple_right_hand_sides.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -47,7 +47,7 @@ TEST_CASE("eliminating with a block gives back its right-hand side, whatever the
     const std::vector<double> L = block_of(columns, rows, 1),
                               right = random_values(static_cast<std::size_t>(columns * count), 2);
     std::vector<double> x = right, below(static_cast<std::size_t>((rows - columns) * count), 7.0);
-    eliminate_few_columns(L.data(), columns, rows, x.data(), count, below.data());
+    eliminate_right_hand_sides(L.data(), columns, rows, x.data(), count, below.data());
     for (int c = 0; c < count; ++c)
       for (int i = 0; i < rows; ++i) {
         long double sum = 0, size = 0;
@@ -63,7 +63,7 @@ TEST_CASE("eliminating with a block gives back its right-hand side, whatever the
       }
     // Each right-hand side has the bits that it has alone.
     std::vector<double> alone(right.begin(), right.begin() + columns), rest(below.size());
-    eliminate_few_columns(L.data(), columns, rows, alone.data(), 1, rest.data());
+    eliminate_right_hand_sides(L.data(), columns, rows, alone.data(), 1, rest.data());
     REQUIRE(std::equal(alone.begin(), alone.end(), x.begin()));
     REQUIRE(std::equal(rest.begin(), rest.begin() + (rows - columns), below.begin()));
   });

@@ -1,4 +1,4 @@
-#include "factor/few_columns.h"
+#include "factor/multiple_right_hand_sides.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -168,7 +168,7 @@ void subtract_combination(const double* W, int stride, int rows, int columns, co
   }
 }
 
-void eliminate_few_columns(const double* L, int columns, int rows, double* x, int count, double* below) {
+void eliminate_right_hand_sides(const double* L, int columns, int rows, double* x, int count, double* below) {
   const int below_rows = rows - columns;
   std::fill(below, below + static_cast<std::ptrdiff_t>(below_rows) * count, 0.0);
   const auto eliminate = [&](int first, int c) {

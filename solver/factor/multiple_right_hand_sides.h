@@ -8,7 +8,7 @@ namespace topple::solver {
 /// L: `columns` columns of `rows` entries, the triangle first. x (columns x count) := triangle^-1 x, and below
 /// ((rows - columns) x count) := rectangle x. Every entry is summed in order of L's columns, by itself: the bits do not
 /// depend on the processor's vectors, nor on how many right-hand sides there are.
-void eliminate_few_columns(const double* L, int columns, int rows, double* x, int count, double* below);
+void eliminate_right_hand_sides(const double* L, int columns, int rows, double* x, int count, double* below);
 
 /// W: `columns` columns of `rows` entries, one every `stride`. c(k) += W(:, k) . y, always in the same order.
 void add_products(const double* W, int stride, int rows, int columns, const double* y, double* c);

@@ -21,11 +21,11 @@
 
 namespace topple::solver {
 
-class RestrictedAnswer {
+class SelectiveSolution {
  public:
   using BeamStiffness = std::function<const BeamStrainForces&(int beam)>;
   /// `solver` holds the factor of the system's matrix at some time; both must outlive this. The answer is whole.
-  RestrictedAnswer(const FrameSystem& system, const TriangularSolver& solver, BeamStiffness stiffness);
+  SelectiveSolution(const FrameSystem& system, const TriangularSolver& solver, BeamStiffness stiffness);
 
   /// Another factor of the same pattern serves from now on; what is known of uses stays. The answer must be whole.
   /// False (and nothing has changed): its blocks are others.
