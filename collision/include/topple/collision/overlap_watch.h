@@ -13,15 +13,16 @@ namespace topple::collision {
 
 /// Two parts that were inside each other all through a time of OverlapWatch::lasting.
 struct Overlap {
-  BodyId body;
-  std::int64_t part_tag = -1;
-  Touched other;
-  double depth = 0;      ///< least over that time, m
-  double thickness = 0;  ///< of the thinner of the two parts, m
+  BodyId body;                 ///< one of the two
+  std::int64_t part_tag = -1;  ///< ConvexPart::tag of its part
+  Touched other;               ///< what it is inside of
+  double depth = 0;            ///< least over that time, m
+  double thickness = 0;        ///< of the thinner of the two parts, m
   /// More than this share of the thickness is deep.
   [[nodiscard]] bool deep() const;
 };
 
+/// Watches the contacts of a world, step by step, for overlaps that last.
 class OverlapWatch {
  public:
   /// An overlap counts when it lasts so long, s: what comes together at speed has been pushed apart by then (Bullet

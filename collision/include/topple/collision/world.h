@@ -18,72 +18,86 @@ namespace topple::collision {
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
 
+/// Where something is: a point p of it lies at position + orientation p.
 struct Pose {
-  Vec3 position = Vec3::Zero();
-  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+  Vec3 position = Vec3::Zero();                                     ///< m, global axes
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< unit
+  /// A point or pose in its frame, in global axes.
   [[nodiscard]] Vec3 operator*(const Vec3& local) const { return position + orientation * local; }
 };
 
 /// Handles live as long as the thing they name and are never used again in one world.
 struct BodyId {
-  std::int64_t value = -1;
+  std::int64_t value = -1;  ///< counts up from 0; -1: none
+  /// In the order in which they were made.
   auto operator<=>(const BodyId&) const = default;
 };
+/// See BodyId.
 struct ObstacleId {
-  std::int64_t value = -1;
+  std::int64_t value = -1;  ///< as BodyId's
+  /// As BodyId's.
   auto operator<=>(const ObstacleId&) const = default;
 };
+/// See BodyId.
 struct HingeId {
-  std::int64_t value = -1;
+  std::int64_t value = -1;  ///< as BodyId's
+  /// As BodyId's.
   auto operator<=>(const HingeId&) const = default;
 };
 
+/// See BodyId.
 struct CableId {
-  std::int64_t value = -1;
+  std::int64_t value = -1;  ///< as BodyId's
+  /// As BodyId's.
   auto operator<=>(const CableId&) const = default;
 };
 
 /// One convex piece of a shape, in the frame of the body.
 struct ConvexPart {
+  /// Which shape; hull: the convex hull of `points`.
   enum class Kind { box, sphere, hull };
-  Kind kind = Kind::box;
+  Kind kind = Kind::box;             ///< which of the members below count
   Pose pose;                         ///< of the part in the body (box and sphere: its centre)
   Vec3 half_extents = Vec3::Zero();  ///< box; sphere: x is the radius
   std::vector<Vec3> points;          ///< hull: vertices
   std::int64_t tag = -1;             ///< given back in contacts: which part of the body was touched
 };
 
+/// A rigid body that moves. SI.
 struct BodyDescription {
-  std::vector<ConvexPart> parts;
-  double mass = 0;                           ///< above zero
-  Mat3 inertia = Mat3::Zero();               ///< about the centre of mass, body axes; need not be diagonal
-  Pose pose;                                 ///< of the centre of mass; parts are relative to it
-  Vec3 velocity = Vec3::Zero();              ///< of the centre of mass
-  Vec3 angular_velocity = Vec3::Zero();      ///< global axes
-  double friction = 0.6, restitution = 0.1;  ///< a pair has the geometric mean of its two
+  std::vector<ConvexPart> parts;         ///< at least one
+  double mass = 0;                       ///< above zero
+  Mat3 inertia = Mat3::Zero();           ///< about the centre of mass, body axes; need not be diagonal
+  Pose pose;                             ///< of the centre of mass; parts are relative to it
+  Vec3 velocity = Vec3::Zero();          ///< of the centre of mass
+  Vec3 angular_velocity = Vec3::Zero();  ///< global axes
+  double friction = 0.6;                 ///< coefficient; a pair has the geometric mean of its two
+  double restitution = 0.1;              ///< a pair has the geometric mean of its two
 };
 
 /// A part of what stands: it does not move in the world, whatever pushes it.
 struct ObstacleDescription {
-  std::vector<ConvexPart> parts;
-  Pose pose;
-  double friction = 0.6, restitution = 0.1;
+  std::vector<ConvexPart> parts;  ///< at least one
+  Pose pose;                      ///< of the obstacle in space; parts are relative to it
+  double friction = 0.6;          ///< as BodyDescription's
+  double restitution = 0.1;       ///< as BodyDescription's
 };
 
 /// What a body touches.
 struct Touched {
+  /// What it is.
   enum class Kind { body, obstacle, ground };
-  Kind kind = Kind::ground;
-  BodyId body;
-  ObstacleId obstacle;
+  Kind kind = Kind::ground;    ///< which of the handles below counts
+  BodyId body;                 ///< of a body
+  ObstacleId obstacle;         ///< of an obstacle
   std::int64_t part_tag = -1;  ///< ConvexPart::tag of the touched part
 };
 
 /// A contact found by sweep() (about to happen) or left by step() (it happened).
 struct Contact {
-  BodyId body;
-  std::int64_t part_tag = -1;
-  Touched other;
+  BodyId body;                 ///< with the lower id, where two bodies meet
+  std::int64_t part_tag = -1;  ///< ConvexPart::tag of the body's touched part
+  Touched other;               ///< what it touches
   Vec3 point = Vec3::Zero();   ///< centre of the area of contact (sweep), of its impulses (step); global
   Vec3 normal = Vec3::Zero();  ///< unit, from the body into what it touches
   double approach_speed =
@@ -97,7 +111,8 @@ struct Contact {
   double thickness = 0;  ///< step: of the thinner of the two parts (the ground has none), m
   bool persistent = false;  ///< it was there in the step before as well
   int corner_count = 0;     ///< corners of the area of contact, 1 to 4: a slab that falls flat has 4
-  std::array<Vec3, 4> corners{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+  std::array<Vec3, 4> corners{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(),
+                              Vec3::Zero()};  ///< the first corner_count of them, m, global
 };
 
 /// What a sweep looks at.
@@ -107,23 +122,24 @@ enum class Sweep { everything, obstacles };
 /// speeds at mid-step they make free flight exact: a body that flies with v now enters with v - g dt/2, and one whose
 /// state says v flies with v + g dt/2. set_state() and state() pass them on unchanged; sweep(dt) reads them that way.
 struct BodyState {
-  Pose pose;  ///< of the centre of mass
-  Vec3 velocity = Vec3::Zero();
-  Vec3 angular_velocity = Vec3::Zero();
-  bool asleep = false;
+  Pose pose;                             ///< of the centre of mass
+  Vec3 velocity = Vec3::Zero();          ///< of the centre of mass, m/s
+  Vec3 angular_velocity = Vec3::Zero();  ///< rad/s, global axes
+  bool asleep = false;                   ///< nothing is computed for it until something wakes it
 };
 
+/// Where a ray first hits.
 struct RayHit {
-  Touched what;
-  Vec3 point = Vec3::Zero();
+  Touched what;                ///< that is hit
+  Vec3 point = Vec3::Zero();   ///< m
   Vec3 normal = Vec3::Zero();  ///< against the ray
-  double distance = 0;
+  double distance = 0;         ///< m from the ray's start
 };
 
 /// A joint between a body and the standing structure (fixed in space) or another body, by the components that it holds.
 /// One or two free rotations leave the held ones no more than a right angle from where they began.
 struct HingeDescription {
-  BodyId body;
+  BodyId body;                                                   ///< that is held
   std::optional<BodyId> other;                                   ///< none: fixed in space
   Vec3 point = Vec3::Zero();                                     ///< global, now
   std::array<bool, 6> held{true, true, true, true, true, true};  ///< components x y z rx ry rz in `axes`
@@ -132,9 +148,9 @@ struct HingeDescription {
 
 /// A cable without weight from a point in space to a body's centre of mass. It does not stretch, and pulls only.
 struct CableDescription {
-  BodyId body;
-  Vec3 anchor = Vec3::Zero();
-  double length = 0;  ///< above zero
+  BodyId body;                 ///< that hangs on it
+  Vec3 anchor = Vec3::Zero();  ///< m, global
+  double length = 0;           ///< above zero
 };
 /// Of the last step.
 struct CablePull {
@@ -142,6 +158,9 @@ struct CablePull {
   double work_lost = 0;  ///< energy that it took out of the body where it came taut (velocities read at mid-step), J
 };
 
+/// Bodies, obstacles, ground, hinges and cables, and their contacts over time. Every function throws std::out_of_range
+/// for a handle that is not in the world. Functions that take a description throw std::invalid_argument, naming the
+/// part, for one without mass, with an inertia that is not positive definite, or with a part of no volume.
 class World {
  public:
   virtual ~World() = default;
@@ -151,19 +170,19 @@ class World {
   /// A half space below z = height; replaces the one before. Wakes every body.
   virtual void set_ground(double height, double friction, double restitution) = 0;
 
-  // Every function throws std::out_of_range for a handle that is not in the world, and std::invalid_argument, naming
-  // the part, for a description without mass, with an inertia that is not positive definite, or with a part of no
-  // volume.
-
+  /// The body is awake from the beginning.
   virtual BodyId add_body(const BodyDescription& description) = 0;
   /// Its hinges and cables go with it; what touched it wakes.
   virtual void remove_body(BodyId body) = 0;
+  /// It takes part from the next sweep or step on.
   virtual ObstacleId add_obstacle(const ObstacleDescription& description) = 0;
   /// Bodies that lay on it wake.
   virtual void remove_obstacle(ObstacleId obstacle) = 0;
   /// Bodies that touched it wake.
   virtual void move_obstacle(ObstacleId obstacle, const Pose& pose) = 0;
+  /// It holds from the next step on.
   virtual HingeId add_hinge(const HingeDescription& description) = 0;
+  /// Both sides wake.
   virtual void remove_hinge(HingeId hinge) = 0;
   /// Force and moment about the point (joint axes, mean of the last step) that the body exerts on what holds it.
   [[nodiscard]] virtual Eigen::Matrix<double, 6, 1> hinge_force(HingeId hinge) const = 0;
@@ -172,14 +191,18 @@ class World {
 
   /// Throws std::invalid_argument when its length is not above zero or the body is farther away than that.
   virtual CableId add_cable(const CableDescription& description) = 0;
+  /// The body wakes.
   virtual void remove_cable(CableId cable) = 0;
+  /// Mean over the last step; zero before the first.
   [[nodiscard]] virtual CablePull cable_pull(CableId cable) const = 0;
 
+  /// As it is now.
   [[nodiscard]] virtual BodyState state(BodyId body) const = 0;
   /// Wakes the body, unless the state says asleep.
   virtual void set_state(BodyId body, const BodyState& state) = 0;
   /// N s at a global point. Wakes the body.
   virtual void apply_impulse(BodyId body, const Vec3& impulse, const Vec3& point) = 0;
+  /// It takes part in the next step.
   virtual void wake(BodyId body) = 0;
   /// Contacts between this body and that other (body or obstacle) are left out of sweeps and steps until they have come
   /// apart and are not about to meet as an impact: a body that goes through what it broke, or is born inside what it
@@ -187,6 +210,7 @@ class World {
   virtual void ignore_until_separated(BodyId body, const Touched& other) = 0;
   /// Live bodies in order of id.
   [[nodiscard]] virtual std::span<const BodyId> bodies() const = 0;
+  /// How many bodies are awake.
   [[nodiscard]] virtual std::size_t awake_count() const = 0;
 
   /// Contacts that awake bodies make with obstacles, ground or bodies within dt on their ballistic paths, each as if
@@ -201,6 +225,7 @@ class World {
   /// Contacts of awake bodies in the last step, one for each pair of parts, in order of ids and tags. What a sleeping
   /// body pressed with when it fell asleep, it presses with still.
   [[nodiscard]] virtual std::span<const Contact> contacts() const = 0;
+  /// The nearest body, obstacle or ground between the two points; none where there is none.
   [[nodiscard]] virtual std::optional<RayHit> ray_cast(const Vec3& from, const Vec3& to) const = 0;
   /// Obstacles whose bounds meet the box.
   [[nodiscard]] virtual std::vector<ObstacleId> obstacles_in(const Vec3& low, const Vec3& high) const = 0;
