@@ -91,7 +91,8 @@ class FrameSystem {
   [[nodiscard]] Mat12 beam_stiffness(int beam) const;
   /// The same for a shell, 24 freedoms.
   [[nodiscard]] Mat24 shell_stiffness(int shell) const;
-  /// K of a shell in the global freedoms of its nodes. Floors repeat one panel: the last one is kept.
+  /// K of a shell in the global freedoms of its nodes. The last one is kept, as floors repeat one panel. The reference
+  /// holds until the next call.
   [[nodiscard]] const Mat24& shell_node_stiffness(int shell) const;
   /// The same for a patch, 6 freedoms for each of its nodes; a node that has left takes its rows along.
   [[nodiscard]] Eigen::MatrixXd patch_stiffness(int patch) const;

@@ -52,7 +52,7 @@ struct RefinedSolution {
 /// The same from answers that are there already: those whose error is small enough stay as they are.
 [[nodiscard]] RefinedSolution refine(const ExtendedResidual& residual, const LinearSolve& solve,
                                      const Eigen::MatrixXd& b, Eigen::MatrixXd x);
-/// Answers after one refinement, whose errors nobody has looked at.
+/// Answers after one refinement. Their errors are not known yet.
 struct OnceRefined {
   Eigen::MatrixXd x;
   /// What the refinement knows of x beyond its last digit: where answers that cancel are added up, it counts.

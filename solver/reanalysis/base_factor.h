@@ -1,6 +1,6 @@
 #pragma once
-// A factor that goes on serving while the structure changes: it remembers what every changed element was when the
-// factor was made, keeps the low-rank correction from there to now, and tells beforehand what that costs.
+// A factor that is used while the structure changes. It remembers what every changed element was when the factor was
+// made, keeps the low-rank correction from there to now, and predicts what the correction costs.
 //
 // Parts that left (dropped nodes) keep the stiffness they had inside, so that nothing inside them needs correcting;
 // only what joined them to the rest is taken away, and one node of each is held. They bear no load and get no
@@ -23,22 +23,22 @@ namespace topple::solver {
 
 class BaseFactor {
  public:
-  /// From now on it can be told of changes; the factor of the system's matrix as it is now may come later. The system
-  /// must outlive this.
+  /// Records changes from now on. The factor of the system's matrix, as it is now, may be given later. The system must
+  /// outlive this.
   explicit BaseFactor(const FrameSystem& system);
-  /// That factor, which must outlive this. Only now it can plan and solve.
+  /// Takes the factor, which must outlive this. plan() and solve() need it.
   void serve(const Factor& factor);
   /// The same with the triangles over that factor, made elsewhere.
   void serve(TriangularSolver triangles);
-  /// Over a factor that is to serve soon: compares, and takes over at most so many of the places that changed since it
-  /// was made. Little enough to be done beside the answers of the one that still serves.
+  /// Adds at most so many of the changes since the factor was made to its correction: a part of the work, beside each
+  /// answer of the older factor.
   struct CaughtUp {
     bool all = true;  ///< nothing is left, or what is left only a new factor takes
     double operations = 0;
   };
   [[nodiscard]] CaughtUp catch_up(int places);
 
-  // To be told before the system changes.
+  // To be called before the system changes.
   void remember_beam(int beam);
   void remember_shell(int shell);
   /// An element that is no beam gets another stiffness, not only none or its own: a patch, or a shell whose stiffness
@@ -61,8 +61,8 @@ class BaseFactor {
   [[nodiscard]] Plan plan();
   /// Carries the last plan out.
   void update();
-  /// The same; a right-hand side, zero outside of `rows`, is eliminated along with the new places: the blocks of the
-  /// factor are read once for both. forward_along() and solve_along() go on from there.
+  /// The same, and eliminates a right-hand side, zero outside of `rows`, together with the new places: the blocks of
+  /// the factor are read once for both. forward_along() and solve_along() use it.
   void update(std::span<const int> rows, const Eigen::VectorXd& right_hand_side);
 
   /// x := K^-1 x of the matrix as it stands. `rows` (unless null): x is zero in all other rows.
@@ -75,7 +75,7 @@ class BaseFactor {
   /// The same up to the backward solve: y, in elimination order, of which L^-T makes the answer. Rows as above, the
   /// blocks on their paths in `marked`.
   void forward(const Eigen::VectorXd& x, const std::vector<char>& marked, Eigen::VectorXd& y) const;
-  /// What forward() makes of the right-hand side that was eliminated along; and solve().
+  /// As forward() and solve(), of the right-hand side that update() eliminated.
   void forward_along(Eigen::VectorXd& y) const;
   void solve_along(Eigen::VectorXd& x) const;
   /// A beam that will be taken away, and a right-hand side for the matrix without it: zero outside of these rows, those

@@ -44,10 +44,10 @@ struct Reanalysis::State {
   RefreshRules refresh_rules;
   std::unique_ptr<BaseFactor> next;            ///< remembers the changes since the refresh was begun
   std::unique_ptr<BackgroundFactor> refresh;   ///< the factor that `next` is to serve with
-  std::unique_ptr<BackgroundFactor> unwanted;  ///< dropped on the way
-  std::unique_ptr<Factor> next_factor;         ///< what the refresh made: `next` catches up over it
+  std::unique_ptr<BackgroundFactor> unwanted;  ///< its result is not needed any more
+  std::unique_ptr<Factor> next_factor;         ///< what the refresh made; `next` adds later changes to it
   double next_condition = 0;                   ///< of the matrix that it was made of
-  double refresh_paid = 0, refresh_due = 0;    ///< spent by answers since then; after which it is taken
+  double refresh_paid = 0, refresh_due = 0;    ///< cost of answers since it was begun; cost at which it is taken
   double correction_paid = 0;                  ///< predicted cost of changes from before, since the factor was made
   double looked_at_softening = 0;              ///< at which the softest motion was looked at last
   bool needs_new_factor = false;               ///< the last change alone is more than a correction takes
@@ -122,7 +122,7 @@ struct Reanalysis::State {
   /// Operations of a new factor with the estimate of its condition.
   [[nodiscard]] double factor_operations() const;
   void begin_refresh_if_due();
-  /// The new factor takes over. False: there is none.
+  /// Replaces the factor by the one made in the background. False: there is none.
   [[nodiscard]] bool take_refreshed();
   void go_on_with_refresh();
   [[nodiscard]] bool switch_now();
@@ -147,8 +147,9 @@ struct Reanalysis::State {
   void improve(const Eigen::VectorXd& force, bool first);
   void solve_for_rest(bool first);
   void find_changed_rows(const Eigen::VectorXd& force);
-  /// Carries the plan out, the residual of the last answer going along when it can.
+  /// Carries the plan out, and eliminates the residual of the last answer with it where that is possible.
   void update_correction(bool adds);
+  /// Finds the residual of the last answer. False: it is not known at a part of the cost.
   [[nodiscard]] bool know_residual();
   void add_rows_of(const std::vector<int>& nodes);
   /// Brings displacements up to date where the watch needs it. False: a full answer is needed.
@@ -173,7 +174,7 @@ struct Reanalysis::State {
   void scale_force(const Eigen::VectorXd& force, Eigen::VectorXd& result) const;
   /// The force that loads make, of a structure that stands; throws Instability.
   [[nodiscard]] LoadVector force_on_standing(const LoadSet& loads) const;
-  /// Answer to a force that few equations feel; refined to response_error.
+  /// Answer to a force that is zero in most equations; refined to response_error.
   [[nodiscard]] Eigen::VectorXd solve_sparse(const Eigen::VectorXd& force, double& backward_error) const;
   /// Refines x until its error is within the limit.
   [[nodiscard]] Eigen::VectorXd refine_to(double limit, const Eigen::VectorXd& scaled, Eigen::VectorXd x,

@@ -27,8 +27,8 @@ class SelectiveSolution {
   /// `solver` holds the factor of the system's matrix at some time; both must outlive this. The answer is whole.
   SelectiveSolution(const FrameSystem& system, const TriangularSolver& solver, BeamStiffness stiffness);
 
-  /// Another factor of the same pattern serves from now on; what is known of uses stays. The answer must be whole.
-  /// False (and nothing has changed): its blocks are others.
+  /// Replaces the factor by another one of the same pattern. Known uses stay. The answer must be whole. Returns false,
+  /// and changes nothing, when its blocks are others.
   [[nodiscard]] bool serve(const TriangularSolver& solver);
 
   /// The answer: scaled, in the matrix's order, and what is read from it.
@@ -37,19 +37,19 @@ class SelectiveSolution {
     std::vector<Vec6>& displacements;
   };
 
-  /// Brings everything up to date, reading all uses that were not since (`watch`; null: they stay bounds).
+  /// Brings everything up to date, and reads every use that was only bounded. With a null `watch` none is read.
   void complete(Answer answer, UseWatch* watch);
   /// Reads every use; the answer must be whole.
   void read_all(UseWatch& watch);
   [[nodiscard]] bool uses_known() const { return uses_known_; }
   void forget_uses() { uses_known_ = false; }
-  /// What they can grow by may be more than it was.
+  /// To be called when elements may be stiffer than before, so that their uses can grow faster.
   void forget_growths() { uses_known_ = growths_known_ = false; }
-  /// Numbers that a copy of it takes along.
+  /// How many numbers a copy of this holds.
   [[nodiscard]] std::size_t size() const { return behind_.size(); }
-  /// Something is not up to date.
+  /// True when some displacements are not up to date.
   [[nodiscard]] bool partial() const { return partial_; }
-  /// Something was brought up to date, and its uses were not read.
+  /// True when uses of elements that are up to date were not read.
   [[nodiscard]] bool unread() const { return any_unread_; }
   [[nodiscard]] bool beam_is_current(int beam) const { return is_current(beam_block_[static_cast<std::size_t>(beam)]); }
   [[nodiscard]] bool node_is_current(int node) const { return is_current(node_block_[static_cast<std::size_t>(node)]); }
@@ -73,7 +73,7 @@ class SelectiveSolution {
   };
   /// Of the last advance().
   [[nodiscard]] const Effort& effort() const { return effort_; }
-  /// Upper bound of the uses in what is not up to date.
+  /// Upper bound of the uses of all elements that are not up to date.
   [[nodiscard]] double bound_left_out() const { return bound_left_out_; }
 
  private:
