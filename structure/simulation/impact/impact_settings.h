@@ -28,8 +28,8 @@ struct ImpactSettings {
   /// Nodes of what is struck move while the push lasts, by modes. Those faster than the push by this factor bear it as
   /// at rest (to 1/64), those slower by its square float. Larger: more is followed, at a cost of as many samples.
   double follows = 8;
-  /// m. A place that gives way farther without bearing the body is part of something that swings or falls with it, which
-  /// linear statics say nothing about.
+  /// m. A place that gives way farther without bearing the body is part of something that swings or falls with it,
+  /// which linear statics say nothing about.
   double largest_depth = 3;
   /// Joints that come this near to failing (relative) fail with the first: symmetric ones differ by rounding only.
   double same_instant = 1e-6;

@@ -186,7 +186,8 @@ TEST_CASE("a class 4 section counts for less than its yield strength, a class 1 
   const SectionForces at[] = {forces(-1e6)};
   box.thickness = 0.02;
   DesignMember member{.section = &box, .material = &s355};
-  CHECK(clause(check_member(DesignCode::en1993, member, at), "EN 1993-1-1 6.2.1 (6.2)") == Approx(1e6 / (box.area * 355e6)));
+  CHECK(clause(check_member(DesignCode::en1993, member, at), "EN 1993-1-1 6.2.1 (6.2)") ==
+        Approx(1e6 / (box.area * 355e6)));
   box.thickness = 0.005;  // b/t = 77 where class 3 ends at 42 epsilon = 34.2
   const double slenderness = 77 / (28.4 * std::sqrt(235.0 / 355.0) * 2);
   const double counts = (slenderness - 0.22) / (slenderness * slenderness);
