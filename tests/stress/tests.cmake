@@ -38,7 +38,8 @@ function(threads_tests name library)
     target_compile_options(${name} PRIVATE -fsanitize=thread -g1)
   endif()
 endfunction()
-threads_tests(test_solver_threads solver solver/multifrontal_test.cpp solver/factor_refresh_test.cpp solver/kept_equations_test.cpp)
+threads_tests(test_solver_threads solver solver/multifrontal_test.cpp solver/factor_refresh_test.cpp solver/kept_equations_test.cpp
+              solver/parallel_for_test.cpp)
 threads_tests(test_structure_threads structure structure/simulation/pacer_test.cpp structure/simulation/snapshot_test.cpp
   structure/simulation/simulation_motion_test.cpp structure/standing/limits_and_charges_test.cpp structure/study/journal_test.cpp)
 if(TOPPLE_VIEWER)
