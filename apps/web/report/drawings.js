@@ -175,7 +175,7 @@ export function membersDrawing(model, look, chosen) {
 }
 
 export function deformedDrawing(model, look, movements, largest, bows) {
-  const drawing = sheet(model, look, 330);
+  const drawing = sheet(model, look, 290);  // with four buckling modes on one sheet of Letter
   const scale = largest > 0 ? 0.05 * bounds(model.nodes).size / largest : 0;
   drawRest(drawing, model);
   drawMembers(drawing, model, straight(model), '#c3ccd5', 0.5);
