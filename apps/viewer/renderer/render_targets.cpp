@@ -75,6 +75,13 @@ void RenderTargets::resolve() const {
                     GL_NEAREST);
 }
 
+void RenderTargets::resolve_depth() const {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, multisampled_.get());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_.framebuffer.get());
+  glBlitFramebuffer(0, 0, size_.x, size_.y, 0, 0, size_.x, size_.y, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+  glBindFramebuffer(GL_FRAMEBUFFER, multisampled_.get());
+}
+
 ShadowMap::ShadowMap(int size) : size_(size), texture_(make_texture()) {
   glBindTexture(GL_TEXTURE_2D_ARRAY, texture_.get());
   glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_DEPTH_COMPONENT24, size, size, layers, 0, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT,

@@ -25,6 +25,8 @@ class RenderTargets {
   [[nodiscard]] const Target& finished() const { return finished_; }
   /// Copies the multisampled picture into the resolved one.
   void resolve() const;
+  /// Its depths alone, so that what is blended may read them.
+  void resolve_depth() const;
 
  private:
   glm::ivec2 size_{0};
@@ -33,10 +35,10 @@ class RenderTargets {
   Target resolved_, occlusion_, finished_;
 };
 
-/// Depths seen from the sun, compared in hardware: one layer for each cascade.
+/// Depths seen from the sun, compared in hardware: one layer for each cascade; and from straight above.
 class ShadowMap {
  public:
-  static constexpr int layers = 3;
+  static constexpr int layers = 4, cascades = 3;  ///< the last looks straight down
   explicit ShadowMap(int size);
   [[nodiscard]] GLuint framebuffer(int layer) const { return framebuffers_[static_cast<std::size_t>(layer)].get(); }
   [[nodiscard]] GLuint texture() const { return texture_.get(); }

@@ -61,8 +61,8 @@ glm::mat4 light_matrix(glm::vec3 centre, float half, float all) {
 void place_lights(PictureBlock& picture, const Camera& camera, const glm::dvec3& origin, float reach) {
   const glm::vec3 eye(camera.eye - origin), ahead(camera.forward());
   float half = reach;
-  for (int k = ShadowMap::layers - 1; k >= 0; --k, half /= 3) {
-    const bool last = k == ShadowMap::layers - 1;
+  for (int k = ShadowMap::cascades - 1; k >= 0; --k, half /= 3) {
+    const bool last = k == ShadowMap::cascades - 1;
     // What is near the eye in the picture, as far as the layer reaches.
     const float way = std::min(static_cast<float>(camera.distance()), 1.2F * half);
     const glm::vec3 centre = last ? glm::vec3(0) : eye + way * ahead;
@@ -70,6 +70,9 @@ void place_lights(PictureBlock& picture, const Camera& camera, const glm::dvec3&
     picture.reaches[k] = half;
     picture.texels[k] = 2 * half / shadow_size;
   }
+  // What is straight above: how much of the sky a place sees.
+  const glm::mat4 down = glm::lookAt(glm::vec3(0, 0, 1), glm::vec3(0), glm::vec3(0, 1, 0));
+  picture.light[ShadowMap::cascades] = glm::ortho(-reach, reach, -reach, reach, -2 * reach, 2 * reach) * down;
 }
 
 }  // namespace
@@ -131,6 +134,8 @@ void Renderer::State::fill_block(const SceneInstances& instances, const Camera& 
                    options.colouring == Colouring::path;
   picture.mode = glm::vec4(map ? 1.0F : 0.0F, options.ambient_occlusion ? 1.0F : 0.0F, occlusion_share * radius,
                            options.analysis() ? colour_light : 0.0F);
+  const glm::dvec3 half = (instances.bounds().high - instances.bounds().low) / 2.0;
+  picture.plot = glm::vec4(half.x, half.y, 0, 0);
   picture.opacity = glm::vec4(1, options.colouring == Colouring::materials ? 1 : 0, 0, 0);
 }
 
@@ -201,6 +206,10 @@ void Renderer::State::draw_overlay(const SceneInstances& instances, const Overla
 
 void Renderer::State::draw_dust(const SceneInstances& instances) {
   dust.update(instances.dust(), glm::vec3(picture.eye));
+  if (dust.empty()) return;
+  targets.resolve_depth();
+  glActiveTexture(GL_TEXTURE0 + depth_unit);
+  glBindTexture(GL_TEXTURE_2D, targets.resolved().depth.get());
   glUseProgram(programs.dust.get());
   glEnable(GL_BLEND);
   glDisable(GL_CULL_FACE);

@@ -216,55 +216,6 @@ void main() {
 }
 )";
 
-constexpr const char* sky_fragment = R"(
-in vec2 place;
-out vec4 result;
-vec3 direction(vec2 clip) {
-  vec4 p = inverse_view_projection * vec4(clip, 1.0, 1.0);
-  return normalize(p.xyz / p.w - eye.xyz);
-}
-void main() {
-  vec3 way = direction(place);
-  vec3 disc = sun_light() * 6.0 * smoothstep(0.99985, 0.99995, dot(way, sun.xyz));
-  result = vec4(sky_light(normalize(vec3(way.xy, max(way.z, 0.004)))) + disc, 1.0);
-}
-)";
-
-constexpr const char* ground_vertex = R"(
-layout(location = 0) in vec2 position;
-out vec3 point;
-void main() {
-  point = vec3(eye.xy + position * sizes.x * 60.0, eye.w);
-  gl_Position = view_projection * vec4(point, 1.0);
-}
-)";
-
-constexpr const char* ground_fragment = R"(
-in vec3 point;
-out vec4 result;
-float lines(vec2 p, float spacing, float pixels) {
-  vec2 q = p / spacing, width = fwidth(q) * pixels;
-  vec2 near_line = abs(fract(q - 0.5) - 0.5);
-  vec2 covered = (1.0 - smoothstep(0.5 * width, 1.5 * width, near_line)) * clamp(0.35 / width, 0.0, 1.0);
-  return max(covered.x, covered.y);
-}
-void main() {
-  float away = length(point.xy - eye.xy), far = 1.0 - exp(-away / (9.0 * sizes.x));
-  // Gravel.
-  float pixel = length(fwidth(point)), fine = mix(0.5, clouds(9.0 * point), seen(0.15, pixel));
-  vec3 albedo = linear(vec3(0.580, 0.570, 0.545)) * (0.82 + 0.16 * fine + 0.20 * clouds(0.11 * point));
-  float height = 0.02 * (fine - 0.5);
-  if (sizes.y > 0.0) {
-    float calm = exp(-length(point.xy) / (5.0 * sizes.x)) * (opacity.y > 0.5 ? 0.35 : 1.0);
-    albedo *= 1.0 - 0.16 * calm * lines(point.xy, sizes.y, 1.0) - 0.20 * calm * lines(point.xy, sizes.y * 5.0, 1.3);
-  }
-  vec3 up = vec3(0, 0, 1);
-  vec3 lit = shade(Surface(albedo, 0.95, 0.0, 0.0), bumped(up, point, height), point, up);
-  vec3 way = normalize(point - eye.xyz);
-  result = vec4(mix(lit, sky_light(normalize(vec3(way.xy, 0.004))), far * far), 1.0);
-}
-)";
-
 constexpr const char* line_vertex = R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec4 colour;
@@ -278,36 +229,6 @@ constexpr const char* line_fragment = R"(
 in vec4 tint;
 out vec4 result;
 void main() { result = tint; }
-)";
-
-constexpr const char* dust_vertex = R"(
-layout(location = 0) in vec3 centre;
-layout(location = 1) in float radius;
-layout(location = 2) in float density;
-out vec2 place;
-out float height, thickness, share;
-void main() {
-  place = vec2(gl_VertexID % 2 == 0 ? -1.0 : 1.0, gl_VertexID < 2 ? -1.0 : 1.0);
-  vec3 away = centre - eye.xyz;
-  vec3 side = normalize(cross(away, abs(away.z) > 0.99 * length(away) ? vec3(1, 0, 0) : vec3(0, 0, 1)));
-  vec3 point = centre + radius * (place.x * side + place.y * normalize(cross(side, away)));
-  height = point.z - eye.w;
-  thickness = radius;
-  share = density;
-  gl_Position = view_projection * vec4(point, 1.0);
-}
-)";
-constexpr const char* dust_fragment = R"(
-in vec2 place;
-in float height, thickness, share;
-out vec4 result;
-void main() {
-  float r2 = dot(place, place);
-  if (r2 >= 1.0) discard;
-  // Thin where the ground cuts the disc, so that no edge is seen there.
-  float soft = (exp(-3.0 * r2) - exp(-3.0)) * smoothstep(0.0, 0.5 * thickness, height);
-  result = vec4(linear(vec3(0.77, 0.73, 0.66)), share * soft);
-}
 )";
 
 /// Share of the hemisphere above each point that near geometry covers, from the depth buffer.
@@ -448,10 +369,10 @@ Programs::Programs()
       panel_shadow(shadow("panel shadow", panel_vertex)),
       rigid(lit("rigid", rigid_vertex, rigid_fragment)),
       rigid_shadow(shadow("rigid shadow", rigid_vertex)),
-      sky(link("sky", cover_vertex, std::string(sky_glsl) + sky_fragment, "")),
-      ground(lit("ground", ground_vertex, ground_fragment)),
+      sky(link("sky", cover_vertex, std::string(sky_glsl) + materials_glsl + sky_fragment_glsl, "")),
+      ground(lit("ground", ground_vertex_glsl, ground_fragment_glsl)),
       line(link("line", line_vertex, line_fragment, "")),
-      dust(link("dust", dust_vertex, dust_fragment, "")),
+      dust(link("dust", dust_vertex_glsl, std::string(sky_glsl) + materials_glsl + dust_fragment_glsl, "")),
       occlusion(link("occlusion", cover_vertex, occlusion_fragment, "")),
       finish(link("finish", cover_vertex, finish_fragment, "")) {}
 

@@ -11,15 +11,17 @@ namespace topple::viewer {
 /// std140 block `Picture` of every program.
 struct PictureBlock {
   glm::mat4 view_projection, inverse_view_projection;
-  glm::mat4 light[3];  ///< scene to the clip space of the shadow map's layers, the nearest first
-  glm::vec4 eye;       ///< xyz; w: height of the ground
-  glm::vec4 sun;       ///< xyz: towards the sun; w: 1 with shadows
-  glm::vec4 sizes;     ///< scene radius, grid spacing (0: none), free, colour fade length
-  glm::vec4 picture;   ///< width, height (pixels), near, far
+  glm::mat4
+      light[4];   ///< scene to the clip space of the shadow map's layers: the sun's, the nearest first, and from above
+  glm::vec4 eye;  ///< xyz; w: height of the ground
+  glm::vec4 sun;  ///< xyz: towards the sun; w: 1 with shadows
+  glm::vec4 sizes;    ///< scene radius, grid spacing (0: none), free, colour fade length
+  glm::vec4 picture;  ///< width, height (pixels), near, far
   glm::vec4 mode;     ///< x: 1 when members blend from end to end; y: ambient occlusion; z: its radius in the scene; w:
                       ///< share of even light
   glm::vec4 opacity;  ///< x: panels of this draw; y: 1 in the view of materials; z: layer of the shadow map being drawn
   glm::vec4 reaches, texels;  ///< of the layers: half their width, width of a texel, in the scene
+  glm::vec4 plot;             ///< half of what the building covers, x and y; time, s; free
 };
 
 struct Programs {

@@ -5,7 +5,7 @@ namespace topple::viewer {
 
 // Reflection by Trowbridge and Reitz' facets (GGX: Walter and others 2007), their shadowing by Smith in Hammon's form
 // (2017), Fresnel's law by Schlick (1994). Shadows: three maps for near, middle and far; the first that holds the
-// place.
+// place. A fourth looks straight down: what lies under a roof gets less of the sky.
 const char* const lighting_glsl = R"(
 uniform sampler2DArrayShadow shadow_map;
 float gradient_noise(vec2 p) { return fract(52.9829189 * fract(dot(p, vec2(0.06711056, 0.00583715)))); }
@@ -28,6 +28,20 @@ float sunlight(vec3 point, vec3 normal) {
   }
   return 1.0;
 }
+// Share of the sky above a place that nothing covers, by eight rays within a cone of 45 degrees.
+float open_sky(vec3 point, vec3 normal) {
+  // Where colours or bare frames are read, nothing is dark that panels cover which are seen through.
+  if (sun.w < 0.5 || opacity.y < 0.5) return 1.0;
+  const float reach = 2.4;  // m: about a room's half width
+  float angle = 6.2831853 * gradient_noise(gl_FragCoord.xy + 17.0), open = 0.0;
+  for (int i = 0; i < 8; ++i) {
+    float r = sqrt((float(i) + 0.5) / 8.0) * reach, a = angle + 2.3999632 * float(i);
+    vec3 from = point + normal * 0.25 + vec3(normal.xy * r + r * vec2(cos(a), sin(a)), r + 0.1);
+    vec3 p = (light[3] * vec4(from, 1.0)).xyz * 0.5 + 0.5;
+    open += any(lessThan(p, vec3(0.0))) || any(greaterThan(p, vec3(1.0))) ? 1.0 : texture(shadow_map, vec4(p.xy, 3.0, p.z));
+  }
+  return open / 8.0;
+}
 vec3 reflected(Surface s, vec3 n, vec3 v, vec3 l) {
   vec3 h = normalize(v + l), f0 = mix(vec3(0.04), s.albedo, s.metal);
   float nl = max(dot(n, l), 0.0), nv = max(dot(n, v), 1e-3), nh = max(dot(n, h), 0.0), a = s.roughness * s.roughness;
@@ -49,8 +63,9 @@ vec3 shade(Surface s, vec3 normal, vec3 point, vec3 flat_normal) {
   vec3 around = mix(sharp, sky_from(mirrored), smoothstep(0.05, 0.6, s.roughness));
   // Light that comes back from what stands around, away from the sun.
   float back = 0.10 * max(0.0, dot(normal, normalize(vec3(-sun.x, -sun.y, 0.25))));
-  result += (1.0 - fresnel) * (1.0 - s.metal) * s.albedo * (sky_from(normal) + back);
-  return result + fresnel * around * (1.0 - 0.6 * s.roughness);
+  float open = mix(0.30, 1.0, open_sky(point, flat_normal));
+  result += open * (1.0 - fresnel) * (1.0 - s.metal) * s.albedo * (sky_from(normal) + back);
+  return result + open * fresnel * around * (1.0 - 0.6 * s.roughness);
 }
 vec3 shade_plain(vec3 albedo, vec3 normal, vec3 point, float roughness) {
   return shade(Surface(albedo, roughness, 0.0, 0.0), normal, point, normal);

@@ -24,6 +24,12 @@ float value_noise(vec3 p) {
 float clouds(vec3 p) { return 0.53 * value_noise(p) + 0.31 * value_noise(2.1 * p + 7.3) + 0.16 * value_noise(4.3 * p + 19.1); }
 // Share of a pattern of this size (m) that a pixel of this width still shows.
 float seen(float size, float pixel) { return clamp(1.6 - 2.2 * pixel / size, 0.0, 1.0); }
+// Share of a pixel of width f that lines of width w (both in periods) about the whole numbers cover, exactly.
+float line_sum(float x, float w) { return floor(x) * w + clamp(fract(x), 0.0, w); }
+float lines_covered(float x, float w, float f) {
+  f = max(f, 1e-4);
+  return (line_sum(x + 0.5 * (w + f), w) - line_sum(x + 0.5 * (w - f), w)) / f;
+}
 // Coordinates on a face of this normal: across, and up where the face stands.
 vec2 on_face(vec3 p, vec3 n) {
   if (abs(n.z) > 0.8) return p.xy;
@@ -65,18 +71,19 @@ Surface concrete(vec3 base, vec3 p, vec2 q, float pixel, float broken) {
 Surface brick(vec3 base, vec3 p, vec3 n, vec2 q, float pixel, float broken) {
   // Half-brick bond of 240 x 71 x 115 mm with joints of a centimetre (DIN 105, normal format in courses of 83.3 mm).
   vec2 size = abs(n.z) > 0.8 ? vec2(0.25, 0.125) : vec2(0.25, 0.0833);
-  vec2 cell = q / size;
+  vec2 cell = q / size, wide = fwidth(cell);
   float row = floor(cell.y);
   cell.x += 0.5 * mod(row, 2.0);
-  vec2 in_brick = fract(cell), away = min(in_brick, 1.0 - in_brick) * size;
-  float shown = seen(0.05, pixel);
-  float joint = 1.0 - smoothstep(0.004, 0.0085, min(away.x, away.y));
+  float shown = seen(0.09, pixel);
+  vec2 line = vec2(lines_covered(cell.x, 0.044, wide.x), lines_covered(cell.y, 0.132, wide.y));
+  float joint = 1.0 - (1.0 - line.x) * (1.0 - line.y);
   float own = hash(vec3(floor(cell.x), row, 3.0)), grain = clouds(30.0 * p);
-  vec3 clay = base * mix(vec3(0.72, 0.66, 0.66), vec3(1.26, 1.20, 1.10), mix(0.5, own, 0.35 + 0.65 * shown));
-  vec3 mortar = linear(vec3(0.70, 0.67, 0.62));
-  float covered = mix(0.20, joint, shown);
-  Surface s = Surface(mix(clay * (0.86 + 0.28 * grain), mortar * (0.9 + 0.2 * grain), covered), 0.9, 0.0, 0.0);
-  s.albedo *= 0.86 + 0.26 * clouds(0.5 * p);
+  vec3 clay = base * mix(vec3(0.72, 0.66, 0.66), vec3(1.26, 1.20, 1.10), mix(0.5, own, 0.15 + 0.85 * shown));
+  vec3 mortar = linear(vec3(0.60, 0.585, 0.555));
+  Surface s = Surface(mix(clay * (0.86 + 0.28 * grain), mortar * (0.9 + 0.2 * grain), joint), 0.9, 0.0, 0.0);
+  // Batches of bricks differ; rain leaves streaks.
+  float batch = value_noise(vec3(floor(cell.x / 3.0), row / 2.0, 11.0)), streak = value_noise(vec3(2.2 * q.x, 0.25 * q.y, 6.0));
+  s.albedo *= (0.82 + 0.26 * clouds(0.5 * p)) * (0.90 + 0.20 * batch) * (0.93 + 0.12 * streak);
   s.height = (0.004 * (1.0 - joint) + 0.0015 * grain) * shown;
   if (broken > 0.5) {
     s.albedo = mix(base * 1.15, mortar, 0.28 * clouds(14.0 * p)) * (0.62 + 0.62 * clouds(11.0 * p));

@@ -20,10 +20,30 @@ constexpr std::size_t landing_puffs = 16;
 constexpr std::size_t most_puffs = 700;
 /// Closer ones of one instant are one, m.
 constexpr double merging_distance = 1.0;
+/// A smaller one where a larger rose so shortly before adds nothing to be seen, s.
+constexpr double settled_after = 0.5;
 
 /// Discs for each puff.
 constexpr int discs = 5;
-constexpr float densest = 0.7F, dense_size = 1.5F;
+constexpr float densest = 0.8F, dense_size = 1.2F;
+
+/// Sparks of one puff at its largest; their fastest, m/s; how long the last glows, s.
+constexpr int most_sparks = 40;
+constexpr float spark_speed = 9, spark_life = 0.9F, gravity = 9.81F;
+
+/// Of the dust that this turns to.
+Rgba dust_colour(Look look) {
+  switch (look) {
+    case Look::brick:
+      return rgba(186, 168, 154);
+    case Look::plaster:
+      return rgba(214, 209, 199);
+    case Look::timber:
+      return rgba(186, 164, 132);
+    default:
+      return rgba(196, 190, 178);
+  }
+}
 
 double energy_size(double energy) { return std::min(largest_size, size_per_root_joule * std::cbrt(energy)); }
 
@@ -57,26 +77,52 @@ std::vector<Eigen::Vector3d> lowest_parts(const structure::Building& building, c
 
 }  // namespace
 
-void DustWatcher::throw_up(double time, const Eigen::Vector3d& position, double size) {
-  for (auto puff = puffs_.rbegin(); puff != puffs_.rend() && puff->time == time; ++puff)
-    if ((puff->position - position).squaredNorm() < merging_distance * merging_distance) {
+/// Of an impact or break at this place; what it was of steel strikes sparks instead.
+void DustWatcher::throw_up(double time, const Eigen::Vector3d& position, double size, Look look) {
+  const bool steel = look == Look::steel;
+  const DustPuff::Kind kind = steel ? DustPuff::Kind::sparks : DustPuff::Kind::dust;
+  for (auto puff = puffs_.rbegin(); puff != puffs_.rend() && puff->time + settled_after > time; ++puff)
+    if (puff->kind == kind && (puff->position - position).squaredNorm() < merging_distance * merging_distance) {
+      if (puff->time < time && static_cast<double>(puff->size) >= size) return;
+      if (puff->time < time) continue;
       const double volume = std::pow(static_cast<double>(puff->size), 3) + std::pow(size, 3);
       puff->size = static_cast<float>(std::min(largest_size, std::cbrt(volume)));
       return;
     }
-  puffs_.push_back({thrown_up_++, time, position, static_cast<float>(size)});
+  puffs_.push_back({thrown_up_++, time, position, static_cast<float>(size), kind, dust_colour(look)});
   changed_ = true;
+}
+
+Look DustWatcher::look_at(const structure::Building& building, const std::string& name) {
+  if (!names_) names_ = std::make_unique<structure::NameIndex>(building);
+  // Chunks are named after what they broke out of: "W#3".
+  const std::string whole = name.substr(0, name.rfind('#'));
+  auto member = names_->member(whole);
+  auto panel = names_->panel(whole);
+  if (const auto joint = names_->joint(whole)) {
+    if (building[*joint].member.valid()) member = building[*joint].member;
+    if (building[*joint].panel.valid()) panel = building[*joint].panel;
+  }
+  if (member) return look_of(building[building[*member].material]);
+  return panel ? look_of(building[building[*panel].material]) : Look::concrete;
+}
+
+void DustWatcher::hear_impact(const structure::Building& building, const SimulationEvent& event) {
+  const double energy = event.mass * (event.speed_in * event.speed_in - event.speed_out * event.speed_out) / 2;
+  if (event.speed_in > landing_speed && energy > 0)
+    throw_up(event.time, event.position, energy_size(energy), look_at(building, event.name));
 }
 
 void DustWatcher::hear(const structure::Simulation& simulation) {
   const auto& events = simulation.events();
+  const structure::Building& building = simulation.building();
   for (; events_heard_ < events.size(); ++events_heard_) {
     const SimulationEvent& event = events[events_heard_];
-    if (event.kind == SimulationEvent::Kind::joint_broke) throw_up(event.time, event.position, joint_size);
-    if (event.kind == SimulationEvent::Kind::panel_fractured) throw_up(event.time, event.position, panel_size);
-    if (event.kind != SimulationEvent::Kind::impact) continue;
-    const double energy = event.mass * (event.speed_in * event.speed_in - event.speed_out * event.speed_out) / 2;
-    if (event.speed_in > landing_speed && energy > 0) throw_up(event.time, event.position, energy_size(energy));
+    if (event.kind == SimulationEvent::Kind::joint_broke)
+      throw_up(event.time, event.position, joint_size, look_at(building, event.name));
+    if (event.kind == SimulationEvent::Kind::panel_fractured)
+      throw_up(event.time, event.position, panel_size, look_at(building, event.name));
+    if (event.kind == SimulationEvent::Kind::impact) hear_impact(building, event);
   }
 }
 
@@ -92,7 +138,8 @@ void DustWatcher::look_for_landings(const structure::Simulation& simulation) {
       if (slowed > landing_speed) {
         const auto places = lowest_parts(simulation.building(), body);
         const double size = energy_size(body.mass * slowed * slowed / 2 / static_cast<double>(places.size()));
-        for (const Eigen::Vector3d& place : places) throw_up(simulation.time(), place, size);
+        // What steel throws up where it lands is the ground's.
+        for (const Eigen::Vector3d& place : places) throw_up(simulation.time(), place, size, Look::concrete);
       }
     }
     now.emplace(body.id.value, seen);
@@ -113,23 +160,56 @@ std::shared_ptr<const std::vector<DustPuff>> DustWatcher::watch(const structure:
   return shared_;
 }
 
+namespace {
+
+/// Thrown out fast, held up by the air, thinned out as it spreads, carried by the wind.
+void place_cloud(const DustPuff& puff, float age, const glm::vec3& at, std::vector<DustInstance>& instances) {
+  const float spread = 1 - std::exp(-2.2F * age), left = 1 - age / static_cast<float>(dust_life);
+  // What little there is of a small puff is thin.
+  const float opacity =
+      densest * left * left * left * std::min(1.0F, age / 0.08F) * std::min(1.0F, puff.size / dense_size);
+  // The wind takes hold as the throw ends.
+  const float drift = age - spread / 2.2F;
+  const glm::vec3 carried(wind[0] * drift, wind[1] * drift, 0.15F * puff.size * drift);
+  for (int i = 0; i < discs; ++i) {
+    const std::uint64_t word = static_cast<std::uint64_t>(puff.number * 4 * discs + 4 * i);
+    const float angle = 6.2831853F * (static_cast<float>(i) + noise(word)) / discs;
+    const float out = puff.size * (0.25F + 0.75F * noise(word + 1)) * spread;
+    const glm::vec3 way(std::cos(angle) * out, std::sin(angle) * out, puff.size * 0.6F * noise(word + 2) * spread);
+    instances.push_back({at + way + carried, puff.size * (0.3F + (0.6F + 0.4F * noise(word + 3)) * spread), opacity,
+                         puff.colour & 0xffffffU, noise(word + 1)});
+  }
+}
+
+/// Each flies by itself and cools.
+void place_sparks(const DustPuff& puff, float age, const glm::vec3& at, std::vector<DustInstance>& instances) {
+  const int count = std::clamp(static_cast<int>(static_cast<float>(most_sparks) * puff.size), 6, most_sparks);
+  for (int i = 0; i < count; ++i) {
+    const std::uint64_t word = static_cast<std::uint64_t>(puff.number * 4 * most_sparks + 4 * i);
+    const float life = spark_life * (0.3F + 0.7F * noise(word));
+    if (age >= life) continue;
+    const float angle = 6.2831853F * noise(word + 1), speed = spark_speed * (0.2F + 0.8F * noise(word + 2));
+    const float rise = 1.6F * noise(word + 3) - 0.4F, level = std::sqrt(std::max(0.0F, 1 - rise * rise));
+    const glm::vec3 way = speed * glm::vec3(level * std::cos(angle), level * std::sin(angle), rise);
+    const float cold = age / life;
+    instances.push_back({at + age * way - glm::vec3(0, 0, gravity / 2 * age * age), 0.07F * (1 - 0.6F * cold), 1,
+                         rgba(255, static_cast<unsigned>(230 - 130 * cold), static_cast<unsigned>(150 - 120 * cold)),
+                         noise(word)});
+  }
+}
+
+}  // namespace
+
 void place_dust(const std::vector<DustPuff>& puffs, double time, const glm::dvec3& origin,
                 std::vector<DustInstance>& instances) {
   for (const DustPuff& puff : puffs) {
     const auto age = static_cast<float>(time - puff.time);
     if (age < 0 || age >= static_cast<float>(dust_life)) continue;
     const glm::vec3 at(glm::dvec3(puff.position.x(), puff.position.y(), puff.position.z()) - origin);
-    // Thrown out fast, held up by the air, thinned out as it spreads.
-    const float spread = 1 - std::exp(-2.2F * age), left = 1 - age / static_cast<float>(dust_life);
-    // What little there is of a small puff is thin.
-    const float opacity = densest * left * left * std::min(1.0F, age / 0.08F) * std::min(1.0F, puff.size / dense_size);
-    for (int i = 0; i < discs; ++i) {
-      const std::uint64_t word = static_cast<std::uint64_t>(puff.number * 4 * discs + 4 * i);
-      const float angle = 6.2831853F * (static_cast<float>(i) + noise(word)) / discs;
-      const float out = puff.size * (0.25F + 0.75F * noise(word + 1)) * spread;
-      const glm::vec3 way(std::cos(angle) * out, std::sin(angle) * out, puff.size * 0.6F * noise(word + 2) * spread);
-      instances.push_back({at + way, puff.size * (0.3F + (0.5F + 0.3F * noise(word + 3)) * spread), opacity});
-    }
+    if (puff.kind == DustPuff::Kind::sparks)
+      place_sparks(puff, age, at, instances);
+    else
+      place_cloud(puff, age, at, instances);
   }
 }
 

@@ -1,17 +1,21 @@
 #pragma once
-// Dust where things break and land. A puff is an event with a place and a size; what is seen of it is a function of its
-// age alone, so that a run looked back at shows the dust that it showed when it ran.
+// Dust where things break and land, sparks where steel does, smoke. A puff is an event with a place and a size; what is
+// seen of it is a function of its age alone, so that a run looked back at shows the dust that it showed when it ran.
 #include <glm/vec3.hpp>
 #include <map>
 #include <memory>
 #include <vector>
 
+#include "renderer/shapes/looks.h"
+#include "renderer/shapes/palette.h"
 #include "renderer/snapshot.h"
 
 namespace topple::viewer {
 
 /// A puff is gone when it is this old, s.
-inline constexpr double dust_life = 3.5;
+inline constexpr double dust_life = 5;
+/// What drifts is carried by a light breeze, m/s (2 on Beaufort's scale begins at 1.6).
+inline constexpr float wind[2] = {1.3F, 0.7F};
 
 /// Watches one simulation, step after step, for what throws dust up.
 class DustWatcher {
@@ -25,11 +29,15 @@ class DustWatcher {
   };
   void hear(const structure::Simulation& simulation);
   void look_for_landings(const structure::Simulation& simulation);
-  void throw_up(double time, const Eigen::Vector3d& position, double size);
+  /// Of what it is made: dust of its colour; sparks where it is steel.
+  void throw_up(double time, const Eigen::Vector3d& position, double size, Look look);
+  [[nodiscard]] Look look_at(const structure::Building& building, const std::string& name);
+  void hear_impact(const structure::Building& building, const structure::SimulationEvent& event);
 
   std::vector<DustPuff> puffs_;
   std::shared_ptr<const std::vector<DustPuff>> shared_;
   std::map<std::int64_t, Seen> bodies_;
+  std::unique_ptr<structure::NameIndex> names_;
   std::size_t events_heard_ = 0;
   std::int64_t thrown_up_ = 0;
   double time_ = 0;
@@ -41,6 +49,8 @@ struct DustInstance {
   glm::vec3 position;  ///< relative to the origin given
   float radius;
   float opacity;
+  Rgba colour;  ///< alpha: how far it glows by itself
+  float seed;   ///< 0 to 1: tells its noise from others'
 };
 /// What is seen of the puffs at an instant.
 void place_dust(const std::vector<DustPuff>& puffs, double time, const glm::dvec3& origin,

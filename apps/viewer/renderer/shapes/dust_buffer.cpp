@@ -18,6 +18,11 @@ DustBuffer::DustBuffer() {
   attribute(0, 3, offsetof(DustInstance, position));
   attribute(1, 1, offsetof(DustInstance, radius));
   attribute(2, 1, offsetof(DustInstance, opacity));
+  glEnableVertexAttribArray(3);
+  glVertexAttribPointer(3, 4, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(DustInstance),
+                        reinterpret_cast<const void*>(offsetof(DustInstance, colour)));
+  glVertexAttribDivisor(3, 1);
+  attribute(4, 1, offsetof(DustInstance, seed));
   glBindVertexArray(0);
 }
 

@@ -14,6 +14,7 @@ class DustBuffer {
   void update(const std::vector<DustInstance>& dust, const glm::vec3& eye);
   /// With the dust program in use and blending on.
   void draw() const;
+  [[nodiscard]] bool empty() const { return sorted_.empty(); }
 
  private:
   GlBuffer instances_ = make_buffer();

@@ -44,7 +44,7 @@ Rgba look_colour(Look look) {
     case Look::steel:
       return rgba(112, 62, 52, number);  // red oxide primer
     case Look::brick:
-      return rgba(140, 88, 72, number);
+      return rgba(136, 90, 76, number);
     case Look::glass:
       return rgba(46, 66, 70, number);
     case Look::plaster:
