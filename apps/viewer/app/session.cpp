@@ -32,6 +32,8 @@ void Session::begin() {
     drawn_ = std::make_unique<structure::DrawnModel>(*building_, *drawn_meshes_);
   taker_ = SnapshotTaker();
   taker_.want(wanted_);
+  for (const structure::Event& event : scenario_.events)
+    if (const auto* fire = std::get_if<structure::WeakenTool>(&event.tool)) taker_.burn(*fire, event.at);
   tuning_ = std::make_unique<structure::JointTuning>(*building_);
   tuned_ = nullptr;
   if (building_ != given_) tell_capacities();
@@ -60,11 +62,16 @@ void Session::tune(const structure::JointChange& change) {
 }
 
 void Session::carry_out(const Action& action) {
-  if (const auto* tool = std::get_if<structure::Tool>(&action.what)) return simulation_->apply(*tool);
+  if (const auto* tool = std::get_if<structure::Tool>(&action.what)) {
+    simulation_->apply(*tool);
+    if (const auto* fire = std::get_if<structure::WeakenTool>(tool)) taker_.burn(*fire, simulation_->time());
+    return;
+  }
   if (const auto* change = std::get_if<structure::CapacityChange>(&action.what)) return carry_out(*change);
   if (const auto* contact = std::get_if<structure::HostContact>(&action.what)) return simulation_->touch(*contact);
   if (const auto* explosion = std::get_if<Explosion>(&action.what)) {
     for (const structure::HostContact& contact : blast_contacts(*simulation_, *explosion)) simulation_->touch(contact);
+    taker_.blast(explosion->centre, explosion->charge);
     return;
   }
   std::vector<std::pair<structure::JointId, structure::JointCapacity>> capacities;

@@ -66,6 +66,8 @@ void RenderTargets::resize(glm::ivec2 size) {
   occlusion_ = target("occlusion map", GL_R8, GL_RED, GL_UNSIGNED_BYTE, half, false);
   finished_ = target("finished picture", GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, size, false);
   size_ = size;
+  for (Target& one : glow_)
+    one = target("glow of what is bright", GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, glow_size(), false);
 }
 
 void RenderTargets::resolve() const {

@@ -23,6 +23,9 @@ class RenderTargets {
   [[nodiscard]] const Target& resolved() const { return resolved_; }
   [[nodiscard]] const Target& occlusion() const { return occlusion_; }
   [[nodiscard]] const Target& finished() const { return finished_; }
+  /// What is brighter than white, a quarter as wide and high, in two copies for blurring.
+  [[nodiscard]] const Target& glow(int copy) const { return glow_[static_cast<std::size_t>(copy)]; }
+  [[nodiscard]] glm::ivec2 glow_size() const { return (size_ + 3) / 4; }
   /// Copies the multisampled picture into the resolved one.
   void resolve() const;
   /// Its depths alone, so that what is blended may read them.
@@ -33,6 +36,7 @@ class RenderTargets {
   GlFramebuffer multisampled_;
   GlRenderbuffer multisampled_colour_, multisampled_depth_;
   Target resolved_, occlusion_, finished_;
+  std::array<Target, 2> glow_;
 };
 
 /// Depths seen from the sun, compared in hardware: one layer for each cascade; and from straight above.

@@ -25,6 +25,8 @@ constexpr float fade_share = 0.085F;
 constexpr float colour_light = 0.5F;
 /// Occlusion looks this far, as a share of the building's radius.
 constexpr float occlusion_share = 0.09F;
+/// Of the light beyond white, what a lens spreads.
+constexpr float bloom_share = 0.5F;
 
 /// 1, 2 or 5 times a power of ten next below.
 double round_spacing(double length) {
@@ -101,6 +103,8 @@ struct Renderer::State {
   void draw_dust(const SceneInstances& instances);
   void draw_on_top();
   void draw_buried_arrows();
+  /// Spreads what is brighter than white. False: nothing of that kind can be in the picture.
+  bool spread_glow();
   void finish(const ViewOptions& options);
 };
 
@@ -269,6 +273,27 @@ void Renderer::State::draw_scene(const SceneInstances& instances, const ViewOpti
   draw_on_top();
 }
 
+bool Renderer::State::spread_glow() {
+  if (!dust.glows()) return false;
+  const glm::ivec2 size = targets.glow_size();
+  glViewport(0, 0, size.x, size.y);
+  const auto pass = [&](const GlProgram& program, int to) {
+    glBindFramebuffer(GL_FRAMEBUFFER, targets.glow(to).framebuffer.get());
+    glUseProgram(program.get());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(glow_unit));
+    glBindTexture(GL_TEXTURE_2D, targets.glow(to).colour.get());
+  };
+  const GLint along = glGetUniformLocation(programs.blur.get(), "along");
+  pass(programs.bright, 0);
+  glUseProgram(programs.blur.get());
+  glUniform2f(along, 1, 0);
+  pass(programs.blur, 1);
+  glUniform2f(along, 0, 1);
+  pass(programs.blur, 0);
+  return true;
+}
+
 void Renderer::State::finish(const ViewOptions& options) {
   targets.resolve();
   glDisable(GL_DEPTH_TEST);
@@ -287,9 +312,11 @@ void Renderer::State::finish(const ViewOptions& options) {
     glUseProgram(programs.occlusion.get());
     glDrawArrays(GL_TRIANGLES, 0, 3);
   }
+  const bool glows = spread_glow();
   glBindFramebuffer(GL_FRAMEBUFFER, targets.finished().framebuffer.get());
   glViewport(0, 0, targets.size().x, targets.size().y);
   glUseProgram(programs.finish.get());
+  glUniform1f(glGetUniformLocation(programs.finish.get(), "bloom"), glows ? bloom_share : 0.0F);
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glBindVertexArray(0);
   glUseProgram(0);

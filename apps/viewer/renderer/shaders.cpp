@@ -263,11 +263,48 @@ void main() {
 }
 )";
 
-/// Occlusion, tone curve, gamma.
+/// What glows by itself is brighter than anything lit: the light beyond `threshold` is spread by a lens. First taken
+/// and shrunk to a quarter, then blurred along each axis (the weights are those of a normal distribution).
+constexpr const char* bright_fragment = R"(
+in vec2 place;
+out vec4 result;
+uniform sampler2D colour_map;
+void main() {
+  vec2 uv = place * 0.5 + 0.5, texel = 1.0 / vec2(textureSize(colour_map, 0));
+  vec3 sum = vec3(0.0);
+  const float threshold = 2.6;
+  for (int i = 0; i < 4; ++i) {
+    vec3 c = texture(colour_map, uv + texel * vec2(i % 2 == 0 ? -1.0 : 1.0, i < 2 ? -1.0 : 1.0)).rgb;
+    float most = max(c.r, max(c.g, c.b));
+    sum += c * clamp((most - threshold) / max(most, 1e-4), 0.0, 1.0);
+  }
+  result = vec4(min(sum / 4.0, vec3(24.0)), 1.0);
+}
+)";
+constexpr const char* blur_fragment = R"(
+in vec2 place;
+out vec4 result;
+uniform sampler2D glow_map;
+uniform vec2 along;
+void main() {
+  vec2 uv = place * 0.5 + 0.5, texel = along / vec2(textureSize(glow_map, 0));
+  vec3 sum = vec3(0.0);
+  float weights = 0.0;
+  for (int i = -6; i <= 6; ++i) {
+    float w = exp(-float(i * i) / 14.0);
+    sum += w * texture(glow_map, uv + float(i) * texel).rgb;
+    weights += w;
+  }
+  result = vec4(sum / weights, 1.0);
+}
+)";
+
+/// Occlusion, bloom, tone curve, gamma.
 constexpr const char* finish_fragment = R"(
 in vec2 place;
 out vec4 result;
-uniform sampler2D colour_map, depth_map, occlusion_map;
+uniform sampler2D colour_map, depth_map, occlusion_map, glow_map;
+uniform float bloom;
 float occlusion(vec2 uv, float depth) {
   float sum = 0.0, weight = 0.0;
   vec2 texel = 1.0 / vec2(textureSize(occlusion_map, 0));
@@ -286,6 +323,7 @@ void main() {
   vec3 colour = texture(colour_map, uv).rgb;
   float depth = texture(depth_map, uv).r;
   if (mode.y > 0.5 && depth < 1.0) colour *= mix(1.0, occlusion(uv, depth), 0.8);
+  if (bloom > 0.0) colour += bloom * texture(glow_map, uv).rgb;
   // Rounding to 8 bits at random, so that no steps are seen on large faces.
   float grain = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715)))) - 0.5;
   result = vec4(pow(tone(colour * 0.62), vec3(1.0 / 2.2)) + grain / 255.0, 1.0);
@@ -323,7 +361,8 @@ void bind_names(GLuint program) {
   const std::pair<const char*, GLint> units[] = {{"shadow_map", shadow_unit},
                                                  {"colour_map", colour_unit},
                                                  {"depth_map", depth_unit},
-                                                 {"occlusion_map", occlusion_unit}};
+                                                 {"occlusion_map", occlusion_unit},
+                                                 {"glow_map", glow_unit}};
   for (const auto& [name, unit] : units) {
     const GLint location = glGetUniformLocation(program, name);
     if (location >= 0) glUniform1i(location, unit);
@@ -374,6 +413,8 @@ Programs::Programs()
       line(link("line", line_vertex, line_fragment, "")),
       dust(link("dust", dust_vertex_glsl, std::string(sky_glsl) + materials_glsl + dust_fragment_glsl, "")),
       occlusion(link("occlusion", cover_vertex, occlusion_fragment, "")),
+      bright(link("bright", cover_vertex, bright_fragment, "")),
+      blur(link("blur", cover_vertex, blur_fragment, "")),
       finish(link("finish", cover_vertex, finish_fragment, "")) {}
 
 }  // namespace topple::viewer

@@ -26,12 +26,12 @@ struct PictureBlock {
 
 struct Programs {
   GlProgram member, member_shadow, panel, panel_shadow, rigid, rigid_shadow;
-  GlProgram sky, ground, line, dust, occlusion, finish;
+  GlProgram sky, ground, line, dust, occlusion, bright, blur, finish;
   Programs();  ///< throws std::runtime_error with the compiler's log
 };
 
 inline constexpr GLuint picture_binding = 0;
 /// Texture units.
-inline constexpr GLint shadow_unit = 0, colour_unit = 1, depth_unit = 2, occlusion_unit = 3;
+inline constexpr GLint shadow_unit = 0, colour_unit = 1, depth_unit = 2, occlusion_unit = 3, glow_unit = 4;
 
 }  // namespace topple::viewer

@@ -84,15 +84,16 @@ struct DrawnPiece {
   std::int64_t body = part_stands;                         ///< id of the body that it moves with; or part_stands
 };
 
-/// Dust or sparks thrown up at an instant: see dust.h.
+/// Dust, sparks, the ball of an explosion, or a lick of fire with its smoke, of an instant: see dust.h.
 struct DustPuff {
-  enum class Kind : std::uint8_t { dust, sparks };
+  enum class Kind : std::uint8_t { dust, sparks, blast, fire };
   std::int64_t number = 0;  ///< tells puffs of one time apart
   double time = 0;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   float size = 0;  ///< radius of the cloud when it has spread, m
   Kind kind = Kind::dust;
   std::uint32_t colour = 0xffb2bec4;  ///< of dust: red in the lowest byte; that of concrete unless told
+  std::uint8_t material = 1;          ///< of what broke or landed, as a number of looks.h: what is heard of it
 };
 
 struct Snapshot {

@@ -18,6 +18,11 @@ class SnapshotTaker {
   void want(Wanted wanted) { wanted_ = wanted; }
   /// Joints were given other capacities: the next snapshot reads their utilisations anew.
   void forget_answer() { answer_ = nullptr; }
+  /// What is seen where a fire is laid (from the time given on) and where a charge goes off. Sparks: as thermite burns.
+  void burn(const structure::WeakenTool& fire, double from, DustPuff::Kind kind = DustPuff::Kind::fire) {
+    if (fire.over > 0) dust_.burn({fire.members, fire.joints, from, from + fire.over, kind});
+  }
+  void blast(const Eigen::Vector3d& centre, double charge) { dust_.blast(centre, charge); }
 
  private:
   [[nodiscard]] structure::MaterialId material_of(const structure::Simulation& simulation,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
 namespace topple::viewer {
 namespace {
@@ -26,6 +27,18 @@ constexpr double settled_after = 0.5;
 /// Discs for each puff.
 constexpr int discs = 5;
 constexpr float densest = 0.8F, dense_size = 1.2F;
+
+/// Radius of an explosion's ball by the cube root of its charge, m; how long it glows, s; its discs.
+constexpr double ball_per_root_kilogram = 0.9;
+constexpr float ball_life = 0.45F;
+constexpr int ball_discs = 16;
+
+/// A place that burns throws up a lick of flame this often, s, of this size, m; where much burns, all of it together no
+/// more often than `least_interval`.
+constexpr double lick_interval = 0.12, least_interval = 0.012, lick_size = 0.8;
+constexpr float flame_life = 0.8F;
+/// Hot gas rises at this speed, smoke as it cools, m/s.
+constexpr float flame_speed = 2.2F, smoke_speed = 1.3F;
 
 /// Sparks of one puff at its largest; their fastest, m/s; how long the last glows, s.
 constexpr int most_sparks = 40;
@@ -78,7 +91,7 @@ std::vector<Eigen::Vector3d> lowest_parts(const structure::Building& building, c
 }  // namespace
 
 /// Of an impact or break at this place; what it was of steel strikes sparks instead.
-void DustWatcher::throw_up(double time, const Eigen::Vector3d& position, double size, Look look) {
+void DustWatcher::throw_up(double time, const Eigen::Vector3d& position, double size, Look look, Look heard) {
   const bool steel = look == Look::steel;
   const DustPuff::Kind kind = steel ? DustPuff::Kind::sparks : DustPuff::Kind::dust;
   for (auto puff = puffs_.rbegin(); puff != puffs_.rend() && puff->time + settled_after > time; ++puff)
@@ -89,8 +102,14 @@ void DustWatcher::throw_up(double time, const Eigen::Vector3d& position, double 
       puff->size = static_cast<float>(std::min(largest_size, std::cbrt(volume)));
       return;
     }
-  puffs_.push_back({thrown_up_++, time, position, static_cast<float>(size), kind, dust_colour(look)});
+  puffs_.push_back({thrown_up_++, time, position, static_cast<float>(size), kind, dust_colour(look),
+                    static_cast<std::uint8_t>(heard)});
   changed_ = true;
+}
+
+void DustWatcher::blast(const Eigen::Vector3d& centre, double charge) {
+  blasts_.push_back(
+      {0, 0, centre, static_cast<float>(ball_per_root_kilogram * std::cbrt(charge)), DustPuff::Kind::blast});
 }
 
 Look DustWatcher::look_at(const structure::Building& building, const std::string& name) {
@@ -139,7 +158,8 @@ void DustWatcher::look_for_landings(const structure::Simulation& simulation) {
         const auto places = lowest_parts(simulation.building(), body);
         const double size = energy_size(body.mass * slowed * slowed / 2 / static_cast<double>(places.size()));
         // What steel throws up where it lands is the ground's.
-        for (const Eigen::Vector3d& place : places) throw_up(simulation.time(), place, size, Look::concrete);
+        const Look heard = look_at(simulation.building(), std::string(body.name));
+        for (const Eigen::Vector3d& place : places) throw_up(simulation.time(), place, size, Look::concrete, heard);
       }
     }
     now.emplace(body.id.value, seen);
@@ -148,9 +168,66 @@ void DustWatcher::look_for_landings(const structure::Simulation& simulation) {
   time_ = simulation.time();
 }
 
+namespace {
+
+/// Where a point of the undeformed building is that moves with this member; none: the member is gone.
+std::optional<Eigen::Vector3d> place_with(const structure::Simulation& simulation, structure::MemberId member,
+                                          const Eigen::Vector3d& at) {
+  const auto body = simulation.body_of(member);
+  if (body.value == part_stands) return at;
+  const auto bodies = simulation.bodies();
+  const auto found = std::lower_bound(bodies.begin(), bodies.end(), body.value,
+                                      [](const auto& one, std::int64_t id) { return one.id.value < id; });
+  if (found == bodies.end() || found->id.value != body.value) return std::nullopt;
+  return found->pose.position + found->pose.orientation * (at - found->rest_centre);
+}
+
+}  // namespace
+
+void DustWatcher::fire_at(const Eigen::Vector3d& place, double time, DustPuff::Kind kind) {
+  puffs_.push_back({thrown_up_++, time, place, static_cast<float>(lick_size), kind});
+  changed_ = true;
+}
+
+/// The places that burn take turns, by the time alone, so that a run made again burns as it did.
+void DustWatcher::burn_on(const structure::Simulation& simulation) {
+  const structure::Building& building = simulation.building();
+  const double now = simulation.time(), before = std::max(time_, now - 0.1);
+  for (const LaidFire& fire : fires_) {
+    const std::size_t places = fire.members.size() + fire.joints.size();
+    if (places == 0 || now < fire.from || before >= fire.until) continue;
+    const double interval = std::max(lick_interval / static_cast<double>(places), least_interval);
+    const auto number = [&](double time) {
+      return static_cast<std::int64_t>(std::floor((std::min(time, fire.until) - fire.from) / interval));
+    };
+    for (std::int64_t lick = std::max<std::int64_t>(number(before) + 1, 0); lick <= number(now); ++lick) {
+      // A step through the places that meets all of them before one comes again.
+      const std::size_t i = static_cast<std::size_t>(lick) * 7919 % places;
+      const bool of_joint = i >= fire.members.size();
+      const structure::JointId joint = of_joint ? fire.joints[i - fire.members.size()] : structure::JointId();
+      const structure::MemberId member = of_joint ? building[joint].member : fire.members[i];
+      if (!member.valid()) continue;
+      const auto end = [&](std::size_t e) -> const Eigen::Vector3d& {
+        return building[building[member].nodes[e]].position;
+      };
+      const Eigen::Vector3d at =
+          of_joint ? end(static_cast<std::size_t>(building[joint].end)) : Eigen::Vector3d((end(0) + end(1)) / 2);
+      if (const auto place = place_with(simulation, member, at)) fire_at(*place, now, fire.kind);
+    }
+  }
+}
+
 std::shared_ptr<const std::vector<DustPuff>> DustWatcher::watch(const structure::Simulation& simulation) {
   changed_ = false;
   hear(simulation);
+  for (DustPuff& blast : blasts_) {
+    blast.number = thrown_up_++;
+    blast.time = simulation.time();
+    puffs_.push_back(blast);
+    changed_ = true;
+  }
+  blasts_.clear();
+  burn_on(simulation);
   look_for_landings(simulation);
   const std::size_t before = puffs_.size();
   std::erase_if(puffs_, [&](const DustPuff& puff) { return puff.time + dust_life < simulation.time(); });
@@ -198,6 +275,51 @@ void place_sparks(const DustPuff& puff, float age, const glm::vec3& at, std::vec
   }
 }
 
+/// A ball that glows, cools to smoke, and is carried off.
+void place_blast(const DustPuff& puff, float age, const glm::vec3& at, std::vector<DustInstance>& instances) {
+  const float spread = 1 - std::exp(-9 * age), cold = std::min(1.0F, age / ball_life);
+  const float left = 1 - age / static_cast<float>(dust_life), drift = std::max(0.0F, age - 0.3F);
+  const auto glow = static_cast<unsigned>(255 * (1 - cold) * (1 - cold));
+  // From white heat by orange to soot.
+  const auto mixed = [&](float hot, float soot) { return static_cast<unsigned>(hot + (soot - hot) * cold); };
+  const Rgba colour = rgba(mixed(255, 52), mixed(150, 49), mixed(72, 47), glow);
+  for (int i = 0; i < ball_discs; ++i) {
+    const std::uint64_t word = static_cast<std::uint64_t>(puff.number * 4 * ball_discs + 4 * i);
+    const float angle = 6.2831853F * noise(word), rise = 2 * noise(word + 1) - 0.8F;
+    const float level = std::sqrt(std::max(0.0F, 1 - rise * rise)), out = puff.size * (0.25F + 0.75F * noise(word + 2));
+    const glm::vec3 way = out * spread * glm::vec3(level * std::cos(angle), level * std::sin(angle), rise);
+    const glm::vec3 carried(wind[0] * drift, wind[1] * drift, smoke_speed * drift);
+    instances.push_back({at + way + carried, puff.size * (0.35F + 0.45F * spread + 0.12F * age), 0.9F * left * left,
+                         colour, noise(word + 3)});
+  }
+}
+
+/// A lick of flame that rises and goes out, and the smoke that it leaves.
+void place_fire(const DustPuff& puff, float age, const glm::vec3& at, std::vector<DustInstance>& instances) {
+  constexpr int flames = 3;
+  const auto word = static_cast<std::uint64_t>(puff.number) * 16;
+  const glm::vec3 aside(puff.size * (noise(word) - 0.5F), puff.size * (noise(word + 1) - 0.5F), 0);
+  if (age < flame_life) {
+    const float cold = age / flame_life;
+    for (int i = 0; i < flames; ++i) {
+      // Narrower upwards: a tongue.
+      const float above = static_cast<float>(i) / (flames - 1);
+      const glm::vec3 own(0.4F * puff.size * (noise(word + 2 + static_cast<std::uint64_t>(i)) - 0.5F), 0,
+                          0.9F * puff.size * above);
+      const glm::vec3 up(0.25F * wind[0] * age, 0.25F * wind[1] * age, flame_speed * age);
+      const float ends = std::min(1.0F, age / 0.12F) * (1 - cold);
+      instances.push_back({at + aside + own + up, puff.size * (0.6F - 0.25F * cold) * (1 - 0.55F * above), 0.7F * ends,
+                           rgba(255, static_cast<unsigned>(168 - 56 * cold), static_cast<unsigned>(84 - 50 * cold)),
+                           noise(word + 5 + static_cast<std::uint64_t>(i))});
+    }
+  }
+  const float late = age - 0.5F * flame_life, left = 1 - age / static_cast<float>(dust_life);
+  if (late <= 0) return;
+  const glm::vec3 carried(wind[0] * late, wind[1] * late, 0.5F * flame_speed * flame_life + smoke_speed * late);
+  instances.push_back({at + aside + carried, puff.size * (0.5F + 0.45F * late),
+                       0.3F * left * std::min(1.0F, late / 0.5F), rgba(58, 55, 53) & 0xffffffU, noise(word + 6)});
+}
+
 }  // namespace
 
 void place_dust(const std::vector<DustPuff>& puffs, double time, const glm::dvec3& origin,
@@ -206,10 +328,20 @@ void place_dust(const std::vector<DustPuff>& puffs, double time, const glm::dvec
     const auto age = static_cast<float>(time - puff.time);
     if (age < 0 || age >= static_cast<float>(dust_life)) continue;
     const glm::vec3 at(glm::dvec3(puff.position.x(), puff.position.y(), puff.position.z()) - origin);
-    if (puff.kind == DustPuff::Kind::sparks)
-      place_sparks(puff, age, at, instances);
-    else
-      place_cloud(puff, age, at, instances);
+    switch (puff.kind) {
+      case DustPuff::Kind::dust:
+        place_cloud(puff, age, at, instances);
+        break;
+      case DustPuff::Kind::sparks:
+        place_sparks(puff, age, at, instances);
+        break;
+      case DustPuff::Kind::blast:
+        place_blast(puff, age, at, instances);
+        break;
+      case DustPuff::Kind::fire:
+        place_fire(puff, age, at, instances);
+        break;
+    }
   }
 }
 

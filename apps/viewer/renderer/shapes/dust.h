@@ -1,6 +1,7 @@
 #pragma once
-// Dust where things break and land, sparks where steel does, smoke. A puff is an event with a place and a size; what is
-// seen of it is a function of its age alone, so that a run looked back at shows the dust that it showed when it ran.
+// Dust where things break and land, sparks where steel does, fire and smoke where a fire is laid or a charge goes off.
+// A puff is an event with a place and a size; what is seen of it is a function of its age alone, so that a run looked
+// back at shows the dust that it showed when it ran.
 #include <glm/vec3.hpp>
 #include <map>
 #include <memory>
@@ -17,9 +18,20 @@ inline constexpr double dust_life = 5;
 /// What drifts is carried by a light breeze, m/s (2 on Beaufort's scale begins at 1.6).
 inline constexpr float wind[2] = {1.3F, 0.7F};
 
+/// What burns for some time: flames and smoke, or where `kind` is sparks, a shower of them.
+struct LaidFire {
+  std::vector<structure::MemberId> members;  ///< in their middles, wherever these are by then
+  std::vector<structure::JointId> joints;    ///< of members; where they are
+  double from = 0, until = 0;                ///< s
+  DustPuff::Kind kind = DustPuff::Kind::fire;
+};
+
 /// Watches one simulation, step after step, for what throws dust up.
 class DustWatcher {
  public:
+  void burn(LaidFire fire) { fires_.push_back(std::move(fire)); }
+  /// A charge goes off: kg of TNT.
+  void blast(const Eigen::Vector3d& centre, double charge);
   /// Puffs that are not gone yet, in order of time; null: none. The same pointer as before when nothing changed.
   [[nodiscard]] std::shared_ptr<const std::vector<DustPuff>> watch(const structure::Simulation& simulation);
 
@@ -30,11 +42,18 @@ class DustWatcher {
   void hear(const structure::Simulation& simulation);
   void look_for_landings(const structure::Simulation& simulation);
   /// Of what it is made: dust of its colour; sparks where it is steel.
-  void throw_up(double time, const Eigen::Vector3d& position, double size, Look look);
+  void throw_up(double time, const Eigen::Vector3d& position, double size, Look look, Look heard);
+  void throw_up(double time, const Eigen::Vector3d& position, double size, Look look) {
+    throw_up(time, position, size, look, look);
+  }
+  void burn_on(const structure::Simulation& simulation);
+  void fire_at(const Eigen::Vector3d& place, double time, DustPuff::Kind kind);
   [[nodiscard]] Look look_at(const structure::Building& building, const std::string& name);
   void hear_impact(const structure::Building& building, const structure::SimulationEvent& event);
 
   std::vector<DustPuff> puffs_;
+  std::vector<DustPuff> blasts_;  ///< that have gone off since the last look
+  std::vector<LaidFire> fires_;
   std::shared_ptr<const std::vector<DustPuff>> shared_;
   std::map<std::int64_t, Seen> bodies_;
   std::unique_ptr<structure::NameIndex> names_;

@@ -28,6 +28,7 @@ DustBuffer::DustBuffer() {
 
 void DustBuffer::update(const std::vector<DustInstance>& dust, const glm::vec3& eye) {
   sorted_ = dust;
+  glows_ = std::any_of(dust.begin(), dust.end(), [](const DustInstance& one) { return one.colour >> 24U != 0; });
   if (sorted_.empty()) return;
   const auto away = [&](const DustInstance& one) { return glm::dot(one.position - eye, one.position - eye); };
   std::sort(sorted_.begin(), sorted_.end(),

@@ -15,11 +15,14 @@ class DustBuffer {
   /// With the dust program in use and blending on.
   void draw() const;
   [[nodiscard]] bool empty() const { return sorted_.empty(); }
+  /// Some of it is brighter than what is lit.
+  [[nodiscard]] bool glows() const { return glows_; }
 
  private:
   GlBuffer instances_ = make_buffer();
   GlVertexArray array_ = make_vertex_array();
   std::vector<DustInstance> sorted_;
+  bool glows_ = false;
 };
 
 }  // namespace topple::viewer
