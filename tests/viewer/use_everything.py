@@ -146,12 +146,12 @@ if unused:
 run("seed_building", "--headless", "--actions", script(looks, "looks.json", (240, 160)))
 run("seed_building", "--headless", "--panel", "--scale", "1", "--actions", script(acts, "acts.json"), "--model", "tuned.json")
 run("seed_hit_fracture", "--headless", "--size", "160x100", "--at", "1.6", "--rate", "10", "--record", "frames", "--video",
-    "run.webm", *replay, "--usd", "fractured.usda", "--gltf", "fractured.glb", "--save", "fractured.topple", "--screenshot", "fractured.png")
+    "run.webm", *replay, "--sound", "run.wav", "--usd", "fractured.usda", "--gltf", "fractured.glb", "--save", "fractured.topple", "--screenshot", "fractured.png")
 run("seed_hit_fracture", "--headless", "--size", "160x100", "--load", "fractured.topple", "--screenshot", "again.png")
 
 written = ["view.png", "tuned.png", "acted.png", "back.png", "by_other_rules.png", "run.topple", "run.usda", "run.glb",
            "tuned.json", "topple.png", "pictures/frame-00000.png", "pictures/frame-00010.png", "frames/frame-00016.png",
-           "run.webm", *replay[1:], "fractured.usda", "fractured.glb", "fractured.topple", "fractured.png", "again.png"]
+           "run.webm", "run.wav", *replay[1:], "fractured.usda", "fractured.glb", "fractured.topple", "fractured.png", "again.png"]
 missing = [name for name in written if not (folder / name).is_file() or (folder / name).stat().st_size == 0]
 if missing:
     sys.exit(f"not written: {missing}")

@@ -53,6 +53,8 @@ class Controller {
   double charge_radius = 6;      ///< m; within it joints lose strength, all of it at the centre
   double explosive = 20;         ///< kg of TNT
   double picture_processor = 0;  ///< ms of processor time that the last picture took on the window's thread
+  double volume = 0.8;           ///< of the sound, 0 to 1
+  bool has_sound = false;        ///< the window found a device
   bool help = false;
   bool asks_to_leave = false;          ///< a person is asked whether the program is to end
   bool leaves = false;                 ///< and has said so

@@ -12,6 +12,8 @@
 #include "app/output/outputs.h"
 #include "app/output/usd_scene.h"
 #include "app/side_panel.h"
+#include "app/sound/speaker.h"
+#include "app/sound/synthesis.h"
 #include "renderer/frame_composer.h"
 #include "renderer/gl_errors.h"
 #include "renderer/headless_context.h"
@@ -125,9 +127,11 @@ class HeadlessRun {
     if (options.load) {
       controller_.load(*options.load);
       frames_ = session_.simulation().steps();
+      heard_ = std::llround(clock() * sample_rate);
     }
     for (const std::string& words : options.show) controller_.show(words);
     controller_.update(0);
+    if (options.sound) speaker_ = Speaker::into_memory();
   }
 
   /// Up to the given time, doing what the script says on the way. False: the script has quit.
@@ -136,6 +140,7 @@ class HeadlessRun {
       driver_.advance();
       controller_.update(session_.scenario().step);
       ++frames_;
+      if (speaker_) listen();
     }
     return !quit_;
   }
@@ -149,10 +154,19 @@ class HeadlessRun {
     std::printf("%s at %.3f s\n", structure::one_line(file).c_str(), driver_.moment().later->time);
   }
   void save(const std::string& file) { controller_.save(file); }
+  void write_sound(const std::string& file) const { write_wav(file, sound_); }
   [[nodiscard]] const Recording& recording() const { return driver_.recording(); }
   [[nodiscard]] const Snapshot& present() { return *(now_ = driver_.moment().later); }
 
  private:
+  /// What is heard up to now, in whole samples.
+  void listen() {
+    speaker_->hear(driver_.moment().interpolated(), controller_.camera, 1);
+    const auto until = static_cast<std::int64_t>(std::llround(clock() * sample_rate));
+    const std::vector<float> next = speaker_->render(static_cast<int>(until - heard_));
+    heard_ = until;
+    sound_.insert(sound_.end(), next.begin(), next.end());
+  }
   [[nodiscard]] double clock() const { return static_cast<double>(frames_) * session_.scenario().step; }
 
   bool act() {
@@ -217,6 +231,9 @@ class HeadlessRun {
   Controller controller_;
   Script script_;
   std::shared_ptr<const Snapshot> now_;
+  std::unique_ptr<Speaker> speaker_;
+  std::vector<float> sound_;  ///< left and right in turn
+  std::int64_t heard_ = 0;    ///< samples
   std::size_t next_ = 0;
   std::int64_t frames_ = 0;  ///< steps and pauses
   bool quit_ = false;
@@ -251,8 +268,8 @@ void remove_earlier(const structure::OutputFolder& folder, int pictures) {
 /// What cannot be written is told before the work.
 void try_outputs(const Scene& scene, const HeadlessOptions& options, const Script& script) {
   std::vector<std::string> outputs;
-  for (const auto& file :
-       {options.screenshot, options.video, options.replay, options.usd, options.gltf, options.model, options.save})
+  for (const auto& file : {options.screenshot, options.video, options.sound, options.replay, options.usd, options.gltf,
+                           options.model, options.save})
     if (file) outputs.push_back(*file);
   for (const Action& action : script.actions) {
     if (const auto* saved = std::get_if<SaveAction>(&action.what)) outputs.push_back(saved->file);
@@ -291,6 +308,7 @@ void run_headless(const Scene& scene, const HeadlessOptions& options) {
   }
   run.run_until(end);
   if (options.screenshot) run.write(*options.screenshot);
+  if (options.sound) run.write_sound(*options.sound);
   if (options.replay) write_html_replay(*scene.building, run.recording(), *options.replay);
   if (options.usd) write_usd(*scene.building, run.recording(), *options.usd);
   if (options.gltf) write_gltf(*scene.building, run.recording(), *options.gltf);

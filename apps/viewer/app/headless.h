@@ -10,7 +10,7 @@
 namespace topple::viewer {
 
 struct HeadlessOptions {
-  std::optional<std::string> screenshot, record, actions, video, replay, usd, gltf, model, save, load;
+  std::optional<std::string> screenshot, record, actions, video, sound, replay, usd, gltf, model, save, load;
   std::vector<std::string> show;  ///< words of show_words.h, before the first picture
   double at = 0;                  ///< s, of the screenshot, and end of a recording
   std::optional<std::array<int, 2>> size;

@@ -35,7 +35,7 @@ int run(int argc, char** argv) {
   CLI::App app{"Shows a building under its loads and lets you demolish it.", "topple-viewer"};
   app.set_version_flag("--version", version());
   std::string name, size;
-  bool headless = false;
+  bool headless = false, silent = false;
   HeadlessOptions pictures;
   app.add_option(
       "scene", name,
@@ -51,6 +51,8 @@ int run(int argc, char** argv) {
   app.add_flag("--panel", pictures.panel, "with the panels, without a window");
   app.add_option("--scale", pictures.scale, "of the panels' text")->check(in_range({0.5, 4.0}));
   app.add_option("--video", pictures.video, "file of a video (.mp4, .webm); needs ffmpeg");
+  app.add_option("--sound", pictures.sound, "file of what is heard at the eye (.wav)");
+  app.add_flag("--no-sound", silent, "the window makes no sound");
   app.add_option("--replay", pictures.replay, "file of a page that shows the run again (.html)");
   app.add_option("--usd", pictures.usd, "file of the run as an animation (.usda)");
   app.add_option("--gltf", pictures.gltf, "file of the run as an animation (.glb)");
@@ -66,11 +68,12 @@ int run(int argc, char** argv) {
     return tell_error("topple-viewer", error.what(), bad_input);
   }
   if (!size.empty()) pictures.size = parse_size(size);
-  const bool output = pictures.screenshot || pictures.record || pictures.actions || pictures.video || pictures.replay ||
-                      pictures.usd || pictures.gltf || pictures.model || pictures.save;
+  const bool output = pictures.screenshot || pictures.record || pictures.actions || pictures.video || pictures.sound ||
+                      pictures.replay || pictures.usd || pictures.gltf || pictures.model || pictures.save;
   if (headless && !output)
     throw topple::structure::InputError(
-        "--headless needs --screenshot, --record, --actions, --video, --replay, --usd, --gltf, --model or --save");
+        "--headless needs --screenshot, --record, --actions, --video, --sound, --replay, --usd, --gltf, --model or "
+        "--save");
   if (headless) {
     run_headless(open_scene(name.empty() ? opening_scene : name), pictures);
     return 0;
@@ -85,6 +88,7 @@ int run(int argc, char** argv) {
   if (pictures.screenshot) window.screenshot = *pictures.screenshot;
   window.show = pictures.show;
   window.scale = pictures.scale;
+  window.sound = !silent;
   run_window(std::move(scene), window);
   return 0;
 }

@@ -18,6 +18,7 @@
 #include "app/interface.h"
 #include "app/output/outputs.h"
 #include "app/side_panel.h"
+#include "app/sound/speaker.h"
 #include "app/start/recent_files.h"
 #include "app/start/start_page.h"
 #include "renderer/frame_composer.h"
@@ -195,7 +196,7 @@ double processor_milliseconds() {
 }
 
 /// What a person does with one scene. True: another is asked for; false: the window closes.
-bool run_scene(const Window& window, Input& input, const Scene& scene, const WindowOptions& options) {
+bool run_scene(const Window& window, Input& input, const Scene& scene, const WindowOptions& options, Speaker* speaker) {
   const double ground = ground_height(*scene.building, scene.scenario);
   SceneInstances instances(*scene.building);
   Renderer renderer(instances, ground);
@@ -205,6 +206,7 @@ bool run_scene(const Window& window, Input& input, const Scene& scene, const Win
   Outputs outputs;
   controller.resize(scene_size(window));
   controller.frame_building();
+  controller.has_sound = speaker != nullptr;
   for (const std::string& words : options.show) controller.show(words);
   input.serve(&controller);
   glm::dvec2 hovered_at{-1};
@@ -220,6 +222,10 @@ bool run_scene(const Window& window, Input& input, const Scene& scene, const Win
     const double started = processor_milliseconds();
     outputs.before_picture(controller);
     const Snapshot moment = controller.shown(false);
+    if (speaker != nullptr) {
+      speaker->set_volume(controller.volume);
+      speaker->hear(moment, controller.camera, driver.speed());
+    }
     instances.update(moment, controller.options);
     renderer.draw(instances, controller.camera, controller.options, scene_pixels(window));
     outputs.after_picture(controller, renderer);
@@ -268,9 +274,10 @@ void run_window(std::optional<Scene> scene, const WindowOptions& options) {
   const Window window(options.width, options.height, "Topple");
   Input input(window.get(), options.screenshot);
   const WindowInterface interface(window.get(), options.scale);
+  const std::unique_ptr<Speaker> speaker = options.sound ? Speaker::open() : nullptr;
   do {
     if (!scene) scene = choose_scene(window);
-  } while (scene && run_scene(window, input, *std::exchange(scene, std::nullopt), options));
+  } while (scene && run_scene(window, input, *std::exchange(scene, std::nullopt), options, speaker.get()));
 }
 
 }  // namespace topple::viewer

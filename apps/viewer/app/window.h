@@ -11,6 +11,7 @@ struct WindowOptions {
   int width = 1600, height = 900;
   std::string screenshot = "topple.png";  ///< where key P writes
   std::vector<std::string> show;          ///< words of show_words.h
+  bool sound = true;                      ///< where the machine has a device
   double scale = 1;                       ///< of the panels' text, beside that of the display
 };
 

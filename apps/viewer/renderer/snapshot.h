@@ -94,6 +94,8 @@ struct DustPuff {
   Kind kind = Kind::dust;
   std::uint32_t colour = 0xffb2bec4;  ///< of dust: red in the lowest byte; that of concrete unless told
   std::uint8_t material = 1;          ///< of what broke or landed, as a number of looks.h: what is heard of it
+  float mass = 500;                   ///< kg, of what broke or landed
+  bool broke = false;                 ///< else something struck
 };
 
 struct Snapshot {

@@ -58,6 +58,17 @@ Rgba dust_colour(Look look) {
   }
 }
 
+DustPuff puff_of(double time, const Eigen::Vector3d& position, double size, Look heard, double mass, bool broke) {
+  DustPuff puff;
+  puff.time = time;
+  puff.position = position;
+  puff.size = static_cast<float>(size);
+  puff.material = static_cast<std::uint8_t>(heard);
+  puff.mass = static_cast<float>(mass);
+  puff.broke = broke;
+  return puff;
+}
+
 double energy_size(double energy) { return std::min(largest_size, size_per_root_joule * std::cbrt(energy)); }
 
 /// A number from 0 to 1 that is always the same for the same words (Steele, Lea, Flood 2014: splitmix64's mixer).
@@ -90,20 +101,23 @@ std::vector<Eigen::Vector3d> lowest_parts(const structure::Building& building, c
 
 }  // namespace
 
+double energy_of(const DustPuff& puff) { return std::pow(static_cast<double>(puff.size) / size_per_root_joule, 3); }
+
 /// Of an impact or break at this place; what it was of steel strikes sparks instead.
-void DustWatcher::throw_up(double time, const Eigen::Vector3d& position, double size, Look look, Look heard) {
-  const bool steel = look == Look::steel;
-  const DustPuff::Kind kind = steel ? DustPuff::Kind::sparks : DustPuff::Kind::dust;
-  for (auto puff = puffs_.rbegin(); puff != puffs_.rend() && puff->time + settled_after > time; ++puff)
-    if (puff->kind == kind && (puff->position - position).squaredNorm() < merging_distance * merging_distance) {
-      if (puff->time < time && static_cast<double>(puff->size) >= size) return;
-      if (puff->time < time) continue;
-      const double volume = std::pow(static_cast<double>(puff->size), 3) + std::pow(size, 3);
-      puff->size = static_cast<float>(std::min(largest_size, std::cbrt(volume)));
+void DustWatcher::throw_up(DustPuff puff, Look look) {
+  puff.kind = look == Look::steel ? DustPuff::Kind::sparks : DustPuff::Kind::dust;
+  for (auto old = puffs_.rbegin(); old != puffs_.rend() && old->time + settled_after > puff.time; ++old)
+    if (old->kind == puff.kind && (old->position - puff.position).squaredNorm() < merging_distance * merging_distance) {
+      if (old->time < puff.time && old->size >= puff.size) return;
+      if (old->time < puff.time) continue;
+      const double volume = std::pow(static_cast<double>(old->size), 3) + std::pow(static_cast<double>(puff.size), 3);
+      old->size = static_cast<float>(std::min(largest_size, std::cbrt(volume)));
+      old->mass = std::max(old->mass, puff.mass);
       return;
     }
-  puffs_.push_back({thrown_up_++, time, position, static_cast<float>(size), kind, dust_colour(look),
-                    static_cast<std::uint8_t>(heard)});
+  puff.number = thrown_up_++;
+  puff.colour = dust_colour(look);
+  puffs_.push_back(puff);
   changed_ = true;
 }
 
@@ -112,7 +126,7 @@ void DustWatcher::blast(const Eigen::Vector3d& centre, double charge) {
       {0, 0, centre, static_cast<float>(ball_per_root_kilogram * std::cbrt(charge)), DustPuff::Kind::blast});
 }
 
-Look DustWatcher::look_at(const structure::Building& building, const std::string& name) {
+DustWatcher::Stuff DustWatcher::stuff_of(const structure::Building& building, const std::string& name) {
   if (!names_) names_ = std::make_unique<structure::NameIndex>(building);
   // Chunks are named after what they broke out of: "W#3".
   const std::string whole = name.substr(0, name.rfind('#'));
@@ -122,14 +136,23 @@ Look DustWatcher::look_at(const structure::Building& building, const std::string
     if (building[*joint].member.valid()) member = building[*joint].member;
     if (building[*joint].panel.valid()) panel = building[*joint].panel;
   }
-  if (member) return look_of(building[building[*member].material]);
-  return panel ? look_of(building[building[*panel].material]) : Look::concrete;
+  if (member) {
+    const structure::Material& material = building[building[*member].material];
+    return {look_of(material), material.density * building[building[*member].section].area * building[*member].length};
+  }
+  if (!panel) return {};
+  const structure::Panel& one = building[*panel];
+  const auto corner = [&](std::size_t i) -> const Eigen::Vector3d& { return building[one.nodes[i]].position; };
+  const double area = (corner(2) - corner(0)).cross(corner(3) - corner(1)).norm() / 2;
+  const structure::Material& material = building[one.material];
+  return {look_of(material), material.density * one.thickness * area};
 }
 
 void DustWatcher::hear_impact(const structure::Building& building, const SimulationEvent& event) {
   const double energy = event.mass * (event.speed_in * event.speed_in - event.speed_out * event.speed_out) / 2;
-  if (event.speed_in > landing_speed && energy > 0)
-    throw_up(event.time, event.position, energy_size(energy), look_at(building, event.name));
+  if (!(event.speed_in > landing_speed && energy > 0)) return;
+  const Stuff struck = stuff_of(building, event.name);
+  throw_up(puff_of(event.time, event.position, energy_size(energy), struck.look, event.mass, false), struck.look);
 }
 
 void DustWatcher::hear(const structure::Simulation& simulation) {
@@ -137,10 +160,12 @@ void DustWatcher::hear(const structure::Simulation& simulation) {
   const structure::Building& building = simulation.building();
   for (; events_heard_ < events.size(); ++events_heard_) {
     const SimulationEvent& event = events[events_heard_];
-    if (event.kind == SimulationEvent::Kind::joint_broke)
-      throw_up(event.time, event.position, joint_size, look_at(building, event.name));
-    if (event.kind == SimulationEvent::Kind::panel_fractured)
-      throw_up(event.time, event.position, panel_size, look_at(building, event.name));
+    const bool joint = event.kind == SimulationEvent::Kind::joint_broke;
+    if (joint || event.kind == SimulationEvent::Kind::panel_fractured) {
+      const Stuff stuff = stuff_of(building, event.name);
+      throw_up(puff_of(event.time, event.position, joint ? joint_size : panel_size, stuff.look, stuff.mass, true),
+               stuff.look);
+    }
     if (event.kind == SimulationEvent::Kind::impact) hear_impact(building, event);
   }
 }
@@ -158,8 +183,10 @@ void DustWatcher::look_for_landings(const structure::Simulation& simulation) {
         const auto places = lowest_parts(simulation.building(), body);
         const double size = energy_size(body.mass * slowed * slowed / 2 / static_cast<double>(places.size()));
         // What steel throws up where it lands is the ground's.
-        const Look heard = look_at(simulation.building(), std::string(body.name));
-        for (const Eigen::Vector3d& place : places) throw_up(simulation.time(), place, size, Look::concrete, heard);
+        const Look heard = stuff_of(simulation.building(), std::string(body.name)).look;
+        // What steel throws up where it lands is the ground's.
+        for (const Eigen::Vector3d& place : places)
+          throw_up(puff_of(simulation.time(), place, size, heard, body.mass, false), Look::concrete);
       }
     }
     now.emplace(body.id.value, seen);

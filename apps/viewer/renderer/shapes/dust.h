@@ -42,13 +42,15 @@ class DustWatcher {
   void hear(const structure::Simulation& simulation);
   void look_for_landings(const structure::Simulation& simulation);
   /// Of what it is made: dust of its colour; sparks where it is steel.
-  void throw_up(double time, const Eigen::Vector3d& position, double size, Look look, Look heard);
-  void throw_up(double time, const Eigen::Vector3d& position, double size, Look look) {
-    throw_up(time, position, size, look, look);
-  }
+  void throw_up(DustPuff puff, Look look);
   void burn_on(const structure::Simulation& simulation);
   void fire_at(const Eigen::Vector3d& place, double time, DustPuff::Kind kind);
-  [[nodiscard]] Look look_at(const structure::Building& building, const std::string& name);
+  /// What it is made of, and its mass, by the name of a part, joint or chunk.
+  struct Stuff {
+    Look look = Look::concrete;
+    double mass = 0;
+  };
+  [[nodiscard]] Stuff stuff_of(const structure::Building& building, const std::string& name);
   void hear_impact(const structure::Building& building, const structure::SimulationEvent& event);
 
   std::vector<DustPuff> puffs_;
@@ -71,6 +73,8 @@ struct DustInstance {
   Rgba colour;  ///< alpha: how far it glows by itself
   float seed;   ///< 0 to 1: tells its noise from others'
 };
+/// J, of the impact that throws up a cloud of this size.
+[[nodiscard]] double energy_of(const DustPuff& puff);
 /// What is seen of the puffs at an instant.
 void place_dust(const std::vector<DustPuff>& puffs, double time, const glm::dvec3& origin,
                 std::vector<DustInstance>& instances);
