@@ -92,7 +92,7 @@ def acting():
     yield seen(0)
     yield {"at": 0, "key": "h"}
     yield {"at": 0, "key": "v"}
-    for tab in ([576, 309], [616, 309], [657, 309], [698, 309], [744, 309], [657, 309]):
+    for tab in ([576, 309], [616, 309], [657, 309], [698, 309], [744, 309], [790, 309], [657, 309]):
         yield {"at": 0, "click": tab}
     yield {"at": 0, "drag": [[681, 375], [700, 375]]}  # the strength of all joints, in the tab that tunes
     yield seen(0, "tuned.png")
@@ -101,6 +101,7 @@ def acting():
     yield {"at": 0.05, "click": middle}
     for settings in ({"name": "cut joint"}, {"name": "remove part"}, {"name": "remove support"},
                      {"name": "charge", "reach": 2}, {"name": "burn", "reach": 2, "over": 1, "strength": 0.5, "stiffness": 0.5},
+                     {"name": "explosion", "charge": 5}, {"name": "thermite", "over": 1}, {"name": "hook", "force": 1e5, "over": 1},
                      {"name": "wrecking ball", "cable": 8, "angle": 1, "mass": 4000, "radius": 0.8},
                      {"name": "fire", "speed": 70, "mass": 900, "radius": 0.5}):
         yield {"at": 0.1, "tool": settings}
@@ -125,6 +126,8 @@ def acting():
     for button in ([808, 350], [811, 406]):  # the picture, all pictures
         yield {"at": 1.2, "click": button}
     yield {"at": 1.25, "gravity": 4}
+    yield {"at": 1.25, "camera": dict(camera, eye=[-26, -20, 12], over=0.2)}
+    yield {"at": 1.26, "earthquake": {"peak": 2, "over": 1}}
     yield {"at": 1.3, "restart": {"bracing": "classic", "mechanism": "detach", "sudden": 1.5,
                                   "second_order": True, "fracture": "voronoi", "cell": 1.5, "materials": {"steel": 0.9}}}
     yield {"at": 1.35, "fire": {"pixel": middle, "speed": 60, "mass": 500, "radius": 0.4}}

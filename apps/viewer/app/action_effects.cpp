@@ -25,6 +25,10 @@ Settings settings_of(ToolKind kind, Controller& c) {
               {"over", &c.burning.over},
               {"strength", &c.burning.strength},
               {"stiffness", &c.burning.stiffness}};
+    case ToolKind::thermite:
+      return {{"over", &c.thermite_over}};
+    case ToolKind::hook:
+      return {{"force", &c.hauling.force}, {"over", &c.hauling.over}};
     default:
       return {};
   }

@@ -94,14 +94,23 @@ class Value {
   std::string place_;
 };
 
-Camera camera_of(const Value& value) {
-  value.only({"eye", "target", "field_of_view"});
+CameraAction camera_of(const Value& value) {
+  value.only({"eye", "target", "field_of_view", "over"});
   Camera camera;
   camera.eye = value["eye"].point();
   camera.target = value["target"].point();
   if (camera.eye == camera.target) value.refuse("eye and target are one point");
   if (value.has("field_of_view")) camera.field_of_view = value["field_of_view"].in({1e-3, 179});
-  return camera;
+  return {camera, value.has("over") ? value["over"].in(structure::ranges::instant) : 0};
+}
+
+ShakeAction shake_of(const Value& value) {
+  value.only({"peak", "over", "file"});
+  ShakeAction action;
+  if (value.has("peak")) action.shake.peak = value["peak"].in({1e-3, 100});
+  if (value.has("over")) action.shake.over = value["over"].in({0.1, 600});
+  if (value.has("file")) action.shake.file = value["file"].text();
+  return action;
 }
 
 FireAction fire_of(const Value& value) {
@@ -176,7 +185,7 @@ LookAction look_of(const Value& value) {
 using Meaning = decltype(Action::what);
 const std::map<std::string, std::function<Meaning(const Value&)>>& meanings() {
   static const std::map<std::string, std::function<Meaning(const Value&)>> all{
-      {"camera", [](const Value& v) { return CameraAction{camera_of(v)}; }},
+      {"camera", [](const Value& v) { return camera_of(v); }},
       {"click", [](const Value& v) { return ClickAction{v.pixel()}; }},
       {"fire", fire_of},
       {"key", [](const Value& v) { return KeyAction{v.text()}; }},
@@ -198,6 +207,7 @@ const std::map<std::string, std::function<Meaning(const Value&)>>& meanings() {
       {"select", [](const Value& v) { return SelectAction{v.text()}; }},
       {"tool", tool_of},
       {"gravity", [](const Value& v) { return GravityAction{v.number()}; }},
+      {"earthquake", shake_of},
       {"look_at", look_of},
       {"go_on", [](const Value&) { return GoOnAction{}; }},
       {"restart", restart_of},

@@ -15,6 +15,11 @@ namespace topple::viewer {
 
 struct CameraAction {
   Camera camera;
+  double over = 0;  ///< s that the way there takes
+};
+/// An earthquake, computed or from a file.
+struct ShakeAction {
+  Shake shake;
 };
 struct ClickAction {
   glm::dvec2 pixel;
@@ -85,8 +90,8 @@ struct QuitAction {};
 struct Action {
   double at = 0;  ///< seconds since the start, pauses counted
   std::variant<CameraAction, ClickAction, FireAction, KeyAction, DragAction, PanAction, ZoomAction, FlyAction,
-               SelectAction, ToolAction, GravityAction, LookAction, GoOnAction, RestartAction, SaveAction, LoadAction,
-               ExportAction, structure::JointChange, ShowAction, ScreenshotAction, QuitAction>
+               SelectAction, ToolAction, GravityAction, ShakeAction, LookAction, GoOnAction, RestartAction, SaveAction,
+               LoadAction, ExportAction, structure::JointChange, ShowAction, ScreenshotAction, QuitAction>
       what;
 };
 struct Script {

@@ -106,6 +106,14 @@ void Controller::use(const Pick& found) {
       return burn_at(found);
     case ToolKind::explosion:
       return explode_at(found);
+    case ToolKind::thermite: {
+      if (!found.member.valid()) return said("thermite: click a post, beam or brace");
+      const Thermite thermite{found.joint, thermite_over};
+      driver_.order_and_show([thermite](Session& session) { session.burn_through(thermite); });
+      return said("thermite at " + building_[found.joint].name);
+    }
+    case ToolKind::hook:
+      return pull_at(found);
     case ToolKind::path: {
       const structure::ContactPlace place{found.member, found.panel, to_eigen(found.point)};
       driver_.order_and_show([place](Session& session) { session.find_path(place); });
@@ -163,6 +171,63 @@ void Controller::explode_at(const Pick& found) {
   char text[48];
   std::snprintf(text, sizeof text, "%.3g kg of TNT explode at ", explosive);
   message = text + building_[found.joint].name;
+}
+
+/// At the nearest end of the member, or corner of the panel; the winch stands on the ground as far away as the building
+/// is high, and half of that more.
+void Controller::pull_at(const Pick& found) {
+  const auto place_of = [&](structure::NodeId node) { return building_[node].position; };
+  structure::NodeId nearest;
+  const auto look_at_node = [&](structure::NodeId node) {
+    const structure::Vec3 point = to_eigen(found.point);
+    if (!nearest.valid() || (place_of(node) - point).norm() < (place_of(nearest) - point).norm()) nearest = node;
+  };
+  if (found.member.valid())
+    for (const structure::NodeId node : building_[found.member].nodes) look_at_node(node);
+  if (found.panel.valid())
+    for (const structure::NodeId node : building_[found.panel].nodes) look_at_node(node);
+  if (!nearest.valid()) return;
+  glm::dvec2 way(camera.eye.x - found.point.x, camera.eye.y - found.point.y);
+  way = glm::length(way) > 1e-9 ? glm::normalize(way) : glm::dvec2(1, 0);
+  const structure::Vec3 at = place_of(nearest);
+  const double away = 5 + 1.5 * std::max(0.0, at.z() - ground_);
+  const Pull pull{nearest, {at.x() + away * way.x, at.y() + away * way.y, ground_}, hauling.force, hauling.over};
+  driver_.order_and_show([pull](Session& session) { session.pull(pull); });
+  message = "a winch pulls at " + building_[nearest].name;
+}
+
+void Controller::shake() {
+  auto ground = std::make_shared<structure::TimeHistory>(shaking.file.empty()
+                                                             ? strong_motion(shaking.peak, shaking.over)
+                                                             : structure::read_time_history(shaking.file, building_));
+  require_ground(*ground);
+  if (looking_at_) go_on_from_here();
+  const Earthquake earthquake{std::move(ground)};
+  driver_.order_and_show([earthquake](Session& session) { session.shake(earthquake); });
+  message = "the ground shakes";
+}
+
+void Controller::glide(const Camera& to, double over) {
+  if (over > 0)
+    flight_ = {{camera, to}, over, 0};
+  else
+    camera = to, flight_.reset();
+}
+
+void Controller::fly_path() {
+  constexpr double leg = 3;  // s, between two views
+  if (views_.size() < 2) {
+    message = "a path needs two views or more: F5 adds what is seen";
+    return;
+  }
+  flight_ = {views_, leg, 0};
+}
+
+void Controller::fly_on(double seconds) {
+  if (!flight_) return;
+  flight_->gone += seconds;
+  camera = along_path(flight_->views, flight_->gone / flight_->leg);
+  if (flight_->gone >= flight_->leg * static_cast<double>(flight_->views.size() - 1)) flight_.reset();
 }
 
 void Controller::burn_at(const Pick& found) {
@@ -279,6 +344,10 @@ const char* Controller::key_help() {
          "7 8 9 0           seen from the front, the side, above, behind\n"
          "O                 loads and reactions     Y             back to the present\n"
          "F                 frame the building      P             save a picture\n"
+         ". ,               thermite, hook          - =           slower, faster\n"
+         "arrows            orbit                   Enter         the tool in the middle\n"
+         "F5 F6 F7          add a view, fly through all, photo mode (no panels)\n"
+         "F8                earthquake              Tab           panels by the keyboard\n"
          "H                 this help               Esc           end the program (asks first)";
 }
 
@@ -339,6 +408,42 @@ std::map<std::string, std::function<void()>> Controller::key_meanings() {
           {"3", [this] { options.shown.slabs = !options.shown.slabs; }},
           {"4", [this] { options.shown.walls = !options.shown.walls; }},
           {"5", [this] { options.shown.braces = !options.shown.braces; }},
+          {"period", hold(ToolKind::thermite)},
+          {"comma", hold(ToolKind::hook)},
+          {"minus", [this] { driver_.set_speed(std::max(0.02, driver_.speed() / 2)); }},
+          {"equal", [this] { driver_.set_speed(std::min(1.0, driver_.speed() * 2)); }},
+          {"left",
+           [this] {
+             drag({0, 0}, {-0.04 * size_.y, 0});
+           }},
+          {"right",
+           [this] {
+             drag({0, 0}, {0.04 * size_.y, 0});
+           }},
+          {"up",
+           [this] {
+             drag({0, 0}, {0, 0.04 * size_.y});
+           }},
+          {"down",
+           [this] {
+             drag({0, 0}, {0, -0.04 * size_.y});
+           }},
+          {"enter", [this] { click(size_ / 2.0); }},
+          {"f5",
+           [this] {
+             add_view();
+             message = std::to_string(views_.size()) + " views in the camera's path";
+           }},
+          {"f6", [this] { fly_path(); }},
+          {"f7", [this] { photo = !photo; }},
+          {"f8",
+           [this] {
+             try {
+               shake();
+             } catch (const std::exception& failed) {
+               message = failed.what();
+             }
+           }},
           {"escape", [this] { asks_to_leave = !asks_to_leave; }},
           {"h", [this] { help = !help; }}};
 }
@@ -400,6 +505,7 @@ std::vector<structure::JointId> Controller::search(const std::string& text, std:
 
 void Controller::update(double seconds) {
   swing_ += seconds;
+  fly_on(seconds);
   if (exporting_.valid() && exporting_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
     try {
       finish_export();

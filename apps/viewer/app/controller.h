@@ -33,11 +33,21 @@ struct Burning {
 };
 inline constexpr int burning_stages = 10;
 
+/// A rope from what is clicked on to a winch on the ground, on the side of the eye.
+struct Hauling {
+  double force = 500e3, over = 5;  ///< N; s
+};
+/// What shakes the ground: a file of its accelerations, or where there is none, a computed motion.
+struct Shake {
+  double peak = 5, over = 12;  ///< m/s2; s
+  std::string file;            ///< as `topple analyse --time-history` reads it
+};
+
 /// What a click does.
-enum class ToolKind { fire, swing, cut, remove, support, charge, explosion, burn, path, select };
-inline constexpr std::array<const char*, 10> tool_names{"fire",           "wrecking ball", "cut joint", "remove part",
+enum class ToolKind { fire, swing, cut, remove, support, charge, explosion, burn, thermite, hook, path, select };
+inline constexpr std::array<const char*, 12> tool_names{"fire",           "wrecking ball", "cut joint", "remove part",
                                                         "remove support", "charge",        "explosion", "burn",
-                                                        "load path",      "select"};
+                                                        "thermite",       "hook",          "load path", "select"};
 
 class Controller {
  public:
@@ -49,12 +59,16 @@ class Controller {
   Shot shot;
   Swing swing;
   Burning burning;
+  Hauling hauling;
+  Shake shaking;
   ToolKind tool = ToolKind::fire;
   double charge_radius = 6;      ///< m; within it joints lose strength, all of it at the centre
   double explosive = 20;         ///< kg of TNT
+  double thermite_over = 6;      ///< s, until a joint is through
   double picture_processor = 0;  ///< ms of processor time that the last picture took on the window's thread
   double volume = 0.8;           ///< of the sound, 0 to 1
   bool has_sound = false;        ///< the window found a device
+  bool photo = false;            ///< without the panels
   bool help = false;
   bool asks_to_leave = false;          ///< a person is asked whether the program is to end
   bool leaves = false;                 ///< and has said so
@@ -89,6 +103,16 @@ class Controller {
   /// Words of show_words.h. Throws structure::InputError.
   void show(const std::string& words);
   void set_gravity(double downwards);  ///< m/s2
+  /// The ground shakes, by `shaking`. Throws structure::InputError for a file that is none of accelerations.
+  void shake();
+  /// A point of the camera's path; the flight through them all, at an even pace.
+  void add_view() { views_.push_back(camera); }
+  void fly_path();
+  /// Glides to another place in this time, s.
+  void glide(const Camera& to, double over);
+  [[nodiscard]] std::size_t views() const { return views_.size(); }
+  [[nodiscard]] bool flying() const { return flight_.has_value(); }
+  void forget_views() { views_.clear(), flight_.reset(); }
   /// Changes capacities; seen at once. Throws structure::InputError.
   void tune(const structure::JointChange& change);
   /// Starts the run again by other rules. Throws structure::InputError when the building cannot be run by them; then
@@ -139,6 +163,8 @@ class Controller {
   void swing_at(const Pick& pick);
   void burn_at(const Pick& pick);
   void explode_at(const Pick& pick);
+  void pull_at(const Pick& pick);
+  void fly_on(double seconds);
   Driver& driver_;
   const Scene& scene_;
   const structure::Building& building_;
@@ -152,6 +178,13 @@ class Controller {
   bool replaying_ = false;
   std::future<std::string> exporting_;  ///< the file, when it is whole
   double swing_ = 0;                    ///< s, of a mode
+  /// A flight of the eye: through which places, how long each leg takes, how long it has gone on (s).
+  struct Flight {
+    std::vector<Camera> views;
+    double leg = 0, gone = 0;
+  };
+  std::vector<Camera> views_;
+  std::optional<Flight> flight_;
 };
 
 }  // namespace topple::viewer

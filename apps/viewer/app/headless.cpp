@@ -102,7 +102,7 @@ class Stage {
   void lay_out(Controller& controller, const Snapshot& moment) {
     interface_->begin_frame(size_, 1.0 / 60);
     panel_.draw(controller, moment, instances_, "");
-    draw_hover_text(controller, moment);
+    if (!controller.photo) draw_hover_text(controller, moment);
   }
 
   glm::ivec2 size_;
@@ -188,7 +188,7 @@ class HeadlessRun {
 
   void perform(const Action& action) {
     std::visit(
-        Overloaded{[&](const CameraAction& a) { controller_.camera = a.camera; },
+        Overloaded{[&](const CameraAction& a) { controller_.glide(a.camera, a.over); },
                    [&](const ClickAction& a) { click(a.pixel); },
                    [&](const FireAction& a) {
                      controller_.shot = a.shot;
@@ -210,6 +210,10 @@ class HeadlessRun {
                    [&](const SelectAction& a) { controller_.select(a.name); },
                    [&](const ToolAction& a) { take(a, controller_); },
                    [&](const GravityAction& a) { controller_.set_gravity(a.downwards); },
+                   [&](const ShakeAction& a) {
+                     controller_.shaking = a.shake;
+                     controller_.shake();
+                   },
                    [&](const LookAction& a) { a.time ? controller_.look_at(*a.time) : controller_.look_at_present(); },
                    [&](const GoOnAction&) { controller_.go_on_from_here(); },
                    [&](const RestartAction& a) { controller_.restart(rules_of(a, controller_.scene())); },

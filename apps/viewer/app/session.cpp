@@ -1,5 +1,6 @@
 #include "app/session.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -39,9 +40,75 @@ void Session::begin() {
   if (building_ != given_) tell_capacities();
   path_ = nullptr;
   events_recorded_ = 0;
+  shaking_.reset();
+  pulling_.clear();
+  gravity_.reset();
+  last_told_ = {-1, -1};
 }
 
-void Session::step() { simulation_->step(); }
+void Session::step() {
+  act_on();
+  simulation_->step();
+}
+
+/// As the person, the scenario or the model has it, without what shakes.
+structure::Vec3 Session::gravity_at_rest() const {
+  if (gravity_) return *gravity_;
+  structure::Vec3 gravity(0, 0, -building_->gravity);
+  for (const structure::Event& event : scenario_.events)
+    if (const auto* other = std::get_if<structure::GravityTool>(&event.tool); other && event.at <= simulation_->time())
+      gravity = other->gravity;
+  return gravity;
+}
+
+void Session::act_on() {
+  constexpr double rounding = 1e-9;
+  const double now = simulation_->time();
+  if (shaking_) {
+    const structure::TimeHistory& ground = *shaking_->earthquake.ground;
+    const double time = now - shaking_->from;
+    simulation_->apply(structure::GravityTool{gravity_at_rest() - ground_acceleration(ground, time)});
+    if (time > ground.times.back()) shaking_.reset();
+  }
+  for (Pulling& one : pulling_) {
+    const int steps = pull_steps(one.pull);
+    const structure::Vec3 way = one.pull.winch - (*building_)[one.pull.node].position;
+    for (; one.given < steps && now - one.from >= one.given * pull_interval - rounding; ++one.given) {
+      if (!simulation_->frame().stands(one.pull.node)) continue;
+      structure::NodeLoad load;
+      load.node = one.pull.node;
+      load.load.head<3>() = one.pull.force / steps * way.normalized();
+      simulation_->apply(structure::LoadTool{{load}});
+    }
+  }
+}
+
+/// Carries it out and remembers it; `told` among the events.
+void Session::keep(const Action& action, const std::string& told) {
+  carry_out(action);
+  actions_.push_back(action);
+  recording_->add_event({simulation_->time(), structure::SimulationEvent::Kind::tool, told});
+}
+
+void Session::shake(const Earthquake& earthquake) {
+  require_ground(*earthquake.ground);
+  double peak = 0;
+  for (const double time : earthquake.ground->times)
+    peak = std::max(peak, ground_acceleration(*earthquake.ground, time).norm());
+  char text[64];
+  std::snprintf(text, sizeof text, "earthquake, up to %.3g m/s2", peak);
+  keep({simulation_->steps(), earthquake}, text);
+}
+
+void Session::pull(const Pull& pull) {
+  char text[64];
+  std::snprintf(text, sizeof text, "a winch pulls with up to %.4g kN at ", pull.force / 1e3);
+  keep({simulation_->steps(), pull}, text + (*building_)[pull.node].name);
+}
+
+void Session::burn_through(const Thermite& thermite) {
+  keep({simulation_->steps(), thermite}, "thermite at " + (*building_)[thermite.joint].name);
+}
 
 void Session::apply(const structure::Tool& tool) {
   carry_out({simulation_->steps(), tool});  // one that throws is not kept
@@ -65,6 +132,22 @@ void Session::carry_out(const Action& action) {
   if (const auto* tool = std::get_if<structure::Tool>(&action.what)) {
     simulation_->apply(*tool);
     if (const auto* fire = std::get_if<structure::WeakenTool>(tool)) taker_.burn(*fire, simulation_->time());
+    if (const auto* other = std::get_if<structure::GravityTool>(tool)) gravity_ = other->gravity;
+    return;
+  }
+  if (const auto* earthquake = std::get_if<Earthquake>(&action.what)) {
+    shaking_ = {*earthquake, simulation_->time()};
+    return;
+  }
+  if (const auto* pull = std::get_if<Pull>(&action.what)) {
+    pulling_.push_back({*pull, simulation_->time()});
+    return;
+  }
+  if (const auto* thermite = std::get_if<Thermite>(&action.what)) {
+    constexpr int stages = 10;
+    const structure::WeakenTool melting{{thermite->joint}, {}, 0, 1, thermite->over, stages};
+    simulation_->apply(melting);
+    taker_.burn(melting, simulation_->time(), DustPuff::Kind::sparks);
     return;
   }
   if (const auto* change = std::get_if<structure::CapacityChange>(&action.what)) return carry_out(*change);
@@ -129,6 +212,9 @@ void Session::go_the_way_of(const structure::Snapshot& saved) {
       actions_.push_back({action.step, *contact});
   }
   run_again(saved.step, true);
+  // What shook the ground when it was saved ends here: only what it did is in the file.
+  if (!gravity_ || gravity_->head<2>().isZero(0)) return;
+  apply(structure::GravityTool{structure::Vec3(0, 0, gravity_at_rest().z())});
 }
 
 /// What joints bear, for those who know the building only as it was given.
@@ -179,7 +265,7 @@ void Session::run_again(std::int64_t until, bool record) {
   };
   for (act(); simulation_->steps() < until; act()) {
     if (record) (void)snapshot();
-    simulation_->step();
+    step();
   }
   if (record) return;
   events_recorded_ = simulation_->events().size();
@@ -196,10 +282,23 @@ void Session::find_path(const structure::ContactPlace& place) {
   path_ = std::move(path);
 }
 
+/// Steps of what goes on (a ground that shakes, a rope that is pulled) are one line where they begin.
+bool Session::is_told(const structure::SimulationEvent& event) {
+  constexpr double apart = 0.3;  // s
+  if (event.kind != structure::SimulationEvent::Kind::tool) return true;
+  const bool gravity = event.name == "gravity";
+  if (!gravity && event.name != "load") return true;
+  if (gravity ? shaking_.has_value() : !pulling_.empty()) return false;
+  double& last = last_told_[gravity ? 0 : 1];
+  const double before = std::exchange(last, event.time);
+  return before < 0 || event.time - before > apart;
+}
+
 void Session::record_events() {
   const auto events = simulation_->events();
   for (; events_recorded_ < events.size(); ++events_recorded_) {
     const auto& event = events[events_recorded_];
+    if (!is_told(event)) continue;
     recording_->add_event({event.time, event.kind, event_text(event)});
   }
 }
@@ -208,6 +307,15 @@ std::shared_ptr<const Snapshot> Session::snapshot() {
   auto snapshot = std::make_shared<Snapshot>(taker_.take(*simulation_, drawn_.get()));
   snapshot->tuned = tuned_;
   snapshot->path = path_;
+  for (const Pulling& one : pulling_)
+    if (const structure::NodeId node = one.pull.node; simulation_->frame().stands(node))
+      snapshot->ropes.push_back(
+          {(*building_)[node].position + simulation_->frame().displacement(node).head<3>(), one.pull.winch});
+  snapshot->blows = static_cast<int>(std::count_if(actions_.begin(), actions_.end(), [](const Action& action) {
+    const auto* tool = std::get_if<structure::Tool>(&action.what);
+    if (tool != nullptr) return !std::holds_alternative<structure::GravityTool>(*tool);
+    return !std::holds_alternative<structure::JointChange>(action.what);
+  }));
   recording_->add(*snapshot);
   record_events();
   return snapshot;

@@ -7,7 +7,9 @@
 #include <variant>
 #include <vector>
 
+#include "app/tools/earthquake.h"
 #include "app/tools/explosion.h"
+#include "app/tools/winch.h"
 #include "renderer/recording.h"
 #include "renderer/snapshot_taker.h"
 #include "topple/structure/joint_tuning.h"
@@ -35,6 +37,10 @@ class Session {
   void apply(const structure::Tool& tool);
   /// Its wave acts in the next step, on what stands.
   void explode(const Explosion& explosion);
+  /// The ground begins to shake; what shook it before ends.
+  void shake(const Earthquake& earthquake);
+  void pull(const Pull& pull);
+  void burn_through(const Thermite& thermite);
   /// Changes capacities at once. Throws structure::InputError for a change that means no joint.
   void tune(const structure::JointChange& change);
   /// Back to the beginning; actions are forgotten, rules stay.
@@ -67,10 +73,25 @@ class Session {
  private:
   struct Action {
     std::int64_t step;
-    std::variant<structure::Tool, structure::JointChange, structure::CapacityChange, structure::HostContact, Explosion>
+    std::variant<structure::Tool, structure::JointChange, structure::CapacityChange, structure::HostContact, Explosion,
+                 Earthquake, Pull, Thermite>
         what;
   };
+  /// What acts for a while, step after step.
+  struct Shaking {
+    Earthquake earthquake;
+    double from = 0;  ///< s
+  };
+  struct Pulling {
+    Pull pull;
+    double from = 0;  ///< s
+    int given = 0;    ///< increments so far
+  };
   void begin();
+  void act_on();
+  void keep(const Action& action, const std::string& told);
+  [[nodiscard]] structure::Vec3 gravity_at_rest() const;
+  [[nodiscard]] bool is_told(const structure::SimulationEvent& event);
   void go_the_way_of(const structure::Snapshot& saved);
   void tell_begun_anew(const std::string& why);
   void tell_capacities();
@@ -93,6 +114,10 @@ class Session {
   std::vector<Action> actions_;
   std::shared_ptr<Recording> recording_ = std::make_shared<Recording>();
   std::size_t events_recorded_ = 0;
+  std::optional<Shaking> shaking_;
+  std::vector<Pulling> pulling_;
+  std::optional<structure::Vec3> gravity_;   ///< as a person has set it
+  std::array<double, 2> last_told_{-1, -1};  ///< s: a gravity, a load among the events
 };
 
 }  // namespace topple::viewer

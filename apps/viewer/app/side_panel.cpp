@@ -216,6 +216,12 @@ void SidePanel::run_bar(Controller& controller) {
     slider("strength left", controller.burning.strength, 0, 1, "x %.2f", ImGuiSliderFlags_None);
     slider("stiffness left", controller.burning.stiffness, 0.01, 1, "x %.2f", ImGuiSliderFlags_None);
   }
+  if (controller.tool == ToolKind::thermite) slider("over", controller.thermite_over, 0.5, 60, "%.1f s");
+  if (controller.tool == ToolKind::hook) {
+    double kilonewtons = controller.hauling.force / 1e3;
+    if (slider("force", kilonewtons, 10, 20000, "%.0f kN")) controller.hauling.force = 1e3 * kilonewtons;
+    slider("over", controller.hauling.over, 0.1, 60, "%.1f s");
+  }
   if (controller.tool == ToolKind::explosion) slider("TNT", controller.explosive, 0.5, 1000, "%.1f kg");
   if (controller.tool == ToolKind::charge) slider("reach", controller.charge_radius, 0.5, 20, "%.1f m");
   ImGui::InputText("##saved", saved_.data(), saved_.size());
@@ -369,6 +375,7 @@ void SidePanel::joints(Controller& controller, const Snapshot& moment) {
 
 void SidePanel::draw(Controller& controller, const Snapshot& moment, const SceneInstances& scene,
                      const std::string& error) {
+  if (controller.photo) return;
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const glm::dvec2 left = scene_size({display.x, display.y});
   const float width = display.x - static_cast<float>(left.x);
@@ -396,6 +403,7 @@ void SidePanel::draw(Controller& controller, const Snapshot& moment, const Scene
     tab("Tune", [&] { tuning_.draw(controller, moment); });
     tab("Files", [&] { output_.draw(controller); });
     tab("Times", [&] { performance(controller, moment); });
+    tab("Play", [&] { play_.draw(controller); });
     ImGui::EndTabBar();
   }
   ImGui::PopItemWidth();

@@ -6,6 +6,7 @@
 
 #include "app/controller.h"
 #include "app/output/output_panel.h"
+#include "app/play_panel.h"
 #include "app/tuning_panel.h"
 #include "renderer/instances.h"
 
@@ -27,6 +28,7 @@ class SidePanel {
   void performance(const Controller& controller, const Snapshot& moment);
   void joints(Controller& controller, const Snapshot& moment);
   TuningPanel tuning_;
+  PlayPanel play_;
   OutputPanel output_;
   static constexpr std::size_t history_length = 240;  ///< steps drawn: four seconds
   std::array<std::vector<float>, 7> history_;         ///< milliseconds by stage, and of the whole

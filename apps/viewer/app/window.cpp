@@ -128,7 +128,7 @@ class Input {
   }
   /// Keys held down move the eye, by how long they are held.
   void fly(double seconds) {
-    if (controller_ == nullptr || ImGui::GetIO().WantTextInput) return;
+    if (controller_ == nullptr || panels_by_keyboard_ || ImGui::GetIO().WantTextInput) return;
     const double way = seconds * 0.5 * controller_->camera.distance();
     const auto held = [&](int plus, int minus) {
       return (glfwGetKey(window_, plus) == GLFW_PRESS ? 1.0 : 0.0) -
@@ -136,6 +136,9 @@ class Input {
     };
     controller_->camera.fly(way * held(GLFW_KEY_W, GLFW_KEY_S), way * held(GLFW_KEY_D, GLFW_KEY_A),
                             way * held(GLFW_KEY_E, GLFW_KEY_Q));
+    const double turn = 0.5 * seconds * controller_->size().y;
+    const glm::dvec2 by(held(GLFW_KEY_RIGHT, GLFW_KEY_LEFT), held(GLFW_KEY_DOWN, GLFW_KEY_UP));
+    if (by != glm::dvec2(0)) controller_->drag({0, 0}, turn * by);
   }
   [[nodiscard]] glm::dvec2 pointer() const { return pointer_; }
 
@@ -168,15 +171,40 @@ class Input {
       if (key == GLFW_KEY_ESCAPE) glfwSetWindowShouldClose(window_, GLFW_TRUE);
       return;
     }
+    if (key == GLFW_KEY_ESCAPE && controller_->photo) {
+      controller_->photo = false;
+      return;
+    }
+    if (key == GLFW_KEY_ESCAPE && panels_by_keyboard_) return steer_panels(false);
     if (key == GLFW_KEY_ESCAPE) controller_->key("escape");
-    if (controller_->asks_to_leave && (key == GLFW_KEY_ENTER || key == GLFW_KEY_KP_ENTER)) controller_->leaves = true;
+    const bool enter = key == GLFW_KEY_ENTER || key == GLFW_KEY_KP_ENTER;
+    if (controller_->asks_to_leave && enter) controller_->leaves = true;
+    if (key == GLFW_KEY_TAB) return steer_panels(!panels_by_keyboard_);
+    // Arrows, space and letters are the panels' while these are steered by the keyboard.
+    if (panels_by_keyboard_) return;
+    if (enter && !controller_->asks_to_leave) controller_->key("enter");
     if (key == GLFW_KEY_P) controller_->picture_wanted = screenshot_file_;
     if (key == GLFW_KEY_SPACE) controller_->key("space");
+    const std::pair<int, const char*> named[] = {
+        {GLFW_KEY_PERIOD, "period"}, {GLFW_KEY_COMMA, "comma"}, {GLFW_KEY_MINUS, "minus"}, {GLFW_KEY_EQUAL, "equal"},
+        {GLFW_KEY_F5, "f5"},         {GLFW_KEY_F6, "f6"},       {GLFW_KEY_F7, "f7"},       {GLFW_KEY_F8, "f8"}};
+    for (const auto& [code, name] : named)
+      if (key == code) controller_->key(name);
     if ((key >= GLFW_KEY_0 && key <= GLFW_KEY_9) || (key >= GLFW_KEY_A && key <= GLFW_KEY_Z))
       controller_->key(std::string(1, static_cast<char>(key >= GLFW_KEY_A ? key - GLFW_KEY_A + 'a' : key)));
   }
 
+  /// Tab goes to the panels (arrows, space and Enter then reach all that is in them) and back.
+  void steer_panels(bool on) {
+    panels_by_keyboard_ = on;
+    ImGuiIO& io = ImGui::GetIO();
+    io.ConfigFlags =
+        on ? io.ConfigFlags | ImGuiConfigFlags_NavEnableKeyboard : io.ConfigFlags & ~ImGuiConfigFlags_NavEnableKeyboard;
+    ImGui::SetWindowFocus(on ? "Topple" : nullptr);
+  }
+
   GLFWwindow* window_;
+  bool panels_by_keyboard_ = false;
   Controller* controller_ = nullptr;
   std::string screenshot_file_;
   glm::dvec2 pointer_{0}, pressed_at_{0};
@@ -184,9 +212,11 @@ class Input {
   bool dragged_ = false;
 };
 
-glm::dvec2 scene_size(const Window& window) { return SidePanel::scene_size(window.size()); }
-glm::ivec2 scene_pixels(const Window& window) {
-  return glm::ivec2(glm::round(scene_size(window) / window.size() * glm::dvec2(window.pixels())));
+glm::dvec2 scene_size(const Window& window, const Controller& controller) {
+  return controller.photo ? window.size() : SidePanel::scene_size(window.size());
+}
+glm::ivec2 scene_pixels(const Window& window, const Controller& controller) {
+  return glm::ivec2(glm::round(scene_size(window, controller) / window.size() * glm::dvec2(window.pixels())));
 }
 
 double processor_milliseconds() {
@@ -204,7 +234,7 @@ bool run_scene(const Window& window, Input& input, const Scene& scene, const Win
   Controller controller(driver, scene, ground, window.size());
   SidePanel panel;
   Outputs outputs;
-  controller.resize(scene_size(window));
+  controller.resize(scene_size(window, controller));
   controller.frame_building();
   controller.has_sound = speaker != nullptr;
   for (const std::string& words : options.show) controller.show(words);
@@ -215,7 +245,7 @@ bool run_scene(const Window& window, Input& input, const Scene& scene, const Win
     glfwPollEvents();
     const double now = glfwGetTime();
     input.fly(now - before);
-    controller.resize(scene_size(window));
+    controller.resize(scene_size(window, controller));
     controller.update(now - before);
     before = now;
     if (input.pointer() != hovered_at && !Interface::wants_pointer()) controller.hover(hovered_at = input.pointer());
@@ -227,12 +257,12 @@ bool run_scene(const Window& window, Input& input, const Scene& scene, const Win
       speaker->hear(moment, controller.camera, driver.speed());
     }
     instances.update(moment, controller.options);
-    renderer.draw(instances, controller.camera, controller.options, scene_pixels(window));
+    renderer.draw(instances, controller.camera, controller.options, scene_pixels(window, controller));
     outputs.after_picture(controller, renderer);
     copy_scene(renderer, 0, window.pixels());
     WindowInterface::begin_frame();
     panel.draw(controller, moment, instances, driver.error());
-    draw_hover_text(controller, moment);
+    if (!controller.photo) draw_hover_text(controller, moment);
     Interface::end_frame();
     check_gl_errors();
     controller.picture_processor = processor_milliseconds() - started;

@@ -133,4 +133,31 @@ Camera frame(const Bounds& bounds, double aspect, double margin, double azimuth,
   return camera;
 }
 
+Camera along_path(const std::vector<Camera>& views, double at) {
+  const auto last = static_cast<double>(views.size() - 1);
+  if (last <= 0) return views.front();
+  // Slow at both ends: the first and the last half of a leg are eased.
+  double way = std::clamp(at, 0.0, last);
+  const auto eased = [](double x) { return x * x * (3 - 2 * x); };
+  if (last < 2)
+    way = last * eased(way / last);
+  else if (way < 1)
+    way = way * way * (2 - way);
+  else if (const double left = last - way; left < 1)
+    way = last - left * left * (2 - left);
+  const auto first = std::min(static_cast<std::size_t>(way), views.size() - 2);
+  const double t = way - static_cast<double>(first);
+  const auto& a = views[first == 0 ? 0 : first - 1];
+  const auto &b = views[first], &c = views[first + 1], &d = views[std::min(first + 2, views.size() - 1)];
+  const auto spline = [t](const auto& p0, const auto& p1, const auto& p2, const auto& p3) {
+    return 0.5 *
+           (2.0 * p1 + t * (p2 - p0 + t * (2.0 * p0 - 5.0 * p1 + 4.0 * p2 - p3 + t * (3.0 * p1 - p0 - 3.0 * p2 + p3))));
+  };
+  Camera camera = b;
+  camera.eye = spline(a.eye, b.eye, c.eye, d.eye);
+  camera.target = spline(a.target, b.target, c.target, d.target);
+  camera.field_of_view = b.field_of_view + t * (c.field_of_view - b.field_of_view);
+  return camera;
+}
+
 }  // namespace topple::viewer

@@ -3,6 +3,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <vector>
 
 namespace topple::viewer {
 
@@ -49,5 +50,9 @@ struct Camera {
 /// picture left free around it.
 [[nodiscard]] Camera frame(const Bounds& bounds, double aspect, double margin = 0.12, double azimuth = -0.95,
                            double elevation = 0.30);
+
+/// A smooth way through places (Catmull and Rom's spline), each reached at a whole number; it starts and ends slowly
+/// and is held to its ends. At least one place.
+[[nodiscard]] Camera along_path(const std::vector<Camera>& views, double at);
 
 }  // namespace topple::viewer

@@ -362,6 +362,9 @@ void SceneInstances::draw_cables(const Snapshot& snapshot) {
     for (const Eigen::Vector3d& end : {*body.cable_anchor, body.position})
       marks_.lines.push_back({glm::vec3(glm::dvec3(end.x(), end.y(), end.z()) - origin_), steel});
   }
+  for (const auto& rope : snapshot.ropes)
+    for (const Eigen::Vector3d& end : rope)
+      marks_.lines.push_back({glm::vec3(glm::dvec3(end.x(), end.y(), end.z()) - origin_), steel});
 }
 
 MemberInstance SceneInstances::moved_member(std::size_t index, const Motion& motion) const {

@@ -115,6 +115,8 @@ struct Snapshot {
   /// not.
   std::shared_ptr<const std::vector<Eigen::Vector3f>> shape_bulge;
   float shape_scale = 0;
+  std::vector<std::array<Eigen::Vector3d, 2>> ropes;  ///< that a winch pulls, from end to end
+  int blows = 0;                                      ///< what a person has done to the building
   structure::SimulationCounters counters;
   std::array<double, 6> stage_seconds{};
   double collision_engine_seconds = 0;
