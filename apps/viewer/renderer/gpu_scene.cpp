@@ -128,6 +128,7 @@ void GpuScene::update(const SceneInstances& scene) {
     update_all(gpu, batches);
   };
   follow(chunks_, scene.chunks());
+  follow(torn_ends_, scene.torn_ends());
   follow(drawn_, scene.drawn());
 }
 

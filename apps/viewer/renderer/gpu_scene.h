@@ -50,6 +50,7 @@ class GpuScene {
   void draw_rigid() const {
     draw(projectiles_);
     draw(chunks_);
+    draw(torn_ends_);
     draw(drawn_);
   }
   void draw_arrows() const { arrows_[0].draw(); }
@@ -59,7 +60,7 @@ class GpuScene {
   static void draw(const std::vector<GpuBatch>& batches) {
     for (const GpuBatch& batch : batches) batch.draw();
   }
-  std::vector<GpuBatch> members_, slabs_, walls_, projectiles_, chunks_, drawn_, arrows_;
+  std::vector<GpuBatch> members_, slabs_, walls_, projectiles_, chunks_, torn_ends_, drawn_, arrows_;
 };
 
 }  // namespace topple::viewer

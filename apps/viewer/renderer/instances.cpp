@@ -10,6 +10,7 @@
 #include "renderer/shapes/arrows.h"
 #include "renderer/shapes/diagram.h"
 #include "renderer/shapes/looks.h"
+#include "renderer/shapes/torn_ends.h"
 #include "topple/structure/drawn_model.h"
 
 namespace topple::viewer {
@@ -97,6 +98,11 @@ void SceneInstances::place_members() {
   members_.resize(building_.sections.size());
   for (std::size_t i = 0; i < building_.sections.size(); ++i)
     members_[i].mesh = section_mesh(building_.sections[i], segments_for(building_));
+  for (const structure::Section& section : building_.sections)
+    for (unsigned variant = 0; variant < torn_end_variants; ++variant) {
+      torn_ends_.emplace_back();
+      torn_ends_.back().mesh = torn_end_mesh(section, variant);
+    }
   for (const Member& member : building_.members) {
     Part part;
     part.batch = static_cast<std::size_t>(member.section.index);
@@ -416,12 +422,72 @@ void SceneInstances::place_chunks(const Snapshot& snapshot) {
       chunks_.emplace_back();
       chunks_.back().mesh = chunk_mesh(*body.chunk);
       mark_broken(chunks_.back().mesh, nullptr, nullptr);
+      add_bars(chunks_.back().mesh, bars_of_chunk(body.material));
     }
     chunks_[found->second].instances.push_back(
         {glm::vec3(to_glm(body.position) - origin_), packed(to_glm(body.orientation)), glm::vec3(1),
          materials && body.material.valid() ? look_colour(look_of(building_[body.material]))
                                             : piece_colour(body.chunk_of),
          glm::vec3(to_glm(body.rest_centre) - origin_)});
+  }
+}
+
+/// Fewer where there are many pieces, of which each is small in the picture.
+std::size_t SceneInstances::bars_of_chunk(structure::MaterialId material) const {
+  if (!material.valid() || look_of(building_[material]) != Look::concrete) return 0;
+  return chunks_.size() < 300 ? 16 : chunks_.size() < 1500 ? 6 : 0;
+}
+
+/// A member was torn from all that was at its end where its own joint failed, or where nothing else of its body hangs.
+void SceneInstances::find_torn_ends() {
+  std::map<std::pair<int, int>, int> hang;  // by body and node
+  const auto intact = [&](std::size_t index, int end) {
+    const structure::JointId joint = building_.joint(structure::MemberId(index), end);
+    return built_answer_->joints[static_cast<std::size_t>(joint.index)].intact;
+  };
+  const auto key = [&](const MovingPart& moving, int end) {
+    const Member& member = building_.members[moving.index];
+    return std::pair(moving.body, static_cast<int>(member.nodes[static_cast<std::size_t>(end)].index));
+  };
+  for (const MovingPart& moving : moving_members_)
+    for (int end = 0; end < 2; ++end) hang[key(moving, end)] += intact(moving.index, end) ? 1 : 0;
+  torn_.clear();
+  for (const MovingPart& moving : moving_members_) {
+    const auto torn = [&](int end) { return !intact(moving.index, end) || hang[key(moving, end)] < 2; };
+    torn_.push_back({torn(0), torn(1)});
+  }
+}
+
+void SceneInstances::add_torn_end(std::size_t index, int end, const MemberInstance& instance) {
+  const glm::vec4 q = instance.rotation;
+  const glm::dquat turn(q.w, q.x, q.y, q.z);
+  const glm::vec3 far_end(turn * glm::dvec3(static_cast<double>(instance.length), 0, 0));
+  const glm::vec3 place =
+      end == 0 ? instance.first_end + instance.displacement1 : instance.first_end + far_end + instance.displacement2;
+  // The first end looks the other way: half a turn about the section's z.
+  const glm::dquat facing = end == 0 ? turn * glm::dquat(0, 0, 0, 1) : turn;
+  const std::size_t variant = (index + static_cast<std::size_t>(end)) % torn_end_variants;
+  torn_ends_[member_parts_[index].batch * torn_end_variants + variant].instances.push_back(
+      {place, packed(facing), glm::vec3(1), look_colour(Look::concrete), member_parts_[index].rest.first_end});
+}
+
+void SceneInstances::place_torn_ends(const Snapshot& snapshot) {
+  for (auto& batch : torn_ends_) batch.instances.clear();
+  // So many ends are too small in the picture to be told from plain ones.
+  constexpr std::size_t most = 2000;
+  if (built_options_.colouring != Colouring::materials || moving_members_.size() > most) return;
+  const auto of_concrete = [&](std::size_t index) {
+    return look_of(building_[building_.members[index].material]) == Look::concrete;
+  };
+  std::vector<Motion> motions;
+  motions.reserve(snapshot.bodies.size());
+  for (const BodyPose& body : snapshot.bodies) motions.emplace_back(body);
+  for (std::size_t i = 0; i < moving_members_.size(); ++i) {
+    const MovingPart& moving = moving_members_[i];
+    if (!of_concrete(moving.index)) continue;
+    const MemberInstance instance = moved_member(moving.index, motions[static_cast<std::size_t>(moving.body)]);
+    for (const int end : {0, 1})
+      if (torn_[i][static_cast<std::size_t>(end)]) add_torn_end(moving.index, end, instance);
   }
 }
 
@@ -447,6 +513,7 @@ void SceneInstances::place_broken_panels(const Snapshot& snapshot) {
       chunks_.emplace_back();
       chunks_.back().mesh = chunk_mesh(*mesh);
       mark_broken(chunks_.back().mesh, &building_, &building_.panels[i]);
+      add_bars(chunks_.back().mesh, bars_of_chunk(building_.panels[i].material));
     }
     glm::dvec3 position(0);
     glm::dquat turn(1, 0, 0, 0);
@@ -525,8 +592,10 @@ void SceneInstances::update(const Snapshot& snapshot, const ViewOptions& options
   built_tuned_ = snapshot.tuned;
   built_path_ = snapshot.path;
   built_scale_ = snapshot.shape_scale;
+  if (changed) find_torn_ends();
   append_moving(snapshot);
   place_chunks(snapshot);
+  place_torn_ends(snapshot);
   draw_marks(snapshot, options);
   draw_cables(snapshot);
   place_broken_panels(snapshot);

@@ -70,6 +70,9 @@ class SceneInstances {
   /// The same of a model that is drawn around the building: a batch for each piece, bent while it stands.
   [[nodiscard]] const std::vector<InstanceBatch<RigidInstance>>& drawn() const { return drawn_; }
 
+  /// Torn ends of members of concrete.
+  [[nodiscard]] const std::vector<InstanceBatch<RigidInstance>>& torn_ends() const { return torn_ends_; }
+
   /// Loads and contacts; reactions, which come from below the ground.
   [[nodiscard]] const InstanceBatch<RigidInstance>& arrows() const { return arrows_; }
   [[nodiscard]] const InstanceBatch<RigidInstance>& buried_arrows() const { return buried_arrows_; }
@@ -110,6 +113,10 @@ class SceneInstances {
   [[nodiscard]] PanelInstance standing_panel(std::size_t index, const Snapshot& snapshot,
                                              const ViewOptions& options) const;
   void place_chunks(const Snapshot& snapshot);
+  void find_torn_ends();
+  void place_torn_ends(const Snapshot& snapshot);
+  void add_torn_end(std::size_t index, int end, const MemberInstance& instance);
+  [[nodiscard]] std::size_t bars_of_chunk(structure::MaterialId material) const;
   void place_broken_panels(const Snapshot& snapshot);
   [[nodiscard]] Rgba broken_colour(std::size_t panel) const;
   void place_drawn(const Snapshot& snapshot, bool bend);
@@ -133,6 +140,7 @@ class SceneInstances {
   InstanceBatch<RigidInstance> projectiles_;
   std::vector<InstanceBatch<RigidInstance>> chunks_;
   std::map<std::int64_t, std::size_t> chunk_of_body_;
+  std::vector<InstanceBatch<RigidInstance>> torn_ends_;  ///< variants of each section, in their order
   InstanceBatch<RigidInstance> arrows_, buried_arrows_;
   std::vector<DustInstance> dust_;
   Overlay diagrams_, marks_;
@@ -159,6 +167,8 @@ class SceneInstances {
     int body;
   };
   std::vector<MovingPart> moving_members_, moving_panels_;
+  /// Of moving members, by their place in moving_members_: ends at which nothing of the same body holds.
+  std::vector<std::array<bool, 2>> torn_;
 };
 
 /// Box around all nodes.

@@ -200,7 +200,9 @@ void main() {
     result = vec4(shade_plain(albedo, normal, point, 0.45), 1.0);
     return;
   }
-  Surface s = surface_of(material, albedo, part_point, normalize(part_normal), broken);
+  bool bar = broken > 1.5;
+  Surface s = bar ? surface_of(2, linear(vec3(0.42, 0.25, 0.17)), part_point, normalize(part_normal), 0.0)
+                  : surface_of(material, albedo, part_point, normalize(part_normal), broken);
   result = vec4(shade(s, bumped(normal, point, s.height), point, normal), 1.0);
 }
 )";

@@ -12,7 +12,7 @@ namespace topple::viewer {
 
 struct Vertex {
   glm::vec3 position, normal;
-  float broken = 0;  ///< 1: of a face where it was torn
+  float broken = 0;  ///< 1: of a face where it was torn; bar_mark of torn_ends.h: of a bar that sticks out of it
 };
 struct Mesh {
   std::vector<Vertex> vertices;
