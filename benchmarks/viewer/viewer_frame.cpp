@@ -1,6 +1,6 @@
 // Processor time of what the viewer does for one picture, without what the graphics card or a software rasteriser does:
 // interpolation between two snapshots and the arrays that are sent. Asked: under 1 ms for the seed building, under 4 ms
-// for 10 x 10 x 40 with slabs and 2,000 debris bodies. And how long a changed strength takes to be seen: the answer's
+// for 10 x 10 x 40 with slabs and 5,000 debris bodies, and in every shipped scene with as many of its members falling. And how long a changed strength takes to be seen: the answer's
 // utilisations and the standing arrays; asked: under 50 ms for the large one.
 //   bench_viewer_frame
 #include <ctime>
@@ -12,6 +12,7 @@
 
 #include "app/open_scene.h"
 #include "app/session.h"
+#include "app/start/shipped_scenes.h"
 #include "renderer/instances.h"
 #include "support/measure.h"
 #include "support/provenance.h"
@@ -66,8 +67,9 @@ std::vector<std::shared_ptr<const Snapshot>> falling(const topple::structure::Bu
   return snapshots;
 }
 
-void measure(const char* name, std::size_t debris) {
+void measure(const std::string& name, std::size_t most) {
   const Scene scene = open_scene(name);
+  const std::size_t debris = std::min(most, scene.building->members.size());
   Session session(scene.building, scene.scenario);
   const auto rest = session.snapshot();
   SceneInstances instances(*scene.building);
@@ -86,7 +88,7 @@ void measure(const char* name, std::size_t debris) {
     session.tune(change);
     instances.update(*session.snapshot(), options);
   });
-  std::printf("%-16s %6zu members %6zu panels %5zu bodies   picture %7.3f ms   changed strength %7.3f ms\n", name,
+  std::printf("%-26s %6zu members %6zu panels %5zu bodies   picture %7.3f ms   changed strength %7.3f ms\n", name.c_str(),
               scene.building->members.size(), scene.building->panels.size(), debris, picture, tuned);
 }
 
@@ -96,4 +98,5 @@ int main() {
   topple::bench::print_provenance("The viewer's processor time for a picture (median, rasterising excluded)", 1);
   measure("seed_building", 200);
   measure("tower_10x10x40", 2000);
+  for (const ShippedScene& scene : shipped_scenes()) measure(scene.name, 5000);
 }

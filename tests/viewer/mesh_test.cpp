@@ -5,6 +5,7 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <map>
@@ -155,4 +156,24 @@ TEST_CASE("triangles of a polygon with holes cover its area exactly once") {
     area += part;
   }
   CHECK(area == Approx(10 * 12 - 4 * 4 - 2 * 2 - 3 * 3));
+}
+
+TEST_CASE("where there are many members, simpler shapes of the same size stand for them") {
+  Section section;
+  section.shape = Section::Shape::I;
+  section.depth = 0.4, section.width = 0.2, section.web = 0.01, section.flange = 0.02;
+  section.area = 0.2 * 0.04 + 0.36 * 0.01;
+  const Mesh full = section_mesh(section, 1), tube = topple::viewer::section_tube_mesh(section),
+             box = topple::viewer::section_box_mesh(section);
+  const auto reach = [](const Mesh& mesh) {
+    glm::vec3 most(0);
+    for (const auto& v : mesh.vertices) most = glm::max(most, glm::abs(v.position));
+    return most;
+  };
+  CHECK(reach(tube) == reach(full));
+  CHECK(reach(box) == reach(full));
+  CHECK(tube.indices.size() < full.indices.size());
+  CHECK(closed(box));
+  CHECK(volume(box) == Approx(0.4 * 0.2));
+  CHECK(box.indices.size() == 36);
 }

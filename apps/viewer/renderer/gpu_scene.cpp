@@ -1,5 +1,6 @@
 #include "renderer/gpu_scene.h"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace topple::viewer {
@@ -53,8 +54,16 @@ void update_all(std::vector<GpuBatch>& gpu, const std::vector<InstanceBatch<Inst
 
 }  // namespace
 
-GpuBatch::GpuBatch(const Mesh& mesh, const Attributes& attributes, std::size_t stride)
-    : vertices_(make_buffer()), indices_(make_buffer()), index_count_(static_cast<GLsizei>(mesh.indices.size())) {
+GpuBatch::GpuBatch(const Mesh& mesh, const Attributes& attributes, std::size_t stride, const std::vector<Mesh>& coarse)
+    : vertices_(make_buffer()), indices_(make_buffer()) {
+  Mesh all = mesh;
+  levels_.push_back({0, static_cast<GLsizei>(mesh.indices.size())});
+  for (const Mesh& other : coarse) {
+    levels_.push_back({all.indices.size(), static_cast<GLsizei>(other.indices.size())});
+    const auto first = static_cast<std::uint32_t>(all.vertices.size());
+    for (const std::uint32_t index : other.indices) all.indices.push_back(first + index);
+    all.vertices.insert(all.vertices.end(), other.vertices.begin(), other.vertices.end());
+  }
   for (std::size_t which = 0; which < 2; ++which) {
     arrays_[which] = make_vertex_array();
     instances_[which] = make_buffer();
@@ -76,10 +85,10 @@ GpuBatch::GpuBatch(const Mesh& mesh, const Attributes& attributes, std::size_t s
       glVertexAttribDivisor(location++, 1);
     }
   }
-  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.indices.size() * sizeof(std::uint32_t)),
-               mesh.indices.data(), GL_STATIC_DRAW);
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(all.indices.size() * sizeof(std::uint32_t)),
+               all.indices.data(), GL_STATIC_DRAW);
   glBindVertexArray(0);
-  send(mesh);
+  send(all);
 }
 
 void GpuBatch::send(const Mesh& mesh) {
@@ -94,18 +103,20 @@ void GpuBatch::send(std::size_t which, const void* data, std::size_t count, std:
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(count * size), data, GL_STREAM_DRAW);
 }
 
-void GpuBatch::draw() const {
+void GpuBatch::draw(std::size_t level) const {
+  const Range& range = levels_[std::min(level, levels_.size() - 1)];
   for (std::size_t which = 0; which < 2; ++which) {
     if (counts_[which] == 0) continue;
     glBindVertexArray(arrays_[which].get());
-    glDrawElementsInstanced(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr, static_cast<GLsizei>(counts_[which]));
+    glDrawElementsInstanced(GL_TRIANGLES, range.count, GL_UNSIGNED_INT, at(range.first * sizeof(std::uint32_t)),
+                            static_cast<GLsizei>(counts_[which]));
   }
   glBindVertexArray(0);
 }
 
 GpuScene::GpuScene(const SceneInstances& scene) {
   for (const auto& batch : scene.members())
-    members_.emplace_back(batch.mesh, member_attributes(), sizeof(MemberInstance));
+    members_.emplace_back(batch.mesh, member_attributes(), sizeof(MemberInstance), batch.coarse);
   for (const auto& batch : scene.panels(structure::PanelKind::slab))
     slabs_.emplace_back(batch.mesh, panel_attributes(), sizeof(PanelInstance));
   for (const auto& batch : scene.panels(structure::PanelKind::wall))

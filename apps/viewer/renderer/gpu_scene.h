@@ -16,7 +16,8 @@ class GpuBatch {
     GLenum type;  ///< GL_FLOAT, or GL_UNSIGNED_BYTE (normalised)
     std::size_t offset;
   };
-  GpuBatch(const Mesh& mesh, const std::vector<Attribute>& attributes, std::size_t stride);
+  GpuBatch(const Mesh& mesh, const std::vector<Attribute>& attributes, std::size_t stride,
+           const std::vector<Mesh>& coarse = {});
 
   template <class Instance>
   void update(const InstanceBatch<Instance>& batch) {
@@ -27,7 +28,8 @@ class GpuBatch {
     mesh_revision_ = batch.mesh_revision;
     if (moving + counts_[1] > 0) send(1, batch.instances.data() + batch.standing, moving, sizeof(Instance));
   }
-  void draw() const;
+  /// `level`: 0 the mesh itself, then the coarser ones, as far as there are any.
+  void draw(std::size_t level = 0) const;
 
  private:
   void send(std::size_t which, const void* data, std::size_t count, std::size_t size);
@@ -36,7 +38,11 @@ class GpuBatch {
   GlBuffer instances_[2];
   GlVertexArray arrays_[2];
   std::size_t counts_[2] = {0, 0};
-  GLsizei index_count_ = 0;
+  struct Range {
+    std::size_t first = 0;  ///< of the indices
+    GLsizei count = 0;
+  };
+  std::vector<Range> levels_;
   std::uint64_t revision_ = 0, mesh_revision_ = 0;
 };
 
@@ -44,7 +50,10 @@ class GpuScene {
  public:
   explicit GpuScene(const SceneInstances& scene);
   void update(const SceneInstances& scene);
-  void draw_members() const { draw(members_); }
+  /// `level` as GpuBatch::draw has it.
+  void draw_members(std::size_t level) const {
+    for (const GpuBatch& batch : members_) batch.draw(level);
+  }
   void draw_panels(structure::PanelKind kind) const { draw(kind == structure::PanelKind::slab ? slabs_ : walls_); }
   /// Projectiles, the chunks of broken panels, and what is drawn around the building.
   void draw_rigid() const {

@@ -36,6 +36,9 @@ bool is_shown(const ViewOptions& options, structure::PieceKind kind) {
 /// ease.
 int segments_for(const Building& building) { return building.members.size() > 4000 ? 3 : 8; }
 
+/// From so many on, members are drawn straight while nothing bends them so that it is seen.
+constexpr std::size_t many_members = 1000;
+
 /// Of a connected part: bodies by their own number, after those that segments usually take.
 Rgba part_colour(int place, int segment, const Snapshot& snapshot, const ViewOptions& options) {
   constexpr std::int64_t after_segments = 3;
@@ -96,8 +99,12 @@ SceneInstances::SceneInstances(const Building& building)
 
 void SceneInstances::place_members() {
   members_.resize(building_.sections.size());
-  for (std::size_t i = 0; i < building_.sections.size(); ++i)
-    members_[i].mesh = section_mesh(building_.sections[i], segments_for(building_));
+  for (std::size_t i = 0; i < building_.sections.size(); ++i) {
+    const structure::Section& section = building_.sections[i];
+    members_[i].mesh = section_mesh(section, segments_for(building_));
+    if (building_.members.size() > many_members)
+      members_[i].coarse = {section_mesh(section, 1), section_tube_mesh(section), section_box_mesh(section)};
+  }
   for (const structure::Section& section : building_.sections)
     for (unsigned variant = 0; variant < torn_end_variants; ++variant) {
       torn_ends_.emplace_back();
@@ -113,6 +120,16 @@ void SceneInstances::place_members() {
     part.rest.base = member_colour(member.kind);
     member_parts_.push_back(part);
   }
+  std::vector<double> widths;
+  for (const Member& member : building_.members) {
+    const structure::Section& section = building_[member.section];
+    const double square = std::sqrt(section.area);
+    widths.push_back(std::min(section.width > 0 ? section.width : square, section.depth > 0 ? section.depth : square));
+  }
+  if (widths.empty()) return;
+  const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
+  std::nth_element(widths.begin(), middle, widths.end());
+  member_width_ = static_cast<float>(*middle);
 }
 
 void SceneInstances::place_panels() {
@@ -476,8 +493,9 @@ void SceneInstances::place_torn_ends(const Snapshot& snapshot) {
   // So many ends are too small in the picture to be told from plain ones.
   constexpr std::size_t most = 2000;
   if (built_options_.colouring != Colouring::materials || moving_members_.size() > most) return;
+  // In this view the alpha of a part's colour is what it is made of.
   const auto of_concrete = [&](std::size_t index) {
-    return look_of(building_[building_.members[index].material]) == Look::concrete;
+    return member_parts_[index].rest.base >> 24U == static_cast<Rgba>(Look::concrete);
   };
   std::vector<Motion> motions;
   motions.reserve(snapshot.bodies.size());

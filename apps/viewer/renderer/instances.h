@@ -47,6 +47,7 @@ struct RigidInstance {
 template <class Instance>
 struct InstanceBatch {
   Mesh mesh;
+  std::vector<Mesh> coarse;  ///< simpler ones of the same, each coarser than the one before; none: too few to need any
   std::vector<Instance> instances;
   std::size_t standing = 0;
   std::uint64_t revision = 0;       ///< counts changes of the standing ones
@@ -85,6 +86,10 @@ class SceneInstances {
   /// The centre of the undeformed building; single precision counts from here.
   [[nodiscard]] const glm::dvec3& origin() const { return origin_; }
   [[nodiscard]] const Bounds& bounds() const { return bounds_; }
+  /// Members are bent so that it is seen: displacements are enlarged, or a mode is drawn.
+  [[nodiscard]] bool bent() const { return built_shape_ != nullptr || built_options_.deflection_scale > 1; }
+  /// m: of the thinner side of most members.
+  [[nodiscard]] float member_width() const { return member_width_; }
   /// The largest of the values that Scale::largest_in_view refers to.
   [[nodiscard]] double largest() const { return largest_; }
   /// The least and greatest value of the diagram that is drawn (N, N m).
@@ -154,6 +159,7 @@ class SceneInstances {
   };
   std::map<std::shared_ptr<const fracture::Mesh>, DrawnBatch> batch_of_drawn_;
   double largest_ = 0;
+  float member_width_ = 0;
   // What the standing instances were built for.
   std::shared_ptr<const FrameAnswer> built_answer_;
   std::shared_ptr<const Membership> built_membership_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <stdexcept>
@@ -90,11 +91,13 @@ struct Renderer::State {
   DustBuffer dust;
   double ground_height = 0;
   PictureBlock picture{};
+  float half_field = 0.4F;  ///< tangent of half the field of view
 
   State(const SceneInstances& instances, double height) : scene(instances), ground_height(height) { make_ground(); }
   void make_ground();
   void fill_block(const SceneInstances& instances, const Camera& camera, const ViewOptions& options, glm::ivec2 size);
   void send_block();
+  [[nodiscard]] std::size_t member_level(const SceneInstances& instances) const;
   void draw_shadows();
   void draw_scene(const SceneInstances& instances, const ViewOptions& options, const Overlay& lines);
   void draw_panels(PanelKind kind, float opacity);
@@ -123,6 +126,7 @@ void Renderer::State::fill_block(const SceneInstances& instances, const Camera& 
   const auto radius = static_cast<float>(std::max(instances.bounds().radius(), 1e-3));
   const glm::vec3 eye(camera.eye - instances.origin());
   const float away = glm::length(eye);
+  half_field = static_cast<float>(std::tan(camera.field_of_view / 2));
   const float near = std::max(0.02F * radius * 0.1F, (away - 4 * radius) * 0.5F), far = away + 80 * radius;
   const float reach = drawn_radius(instances);
   picture.view_projection =
@@ -149,6 +153,16 @@ void Renderer::State::send_block() {
   glBindBufferBase(GL_UNIFORM_BUFFER, picture_binding, block.get());
 }
 
+/// Of detail: bent where that is seen; else straight; boxes where members are but a few pixels wide.
+std::size_t Renderer::State::member_level(const SceneInstances& instances) const {
+  constexpr float few_pixels = 4;
+  if (instances.bent()) return 0;
+  // Where the building is nearest: all rows of pixels together span this many metres there.
+  const glm::vec3 half((instances.bounds().high - instances.bounds().low) / 2.0), eye(picture.eye);
+  const float away = glm::length(eye - glm::clamp(eye, -half, half)), height = 2 * half_field * away;
+  return instances.member_width() * picture.picture.y < few_pixels * height ? 3 : 1;
+}
+
 void Renderer::State::draw_shadows() {
   glViewport(0, 0, shadow.size(), shadow.size());
   glEnable(GL_POLYGON_OFFSET_FILL);
@@ -159,7 +173,7 @@ void Renderer::State::draw_shadows() {
     glBindFramebuffer(GL_FRAMEBUFFER, shadow.framebuffer(layer));
     glClear(GL_DEPTH_BUFFER_BIT);
     glUseProgram(programs.member_shadow.get());
-    scene.draw_members();
+    scene.draw_members(2);
     glUseProgram(programs.panel_shadow.get());
     scene.draw_panels(PanelKind::slab);
     scene.draw_panels(PanelKind::wall);
@@ -248,7 +262,7 @@ void Renderer::State::draw_scene(const SceneInstances& instances, const ViewOpti
   glBindTexture(GL_TEXTURE_2D_ARRAY, shadow.texture());
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   glUseProgram(programs.member.get());
-  scene.draw_members();
+  scene.draw_members(member_level(instances));
   glUseProgram(programs.rigid.get());
   scene.draw_rigid();
   scene.draw_arrows();

@@ -114,7 +114,8 @@ class Extrusion {
 };
 
 template <class Place>
-void extrude(Mesh& mesh, const Profile& profile, int segments, float low, float high, Place place) {
+void extrude(Mesh& mesh, const Profile& profile, int segments, float low, float high, Place place,
+             bool with_ends = true) {
   Extrusion<Place> extrusion(mesh, place);
   Loop outline = profile.outline;
   if (doubled_area(outline) < 0) std::reverse(outline.begin(), outline.end());
@@ -123,6 +124,7 @@ void extrude(Mesh& mesh, const Profile& profile, int segments, float low, float 
     if (doubled_area(hole) > 0) std::reverse(hole.begin(), hole.end());
     extrusion.side(hole, profile.round, segments, low, high);
   }
+  if (!with_ends) return;
   extrusion.cap(outline, profile.holes, low, false);
   extrusion.cap(outline, profile.holes, high, true);
 }
@@ -156,6 +158,25 @@ Mesh section_mesh(const Section& section, int segments) {
   // Plane (y, z), height x: y, z, x is right-handed, so counter-clockwise stays outward.
   extrude(mesh, profile_of(section), segments, 0, 1, [](glm::vec2 p, float x) { return glm::vec3(x, p.x, p.y); });
   return mesh;
+}
+
+Mesh section_tube_mesh(const Section& section) {
+  Mesh mesh;
+  Profile profile = profile_of(section);
+  profile.holes.clear();
+  extrude(
+      mesh, profile, 1, 0, 1, [](glm::vec2 p, float x) { return glm::vec3(x, p.x, p.y); }, false);
+  return mesh;
+}
+
+Mesh section_box_mesh(const Section& section) {
+  Section box;
+  box.shape = Section::Shape::rectangle;
+  const double square = std::sqrt(section.area);
+  box.depth = section.depth > 0 ? section.depth : square;
+  const bool is_round = section.shape == Section::Shape::circle || section.shape == Section::Shape::pipe;
+  box.width = section.width > 0 && !is_round ? section.width : is_round ? box.depth : square;
+  return section_mesh(box, 1);
 }
 
 Mesh panel_mesh(const structure::Building& building, const structure::Panel& panel) {

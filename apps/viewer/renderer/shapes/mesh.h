@@ -23,6 +23,10 @@ struct Mesh {
 /// and z in the model's length unit, local member axes. A section given by numbers becomes a box of its depth and
 /// width, or the square of its area.
 [[nodiscard]] Mesh section_mesh(const structure::Section& section, int segments);
+/// The same without its ends, which is not closed: what casts shadows where there are many.
+[[nodiscard]] Mesh section_tube_mesh(const structure::Section& section);
+/// The box around it: what is seen of it from far.
+[[nodiscard]] Mesh section_box_mesh(const structure::Section& section);
 
 /// A panel with its openings: x, y in [0, 1] along the panel's first and fourth edge, z in [-1/2, 1/2] across its
 /// thickness.
