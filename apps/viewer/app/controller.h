@@ -65,9 +65,11 @@ class Controller {
   double charge_radius = 6;      ///< m; within it joints lose strength, all of it at the centre
   double explosive = 20;         ///< kg of TNT
   double thermite_over = 6;      ///< s, until a joint is through
+  double picture_graphics = 0;   ///< ms that the graphics card took for a picture lately
   double picture_processor = 0;  ///< ms of processor time that the last picture took on the window's thread
   double volume = 0.8;           ///< of the sound, 0 to 1
   bool has_sound = false;        ///< the window found a device
+  bool panels_wanted = false;    ///< the keyboard goes to the panels with the next picture
   bool photo = false;            ///< without the panels
   bool help = false;
   bool asks_to_leave = false;          ///< a person is asked whether the program is to end

@@ -52,6 +52,7 @@ class Stage {
     instances_.update(moment, controller.options);
     renderer_.draw(instances_, controller.camera, controller.options, glm::ivec2(scene_size()));
     outputs_.after_picture(controller, renderer_);
+    controller.picture_graphics = renderer_.graphics_milliseconds();
     if (interface_) draw_interface(controller, moment);
     Image image = interface_ ? composer_->read() : renderer_.read();
     check_gl_errors();

@@ -85,6 +85,17 @@ void draw_joint(Controller& controller, const Snapshot& moment, structure::Joint
                    ImVec2(0, 5 * ImGui::GetFontSize()));
 }
 
+namespace {
+
+void draw_short(const FrameAnswer::Joint& joint) {
+  const TableFont columns;
+  if (!joint.standing) return ImGui::TextUnformatted("part of a body");
+  if (!joint.intact) return ImGui::TextUnformatted("its nearest joint failed");
+  ImGui::Text("utilisation %.1f %%", 100.0 * static_cast<double>(joint.utilisation));
+}
+
+}  // namespace
+
 void draw_hover_text(Controller& controller, const Snapshot& moment) {
   const auto& hovered = controller.hovered();
   if (!hovered || !hovered->joint.valid() || ImGui::GetIO().WantCaptureMouse || controller.asks_to_leave) return;
@@ -98,7 +109,11 @@ void draw_hover_text(Controller& controller, const Snapshot& moment) {
                           ImVec2(left ? 1.0F : 0.0F, up ? 1.0F : 0.0F));
   ImGui::BeginTooltip();
   ImGui::TextUnformatted(part_text(controller.building(), hovered->joint).c_str());
-  draw_joint(controller, moment, hovered->joint, true);
+  // Who demolishes is to see what is hit: all numbers are for those who select or look at forces.
+  if (controller.tool == ToolKind::select || controller.options.analysis())
+    draw_joint(controller, moment, hovered->joint, true);
+  else
+    draw_short(moment.answer->joints[static_cast<std::size_t>(hovered->joint.index)]);
   ImGui::EndTooltip();
 }
 

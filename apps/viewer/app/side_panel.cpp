@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <numeric>
 #include <string>
+#include <utility>
 
 #include "app/widgets.h"
 #include "renderer/shapes/arrows.h"
@@ -179,6 +180,7 @@ void SidePanel::run_bar(Controller& controller) {
     controller.look_at_present();
     driver.set_paused(!driver.paused());
   }
+  if (std::exchange(controller.panels_wanted, false)) ImGui::SetKeyboardFocusHere(-1);
   const auto key_button = [&](const char* label, const char* key) {
     ImGui::SameLine();
     if (ImGui::Button(label)) controller.key(key);
@@ -357,6 +359,16 @@ void SidePanel::performance(const Controller& controller, const Snapshot& moment
   std::snprintf(text, sizeof text, "%.2f ms of processor time", controller.picture_processor);
   ImGui::PlotLines("picture", picture_history_.data(), static_cast<int>(picture_history_.size()), 0, text, 0, FLT_MAX,
                    ImVec2(0, 1.6F * ImGui::GetFontSize()));
+  const auto curve = [](const char* name, std::vector<float>& history, double value, const char* format) {
+    history.push_back(static_cast<float>(value));
+    if (history.size() > history_length) history.erase(history.begin());
+    char shown[64];
+    std::snprintf(shown, sizeof shown, format, value);
+    ImGui::PlotLines(name, history.data(), static_cast<int>(history.size()), 0, shown, 0, FLT_MAX,
+                     ImVec2(0, 1.6F * ImGui::GetFontSize()));
+  };
+  curve("graphics", graphics_history_, controller.picture_graphics, "%.2f ms on the graphics card");
+  curve("pace", pace_history_, driver.paused() ? 0 : driver.ratio(), "x %.2f of real time");
   ImGui::Text("a picture each %.1f ms, drawing and waiting included",
               static_cast<double>(1000.0F / ImGui::GetIO().Framerate));
 }
@@ -381,6 +393,7 @@ void SidePanel::draw(Controller& controller, const Snapshot& moment, const Scene
   const float width = display.x - static_cast<float>(left.x);
   ImGui::SetNextWindowPos(ImVec2(static_cast<float>(left.x), 0));
   ImGui::SetNextWindowSize(ImVec2(width, display.y));
+  if (controller.panels_wanted) ImGui::SetNextWindowFocus();
   ImGui::Begin(
       "Topple", nullptr,
       ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoTitleBar);

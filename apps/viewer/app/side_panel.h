@@ -30,9 +30,10 @@ class SidePanel {
   TuningPanel tuning_;
   PlayPanel play_;
   OutputPanel output_;
-  static constexpr std::size_t history_length = 240;  ///< steps drawn: four seconds
-  std::array<std::vector<float>, 7> history_;         ///< milliseconds by stage, and of the whole
-  std::vector<float> picture_history_;                ///< ms of processor time
+  static constexpr std::size_t history_length = 240;       ///< steps drawn: four seconds
+  std::array<std::vector<float>, 7> history_;              ///< milliseconds by stage, and of the whole
+  std::vector<float> picture_history_, graphics_history_;  ///< ms of processor time, ms of the graphics card
+  std::vector<float> pace_history_;                        ///< simulated seconds for each second
   std::int64_t last_step_ = -1;
   std::array<char, 64> search_{};
   std::array<char, 256> saved_{"run.topple"};

@@ -200,7 +200,8 @@ class Input {
     ImGuiIO& io = ImGui::GetIO();
     io.ConfigFlags =
         on ? io.ConfigFlags | ImGuiConfigFlags_NavEnableKeyboard : io.ConfigFlags & ~ImGuiConfigFlags_NavEnableKeyboard;
-    ImGui::SetWindowFocus(on ? "Topple" : nullptr);
+    controller_->panels_wanted = on;
+    if (!on) ImGui::SetWindowFocus(nullptr);
   }
 
   GLFWwindow* window_;
@@ -266,6 +267,7 @@ bool run_scene(const Window& window, Input& input, const Scene& scene, const Win
     Interface::end_frame();
     check_gl_errors();
     controller.picture_processor = processor_milliseconds() - started;
+    controller.picture_graphics = renderer.graphics_milliseconds();
     glfwSwapBuffers(window.get());
   }
   input.serve(nullptr);

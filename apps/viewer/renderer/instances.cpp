@@ -359,7 +359,7 @@ void SceneInstances::draw_marks(const Snapshot& snapshot, const ViewOptions& opt
                          section.depth > 0 ? section.depth / 2 : side / 2);
     add_mark(marks_,
              place == part_stands ? standing_member(index, snapshot, options)
-                                  : moved_member(index, motions[static_cast<std::size_t>(place)]),
+                                  : moved_member(index, motions[static_cast<std::size_t>(place)], snapshot),
              half, colour);
   };
   const auto mark_panel = [&](structure::PanelId id, Rgba colour) {
@@ -390,11 +390,16 @@ void SceneInstances::draw_cables(const Snapshot& snapshot) {
       marks_.lines.push_back({glm::vec3(glm::dvec3(end.x(), end.y(), end.z()) - origin_), steel});
 }
 
-MemberInstance SceneInstances::moved_member(std::size_t index, const Motion& motion) const {
+/// It keeps the shape that it let go with, as one body.
+MemberInstance SceneInstances::moved_member(std::size_t index, const Motion& motion, const Snapshot& snapshot) const {
   MemberInstance instance = member_parts_[index].rest;
   const glm::vec4 q = instance.rotation;
   instance.first_end = glm::vec3(motion(glm::dvec3(instance.first_end) + origin_) - origin_);
   instance.rotation = packed(motion.turn * glm::dquat(q.w, q.x, q.y, q.z));
+  if (const auto& bend = snapshot.membership->bend; index < bend.size()) {
+    instance.rotation1 = glm::vec3(motion.turn * glm::dvec3(to_glm(bend[index][0])));
+    instance.rotation2 = glm::vec3(motion.turn * glm::dvec3(to_glm(bend[index][1])));
+  }
   return instance;
 }
 
@@ -413,7 +418,7 @@ void SceneInstances::append_moving(const Snapshot& snapshot) {
   for (auto& batch : walls_) batch.instances.resize(batch.standing);
   for (const MovingPart& moving : moving_members_) {
     const Motion& motion = motions[static_cast<std::size_t>(moving.body)];
-    members_[member_parts_[moving.index].batch].instances.push_back(moved_member(moving.index, motion));
+    members_[member_parts_[moving.index].batch].instances.push_back(moved_member(moving.index, motion, snapshot));
   }
   for (const MovingPart& moving : moving_panels_) {
     const Motion& motion = motions[static_cast<std::size_t>(moving.body)];
@@ -503,7 +508,8 @@ void SceneInstances::place_torn_ends(const Snapshot& snapshot) {
   for (std::size_t i = 0; i < moving_members_.size(); ++i) {
     const MovingPart& moving = moving_members_[i];
     if (!of_concrete(moving.index)) continue;
-    const MemberInstance instance = moved_member(moving.index, motions[static_cast<std::size_t>(moving.body)]);
+    const MemberInstance instance =
+        moved_member(moving.index, motions[static_cast<std::size_t>(moving.body)], snapshot);
     for (const int end : {0, 1})
       if (torn_[i][static_cast<std::size_t>(end)]) add_torn_end(moving.index, end, instance);
   }

@@ -128,7 +128,7 @@ class SceneInstances {
   void bend_drawn(const DrawnPiece& piece, const Snapshot& snapshot, InstanceBatch<RigidInstance>& batch) const;
   void colour_member(std::size_t index, const Snapshot& snapshot, const ViewOptions& options);
   void colour_panel(std::size_t index, const Snapshot& snapshot, const ViewOptions& options);
-  [[nodiscard]] MemberInstance moved_member(std::size_t index, const Motion& motion) const;
+  [[nodiscard]] MemberInstance moved_member(std::size_t index, const Motion& motion, const Snapshot& snapshot) const;
   [[nodiscard]] PanelInstance moved_panel(std::size_t index, const Motion& motion) const;
   [[nodiscard]] bool shown(const structure::Member& member, const PartSwitches& switches) const;
   [[nodiscard]] std::vector<InstanceBatch<PanelInstance>>& batches(const structure::Panel& panel) {

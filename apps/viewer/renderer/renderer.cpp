@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "renderer/gpu_scene.h"
+#include "renderer/gpu_timer.h"
 #include "renderer/render_targets.h"
 #include "renderer/shaders.h"
 #include "renderer/shapes/dust_buffer.h"
@@ -89,6 +90,7 @@ struct Renderer::State {
   GlVertexArray empty = make_vertex_array(), ground = make_vertex_array();
   OverlayBuffer diagrams, marks, extra;
   DustBuffer dust;
+  GpuTimer timer;
   double ground_height = 0;
   PictureBlock picture{};
   float half_field = 0.4F;  ///< tangent of half the field of view
@@ -347,6 +349,7 @@ void Renderer::draw(const SceneInstances& scene, const Camera& camera, const Vie
                     const Overlay& overlay) {
   State& s = *state_;
   s.targets.resize(size);
+  s.timer.begin();
   s.scene.update(scene);
   s.fill_block(scene, camera, options, s.targets.size());
   s.send_block();
@@ -359,8 +362,10 @@ void Renderer::draw(const SceneInstances& scene, const Camera& camera, const Vie
   if (options.shadows) s.draw_shadows();
   s.draw_scene(scene, options, overlay);
   s.finish(options);
+  s.timer.end();
 }
 
+double Renderer::graphics_milliseconds() const { return state_->timer.milliseconds(); }
 unsigned Renderer::framebuffer() const { return state_->targets.finished().framebuffer.get(); }
 glm::ivec2 Renderer::size() const { return state_->targets.size(); }
 

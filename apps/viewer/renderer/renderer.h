@@ -41,6 +41,8 @@ class Renderer {
   /// Framebuffer with the finished picture, and its size.
   [[nodiscard]] unsigned framebuffer() const;
   [[nodiscard]] glm::ivec2 size() const;
+  /// What the graphics card took for a picture, some pictures ago; 0 before one is finished.
+  [[nodiscard]] double graphics_milliseconds() const;
   [[nodiscard]] Image read() const;
 
  private:

@@ -58,6 +58,9 @@ struct TunedJoints {
 /// Which part is where: index into Snapshot::bodies, or one of these.
 inline constexpr int part_stands = -1, part_gone = -2;
 struct Membership {
+  /// Per member that has let go: how its ends were turned against its chord then (rad, in the axes of the undeformed
+  /// building). It keeps that shape.
+  std::vector<std::array<Eigen::Vector3f, 2>> bend;
   std::vector<int> member, panel;
   std::vector<int> segment;  ///< per member: number of its standing segment, -1 when it does not stand
   /// Per panel: what remains of one that is broken in part, where it stood undeformed; null while it is whole.

@@ -140,7 +140,7 @@ std::shared_ptr<const FrameAnswer> read_answer(const Simulation& simulation, Wan
   return answer;
 }
 
-std::shared_ptr<const Membership> read_membership(const Simulation& simulation) {
+std::shared_ptr<Membership> read_membership(const Simulation& simulation) {
   const Building& building = simulation.building();
   auto membership = std::make_shared<Membership>();
   const auto place = [](auto id, const Simulation& from) { return from.frame().stands(id) ? part_stands : part_gone; };
@@ -161,6 +161,30 @@ std::shared_ptr<const Membership> read_membership(const Simulation& simulation) 
     ++index;
   }
   return membership;
+}
+
+/// Of a member by the displacements of its nodes: beside its chord's own turn.
+std::array<Eigen::Vector3f, 2> bend_of(const structure::Member& member, const FrameAnswer& answer) {
+  std::array<Eigen::Vector3f, 2> moved, turned;
+  for (std::size_t end = 0; end < 2; ++end) {
+    const auto& d = answer.displacements[static_cast<std::size_t>(member.nodes[end].index)];
+    turned[end] = d.tail<3>();
+    moved[end] = d.head<3>() + turned[end].cross(Eigen::Vector3f(member.offsets[end].cast<float>()));
+  }
+  const Eigen::Vector3f axis = member.axes.row(0).transpose().cast<float>();
+  const Eigen::Vector3f chord = axis.cross(moved[1] - moved[0]) / static_cast<float>(member.length);
+  // What both ends turn about the axis bends nothing.
+  const Eigen::Vector3f twist = 0.5F * (turned[0] + turned[1]).dot(axis) * axis;
+  return {turned[0] - chord - twist, turned[1] - chord - twist};
+}
+
+/// Keeps the shapes of those that let go before, and takes those of who does now from the answer that they stood by.
+void keep_bends(Membership& now, const Membership& before, const FrameAnswer& answer, const Building& building) {
+  now.bend = before.bend;
+  now.bend.resize(now.member.size(), {Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero()});
+  for (std::size_t i = 0; i < now.member.size(); ++i)
+    if (before.member[i] == part_stands && now.member[i] != part_stands)
+      now.bend[i] = bend_of(building.members[i], answer);
 }
 
 BodyPose pose_of(const structure::BodyView& body) {
@@ -210,9 +234,14 @@ Snapshot SnapshotTaker::take(const Simulation& simulation, structure::DrawnModel
   std::vector<std::int64_t> ids;
   for (const structure::BodyView& body : simulation.bodies()) ids.push_back(body.id.value);
   const bool old = answer_is_old(simulation);
-  if (old) answer_ = read_answer(simulation, wanted_);
+  const auto stood_by = last_answer_;
+  if (old) answer_ = last_answer_ = read_answer(simulation, wanted_);
   read_ = wanted_;
-  if (old || ids != seen_bodies_) membership_ = read_membership(simulation);
+  if (old || ids != seen_bodies_) {
+    auto membership = read_membership(simulation);
+    if (membership_ && stood_by) keep_bends(*membership, *membership_, *stood_by, simulation.building());
+    membership_ = std::move(membership);
+  }
   seen_ = simulation.frame().counters();
   seen_events_ = simulation.events().size();
   was_pending_ = simulation.frame().pending();

@@ -34,7 +34,7 @@ class SnapshotTaker {
   bool was_pending_ = false;
   std::vector<std::int64_t> seen_bodies_;
   DustWatcher dust_;
-  std::shared_ptr<const FrameAnswer> answer_;
+  std::shared_ptr<const FrameAnswer> answer_, last_answer_;
   std::shared_ptr<const Membership> membership_;
   std::shared_ptr<const std::vector<DrawnPiece>> drawn_;
   std::uint64_t drawn_revision_ = 0;

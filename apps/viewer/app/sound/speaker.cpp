@@ -3,6 +3,8 @@
 #include <AL/al.h>
 #include <AL/alc.h>
 #include <AL/alext.h>
+#include <fcntl.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -29,6 +31,28 @@ constexpr double mix = 0.9;
 
 /// What sounds alike has one buffer: kind, material, broke, class of mass, variant.
 using Key = std::tuple<int, int, bool, int, unsigned>;
+
+/// While it lives, nothing reaches standard error: ALSA's library tells of every device that it does not find, and a
+/// machine without any is no fault.
+class Hush {
+ public:
+  Hush() : kept_(dup(STDERR_FILENO)) {
+    const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (nowhere < 0) return;
+    dup2(nowhere, STDERR_FILENO);
+    close(nowhere);
+  }
+  ~Hush() {
+    if (kept_ < 0) return;
+    dup2(kept_, STDERR_FILENO);
+    close(kept_);
+  }
+  Hush(const Hush&) = delete;
+  Hush& operator=(const Hush&) = delete;
+
+ private:
+  int kept_;
+};
 
 struct Waiting {
   double at = 0;  ///< s of the run, when it is heard
@@ -149,7 +173,10 @@ Speaker::~Speaker() = default;
 
 std::unique_ptr<Speaker> Speaker::open() {
   auto state = std::make_unique<State>();
-  state->device = alcOpenDevice(nullptr);
+  {
+    const Hush hush;
+    state->device = alcOpenDevice(nullptr);
+  }
   if (!state->begin(nullptr)) return nullptr;
   return std::unique_ptr<Speaker>(new Speaker(std::move(state)));
 }
