@@ -211,8 +211,8 @@ std::optional<Eigen::Vector3d> place_with(const structure::Simulation& simulatio
 
 }  // namespace
 
-void DustWatcher::fire_at(const Eigen::Vector3d& place, double time, DustPuff::Kind kind) {
-  puffs_.push_back({thrown_up_++, time, place, static_cast<float>(lick_size), kind});
+void DustWatcher::fire_at(const Eigen::Vector3d& place, double time, double size, DustPuff::Kind kind) {
+  puffs_.push_back({thrown_up_++, time, place, static_cast<float>(size), kind});
   changed_ = true;
 }
 
@@ -223,6 +223,9 @@ void DustWatcher::burn_on(const structure::Simulation& simulation) {
   for (const LaidFire& fire : fires_) {
     const std::size_t places = fire.members.size() + fire.joints.size();
     if (places == 0 || now < fire.from || before >= fire.until) continue;
+    // Each of many burns for its neighbours too, up to flames as high as a storey.
+    const double size =
+        lick_size * std::clamp(std::sqrt(static_cast<double>(places) * least_interval / lick_interval), 1.0, 4.0);
     const double interval = std::max(lick_interval / static_cast<double>(places), least_interval);
     const auto number = [&](double time) {
       return static_cast<std::int64_t>(std::floor((std::min(time, fire.until) - fire.from) / interval));
@@ -239,7 +242,7 @@ void DustWatcher::burn_on(const structure::Simulation& simulation) {
       };
       const Eigen::Vector3d at =
           of_joint ? end(static_cast<std::size_t>(building[joint].end)) : Eigen::Vector3d((end(0) + end(1)) / 2);
-      if (const auto place = place_with(simulation, member, at)) fire_at(*place, now, fire.kind);
+      if (const auto place = place_with(simulation, member, at)) fire_at(*place, now, size, fire.kind);
     }
   }
 }

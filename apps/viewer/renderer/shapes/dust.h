@@ -44,7 +44,7 @@ class DustWatcher {
   /// Of what it is made: dust of its colour; sparks where it is steel.
   void throw_up(DustPuff puff, Look look);
   void burn_on(const structure::Simulation& simulation);
-  void fire_at(const Eigen::Vector3d& place, double time, DustPuff::Kind kind);
+  void fire_at(const Eigen::Vector3d& place, double time, double size, DustPuff::Kind kind);
   /// What it is made of, and its mass, by the name of a part, joint or chunk.
   struct Stuff {
     Look look = Look::concrete;
