@@ -103,6 +103,9 @@ while time.time() - begun < seconds:
     actions.append({"at": round(at + 0.3, 3), "screenshot": "picture.png"})
     words = [viewer, scene, "--headless", "--panel", "--actions", script(actions)] + (["--sound", "run.wav"] if chance.random() < 0.3 else [])
     done = subprocess.run(words, cwd=folder, env=environment, capture_output=True, text=True)
+    if "Tracer caught signal" in done.stderr:  # the search for leaks stumbled itself, over a thread that was just ending: told, and asked again
+        print(f"{scene}, seed {seed + runs}: the leak sanitizer failed and is run again", flush=True)
+        done = subprocess.run(words, cwd=folder, env=environment, capture_output=True, text=True)
     # A line that refuses (a joint that does not exist any more, rules that this building cannot be run by) ends a script in good order.
     refused = done.returncode in (2, 3) and done.stderr.count("\n") == 1 and "ERROR" not in done.stderr
     if done.returncode != 0 and not refused:
