@@ -1,7 +1,8 @@
 // Processor time of what the viewer does for one picture, without what the graphics card or a software rasteriser does:
 // interpolation between two snapshots and the arrays that are sent. Asked: under 1 ms for the seed building, under 4 ms
-// for 10 x 10 x 40 with slabs and 5,000 debris bodies, and in every shipped scene with as many of its members falling. And how long a changed strength takes to be seen: the answer's
-// utilisations and the standing arrays; asked: under 50 ms for the large one.
+// for 10 x 10 x 40 with slabs and 5,000 debris bodies, and in every shipped scene with as many of its members falling.
+// And how long a changed strength takes to be seen: the answer's utilisations and the standing arrays; asked: under 50
+// ms for the large one.
 //   bench_viewer_frame
 #include <ctime>
 
@@ -88,8 +89,8 @@ void measure(const std::string& name, std::size_t most) {
     session.tune(change);
     instances.update(*session.snapshot(), options);
   });
-  std::printf("%-26s %6zu members %6zu panels %5zu bodies   picture %7.3f ms   changed strength %7.3f ms\n", name.c_str(),
-              scene.building->members.size(), scene.building->panels.size(), debris, picture, tuned);
+  std::printf("%-26s %6zu members %6zu panels %5zu bodies   picture %7.3f ms   changed strength %7.3f ms\n",
+              name.c_str(), scene.building->members.size(), scene.building->panels.size(), debris, picture, tuned);
 }
 
 }  // namespace
