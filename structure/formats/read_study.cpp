@@ -191,7 +191,7 @@ class StudyReader {
   }
 
   Variation read_charges(const JsonValue& entry) const {
-    entry.only({"charges", "when", "used", "name"});
+    entry.only({"charges", "when", "used", "together", "name"});
     if (study_.base != Study::Base::scenario) entry.fail("charges go off in a scenario; accepted: a scenario as base");
     Variation variation;
     variation.target = Variation::Target::charges;
@@ -204,6 +204,7 @@ class StudyReader {
     require_numbers(when, variation.distribution);
     for (const StudyValue& value : variation.distribution.values)
       if (!ranges::instant.contains(value.number)) when.fail("a time is " + ranges::instant.text());
+    variation.each = !flag(entry, "together");
     if (const auto used = entry.find("used")) {
       variation.used = read_distribution(*used);
       for (const StudyValue& value : variation.used->values)

@@ -145,10 +145,13 @@ void BaseOfSample::charge(const Effect& effect, const std::vector<StudyValue>& i
     const std::size_t v = effect.first + stride * c;
     if (effect.variation.used && inputs[v + 1].json != "true") continue;
     RemoveTool remove;
-    remove.members = pieces_of(effect.names[c][0]);
+    for (const std::string& name : effect.names[c]) {
+      const std::vector<MemberId> pieces = pieces_of(name);
+      remove.members.insert(remove.members.end(), pieces.begin(), pieces.end());
+    }
     scenario_.events.push_back(
         {require_in(ranges::instant, inputs[v].number, effect.variation.name), std::move(remove)});
-    ++charges_;
+    charges_ += static_cast<int>(effect.names[c].size());
   }
 }
 

@@ -94,12 +94,17 @@ class Expansion {
 
   void charges(Effect& effect) {
     const Variation& variation = effect.variation;
+    const auto add = [&](const std::string& name, std::vector<std::string> members) {
+      base_.variables.push_back({name, variation.distribution});
+      if (variation.used) base_.variables.push_back({name + " used", *variation.used});
+      effect.names.push_back(std::move(members));
+    };
+    std::vector<std::string> all;
     for (const std::string& selector : variation.charges)
-      for (const std::string& name : members_named(*names_, *building_, selector, variation.place + ".charges")) {
-        base_.variables.push_back({variation.name + " " + name, variation.distribution});
-        if (variation.used) base_.variables.push_back({variation.name + " " + name + " used", *variation.used});
-        effect.names.push_back({name});
-      }
+      for (std::string& name : members_named(*names_, *building_, selector, variation.place + ".charges"))
+        if (std::find(all.begin(), all.end(), name) == all.end()) all.push_back(std::move(name));
+    if (!variation.each) return add(variation.name, std::move(all));
+    for (const std::string& name : all) add(variation.name + " " + name, {name});
   }
 
   StudyBase& base_;

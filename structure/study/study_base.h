@@ -16,7 +16,7 @@ namespace topple::structure::study {
 struct Effect {
   Variation variation;
   std::size_t first = 0, count = 0;
-  /// joints: those of each variable; charges: the member of each; loss: all members.
+  /// joints: those of each variable; charges: the members of each time; loss: all members.
   std::vector<std::vector<std::string>> names;
 };
 

@@ -198,7 +198,7 @@ struct Variation {
   Change change = Change::replace;   ///< how the value goes in
   std::string selector;              ///< joints, members that are lost: a group, name or pattern
   std::vector<std::string> charges;  ///< names or patterns of members
-  bool each = false;                 ///< every joint a variable of its own
+  bool each = false;                 ///< every joint, or every charge, a variable of its own
   Distribution distribution;         ///< of charges: when each goes off, s
   std::optional<Distribution> used;  ///< charges: whether each goes off at all
   std::string place;                 ///< in the study's file, for messages
