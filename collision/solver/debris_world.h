@@ -137,6 +137,7 @@ class DebrisWorld final : public World {
   void seek(std::uint32_t index, double dt);
   [[nodiscard]] double margin_of(const NearPair& pair, double dt) const;
   void wake_struck(double dt);
+  void wake_hinged();
   void wake_round(DebrisBody& struck, double momentum);
   [[nodiscard]] bool awake(const NearPair& pair) const;
   void gather_islands();
@@ -168,6 +169,7 @@ class DebrisWorld final : public World {
   void look_for_rest(double dt);
   [[nodiscard]] bool come_to_rest(Island& island, double dt);
   [[nodiscard]] Island with_sleeping(const Island& island) const;
+  [[nodiscard]] Island awake_on(const Island& whole) const;
   void wake_changed(double dt);
   [[nodiscard]] bool swings(const DebrisBody& body) const;
 

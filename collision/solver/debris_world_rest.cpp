@@ -1,5 +1,6 @@
 // Rest.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <tuple>
 
@@ -15,13 +16,15 @@ bool DebrisWorld::come_to_rest(Island& island, double dt) {
     if (one->slow_for < settings_.slow_for - 1e-9) return false;
     if (one->retry_rest > 0) return false;
   }
-  Island whole = with_sleeping(island);
+  Island whole = with_sleeping(island), outside = awake_on(whole);
   for (DebrisBody* one : whole.bodies) one->asleep = false;  // rows of what sleeps are rows, here
   Island* const only = &whole;
-  fill_solver({&only, 1});
+  fill_solver(std::array{&whole, &outside});
   std::vector<double> sizes{1};
   for (const DebrisBody* one : whole.bodies) sizes.push_back(one->reach);
-  std::vector<char> moves;
+  for (const DebrisBody* one : outside.bodies) sizes.push_back(one->reach);
+  std::vector<char> moves(sizes.size(), 0);
+  for (const DebrisBody* one : outside.bodies) moves[static_cast<std::size_t>(one->solver)] = 1;
   bool rests = solver_.rest(dt, gravity_, sizes, moves);
   for (std::size_t i = island.bodies.size(); i < whole.bodies.size(); ++i) {
     whole.bodies[i]->asleep = true;
@@ -52,7 +55,7 @@ bool DebrisWorld::come_to_rest(Island& island, double dt) {
   return true;
 }
 
-/// The island, and all bodies that sleep and touch it, or what touches it.
+/// The island, and all bodies that sleep and touch it or hang on it, or on what does.
 DebrisWorld::Island DebrisWorld::with_sleeping(const Island& island) const {
   Island whole = island;
   std::set<const Solid*> known(whole.bodies.begin(), whole.bodies.end());
@@ -65,6 +68,15 @@ DebrisWorld::Island DebrisWorld::with_sleeping(const Island& island) const {
   };
   for (bool grows = true; grows;) {
     grows = false;
+    for (const auto& [id, hinge] : hinges_) {
+      if (hinge->other < 0) continue;
+      DebrisBody &one = body(hinge->body), &other = body(hinge->other);
+      if (known.contains(&one) == known.contains(&other)) continue;
+      DebrisBody& next = known.contains(&one) ? other : one;
+      known.insert(&next);
+      whole.bodies.push_back(&next);
+      grows = true;
+    }
     for (const std::uint32_t index : pairs_.order()) {
       const NearPair& pair = pairs_.pair(index);
       if (pair.manifold.count == 0) continue;
@@ -90,6 +102,21 @@ DebrisWorld::Island DebrisWorld::with_sleeping(const Island& island) const {
     return std::tie(first.first_order, first.second_order) < std::tie(second.first_order, second.second_order);
   });
   return whole;
+}
+
+/// Bodies of other islands that lie on what sleeps: they are awake, and press with the forces of the last step.
+DebrisWorld::Island DebrisWorld::awake_on(const Island& whole) const {
+  const std::set<const Solid*> known(whole.bodies.begin(), whole.bodies.end());
+  Island outside;
+  for (const std::uint32_t index : whole.pairs)
+    for (const std::uint32_t side : {pairs_.pair(index).first, pairs_.pair(index).second}) {
+      Solid* solid = pairs_.collider(side).solid;
+      if (solid->kind != Touched::Kind::body || known.contains(solid)) continue;
+      auto* one = static_cast<DebrisBody*>(solid);
+      if (std::find(outside.bodies.begin(), outside.bodies.end(), one) == outside.bodies.end())
+        outside.bodies.push_back(one);
+    }
+  return outside;
 }
 
 /// A body that an awake one comes upon, before the step is solved: as a free body it takes the blow.
@@ -124,9 +151,24 @@ void DebrisWorld::wake_struck(double dt) {
         wake_round(*one, momentum);
         again = true;
       }
+    if (again) wake_hinged();
     if (again)
       for (const std::uint32_t index : pairs_.order())
         if (awake(pairs_.pair(index))) seek(index, dt);
+  }
+}
+
+/// What hangs together is awake together.
+void DebrisWorld::wake_hinged() {
+  for (bool again = true; again;) {
+    again = false;
+    for (auto& [id, hinge] : hinges_) {
+      if (hinge->other < 0) continue;
+      DebrisBody &one = body(hinge->body), &other = body(hinge->other);
+      if (one.asleep == other.asleep) continue;
+      wake_up(one.asleep ? one : other);
+      again = true;
+    }
   }
 }
 

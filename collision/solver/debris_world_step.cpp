@@ -166,11 +166,7 @@ void DebrisWorld::seek(std::uint32_t index, double dt) {
 }
 
 void DebrisWorld::find_contacts(double dt) {
-  for (auto& [id, hinge] : hinges_) {
-    if (hinge->other < 0) continue;
-    DebrisBody &one = body(hinge->body), &other = body(hinge->other);
-    if (one.asleep != other.asleep) wake_up(one.asleep ? one : other);
-  }
+  wake_hinged();
   update_bounds(dt);
   pairs_.find();
   for (const std::uint32_t index : pairs_.order())

@@ -72,6 +72,7 @@ bool StepSolver::rest(double dt, const Vec3& gravity, std::span<const double> si
     const double weight = std::max(1e-9, gravity.norm()) / (one.inverse_root_mass * one.inverse_root_mass);
     made.scale.head<3>().setConstant(1 / (one.inverse_root_mass * weight));
     made.scale.tail<3>() = one.inverse_root_moments.cwiseInverse() / (weight * sizes[i]);
+    made.moves = moves[i] != 0;
   }
   equilibrium.contacts.reserve(contacts_.size());
   for (SolverContact& contact : contacts_) {
@@ -88,7 +89,6 @@ bool StepSolver::rest(double dt, const Vec3& gravity, std::span<const double> si
   int searches = 1;
   while (!equilibrium.solve(settings_.equilibrium, settings_.equilibrium_passes))
     if (++searches > settings_.rest_searches || !equilibrium.leave_out_what_gives(settings_.left_out)) return false;
-  moves.assign(bodies_.size(), 0);
   for (std::size_t i = 1; i < bodies_.size(); ++i) moves[i] = equilibrium.bodies[i].moves ? 1 : 0;
   for (std::size_t k = 0; k < contacts_.size(); ++k) take_rest(equilibrium.contacts[k], contacts_[k], dt);
   std::size_t k = 0;

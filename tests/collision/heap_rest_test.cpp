@@ -171,3 +171,28 @@ TEST_CASE("what is held still takes a blow as a free body, in the step in which 
   CHECK(momentum > 200 * 18 - 0.8 * 1400 * kGravity * 5 * kStep);
   CHECK(momentum < 200 * 18 * 1.0001);
 }
+
+TEST_CASE("what comes to rest on a sleeping slab beside balls that roll on it rests, and all weights are felt below") {
+  const auto world = world_with_ground();
+  world->add_obstacle(box_obstacle({4, 1, 0.5}, {0, 0, 0.5}));
+  const BodyId slab = world->add_body(box_body({4, 1, 0.1}, 4000, {0, 0, 1.1}));
+  run(*world, 90);
+  REQUIRE(world->state(slab).asleep);
+  std::vector<BodyId> balls;
+  for (int i = 0; i < 12; ++i) {
+    balls.push_back(world->add_body(ball_body(0.1, 5, {0.3 * i - 0.5, 0.4, 1.3})));
+    BodyState state = world->state(balls.back());
+    state.velocity = {0, -0.2, 0};
+    world->set_state(balls.back(), state);
+  }
+  const BodyId box = world->add_body(box_body({0.25, 0.25, 0.25}, 200, {-3, 0, 1.45}));
+  int steps = 0;
+  for (; !world->state(box).asleep && steps < 120; ++steps) world->step(kStep);
+  REQUIRE(steps < 120);
+  CHECK(world->state(slab).asleep);
+  CHECK(world->awake_count() == balls.size());
+  double load = 0;
+  for (const Contact& contact : world->contacts())
+    if (contact.other.kind == Touched::Kind::obstacle) load -= contact.impulse.z() / kStep;
+  CHECK(load == Approx((4000 + 200 + 12 * 5) * kGravity).epsilon(0.002));  // the balls' forces are those of a step
+}

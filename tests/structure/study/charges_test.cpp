@@ -1,6 +1,5 @@
 // Charges as inputs of a study: which go off, and when.
 #include <catch2/catch.hpp>
-#include <variant>
 
 #include "study/study_base.h"
 #include "topple/structure/study.h"
