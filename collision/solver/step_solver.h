@@ -55,9 +55,9 @@ class StepSolver {
   void run(double dt, int substeps, const Vec3& gravity);
 
   /// Whether the bodies can stay where they are: contacts, hinges and cables then hold the forces that keep them there,
-  /// as those of a step `dt` long; nothing has moved. `sizes`: of each body (by its number), m. Those that `moves` marks
-  /// (by number) are not asked to rest; bodies that no forces hold are left out, when they are few, and marked there as
-  /// well: the others rest under the forces that these ended the last step with.
+  /// as those of a step `dt` long; nothing has moved. `sizes`: of each body (by its number), m. Those that `moves`
+  /// marks (by number) are not asked to rest; bodies that no forces hold are left out, when they are few, and marked
+  /// there as well: the others rest under the forces that these ended the last step with.
   [[nodiscard]] bool rest(double dt, const Vec3& gravity, std::span<const double> sizes, std::vector<char>& moves);
 
   [[nodiscard]] const SolverBody& body(int index) const { return bodies_[static_cast<std::size_t>(index)]; }

@@ -1,6 +1,8 @@
 // What a study of files varies, by name.
 #include "study/study_base.h"
 
+#include <algorithm>
+
 #include "topple/structure/convert.h"
 #include "topple/structure/error.h"
 #include "topple/structure/files.h"
