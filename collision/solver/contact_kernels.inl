@@ -115,7 +115,7 @@ void warm_start(ContactPack* packs, PackPoint* points, std::size_t begin, std::s
   }
 }
 
-TOPPLE_INLINE Wide size(const Wide& a) { return a > all(0) ? a : -a; }
+TOPPLE_INLINE Wide magnitude(const Wide& a) { return a > all(0) ? a : -a; }
 TOPPLE_INLINE bool any(const Wide& a) { return a[0] > 0 || a[1] > 0 || a[2] > 0 || a[3] > 0; }
 
 /// The normal impulse with which a point closes no faster than it comes to touch.
@@ -143,7 +143,7 @@ void solve(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t
       PackPoint& point = points[pack.first_point + static_cast<std::size_t>(i)];
       const Wide impulse = stopping(pack, point, now, moved, rate), change = impulse - point.impulse;
       point.impulse = impulse;
-      const Wide excess = size(change) - settled * point.mass;
+      const Wide excess = magnitude(change) - settled * point.mass;
       over = larger(over, excess);
       if (changes) {
         changes[pack.first_point + static_cast<std::size_t>(i)] = change;
@@ -180,7 +180,8 @@ void go_on(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t
 }
 
 /// The patch slides and twists as one: both together are bounded by what presses it.
-TOPPLE_INLINE void rub(ContactPack& pack, const PackPoint* points, Both& now) {
+/// Returns by how much its impulses have changed.
+TOPPLE_INLINE Wide rub(ContactPack& pack, const PackPoint* points, Both& now) {
   Wide pressed = all(0);
   for (int i = 0; i < pack.point_count; ++i) pressed += points[i].impulse;
   const Wide none = all(0), one = all(1);
@@ -200,16 +201,19 @@ TOPPLE_INLINE void rub(ContactPack& pack, const PackPoint* points, Both& now) {
   b *= share;
   const Wide twist = held * share;
   turn(pack, twist - held, now);
-  push(pack, pack.along[0], pack.along_first[0], pack.along_second[0], a - pack.slide[0], now);
-  push(pack, pack.along[1], pack.along_first[1], pack.along_second[1], b - pack.slide[1], now);
+  const Wide change[2] = {a - pack.slide[0], b - pack.slide[1]};
+  push(pack, pack.along[0], pack.along_first[0], pack.along_second[0], change[0], now);
+  push(pack, pack.along[1], pack.along_first[1], pack.along_second[1], change[1], now);
   pack.slide[0] = a;
   pack.slide[1] = b;
   pack.twist = twist;
+  return larger(magnitude(change[0]), magnitude(change[1]));
 }
 
 void relax(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity,
            const Motion6* displacement, const SubStep& step) {
-  const Wide rate = all(1 / step.length);
+  const Wide rate = all(1 / step.length), settled = all(step.again->settled);
+  Wide over = all(0);
   for (std::size_t k = begin; k < end; ++k) {
     ContactPack& pack = packs[k];
     PackPoint* const own = points + pack.first_point;
@@ -220,19 +224,31 @@ void relax(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t
       PackPoint& point = own[i];
       const Wide impulse = stopping(pack, point, now, moved, rate), change = impulse - point.impulse;
       point.impulse = impulse;
-      point.parting = impulse;
-      point.total += impulse;
-      pack.carried += point.total;
+      over = larger(over, magnitude(change) - settled * point.mass);
       push(pack, pack.normal, point.first, point.second, change, now);
     }
     // Last, so that friction is bounded by the normal impulses that are told.
-    rub(pack, own, now);
+    over = larger(over, rub(pack, own, now) - settled * smaller(pack.inverse[0], pack.inverse[2]));
+    store(pack, now, velocity);
+  }
+  if (any(over)) step.again->unsettled = true;
+}
+
+void tell(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6*, const Motion6*,
+          const SubStep&) {
+  for (std::size_t k = begin; k < end; ++k) {
+    ContactPack& pack = packs[k];
+    for (int i = 0; i < pack.point_count; ++i) {
+      PackPoint& point = points[pack.first_point + static_cast<std::size_t>(i)];
+      point.parting = point.impulse;
+      point.total += point.impulse;
+      pack.carried += point.total;
+    }
     for (int i = 0; i < 2; ++i) {
       pack.slide_total[i] += pack.slide[i];
       pack.slide_carried[i] += pack.slide_total[i];
     }
     pack.twist_total += pack.twist;
-    store(pack, now, velocity);
   }
 }
 
@@ -285,7 +301,7 @@ void restitute(ContactPack* packs, PackPoint* points, std::size_t begin, std::si
 }  // namespace
 
 extern const ContactKernels kernels;
-const ContactKernels kernels{warm_start, solve, go_on, relax, separate, restitute};
+const ContactKernels kernels{warm_start, solve, go_on, relax, tell, separate, restitute};
 
 }  // namespace TOPPLE_KERNELS
 }  // namespace topple::collision

@@ -83,7 +83,8 @@ struct ContactKernels {
   Pass warm_start;  ///< applies the impulses that the packs hold
   Pass solve;       ///< normal rows
   Pass go_on;       ///< goes on the way of the last passes
-  Pass relax;       ///< normal rows, then friction; adds up the totals
+  Pass relax;       ///< normal rows, then friction
+  Pass tell;        ///< adds up the totals
   Pass separate;    ///< normal rows with the springs: nothing but `parting` changes
   Pass restitute;   ///< after the last sub-step
 };

@@ -267,6 +267,21 @@ void StepSolver::stop_closing(SubStep step) {
   }
 }
 
+/// Normal impulses and friction together. What is squeezed between two that slide gets nearly opposite pushes from
+/// both: passes are repeated as in `stop_closing`, or what one has too much sets it flying.
+void StepSolver::relax(SubStep step) {
+  const ContactKernels& kernels = contact_kernels();
+  Again again;
+  again.settled = settings_.settled;
+  again.unsettled = true;
+  step.again = &again;
+  for (int pass = 0; pass < settings_.most_passes && again.unsettled; ++pass) {
+    again.unsettled = false;
+    each_pack(kernels.relax, step);
+  }
+  each_pack(kernels.tell, step);
+}
+
 void StepSolver::sub_step(int number) {
   const SubStep step{h_, settings_.pushed_apart, settings_.restitution_from, nullptr};
   const ContactKernels& kernels = contact_kernels();
@@ -297,7 +312,7 @@ void StepSolver::sub_step(int number) {
   stop_closing(step);
   hold_cables();
   hold_hinges();
-  each_pack(kernels.relax, step);
+  relax(step);
   for (HingeRows* hinge : hinges_) hinge->add_up();
   for (std::size_t i = 1; i < bodies_.size(); ++i)
     for (int k = 0; k < 3; ++k) {

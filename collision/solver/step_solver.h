@@ -80,6 +80,7 @@ class StepSolver {
   void each_pack(ContactKernels::Pass pass, const SubStep& step) { each_pack(pass, step, velocity_); }
   void each_pack(ContactKernels::Pass pass, const SubStep& step, std::vector<Motion6>& velocity);
   void stop_closing(SubStep step);
+  void relax(SubStep step);
   void move(const SubStep& step);
   void add_to(Equilibrium& equilibrium, const SolverContact& contact) const;
   void take_rest(const RestContact& found, SolverContact& contact, double dt) const;
