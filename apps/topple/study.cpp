@@ -121,6 +121,7 @@ structure::JsonTree answer_json(const Prepared& all, const OptimiseResult& resul
   Json history = Json::array();
   for (const structure::StudyDesign& design : result.designs) history.push_back({design.objective, design.violation});
   json["history"] = std::move(history);
+  for (const structure::StudyDesign& design : result.finalists) json["finalists"].push_back(design_json(design));
   return json;
 }
 

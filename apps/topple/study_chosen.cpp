@@ -49,6 +49,10 @@ std::string chosen_section(const Study& study, const StudyTask& task, const Opti
                      std::string(study.optimise->greatest ? "greatest " : "least ") +
                      escaped(study.optimise->objective) + " of " + std::to_string(result.designs.size()) + " tried (" +
                      result.method + "), run " + std::to_string(result.best.run) + ".";
+  if (!result.finalists.empty())
+    text += " The best " + std::to_string(result.finalists.size()) + " of the search were tried again on " +
+            std::to_string(study.optimise->finalist_repeats) +
+            " further samples each, and it is the best of these by all.";
   if (result.best.violation > 0) text += " <strong>It does not keep to all bounds.</strong>";
   if (!result.unseen.empty())
     text += " What follows below is of " + std::to_string(result.unseen.size()) +
@@ -59,8 +63,9 @@ std::string chosen_section(const Study& study, const StudyTask& task, const Opti
     text += "<tr><td>" + escaped(result.chosen_names[v]) + "</td><td>" + escaped(chosen_text(value)) + "</td></tr>\n";
   }
   for (std::size_t i = 0; i < result.best.outputs.size(); ++i)
-    text += "<tr><td>" + escaped(task.outputs[i]) + " in the search</td><td>" + short_text(result.best.outputs[i]) +
-            "</td></tr>\n";
+    text += "<tr><td>" + escaped(task.outputs[i]) +
+            (result.finalists.empty() ? " in the search</td><td>" : " of all its samples until then</td><td>") +
+            short_text(result.best.outputs[i]) + "</td></tr>\n";
   return text + "</table>\n" + history(study, result);
 }
 

@@ -315,7 +315,7 @@ class StudyReader {
   }
 
   void read_optimise(const JsonValue& value) {
-    value.only({"least", "greatest", "subject_to", "runs", "repeats", "unseen", "method", "choose"});
+    value.only({"least", "greatest", "subject_to", "runs", "repeats", "finalists", "unseen", "method", "choose"});
     OptimiseRequest request;
     const auto least = value.find("least"), greatest = value.find("greatest");
     if (least.has_value() == greatest.has_value()) value.refuse("one of \"least\", \"greatest\"");
@@ -326,6 +326,11 @@ class StudyReader {
     if (const auto subject_to = value.find("subject_to")) request.subject_to = read_bounds(*subject_to);
     request.runs = static_cast<int>(value.require("runs").whole(1, 10'000'000));
     if (const auto repeats = value.find("repeats")) request.repeats = static_cast<int>(repeats->whole(1, 100'000));
+    if (const auto finalists = value.find("finalists")) {
+      finalists->only({"designs", "repeats"});
+      request.finalists = static_cast<int>(finalists->require("designs").whole(1, 100'000));
+      request.finalist_repeats = static_cast<int>(finalists->require("repeats").whole(1, 100'000));
+    }
     if (const auto unseen = value.find("unseen")) request.unseen = static_cast<int>(unseen->whole(0, 100'000));
     if (const auto method = value.find("method")) {
       request.method = method->text();

@@ -12,23 +12,33 @@
 
 namespace topple::structure {
 
+namespace {
+class Tried;
+}  // namespace
+
 struct StudyOptimiser::State {
   Study study;
   OptimiseRequest request;
   StudyTask task;          ///< its samples are numbered design * repeats + r
-  StudySampler chance;     ///< of `vary`: repeats, then the unseen
+  StudySampler chance;     ///< of `vary`: repeats, those of finalists, then the unseen
   std::size_t chosen = 0;  ///< the first so many variables
   std::string method;
   std::size_t objective = 0;
 
   [[nodiscard]] std::uint64_t repeats() const { return static_cast<std::uint64_t>(request.repeats); }
-  [[nodiscard]] std::uint64_t first_unseen() const { return static_cast<std::uint64_t>(request.runs) * repeats(); }
+  [[nodiscard]] std::uint64_t finalist_repeats() const { return static_cast<std::uint64_t>(request.finalist_repeats); }
+  [[nodiscard]] std::uint64_t first_finalist() const { return static_cast<std::uint64_t>(request.runs) * repeats(); }
+  [[nodiscard]] std::uint64_t first_unseen() const {
+    return first_finalist() + static_cast<std::uint64_t>(request.finalists) * finalist_repeats();
+  }
   [[nodiscard]] Sample asked(std::uint64_t number, std::uint64_t of_chance,
                              const std::vector<StudyValue>& design) const;
   [[nodiscard]] StudyDesign judged(std::uint64_t run, std::vector<StudyValue> chosen_values,
                                    const std::vector<Sample>& samples) const;
   [[nodiscard]] double excess(const StudyDesign& design, std::size_t bound) const;
   [[nodiscard]] bool better(const StudyDesign& a, const StudyDesign& b) const;
+  [[nodiscard]] bool choose_finalist(Tried& tried, const std::vector<std::vector<Sample>>& of_designs,
+                                     OptimiseResult& result) const;
 };
 
 namespace {
@@ -86,6 +96,19 @@ class Tried {
   std::map<std::uint64_t, Sample> known_;
 };
 
+/// Each choice once: a search may come to the same twice.
+std::vector<StudyDesign> different(const std::vector<StudyDesign>& designs) {
+  const auto same = [](const StudyDesign& a, const StudyDesign& b) {
+    return std::equal(a.chosen.begin(), a.chosen.end(), b.chosen.begin(),
+                      [](const auto& x, const auto& y) { return study::text_of(x) == study::text_of(y); });
+  };
+  std::vector<StudyDesign> once;
+  for (const StudyDesign& design : designs)
+    if (std::none_of(once.begin(), once.end(), [&](const auto& one) { return same(one, design); }))
+      once.push_back(design);
+  return once;
+}
+
 }  // namespace
 
 Sample StudyOptimiser::State::asked(std::uint64_t number, std::uint64_t of_chance,
@@ -141,6 +164,33 @@ bool StudyOptimiser::State::better(const StudyDesign& a, const StudyDesign& b) c
   return request.greatest ? a.objective > b.objective : a.objective < b.objective;
 }
 
+/// The best of the search, each by all its samples; false when it was stopped before all were there. (Two stages, the
+/// second for those that the first has left: B. L. Nelson, J. Swann, D. Goldsman, W. Song, Operations Research 49,
+/// 2001.)
+bool StudyOptimiser::State::choose_finalist(Tried& tried, const std::vector<std::vector<Sample>>& of_designs,
+                                            OptimiseResult& result) const {
+  if (request.finalists == 0) return true;
+  std::vector<StudyDesign> order = different(result.designs);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](const StudyDesign& a, const StudyDesign& b) { return better(a, b); });
+  order.resize(std::min(order.size(), static_cast<std::size_t>(request.finalists)));
+  std::vector<Sample> samples;
+  for (std::size_t f = 0; f < order.size(); ++f)
+    for (std::uint64_t r = 0; r < finalist_repeats(); ++r)
+      samples.push_back(asked(first_finalist() + f * finalist_repeats() + r, repeats() + r, order[f].chosen));
+  if (!tried.compute(samples)) return false;
+  for (std::size_t f = 0; f < order.size(); ++f) {
+    std::vector<Sample> all = of_designs[order[f].run];
+    const auto from = samples.begin() + static_cast<std::ptrdiff_t>(f * finalist_repeats());
+    all.insert(all.end(), from, from + static_cast<std::ptrdiff_t>(finalist_repeats()));
+    result.finalists.push_back(judged(order[f].run, order[f].chosen, all));
+  }
+  std::stable_sort(result.finalists.begin(), result.finalists.end(),
+                   [&](const StudyDesign& a, const StudyDesign& b) { return better(a, b); });
+  result.best = result.finalists.front();
+  return true;
+}
+
 StudyOptimiser::StudyOptimiser(const Study& study) : state_(std::make_unique<State>()) {
   State& s = *state_;
   if (!study.optimise) throw InputError(study.file + ": nothing is to be optimised; accepted: \"optimise\"");
@@ -172,8 +222,8 @@ StudyOptimiser::StudyOptimiser(const Study& study) : state_(std::make_unique<Sta
         variable.distribution.kind = Distribution::Kind::choice;
     s.task.sampler = StudySampler(names, {}, Sampling::random, s.first_unseen() + unseen, study.seed);
     if (middle != base->variables.end())
-      s.chance =
-          StudySampler({middle, base->variables.end()}, groups, study.sampling, s.repeats() + unseen, study.seed);
+      s.chance = StudySampler({middle, base->variables.end()}, groups, study.sampling,
+                              s.repeats() + s.finalist_repeats() + unseen, study.seed);
   } catch (const std::invalid_argument& error) {
     throw InputError(study.file + ": " + error.what());
   }
@@ -200,6 +250,7 @@ OptimiseResult StudyOptimiser::run(const StudyRun& run, StudyJournal& journal) c
   StudyRun batch = run;
   batch.progress = nullptr;
   Tried tried(s.task, batch, journal);
+  std::vector<std::vector<Sample>> of_designs;
   const auto attempt = [&](std::vector<std::vector<StudyValue>> designs) {
     std::vector<Sample> samples;
     const std::uint64_t first = result.designs.size();
@@ -210,8 +261,8 @@ OptimiseResult StudyOptimiser::run(const StudyRun& run, StudyJournal& journal) c
     if (!tried.compute(samples)) return done;
     for (std::size_t d = 0; d < designs.size(); ++d) {
       const auto from = samples.begin() + static_cast<std::ptrdiff_t>(d * s.repeats());
-      done.push_back(
-          s.judged(first + d, std::move(designs[d]), {from, from + static_cast<std::ptrdiff_t>(s.repeats())}));
+      of_designs.emplace_back(from, from + static_cast<std::ptrdiff_t>(s.repeats()));
+      done.push_back(s.judged(first + d, std::move(designs[d]), of_designs.back()));
       result.designs.push_back(done.back());
       if (result.designs.size() == 1 || s.better(done.back(), result.best)) result.best = done.back();
     }
@@ -234,8 +285,9 @@ OptimiseResult StudyOptimiser::run(const StudyRun& run, StudyJournal& journal) c
         },
         s.request.subject_to.size());
   if ((run.stopped && run.stopped()) || result.designs.empty()) return result;
+  if (!s.choose_finalist(tried, of_designs, result)) return result;
   for (std::uint64_t u = 0; u < static_cast<std::uint64_t>(s.request.unseen); ++u)
-    result.unseen.push_back(s.asked(s.first_unseen() + u, s.repeats() + u, result.best.chosen));
+    result.unseen.push_back(s.asked(s.first_unseen() + u, s.repeats() + s.finalist_repeats() + u, result.best.chosen));
   result.finished = tried.compute(result.unseen);
   if (!result.finished) result.unseen.clear();
   journal.sync();

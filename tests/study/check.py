@@ -170,6 +170,28 @@ with tempfile.TemporaryDirectory() as folder:
     done = run(place / "entropy.json", "-o", out, "--resume", "--html")
     expect(journal(out) == whole and "Chosen" in (out / "study.html").read_text(), "a resumed optimisation goes another way")
 
+    # Finalists: the best designs of the search, each once, judged by all their samples; the answer is the best of these.
+    noisy = {"topple": 1, "base": {"model": "square.json"}, "seed": 5, "record": {"tip": "largest_displacement"},
+             "vary": [{"at": "/sections/s/width", "name": "wrong", "normal": {"mean": 1, "sd": 0.3, "low": 0.3, "high": 2}, "times": True}],
+             "optimise": {"least": "tip", "runs": 12, "repeats": 2, "finalists": {"designs": 3, "repeats": 4}, "unseen": 5,
+                          "choose": [{"at": "/sections/s/depth", "name": "depth", "choice": [0.1, 0.11, 0.12, 0.13, 0.14]}]}}
+    (place / "noisy.json").write_text(json.dumps(noisy))
+    done = run(place / "noisy.json", "-o", place / "noisy", "--html")
+    expect(done.returncode == 0, f"finalists: {done.stderr}")
+    answer = json.loads((place / "noisy" / "study.json").read_text())["optimise"]
+    samples = {s["sample"]: s for s in map(json.loads, journal(place / "noisy"))}
+    expect(sorted(samples) == list(range(12 * 2 + 3 * 4 + 5)), f"samples of finalists: {sorted(samples)}")
+    means = {}
+    for f, one in enumerate(sorted(answer["finalists"], key=lambda d: min(k for k in range(24, 36) if samples[k]["inputs"]["depth"] == d["inputs"]["depth"]))):
+        own = [samples[k] for k in (2 * one["run"], 2 * one["run"] + 1, *range(24 + 4 * f, 28 + 4 * f))]
+        expect(len({s["inputs"]["depth"] for s in own}) == 1 and len({s["inputs"]["wrong"] for s in own}) == 6, f"samples of finalist {f}: {own}")
+        means[one["run"]] = sum(s["outputs"]["tip"] for s in own) / 6
+        expect(abs(one["outputs"]["tip"] / means[one["run"]] - 1) < 1e-12, f"mean of finalist {f}")
+    expect(answer["best"]["run"] == min(means, key=means.get) == answer["finalists"][0]["run"], f"the answer among finalists: {answer}")
+    expect(len({d["inputs"]["depth"] for d in answer["finalists"]}) == 3 and answer["best"]["inputs"]["depth"] == 0.14, f"finalists: {answer['finalists']}")
+    expect(not {samples[k]["inputs"]["wrong"] for k in range(36)} & {samples[k]["inputs"]["wrong"] for k in range(36, 41)}, "unseen samples were seen")
+    expect("tried again" in (place / "noisy" / "study.html").read_text(), "the page does not tell of finalists")
+
     if len(sys.argv) > 2:
         mpirun = [sys.argv[2], "--allow-run-as-root", "--oversubscribe", "--bind-to", "none"]
         for ranks in (1, 2, 3):

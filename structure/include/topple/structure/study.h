@@ -230,6 +230,9 @@ struct OptimiseRequest {
   std::vector<OutputBounds> subject_to;  ///< each holds in the answer
   int runs = 0;                          ///< designs that are tried
   int repeats = 1;                       ///< samples of `vary` for each design; its outputs are their means
+  int finalists = 0;                     ///< so many of the best designs are tried again before one is chosen: of many
+                                         ///< noisy means the best is the luckiest
+  int finalist_repeats = 0;              ///< samples of `vary` for each of them, which the search has not used
   int unseen = 32;                       ///< further samples that the answer is tried on at the end
   std::string method;                    ///< "cobyla", "isres" or "cross-entropy"; empty: by what is chosen
   std::vector<Variation> choose;         ///< what may be chosen; its distributions bound the search

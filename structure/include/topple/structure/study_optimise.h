@@ -27,13 +27,14 @@ struct OptimiseResult {
   std::string method;                     ///< that was used
   StudyDesign best;                       ///< of all designs whose bounds hold, else the one closest to them
   std::vector<StudyDesign> designs;       ///< in order of their runs
+  std::vector<StudyDesign> finalists;     ///< the best of them by the means over all their samples, best first
   std::vector<Sample> unseen;             ///< of the best, on samples that the search has not used
   std::vector<std::string> chosen_names;  ///< of StudyDesign::chosen
   bool finished = false;                  ///< false: stopped before its end
 };
 
 /// A task whose samples are numbered by design and repeat, for the journal: sample design * repeats + r, then those of
-/// the answer. Throws InputError.
+/// the finalists, and of the answer. Throws InputError.
 class StudyOptimiser {
  public:
   /// Reads the model and scenario. Throws InputError.
