@@ -170,6 +170,63 @@ void find_idle_cases(const Building& building, std::vector<std::string>& warning
   idle.tell(warnings, "no combination has it, so that it loads nothing");
 }
 
+/// kg, of members and panels.
+double mass_of(const Building& building) {
+  double mass = 0;
+  for (const Member& member : building.members)
+    mass += building[member.material].density * building[member.section].area * member.length;
+  for (const Panel& panel : building.panels) {
+    const auto corner = [&](std::size_t i) { return building[panel.nodes[i]].position; };
+    const double area = (corner(2) - corner(0)).cross(corner(3) - corner(1)).norm() / 2;
+    mass += building[panel.material].density * panel.thickness * area;
+  }
+  return mass;
+}
+
+/// Of one case: the largest of its loads, over what a load of its kind has at least in buildings, and their sum, N.
+struct LoadSize {
+  double over_usual = 0, sum = 0;
+  void add(double value, double usual, double spread) {
+    over_usual = std::max(over_usual, value / usual);
+    sum += value * spread;
+  }
+};
+
+LoadSize size_of(const LoadCase& one, const Building& building) {
+  constexpr double point = 100, line = 50, area = 20;  // N, N/m, Pa: a lamp, a cable, a sheet of felt
+  LoadSize size;
+  for (const NodeLoad& load : one.nodes) size.add(load.load.norm(), point, 1);
+  for (const MemberLoad& load : one.members) {
+    const double value = std::max(load.first.norm(), load.last.norm());
+    if (load.kind == MemberLoad::Kind::point) size.add(value, point, 1);
+    if (load.kind == MemberLoad::Kind::distributed) size.add(value, line, load.to - load.from);
+  }
+  for (const PanelLoad& load : one.panels) {
+    const Panel& panel = building[load.panel];
+    const auto corner = [&](std::size_t i) { return building[panel.nodes[i]].position; };
+    size.add(std::abs(load.pressure), area, (corner(2) - corner(0)).cross(corner(3) - corner(1)).norm() / 2);
+  }
+  return size;
+}
+
+/// 20 typed for 20 kN: each load of a case is smaller than any that is counted with, and all of them are nothing beside
+/// the structure's weight.
+void find_tiny_loads(const Building& building, std::vector<std::string>& warnings) {
+  if (building.units.consistent) return;
+  constexpr double nothing = 1e-3;
+  const double weight = mass_of(building) * building.gravity;
+  Several tiny;
+  for (const LoadCase& one : building.cases) {
+    const LoadSize size = size_of(one, building);
+    if (!(size.over_usual > 0) || size.over_usual >= 1 || size.sum >= nothing * weight || !one.self_weight.isZero(0))
+      continue;
+    char text[64];
+    std::snprintf(text, sizeof text, " comes to %.4g N in all, beside a weight of %.4g N", size.sum, weight);
+    tiny.add("load case " + one.name + text);
+  }
+  tiny.tell(warnings, "loads are in N, N/m and Pa; are kilonewtons meant?");
+}
+
 std::size_t edit_distance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
@@ -269,6 +326,7 @@ std::vector<std::string> modelling_warnings(const Building& building) {
   find_odd_materials(building, warnings);
   find_thick_members(building, warnings);
   find_idle_cases(building, warnings);
+  find_tiny_loads(building, warnings);
   find_weak_bending(building, warnings);
   find_folds(building, warnings);
   find_odd_parts(building, tolerance, warnings);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <stdexcept>
 
 #include "study/design_search.h"
@@ -96,17 +97,17 @@ class Tried {
   std::map<std::uint64_t, Sample> known_;
 };
 
-/// Each choice once: a search may come to the same twice.
-std::vector<StudyDesign> different(const std::vector<StudyDesign>& designs) {
-  const auto same = [](const StudyDesign& a, const StudyDesign& b) {
-    return std::equal(a.chosen.begin(), a.chosen.end(), b.chosen.begin(),
-                      [](const auto& x, const auto& y) { return study::text_of(x) == study::text_of(y); });
-  };
-  std::vector<StudyDesign> once;
-  for (const StudyDesign& design : designs)
-    if (std::none_of(once.begin(), once.end(), [&](const auto& one) { return same(one, design); }))
-      once.push_back(design);
-  return once;
+/// What happened in each of its samples: designs that differ in what has no effect (when a charge would go off that is
+/// not used) are one.
+using Outcome = std::vector<std::pair<std::vector<double>, std::string>>;
+Outcome outcome_of(const std::vector<Sample>& samples) {
+  Outcome outcome;
+  for (const Sample& sample : samples) {
+    outcome.emplace_back(sample.outputs, sample.parts);
+    for (double& output : outcome.back().first)
+      if (std::isnan(output)) output = std::numeric_limits<double>::infinity();  // so that it compares
+  }
+  return outcome;
 }
 
 }  // namespace
@@ -170,9 +171,12 @@ bool StudyOptimiser::State::better(const StudyDesign& a, const StudyDesign& b) c
 bool StudyOptimiser::State::choose_finalist(Tried& tried, const std::vector<std::vector<Sample>>& of_designs,
                                             OptimiseResult& result) const {
   if (request.finalists == 0) return true;
-  std::vector<StudyDesign> order = different(result.designs);
+  std::vector<StudyDesign> order;
+  std::set<Outcome> known;
+  for (const StudyDesign& design : result.designs)
+    if (known.insert(outcome_of(of_designs[design.run])).second) order.push_back(design);
   std::stable_sort(order.begin(), order.end(),
-                   [&](const StudyDesign& a, const StudyDesign& b) { return better(a, b); });
+                   [&](const StudyDesign& one, const StudyDesign& other) { return better(one, other); });
   order.resize(std::min(order.size(), static_cast<std::size_t>(request.finalists)));
   std::vector<Sample> samples;
   for (std::size_t f = 0; f < order.size(); ++f)

@@ -104,6 +104,20 @@ TEST_CASE("loads that lift the structure on balance are told") {
   CHECK_FALSE(told(found("0"), "lift"));
 }
 
+TEST_CASE("loads typed in kilonewtons are told") {
+  const auto found = [](const std::string& loads, const std::string& more = "") {
+    return told(
+        warnings_of(R"("nodes": {"A": [0,0,0], "B": [60,0,0]}, "supports": {"A": "fixed"}, "loads": {"u": {)" + loads +
+                    R"(}}, "combinations": {"c": {"u": 1}}, "members": {)" + beam("AB", "A", "B") + "}" + more),
+        "are kilonewtons meant?");
+  };
+  CHECK(found(R"("nodes": {"B": {"z": -20}})"));         // beside 25 kN of weight
+  CHECK_FALSE(found(R"("nodes": {"B": {"z": -200}})"));  // a small load may be meant
+  CHECK_FALSE(found(R"("nodes": {"B": {"z": -26}})"));   // a thousandth of the weight: a notional one
+  CHECK_FALSE(found(R"("nodes": {"B": {"z": 0}})"));
+  CHECK_FALSE(found(R"("self_weight": 1.0)"));
+}
+
 // Morley's simply supported rhombus of 30 degrees bends by 0.000408 q a^4/D at its middle (thin plates; Morley 1963).
 // Asked: 5 %.
 TEST_CASE("a slab of 30 degrees bends as published without a mesh of its own") {
