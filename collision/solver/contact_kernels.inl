@@ -210,12 +210,21 @@ TOPPLE_INLINE Wide rub(ContactPack& pack, const PackPoint* points, Both& now) {
   return larger(magnitude(change[0]), magnitude(change[1]));
 }
 
+/// Whether the pass before has changed a body of the pack.
+TOPPLE_INLINE bool concerned(const ContactPack& pack, const unsigned char* moved) {
+  if (!moved) return true;
+  unsigned char one = 0;
+  for (int lane = 0; lane < kLanes; ++lane) one |= moved[pack.first_body[lane]] | moved[pack.second_body[lane]];
+  return one != 0;
+}
+
 void relax(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity,
            const Motion6* displacement, const SubStep& step) {
-  const Wide rate = all(1 / step.length), settled = all(step.again->settled);
-  Wide over = all(0);
+  const Wide rate = all(1 / step.length), settled = all(step.again->settled), none = all(0);
   for (std::size_t k = begin; k < end; ++k) {
     ContactPack& pack = packs[k];
+    if (!concerned(pack, step.again->moved)) continue;
+    Wide over = none;
     PackPoint* const own = points + pack.first_point;
     Both now, moved;
     load(pack, velocity, now);
@@ -230,8 +239,12 @@ void relax(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t
     // Last, so that friction is bounded by the normal impulses that are told.
     over = larger(over, rub(pack, own, now) - settled * smaller(pack.inverse[0], pack.inverse[2]));
     store(pack, now, velocity);
+    for (int lane = 0; lane < kLanes; ++lane) {
+      if (!(over[lane] > 0)) continue;
+      step.again->unsettled = true;
+      step.again->moves[pack.first_body[lane]] = step.again->moves[pack.second_body[lane]] = 1;
+    }
   }
-  if (any(over)) step.again->unsettled = true;
 }
 
 void tell(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6*, const Motion6*,

@@ -66,7 +66,9 @@ struct Again {
   Wide* way = nullptr;     ///< of each point
   double share = 0;        ///< of the way that is gone on
   bool unsettled = false;
-  double energy = 0;  ///< J: sum of the changes' squares over their masses
+  double energy = 0;                     ///< J: sum of the changes' squares over their masses
+  const unsigned char* moved = nullptr;  ///< of each body: the pass before has changed it; null: all may have been
+  unsigned char* moves = nullptr;        ///< of each body: this pass changes it
 };
 
 struct SubStep {

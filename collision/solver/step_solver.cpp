@@ -277,7 +277,12 @@ void StepSolver::relax(SubStep step) {
   step.again = &again;
   for (int pass = 0; pass < settings_.most_passes && again.unsettled; ++pass) {
     again.unsettled = false;
+    moves_.assign(bodies_.size(), 0);
+    again.moves = moves_.data();
     each_pack(kernels.relax, step);
+    moves_[0] = 0;  // what stands
+    moved_.swap(moves_);
+    again.moved = moved_.data();
   }
   each_pack(kernels.tell, step);
 }

@@ -103,8 +103,9 @@ class StepSolver {
   std::vector<Motion6> moving_, ignored_;  ///< velocities by which bodies move, and what joints changed of those
   std::vector<ContactPack> packs_;
   std::vector<PackPoint> points_;
-  std::vector<PackWide> changes_, ways_;  ///< of points, where passes are repeated
-  std::vector<std::size_t> colours_;      ///< first pack of each, and the end
+  std::vector<PackWide> changes_, ways_;      ///< of points, where passes are repeated
+  std::vector<unsigned char> moved_, moves_;  ///< of bodies, where passes are repeated
+  std::vector<std::size_t> colours_;          ///< first pack of each, and the end
   std::vector<std::vector<std::uint32_t>> by_colour_;
   std::vector<std::vector<std::uint64_t>> used_;
 };

@@ -12,8 +12,8 @@ inline constexpr double usual_join_tolerance = 1e-3;
 
 /// One line each, with names: nodes that lie on members without being joined, nodes that all but coincide, members laid
 /// over each other, materials whose stiffness, strength or density no material has, members
-/// far deeper than long, load cases in no combination, loads a thousandth of what is usual. Many of a kind are counted, three of them named. Empty
-/// for a sound model.
+/// far deeper than long, load cases in no combination, loads a thousandth of what is usual. Many of a kind are counted,
+/// three of them named. Empty for a sound model.
 [[nodiscard]] std::vector<std::string> modelling_warnings(const Building& building);
 
 /// What a name may have been meant to be: the known one that differs least, " (did you mean X?)"; empty where none is
