@@ -3,33 +3,20 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
-#include <numeric>
 #include <optional>
-#include <set>
-#include <span>
 
-#include "analysis/divided_member.h"
-#include "analysis/equilibrium.h"
+#include "analysis/answer_recovery.h"
+#include "analysis/answer_warnings.h"
 #include "analysis/instability.h"
 #include "analysis/largest_displacement.h"
-#include "analysis/loads_by_member.h"
 #include "analysis/modal_masses.h"
 #include "analysis/one_way_members.h"
 #include "analysis/request_checks.h"
-#include "analysis/resultants/discretisation.h"
-#include "analysis/resultants/section_cuts.h"
-#include "analysis/resultants/shell_results.h"
 #include "analysis/sample_analysis.h"
-#include "analysis/second_order_member.h"
-#include "analysis/storeys.h"
 #include "analysis/undivided_members.h"
-#include "failure/panel_bearings.h"
-#include "failure/panel_demand.h"
 #include "loads/case_loads.h"
 #include "mesh/giving_edges.h"
 #include "parallel/in_order.h"
-#include "topple/solver/beam_diagram.h"
 #include "topple/solver/case_sums.h"
 #include "topple/solver/kept_memory.h"
 #include "topple/solver/parallel_for.h"
@@ -50,22 +37,16 @@ class Analysis {
       : building_(building),
         request_(request),
         kept_(kept),
-        brief_(brief),
         frame_(make_frame(building)),
         hanging_(hanging_shells(frame_)),
         edges_(building),
-        bearing_edges_(building, frame_, edges_),
-        bearings_(building, edges_),
-        storeys_(building) {
-    for (std::size_t m = 0; m < building.members.size(); ++m)
-      for (int end = 0; end < 2; ++end)
-        if (building[building.joint(MemberId(m), end)].capacity.breakable) breakable_ends_.emplace_back(m, end);
+        linear_(request.second_order == solver::SecondOrder::none && request.buckling == 0 &&
+                !OneWayMembers(frame_.model).any()),
+        recovery_(building, frame_, edges_, request, brief, linear_) {
     combinations_ = request.combinations;
     if (combinations_.empty())
       for (std::size_t i = 0; i < building.combinations.size(); ++i) combinations_.emplace_back(i);
     if (combinations_.size() > 1) cases_ = case_loads(building, frame_, edges_, combinations_);
-    linear_ = request.second_order == solver::SecondOrder::none && request.buckling == 0 &&
-              !OneWayMembers(frame_.model).any();
     if (linear_ && of_cases()) {
       if (!has_meshes(frame_)) prepare_sums();
       return;
@@ -96,15 +77,12 @@ class Analysis {
     if (!failed_) find_losses_asked_for(result);
     if (!failed_) find_motions_asked_for(result);
     result.warnings.insert(result.warnings.begin(), building_.warnings.begin(), building_.warnings.end());
-    warn_of_frame3dd(result);
+    if (request_.second_order == solver::SecondOrder::frame3dd) warn_of_heated_elements(building_, loads_, result);
     if (result.statistics.nearly_unstable)
       result.warnings.push_back("the model is nearly unstable: about " +
                                 std::to_string(static_cast<int>(result.statistics.digits_left)) +
                                 " digits of the answer are left");
-    warn_of_error(result);
-    warn_of_meshes(result);
-    warn_of_lifting_loads(result);
-    warn_of_large_deflections(result);
+    warn_of_answer(building_, result);
     if (failed_) {
       if (request_.modes > 0) result.unfinished.emplace_back("natural modes");
       if (request_.losses.any()) result.unfinished.emplace_back("losses of members");
@@ -246,8 +224,9 @@ class Analysis {
     OneWayAnswer answer = settled(k, std::move(linear));
     const bool second_order = request_.second_order != solver::SecondOrder::none;
     if (!second_order && request_.buckling == 0) {
-      if (case_loads_) return gather_sum(k, answer);
-      return gather(k, answer, loads_.empty() ? loads_of(k) : std::move(loads_[k]));
+      if (case_loads_)
+        return recovery_.recovered_sum(combinations_[k], answer, {*case_loads_, case_balances_, cases_.factors}, k);
+      return recovery_.recovered(combinations_[k], answer, loads_.empty() ? loads_of(k) : std::move(loads_[k]));
     }
     const std::string of = " of " + building_[combinations_[k]].name;
     if (second_order) tell("second order" + of);
@@ -258,7 +237,7 @@ class Analysis {
     const int iterations = second_order ? turn_to_second_order(k, answer) : 0;
     solver::FrameModel model = carrying_both(frame_.model);
     if (!answer.beams.empty()) model.beams = answer.beams;
-    CombinationResult result = gather(k, answer, loads_[k]);
+    CombinationResult result = recovery_.recovered(combinations_[k], answer, loads_[k]);
     tangent_ = answer.axial;
     tangent_beams_ = model.beams;
     result.second_order_iterations = iterations;
@@ -372,341 +351,19 @@ class Analysis {
       }
   }
 
-  /// Frame3DD takes a thermal strain for an axial force in the end forces that it prints.
-  void warn_of_frame3dd(AnalysisResult& result) const {
-    if (request_.second_order != solver::SecondOrder::frame3dd) return;
-    std::set<int> heated;
-    for (const CombinationLoads& loads : loads_)
-      for (const solver::BeamLoad& load : loads.set.beams)
-        if (load.kind == solver::BeamLoad::Kind::temperature) heated.insert(load.beam);
-    if (heated.empty()) return;
-    result.warnings.push_back(
-        "end forces are Frame3DD's own, which are not in equilibrium for heated elements under geometric stiffness (" +
-        building_.members[static_cast<std::size_t>(*heated.begin())].name +
-        (heated.size() > 1 ? " and " + std::to_string(heated.size() - 1) + " more" : "") +
-        "); --p-delta=cubic gives those in equilibrium");
-  }
-
-  /// What an answer says of its own error, where that is more than an engineer can overlook.
-  void warn_of_error(AnalysisResult& result) const {
-    constexpr double few_digits = 1e-6;
-    const auto digits = [](double error) {
-      return std::to_string(error < 1 ? static_cast<int>(-std::log10(error)) : 0);
-    };
-    for (const CombinationResult& c : result.combinations) {
-      const std::string of = "combination " + building_[c.combination].name + ": ";
-      if (!(c.equilibrium_error <= few_digits))
-        result.warnings.push_back(of + "reactions balance the loads to about " + digits(c.equilibrium_error) +
-                                  " digits only (equilibrium error " + short_number(c.equilibrium_error) + ")");
-      if (!c.quality.converged)
-        result.warnings.push_back(of + "the equations are not solved to rounding (backward error " +
-                                  short_number(c.quality.backward_error) + "); about " + digits(c.quality.error_bound) +
-                                  " digits of the displacements are certain");
-    }
-  }
-
-  /// Stresses of a mesh that is too coarse; the deflections' error goes with the square.
-  void warn_of_meshes(AnalysisResult& result) const {
-    constexpr double coarse = 0.4;  // deflections are then off by some per cent
-    for (const CombinationResult& c : result.combinations) {
-      if (!(c.discretisation_error > coarse)) continue;
-      const auto worst = std::max_element(c.panels.begin(), c.panels.end(), [](const auto& a, const auto& b) {
-        return a.discretisation_error < b.discretisation_error;
-      });
-      result.warnings.push_back("combination " + building_[c.combination].name +
-                                ": the shells' meshes are coarse: estimated error of stresses " +
-                                short_number(100 * c.discretisation_error) + " %, most in panel " +
-                                building_.panels[static_cast<std::size_t>(worst - c.panels.begin())].name +
-                                "; a larger `mesh` lowers it");
-    }
-  }
-
-  /// Loads that lift the whole are mostly signs that are missing.
-  void warn_of_lifting_loads(AnalysisResult& result) const {
-    constexpr double rounding = 1e-9;
-    if (building_.units.consistent) return;  // up may be any way
-    for (const CombinationResult& c : result.combinations)
-      if (c.total_load[2] > rounding * c.total_load.head<3>().norm())
-        result.warnings.push_back("combination " + building_[c.combination].name + ": its loads lift the structure (" +
-                                  short_number(c.total_load[2] / building_.units.force) +
-                                  " upwards on balance); loads that act downwards are negative along z");
-  }
-
-  /// Beyond a tenth of the structure's size nothing linear holds.
-  void warn_of_large_deflections(AnalysisResult& result) const {
-    constexpr double large = 0.1;
-    if (building_.nodes.empty()) return;
-    Vec3 low = building_.nodes.front().position, high = low;
-    for (const Node& node : building_.nodes) {
-      low = low.cwiseMin(node.position);
-      high = high.cwiseMax(node.position);
-    }
-    const double size = (high - low).norm();
-    for (const CombinationResult& c : result.combinations) {
-      const std::string of = "combination " + building_[c.combination].name + ": ";
-      if (c.largest.value > large * size) {
-        result.warnings.push_back(of + "the largest displacement (" +
-                                  short_number(c.largest.value / building_.units.length) +
-                                  ") is above a tenth of the structure's size; small displacements are assumed");
-        continue;
-      }
-      for (std::size_t m = 0; m < c.members.size(); ++m) {
-        const auto sag = [&](std::size_t q) {
-          return std::max(std::abs(c.members[m].min[q].value), std::abs(c.members[m].max[q].value));
-        };
-        if (std::max(sag(6), sag(7)) <= large * building_.members[m].length) continue;
-        result.warnings.push_back(of + "member " + building_.members[m].name +
-                                  " deflects by more than a tenth of its length; small displacements are assumed");
-        break;
-      }
-    }
-  }
-
-  static std::string short_number(double number) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4g", number);
-    return text;
-  }
-
-  [[nodiscard]] CombinationResult gather(std::size_t k, const OneWayAnswer& answer, CombinationLoads loads) const {
-    solver::StaticSolution absolute;
-    if (!frame_.giving_nodes.empty()) {
-      absolute = answer.solution;
-      make_absolute(frame_, absolute.displacements);
-    }
-    const solver::StaticSolution& solution = frame_.giving_nodes.empty() ? answer.solution : absolute;
-    const LoadsByMember by_member(building_.members.size(), loads.whole ? loads.whole->beams : loads.set.beams);
-    CombinationResult result =
-        gathered(k, answer, solution, loads.parts, [&](std::size_t member) { return by_member.on(member); });
-    result.cuts = cut_results(building_, frame_, request_.cuts, loads.parts, loads.set, solution,
-                              answer.axial.mode != solver::SecondOrder::none);
-    std::vector<solver::NodeLoad> pushes = pushes_of_supports(loads.parts, result.reactions);
-    loads.set.nodes.insert(loads.set.nodes.end(), pushes.begin(), pushes.end());
-    leave_out_giving_sides(frame_, loads.set, result.reactions);
-    hold_against_reactions(balance_of(frame_.model, loads.set), answer.axial.mode != solver::SecondOrder::none, result);
-    return result;
-  }
-
-  [[nodiscard]] CombinationResult gather_sum(std::size_t k, const OneWayAnswer& answer) const {
-    const PartLoads parts = loads_beside_members(building_, building_[combinations_[k]]);
-    std::vector<solver::BeamLoad> sum;
-    CombinationResult result = gathered(k, answer, answer.solution, parts, [&](std::size_t member) {
-      case_loads_->add_up(k, member, sum);
-      return std::span<const solver::BeamLoad>(sum);
-    });
-    if (!request_.cuts.empty()) {
-      const CombinationLoads loads = loads_of(k);
-      result.cuts = cut_results(building_, frame_, request_.cuts, loads.parts, loads.set, answer.solution, false);
-    }
-    Balance applied = balance_of(frame_.model, pushes_of_supports(parts, result.reactions));
-    for (std::size_t c = 0; c < case_balances_.size(); ++c)
-      applied.add(case_balances_[c], cases_.factors(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(k)));
-    hold_against_reactions(applied, false, result);
-    return result;
-  }
-
-  /// `loads_on(member)`: on the whole of each. Reactions are still those of the frame's supports.
-  template <class LoadsOn>
-  [[nodiscard]] CombinationResult gathered(std::size_t k, const OneWayAnswer& answer,
-                                           const solver::StaticSolution& solution, const PartLoads& parts,
-                                           LoadsOn loads_on) const {
-    CombinationResult result;
-    result.combination = combinations_[k];
-    const auto of_mesh = solution.displacements.begin() + static_cast<std::ptrdiff_t>(building_.nodes.size());
-    result.displacements.assign(solution.displacements.begin(), of_mesh);
-    result.mesh_displacements.assign(of_mesh, solution.displacements.end());
-    result.reactions = solution.reactions;
-    result.quality = solution.quality;
-    result.members = members(answer, loads_on);
-    result.panels = panels(parts, solution);
-    result.joints = joints(parts, solution, result);
-    result.storeys = storeys_.results(result.displacements, result.members);
-    if (brief_) return result;
-    result.discretisation_error = recover_resultants(building_, frame_, parts, solution, result.panels);
-    result.largest = largest_displacement(building_, result, [&](std::size_t m, double at) {
-      Vec2 bent = Vec2::Zero();
-      solver::Vec12 unused;
-      with_diagram(answer, loads_on(m), m, unused, [&](double, const auto& diagram) {
-        const std::array<double, 8> values = diagram.values(at);
-        bent = {values[6], values[7]};
-      });
-      return bent;
-    });
-    return result;
-  }
-
-  void hold_against_reactions(const Balance& applied, bool displaced, CombinationResult& result) const {
-    const Equilibrium balance = equilibrium(frame_.model, applied, result.reactions, displaced);
-    result.edge_reactions = edge_reactions(building_, frame_, result.reactions);
-    result.reactions.resize(building_.supports.size());
-    result.total_load = balance.load;
-    result.total_reaction = balance.reaction;
-    result.equilibrium_error = balance.error;
-  }
-
-  /// A spring support whose far end is moved pushes its node: that is part of its reaction, not a load. Returns what
-  /// takes the pushes off the loads again.
-  [[nodiscard]] std::vector<solver::NodeLoad> pushes_of_supports(const PartLoads& parts,
-                                                                 std::vector<Vec6>& reactions) const {
-    std::vector<solver::NodeLoad> taken_off;
-    for (const solver::Settlement& settlement : parts.settlements)
-      for (std::size_t s = 0; s < building_.supports.size(); ++s) {
-        const NodeSupport& support = building_.supports[s];
-        const double stiffness = support.stiffness(settlement.component);
-        if (support.node.index != settlement.node || stiffness == unlimited) continue;
-        Vec6 push = Vec6::Zero();
-        push(settlement.component) = stiffness * settlement.value;
-        reactions[s] += push;
-        taken_off.push_back({settlement.node, -push});
-      }
-    return taken_off;
-  }
-
-  template <class Diagram>
-  void fill(MemberResult& member, double length, const Diagram& diagram) const {
-    if (brief_) return;
-    for (std::size_t q = 0; q < 8; ++q) {
-      const auto range = diagram.extremes(static_cast<solver::BeamDiagram::Quantity>(q));
-      member.min[q] = {range.least.value, range.least.at};
-      member.max[q] = {range.greatest.value, range.greatest.at};
-    }
-    for (int s = 0; request_.stations > 0 && s <= request_.stations; ++s)
-      member.stations.push_back(diagram.values(length * s / request_.stations));
-    if (request_.critical_sections) add_critical_sections(member, length, diagram);
-  }
-
-  template <class Diagram>
-  static void add_critical_sections(MemberResult& member, double length, const Diagram& diagram) {
-    const std::vector<double> breaks = diagram.breaks();
-    const auto add = [&](double at, bool beyond) {
-      member.critical.push_back(diagram.values(at, beyond));
-      member.critical_at.push_back(at);
-    };
-    for (const double at : breaks)
-      for (const bool beyond : {false, true}) add(at, beyond);
-    // Both sides of a break are there already: the extreme of one side does not go with the others of the other.
-    const auto at_a_break = [&](double at) {
-      constexpr double rounding = 1e-9;
-      return std::any_of(breaks.begin(), breaks.end(),
-                         [&](double place) { return std::abs(place - at) <= rounding * length; });
-    };
-    for (std::size_t q = 0; q < 6; ++q)
-      for (const Extreme& extreme : {member.min[q], member.max[q]})
-        if (!at_a_break(extreme.at)) add(extreme.at, false);
-  }
-
-  template <class LoadsOn>
-  [[nodiscard]] std::vector<MemberResult> members(const OneWayAnswer& answer, LoadsOn loads_on) const {
-    const std::vector<solver::Vec12>& end_forces = answer.solution.beam_end_forces;
-    std::vector<MemberResult> all(building_.members.size());
-    const auto one = [&](std::size_t i) {
-      MemberResult& member = all[i];
-      member.active = answer.active.empty() || answer.active[i] != 0;
-      member.end_forces = end_forces[i];
-      with_diagram(answer, loads_on(i), i, member.end_forces,
-                   [&](double length, const auto& diagram) { fill(member, length, diagram); });
-    };
-    // Linear combinations go side by side themselves, and the sums of their loads have one place.
-    constexpr std::size_t together = 256;
-    const std::size_t parts = (all.size() + together - 1) / together;
-    solver::parallel_for(parts, workers_for(parts, linear_ ? 1 : request_.workers), [&](std::size_t part) {
-      for (std::size_t i = part * together; i < std::min(all.size(), (part + 1) * together); ++i) one(i);
-    });
-    return all;
-  }
-
-  /// Hands the diagram of member i, and the length it goes over, to `use`; sets its end forces where it is several
-  /// beams.
-  template <class Use>
-  void with_diagram(const OneWayAnswer& answer, std::span<const solver::BeamLoad> on, std::size_t i,
-                    solver::Vec12& member_end_forces, Use use) const {
-    const std::vector<solver::Beam>& beams = answer.beams.empty() ? frame_.model.beams : answer.beams;
-    const std::vector<solver::Vec12>& end_forces = answer.solution.beam_end_forces;
-    const bool first_order = answer.axial.mode == solver::SecondOrder::none;
-    if (frame_.pieces[i].empty() && first_order) {
-      use(beams[i].length, solver::BeamDiagram(beams[i], end_forces[i], on));
-      return;
-    }
-    const WholeMember whole = whole_member(frame_, i, beams, end_forces, {on.begin(), on.end()});
-    member_end_forces = whole.end_forces;
-    if (first_order)
-      use(whole.beam.length, solver::BeamDiagram(whole.beam, whole.end_forces, whole.loads));
-    else
-      use(whole.beam.length, SecondOrderMember(frame_, i, beams, answer.axial, answer.solution));
-  }
-
-  /// Mean membrane forces of a membrane panel from its corner forces (the virial theorem), panel axes.
-  [[nodiscard]] std::vector<PanelResult> panels(const PartLoads& parts, const solver::StaticSolution& solution) const {
-    std::vector<PanelResult> all(building_.panels.size());
-    for (std::size_t p = 0; p < all.size(); ++p) {
-      if (!frame_.meshes[p].elements.empty()) {
-        all[p] = shell_panel_result(building_, frame_, PanelId(p), parts, solution);
-        continue;
-      }
-      const int shell = frame_.shell_of_panel[p];
-      all[p].corner_forces.fill(Vec6::Zero());
-      if (shell < 0) continue;
-      const Panel& panel = building_.panels[p];
-      const auto& forces = solution.shell_corner_forces[static_cast<std::size_t>(shell)];
-      Mat3 virial = Mat3::Zero();
-      const Vec3 origin = building_[panel.nodes[0]].position;
-      for (std::size_t c = 0; c < 4; ++c) {
-        all[p].corner_forces[c] = forces[c];
-        virial += (panel.axes * forces[c].head<3>()) *
-                  (panel.axes * (building_[panel.nodes[c]].position - origin)).transpose();
-      }
-      const Vec3 d1 = building_[panel.nodes[2]].position - origin;
-      const Vec3 d2 = building_[panel.nodes[3]].position - building_[panel.nodes[1]].position;
-      const Mat3 stress = (virial + virial.transpose()) / d1.cross(d2).norm();
-      all[p].membrane = {stress(0, 0), stress(1, 1), stress(0, 1)};
-    }
-    return all;
-  }
-
-  [[nodiscard]] std::vector<Utilisation> joints(const PartLoads& parts, const solver::StaticSolution& solution,
-                                                const CombinationResult& result) const {
-    std::vector<Utilisation> used(building_.joints.size());
-    for (const auto& [m, end] : breakable_ends_) {
-      const JointId id = building_.joint(MemberId(m), end);
-      used[static_cast<std::size_t>(id.index)] =
-          utilisation(building_[id].capacity, member_joint_demand(result.members[m].end_forces, end));
-    }
-    for (std::size_t p = 0; p < building_.panels.size(); ++p) {
-      const PanelId panel(p);
-      std::array<Vec6, 4> demand{Vec6::Zero(), Vec6::Zero(), Vec6::Zero(), Vec6::Zero()};
-      const bool meshed = !frame_.meshes[p].elements.empty();
-      if (meshed) demand = shell_edge_demands(building_, frame_, bearing_edges_, panel, parts, solution);
-      if (frame_.shell_of_panel[p] >= 0)
-        demand = membrane_edge_demands(building_, panel, result.panels[p].corner_forces);
-      const HandOver given = hand_over(building_, edges_, panel, parts.panels[p], {true, true, true, true});
-      for (int edge = 0; edge < 4; ++edge) {
-        const JointId id = building_.joint(panel, edge);
-        const auto e = static_cast<std::size_t>(edge);
-        if (!building_[id].capacity.breakable) continue;
-        if (!meshed) demand[e] += handed_edge_demand(building_, bearings_, panel, edge, given.edge_force[e]);
-        used[static_cast<std::size_t>(id.index)] = utilisation(building_[id].capacity, demand[e]);
-      }
-    }
-    return used;
-  }
-
   const Building& building_;
   /// Beyond it no factor is looked for.
   static constexpr double largest_buckling_factor = 1e6;
 
   const AnalysisRequest& request_;
   solver::KeptEquations* kept_;  ///< null: nothing is kept
-  bool brief_ = false;           ///< analyse_briefly()
   Frame frame_;
   std::vector<solver::HangingShell> hanging_;
   EdgeMembers edges_;
-  BearingEdges bearing_edges_;
-  PanelBearings bearings_;
-  Storeys storeys_;
-  std::vector<std::pair<std::size_t, int>> breakable_ends_;  ///< member, end
+  bool linear_ = false;  ///< to the end: no second order, no buckling, no one-way members
+  AnswerRecovery recovery_;
   std::vector<CombinationId> combinations_;
   CaseLoads cases_;                              ///< where there are several combinations
-  bool linear_ = false;                          ///< to the end: no second order, no buckling, no one-way members
   std::optional<CaseLoadsByMember> case_loads_;  ///< where combinations are added up from these to the end
   std::vector<Balance> case_balances_;
   std::vector<CombinationLoads> loads_;     ///< per combination; empty where each is made when it is its turn
