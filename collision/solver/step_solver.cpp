@@ -3,7 +3,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace topple::collision {
 
@@ -25,63 +24,6 @@ StepSolver::Softness StepSolver::softness(double frequency, double damping, doub
   return {w / a1, a2 / (1 + a2), 1 / (1 + a2)};
 }
 
-/// No body twice in a colour. In the order of contacts, so that it follows from handles.
-void StepSolver::colour() {
-  for (auto& list : by_colour_) list.clear();
-  used_.assign(bodies_.size(), {});
-  const auto word = [&](int body, std::size_t w) -> std::uint64_t {
-    const auto& used = used_[static_cast<std::size_t>(body)];
-    return body == 0 || w >= used.size() ? 0 : used[w];
-  };
-  const auto mark = [&](int body, std::size_t chosen) {
-    if (body == 0) return;
-    auto& used = used_[static_cast<std::size_t>(body)];
-    if (used.size() <= chosen / 64) used.resize(chosen / 64 + 1, 0);
-    used[chosen / 64] |= std::uint64_t{1} << (chosen % 64);
-  };
-  for (std::uint32_t i = 0; i < contacts_.size(); ++i) {
-    const SolverContact& contact = contacts_[i];
-    std::size_t chosen = 0;
-    for (std::size_t w = 0;; ++w) {
-      const std::uint64_t taken = word(contact.first, w) | word(contact.second, w);
-      if (taken == std::numeric_limits<std::uint64_t>::max()) continue;
-      chosen = 64 * w + static_cast<std::size_t>(__builtin_ctzll(~taken));
-      break;
-    }
-    mark(contact.first, chosen);
-    mark(contact.second, chosen);
-    if (by_colour_.size() <= chosen) by_colour_.resize(chosen + 1);
-    by_colour_[chosen].push_back(i);
-  }
-}
-
-void StepSolver::fill_packs() {
-  packs_.clear();
-  points_.clear();
-  colours_.clear();
-  const auto count = [&](std::uint32_t i) { return contacts_[i].pair->manifold.count; };
-  for (auto& list : by_colour_) {
-    if (list.empty()) continue;
-    colours_.push_back(packs_.size());
-    std::stable_sort(list.begin(), list.end(), [&](std::uint32_t a, std::uint32_t b) { return count(a) > count(b); });
-    for (std::size_t begin = 0; begin < list.size(); begin += kLanes) {
-      ContactPack pack{};
-      pack.first_point = points_.size();
-      pack.point_count = count(list[begin]);
-      points_.resize(points_.size() + static_cast<std::size_t>(pack.point_count), PackPoint{});
-      for (std::size_t lane = 0; lane < kLanes && begin + lane < list.size(); ++lane) {
-        SolverContact& contact = contacts_[list[begin + lane]];
-        contact.pack = static_cast<int>(packs_.size());
-        contact.lane = static_cast<int>(lane);
-        pack.first_body[lane] = contact.first;
-        pack.second_body[lane] = contact.second;
-      }
-      packs_.push_back(pack);
-    }
-  }
-  colours_.push_back(packs_.size());
-}
-
 namespace {
 void accumulate(const Motion6& more, Motion6& to) {
   for (int i = 0; i < 3; ++i) {
@@ -89,120 +31,8 @@ void accumulate(const Motion6& more, Motion6& to) {
     to.angular[i] += more.angular[i];
   }
 }
-void set(Wide* of, int lane, const Vec3& v) {
-  for (int i = 0; i < 3; ++i) of[i][lane] = v[i];
-}
 Vec3 get(const Wide* of, int lane) { return {of[0][lane], of[1][lane], of[2][lane]}; }
 }  // namespace
-
-void StepSolver::prepare(SolverContact& contact) {
-  ContactPack& pack = packs_[static_cast<std::size_t>(contact.pack)];
-  const int lane = contact.lane;
-  const bool stands = contact.first == 0 || contact.second == 0;
-  const double frequency = 1 / (settings_.stiffness * h_) * (stands ? settings_.standing_stiffer : 1);
-  const Softness soft = softness(frequency, settings_.damping * (stands ? settings_.standing_damping : 1), h_);
-  pack.bias_rate[lane] = soft.bias_rate;
-  pack.mass_scale[lane] = soft.mass_scale;
-  pack.impulse_scale[lane] = soft.impulse_scale;
-  pack.first_root[lane] = bodies_[static_cast<std::size_t>(contact.first)].inverse_root_mass;
-  pack.second_root[lane] = bodies_[static_cast<std::size_t>(contact.second)].inverse_root_mass;
-  pack.restitution[lane] = contact.restitution;
-  pack.friction[lane] = contact.friction;
-  set(pack.normal, lane, contact.pair->manifold.normal);
-  prepare_points(contact, pack, h_);
-  prepare_friction(contact, pack, h_);
-}
-
-void StepSolver::prepare_points(SolverContact& contact, ContactPack& pack, double h) {
-  const SolverBody &first = bodies_[static_cast<std::size_t>(contact.first)],
-                   &second = bodies_[static_cast<std::size_t>(contact.second)];
-  const Manifold& manifold = contact.pair->manifold;
-  const Vec3& n = manifold.normal;
-  const int lane = contact.lane;
-  const double masses =
-      first.inverse_root_mass * first.inverse_root_mass + second.inverse_root_mass * second.inverse_root_mass;
-  const Vec3 across = second.linear(velocity_[static_cast<std::size_t>(contact.second)]) -
-                      first.linear(velocity_[static_cast<std::size_t>(contact.first)]);
-  const auto spin = [&](int body) {
-    const Motion6& v = velocity_[static_cast<std::size_t>(body)];
-    return Vec3(v.angular[0], v.angular[1], v.angular[2]);
-  };
-  const Vec3 first_spin = spin(contact.first), second_spin = spin(contact.second);
-  for (int i = 0; i < manifold.count; ++i) {
-    const ManifoldPoint& point = manifold.points[static_cast<std::size_t>(i)];
-    PackPoint& row = points_[pack.first_point + static_cast<std::size_t>(i)];
-    const Vec3 place = (*contact.first_at * point.on_first + *contact.second_at * point.on_second) / 2;
-    const Vec3 a = first.scaled_moment((place - first.at.position).cross(n)),
-               b = second.scaled_moment((place - second.at.position).cross(n));
-    set(row.first, lane, a);
-    set(row.second, lane, b);
-    row.separation[lane] = point.separation;
-    row.mass[lane] = 1 / (masses + a.squaredNorm() + b.squaredNorm());
-    row.impulse[lane] = point.impulse * h;
-    row.approach[lane] = n.dot(across) + b.dot(second_spin) - a.dot(first_spin);
-  }
-}
-
-/// At the middle of the forces of the last step; where there are none yet, by nearness.
-void StepSolver::place_friction(SolverContact& contact) const {
-  const Manifold& manifold = contact.pair->manifold;
-  std::array<Vec3, Manifold::most> places;
-  std::array<double, Manifold::most> weights{};
-  double sum = 0;
-  for (int pass = 0; pass < 2 && !(sum > 0); ++pass)
-    for (int i = 0; i < manifold.count; ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      const ManifoldPoint& point = manifold.points[k];
-      places[k] = (*contact.first_at * point.on_first + *contact.second_at * point.on_second) / 2;
-      weights[k] = pass == 0 ? point.force : 1 / (1 + std::max(0.0, point.separation) / settings_.margin);
-      sum += weights[k];
-    }
-  contact.anchor.setZero();
-  contact.lever = 0;
-  for (int i = 0; i < manifold.count; ++i)
-    contact.anchor += weights[static_cast<std::size_t>(i)] / sum * places[static_cast<std::size_t>(i)];
-  for (int i = 0; i < manifold.count; ++i) {
-    const Vec3 arm = places[static_cast<std::size_t>(i)] - contact.anchor;
-    contact.lever +=
-        weights[static_cast<std::size_t>(i)] / sum * (arm - manifold.normal.dot(arm) * manifold.normal).norm();
-  }
-}
-
-void StepSolver::prepare_friction(SolverContact& contact, ContactPack& pack, double h) {
-  const SolverBody &first = bodies_[static_cast<std::size_t>(contact.first)],
-                   &second = bodies_[static_cast<std::size_t>(contact.second)];
-  const Manifold& manifold = contact.pair->manifold;
-  const Vec3& n = manifold.normal;
-  const int lane = contact.lane;
-  place_friction(contact);
-  const Vec3 aside = std::abs(n.z()) < 0.7 ? Vec3(0, 0, 1) : Vec3(1, 0, 0);
-  std::array<Vec3, 2> along;
-  along[0] = aside.cross(n).normalized();
-  along[1] = n.cross(along[0]);
-  std::array<Vec3, 2> on_first, on_second;
-  for (std::size_t i = 0; i < 2; ++i) {
-    on_first[i] = first.scaled_moment((contact.anchor - first.at.position).cross(along[i]));
-    on_second[i] = second.scaled_moment((contact.anchor - second.at.position).cross(along[i]));
-    set(pack.along[i], lane, along[i]);
-    set(pack.along_first[i], lane, on_first[i]);
-    set(pack.along_second[i], lane, on_second[i]);
-    pack.slide[i][lane] = manifold.friction.dot(along[i]) * h;
-  }
-  const double masses =
-      first.inverse_root_mass * first.inverse_root_mass + second.inverse_root_mass * second.inverse_root_mass;
-  const double xx = masses + on_first[0].squaredNorm() + on_second[0].squaredNorm(),
-               yy = masses + on_first[1].squaredNorm() + on_second[1].squaredNorm(),
-               xy = on_first[0].dot(on_first[1]) + on_second[0].dot(on_second[1]), determinant = xx * yy - xy * xy;
-  pack.inverse[0][lane] = yy / determinant;
-  pack.inverse[1][lane] = -xy / determinant;
-  pack.inverse[2][lane] = xx / determinant;
-  const Vec3 twist_first = first.scaled_moment(n), twist_second = second.scaled_moment(n);
-  set(pack.twist_first, lane, twist_first);
-  set(pack.twist_second, lane, twist_second);
-  pack.twist_mass[lane] = 1 / (twist_first.squaredNorm() + twist_second.squaredNorm());
-  pack.twist[lane] = manifold.twist * h;
-  pack.lever[lane] = contact.lever;
-}
 
 void StepSolver::scale_bodies(double dt, const Vec3& gravity) {
   const std::size_t count = bodies_.size();
