@@ -9,7 +9,9 @@
 #include "formats/json/json_writer.h"
 #include "formats/model_forms.h"
 #include "formats/tables/csv_table.h"
+#include "formats/tables/load_lines.h"
 #include "formats/tables/model_tables.h"
+#include "formats/tables/row_json.h"
 #include "formats/tables/table_lists.h"
 #include "topple/structure/error.h"
 
@@ -18,6 +20,8 @@ namespace topple::structure {
 namespace {
 
 using formats::in_quotes;
+using formats::json_text;
+using formats::needed;
 using formats::quoted_list;
 
 class ModelMaker {
@@ -58,8 +62,8 @@ class ModelMaker {
     each("supports.csv", ",\"supports\":{", [this](const CsvTable& t, std::size_t r) { support(t, r); });
     lines("diaphragms.csv", ",\"diaphragms\":{", formats::diaphragm_lines);
     lines("masses.csv", ",\"masses\":{", formats::mass_lines);
-    loads();
-    combinations();
+    lines("loads.csv", ",\"loads\":{", formats::load_lines);
+    lines("combinations.csv", ",\"combinations\":{", formats::combination_lines);
     lines("cuts.csv", ",\"cuts\":{", formats::cut_lines);
     put("}");
     return std::move(made_);
@@ -73,20 +77,6 @@ class ModelMaker {
     made_.json += '\n';
     made_.places.push_back(place.empty() ? folder_ : std::move(place));
   }
-  static std::string quoted(std::string_view text) {
-    const bool plain = std::all_of(text.begin(), text.end(), [](char c) {
-      return c != '"' && c != '\\' && static_cast<unsigned char>(c) >= 0x20;
-    });
-    if (!plain) return JsonWriter().value(text).take();
-    std::string result;
-    result.reserve(text.size() + 2);
-    result += '"';
-    result += text;
-    result += '"';
-    return result;
-  }
-  static std::string digits(double number) { return json_number(number); }
-
   [[nodiscard]] const CsvTable* table_of(const std::string& file) const {
     const auto found = tables_.find(file);
     return found == tables_.end() || found->second.rows() == 0 ? nullptr : &found->second;
@@ -117,7 +107,7 @@ class ModelMaker {
         table.fail(row, 0,
                    in_quotes(part) + " stands twice, first in " + table.place(first->second) + "; accepted: each once");
       line_ = row == 0 ? "" : ",";
-      line_ += quoted(part) + ":";
+      line_ += json_text(part) + ":";
       write(table, row);
       put(line_, table.place(row));
     }
@@ -127,7 +117,7 @@ class ModelMaker {
   void add(bool& first, std::string_view key, const std::string& text) {
     if (!first) line_ += ',';
     first = false;
-    line_ += quoted(key) + ":" + text;
+    line_ += json_text(key) + ":" + text;
   }
 
   // Tables of parts.
@@ -142,10 +132,10 @@ class ModelMaker {
       const std::string key(table.text(row, 0));
       if (!seen.insert(key).second) table.fail(row, 0, in_quotes(key) + " stands twice; accepted: each once");
       if (key == "title") {
-        put(",\"title\":" + quoted(table.cell(row, 1)), table.place(row));
+        put(",\"title\":" + json_text(table.cell(row, 1)), table.place(row));
       } else if (key == "gravity") {
         (void)table.text(row, 1);
-        put(",\"gravity\":" + digits(*table.number(row, 1)), table.place(row));
+        put(",\"gravity\":" + json_number(*table.number(row, 1)), table.place(row));
       } else if (key == "length" || key == "force" || key == "mass") {
         units.emplace_back(key, row);
       } else if (key == "units") {
@@ -168,7 +158,7 @@ class ModelMaker {
       line_.clear();
       if (!first) line_ = ",";
       first = false;
-      put(line_ + quoted(key) + ":" + quoted(table.text(row, 1)), table.place(row));
+      put(line_ + json_text(key) + ":" + json_text(table.text(row, 1)), table.place(row));
     }
     put("}", table.name());
   }
@@ -183,11 +173,11 @@ class ModelMaker {
       const std::string_view cell = table.cell(row, c);
       if (cell.empty()) continue;
       if (std::find(texts.begin(), texts.end(), columns[c]) != texts.end())
-        add(first, columns[c], quoted(cell));
+        add(first, columns[c], json_text(cell));
       else if (cell == "true" || cell == "false")
         add(first, columns[c], std::string(cell));
       else
-        add(first, columns[c], digits(*table.number(row, c)));
+        add(first, columns[c], json_number(*table.number(row, c)));
     }
     line_ += '}';
   }
@@ -210,18 +200,18 @@ class ModelMaker {
     constexpr std::size_t first_capacity = 2, first_stiffness = 9, from_column = 15, interaction = 17, end = 21;
     line_ += '{';
     bool first = true;
-    if (const auto strength = table.number(row, 1)) add(first, "strength", digits(*strength));
+    if (const auto strength = table.number(row, 1)) add(first, "strength", json_number(*strength));
     const auto numbers = [&](std::size_t begin, std::size_t stop, std::size_t prefix = 0) {
       std::string inside;
       for (std::size_t c = begin; c < stop; ++c)
         if (const auto number = table.number(row, c))
-          inside +=
-              (inside.empty() ? "" : ",") + quoted(model_tables::joints[c].substr(prefix)) + ":" + digits(*number);
+          inside += (inside.empty() ? "" : ",") + json_text(model_tables::joints[c].substr(prefix)) + ":" +
+                    json_number(*number);
       return inside;
     };
     std::string capacity = numbers(first_capacity, first_stiffness);
     if (const std::string_view source = table.cell(row, from_column); !source.empty())
-      capacity += (capacity.empty() ? "" : ",") + std::string("\"from\":") + quoted(source);
+      capacity += (capacity.empty() ? "" : ",") + std::string("\"from\":") + json_text(source);
     if (const std::string ratio = numbers(from_column + 1, interaction); !ratio.empty())
       capacity += (capacity.empty() ? "" : ",") + ratio;
     const auto object = [&](const char* key, const std::string& inside) {
@@ -230,15 +220,9 @@ class ModelMaker {
     object(edge_joints_.contains(table.cell(row, 0)) ? "capacity_per_length" : "capacity", capacity);
     object("stiffness", numbers(first_stiffness, from_column));
     if (const std::string_view cell = table.cell(row, interaction); !cell.empty())
-      add(first, "interaction", quoted(cell));
+      add(first, "interaction", json_text(cell));
     object("ductility", numbers(interaction + 1, end, std::string_view("ductility_").size()));
     line_ += '}';
-  }
-
-  /// A number that must be there.
-  static std::string needed(const CsvTable& table, std::size_t row, std::size_t column) {
-    (void)table.text(row, column);
-    return digits(*table.number(row, column));
   }
 
   void node(const CsvTable& table, std::size_t row) {
@@ -249,17 +233,17 @@ class ModelMaker {
     line_ += '{';
     bool first = true;
     const auto text = [&](std::size_t column, const char* key) {
-      if (!table.cell(row, column).empty()) add(first, key, quoted(table.cell(row, column)));
+      if (!table.cell(row, column).empty()) add(first, key, json_text(table.cell(row, column)));
     };
     text(1, "kind");
-    add(first, "nodes", "[" + quoted(table.text(row, 2)) + "," + quoted(table.text(row, 3)) + "]");
+    add(first, "nodes", "[" + json_text(table.text(row, 2)) + "," + json_text(table.text(row, 3)) + "]");
     text(4, "section");
     text(5, "material");
     if (!table.cell(row, 6).empty() || !table.cell(row, 7).empty() || !table.cell(row, 8).empty())
       add(first, "up", "[" + needed(table, row, 6) + "," + needed(table, row, 7) + "," + needed(table, row, 8) + "]");
-    if (const auto roll = table.number(row, 9)) add(first, "roll", digits(*roll));
+    if (const auto roll = table.number(row, 9)) add(first, "roll", json_number(*roll));
     const auto joint = [&](std::size_t column) {
-      return table.cell(row, column).empty() ? std::string("null") : quoted(table.cell(row, column));
+      return table.cell(row, column).empty() ? std::string("null") : json_text(table.cell(row, column));
     };
     if (!table.cell(row, 10).empty() || !table.cell(row, 11).empty())
       add(first, "joints", "[" + joint(10) + "," + joint(11) + "]");
@@ -292,10 +276,10 @@ class ModelMaker {
       } else if (cell.empty()) {
         continue;
       }
-      const std::string entry = c != restraints_column ? digits(*table.number(row, c))
-                                : distances.empty()    ? quoted(cell)
+      const std::string entry = c != restraints_column ? json_number(*table.number(row, c))
+                                : distances.empty()    ? json_text(cell)
                                                        : std::move(distances);
-      inside += (inside.empty() ? "" : ",") + quoted(model_tables::members[c]) + ":" + entry;
+      inside += (inside.empty() ? "" : ",") + json_text(model_tables::members[c]) + ":" + entry;
     }
     const std::string_view word = table.cell(row, design_column);
     if (word.empty()) return inside.empty() ? "" : "{" + inside + "}";
@@ -304,14 +288,14 @@ class ModelMaker {
     if (!inside.empty())
       table.fail(row, design_column,
                  "found \"none\" beside lengths, factors or restraints; accepted: one or the other");
-    return quoted(word);
+    return json_text(word);
   }
 
   static std::string group_list(std::string_view cell) {
     std::string list = "[";
     while (true) {
       const std::size_t end = cell.find(model_tables::group_separator);
-      list += quoted(cell.substr(0, end));
+      list += json_text(cell.substr(0, end));
       if (end == std::string_view::npos) return list + "]";
       list += ',';
       cell.remove_prefix(end + 1);
@@ -322,13 +306,13 @@ class ModelMaker {
     line_ += '{';
     bool first = true;
     const auto text = [&](std::size_t column, const char* key) {
-      if (!table.cell(row, column).empty()) add(first, key, quoted(table.cell(row, column)));
+      if (!table.cell(row, column).empty()) add(first, key, json_text(table.cell(row, column)));
     };
     text(1, "kind");
     std::string nodes;
-    for (std::size_t c = 2; c < 6; ++c) nodes += (c == 2 ? "[" : ",") + quoted(table.text(row, c));
+    for (std::size_t c = 2; c < 6; ++c) nodes += (c == 2 ? "[" : ",") + json_text(table.text(row, c));
     add(first, "nodes", nodes + "]");
-    if (const auto thickness = table.number(row, 6)) add(first, "thickness", digits(*thickness));
+    if (const auto thickness = table.number(row, 6)) add(first, "thickness", json_number(*thickness));
     text(7, "material");
     text(8, "model");
     if (const std::string_view mesh = table.cell(row, 9); !mesh.empty())
@@ -367,234 +351,9 @@ class ModelMaker {
       const char start = cell.front();
       if (start != '+' && start != '-' && start != '.' && start != ',' && (start < '0' || start > '9'))
         table.fail(row, c, "found " + in_quotes(cell) + "; accepted: \"free\", \"fixed\", or a spring stiffness");
-      add(first, model_tables::supports[c], digits(*table.number(row, c)));
+      add(first, model_tables::supports[c], json_number(*table.number(row, c)));
     }
     line_ += '}';
-  }
-
-  // Loads. Rows of one part in one case go together, wherever they stand.
-
-  enum LoadColumn : std::size_t { in_case, on, name, type, component, value, value2, from, to, frame };
-  struct Part {
-    std::string on, name;
-    std::vector<std::size_t> rows;
-  };
-  struct Case {
-    std::string name;
-    std::size_t first_row = 0;
-    std::vector<Part> parts;
-    std::vector<std::size_t> own_rows;  ///< self weight
-    std::unordered_map<std::string, std::size_t> part_of;
-  };
-
-  void loads() {
-    const auto found = tables_.find("loads.csv");
-    if (found == tables_.end() || found->second.rows() == 0) return;
-    const CsvTable& table = found->second;
-    std::vector<Case> cases;
-    std::unordered_map<std::string, std::size_t> case_of;  // looked up only
-    for (std::size_t row = 0; row < table.rows(); ++row) {
-      const std::string case_name(table.text(row, in_case));
-      const auto [at, is_new] = case_of.try_emplace(case_name, cases.size());
-      if (is_new) cases.push_back({case_name, row, {}, {}, {}});
-      sort_row(table, row, cases[at->second]);
-    }
-    put(",\"loads\":{", table.name());
-    for (std::size_t k = 0; k < cases.size(); ++k) write_case(table, cases[k], k == 0);
-    put("}", table.name());
-  }
-
-  static void sort_row(const CsvTable& table, std::size_t row, Case& load_case) {
-    const std::string_view acts_on = table.cell(row, on), kind = table.cell(row, type);
-    if (acts_on == model_tables::on_model || (acts_on.empty() && kind == "self_weight")) {
-      load_case.own_rows.push_back(row);
-      return;
-    }
-    if (acts_on.empty()) {  // the case alone, which may hold nothing
-      for (std::size_t c = name; c <= frame; ++c)
-        if (!table.cell(row, c).empty()) table.fail(row, on, "the cell is empty; accepted: what the load is on");
-      return;
-    }
-    for (std::string_view known :
-         {model_tables::on_node, model_tables::on_member, model_tables::on_panel, model_tables::on_settlement}) {
-      if (acts_on != known && acts_on != std::string(known) + "s") continue;
-      if (known == model_tables::on_node && kind == "settlement") known = model_tables::on_settlement;
-      const std::string part(table.text(row, name));
-      const auto [at, is_new] = load_case.part_of.try_emplace(std::string(known) + "\n" + part, load_case.parts.size());
-      if (is_new) load_case.parts.push_back({std::string(known), part, {}});
-      load_case.parts[at->second].rows.push_back(row);
-      return;
-    }
-    table.fail(row, on,
-               "found " + in_quotes(acts_on) +
-                   "; accepted: \"model\", \"node\", \"member\", \"panel\", \"settlement\", or nothing");
-  }
-
-  void write_case(const CsvTable& table, const Case& load_case, bool first) {
-    put((first ? "" : ",") + quoted(load_case.name) + ":{", table.place(load_case.first_row));
-    bool any = self_weight(table, load_case);
-    const auto group = [&](std::string_view acts_on, const char* key, auto write) {
-      bool opened = false;
-      for (const Part& part : load_case.parts) {
-        if (part.on != acts_on) continue;
-        if (!opened) put((any ? "," : "") + quoted(key) + ":{", table.name());
-        put((opened ? "," : "") + quoted(part.name) + ":", table.place(part.rows.front()));
-        opened = any = true;
-        write(part);
-      }
-      if (opened) put("}", table.name());
-    };
-    const auto by_component = [&](const Part& part) {
-      component_object(table, part.rows, part.on == model_tables::on_node ? "force" : "settlement");
-    };
-    group(model_tables::on_panel, "panels", [&](const Part& part) { panel_loads(table, part.rows); });
-    group(model_tables::on_node, "nodes", by_component);
-    group(model_tables::on_member, "members", [&](const Part& part) { member_loads(table, part.rows); });
-    group(model_tables::on_settlement, "settlements", by_component);
-    put("}", table.name());
-  }
-
-  /// A multiple downwards (no component), or the components of a vector.
-  bool self_weight(const CsvTable& table, const Case& load_case) {
-    if (load_case.own_rows.empty()) return false;
-    std::array<std::string, 3> vector{"0", "0", "0"};
-    std::array<bool, 3> given{};
-    for (const std::size_t row : load_case.own_rows) {
-      only_cells(table, row, {on, type, component, value});
-      if (table.cell(row, type) != "self_weight")
-        table.fail(row, type, "found " + in_quotes(table.cell(row, type)) + "; accepted: \"self_weight\"");
-      const std::string_view axis = table.cell(row, component);
-      const std::string number = needed(table, row, value);
-      if (axis.empty()) {
-        if (load_case.own_rows.size() > 1)
-          table.fail(row, component, "self weight stands twice in this case; accepted: once, or x, y and z");
-        put("\"self_weight\":" + number, table.place(row));
-        return true;
-      }
-      const std::size_t i = axis == "x" ? 0 : axis == "y" ? 1 : axis == "z" ? 2 : 3;
-      if (i == 3)
-        table.fail(row, component, "found " + in_quotes(axis) + "; accepted: \"x\", \"y\", \"z\", or nothing");
-      if (given[i]) table.fail(row, component, in_quotes(axis) + " stands twice; accepted: each once");
-      given[i] = true;
-      vector[i] = number;
-    }
-    put("\"self_weight\":[" + vector[0] + "," + vector[1] + "," + vector[2] + "]",
-        table.place(load_case.own_rows.front()));
-    return true;
-  }
-
-  /// Refuses what stands in other cells than those (case and name may always be there).
-  static void only_cells(const CsvTable& table, std::size_t row, std::initializer_list<std::size_t> columns) {
-    for (std::size_t c = type; c <= frame; ++c)
-      if (std::find(columns.begin(), columns.end(), c) == columns.end() && !table.cell(row, c).empty())
-        table.fail(row, c, "found " + in_quotes(table.cell(row, c)) + "; accepted for this load: an empty cell");
-  }
-
-  void component_object(const CsvTable& table, const std::vector<std::size_t>& rows, std::string_view kind) {
-    put("{", table.name());
-    std::set<std::string, std::less<>> seen;
-    for (const std::size_t row : rows) {
-      only_cells(table, row, {type, component, value});
-      if (table.cell(row, type) != kind && !table.cell(row, type).empty())
-        table.fail(row, type, "found " + in_quotes(table.cell(row, type)) + "; accepted: " + in_quotes(kind));
-      const std::string axis(table.text(row, component));
-      if (!seen.insert(axis).second) table.fail(row, component, in_quotes(axis) + " stands twice; accepted: each once");
-      put((seen.size() == 1 ? "" : ",") + quoted(axis) + ":" + needed(table, row, value), table.place(row));
-    }
-    put("}", table.name());
-  }
-
-  void panel_loads(const CsvTable& table, const std::vector<std::size_t>& rows) {
-    put("{", table.name());
-    std::set<std::string, std::less<>> seen;
-    for (const std::size_t row : rows) {
-      only_cells(table, row, {type, value});
-      const std::string kind(table.text(row, type));
-      if (!seen.insert(kind).second) table.fail(row, type, in_quotes(kind) + " stands twice; accepted: each once");
-      put((seen.size() == 1 ? "" : ",") + quoted(kind) + ":" + needed(table, row, value), table.place(row));
-    }
-    put("}", table.name());
-  }
-
-  /// Components in rows that follow each other, alike but for the component, are one load.
-  void member_loads(const CsvTable& table, const std::vector<std::size_t>& rows) {
-    put("[", table.name());
-    for (std::size_t k = 0; k < rows.size();) {
-      const std::size_t row = rows[k];
-      const std::string kind(table.text(row, type));
-      check_member_load(table, row, kind);
-      put((k == 0 ? "{" : ",{") + quoted(kind) + ":{", table.place(row));
-      std::set<std::string, std::less<>> seen;
-      for (; k < rows.size() && (seen.empty() || alike(table, row, rows[k])); ++k) {
-        check_member_load(table, rows[k], kind);
-        const std::string axis(table.text(rows[k], component));
-        if (seen.contains(axis)) break;
-        put((seen.empty() ? "" : ",") + quoted(axis) + ":" + member_value(table, rows[k], kind), table.place(rows[k]));
-        seen.insert(axis);
-      }
-      std::string end = "}";
-      if (kind == "point") {
-        end += ",\"at\":" + needed(table, row, from);
-      } else {
-        if (const auto start = table.number(row, from)) end += ",\"from\":" + digits(*start);
-        if (const auto stop = table.number(row, to)) end += ",\"to\":" + digits(*stop);
-      }
-      if (!table.cell(row, frame).empty()) end += ",\"frame\":" + quoted(table.cell(row, frame));
-      put(end + "}", table.place(row));
-    }
-    put("]", table.name());
-  }
-
-  static bool alike(const CsvTable& table, std::size_t a, std::size_t b) {
-    return std::all_of(std::begin(shared_cells), std::end(shared_cells),
-                       [&](std::size_t c) { return table.cell(a, c) == table.cell(b, c); });
-  }
-  static constexpr std::array<std::size_t, 4> shared_cells{type, from, to, frame};
-
-  static void check_member_load(const CsvTable& table, std::size_t row, const std::string& kind) {
-    if (kind == "uniform")
-      only_cells(table, row, {type, component, value, from, to, frame});
-    else if (kind == "trapezoid")
-      only_cells(table, row, {type, component, value, value2, from, to, frame});
-    else if (kind == "point")
-      only_cells(table, row, {type, component, value, from, frame});
-    else if (kind == "temperature")
-      only_cells(table, row, {type, component, value});
-    else
-      table.fail(row, type,
-                 "found " + in_quotes(kind) + "; accepted: \"uniform\", \"trapezoid\", \"point\", \"temperature\"");
-  }
-
-  static std::string member_value(const CsvTable& table, std::size_t row, const std::string& kind) {
-    if (kind != "trapezoid") return needed(table, row, value);
-    return "[" + needed(table, row, value) + "," + needed(table, row, value2) + "]";
-  }
-
-  void combinations() {
-    const auto found = tables_.find("combinations.csv");
-    if (found == tables_.end() || found->second.rows() == 0) return;
-    const CsvTable& table = found->second;
-    std::vector<std::pair<std::string, std::vector<std::size_t>>> list;
-    std::unordered_map<std::string, std::size_t> known;  // looked up only
-    for (std::size_t row = 0; row < table.rows(); ++row) {
-      const std::string combination(table.text(row, 0));
-      const auto [at, is_new] = known.try_emplace(combination, list.size());
-      if (is_new) list.push_back({combination, {}});
-      list[at->second].second.push_back(row);
-    }
-    put(",\"combinations\":{", table.name());
-    for (std::size_t k = 0; k < list.size(); ++k) {
-      put((k == 0 ? "" : ",") + quoted(list[k].first) + ":{", table.place(list[k].second.front()));
-      std::set<std::string, std::less<>> seen;
-      for (const std::size_t row : list[k].second) {
-        const std::string load_case(table.text(row, 1));
-        if (!seen.insert(load_case).second)
-          table.fail(row, 1, in_quotes(load_case) + " stands twice in this combination; accepted: each once");
-        put((seen.size() == 1 ? "" : ",") + quoted(load_case) + ":" + needed(table, row, 2), table.place(row));
-      }
-      put("}", table.name());
-    }
-    put("}", table.name());
   }
 
   std::string folder_, line_;

@@ -5,21 +5,12 @@
 #include <set>
 
 #include "formats/json/json_document.h"
-#include "formats/json/json_writer.h"
 #include "formats/tables/model_tables.h"
+#include "formats/tables/row_json.h"
 
 namespace topple::structure::formats {
 
 namespace {
-
-/// A string of the JSON text.
-std::string json_text(std::string_view text) { return JsonWriter().value(text).take(); }
-
-/// A number that must be there.
-std::string needed(const CsvTable& table, std::size_t row, std::size_t column) {
-  (void)table.text(row, column);
-  return json_number(*table.number(row, column));
-}
 
 /// Rows by a name, in the order in which the names first stand.
 using Groups = std::vector<std::pair<std::string, std::vector<std::size_t>>>;
