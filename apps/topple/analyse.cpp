@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <iterator>
 #include <memory>
-#include <thread>
 
+#include "analyse_options.h"
 #include "command.h"
 #include "html_report.h"
 #include "motion_options.h"
@@ -22,34 +22,12 @@
 #include "topple/structure/member_checks.h"
 #include "topple/structure/modelling_checks.h"
 #include "topple/structure/output_files.h"
-#include "topple/structure/parse_cuts.h"
 
 namespace topple::app {
 
 namespace {
 
 using namespace topple::structure;
-
-struct Options {
-  std::string model, output;
-  std::vector<std::string> combinations;
-  std::string code;
-  std::optional<double> drift_limit;
-  std::string effective_lengths, warping, project, author;
-  std::vector<std::string> stiffeners;
-  bool rigid_end_posts = false;
-  std::string direct_analysis;
-  int stations = 0, threads = 0;
-  std::string p_delta;
-  int buckling = 0, modes = 0, divide = 1;
-  std::string mass, torsional_mass, factor;
-  bool rotary_inertia = false;
-  std::vector<std::string> lose, lose_each;
-  std::optional<double> sudden;
-  MotionOptions motion;
-  std::string cuts;
-  bool html = false, csv = false, vtu = false, diagnose = false;
-};
 
 /// Seconds by stage, in the order of their names.
 class StageClock {
@@ -65,101 +43,6 @@ class StageClock {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-std::vector<CombinationId> chosen(const Building& building, const std::vector<std::string>& names) {
-  std::vector<CombinationId> ids;
-  for (const std::string& name : names) {
-    std::string known;
-    std::vector<std::string> names_known;
-    bool found = false;
-    for (std::size_t i = 0; i < building.combinations.size(); ++i) {
-      known += (known.empty() ? "" : ", ") + building.combinations[i].name;
-      names_known.push_back(building.combinations[i].name);
-      if (!matches_pattern(name, building.combinations[i].name)) continue;
-      if (std::find(ids.begin(), ids.end(), CombinationId(i)) == ids.end()) ids.emplace_back(i);
-      found = true;
-    }
-    if (!found)
-      throw InputError(building.file + ": --combination " + name + ": no such combination" +
-                       did_you_mean(name, names_known) + "; accepted: " + known);
-  }
-  return ids;
-}
-
-/// Those that are named, else all.
-std::vector<CombinationId> combinations_of(const Building& building, const Options& options) {
-  std::vector<CombinationId> ids = chosen(building, options.combinations);
-  if (options.combinations.empty())
-    for (std::size_t i = 0; i < building.combinations.size(); ++i) ids.emplace_back(i);
-  return ids;
-}
-
-/// Members by name or pattern, and all members of groups.
-LossRequest losses(const Options& options, const Building& building) {
-  LossRequest request;
-  if (options.sudden) request.sudden = *options.sudden;
-  if (options.lose.empty() && options.lose_each.empty()) return request;
-  const NameIndex names(building);
-  std::vector<std::string> members;
-  for (const Member& member : building.members) members.push_back(member.name);
-  for (const std::string& name : options.lose) {
-    const std::vector<MemberId> found = names.members_matching(name);
-    if (found.empty())
-      throw InputError(building.file + ": --lose " + name + ": no such member" + did_you_mean(name, members) +
-                       "; accepted: a member's name, in which * stands for any run of characters");
-    request.named.insert(request.named.end(), found.begin(), found.end());
-  }
-  for (const std::string& name : options.lose_each) {
-    const NameIndex::Group* group = names.group(name);
-    if (group == nullptr || group->members.empty())
-      throw InputError(building.file + ": --lose-each " + name +
-                       ": no such group of members; accepted: posts, beams, braces and the groups of the model");
-    request.each.insert(request.each.end(), group->members.begin(), group->members.end());
-  }
-  return request;
-}
-
-/// Lengths that the command line gives are in the model's units.
-DesignInput design_input(const Options& options, const Building& building) {
-  DesignInput input;
-  if (options.effective_lengths == "charts") input.lengths = EffectiveLengths::charts;
-  if (options.effective_lengths == "assumed") input.lengths = EffectiveLengths::assumed;
-  if (!options.direct_analysis.empty()) input.lengths = EffectiveLengths::unbraced;
-  input.rigid_end_posts = options.rigid_end_posts;
-  if (!options.warping.empty()) input.warping_held = {options.warping == "held", options.warping == "held"};
-  for (const std::string& given : options.stiffeners) {
-    const std::size_t at = given.rfind('=');
-    double spacing = 0;
-    if (at == std::string::npos || !CLI::detail::lexical_cast(given.substr(at + 1), spacing) || !(spacing > 0))
-      throw InputError("--stiffeners " + given + ": accepted: NAME=SPACING, a number above 0 in the model's length");
-    input.stiffeners.emplace_back(given.substr(0, at), spacing * building.units.length);
-  }
-  return input;
-}
-
-/// Those of the model, then those of the command line's file.
-std::vector<SectionCut> cuts(const Options& options, const std::filesystem::path& model, const Building& building) {
-  std::vector<SectionCut> all = read_model_cuts(model, building);
-  if (options.cuts.empty()) return all;
-  for (SectionCut& cut : read_section_cuts(options.cuts, building)) {
-    for (const SectionCut& known : all)
-      if (known.name == cut.name)
-        throw InputError(options.cuts + ", cuts." + cut.name +
-                         ": the model has a cut of that name; accepted: another name");
-    all.push_back(std::move(cut));
-  }
-  return all;
-}
-
-/// What the command line asks for, else what the file asks for itself.
-solver::SecondOrder second_order(const std::string& asked, const Building& building) {
-  if (asked == "exact") return solver::SecondOrder::exact;
-  if (asked == "cubic") return solver::SecondOrder::cubic;
-  if (building.requested.cubic_p_delta) return solver::SecondOrder::frame3dd;
-  return solver::SecondOrder::none;
-}
-
-int processors() { return static_cast<int>(std::thread::hardware_concurrency()); }
-
 /// The smallest multiple of `stations` that is not below `wanted`.
 int whole_multiple(int stations, int wanted) {
   return stations == 0 ? wanted : stations * std::max(1, (wanted + stations - 1) / stations);
@@ -172,25 +55,8 @@ void give_back_free_memory() {
 #endif
 }
 
-/// Options come before what the file asks for itself.
-void ask_for_modes(const Options& options, const RequestedAnalyses& requested, AnalysisRequest& request) {
-  request.modes = options.modes > 0 ? options.modes : requested.modes;
-  for (const auto& [asked, name] : {std::pair{!options.mass.empty(), "--mass"},
-                                    {!options.torsional_mass.empty(), "--torsional-mass"},
-                                    {options.rotary_inertia, "--rotary-inertia"}})
-    if (asked && request.modes == 0)
-      throw InputError(std::string(name) + ": no frequencies are asked for; accepted: with --modes");
-  const bool lumped = options.mass.empty() ? requested.lumped_mass : options.mass == "lumped";
-  // Only a Frame3DD file asks for modes itself: its elements spin with density x J and have rotary inertia.
-  const bool frame3dd = requested.modes > 0;
-  const bool by_j = options.torsional_mass.empty() ? frame3dd : options.torsional_mass == "j";
-  if (lumped) request.mass = solver::MassDistribution::lumped;
-  if (by_j) request.torsional_mass = solver::TorsionalMass::torsion_constant;
-  request.rotary_inertia = options.rotary_inertia || frame3dd;
-}
-
 /// What moves, as results.json and in the drawings that are asked for.
-void write_diagnosis(const Options& options, const Building& building, const AnalysisRequest& request,
+void write_diagnosis(const AnalyseOptions& options, const Building& building, const AnalysisRequest& request,
                      const Diagnosis& diagnosis) {
   std::vector<std::pair<std::string, std::string>> files;
   files.emplace_back("results.json", diagnosis_json(building, request, diagnosis));
@@ -206,36 +72,36 @@ const std::vector<std::string>& result_names() {
   return names;
 }
 
-int run(const Options& options) {
-  for (const auto& [asked, name] : {std::pair{options.html, "--html"},
-                                    {options.csv, "--csv"},
-                                    {options.vtu, "--vtu"},
-                                    {options.diagnose, "--diagnose"}})
-    if (asked && options.output.empty()) throw InputError(std::string(name) + ": name the folder for it with -o");
-  if (options.drift_limit && options.code.empty())
-    throw InputError("--drift-limit: nothing is checked; accepted: with --code");
-  for (const auto& [asked, name] : {std::pair{!options.effective_lengths.empty(), "--effective-lengths"},
-                                    {!options.warping.empty(), "--warping"},
-                                    {!options.stiffeners.empty(), "--stiffeners"},
-                                    {options.rigid_end_posts, "--rigid-end-posts"}})
-    if (asked && options.code.empty())
-      throw InputError(std::string(name) + ": nothing is checked; accepted: with --code");
-  if (!options.direct_analysis.empty() && !options.effective_lengths.empty())
-    throw InputError(
-        "--effective-lengths: those of a direct analysis are the unbraced ones; accepted: no "
-        "--direct-analysis");
-  if (!options.direct_analysis.empty() && (options.code != "aisc360" || options.p_delta.empty()))
-    throw InputError("--direct-analysis: the method of AISC 360 chapter C; accepted: with --code aisc360 --p-delta");
-  if (options.divide > 1 && options.modes == 0)
-    throw InputError("--divide: it is for natural modes; accepted: with --modes");
-  if (options.divide > 1 && (!options.code.empty() || !options.lose.empty() || !options.lose_each.empty()))
-    throw InputError(
-        "--divide: checks and losses are of whole members (effective lengths, joints at their ends), of which pieces "
-        "would have neither; accepted: without --code, --lose and --lose-each, which a run of its own without --divide "
-        "takes; modes need the pieces, forces do not: within members they are exact");
-  if (options.sudden && options.lose.empty() && options.lose_each.empty())
-    throw InputError("--sudden: nothing is lost; accepted: with --lose or --lose-each");
-  check_motion_options(options.motion, !options.lose.empty() || !options.lose_each.empty(), !options.output.empty());
+void write_answer(const AnalyseOptions& options, const Building& building, const AnalysisRequest& request,
+                  const AnalysisResult& result, const DesignInput& design,
+                  const std::map<std::string, double>& seconds) {
+  tell_progress("writing", -1);
+  std::vector<std::pair<std::string, std::string>> files;
+  std::vector<StreamedFile> streamed;
+  const bool sample = building.members.size() > most_members_whole;
+  if (options.html && !sample) {
+    files.emplace_back("results.json", results_json(building, request, result, seconds));
+    files.emplace_back("report.html",
+                       html_report(building, result, files[0].second, {options.project, options.author, design}));
+  } else {
+    streamed.push_back(
+        {"results.json", [&](const auto& sink) { write_results_json(building, request, result, seconds, sink); }});
+  }
+  if (options.html && sample) {
+    const ResultsSelection selection = select_members(building, result, members_selected, selected_of_section);
+    files.emplace_back("report.html",
+                       html_report(building, result, results_json(building, request, result, seconds, selection),
+                                   {options.project, options.author, design}, &selection));
+  }
+  const auto append = [&](NamedTexts more) { std::move(more.begin(), more.end(), std::back_inserter(files)); };
+  if (options.csv) append(results_csv(building, result));
+  if (options.vtu) append(results_vtu(building, result));
+  append(motion_csv(building, request, result));
+  write_files(options.output, files, streamed);
+}
+
+int run(const AnalyseOptions& options) {
+  require_sound(options);
   StageClock clock;
   const std::filesystem::path file = find_model(options.model);
   std::optional<OutputFolder> folder;
@@ -249,18 +115,7 @@ int run(const Options& options) {
   const Building building = direct ? with_notional_loads(read, combinations_of(read, options), share) : std::move(read);
   give_back_free_memory();
   clock.stop("read");
-  AnalysisRequest request;
-  if (!direct) request.combinations = chosen(building, options.combinations);
-  request.stations = options.stations;
-  request.workers = options.threads;
-  request.solver.threads = options.threads > 0 ? options.threads : std::max(1, processors());
-  if (options.factor == "cholmod") request.solver.factorisation = solver::Factorisation::supernodal;
-  request.second_order = second_order(options.p_delta, building);
-  request.buckling = options.buckling;
-  request.losses = losses(options, building);
-  ask_for_motion(options.motion, building, request);
-  request.cuts = cuts(options, file, building);
-  ask_for_modes(options, building.requested, request);
+  const AnalysisRequest request = analysis_request(options, file, building);
   AnalysisRequest wider = request;
   const int wanted = std::max({options.html ? report_stations : 0, options.vtu ? drawing_stations : 0,
                                options.code.empty() ? 0 : design_stations});
@@ -302,32 +157,8 @@ int run(const Options& options) {
   clock.seconds["factor"] = result.statistics.factor_seconds;
   clock.seconds["solve"] = result.statistics.solve_seconds;
   if (request.losses.any() || request.time_history) clock.seconds["losses"] = result.loss_seconds;
-  const bool diagnosed = failed && options.diagnose;  // results.json holds what moves
-  if (!options.output.empty() && !diagnosed) {
-    tell_progress("writing", -1);
-    std::vector<std::pair<std::string, std::string>> files;
-    std::vector<StreamedFile> streamed;
-    const bool sample = building.members.size() > most_members_whole;
-    if (options.html && !sample) {
-      files.emplace_back("results.json", results_json(building, request, result, clock.seconds));
-      files.emplace_back("report.html",
-                         html_report(building, result, files[0].second, {options.project, options.author, design}));
-    } else {
-      streamed.push_back({"results.json", [&, seconds = clock.seconds](const auto& sink) {
-                            write_results_json(building, request, result, seconds, sink);
-                          }});
-    }
-    if (options.html && sample) {
-      const ResultsSelection selection = select_members(building, result, members_selected, selected_of_section);
-      files.emplace_back("report.html", html_report(building, result,
-                                                    results_json(building, request, result, clock.seconds, selection),
-                                                    {options.project, options.author, design}, &selection));
-    }
-    const auto append = [&](NamedTexts more) { std::move(more.begin(), more.end(), std::back_inserter(files)); };
-    if (options.csv) append(results_csv(building, result));
-    if (options.vtu) append(results_vtu(building, result));
-    append(motion_csv(building, request, result));
-    write_files(options.output, files, streamed);
+  if (!options.output.empty() && !(failed && options.diagnose)) {  // else results.json holds what moves
+    write_answer(options, building, request, result, design, clock.seconds);
     clock.stop("write");
   }
   std::fputs(summary_text(building, result, clock.seconds).c_str(), stdout);
@@ -338,7 +169,7 @@ int run(const Options& options) {
 }
 
 std::function<int()> declare(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<AnalyseOptions>();
   app.add_option("MODEL", options->model, "A shipped model's name, a file (.json, .3dd), or a folder of tables (.csv)")
       ->required();
   app.add_option("-o", options->output, "Folder for results.json and the other files");
