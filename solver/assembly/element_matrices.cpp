@@ -1,0 +1,126 @@
+// Stiffnesses of single elements, as a system has them now.
+#include "assembly/frame_system.h"
+#include "elements/second_order_beam.h"
+
+namespace topple::solver {
+
+Mat12 FrameSystem::hub_stiffness(std::size_t i) const {
+  if (second_order == nullptr) return CondensedBeam(model.beams[i], beam_factor[i]).stiffness();
+  return SecondOrderBeam(model.beams[i], beam_factor[i], second_order->mode, second_order->first_axial[i],
+                         second_order->loads[i], ends_apart(static_cast<int>(i)))
+      .stiffness();
+}
+
+double FrameSystem::ends_apart(int index) const {
+  const Beam& beam = model.beams[static_cast<std::size_t>(index)];
+  const auto place = [&](std::size_t end) -> Vec3 {
+    return model.nodes[static_cast<std::size_t>(beam.node[end])] + beam.offset[end];
+  };
+  const double apart = (place(1) - place(0)).norm();
+  constexpr double rounding = 1e-9;
+  return apart > (1 + rounding) * beam.length ? apart : beam.length;
+}
+
+Mat12 FrameSystem::beam_stiffness(int index) const {
+  const auto i = static_cast<std::size_t>(index);
+  if (beam_stands[i] == 0) return Mat12::Zero();
+  const Beam& beam = model.beams[i];
+  std::array<Mat3, 2> arm;
+  for (std::size_t end = 0; end < 2; ++end) {
+    arm[end] = arm_matrix(beam.offset[end]) + dofs_.diaphragm_arm(beam.node[end]);
+  }
+  Mat12 K = to_node_freedoms(beam.axes, hub_stiffness(i), arm);
+  if (inertia != nullptr && beam.density != 0) K += inertia->factor * beam_mass(*this, inertia->masses, index);
+  return K;
+}
+
+const Mat24& FrameSystem::shell_node_stiffness(int index) const {
+  if (const auto given = model.shell_stiffness.find(index); given != model.shell_stiffness.end()) return given->second;
+  const Shell& shell = model.shells[static_cast<std::size_t>(index)];
+  const std::array<Vec3, 4> corners = corner_places(shell, model.nodes);
+  KeptShell& kept = kept_shells_[kept_shells_.size() > 1 ? static_cast<std::size_t>(index) : 0];
+  const bool same = kept.shell.thickness == shell.thickness && kept.shell.youngs_modulus == shell.youngs_modulus &&
+                    kept.shell.poisson_ratio == shell.poisson_ratio && kept.shell.bending == shell.bending &&
+                    kept.corners == corners;
+  if (!same) {
+    kept.shell = shell;
+    kept.corners = corners;
+    kept.stiffness = ShellElement(shell, corners).stiffness();
+  }
+  return kept.stiffness;
+}
+
+Mat24 FrameSystem::shell_stiffness(int index) const {
+  const auto i = static_cast<std::size_t>(index);
+  if (shell_stands[i] == 0) return Mat24::Zero();
+  Mat24 K = shell_node_stiffness(index);
+  if (shells_pushed() && hanging(index) == nullptr) K += shell_geometric_stiffness(index);
+  if (inertia != nullptr && model.shells[i].density != 0)
+    K += inertia->factor * shell_mass(*this, inertia->masses, index);
+  add_diaphragm_arms(model.shells[i].node, K);
+  return K;
+}
+
+Eigen::MatrixXd FrameSystem::patch_node_stiffness(std::size_t patch) const {
+  Eigen::MatrixXd K = model.patches[patch].stiffness;
+  if (shells_pushed())
+    if (const HangingShell* shell = hanging_on_patch(second_order->hanging, static_cast<int>(patch)))
+      K += shell->corners.transpose() * shell_geometric_stiffness(shell->shell) * shell->corners;
+  const std::vector<int>& nodes = model.patches[patch].node;
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    if (node_stands[static_cast<std::size_t>(nodes[n])] != 0) continue;
+    K.middleRows<6>(static_cast<Eigen::Index>(6 * n)).setZero();
+    K.middleCols<6>(static_cast<Eigen::Index>(6 * n)).setZero();
+  }
+  return K;
+}
+
+Eigen::MatrixXd FrameSystem::patch_stiffness(int index) const {
+  const auto i = static_cast<std::size_t>(index);
+  Eigen::MatrixXd K = patch_node_stiffness(i);
+  add_diaphragm_arms(model.patches[i].node, K);
+  return K;
+}
+
+Eigen::MatrixXd FrameSystem::plate_stiffness(std::size_t element) const {
+  if (element < element_of_patch(0)) return shell_stiffness(static_cast<int>(element - element_of_shell(0)));
+  return patch_stiffness(static_cast<int>(element - element_of_patch(0)));
+}
+
+std::span<const int> FrameSystem::plate_nodes(std::size_t element) const {
+  if (element < element_of_patch(0)) return model.shells[element - element_of_shell(0)].node;
+  return model.patches[element - element_of_patch(0)].node;
+}
+
+const HangingShell* FrameSystem::hanging(int shell) const {
+  return second_order == nullptr ? nullptr : hanging_shell(second_order->hanging, shell);
+}
+
+Vec24 FrameSystem::corner_displacements(int index, const std::vector<Vec6>& displacements) const {
+  const HangingShell* hung = hanging(index);
+  if (hung == nullptr) {
+    Vec24 u;
+    const auto& nodes = model.shells[static_cast<std::size_t>(index)].node;
+    for (int n = 0; n < 4; ++n)
+      u.segment<6>(6 * n) = displacements[static_cast<std::size_t>(nodes[static_cast<std::size_t>(n)])];
+    return u;
+  }
+  const std::vector<int>& nodes = model.patches[static_cast<std::size_t>(hung->patch)].node;
+  Eigen::VectorXd all(static_cast<Eigen::Index>(6 * nodes.size()));
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+    all.segment<6>(static_cast<Eigen::Index>(6 * n)) = displacements[static_cast<std::size_t>(nodes[n])];
+  return hung->corners * all;
+}
+
+Mat24 FrameSystem::shell_geometric_stiffness(int index) const {
+  const auto i = static_cast<std::size_t>(index);
+  const Shell& shell = model.shells[i];
+  Vec24 u = corner_displacements(index, second_order->shell_displacements);
+  const Vec3 origin = u.head<3>();
+  for (int n = 0; n < 4; ++n) u.segment<3>(6 * n) -= origin;
+  const double strain = second_order->shell_strain.empty() ? 0 : second_order->shell_strain[i];
+  return second_order->shell_factor *
+         ShellElement(shell, corner_places(shell, model.nodes)).geometric_stiffness(u, strain);
+}
+
+}  // namespace topple::solver
