@@ -73,26 +73,44 @@ double distance_outside(const std::vector<Vec2>& hull, const Vec2& point) {
   return inside || hull.empty() ? 0 : nearest;
 }
 
+double footprint_without_farthest(std::vector<FallenBody> bodies, double mass) {
+  std::stable_sort(bodies.begin(), bodies.end(),
+                   [](const FallenBody& a, const FallenBody& b) { return a.reach > b.reach; });
+  std::vector<Vec2> places;
+  double farther = 0;
+  for (const FallenBody& body : bodies) {
+    farther += body.mass;
+    if (farther > mass) places.insert(places.end(), body.places.begin(), body.places.end());
+  }
+  return area_of(convex_hull(std::move(places)));
+}
+
 DebrisField debris_field(const Simulation& simulation) {
   std::vector<Vec2> standing;
   for (const Node& node : simulation.building().nodes) standing.emplace_back(node.position.x(), node.position.y());
   const std::vector<Vec2> was = convex_hull(std::move(standing));
   DebrisField field;
   std::vector<Vec2> all;
+  std::vector<FallenBody> bodies;
   double mass = 0, outside = 0;
   for (const BodyView& body : simulation.bodies()) {
     if (body.radius > 0) continue;
     const std::vector<Vec2> places = places_of(simulation.building(), body);
     std::size_t beyond = 0;
+    double farthest = 0;
     for (const Vec2& place : places) {
       const double distance = distance_outside(was, place);
-      field.reach = std::max(field.reach, distance);
+      farthest = std::max(farthest, distance);
       beyond += distance > 0;
     }
+    field.reach = std::max(field.reach, farthest);
     mass += body.mass;
     outside += body.mass * static_cast<double>(beyond) / static_cast<double>(places.size());
     all.insert(all.end(), places.begin(), places.end());
+    bodies.push_back({farthest, body.mass, places});
   }
+  constexpr double most = 0.95;
+  field.footprint_95 = footprint_without_farthest(std::move(bodies), (1 - most) * mass);
   field.footprint = area_of(convex_hull(std::move(all)));
   field.outside = mass > 0 ? outside / mass : 0;
   return field;

@@ -13,10 +13,21 @@ namespace topple::structure::study {
 /// From the nearest point of the hull; 0 inside.
 [[nodiscard]] double distance_outside(const std::vector<Vec2>& hull, const Vec2& point);
 
+/// A piece of debris as it lies.
+struct FallenBody {
+  double reach = 0;  ///< m: its farthest place beyond the building as it was
+  double mass = 0;   ///< kg
+  std::vector<Vec2> places;
+};
+/// m2: convex hull of the bodies without those that lie farthest, whole ones that together have `mass` (kg) at most.
+/// The hull of all hangs on single pieces.
+[[nodiscard]] double footprint_without_farthest(std::vector<FallenBody> bodies, double mass);
+
 struct DebrisField {
-  double footprint = 0;  ///< m2: convex hull of all debris
-  double reach = 0;      ///< m: farthest debris beyond the hull of the building as it was
-  double outside = 0;    ///< share of the debris by mass beyond that hull
+  double footprint = 0;     ///< m2: convex hull of all debris
+  double footprint_95 = 0;  ///< m2: the same without the farthest bodies, up to a twentieth of the mass
+  double reach = 0;         ///< m: farthest debris beyond the hull of the building as it was
+  double outside = 0;       ///< share of the debris by mass beyond that hull
 };
 /// Debris is every body but projectiles; its places are the ends of its members, the corners of its panels, the
 /// vertices of its chunks.

@@ -21,7 +21,7 @@ struct Ready {
   std::string_view name;
   bool of_scenario, of_model;
 };
-constexpr std::array<Ready, 18> all_ready{{{"members_down", true, false},
+constexpr std::array<Ready, 19> all_ready{{{"members_down", true, false},
                                            {"panels_down", true, false},
                                            {"joints_broken", true, false},
                                            {"floor_area_down", true, false},
@@ -30,6 +30,7 @@ constexpr std::array<Ready, 18> all_ready{{{"members_down", true, false},
                                            {"time_to_rest", true, false},
                                            {"debris_reach", true, false},
                                            {"debris_footprint", true, false},
+                                           {"debris_footprint_95", true, false},
                                            {"debris_outside", true, false},
                                            {"charges", true, false},
                                            {"largest_use", true, true},
