@@ -205,9 +205,4 @@ class BulletWorld final : public World {
   std::vector<Contact> points_, next_;  ///< room that gather_contacts() works in
 };
 
-/// Order of contacts of one world: by ids, then by tags.
-[[nodiscard]] bool before_by_parts(const Contact& a, const Contact& b);
-[[nodiscard]] bool same_parts(const Contact& a, const Contact& b);
-[[nodiscard]] Touched touched(const Solid& solid, std::int64_t tag);
-
 }  // namespace topple::collision

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "bullet/bullet_world.h"
+#include "contacts/contact_order.h"
 
 namespace topple::collision {
 
@@ -15,11 +16,6 @@ namespace {
 
 /// Points of a manifold that are farther apart than this (m) and carried nothing are only near.
 constexpr double kTouching = 0.001;
-
-auto parts_of(const Contact& c) {
-  return std::make_tuple(c.body.value, c.other.kind, c.other.body.value, c.other.obstacle.value, c.part_tag,
-                         c.other.part_tag);
-}
 
 /// Mean of a body's velocities before and after the solver at a point: impulse times it is the exact work of the
 /// impulse.
@@ -121,18 +117,6 @@ Contact merged(std::span<const Contact* const> points) {
 }
 
 }  // namespace
-
-bool before_by_parts(const Contact& a, const Contact& b) { return parts_of(a) < parts_of(b); }
-bool same_parts(const Contact& a, const Contact& b) { return parts_of(a) == parts_of(b); }
-
-Touched touched(const Solid& solid, std::int64_t tag) {
-  Touched result;
-  result.kind = solid.kind;
-  if (solid.kind == Touched::Kind::body) result.body.value = solid.id;
-  if (solid.kind == Touched::Kind::obstacle) result.obstacle.value = solid.id;
-  result.part_tag = tag;
-  return result;
-}
 
 void BulletWorld::gather_contacts() {
   std::vector<Contact>& found = points_;

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "bullet/bullet_world.h"
+#include "contacts/contact_order.h"
 
 namespace topple::collision {
 

@@ -2,7 +2,8 @@
 
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
-#include "solver/free_spin.h"
+#include "bullet/bullet_types.h"
+#include "solver/free_rotation.h"
 
 namespace topple::collision {
 
@@ -48,11 +49,12 @@ void FreeSpinWorld::integrateTransforms(btScalar time_step) {
     const btVector3 inertia = principal_inertia(body);
     if (spins_freely(inertia) || body.getAngularVelocity().fuzzyZero()) continue;
     // A body that stopped short at a contact found on its way turns for as long as it moved.
-    const FreeSpin spin = turned_freely({record_(body).pose.getRotation(), record_(body).angular_after}, inertia,
-                                        time_step * body.getHitFraction());
-    body.setAngularVelocity(spin.angular_velocity);
+    const SolverVelocities& now = record_(body);
+    const FreeRotation turned = rotated_freely({from_bullet(now.pose.getRotation()), from_bullet(now.angular_after)},
+                                               from_bullet(inertia), time_step * body.getHitFraction());
+    body.setAngularVelocity(to_bullet(turned.spin));
     btTransform pose = body.getWorldTransform();
-    pose.setRotation(spin.orientation);
+    pose.setRotation(to_bullet(turned.orientation));
     body.setCenterOfMassTransform(pose);
   }
 }

@@ -44,8 +44,8 @@ class FreeSpinWorld : public btDiscreteDynamicsWorld {
     btDiscreteDynamicsWorld::calculateSimulationIslands();
   }
   void predictUnconstraintMotion(btScalar time_step) override;
-  /// Turns each body as a free one (free_spin.h). Bullet's own rotation stops at 45 degrees a step, and its gyroscopic
-  /// terms keep neither momentum nor energy.
+  /// Turns each body as a free one (free_rotation.h). Bullet's own rotation stops at 45 degrees a step, and its
+  /// gyroscopic terms keep neither momentum nor energy.
   void integrateTransforms(btScalar time_step) override;
 
  private:

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <tuple>
 #include <utility>
 
+#include "contacts/contact_order.h"
 #include "contacts/part_contacts.h"
 #include "solver/debris_world.h"
 
@@ -17,20 +17,6 @@ constexpr double kTouching = 0.001;
 /// N s: what a contact counts for beside its impulse where energy is shared. One may have pushed two apart and told
 /// none.
 constexpr double kLeastPush = 1e-12;
-
-auto parts_of(const Contact& c) {
-  return std::make_tuple(c.body.value, c.other.kind, c.other.body.value, c.other.obstacle.value, c.part_tag,
-                         c.other.part_tag);
-}
-
-Touched touched(const Solid& solid, std::int64_t tag) {
-  Touched result;
-  result.kind = solid.kind;
-  if (solid.kind == Touched::Kind::body) result.body.value = solid.id;
-  if (solid.kind == Touched::Kind::obstacle) result.obstacle.value = solid.id;
-  result.part_tag = tag;
-  return result;
-}
 
 /// Two parts that share their tags with others of their bodies are told as one.
 void merge(const Contact& more, Contact& sum) {

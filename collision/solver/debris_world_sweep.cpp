@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "contacts/apart.h"
+#include "contacts/contact_order.h"
 #include "solver/debris_world.h"
 
 namespace topple::collision {
@@ -42,23 +43,6 @@ Placement placement_of(const btTransform& at) { return {from_bullet(at.getOrigin
 
 bool is_awake(const Solid& solid) {
   return solid.kind == Touched::Kind::body && !static_cast<const DebrisBody&>(solid).asleep;
-}
-
-Touched touched(const Solid& solid, std::int64_t tag) {
-  Touched result;
-  result.kind = solid.kind;
-  if (solid.kind == Touched::Kind::body) result.body.value = solid.id;
-  if (solid.kind == Touched::Kind::obstacle) result.obstacle.value = solid.id;
-  result.part_tag = tag;
-  return result;
-}
-
-bool before_by_parts(const Contact& a, const Contact& b) {
-  const auto parts = [](const Contact& c) {
-    return std::make_tuple(c.body.value, c.other.kind, c.other.body.value, c.other.obstacle.value, c.part_tag,
-                           c.other.part_tag);
-  };
-  return parts(a) < parts(b);
 }
 
 /// No two points of them close faster than this within dt, m/s.
