@@ -126,6 +126,7 @@ class CollapseEvaluator : public SampleEvaluator {
     if (name == "time_to_rest") return simulation.at_rest() ? simulation.time() : none;
     if (name == "debris_reach") return debris.reach;
     if (name == "debris_footprint") return debris.footprint;
+    if (name == "height_left") return debris.height;
     if (name == "debris_footprint_95") return debris.footprint_95;
     if (name == "debris_outside") return debris.outside;
     if (name == "charges") return of_sample_.charges();

@@ -1,6 +1,7 @@
 #include "study/debris_field.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace topple::structure::study {
 
@@ -15,11 +16,10 @@ double distance_to_edge(const Vec2& a, const Vec2& b, const Vec2& point) {
   return (point - a - at * along).norm();
 }
 
-std::vector<Vec2> places_of(const Building& building, const BodyView& body) {
-  std::vector<Vec2> places;
+std::vector<Vec3> places_of(const Building& building, const BodyView& body) {
+  std::vector<Vec3> places;
   const auto moved = [&](const Vec3& offset) {
-    const Vec3 at = body.pose.position + body.pose.orientation * offset;
-    places.emplace_back(at.x(), at.y());
+    places.emplace_back(body.pose.position + body.pose.orientation * offset);
   };
   if (body.chunk) {
     for (const auto& vertex : body.chunk->positions) moved(Vec3(vertex[0], vertex[1], vertex[2]));
@@ -89,16 +89,20 @@ DebrisField debris_field(const Simulation& simulation) {
   std::vector<Vec2> standing;
   for (const Node& node : simulation.building().nodes) standing.emplace_back(node.position.x(), node.position.y());
   const std::vector<Vec2> was = convex_hull(std::move(standing));
+  double ground = std::numeric_limits<double>::infinity();
+  for (const Node& node : simulation.building().nodes) ground = std::min(ground, node.position.z());
   DebrisField field;
   std::vector<Vec2> all;
   std::vector<FallenBody> bodies;
-  double mass = 0, outside = 0;
+  double mass = 0, outside = 0, top = ground;
   for (const BodyView& body : simulation.bodies()) {
     if (body.radius > 0) continue;
-    const std::vector<Vec2> places = places_of(simulation.building(), body);
+    std::vector<Vec2> places;
     std::size_t beyond = 0;
     double farthest = 0;
-    for (const Vec2& place : places) {
+    for (const Vec3& at : places_of(simulation.building(), body)) {
+      top = std::max(top, at.z());
+      const Vec2& place = places.emplace_back(at.head<2>());
       const double distance = distance_outside(was, place);
       farthest = std::max(farthest, distance);
       beyond += distance > 0;
@@ -109,6 +113,11 @@ DebrisField debris_field(const Simulation& simulation) {
     all.insert(all.end(), places.begin(), places.end());
     bodies.push_back({farthest, body.mass, places});
   }
+  const Building& building = simulation.building();
+  for (std::size_t m = 0; m < building.members.size(); ++m)
+    if (simulation.frame().stands(MemberId(m)))
+      for (const NodeId node : building.members[m].nodes) top = std::max(top, building[node].position.z());
+  field.height = top - ground;
   constexpr double most = 0.95;
   field.footprint_95 = footprint_without_farthest(std::move(bodies), (1 - most) * mass);
   field.footprint = area_of(convex_hull(std::move(all)));

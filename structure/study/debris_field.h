@@ -26,6 +26,7 @@ struct FallenBody {
 struct DebrisField {
   double footprint = 0;     ///< m2: convex hull of all debris
   double footprint_95 = 0;  ///< m2: the same without the farthest bodies, up to a twentieth of the mass
+  double height = 0;        ///< m: highest place of debris and of members that stand, above the building's lowest node
   double reach = 0;         ///< m: farthest debris beyond the hull of the building as it was
   double outside = 0;       ///< share of the debris by mass beyond that hull
 };

@@ -21,25 +21,16 @@ struct Ready {
   std::string_view name;
   bool of_scenario, of_model;
 };
-constexpr std::array<Ready, 19> all_ready{{{"members_down", true, false},
-                                           {"panels_down", true, false},
-                                           {"joints_broken", true, false},
-                                           {"floor_area_down", true, false},
-                                           {"share_down", true, false},
-                                           {"time_to_half_down", true, false},
-                                           {"time_to_rest", true, false},
-                                           {"debris_reach", true, false},
-                                           {"debris_footprint", true, false},
-                                           {"debris_footprint_95", true, false},
-                                           {"debris_outside", true, false},
-                                           {"charges", true, false},
-                                           {"largest_use", true, true},
-                                           {"reserve_factor", true, true},
-                                           {"weight", true, true},
-                                           {"worst_loss_use", false, true},
-                                           {"losses_survived", false, true},
-                                           {"largest_drift", false, true},
-                                           {"largest_displacement", false, true}}};
+constexpr std::array<Ready, 20> all_ready{{{"members_down", true, false},     {"panels_down", true, false},
+                                           {"joints_broken", true, false},    {"floor_area_down", true, false},
+                                           {"share_down", true, false},       {"time_to_half_down", true, false},
+                                           {"time_to_rest", true, false},     {"debris_reach", true, false},
+                                           {"debris_footprint", true, false}, {"debris_footprint_95", true, false},
+                                           {"height_left", true, false},      {"debris_outside", true, false},
+                                           {"charges", true, false},          {"largest_use", true, true},
+                                           {"reserve_factor", true, true},    {"weight", true, true},
+                                           {"worst_loss_use", false, true},   {"losses_survived", false, true},
+                                           {"largest_drift", false, true},    {"largest_displacement", false, true}}};
 
 /// Nothing is run: a sample is its inputs.
 class EmptyEvaluator : public SampleEvaluator {
