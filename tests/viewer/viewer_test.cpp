@@ -98,7 +98,7 @@ TEST_CASE("without a window, the hit building shows failed joints that the stand
   options.at = 0.5;  // the shot comes at 1 s
   run_headless(scene, options);
   options.screenshot = folder.file("after.png");
-  options.at = 6;  // well into the collapse
+  options.at = 9;  // well into the collapse
   run_headless(scene, options);
   const Picture before(folder.file("before.png")), after(folder.file("after.png"));
   CHECK(before.width == 320);

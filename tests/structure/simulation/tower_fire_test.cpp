@@ -33,8 +33,10 @@ TEST_CASE("fire takes the floor beams' joints first, then posts buckle over the 
       return tower[tower[member].nodes[0]].position.z() > above && tower[tower[member].nodes[1]].position.z() > above;
     });
   };
-  // Breaks up to the first post's, the first post that buckles, and the part above that comes off.
+  // Breaks up to the first post's, the first post that buckles (and all in the same step), and the part above that
+  // comes off.
   std::vector<SimulationEvent> before;
+  std::vector<double> bulges;  // heights
   std::optional<SimulationEvent> first_post, buckled, falls;
   std::size_t heard = 0;
   while (!simulation.finished() && !(buckled && falls)) {
@@ -49,7 +51,9 @@ TEST_CASE("fire takes the floor beams' joints first, then posts buckle over the 
         continue;
       }
       if (!first_post) first_post = event;
-      if (!buckled && event.joint.cause == BreakCause::buckling) buckled = event;
+      if (event.joint.cause != BreakCause::buckling) continue;
+      if (!buckled) buckled = event;
+      if (event.time == buckled->time) bulges.push_back(event.position.z());
     }
     // Floors that fall on floors tear some posts off first; the others have a second to buckle.
     if (first_post) REQUIRE(simulation.time() < first_post->time + 3);
@@ -72,8 +76,9 @@ TEST_CASE("fire takes the floor beams' joints first, then posts buckle over the 
   const double buckling_length = std::sqrt(euler / buckled->joint.capacity);
   CHECK(buckling_length > 2 * storey);
   CHECK(buckling_length < 8 * storey);
-  CHECK(buckled->position.z() > 12 * storey);  // its bulge lies at the floors that are gone
-  CHECK(buckled->position.z() < 22 * storey);
+  // Most bulges lie at the floors that are gone; what falls has taken the bracing of some posts far below as well.
+  const auto at_the_fire = [&](double height) { return height > 12 * storey && height < 22 * storey; };
+  CHECK(2 * std::count_if(bulges.begin(), bulges.end(), at_the_fire) > static_cast<std::ptrdiff_t>(bulges.size()));
 
   // More than fifty members from above the fire come off together, and half a second later they fall.
   REQUIRE(falls);
