@@ -10,7 +10,7 @@ Slenderness slenderness(const SteelSection& s) {
     case SteelSection::Kind::I:
       return {s.width / (2 * s.flange), (s.depth - 2 * s.flange - 2 * s.fillet) / s.web};
     case SteelSection::Kind::box:
-      return {s.width / s.web - 3, s.depth / s.web - 3};
+      return {(s.width - s.corners) / s.web, (s.depth - s.corners) / s.web};
     case SteelSection::Kind::pipe:
       return {s.depth / s.web, s.depth / s.web};
     default:

@@ -15,8 +15,8 @@ inline constexpr double pi2 = std::numbers::pi * std::numbers::pi;
 inline bool is_box(const SteelSection& s) { return s.kind == SteelSection::Kind::box; }
 inline bool is_open(const SteelSection& s) { return s.kind == SteelSection::Kind::I; }
 
-/// Slendernesses of table B4.1: half flange and clear web of I shapes; flat walls of boxes (outside less three wall
-/// thicknesses); diameter over wall of pipes.
+/// Slendernesses of table B4.1: half flange and clear web of I shapes; walls of boxes between their corners; diameter
+/// over wall of pipes.
 struct Slenderness {
   double flange = 0, web = 0;
 };

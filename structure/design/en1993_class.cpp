@@ -41,11 +41,11 @@ SectionClass classify_en1993(const SteelSection& steel, double compression) {
     return {4, 235e6 * 90 / slenderness, whole};
   }
   const bool box = steel.kind == SteelSection::Kind::box;
-  // Clear widths: between fillets (I), inside the corners (box: 3 t off the outside, as for hollow sections).
-  const double web_length = box ? steel.depth - 3 * steel.web : steel.depth - 2 * steel.flange - 2 * steel.fillet;
+  // Clear widths: between fillets (I), between the corners (box).
+  const double web_length = box ? steel.depth - steel.corners : steel.depth - 2 * steel.flange - 2 * steel.fillet;
   const Plate web =
       internal_part(web_length, steel.web, compression / (box ? 2 : 1), compression / steel.area, steel.fy);
-  const Plate flange = box ? Plate{(steel.width - 3 * steel.web) / steel.web, {33, 38, 42}}
+  const Plate flange = box ? Plate{(steel.width - steel.corners) / steel.web, {33, 38, 42}}
                            : Plate{((steel.width - steel.web) / 2 - steel.fillet) / steel.flange, {9, 10, 14}};
   const int number = std::max(class_of(web, epsilon), class_of(flange, epsilon));
   if (number < 4) return {number, steel.fy, whole};

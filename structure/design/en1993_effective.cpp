@@ -83,7 +83,7 @@ double bent(const SteelSection& s, const Upright& u, double epsilon, double* rho
 
 EffectiveSection of_box(const SteelSection& s, double epsilon) {
   EffectiveSection e;
-  const double t = s.web, web = s.depth - 3 * t, flange = s.width - 3 * t;
+  const double t = s.web, web = s.depth - s.corners, flange = s.width - s.corners;
   const double k = buckling_coefficient(uniform);
   e.web = internal_part(slenderness(web, t, k, epsilon), uniform);
   e.flange = internal_part(slenderness(flange, t, k, epsilon), uniform);

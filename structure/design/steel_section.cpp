@@ -46,6 +46,9 @@ SteelSection steel_section(const Section& section, const Material& material) {
   const bool walled = steel.kind == SteelSection::Kind::box || steel.kind == SteelSection::Kind::pipe;
   steel.web = walled ? section.thickness : section.web;
   steel.flange = walled ? section.thickness : section.flange;
+  // Hollow sections of the catalogue: 3 t (EN 1993-1-1 table 5.2, AISC 360 B4.1b(d)), where corners are round. Drawn by
+  // its dimensions a box has sharp corners, as plates welded together: their clear distance counts.
+  if (steel.kind == SteelSection::Kind::box) steel.corners = (section.catalogue.empty() ? 2 : 3) * section.thickness;
   if (!(steel.depth > 0) || !(steel.width > 0))
     throw InputError("sections." + section.name +
                      ".depth, width: a design check needs them, accepted are numbers above 0");

@@ -17,9 +17,10 @@ struct SteelSection {
   double depth = 0, width = 0, web = 0, flange = 0, fillet = 0;  ///< box, pipe: web = flange = wall thickness
   double elastic_y = 0, elastic_z = 0;                           ///< elastic section moduli
   double plastic_y = 0, plastic_z = 0;                           ///< plastic ones; the elastic where none is known
-  double warping = 0;                                            ///< Iz (h - tf)^2 / 4 for I, else 0
-  double shear_y = 0, shear_z = 0;                               ///< plastic shear areas
-  double torsion = 0;                                            ///< torsion modulus; 0: not known
+  double corners = 0;               ///< box: what two corners take of a wall's outside length, m
+  double warping = 0;               ///< Iz (h - tf)^2 / 4 for I, else 0
+  double shear_y = 0, shear_z = 0;  ///< plastic shear areas
+  double torsion = 0;               ///< torsion modulus; 0: not known
   bool has_plastic = false;
 
   [[nodiscard]] double radius_y() const { return std::sqrt(Iy / area); }

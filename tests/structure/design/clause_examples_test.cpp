@@ -51,7 +51,7 @@ Section ipe500() {
 /// Square or rectangular tube from the Manual's properties, in inches.
 Section tube(double d, double b, double t, double area, double ix, double zx) {
   Section s;
-  s.name = "HSS";
+  s.name = s.catalogue = "HSS";
   s.shape = Section::Shape::box;
   s.depth = d * inch;
   s.width = b * inch;

@@ -177,7 +177,7 @@ TEST_CASE("EN 1993: the critical moment of an IPE 500 is that of ECCS 119's work
 
 TEST_CASE("a class 4 section counts for less than its yield strength, a class 1 section for all of it") {
   Section box;
-  box.name = "box";
+  box.name = box.catalogue = "SHS";
   box.shape = Section::Shape::box;
   box.depth = box.width = 0.4;
   box.area = 0.4 * 0.4 - 0.39 * 0.39;
@@ -193,6 +193,33 @@ TEST_CASE("a class 4 section counts for less than its yield strength, a class 1 
   const double counts = (slenderness - 0.22) / (slenderness * slenderness);
   const double reduced = (box.area - 4 * (1 - counts) * 0.385 * 0.005) * 355e6;
   CHECK(clause(check_member(DesignCode::en1993, member, at), "EN 1993-1-1 6.2.1 (6.2)") == Approx(1e6 / reduced));
+}
+
+TEST_CASE(
+    "the walls of a box that is not of the catalogue count between welds, those of a hollow section are shorter") {
+  Section box;
+  box.name = "box";
+  box.shape = Section::Shape::box;
+  box.depth = box.width = 0.4;
+  box.thickness = 0.005;
+  box.area = 0.4 * 0.4 - 0.39 * 0.39;
+  box.Iy = box.Iz = box.J = 1;  // compression alone is looked at
+  const Material s355 = steel(355e6, 210e9, 81e9);
+  const SectionForces at[] = {forces(-1e6)};
+  const DesignMember member{.section = &box, .material = &s355};
+  const double clear = 0.390, t = 0.005;
+  {
+    const double slenderness = clear / t / (28.4 * std::sqrt(235.0 / 355.0) * 2);
+    const double counts = (slenderness - 0.22) / (slenderness * slenderness);
+    CHECK(clause(check_member(DesignCode::en1993, member, at), "EN 1993-1-1 6.2.1 (6.2)") ==
+          Approx(1e6 / ((box.area - 4 * (1 - counts) * clear * t) * 355e6)));
+  }
+  {  // E7 (E7-3) at F_cr = F_y, the member being as good as without length
+    const double elastic = std::pow(1.38 * 1.40 * std::sqrt(210e9 / 355e6) / (clear / t), 2);
+    const double counts = (1 - 0.20 * std::sqrt(elastic)) * std::sqrt(elastic);
+    CHECK(clause(check_member(DesignCode::aisc360, member, at), "AISC 360 E1") ==
+          Approx(1e6 / (0.9 * (box.area - 4 * (1 - counts) * clear * t) * 355e6)));
+  }
 }
 
 TEST_CASE("a design check without a yield strength names the key that is missing") {

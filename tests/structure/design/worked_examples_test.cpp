@@ -53,7 +53,7 @@ Section w21x48() {
 /// Square hollow section with sharp corners.
 Section square_tube(double u, double a, double t) {
   Section s;
-  s.name = "SHS";
+  s.name = s.catalogue = "SHS";
   s.shape = Section::Shape::box;
   const double in = a - 2 * t;
   s.depth = s.width = a * u;
