@@ -9,6 +9,8 @@
 #include "mesh/usual_mesh.h"
 #include "model/modelling_parts.h"
 #include "model/odd_parts.h"
+#include "model/own_mass.h"
+#include "model/panel_area.h"
 
 namespace topple::structure {
 
@@ -170,19 +172,6 @@ void find_idle_cases(const Building& building, std::vector<std::string>& warning
   idle.tell(warnings, "no combination has it, so that it loads nothing");
 }
 
-/// kg, of members and panels.
-double mass_of(const Building& building) {
-  double mass = 0;
-  for (const Member& member : building.members)
-    mass += building[member.material].density * building[member.section].area * member.length;
-  for (const Panel& panel : building.panels) {
-    const auto corner = [&](std::size_t i) { return building[panel.nodes[i]].position; };
-    const double area = (corner(2) - corner(0)).cross(corner(3) - corner(1)).norm() / 2;
-    mass += building[panel.material].density * panel.thickness * area;
-  }
-  return mass;
-}
-
 /// Of one case: the largest of its loads, over what a load of its kind has at least in buildings, and their sum, N.
 struct LoadSize {
   double over_usual = 0, sum = 0;
@@ -202,9 +191,7 @@ LoadSize size_of(const LoadCase& one, const Building& building) {
     if (load.kind == MemberLoad::Kind::distributed) size.add(value, line, load.to - load.from);
   }
   for (const PanelLoad& load : one.panels) {
-    const Panel& panel = building[load.panel];
-    const auto corner = [&](std::size_t i) { return building[panel.nodes[i]].position; };
-    size.add(std::abs(load.pressure), area, (corner(2) - corner(0)).cross(corner(3) - corner(1)).norm() / 2);
+    size.add(std::abs(load.pressure), area, panel_area(building, building[load.panel], true));
   }
   return size;
 }
@@ -214,7 +201,7 @@ LoadSize size_of(const LoadCase& one, const Building& building) {
 void find_tiny_loads(const Building& building, std::vector<std::string>& warnings) {
   if (building.units.consistent) return;
   constexpr double nothing = 1e-3;
-  const double weight = mass_of(building) * building.gravity;
+  const double weight = own_mass(building) * building.gravity;
   Several tiny;
   for (const LoadCase& one : building.cases) {
     const LoadSize size = size_of(one, building);

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "analysis/sample_analysis.h"
+#include "model/own_mass.h"
 #include "study/analysis_options.h"
 #include "study/evaluators.h"
 
@@ -47,13 +48,6 @@ double losses_survived(const LossResult& losses) {
     return std::all_of(loss.states.begin(), loss.states.end(), [](const LossState& state) { return state.survives(); });
   });
   return static_cast<double>(survived) / static_cast<double>(losses.losses.size());
-}
-
-double weight(const Building& building) {
-  double mass = 0;
-  for (std::size_t m = 0; m < building.members.size(); ++m) mass += own_mass(building, MemberId(m));
-  for (std::size_t p = 0; p < building.panels.size(); ++p) mass += own_mass(building, PanelId(p));
-  return mass;
 }
 
 double largest_drift(const AnalysisResult& result) {
@@ -130,7 +124,7 @@ class AnalysisEvaluator : public SampleEvaluator {
     if (name == "worst_loss_use") return worst_loss_use(result.losses);
     if (name == "losses_survived") return losses_survived(result.losses);
     if (name == "largest_drift") return largest_drift(result);
-    if (name == "weight") return weight(of_sample_.building());
+    if (name == "weight") return own_mass(of_sample_.building());
     double largest = 0;  // largest_displacement
     for (const CombinationResult& combination : result.combinations)
       largest = std::max(largest, combination.largest.value);

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "model/own_mass.h"
+#include "model/panel_area.h"
 #include "study/debris_field.h"
 #include "study/evaluators.h"
 #include "topple/structure/collapse_report.h"
@@ -51,7 +53,7 @@ Fallen fallen_parts(const Simulation& simulation) {
     fallen.all_mass += mass;
     if (simulation.frame().stands(PanelId(p))) continue;
     fallen.mass += mass;
-    if (building.panels[p].kind == PanelKind::slab) fallen.floor_area += area_of_panel(building.panels[p], building);
+    if (building.panels[p].kind == PanelKind::slab) fallen.floor_area += panel_area(building, building.panels[p], true);
   }
   return fallen;
 }

@@ -19,10 +19,4 @@ namespace topple::structure::study {
 /// Members, panels and joints of a building as one bit each, as digits; "" where none is set.
 [[nodiscard]] std::string parts_text(const std::vector<bool>& bits);
 
-/// kg: members and panels by their sections, thicknesses and densities.
-[[nodiscard]] double own_mass(const Building& building, MemberId member);
-[[nodiscard]] double own_mass(const Building& building, PanelId panel);
-/// m2: without its openings.
-[[nodiscard]] double area_of_panel(const Panel& panel, const Building& building);
-
 }  // namespace topple::structure::study

@@ -93,31 +93,6 @@ std::string parts_text(const std::vector<bool>& bits) {
   return text;
 }
 
-double own_mass(const Building& building, MemberId member) {
-  const Member& one = building[member];
-  return building[one.section].area * one.length * building[one.material].density;
-}
-
-double own_mass(const Building& building, PanelId panel) {
-  const Panel& one = building[panel];
-  return area_of_panel(one, building) * one.thickness * building[one.material].density;
-}
-
-double area_of_panel(const Panel& panel, const Building& building) {
-  const Vec3 across = building[panel.nodes[2]].position - building[panel.nodes[0]].position;
-  const Vec3 other = building[panel.nodes[3]].position - building[panel.nodes[1]].position;
-  double area = 0.5 * across.cross(other).norm();
-  for (const std::vector<Vec2>& opening : panel.openings) {
-    double twice = 0;
-    for (std::size_t i = 0; i < opening.size(); ++i) {
-      const Vec2 &a = opening[i], &b = opening[(i + 1) % opening.size()];
-      twice += a.x() * b.y() - a.y() * b.x();
-    }
-    area -= 0.5 * std::abs(twice);
-  }
-  return area;
-}
-
 }  // namespace study
 
 std::span<const std::string_view> ready_outputs() {
