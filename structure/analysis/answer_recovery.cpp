@@ -36,7 +36,7 @@ AnswerRecovery::AnswerRecovery(const Building& building, const Frame& frame, con
 
 template <class LoadsOn>
 CombinationResult AnswerRecovery::gathered(const OneWayAnswer& answer, const solver::StaticSolution& solution,
-                                           const PartLoads& parts, LoadsOn loads_on) const {
+                                           const PartLoads& parts, const EdgeForces& forces, LoadsOn loads_on) const {
   CombinationResult result;
   const auto of_mesh = solution.displacements.begin() + static_cast<std::ptrdiff_t>(building_.nodes.size());
   result.displacements.assign(solution.displacements.begin(), of_mesh);
@@ -45,7 +45,7 @@ CombinationResult AnswerRecovery::gathered(const OneWayAnswer& answer, const sol
   result.quality = solution.quality;
   result.members = members(answer, loads_on);
   result.panels = panels(parts, solution);
-  result.joints = joints(parts, solution, result);
+  result.joints = joints(parts, forces, solution, result);
   result.storeys = storeys_.results(result.displacements, result.members);
   if (brief_) return result;
   result.discretisation_error = recover_resultants(building_, frame_, parts, solution, result.panels);
@@ -184,7 +184,8 @@ std::vector<PanelResult> AnswerRecovery::panels(const PartLoads& parts, const so
   return all;
 }
 
-std::vector<Utilisation> AnswerRecovery::joints(const PartLoads& parts, const solver::StaticSolution& solution,
+std::vector<Utilisation> AnswerRecovery::joints(const PartLoads& parts, const EdgeForces& forces,
+                                                const solver::StaticSolution& solution,
                                                 const CombinationResult& result) const {
   std::vector<Utilisation> used(building_.joints.size());
   for (const auto& [m, end] : breakable_ends_) {
@@ -198,12 +199,11 @@ std::vector<Utilisation> AnswerRecovery::joints(const PartLoads& parts, const so
     const bool meshed = !frame_.meshes[p].elements.empty();
     if (meshed) demand = shell_edge_demands(building_, frame_, bearing_edges_, panel, parts, solution);
     if (frame_.shell_of_panel[p] >= 0) demand = membrane_edge_demands(building_, panel, result.panels[p].corner_forces);
-    const HandOver given = hand_over(building_, edges_, panel, parts.panels[p], {true, true, true, true});
     for (int edge = 0; edge < 4; ++edge) {
       const JointId id = building_.joint(panel, edge);
       const auto e = static_cast<std::size_t>(edge);
       if (!building_[id].capacity.breakable) continue;
-      if (!meshed) demand[e] += handed_edge_demand(building_, bearings_, panel, edge, given.edge_force[e]);
+      if (!meshed) demand[e] += handed_edge_demand(building_, bearings_, panel, edge, forces[p][e]);
       used[static_cast<std::size_t>(id.index)] = utilisation(building_[id].capacity, demand[e]);
     }
   }
@@ -219,8 +219,8 @@ CombinationResult AnswerRecovery::recovered(CombinationId combination, const One
   }
   const solver::StaticSolution& solution = frame_.giving_nodes.empty() ? answer.solution : absolute;
   const LoadsByMember by_member(building_.members.size(), loads.whole ? loads.whole->beams : loads.set.beams);
-  CombinationResult result =
-      gathered(answer, solution, loads.parts, [&](std::size_t member) { return by_member.on(member); });
+  CombinationResult result = gathered(answer, solution, loads.parts, loads.edge_forces,
+                                      [&](std::size_t member) { return by_member.on(member); });
   result.cuts = cut_results(building_, frame_, request_.cuts, loads.parts, loads.set, solution,
                             answer.axial.mode != solver::SecondOrder::none);
   std::vector<solver::NodeLoad> pushes = pushes_of_supports(loads.parts, result.reactions);
@@ -235,7 +235,8 @@ CombinationResult AnswerRecovery::recovered_sum(CombinationId combination, const
                                                 const SummedCases& cases, std::size_t k) const {
   const PartLoads parts = loads_beside_members(building_, building_[combination]);
   std::vector<solver::BeamLoad> sum;
-  CombinationResult result = gathered(answer, answer.solution, parts, [&](std::size_t member) {
+  const EdgeForces forces = edge_forces(building_, edges_, parts);
+  CombinationResult result = gathered(answer, answer.solution, parts, forces, [&](std::size_t member) {
     cases.on_members.add_up(k, member, sum);
     return std::span<const solver::BeamLoad>(sum);
   });

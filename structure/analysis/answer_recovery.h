@@ -42,7 +42,7 @@ class AnswerRecovery {
   /// `loads_on(member)`: on the whole of each. Reactions are still those of the frame's supports.
   template <class LoadsOn>
   [[nodiscard]] CombinationResult gathered(const OneWayAnswer& answer, const solver::StaticSolution& solution,
-                                           const PartLoads& parts, LoadsOn loads_on) const;
+                                           const PartLoads& parts, const EdgeForces& forces, LoadsOn loads_on) const;
 
   void hold_against_reactions(const Balance& applied, bool displaced, CombinationResult& result) const;
 
@@ -69,7 +69,8 @@ class AnswerRecovery {
   /// Mean membrane forces of a membrane panel from its corner forces (the virial theorem), panel axes.
   [[nodiscard]] std::vector<PanelResult> panels(const PartLoads& parts, const solver::StaticSolution& solution) const;
 
-  [[nodiscard]] std::vector<Utilisation> joints(const PartLoads& parts, const solver::StaticSolution& solution,
+  [[nodiscard]] std::vector<Utilisation> joints(const PartLoads& parts, const EdgeForces& forces,
+                                                const solver::StaticSolution& solution,
                                                 const CombinationResult& result) const;
 
   const Building& building_;

@@ -162,8 +162,8 @@ bool has_meshes(const Frame& frame) {
 
 CombinationLoads combination_loads(const Building& building, const Frame& frame, const EdgeMembers& edges,
                                    const Combination& combination) {
-  CombinationLoads loads{loads_beside_members(building, combination), {}, {}};
-  loads.set = load_set(building, edges, loads.parts, member_loads(building, combination));
+  CombinationLoads loads{loads_beside_members(building, combination), {}, {}, {}};
+  loads.set = load_set(building, edges, loads.parts, member_loads(building, combination), &loads.edge_forces);
   if (!has_meshes(frame)) return loads;
   loads.whole = std::move(loads.set);
   loads.set = on_frame(building, frame, loads.parts, *loads.whole);
