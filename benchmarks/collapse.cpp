@@ -14,7 +14,7 @@
 
 #include "support/provenance.h"
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 #include "topple/structure/simulation.h"
 
 namespace {

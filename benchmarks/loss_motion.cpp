@@ -6,11 +6,11 @@
 #include <cstdlib>
 #include <map>
 
-#include "analysis/frame_motion.h"
+#include "analysis/motion/frame_motion.h"
 #include "assembly/frame_system.h"
 #include "model/index_of.h"
 #include "support/provenance.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 
 using namespace topple;
 using namespace topple::structure;
@@ -29,7 +29,7 @@ Eigen::MatrixXd dense(const solver::SparseSymmetric& A, std::span<const double> 
 }
 
 /// A state of the frame that the modes have made.
-class ByModes : public LossyFrame::Motion {
+class ByModes : public DamagedFrame::Motion {
  public:
   ByModes(const solver::FrameSystem& system, const MovingFrame& moving) : system_(system) {
     for (std::size_t b = 0; b < moving.beam_loads.size(); ++b)
@@ -57,7 +57,7 @@ struct LostPost {
   std::vector<Vec6> before, rest;
 };
 
-std::vector<double> exact_peaks(const DividedBuilding& divided, const LossyFrame& frame, const LostPost& lost,
+std::vector<double> exact_peaks(const DividedBuilding& divided, const DamagedFrame& frame, const LostPost& lost,
                                 double duration) {
   const solver::SystemInertia inertia{lost.moving.masses,
                                       solver::masses_at_nodes(lost.moving.model, lost.moving.masses), 1};
@@ -99,7 +99,7 @@ std::vector<double> exact_peaks(const DividedBuilding& divided, const LossyFrame
   return peaks;
 }
 
-std::vector<double> computed_peaks(const DividedBuilding& divided, const LossyFrame& frame, const LostPost& lost,
+std::vector<double> computed_peaks(const DividedBuilding& divided, const DamagedFrame& frame, const LostPost& lost,
                                    double duration, double h) {
   solver::DynamicOptions options;
   options.substep = h;
@@ -130,7 +130,7 @@ int run(const std::string& model, const std::string& combination, const std::str
   const Building building = read_model(find_model(model));
   const std::vector<MemberId> posts = NameIndex(building).members_matching(pattern);
   const DividedBuilding divided(building);
-  LossyFrame frame(divided, posts, {});
+  DamagedFrame frame(divided, posts, {});
   CombinationId id;
   for (std::size_t c = 0; c < building.combinations.size(); ++c)
     if (building.combinations[c].name == combination) id = CombinationId(c);

@@ -13,7 +13,7 @@
 #include "support/rigid_bodies.h"
 #include "topple/solver/blas_kernel.h"
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 #include "topple/structure/simulation.h"
 
 namespace {

@@ -13,7 +13,7 @@
 
 #include "support/measure.h"
 #include "support/provenance.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 
 namespace {
 

@@ -99,7 +99,7 @@ double first_break(solver::Reanalysis& standing, const std::vector<int>& members
   return median(times);
 }
 
-/// The same with restricted answers: the time with reading the uses, and what was gone through.
+/// The same with selective answers: the time with reading the uses, and what was gone through.
 struct Restricted {
   double time = 0, longest = 0, visited = 0, beams = 0, left = 0, answers = 0;
 };
@@ -112,8 +112,8 @@ Restricted first_break_in_part(solver::Reanalysis& standing, const std::vector<i
   for (const int member : members) {
     standing.set_end_stiffness(member, 1, solver::Vec6::Zero());
     times.push_back(seconds([&] { (void)standing.solve(uses); }));
-    const solver::RestrictedEffort& effort = standing.restricted_effort();
-    result.answers += effort.restricted ? 1 : 0;
+    const solver::SelectiveEffort& effort = standing.selective_effort();
+    result.answers += effort.selective ? 1 : 0;
     visited.push_back(effort.visited_entries / std::max(1.0, effort.factor_entries));
     beams.push_back(effort.beams);
     left.push_back(effort.largest_left_out);

@@ -14,7 +14,7 @@
 #include "support/rigid_bodies.h"
 #include "topple/solver/static_analysis.h"
 #include "topple/structure/building.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 #include "topple/structure/frame.h"
 
 namespace {

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "topple/solver/static_analysis.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 #include "topple/structure/frame.h"
-#include "topple/structure/study.h"
+#include "topple/structure/study/study.h"
 
 namespace {
 

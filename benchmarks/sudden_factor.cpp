@@ -7,7 +7,7 @@
 
 #include "support/provenance.h"
 #include "topple/solver/blas_kernel.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 #include "topple/structure/losses.h"
 
 using namespace topple;

@@ -6,7 +6,7 @@
 #include <thread>
 #include <unordered_map>
 
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 #include "topple/structure/pacer.h"
 
 using namespace topple::structure;

@@ -8,9 +8,9 @@
 #include "host_blas.h"
 #include "results.h"
 #include "topple/structure/error.h"
+#include "topple/structure/formats/parse_cuts.h"
 #include "topple/structure/member_checks.h"
 #include "topple/structure/modelling_checks.h"
-#include "topple/structure/parse_cuts.h"
 #include "topple/structure/time_history.h"
 
 namespace topple::python {

@@ -9,9 +9,9 @@
 #include "errors.h"
 #include "model.h"
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
+#include "topple/structure/formats/parse_cuts.h"
 #include "topple/structure/modelling_checks.h"
-#include "topple/structure/parse_cuts.h"
 
 namespace topple::python {
 

@@ -6,8 +6,8 @@
 
 #include "bindings.h"
 #include "results.h"
+#include "topple/structure/formats/output_files.h"
 #include "topple/structure/modelling_checks.h"
-#include "topple/structure/output_files.h"
 
 namespace topple::python {
 

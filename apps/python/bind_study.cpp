@@ -11,9 +11,9 @@
 #include "host_blas.h"
 #include "model.h"
 #include "topple/structure/error.h"
-#include "topple/structure/output_files.h"
-#include "topple/structure/plain_text.h"
-#include "topple/structure/study.h"
+#include "topple/structure/formats/output_files.h"
+#include "topple/structure/formats/plain_text.h"
+#include "topple/structure/study/study.h"
 
 namespace topple::python {
 

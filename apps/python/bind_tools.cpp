@@ -3,7 +3,7 @@
 #include "errors.h"
 #include "simulation_bindings.h"
 #include "topple/structure/error.h"
-#include "topple/structure/scenario_text.h"
+#include "topple/structure/formats/scenario_text.h"
 
 namespace topple::python {
 

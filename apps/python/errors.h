@@ -5,7 +5,7 @@
 #include <string>
 
 #include "topple/structure/analysis.h"
-#include "topple/structure/input_place.h"
+#include "topple/structure/formats/input_place.h"
 
 namespace topple::python {
 

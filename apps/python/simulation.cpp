@@ -5,9 +5,9 @@
 
 #include "errors.h"
 #include "host_blas.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
+#include "topple/structure/formats/scenario_text.h"
 #include "topple/structure/join_shells.h"
-#include "topple/structure/scenario_text.h"
 
 namespace topple::python {
 

@@ -11,8 +11,8 @@
 #include <system_error>
 
 #include "topple/structure/error.h"
-#include "topple/structure/output_files.h"
-#include "topple/structure/plain_text.h"
+#include "topple/structure/formats/output_files.h"
+#include "topple/structure/formats/plain_text.h"
 
 namespace topple::app {
 

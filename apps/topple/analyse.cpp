@@ -17,11 +17,11 @@
 #include "topple/structure/direct_analysis.h"
 #include "topple/structure/divide_member.h"
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
-#include "topple/structure/input_files.h"
+#include "topple/structure/formats/files.h"
+#include "topple/structure/formats/input_files.h"
+#include "topple/structure/formats/output_files.h"
 #include "topple/structure/member_checks.h"
 #include "topple/structure/modelling_checks.h"
-#include "topple/structure/output_files.h"
 
 namespace topple::app {
 

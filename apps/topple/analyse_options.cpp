@@ -5,9 +5,9 @@
 
 #include "support/command_line.h"
 #include "topple/structure/error.h"
-#include "topple/structure/input_files.h"
+#include "topple/structure/formats/input_files.h"
+#include "topple/structure/formats/parse_cuts.h"
 #include "topple/structure/modelling_checks.h"
-#include "topple/structure/parse_cuts.h"
 
 namespace topple::app {
 

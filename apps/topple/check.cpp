@@ -5,14 +5,14 @@
 
 #include "command.h"
 #include "topple/structure/analysis.h"
-#include "topple/structure/drawn_model.h"
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
+#include "topple/structure/formats/panel_file.h"
+#include "topple/structure/formats/plain_text.h"
 #include "topple/structure/modelling_checks.h"
-#include "topple/structure/panel_file.h"
-#include "topple/structure/plain_text.h"
-#include "topple/structure/study.h"
-#include "topple/structure/study_optimise.h"
+#include "topple/structure/study/study.h"
+#include "topple/structure/study/study_optimise.h"
+#include "topple/structure/visual_mesh.h"
 
 namespace topple::app {
 

@@ -1,5 +1,5 @@
 // topple convert IN OUT: a model from one file format to another.
-#include "topple/structure/convert.h"
+#include "topple/structure/formats/convert.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -8,10 +8,10 @@
 
 #include "command.h"
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
-#include "topple/structure/input_files.h"
-#include "topple/structure/output_files.h"
-#include "topple/structure/plain_text.h"
+#include "topple/structure/formats/files.h"
+#include "topple/structure/formats/input_files.h"
+#include "topple/structure/formats/output_files.h"
+#include "topple/structure/formats/plain_text.h"
 
 namespace topple::app {
 

@@ -12,11 +12,11 @@
 #include "image_sequence.h"
 #include "topple/structure/collapse_animation.h"
 #include "topple/structure/collapse_report.h"
-#include "topple/structure/drawn_model.h"
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
-#include "topple/structure/output_files.h"
+#include "topple/structure/formats/files.h"
+#include "topple/structure/formats/output_files.h"
 #include "topple/structure/snapshot.h"
+#include "topple/structure/visual_mesh.h"
 
 namespace topple::app {
 
@@ -113,7 +113,7 @@ int demolish(const DemolishOptions& options) {
   auto [building, scenario] = structure::read_scenario(file);
   structure::Simulation simulation(std::move(building), std::move(scenario), {options.threads, {}});
   const double roof_sag = simulation.frame().roof_sag();
-  std::optional<structure::DrawnModel> drawn;
+  std::optional<structure::VisualMesh> drawn;
   if (!options.folder.empty())
     if (auto meshes = structure::read_drawn_meshes(
             simulation.building(), structure::find_model(simulation.scenario().model, file.parent_path()));
@@ -123,7 +123,7 @@ int demolish(const DemolishOptions& options) {
   Saves saves(options, simulation);
   structure::StepTimes times;
   std::optional<ImageSequence> images;
-  structure::DrawnModel* const around = drawn ? &*drawn : nullptr;
+  structure::VisualMesh* const around = drawn ? &*drawn : nullptr;
   if (around) around->update(simulation);
   if (options.images) images.emplace(simulation, options.folder, options.rate, around);
   if (images) images->write_due(simulation);
@@ -146,7 +146,7 @@ int demolish(const DemolishOptions& options) {
     }
   }
   if (!options.folder.empty()) structure::write_collapse(options.folder, simulation, times, roof_sag);
-  if (drawn) structure::write_files(options.folder, {{"meshes.glb", structure::drawn_model_glb(*drawn, simulation)}});
+  if (drawn) structure::write_files(options.folder, {{"meshes.glb", structure::visual_mesh_glb(*drawn, simulation)}});
   if (animation) structure::write_files(options.folder, {{"collapse.glb", animation->glb()}});
   if (images) images->finish(*results);
   saves.tell_missed(simulation);

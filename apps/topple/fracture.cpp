@@ -6,10 +6,10 @@
 #include "command.h"
 #include "fracture_drawing.h"
 #include "topple/fracture/mesh_files.h"
-#include "topple/structure/json_tree.h"
-#include "topple/structure/output_files.h"
-#include "topple/structure/panel_file.h"
-#include "topple/structure/plain_text.h"
+#include "topple/structure/formats/json_tree.h"
+#include "topple/structure/formats/output_files.h"
+#include "topple/structure/formats/panel_file.h"
+#include "topple/structure/formats/plain_text.h"
 
 namespace topple::app {
 

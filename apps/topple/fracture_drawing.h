@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "topple/fracture/panel.h"
-#include "topple/structure/panel_file.h"
+#include "topple/structure/formats/panel_file.h"
 
 namespace topple::app {
 

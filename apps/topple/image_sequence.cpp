@@ -8,7 +8,7 @@
 
 #include "renderer/picture_renderer.h"
 #include "renderer/snapshot_taker.h"
-#include "topple/structure/input_files.h"
+#include "topple/structure/formats/input_files.h"
 
 namespace topple::app {
 namespace {
@@ -31,7 +31,7 @@ struct ImageSequence::State {
   double rate;
   viewer::PictureRenderer renderer;
   viewer::Camera camera;
-  structure::DrawnModel* drawn_model;
+  structure::VisualMesh* visual_mesh;
   viewer::SnapshotTaker taker;
   viewer::Snapshot drawn;
   std::filesystem::path last;
@@ -39,13 +39,13 @@ struct ImageSequence::State {
   int next = 0;
 
   State(const structure::Simulation& simulation, std::filesystem::path where, double per_second,
-        structure::DrawnModel* model)
+        structure::VisualMesh* model)
       : folder(std::move(where)),
         rate(per_second),
         renderer(simulation.building(), viewer::ground_height(simulation.building(), simulation.scenario()), width,
                  height),
         camera(renderer.default_camera()),
-        drawn_model(model) {
+        visual_mesh(model) {
     std::filesystem::create_directories(folder);
   }
 
@@ -65,13 +65,13 @@ struct ImageSequence::State {
 };
 
 ImageSequence::ImageSequence(const structure::Simulation& simulation, std::filesystem::path folder, double rate,
-                             structure::DrawnModel* drawn)
+                             structure::VisualMesh* drawn)
     : state_(std::make_unique<State>(simulation, std::move(folder), rate, drawn)) {}
 
 void ImageSequence::write_due(const structure::Simulation& simulation) {
   const double due = simulation.time() * state_->rate + 1e-6;
   if (state_->next > due) return;
-  const viewer::Snapshot now = state_->taker.take(simulation, state_->drawn_model);
+  const viewer::Snapshot now = state_->taker.take(simulation, state_->visual_mesh);
   while (state_->next <= due) state_->write(now);
 }
 
@@ -86,7 +86,7 @@ void ImageSequence::finish(const structure::OutputFolder& folder) const {
 namespace topple::app {
 
 struct ImageSequence::State {};
-ImageSequence::ImageSequence(const structure::Simulation&, std::filesystem::path, double, structure::DrawnModel*) {
+ImageSequence::ImageSequence(const structure::Simulation&, std::filesystem::path, double, structure::VisualMesh*) {
   throw std::runtime_error("--images: this program was built without its renderer (TOPPLE_VIEWER=OFF)");
 }
 void ImageSequence::write_due(const structure::Simulation&) {}

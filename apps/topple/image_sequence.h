@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <memory>
 
-#include "topple/structure/drawn_model.h"
-#include "topple/structure/output_files.h"
+#include "topple/structure/formats/output_files.h"
 #include "topple/structure/simulation.h"
+#include "topple/structure/visual_mesh.h"
 
 namespace topple::app {
 
@@ -14,7 +14,7 @@ class ImageSequence {
   /// `drawn`: around the building, null for nothing; it has to outlive this. Throws std::runtime_error when this
   /// program or machine cannot draw.
   ImageSequence(const structure::Simulation& simulation, std::filesystem::path folder, double rate,
-                structure::DrawnModel* drawn = nullptr);
+                structure::VisualMesh* drawn = nullptr);
   ~ImageSequence();
   /// Writes the pictures that are due up to the simulation's time.
   void write_due(const structure::Simulation& simulation);

@@ -1,7 +1,7 @@
 #pragma once
 // What the printed report says of the checks of governing members, and what it draws of loads.
 
-#include "topple/structure/json_tree.h"
+#include "topple/structure/formats/json_tree.h"
 #include "topple/structure/member_checks.h"
 
 namespace topple::app {

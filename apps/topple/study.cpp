@@ -11,11 +11,11 @@
 #include "study_page.h"
 #include "study_ranks.h"
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
-#include "topple/structure/json_tree.h"
-#include "topple/structure/output_files.h"
-#include "topple/structure/study.h"
-#include "topple/structure/study_optimise.h"
+#include "topple/structure/formats/files.h"
+#include "topple/structure/formats/json_tree.h"
+#include "topple/structure/formats/output_files.h"
+#include "topple/structure/study/study.h"
+#include "topple/structure/study/study_optimise.h"
 
 namespace topple::app {
 

@@ -4,7 +4,7 @@
 
 #include "study_page.h"
 #include "svg_figure.h"
-#include "topple/structure/json_tree.h"
+#include "topple/structure/formats/json_tree.h"
 
 namespace topple::app {
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <string>
 
-#include "topple/structure/study_optimise.h"
-#include "topple/structure/study_statistics.h"
+#include "topple/structure/study/study_optimise.h"
+#include "topple/structure/study/study_statistics.h"
 
 namespace topple::app {
 

@@ -2,7 +2,7 @@
 // Studies on many machines: ranks of MPI take samples as they become free, rank 0 writes.
 #include <functional>
 
-#include "topple/structure/study.h"
+#include "topple/structure/study/study.h"
 
 namespace topple::app {
 

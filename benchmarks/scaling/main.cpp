@@ -12,7 +12,7 @@
 #include "support/measure.h"
 #include "topple/solver/blas_kernel.h"
 #include "topple/solver/reanalysis.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 #include "topple/structure/frame.h"
 #include "topple/structure/simulation.h"
 

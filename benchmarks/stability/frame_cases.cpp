@@ -40,7 +40,7 @@ void push(LoadSet& loads, int node, const Vec6& force) { loads.nodes.push_back({
 /// Pinned about both bending axes.
 void pin(Beam& beam, int end) { beam.end_stiffness[static_cast<std::size_t>(end)].tail<2>().setZero(); }
 
-/// Of a hub between pinned bars: it stays in the plane and does not turn.
+/// Of a node between pinned bars: it stays in the plane and does not turn.
 Vec6 in_plane() {
   Vec6 hold = Vec6::Constant(rigid);
   hold[0] = hold[2] = 0;

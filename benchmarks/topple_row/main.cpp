@@ -15,7 +15,7 @@
 #include "support/measure.h"
 #include "support/steel_uses.h"
 #include "topple/solver/blas_kernel.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 
 namespace {
 

@@ -354,7 +354,7 @@ void BulletWorld::step(double dt) {
       before.emplace_back(id, from_bullet(one.getWorldTransform().getOrigin()));
   world_.stepSimulation(dt, 0);
   gather_contacts();
-  book_pushes(before, dt);
+  account_pushes(before, dt);
   read_forces(dt);
   resist_rolling();
   keep_swinging();

@@ -129,7 +129,7 @@ class BulletWorld final : public World {
   void release_separated(double dt);
 
   void gather_contacts();
-  void book_pushes(std::span<const std::pair<BodyId, Vec3>> before, double dt);
+  void account_pushes(std::span<const std::pair<BodyId, Vec3>> before, double dt);
   void resist_rolling();
   void let_settled_sleep(double dt);
   void hold_still();

@@ -151,7 +151,7 @@ void BulletWorld::gather_contacts() {
 }
 
 /// What bodies were moved beyond their velocities, out of each other, is work of their contacts as well.
-void BulletWorld::book_pushes(std::span<const std::pair<BodyId, Vec3>> before, double dt) {
+void BulletWorld::account_pushes(std::span<const std::pair<BodyId, Vec3>> before, double dt) {
   std::map<std::int64_t, Contact*> largest;
   for (Contact& contact : contacts_)
     for (const BodyId id : {contact.body, contact.other.body}) {

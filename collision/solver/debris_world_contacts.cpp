@@ -102,7 +102,7 @@ void DebrisWorld::tell_contacts(double dt, std::span<const char> left_out) {
 
 /// Impulses times the mean of the velocities before and after them, and what is missing to a body's change of energy in
 /// proportion to their sizes: velocities change within the step.
-void DebrisWorld::book_work(std::span<Island* const> islands, double dt) {
+void DebrisWorld::account_work(std::span<Island* const> islands, double dt) {
   for (const Island* island : islands)
     for (DebrisBody* one : island->bodies) one->pushed = one->booked = 0;
   const Vec3 half_kick = gravity_ * (dt / 2);

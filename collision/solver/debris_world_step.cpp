@@ -286,7 +286,7 @@ void DebrisWorld::solve(std::span<Island* const> islands, int substeps, double d
   solver_.run(dt, substeps, gravity_);
   tell_contacts(dt);  // where things were when the step began
   take_results(islands, dt);
-  book_work(islands, dt);
+  account_work(islands, dt);
 }
 
 void DebrisWorld::take_results(std::span<Island* const> islands, double dt) {

@@ -4,7 +4,7 @@
 
 namespace topple::solver {
 
-Mat12 FrameSystem::hub_stiffness(std::size_t i) const {
+Mat12 FrameSystem::rigid_end_stiffness(std::size_t i) const {
   if (second_order == nullptr) return CondensedBeam(model.beams[i], beam_factor[i]).stiffness();
   return SecondOrderBeam(model.beams[i], beam_factor[i], second_order->mode, second_order->first_axial[i],
                          second_order->loads[i], ends_apart(static_cast<int>(i)))
@@ -29,7 +29,7 @@ Mat12 FrameSystem::beam_stiffness(int index) const {
   for (std::size_t end = 0; end < 2; ++end) {
     arm[end] = arm_matrix(beam.offset[end]) + dofs_.diaphragm_arm(beam.node[end]);
   }
-  Mat12 K = to_node_freedoms(beam.axes, hub_stiffness(i), arm);
+  Mat12 K = to_node_freedoms(beam.axes, rigid_end_stiffness(i), arm);
   if (inertia != nullptr && beam.density != 0) K += inertia->factor * beam_mass(*this, inertia->masses, index);
   return K;
 }
@@ -54,7 +54,7 @@ Mat24 FrameSystem::shell_stiffness(int index) const {
   const auto i = static_cast<std::size_t>(index);
   if (shell_stands[i] == 0) return Mat24::Zero();
   Mat24 K = shell_node_stiffness(index);
-  if (shells_pushed() && hanging(index) == nullptr) K += shell_geometric_stiffness(index);
+  if (shells_pushed() && jointed(index) == nullptr) K += shell_geometric_stiffness(index);
   if (inertia != nullptr && model.shells[i].density != 0)
     K += inertia->factor * shell_mass(*this, inertia->masses, index);
   add_diaphragm_arms(model.shells[i].node, K);
@@ -64,7 +64,7 @@ Mat24 FrameSystem::shell_stiffness(int index) const {
 Eigen::MatrixXd FrameSystem::patch_node_stiffness(std::size_t patch) const {
   Eigen::MatrixXd K = model.patches[patch].stiffness;
   if (shells_pushed())
-    if (const HangingShell* shell = hanging_on_patch(second_order->hanging, static_cast<int>(patch)))
+    if (const JointedShell* shell = jointed_shell_of_patch(second_order->jointed, static_cast<int>(patch)))
       K += shell->corners.transpose() * shell_geometric_stiffness(shell->shell) * shell->corners;
   const std::vector<int>& nodes = model.patches[patch].node;
   for (std::size_t n = 0; n < nodes.size(); ++n) {
@@ -92,12 +92,12 @@ std::span<const int> FrameSystem::plate_nodes(std::size_t element) const {
   return model.patches[element - element_of_patch(0)].node;
 }
 
-const HangingShell* FrameSystem::hanging(int shell) const {
-  return second_order == nullptr ? nullptr : hanging_shell(second_order->hanging, shell);
+const JointedShell* FrameSystem::jointed(int shell) const {
+  return second_order == nullptr ? nullptr : jointed_shell(second_order->jointed, shell);
 }
 
 Vec24 FrameSystem::corner_displacements(int index, const std::vector<Vec6>& displacements) const {
-  const HangingShell* hung = hanging(index);
+  const JointedShell* hung = jointed(index);
   if (hung == nullptr) {
     Vec24 u;
     const auto& nodes = model.shells[static_cast<std::size_t>(index)].node;

@@ -242,7 +242,7 @@ void FrameSystem::add_settlement_forces(LoadVector& result) const {
 }
 
 std::optional<Defect> FrameSystem::unbalanced_load(const LoadVector& load, double lever_share) const {
-  if (load.unbalanced_beams.empty() && inert_hubs_ == 0) return std::nullopt;
+  if (load.unbalanced_beams.empty() && inert_nodes_ == 0) return std::nullopt;
   Defect result;
   result.motion.motion.assign(model.nodes.size(), Vec6::Zero());
   if (!load.unbalanced_beams.empty()) {
@@ -286,7 +286,7 @@ std::optional<Defect> FrameSystem::unbalanced_load(const LoadVector& load, doubl
 }
 
 void FrameSystem::drop_idle_moments(LoadVector& load) const {
-  if (inert_hubs_ == 0) return;
+  if (inert_nodes_ == 0) return;
   for (std::size_t node = 0; node < inert_.size(); ++node)
     for (int k = 0; k < inert_[node].count; ++k) {
       const Vec3 axis = inert_[node].directions.col(k);

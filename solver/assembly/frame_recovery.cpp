@@ -70,16 +70,16 @@ Vec12 FrameSystem::end_forces(int index, const std::vector<Vec6>& displacements,
   const auto i = static_cast<std::size_t>(index);
   if (beam_stands[i] == 0) return Vec12::Zero();
   const Beam& beam = model.beams[i];
-  const Vec12 hubs = hub_displacements(beam, displacements[static_cast<std::size_t>(beam.node[0])],
-                                       displacements[static_cast<std::size_t>(beam.node[1])]);
+  const Vec12 rigid_ends = rigid_end_displacements(beam, displacements[static_cast<std::size_t>(beam.node[0])],
+                                                   displacements[static_cast<std::size_t>(beam.node[1])]);
   if (second_order != nullptr) {
     // Only a translation of the whole costs nothing: turned, the axial force pushes sideways.
-    Vec12 moved = hubs;
-    moved.segment<3>(0) -= hubs.head<3>();
-    moved.segment<3>(6) -= hubs.head<3>();
-    return hub_stiffness(i) * moved + fixed_end;
+    Vec12 moved = rigid_ends;
+    moved.segment<3>(0) -= rigid_ends.head<3>();
+    moved.segment<3>(6) -= rigid_ends.head<3>();
+    return rigid_end_stiffness(i) * moved + fixed_end;
   }
-  return beam_end_forces(CondensedBeam(beam, beam_factor[i]), beam.length, hubs, fixed_end);
+  return beam_end_forces(CondensedBeam(beam, beam_factor[i]), beam.length, rigid_ends, fixed_end);
 }
 
 std::vector<StaticSolution> FrameSystem::recover(std::span<LoadVector> loads, const Eigen::MatrixXd& displacements,
@@ -106,9 +106,9 @@ std::vector<StaticSolution> FrameSystem::recover(std::span<LoadVector> loads, co
         force = end_forces(static_cast<int>(i), u, Vec12(force));
         continue;
       }
-      const Vec12 hubs =
-          hub_displacements(beam, u[static_cast<std::size_t>(beam.node[0])], u[static_cast<std::size_t>(beam.node[1])]);
-      force += *stiffness * relative_motion(beam.length, hubs);
+      const Vec12 rigid_ends = rigid_end_displacements(beam, u[static_cast<std::size_t>(beam.node[0])],
+                                                       u[static_cast<std::size_t>(beam.node[1])]);
+      force += *stiffness * relative_motion(beam.length, rigid_ends);
     }
   };
   constexpr std::size_t together = 1024;
@@ -214,7 +214,7 @@ std::vector<Vec6> FrameSystem::reactions(const std::vector<Vec6>& displacements,
     residual[static_cast<std::size_t>(model.beams[i].node[1])] += force.tail<6>();
   }
   for (std::size_t i = 0; i < model.shells.size(); ++i) {
-    if (hanging(static_cast<int>(i)) != nullptr) continue;  // its patch pulls
+    if (jointed(static_cast<int>(i)) != nullptr) continue;  // its patch pulls
     for (std::size_t n = 0; n < 4; ++n) {
       residual[static_cast<std::size_t>(model.shells[i].node[n])] += shell_corner_forces[i][n];
     }

@@ -160,12 +160,12 @@ double& FrameSystem::entry(int equation, int other) {
 void FrameSystem::add_support_springs(int node) { add_diagonal(node, own_springs(node), matrix_); }
 
 void FrameSystem::forget_inert_rotations(std::size_t node) {
-  if (inert_[node].count > 0) --inert_hubs_;
+  if (inert_[node].count > 0) --inert_nodes_;
   inert_[node].count = 0;
 }
 
-/// A hub turned about an axis that no element resists strains nothing, bears nothing and belongs to nobody: a node of a
-/// truss. It is held at zero, in any direction in space; unbalanced_load() refuses a moment about it.
+/// A node turned about an axis that no element resists strains nothing, bears nothing and belongs to nobody: a node of
+/// a truss. It is held at zero, in any direction in space; unbalanced_load() refuses a moment about it.
 void FrameSystem::hold_inert_rotations(int node) {
   constexpr double inert_limit = 1e-13;  // of the largest rotational stiffness at the node: rounding of rotated zeros
   const auto n = static_cast<std::size_t>(node);
@@ -199,14 +199,14 @@ void FrameSystem::hold_inert_rotations(int node) {
   for (int c = 0; c < 3; ++c) {
     if (std::isinf(block(c, c))) block(c, c) = held;
   }
-  // A cheap test first: the determinant of a well-braced hub is far from zero.
+  // A cheap test first: the determinant of a well-braced node is far from zero.
   if (largest > 0 && block.determinant() > 1e-9 * held * held * held) return;
   const Eigen::SelfAdjointEigenSolver<Mat3> modes(block);
   for (int m = 0; m < 3; ++m) {
     if (std::abs(modes.eigenvalues()(m)) > inert_limit * held)
-      continue;  // below zero: a softened hub, not an inert one
+      continue;  // below zero: a softened node, not an inert one
     const Vec3 d = modes.eigenvectors().col(m);
-    if (inert_[n].count == 0) ++inert_hubs_;
+    if (inert_[n].count == 0) ++inert_nodes_;
     inert_[n].directions.col(inert_[n].count++) = d;
     inert_[n].stiffness = held;
     for (std::size_t i = 0; i < free; ++i) {

@@ -118,10 +118,10 @@ class FrameSystem {
   [[nodiscard]] LoadVector load_vector(const LoadSet& loads) const;
   /// Several at once: what they share of the elements is worked out once.
   [[nodiscard]] std::vector<LoadVector> load_vectors(std::span<const LoadSet> sets) const;
-  /// A moment on a hub that nothing keeps from turning, or a load on a loose part; empty when there is none. A moment
+  /// A moment on a node that nothing keeps from turning, or a load on a loose part; empty when there is none. A moment
   /// counts as none when the largest force would make it with a lever of this share of the longest beam.
   [[nodiscard]] std::optional<Defect> unbalanced_load(const LoadVector& load, double lever_share = 0) const;
-  /// Takes away the moments on hubs that nothing keeps from turning: as if each hub had turned until they are none.
+  /// Takes away the moments on nodes that nothing keeps from turning: as if each node had turned until they are none.
   void drop_idle_moments(LoadVector& load) const;
 
   [[nodiscard]] FixedEndForces fixed_end_forces(int beam, std::span<const BeamLoad> loads) const;
@@ -158,8 +158,8 @@ class FrameSystem {
                                             const std::vector<Vec6>& node_loads) const;
 
  private:
-  /// K of a beam in the local freedoms of its hubs.
-  [[nodiscard]] Mat12 hub_stiffness(std::size_t beam) const;
+  /// K of a beam in the local freedoms of its nodes.
+  [[nodiscard]] Mat12 rigid_end_stiffness(std::size_t beam) const;
   void add_element(std::size_t element, const std::vector<char>& wanted);
   void add_beams(int threads);
   void want_node(int node);
@@ -181,7 +181,7 @@ class FrameSystem {
   /// Of the membrane forces in the second-order state; global freedoms of its corners.
   [[nodiscard]] Mat24 shell_geometric_stiffness(int shell) const;
   /// In the second-order state: null for a shell whose corners are its nodes.
-  [[nodiscard]] const HangingShell* hanging(int shell) const;
+  [[nodiscard]] const JointedShell* jointed(int shell) const;
   /// Of a shell's corners, global, by those of all nodes.
   [[nodiscard]] Vec24 corner_displacements(int shell, const std::vector<Vec6>& displacements) const;
   /// K of a patch in the global freedoms of its nodes.
@@ -206,14 +206,14 @@ class FrameSystem {
   std::vector<std::vector<int>> elements_of_node_;
   SparseSymmetric matrix_, mass_;
   std::vector<double> scale_;
-  /// Per node: directions in which its hub turns without straining anything (columns), held at zero.
-  struct InertHub {
+  /// Per node: directions in which its node turns without straining anything (columns), held at zero.
+  struct InertNode {
     int count = 0;
     double stiffness = 0;
     Mat3 directions = Mat3::Zero();
   };
-  std::vector<InertHub> inert_;
-  int inert_hubs_ = 0;  ///< with a count above 0
+  std::vector<InertNode> inert_;
+  int inert_nodes_ = 0;  ///< with a count above 0
   // Scratch of reassemble() and defect(): what changes once a break must not ask for memory.
   std::vector<char> wanted_;  ///< per vertex; all 0 between calls
   std::vector<int> wanted_nodes_, wanted_elements_;

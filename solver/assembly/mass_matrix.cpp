@@ -28,7 +28,7 @@ void multiply_symmetric(const SparseSymmetric& A, const Eigen::Ref<const Eigen::
 }
 
 MassMatrix::MassMatrix(const FrameSystem& system, const MassModel& masses, int threads)
-    : system_(system), threads_(threads), hanging_(masses.hanging), matrix_(system.assembly_map().empty_matrix()) {
+    : system_(system), threads_(threads), jointed_(masses.jointed), matrix_(system.assembly_map().empty_matrix()) {
   const FrameModel& model = system.model;
   for (std::size_t i = 0; i < model.beams.size(); ++i) {
     if (model.beams[i].density == 0) continue;
@@ -46,7 +46,7 @@ void MassMatrix::add_shell(int index, const MassModel& masses) {
   const FrameModel& model = system_.model;
   const Shell& shell = model.shells[static_cast<std::size_t>(index)];
   Mat24 M = shell_mass(system_, masses, index);
-  const HangingShell* hung = hanging_shell(hanging_, index);
+  const JointedShell* hung = jointed_shell(jointed_, index);
   if (hung == nullptr) {
     system_.add_diaphragm_arms(shell.node, M);
     system_.assembly_map().add(system_.element_of_shell(index), M.data(), system_.scale(), {}, matrix_);
@@ -100,17 +100,17 @@ Eigen::VectorXd MassMatrix::rigid_motion(int component, const Vec3& centre) cons
       if (!bound || (c != 0 && c != 1 && c != 5)) set(dofs.number[n][static_cast<std::size_t>(c)], moved(c));
   }
   // A corner that hangs on a held node moves with the whole as far as its joint gives; on others it goes along.
-  for (const HangingShell& shell : hanging_) {
+  for (const JointedShell& shell : jointed_) {
     const std::vector<int>& nodes = system_.model.patches[static_cast<std::size_t>(shell.patch)].node;
     for (std::size_t k = 4; k < nodes.size(); ++k)
       for (std::size_t corner = 0; corner < 4; ++corner) {
         const Mat6 axes =
             shell.corners.block<6, 6>(static_cast<Eigen::Index>(6 * corner), static_cast<Eigen::Index>(6 * k));
         if (axes.isZero(0)) continue;
-        const auto hub = static_cast<std::size_t>(nodes[corner]);
-        Vec6 gap = at(system_.model.nodes[hub]);
+        const auto rigid_end = static_cast<std::size_t>(nodes[corner]);
+        Vec6 gap = at(system_.model.nodes[rigid_end]);
         for (int c = 0; c < 6; ++c)
-          if (dofs.number[hub][static_cast<std::size_t>(c)] < dofs.equations) gap(c) = 0;
+          if (dofs.number[rigid_end][static_cast<std::size_t>(c)] < dofs.equations) gap(c) = 0;
         const Vec6 own = axes.transpose() * gap;
         for (int c = 0; c < 6; ++c)
           set(dofs.number[static_cast<std::size_t>(nodes[k])][static_cast<std::size_t>(c)], own(c));

@@ -24,7 +24,7 @@ class MassMatrix {
   void add_node(int node, const Vec6& diagonal);
   const FrameSystem& system_;
   int threads_;
-  std::vector<HangingShell> hanging_;
+  std::vector<JointedShell> jointed_;
   SparseSymmetric matrix_;
 };
 

@@ -31,10 +31,10 @@ std::vector<double> shell_strains(const FrameModel& model, const LoadSet& loads)
 
 struct SecondOrderAnalysis::State {
  public:
-  State(const FrameModel& model, SecondOrder mode, const AnalysisOptions& options, std::vector<HangingShell> hanging)
+  State(const FrameModel& model, SecondOrder mode, const AnalysisOptions& options, std::vector<JointedShell> jointed)
       : system_(model), options_(options) {
     axial_.mode = mode;
-    axial_.hanging = std::move(hanging);
+    axial_.jointed = std::move(jointed);
     system_.assemble();
     if (const auto defect = system_.defect()) throw Instability(defect->message, defect->motion);
     const auto start = std::chrono::steady_clock::now();
@@ -193,7 +193,7 @@ struct SecondOrderAnalysis::State {
     for (std::size_t i = 0; i < system_.model.beams.size(); ++i) {
       const Vec12 fixed = load.beam_fixed_end.empty() ? Vec12::Zero() : load.beam_fixed_end[i];
       solution.beam_end_forces[i] = frame3dd_end_forces(
-          system_.model.beams[i], beam_hub_displacements(system_.model.beams[i], solution.displacements), fixed,
+          system_.model.beams[i], beam_rigid_end_displacements(system_.model.beams[i], solution.displacements), fixed,
           system_.ends_apart(static_cast<int>(i)));
     }
   }
@@ -209,8 +209,8 @@ struct SecondOrderAnalysis::State {
 };
 
 SecondOrderAnalysis::SecondOrderAnalysis(const FrameModel& model, SecondOrder mode, const AnalysisOptions& options,
-                                         std::vector<HangingShell> hanging)
-    : state_(std::make_unique<State>(model, mode, options, std::move(hanging))) {}
+                                         std::vector<JointedShell> jointed)
+    : state_(std::make_unique<State>(model, mode, options, std::move(jointed))) {}
 SecondOrderAnalysis::~SecondOrderAnalysis() = default;
 SecondOrderAnalysis::SecondOrderAnalysis(SecondOrderAnalysis&&) noexcept = default;
 SecondOrderAnalysis& SecondOrderAnalysis::operator=(SecondOrderAnalysis&&) noexcept = default;
@@ -220,9 +220,9 @@ SecondOrderSolution SecondOrderAnalysis::solve(const LoadSet& loads, const Stati
 }
 const AnalysisStatistics& SecondOrderAnalysis::statistics() const { return state_->statistics; }
 
-Vec12 beam_hub_displacements(const Beam& beam, const std::vector<Vec6>& nodes) {
-  return hub_displacements(beam, nodes[static_cast<std::size_t>(beam.node[0])],
-                           nodes[static_cast<std::size_t>(beam.node[1])]);
+Vec12 beam_rigid_end_displacements(const Beam& beam, const std::vector<Vec6>& nodes) {
+  return rigid_end_displacements(beam, nodes[static_cast<std::size_t>(beam.node[0])],
+                                 nodes[static_cast<std::size_t>(beam.node[1])]);
 }
 
 struct SecondOrderDiagram::State {
@@ -274,10 +274,10 @@ struct SecondOrderDiagram::State {
 namespace {
 
 /// End forces whose shears are across the displaced chord: first-order statics then join the moments at both ends.
-Vec12 across_the_chord(const Beam& beam, double axial, const Vec12& end_forces, const Vec12& hubs) {
+Vec12 across_the_chord(const Beam& beam, double axial, const Vec12& end_forces, const Vec12& rigid_ends) {
   Vec12 result = end_forces;
   for (int c : {1, 2}) {
-    const double share = axial * (hubs(c + 6) - hubs(c)) / beam.length;
+    const double share = axial * (rigid_ends(c + 6) - rigid_ends(c)) / beam.length;
     result(c) += share;
     result(c + 6) -= share;
   }
@@ -287,23 +287,24 @@ Vec12 across_the_chord(const Beam& beam, double axial, const Vec12& end_forces, 
 }  // namespace
 
 SecondOrderDiagram::SecondOrderDiagram(const Beam& beam, const AxialState& axial, int index, const Vec12& end_forces,
-                                       const Vec12& hubs) {
+                                       const Vec12& rigid_ends) {
   const auto i = static_cast<std::size_t>(index);
   const std::vector<BeamLoad>& loads = axial.loads[i];
   const bool exact = axial.mode == SecondOrder::exact;
   const double mean = 0.5 * (end_forces(6) - end_forces(0));
-  state_.reset(new State{beam.length,
-                         BeamDiagram(beam, exact ? end_forces : across_the_chord(beam, mean, end_forces, hubs), loads),
-                         exact,
-                         {},
-                         {},
-                         {},
-                         {},
-                         {0, beam.length}});
+  state_.reset(
+      new State{beam.length,
+                BeamDiagram(beam, exact ? end_forces : across_the_chord(beam, mean, end_forces, rigid_ends), loads),
+                exact,
+                {},
+                {},
+                {},
+                {},
+                {0, beam.length}});
   if (exact) {
     const SecondOrderBeam column(beam, 1, axial.mode, axial.first_axial[i], loads);
-    state_->xy = column.in_xy().curve(plane_part(hubs, false));
-    state_->xz = column.in_xz().curve(plane_part(hubs, true));
+    state_->xy = column.in_xy().curve(plane_part(rigid_ends, false));
+    state_->xz = column.in_xz().curve(plane_part(rigid_ends, true));
     state_->ends_xy = {state_->xy.value(0, 0), state_->xy.value(0, beam.length)};
     state_->ends_xz = {state_->xz.value(0, 0), state_->xz.value(0, beam.length)};
   }

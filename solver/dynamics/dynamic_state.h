@@ -40,7 +40,7 @@ struct BrokenJoint {
   Vec6 mean_force = Vec6::Zero();
 };
 
-/// A beam whose ends changed at the start of the present substep: how its ends followed its hubs before, and its
+/// A beam whose ends changed at the start of the present substep: how its ends followed its nodes before, and its
 /// momentum then, as FrameDynamics::momentum().
 struct ChangedBeam {
   int beam = -1;
@@ -78,7 +78,7 @@ struct FrameDynamics::State {
   SideBySide<4> motion_columns;
   SideBySide<2> moved_columns;
   SideBySide<1> z, mass_z;
-  SideBySide<2> old_products;  ///< M a and K u at the start of the substep that was booked last
+  SideBySide<2> old_products;  ///< M a and K u at the start of the substep that was accounted last
   Eigen::VectorXd q, w, residual, moved;
 
   State(FrameModel model, MassModel masses, DynamicOptions given);
@@ -97,9 +97,9 @@ struct FrameDynamics::State {
   void clear_dropped();
   void find_substep_load();
   void begin_substep();
-  /// Momentum of a beam that its hubs' velocities leave out now (local hub impulses), since its ends changed.
+  /// Momentum of a beam that its nodes' velocities leave out now (local node impulses), since its ends changed.
   [[nodiscard]] Vec12 missing_momentum(const ChangedBeam& change);
-  void add_on_hubs(int beam, const Vec12& local, Eigen::VectorXd& force) const;
+  void add_on_rigid_ends(int beam, const Vec12& local, Eigen::VectorXd& force) const;
   double stored_energy();
 
   // momentum.cpp
@@ -113,7 +113,7 @@ struct FrameDynamics::State {
   void take_substep();
   void accept();
   void book();
-  void book_numerical();
+  void account_numerical();
   void find_products();
   void find_collocated_load();
   void solve(Eigen::VectorXd& x);

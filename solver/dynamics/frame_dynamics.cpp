@@ -12,7 +12,7 @@ namespace {
 const MassModel& checked(const MassModel& masses) {
   if (masses.distribution != MassDistribution::consistent)
     throw std::invalid_argument("a frame that moves needs consistent mass");
-  if (!masses.hanging.empty())
+  if (!masses.jointed.empty())
     throw std::invalid_argument("a frame that moves takes no shells that hang on joints that give");
   return masses;
 }

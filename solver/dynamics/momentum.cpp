@@ -39,20 +39,21 @@ Vec6 resultant(const BeamLoad& load) {
 
 }  // namespace
 
-/// Its hubs move with these velocities (scaled equations), its ends follow them.
+/// Its nodes move with these velocities (scaled equations), its ends follow them.
 Vec6 FrameDynamics::State::momentum_of(int beam, const Mat12& follows, const Eigen::VectorXd& velocities) const {
   const auto i = static_cast<std::size_t>(beam);
   const Beam& own = system().model.beams[i];
   const double spread = i < inertia.masses.beam_lengths.size() ? inertia.masses.beam_lengths[i] : 0;
-  const Vec12 hubs = hub_displacements(own, system().node_displacement_of_scaled(own.node[0], velocities),
-                                       system().node_displacement_of_scaled(own.node[1], velocities));
-  const Vec12 momentum = mass_between_ends(own, inertia.masses, spread > 0 ? spread : own.length) * (follows * hubs);
+  const Vec12 rigid_ends = rigid_end_displacements(own, system().node_displacement_of_scaled(own.node[0], velocities),
+                                                   system().node_displacement_of_scaled(own.node[1], velocities));
+  const Vec12 momentum =
+      mass_between_ends(own, inertia.masses, spread > 0 ? spread : own.length) * (follows * rigid_ends);
   Vec6 sum;
   for (int c = 0; c < 6; ++c) {
     const auto at = [&](std::size_t end) {
       return rigid_motion_at(system().model.nodes[static_cast<std::size_t>(own.node[end])], c);
     };
-    sum(c) = hub_displacements(own, at(0), at(1)).dot(momentum);
+    sum(c) = rigid_end_displacements(own, at(0), at(1)).dot(momentum);
   }
   return sum;
 }
@@ -71,7 +72,7 @@ Vec6 FrameDynamics::State::momentum_left_with(const ChangedBeam& gone) const {
     const auto at = [&](std::size_t end) {
       return rigid_motion_at(system().model.nodes[static_cast<std::size_t>(own.node[end])], c);
     };
-    sum(c) += hub_displacements(own, at(0), at(1)).dot(impulse);
+    sum(c) += rigid_end_displacements(own, at(0), at(1)).dot(impulse);
   }
   return sum;
 }
@@ -156,7 +157,8 @@ Vec6 FrameDynamics::beam_momentum(int beam) const {
   const auto i = state.core().checked_beam(beam);
   const Beam& own = state.system().model.beams[i];
   const bool hangs = !own.end_stiffness[0].isZero(0) || !own.end_stiffness[1].isZero(0);
-  if (state.system().beam_stands[i] != 0 && hangs) return state.momentum_of(beam, ends_by_hubs(own), state.current().v);
+  if (state.system().beam_stands[i] != 0 && hangs)
+    return state.momentum_of(beam, ends_by_rigid_ends(own), state.current().v);
   for (const ChangedBeam& change : state.changed)
     if (change.beam == beam) return state.momentum_left_with(change);
   return Vec6::Zero();

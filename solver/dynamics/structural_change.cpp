@@ -72,7 +72,7 @@ void FrameDynamics::State::take_changes() {
   for (LoadPattern& pattern : patterns) pattern.force.resize(0);
 }
 
-/// How the ends of beams that change followed their hubs at the start of this substep.
+/// How the ends of beams that change followed their nodes at the start of this substep.
 void FrameDynamics::State::remember_changing_beams() {
   for (const int beam : core().changed_beams) {
     const auto i = static_cast<std::size_t>(beam);
@@ -81,7 +81,7 @@ void FrameDynamics::State::remember_changing_beams() {
       continue;
     const bool known = std::any_of(changed.begin(), changed.end(), [&](const auto& c) { return c.beam == beam; });
     if (known) continue;
-    const Mat12 follows = ends_by_hubs(now_is);
+    const Mat12 follows = ends_by_rigid_ends(now_is);
     changed.push_back({beam, follows, momentum_of(beam, follows, before.v)});
   }
 }
@@ -104,7 +104,7 @@ bool FrameDynamics::State::bare(int node) {
   return true;
 }
 
-/// A hub that holds nothing any more and has no mass is left out.
+/// A node that holds nothing any more and has no mass is left out.
 void FrameDynamics::State::drop_bare_nodes() {
   std::vector<int> nodes;
   const auto look_at = [&](const auto& element_nodes) {
@@ -126,7 +126,7 @@ void FrameDynamics::State::clear_dropped() {
   }
 }
 
-void FrameDynamics::State::add_on_hubs(int beam, const Vec12& local, Eigen::VectorXd& force) const {
+void FrameDynamics::State::add_on_rigid_ends(int beam, const Vec12& local, Eigen::VectorXd& force) const {
   const Beam& b = system().model.beams[static_cast<std::size_t>(beam)];
   const Vec12 global = node_forces(b, local);
   for (std::size_t end = 0; end < 2; ++end)
@@ -139,23 +139,23 @@ Vec12 FrameDynamics::State::missing_momentum(const ChangedBeam& change) {
   if (system().beam_stands[i] == 0) return Vec12::Zero();
   const Beam& beam = system().model.beams[i];
   const double spread = i < inertia.masses.beam_lengths.size() ? inertia.masses.beam_lengths[i] : 0;
-  const Mat12 follows = ends_by_hubs(beam);
+  const Mat12 follows = ends_by_rigid_ends(beam);
   const Mat12 M = mass_between_ends(beam, inertia.masses, spread > 0 ? spread : beam.length);
   const auto velocity = [&](std::size_t end) { return system().node_displacement_of_scaled(beam.node[end], before.v); };
-  const Vec12 hubs = hub_displacements(beam, velocity(0), velocity(1));
-  return follows.transpose() * M * (change.followed - follows) * hubs;
+  const Vec12 rigid_ends = rigid_end_displacements(beam, velocity(0), velocity(1));
+  return follows.transpose() * M * (change.followed - follows) * rigid_ends;
 }
 
-/// Forces of joints until they broke, on the hub and on the beam's own end, which hands it to its other hub; and the
+/// Forces of joints until they broke, on the node and on the beam's own end, which hands it to its other node; and the
 /// momentum of beams that swing from one end alone now.
 void FrameDynamics::State::find_substep_load() {
   Eigen::VectorXd force = Eigen::VectorXd::Zero(system().dofs().equations + system().dofs().held);
   substep_fixed_end.clear();
   for (const BrokenJoint& joint : broken) {
     const Beam& beam = system().model.beams[static_cast<std::size_t>(joint.beam)];
-    Vec12 on_hub = Vec12::Zero();
-    on_hub.segment<6>(static_cast<Eigen::Index>(6 * joint.end)) = -joint.mean_force;
-    add_on_hubs(joint.beam, on_hub, force);
+    Vec12 on_rigid_end = Vec12::Zero();
+    on_rigid_end.segment<6>(static_cast<Eigen::Index>(6 * joint.end)) = -joint.mean_force;
+    add_on_rigid_ends(joint.beam, on_rigid_end, force);
     BeamLoad at_end;
     at_end.beam = joint.beam;
     at_end.kind = BeamLoad::Kind::point;
@@ -163,11 +163,11 @@ void FrameDynamics::State::find_substep_load() {
     at_end.first = joint.mean_force;
     if (system().beam_stands[static_cast<std::size_t>(joint.beam)] == 0) continue;
     const Vec12 fixed = system().fixed_end_forces(joint.beam, {&at_end, 1}).force;
-    add_on_hubs(joint.beam, -fixed, force);
+    add_on_rigid_ends(joint.beam, -fixed, force);
     const auto place = substep_fixed_end.try_emplace(joint.beam, Vec12::Zero()).first;
     place->second += fixed;
   }
-  for (const ChangedBeam& change : changed) add_on_hubs(change.beam, missing_momentum(change) / method.h, force);
+  for (const ChangedBeam& change : changed) add_on_rigid_ends(change.beam, missing_momentum(change) / method.h, force);
   substep_load = scaled(force);
 }
 

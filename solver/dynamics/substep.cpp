@@ -125,7 +125,7 @@ void FrameDynamics::State::book() {
 /// What the substep's equation, times its displacement du, has beyond the change of energy, all at its end: of K
 /// (1/2 - af) du'K du, and of M what is left of du'M a(n+1-am) once the change of 1/2 v'Mv is taken out, with
 /// du = h (v + v(n+1))/2 + h2 (b - g/2) da and a(n+1-am) = dv/h + (1/2 - af) da.
-void FrameDynamics::State::book_numerical() {
+void FrameDynamics::State::account_numerical() {
   const double h = method.h, part = 0.5 - method.af, by_a = method.beta - method.gamma / 2;
   if (part == 0 && by_a == 0) return;
   const auto& start = now;  // both were exchanged
@@ -145,7 +145,7 @@ void FrameDynamics::State::accept() {
   products_known = false;
   if (options.keep_energy) {
     stored_energy();
-    book_numerical();
+    account_numerical();
     if (options.damping.stiffness > 0)
       energy.damped += options.damping.stiffness * (1 - method.af) *
                        (matrix_products.row(1) - method.s * mass_products.row(1)).dot(moved.transpose());

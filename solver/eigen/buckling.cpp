@@ -24,13 +24,13 @@ constexpr int spare_starts = 3;  // beyond those sought: equal factors all come
 class Buckling {
  public:
   Buckling(const FrameModel& model, const LoadSet& loads, const AnalysisOptions& options,
-           const std::vector<HangingShell>& hanging, const StaticSolution& first_order)
+           const std::vector<JointedShell>& jointed, const StaticSolution& first_order)
       : system_(model), threads_(options.threads) {
     for (const Vec12& forces : first_order.beam_end_forces) first_axial_.push_back(-forces(0));
     loads_.resize(model.beams.size());
     for (const BeamLoad& load : loads.beams) loads_[static_cast<std::size_t>(load.beam)].push_back(load);
     axial_.mode = SecondOrder::exact;
-    axial_.hanging = hanging;
+    axial_.jointed = jointed;
     if (!model.shells.empty()) {
       axial_.shell_displacements = first_order.displacements;
       axial_.shell_strain = shell_strains(model, loads);
@@ -307,10 +307,10 @@ void count_around(Buckling& buckling, int k, const BucklingStart& start) {
 
 std::vector<BucklingMode> buckling_modes(const FrameModel& model, const LoadSet& loads, int count,
                                          const AnalysisOptions& options, double largest_factor,
-                                         const std::vector<HangingShell>& hanging, const StaticSolution* first_order) {
+                                         const std::vector<JointedShell>& jointed, const StaticSolution* first_order) {
   std::optional<StaticSolution> found;
   if (first_order == nullptr) found = std::move(StaticAnalysis(model, options).solve({&loads, 1}).front());
-  Buckling buckling(model, loads, options, hanging, found ? *found : *first_order);
+  Buckling buckling(model, loads, options, jointed, found ? *found : *first_order);
   std::vector<BucklingMode> modes;
   if (!buckling.has_compression()) return modes;
   const std::vector<BucklingStart> starts = buckling.starts(count + spare_starts);

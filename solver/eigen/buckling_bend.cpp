@@ -31,9 +31,9 @@ Plane plane_of(const Beam& beam, bool xz) {
   return plane;
 }
 
-Eigen::Vector4d hubs_in(const Vec12& hubs, bool xz) {
-  return xz ? Eigen::Vector4d(hubs(2), -hubs(4), hubs(8), -hubs(10))
-            : Eigen::Vector4d(hubs(1), hubs(5), hubs(7), hubs(11));
+Eigen::Vector4d rigid_ends_in(const Vec12& rigid_ends, bool xz) {
+  return xz ? Eigen::Vector4d(rigid_ends(2), -rigid_ends(4), rigid_ends(8), -rigid_ends(10))
+            : Eigen::Vector4d(rigid_ends(1), rigid_ends(5), rigid_ends(7), rigid_ends(11));
 }
 
 double wave_number(const Plane& plane, double compression) {
@@ -48,7 +48,7 @@ double compression_at(const Plane& plane, double k) {
 /// bears.
 struct Conditions {
   Eigen::Matrix4d of_shape;
-  Eigen::Vector4d of_hubs;  ///< what each hub's freedom counts in its condition
+  Eigen::Vector4d of_rigid_ends;  ///< what each rigid end's freedom counts in its condition
 };
 Conditions conditions(const Plane& plane, double compression) {
   const double L = plane.length, P = compression, k = wave_number(plane, P);
@@ -65,17 +65,17 @@ Conditions conditions(const Plane& plane, double compression) {
       const double held = std::isinf(spring) ? 1 : spring / (spring + scale);
       const double free = std::isinf(spring) ? 0 : 1 / (spring + scale);
       all.of_shape.row(freedom) = held * moved - sign * free * borne;
-      all.of_hubs(freedom) = held;
+      all.of_rigid_ends(freedom) = held;
     };
     row(2 * end, shift, thrust, plane.EI / (L * L * L));
     // The turn counts times the length, the moment so too over the length.
     row(2 * end + 1, turn, bears * L, plane.EI / L);
-    all.of_hubs(2 * end + 1) *= L;
+    all.of_rigid_ends(2 * end + 1) *= L;
   }
   return all;
 }
 
-/// Of the plane alone, between resting hubs.
+/// Of the plane alone, between resting rigid ends.
 double resting_load(const Plane& plane) {
   constexpr int trials = 256;
   constexpr double widest = 2 * pi * (1 + 1e-9);  // kL of rigid ends
@@ -124,9 +124,9 @@ BucklingBend bend_of(const Plane& plane, double compression, const Eigen::Vector
   return bend;
 }
 
-Eigen::Vector4d shape_between(const Plane& plane, double compression, const Eigen::Vector4d& hubs) {
+Eigen::Vector4d shape_between(const Plane& plane, double compression, const Eigen::Vector4d& rigid_ends) {
   const Conditions ends = conditions(plane, compression);
-  return ends.of_shape.fullPivLu().solve(ends.of_hubs.cwiseProduct(hubs));
+  return ends.of_shape.fullPivLu().solve(ends.of_rigid_ends.cwiseProduct(rigid_ends));
 }
 
 Eigen::Vector4d resting_shape(const Plane& plane, double compression) {
@@ -136,12 +136,12 @@ Eigen::Vector4d resting_shape(const Plane& plane, double compression) {
 
 }  // namespace
 
-double buckling_load_between_resting_hubs(const Beam& beam) {
+double buckling_load_between_resting_ends(const Beam& beam) {
   return std::min(resting_load(plane_of(beam, false)), resting_load(plane_of(beam, true)));
 }
 
-BucklingBend buckling_bend(const Beam& beam, double compression, const Vec12& hubs) {
-  if (hubs.isZero(0)) {
+BucklingBend buckling_bend(const Beam& beam, double compression, const Vec12& rigid_ends) {
+  if (rigid_ends.isZero(0)) {
     const Plane xy = plane_of(beam, false), xz = plane_of(beam, true);
     const double in_xy = resting_load(xy), in_xz = resting_load(xz);
     const double load = std::min(in_xy, in_xz);
@@ -155,7 +155,7 @@ BucklingBend buckling_bend(const Beam& beam, double compression, const Vec12& hu
   for (const bool xz : {false, true}) {
     const Plane plane = plane_of(beam, xz);
     const double P = std::max(compression, compression_at(plane, slightest / plane.length));
-    const BucklingBend own = bend_of(plane, P, shape_between(plane, P, hubs_in(hubs, xz)));
+    const BucklingBend own = bend_of(plane, P, shape_between(plane, P, rigid_ends_in(rigid_ends, xz)));
     const std::array<double, 2> ends{std::max(most.at_ends[0], own.at_ends[0]),
                                      std::max(most.at_ends[1], own.at_ends[1])};
     if (own.moment > most.moment) most = own;

@@ -124,10 +124,10 @@ FixedEndForces CondensedBeam::fixed_end_forces(std::span<const BeamLoad> loads) 
   return result;
 }
 
-Vec6 relative_motion(double length, const Vec12& hub_displacements) {
-  Vec6 strain = hub_displacements.tail<6>() - hub_displacements.head<6>();
-  strain(1) -= length * hub_displacements(5);
-  strain(2) += length * hub_displacements(4);
+Vec6 relative_motion(double length, const Vec12& rigid_end_displacements) {
+  Vec6 strain = rigid_end_displacements.tail<6>() - rigid_end_displacements.head<6>();
+  strain(1) -= length * rigid_end_displacements(5);
+  strain(2) += length * rigid_end_displacements(4);
   return strain;
 }
 
@@ -135,9 +135,9 @@ BeamStrainStiffness strain_stiffness(const CondensedBeam& beam) { return beam.st
 
 // Only what the second end moves beyond the rigid motion of the first strains the beam: taking it first keeps the
 // digits that a large sway of the whole frame would cost.
-Vec12 beam_end_forces(const CondensedBeam& beam, double length, const Vec12& hub_displacements,
+Vec12 beam_end_forces(const CondensedBeam& beam, double length, const Vec12& rigid_end_displacements,
                       const Vec12& fixed_end) {
-  return strain_stiffness(beam) * relative_motion(length, hub_displacements) + fixed_end;
+  return strain_stiffness(beam) * relative_motion(length, rigid_end_displacements) + fixed_end;
 }
 
 Mat3 arm_matrix(const Vec3& arm) {
@@ -146,7 +146,7 @@ Mat3 arm_matrix(const Vec3& arm) {
   return m;
 }
 
-Vec12 hub_displacements(const Beam& beam, const Vec6& first_node, const Vec6& second_node) {
+Vec12 rigid_end_displacements(const Beam& beam, const Vec6& first_node, const Vec6& second_node) {
   Vec12 result;
   for (int end = 0; end < 2; ++end) {
     const Vec6& u = end == 0 ? first_node : second_node;

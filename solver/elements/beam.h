@@ -23,9 +23,9 @@ class CondensedBeam {
   /// `factor` multiplies E and G.
   explicit CondensedBeam(const Beam& beam, double factor = 1);
 
-  /// Local axes, first end then second; displacements are those of the nodes' hubs at the beam's ends.
+  /// Local axes, first end then second; displacements are those of the nodes' rigid ends at the beam's ends.
   [[nodiscard]] Mat12 stiffness() const;
-  /// End forces with both hubs held, local axes.
+  /// End forces with both rigid ends held, local axes.
   [[nodiscard]] FixedEndForces fixed_end_forces(std::span<const BeamLoad> loads) const;
 
   /// Every component of both ends is released: the beam is not there.
@@ -47,20 +47,20 @@ class CondensedBeam {
 using BeamStrainStiffness = Eigen::Matrix<double, 12, 6>;
 [[nodiscard]] BeamStrainStiffness strain_stiffness(const CondensedBeam& beam);
 
-/// End force from displacements of the hubs and fixed-end forces, local axes.
-[[nodiscard]] Vec12 beam_end_forces(const CondensedBeam& beam, double length, const Vec12& hub_displacements,
+/// End force from displacements of the rigid ends and fixed-end forces, local axes.
+[[nodiscard]] Vec12 beam_end_forces(const CondensedBeam& beam, double length, const Vec12& rigid_end_displacements,
                                     const Vec12& fixed_end);
 
 /// What the second end moves beyond the rigid motion of the first, local axes: all that strains the beam.
-[[nodiscard]] Vec6 relative_motion(double length, const Vec12& hub_displacements);
+[[nodiscard]] Vec6 relative_motion(double length, const Vec12& rigid_end_displacements);
 
-/// Displacements of the hubs at the beam's ends (after the arms), local axes, from node displacements (global).
-[[nodiscard]] Vec12 hub_displacements(const Beam& beam, const Vec6& first_node, const Vec6& second_node);
+/// Displacements of the rigid ends at the beam's ends (after the arms), local axes, from node displacements (global).
+[[nodiscard]] Vec12 rigid_end_displacements(const Beam& beam, const Vec6& first_node, const Vec6& second_node);
 /// Transpose of the same: local end forces to forces on the element at its nodes, global.
 [[nodiscard]] Vec12 node_forces(const Beam& beam, const Vec12& end_forces);
 
-/// K in global node freedoms from K in local hub freedoms. `arm[end]` maps the node's rotations to the translation of
-/// the beam's end: minus the cross matrix of the rigid arm, plus what a diaphragm adds.
+/// K in global node freedoms from K in local rigid end freedoms. `arm[end]` maps the node's rotations to the
+/// translation of the beam's end: minus the cross matrix of the rigid arm, plus what a diaphragm adds.
 [[nodiscard]] Mat12 to_node_freedoms(const Mat3& axes, const Mat12& local, const std::array<Mat3, 2>& arm);
 /// Minus the cross matrix: translation of the tip of an arm per rotation of its root.
 [[nodiscard]] Mat3 arm_matrix(const Vec3& arm);

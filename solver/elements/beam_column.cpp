@@ -184,7 +184,7 @@ void BeamColumn::chain() {
   }
 }
 
-/// One freedom after the other: the beam's own end is condensed, the hub takes its place behind the spring.
+/// One freedom after the other: the beam's own end is condensed, the rigid end takes its place behind the spring.
 void BeamColumn::add_springs(const std::array<double, 4>& end_stiffness) {
   const Eigen::Vector4d rigid_diagonal = stiffness_.diagonal().cwiseAbs();
   for (int f = 0; f < 4; ++f) {
@@ -207,8 +207,8 @@ void BeamColumn::add_springs(const std::array<double, 4>& end_stiffness) {
   }
 }
 
-BeamColumn::Curve BeamColumn::curve(const Eigen::Vector4d& hubs) const {
-  Eigen::Vector4d ends = hubs;
+BeamColumn::Curve BeamColumn::curve(const Eigen::Vector4d& rigid_ends) const {
+  Eigen::Vector4d ends = rigid_ends;
   for (std::size_t i = springs_.size(); i-- > 0;) {
     const Spring& spring = springs_[i];
     if (spring.pivot == 0) continue;

@@ -37,14 +37,14 @@ class BeamColumn {
              const std::array<double, 4>& end_stiffness,
              const Eigen::Vector2d& at_second_end = Eigen::Vector2d::Zero());
 
-  /// In the freedoms v1, r1, v2, r2 of the hubs.
+  /// In the freedoms v1, r1, v2, r2 of the rigid ends.
   [[nodiscard]] const Eigen::Matrix4d& stiffness() const { return stiffness_; }
   [[nodiscard]] const Eigen::Vector4d& fixed_end_forces() const { return fixed_; }
-  /// Modes of the beam between its hubs, held, whose critical load is below its axial force (Wittrick and Williams'
-  /// J0). Above 0 the beam is not stable whatever its nodes do.
+  /// Modes of the beam between its rigid ends, held, whose critical load is below its axial force (Wittrick and
+  /// Williams' J0). Above 0 the beam is not stable whatever its nodes do.
   [[nodiscard]] int buckled_modes() const { return buckled_; }
 
-  /// v, rotation, M, T at points along the beam, given the hubs' displacements.
+  /// v, rotation, M, T at points along the beam, given the rigid ends' displacements.
   class Curve {
    public:
     [[nodiscard]] Eigen::Vector4d at(double distance) const;
@@ -59,7 +59,7 @@ class BeamColumn {
     };
     std::vector<Part> parts_;
   };
-  [[nodiscard]] Curve curve(const Eigen::Vector4d& hubs) const;
+  [[nodiscard]] Curve curve(const Eigen::Vector4d& rigid_ends) const;
 
  private:
   struct Segment {

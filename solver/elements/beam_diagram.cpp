@@ -111,7 +111,7 @@ struct BeamDiagram::State {
   InternalForces forces;
   std::vector<DeformedPiece> deformed;
   Vec6 tip = Vec6::Zero();     ///< displacement of the second end when the first stays
-  Vec12 slip = Vec12::Zero();  ///< of the hubs against the beam's own ends
+  Vec12 slip = Vec12::Zero();  ///< of the rigid ends against the beam's own ends
 
   [[nodiscard]] std::size_t piece_at(double distance, bool beyond = false) const {
     const auto passed = [&](double start) { return beyond ? distance >= start : distance > start; };
@@ -132,7 +132,7 @@ struct BeamDiagram::State {
   [[nodiscard]] double at_second_end(Quantity quantity, double by_polynomial) const {
     return forces.second_end(quantity) == by_polynomial ? end_forces(6 + quantity) : by_polynomial;
   }
-  void rigid_motion(int translation, int rotation, double sense, const Vec12& hubs, double& offset,
+  void rigid_motion(int translation, int rotation, double sense, const Vec12& rigid_ends, double& offset,
                     double& slope) const;
 };
 
@@ -229,12 +229,12 @@ BeamDiagram::Range BeamDiagram::extremes(Quantity quantity) const {
 }
 
 /// The rigid part of the motion in one plane, offset + slope x, from two components that are not released: the beam's
-/// own end is its hub less the stretch of the spring between them.
-void BeamDiagram::State::rigid_motion(int translation, int rotation, double sense, const Vec12& hubs, double& offset,
-                                      double& slope) const {
+/// own end is its rigid end less the stretch of the spring between them.
+void BeamDiagram::State::rigid_motion(int translation, int rotation, double sense, const Vec12& rigid_ends,
+                                      double& offset, double& slope) const {
   const auto held = [&](int f) { return beam.end_stiffness[static_cast<std::size_t>(f / 6)](f % 6) > 0; };
   const auto end = [&](int f) {
-    return hubs(f) - slip(f) -
+    return rigid_ends(f) - slip(f) -
            spring_compliance(beam.end_stiffness[static_cast<std::size_t>(f / 6)](f % 6)) * end_forces(f);
   };
   const int v1 = translation, v2 = translation + 6, r1 = rotation, r2 = rotation + 6;
@@ -248,12 +248,12 @@ void BeamDiagram::State::rigid_motion(int translation, int rotation, double sens
     slope = slope_at(held(r1) ? r1 : r2);
     offset = held(v1) ? place_at(v1) : place_at(v2) - slope * L;
   } else {
-    offset = hubs(v1);
-    slope = sense * hubs(r1);
+    offset = rigid_ends(v1);
+    slope = sense * rigid_ends(r1);
   }
 }
 
-Vec6 BeamDiagram::displacement(double distance, const Vec12& hubs) const {
+Vec6 BeamDiagram::displacement(double distance, const Vec12& rigid_ends) const {
   const State& s = *state_;
   const double x = std::clamp(distance, 0.0, s.beam.length);
   const std::size_t i = s.piece_at(x);
@@ -261,13 +261,13 @@ Vec6 BeamDiagram::displacement(double distance, const Vec12& hubs) const {
   const DeformedPiece& d = s.deformed[i];
   const auto axial_start = [&](int f) {
     const double k1 = s.beam.end_stiffness[0](f), k2 = s.beam.end_stiffness[1](f);
-    if (k1 > 0) return hubs(f) - s.slip(f) - spring_compliance(k1) * s.end_forces(f);
-    if (k2 > 0) return hubs(f + 6) - s.slip(f + 6) - spring_compliance(k2) * s.end_forces(f + 6) - s.tip(f);
-    return hubs(f);
+    if (k1 > 0) return rigid_ends(f) - s.slip(f) - spring_compliance(k1) * s.end_forces(f);
+    if (k2 > 0) return rigid_ends(f + 6) - s.slip(f + 6) - spring_compliance(k2) * s.end_forces(f + 6) - s.tip(f);
+    return rigid_ends(f);
   };
   double v = 0, v_slope = 0, w = 0, w_slope = 0;
-  s.rigid_motion(1, 5, 1, hubs, v, v_slope);
-  s.rigid_motion(2, 4, -1, hubs, w, w_slope);
+  s.rigid_motion(1, 5, 1, rigid_ends, v, v_slope);
+  s.rigid_motion(2, 4, -1, rigid_ends, w, w_slope);
   Vec6 result;
   result << axial_start(0) + polynomial(d.u, t), v + v_slope * x + polynomial(d.v, t),
       w + w_slope * x + polynomial(d.w, t), axial_start(3) + polynomial(d.theta_x, t),

@@ -60,8 +60,8 @@ Mat12 between_ends(const PerLength& m, double length) {
 
 }  // namespace
 
-// (K + k) ends = k hubs in the freedoms that are not rigid. What the releases leave loose (a spin) stays at rest.
-Mat12 ends_by_hubs(const Beam& beam) {
+// (K + k) ends = k rigid ends in the freedoms that are not rigid. What the releases leave loose (a spin) stays at rest.
+Mat12 ends_by_rigid_ends(const Beam& beam) {
   std::vector<int> soft;
   Vec12 spring;
   for (int f = 0; f < 12; ++f) {
@@ -74,7 +74,7 @@ Mat12 ends_by_hubs(const Beam& beam) {
   for (Vec6& end : rigid_ends.end_stiffness) end.setConstant(std::numeric_limits<double>::infinity());
   const Mat12 K = CondensedBeam(rigid_ends, 1).stiffness();
   const auto n = static_cast<Eigen::Index>(soft.size());
-  Eigen::MatrixXd own(n, n), from_hubs = Eigen::MatrixXd::Zero(n, 12);
+  Eigen::MatrixXd own(n, n), from_rigid_ends = Eigen::MatrixXd::Zero(n, 12);
   Eigen::VectorXd scale(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const int f = soft[static_cast<std::size_t>(i)];
@@ -82,8 +82,8 @@ Mat12 ends_by_hubs(const Beam& beam) {
     own(i, i) += spring(f);
     scale(i) = 1 / std::sqrt(own(i, i));
     for (int g = 0; g < 12; ++g)
-      if (std::isinf(spring(g))) from_hubs(i, g) = -K(f, g);
-    from_hubs(i, f) = spring(f);
+      if (std::isinf(spring(g))) from_rigid_ends(i, g) = -K(f, g);
+    from_rigid_ends(i, f) = spring(f);
   }
   const Eigen::MatrixXd scaled = scale.asDiagonal() * own * scale.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(scaled);
@@ -91,7 +91,7 @@ Mat12 ends_by_hubs(const Beam& beam) {
   Eigen::VectorXd inverse = modes.eigenvalues();
   for (double& value : inverse) value = value > loose ? 1 / value : 0;
   const Eigen::MatrixXd ends = scale.asDiagonal() * modes.eigenvectors() * inverse.asDiagonal() *
-                               modes.eigenvectors().transpose() * scale.asDiagonal() * from_hubs;
+                               modes.eigenvectors().transpose() * scale.asDiagonal() * from_rigid_ends;
   for (Eigen::Index i = 0; i < n; ++i) result.row(soft[static_cast<std::size_t>(i)]) = ends.row(i);
   return result;
 }
@@ -103,7 +103,7 @@ Mat12 mass_between_ends(const Beam& beam, const MassModel& masses, double length
 Mat12 beam_mass_matrix(const Beam& beam, const MassModel& masses, double length) {
   const PerLength m = per_length(beam, masses, length);
   if (masses.distribution == MassDistribution::lumped) return lumped(m, length);
-  const Mat12 follow = ends_by_hubs(beam);
+  const Mat12 follow = ends_by_rigid_ends(beam);
   return follow.transpose() * between_ends(m, length) * follow;
 }
 

@@ -243,14 +243,14 @@ bool far_from_buckling_inside(const Beam& beam, double axial, std::span<const Be
   return true;
 }
 
-Vec12 frame3dd_end_forces(const Beam& beam, const Vec12& hubs, const Vec12& fixed_end, double ends_apart) {
-  const double strain = (hubs(6) - hubs(0)) / beam.length;
+Vec12 frame3dd_end_forces(const Beam& beam, const Vec12& rigid_ends, const Vec12& fixed_end, double ends_apart) {
+  const double strain = (rigid_ends(6) - rigid_ends(0)) / beam.length;
   const CondensedBeam linear(beam, 1);
   const SecondOrderBeam displaced(beam, 1, SecondOrder::frame3dd, beam.youngs_modulus * beam.area * strain, {},
                                   ends_apart);
-  const Vec12 first_order = beam_end_forces(linear, beam.length, hubs, fixed_end);
-  Vec12 moved = hubs;
-  for (const int end : {0, 6}) moved.segment<3>(end) -= hubs.head<3>();
+  const Vec12 first_order = beam_end_forces(linear, beam.length, rigid_ends, fixed_end);
+  Vec12 moved = rigid_ends;
+  for (const int end : {0, 6}) moved.segment<3>(end) -= rigid_ends.head<3>();
   Vec12 geometric = (displaced.stiffness() - linear.stiffness()) * moved;
   geometric(3) = geometric(9) = 0;
   return first_order + geometric;

@@ -13,7 +13,7 @@ class SecondOrderBeam {
   /// make the beam shorter; 0: the beam's length.
   SecondOrderBeam(const Beam& beam, double factor, SecondOrder mode, double first_axial,
                   std::span<const BeamLoad> loads, double ends_apart = 0);
-  /// Local axes, freedoms of the hubs.
+  /// Local axes, freedoms of the rigid ends.
   [[nodiscard]] const Mat12& stiffness() const { return stiffness_; }
   [[nodiscard]] const FixedEndForces& fixed_end_forces() const { return fixed_; }
   [[nodiscard]] int buckled_modes() const { return in_xy_.buckled_modes() + in_xz_.buckled_modes(); }
@@ -34,7 +34,7 @@ class SecondOrderBeam {
 
 /// The end forces that Frame3DD prints: its geometric part goes with the axial force of the elastic strain, E A times
 /// the change of length, which leaves out loads along the element and thermal strain; torsion has no such part.
-[[nodiscard]] Vec12 frame3dd_end_forces(const Beam& beam, const Vec12& hub_displacements, const Vec12& fixed_end,
+[[nodiscard]] Vec12 frame3dd_end_forces(const Beam& beam, const Vec12& rigid_end_displacements, const Vec12& fixed_end,
                                         double ends_apart);
 
 /// Free strain of each shell under these loads.

@@ -133,8 +133,8 @@ const std::vector<Vec6>& Reanalysis::displacements() const { return state_->whol
 
 const std::vector<Vec6>& Reanalysis::displacements_at(std::span<const int> nodes) const {
   const State& state = *state_;
-  const bool here = !state.restricted || std::all_of(nodes.begin(), nodes.end(),
-                                                     [&](int node) { return state.restricted->node_is_current(node); });
+  const bool here = !state.selective || std::all_of(nodes.begin(), nodes.end(),
+                                                    [&](int node) { return state.selective->node_is_current(node); });
   return here ? state.displacements : state.whole();
 }
 
@@ -149,20 +149,20 @@ const BeamStrainForces& Reanalysis::State::strain_forces_of(std::size_t i) const
 Vec12 Reanalysis::State::end_forces(std::size_t i, const std::vector<Vec6>& u, const Vec12& fixed) const {
   if (system->beam_stands[i] == 0) return Vec12::Zero();
   const Beam& beam = system->model.beams[i];
-  const Vec12 hubs =
-      hub_displacements(beam, u[static_cast<std::size_t>(beam.node[0])], u[static_cast<std::size_t>(beam.node[1])]);
-  return strain_forces_of(i)(relative_motion(beam.length, hubs)) + fixed;
+  const Vec12 rigid_ends = rigid_end_displacements(beam, u[static_cast<std::size_t>(beam.node[0])],
+                                                   u[static_cast<std::size_t>(beam.node[1])]);
+  return strain_forces_of(i)(relative_motion(beam.length, rigid_ends)) + fixed;
 }
 
 Vec12 Reanalysis::beam_end_forces(int beam) const {
   const std::size_t i = state_->checked_beam(beam);
-  const bool here = !state_->restricted || state_->restricted->beam_is_current(beam);
+  const bool here = !state_->selective || state_->selective->beam_is_current(beam);
   return state_->end_forces(i, here ? state_->displacements : state_->whole(), state_->fixed_end[i]);
 }
 
 std::array<Vec6, 4> Reanalysis::shell_corner_forces(int shell) const {
   (void)state_->checked_shell(shell);
-  const bool here = !state_->restricted || state_->restricted->shell_is_current(shell);
+  const bool here = !state_->selective || state_->selective->shell_is_current(shell);
   return state_->system->corner_forces(shell, here ? state_->displacements : state_->whole(), Vec24::Zero());
 }
 
@@ -312,16 +312,16 @@ Vec3 Reanalysis::point_displacement(int beam, double distance, const std::vector
   const std::size_t i = state_->checked_beam(beam);
   const FrameSystem& system = *state_->system;
   const Beam& b = system.model.beams[i];
-  const Vec12 hubs = hub_displacements(b, node_displacements[static_cast<std::size_t>(b.node[0])],
-                                       node_displacements[static_cast<std::size_t>(b.node[1])]);
+  const Vec12 rigid_ends = rigid_end_displacements(b, node_displacements[static_cast<std::size_t>(b.node[0])],
+                                                   node_displacements[static_cast<std::size_t>(b.node[1])]);
   const Vec12 forces = system.end_forces(beam, node_displacements, system.fixed_end_forces(beam, own).force);
-  const Vec6 local = BeamDiagram(b, forces, own, system.beam_factor[i]).displacement(distance, hubs);
+  const Vec6 local = BeamDiagram(b, forces, own, system.beam_factor[i]).displacement(distance, rigid_ends);
   return b.axes.transpose() * local.head<3>();
 }
 
 const ReanalysisCounters& Reanalysis::counters() const { return state_->counters; }
 const FrameModel& Reanalysis::model() const { return state_->system->model; }
-const RestrictedEffort& Reanalysis::restricted_effort() const { return state_->effort; }
+const SelectiveEffort& Reanalysis::selective_effort() const { return state_->effort; }
 double Reanalysis::last_operations() const { return state_->operations; }
 
 }  // namespace topple::solver

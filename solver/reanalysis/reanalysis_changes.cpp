@@ -83,7 +83,7 @@ void Reanalysis::State::apply_supports(std::vector<int>& touched) {
 /// A freedom became free or held: the equations are numbered and ordered anew.
 void Reanalysis::State::rebuild() {
   complete(nullptr);
-  restricted.reset();
+  selective.reset();
   drop_refresh();
   auto fresh = std::make_unique<FrameSystem>(system->model);
   fresh->beam_factor = system->beam_factor;
@@ -146,8 +146,8 @@ void Reanalysis::State::apply_beam(int index, std::vector<int>& touched) {
        (beam.end_stiffness[0] != target.end_stiffness[0] || beam.end_stiffness[1] != target.end_stiffness[1] ||
         system->beam_factor[i] != target.factor || beam.density != target.density));
   if (stiffness_changed) tell_standing([&](BaseFactor& one) { one.remember_beam(index); });
-  if (stiffness_changed && restricted && may_be_stiffer(beam, system->beam_stands[i], system->beam_factor[i], target))
-    restricted->forget_growths();
+  if (stiffness_changed && selective && may_be_stiffer(beam, system->beam_stands[i], system->beam_factor[i], target))
+    selective->forget_growths();
   beam.end_stiffness = target.end_stiffness;
   beam.density = target.density;
   system->beam_factor[i] = target.factor;
@@ -157,7 +157,7 @@ void Reanalysis::State::apply_beam(int index, std::vector<int>& touched) {
   fixed_end[i] = fixed.force;
   fixed_at_nodes[i] = -node_forces(beam, fixed.force);
   stale_load_nodes.insert(stale_load_nodes.end(), beam.node.begin(), beam.node.end());
-  if (restricted) loaded_nodes.insert(loaded_nodes.end(), beam.node.begin(), beam.node.end());
+  if (selective) loaded_nodes.insert(loaded_nodes.end(), beam.node.begin(), beam.node.end());
   strain_forces_known[i] = 0;
   unbalanced[i] = fixed.unbalanced > 0 ? 1 : 0;
 }
@@ -168,7 +168,7 @@ void Reanalysis::State::remember_plate(std::size_t element) {
   if (!remembers(next)) drop_refresh();
   if (remembers(standing)) return;
   complete(nullptr);
-  restricted.reset();
+  selective.reset();
   standing.reset();
   drop_refresh();
 }
@@ -177,7 +177,7 @@ void Reanalysis::State::apply_given_stiffness(std::vector<int>& touched) {
   if (given_stiffness.empty() && given_to_patch.empty()) return;
   // What uses can grow by was read from other matrices.
   complete(nullptr);
-  if (restricted) restricted->forget_growths();
+  if (selective) selective->forget_growths();
   for (const auto& [index, stiffness] : given_stiffness) {
     remember_plate(system->element_of_shell(index));
     const auto& nodes = system->model.shells[static_cast<std::size_t>(index)].node;
@@ -211,7 +211,7 @@ void Reanalysis::State::apply_shells(std::vector<int>& touched) {
     else
       tell_standing([&](BaseFactor& one) { one.remember_shell(index); });
     system->shell_stands[i] = stands;
-    if (stands != 0 && restricted) restricted->forget_growths();
+    if (stands != 0 && selective) selective->forget_growths();
     touched.insert(touched.end(), nodes.begin(), nodes.end());
   }
   changed_shells.clear();

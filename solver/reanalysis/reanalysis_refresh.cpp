@@ -61,7 +61,7 @@ void Reanalysis::State::switch_factors() {
   complete(nullptr);
   const std::unique_ptr<BaseFactor> before = std::exchange(standing, std::move(next));
   const std::unique_ptr<Factor> factor_before = std::exchange(factor, std::move(next_factor));
-  if (restricted && !restricted->serve(standing->triangles())) restricted.reset();
+  if (selective && !selective->serve(standing->triangles())) selective.reset();
   correction_paid = looked_at_softening = 0;
   condition = next_condition;
   first_solution.resize(0);

@@ -239,7 +239,7 @@ bool Reanalysis::State::solve_loads() {
   }
   const bool as_factorised = standing && !standing->changed();
   complete(nullptr);
-  if (restricted) restricted->forget_uses();
+  if (selective) selective->forget_uses();
   if ((force.array() == 0).all()) {
     solution = force;
     answer.quality = {};
@@ -291,8 +291,8 @@ const ReanalysisAnswer& Reanalysis::solve() { return state_->solve(nullptr); }
 void Reanalysis::State::take_changes(UseWatch* watch) {
   effort = {};
   whole_known = false;
-  // The uses of the present answer are what a restricted one starts from.
-  if (watch != nullptr && restricted && !restricted->uses_known() && answered && answer.stable && structure_stands)
+  // The uses of the present answer are what a selective one starts from.
+  if (watch != nullptr && selective && !selective->uses_known() && answered && answer.stable && structure_stands)
     read_all_uses(*watch);
   watched = watch != nullptr;
   eliminated_along = false;

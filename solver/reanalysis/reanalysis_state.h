@@ -21,7 +21,7 @@
 namespace topple::solver {
 
 /// Contacts act where a collision engine found them: a moment that the largest force makes by less than this share of
-/// the longest beam, on a hub that nothing keeps from turning, is none (FrameSystem::unbalanced_load).
+/// the longest beam, on a node that nothing keeps from turning, is none (FrameSystem::unbalanced_load).
 inline constexpr double negligible_lever = 1e-6;
 
 /// What a beam is to be after the next solve().
@@ -38,9 +38,9 @@ struct Reanalysis::State {
   AnalysisOptions options;
   std::vector<int> order;  ///< of elimination
   std::unique_ptr<Factor> factor;
-  std::unique_ptr<MatrixRows> rows;               ///< of the system's matrix; made with its order
-  std::unique_ptr<BaseFactor> standing;           ///< none while there is no valid factor
-  std::unique_ptr<SelectiveSolution> restricted;  ///< over the base factor; made when first asked for
+  std::unique_ptr<MatrixRows> rows;              ///< of the system's matrix; made with its order
+  std::unique_ptr<BaseFactor> standing;          ///< none while there is no valid factor
+  std::unique_ptr<SelectiveSolution> selective;  ///< over the base factor; made when first asked for
   RefreshRules refresh_rules;
   std::unique_ptr<BaseFactor> next;            ///< remembers the changes since the refresh was begun
   std::unique_ptr<BackgroundFactor> refresh;   ///< the factor that `next` is to serve with
@@ -80,7 +80,7 @@ struct Reanalysis::State {
   SolveQuality first_quality;
   std::vector<int> stale_nodes;   ///< touched since the solution was found
   std::vector<int> loaded_nodes;  ///< of beams that changed, and loaded otherwise, since then
-  RestrictedEffort effort;
+  SelectiveEffort effort;
   std::vector<Vec6> displacements;
   mutable std::vector<Vec6> whole_displacements;  ///< of a selective answer, when asked for
   mutable bool whole_known = false;

@@ -87,17 +87,17 @@ std::optional<Defect> Reanalysis::State::update_structure(const std::vector<int>
 /// Where the last answer does not fit what stands now, and by how much. False: it is better found later.
 bool Reanalysis::State::know_residual() {
   if (solution.size() != system->dofs().equations || !expected.empty()) return false;
-  const bool partial = restricted && restricted->partial();
+  const bool partial = selective && selective->partial();
   if (partial && !watched) return false;  // the answer is made whole first
   scale_force(load.force, scaled_force);
   find_changed_rows(scaled_force);
   if (rows_to_change.empty()) return false;
-  if (restricted) {
+  if (selective) {
     add_rows_of(loaded_nodes);
     std::sort(rows_to_change.begin(), rows_to_change.end());
     rows_to_change.erase(std::unique(rows_to_change.begin(), rows_to_change.end()), rows_to_change.end());
   }
-  if (partial) (void)restricted->begin(rows_to_change, {solution, displacements});
+  if (partial) (void)selective->begin(rows_to_change, {solution, displacements});
   rows->residual(system->matrix(), scaled_force, solution, rows_to_change, correction);
   return true;
 }
@@ -171,7 +171,7 @@ std::optional<Defect> Reanalysis::State::refactorise() {
   complete(nullptr);
   drop_refresh();
   factor_valid = eliminated_along = false;
-  restricted.reset();
+  selective.reset();
   standing.reset();
   correction_paid = looked_at_softening = 0;
   first_solution.resize(0);

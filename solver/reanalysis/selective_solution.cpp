@@ -301,7 +301,7 @@ double SelectiveSolution::twice_energy_of_beam(int index) const {
   if (system_.beam_stands[i] == 0) return 0;
   const Beam& beam = system_.model.beams[i];
   const Vec6 strain =
-      relative_motion(beam.length, hub_displacements(beam, node_change(beam.node[0]), node_change(beam.node[1])));
+      relative_motion(beam.length, rigid_end_displacements(beam, node_change(beam.node[0]), node_change(beam.node[1])));
   return beam_stiffness_(index).twice_energy(strain);
 }
 

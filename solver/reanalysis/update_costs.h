@@ -1,6 +1,6 @@
 #pragma once
 // What a low-rank update and a new factor cost, predicted from counts: the choice between them is by these, and the
-// same on every machine. bench_ladder prints the counts beside measured times.
+// same on every machine. bench_update_or_refactor prints the counts beside measured times.
 
 namespace topple::solver {
 

@@ -9,13 +9,13 @@
 #include "analysis/answer_warnings.h"
 #include "analysis/instability.h"
 #include "analysis/largest_displacement.h"
-#include "analysis/modal_masses.h"
+#include "analysis/motion/modal_masses.h"
 #include "analysis/one_way_members.h"
 #include "analysis/request_checks.h"
 #include "analysis/sample_analysis.h"
 #include "analysis/undivided_members.h"
 #include "loads/case_loads.h"
-#include "mesh/giving_edges.h"
+#include "mesh/semi_rigid_edges.h"
 #include "parallel/in_order.h"
 #include "topple/solver/case_sums.h"
 #include "topple/solver/kept_memory.h"
@@ -38,7 +38,7 @@ class Analysis {
         request_(request),
         kept_(kept),
         frame_(make_frame(building)),
-        hanging_(hanging_shells(frame_)),
+        jointed_(jointed_shells(frame_)),
         edges_(building),
         linear_(request.second_order == solver::SecondOrder::none && request.buckling == 0 &&
                 !OneWayMembers(frame_.model).any()),
@@ -245,7 +245,7 @@ class Analysis {
     if (k + 1 == combinations_.size()) second_order_.reset();  // its factor is as large as the one to come
     if (request_.buckling > 0)
       result.buckling = solver::buckling_modes(model, loads_[k].set, request_.buckling, request_.solver,
-                                               largest_buckling_factor, hanging_, taut ? &first_order : nullptr);
+                                               largest_buckling_factor, jointed_, taut ? &first_order : nullptr);
     for (solver::BucklingMode& mode : result.buckling) scale_shape(mode.shape);
     return result;
   }
@@ -261,7 +261,7 @@ class Analysis {
       model.beams = state.beams;
       // Combinations with the same members taut share an ordering.
       if (!second_order_ || one_way.any())
-        second_order_.emplace(model, request_.second_order, request_.solver, hanging_);
+        second_order_.emplace(model, request_.second_order, request_.solver, jointed_);
       solver::SecondOrderSolution solution = second_order_->solve(loads_[k].set, found.solution);
       found.solution = std::move(solution.solution);
       found.axial = std::move(solution.axial);
@@ -278,7 +278,7 @@ class Analysis {
       if (one_way.any()) answer = one_way.settle(loads_[k].set, std::move(answer), solve_anew, member_names());
       return iterations;
     } catch (const solver::Buckled& buckled) {
-      auto modes = solver::buckling_modes(model, loads_[k].set, 1, request_.solver, largest_buckling_factor, hanging_);
+      auto modes = solver::buckling_modes(model, loads_[k].set, 1, request_.solver, largest_buckling_factor, jointed_);
       const std::string message = place + ": " + beyond_buckling(modes, buckled);
       Diagnosis diagnosis = diagnose(building_, frame_, buckled, "buckling", combinations_[k], message);
       if (!modes.empty()) {
@@ -315,7 +315,7 @@ class Analysis {
                              request_.rotary_inertia,
                              modal_masses(building_, frame_, edges_),
                              mass_lengths(building_, frame_),
-                             hanging_};
+                             jointed_};
     solver::FrameModel model = carrying_both(frame_.model);
     const bool loaded = request_.second_order != solver::SecondOrder::none;
     if (loaded && !floats_) model.beams = tangent_beams_;
@@ -358,7 +358,7 @@ class Analysis {
   const AnalysisRequest& request_;
   solver::KeptEquations* kept_;  ///< null: nothing is kept
   Frame frame_;
-  std::vector<solver::HangingShell> hanging_;
+  std::vector<solver::JointedShell> jointed_;
   EdgeMembers edges_;
   bool linear_ = false;  ///< to the end: no second order, no buckling, no one-way members
   AnswerRecovery recovery_;

@@ -11,7 +11,7 @@
 #include "analysis/resultants/shell_results.h"
 #include "analysis/second_order_member.h"
 #include "failure/panel_demand.h"
-#include "mesh/giving_edges.h"
+#include "mesh/semi_rigid_edges.h"
 #include "parallel/in_order.h"
 #include "topple/solver/beam_diagram.h"
 #include "topple/solver/parallel_for.h"
@@ -213,11 +213,11 @@ std::vector<Utilisation> AnswerRecovery::joints(const PartLoads& parts, const Ed
 CombinationResult AnswerRecovery::recovered(CombinationId combination, const OneWayAnswer& answer,
                                             CombinationLoads loads) const {
   solver::StaticSolution absolute;
-  if (!frame_.giving_nodes.empty()) {
+  if (!frame_.semi_rigid_nodes.empty()) {
     absolute = answer.solution;
     make_absolute(frame_, absolute.displacements);
   }
-  const solver::StaticSolution& solution = frame_.giving_nodes.empty() ? answer.solution : absolute;
+  const solver::StaticSolution& solution = frame_.semi_rigid_nodes.empty() ? answer.solution : absolute;
   const LoadsByMember by_member(building_.members.size(), loads.whole ? loads.whole->beams : loads.set.beams);
   CombinationResult result = gathered(answer, solution, loads.parts, loads.edge_forces,
                                       [&](std::size_t member) { return by_member.on(member); });
@@ -225,7 +225,7 @@ CombinationResult AnswerRecovery::recovered(CombinationId combination, const One
                             answer.axial.mode != solver::SecondOrder::none);
   std::vector<solver::NodeLoad> pushes = pushes_of_supports(loads.parts, result.reactions);
   loads.set.nodes.insert(loads.set.nodes.end(), pushes.begin(), pushes.end());
-  leave_out_giving_sides(frame_, loads.set, result.reactions);
+  leave_out_semi_rigid_sides(frame_, loads.set, result.reactions);
   hold_against_reactions(balance_of(frame_.model, loads.set), answer.axial.mode != solver::SecondOrder::none, result);
   result.combination = combination;
   return result;

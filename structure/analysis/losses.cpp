@@ -4,8 +4,8 @@
 #include <limits>
 #include <map>
 
-#include "analysis/frame_motion.h"
-#include "analysis/lossy_frame.h"
+#include "analysis/damaged_frame.h"
+#include "analysis/motion/frame_motion.h"
 #include "analysis/sample_analysis.h"
 #include "model/index_of.h"
 #include "standing/unstable_model.h"
@@ -223,7 +223,7 @@ class Losses {
   const Building& building_;  ///< the divided one
   const LossRequest& request_;
   std::vector<MemberId> members_;
-  LossyFrame frame_;
+  DamagedFrame frame_;
   std::map<CombinationId, Reference> references_;
   const Reference* reference_ = nullptr;  ///< of the present combination
   std::vector<Vec6> demand_;

@@ -23,17 +23,17 @@ std::size_t loose_end(const solver::Beam& beam) {
 
 double sense(const solver::Beam& beam) { return beam.axial == AxialAction::tension_only ? 1 : -1; }
 
-/// Of the hubs at a beam's ends, local axes.
-solver::Vec12 hub_displacements(const solver::Beam& beam, const std::vector<solver::Vec6>& displacements) {
-  solver::Vec12 hubs;
+/// Of the rigid ends at a beam's ends, local axes.
+solver::Vec12 rigid_end_displacements(const solver::Beam& beam, const std::vector<solver::Vec6>& displacements) {
+  solver::Vec12 rigid_ends;
   for (std::size_t end = 0; end < 2; ++end) {
     const solver::Vec6& node = displacements[static_cast<std::size_t>(beam.node[end])];
     const solver::Vec3 turned = node.tail<3>(), moved = node.head<3>() + turned.cross(beam.offset[end]);
     const auto first = static_cast<Eigen::Index>(6 * end);
-    hubs.segment<3>(first) = beam.axes * moved;
-    hubs.segment<3>(first + 3) = beam.axes * turned;
+    rigid_ends.segment<3>(first) = beam.axes * moved;
+    rigid_ends.segment<3>(first + 3) = beam.axes * turned;
   }
-  return hubs;
+  return rigid_ends;
 }
 
 double largest_axial_force(const solver::StaticSolution& solution) {
@@ -91,10 +91,10 @@ double OneWayMembers::violation(std::size_t i, const std::vector<char>& active,
   const solver::Vec12& forces = solution.beam_end_forces[i];
   const double tension = end == 0 ? -forces(0) : forces(6);
   if (active[i] != 0) return -sign * tension;
-  const solver::Vec12 hubs = hub_displacements(beam, solution.displacements);
+  const solver::Vec12 rigid_ends = rigid_end_displacements(beam, solution.displacements);
   const solver::BeamDiagram diagram(beam, forces, loads[i]);
-  const double at_end = diagram.displacement(end == 0 ? 0 : beam.length, hubs)(0);
-  const double pulled = end == 0 ? at_end - hubs(0) : hubs(6) - at_end;
+  const double at_end = diagram.displacement(end == 0 ? 0 : beam.length, rigid_ends)(0);
+  const double pulled = end == 0 ? at_end - rigid_ends(0) : rigid_ends(6) - at_end;
   return sign * pulled * beam.youngs_modulus * beam.area / beam.length;
 }
 

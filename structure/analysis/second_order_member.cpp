@@ -9,14 +9,15 @@ namespace {
 
 using solver::BeamDiagram;
 
-/// Along y and z, of the section at a beam's end: where the hub is, less what a spring there gives. Behind a release
-/// the section is taken to go with its hub.
-Vec2 section_moves(const solver::Beam& beam, std::size_t end, const solver::Vec12& hubs, const solver::Vec12& forces) {
+/// Along y and z, of the section at a beam's end: where the rigid end is, less what a spring there gives. Behind a
+/// release the section is taken to go with its rigid end.
+Vec2 section_moves(const solver::Beam& beam, std::size_t end, const solver::Vec12& rigid_ends,
+                   const solver::Vec12& forces) {
   Vec2 moves;
   for (int k = 0; k < 2; ++k) {
     const int component = 6 * static_cast<int>(end) + 1 + k;
     const double spring = beam.end_stiffness[end](1 + k);
-    moves(k) = hubs(component) - (spring > 0 && std::isfinite(spring) ? forces(component) / spring : 0);
+    moves(k) = rigid_ends(component) - (spring > 0 && std::isfinite(spring) ? forces(component) / spring : 0);
   }
   return moves;
 }
@@ -31,10 +32,10 @@ SecondOrderMember::SecondOrderMember(const Frame& frame, std::size_t member, con
     const auto b = static_cast<std::size_t>(piece.beam);
     const solver::Beam& beam = beams[b];
     const solver::Vec12& forces = solution.beam_end_forces[b];
-    const solver::Vec12 hubs = solver::beam_hub_displacements(beam, solution.displacements);
-    pieces_.push_back({piece.start, beam.length, section_moves(beam, 0, hubs, forces),
-                       section_moves(beam, 1, hubs, forces),
-                       solver::SecondOrderDiagram(beam, axial, piece.beam, forces, hubs)});
+    const solver::Vec12 rigid_ends = solver::beam_rigid_end_displacements(beam, solution.displacements);
+    pieces_.push_back({piece.start, beam.length, section_moves(beam, 0, rigid_ends, forces),
+                       section_moves(beam, 1, rigid_ends, forces),
+                       solver::SecondOrderDiagram(beam, axial, piece.beam, forces, rigid_ends)});
   }
   const double length = pieces_.back().start + pieces_.back().length;
   const Vec2 from = pieces_.front().first, slope = (pieces_.back().last - from) / length;

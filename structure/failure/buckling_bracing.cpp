@@ -147,8 +147,8 @@ bool BucklingBracing::iterate(int c, Iteration& iteration) const {
     const auto& nodes = building_[member].nodes;
     const solver::Beam& beam = statics_.beam(member);
     const solver::Vec12& force = statics_.end_forces(member);
-    const solver::Vec12 hubs = hubs_of(beam, shape.displacement(nodes[0]), shape.displacement(nodes[1]));
-    const solver::Vec12 push = -forces_at_nodes(beam, geometric_forces(beam, (force(6) - force(0)) / 2, hubs));
+    const solver::Vec12 rigid_ends = rigid_ends_of(beam, shape.displacement(nodes[0]), shape.displacement(nodes[1]));
+    const solver::Vec12 push = -forces_at_nodes(beam, geometric_forces(beam, (force(6) - force(0)) / 2, rigid_ends));
     for (int end = 0; end < 2; ++end) at[index_of(nodes[static_cast<std::size_t>(end)])] += push.segment<6>(6 * end);
   }
   for (auto& [node, load] : iteration.loads.nodes) {
@@ -246,10 +246,10 @@ std::optional<BuckledPost> BucklingBracing::judge(int c) const {
     one.post = members[i];
     one.compression = compression;
     for (std::size_t end = 0; end < 2; ++end) one.motion[end] = mode.shape[static_cast<std::size_t>(beam.node[end])];
-    const solver::Vec12 hubs = hubs_of(beam, one.motion[0], one.motion[1]);
-    one.rests = hubs.isZero(0);
-    if (one.rests) one.share = compression / solver::buckling_load_between_resting_hubs(beam);
-    one.bend = solver::buckling_bend(beam, mode.factor * compression, hubs);
+    const solver::Vec12 rigid_ends = rigid_ends_of(beam, one.motion[0], one.motion[1]);
+    one.rests = rigid_ends.isZero(0);
+    if (one.rests) one.share = compression / solver::buckling_load_between_resting_ends(beam);
+    one.bend = solver::buckling_bend(beam, mode.factor * compression, rigid_ends);
     bent.push_back(one);
   }
   return give_way(most_bent(std::move(bent)), mode.factor);

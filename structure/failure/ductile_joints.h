@@ -1,7 +1,8 @@
 #pragma once
 // Joints that bend and twist before they break. Each ductile sense of a joint is a plastic hinge that may form: it
-// holds its capacity while it turns (it flows), holds again as soon as it would turn back, and keeps the angle by which
-// it has turned (its slip: rotation of the hub less that of the member's end, beyond what the joint's spring gives).
+// holds its capacity while it turns (it yields), unloads as soon as it would turn back, and keeps the angle by which
+// it has turned (its plastic rotation: rotation of the rigid end less that of the member's end, beyond what the joint's
+// spring gives).
 //
 // Loads are followed from a base, the last state reached, towards the static answer under the loads as they are:
 // base + x (answer - base). Between two events (a hinge forms, turns back, a joint breaks) everything is linear in x.
@@ -15,11 +16,11 @@ namespace topple::structure {
 
 struct PlasticHinge {
   JointId joint;
-  int axis = 4;      ///< component of the member's end: 3 torsion, 4 and 5 moments
-  double limit = 0;  ///< of the slip, rad
-  double slip = 0;   ///< in the base state
-  double held = 0;   ///< while it flows: what the hub gives to the member
-  bool flows = false;
+  int axis = 4;                 ///< component of the member's end: 3 torsion, 4 and 5 moments
+  double limit = 0;             ///< of the plastic rotation, rad
+  double plastic_rotation = 0;  ///< in the base state
+  double held = 0;              ///< while it yields: what the rigid end gives to the member
+  bool yields = false;
   bool told = false;  ///< that it yielded
   [[nodiscard]] Sense sense() const { return static_cast<Sense>(axis + 1); }
 };

@@ -54,7 +54,7 @@ MovingPart find_moving_part(const Building& building, const Segmentation& segmen
   }
   const bool any_member = std::find(member_moves.begin(), member_moves.end(), 1) != member_moves.end();
   if (!any_member) {
-    // Only hubs turn: nothing would leave. What hangs on the hub that moves most goes, so that the search ends.
+    // Only nodes turn: nothing would leave. What hangs on the node that moves most goes, so that the search ends.
     std::fill(node_moves.begin(), node_moves.end(), 0);
     const NodeId most = mechanism.nodes.front();
     node_moves[index_of(most)] = 1;

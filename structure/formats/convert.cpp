@@ -1,4 +1,4 @@
-#include "topple/structure/convert.h"
+#include "topple/structure/formats/convert.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -8,7 +8,7 @@
 #include "formats/model_files.h"
 #include "formats/model_forms.h"
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 
 namespace topple::structure {
 

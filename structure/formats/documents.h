@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "formats/json/json_document.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 
 namespace topple::structure::formats {
 

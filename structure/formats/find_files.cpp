@@ -5,12 +5,12 @@
 
 #include "formats/json/json_document.h"
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
-#include "topple/structure/input_files.h"
+#include "topple/structure/formats/files.h"
+#include "topple/structure/formats/input_files.h"
+#include "topple/structure/formats/panel_file.h"
+#include "topple/structure/formats/shipped_files.h"
 #include "topple/structure/modelling_checks.h"
-#include "topple/structure/panel_file.h"
-#include "topple/structure/shipped_files.h"
-#include "topple/structure/study.h"
+#include "topple/structure/study/study.h"
 
 namespace topple::structure {
 

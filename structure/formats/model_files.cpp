@@ -4,7 +4,7 @@
 #include <cctype>
 
 #include "topple/structure/error.h"
-#include "topple/structure/input_files.h"
+#include "topple/structure/formats/input_files.h"
 
 namespace topple::structure::formats {
 

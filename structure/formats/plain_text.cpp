@@ -1,4 +1,4 @@
-#include "topple/structure/plain_text.h"
+#include "topple/structure/formats/plain_text.h"
 
 #include <cstdint>
 

@@ -1,7 +1,7 @@
 #pragma once
 // How a number is spread, as studies tell it.
 #include "formats/json/json_document.h"
-#include "topple/structure/study.h"
+#include "topple/structure/study/study.h"
 
 namespace topple::structure::formats {
 

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <system_error>
 
-#include "drawn/drawn_weight.h"
 #include "formats/documents.h"
 #include "formats/frame3dd/frame3dd.h"
 #include "formats/model_files.h"
@@ -13,8 +12,9 @@
 #include "mesh/usual_mesh.h"
 #include "model/connect_parts.h"
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 #include "topple/structure/modelling_checks.h"
+#include "visual/drawn_weight.h"
 
 namespace topple::structure {
 

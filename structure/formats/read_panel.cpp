@@ -5,7 +5,7 @@
 #include "formats/json/json_document.h"
 #include "formats/read_fracture.h"
 #include "topple/fracture/unfit_settings.h"
-#include "topple/structure/panel_file.h"
+#include "topple/structure/formats/panel_file.h"
 
 namespace topple::structure {
 

@@ -8,8 +8,8 @@
 #include "formats/model_reader.h"
 #include "formats/read_fracture.h"
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
-#include "topple/structure/scenario_text.h"
+#include "topple/structure/formats/files.h"
+#include "topple/structure/formats/scenario_text.h"
 
 namespace topple::structure {
 

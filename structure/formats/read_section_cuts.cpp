@@ -9,8 +9,8 @@
 #include "formats/model_reader.h"
 #include "formats/section_cuts.h"
 #include "topple/structure/analysis.h"
+#include "topple/structure/formats/parse_cuts.h"
 #include "topple/structure/modelling_checks.h"
-#include "topple/structure/parse_cuts.h"
 
 namespace topple::structure {
 

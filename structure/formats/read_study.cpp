@@ -6,9 +6,9 @@
 #include "formats/json/json_document.h"
 #include "formats/read_distribution.h"
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
-#include "topple/structure/input_files.h"
-#include "topple/structure/study.h"
+#include "topple/structure/formats/files.h"
+#include "topple/structure/formats/input_files.h"
+#include "topple/structure/study/study.h"
 
 namespace topple::structure {
 

@@ -6,9 +6,9 @@
 #include "formats/model_files.h"
 #include "formats/tables/csv_table.h"
 #include "topple/structure/error.h"
+#include "topple/structure/formats/plain_text.h"
 #include "topple/structure/motion.h"
 #include "topple/structure/number_range.h"
-#include "topple/structure/plain_text.h"
 #include "topple/structure/time_history.h"
 
 namespace topple::structure {

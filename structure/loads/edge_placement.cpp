@@ -12,7 +12,7 @@ namespace {
 /// Of the length: pieces shorter than this are rounding.
 constexpr double negligible = 1e-12;
 
-void add_node_load(HandOver& result, NodeId node, const Vec3& force, const Vec3& moment) {
+void add_node_load(TributaryLoads& result, NodeId node, const Vec3& force, const Vec3& moment) {
   for (solver::NodeLoad& load : result.nodes)
     if (load.node == node.index) {
       load.load.head<3>() += force;
@@ -57,7 +57,7 @@ EdgePlacement::EdgePlacement(const Building& building, const EdgeMembers& edges,
   if (stretches_.empty()) stretches_.push_back({MemberId(), first, last, 0, length_});
 }
 
-void EdgePlacement::place(const EdgeLoad& load, HandOver& result) const {
+void EdgePlacement::place(const EdgeLoad& load, TributaryLoads& result) const {
   if (load.first.isZero(0) && load.last.isZero(0)) return;
   for (std::size_t i = 0; i < stretches_.size(); ++i) {
     const Stretch& stretch = stretches_[i];
@@ -73,7 +73,7 @@ void EdgePlacement::place(const EdgeLoad& load, HandOver& result) const {
   }
 }
 
-void EdgePlacement::place_on_member(const Stretch& stretch, const EdgeLoad& load, HandOver& result) const {
+void EdgePlacement::place_on_member(const Stretch& stretch, const EdgeLoad& load, TributaryLoads& result) const {
   const Member& member = building_[stretch.member];
   const Vec3 axis = member.axes.row(0);
   const Vec3 end = building_[member.nodes[0]].position + member.offsets[0];
@@ -116,20 +116,20 @@ void EdgePlacement::place_on_member(const Stretch& stretch, const EdgeLoad& load
   result.beams.push_back(beam);
 }
 
-void EdgePlacement::place_at_node(NodeId node, const EdgeLoad& load, HandOver& result) const {
+void EdgePlacement::place_at_node(NodeId node, const EdgeLoad& load, TributaryLoads& result) const {
   const double arm = load.from - place_of(node);
   add_node_load(result, node, load.resultant(), direction_.cross(load.moment() + arm * load.resultant()));
 }
 
 void EdgePlacement::share_by_lever(NodeId a, double at_a, NodeId b, double at_b, const EdgeLoad& load,
-                                   HandOver& result) const {
+                                   TributaryLoads& result) const {
   const Vec3 total = load.resultant();
   const Vec3 to_b = (load.moment() + (load.from - at_a) * total) / (at_b - at_a);
   add_node_load(result, a, total - to_b, Vec3::Zero());
   add_node_load(result, b, to_b, Vec3::Zero());
 }
 
-void EdgePlacement::place_over_gap(std::size_t gap, const EdgeLoad& load, HandOver& result) const {
+void EdgePlacement::place_over_gap(std::size_t gap, const EdgeLoad& load, TributaryLoads& result) const {
   const Stretch &own = stretches_[gap], *before = gap > 0 ? &stretches_[gap - 1] : nullptr,
                 *after = gap + 1 < stretches_.size() ? &stretches_[gap + 1] : nullptr;
   // Neighbouring gaps are one, so whatever is next to a gap stands.

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "loads/hand_over.h"
+#include "loads/tributary_loads.h"
 #include "model/index_of.h"
 #include "model/panel_area.h"
 
@@ -81,7 +81,7 @@ FrameLoads::FrameLoads(const Building& building, PartLoads loads, const PanelBea
 
 /// What acts on a shell panel, condensed to its nodes.
 void FrameLoads::hand_on_shell(PanelId panel) {
-  HandOver& handed = handed_[index_of(panel)];
+  TributaryLoads& handed = handed_[index_of(panel)];
   mark(handed);
   handed = {};
   handed.edge_force.fill(Vec3::Zero());
@@ -125,7 +125,8 @@ void FrameLoads::hand_on_anew(PanelId panel) {
     static const std::vector<std::vector<Vec2>> none;
     const auto broken = holes_.find(panel);
     const auto& holes = broken == holes_.end() ? none : broken->second;
-    handed_[p] = hand_over_broken(building_, bearings_.edge_members(), panel, under_gravity(panel, loads_.panels[p]),
+    handed_[p] =
+        tributary_loads_of_broken(building_, bearings_.edge_members(), panel, under_gravity(panel, loads_.panels[p]),
                                   bearings_.holds(panel), bearings_.member_stands(), holes);
     for (const solver::BeamLoad& load : handed_[p].beams)
       insert(handing_members_[static_cast<std::size_t>(load.beam)], static_cast<int>(p));
@@ -138,7 +139,7 @@ void FrameLoads::hand_on_anew(PanelId panel) {
   }
 }
 
-void FrameLoads::mark(const HandOver& handed) {
+void FrameLoads::mark(const TributaryLoads& handed) {
   for (const solver::BeamLoad& load : handed.beams)
     changed_members_.push_back(MemberId(static_cast<std::size_t>(load.beam)));
   for (const solver::NodeLoad& load : handed.nodes)

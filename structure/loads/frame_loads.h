@@ -69,7 +69,9 @@ class FrameLoads {
   [[nodiscard]] Vec6 own(NodeId node) const {
     return under_gravity(loads_.nodes[static_cast<std::size_t>(node.index)]);
   }
-  [[nodiscard]] const HandOver& handed(PanelId panel) const { return handed_[static_cast<std::size_t>(panel.index)]; }
+  [[nodiscard]] const TributaryLoads& handed(PanelId panel) const {
+    return handed_[static_cast<std::size_t>(panel.index)];
+  }
   [[nodiscard]] const Vec6& event_load(NodeId node) const { return events_[static_cast<std::size_t>(node.index)]; }
   [[nodiscard]] const std::map<std::int64_t, PlacedLoad>& contacts() const { return contacts_; }
   /// Force that a panel hands to one of its edges, contacts on it included, global axes.
@@ -82,7 +84,7 @@ class FrameLoads {
   [[nodiscard]] Vec6 under_gravity(const Vec6& load) const;
   [[nodiscard]] PanelAction under_gravity(PanelId panel, PanelAction action) const;
   void hand_on_shell(PanelId panel);
-  void mark(const HandOver& handed);
+  void mark(const TributaryLoads& handed);
   void mark(const PlacedLoad& placed);
 
   const Building& building_;
@@ -92,7 +94,7 @@ class FrameLoads {
   std::vector<char> shell_gone_;  ///< per panel
   bool usual_gravity_ = true;
   Vec3 gravity_;
-  std::vector<HandOver> handed_;                                   ///< per panel
+  std::vector<TributaryLoads> handed_;                             ///< per panel
   std::vector<std::vector<int>> handing_members_, handing_nodes_;  ///< per member, node: panels that hand it something
   std::vector<Vec6> events_;
   std::map<std::int64_t, PlacedLoad> contacts_;

@@ -7,8 +7,8 @@ namespace topple::structure {
 
 namespace {
 
-HandOver handed_by(const Building& building, const EdgeMembers& edges, const PartLoads& loads, std::size_t p) {
-  return hand_over(building, edges, PanelId(p), loads.panels[p], {true, true, true, true});
+TributaryLoads handed_by(const Building& building, const EdgeMembers& edges, const PartLoads& loads, std::size_t p) {
+  return tributary_loads(building, edges, PanelId(p), loads.panels[p], {true, true, true, true});
 }
 
 void add_panels(const Building& building, const EdgeMembers& edges, const PartLoads& loads, solver::LoadSet& set,
@@ -19,7 +19,7 @@ void add_panels(const Building& building, const EdgeMembers& edges, const PartLo
     const Panel& panel = building.panels[p];
     const int own_shell = panel.model == PanelModel::membrane ? shell++ : -1;
     const PanelAction& action = loads.panels[p];
-    const HandOver handed = handed_by(building, edges, loads, p);
+    const TributaryLoads handed = handed_by(building, edges, loads, p);
     if (forces) forces->push_back(handed.edge_force);
     set.beams.insert(set.beams.end(), handed.beams.begin(), handed.beams.end());
     set.nodes.insert(set.nodes.end(), handed.nodes.begin(), handed.nodes.end());

@@ -1,7 +1,7 @@
 // Loads of whole members and shell panels, laid on the beams and elements that they are divided into.
 #include <algorithm>
 
-#include "mesh/giving_edges.h"
+#include "mesh/semi_rigid_edges.h"
 #include "model/index_of.h"
 #include "topple/structure/frame.h"
 
@@ -81,7 +81,7 @@ solver::LoadSet on_frame(const Building& building, const Frame& frame, const Par
     if (traction.isZero(0) && action.strain == 0) continue;
     for (std::size_t k = 0; k < mesh.elements.size(); ++k) {
       const int shell = mesh.first_shell + static_cast<int>(k);
-      if (const GivingElement* giving = giving_element(frame, shell))
+      if (const SemiRigidElement* giving = semi_rigid_element(frame, shell))
         add_element_loads(frame, *giving, traction, action.strain, set);
       else
         set.shells.push_back({shell, traction, action.strain});

@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "panel_shares.h"
+#include "tributary_areas.h"
 
 namespace topple::structure {
 
@@ -42,8 +42,8 @@ class ShareCollector {
     total_ += area;
     moment_ += area * fraction;
   }
-  [[nodiscard]] LineShare share() const {
-    LineShare result{from_, from_ + length_, 4 * total_ - 6 * moment_, 6 * moment_ - 2 * total_};
+  [[nodiscard]] TributaryStrip share() const {
+    TributaryStrip result{from_, from_ + length_, 4 * total_ - 6 * moment_, 6 * moment_ - 2 * total_};
     result.first /= length_;
     result.last /= length_;
     if (length_ < 0) result = {result.to, result.from, -result.last, -result.first};

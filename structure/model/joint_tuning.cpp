@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "formats/json/json_writer.h"
-#include "topple/structure/convert.h"
 #include "topple/structure/error.h"
+#include "topple/structure/formats/convert.h"
 
 namespace topple::structure {
 namespace {

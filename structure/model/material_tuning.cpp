@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "topple/structure/error.h"
-#include "topple/structure/json_tree.h"
+#include "topple/structure/formats/json_tree.h"
 
 namespace topple::structure {
 

@@ -28,11 +28,11 @@ LoadWork work(const Vec6& load, const Vec6& displacement, const Vec3& gravity) {
   return split_work(load, displacement, gravity);
 }
 
-MemberShape::MemberShape(const solver::Beam& beam, const solver::Vec12& end_forces, const solver::Vec12& hubs,
+MemberShape::MemberShape(const solver::Beam& beam, const solver::Vec12& end_forces, const solver::Vec12& rigid_ends,
                          std::vector<solver::BeamLoad> loads)
     : beam_(beam),
       end_forces_(end_forces),
-      hubs_(hubs),
+      rigid_ends_(rigid_ends),
       loads_(std::move(loads)),
       diagram_(beam_, end_forces_, loads_) {}
 

@@ -21,15 +21,16 @@ struct LoadWork {
 
 class MemberShape {
  public:
-  /// `beam` as it is in this state; `hubs`: displacements of the nodes' hubs at the beam's ends, local axes.
-  MemberShape(const solver::Beam& beam, const solver::Vec12& end_forces, const solver::Vec12& hubs,
+  /// `beam` as it is in this state; `rigid_ends`: displacements of the nodes' rigid ends at the beam's ends, local
+  /// axes.
+  MemberShape(const solver::Beam& beam, const solver::Vec12& end_forces, const solver::Vec12& rigid_ends,
               std::vector<solver::BeamLoad> loads);
 
-  [[nodiscard]] Vec6 hub(int end) const { return hubs_.segment<6>(6 * end); }
+  [[nodiscard]] Vec6 rigid_end(int end) const { return rigid_ends_.segment<6>(6 * end); }
   /// Of the member's own end, behind its spring or broken joint; local axes.
   [[nodiscard]] Vec6 end(int end) const;
   /// Local axes.
-  [[nodiscard]] Vec6 at(double distance) const { return diagram_.displacement(distance, hubs_); }
+  [[nodiscard]] Vec6 at(double distance) const { return diagram_.displacement(distance, rigid_ends_); }
 
   /// Loads times this shape, exactly for forces that vary linearly; `gravity` is its direction in local axes. Both the
   /// state's own loads and `loads` may break the polynomials.
@@ -45,7 +46,7 @@ class MemberShape {
   [[nodiscard]] Vec6 stiffness() const;
 
   solver::Beam beam_;
-  solver::Vec12 end_forces_, hubs_;
+  solver::Vec12 end_forces_, rigid_ends_;
   std::vector<solver::BeamLoad> loads_;
   solver::BeamDiagram diagram_;
 };

@@ -1,11 +1,12 @@
 // Panels that break where they stand: a hit that is harder than the panel can bear there punches a hole, what hangs on
 // nothing leaves as well, and the frame goes on with what remains.
 //
-// A punch fails along a cone at 45 degrees around the body: tensile strength times the cone's area seen along the blow,
-// pi t (2 r + t) for a round body of radius r (ACI 349, appendix D, with the tensile strength itself in place of 4
-// sqrt(f'c)). A blow that is faster than what crushes the material (shatter.cpp) feels the panel alone: it is through
-// before the rest of the structure has moved, and the punch costs it the work of that force, falling to nothing over
-// the thickness. What is broken out has to be taken along: body and chunks leave with one speed, which keeps momentum.
+// A punch fails along a cone at 45 degrees around the body: tensile strength times the cone's area seen along the
+// impact, pi t (2 r + t) for a round body of radius r (ACI 349, appendix D, with the tensile strength itself in place
+// of 4 sqrt(f'c)). An impact that is faster than what crushes the material (shatter.cpp) feels the panel alone: it is
+// through before the rest of the structure has moved, and the punch costs it the work of that force, falling to nothing
+// over the thickness. What is broken out has to be taken along: body and chunks leave with one speed, which keeps
+// momentum.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -26,7 +27,7 @@ double Simulation::State::punching_force(const Strike& hit) const {
   return hit.part.panel.valid() ? punching_force(hit.part.panel, hit.normal, hit.body->radius) : unlimited;
 }
 
-/// Speed that the punch leaves a blow that is fast enough to feel the panel alone; 0 for one that is not.
+/// Speed that the punch leaves an impact that is fast enough to feel the panel alone; 0 for one that is not.
 double Simulation::State::speed_through(const Strike& hit, double force) const {
   if (force == unlimited) return 0;
   const std::size_t panel = static_cast<std::size_t>(hit.part.panel.index);
@@ -58,7 +59,7 @@ double Simulation::State::break_out(Strike& hit) {
   double plug = 0;
   for (const PanelChunk& chunk : chunks) plug += chunk.hit ? chunk.rest.mass : 0;
   if (chunks.empty()) return 0;
-  tell(SimulationEvent::Kind::panel_fractured, building[panel].name).position = hit.place.point;
+  record(SimulationEvent::Kind::panel_fractured, building[panel].name).position = hit.place.point;
   hit.chunks = break_standing(panel, std::move(chunks));
   return plug;
 }
@@ -151,7 +152,7 @@ void Simulation::State::crack_panels() {
     const Vec3 at = tension >= compression ? stress->tension_at : stress->compression_at;
     std::vector<PanelChunk> chunks = breaking(panel).hit(at, std::nullopt);
     if (chunks.empty()) continue;
-    tell(SimulationEvent::Kind::panel_fractured, building[panel].name).position = at;
+    record(SimulationEvent::Kind::panel_fractured, building[panel].name).position = at;
     (void)break_standing(panel, std::move(chunks));
   }
 }
@@ -190,7 +191,7 @@ std::vector<collision::BodyId> Simulation::State::break_standing(PanelId panel, 
     const collision::BodyId id = add_body(std::move(piece), Vec3::Zero(), Vec3::Zero(), sunk);
     if (of_hit) out.push_back(id);
   }
-  if (dust > 0) tell(SimulationEvent::Kind::limited, building[panel].name).mass = dust;
+  if (dust > 0) record(SimulationEvent::Kind::limited, building[panel].name).mass = dust;
   return out;
 }
 
@@ -223,7 +224,7 @@ void Simulation::State::drop_loose_pieces() {
     if (now == broken.held()) continue;
     std::vector<PanelChunk> loose = broken.hold(now);
     if (loose.empty()) continue;
-    tell(SimulationEvent::Kind::panel_fractured, building[panel].name).position = loose.front().rest.centre;
+    record(SimulationEvent::Kind::panel_fractured, building[panel].name).position = loose.front().rest.centre;
     (void)break_standing(panel, std::move(loose));
   }
 }

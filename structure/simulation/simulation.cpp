@@ -26,7 +26,7 @@ void Simulation::step() {
       return s.timer.stage(static_cast<std::size_t>(stage), work);
     };
     timed(Stage::load, [&] { s.use_tools(); });
-    const auto contacts = timed(Stage::sense, [&] { return s.sense(); });
+    const auto contacts = timed(Stage::sweep, [&] { return s.sweep(); });
     timed(Stage::load, [&] { s.load(); });
     timed(Stage::break_, [&] {
       s.strike_by_host();
@@ -36,9 +36,9 @@ void Simulation::step() {
     });
     timed(Stage::release, [&] { s.release(); });
     timed(Stage::move, [&] { s.move(); });
-    timed(Stage::book, [&] { s.book(); });
+    timed(Stage::account, [&] { s.account(); });
   }
-  s.tell_rest_and_end();
+  s.record_rest_and_end();
   s.call_listeners();
 }
 
@@ -130,7 +130,7 @@ Vec3 Simulation::State::joint_position(JointId id) const {
          2;
 }
 
-SimulationEvent& Simulation::State::tell(SimulationEvent::Kind kind, const std::string& name) {
+SimulationEvent& Simulation::State::record(SimulationEvent::Kind kind, const std::string& name) {
   SimulationEvent event;
   event.time = time();
   event.step = step;
@@ -145,10 +145,10 @@ void Simulation::State::call_listeners() {
     for (const auto& listener : listeners) listener(SimulationEvent(events[events_heard]));
 }
 
-void Simulation::State::tell(const JointBreak& broken) {
+void Simulation::State::record(const JointBreak& broken) {
   const Joint& joint = building[broken.joint];
   SimulationEvent& event =
-      tell(SimulationEvent::Kind::joint_broke, broken.inside ? building[joint.member].name : joint.name);
+      record(SimulationEvent::Kind::joint_broke, broken.inside ? building[joint.member].name : joint.name);
   event.joint = broken;
   event.position = broken.position;
 }
@@ -257,7 +257,7 @@ const SimulationCounters& Simulation::counters() const {
   counters.low_rank = frame.low_rank;
   counters.refactorisations = frame.refactorisations;
   counters.segmentations = frame.segmentations;
-  counters.restricted = frame.restricted;
+  counters.selective = frame.selective;
   counters.background_factors = frame.background_factors;
   counters.late_factors = frame.late_factors;
   return counters;

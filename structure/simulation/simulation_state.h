@@ -49,8 +49,8 @@ struct Simulation::State {
   void use_stage(Weakening& weakening);
   void weaken(JointId joint, double change);
 
-  // sense.cpp
-  [[nodiscard]] std::vector<collision::Contact> sense();
+  // sweep.cpp
+  [[nodiscard]] std::vector<collision::Contact> sweep();
   [[nodiscard]] Bounds swept_bounds(const Body& body, const collision::BodyState& state) const;
   struct Sweep {
     Vec3 travel;
@@ -69,26 +69,26 @@ struct Simulation::State {
   [[nodiscard]] double rebound(const Indentation& pushing) const;
   [[nodiscard]] bool bears(Strike& hit, double weight, double punching);
   void push_in(Strike& hit);
-  static void tell_loss(Strike& hit);
+  static void record_loss(Strike& hit);
   void send_on(const Strike& hit);
-  void tell_impact(const Strike& hit);
+  void record_impact(const Strike& hit);
   struct PointImpulse;
-  void knock(const Strike& hit);
+  void keep_release_impulse(const Strike& hit);
   void move_on(const Strike& hit, collision::BodyState after, std::span<const PointImpulse> impulses);
   void check_momentum(const Strike& hit, std::span<const PointImpulse> impulses);
   // strike_together.cpp: several of them at one instant.
-  struct JointPush;
+  struct SimultaneousImpact;
   [[nodiscard]] bool strike_together(std::span<const collision::Contact* const> contacts);
-  [[nodiscard]] bool take_up(JointPush& pushed) const;
-  [[nodiscard]] bool bears(JointPush& pushed);
-  void push_in(JointPush& pushed);
-  void go_on(JointPush& pushed, const Eigen::VectorXd& shift);
-  void send_on(JointPush& pushed);
+  [[nodiscard]] bool take_up(SimultaneousImpact& pushed) const;
+  [[nodiscard]] bool bears(SimultaneousImpact& pushed);
+  void push_in(SimultaneousImpact& pushed);
+  void go_on(SimultaneousImpact& pushed, const Eigen::VectorXd& shift);
+  void send_on(SimultaneousImpact& pushed);
   void break_generations();
   [[nodiscard]] bool sways() const { return scenario.standing == StandingRule::dynamics; }
 
   /// Momentum that an impact gave to what it broke off, handed over when that part becomes a body.
-  struct Knock {
+  struct ReleaseImpulse {
     Part part;
     Vec3 impulse, point;
     double speed = 0;  ///< of the contact place along the impulse: no part is thrown faster
@@ -99,13 +99,13 @@ struct Simulation::State {
   struct BodyImpact;
   struct ImpactSide;
   void strike_bodies(const std::vector<collision::Contact>& contacts);
-  [[nodiscard]] std::optional<collision::Contact> sensed_now(const collision::Contact& sensed) const;
+  [[nodiscard]] std::optional<collision::Contact> contact_now(const collision::Contact& swept) const;
   void strike_bodies_at(const std::vector<collision::Contact>& contacts);
   void push_bodies(BodyImpact& impact);
   [[nodiscard]] bool may_break(collision::BodyId id) const;
   [[nodiscard]] std::int64_t body_of_joint(JointId joint) const;
   [[nodiscard]] ImpactSide side_at(collision::BodyId id, double time) const;
-  [[nodiscard]] double time_since_state(collision::BodyId id, double sensed_at) const;
+  [[nodiscard]] double time_since_state(collision::BodyId id, double swept_at) const;
   [[nodiscard]] ImpactSide side_again(const ImpactSide& side, collision::BodyId id) const;
   void set_side(const ImpactSide& side);
   void find_flexibility(ImpactSide& side, const std::vector<ImpactPlace>& places, double sign);
@@ -118,7 +118,7 @@ struct Simulation::State {
   [[nodiscard]] static Eigen::VectorXd carried_over(const ImpactSide& before, const Eigen::VectorXd& moved,
                                                     const ImpactSide& now);
   [[nodiscard]] std::vector<StruckJoint> struck_joints(const BodyImpact& impact) const;
-  std::size_t tell_body_impact(const BodyImpact& impact, double speed_in);
+  std::size_t record_body_impact(const BodyImpact& impact, double speed_in);
   void give_impulses(BodyImpact& impact, const Eigen::VectorXd& impulses);
   bool break_bodies(BodyImpact& impact, Impact& push, const std::vector<JointBreak>& broken);
 
@@ -132,9 +132,9 @@ struct Simulation::State {
   void part_is_gone(Part part) { parts_are_gone({&part, 1}); }
   [[nodiscard]] Body describe(const Detached& part) const;
   collision::BodyId add_body(Body body, const Vec3& velocity, const Vec3& spin, const Vec3& displacement);
-  void knock(const Body& body, Vec3& velocity, Vec3& spin);
+  void apply_release_impulses(const Body& body, Vec3& velocity, Vec3& spin);
   void check_momentum(const Body& body, const std::optional<Detached::Motion>& motion);
-  [[nodiscard]] static bool was_struck(const Knock& given, const Body& one);
+  [[nodiscard]] static bool was_struck(const ReleaseImpulse& given, const Body& one);
   [[nodiscard]] std::vector<collision::BodyId> breakers_of(const Body& one) const;
   collision::BodyId add_body(Body body, const collision::BodyState& state);
   void remove_body(collision::BodyId id, bool keep_weight);
@@ -148,7 +148,7 @@ struct Simulation::State {
     JointId joint;
     collision::HingeId hinge;
     collision::BodyId body, holder;  ///< holder -1: what stands
-    bool member_hangs = true;        ///< the joint's member is of the body, else its hub
+    bool member_hangs = true;        ///< the joint's member is of the body, else its node
     Mat3 axes = Mat3::Identity();    ///< of the joint, in the holder's own frame
     std::int64_t load_key = 0;
     Vec3 force = Vec3::Zero(), moment = Vec3::Zero();  ///< on the holder about the joint, smoothed
@@ -178,23 +178,23 @@ struct Simulation::State {
   void push_whole(collision::BodyId id);
   void shatter_struck(collision::BodyId id);
   void shatter_landed();
-  /// The hardest blow on a panel that came down: change of speed, m/s, and where, in the body's axes from its centre.
+  /// The hardest impact on a panel that came down: change of speed, m/s, and where, in the body's axes from its centre.
   struct Landing {
     double speed = 0;
     Vec3 at = Vec3::Zero();
   };
 
   // crumble.cpp: panels of bodies with other parts break where these come down hard on them.
-  struct PanelBlow {
+  struct PanelImpact {
     double energy = 0;       ///< of the approach, J
     Vec3 at = Vec3::Zero();  ///< in the undeformed building
     double radius = 0;       ///< of the ball that hit it
   };
-  [[nodiscard]] std::map<PanelId, PanelBlow> blows_on_panels() const;
+  [[nodiscard]] std::map<PanelId, PanelImpact> impacts_on_panels() const;
   [[nodiscard]] double punching_energy(PanelId panel, const Vec3& at, const Vec3& along, double radius) const;
-  [[nodiscard]] double inverse_effective_mass(const Body& one, const FeltContact& contact) const;
-  void crumble(const std::map<PanelId, PanelBlow>& blows);
-  std::vector<Body> break_out_in_flight(PanelId panel, const PanelBlow& blow);
+  [[nodiscard]] double inverse_effective_mass(const Body& one, const ContactRecord& contact) const;
+  void crumble(const std::map<PanelId, PanelImpact>& impacts);
+  std::vector<Body> break_out_in_flight(PanelId panel, const PanelImpact& impact);
   [[nodiscard]] std::array<bool, 4> held_in_flight(PanelId panel, const Body& one) const;
 
   // break_standing.cpp: panels that break where they stand.
@@ -222,41 +222,42 @@ struct Simulation::State {
 
   // break_up.cpp: bodies of several members that are hit hard fall apart.
   /// What presses on a body, its spin and gravity do to it, in the axes of the undeformed building.
-  struct Blow {
+  struct BodyActions {
     collision::BodyId on;
     std::vector<FreePush> pushes;
     Vec3 spin, gravity;
     int generation = 0;  ///< of its breaks, so far
   };
   void break_up_landed();
-  [[nodiscard]] std::vector<Blow> pressed_hard();
+  [[nodiscard]] std::vector<BodyActions> pressed_hard();
   [[nodiscard]] bool spins_hard(const Body& one, const Vec3& spin) const;
-  [[nodiscard]] std::vector<Blow> handed_on(const Blow& blow, const std::vector<collision::BodyId>& pieces) const;
+  [[nodiscard]] std::vector<BodyActions> handed_on(const BodyActions& loading,
+                                                   const std::vector<collision::BodyId>& pieces) const;
   [[nodiscard]] FreeSegment& free_segment_of(const Body& one);
-  bool break_joints_of(const Blow& blow);
+  bool break_joints_of(const BodyActions& loading);
   std::vector<collision::BodyId> come_apart(collision::BodyId id);
-  void tell_broken_in_debris(const Body& one, const std::vector<std::pair<JointId, Utilisation>>& broken,
-                             int generation);
+  void record_breaks_in_debris(const Body& one, const std::vector<std::pair<JointId, Utilisation>>& broken,
+                               int generation);
   /// `chunks`: of panels that broke out of it, which move on with it.
   std::vector<collision::BodyId> split(collision::BodyId id, const std::vector<FreeSegmentParts>& parts,
                                        std::vector<Body> chunks = {});
   [[nodiscard]] bool holds_in_debris(JointId joint) const;
-  [[nodiscard]] std::optional<std::array<double, 4>> flying_edges(PanelId panel) const;
+  [[nodiscard]] std::optional<std::array<double, 4>> free_panel_edges(PanelId panel) const;
   [[nodiscard]] bool may_fall_apart(const Body& one) const;
   [[nodiscard]] FreeSegmentParts parts_of(const Body& one) const;
 
-  // book.cpp
+  // account.cpp
   void move();
-  void book();
-  void book_body(BodyMotion& one);
-  void book_contacts();
+  void account();
+  void account_body(BodyMotion& one);
+  void account_contacts();
   void watch_overlaps();
   [[nodiscard]] std::string touched_name(collision::BodyId body, std::int64_t part_tag) const;
   [[nodiscard]] BodyView view_of(const Body& one) const;
   void update_views();
-  void tell_changes(std::span<const std::int64_t> before);
+  void record_changes(std::span<const std::int64_t> before);
   [[nodiscard]] bool rests() const;
-  void tell_rest_and_end();
+  void record_rest_and_end();
   void account_now();
 
   // save_and_restore.cpp
@@ -282,8 +283,8 @@ struct Simulation::State {
     return part.member.valid() ? frame->stands(part.member) : frame->stands(part.panel);
   }
   [[nodiscard]] Vec3 joint_position(JointId joint) const;
-  SimulationEvent& tell(SimulationEvent::Kind kind, const std::string& name);
-  void tell(const JointBreak& broken);
+  SimulationEvent& record(SimulationEvent::Kind kind, const std::string& name);
+  void record(const JointBreak& broken);
   void call_listeners();
   Body* body(collision::BodyId id);
 
@@ -297,7 +298,7 @@ struct Simulation::State {
   PartShapes shapes;
   PartGrid grid;
   Obstacles obstacles;
-  std::vector<FeltContact> felt_contacts;  ///< of the last collision step
+  std::vector<ContactRecord> contact_records;  ///< of the last collision step
   PressingForces pressing;
   RestingLoads resting;
   /// Debris that is no body any more and lies as dead weight.
@@ -323,10 +324,10 @@ struct Simulation::State {
   std::vector<char> debris_broken;                                     ///< per joint: broke after it had left the frame
   std::map<std::int64_t, std::unique_ptr<FreeSegment>> free_segments;  ///< by body, made when it is first hit hard
 
-  std::vector<Knock> knocks;
+  std::vector<ReleaseImpulse> release_impulses;
   /// Where in this step a body that has struck something stands in time: see strike.cpp.
   struct StruckClock {
-    double at = 0;    ///< time of its last impact, as sensed
+    double at = 0;    ///< time of its last impact, as swept
     double base = 0;  ///< the same in the body's own time since its state
   };
   std::map<std::int64_t, StruckClock> struck;

@@ -3,8 +3,8 @@
 
 #include "simulation/accounts/replay_hash.h"
 #include "topple/structure/error.h"
-#include "topple/structure/input_files.h"
-#include "topple/structure/plain_text.h"
+#include "topple/structure/formats/input_files.h"
+#include "topple/structure/formats/plain_text.h"
 #include "topple/structure/snapshot.h"
 
 namespace topple::structure {

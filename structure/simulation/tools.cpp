@@ -48,7 +48,7 @@ collision::BodyId Simulation::State::launch(const std::string& kind, const Vec3&
   sphere.bounds.add(Vec3::Constant(-radius));
   sphere.bounds.add(Vec3::Constant(radius));
   body_work_put_in += mass * velocity.squaredNorm() / 2;
-  SimulationEvent& event = tell(SimulationEvent::Kind::tool, kind);
+  SimulationEvent& event = record(SimulationEvent::Kind::tool, kind);
   event.mass = mass;
   event.position = from;
   return add_body(std::move(sphere), velocity, Vec3::Zero(), Vec3::Zero());
@@ -60,13 +60,13 @@ void Simulation::State::use(const WreckingBall& ball) {
 }
 
 void Simulation::State::use(const CutTool& cut) {
-  tell(SimulationEvent::Kind::tool, "cut");
+  record(SimulationEvent::Kind::tool, "cut");
   for (const JointId joint : cut.joints)
     if (frame->intact(joint)) frame->break_joint(joint, BreakCause::tool);
 }
 
 void Simulation::State::use(const RemoveTool& remove) {
-  tell(SimulationEvent::Kind::tool, "remove");
+  record(SimulationEvent::Kind::tool, "remove");
   for (const MemberId member : remove.members) {
     if (!frame->stands(member)) continue;
     frame->remove(member);
@@ -83,7 +83,7 @@ void Simulation::State::use(const RemoveTool& remove) {
 }
 
 void Simulation::State::use(const ChargeTool& charge) {
-  tell(SimulationEvent::Kind::tool, "charge").position = charge.centre;
+  record(SimulationEvent::Kind::tool, "charge").position = charge.centre;
   for (std::size_t i = 0; i < building.joints.size(); ++i) {
     const JointId joint(i);
     if (!building[joint].capacity.breakable || !frame->intact(joint)) continue;
@@ -96,7 +96,7 @@ void Simulation::State::use(const ChargeTool& charge) {
 }
 
 void Simulation::State::use(const GravityTool& tool) {
-  tell(SimulationEvent::Kind::tool, "gravity");
+  record(SimulationEvent::Kind::tool, "gravity");
   const VelocityReading old = reading();
   gravity = tool.gravity;
   frame->set_gravity(gravity);
@@ -111,7 +111,7 @@ void Simulation::State::use(const GravityTool& tool) {
 }
 
 void Simulation::State::use(const LoadTool& load) {
-  tell(SimulationEvent::Kind::tool, "load");
+  record(SimulationEvent::Kind::tool, "load");
   for (const NodeLoad& one : load.nodes)
     if (frame->stands(one.node)) frame->add_load(one.node, one.load);
 }

@@ -15,7 +15,7 @@ void Simulation::State::use_stages() {
 
 void Simulation::State::use_stage(Weakening& weakening) {
   const WeakenTool& tool = weakening.tool;
-  tell(SimulationEvent::Kind::tool, "weaken");
+  record(SimulationEvent::Kind::tool, "weaken");
   const auto change = [&](double last) {
     return weakening.after(weakening.stage + 1, last) / weakening.after(weakening.stage, last);
   };

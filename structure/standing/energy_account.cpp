@@ -46,10 +46,10 @@ void EnergyAccount::remember(int number) {
     rest_member_stands_[index(member)] = stands;
     if (!stands) continue;
     rest_end_forces_[index(member)] = from_.statics.end_forces(member);
-    if (const solver::Vec12 slips = from_.statics.slips(member); !slips.isZero(0))
-      rest_slips_[member] = slips;
+    if (const solver::Vec12 plastic_rotations = from_.statics.plastic_rotations(member); !plastic_rotations.isZero(0))
+      rest_plastic_rotations_[member] = plastic_rotations;
     else
-      rest_slips_.erase(member);
+      rest_plastic_rotations_.erase(member);
     rest_stiffness_[index(member)] = from_.statics.stiffness(member);
   }
   std::vector<Spring>& springs = rest_springs_[static_cast<std::size_t>(number)];
@@ -97,7 +97,7 @@ EnergyAccount::Change& EnergyAccount::begin(int component) {
 
 Vec3 EnergyAccount::local_gravity(MemberId member) const { return from_.building[member].axes * gravity_; }
 
-solver::Vec12 EnergyAccount::hubs(MemberId member, const Vec6& first, const Vec6& second) const {
+solver::Vec12 EnergyAccount::rigid_ends(MemberId member, const Vec6& first, const Vec6& second) const {
   const Member& own = from_.building[member];
   solver::Vec12 local;
   local << own.axes * (first.head<3>() + first.tail<3>().cross(own.offsets[0])), own.axes * first.tail<3>(),
@@ -105,16 +105,17 @@ solver::Vec12 EnergyAccount::hubs(MemberId member, const Vec6& first, const Vec6
   return local;
 }
 
-Vec6 EnergyAccount::hub_now(MemberId member, int end) const {
+Vec6 EnergyAccount::rigid_end_now(MemberId member, int end) const {
   const auto& nodes = from_.building[member].nodes;
-  return hubs(member, from_.statics.displacement(nodes[0]), from_.statics.displacement(nodes[1])).segment<6>(6 * end);
+  return rigid_ends(member, from_.statics.displacement(nodes[0]), from_.statics.displacement(nodes[1]))
+      .segment<6>(6 * end);
 }
 
 MemberShape EnergyAccount::shape_now(MemberId member) const {
   const auto& nodes = from_.building[member].nodes;
   return {from_.statics.beam(member), from_.statics.end_forces(member),
-          hubs(member, from_.statics.displacement(nodes[0]), from_.statics.displacement(nodes[1])) -
-              from_.statics.slips(member),
+          rigid_ends(member, from_.statics.displacement(nodes[0]), from_.statics.displacement(nodes[1])) -
+              from_.statics.plastic_rotations(member),
           from_.applied[index(member)]};
 }
 
@@ -135,7 +136,8 @@ MemberShape EnergyAccount::rest_shape(MemberId member) const {
         rest_holds_[index(joint)] ? from_.building[joint].stiffness : Vec6(Vec6::Zero());
   }
   const auto& nodes = from_.building[member].nodes;
-  const solver::Vec12 at = hubs(member, displacement(nodes[0]), displacement(nodes[1])) - rest_slips(member);
+  const solver::Vec12 at =
+      rigid_ends(member, displacement(nodes[0]), displacement(nodes[1])) - rest_plastic_rotations(member);
   return {beam, rest_end_forces_[index(member)], at, rest_loads_[index(member)]};
 }
 
@@ -167,22 +169,23 @@ void EnergyAccount::lose_joint(JointId joint, int told) {
   const MemberShape& shape = shape_at_rest(own.member);
   begin(own.member)
       .openings.push_back({joint, told, rest_end_forces_[index(own.member)].segment<6>(6 * own.end),
-                           shape.hub(own.end) + rest_slips(own.member).segment<6>(6 * own.end)});
+                           shape.rigid_end(own.end) + rest_plastic_rotations(own.member).segment<6>(6 * own.end)});
 }
 
 void EnergyAccount::dissipate(MemberId member, double work) { begin(member).dissipated += work; }
 
-solver::Vec12 EnergyAccount::rest_slips(MemberId member) const {
-  const auto found = rest_slips_.find(member);
-  return found == rest_slips_.end() ? solver::Vec12::Zero() : found->second;
+solver::Vec12 EnergyAccount::rest_plastic_rotations(MemberId member) const {
+  const auto found = rest_plastic_rotations_.find(member);
+  return found == rest_plastic_rotations_.end() ? solver::Vec12::Zero() : found->second;
 }
 
-/// 1/2 (M0 + M1).(slip1 - slip0) over the joints that hold: elastic deformation is what slips leave of the whole.
+/// 1/2 (M0 + M1).(rotation1 - rotation0) over the joints that hold: elastic deformation is what plastic rotations leave
+/// of the whole.
 double EnergyAccount::turned(int component) const {
   double sum = 0;
   for (MemberId member : from_.statics.members(component)) {
     if (from_.segments.label(member) < 0) continue;
-    const solver::Vec12 slipped = from_.statics.slips(member) - rest_slips(member);
+    const solver::Vec12 slipped = from_.statics.plastic_rotations(member) - rest_plastic_rotations(member);
     if (slipped.isZero(0)) continue;
     for (int end = 0; end < 2; ++end)
       if (from_.segments.holds(from_.building.joint(member, end)))
@@ -221,7 +224,7 @@ void EnergyAccount::lose_support(NodeId node, const Vec6& reaction) {
 }
 
 void EnergyAccount::drop(NodeId node) {
-  // A hub that springs back on its support: nothing else hangs on it any more.
+  // A rigid end that springs back on its support: nothing else hangs on it any more.
   Change& change = begin(node);
   for (const NodeSupport& support : from_.building.supports)
     for (int c = 0; c < 6; ++c)
@@ -257,7 +260,7 @@ void EnergyAccount::hand_on(PanelId panel) {
   begin(from_.building[panel].nodes[0]).handed.emplace(panel, from_.loads.handed(panel));
 }
 
-EnergyAccount::Shares EnergyAccount::shares(const HandOver& handed) {
+EnergyAccount::Shares EnergyAccount::shares(const TributaryLoads& handed) {
   Shares sum;
   for (const solver::BeamLoad& load : handed.beams) add_share(MemberId(static_cast<std::size_t>(load.beam)), load, sum);
   for (const solver::NodeLoad& load : handed.nodes)
@@ -266,7 +269,7 @@ EnergyAccount::Shares EnergyAccount::shares(const HandOver& handed) {
 }
 
 /// The part that left keeps the work that its load has done, as a panel that leaves does (settle_panels).
-void EnergyAccount::lightened(PanelId panel, const HandOver& before, const HandOver& after) {
+void EnergyAccount::lightened(PanelId panel, const TributaryLoads& before, const TributaryLoads& after) {
   Change& change = begin(from_.building[panel].nodes[0]);
   const Shares with = shares(before), without = shares(after);
   change.left += with.standing;
@@ -410,11 +413,11 @@ double EnergyAccount::softening(const Change& change) const {
 double EnergyAccount::opened(const Opening& opening) const {
   const Joint& own = from_.building[opening.joint];
   const NodeId node = from_.building[own.member].nodes[static_cast<std::size_t>(own.end)];
-  const Vec6 slipped = rest_slips(own.member).segment<6>(6 * own.end);
+  const Vec6 slipped = rest_plastic_rotations(own.member).segment<6>(6 * own.end);
   const Vec6 end =
-      from_.segments.label(own.member) >= 0 ? shape_now(own.member).end(own.end) : Vec6(opening.hub - slipped);
-  const Vec6 hub = from_.node_solved[index(node)] ? hub_now(own.member, own.end) : opening.hub;
-  return -0.5 * opening.force.dot(end - hub + slipped);
+      from_.segments.label(own.member) >= 0 ? shape_now(own.member).end(own.end) : Vec6(opening.rigid_end - slipped);
+  const Vec6 rigid_end = from_.node_solved[index(node)] ? rigid_end_now(own.member, own.end) : opening.rigid_end;
+  return -0.5 * opening.force.dot(end - rigid_end + slipped);
 }
 
 void EnergyAccount::finish(int number, bool slow, std::vector<JointBreak>& breaks) {

@@ -58,7 +58,7 @@ class EnergyAccount {
   /// Around the loss of a part of a standing panel: before the loads know of it, and after; what it hands on by the
   /// bearings that it has, with that part and without.
   void lighten(PanelId panel) { begin(from_.building[panel].nodes[0]); }
-  void lightened(PanelId panel, const HandOver& before, const HandOver& after);
+  void lightened(PanelId panel, const TributaryLoads& before, const TributaryLoads& after);
   void add_load(NodeId node, const Vec6& load);
   /// Around a change of gravity: before and after the loads know of it.
   void turn_gravity();
@@ -70,8 +70,8 @@ class EnergyAccount {
   /// A plastic hinge turned: told as it turns, on the way from one state of rest to the next.
   void dissipate(MemberId member, double work);
   [[nodiscard]] MemberShape shape_now(MemberId member) const;
-  /// Displacements of the hubs at a member's ends, local axes, from those of its nodes.
-  [[nodiscard]] solver::Vec12 hubs(MemberId member, const Vec6& first, const Vec6& second) const;
+  /// Displacements of the rigid ends at a member's ends, local axes, from those of its nodes.
+  [[nodiscard]] solver::Vec12 rigid_ends(MemberId member, const Vec6& first, const Vec6& second) const;
 
   /// The component rests again. `slow`: only contact loads changed, and they were laid on slowly. Adds each told
   /// joint's energy to its line, what is not a joint's own shared equally between those told.
@@ -86,7 +86,8 @@ class EnergyAccount {
   struct Opening {
     JointId joint;
     int told = -1;
-    Vec6 force = Vec6::Zero(), hub = Vec6::Zero();  ///< what the hub did to the member, and where it was; local axes
+    Vec6 force = Vec6::Zero(),
+         rigid_end = Vec6::Zero();  ///< what the rigid end did to the member, and where it was; local axes
   };
   struct SupportLoss {
     NodeId node;
@@ -116,8 +117,8 @@ class EnergyAccount {
     std::vector<MemberId> softened;
     std::map<MemberId, std::vector<solver::BeamLoad>> member_loads;
     std::map<NodeId, Vec6> node_loads;
-    std::map<PanelId, HandOver> handed;  ///< by panels that hand on otherwise now
-    std::map<PanelId, Plate> plates;     ///< those that were weakened or lost
+    std::map<PanelId, TributaryLoads> handed;  ///< by panels that hand on otherwise now
+    std::map<PanelId, Plate> plates;           ///< those that were weakened or lost
     LoadWork left;  ///< works of what left, and corrections for loads that came or went without work
     double contact_left = 0, freed = 0, dissipated = 0;
   };
@@ -143,9 +144,9 @@ class EnergyAccount {
   [[nodiscard]] std::span<const solver::BeamLoad> rest_own_loads(MemberId member) const;
   Plate& plate_at_rest(PanelId panel);
   [[nodiscard]] Plate rest_plate(PanelId panel) const;
-  [[nodiscard]] solver::Vec12 rest_slips(MemberId member) const;
+  [[nodiscard]] solver::Vec12 rest_plastic_rotations(MemberId member) const;
   [[nodiscard]] double turned(int component) const;
-  [[nodiscard]] Vec6 hub_now(MemberId member, int end) const;
+  [[nodiscard]] Vec6 rigid_end_now(MemberId member, int end) const;
   [[nodiscard]] Vec3 local_gravity(MemberId member) const;
   [[nodiscard]] double opened(const Opening& opening) const;
   [[nodiscard]] double load_changes(const Change& change) const;
@@ -165,7 +166,7 @@ class EnergyAccount {
   [[nodiscard]] int component(const PlacedLoad& placed) const;
   [[nodiscard]] bool stays(const PlacedLoad& placed) const;
   Shares shares(const PlacedLoad& placed);
-  [[nodiscard]] Shares shares(const HandOver& handed);
+  [[nodiscard]] Shares shares(const TributaryLoads& handed);
   void add_share(MemberId member, const solver::BeamLoad& load, Shares& shares);
   void add_share(NodeId node, const Vec6& load, Shares& shares);
 
@@ -185,9 +186,9 @@ class EnergyAccount {
   std::vector<char> rest_member_stands_, rest_node_stands_;
   std::vector<std::vector<Spring>> rest_springs_;  ///< per component
   std::map<std::int64_t, PlacedLoad> rest_contacts_;
-  std::vector<char> rest_holds_;                  ///< per joint of a member
-  std::map<MemberId, solver::Vec12> rest_slips_;  ///< of members with plastic hinges
-  std::vector<double> rest_stiffness_;            ///< per member: factor
+  std::vector<char> rest_holds_;                              ///< per joint of a member
+  std::map<MemberId, solver::Vec12> rest_plastic_rotations_;  ///< of members with plastic hinges
+  std::vector<double> rest_stiffness_;                        ///< per member: factor
   mutable std::vector<Rest> rests_;
   std::vector<Change> changes_;
 };

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "mesh/frame_mesh.h"
-#include "mesh/giving_edges.h"
+#include "mesh/semi_rigid_edges.h"
 #include "model/panel_area.h"
 #include "standing/panel_superelement.h"
 
@@ -87,7 +87,7 @@ Frame make_frame(const Building& building) {
   add_shell_panels(building, frame);
   divide_members(building, frame);
   add_edge_supports(building, frame);
-  add_giving_edges(building, frame);
+  add_semi_rigid_edges(building, frame);
   return frame;
 }
 

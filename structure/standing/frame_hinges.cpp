@@ -1,5 +1,5 @@
-// Plastic hinges in the statics of a standing frame. One that flows is a release, with the moment that it holds as a
-// load on the member's end and, reversed, on the hub; one that holds again is a joint with an angle in it.
+// Plastic hinges in the statics of a standing frame. One that yields is a release, with the moment that it holds as a
+// load on the member's end and, reversed, on the rigid end; one that unloads is a joint with an angle in it.
 #include "model/index_of.h"
 #include "standing/frame_statics.h"
 
@@ -15,11 +15,11 @@ std::vector<solver::BeamLoad> FrameStatics::with_hinges(MemberId member, std::ve
     held.first = found->second.held.segment<6>(6 * end);
     if (!held.first.isZero(0)) loads.push_back(held);
   }
-  solver::BeamLoad slip;
-  slip.kind = solver::BeamLoad::Kind::temperature;
-  slip.first = found->second.slip.head<6>();
-  slip.last = found->second.slip.tail<6>();
-  if (!slip.first.isZero(0) || !slip.last.isZero(0)) loads.push_back(slip);
+  solver::BeamLoad plastic_rotation;
+  plastic_rotation.kind = solver::BeamLoad::Kind::temperature;
+  plastic_rotation.first = found->second.plastic_rotation.head<6>();
+  plastic_rotation.last = found->second.plastic_rotation.tail<6>();
+  if (!plastic_rotation.first.isZero(0) || !plastic_rotation.last.isZero(0)) loads.push_back(plastic_rotation);
   return loads;
 }
 
@@ -46,7 +46,8 @@ void FrameStatics::write_load(NodeId node) {
   change(place, [&](auto& frame) { frame.set_node_load(place.local, load); });
 }
 
-void FrameStatics::set_hinge(MemberId member, int end, int axis, double stiffness, double held, double slip) {
+void FrameStatics::set_hinge(MemberId member, int end, int axis, double stiffness, double held,
+                             double plastic_rotation) {
   const Place& place = member_place_[index(member)];
   const auto [found, made] = hinges_.try_emplace(member);
   Hinges& hinges = found->second;
@@ -54,22 +55,22 @@ void FrameStatics::set_hinge(MemberId member, int end, int axis, double stiffnes
   Vec6& own = hinges.stiffness[static_cast<std::size_t>(end)];
   own(axis) = stiffness;
   hinges.held(6 * end + axis) = held;
-  hinges.slip(6 * end + axis) = slip;
+  hinges.plastic_rotation(6 * end + axis) = plastic_rotation;
   change(place, [&](auto& frame) { frame.set_end_stiffness(place.local, end, own); });
   write_loads(member);
 }
 
-void FrameStatics::let_flow(MemberId member, int end, int axis, double held) {
+void FrameStatics::let_yield(MemberId member, int end, int axis, double held) {
   set_hinge(member, end, axis, 0, held, 0);
 }
 
-void FrameStatics::hold_again(MemberId member, int end, int axis, double stiffness, double slip) {
-  set_hinge(member, end, axis, stiffness, 0, slip);
+void FrameStatics::unload(MemberId member, int end, int axis, double stiffness, double plastic_rotation) {
+  set_hinge(member, end, axis, stiffness, 0, plastic_rotation);
 }
 
-solver::Vec12 FrameStatics::slips(MemberId member) const {
+solver::Vec12 FrameStatics::plastic_rotations(MemberId member) const {
   const auto found = hinges_.find(member);
-  return found == hinges_.end() ? solver::Vec12::Zero() : found->second.slip;
+  return found == hinges_.end() ? solver::Vec12::Zero() : found->second.plastic_rotation;
 }
 
 }  // namespace topple::structure

@@ -75,8 +75,8 @@ std::pair<Vec3, Vec3> straight_line(const Building& building, MemberId id, const
   if (holds[0] && holds[1])
     return {response.displacement(nodes[0]).head<3>(), response.displacement(nodes[1]).head<3>()};
   const std::size_t end = holds[0] ? 0 : 1;
-  const Vec6& hub = response.displacement(nodes[end]);
-  const Vec3 turn = hub.tail<3>(), held = hub.head<3>() + turn.cross(member.offsets[end]);
+  const Vec6& rigid_end = response.displacement(nodes[end]);
+  const Vec3 turn = rigid_end.tail<3>(), held = rigid_end.head<3>() + turn.cross(member.offsets[end]);
   const Vec3 along = (end == 0 ? member.length : -member.length) * member.axes.row(0).transpose();
   return {held, held + turn.cross(along)};
 }

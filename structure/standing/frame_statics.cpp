@@ -130,7 +130,7 @@ void FrameStatics::break_joint(MemberId member, int end) {
   const auto found = hinges_.find(member);
   if (found == hinges_.end()) return;
   found->second.held.segment<6>(6 * end).setZero();
-  found->second.slip.segment<6>(6 * end).setZero();
+  found->second.plastic_rotation.segment<6>(6 * end).setZero();
   found->second.stiffness[static_cast<std::size_t>(end)].setZero();
   write_loads(member);
 }
@@ -275,8 +275,8 @@ std::optional<FrameMechanism> FrameStatics::solve(int number, MemberWatch& watch
   Adapter adapter(*this, component, watch);
   const solver::ReanalysisAnswer& answer = component.analysis->solve(adapter);
   if (answer.stable) {
-    component.partial = component.unwatched = component.analysis->restricted_effort().restricted;
-    // A factor in the warning band serves no restricted answers, and nothing was read.
+    component.partial = component.unwatched = component.analysis->selective_effort().selective;
+    // A factor in the warning band serves no selective answers, and nothing was read.
     if (!component.partial && !component.analysis->uses_known()) {
       for (std::size_t beam = 0; beam < component.members.size(); ++beam)
         (void)adapter.beam_use(static_cast<int>(beam));
@@ -356,7 +356,7 @@ solver::ReanalysisCounters FrameStatics::counters() const {
     sum.orderings += one.orderings;
     sum.background_factors += one.background_factors;
     sum.late_factors += one.late_factors;
-    sum.restricted += one.restricted;
+    sum.selective += one.selective;
     sum.beams_visited += one.beams_visited;
     sum.beams_left += one.beams_left;
   }

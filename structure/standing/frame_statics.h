@@ -22,7 +22,7 @@ struct FrameMechanism {
   std::vector<Vec6> motion;
 };
 
-/// What a restricted answer must not leave out (solver::UseWatch), in the building's ids.
+/// What a selective answer must not leave out (solver::UseWatch), in the building's ids.
 class MemberWatch {
  public:
   virtual ~MemberWatch() = default;
@@ -58,12 +58,12 @@ class FrameStatics {
   void set_load(NodeId node, const Vec6& load);
 
   // Plastic hinges at the ends of members, component 3 to 5 of the member's axes.
-  /// From now on the end turns freely in this component under the moment `held` that the hub gives to the member.
-  void let_flow(MemberId member, int end, int axis, double held);
-  /// It holds again (with `stiffness`), turned by `slip` (hub less end).
-  void hold_again(MemberId member, int end, int axis, double stiffness, double slip);
-  /// By how much the hubs have turned against the member's ends at hinges that hold; local axes.
-  [[nodiscard]] solver::Vec12 slips(MemberId member) const;
+  /// From now on the end turns freely in this component under the moment `held` that the node gives to the member.
+  void let_yield(MemberId member, int end, int axis, double held);
+  /// It unloads (with `stiffness`), turned by `plastic_rotation` (node less end).
+  void unload(MemberId member, int end, int axis, double stiffness, double plastic_rotation);
+  /// By how much the nodes have turned against the member's ends at hinges that hold; local axes.
+  [[nodiscard]] solver::Vec12 plastic_rotations(MemberId member) const;
 
   /// A frame of the same arrays that moves takes every change of the component as well from now on; null: none does.
   void follow(int component, solver::FrameDynamics* moving) {
@@ -207,11 +207,11 @@ class FrameStatics {
     return static_cast<std::size_t>(id.index);
   }
   [[nodiscard]] const Component& parts(int component) const { return components_[static_cast<std::size_t>(component)]; }
-  /// Of a member with hinges: what those that flow hold, how far those that hold again have slipped, and the stiffness
+  /// Of a member with hinges: what those that yield hold, how far those that unload have slipped, and the stiffness
   /// of both ends with the flowing ones released.
   struct Hinges {
     std::array<Vec6, 2> stiffness;
-    solver::Vec12 held = solver::Vec12::Zero(), slip = solver::Vec12::Zero();
+    solver::Vec12 held = solver::Vec12::Zero(), plastic_rotation = solver::Vec12::Zero();
   };
   [[nodiscard]] solver::LoadSet local(const ResponseLoads& loads) const;
   [[nodiscard]] std::vector<Response> told(int component, std::vector<solver::Reanalysis::Response> answers,
@@ -225,7 +225,7 @@ class FrameStatics {
   void write_loads(MemberId member);
   void write_load(NodeId node);
   [[nodiscard]] std::vector<solver::BeamLoad> with_hinges(MemberId member, std::vector<solver::BeamLoad> loads) const;
-  void set_hinge(MemberId member, int end, int axis, double stiffness, double held, double slip);
+  void set_hinge(MemberId member, int end, int axis, double stiffness, double held, double plastic_rotation);
   [[nodiscard]] const solver::Reanalysis& at(const Place& place) const;
   class Adapter;
   std::optional<FrameMechanism> told(int component, const solver::ReanalysisAnswer& answer);

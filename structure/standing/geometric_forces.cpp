@@ -5,13 +5,13 @@
 
 namespace topple::structure {
 
-solver::Vec12 geometric_forces(const solver::Beam& beam, double axial, const solver::Vec12& hubs) {
+solver::Vec12 geometric_forces(const solver::Beam& beam, double axial, const solver::Vec12& rigid_ends) {
   solver::Vec12 force = solver::Vec12::Zero();
   if (axial == 0) return force;
   const double L = beam.length;
   // The local x-y plane has v' = rz, the x-z plane w' = -ry.
   for (const auto& [v, r, sense] : {std::tuple(1, 5, 1.0), std::tuple(2, 4, -1.0)}) {
-    const double chord = (hubs(v + 6) - hubs(v)) / L;
+    const double chord = (rigid_ends(v + 6) - rigid_ends(v)) / L;
     bool rigid = true;
     for (const solver::Vec6& end : beam.end_stiffness) rigid = rigid && std::isinf(end(v)) && std::isinf(end(r));
     if (!rigid) {
@@ -19,7 +19,7 @@ solver::Vec12 geometric_forces(const solver::Beam& beam, double axial, const sol
       force(v) -= axial * chord;
       continue;
     }
-    const double first = sense * hubs(r), second = sense * hubs(r + 6);
+    const double first = sense * rigid_ends(r), second = sense * rigid_ends(r + 6);
     const double shear = axial * (1.2 * chord - 0.1 * (first + second));
     force(v) -= shear;
     force(v + 6) += shear;
@@ -29,11 +29,11 @@ solver::Vec12 geometric_forces(const solver::Beam& beam, double axial, const sol
   return force;
 }
 
-solver::Vec12 hubs_of(const solver::Beam& beam, const solver::Vec6& first, const solver::Vec6& second) {
-  solver::Vec12 hubs;
-  hubs << beam.axes * (first.head<3>() + first.tail<3>().cross(beam.offset[0])), beam.axes * first.tail<3>(),
+solver::Vec12 rigid_ends_of(const solver::Beam& beam, const solver::Vec6& first, const solver::Vec6& second) {
+  solver::Vec12 rigid_ends;
+  rigid_ends << beam.axes * (first.head<3>() + first.tail<3>().cross(beam.offset[0])), beam.axes * first.tail<3>(),
       beam.axes * (second.head<3>() + second.tail<3>().cross(beam.offset[1])), beam.axes * second.tail<3>();
-  return hubs;
+  return rigid_ends;
 }
 
 solver::Vec12 forces_at_nodes(const solver::Beam& beam, const solver::Vec12& end_forces) {

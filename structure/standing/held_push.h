@@ -4,7 +4,7 @@
 #include <span>
 
 #include "standing/frame_response.h"
-#include "standing/standing_motion.h"
+#include "standing/motion/standing_motion.h"
 
 namespace topple::structure {
 

@@ -92,7 +92,7 @@ void StandingFrame::State::lose_member_joint(JointId joint, int told) {
     unbraced.insert(unbraced.end(), snapped.begin(), snapped.end());
   }
   if (parts.segments.degree(node) > 0) return;
-  // A hub without members: a support that bears nothing, or about to leave. The solver has no stiffness for it.
+  // A node without members: a support that bears nothing, or about to leave. The solver has no stiffness for it.
   take(parts.bearings.bare(node), nullptr);
   if (!node_solved[index_of(node)]) return;
   account.drop(node);
@@ -147,7 +147,7 @@ void StandingFrame::State::fracture(PanelId panel, const PanelRemains& remains) 
   if (!parts.bearings.serves(panel)) return fracture_shell(panel, remains);
   const bool membrane = parts.bearings.membrane(panel);
   parts.bearings.fracture(panel, remains.edge_length);
-  const HandOver before = loads.handed(panel);
+  const TributaryLoads before = loads.handed(panel);
   loads.fracture(panel, remains);
   account.lightened(panel, before, loads.handed(panel));
   to_check[static_cast<std::size_t>(components.of(panel))] = 1;

@@ -232,7 +232,7 @@ void StandingFrame::remove_contact_load(std::int64_t key) {
   if (state_->contacts.remove(key)) state_->pending = true;
 }
 
-void StandingFrame::restrict_answers_from(int nodes) { state_->restricted_from = nodes; }
+void StandingFrame::restrict_answers_from(int nodes) { state_->selective_from = nodes; }
 
 bool StandingFrame::pending() const { return state_->pending; }
 
@@ -343,7 +343,7 @@ const FrameCounters& StandingFrame::counters() const {
   counters.solves = solved.solves;
   counters.low_rank = solved.low_rank;
   counters.refactorisations = solved.refactorisations;
-  counters.restricted = solved.restricted;
+  counters.selective = solved.selective;
   counters.background_factors = solved.background_factors;
   counters.late_factors = solved.late_factors;
   counters.unchanged = solved.unchanged + state_->idle_settles;

@@ -25,7 +25,7 @@ class StandingParts {
   /// Where it is in the undeformed building: an end of the axis, the middle of an edge.
   [[nodiscard]] Vec3 position(JointId joint) const;
 
-  /// Segments are numbered from 0 in order of their least node, lone hubs left out. -1: it does not stand.
+  /// Segments are numbered from 0 in order of their least node, lone nodes left out. -1: it does not stand.
   [[nodiscard]] int segment(MemberId member) const;
   [[nodiscard]] int segment_count() const { return numbers().back(); }
   /// To be called when something broke.

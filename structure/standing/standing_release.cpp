@@ -20,9 +20,9 @@ void StandingFrame::State::take_unanchored() {
   const auto in = [](const auto& list, auto id) { return std::binary_search(list.begin(), list.end(), id); };
   const auto hang = [&](JointId joint) {
     const Joint& own = building[joint];
-    const NodeId hub = building[own.member].nodes[static_cast<std::size_t>(own.end)];
+    const NodeId rigid_end = building[own.member].nodes[static_cast<std::size_t>(own.end)];
     for (std::size_t p = 0; p < loose.size(); ++p)
-      if (in(loose[p].members, own.member) || in(loose[p].nodes, hub)) {
+      if (in(loose[p].members, own.member) || in(loose[p].nodes, rigid_end)) {
         leaving[p].hinges.push_back(joint);
         return true;
       }

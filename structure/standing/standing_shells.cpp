@@ -36,7 +36,7 @@ void StandingFrame::State::replace_stiffness(PanelId panel, const Eigen::MatrixX
 
 void StandingFrame::State::fracture_shell(PanelId panel, const PanelRemains& remains) {
   parts.bearings.fracture(panel, remains.edge_length);
-  const HandOver before = loads.handed(panel);
+  const TributaryLoads before = loads.handed(panel);
   const Eigen::MatrixXd stiffness = shells.of(panel)->stiffness();
   shells.of(panel)->fracture(remains);
   replace_stiffness(panel, stiffness);

@@ -131,7 +131,7 @@ void StandingFrame::State::references_moved(int c) {
 /// A way on which joints yield needs all of an answer, as do shells, whose edges bear what all of their nodes do; where
 /// few nodes stand, telling apart what may matter costs more than a whole answer.
 bool StandingFrame::State::may_restrict(int c) const {
-  return static_cast<int>(statics.nodes(c).size()) >= restricted_from && !rules.second_order && !yielding.any(c) &&
+  return static_cast<int>(statics.nodes(c).size()) >= selective_from && !rules.second_order && !yielding.any(c) &&
          statics.shells(c).empty() && parts.one_segment(statics.members(c));
 }
 

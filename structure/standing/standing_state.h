@@ -14,8 +14,8 @@
 #include "standing/contact_loads.h"
 #include "standing/energy_account.h"
 #include "standing/frame_response.h"
+#include "standing/motion/standing_motion.h"
 #include "standing/panel_superelements.h"
-#include "standing/standing_motion.h"
 #include "standing/standing_parts.h"
 #include "standing/yielding_way.h"
 #include "topple/structure/standing_frame.h"
@@ -162,11 +162,11 @@ struct StandingFrame::State {
   std::vector<Detached> detached;
   std::vector<JointBreak> breaks;  ///< of the settle() or impact that runs
   int generation = 0;
-  int restricted_from = default_restricted_from;  ///< nodes of a component
-  std::unique_ptr<StandingMotion> motion;         ///< where what stands moves
-  int substeps = 1;                               ///< of a move()
-  Vec3 gravity = Vec3::Zero();                    ///< now, of what moves
-  double rested_freed = 0;  ///< J that the account of rest says were freed where motion had its own
+  int selective_from = default_selective_from;  ///< nodes of a component
+  std::unique_ptr<StandingMotion> motion;       ///< where what stands moves
+  int substeps = 1;                             ///< of a move()
+  Vec3 gravity = Vec3::Zero();                  ///< now, of what moves
+  double rested_freed = 0;                      ///< J that the account of rest says were freed where motion had its own
   std::uint64_t idle_settles = 0;
   mutable FrameCounters counters;
 };

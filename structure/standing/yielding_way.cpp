@@ -1,5 +1,5 @@
 // The way of a component whose joints turn before they break: from the base (the last state reached) along a straight
-// line towards the static answer, from event to event. At each, a hinge forms, or one that would turn back holds again,
+// line towards the static answer, from event to event. At each, a hinge forms, or one that would turn back unloads,
 // or a joint breaks; then the answer is solved anew.
 //
 // After a sudden change the loads of the way act at once. They have then done work at their full size, while the
@@ -29,7 +29,7 @@ constexpr int most_events = 8;
 constexpr double least_way = 1e-6;
 }  // namespace
 
-/// What happens first on the way: at `at` the hinges begin to flow or the joints break. Nothing: at is infinite.
+/// What happens first on the way: at `at` the hinges begin to yield or the joints break. Nothing: at is infinite.
 struct YieldingWay::NextEvent {
   double at = unlimited;
   std::vector<PlasticHinge*> flowing;
@@ -53,10 +53,10 @@ double YieldingWay::demand_in_base(const PlasticHinge& hinge) const {
   return from_.joints.reference(hinge.joint)(hinge.axis);
 }
 
-double YieldingWay::slip_in_answer(const PlasticHinge& hinge) const {
+double YieldingWay::plastic_rotation_in_answer(const PlasticHinge& hinge) const {
   const Joint& own = building_[hinge.joint];
   const MemberShape shape = from_.account.shape_now(own.member);
-  return shape.hub(own.end)(hinge.axis) - shape.end(own.end)(hinge.axis) - hinge.held / own.stiffness(hinge.axis);
+  return shape.rigid_end(own.end)(hinge.axis) - shape.end(own.end)(hinge.axis) - hinge.held / own.stiffness(hinge.axis);
 }
 
 void YieldingWay::tell_yield(PlasticHinge& hinge, double held) {
@@ -72,35 +72,35 @@ void YieldingWay::tell_yield(PlasticHinge& hinge, double held) {
   yielded_.push_back(line);
 }
 
-void YieldingWay::let_flow(PlasticHinge& hinge, double held) {
+void YieldingWay::let_yield(PlasticHinge& hinge, double held) {
   const Joint& own = building_[hinge.joint];
-  hinge.flows = true;
+  hinge.yields = true;
   hinge.held = held;
-  from_.statics.let_flow(own.member, own.end, hinge.axis, held);
+  from_.statics.let_yield(own.member, own.end, hinge.axis, held);
   from_.joints.remember(hinge.joint, 1);
   tell_yield(hinge, held);
 }
 
-void YieldingWay::hold_again(PlasticHinge& hinge) {
+void YieldingWay::unload(PlasticHinge& hinge) {
   const Joint& own = building_[hinge.joint];
-  hinge.flows = false;
+  hinge.yields = false;
   hinge.held = 0;
-  from_.statics.hold_again(own.member, own.end, hinge.axis, own.stiffness(hinge.axis), hinge.slip);
+  from_.statics.unload(own.member, own.end, hinge.axis, own.stiffness(hinge.axis), hinge.plastic_rotation);
 }
 
 void YieldingWay::hold_all_again(int c) {
   for (PlasticHinge& hinge : ductile_.hinges(c))
-    if (hinge.flows) hold_again(hinge);
+    if (hinge.yields) unload(hinge);
 }
 
 /// The base moves on; `energy`: of the whole way.
 void YieldingWay::move_base(int c, double part, double energy) {
   PlasticPath& path = ductile_.path(c);
   for (PlasticHinge& hinge : ductile_.hinges(c)) {
-    if (!hinge.flows) continue;
-    const double turned = part * path.direction * (slip_in_answer(hinge) - hinge.slip);
+    if (!hinge.yields) continue;
+    const double turned = part * path.direction * (plastic_rotation_in_answer(hinge) - hinge.plastic_rotation);
     from_.account.dissipate(building_[hinge.joint].member, hinge.held * turned);
-    hinge.slip += turned;
+    hinge.plastic_rotation += turned;
   }
   for (JointId joint : from_.components.joints[static_cast<std::size_t>(c)])
     if (from_.parts.standing(joint)) {
@@ -120,15 +120,15 @@ double YieldingWay::end_of_way(int c, double energy) {
   return energy > 0 ? path.direction + std::sqrt(1 + path.surplus / energy) : 0;
 }
 
-/// Hinges that would turn against what they hold hold again. True when there were any.
+/// Hinges that would turn against what they hold unload. True when there were any.
 bool YieldingWay::turn_back(int c) {
   const double direction = ductile_.path(c).direction;
   bool found = false;
   for (PlasticHinge& hinge : ductile_.hinges(c)) {
-    if (!hinge.flows) continue;
-    const double turned = direction * (slip_in_answer(hinge) - hinge.slip);
+    if (!hinge.yields) continue;
+    const double turned = direction * (plastic_rotation_in_answer(hinge) - hinge.plastic_rotation);
     if (!(turned * hinge.held < -no_change * hinge.limit * std::abs(hinge.held))) continue;
-    hold_again(hinge);
+    unload(hinge);
     found = true;
   }
   return found;
@@ -142,9 +142,9 @@ YieldingWay::NextEvent YieldingWay::find_next_event(int c) {
   NextEvent next;
   for (PlasticHinge& hinge : ductile_.hinges(c)) {
     if (!from_.parts.standing(hinge.joint)) continue;
-    if (hinge.flows) {
-      const double turning = direction * (slip_in_answer(hinge) - hinge.slip);
-      const double left = hinge.limit - std::copysign(hinge.slip, turning * hinge.slip);
+    if (hinge.yields) {
+      const double turning = direction * (plastic_rotation_in_answer(hinge) - hinge.plastic_rotation);
+      const double left = hinge.limit - std::copysign(hinge.plastic_rotation, turning * hinge.plastic_rotation);
       if (std::abs(turning) > no_turn * hinge.limit)
         next.take(std::max(0.0, left / std::abs(turning)), nullptr, hinge.joint);
       continue;
@@ -226,7 +226,7 @@ YieldingWay::End YieldingWay::follow(int c, std::vector<JointId>& breaking) {
       const double now = demand_in_base(*hinge);
       const double held = std::copysign(capacity, std::abs(now) > no_change * capacity ? now : towards);
       if (from_.parts.segments.holds(building_.joint(own.member, 1 - own.end)))
-        let_flow(*hinge, held);
+        let_yield(*hinge, held);
       else if (turns_out_alone(*hinge, held))
         breaking.push_back(hinge->joint);
     }
@@ -239,20 +239,20 @@ YieldingWay::End YieldingWay::follow(int c, std::vector<JointId>& breaking) {
 }
 
 /// A member that only this joint holds swings about it: the joint's moment in the answer is what its loads turn it
-/// with. True when it turns too far; else it has come to a stop and holds again.
+/// with. True when it turns too far; else it has come to a stop and unloads.
 bool YieldingWay::turns_out_alone(PlasticHinge& hinge, double held) {
   const Joint& own = building_[hinge.joint];
   PlasticPath& path = ductile_.path(from_.components.of(hinge.joint));
   const double gain = std::copysign(1.0, held) * from_.joints.demand(hinge.joint)(hinge.axis) - std::abs(held);
-  const double left = std::max(0.0, hinge.limit - std::copysign(hinge.slip, hinge.slip * held));
+  const double left = std::max(0.0, hinge.limit - std::copysign(hinge.plastic_rotation, hinge.plastic_rotation * held));
   const double amount = gain < 0 ? std::min(left, path.surplus / -gain) : left;
   tell_yield(hinge, held);
   from_.joints.remember(hinge.joint, 1);
-  hinge.slip += std::copysign(amount, held);
+  hinge.plastic_rotation += std::copysign(amount, held);
   from_.account.dissipate(own.member, amount * std::abs(held));
   path.surplus = std::max(0.0, path.surplus + gain * amount);
   if (amount >= left) return true;
-  hold_again(hinge);
+  unload(hinge);
   hold_all_again(from_.components.of(hinge.joint));
   path.returning = true;
   path.surplus = 0;
@@ -270,13 +270,14 @@ std::optional<std::vector<JointId>> YieldingWay::swing(int c, const FrameMechani
     const auto& nodes = building_[member].nodes;
     return MemberShape(
         from_.statics.beam(member), solver::Vec12::Zero(),
-        from_.account.hubs(member, mechanism.motion[index_of(nodes[0])], mechanism.motion[index_of(nodes[1])]), {});
+        from_.account.rigid_ends(member, mechanism.motion[index_of(nodes[0])], mechanism.motion[index_of(nodes[1])]),
+        {});
   };
   for (PlasticHinge& hinge : ductile_.hinges(c)) {
-    if (!hinge.flows || !from_.parts.standing(hinge.joint)) continue;
+    if (!hinge.yields || !from_.parts.standing(hinge.joint)) continue;
     const Joint& own = building_[hinge.joint];
     const MemberShape shape = rigid(own.member);
-    const double rate = shape.hub(own.end)(hinge.axis) - shape.end(own.end)(hinge.axis);
+    const double rate = shape.rigid_end(own.end)(hinge.axis) - shape.end(own.end)(hinge.axis);
     turning.emplace_back(&hinge, rate);
     resisted += rate * hinge.held;
     fastest = std::max(fastest, std::abs(rate));
@@ -293,7 +294,7 @@ std::optional<std::vector<JointId>> YieldingWay::swing(int c, const FrameMechani
   for (auto& [hinge, rate] : turning) {
     rate *= sign;
     if (rate * hinge->held < -no_change * largest) {
-      hold_again(*hinge);
+      unload(*hinge);
       back = true;
     }
   }
@@ -309,12 +310,13 @@ std::optional<std::vector<JointId>> YieldingWay::swing(int c, const FrameMechani
   const double gain = loaded - std::abs(resisted);
   double amount = unlimited;
   for (const auto& [hinge, rate] : turning)
-    amount = std::min(amount,
-                      std::max(0.0, (hinge->limit - std::copysign(hinge->slip, hinge->slip * rate)) / std::abs(rate)));
+    amount = std::min(
+        amount, std::max(0.0, (hinge->limit - std::copysign(hinge->plastic_rotation, hinge->plastic_rotation * rate)) /
+                                  std::abs(rate)));
   const bool arrested = gain < 0 && path.surplus < -gain * amount;
   if (arrested) amount = path.surplus / -gain;
   for (const auto& [hinge, rate] : turning) {
-    hinge->slip += amount * rate;
+    hinge->plastic_rotation += amount * rate;
     from_.account.dissipate(building_[hinge->joint].member, amount * rate * hinge->held);
   }
   ductile_.move_base(c, mechanism.motion, sign * amount);
@@ -328,7 +330,7 @@ std::optional<std::vector<JointId>> YieldingWay::swing(int c, const FrameMechani
   }
   std::vector<JointId> turned_out;
   for (const auto& [hinge, rate] : turning)
-    if (std::abs(hinge->slip) >= (1 - same_place) * hinge->limit) turned_out.push_back(hinge->joint);
+    if (std::abs(hinge->plastic_rotation) >= (1 - same_place) * hinge->limit) turned_out.push_back(hinge->joint);
   std::sort(turned_out.begin(), turned_out.end());
   turned_out.erase(std::unique(turned_out.begin(), turned_out.end()), turned_out.end());
   hold_all_again(c);

@@ -57,12 +57,12 @@ class YieldingWay {
   struct NextEvent;
   [[nodiscard]] NextEvent find_next_event(int component);
   [[nodiscard]] double end_of_way(int component, double energy);
-  [[nodiscard]] double slip_in_answer(const PlasticHinge& hinge) const;
+  [[nodiscard]] double plastic_rotation_in_answer(const PlasticHinge& hinge) const;
   [[nodiscard]] double demand_in_base(const PlasticHinge& hinge) const;
   bool turn_back(int component);
   void move_base(int component, double part, double energy);
-  void let_flow(PlasticHinge& hinge, double held);
-  void hold_again(PlasticHinge& hinge);
+  void let_yield(PlasticHinge& hinge, double held);
+  void unload(PlasticHinge& hinge);
   void hold_all_again(int component);
   [[nodiscard]] bool turns_out_alone(PlasticHinge& hinge, double held);
   void tell_yield(PlasticHinge& hinge, double held);

@@ -4,7 +4,7 @@
 
 #include "topple/structure/analysis.h"
 #include "topple/structure/member_checks.h"
-#include "topple/structure/study.h"
+#include "topple/structure/study/study.h"
 
 namespace topple::structure::study {
 

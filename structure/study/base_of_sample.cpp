@@ -6,7 +6,7 @@
 #include "formats/documents.h"
 #include "study/study_base.h"
 #include "study/study_value.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 
 namespace topple::structure::study {
 

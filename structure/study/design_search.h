@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "topple/structure/study_optimise.h"
+#include "topple/structure/study/study_optimise.h"
 
 namespace topple::structure::study {
 

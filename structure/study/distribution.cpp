@@ -3,7 +3,7 @@
 #include <numeric>
 
 #include "study/normal_distribution.h"
-#include "topple/structure/study.h"
+#include "topple/structure/study/study.h"
 
 namespace topple::structure {
 

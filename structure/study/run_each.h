@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "topple/structure/study.h"
+#include "topple/structure/study/study.h"
 
 namespace topple::structure::study {
 

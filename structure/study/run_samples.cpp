@@ -10,8 +10,8 @@
 #include "study/run_each.h"
 #include "study/worker_processes.h"
 #include "topple/solver/parallel_for.h"
-#include "topple/structure/plain_text.h"
-#include "topple/structure/study.h"
+#include "topple/structure/formats/plain_text.h"
+#include "topple/structure/study/study.h"
 
 namespace topple::structure {
 

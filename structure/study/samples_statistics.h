@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "topple/structure/study_statistics.h"
+#include "topple/structure/study/study_statistics.h"
 
 namespace topple::structure::study {
 

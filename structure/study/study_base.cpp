@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
-#include "topple/structure/convert.h"
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
-#include "topple/structure/input_files.h"
+#include "topple/structure/formats/convert.h"
+#include "topple/structure/formats/files.h"
+#include "topple/structure/formats/input_files.h"
 #include "topple/structure/joint_tuning.h"
 
 #include "formats/documents.h"

@@ -11,7 +11,7 @@
 
 #include "study/study_value.h"
 #include "topple/structure/error.h"
-#include "topple/structure/input_files.h"
+#include "topple/structure/formats/input_files.h"
 
 namespace topple::structure {
 

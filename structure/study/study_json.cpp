@@ -1,8 +1,8 @@
 // study.json.
 #include <cmath>
 
-#include "topple/structure/json_tree.h"
-#include "topple/structure/study_statistics.h"
+#include "topple/structure/formats/json_tree.h"
+#include "topple/structure/study/study_statistics.h"
 
 namespace topple::structure {
 

@@ -9,7 +9,7 @@
 #include "study/study_tasks.h"
 #include "study/study_value.h"
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 
 namespace topple::structure {
 

@@ -2,7 +2,7 @@
 // Numbers and values of samples as JSON text.
 #include <string>
 
-#include "topple/structure/study.h"
+#include "topple/structure/study/study.h"
 
 namespace topple::structure::study {
 

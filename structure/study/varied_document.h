@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "formats/json/json_document.h"
-#include "topple/structure/json_tree.h"
-#include "topple/structure/study.h"
+#include "topple/structure/formats/json_tree.h"
+#include "topple/structure/study/study.h"
 
 namespace topple::structure::study {
 

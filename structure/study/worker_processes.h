@@ -3,7 +3,7 @@
 // state that all worlds of a process share, and two collapses at once may then differ in their last bits.
 #include <functional>
 
-#include "topple/structure/study.h"
+#include "topple/structure/study/study.h"
 
 namespace topple::structure::study {
 

@@ -9,8 +9,8 @@
 #include "support/scratch_folder.h"
 #include "topple/structure/analysis.h"
 #include "topple/structure/error.h"
-#include "topple/structure/output_files.h"
-#include "topple/structure/plain_text.h"
+#include "topple/structure/formats/output_files.h"
+#include "topple/structure/formats/plain_text.h"
 
 namespace topple::fuzz {
 

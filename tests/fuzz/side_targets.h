@@ -8,9 +8,9 @@
 
 #include "fuzz/promised.h"
 #include "study/study_value.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 #include "topple/structure/motion.h"
-#include "topple/structure/study.h"
+#include "topple/structure/study/study.h"
 
 namespace topple::fuzz {
 

@@ -19,8 +19,8 @@
 #include "topple/fracture/gltf_reader.h"
 #include "topple/fracture/panel.h"
 #include "topple/structure/analysis.h"
-#include "topple/structure/files.h"
-#include "topple/structure/panel_file.h"
+#include "topple/structure/formats/files.h"
+#include "topple/structure/formats/panel_file.h"
 #include "topple/structure/simulation.h"
 
 namespace topple::fuzz {

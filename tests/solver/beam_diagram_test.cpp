@@ -100,11 +100,11 @@ TEST_CASE("what a diagram says inside of a beam is what a node there would see")
   CHECK((s.beam_end_forces[0].head<6>() - t.beam_end_forces.front().head<6>()).norm() < 1e-11 * force_scale);
   CHECK((s.beam_end_forces[0].tail<6>() - t.beam_end_forces.back().tail<6>()).norm() < 1e-11 * force_scale);
   const BeamDiagram diagram(whole.beams[0], s.beam_end_forces[0], loads.beams);
-  Vec12 hubs;
-  hubs << s.displacements[0], s.displacements[1];
+  Vec12 rigid_ends;
+  rigid_ends << s.displacements[0], s.displacements[1];
   for (int n = 1; n < 4; ++n) {
     const double x = cuts[static_cast<std::size_t>(n)];
-    const Vec6 u = diagram.displacement(x, hubs);
+    const Vec6 u = diagram.displacement(x, rigid_ends);
     CHECK((u - t.displacements[static_cast<std::size_t>(n)]).norm() < 1e-10 * t.displacements[2].norm());
     for (int q = 0; q < 6; ++q) {
       const double inside = diagram.value(static_cast<BeamDiagram::Quantity>(q), x);

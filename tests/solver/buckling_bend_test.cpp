@@ -36,7 +36,7 @@ double euler(double kL) { return kL * kL * EI / (length * length); }
 
 TEST_CASE("a pinned column bends most in its middle") {
   const Beam beam = pinned(true, true);
-  CHECK(buckling_load_between_resting_hubs(beam) == Approx(euler(pi)).epsilon(1e-9));
+  CHECK(buckling_load_between_resting_ends(beam) == Approx(euler(pi)).epsilon(1e-9));
   const BucklingBend bend = buckling_bend(beam, euler(pi), Vec12::Zero());
   CHECK(bend.place == Approx(length / 2).epsilon(1e-9));
   CHECK(bend.at_ends[0] < 1e-9 * bend.moment);
@@ -46,7 +46,7 @@ TEST_CASE("a pinned column bends most in its middle") {
 TEST_CASE("a column that is clamped at one end bends most at 0.35 of its length from the pinned one") {
   for (const bool clamped_below : {true, false}) {
     const Beam beam = pinned(!clamped_below, clamped_below);
-    CHECK(buckling_load_between_resting_hubs(beam) == Approx(euler(clamped_pinned)).epsilon(1e-9));
+    CHECK(buckling_load_between_resting_ends(beam) == Approx(euler(clamped_pinned)).epsilon(1e-9));
     const BucklingBend bend = buckling_bend(beam, euler(clamped_pinned), Vec12::Zero());
     // From the pinned end the moment is a sine: highest at a quarter of its wave, sqrt(1 + 1/x2) of that at the clamp.
     const double from_pin = length * pi / 2 / clamped_pinned;
@@ -58,7 +58,7 @@ TEST_CASE("a column that is clamped at one end bends most at 0.35 of its length 
 
 TEST_CASE("a clamped column bends as much at its ends as in its middle") {
   const Beam beam = column();
-  CHECK(buckling_load_between_resting_hubs(beam) == Approx(euler(2 * pi)).epsilon(1e-9));
+  CHECK(buckling_load_between_resting_ends(beam) == Approx(euler(2 * pi)).epsilon(1e-9));
   const BucklingBend bend = buckling_bend(beam, euler(2 * pi), Vec12::Zero());
   CHECK(bend.at_ends[0] == Approx(bend.moment).epsilon(1e-8));
   CHECK(bend.at_ends[1] == Approx(bend.moment).epsilon(1e-8));
@@ -89,18 +89,18 @@ TEST_CASE("the bend in a shape is that of the exact beam-column with shear and s
       beam.end_stiffness[0](xz ? 2 : 1) = 8e5;
       const double P = 0.5 * EI / (length * length);
       const Eigen::Vector4d motion(0.3, -0.1, 0.5, 0.2);
-      Vec12 hubs = Vec12::Zero();
+      Vec12 rigid_ends = Vec12::Zero();
       if (xz)
-        hubs(2) = motion(0), hubs(4) = -motion(1), hubs(8) = motion(2), hubs(10) = -motion(3);
+        rigid_ends(2) = motion(0), rigid_ends(4) = -motion(1), rigid_ends(8) = motion(2), rigid_ends(10) = -motion(3);
       else
-        hubs(1) = motion(0), hubs(5) = motion(1), hubs(7) = motion(2), hubs(11) = motion(3);
+        rigid_ends(1) = motion(0), rigid_ends(5) = motion(1), rigid_ends(7) = motion(2), rigid_ends(11) = motion(3);
       const double bending = 2e11 * (xz ? 3e-5 : 1e-5);
       const ColumnStretch stretch{0, length, {-P, 0, 0}};
       const BeamColumn exact({bending, 1 / (8e10 * 1e-5), 0}, {&stretch, 1}, {8e5, rigid, rigid, spring});
       const BeamColumn::Curve curve = exact.curve(motion);
       double most = 0;
       for (int i = 0; i <= 1000; ++i) most = std::max(most, std::abs(curve.value(2, length * i / 1000)));
-      const BucklingBend bend = buckling_bend(beam, P, hubs);
+      const BucklingBend bend = buckling_bend(beam, P, rigid_ends);
       CAPTURE(xz, spring);
       CHECK(bend.moment == Approx(most).epsilon(1e-5));
       CHECK(bend.at_ends[0] == Approx(std::abs(curve.value(2, 0))).epsilon(1e-8));

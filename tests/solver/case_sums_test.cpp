@@ -110,7 +110,7 @@ TEST_CASE("Where load cases cancel, what is left of them is right to its own las
 }
 
 TEST_CASE("Load cases that only in sum load nothing that is loose are solved as sums") {
-  // A truss bar between two hinges: a moment on its hub acts on nothing that resists turning.
+  // A truss bar between two hinges: a moment on its node acts on nothing that resists turning.
   FrameModel model =
       single_beam(2, components(rigid, rigid, rigid, rigid, rigid, rigid), components(0, rigid, rigid, 0, 0, 0));
   model.beams[0].end_stiffness[1].tail<3>().setZero();

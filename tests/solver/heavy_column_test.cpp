@@ -104,7 +104,7 @@ TEST_CASE("moments along a heavy column are those of its displaced pieces") {
   const SecondOrderSolution found = SecondOrderAnalysis(model, SecondOrder::exact).solve(set, linear);
   const Beam& beam = model.beams.front();
   const SecondOrderDiagram diagram(beam, found.axial, 0, found.solution.beam_end_forces[0],
-                                   beam_hub_displacements(beam, found.solution.displacements));
+                                   beam_rigid_end_displacements(beam, found.solution.displacements));
   // Statics of what stands above a cut: wind times lever, and each length's weight times its lead over the cut.
   const double head = found.solution.displacements[1](0);
   const auto deflection = [&](double x) { return diagram.values(x)[BeamDiagram::deflection_z] + x / height * head; };

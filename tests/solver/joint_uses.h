@@ -1,5 +1,5 @@
 #pragma once
-// Uses of a plain frame's beam ends for restricted answers: the largest of |force| / capacity over the six components.
+// Uses of a plain frame's beam ends for selective answers: the largest of |force| / capacity over the six components.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -291,7 +291,7 @@ TEST_CASE(
   Reanalysis standing(model);
   REQUIRE(standing.solve().stable);
   LoadSet beside, through;
-  beside.nodes = {{1, components(1000, 0, 0, 0, 150, 0)}};  // a contact beside the hub
+  beside.nodes = {{1, components(1000, 0, 0, 0, 150, 0)}};  // a contact beside the node
   through.nodes = {{1, components(1000, 0, 0, 0, 0, 0)}};
   const auto a = standing.respond(beside), b = standing.respond(through);
   CHECK(a.displacements[1](0) == Approx(b.displacements[1](0)).epsilon(1e-14));

@@ -57,7 +57,7 @@ SecondOrderSolution solve(const FrameModel& model, const LoadSet& loads, SecondO
 SecondOrderDiagram diagram(const FrameModel& model, const SecondOrderSolution& found) {
   const Beam& beam = model.beams.front();
   return {beam, found.axial, 0, found.solution.beam_end_forces[0],
-          beam_hub_displacements(beam, found.solution.displacements)};
+          beam_rigid_end_displacements(beam, found.solution.displacements)};
 }
 
 double lowest(const FrameModel& model, const LoadSet& loads) {

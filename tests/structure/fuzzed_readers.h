@@ -15,7 +15,7 @@
 #include "structure/mutation.h"
 #include "support/scratch_folder.h"
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 
 namespace topple::test {
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "support/shared_data.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 
 namespace topple::test {
 

@@ -10,7 +10,7 @@
 
 #include "simulation_run.h"
 #include "support/scratch_folder.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 
 namespace topple::test {
 
@@ -36,14 +36,14 @@ inline Meeting random_meeting(unsigned seed) {
   const double thickness = 0.006 + 0.01 * unit(random), strength = std::pow(10, -1 + 2.5 * unit(random));
   std::ostringstream nodes, members;
   nodes.precision(17);
-  const Vec3 hub(0, 0, 60);
+  const Vec3 rigid_end(0, 0, 60);
   nodes << R"("F": [0, 0, 54], "H": [0, 0, 60])";
   members << R"("PM": {"kind": "post", "nodes": ["F", "H"], "section": "tube", "material": "S355"})";
   std::vector<Vec3> ends;
   for (int i = 0; i < arms; ++i) {
     const double turn = 2 * M_PI * (i + 0.5 * unit(random)) / arms;
     const Vec3 end =
-        hub + Vec3(std::cos(turn), std::sin(turn), unit(random) - 0.5).normalized() * (2 + 3 * unit(random));
+        rigid_end + Vec3(std::cos(turn), std::sin(turn), unit(random) - 0.5).normalized() * (2 + 3 * unit(random));
     ends.push_back(end);
     nodes << ", \"E" << i << "\": " << vec(end);
     members << ", \"B" << i << R"(": {"nodes": ["H", "E)" << i
@@ -64,9 +64,9 @@ inline Meeting random_meeting(unsigned seed) {
   meeting.model = model.str();
   // The frame is let go four thirtieths before the ball comes: it falls faster by that.
   const double speed = 4 + 26 * unit(random), mass = 500 * std::pow(10, 1.5 * (unit(random) - 0.7));
-  const Vec3 target = hub + (0.3 + 0.6 * unit(random)) * (ends[0] - hub);
+  const Vec3 target = rigid_end + (0.3 + 0.6 * unit(random)) * (ends[0] - rigid_end);
   Vec3 along = Vec3(unit(random) - 0.5, unit(random) - 0.5, unit(random) - 0.5).normalized();
-  const Vec3 arm = (ends[0] - hub).normalized();
+  const Vec3 arm = (ends[0] - rigid_end).normalized();
   along = (along - 0.7 * along.dot(arm) * arm).normalized();
   const Vec3 fall(0, 0, -9.80665 * 4 / 30);
   std::ostringstream events;

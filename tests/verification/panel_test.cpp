@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "topple/structure/analysis.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 #include "verification/table.h"
 
 using namespace topple::test;

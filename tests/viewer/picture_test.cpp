@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "renderer/picture_renderer.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 
 namespace {
 

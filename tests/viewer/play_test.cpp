@@ -8,7 +8,7 @@
 #include "app/tools/score.h"
 #include "support/scratch_folder.h"
 #include "topple/structure/error.h"
-#include "topple/structure/input_files.h"
+#include "topple/structure/formats/input_files.h"
 
 namespace {
 

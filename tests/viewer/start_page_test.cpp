@@ -20,8 +20,8 @@
 #include "renderer/headless_context.h"
 #include "support/scratch_folder.h"
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
-#include "topple/structure/shipped_files.h"
+#include "topple/structure/formats/files.h"
+#include "topple/structure/formats/shipped_files.h"
 #include "topple/structure/simulation.h"
 
 namespace {

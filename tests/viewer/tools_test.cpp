@@ -6,7 +6,7 @@
 #include "app/tuning_panel.h"
 #include "support/scratch_folder.h"
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 
 namespace {
 

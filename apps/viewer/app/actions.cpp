@@ -9,7 +9,7 @@
 #include <set>
 
 #include "topple/structure/error.h"
-#include "topple/structure/input_files.h"
+#include "topple/structure/formats/input_files.h"
 #include "topple/structure/number_range.h"
 
 namespace topple::viewer {

@@ -19,7 +19,7 @@
 #include "app/target_building.h"
 #include "renderer/instances.h"
 #include "topple/structure/error.h"
-#include "topple/structure/output_files.h"
+#include "topple/structure/formats/output_files.h"
 
 namespace topple::viewer {
 namespace {

@@ -19,8 +19,8 @@
 #include "renderer/headless_context.h"
 #include "renderer/picture_renderer.h"
 #include "topple/structure/error.h"
-#include "topple/structure/output_files.h"
-#include "topple/structure/plain_text.h"
+#include "topple/structure/formats/output_files.h"
+#include "topple/structure/formats/plain_text.h"
 
 namespace topple::viewer {
 namespace {

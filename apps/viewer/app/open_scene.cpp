@@ -6,12 +6,12 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "topple/structure/convert.h"
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/convert.h"
+#include "topple/structure/formats/files.h"
+#include "topple/structure/formats/shipped_files.h"
 #include "topple/structure/join_shells.h"
 #include "topple/structure/modelling_checks.h"
-#include "topple/structure/shipped_files.h"
 
 namespace topple::viewer {
 namespace {

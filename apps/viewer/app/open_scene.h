@@ -4,9 +4,9 @@
 #include <string>
 
 #include "topple/structure/building.h"
-#include "topple/structure/drawn_model.h"
 #include "topple/structure/material_tuning.h"
 #include "topple/structure/scenario.h"
+#include "topple/structure/visual_mesh.h"
 
 namespace topple::viewer {
 

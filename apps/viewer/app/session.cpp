@@ -30,7 +30,7 @@ void Session::begin() {
   simulation_ = std::make_unique<structure::Simulation>(*building_, scenario_);
   drawn_.reset();
   if (drawn_meshes_ && !drawn_meshes_->empty())
-    drawn_ = std::make_unique<structure::DrawnModel>(*building_, *drawn_meshes_);
+    drawn_ = std::make_unique<structure::VisualMesh>(*building_, *drawn_meshes_);
   taker_ = SnapshotTaker();
   taker_.want(wanted_);
   for (const structure::Event& event : scenario_.events)

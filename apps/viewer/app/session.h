@@ -29,7 +29,7 @@ struct RunRules {
 class Session {
  public:
   /// The scenario's end is put off: a person may act at any time. `drawn`: around the building; null: nothing. Throws
-  /// as structure::Simulation and structure::DrawnModel do.
+  /// as structure::Simulation and structure::VisualMesh do.
   Session(std::shared_ptr<const structure::Building> building, structure::Scenario scenario,
           std::shared_ptr<const std::vector<structure::DrawnMesh>> drawn = nullptr);
 
@@ -105,7 +105,7 @@ class Session {
   structure::Scenario scenario_;
   std::shared_ptr<const std::vector<structure::DrawnMesh>> drawn_meshes_;
   std::unique_ptr<structure::Simulation> simulation_;
-  std::unique_ptr<structure::DrawnModel> drawn_;
+  std::unique_ptr<structure::VisualMesh> drawn_;
   std::unique_ptr<structure::JointTuning> tuning_;
   std::shared_ptr<const TunedJoints> tuned_;
   std::shared_ptr<const std::vector<float>> path_;

@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "app/widgets.h"
-#include "topple/structure/files.h"
-#include "topple/structure/output_files.h"
+#include "topple/structure/formats/files.h"
+#include "topple/structure/formats/output_files.h"
 
 namespace topple::viewer {
 namespace {

@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "renderer/renderer.h"
-#include "topple/structure/output_files.h"
+#include "topple/structure/formats/output_files.h"
 
 namespace topple::viewer {
 

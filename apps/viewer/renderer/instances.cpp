@@ -11,7 +11,7 @@
 #include "renderer/shapes/diagram.h"
 #include "renderer/shapes/looks.h"
 #include "renderer/shapes/torn_ends.h"
-#include "topple/structure/drawn_model.h"
+#include "topple/structure/visual_mesh.h"
 
 namespace topple::viewer {
 namespace {

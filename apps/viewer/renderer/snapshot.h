@@ -83,7 +83,7 @@ struct BodyPose {
 /// A piece of a model that is drawn around the building.
 struct DrawnPiece {
   std::shared_ptr<const fracture::Mesh> mesh;              ///< where it was in the undeformed building
-  std::shared_ptr<const std::vector<std::int32_t>> bones;  ///< of one that stands: structure::DrawnModel::Piece::bones
+  std::shared_ptr<const std::vector<std::int32_t>> bones;  ///< of one that stands: structure::VisualMesh::Piece::bones
   std::int64_t body = part_stands;                         ///< id of the body that it moves with; or part_stands
 };
 

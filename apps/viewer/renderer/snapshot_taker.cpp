@@ -200,9 +200,9 @@ BodyPose pose_of(const structure::BodyView& body) {
           body.cable_anchor};
 }
 
-std::shared_ptr<const std::vector<DrawnPiece>> read_drawn(const structure::DrawnModel& model) {
+std::shared_ptr<const std::vector<DrawnPiece>> read_drawn(const structure::VisualMesh& model) {
   auto drawn = std::make_shared<std::vector<DrawnPiece>>();
-  for (const structure::DrawnModel::Piece& piece : model.pieces())
+  for (const structure::VisualMesh::Piece& piece : model.pieces())
     if (piece.body.value >= part_stands) drawn->push_back({piece.mesh, piece.bones, piece.body.value});
   return drawn;
 }
@@ -230,7 +230,7 @@ bool SnapshotTaker::answer_is_old(const Simulation& simulation) const {
          seen_events_ != simulation.events().size();
 }
 
-Snapshot SnapshotTaker::take(const Simulation& simulation, structure::DrawnModel* drawn) {
+Snapshot SnapshotTaker::take(const Simulation& simulation, structure::VisualMesh* drawn) {
   std::vector<std::int64_t> ids;
   for (const structure::BodyView& body : simulation.bodies()) ids.push_back(body.id.value);
   const bool old = answer_is_old(simulation);

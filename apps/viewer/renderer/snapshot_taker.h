@@ -5,7 +5,7 @@
 
 #include "renderer/shapes/dust.h"
 #include "renderer/snapshot.h"
-#include "topple/structure/drawn_model.h"
+#include "topple/structure/visual_mesh.h"
 
 namespace topple::viewer {
 
@@ -13,7 +13,7 @@ namespace topple::viewer {
 class SnapshotTaker {
  public:
   /// `drawn`: cut where its parts have come apart since, and seen.
-  [[nodiscard]] Snapshot take(const structure::Simulation& simulation, structure::DrawnModel* drawn = nullptr);
+  [[nodiscard]] Snapshot take(const structure::Simulation& simulation, structure::VisualMesh* drawn = nullptr);
   /// From the next snapshot on.
   void want(Wanted wanted) { wanted_ = wanted; }
   /// Joints were given other capacities: the next snapshot reads their utilisations anew.

@@ -231,7 +231,7 @@ class Cut {
 
   /// What a rigid floor does to the nodes behind the plane: all that the rest does not balance, in the floor's plane.
   [[nodiscard]] Vec6 through_diaphragm(std::size_t index) const {
-    if (!s_.frame.giving_elements.empty())
+    if (!s_.frame.semi_rigid_elements.empty())
       throw InputError(s_.building.file + ": cuts." + cut_.name + ": it passes diaphragm " +
                        s_.building.diaphragms[index].name +
                        " of a model in which joints of shells give; accepted: `parts` without it");

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "failure/panel_demand.h"
-#include "mesh/giving_edges.h"
+#include "mesh/semi_rigid_edges.h"
 #include "mesh/shell_edges.h"
 #include "model/index_of.h"
 #include "topple/solver/shell_resultants.h"
@@ -55,7 +55,7 @@ class PanelReader {
  private:
   [[nodiscard]] ShellResultants own_axes(std::size_t element, const Vec2& at) const {
     const int shell = mesh_.first_shell + static_cast<int>(element);
-    if (giving_element(frame_, shell) == nullptr)
+    if (semi_rigid_element(frame_, shell) == nullptr)
       return solver::shell_resultants(frame_.model, shell, solution_.displacements, strain_, at);
     solver::FrameModel alone;  // with the displacements of its own side of the joints
     std::vector<Vec6> displacements;
@@ -117,7 +117,7 @@ void set_centre(const PanelReader& reader, const Vec3& centre, double size, Pane
 std::array<Vec6, 4> element_forces(const Building& building, const Frame& frame, PanelId id, std::size_t k,
                                    const PartLoads& loads, const solver::StaticSolution& solution) {
   const int shell = frame.meshes[index_of(id)].first_shell + static_cast<int>(k);
-  const GivingElement* giving = giving_element(frame, shell);
+  const SemiRigidElement* giving = semi_rigid_element(frame, shell);
   if (giving == nullptr) return solution.shell_corner_forces[static_cast<std::size_t>(shell)];
   const PanelAction& action = loads.panels[index_of(id)];
   const Vec3 traction = action.body_force - action.pressure * Vec3(building[id].axes.row(2));

@@ -1,4 +1,4 @@
-#include "topple/structure/input_files.h"
+#include "topple/structure/formats/input_files.h"
 
 #include <dirent.h>
 #include <fcntl.h>
@@ -12,7 +12,7 @@
 #include <string_view>
 
 #include "topple/structure/error.h"
-#include "topple/structure/plain_text.h"
+#include "topple/structure/formats/plain_text.h"
 
 namespace topple::structure {
 

@@ -11,9 +11,9 @@
 #include "formats/files/temporary_name.h"
 #include "topple/structure/building.h"
 #include "topple/structure/error.h"
-#include "topple/structure/input_files.h"
-#include "topple/structure/output_files.h"
-#include "topple/structure/plain_text.h"
+#include "topple/structure/formats/input_files.h"
+#include "topple/structure/formats/output_files.h"
+#include "topple/structure/formats/plain_text.h"
 
 namespace topple::structure {
 

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "topple/structure/output_files.h"
+#include "topple/structure/formats/output_files.h"
 
 namespace topple::structure {
 

@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "topple/structure/error.h"
-#include "topple/structure/input_place.h"
-#include "topple/structure/plain_text.h"
+#include "topple/structure/formats/input_place.h"
+#include "topple/structure/formats/plain_text.h"
 
 namespace topple::structure {
 

@@ -4,7 +4,7 @@
 #include "formats/geometry.h"
 #include "formats/physical_model.h"
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 #include "topple/structure/frame.h"
 
 namespace topple::structure {
@@ -25,7 +25,7 @@ void refuse_meshes_of_panels(const Building& building) {
                        std::string(panel.model == PanelModel::membrane ? "membrane" : "cladding") +
                        "; accepted: \"model\": \"shell\", or leave it out");
 }
-void refuse_giving_edges(const Building& building) {
+void refuse_semi_rigid_edges(const Building& building) {
   for (const Joint& joint : building.joints)
     if (joint.panel.valid() && (joint.stiffness.array() != unlimited).any())
       refuse(building, "joint " + joint.name, "`stiffness` of a shell's edge");
@@ -55,8 +55,8 @@ void refuse_diaphragms(const Building& building) {
 void refuse_unbuilt(const Building& building, Purpose purpose) {
   using Refusal = void (*)(const Building&);
   static constexpr std::array<Refusal, 1> analyse{refuse_meshes_of_panels};
-  static constexpr std::array<Refusal, 5> demolish{refuse_meshes_of_panels, refuse_giving_edges, refuse_one_way_members,
-                                                   refuse_warped_shells, refuse_diaphragms};
+  static constexpr std::array<Refusal, 5> demolish{refuse_meshes_of_panels, refuse_semi_rigid_edges,
+                                                   refuse_one_way_members, refuse_warped_shells, refuse_diaphragms};
   switch (purpose) {
     case Purpose::analyse:
       for (const Refusal refusal : analyse) refusal(building);

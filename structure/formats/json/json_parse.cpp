@@ -7,9 +7,9 @@
 #include "formats/json/json_document.h"
 #include "formats/json/plain_json.h"
 #include "topple/structure/error.h"
-#include "topple/structure/input_files.h"
-#include "topple/structure/input_place.h"
-#include "topple/structure/plain_text.h"
+#include "topple/structure/formats/input_files.h"
+#include "topple/structure/formats/input_place.h"
+#include "topple/structure/formats/plain_text.h"
 
 namespace topple::structure::formats {
 

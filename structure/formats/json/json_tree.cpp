@@ -1,11 +1,11 @@
-#include "topple/structure/json_tree.h"
+#include "topple/structure/formats/json_tree.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 
 #include "formats/json/json_document.h"
-#include "topple/structure/plain_text.h"
+#include "topple/structure/formats/plain_text.h"
 
 namespace topple::structure {
 

@@ -6,8 +6,8 @@
 
 #include "formats/json/json_document.h"
 #include "formats/json/json_writer.h"
-#include "topple/structure/input_place.h"
-#include "topple/structure/plain_text.h"
+#include "topple/structure/formats/input_place.h"
+#include "topple/structure/formats/plain_text.h"
 
 namespace topple::structure::formats {
 

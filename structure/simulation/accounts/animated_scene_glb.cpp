@@ -5,7 +5,7 @@
 #include <map>
 
 #include "topple/structure/animated_scene.h"
-#include "topple/structure/json_tree.h"
+#include "topple/structure/formats/json_tree.h"
 
 namespace topple::structure {
 

@@ -53,7 +53,7 @@ fracture::Mesh whole_panel(const Building& building, const Panel& panel) {
 }  // namespace
 
 struct CollapseAnimation::State {
-  State(const Simulation& simulation, double rate, const DrawnModel* model)
+  State(const Simulation& simulation, double rate, const VisualMesh* model)
       : building(simulation.building()), drawn(model) {
     scene.rate = rate;
     scene.materials = {{"posts", {0.55f, 0.57f, 0.60f}},  {"beams", {0.45f, 0.50f, 0.58f}},
@@ -179,7 +179,7 @@ struct CollapseAnimation::State {
     std::map<std::int64_t, const BodyView*> bodies;
     for (const BodyView& body : simulation.bodies()) bodies.emplace(body.id.value, &body);
     std::set<const fracture::Mesh*> seen;
-    for (const DrawnModel::Piece& piece : drawn->pieces()) {
+    for (const VisualMesh::Piece& piece : drawn->pieces()) {
       const auto body = bodies.find(piece.body.value);
       if (piece.body.value != -1 && body == bodies.end()) continue;
       const auto [known, made] = of_piece.try_emplace(piece.mesh, scene.nodes.size());
@@ -228,7 +228,7 @@ struct CollapseAnimation::State {
   }
 
   const Building& building;
-  const DrawnModel* drawn;
+  const VisualMesh* drawn;
   AnimatedScene scene;
   std::map<std::array<double, 4>, int> boxes;
   std::map<std::int64_t, std::size_t> of_body;
@@ -243,7 +243,7 @@ struct CollapseAnimation::State {
   int next = 0;
 };
 
-CollapseAnimation::CollapseAnimation(const Simulation& simulation, double rate, const DrawnModel* drawn)
+CollapseAnimation::CollapseAnimation(const Simulation& simulation, double rate, const VisualMesh* drawn)
     : state_(std::make_unique<State>(simulation, rate, drawn)) {
   add_due(simulation);
 }

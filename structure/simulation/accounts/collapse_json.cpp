@@ -3,8 +3,8 @@
 #include <cstdio>
 
 #include "topple/structure/collapse_report.h"
-#include "topple/structure/json_tree.h"
-#include "topple/structure/output_files.h"
+#include "topple/structure/formats/json_tree.h"
+#include "topple/structure/formats/output_files.h"
 
 namespace topple::structure {
 
@@ -159,7 +159,7 @@ std::string summary_json(const Simulation& simulation, const StepTimes& times, d
                     {"contacts_ignored", work.contacts_ignored},
                     {"impacts_bounded", work.impacts_bounded},
                     {"impacts_together", work.impacts_together},
-                    {"restricted", work.restricted},
+                    {"restricted", work.selective},
                     {"background_factors", work.background_factors},
                     {"late_factors", work.late_factors}}},
                   {"step_milliseconds", times_json(times)},

@@ -1,6 +1,6 @@
 #pragma once
 // The moving bodies, in order of id. What every step goes through for all of them lies side by side in memory; so are
-// those known that blows are looked up for: few, where most are chunks.
+// those known that impacts are looked up for: few, where most are chunks.
 #include <cstdint>
 #include <map>
 #include <span>
@@ -15,7 +15,7 @@ struct BodyMotion {
   std::int64_t id = -1;
   Body* body = nullptr;
   double mass = 0;
-  bool asleep = false;             ///< as booked last
+  bool asleep = false;             ///< as accounted last
   Vec3 step_start = Vec3::Zero();  ///< where its centre was when the step began
   collision::BodyState before;     ///< at the start of this step's motion, after its impacts
   double reach = 0;                ///< no point of its bounds is farther from its centre, m

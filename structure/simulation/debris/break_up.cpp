@@ -20,7 +20,7 @@ bool Simulation::State::holds_in_debris(JointId joint) const {
 }
 
 /// Only where a panel can break: others come down whole, with what most of their corners are joined to.
-std::optional<std::array<double, 4>> Simulation::State::flying_edges(PanelId id) const {
+std::optional<std::array<double, 4>> Simulation::State::free_panel_edges(PanelId id) const {
   if (!breakable_panels[static_cast<std::size_t>(id.index)].settings) return std::nullopt;
   const Panel& panel = building[id];
   const BrokenPanel* broken = broken_panel(id);
@@ -60,13 +60,13 @@ bool Simulation::State::spins_hard(const Body& one, const Vec3& spin) const {
 }
 
 /// Bodies of several parts that are pressed hard, or that spin fast, and what acts on them in their undeformed axes.
-std::vector<Simulation::State::Blow> Simulation::State::pressed_hard() {
-  pressing.read(felt_contacts, scenario.step, [&](collision::BodyId id) -> std::optional<BodyPlace> {
+std::vector<Simulation::State::BodyActions> Simulation::State::pressed_hard() {
+  pressing.read(contact_records, scenario.step, [&](collision::BodyId id) -> std::optional<BodyPlace> {
     const auto composed = bodies.composed();
     if (!std::binary_search(composed.begin(), composed.end(), id.value)) return std::nullopt;
     return BodyPlace{world->state(id).pose, bodies.at(id.value).rest.centre};
   });
-  std::vector<Blow> all;
+  std::vector<BodyActions> all;
   for (const std::int64_t id : bodies.composed()) {
     const Body& one = bodies.at(id);
     if (bodies.motion(id).asleep || !may_fall_apart(one)) continue;
@@ -83,29 +83,29 @@ std::vector<Simulation::State::Blow> Simulation::State::pressed_hard() {
 /// One generation of each body after the other, until nothing breaks.
 void Simulation::State::break_up_landed() {
   if (world->awake_count() == 0) return;
-  std::vector<Blow> fallen = pressed_hard();
-  std::deque<Blow> waiting(std::make_move_iterator(fallen.begin()), std::make_move_iterator(fallen.end()));
+  std::vector<BodyActions> fallen = pressed_hard();
+  std::deque<BodyActions> waiting(std::make_move_iterator(fallen.begin()), std::make_move_iterator(fallen.end()));
   while (!waiting.empty()) {
-    const Blow blow = std::move(waiting.front());
+    const BodyActions loading = std::move(waiting.front());
     waiting.pop_front();
-    if (!break_joints_of(blow)) continue;
-    for (Blow& part : handed_on(blow, come_apart(blow.on))) waiting.push_back(std::move(part));
+    if (!break_joints_of(loading)) continue;
+    for (BodyActions& part : handed_on(loading, come_apart(loading.on))) waiting.push_back(std::move(part));
   }
 }
 
-/// The blow is that of the parts it fell on; all go on to spin as the whole did.
-std::vector<Simulation::State::Blow> Simulation::State::handed_on(const Blow& blow,
-                                                                  const std::vector<collision::BodyId>& pieces) const {
-  std::vector<Blow> parts;
+/// The impact is that of the parts it fell on; all go on to spin as the whole did.
+std::vector<Simulation::State::BodyActions> Simulation::State::handed_on(
+    const BodyActions& loading, const std::vector<collision::BodyId>& pieces) const {
+  std::vector<BodyActions> parts;
   for (const collision::BodyId id : pieces) {
     const Body& own = bodies.at(id.value);
     if (!may_fall_apart(own)) continue;
-    Blow part{id, {}, blow.spin, blow.gravity, blow.generation + 1};
-    for (const FreePush& push : blow.pushes)
+    BodyActions part{id, {}, loading.spin, loading.gravity, loading.generation + 1};
+    for (const FreePush& push : loading.pushes)
       if (push.member.valid() ? std::binary_search(own.members.begin(), own.members.end(), push.member)
                               : std::find(own.panels.begin(), own.panels.end(), push.panel) != own.panels.end())
         part.pushes.push_back(push);
-    if (!part.pushes.empty() || spins_hard(own, blow.spin)) parts.push_back(std::move(part));
+    if (!part.pushes.empty() || spins_hard(own, loading.spin)) parts.push_back(std::move(part));
   }
   return parts;
 }
@@ -116,16 +116,16 @@ FreeSegment& Simulation::State::free_segment_of(const Body& one) {
     segment = std::make_unique<FreeSegment>(
         building, parts_of(one), [&](JointId joint) { return holds_in_debris(joint); },
         [&](PanelId shell) { return frame->shell_stiffness(shell); },
-        [&](PanelId panel) { return flying_edges(panel); });
+        [&](PanelId panel) { return free_panel_edges(panel); });
   return *segment;
 }
 
 /// One generation of a body's breaks. False when nothing broke.
-bool Simulation::State::break_joints_of(const Blow& blow) {
-  const Body& one = bodies.at(blow.on.value);
+bool Simulation::State::break_joints_of(const BodyActions& loading) {
+  const Body& one = bodies.at(loading.on.value);
   FreeSegment& segment = free_segment_of(one);
   if (!segment.can_break()) return false;
-  const FreeSegment::Answer answer = segment.bear(blow.pushes, blow.spin, blow.gravity);
+  const FreeSegment::Answer answer = segment.bear(loading.pushes, loading.spin, loading.gravity);
   std::vector<std::pair<JointId, Utilisation>> over;
   double largest = 1;
   for (const auto& [joint, demand] : answer.demands) {
@@ -138,8 +138,8 @@ bool Simulation::State::break_joints_of(const Blow& blow) {
   if (over.empty()) return false;
   std::erase_if(over,
                 [&](const auto& each) { return each.second.value < (1 - impact_settings.same_instant) * largest; });
-  tell_broken_in_debris(one, over, blow.generation);
-  free_segments.erase(blow.on.value);
+  record_breaks_in_debris(one, over, loading.generation);
+  free_segments.erase(loading.on.value);
   return true;
 }
 
@@ -147,14 +147,14 @@ bool Simulation::State::break_joints_of(const Blow& blow) {
 std::vector<collision::BodyId> Simulation::State::come_apart(collision::BodyId id) {
   const std::vector<FreeSegmentParts> parts = connected_parts(
       building, parts_of(bodies.at(id.value)), [&](JointId joint) { return holds_in_debris(joint); },
-      [&](PanelId panel) { return flying_edges(panel); });
+      [&](PanelId panel) { return free_panel_edges(panel); });
   if (parts.size() == 1) return {id};
   return split(id, parts);
 }
 
-void Simulation::State::tell_broken_in_debris(const Body& one,
-                                              const std::vector<std::pair<JointId, Utilisation>>& broken,
-                                              int generation) {
+void Simulation::State::record_breaks_in_debris(const Body& one,
+                                                const std::vector<std::pair<JointId, Utilisation>>& broken,
+                                                int generation) {
   const collision::BodyState state = world->state(one.id);
   const Mat3 turn = state.pose.orientation.toRotationMatrix();
   for (const auto& [joint, used] : broken) {
@@ -162,7 +162,7 @@ void Simulation::State::tell_broken_in_debris(const Body& one,
     JointBreak line = impact_break(joint, used);
     line.generation = generation;
     line.position = state.pose.position + turn * (joint_position(joint) - one.rest.centre);
-    tell(line);
+    record(line);
   }
 }
 
@@ -199,7 +199,7 @@ std::vector<collision::BodyId> Simulation::State::split(collision::BodyId id,
       for (const MemberId member : own.members) body_of_part[static_cast<std::size_t>(member.index)] = -2;
       for (const PanelId panel : own.panels)
         body_of_part[static_cast<std::size_t>(part_number(building, Part(panel)))] = -2;
-      tell(SimulationEvent::Kind::limited, own.name).mass = own.rest.mass;
+      record(SimulationEvent::Kind::limited, own.name).mass = own.rest.mass;
       handed_on.add(own, moving);
       return;
     }
@@ -214,10 +214,10 @@ std::vector<collision::BodyId> Simulation::State::split(collision::BodyId id,
     piece.panels = part.panels;
     piece.nodes = part.nodes;
     const double mass = masses.of(piece).mass;
-    if (piece.members.empty() && piece.panels.empty() && mass <= 0) continue;  // a bare hub
+    if (piece.members.empty() && piece.panels.empty() && mass <= 0) continue;  // a bare node
     Body own = describe(piece);
     if (parts.size() > 1) {
-      SimulationEvent& event = tell(SimulationEvent::Kind::split, own.name);
+      SimulationEvent& event = record(SimulationEvent::Kind::split, own.name);
       event.members = own.members;
       event.panels = own.panels;
       event.mass = own.rest.mass;

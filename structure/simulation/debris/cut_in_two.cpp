@@ -75,12 +75,12 @@ void Simulation::State::release_in_two(const Detached& part) {
   const Part gone(member);
   part_is_gone(gone);
   body_of_part[static_cast<std::size_t>(member.index)] = -2;
-  SimulationEvent& event = tell(SimulationEvent::Kind::detached, whole.name);
+  SimulationEvent& event = record(SimulationEvent::Kind::detached, whole.name);
   event.members = whole.members;
   event.mass = whole.rest.mass;
   event.position = whole.rest.centre;
   Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();
-  knock(whole, velocity, spin);
+  apply_release_impulses(whole, velocity, spin);
 
   std::vector<collision::BodyId> made;
   Momentum carried{whole.rest.centre}, handed_on{whole.rest.centre};
@@ -94,7 +94,7 @@ void Simulation::State::release_in_two(const Detached& part) {
     if (displacement.norm() > debris_settings.largest_start)
       displacement *= debris_settings.largest_start / displacement.norm();
     if (piece.volume < scenario.debris.smallest_volume) {
-      tell(SimulationEvent::Kind::limited, piece.name).mass = piece.rest.mass;
+      record(SimulationEvent::Kind::limited, piece.name).mass = piece.rest.mass;
       handed_on.add(piece, {{piece.rest.centre, Eigen::Quaterniond::Identity()}, moves, spin});
       leave_weight(piece.rest);
       continue;

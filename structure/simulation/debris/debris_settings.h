@@ -44,7 +44,7 @@ struct DebrisSettings {
 
   // What is looked for. These decide what is computed, not what comes out.
   /// m around a body's swept bounds: what its shapes' skins and a step's turn may add.
-  double sense_margin = 0.25;
+  double sweep_margin = 0.25;
   /// m around that which is looked over with it: a body that lies or rolls stays in it, one that falls for some steps.
   double look_ahead = 1;
 };

@@ -18,7 +18,7 @@ bool has(const std::vector<Id>& list, Id id) {
 }
 }  // namespace
 
-/// The other side of a joint whose member (or else its hub) hangs.
+/// The other side of a joint whose member (or else its rigid end) hangs.
 ContactPlace Simulation::State::hold_of(JointId joint, bool member_hangs) const {
   const Joint& own = building[joint];
   ContactPlace place;
@@ -98,7 +98,7 @@ void Simulation::State::hang_on(const std::vector<JointId>& joints, collision::B
     JointBreak lost;
     lost.joint = joint;
     lost.position = joint_position(joint);
-    tell(lost);
+    record(lost);
   }
 }
 
@@ -141,8 +141,8 @@ void Simulation::State::hang_again(const std::vector<JointId>& joints) {
     const auto piece =
         std::find_if(bodies.begin(), bodies.end(), [&](const auto& one) { return one.second.end_joint == joint; });
     const collision::BodyId of_member = piece != bodies.end() ? piece->second.id : body_with(hold_of(joint, false));
-    const collision::BodyId of_hub = body_with(hold_of(joint, true));
-    const collision::BodyId hanging = of_member.value >= 0 ? of_member : of_hub;
+    const collision::BodyId of_rigid_end = body_with(hold_of(joint, true));
+    const collision::BodyId hanging = of_member.value >= 0 ? of_member : of_rigid_end;
     if (hanging.value >= 0) hang_on({joint}, hanging);
   }
 }
@@ -171,7 +171,7 @@ void Simulation::State::pull_hinges() {
     line.capacity = used.capacity;
     const Body& one = bodies.at(hung.body.value);
     line.position = world->state(hung.body).pose * Vec3(joint_position(hung.joint) - one.rest.centre);
-    tell(line);
+    record(line);
     take_off(hung);
   }
 }
@@ -180,7 +180,7 @@ void Simulation::State::pull_hinges() {
 Utilisation Simulation::State::utilisation_of(const Hung& hung, const Vec3& force, const Vec3& moment) const {
   const Joint& joint = building[hung.joint];
   const Mat3 axes = building[joint.member].axes * turned_with(hung.member_hangs ? hung.body : hung.holder).transpose();
-  // End forces are what the hub does to the member.
+  // End forces are what the rigid end does to the member.
   const double sign = hung.member_hangs ? -1 : 1;
   Eigen::Matrix<double, 12, 1> end_forces = Eigen::Matrix<double, 12, 1>::Zero();
   end_forces.segment<3>(6 * joint.end) = sign * axes * force;

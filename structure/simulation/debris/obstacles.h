@@ -20,7 +20,7 @@ class Obstacles {
   void approach(std::vector<Part>& near, const Bounds& box, const StandingFrame& frame, collision::World& world);
   /// Parts at the box that have no shape in the world, in order of number; some may be gone.
   [[nodiscard]] std::vector<Part> without_shape(const Bounds& box) const { return grid_.near(box, settled_); }
-  /// The part has another shape now. What was sensed against the old one still tells the part.
+  /// The part has another shape now. What was swept against the old one still tells the part.
   void renew(Part part, collision::World& world);
   /// The part stands no more.
   void remove(Part part, collision::World& world);

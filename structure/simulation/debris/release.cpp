@@ -105,7 +105,7 @@ Body Simulation::State::describe(const Detached& part) const {
 void Simulation::State::release(const Detached& part) {
   if (part.members.empty() && part.panels.empty() && part.nodes.empty()) return;
   if (part.cut) return release_in_two(part);
-  if (part.members.empty() && part.panels.empty() && masses.of(part).mass <= 0) return;  // a bare hub
+  if (part.members.empty() && part.panels.empty() && masses.of(part).mass <= 0) return;  // a bare node
   Body one = describe(part);
   Vec3 displacement = Vec3::Zero();
   for (const NodeId node : part.nodes) displacement += frame->displacement(node).head<3>();
@@ -123,9 +123,9 @@ void Simulation::State::release(const Detached& part) {
   for (const PanelId panel : part.panels) gone.emplace_back(panel);
   parts_are_gone(gone);
 
-  if (part.mechanism) tell(SimulationEvent::Kind::mechanism, one.name).mass = one.rest.mass;
+  if (part.mechanism) record(SimulationEvent::Kind::mechanism, one.name).mass = one.rest.mass;
   const bool small = one.volume < scenario.debris.smallest_volume;
-  SimulationEvent& event = tell(small ? SimulationEvent::Kind::limited : SimulationEvent::Kind::detached, one.name);
+  SimulationEvent& event = record(small ? SimulationEvent::Kind::limited : SimulationEvent::Kind::detached, one.name);
   event.members = one.members;
   event.panels = one.panels;
   event.mass = one.rest.mass;
@@ -139,13 +139,14 @@ void Simulation::State::release(const Detached& part) {
     leave_weight(one.rest);
     return;
   }
-  const bool breaks = breakable_of(one).valid() &&
-                      std::any_of(knocks.begin(), knocks.end(), [&](const Knock& k) { return was_struck(k, one); });
+  const bool breaks =
+      breakable_of(one).valid() && std::any_of(release_impulses.begin(), release_impulses.end(),
+                                               [&](const ReleaseImpulse& k) { return was_struck(k, one); });
   if (breaks) {
     shatter_struck(add_body(std::move(one), velocity, spin, displacement));
     return;
   }
-  knock(one, velocity, spin);
+  apply_release_impulses(one, velocity, spin);
   const std::vector<collision::BodyId> passing = breakers_of(one);
   const collision::BodyId id = add_body(std::move(one), velocity, spin, displacement);
   check_momentum(bodies.at(id.value), part.motion);
@@ -157,7 +158,7 @@ void Simulation::State::release(const Detached& part) {
 }
 
 /// True when an impact of this step broke this body off.
-bool Simulation::State::was_struck(const Knock& given, const Body& one) {
+bool Simulation::State::was_struck(const ReleaseImpulse& given, const Body& one) {
   return given.part.member.valid()
              ? std::binary_search(one.members.begin(), one.members.end(), given.part.member)
              : std::find(one.panels.begin(), one.panels.end(), given.part.panel) != one.panels.end();
@@ -166,14 +167,14 @@ bool Simulation::State::was_struck(const Knock& given, const Body& one) {
 /// Bodies that go on through what they broke off.
 std::vector<collision::BodyId> Simulation::State::breakers_of(const Body& one) const {
   std::vector<collision::BodyId> passing;
-  for (const Knock& given : knocks)
+  for (const ReleaseImpulse& given : release_impulses)
     if (was_struck(given, one) && bodies.contains(given.by.value)) passing.push_back(given.by);
   return passing;
 }
 
 /// A part that an impact broke off takes the momentum of the share of the structure that moved with the body.
-void Simulation::State::knock(const Body& one, Vec3& velocity, Vec3& spin) {
-  for (const Knock& given : knocks) {
+void Simulation::State::apply_release_impulses(const Body& one, Vec3& velocity, Vec3& spin) {
+  for (const ReleaseImpulse& given : release_impulses) {
     if (!was_struck(given, one)) continue;
     const Vec3 r = given.point - one.rest.centre;
     const Mat3 inverse = one.rest.inertia.inverse();
@@ -188,7 +189,7 @@ void Simulation::State::knock(const Body& one, Vec3& velocity, Vec3& spin) {
   }
 }
 
-/// All the momentum that the world's body has must be what it left with, and what knocks gave it.
+/// All the momentum that the world's body has must be what it left with, and what release impulses gave it.
 void Simulation::State::check_momentum(const Body& one, const std::optional<Detached::Motion>& motion) {
   collision::BodyState state = world->state(one.id);
   state.velocity = reading().true_velocity(state.velocity);
@@ -199,12 +200,12 @@ void Simulation::State::check_momentum(const Body& one, const std::optional<Deta
     given.add_turn(motion->angular - one.rest.centre.cross(motion->momentum));
   }
   const Mat3 inverse = one.rest.inertia.inverse();
-  for (const Knock& blow : knocks)
-    if (was_struck(blow, one)) {
-      const double size = blow.impulse.norm();
+  for (const ReleaseImpulse& given_impulse : release_impulses)
+    if (was_struck(given_impulse, one)) {
+      const double size = given_impulse.impulse.norm();
       if (size == 0) continue;
-      const Vec3 r = blow.point - one.rest.centre, n = blow.impulse / size;
-      const Vec3 impulse = std::min(size, effective_mass(one.rest.mass, inverse, r, n) * blow.speed) * n;
+      const Vec3 r = given_impulse.point - one.rest.centre, n = given_impulse.impulse / size;
+      const Vec3 impulse = std::min(size, effective_mass(one.rest.mass, inverse, r, n) * given_impulse.speed) * n;
       given.add_impulse(impulse, state.pose.position + r);
     }
   ledger.momentum_error = std::max(ledger.momentum_error, measured.error(given));
@@ -288,7 +289,7 @@ void Simulation::State::keep_limit() {
   for (const auto& [volume, id] : sleeping) {
     if (bodies.size() <= limit) return;
     const Body& one = bodies.at(id);
-    SimulationEvent& event = tell(SimulationEvent::Kind::limited, one.name);
+    SimulationEvent& event = record(SimulationEvent::Kind::limited, one.name);
     event.members = one.members;
     event.panels = one.panels;
     event.mass = one.rest.mass;

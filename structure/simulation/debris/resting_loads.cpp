@@ -48,8 +48,8 @@ double largest_utilisation(const StandingFrame& frame, Part part) {
 
 }  // namespace
 
-void RestingLoads::gather(std::span<const FeltContact> contacts, const Obstacles& obstacles, double dt) {
-  for (const FeltContact& contact : contacts) {
+void RestingLoads::gather(std::span<const ContactRecord> contacts, const Obstacles& obstacles, double dt) {
+  for (const ContactRecord& contact : contacts) {
     if (contact.other.kind != collision::Touched::Kind::obstacle) continue;
     const Part part = obstacles.part_of(contact.other.obstacle);
     if (!part.valid()) continue;

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "simulation/debris/obstacles.h"
-#include "simulation/impact/felt_contact.h"
+#include "simulation/impact/contact_record.h"
 
 namespace topple::structure {
 
@@ -15,7 +15,7 @@ class RestingLoads {
   /// Reads the contacts of the last collision step. `awake` tells whether a body moves (contacts of sleeping ones
   /// stay); it is asked in order of id.
   template <class Awake>
-  void read(std::span<const FeltContact> contacts, const Obstacles& obstacles, double dt, const Awake& awake);
+  void read(std::span<const ContactRecord> contacts, const Obstacles& obstacles, double dt, const Awake& awake);
   /// Hands to the frame what changed beyond the band; returns how many changes the band ignored.
   template <class Weight>
   std::uint64_t lay(StandingFrame& frame, std::span<const double> strength_factors, const Weight& weight_of);
@@ -50,7 +50,7 @@ class RestingLoads {
     double seen_weight = 0;
     bool laid = false;
   };
-  void gather(std::span<const FeltContact> contacts, const Obstacles& obstacles, double dt);
+  void gather(std::span<const ContactRecord> contacts, const Obstacles& obstacles, double dt);
   static void smooth(Resting& resting, double dt);
   static double band(const StandingFrame& frame, std::span<const double> strength_factors, Part part, double weight);
   bool lay_one(const Key& key, Resting& resting, StandingFrame& frame, std::span<const double> strength_factors,
@@ -61,7 +61,7 @@ class RestingLoads {
 };
 
 template <class Awake>
-void RestingLoads::read(std::span<const FeltContact> contacts, const Obstacles& obstacles, double dt,
+void RestingLoads::read(std::span<const ContactRecord> contacts, const Obstacles& obstacles, double dt,
                         const Awake& awake) {
   for (auto& [key, resting] : resting_) {
     resting.seen_force = resting.seen_point = Vec3::Zero();

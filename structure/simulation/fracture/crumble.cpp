@@ -1,9 +1,9 @@
-// Crumble: a panel of a body that has other parts as well breaks where the body comes down hard on it. What the blow
+// Crumble: a panel of a body that has other parts as well breaks where the body comes down hard on it. What the impact
 // breaks out, and what then hangs on nothing, leaves as chunks; what its edges still hold stays with the body. All move
 // on as the body did, so that momentum and kinetic energy go over exactly.
 //
-// Hard is a blow whose energy bends the panel to the force that punches it and punches it then, or one that is faster
-// than what crushes the material (shatter.cpp). What lies on a panel presses on it without a blow.
+// Hard is an impact whose energy bends the panel to the force that punches it and punches it then, or one that is
+// faster than what crushes the material (shatter.cpp). What lies on a panel presses on it without an impact.
 #include <algorithm>
 
 #include "loads/placed_load.h"
@@ -13,10 +13,10 @@ namespace topple::structure {
 
 /// Of the contacts of the last step: the hardest on each panel. Taken before bodies break up, so that each is felt by
 /// the body that had it.
-std::map<PanelId, Simulation::State::PanelBlow> Simulation::State::blows_on_panels() const {
-  std::map<PanelId, PanelBlow> blows;
-  if (!any_breakable) return blows;
-  const auto feel = [&](collision::BodyId id, std::int64_t tag, const FeltContact& contact, collision::BodyId other) {
+std::map<PanelId, Simulation::State::PanelImpact> Simulation::State::impacts_on_panels() const {
+  std::map<PanelId, PanelImpact> impacts;
+  if (!any_breakable) return impacts;
+  const auto feel = [&](collision::BodyId id, std::int64_t tag, const ContactRecord& contact, collision::BodyId other) {
     if (tag < 0) return;
     const PanelId panel = part_of_number(building, tag).panel;
     if (!panel.valid() || !breakable_panels[static_cast<std::size_t>(panel.index)].settings) return;
@@ -31,24 +31,25 @@ std::map<PanelId, Simulation::State::PanelBlow> Simulation::State::blows_on_pane
     const double own = effective_mass(one.rest.mass, inverse, arm, contact.normal);
     const auto by = bodies.find(other.value);
     const Vec3 across = turn.transpose() * contact.normal;
-    PanelBlow blow;
-    blow.at = one.rest.centre + turn.transpose() * arm;
-    blow.radius = by == bodies.end() ? 0 : by->second.radius;
+    PanelImpact impact;
+    impact.at = one.rest.centre + turn.transpose() * arm;
+    impact.radius = by == bodies.end() ? 0 : by->second.radius;
     // The energy with which the two came together: the impulse is (1 + e) times what stops them.
     const double inverse_mass = 1 / own + (by == bodies.end() ? 0 : inverse_effective_mass(by->second, contact));
     const double stops = impulse / (1 + scenario.debris.restitution);
-    blow.energy = stops * stops * inverse_mass / 2;
+    impact.energy = stops * stops * inverse_mass / 2;
     const bool crushes = impulse / own >= breakable_panels[static_cast<std::size_t>(panel.index)].breaking_speed;
-    if (!crushes && (contact.persistent || blow.energy < punching_energy(panel, blow.at, across, blow.radius))) return;
-    PanelBlow& hardest = blows[panel];
-    if (blow.energy > hardest.energy) hardest = blow;
+    if (!crushes && (contact.persistent || impact.energy < punching_energy(panel, impact.at, across, impact.radius)))
+      return;
+    PanelImpact& hardest = impacts[panel];
+    if (impact.energy > hardest.energy) hardest = impact;
   };
-  for (const FeltContact& contact : felt_contacts) {
+  for (const ContactRecord& contact : contact_records) {
     const bool two = contact.other.kind == collision::Touched::Kind::body;
     feel(contact.body, contact.part_tag, contact, two ? contact.other.body : collision::BodyId());
     if (two) feel(contact.other.body, contact.other.part_tag, contact, contact.body);
   }
-  return blows;
+  return impacts;
 }
 
 /// What bends the panel to the force that punches it, and punches it then: elastic energy, and that force over half the
@@ -59,7 +60,7 @@ double Simulation::State::punching_energy(PanelId panel, const Vec3& at, const V
          bears * building[panel].thickness / 2;
 }
 
-double Simulation::State::inverse_effective_mass(const Body& one, const FeltContact& contact) const {
+double Simulation::State::inverse_effective_mass(const Body& one, const ContactRecord& contact) const {
   const collision::BodyState state = world->state(one.id);
   const Mat3 inverse = world_inertia(one, state.pose.orientation).inverse();
   return 1 / effective_mass(one.rest.mass, inverse, contact.point - state.pose.position, contact.normal);
@@ -90,12 +91,12 @@ std::array<bool, 4> Simulation::State::held_in_flight(PanelId panel, const Body&
 }
 
 /// The chunks that leave the panel, as bodies where they were in the undeformed building.
-std::vector<Body> Simulation::State::break_out_in_flight(PanelId panel, const PanelBlow& blow) {
+std::vector<Body> Simulation::State::break_out_in_flight(PanelId panel, const PanelImpact& impact) {
   const Body& one = bodies.at(body_of_part[static_cast<std::size_t>(part_number(building, Part(panel)))]);
   const std::array<bool, 4> holding = held_in_flight(panel, one);
   BrokenPanel& left = breaking(panel);
   const int before = left.chunks_out();
-  std::vector<PanelChunk> chunks = left.hit(blow.at, blow.radius > 0 ? std::optional(blow.radius) : std::nullopt);
+  std::vector<PanelChunk> chunks = left.hit(impact.at, impact.radius > 0 ? std::optional(impact.radius) : std::nullopt);
   if (chunks.empty()) return {};
   if (holding != left.held())
     for (PanelChunk& loose : left.hold(holding)) chunks.push_back(std::move(loose));
@@ -107,9 +108,9 @@ std::vector<Body> Simulation::State::break_out_in_flight(PanelId panel, const Pa
   return pieces;
 }
 
-void Simulation::State::crumble(const std::map<PanelId, PanelBlow>& blows) {
+void Simulation::State::crumble(const std::map<PanelId, PanelImpact>& impacts) {
   std::map<std::int64_t, std::vector<Body>> chunks;  // by the body that they leave
-  for (const auto& [hit, blow] : blows) {
+  for (const auto& [hit, impact] : impacts) {
     const PanelId panel = hit;
     const std::int64_t id = body_of_part[static_cast<std::size_t>(part_number(building, Part(panel)))];
     if (!bodies.contains(id)) continue;
@@ -118,10 +119,10 @@ void Simulation::State::crumble(const std::map<PanelId, PanelBlow>& blows) {
       continue;
     const Body& one = bodies.at(id);
     const collision::BodyState state = world->state(one.id);
-    const Vec3 at = state.pose * (blow.at - one.rest.centre);
-    std::vector<Body> pieces = break_out_in_flight(panel, blow);
+    const Vec3 at = state.pose * (impact.at - one.rest.centre);
+    std::vector<Body> pieces = break_out_in_flight(panel, impact);
     if (pieces.empty()) continue;
-    tell(SimulationEvent::Kind::panel_fractured, building[panel].name).position = at;
+    record(SimulationEvent::Kind::panel_fractured, building[panel].name).position = at;
     for (Body& piece : pieces) chunks[id].push_back(std::move(piece));
   }
   for (auto& [id, pieces] : chunks) {
@@ -136,7 +137,7 @@ void Simulation::State::crumble(const std::map<PanelId, PanelBlow>& blows) {
     (void)split({id},
                 connected_parts(
                     building, left, [&](JointId joint) { return holds_in_debris(joint); },
-                    [&](PanelId panel) { return flying_edges(panel); }),
+                    [&](PanelId panel) { return free_panel_edges(panel); }),
                 std::move(pieces));
   }
 }

@@ -1,9 +1,9 @@
 // Shatter: a panel that has come off breaks into chunks where something hits it hard enough.
 //
 // The chunks move on as the parts of one rigid body, so that momentum and energy go over exactly; what hit the panel
-// out of the frame then pushes the chunks that it broke out. Hard enough is a blow whose elastic wave carries more than
-// the compressive strength: the stress at the front of a wave is v sqrt(E rho), v the change of speed (K. Graff, "Wave
-// Motion in Elastic Solids", 1975, section 2.1).
+// out of the frame then pushes the chunks that it broke out. Hard enough is an impact whose elastic wave carries more
+// than the compressive strength: the stress at the front of a wave is v sqrt(E rho), v the change of speed (K. Graff,
+// "Wave Motion in Elastic Solids", 1975, section 2.1).
 #include <algorithm>
 #include <cmath>
 
@@ -46,7 +46,7 @@ void Simulation::State::find_breakable_panels() {
 PanelId Simulation::State::breakable_of(const Body& one) const {
   if (!one.members.empty() || one.panels.size() != 1) return {};
   const PanelId panel = one.panels.front();
-  // A hub that carries a point mass of its own cannot go with any one chunk.
+  // A node that carries a point mass of its own cannot go with any one chunk.
   if (std::abs(one.rest.mass - masses.of(panel).mass) > 1e-12 * one.rest.mass) return {};
   return breakable_panels[static_cast<std::size_t>(panel.index)].settings ? panel : PanelId();
 }
@@ -69,7 +69,7 @@ Body Simulation::State::chunk_body(PanelId panel, PanelChunk chunk, int number) 
 }
 
 /// Replaces the body by chunks that move as it did. Returns those that became bodies, what was hit out first; `out`:
-/// how many these are. Nothing when the blow falls where nothing can break.
+/// how many these are. Nothing when the impact falls where nothing can break.
 std::vector<collision::BodyId> Simulation::State::shatter(collision::BodyId id, const Vec3& point,
                                                           std::optional<double> radius, std::size_t& out) {
   const Body one = bodies.at(id.value);
@@ -85,7 +85,7 @@ std::vector<collision::BodyId> Simulation::State::shatter(collision::BodyId id, 
                                                      *breakable_panels[static_cast<std::size_t>(panel.index)].settings);
   out = 0;
   if (chunks.empty()) return {};
-  tell(SimulationEvent::Kind::panel_fractured, building[panel].name).position = point;
+  record(SimulationEvent::Kind::panel_fractured, building[panel].name).position = point;
   (void)resting.forget(id, *frame, false);
   (void)take_off(id);
   timer.engine([&] { world->remove_body(id); });
@@ -118,13 +118,13 @@ std::vector<collision::BodyId> Simulation::State::shatter(collision::BodyId id, 
     changes.split.push_back({id.value, piece.value});
   }
   ledger.momentum_error = std::max(ledger.momentum_error, carried.error(handed_on));
-  if (dust > 0) tell(SimulationEvent::Kind::limited, building[panel].name).mass = dust;
+  if (dust > 0) record(SimulationEvent::Kind::limited, building[panel].name).mass = dust;
   return made;
 }
 
 void Simulation::State::push_whole(collision::BodyId id) {
   Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();
-  knock(bodies.at(id.value), velocity, spin);
+  apply_release_impulses(bodies.at(id.value), velocity, spin);
   collision::BodyState state = world->state(id);
   state.velocity += velocity;
   state.angular_velocity += spin;
@@ -136,28 +136,28 @@ void Simulation::State::push_whole(collision::BodyId id) {
 void Simulation::State::shatter_struck(collision::BodyId id) {
   const Body& one = bodies.at(id.value);
   if (!breakable_of(one).valid()) return;
-  for (const Knock& given : knocks) {
+  for (const ReleaseImpulse& given : release_impulses) {
     if (!was_struck(given, one)) continue;
     const Body* by = body(given.by);
     const std::optional<double> radius = by && by->radius > 0 ? std::optional(by->radius) : std::nullopt;
-    const Knock blow = given;
+    const ReleaseImpulse given_impulse = given;
     std::size_t out = 0;
-    const std::vector<collision::BodyId> made = shatter(id, blow.point, radius, out);
+    const std::vector<collision::BodyId> made = shatter(id, given_impulse.point, radius, out);
     if (made.empty()) {  // hit where there is nothing to break: it is pushed as a whole
       if (bodies.contains(id.value)) push_whole(id);
       return;
     }
     double struck_mass = 0;
     for (std::size_t i = 0; i < out; ++i) struck_mass += bodies.at(made[i].value).rest.mass;
-    const double size = blow.impulse.norm();
+    const double size = given_impulse.impulse.norm();
     for (std::size_t i = 0; i < made.size(); ++i) {
       collision::Touched broken;
       broken.kind = collision::Touched::Kind::body;
       broken.body = made[i];
-      if (bodies.contains(blow.by.value)) pass(blow.by, broken);
+      if (bodies.contains(given_impulse.by.value)) pass(given_impulse.by, broken);
       if (i >= out || size == 0) continue;
       const double mass = bodies.at(made[i].value).rest.mass;
-      const Vec3 gained = std::min(size / struck_mass, blow.speed) * blow.impulse / size;
+      const Vec3 gained = std::min(size / struck_mass, given_impulse.speed) * given_impulse.impulse / size;
       collision::BodyState state = world->state(made[i]);
       const Vec3 before = reading().true_velocity(state.velocity);
       state.velocity += gained;
@@ -175,7 +175,7 @@ void Simulation::State::shatter_landed() {
   std::vector<std::int64_t> awake;
   for (const std::int64_t id : bodies.single_panels())
     if (!bodies.motion(id).asleep && breakable_of(bodies.at(id)).valid()) awake.push_back(id);
-  const auto feel = [&](collision::BodyId id, const FeltContact& contact) {
+  const auto feel = [&](collision::BodyId id, const ContactRecord& contact) {
     if (!std::binary_search(awake.begin(), awake.end(), id.value)) return;
     const Body* one = body(id);
     const collision::BodyState state = world->state(id);
@@ -189,7 +189,7 @@ void Simulation::State::shatter_landed() {
       hardest = {change, state.pose.orientation.conjugate() * (contact.point - state.pose.position)};
   };
   if (!awake.empty())
-    for (const FeltContact& contact : felt_contacts) {
+    for (const ContactRecord& contact : contact_records) {
       feel(contact.body, contact);
       if (contact.other.kind == collision::Touched::Kind::body) feel(contact.other.body, contact);
     }

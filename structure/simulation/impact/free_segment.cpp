@@ -43,7 +43,7 @@ Vec3 start_of(const Building& building, const Member& member) {
 }  // namespace
 
 FreeSegment::FreeSegment(const Building& building, FreeSegmentParts parts, const std::function<bool(JointId)>& holds,
-                         const std::function<Eigen::MatrixXd(PanelId)>& shell_stiffness, const FlyingEdges& edges)
+                         const std::function<Eigen::MatrixXd(PanelId)>& shell_stiffness, const FreePanelEdges& edges)
     : building_(building), parts_(std::move(parts)), node_number_(building.nodes.size(), -1) {
   int held_at = -1;
   bool breakable = false;
@@ -151,7 +151,7 @@ void FreeSegment::add_shell(PanelId panel, const Eigen::MatrixXd& stiffness,
 }
 
 /// Those with an edge that holds and can break.
-void FreeSegment::find_hung_panels(const FlyingEdges& edges) {
+void FreeSegment::find_hung_panels(const FreePanelEdges& edges) {
   for (std::size_t p = 0; p < parts_.panels.size(); ++p) {
     const PanelId panel = parts_.panels[p];
     const std::optional<std::array<double, 4>> length = edges(panel);
@@ -365,8 +365,9 @@ void FreeSegment::read_demands(const solver::StaticSolution* solution, std::span
   for (const Hung& hung : hung_) {
     if (hung.patch >= 0 && !solution) continue;
     const std::vector<PanelPush> own = pushes_on(hung, pushes, answer, spin, gravity);
-    const std::array<Vec6, 4> demands = hung.patch >= 0 ? shell_edge_demands(hung, own, solution->displacements)
-                                                        : flying_edge_demands(building_, hung.panel, hung.length, own);
+    const std::array<Vec6, 4> demands = hung.patch >= 0
+                                            ? shell_edge_demands(hung, own, solution->displacements)
+                                            : free_panel_edge_demands(building_, hung.panel, hung.length, own);
     for (int edge = 0; edge < 4; ++edge)
       if (const JointId joint = building_.joint(hung.panel, edge);
           hung.length[static_cast<std::size_t>(edge)] > 0 && building_[joint].capacity.breakable)
@@ -391,7 +392,7 @@ FreeSegment::Answer FreeSegment::bear(std::span<const FreePush> pushes, const Ve
 }
 
 std::vector<FreeSegmentParts> connected_parts(const Building& building, const FreeSegmentParts& whole,
-                                              const std::function<bool(JointId)>& holds, const FlyingEdges& edges) {
+                                              const std::function<bool(JointId)>& holds, const FreePanelEdges& edges) {
   // Vertices: members, then nodes, then panels, of which only shells are joined to anything.
   const std::size_t members = whole.members.size(), first_panel = members + whole.nodes.size();
   std::map<NodeId, std::size_t> node_vertex;

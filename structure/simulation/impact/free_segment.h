@@ -4,7 +4,7 @@
 // in balance, gyroscopic moment included; every part then pushes with its mass times minus its own acceleration,
 //   a + alpha x r + w x (w x r),
 // and the frame is solved held at one node, whose reaction is nothing. Panels that are no shells stiffen nothing and
-// hang in it by their edges (flying_edges.h); what a shell's edges bear is what its stiffness takes up.
+// hang in it by their edges (free_panel_edges.h); what a shell's edges bear is what its stiffness takes up.
 #include <Eigen/Core>
 #include <functional>
 #include <memory>
@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "simulation/impact/flying_edges.h"
+#include "simulation/impact/free_panel_edges.h"
 #include "topple/solver/beam_diagram.h"
 #include "topple/solver/static_analysis.h"
 #include "topple/structure/building.h"
@@ -41,7 +41,7 @@ class FreeSegment {
   /// (Panel::all_nodes()) feel it; without it shells are mass alone. `edges`: of panels that can come off in flight.
   FreeSegment(const Building& building, FreeSegmentParts parts, const std::function<bool(JointId)>& holds,
               const std::function<Eigen::MatrixXd(PanelId)>& shell_stiffness = nullptr,
-              const FlyingEdges& edges = nullptr);
+              const FreePanelEdges& edges = nullptr);
 
   /// False when no joint inside it could break. One that can move within itself is asked nothing of its members.
   [[nodiscard]] bool can_break() const { return can_break_; }
@@ -94,7 +94,7 @@ class FreeSegment {
     std::vector<NodeId> nodes;  ///< of the patch, in its order
   };
   void add_shell(PanelId panel, const Eigen::MatrixXd& stiffness, const std::function<bool(JointId)>& holds);
-  void find_hung_panels(const FlyingEdges& edges);
+  void find_hung_panels(const FreePanelEdges& edges);
   [[nodiscard]] std::vector<PanelPush> pushes_on(const Hung& hung, std::span<const FreePush> pushes,
                                                  const Answer& motion, const Vec3& spin, const Vec3& gravity) const;
   [[nodiscard]] std::array<Vec6, 4> shell_edge_demands(const Hung& hung, std::span<const PanelPush> pushes,
@@ -130,6 +130,6 @@ class FreeSegment {
 /// node or panel.
 [[nodiscard]] std::vector<FreeSegmentParts> connected_parts(const Building& building, const FreeSegmentParts& whole,
                                                             const std::function<bool(JointId)>& holds,
-                                                            const FlyingEdges& edges = nullptr);
+                                                            const FreePanelEdges& edges = nullptr);
 
 }  // namespace topple::structure

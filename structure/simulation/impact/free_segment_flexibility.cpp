@@ -19,7 +19,7 @@ constexpr std::array<std::pair<double, double>, 4> gauss{{{0.06943184420297371, 
                                                           {0.66999052179242813, 0.32607257743127308},
                                                           {0.93056815579702629, 0.17392742256872692}}};
 
-/// Of the hubs at a beam's ends, in its own axes, after its arms.
+/// Of the nodes at a beam's ends, in its own axes, after its arms.
 solver::Vec12 at_ends(const solver::Beam& beam, const std::vector<Vec6>& displacements) {
   solver::Vec12 local;
   for (std::size_t end = 0; end < 2; ++end) {

@@ -5,7 +5,7 @@ namespace topple::structure {
 
 struct ImpactSettings {
   /// m/s. A contact that was there before and closes no faster is lying, rolling or settling; so is one between bodies
-  /// that is new. A body gains it in a fall of 13 mm. Larger: slow blows break nothing; smaller: more is looked at.
+  /// that is new. A body gains it in a fall of 13 mm. Larger: slow impacts break nothing; smaller: more is looked at.
   double least_speed = 0.5;
   /// m/s. What closes slower with what stands lies down on it, new or not: contacts bear it. A body gains it in a fall
   /// of 0.02 mm. Without it, what rests beside a part strikes it at every step by rounding.

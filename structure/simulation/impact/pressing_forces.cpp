@@ -23,9 +23,9 @@ void PressingForces::gather(const Key& key, const BodyPlace& place, const Vec3& 
   own.seen_weight += weight;
 }
 
-void PressingForces::read(std::span<const FeltContact> contacts, double dt,
+void PressingForces::read(std::span<const ContactRecord> contacts, double dt,
                           const std::function<std::optional<BodyPlace>(collision::BodyId)>& place_of) {
-  for (const FeltContact& contact : contacts) {
+  for (const ContactRecord& contact : contacts) {
     if (!contact.persistent) continue;
     const bool two = contact.other.kind == collision::Touched::Kind::body;
     const std::int64_t other = two ? contact.other.body.value : contact.other.obstacle.value;

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "simulation/impact/felt_contact.h"
+#include "simulation/impact/contact_record.h"
 #include "simulation/impact/free_segment.h"
 
 namespace topple::structure {
@@ -21,7 +21,7 @@ struct BodyPlace {
 class PressingForces {
  public:
   /// Reads the contacts of the last collision step. `place_of` gives nothing for bodies whose joints are not asked.
-  void read(std::span<const FeltContact> contacts, double dt,
+  void read(std::span<const ContactRecord> contacts, double dt,
             const std::function<std::optional<BodyPlace>(collision::BodyId)>& place_of);
   /// On a body, in the axes of the undeformed building, in a fixed order.
   [[nodiscard]] std::vector<FreePush> on(collision::BodyId body, const Building& building) const;

@@ -66,11 +66,11 @@ void Simulation::State::strike(const collision::Contact& contact) {
   push_in(*hit);
   send_on(*hit);
   push_chunks(*hit);
-  tell_impact(*hit);
+  record_impact(*hit);
 }
 
-void Simulation::State::tell_impact(const Strike& hit) {
-  SimulationEvent& event = tell(SimulationEvent::Kind::impact, part_name(building, hit.part));
+void Simulation::State::record_impact(const Strike& hit) {
+  SimulationEvent& event = record(SimulationEvent::Kind::impact, part_name(building, hit.part));
   event.body = hit.body->id;
   event.body_name = hit.body->name;
   event.mass = hit.mass;
@@ -78,7 +78,7 @@ void Simulation::State::tell_impact(const Strike& hit) {
   event.speed_in = hit.speed;
   event.speed_out = hit.speed_out;
   event.position = hit.place.point;
-  for (const JointBreak& broken : hit.breaks) tell(broken);
+  for (const JointBreak& broken : hit.breaks) record(broken);
 }
 
 /// Nothing when the contact is no impact any more: what it would hit has fallen, or an earlier impact of this step has
@@ -87,7 +87,7 @@ std::optional<Simulation::State::Strike> Simulation::State::aim(const collision:
   const Part part = obstacles.part_of(contact.other.obstacle);
   Body* hitting = body(contact.body);
   if (!part.valid() || !hitting || !stands(part)) return std::nullopt;
-  // What was sensed may have been broken out since.
+  // What was swept may have been broken out since.
   if (const BrokenPanel* left = part.panel.valid() ? broken_panel(part.panel) : nullptr)
     if (obstacles.obstacle_of(part) != contact.other.obstacle && !left->holds(contact.point)) return std::nullopt;
   Strike hit;
@@ -95,7 +95,7 @@ std::optional<Simulation::State::Strike> Simulation::State::aim(const collision:
   hit.part = part;
   hit.place = {part.member, part.panel, contact.point};
   hit.normal = contact.normal;
-  hit.sensed_at = contact.time;
+  hit.swept_at = contact.time;
   hit.state = world->state(hitting->id);
   hit.state.velocity = reading().true_velocity(hit.state.velocity);
 
@@ -106,7 +106,7 @@ std::optional<Simulation::State::Strike> Simulation::State::aim(const collision:
     const double now = (hit.state.velocity + hit.state.angular_velocity.cross(r)).dot(contact.normal);
     if (now <= 0) return std::nullopt;
     time = earlier->second.base + (contact.time - earlier->second.at) * std::max(1.0, contact.approach_speed / now);
-    if (time > scenario.step) return std::nullopt;  // sensed again in the next step
+    if (time > scenario.step) return std::nullopt;  // swept again in the next step
   }
   hit.own_time = time;
   hit.state.pose.position += hit.state.velocity * time + gravity * (time * time / 2);
@@ -148,11 +148,11 @@ bool Simulation::State::bears(Strike& hit, double weight, double punching) {
 void Simulation::State::push_in(Strike& hit) {
   const double weight = hit.mass * gravity.dot(hit.normal);
   double punching = punching_force(hit);
-  // A fast blow goes through whatever the joints bear.
+  // A fast impact goes through whatever the joints bear.
   if (const double left = speed_through(hit, punching); left > 0) {
-    if (punch_at_once(hit, punching, left)) return tell_loss(hit);
+    if (punch_at_once(hit, punching, left)) return record_loss(hit);
   } else if (bears(hit, weight, punching)) {
-    return tell_loss(hit);
+    return record_loss(hit);
   }
   StandingFrame::UnitResponse response = frame->respond(hit.place, hit.normal);
   hit.structure_mass = scenario.impact.structure_mass ? response.rayleigh_mass : 0;
@@ -195,10 +195,10 @@ void Simulation::State::push_in(Strike& hit) {
     }
   }
   hit.peak_force = std::max(hit.peak_force, pushing.peak_force());
-  tell_loss(hit);
+  record_loss(hit);
 }
 
-void Simulation::State::tell_loss(Strike& hit) {
+void Simulation::State::record_loss(Strike& hit) {
   hit.lost = hit.mass * (hit.speed * hit.speed - hit.speed_out * hit.speed_out) / 2;
 }
 
@@ -212,21 +212,21 @@ void Simulation::State::send_on(const Strike& hit) {
   after.velocity += impulse / one.rest.mass;
   after.angular_velocity += inertia.inverse() * r.cross(impulse);
   ledger.lost_in_impacts += hit.lost;
-  if (hit.through && hit.chunks.empty()) knock(hit);
+  if (hit.through && hit.chunks.empty()) keep_release_impulse(hit);
   const PointImpulse given{impulse, hit.place.point};
   move_on(hit, after, std::span(&given, 1));
 }
 
 /// What was hit and came off takes along its share of the momentum.
-void Simulation::State::knock(const Strike& hit) {
-  knocks.push_back(
+void Simulation::State::keep_release_impulse(const Strike& hit) {
+  release_impulses.push_back(
       {hit.part, hit.structure_mass * hit.speed_out * hit.normal, hit.place.point, hit.speed_out, hit.body->id});
 }
 
 /// `after`: where and how it moves at the instant of the impact, true velocities; `impulses`: what made it so.
 void Simulation::State::move_on(const Strike& hit, collision::BodyState after, std::span<const PointImpulse> impulses) {
   StruckClock& clock = struck[hit.body->id.value];
-  clock.at = hit.sensed_at;
+  clock.at = hit.swept_at;
   clock.base = hit.through ? hit.own_time : 0;
   if (hit.through) {
     // It flies on as if it had come with its new speed: at the instant of impact it is where it is.
@@ -258,17 +258,17 @@ void Simulation::State::check_momentum(const Strike& hit, std::span<const PointI
 void Simulation::State::break_generations() {
   if (!frame->pending() && step > 1) return;
   if (sways()) {
-    for (const JointBreak& broken : frame->move()) tell(broken);
+    for (const JointBreak& broken : frame->move()) record(broken);
     return;
   }
   do {
     const std::vector<JointBreak> breaks = frame->settle();
     for (const JointBreak& line : frame->take_yielded()) {
-      SimulationEvent& event = tell(SimulationEvent::Kind::joint_yielded, building[line.joint].name);
+      SimulationEvent& event = record(SimulationEvent::Kind::joint_yielded, building[line.joint].name);
       event.joint = line;
       event.position = line.position;
     }
-    for (const JointBreak& broken : breaks) tell(broken);
+    for (const JointBreak& broken : breaks) record(broken);
     if (any_breakable) crack_panels();
   } while (frame->pending());
 }

@@ -10,7 +10,7 @@ struct Simulation::State::Strike {
   Part part;
   Vec3 normal;                 ///< into the structure
   collision::BodyState state;  ///< where the body is at that instant, true velocities
-  double sensed_at = 0;        ///< time of impact as sensed
+  double swept_at = 0;         ///< time of impact as swept
   double own_time = 0;         ///< the same since the body's state was last set
   double mass = 0;             ///< effective, along the normal
   double speed = 0, speed_out = 0;

@@ -55,16 +55,16 @@ bool Simulation::State::may_break(collision::BodyId id) const {
   return found != bodies.end() && may_fall_apart(found->second);
 }
 
-/// The contact as it is now: of a body that has fallen apart since it was sensed, that of the piece which has the part.
+/// The contact as it is now: of a body that has fallen apart since it was swept, that of the piece which has the part.
 /// Nothing where that is no body any more.
-std::optional<collision::Contact> Simulation::State::sensed_now(const collision::Contact& sensed) const {
+std::optional<collision::Contact> Simulation::State::contact_now(const collision::Contact& swept) const {
   const auto now = [&](collision::BodyId& id, std::int64_t tag) {
     if (bodies.contains(id.value)) return true;
     if (tag < 0) return false;
     id = {body_of_part[static_cast<std::size_t>(tag)]};
     return bodies.contains(id.value);
   };
-  collision::Contact contact = sensed;
+  collision::Contact contact = swept;
   if (!now(contact.body, contact.part_tag)) return std::nullopt;
   const bool two = contact.other.kind == collision::Touched::Kind::body;
   if (two && !now(contact.other.body, contact.other.part_tag)) return std::nullopt;
@@ -78,7 +78,7 @@ void Simulation::State::strike_bodies(const std::vector<collision::Contact>& con
   std::vector<char> done(contacts.size(), 0);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     if (done[i] != 0 || contacts[i].approach_speed < impact_settings.least_speed) continue;
-    const std::optional<collision::Contact> first = sensed_now(contacts[i]);
+    const std::optional<collision::Contact> first = contact_now(contacts[i]);
     if (!first) continue;
     const bool two = first->other.kind == collision::Touched::Kind::body;
     const bool on_moving = sways() && first->other.kind == collision::Touched::Kind::obstacle;
@@ -88,7 +88,7 @@ void Simulation::State::strike_bodies(const std::vector<collision::Contact>& con
       if (done[k] != 0 ||
           (k > i && (contacts[k].time - first->time) * contacts[k].approach_speed > impact_settings.touching))
         continue;
-      const std::optional<collision::Contact> next = sensed_now(contacts[k]);
+      const std::optional<collision::Contact> next = contact_now(contacts[k]);
       if (!next || next->body != first->body || next->other.kind != first->other.kind ||
           next->other.body != first->other.body || (!on_moving && next->other.obstacle != first->other.obstacle))
         continue;
@@ -232,9 +232,9 @@ void Simulation::State::strike_bodies_at(const std::vector<collision::Contact>& 
 }
 
 /// What has struck something standing in this step has a state from there on (strike.cpp).
-double Simulation::State::time_since_state(collision::BodyId id, double sensed_at) const {
+double Simulation::State::time_since_state(collision::BodyId id, double swept_at) const {
   const auto earlier = struck.find(id.value);
-  return earlier == struck.end() ? sensed_at : earlier->second.base + std::max(0.0, sensed_at - earlier->second.at);
+  return earlier == struck.end() ? swept_at : earlier->second.base + std::max(0.0, swept_at - earlier->second.at);
 }
 
 /// Both sides' flexibility, and the places that are left of it. False: nothing gives way, or nothing closes.
@@ -256,7 +256,7 @@ void Simulation::State::push_bodies(BodyImpact& impact) {
   std::optional<Impact> push = begin_push(impact, true);
   const double speed_in = push->closing_speed()(0);
   std::optional<std::size_t> told;  // which event tells of it: on what moves always, else once something broke
-  if (impact.sides[1].held) told = tell_body_impact(impact, speed_in);
+  if (impact.sides[1].held) told = record_body_impact(impact, speed_in);
   bool goes_on = true;
   for (;;) {
     const double deepest = deepest_push(impact);
@@ -274,7 +274,7 @@ void Simulation::State::push_bodies(BodyImpact& impact) {
         if (uses[k] > 0) frame->remember_utilisation(all[k].joint, std::min(uses[k], 1.0));
       break;
     }
-    if (!told) told = tell_body_impact(impact, speed_in);
+    if (!told) told = record_body_impact(impact, speed_in);
     const std::vector<JointBreak> broken = joints.failing(push->force());
     SimulationEvent& event = events[*told];
     event.peak_force = std::max(event.peak_force, push->peak_force().head(n).maxCoeff());
@@ -359,12 +359,12 @@ Impact Simulation::State::begin_push(const BodyImpact& impact, bool follows) con
                 static_cast<int>(bound));
 }
 
-std::size_t Simulation::State::tell_body_impact(const BodyImpact& impact, double speed_in) {
+std::size_t Simulation::State::record_body_impact(const BodyImpact& impact, double speed_in) {
   const ImpactSide &by = impact.sides[0], &on = impact.sides[1];
   SimulationEvent& event =
-      tell(SimulationEvent::Kind::impact, on.standing.valid() ? part_name(building, on.standing)
-                                          : on.id.value < 0   ? "ground"
-                                                              : touched_name(on.id, on.tags.front()));
+      record(SimulationEvent::Kind::impact, on.standing.valid() ? part_name(building, on.standing)
+                                            : on.id.value < 0   ? "ground"
+                                                                : touched_name(on.id, on.tags.front()));
   event.body = by.id;
   event.other_body = on.id;
   event.body_name = bodies.at(by.id.value).name;
@@ -438,14 +438,14 @@ bool Simulation::State::break_bodies(BodyImpact& impact, Impact& push, const std
       line.position = joint_position(one.joint);
       of_frame.push_back(one);
       lines.push_back(events.size());
-      tell(line);
+      record(line);
       continue;
     }
     debris_broken[static_cast<std::size_t>(one.joint.index)] = 1;
     const collision::BodyState state = world->state(id);
     line.position = state.pose * (joint_position(one.joint) - bodies.at(id.value).rest.centre);
     lines.push_back(events.size());
-    tell(line);
+    record(line);
   }
   if (!of_frame.empty()) frame->break_in_impact(of_frame);
   std::vector<int> kept;

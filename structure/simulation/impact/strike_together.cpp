@@ -119,7 +119,7 @@ std::vector<JointBreak> WatchedJoints::failing(const Eigen::VectorXd& force) con
 }  // namespace
 
 /// The push under way: its contacts, and what they are pushed against.
-struct Simulation::State::JointPush {
+struct Simulation::State::SimultaneousImpact {
   std::vector<Strike> hits;
   std::vector<ContactPlace> places;
   std::vector<Vec3> normals;
@@ -140,7 +140,7 @@ struct Simulation::State::JointPush {
 
 /// False when they are better taken one after the other, or are no impacts any more; nothing has happened then.
 bool Simulation::State::strike_together(std::span<const collision::Contact* const> contacts) {
-  JointPush pushed;
+  SimultaneousImpact pushed;
   for (const collision::Contact* contact : contacts) {
     std::optional<Strike> hit = aim(*contact);
     if (!hit) continue;
@@ -167,12 +167,12 @@ bool Simulation::State::strike_together(std::span<const collision::Contact* cons
   }
   ++counters.impacts_together;
   send_on(pushed);
-  for (const Strike& hit : hits) tell_impact(hit);
+  for (const Strike& hit : hits) record_impact(hit);
   return true;
 }
 
 /// The push against what is known of the structure. False when the places are better taken one after the other.
-bool Simulation::State::take_up(JointPush& pushed) const {
+bool Simulation::State::take_up(SimultaneousImpact& pushed) const {
   std::vector<Strike>& hits = pushed.hits;
   if (!independent(pushed.response.compliance)) return false;
   const Body& one = *hits.front().body;
@@ -194,7 +194,7 @@ bool Simulation::State::take_up(JointPush& pushed) const {
 
 /// As for one place (strike.cpp): the joints that bear the push directly do not fail under its peaks, and the strain
 /// energy, at most that of all peaks at once, is less than any other joint fails at. Then the push is done.
-bool Simulation::State::bears(JointPush& pushed) {
+bool Simulation::State::bears(SimultaneousImpact& pushed) {
   constexpr double rounding = 1e-6;
   CoupledPush borne = *pushed.push;
   const CoupledPush::Stop end = borne.push();
@@ -207,7 +207,7 @@ bool Simulation::State::bears(JointPush& pushed) {
   return true;
 }
 
-void Simulation::State::push_in(JointPush& pushed) {
+void Simulation::State::push_in(SimultaneousImpact& pushed) {
   CoupledPush& push = *pushed.push;
   for (;;) {
     CoupledPush borne = push;
@@ -244,7 +244,7 @@ void Simulation::State::push_in(JointPush& pushed) {
 }
 
 /// The structure as the breaks left it. Places that are gone keep a compliance that nothing reads.
-void Simulation::State::go_on(JointPush& pushed, const Eigen::VectorXd& shift) {
+void Simulation::State::go_on(SimultaneousImpact& pushed, const Eigen::VectorXd& shift) {
   std::vector<Eigen::Index> left;
   std::vector<ContactPlace> places;
   std::vector<Vec3> normals;
@@ -262,7 +262,7 @@ void Simulation::State::go_on(JointPush& pushed, const Eigen::VectorXd& shift) {
   pushed.push->weaken(pushed.response.compliance, shift);
 }
 
-void Simulation::State::send_on(JointPush& pushed) {
+void Simulation::State::send_on(SimultaneousImpact& pushed) {
   Strike& first = pushed.hits.front();
   const Body& one = *first.body;
   std::vector<char> through;
@@ -282,7 +282,7 @@ void Simulation::State::send_on(JointPush& pushed) {
     hit.peak_force = pushed.push->peak_force()(static_cast<Eigen::Index>(i));
     hit.speed = speed(first.state);
     hit.speed_out = speed(state);
-    if (hit.through) knock(hit);
+    if (hit.through) keep_release_impulse(hit);
     given.push_back({impulses.along(static_cast<Eigen::Index>(i)) * hit.normal, hit.place.point});
   }
   // It is stopped where it is as long as one place stands.

@@ -8,7 +8,7 @@
 #include "support/shared_data.h"
 #include "topple/structure/analysis.h"
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 
 using namespace topple::structure;
 using Json = nlohmann::json;
@@ -42,7 +42,7 @@ TEST_CASE("a cantilever bends and shears as closed form says, each axis by its o
   CHECK(tip[2].get<double>() == Approx(-2000 * (L * L * L / (3 * EIy) + L / GAz)).epsilon(1e-10));
   const Json& end = c.at("members").at("M").at("end_forces");
   CHECK(end[2].get<double>() == Approx(2000).epsilon(1e-10));
-  CHECK(end[4].get<double>() == Approx(-8000).epsilon(1e-10));  // about y: hub holds the moment of a load downwards
+  CHECK(end[4].get<double>() == Approx(-8000).epsilon(1e-10));  // about y: node holds the moment of a load downwards
   CHECK(c.at("members").at("M").at("extremes").at("shear_z").at("max")[0].get<double>() ==
         Approx(-2000).epsilon(1e-10));
   CHECK(c.at("reactions").at("A")[5].get<double>() == Approx(-4000).epsilon(1e-10));

@@ -9,7 +9,7 @@
 #include "analysis/resultants/discretisation.h"
 #include "analysis/resultants/shell_results.h"
 #include "topple/solver/static_analysis.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 
 using namespace topple::structure;
 namespace solver = topple::solver;

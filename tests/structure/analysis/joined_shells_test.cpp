@@ -10,7 +10,7 @@
 #include "test_paths.h"
 #include "topple/solver/static_analysis.h"
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 #include "topple/structure/frame.h"
 #include "topple/structure/join_shells.h"
 #include "topple/structure/simulation.h"
@@ -293,7 +293,7 @@ TEST_CASE("members that a wall alone holds leave with it") {
   (void)frame.settle(1000);
   frame.break_joint(*names.joint("PB:2"), BreakCause::tool);
   (void)frame.settle(1000);
-  CHECK(frame.stands(PanelId(2u)));  // its lower corner is on the hub, and PB hangs on it
+  CHECK(frame.stands(PanelId(2u)));  // its lower corner is on the node, and PB hangs on it
   CHECK(frame.stands(*names.member("PB")));
   frame.remove(PanelId(0u));
   frame.remove(PanelId(1u));

@@ -6,7 +6,7 @@
 
 #include "topple/structure/analysis.h"
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 
 using namespace topple::structure;
 

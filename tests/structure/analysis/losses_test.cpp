@@ -9,7 +9,7 @@
 #include "frame_builder.h"
 #include "topple/structure/analysis.h"
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 #include "topple/structure/scenario.h"
 #include "topple/structure/standing_frame.h"
 

@@ -4,7 +4,7 @@
 
 #include "standing/panel_superelement.h"
 #include "topple/structure/analysis.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 #include "topple/structure/simulation.h"
 
 using namespace topple::structure;

@@ -8,7 +8,7 @@
 #include "topple/structure/analysis.h"
 #include "topple/structure/divide_member.h"
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 
 using namespace topple::structure;
 using Json = nlohmann::json;

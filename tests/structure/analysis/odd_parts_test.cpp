@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "topple/structure/analysis.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 #include "topple/structure/modelling_checks.h"
 
 using namespace topple::structure;

@@ -15,7 +15,7 @@
 #include "opensees_cases.h"
 #include "support/shared_data.h"
 #include "topple/structure/analysis.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 
 using namespace topple::structure;
 using Json = nlohmann::json;

@@ -5,7 +5,7 @@
 #include "support/shared_data.h"
 #include "topple/structure/analysis.h"
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 
 using namespace topple::structure;
 using Json = nlohmann::json;

@@ -7,9 +7,9 @@
 
 #include "../example_model.h"
 #include "topple/structure/analysis.h"
-#include "topple/structure/convert.h"
-#include "topple/structure/files.h"
-#include "topple/structure/parse_cuts.h"
+#include "topple/structure/formats/convert.h"
+#include "topple/structure/formats/files.h"
+#include "topple/structure/formats/parse_cuts.h"
 
 using namespace topple::structure;
 namespace solver = topple::solver;

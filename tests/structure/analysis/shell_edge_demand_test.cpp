@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "topple/structure/analysis.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 
 using namespace topple::structure;
 

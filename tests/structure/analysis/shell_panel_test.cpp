@@ -8,7 +8,7 @@
 #include "structure/example_model.h"
 #include "topple/structure/analysis.h"
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 #include "topple/structure/frame.h"
 
 using namespace topple;

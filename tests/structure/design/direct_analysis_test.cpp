@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 #include "topple/structure/member_checks.h"
 
 using namespace topple::structure;

@@ -5,7 +5,7 @@
 
 #include "design/alignment_chart.h"
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 #include "topple/structure/member_checks.h"
 
 using namespace topple::structure;

@@ -4,7 +4,7 @@
 
 #include "support/scratch_folder.h"
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 #include "topple/structure/joint_tuning.h"
 
 namespace {

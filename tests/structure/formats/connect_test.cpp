@@ -5,9 +5,9 @@
 #include <string>
 
 #include "topple/structure/analysis.h"
-#include "topple/structure/convert.h"
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/convert.h"
+#include "topple/structure/formats/files.h"
 #include "topple/structure/modelling_checks.h"
 
 using namespace topple::structure;

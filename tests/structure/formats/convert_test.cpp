@@ -12,9 +12,9 @@
 #include "support/scratch_folder.h"
 #include "support/shared_data.h"
 #include "topple/structure/analysis.h"
-#include "topple/structure/convert.h"
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/convert.h"
+#include "topple/structure/formats/files.h"
 
 using namespace topple::structure;
 

@@ -3,7 +3,7 @@
 
 #include "fuzz/targets.h"
 #include "test_paths.h"
-#include "topple/structure/input_files.h"
+#include "topple/structure/formats/input_files.h"
 
 TEST_CASE("what fuzzers found is read or refused as promised") {
   for (const auto& [name, target] : topple::fuzz::targets()) {

@@ -3,7 +3,7 @@
 
 #include "support/frame3dd_output.h"
 #include "topple/structure/analysis.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 
 using namespace topple::structure;
 using topple::test::Frame3ddCase;

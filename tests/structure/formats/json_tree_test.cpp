@@ -1,4 +1,4 @@
-#include "topple/structure/json_tree.h"
+#include "topple/structure/formats/json_tree.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

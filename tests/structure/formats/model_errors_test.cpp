@@ -8,7 +8,7 @@
 #include "formats/json/json_document.h"
 #include "support/scratch_folder.h"
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 
 using namespace topple::structure;
 using topple::test::example_model;

@@ -5,7 +5,7 @@
 
 #include "example_model.h"
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 
 using namespace topple::structure;
 using topple::test::example_model;

@@ -1,5 +1,5 @@
 // Every file that is written is whole under its name, or not there: whatever is in the way.
-#include "topple/structure/output_files.h"
+#include "topple/structure/formats/output_files.h"
 
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -12,7 +12,7 @@
 
 #include "support/scratch_folder.h"
 #include "topple/structure/error.h"
-#include "topple/structure/input_files.h"
+#include "topple/structure/formats/input_files.h"
 
 using namespace topple::structure;
 using topple::test::ScratchFolder;

@@ -1,12 +1,12 @@
 // Texts from outside: what is UTF-8, what steers a terminal, and what readers do with either.
-#include "topple/structure/plain_text.h"
+#include "topple/structure/formats/plain_text.h"
 
 #include <catch2/catch.hpp>
 
 #include "example_model.h"
-#include "topple/structure/convert.h"
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/convert.h"
+#include "topple/structure/formats/files.h"
 
 using namespace topple::structure;
 using topple::test::example_model;

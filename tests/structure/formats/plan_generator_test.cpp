@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 
 using namespace topple::structure;
 

@@ -4,7 +4,7 @@
 
 #include "example_model.h"
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 
 using namespace topple::structure;
 using topple::test::replaced;

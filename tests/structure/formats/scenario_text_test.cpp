@@ -1,10 +1,10 @@
 // Scenarios and tools for a building that a host has already.
-#include "topple/structure/scenario_text.h"
+#include "topple/structure/formats/scenario_text.h"
 
 #include <catch2/catch.hpp>
 
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 
 using namespace topple::structure;
 

@@ -5,10 +5,10 @@
 
 #include "support/scratch_folder.h"
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
+#include "topple/structure/formats/output_files.h"
+#include "topple/structure/formats/plain_text.h"
 #include "topple/structure/motion.h"
-#include "topple/structure/output_files.h"
-#include "topple/structure/plain_text.h"
 #include "topple/structure/time_history.h"
 
 using namespace topple::structure;

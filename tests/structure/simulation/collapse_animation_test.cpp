@@ -18,8 +18,8 @@
 #pragma GCC diagnostic pop
 
 #include "topple/structure/collapse_animation.h"
-#include "topple/structure/drawn_model.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
+#include "topple/structure/visual_mesh.h"
 
 using namespace topple::structure;
 
@@ -212,7 +212,7 @@ TEST_CASE("an animation holds the drawn model, each piece while it is one") {
   auto [building, scenario] = read_scenario(find_scenario("seed_house_hit"));
   scenario.duration = 3;
   Simulation simulation(std::move(building), std::move(scenario));
-  DrawnModel drawn(simulation.building(), read_drawn_meshes(simulation.building(), file));
+  VisualMesh drawn(simulation.building(), read_drawn_meshes(simulation.building(), file));
   drawn.update(simulation);
   const std::string whole = drawn.pieces().front().name;
   CollapseAnimation animation(simulation, 10, &drawn);
@@ -229,7 +229,7 @@ TEST_CASE("an animation holds the drawn model, each piece while it is one") {
   // As many of its nodes are seen at the end as there are pieces that anything holds.
   std::size_t there = 0, seen = 0;
   std::set<std::string> meshes;
-  for (const DrawnModel::Piece& piece : drawn.pieces()) {
+  for (const VisualMesh::Piece& piece : drawn.pieces()) {
     there += piece.body.value >= -1 ? 1 : 0;
     meshes.insert(piece.name.substr(0, piece.name.find('#')));
   }

@@ -11,8 +11,8 @@
 #include "support/scratch_folder.h"
 #include "topple/fracture/solid_cut.h"
 #include "topple/structure/collapse_animation.h"
-#include "topple/structure/drawn_model.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
+#include "topple/structure/visual_mesh.h"
 
 namespace {
 
@@ -166,14 +166,14 @@ TEST_CASE("what is drawn around a post that is cut in two goes with its pieces")
     cladding.mesh.triangles.push_back({first, first + 1, first + 2});
     cladding.mesh.triangles.push_back({first, first + 2, first + 3});
   }
-  DrawnModel model(simulation.building(), {cladding});
+  VisualMesh model(simulation.building(), {cladding});
   while (simulation.time() < 1) {
     simulation.step();
     model.update(simulation);
   }
   REQUIRE(model.pieces().size() == 2);
   double volume = 0;
-  for (const DrawnModel::Piece& piece : model.pieces()) {
+  for (const VisualMesh::Piece& piece : model.pieces()) {
     CHECK(topple::fracture::audit(*piece.mesh, 1e-9, true).open_edges == 0);
     volume += piece.volume;
     const double middle = topple::fracture::solid_properties(*piece.mesh, 1).centre.z();

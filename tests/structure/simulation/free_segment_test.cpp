@@ -171,7 +171,7 @@ TEST_CASE("what hits a floor from below goes into its edges, more into those tha
   CHECK(force.norm() < 1e-5 * F);
   // Held back in place instead (as heavy beams would): all of the blow goes into the edges, by their distance.
   const PanelPush blow{at, Vec3(0, 0, F)};
-  const auto held = flying_edge_demands(floor.frame.building, floor.parts.panels[0], floor.length, {&blow, 1});
+  const auto held = free_panel_edge_demands(floor.frame.building, floor.parts.panels[0], floor.length, {&blow, 1});
   double sum = 0, about_y = 0;
   const std::array<double, 4> place{3, 6, 3, 0};
   for (std::size_t edge = 0; edge < 4; ++edge) {
@@ -189,7 +189,7 @@ TEST_CASE("what hits a floor from below goes into its edges, more into those tha
 TEST_CASE("a floor that only one edge holds hangs by it with force and moment") {
   Floor floor(PanelModel::cladding);
   const PanelPush weight{Vec3(3, 2, 0), Vec3(0, 0, -1000)};
-  const auto held = flying_edge_demands(floor.frame.building, floor.parts.panels[0], {6, 0, 0, 0}, {&weight, 1});
+  const auto held = free_panel_edge_demands(floor.frame.building, floor.parts.panels[0], {6, 0, 0, 0}, {&weight, 1});
   CHECK(held[0](2) == Approx(1000.0 / 6));
   CHECK(std::abs(held[0](4)) == Approx(1000.0 * 2 / 6));  // about the edge, 2 m from the middle
   for (std::size_t edge = 1; edge < 4; ++edge) CHECK(held[edge].norm() == 0);

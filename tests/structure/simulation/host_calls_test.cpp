@@ -1,4 +1,4 @@
-// Whatever a host hands over: a call is carried out, or throws with what was wrong and leaves no trace.
+// Whatever a host hands on: a call is carried out, or throws with what was wrong and leaves no trace.
 #include <catch2/catch.hpp>
 #include <cstdint>
 #include <functional>
@@ -8,7 +8,7 @@
 #include "frame_builder.h"
 #include "simulation_run.h"
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 #include "topple/structure/simulation.h"
 
 using namespace topple::structure;

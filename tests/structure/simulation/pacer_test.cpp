@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "simulation_run.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 #include "topple/structure/step_thread.h"
 
 using namespace topple::structure;

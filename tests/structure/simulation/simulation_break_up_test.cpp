@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "support/scratch_folder.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 #include "topple/structure/simulation.h"
 
 using namespace topple::structure;

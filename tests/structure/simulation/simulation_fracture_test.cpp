@@ -8,7 +8,7 @@
 #include "topple/fracture/mesh.h"
 #include "topple/fracture/polygon.h"
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 #include "topple/structure/simulation.h"
 
 using namespace topple::structure;
@@ -128,7 +128,7 @@ TEST_CASE("a slab that falls a storey breaks where it lands, and nothing is lost
     // Its whole weight lies there in pieces (6 x 6 x 0.2 m of 2400 kg/m3).
     CHECK(chunk_mass(simulation) == Approx(6 * 6 * 0.2 * 2400).epsilon(1e-12));
     CHECK(simulation.bodies().size() > 3);
-    // The ledger closes as well as it does without fracture: contacts are booked by the collision engine's own sums.
+    // The ledger closes as well as it does without fracture: contacts are accounted by the collision engine's own sums.
     CHECK(std::abs(simulation.ledger().residual()) < 0.02);
     for (const BodyView& body : simulation.bodies()) {
       CHECK(body.pose.position.z() > -0.05);

@@ -4,7 +4,7 @@
 
 #include "structure/simulation_run.h"
 #include "topple/structure/collapse_report.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 
 using namespace topple::structure;
 

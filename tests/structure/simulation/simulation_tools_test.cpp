@@ -170,7 +170,7 @@ TEST_CASE("a wrecking ball swings down and hits with the speed that energy gives
   CHECK(impacts[0].body_name == "wrecking ball 1");
   CHECK(impacts[0].name == "AB");
   const double speed = std::sqrt(2 * g * ball.cable * (1 - std::cos(angle)));
-  CHECK(impacts[0].speed_in == Approx(speed).epsilon(2e-3));  // the last part of a step is sensed as a free flight
+  CHECK(impacts[0].speed_in == Approx(speed).epsilon(2e-3));  // the last part of a step is swept as a free flight
   CHECK(impacts[0].position.z() == Approx(4).epsilon(0.02));
   REQUIRE(simulation.bodies().size() == 1);
   CHECK(simulation.bodies()[0].cable_anchor->isApprox(ball.anchor));

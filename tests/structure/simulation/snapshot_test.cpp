@@ -4,7 +4,7 @@
 
 #include "frame_builder.h"
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 #include "topple/structure/simulation.h"
 
 using namespace topple::structure;

@@ -6,7 +6,7 @@
 #include <map>
 #include <optional>
 
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 #include "topple/structure/simulation.h"
 
 using namespace topple::structure;

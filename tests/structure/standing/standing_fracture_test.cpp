@@ -2,10 +2,10 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "loads/hand_over.h"
+#include "loads/tributary_loads.h"
 #include "simulation/fracture/broken_panel.h"
 #include "support/scratch_folder.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 #include "topple/structure/frame.h"
 #include "topple/structure/simulation.h"
 
@@ -70,7 +70,7 @@ const SimulationEvent& run_to_fracture(Simulation& simulation) {
 }
 
 /// Force and moments about the panel's first node of what is handed to beams and nodes.
-Vec3 force_and_moments(const Building& b, PanelId panel, const HandOver& handed) {
+Vec3 force_and_moments(const Building& b, PanelId panel, const TributaryLoads& handed) {
   const Mat3& axes = b[panel].axes;
   Vec3 sum = Vec3::Zero();
   const auto add = [&](double up, const Vec3& place) {
@@ -103,7 +103,7 @@ TEST_CASE("a two-way slab with holes hands on what remains, with its moments, an
   action.pressure = 1000;
   const std::array<bool, 4> all{true, true, true, true};
   const auto handed = [&](const std::vector<std::vector<Vec2>>& holes) {
-    return force_and_moments(b, slab, hand_over_broken(b, edges, slab, action, all, {}, holes));
+    return force_and_moments(b, slab, tributary_loads_of_broken(b, edges, slab, action, all, {}, holes));
   };
   const std::vector<Vec2> triangle{{1, 1}, {3, 1}, {1, 4}}, corner{{5, 5}, {6, 5}, {6, 6}, {5, 6}};
   // Area 36 - 3 - 1; first moments 108 less area times centroid of each hole.
@@ -111,8 +111,8 @@ TEST_CASE("a two-way slab with holes hands on what remains, with its moments, an
   CHECK((handed({triangle, corner}) + 1000 * expected).norm() < 1e-9 * 1000 * expected.norm());
   // A pinhole changes little: no load jumps from one pair of edges to the other.
   const std::vector<Vec2> pinhole{{3, 3}, {3.001, 3}, {3, 3.001}};
-  const HandOver whole = hand_over(b, edges, slab, action, all),
-                 pricked = hand_over_broken(b, edges, slab, action, all, {}, {pinhole});
+  const TributaryLoads whole = tributary_loads(b, edges, slab, action, all),
+                       pricked = tributary_loads_of_broken(b, edges, slab, action, all, {}, {pinhole});
   for (std::size_t edge = 0; edge < 4; ++edge)
     CHECK((whole.edge_force[edge] - pricked.edge_force[edge]).norm() < 1e-6 * whole.edge_force[edge].norm());
   CHECK(handed({{{0, 0}, {6, 0}, {6, 6}}, {{0, 0}, {6, 6}, {0, 6}}}).norm() < 1e-8 * 36000);
@@ -200,7 +200,7 @@ TEST_CASE("a slab that is shot stands on with a hole in it; the ball goes on wit
 
     while (!simulation.finished()) simulation.step();
     CHECK(simulation.frame().stands(slab));
-    // Contacts of hulls are booked by the collision engine's own sums, which close to a few per cent.
+    // Contacts of hulls are accounted by the collision engine's own sums, which close to a few per cent.
     CHECK(std::abs(simulation.ledger().residual()) < 0.04);
     CHECK(simulation.ledger().momentum_error < 1e-12);
   }

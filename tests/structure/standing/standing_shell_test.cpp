@@ -7,7 +7,7 @@
 #include "standing/panel_superelement.h"
 #include "test_paths.h"
 #include "topple/solver/static_analysis.h"
-#include "topple/structure/files.h"
+#include "topple/structure/formats/files.h"
 #include "topple/structure/simulation.h"
 
 using namespace topple::structure;

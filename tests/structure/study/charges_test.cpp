@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "study/study_base.h"
-#include "topple/structure/study.h"
+#include "topple/structure/study/study.h"
 
 using namespace topple::structure;
 using namespace topple::structure::study;

@@ -8,8 +8,8 @@
 
 #include "analysis/sample_analysis.h"
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
-#include "topple/structure/study.h"
+#include "topple/structure/formats/files.h"
+#include "topple/structure/study/study.h"
 
 using namespace topple::structure;
 

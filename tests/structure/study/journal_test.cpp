@@ -11,7 +11,7 @@
 
 #include "support/scratch_folder.h"
 #include "topple/structure/error.h"
-#include "topple/structure/study.h"
+#include "topple/structure/study/study.h"
 
 using namespace topple::structure;
 

@@ -9,7 +9,7 @@
 #include "study/normal_distribution.h"
 #include "study/shuffled.h"
 #include "study/sobol_sequence.h"
-#include "topple/structure/study.h"
+#include "topple/structure/study/study.h"
 
 using namespace topple::structure;
 using namespace topple::structure::study;

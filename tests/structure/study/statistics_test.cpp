@@ -6,7 +6,7 @@
 #include "study/fragility_fit.h"
 #include "study/normal_distribution.h"
 #include "study/samples_statistics.h"
-#include "topple/structure/study_statistics.h"
+#include "topple/structure/study/study_statistics.h"
 
 using namespace topple::structure;
 using namespace topple::structure::study;

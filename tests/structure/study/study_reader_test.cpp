@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "topple/structure/error.h"
-#include "topple/structure/study.h"
+#include "topple/structure/study/study.h"
 
 using namespace topple::structure;
 

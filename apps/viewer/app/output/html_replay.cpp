@@ -11,8 +11,8 @@
 
 #include "app/part_motion.h"
 #include "renderer/instances.h"
-#include "topple/structure/output_files.h"
-#include "topple/structure/plain_text.h"
+#include "topple/structure/formats/output_files.h"
+#include "topple/structure/formats/plain_text.h"
 
 #ifdef TOPPLE_REPLAY
 extern "C" const char topple_replay_page_begin[];

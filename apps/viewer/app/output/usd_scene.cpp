@@ -12,8 +12,8 @@
 
 #include "app/part_motion.h"
 #include "renderer/shapes/palette.h"
-#include "topple/structure/output_files.h"
-#include "topple/structure/plain_text.h"
+#include "topple/structure/formats/output_files.h"
+#include "topple/structure/formats/plain_text.h"
 
 namespace topple::viewer {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "renderer/renderer.h"
-#include "topple/structure/output_files.h"
+#include "topple/structure/formats/output_files.h"
 
 namespace topple::viewer {
 

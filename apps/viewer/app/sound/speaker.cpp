@@ -15,7 +15,7 @@
 #include <tuple>
 
 #include "app/sound/synthesis.h"
-#include "topple/structure/output_files.h"
+#include "topple/structure/formats/output_files.h"
 
 namespace topple::viewer {
 namespace {

@@ -5,8 +5,8 @@
 #include <sstream>
 
 #include "topple/structure/error.h"
-#include "topple/structure/input_files.h"
-#include "topple/structure/output_files.h"
+#include "topple/structure/formats/input_files.h"
+#include "topple/structure/formats/output_files.h"
 
 namespace topple::viewer {
 namespace {

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "topple/structure/files.h"
-#include "topple/structure/shipped_files.h"
+#include "topple/structure/formats/files.h"
+#include "topple/structure/formats/shipped_files.h"
 
 namespace topple::viewer {
 namespace {

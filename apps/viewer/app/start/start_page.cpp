@@ -8,8 +8,8 @@
 #include "app/start/recent_files.h"
 #include "app/widgets.h"
 #include "topple/structure/error.h"
-#include "topple/structure/files.h"
-#include "topple/structure/output_files.h"
+#include "topple/structure/formats/files.h"
+#include "topple/structure/formats/output_files.h"
 
 namespace topple::viewer {
 namespace {

@@ -48,9 +48,9 @@ class BeamDiagram {
   /// Over the whole beam, both sides of every jump; the first place where several are equal.
   [[nodiscard]] Range extremes(Quantity quantity) const;
 
-  /// Displacement and rotation of the section at a distance, local axes, given those of the hubs at the beam's ends
-  /// (local, after the arms). A beam loose between its ends is taken as if it moved with its first hub.
-  [[nodiscard]] Vec6 displacement(double distance, const Vec12& hub_displacements) const;
+  /// Displacement and rotation of the section at a distance, local axes, given those of the rigid ends at the beam's
+  /// ends (local, after the arms). A beam loose between its ends is taken as if it moved with its first rigid end.
+  [[nodiscard]] Vec6 displacement(double distance, const Vec12& rigid_end_displacements) const;
 
  private:
   struct State;

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "topple/solver/frame_model.h"
-#include "topple/solver/hanging_shell.h"
+#include "topple/solver/jointed_shell.h"
 #include "topple/solver/static_analysis.h"
 
 namespace topple::solver {
@@ -23,7 +23,7 @@ struct BucklingMode {
 /// loads, where it is known; null: it is found here. Throws Instability where the model is a mechanism.
 [[nodiscard]] std::vector<BucklingMode> buckling_modes(const FrameModel& model, const LoadSet& loads, int count,
                                                        const AnalysisOptions& options, double largest_factor = 1e6,
-                                                       const std::vector<HangingShell>& hanging = {},
+                                                       const std::vector<JointedShell>& jointed = {},
                                                        const StaticSolution* first_order = nullptr);
 
 }  // namespace topple::solver

@@ -15,7 +15,7 @@ enum class AxialAction { both, tension_only, compression_only };
 
 /// 3D Timoshenko beam-column between two nodes: 12 freedoms, rigid end arms, end releases and springs condensed
 /// exactly. With shear area 0 the beam is Euler-Bernoulli in that plane. What moves with a node as a rigid body at the
-/// tip of its arm is the hub that the beam's end is joined to, by its springs and releases.
+/// tip of its arm is the node that the beam's end is joined to, by its springs and releases.
 struct Beam {
   std::array<int, 2> node{-1, -1};  ///< indices in FrameModel::nodes, first and second end
   /// Rigid arm from each node to the member's end, global axes.

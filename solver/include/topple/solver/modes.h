@@ -30,10 +30,10 @@ struct MassModel {
   /// Rotary inertia of beams' sections in bending, density times Iy and Iz.
   bool rotary_inertia = false;
   std::vector<NodeMass> nodes;  ///< masses beside those of elements
-  /// Per beam: the length over which its mass, as great as it is, lies, its ends going with its hubs as if they stood
-  /// that far apart; 0, or an empty list: its own length.
+  /// Per beam: the length over which its mass, as great as it is, lies, its ends going with its rigid ends as if they
+  /// stood that far apart; 0, or an empty list: its own length.
   std::vector<double> beam_lengths;
-  std::vector<HangingShell> hanging;  ///< in order of shells
+  std::vector<JointedShell> jointed;  ///< in order of shells
 };
 
 /// One natural mode.

@@ -30,14 +30,14 @@ struct ReanalysisCounters {
   std::uint64_t orderings = 0;           ///< new fill-reducing orders
   std::uint64_t background_factors = 0;  ///< new factors made on another thread while the old one served
   std::uint64_t late_factors = 0;        ///< of them: those that had to be waited for
-  std::uint64_t restricted = 0;          ///< answers that left out what could not matter
-  std::uint64_t beams_visited = 0;       ///< by restricted answers
+  std::uint64_t selective = 0;           ///< answers that left out what could not matter
+  std::uint64_t beams_visited = 0;       ///< by selective answers
   std::uint64_t beams_left = 0;          ///< left out by them
 };
 
-/// What a restricted answer (selective back substitution) went through and left out.
-struct RestrictedEffort {
-  bool restricted = false;      ///< false: the answer was full
+/// What a selective answer (selective back substitution) went through and left out.
+struct SelectiveEffort {
+  bool selective = false;       ///< false: the answer was full
   double visited_entries = 0;   ///< of the factor, by the backward solve
   double factor_entries = 0;    ///< of the whole factor
   int beams = 0;                ///< visited
@@ -120,7 +120,7 @@ class Reanalysis {
   /// follows. The first call reads every use, as does one
   /// that needs a full answer. Patches have no uses: with any it throws std::invalid_argument; call solve().
   [[nodiscard]] const ReanalysisAnswer& solve(UseWatch& watch);
-  /// Makes a restricted answer whole, with the backward error of a full one; the watch reads the uses of what was left
+  /// Makes a selective answer whole, with the backward error of a full one; the watch reads the uses of what was left
   /// out.
   void complete(UseWatch* watch = nullptr);
   /// To be called when capacities changed: the next solve(watch) reads everything again.
@@ -138,7 +138,7 @@ class Reanalysis {
   /// its answers are full, and nothing is read.
   [[nodiscard]] bool uses_known() const;
   /// Of the last solve().
-  [[nodiscard]] const RestrictedEffort& restricted_effort() const;
+  [[nodiscard]] const SelectiveEffort& selective_effort() const;
 
   // The current answer.
   /// Per node, global axes: m and rad.

@@ -7,7 +7,7 @@
 
 #include "topple/solver/beam_diagram.h"
 #include "topple/solver/frame_model.h"
-#include "topple/solver/hanging_shell.h"
+#include "topple/solver/jointed_shell.h"
 #include "topple/solver/static_analysis.h"
 
 namespace topple::solver {
@@ -36,7 +36,7 @@ struct AxialState {
   std::vector<Vec6> shell_displacements;
   std::vector<double> shell_strain;   ///< per shell; see shell_displacements
   double shell_factor = 1;            ///< see shell_displacements
-  std::vector<HangingShell> hanging;  ///< in order of shells and of patches
+  std::vector<JointedShell> jointed;  ///< in order of shells and of patches
 };
 
 /// A second-order answer with the forces that it rests on.
@@ -58,7 +58,7 @@ class SecondOrderAnalysis {
  public:
   /// Throws Instability where a freedom has no stiffness at all.
   SecondOrderAnalysis(const FrameModel& model, SecondOrder mode, const AnalysisOptions& options = {},
-                      std::vector<HangingShell> hanging = {});
+                      std::vector<JointedShell> jointed = {});
   ~SecondOrderAnalysis();
   /// Moves: what is moved from may only be destroyed or assigned to.
   SecondOrderAnalysis(SecondOrderAnalysis&&) noexcept;
@@ -80,9 +80,9 @@ class SecondOrderAnalysis {
 /// shears are those across the displaced chord and moments lie between the end values as without axial force.
 class SecondOrderDiagram {
  public:
-  /// `hub_displacements`: of the hubs at the beam's ends, local axes.
+  /// `rigid_end_displacements`: of the rigid ends at the beam's ends, local axes.
   SecondOrderDiagram(const Beam& beam, const AxialState& axial, int index, const Vec12& end_forces,
-                     const Vec12& hub_displacements);
+                     const Vec12& rigid_end_displacements);
   ~SecondOrderDiagram();
   /// Moves: what is moved from may only be destroyed or assigned to.
   SecondOrderDiagram(SecondOrderDiagram&&) noexcept;
@@ -100,7 +100,7 @@ class SecondOrderDiagram {
   std::unique_ptr<State> state_;
 };
 
-/// Displacements of the hubs at a beam's ends (after its arms), local axes, from those of all nodes.
-[[nodiscard]] Vec12 beam_hub_displacements(const Beam& beam, const std::vector<Vec6>& node_displacements);
+/// Displacements of the rigid ends at a beam's ends (after its arms), local axes, from those of all nodes.
+[[nodiscard]] Vec12 beam_rigid_end_displacements(const Beam& beam, const std::vector<Vec6>& node_displacements);
 
 }  // namespace topple::solver

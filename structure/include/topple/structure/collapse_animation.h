@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
-#include "topple/structure/drawn_model.h"
 #include "topple/structure/simulation.h"
+#include "topple/structure/visual_mesh.h"
 
 namespace topple::structure {
 
@@ -15,7 +15,7 @@ class CollapseAnimation {
  public:
   /// `rate`: frames for each simulated second, above 0. `drawn`: recorded as it is when frames are added; it has to
   /// outlive this. Records the first frame.
-  CollapseAnimation(const Simulation& simulation, double rate, const DrawnModel* drawn = nullptr);
+  CollapseAnimation(const Simulation& simulation, double rate, const VisualMesh* drawn = nullptr);
   ~CollapseAnimation();
 
   /// Records the frames that are due up to the simulation's time; call after every step and after steps were skipped.

@@ -22,19 +22,19 @@ struct PanelMesh {
   std::array<std::vector<int>, 4> edge_nodes;  ///< frame nodes along edge i, from the panel's node i to i + 1
 };
 
-/// The panel's side of a joint that gives at one node of an edge. Its six freedoms are its motion against `hub`, along
-/// the columns of `translations` and about those of `rotations`.
-struct GivingNode {
+/// The panel's side of a joint that gives at one node of an edge. Its six freedoms are its motion against `rigid_end`,
+/// along the columns of `translations` and about those of `rotations`.
+struct SemiRigidNode {
   int node = -1;                         ///< of the frame, with its freedoms
-  int hub = -1;                          ///< node of the frame that it moves against
+  int rigid_end = -1;                    ///< node of the frame that it moves against
   Mat3 translations = Mat3::Identity();  ///< columns: unit directions, global
   Mat3 rotations = Mat3::Identity();     ///< columns: unit axes, global
 };
 /// An element of a shell panel with a corner at a joint that gives: a patch over its four nodes and `giving` ones. The
 /// shell of the same number is left for its mass.
-struct GivingElement {
+struct SemiRigidElement {
   int shell = -1;                             ///< index in FrameModel::shells
-  std::array<int, 4> giving{-1, -1, -1, -1};  ///< of each corner, in Frame::giving_nodes
+  std::array<int, 4> giving{-1, -1, -1, -1};  ///< of each corner, in Frame::semi_rigid_nodes
   Eigen::Matrix<double, 24, 24> stiffness;    ///< in the absolute freedoms of its corners
 };
 
@@ -42,13 +42,13 @@ struct GivingElement {
 /// come after them. Member i is beam i, or the first of its pieces. Panels of model `membrane` become shells without
 /// bending while all four edge joints hold: `shell_of_panel` gives their index, or -1.
 struct Frame {
-  solver::FrameModel model;                      ///< nodes, beams, shells and supports
-  std::vector<int> shell_of_panel;               ///< per panel
-  std::vector<PanelMesh> meshes;                 ///< per panel; without elements when it is no shell
-  std::vector<std::vector<MemberPiece>> pieces;  ///< per member, in order; empty when it is one beam
-  std::vector<std::vector<int>> edge_supports;   ///< per Building::edge_supports: supports of the frame
-  std::vector<GivingNode> giving_nodes;          ///< their nodes and supports come last
-  std::vector<GivingElement> giving_elements;    ///< in order of their shells
+  solver::FrameModel model;                           ///< nodes, beams, shells and supports
+  std::vector<int> shell_of_panel;                    ///< per panel
+  std::vector<PanelMesh> meshes;                      ///< per panel; without elements when it is no shell
+  std::vector<std::vector<MemberPiece>> pieces;       ///< per member, in order; empty when it is one beam
+  std::vector<std::vector<int>> edge_supports;        ///< per Building::edge_supports: supports of the frame
+  std::vector<SemiRigidNode> semi_rigid_nodes;        ///< their nodes and supports come last
+  std::vector<SemiRigidElement> semi_rigid_elements;  ///< in order of their shells
 };
 /// Throws InputError for openings that leave nothing of a shell panel.
 [[nodiscard]] Frame make_frame(const Building& building);
@@ -88,15 +88,15 @@ class EdgeMembers {
 
 /// What a membrane or cladding panel hands on, given which of its edge joints hold and which members still stand
 /// (`member_stands` empty: all). Force and moments are those of the panel's action, exactly.
-struct HandOver {
+struct TributaryLoads {
   std::vector<solver::BeamLoad> beams;  ///< with `beam` the member's number
   std::vector<solver::NodeLoad> nodes;  ///< global axes
   std::array<Vec3, 4> edge_force;       ///< resultant over each edge, global (the demand of the edge joints)
 };
 /// Nothing is handed over when no opposite pair of edges holds (the panel leaves), nor by a shell.
-[[nodiscard]] HandOver hand_over(const Building& building, const EdgeMembers& edges, PanelId panel,
-                                 const PanelAction& action, const std::array<bool, 4>& edge_holds,
-                                 const std::vector<bool>& member_stands = {});
+[[nodiscard]] TributaryLoads tributary_loads(const Building& building, const EdgeMembers& edges, PanelId panel,
+                                             const PanelAction& action, const std::array<bool, 4>& edge_holds,
+                                             const std::vector<bool>& member_stands = {});
 
 /// The whole combination, everything standing, with loads on whole members and without what acts on shell panels.
 /// A settlement of a spring support becomes the push of that spring on its node.

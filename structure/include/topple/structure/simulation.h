@@ -64,7 +64,7 @@ struct SimulationEvent {
   Vec3 position = Vec3::Zero();  ///< m
 };
 
-enum class Stage { sense, load, break_, release, move, book };
+enum class Stage { sweep, load, break_, release, move, account };
 inline constexpr std::array<const char*, 6> stage_names{"sense", "load", "break", "release", "move", "book"};
 
 /// Energies in J, each measured on its own, so that the residual is a check (docs/rooms/simulation.md).
@@ -99,7 +99,7 @@ struct SimulationCounters {
   std::uint64_t contacts_ignored = 0;  ///< resting contacts whose load was not passed on
   std::uint64_t impacts_bounded = 0;   ///< borne by a bound alone, without a solve
   std::uint64_t impacts_together = 0;  ///< of one body on several parts at one instant
-  std::uint64_t restricted = 0;        ///< answers that left out what could not break
+  std::uint64_t selective = 0;         ///< answers that left out what could not break
   /// Factors made on another thread while the old one served; those of them that had to be waited for (it depends on
   /// the machine, and changes nothing else).
   std::uint64_t background_factors = 0;

@@ -96,7 +96,7 @@ struct FrameCounters {
   std::uint64_t refactorisations = 0;    ///< new factors
   std::uint64_t segmentations = 0;       ///< searches for connected parts
   std::uint64_t unchanged = 0;           ///< answers given without computing
-  std::uint64_t restricted = 0;          ///< answers that left out what could not break
+  std::uint64_t selective = 0;           ///< answers that left out what could not break
   std::uint64_t background_factors = 0;  ///< as solver::ReanalysisCounters
   std::uint64_t late_factors = 0;        ///< as solver::ReanalysisCounters
   std::uint64_t vertices_searched = 0;   ///< nodes and members that segmentation looked at
@@ -217,7 +217,7 @@ class StandingFrame {
   /// numbers differ by rounding; what a joint bore in between, where it could not break, may be missing from its
   /// largest_utilisation_so_far(). Below, telling the two apart costs more than a whole answer.
   void restrict_answers_from(int nodes);
-  static constexpr int default_restricted_from = 1000;  ///< nodes; below, a whole answer is cheaper
+  static constexpr int default_selective_from = 1000;  ///< nodes; below, a whole answer is cheaper
 
   /// True when a load or joint changed and the answer is not yet settled.
   [[nodiscard]] bool pending() const;

@@ -1,0 +1,86 @@
+// Sense: shapes are made for what awake bodies may reach in this step, then the collision world sweeps.
+#include <algorithm>
+#include <cmath>
+
+#include "simulation/debris/debris_settings.h"
+#include "simulation/impact/impact_settings.h"
+#include "simulation/simulation_state.h"
+
+namespace topple::structure {
+
+/// Of a body in this step: its way, and how far its turn takes a point that is `radius` from its centre.
+Simulation::State::Sweep Simulation::State::sweep_of(const collision::BodyState& state, double radius) const {
+  const double dt = scenario.step;
+  return {reading().true_velocity(state.velocity) * dt + gravity * dt * dt / 2,
+          state.angular_velocity.norm() * dt * radius};
+}
+
+Bounds Simulation::State::swept_bounds(const Body& body, const collision::BodyState& state) const {
+  const Mat3 turn = state.pose.orientation.toRotationMatrix();
+  const Vec3 middle = state.pose.position + turn * ((body.bounds.low + body.bounds.high) / 2);
+  const Vec3 half = turn.cwiseAbs() * ((body.bounds.high - body.bounds.low) / 2);
+  const auto [travel, turned_by] = sweep_of(state, (body.bounds.high - body.bounds.low).norm() / 2);
+  const Vec3 margin = half + Vec3::Constant(debris_settings.sweep_margin + turned_by);
+  Bounds swept;
+  for (const Vec3& at : {middle, Vec3(middle + travel)}) {
+    swept.add(at - margin);
+    swept.add(at + margin);
+  }
+  return swept;
+}
+
+/// What was seen of its surroundings holds: its swept bounds are within the room that there was. No side of them has
+/// moved by more than the centre, the farthest point by the turn between, and what of travel and turn is new.
+bool Simulation::State::stays(const BodyMotion& one, const collision::BodyState& state) const {
+  const BodyMotion::Seen& seen = one.seen;
+  if (!(seen.room > 0)) return false;
+  const auto [travel, turned_by] = sweep_of(state, one.reach);
+  const auto &now = state.pose.orientation.coeffs(), &then = seen.orientation.coeffs();
+  // Two quaternions that are c apart lie a turn of 4 asin(c/2) < pi c apart.
+  const double apart = std::sqrt(std::min((now - then).squaredNorm(), (now + then).squaredNorm()));
+  const double moved = (state.pose.position - seen.position).norm() + (travel - seen.travel).norm() +
+                       M_PI * apart * one.reach + std::max(0.0, turned_by - seen.turned_by);
+  return moved < seen.room;
+}
+
+namespace {
+/// Along the axis in which they are farthest apart; not above zero when they meet.
+double gap(const Bounds& a, const Bounds& b) { return (a.low - b.high).cwiseMax(b.low - a.high).maxCoeff(); }
+}  // namespace
+
+/// Parts never come to stand where none stood: what may stand around a body is looked up again only when it leaves the
+/// place that was looked over.
+void Simulation::State::approach(BodyMotion& one, const collision::BodyState& state) {
+  if (stays(one, state)) return;
+  const Bounds swept = swept_bounds(*one.body, state);
+  std::vector<Part>& near = one.body->near;
+  if (!one.looked_over.holds(swept)) {
+    one.looked_over = swept;
+    one.looked_over.add(Vec3(swept.low - Vec3::Constant(debris_settings.look_ahead)));
+    one.looked_over.add(Vec3(swept.high + Vec3::Constant(debris_settings.look_ahead)));
+    near = obstacles.without_shape(one.looked_over);
+  }
+  if (!near.empty()) obstacles.approach(near, swept, *frame, *world);
+  const auto [travel, turned_by] = sweep_of(state, one.reach);
+  double room = (swept.low - one.looked_over.low).cwiseMin(one.looked_over.high - swept.high).minCoeff();
+  for (const Part part : near) room = std::min(room, gap(swept, shapes.bounds(part)));
+  one.seen = {room, state.pose.position, travel, state.pose.orientation, turned_by};
+}
+
+std::vector<collision::Contact> Simulation::State::sweep() {
+  struck.clear();
+  release_impulses.clear();
+  for (BodyMotion& one : bodies.motions()) {
+    const collision::BodyState state = world->state({one.id});
+    one.step_start = state.pose.position;
+    if (!state.asleep) approach(one, state);
+  }
+  if (world->awake_count() == 0) return {};
+  // Bodies are looked for where some can break against each other.
+  const bool any_composed = std::any_of(bodies.composed().begin(), bodies.composed().end(),
+                                        [&](std::int64_t id) { return !bodies.motion(id).asleep || may_break({id}); });
+  const collision::Sweep what = any_composed ? collision::Sweep::everything : collision::Sweep::obstacles;
+  return timer.engine([&] { return world->sweep(scenario.step, what, impact_settings.least_speed); });
+}
+
+}  // namespace topple::structure

@@ -1,0 +1,34 @@
+#pragma once
+// The numbers that decide how what stands moves.
+
+namespace topple::structure {
+
+struct MotionSettings {
+  /// s. Substeps of a step are as few as are no longer than this. At eight of a sixtieth of a second all joints of the
+  /// seed building peak within 1 % of all its modes after a loss, at four 0.3 % of them do not (docs/dynamics.md).
+  /// Longer: peaks are missed; shorter: dearer.
+  double longest_substep = 1.0 / 480;
+  /// What a substep leaves of motion that it cannot resolve: the shock of a break or a blow dies away in some substeps.
+  /// What resolved motion loses is accounted on its own.
+  double spectral_radius = 0.8;
+  /// Shares of critical damping. Steel below its yield stress, and concrete that cracks (N. M. Newmark, W. J. Hall,
+  /// Earthquake Spectra and Design, 1982: 2 to 3 % and 3 to 5 % at half of yield). Members of several materials count
+  /// by the energy that they store under the loads. Less: higher peaks, and longer until rest.
+  double metal_damping = 0.02, other_damping = 0.05;
+  /// Pa: at least this stiff is a metal (aluminium has 70 GPa, the stiffest concrete 50).
+  double metal_modulus = 60e9;
+  /// Of each joint's capacity: what counts as rest. Smaller: it moves on for longer, with the same breaks.
+  double rest_use = 0.01;
+  /// m: the same for displacements, where no joint has a capacity.
+  double rest_displacement = 1e-3;
+  /// s between looks for rest: each is a static answer.
+  double rest_looks = 0.25;
+  /// rad. A chord that has turned by this has left small displacements: what can move without strain leaves the frame.
+  double largest_turn = 0.1;
+  /// rad. From here on nothing is damped by mass: that would brake what falls.
+  double falling_turn = 0.02;
+};
+
+inline constexpr MotionSettings motion_settings{};
+
+}  // namespace topple::structure

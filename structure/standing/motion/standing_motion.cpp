@@ -1,0 +1,540 @@
+#include "standing/motion/standing_motion.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "model/index_of.h"
+
+namespace topple::structure {
+namespace {
+
+/// Strain energy of a member's axial force and bending between its end forces, linear between them: what it counts by.
+double strain_energy(const solver::Beam& beam, const solver::Vec12& f) {
+  const double E = beam.youngs_modulus, L = beam.length;
+  const auto bending = [&](Eigen::Index axis, double I) {
+    const double a = f(axis), b = -f(6 + axis);
+    return (a * a + a * b + b * b) * L / (6 * E * I);
+  };
+  return f(0) * f(0) * L / (2 * E * beam.area) + bending(4, beam.Iy) + bending(5, beam.Iz);
+}
+
+}  // namespace
+
+/// Capacities as the building has them; the largest uses are remembered as they come.
+class StandingMotion::Law : public solver::JointLaw {
+ public:
+  Law(const StandingMotion& motion, int component)
+      : from_(motion.from_), members_(motion.from_.statics.members(component)) {}
+
+  [[nodiscard]] double beam_use(int beam, const solver::Vec12& forces) const override {
+    return std::max(end_use(beam, 0, forces), end_use(beam, 1, forces));
+  }
+  [[nodiscard]] double end_use(int beam, int end, const solver::Vec12& forces) const override {
+    const JointId joint = from_.building.joint(members_[static_cast<std::size_t>(beam)], end);
+    if (!from_.building[joint].capacity.breakable || !from_.parts.standing(joint)) return 0;
+    const double use = from_.joints.used(joint, member_joint_demand(forces, end)).value;
+    // What is beyond is taken again without the joint that broke.
+    if (use <= 1) from_.joints.remember(joint, use);
+    if (!std::isfinite(use)) throw std::runtime_error("the motion of " + from_.building[joint].name + " is not finite");
+    return use;
+  }
+
+ private:
+  const Sources& from_;
+  const std::vector<MemberId>& members_;
+};
+
+struct StandingMotion::Moving {
+  std::unique_ptr<solver::FrameDynamics> frame;
+  std::unique_ptr<Law> law;
+  double elastic_at_start = 0;
+  double first_frequency = 0;  ///< rad/s, lowest of all when it began to move
+  double left_work = 0;        ///< J, of the weight of parts that left
+  double looked = 0;           ///< s of its motion, when rest was looked for last
+  std::vector<double> mass;    ///< per beam, as the frame has it
+};
+
+StandingMotion::StandingMotion(const Sources& sources, const MotionSettings& settings)
+    : from_(sources), settings_(settings), masses_(sources.building, sources.loads, sources.parts.bearings) {}
+StandingMotion::~StandingMotion() {
+  for (const auto& [c, moving] : moving_) from_.statics.follow(c, nullptr);
+}
+
+std::vector<int> StandingMotion::moving() const {
+  std::vector<int> components;
+  for (const auto& [c, moving] : moving_) components.push_back(c);
+  return components;
+}
+
+int StandingMotion::set_step(double dt) {
+  constexpr double rounding = 1e-9;
+  const int count = std::max(1, static_cast<int>(std::ceil(dt / settings_.longest_substep - rounding)));
+  const double substep = dt / count;
+  if (substep != substep_ && any()) throw std::logic_error("the length of substeps changes while something moves");
+  substep_ = substep;
+  return count;
+}
+
+const StandingMotion::Moving* StandingMotion::of(int component) const {
+  const auto found = moving_.find(component);
+  return found == moving_.end() ? nullptr : found->second.get();
+}
+
+/// What has left is held, and touches nothing: it has no part in the motion.
+solver::FrameModel StandingMotion::model_of(int c) const {
+  solver::FrameModel model = from_.statics.model(c);
+  const std::vector<MemberId>& members = from_.statics.members(c);
+  for (std::size_t b = 0; b < members.size(); ++b) {
+    solver::Beam& beam = model.beams[b];
+    beam.density = masses_.of(members[b]) / (beam.area * beam.length);
+    if (!from_.parts.stands(members[b])) beam.end_stiffness = {Vec6::Zero(), Vec6::Zero()};
+  }
+  for (solver::Shell& shell : model.shells) shell.density = 0;
+  const std::vector<PanelId>& membranes = from_.statics.membranes(c);
+  for (std::size_t s = 0; s < membranes.size(); ++s)
+    if (!from_.statics.stiff(membranes[s])) model.shell_stiffness[static_cast<int>(s)].setZero();
+  const std::vector<NodeId>& nodes = from_.statics.nodes(c);
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+    if (from_.node_solved[index_of(nodes[n])] == 0)
+      model.supports.push_back({static_cast<int>(n), Vec6::Constant(solver::rigid)});
+  return model;
+}
+
+solver::MassModel StandingMotion::masses_of(int c) const {
+  solver::MassModel masses;
+  const std::vector<NodeId>& nodes = from_.statics.nodes(c);
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    const double mass = masses_.of(nodes[n]);
+    if (mass > 0 && from_.node_solved[index_of(nodes[n])] != 0)
+      masses.nodes.push_back({static_cast<int>(n), mass, Vec3::Zero()});
+  }
+  return masses;
+}
+
+double StandingMotion::damping_of(int c) const {
+  double metal = 0, other = 0;
+  for (const MemberId member : from_.statics.members(c)) {
+    if (!from_.parts.stands(member)) continue;
+    const double energy = strain_energy(from_.statics.beam(member), from_.statics.end_forces(member));
+    const bool is_metal = from_.building[from_.building[member].material].youngs_modulus >= settings_.metal_modulus;
+    (is_metal ? metal : other) += energy;
+  }
+  if (!(metal + other > 0)) return settings_.metal_damping;
+  return (settings_.metal_damping * metal + settings_.other_damping * other) / (metal + other);
+}
+
+void StandingMotion::put_loads(int c, solver::FrameDynamics& frame) const {
+  for (const MemberId member : from_.statics.members(c)) {
+    if (!from_.parts.stands(member)) continue;
+    std::vector<solver::BeamLoad> loads = from_.statics.loads(member);
+    for (solver::BeamLoad& load : loads) load.beam = from_.statics.number(member);
+    if (!loads.empty()) frame.set_beam_loads(from_.statics.number(member), std::move(loads));
+    if (const double factor = from_.statics.stiffness(member); factor != 1)
+      frame.set_beam_stiffness_factor(from_.statics.number(member), factor);
+  }
+  for (const NodeId node : from_.statics.nodes(c))
+    if (from_.node_solved[index_of(node)] != 0 && !from_.statics.load(node).isZero(0))
+      frame.set_node_load(from_.statics.number(node), from_.statics.load(node));
+}
+
+/// As it stands when it first begins to move.
+StandingMotion::Known StandingMotion::find(int c, const solver::FrameModel& model, const solver::MassModel& masses,
+                                           const std::vector<Vec6>& rest) const {
+  solver::DynamicOptions still;
+  still.analysis.threads = from_.threads;
+  still.keep_energy = false;
+  Known found;
+  const std::vector<solver::VibrationMode> modes = solver::natural_modes(model, masses, 1, still.analysis).modes;
+  if (modes.empty()) return found;  // supports hold every node
+  found.first_frequency = modes.front().angular_frequency;
+  const double quotient = solver::FrameDynamics(model, masses, still).rayleigh_quotient(rest);
+  const double shape = quotient > 0 ? std::sqrt(quotient) : found.first_frequency;
+  found.damping = solver::rayleigh_damping(damping_of(c), found.first_frequency, shape);
+  return found;
+}
+
+void StandingMotion::start(int c) {
+  if (moves(c)) return;
+  const solver::FrameModel model = model_of(c);
+  const solver::MassModel masses = masses_of(c);
+  std::vector<Vec6> rest;
+  for (const NodeId node : from_.statics.nodes(c))
+    rest.push_back(from_.node_solved[index_of(node)] != 0 ? from_.statics.displacement(node) : Vec6(Vec6::Zero()));
+
+  Moving moving;
+  solver::DynamicOptions options;
+  options.substep = substep_;
+  options.spectral_radius = settings_.spectral_radius;
+  options.analysis.threads = from_.threads;
+  const auto known = known_.find(c);
+  const Known& own =
+      known != known_.end() ? known->second : known_.emplace(c, find(c, model, masses, rest)).first->second;
+  options.damping = own.damping;
+  moving.first_frequency = own.first_frequency;
+  moving.frame = std::make_unique<solver::FrameDynamics>(model, masses, options);
+  put_loads(c, *moving.frame);
+  moving.frame->set_state(rest, std::vector<Vec6>(rest.size(), Vec6::Zero()));
+  moving.elastic_at_start = moving.frame->energy().elastic;
+  moving.law = std::make_unique<Law>(*this, c);
+  for (const MemberId member : from_.statics.members(c)) moving.mass.push_back(masses_.of(member));
+  from_.statics.follow(c, moving.frame.get());
+  moving_.emplace(c, std::make_unique<Moving>(std::move(moving)));
+  ++starts_;
+}
+
+/// What it still has beyond its static state is damped now: 1/2 v'Mv + 1/2 d'Kd, d the way to that state.
+void StandingMotion::settle(int c) {
+  Moving& moving = *moving_.at(c);
+  past_.damped += moving.frame->energy().kinetic;
+  std::vector<Vec6> way = moving.frame->displacements();
+  for (const NodeId node : from_.statics.nodes(c)) {
+    Vec6& own = way[static_cast<std::size_t>(from_.statics.number(node))];
+    if (from_.node_solved[index_of(node)] != 0)
+      own -= from_.statics.displacement(node);
+    else
+      own.setZero();
+  }
+  const solver::DynamicEnergy before = moving.frame->energy();
+  moving.frame->set_state(way, std::vector<Vec6>(way.size(), Vec6::Zero()));
+  past_.damped += moving.frame->energy().elastic;
+  past_.freed += before.freed - moving.frame->energy().freed;  // what setting the state took for a change
+  stop(c);
+}
+
+void StandingMotion::stop(int c) {
+  const auto found = moving_.find(c);
+  if (found == moving_.end()) return;
+  const Moving& moving = *found->second;
+  const solver::DynamicEnergy& own = moving.frame->energy();
+  const std::vector<NodeId>& nodes = from_.statics.nodes(c);
+  const bool stands =
+      std::any_of(nodes.begin(), nodes.end(), [&](NodeId node) { return from_.node_solved[index_of(node)] != 0; });
+  if (!stands) past_.freed += own.kinetic + own.elastic;  // all that it had went with what left
+  past_.damped += own.damped;
+  past_.numerical += own.numerical;
+  // Where it comes to rest the account of rest has the works of its loads, but those of what left. Where nothing of it
+  // stands any more nobody else has them.
+  past_.external_work += stands ? moving.left_work : own.external_work;
+  past_.struck += own.struck;
+  past_.freed += own.freed;
+  from_.statics.follow(c, nullptr);
+  moving_.erase(found);
+}
+
+/// Its mass has the mean velocity of what bore it, and shares it inelastically with what bears it now: linear and
+/// angular momentum are kept.
+void StandingMotion::bring_along(const MotionMasses::Rehung& panel, std::map<int, NodalForces>& impulses) const {
+  std::map<MemberId, double> gained;
+  for (const auto& [member, mass] : masses_.shares(panel.panel).members) gained[member] += mass;
+  for (const auto& [member, mass] : panel.before.members) gained[member] -= mass;
+  double lost = 0;
+  Vec3 momentum = Vec3::Zero();
+  for (const auto& [member, mass] : gained)
+    if (mass < 0) {
+      lost -= mass;
+      momentum -= mass * specific_momentum(member).head<3>();
+    }
+  for (const auto& [node, mass] : panel.before.nodes) {
+    lost += mass;
+    momentum += mass * velocity(node).head<3>();
+  }
+  for (const auto& [node, mass] : masses_.shares(panel.panel).nodes) {
+    lost -= mass;
+    momentum -= mass * velocity(node).head<3>();
+  }
+  if (!(lost > 0)) return;
+  for (const auto& [id, mass] : gained) {
+    const int c = from_.statics.component(id);
+    if (!(mass > 0) || !moves(c) || !from_.parts.stands(id)) continue;
+    const Member& member = from_.building[id];
+    const Vec3 middle = (from_.building[member.nodes[0]].position + from_.building[member.nodes[1]].position) / 2;
+    const Vec6 own = specific_momentum(id);
+    const Vec3 linear = mass * (momentum / lost - own.head<3>());
+    Vec3 turning = mass * (middle.cross(momentum / lost) - own.tail<3>());  // about the origin
+    std::vector<NodeId> held;
+    for (int end = 0; end < 2; ++end)
+      if (from_.parts.holds(from_.building.joint(id, end))) held.push_back(member.nodes[static_cast<std::size_t>(end)]);
+    const auto share = static_cast<double>(held.size());
+    for (const NodeId node : held) turning -= from_.building[node].position.cross(linear) / share;
+    for (const NodeId node : held) {
+      Vec6 given;
+      given << linear / share, turning / share;
+      impulses[c].emplace_back(node, given);
+    }
+  }
+}
+
+void StandingMotion::update_masses() {
+  std::map<int, NodalForces> impulses;
+  for (const MotionMasses::Rehung& panel : masses_.update())
+    if (from_.parts.stands(panel.panel)) bring_along(panel, impulses);
+  for (auto& [c, one] : moving_) {
+    Moving& moving = *one;
+    const std::vector<MemberId>& members = from_.statics.members(c);
+    for (std::size_t b = 0; b < members.size(); ++b) {
+      const double mass = masses_.of(members[b]);
+      if (mass == moving.mass[b] || !from_.parts.stands(members[b])) continue;
+      moving.mass[b] = mass;
+      const solver::Beam& beam = moving.frame->model().beams[b];
+      moving.frame->set_beam_density(static_cast<int>(b), std::max(0.0, mass) / (beam.area * beam.length));
+    }
+    // What is among its own parts comes from no blow.
+    if (const auto own = impulses.find(c); own != impulses.end()) past_.within += strike(c, own->second);
+  }
+}
+
+std::vector<StandingMotion::Break> StandingMotion::advance(int c) {
+  Moving& moving = *moving_.at(c);
+  const double freed = moving.frame->energy().freed;
+  const std::vector<solver::JointBreak>& broken = moving.frame->advance(moving.law.get());
+  std::vector<Break> breaks;
+  for (const solver::JointBreak& one : broken) {
+    const MemberId member = from_.statics.members(c)[static_cast<std::size_t>(one.beam)];
+    breaks.push_back({from_.building.joint(member, one.end), member_joint_demand(one.forces, one.end), one.time, 0});
+  }
+  for (Break& one : breaks) one.freed = (moving.frame->energy().freed - freed) / static_cast<double>(breaks.size());
+  return breaks;
+}
+
+const Vec6& StandingMotion::displacement(NodeId node) const {
+  const Moving& moving = *moving_.at(from_.statics.component(node));
+  return moving.frame->displacements()[static_cast<std::size_t>(from_.statics.number(node))];
+}
+
+Vec6 StandingMotion::velocity(NodeId node) const {
+  const Moving* moving = of(from_.statics.component(node));
+  if (moving == nullptr) return Vec6::Zero();
+  return moving->frame->velocities()[static_cast<std::size_t>(from_.statics.number(node))];
+}
+
+solver::Vec12 StandingMotion::end_forces(MemberId member) const {
+  return moving_.at(from_.statics.component(member))->frame->beam_end_forces(from_.statics.number(member));
+}
+
+std::array<Vec6, 4> StandingMotion::corner_forces(PanelId membrane) const {
+  return moving_.at(from_.components.of(membrane))->frame->shell_corner_forces(from_.statics.number(membrane));
+}
+
+/// Per kg that moves with the member: what changes of mass the frame has not taken over yet does not count.
+Vec6 StandingMotion::specific_momentum(MemberId member) const {
+  const Moving* moving = of(from_.statics.component(member));
+  if (moving == nullptr) return Vec6::Zero();
+  const int number = from_.statics.number(member);
+  const solver::Beam& beam = moving->frame->model().beams[static_cast<std::size_t>(number)];
+  const double mass = beam.density * beam.area * beam.length;
+  return mass > 0 ? Vec6(moving->frame->beam_momentum(number) / mass) : Vec6(Vec6::Zero());
+}
+
+Vec6 StandingMotion::momentum(MemberId member) const { return masses_.own(member) * specific_momentum(member); }
+
+namespace {
+
+/// sum of m (r^2 1 - r r') of points about their centre; `weight` each.
+Mat3 inertia_of(std::span<const Vec3> points, const Vec3& centre, double weight) {
+  Mat3 sum = Mat3::Zero();
+  for (const Vec3& point : points) {
+    const Vec3 r = point - centre;
+    sum += weight * (r.squaredNorm() * Mat3::Identity() - r * r.transpose());
+  }
+  return sum;
+}
+
+Vec3 mean_of(std::span<const Vec3> points) {
+  Vec3 sum = Vec3::Zero();
+  for (const Vec3& point : points) sum += point;
+  return sum / static_cast<double>(points.size());
+}
+
+/// The places of a four-cornered plate that have its second moments, a quarter of its mass each (Gauss's two by two).
+std::array<Vec3, 4> quarters(const std::array<Vec3, 4>& corner) {
+  const double near = (1 + 1 / std::sqrt(3.0)) / 2, far = 1 - near;
+  std::array<Vec3, 4> points;
+  for (std::size_t i = 0; i < 4; ++i)
+    points[i] = near * near * corner[i] + near * far * (corner[(i + 1) % 4] + corner[(i + 3) % 4]) +
+                far * far * corner[(i + 2) % 4];
+  return points;
+}
+
+}  // namespace
+
+/// Its mass moved with what bore it. Once it leaves, that mass lies where the panel is, and turns as its corners do:
+/// the linear momentum is kept.
+Vec6 StandingMotion::momentum(PanelId panel) const {
+  Vec6 sum = Vec6::Zero();
+  const MotionMasses::Shares& shares = masses_.shares(panel);
+  for (const auto& [member, mass] : shares.members) sum += mass * specific_momentum(member);
+  for (const auto& [node, mass] : shares.nodes) sum.head<3>() += mass * velocity(node).head<3>();
+  std::array<Vec3, 4> corner;
+  std::vector<Vec3> places, velocities;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const NodeId node = from_.building[panel].nodes[i];
+    corner[i] = from_.building[node].position;
+    if (from_.parts.segments.degree(node) == 0) continue;  // nothing tells how it moves
+    places.push_back(corner[i]);
+    velocities.emplace_back(velocity(node).head<3>());
+  }
+  const std::array<Vec3, 4> mass_at = quarters(corner);
+  const Vec3 centre = mean_of(mass_at), linear = sum.head<3>();
+  sum.tail<3>() = centre.cross(linear);
+  if (places.size() < 3) return sum;
+  const Vec3 middle = mean_of(places), mean = mean_of(velocities);
+  Vec3 turning = Vec3::Zero();
+  for (std::size_t i = 0; i < places.size(); ++i) turning += (places[i] - middle).cross(velocities[i] - mean);
+  const Vec3 spin = inertia_of(places, middle, 1).ldlt().solve(turning);
+  sum.tail<3>() += inertia_of(mass_at, centre, from_.loads.mass(panel) / 4) * spin;
+  return sum;
+}
+
+Vec6 StandingMotion::momentum(NodeId node) const {
+  Vec6 sum = Vec6::Zero();
+  const Vec3 given = from_.loads.mass(node) * velocity(node).head<3>();
+  sum.head<3>() = given;
+  sum.tail<3>() = from_.building[node].position.cross(given);
+  return sum;
+}
+
+namespace {
+
+std::vector<solver::FrameDynamics::Impulse> numbered(const FrameStatics& statics,
+                                                     const StandingMotion::NodalForces& forces) {
+  std::vector<solver::FrameDynamics::Impulse> impulses;
+  for (const auto& [node, force] : forces) impulses.push_back({statics.number(node), force});
+  return impulses;
+}
+
+}  // namespace
+
+Eigen::MatrixXd StandingMotion::mobility(int c, std::span<const NodalForces> forces) const {
+  const solver::FrameDynamics& frame = *moving_.at(c)->frame;
+  const auto n = static_cast<Eigen::Index>(forces.size());
+  Eigen::MatrixXd result(n, n);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const std::vector<Vec6> velocity =
+        frame.velocities_of(numbered(from_.statics, forces[static_cast<std::size_t>(j)]));
+    for (Eigen::Index i = 0; i < n; ++i) {
+      double sum = 0;
+      for (const auto& [node, force] : forces[static_cast<std::size_t>(i)])
+        sum += force.dot(velocity[static_cast<std::size_t>(from_.statics.number(node))]);
+      result(i, j) = sum;
+    }
+  }
+  return (result + result.transpose()) / 2;
+}
+
+StandingMotion::LocalMotion StandingMotion::local_motion(int c, std::span<const NodalForces> forces) const {
+  std::vector<int> nodes;
+  std::vector<std::vector<solver::FrameDynamics::Impulse>> pushes;
+  const auto pushed = [&](int node) { return std::find(nodes.begin(), nodes.end(), node) != nodes.end(); };
+  for (const NodalForces& one : forces) {
+    pushes.push_back(numbered(from_.statics, one));
+    for (const solver::FrameDynamics::Impulse& force : pushes.back())
+      if (!pushed(force.node)) nodes.push_back(force.node);
+  }
+  LocalMotion local{moving_.at(c)->frame->local_modes(nodes, pushes), {}};
+  for (const auto& [beam, end_forces] : local.modes.end_forces) {
+    const MemberId member = from_.statics.members(c)[static_cast<std::size_t>(beam)];
+    for (int end = 0; end < 2; ++end) {
+      const JointId joint = from_.building.joint(member, end);
+      if (!from_.building[joint].capacity.breakable || !from_.parts.standing(joint) ||
+          !pushed(from_.statics.number(from_.building[member].nodes[static_cast<std::size_t>(end)])))
+        continue;
+      Eigen::Matrix<double, 6, Eigen::Dynamic> columns(6, end_forces.cols());
+      for (Eigen::Index k = 0; k < end_forces.cols(); ++k) columns.col(k) = member_joint_demand(end_forces.col(k), end);
+      local.demands.emplace_back(joint, std::move(columns));
+    }
+  }
+  return local;
+}
+
+double StandingMotion::strike(int c, const NodalForces& impulses) {
+  solver::FrameDynamics& frame = *moving_.at(c)->frame;
+  const double before = frame.energy().struck;
+  frame.strike(numbered(from_.statics, impulses));
+  return frame.energy().struck - before;
+}
+
+double StandingMotion::largest_turn(int c) const {
+  const std::vector<Vec6>& u = moving_.at(c)->frame->displacements();
+  double largest = 0;
+  for (const MemberId id : from_.statics.members(c)) {
+    if (!from_.parts.stands(id)) continue;
+    const Member& member = from_.building[id];
+    // A rigid end that holds the member no more says nothing of where its end is.
+    const bool first = from_.parts.holds(from_.building.joint(id, 0)),
+               second = from_.parts.holds(from_.building.joint(id, 1));
+    const auto at = [&](std::size_t end) -> const Vec6& {
+      return u[static_cast<std::size_t>(from_.statics.number(member.nodes[end]))];
+    };
+    if (first && second) {
+      const Vec3 apart = member.axes * Vec3(at(1).head<3>() - at(0).head<3>());
+      largest = std::max(largest, apart.tail<2>().norm() / member.length);
+    } else if (first || second) {
+      largest = std::max(largest, at(first ? 0 : 1).tail<3>().norm());
+    }
+  }
+  return largest;
+}
+
+void StandingMotion::let_fall(int c) { moving_.at(c)->frame->set_mass_damping(0); }
+
+bool StandingMotion::look_for_rest(int c) const {
+  const Moving& moving = *moving_.at(c);
+  return moving.frame->time() - moving.looked >= settings_.rest_looks;
+}
+
+/// How far each joint is from its static demand, and how fast it goes over the lowest frequency: in one mode together
+/// no less than the amplitude, and more in a higher one.
+bool StandingMotion::rests(int c) {
+  Moving& moving = *moving_.at(c);
+  moving.looked = moving.frame->time();
+  const double slowest = moving.first_frequency;
+  const std::vector<Vec6>&u = moving.frame->displacements(), &v = moving.frame->velocities();
+  for (const NodeId node : from_.statics.nodes(c)) {
+    if (from_.node_solved[index_of(node)] == 0) continue;
+    const auto n = static_cast<std::size_t>(from_.statics.number(node));
+    const double off = (u[n] - from_.statics.displacement(node)).head<3>().norm() + v[n].head<3>().norm() / slowest;
+    if (!(off <= settings_.rest_displacement)) return false;
+  }
+  for (const MemberId member : from_.statics.members(c)) {
+    if (!from_.parts.stands(member)) continue;
+    const int beam = from_.statics.number(member);
+    const solver::Vec12 off = moving.frame->beam_end_forces(beam) - from_.statics.end_forces(member);
+    const solver::Vec12 rate = moving.frame->beam_end_force_rates(beam);
+    for (int end = 0; end < 2; ++end) {
+      const JointId joint = from_.building.joint(member, end);
+      if (!from_.building[joint].capacity.breakable || !from_.parts.standing(joint)) continue;
+      Vec6 most = member_joint_demand(off, end).cwiseAbs() + member_joint_demand(rate, end).cwiseAbs() / slowest;
+      for (int sign = 0; sign < 2; ++sign) {
+        if (!(from_.joints.used(joint, most).value <= settings_.rest_use)) return false;
+        most(0) = -most(0);
+      }
+    }
+  }
+  return true;
+}
+
+void StandingMotion::part_leaves(int c, double weight_work) {
+  if (const auto found = moving_.find(c); found != moving_.end()) found->second->left_work += weight_work;
+}
+
+MotionEnergy StandingMotion::energy() const {
+  MotionEnergy sum = past_;
+  sum.struck -= past_.within;
+  sum.freed -= past_.within;
+  for (const auto& [c, moving] : moving_) {
+    const solver::DynamicEnergy& own = moving->frame->energy();
+    sum.kinetic += own.kinetic;
+    sum.elastic_change += own.elastic - moving->elastic_at_start;
+    sum.damped += own.damped;
+    sum.numerical += own.numerical;
+    sum.external_work += own.external_work;
+    sum.struck += own.struck;
+    sum.freed += own.freed;
+  }
+  return sum;
+}
+
+}  // namespace topple::structure

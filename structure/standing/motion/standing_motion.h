@@ -1,0 +1,137 @@
+#pragma once
+// What stands and is not at rest: each component that moves has a solver::FrameDynamics of its own, which begins at its
+// static state and takes every change that its statics take. At rest there is none, and it costs nothing.
+#include <map>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "failure/joint_states.h"
+#include "standing/component_parts.h"
+#include "standing/motion/motion_masses.h"
+#include "standing/motion/motion_settings.h"
+#include "standing/standing_parts.h"
+#include "topple/solver/frame_dynamics.h"
+
+namespace topple::structure {
+
+/// Joules, of all that moved so far. While a component moves, what its elastic energy is beyond that at its start.
+struct MotionEnergy {
+  double kinetic = 0, elastic_change = 0;
+  double damped = 0, numerical = 0;  ///< by damping; by the method
+  double external_work = 0;          ///< of loads, on what moves now
+  double struck = 0, freed = 0;
+  double within =
+      0;  ///< of `struck`: impulses between its own parts, as panels come to lie otherwise; accounted as freed
+};
+
+class StandingMotion {
+ public:
+  /// All of it must outlive this.
+  struct Sources {
+    const Building& building;
+    const StandingParts& parts;
+    const FrameLoads& loads;
+    FrameStatics& statics;
+    JointStates& joints;
+    const ComponentParts& components;
+    const std::vector<char>& node_solved;
+    int threads = 1;
+  };
+  StandingMotion(const Sources& sources, const MotionSettings& settings);
+  ~StandingMotion();
+
+  [[nodiscard]] bool any() const { return !moving_.empty(); }
+  [[nodiscard]] bool moves(int component) const { return moving_.contains(component); }
+  [[nodiscard]] std::vector<int> moving() const;
+  /// Components that have begun to move, ever.
+  [[nodiscard]] std::uint64_t starts() const { return starts_; }
+
+  /// The length of substeps from now on: as few to a step of `dt` as the settings allow. Returns their number.
+  int set_step(double dt);
+  /// From the static state solved last; nothing of the component may have changed since. No effect on one that moves.
+  void start(int component);
+  /// It rests: what it still has beyond its static state, as solved now, is accounted as damped.
+  void settle(int component);
+  /// Nothing of it stands any more.
+  void stop(int component);
+  /// Masses as panels hand on their weight now, for all that moves.
+  void update_masses();
+
+  /// A joint that broke within a substep, and what its member bore then.
+  struct Break {
+    JointId joint;
+    Vec6 demand = Vec6::Zero();
+    double time = 0;   ///< of the component's motion, s
+    double freed = 0;  ///< J, shared equally by those of one substep
+  };
+  /// One substep of a component that moves.
+  [[nodiscard]] std::vector<Break> advance(int component);
+
+  // Of what moves; a part of a component at rest has no velocity and no momentum.
+  [[nodiscard]] const Vec6& displacement(NodeId node) const;
+  [[nodiscard]] Vec6 velocity(NodeId node) const;
+  [[nodiscard]] solver::Vec12 end_forces(MemberId member) const;
+  [[nodiscard]] std::array<Vec6, 4> corner_forces(PanelId membrane) const;
+  /// A part leaves that moves: J that its weight has done since it was at rest, which the account of rest never sees.
+  void part_leaves(int component, double weight_work);
+  /// Linear momentum, and angular about the origin, of displacements about the unloaded place.
+  [[nodiscard]] Vec6 momentum(MemberId member) const;  ///< panels that lie on it apart
+  [[nodiscard]] Vec6 momentum(PanelId panel) const;
+  [[nodiscard]] Vec6 momentum(NodeId node) const;
+
+  /// Mobility of nodal forces (1/kg for unit forces), and what an impulse of them does.
+  using NodalForces = std::vector<std::pair<NodeId, Vec6>>;
+  /// g_i' M^-1 g_j of forces on one component that moves.
+  [[nodiscard]] Eigen::MatrixXd mobility(int component, std::span<const NodalForces> forces) const;
+  /// The nodes that forces of one component act on, others held (solver::FrameDynamics::local_modes()), and what joints
+  /// at these nodes bear for a unit of each coordinate.
+  struct LocalMotion {
+    solver::LocalModes modes;
+    std::vector<std::pair<JointId, Eigen::Matrix<double, 6, Eigen::Dynamic>>> demands;
+  };
+  [[nodiscard]] LocalMotion local_motion(int component, std::span<const NodalForces> forces) const;
+  /// Returns the work of the impulses, J. What changed before is taken over first.
+  double strike(int component, const NodalForces& impulses);
+
+  /// Largest turn of a chord in the component, rad.
+  [[nodiscard]] double largest_turn(int component) const;
+  /// It falls: nothing is damped by mass any more.
+  void let_fall(int component);
+  /// Its statics were solved: whether every joint is at rest there, as the settings have it.
+  [[nodiscard]] bool rests(int component);
+  /// It is time to look.
+  [[nodiscard]] bool look_for_rest(int component) const;
+
+  [[nodiscard]] MotionEnergy energy() const;
+
+ private:
+  struct Moving;
+  class Law;
+  /// Found once for each component.
+  struct Known {
+    double first_frequency = 1;  ///< rad/s; of what cannot move any
+    solver::RayleighDamping damping;
+  };
+  [[nodiscard]] Known find(int component, const solver::FrameModel& model, const solver::MassModel& masses,
+                           const std::vector<Vec6>& rest) const;
+  [[nodiscard]] const Moving* of(int component) const;
+  [[nodiscard]] solver::FrameModel model_of(int component) const;
+  [[nodiscard]] solver::MassModel masses_of(int component) const;
+  [[nodiscard]] double damping_of(int component) const;
+  void put_loads(int component, solver::FrameDynamics& frame) const;
+  [[nodiscard]] Vec6 specific_momentum(MemberId member) const;
+  /// By component: what a panel that lies on other members now brings them beyond their own velocity.
+  void bring_along(const MotionMasses::Rehung& panel, std::map<int, NodalForces>& impulses) const;
+
+  Sources from_;
+  MotionSettings settings_;
+  MotionMasses masses_;
+  double substep_ = 0;
+  std::map<int, Known> known_;
+  std::map<int, std::unique_ptr<Moving>> moving_;
+  MotionEnergy past_;  ///< of motions that have ended
+  std::uint64_t starts_ = 0;
+};
+
+}  // namespace topple::structure
