@@ -3,9 +3,9 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <map>
 #include <random>
 
+#include "pressing.h"
 #include "world_builder.h"
 
 using namespace collision_test;
@@ -18,42 +18,6 @@ std::unique_ptr<World> small_steps(bool ground, double friction = 0.6, double re
   if (ground) world->set_ground(0, friction, restitution);
   return world;
 }
-
-/// What bodies pressed with when they came to rest, or press with now: force on what stands, and on each body out of
-/// balance with its weight.
-class Pressing {
- public:
-  void read(const World& world) {
-    for (const BodyId id : world.bodies())
-      if (!world.state(id).asleep) forget(id.value);
-    for (const Contact& contact : world.contacts()) told_[{contact.body.value, other(contact)}] = contact;
-  }
-  [[nodiscard]] Vec3 on_standing() const {
-    Vec3 sum = Vec3::Zero();
-    for (const auto& [key, contact] : told_)
-      if (contact.other.kind != Touched::Kind::body) sum += contact.impulse / kStep;
-    return sum;
-  }
-  [[nodiscard]] Vec3 on_body(std::int64_t id) const {
-    Vec3 sum = Vec3::Zero();
-    for (const auto& [key, contact] : told_) {
-      if (contact.body.value == id) sum -= contact.impulse / kStep;
-      if (contact.other.body.value == id) sum += contact.impulse / kStep;
-    }
-    return sum;
-  }
-  [[nodiscard]] const auto& all() const { return told_; }
-
- private:
-  static std::int64_t other(const Contact& contact) {
-    if (contact.other.kind == Touched::Kind::body) return contact.other.body.value;
-    return contact.other.kind == Touched::Kind::ground ? -1 : -2 - contact.other.obstacle.value;
-  }
-  void forget(std::int64_t id) {
-    std::erase_if(told_, [&](const auto& entry) { return entry.first.first == id || entry.first.second == id; });
-  }
-  std::map<std::pair<std::int64_t, std::int64_t>, Contact> told_;
-};
 
 BodyDescription chunk(std::mt19937& random, const Vec3& at) {
   const auto between = [&](double low, double high) { return low + (high - low) * (random() % 1000) / 1000.0; };

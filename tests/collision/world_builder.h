@@ -35,6 +35,46 @@ inline BodyDescription box_body(const Vec3& half_extents, double mass, const Vec
   return body;
 }
 
+/// A convex prism: corners (x, z), anticlockwise seen from -y, and its width along y about y = 0. Where it is said to
+/// be.
+inline BodyDescription extruded(const std::vector<Eigen::Vector2d>& corners, double wide, double mass,
+                                double friction) {
+  double area = 0, xx = 0, zz = 0, xz = 0;
+  Eigen::Vector2d centre(0, 0);
+  const auto sum = [&](auto&& term) {
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Eigen::Vector2d &p = corners[i], &q = corners[(i + 1) % corners.size()];
+      term(p, q, p.x() * q.y() - q.x() * p.y());
+    }
+  };
+  sum([&](const auto& p, const auto& q, double cross) {
+    area += cross / 2;
+    centre += (p + q) * cross / 6;
+  });
+  centre /= area;
+  sum([&](const auto& from, const auto& to, double) {
+    const Eigen::Vector2d p = from - centre, q = to - centre, s = p + q;
+    const double share = (p.x() * q.y() - q.x() * p.y()) / 24 * mass / area;
+    xx += share * (p.x() * p.x() + q.x() * q.x() + s.x() * s.x());
+    zz += share * (p.y() * p.y() + q.y() * q.y() + s.y() * s.y());
+    xz += share * (p.x() * p.y() + q.x() * q.y() + s.x() * s.y());
+  });
+  const double yy = mass * wide * wide / 12;
+  BodyDescription body;
+  ConvexPart part;
+  part.kind = ConvexPart::Kind::hull;
+  part.tag = 0;
+  for (const Eigen::Vector2d& corner : corners)
+    for (const double side : {-wide / 2, wide / 2})
+      part.points.emplace_back(corner.x() - centre.x(), side, corner.y() - centre.y());
+  body.parts = {part};
+  body.mass = mass;
+  body.inertia << yy + zz, 0, -xz, 0, xx + zz, 0, -xz, 0, xx + yy;
+  body.pose.position = Vec3(centre.x(), 0, centre.y());
+  body.friction = friction;
+  return body;
+}
+
 inline BodyDescription ball_body(double radius, double mass, const Vec3& at) {
   BodyDescription body;
   ConvexPart part;
