@@ -190,3 +190,36 @@ TEST_CASE(
   CHECK(spun > 1);
   CHECK(spun < 250);  // rolled by what slides over it: 25 m/s at 0.1 m from its axis
 }
+
+TEST_CASE("small steps: of two balls that hang side by side, each swings out as high as the other fell, in turn") {
+  const auto world = world_with_gravity();
+  const double length = 3, radius = 0.25, angle = 0.7, dt = 1.0 / 240;
+  std::vector<BodyId> hung;
+  for (int i = 0; i < 2; ++i) {
+    const Vec3 anchor(2 * radius * i, 0, length);
+    BodyDescription ball = ball_body(radius, 30, anchor - Vec3(0, 0, length));
+    if (i == 0) ball.pose.position = anchor - length * Vec3(std::sin(angle), 0, std::cos(angle));
+    ball.restitution = 1;
+    ball.friction = 0;
+    hung.push_back(world->add_body(ball));
+    CableDescription cable;
+    cable.body = hung.back();
+    cable.anchor = anchor;
+    cable.length = length;
+    world->add_cable(cable);
+  }
+  const double fell = length * (1 - std::cos(angle));
+  // From blow to blow, of a pendulum of this amplitude; the first comes after half of that.
+  const double half = M_PI * std::sqrt(length / kGravity) * (1 + angle * angle / 16 + 11 * std::pow(angle, 4) / 3072);
+  const auto highest = [&](int ball, double seconds) {
+    double height = 0;
+    for (int i = 0; i < static_cast<int>(seconds / dt); ++i) {
+      world->step(dt);
+      height = std::max(height, world->state(hung[static_cast<std::size_t>(ball)]).pose.position.z());
+    }
+    return height;
+  };
+  // Contacts are foreseen for a step, and the ball is lower or higher by what it swings in one: 1e-3 of the height.
+  CHECK(highest(1, 1.25 * half) == Approx(fell).epsilon(1e-3));
+  CHECK(highest(0, half) == Approx(fell).epsilon(1e-3));
+}
