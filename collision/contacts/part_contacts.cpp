@@ -75,6 +75,26 @@ void collide_ball(const PartShape& ball, const Placement& ball_at, const Polyhed
   set_single(centre + ball.radius * global, other_at * on, global, separation, ball_at, other_at, manifold);
 }
 
+/// Corners under which another stands, more below them than beside: a body would have to turn by 45 degrees before they
+/// touch instead. The upper corner of a panel that lands aslant stands a little farther out than the lower one, and
+/// of the four that are kept it would be one in its place: the panel would go into the ground by its thickness.
+void leave_out_covered(std::vector<ManifoldPoint>& points, std::vector<Vec3>& places) {
+  const auto covered = [&](const Vec3& place) {
+    return std::any_of(places.begin(), places.end(),
+                       [&](const Vec3& other) { return place.z() - other.z() > (place - other).head<2>().norm(); });
+  };
+  std::vector<char> out;
+  for (const Vec3& place : places) out.push_back(covered(place) ? 1 : 0);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (out[i]) continue;
+    points[kept] = points[i];
+    places[kept++] = places[i];
+  }
+  points.resize(kept);
+  places.resize(kept);
+}
+
 }  // namespace
 
 void collide(const PartShape& first, const Placement& first_at, const PartShape& second, const Placement& second_at,
@@ -122,6 +142,7 @@ void collide_with_ground(const PartShape& part, const Placement& at, double heig
   }
   manifold.normal = manifold.local_normal = down;
   manifold.normal_on_first = false;
+  if (points.size() > Manifold::most) leave_out_covered(points, places);
   keep_four(down, points, places, manifold);
 }
 
