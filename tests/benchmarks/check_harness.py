@@ -15,6 +15,7 @@ ROOT, TOPPLE = sys.argv.pop(1), sys.argv.pop(1)
 sys.path.insert(0, os.path.join(ROOT, "benchmarks", "harness"))
 
 import compare  # noqa: E402
+import debris  # noqa: E402
 import labels  # noqa: E402
 import other_peers  # noqa: E402
 import output  # noqa: E402
@@ -228,6 +229,25 @@ class Scaling(unittest.TestCase):
         rows = [{"freedoms": n, "analysis_peak_mib": n**1.2, "simulation_peak_mib": 1.0} for n in (1000, 10000)]
         self.assertAlmostEqual(scaling.needs(rows, 100000) / 100000**1.2, 1, places=9)
         self.assertEqual(scaling.needs(rows[:1], 100000), 0.0)
+
+
+class Debris(unittest.TestCase):
+    RUN = {"scene": "heap", "engine": "small-steps", "bodies": 5, "bits": "ab", "milliseconds": 2.0, "over_10_mm": 3, "over_20_mm": 0, "settled_at": 1.0, "rest": 4.0, "height": 1.0,
+           "deepest_mm": 7.0, "asleep_force_worst": 1e-6, "asleep_force_rms": 3e-7, "created": 1e-3, "same_bits": True}
+
+    def test_seeds_become_medians_of_times_and_the_worst_of_errors(self):
+        runs = [self.RUN, dict(self.RUN, milliseconds=3.0, rest=6.0, deepest_mm=9.0, asleep_force_rms=4e-7, bits="cd"), dict(self.RUN, milliseconds=7.0, rest=5.0, created=None, asleep_force_rms=0.0)]
+        row = debris.together(runs)
+        self.assertEqual([row[key] for key in ("seeds", "milliseconds", "low", "high", "rest", "deepest_mm", "created", "bits", "same_bits")], [3, 3.0, 2.5, 5.0, 5.0, 9.0, 1e-3, "ab", "yes"])
+        self.assertAlmostEqual(row["asleep_force_rms"], 5e-7 / 3**0.5)
+
+    def test_what_stays_awake_once_has_no_time_of_rest_and_is_named(self):
+        row = debris.together([self.RUN, dict(self.RUN, rest=None)])
+        self.assertIsNone(row["rest"])
+        self.assertIn("not all asleep in the end: heap", debris.verdict([row])[0])
+
+    def test_one_run_that_differs_is_told(self):
+        self.assertEqual(debris.together([self.RUN, dict(self.RUN, same_bits=False)])["same_bits"], "no")
 
 
 class Labels(unittest.TestCase):

@@ -1,6 +1,6 @@
-# What the benchmarks measure with: the reference in extended precision, and the comparison of stored results.
+# What the benchmarks measure with: the reference in extended precision, debris, and the comparison of stored results.
 if(TOPPLE_BENCHMARKS)
-  topple_tests(benchmarks topple::solver bench_confidence)
+  topple_tests(benchmarks topple::solver bench_confidence bench_debris_measures)
   find_package(Python3 COMPONENTS Interpreter)
   if(Python3_FOUND)
     add_test(NAME benchmark_harness COMMAND "${Python3_EXECUTABLE}" "${CMAKE_CURRENT_LIST_DIR}/check_harness.py"
