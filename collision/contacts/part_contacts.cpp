@@ -83,16 +83,15 @@ void leave_out_covered(std::vector<ManifoldPoint>& points, std::vector<Vec3>& pl
     return std::any_of(places.begin(), places.end(),
                        [&](const Vec3& other) { return place.z() - other.z() > (place - other).head<2>().norm(); });
   };
-  std::vector<char> out;
-  for (const Vec3& place : places) out.push_back(covered(place) ? 1 : 0);
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (out[i]) continue;
-    points[kept] = points[i];
-    places[kept++] = places[i];
+  // What covers a corner that covers another covers that one too: the order does not matter.
+  for (std::size_t i = 0; i < places.size();) {
+    if (!covered(places[i])) {
+      ++i;
+      continue;
+    }
+    points.erase(points.begin() + static_cast<std::ptrdiff_t>(i));
+    places.erase(places.begin() + static_cast<std::ptrdiff_t>(i));
   }
-  points.resize(kept);
-  places.resize(kept);
 }
 
 }  // namespace
