@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace topple::bench {
 
@@ -111,17 +112,32 @@ void BodyBalances::end_step(const DebrisRun& run, const World& world) {
   keep_pressing(world);
 }
 
+void BodyBalances::keep(const Contact& contact) {
+  const Touched& other = contact.other;
+  const std::int64_t number = other.kind == Touched::Kind::body       ? other.body.value
+                              : other.kind == Touched::Kind::obstacle ? other.obstacle.value
+                                                                      : -1;
+  pressing_[{contact.body.value, contact.part_tag, static_cast<std::int64_t>(other.kind), number, other.part_tag}] =
+      contact;
+}
+
+/// A world may tell what bodies rest with in the step in which they fall asleep, or nothing then: the step before, in
+/// which they were awake, told what they press with.
 void BodyBalances::keep_pressing(const World& world) {
   std::erase_if(pressing_, [&](const auto& entry) { return !all_asleep(entry.second, world); });
+  std::set<std::int64_t> told;
   for (const Contact& contact : world.contacts()) {
     if (!all_asleep(contact, world)) continue;
-    const Touched& other = contact.other;
-    const std::int64_t number = other.kind == Touched::Kind::body       ? other.body.value
-                                : other.kind == Touched::Kind::obstacle ? other.obstacle.value
-                                                                        : -1;
-    pressing_[{contact.body.value, contact.part_tag, static_cast<std::int64_t>(other.kind), number, other.part_tag}] =
-        contact;
+    keep(contact);
+    told.insert(contact.body.value);
+    if (contact.other.kind == Touched::Kind::body) told.insert(contact.other.body.value);
   }
+  for (const Contact& contact : before_) {
+    const bool again = told.contains(contact.body.value) ||
+                       (contact.other.kind == Touched::Kind::body && told.contains(contact.other.body.value));
+    if (!again && all_asleep(contact, world)) keep(contact);
+  }
+  before_.assign(world.contacts().begin(), world.contacts().end());
 }
 
 Residuals BodyBalances::asleep(const DebrisRun& run, const World& world) const {

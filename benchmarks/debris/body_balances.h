@@ -55,11 +55,13 @@ class BodyBalances {
   using Key = std::array<std::int64_t, 5>;  ///< body, its part; kind, number and part of what it touches
   void add_told(const collision::Contact& contact, std::vector<Body>& bodies) const;
   void follow_angular_momentum();
+  void keep(const collision::Contact& contact);
   void keep_pressing(const collision::World& world);
 
   const DebrisScene& scene_;
   std::vector<Body> bodies_;
   std::map<Key, collision::Contact> pressing_;  ///< between what sleeps and what sleeps or stands
+  std::vector<collision::Contact> before_;      ///< told in the last step
   Residuals awake_;
   Eigen::Vector3d unaccounted_ = Eigen::Vector3d::Zero();
   std::optional<Eigen::Vector3d> angular_begun_;

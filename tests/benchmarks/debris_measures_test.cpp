@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "measures.h"
+#include "topple/collision/sequential_impulse.h"
 #include "topple/collision/small_steps.h"
 
 using namespace topple::bench;
@@ -77,6 +78,13 @@ TEST_CASE("a box that falls makes no energy, presses with its weight, rests, and
   CHECK(measured.awake.count > 0);
   CHECK(measured.awake.worst_force < 1e-9);
   CHECK(measured.momentum < 1e-9);
+}
+
+TEST_CASE("under a solver that tells nothing when bodies fall asleep, they press as in the step before") {
+  const DebrisMeasures measured = measure_debris(falling_box(0), topple::collision::make_sequential_impulse_world);
+  REQUIRE(measured.rest.has_value());
+  REQUIRE(measured.asleep.count == 1);
+  CHECK(measured.asleep.worst_force < 1e-3);  // it stops after a number of iterations
 }
 
 TEST_CASE("a body that nothing bears while it sleeps is out of balance by its weight") {
