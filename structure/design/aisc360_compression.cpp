@@ -18,6 +18,8 @@ Slenderness slenderness(const SteelSection& s) {
   }
 }
 
+double flange_coefficient(const SteelSection& s) { return std::clamp(4 / std::sqrt(slenderness(s).web), 0.35, 0.76); }
+
 namespace {
 
 /// E7 (E7-2, E7-3): width of plate that counts in compression, over its whole width.
@@ -33,7 +35,9 @@ double effective_area(const SteelSection& s, double fcr) {
   const Slenderness plate = slenderness(s);
   if (is_open(s)) {
     const double web_length = plate.web * s.web;
-    const double flange = effective_share(plate.flange, 0.56 * root, s.fy, fcr, 0.22, 1.49);
+    // Table B4.1a: case 1 rolled, case 2 built up.
+    const double limit = s.rolled ? 0.56 * root : 0.64 * root * std::sqrt(flange_coefficient(s));
+    const double flange = effective_share(plate.flange, limit, s.fy, fcr, 0.22, 1.49);
     const double web = effective_share(plate.web, 1.49 * root, s.fy, fcr, 0.18, 1.31);
     return s.area - (1 - flange) * 2 * s.width * s.flange - (1 - web) * web_length * s.web;
   }

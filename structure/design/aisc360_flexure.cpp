@@ -9,29 +9,37 @@ namespace {
 
 constexpr const char* clause = "AISC 360 F1";
 
-/// F2-2 to F2-6: lateral-torsional buckling of an I shape whose strength without it is `plain`.
-double lateral_strength(const SteelSection& s, double length, double cb, double plain, const Trail& trail) {
+/// F4-11: radius of gyration of the compressed flange and a third of the compressed web; a_w of F4-12.
+double flange_radius(const SteelSection& s, double aw) { return s.width / std::sqrt(12 * (1 + aw / 6)); }
+
+/// F2-2 to F2-6, with a noncompact web F4-2 to F4-8: lateral-torsional buckling of an I shape whose strength without it
+/// is `plain`.
+double lateral_strength(const SteelSection& s, double length, double cb, double plain, bool noncompact, double aw,
+                        const Trail& trail) {
   const double ho = s.depth - s.flange;
-  const double rts = std::sqrt(std::sqrt(s.Iz * s.warping) / s.elastic_y);
+  const double rts = noncompact ? flange_radius(s, aw) : std::sqrt(std::sqrt(s.Iz * s.warping) / s.elastic_y);
   const double jc = s.J / (s.elastic_y * ho);
   const double residual = 0.7 * s.fy;
-  const double lp = 1.76 * s.radius_z() * std::sqrt(s.E / s.fy);
+  const double lp = (noncompact ? 1.1 * rts : 1.76 * s.radius_z()) * std::sqrt(s.E / s.fy);
   const double lr =
       1.95 * rts * s.E / residual * std::sqrt(jc + std::sqrt(jc * jc + 6.76 * std::pow(residual / s.E, 2)));
-  trail.add(clause, "r_ts", "sqrt(sqrt(I_y C_w)/S_x) (F2-7)", rts, of_length);
-  trail.add(clause, "L_p", "1.76 r_y sqrt(E/F_y) (F2-5)", lp, of_length);
-  trail.add(clause, "L_r", "(F2-6)", lr, of_length);
+  if (noncompact)
+    trail.add(clause, "r_t", "b_fc/sqrt(12 (1 + a_w/6)) (F4-11)", rts, of_length);
+  else
+    trail.add(clause, "r_ts", "sqrt(sqrt(I_y C_w)/S_x) (F2-7)", rts, of_length);
+  trail.add(clause, "L_p", noncompact ? "1.1 r_t sqrt(E/F_y) (F4-7)" : "1.76 r_y sqrt(E/F_y) (F2-5)", lp, of_length);
+  trail.add(clause, "L_r", noncompact ? "(F4-8)" : "(F2-6)", lr, of_length);
   if (length <= lp) return plain;
   if (length <= lr) return std::min(plain, cb * (plain - (plain - residual * s.elastic_y) * (length - lp) / (lr - lp)));
   const double slender = length / rts;
   const double fcr = cb * pi2 * s.E / (slender * slender) * std::sqrt(1 + 0.078 * jc * slender * slender);
-  trail.add(clause, "F_cr", "(F2-4)", fcr, of_stress);
+  trail.add(clause, "F_cr", noncompact ? "(F4-5)" : "(F2-4)", fcr, of_stress);
   return std::min(plain, fcr * s.elastic_y);
 }
 
 /// F5-3 to F5-5: of an I shape with a slender web, which brings no stiffness against twist.
 double slender_web_lateral(const SteelSection& s, double length, double cb, double rpg, double aw, const Trail& trail) {
-  const double rt = s.width / std::sqrt(12 * (1 + aw / 6));
+  const double rt = flange_radius(s, aw);
   const double lp = 1.1 * rt * std::sqrt(s.E / s.fy), lr = std::numbers::pi * rt * std::sqrt(s.E / (0.7 * s.fy));
   double fcr = s.fy;
   if (length > lr)
@@ -56,11 +64,12 @@ double between(double lambda, double compact, double noncompact, double plastic,
 double flange_strength(const SteelSection& s, double plain, double rpg) {
   const double root = std::sqrt(s.E / s.fy), yield = s.fy * s.elastic_y;
   const Slenderness plate = slenderness(s);
-  if (plate.flange > 1.0 * root) {
-    const double kc = std::clamp(4 / std::sqrt(plate.web), 0.35, 0.76);
-    return std::min(plain, rpg * 0.9 * s.E * kc * s.elastic_y / (plate.flange * plate.flange));  // F3-2, F5-9
-  }
-  return between(plate.flange, 0.38 * root, 1.0 * root, plain, std::min(plain, rpg * 0.7 * yield));  // F3-1, F5-8
+  const double kc = flange_coefficient(s);
+  // Table B4.1b: case 10 rolled, case 11 built up, F_L = 0.7 F_y.
+  const double noncompact = s.rolled ? 1.0 * root : 0.95 * root * std::sqrt(kc / 0.7);
+  if (plate.flange > noncompact)
+    return std::min(plain, rpg * 0.9 * s.E * kc * s.elastic_y / (plate.flange * plate.flange));      // F3-2, F5-9
+  return between(plate.flange, 0.38 * root, noncompact, plain, std::min(plain, rpg * 0.7 * yield));  // F3-1, F5-8
 }
 
 /// F2 to F5: I shape about its strong axis.
@@ -71,8 +80,9 @@ double open_strong(const SteelSection& s, double length, double cb, const Trail&
   const bool slender = plate.web > 5.70 * root;
   const double aw = std::min(10.0, plate.web * s.web * s.web / (s.width * s.flange));
   const double rpg = slender ? std::min(1.0, 1 - aw / (1200 + 300 * aw) * (plate.web - 5.70 * root)) : 1;  // F5-6
+  const bool noncompact = plate.web > 3.76 * root;
   double plain = s.fy * s.plastic_y;
-  if (plate.web > 3.76 * root) plain = yield;  // F4 with R_pc = 1
+  if (noncompact) plain = yield;  // F4 with R_pc = 1
   plain *= rpg;
   trail.add(clause, "b_f/(2 t_f)", "compact to 0.38 sqrt(E/F_y) (table B4.1b)", plate.flange, plain_number);
   trail.add(clause, "h/t_w", "compact to 3.76, not slender to 5.70 sqrt(E/F_y) (table B4.1b)", plate.web, plain_number);
@@ -81,8 +91,8 @@ double open_strong(const SteelSection& s, double length, double cb, const Trail&
   const double local = flange_strength(s, plain, rpg);
   trail.add(clause, "M_n, flange", "flange local buckling (F3, F5.3)", local, of_moment);
   if (!(length > 0)) return local;
-  const double lateral =
-      slender ? slender_web_lateral(s, length, cb, rpg, aw, trail) : lateral_strength(s, length, cb, plain, trail);
+  const double lateral = slender ? slender_web_lateral(s, length, cb, rpg, aw, trail)
+                                 : lateral_strength(s, length, cb, plain, noncompact, aw, trail);
   return std::min(local, lateral);
 }
 

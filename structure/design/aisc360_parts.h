@@ -21,6 +21,8 @@ struct Slenderness {
   double flange = 0, web = 0;
 };
 [[nodiscard]] Slenderness slenderness(const SteelSection& s);
+/// Table B4.1, note a: k_c of the flanges of an I, 4/sqrt(h/t_w) between 0.35 and 0.76.
+[[nodiscard]] double flange_coefficient(const SteelSection& s);
 
 /// Chapter E: nominal compressive strength (E3, E4, E7).
 [[nodiscard]] double compressive_strength(const SteelSection& s, const BucklingLengths& lengths, const Trail& trail);

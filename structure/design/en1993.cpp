@@ -1,4 +1,6 @@
 // EN 1993-1-1:2005, EN 1993-1-5:2006 with the recommended values gamma_M0 = gamma_M1 = 1.0: the order of the checks.
+#include <algorithm>
+
 #include "design/en1993_parts.h"
 
 namespace topple::structure {
@@ -12,7 +14,11 @@ DesignResult check_en1993(const DesignMember& member, std::span<const SectionFor
   tell_forces(forces, trail);
   trail.add("EN 1993-1-1 5.5 (table 5.2)", "class", "of the web and the flanges, under the compression and M_y",
             cls.number, plain_number);
-  if (cls.number == 4 && steel.kind != SteelSection::Kind::pipe) tell_effective(cls.counts, trail);
+  if (cls.about_z != cls.number)
+    trail.add("EN 1993-1-1 5.5 (table 5.2)", "class, M_z", "under the compression and M_z: webs are compressed flanges",
+              cls.about_z, plain_number);
+  const bool buckles = std::max(cls.number, cls.about_z) == 4 || cls.pressed_area < steel.area;
+  if (buckles && steel.kind != SteelSection::Kind::pipe) tell_effective(effective_section(steel), trail);
   ClauseList clauses;
   en1993::check_sections(clauses, steel, cls, section, stations, trail);
   en1993::check_plates(clauses, steel, cls, member, stations, trail);

@@ -57,6 +57,7 @@ struct Reductions {
 };
 
 constexpr const char* flexural = "EN 1993-1-1 6.3.1 (6.46)";
+constexpr const char* beam_column = "EN 1993-1-1 6.3.3 (6.61)";
 constexpr const char* lateral = "EN 1993-1-1 6.3.2 (6.54)";
 
 /// 6.3.1.2 for one way of buckling with its critical force.
@@ -65,27 +66,28 @@ double reduction_of(double squash, double critical, double imperfection, double&
   return reduction(slenderness, imperfection);
 }
 
-/// `squash`: A f_y, in class 4 A_eff f_y.
-Reductions reductions(const SteelSection& steel, const DesignMember& member, double squash, const Trail& trail) {
+/// `squash`: A f_y, in class 4 A_eff f_y. `clause`: that asks for them.
+Reductions reductions(const SteelSection& steel, const DesignMember& member, double squash, const char* clause,
+                      const Trail& trail) {
   const Curves curve = buckling_curves(steel);
   Reductions r;
   if (member.lengths.y > 0) {
     const double ncr = euler(steel.E, steel.Iy, member.lengths.y);
     r.y = reduction_of(squash, ncr, curve.y, r.slenderness_y);
-    trail.add(flexural, "L_cr,y", "K_y L", member.lengths.y, of_length);
-    trail.add(flexural, "N_cr,y", "pi^2 E I_y/L_cr,y^2", ncr, of_force);
-    trail.add(flexural, "lambda_y", "sqrt(A f_y/N_cr,y) (6.50)", r.slenderness_y, plain_number);
-    trail.add(flexural, "alpha_y", "table 6.1, 6.2", curve.y, plain_number);
-    trail.add(flexural, "chi_y", "1/(Phi + sqrt(Phi^2 - lambda^2)) (6.49)", r.y, plain_number);
+    trail.add(clause, "L_cr,y", "K_y L", member.lengths.y, of_length);
+    trail.add(clause, "N_cr,y", "pi^2 E I_y/L_cr,y^2", ncr, of_force);
+    trail.add(clause, "lambda_y", "sqrt(A f_y/N_cr,y) (6.50)", r.slenderness_y, plain_number);
+    trail.add(clause, "alpha_y", "table 6.1, 6.2", curve.y, plain_number);
+    trail.add(clause, "chi_y", "1/(Phi + sqrt(Phi^2 - lambda^2)) (6.49)", r.y, plain_number);
   }
   if (member.lengths.z > 0) {
     const double ncr = euler(steel.E, steel.Iz, member.lengths.z);
     r.z = reduction_of(squash, ncr, curve.z, r.slenderness_z);
-    trail.add(flexural, "L_cr,z", "K_z L", member.lengths.z, of_length);
-    trail.add(flexural, "N_cr,z", "pi^2 E I_z/L_cr,z^2", ncr, of_force);
-    trail.add(flexural, "lambda_z", "sqrt(A f_y/N_cr,z) (6.50)", r.slenderness_z, plain_number);
-    trail.add(flexural, "alpha_z", "table 6.1, 6.2", curve.z, plain_number);
-    trail.add(flexural, "chi_z", "1/(Phi + sqrt(Phi^2 - lambda^2)) (6.49)", r.z, plain_number);
+    trail.add(clause, "L_cr,z", "K_z L", member.lengths.z, of_length);
+    trail.add(clause, "N_cr,z", "pi^2 E I_z/L_cr,z^2", ncr, of_force);
+    trail.add(clause, "lambda_z", "sqrt(A f_y/N_cr,z) (6.50)", r.slenderness_z, plain_number);
+    trail.add(clause, "alpha_z", "table 6.1, 6.2", curve.z, plain_number);
+    trail.add(clause, "chi_z", "1/(Phi + sqrt(Phi^2 - lambda^2)) (6.49)", r.z, plain_number);
   }
   // A section given as numbers may be open; without its warping stiffness it is taken as less than it is.
   const bool open = steel.kind == SteelSection::Kind::I || steel.kind == SteelSection::Kind::other;
@@ -94,10 +96,10 @@ Reductions reductions(const SteelSection& steel, const DesignMember& member, dou
     const double ncr = (steel.G * steel.J + euler(steel.E, steel.warping, member.lengths.torsion)) / polar;
     double slenderness = 0;
     r.torsional = reduction_of(squash, ncr, curve.z, slenderness);
-    trail.add(flexural, "L_T", "between places that do not twist", member.lengths.torsion, of_length);
-    trail.add(flexural, "N_cr,T", "(G I_t + pi^2 E I_w/L_T^2)/i_0^2", ncr, of_force);
-    trail.add(flexural, "lambda_T", "sqrt(A f_y/N_cr,T) (6.52)", slenderness, plain_number);
-    trail.add(flexural, "chi_T", "1/(Phi + sqrt(Phi^2 - lambda^2)) (6.49)", r.torsional, plain_number);
+    trail.add(clause, "L_T", "between places that do not twist", member.lengths.torsion, of_length);
+    trail.add(clause, "N_cr,T", "(G I_t + pi^2 E I_w/L_T^2)/i_0^2", ncr, of_force);
+    trail.add(clause, "lambda_T", "sqrt(A f_y/N_cr,T) (6.52)", slenderness, plain_number);
+    trail.add(clause, "chi_T", "1/(Phi + sqrt(Phi^2 - lambda^2)) (6.49)", r.torsional, plain_number);
   }
   return r;
 }
@@ -178,7 +180,7 @@ Interaction6_3_3 interaction(const SteelSection& steel, int cls, const MomentFac
 }
 
 void tell_interaction(const Interaction6_3_3& k, double ny, double nz, double my, double mz, const Trail& trail) {
-  const char* const clause = "EN 1993-1-1 6.3.3 (6.61)";
+  const char* const clause = beam_column;
   trail.add(clause, "n_y", "N_Ed/(chi_y N_Rk/gamma_M1)", ny, plain_number);
   trail.add(clause, "n_z", "N_Ed/(min(chi_z, chi_T) N_Rk/gamma_M1)", nz, plain_number);
   trail.add(clause, "m_y", "M_y,Ed/(chi_LT M_y,Rk/gamma_M1)", my, plain_number);
@@ -203,12 +205,22 @@ void check_with_bimoment(ClauseList& clauses, const SteelSection& s, const Momen
   trail.add("EN 1993-6 A (A.1)", "k_alpha", "1/(1 - M_y,Ed/M_y,cr)", ka, plain_number);
 }
 
+/// 6.3.1: compression by itself, under which a web may be of class 4 that is not under bending as well.
+void check_flexural(ClauseList& clauses, const SteelSection& steel, const DesignMember& member, const SectionClass& cls,
+                    const LargestForces& forces, const Trail& trail) {
+  const double squash = cls.pressed_area * cls.fy;
+  const Reductions r = reductions(steel, member, squash, flexural, trail);
+  const double resistance = std::min({r.y, r.z, r.torsional}) * squash / gamma_m1;
+  clauses.add(flexural, forces.compression / resistance);
+  trail.add(flexural, "N_b,Rd", "min(chi_y, chi_z, chi_T) A f_y/gamma_M1, A_eff in class 4 (6.47, 6.48)", resistance,
+            of_force);
+}
+
 }  // namespace
 
 void check_buckling(ClauseList& clauses, const SteelSection& steel, const DesignMember& member, const SectionClass& cls,
                     const Resistance& section, const LargestForces& forces, double bimoment,
                     std::span<const SectionForces> stations, const Trail& trail) {
-  const Reductions r = reductions(steel, member, section.axial * gamma_m0, trail);
   const LateralUse lateral_buckling = lateral_use(steel, member, cls, section.moment_y, stations, trail);
   const double moment_y = lateral_buckling.use;
   const double moment_z = forces.moment_z / (section.moment_z * gamma_m0 / gamma_m1);
@@ -222,13 +234,15 @@ void check_buckling(ClauseList& clauses, const SteelSection& steel, const Design
     check_with_bimoment(clauses, steel, member.factors, bimoment, moment_y, moment_z, critical_share, trail);
   }
   if (forces.compression == 0) return;
-  const double chi_z = std::min(r.z, r.torsional);
+  check_flexural(clauses, steel, member, cls, forces, trail);
   const double squash = section.axial * gamma_m0 / gamma_m1;
-  const double ny = forces.compression / (r.y * squash), nz = forces.compression / (chi_z * squash);
-  clauses.add(flexural, std::max(ny, nz));
-  trail.add(flexural, "N_b,Rd", "min(chi_y, chi_z, chi_T) A f_y/gamma_M1 (6.47)", std::min(r.y, chi_z) * squash,
-            of_force);
-  const Interaction6_3_3 k = interaction(steel, cls.number, member.factors, r, ny, nz);
+  const bool told = squash == cls.pressed_area * cls.fy / gamma_m1;  // by 6.3.1 already
+  const Reductions r = reductions(steel, member, section.axial * gamma_m0, beam_column, told ? Trail() : trail);
+  const double ny = forces.compression / (r.y * squash);
+  const double nz = forces.compression / (std::min(r.z, r.torsional) * squash);
+  constexpr double rounding = 1e-9;
+  const int worse_class = moment_z > rounding ? std::max(cls.number, cls.about_z) : cls.number;
+  const Interaction6_3_3 k = interaction(steel, worse_class, member.factors, r, ny, nz);
   tell_interaction(k, ny, nz, moment_y, moment_z, trail);
   clauses.add("EN 1993-1-1 6.3.3 (6.61)", ny + k.yy * moment_y + k.yz * moment_z);
   clauses.add("EN 1993-1-1 6.3.3 (6.62)", nz + k.zy * moment_y + k.zz * moment_z);

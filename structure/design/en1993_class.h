@@ -8,8 +8,10 @@ namespace topple::structure {
 /// a shell: it has the stress at which it would be at the limit of class 3.
 struct SectionClass {
   int number = 1;
+  int about_z = 1;  ///< under the compression and bending about the weak axis: a box's webs are then compressed flanges
   double fy = 0;
   EffectiveSection counts;
+  double pressed_area = 0;  ///< what counts under compression alone, which may be less than under both together
 };
 [[nodiscard]] SectionClass classify_en1993(const SteelSection& steel, double compression);
 

@@ -16,7 +16,7 @@ struct ShearParts {
   bool apart = false;  ///< false: the whole section carries either
 };
 
-ShearParts shear_parts(const SteelSection& s, bool plastic) {
+ShearParts shear_parts(const SteelSection& s, bool plastic, bool plastic_z) {
   ShearParts parts;
   const double web = s.web_height(), t = s.web;
   if (s.kind == SteelSection::Kind::I) {
@@ -24,14 +24,14 @@ ShearParts shear_parts(const SteelSection& s, bool plastic) {
     parts.apart = true;
     parts.along_z = {s.shear_z, plastic ? t * web * web / 4 : t * web * web * web / 6 / s.depth, 0};
     parts.along_y = {s.shear_y, plastic ? flange * arm : flange * arm * arm / s.depth,
-                     plastic ? s.flange * s.width * s.width / 2 : s.flange * s.width * s.width / 3};
+                     plastic_z ? s.flange * s.width * s.width / 2 : s.flange * s.width * s.width / 3};
   } else if (s.kind == SteelSection::Kind::box) {
     const double wide = s.width - 2 * t, across = s.width - t, up = s.depth - t;
     parts.apart = true;
     parts.along_z = {s.shear_z, plastic ? t * web * web / 2 : t * web * web * web / 3 / s.depth,
-                     plastic ? t * web * across : t * web * across * across / s.width};
+                     plastic_z ? t * web * across : t * web * across * across / s.width};
     parts.along_y = {s.shear_y, plastic ? t * wide * up : t * wide * up * up / s.depth,
-                     plastic ? t * wide * wide / 2 : t * wide * wide * wide / 3 / s.width};
+                     plastic_z ? t * wide * wide / 2 : t * wide * wide * wide / 3 / s.width};
   }
   return parts;
 }
@@ -108,11 +108,11 @@ double torsion_modulus(const SteelSection& s) {
 }
 
 Resistance cross_section(const SteelSection& steel, const SectionClass& cls, bool compressed) {
-  const bool plastic = cls.number <= 2 && steel.has_plastic;
+  const bool plastic = cls.number <= 2 && steel.has_plastic, plastic_z = cls.about_z <= 2 && steel.has_plastic;
   const double shear_strength = steel.fy / std::sqrt(3.0) / gamma_m0;  // class 4 is one of direct stress
   return {(compressed ? cls.counts.area : steel.area) * cls.fy / gamma_m0,
           (plastic ? steel.plastic_y : cls.counts.modulus_y) * cls.fy / gamma_m0,
-          (plastic ? steel.plastic_z : cls.counts.modulus_z) * cls.fy / gamma_m0,
+          (plastic_z ? steel.plastic_z : cls.counts.modulus_z) * cls.fy / gamma_m0,
           steel.shear_y * shear_strength,
           steel.shear_z * shear_strength,
           torsion_modulus(steel) * shear_strength};
@@ -120,7 +120,8 @@ Resistance cross_section(const SteelSection& steel, const SectionClass& cls, boo
 
 void check_sections(ClauseList& clauses, const SteelSection& steel, const SectionClass& cls, const Resistance& r,
                     std::span<const SectionForces> stations, const Trail& trail) {
-  const ShearParts parts = shear_parts(steel, cls.number <= 2 && steel.has_plastic);
+  const ShearParts parts =
+      shear_parts(steel, cls.number <= 2 && steel.has_plastic, cls.about_z <= 2 && steel.has_plastic);
   double most = -1;
   const SectionForces* worst = nullptr;
   for (const SectionForces& at : stations) {

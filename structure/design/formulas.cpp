@@ -50,7 +50,7 @@ std::string_view design_formula(std::string_view clause) {
   return {};
 }
 
-constexpr std::array<std::string_view, 9> not_in_en1993{
+constexpr std::array<std::string_view, 10> not_in_en1993{
     "6.2.2, 6.2.3(2)b, 6.2.5(4): holes, net sections and connections (EN 1993-1-8)",
     "6.2.9.1: plastic interaction of axial force and bending beyond the straight line of (6.2)",
     "6.3.2.1(2): loads above the shear centre; M_cr is that of loads at the shear centre and ends free to warp",
@@ -58,11 +58,15 @@ constexpr std::array<std::string_view, 9> not_in_en1993{
     "7: deflections and vibrations, but storey drift against the limit that is given",
     "EN 1993-1-5 3: shear lag; 6: transverse forces (patch loading); 9: stiffeners, which are assumed at every support",
     "EN 1993-1-6: tubes of class 4; sections given as numbers are of class 3, without shear buckling",
+    "sections given as numbers: W = 2 I/depth, 2 I/width; unless symmetric, depth and width are twice the farthest "
+    "fibre",
     "EN 1993-1-9: fatigue; EN 1993-1-10: brittle fracture; EN 1993-1-2: fire",
     "5.3: imperfections of the structure as a whole, but where they are loads of the model"};
-constexpr std::array<std::string_view, 8> not_in_aisc360{
+constexpr std::array<std::string_view, 9> not_in_aisc360{
     "D2(b), D3: rupture of net sections; F13.1: holes in tension flanges; J: connections",
     "E5: single angles; E6: built-up members; E4 for sections given as numbers",
+    "sections given as numbers: S = 2 I/depth, 2 I/width; unless symmetric, depth and width are twice the farthest "
+    "fibre",
     "F1: loads above the shear centre, which lower lateral-torsional buckling",
     "F9, F10: tees, double and single angles",
     "G2.2: tension field action (on the safe side); G2.3: stiffeners, where their spacing is given",

@@ -8,6 +8,7 @@
 #include "design/alignment_chart.h"
 #include "design/bracing.h"
 #include "design/mode_lengths.h"
+#include "design/turned_section.h"
 #include "topple/structure/error.h"
 
 namespace topple::structure {
@@ -71,7 +72,8 @@ DesignMember prepared(const Building& building, const Bracing& bracing, Effectiv
     (way == 0 ? checked.lengths.y : checked.lengths.z) = found.length;
     checked.length_source[way] = found.source;
   }
-  const HeldLength held = bracing.held_length(id, 1);
+  // The compressed edge moves sideways in the direction in which the section is weaker.
+  const HeldLength held = bracing.held_length(id, stronger_about_z(*checked.section) ? 2 : 1);
   checked.lengths.torsion =
       given.lengths[2] ? *given.lengths[2] : (given.factors[2] ? *given.factors[2] * member.length : held.length);
   checked.stretches = stretches(member, held);

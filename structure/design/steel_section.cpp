@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "design/turned_section.h"
 #include "topple/structure/error.h"
 
 namespace topple::structure {
@@ -22,6 +23,37 @@ SteelSection::Kind kind_of(Section::Shape shape) {
     default:
       return SteelSection::Kind::other;
   }
+}
+
+DesignResult by_code(DesignCode code, const DesignMember& member, std::span<const SectionForces> stations,
+                     const Trail& trail) {
+  DesignResult result =
+      code == DesignCode::en1993 ? check_en1993(member, stations, trail) : check_aisc360(member, stations, trail);
+  if (!(member.section->Iz > member.section->Iy)) return result;
+  const bool bent = std::any_of(stations.begin(), stations.end(), [](const SectionForces& at) { return at[5] != 0; });
+  if (bent && result.refusal.empty())
+    result.refusal =
+        "its I section is stronger about the axis along its web, about which no lateral-torsional "
+        "buckling is checked";
+  return result;
+}
+
+/// Of a section that is stronger about local z, with both axes exchanged.
+DesignResult checked(DesignCode code, const DesignMember& member, std::span<const SectionForces> stations,
+                     const Trail& trail) {
+  DesignResult result;
+  if (stronger_about_z(*member.section)) {
+    trail.add("section", "y, z", "exchanged below (h and b too): local z is the stronger axis", 1, plain_number);
+    const TurnedMember turned(member, stations);
+    result = by_code(code, turned.member, turned.stations, trail);
+  } else {
+    result = by_code(code, member, stations, trail);
+  }
+  result.lengths = member.lengths;
+  result.length_source = member.length_source;
+  result.mode_part = member.mode_part;
+  result.yielded = member.yielded;
+  return result;
 }
 
 }  // namespace
@@ -133,24 +165,12 @@ DesignResult ClauseList::result() const {
 
 DesignAudit audit_member(DesignCode code, const DesignMember& member, std::span<const SectionForces> stations) {
   DesignAudit audit;
-  const Trail trail(audit.steps);
-  audit.result =
-      code == DesignCode::en1993 ? check_en1993(member, stations, trail) : check_aisc360(member, stations, trail);
-  audit.result.lengths = member.lengths;
-  audit.result.length_source = member.length_source;
-  audit.result.mode_part = member.mode_part;
-  audit.result.yielded = member.yielded;
+  audit.result = checked(code, member, stations, Trail(audit.steps));
   return audit;
 }
 
 DesignResult check_member(DesignCode code, const DesignMember& member, std::span<const SectionForces> stations) {
-  DesignResult result =
-      code == DesignCode::en1993 ? check_en1993(member, stations, {}) : check_aisc360(member, stations, {});
-  result.lengths = member.lengths;
-  result.length_source = member.length_source;
-  result.mode_part = member.mode_part;
-  result.yielded = member.yielded;
-  return result;
+  return checked(code, member, stations, {});
 }
 
 std::string_view length_source_name(LengthSource source) {
