@@ -315,6 +315,7 @@ std::vector<std::string> modelling_warnings(const Building& building) {
   find_idle_cases(building, warnings);
   find_tiny_loads(building, warnings);
   find_weak_bending(building, warnings);
+  find_odd_joints(building, warnings);
   find_folds(building, warnings);
   find_odd_parts(building, tolerance, warnings);
   return warnings;
