@@ -25,16 +25,30 @@ SteelSection::Kind kind_of(Section::Shape shape) {
   }
 }
 
+/// What puts a member outside of what either code is for; empty: nothing.
+std::string outside_of_code(DesignCode code, const DesignMember& member, std::span<const SectionForces> stations) {
+  constexpr double softest = 180e9, stiffest = 230e9;  // Pa: steels have 190 to 215
+  constexpr double strongest = 460e6 * 1.001;          // Pa, S460
+  const Section& section = *member.section;
+  const double E = member.material->youngs_modulus, fy = member.material->yield_strength.value_or(0);
+  if (E < softest || E > stiffest) return "its Young's modulus is not that of steel, for which the formulas are";
+  if (code == DesignCode::en1993 && fy > strongest)
+    return "its yield strength is above that of S460, up to which EN 1993-1-1 goes (table 3.1; EN 1993-1-12 beyond)";
+  double moment = 0;
+  for (const SectionForces& at : stations) moment = std::max(moment, std::abs(at[5]));
+  constexpr double rounding = 1e-9;
+  if (section.shape == Section::Shape::I && section.Iz > section.Iy &&
+      moment * section.width > rounding * fy * section.Iz)
+    return "its I section is stronger about the axis along its web, about which no lateral-torsional buckling is "
+           "checked";
+  return {};
+}
+
 DesignResult by_code(DesignCode code, const DesignMember& member, std::span<const SectionForces> stations,
                      const Trail& trail) {
   DesignResult result =
       code == DesignCode::en1993 ? check_en1993(member, stations, trail) : check_aisc360(member, stations, trail);
-  if (!(member.section->Iz > member.section->Iy)) return result;
-  const bool bent = std::any_of(stations.begin(), stations.end(), [](const SectionForces& at) { return at[5] != 0; });
-  if (bent && result.refusal.empty())
-    result.refusal =
-        "its I section is stronger about the axis along its web, about which no lateral-torsional "
-        "buckling is checked";
+  if (result.refusal.empty()) result.refusal = outside_of_code(code, member, stations);
   return result;
 }
 

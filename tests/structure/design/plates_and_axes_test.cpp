@@ -201,3 +201,19 @@ TEST_CASE("AISC 360 F4.2: a noncompact web buckles sideways from 1.1 r_t sqrt(E/
   CHECK(clause(DesignCode::aisc360, member, {0, 0, 0, 0, 1500 * kNm, 0}, "AISC 360 F1") ==
         Approx(0.7800).epsilon(1e-3));
 }
+
+TEST_CASE("a material that is not the codes' steel is not said to pass") {
+  const Section s = welded(0.3, 0.15, 0.007, 0.011);
+  const SectionForces at[] = {{0, 0, 0, 0, 1 * kNm, 0}};
+  const auto passes = [&](DesignCode code, const Material& material) {
+    return check_member(code, {.section = &s, .material = &material}, at).passes();
+  };
+  const Material aluminium = steel(240 * MPa, 70e9, 26e9), s460 = steel(460 * MPa, 210e9, 81e9),
+                 s690 = steel(690 * MPa, 210e9, 81e9);
+  for (const DesignCode code : {DesignCode::en1993, DesignCode::aisc360}) {
+    CHECK_FALSE(passes(code, aluminium));
+    CHECK(passes(code, s460));
+  }
+  CHECK_FALSE(passes(DesignCode::en1993, s690));
+  CHECK(passes(DesignCode::aisc360, s690));
+}
