@@ -70,15 +70,22 @@ void print_readiness(const Building& building, const std::filesystem::path& file
   } catch (const structure::InputError&) {
     drawn = false;
   }
+  std::string unstable;  // a collapse begins with the same structure, standing
   print_outcome("analyse", [&] {
     structure::refuse_unbuilt(building, structure::Purpose::analyse);
-    try_one_combination(building);
+    try {
+      try_one_combination(building);
+    } catch (const structure::UnstableModel& moves) {
+      unstable = moves.what();
+      throw;
+    }
     // Drawings count in an analysis by their weight alone.
     if (!drawn) (void)structure::read_model(file, structure::Purpose::analyse);
   });
   print_outcome("demolish", [&] {
     structure::refuse_unbuilt(building, structure::Purpose::demolish);
     if (!drawn) drawings();
+    if (!unstable.empty()) throw structure::UnstableModel(unstable);
   });
 }
 

@@ -175,6 +175,11 @@ void find_idle_cases(const Building& building, std::vector<std::string>& warning
 /// Of one case: the largest of its loads, over what a load of its kind has at least in buildings, and their sum, N.
 struct LoadSize {
   double over_usual = 0, sum = 0;
+  bool level = true;  ///< none of them acts downwards or up
+  void add(const Vec6& load, double usual, double spread) {
+    add(load.norm(), usual, spread);
+    if (load.z() != 0) level = false;
+  }
   void add(double value, double usual, double spread) {
     over_usual = std::max(over_usual, value / usual);
     sum += value * spread;
@@ -184,34 +189,43 @@ struct LoadSize {
 LoadSize size_of(const LoadCase& one, const Building& building) {
   constexpr double point = 100, line = 50, area = 20;  // N, N/m, Pa: a lamp, a cable, a sheet of felt
   LoadSize size;
-  for (const NodeLoad& load : one.nodes) size.add(load.load.norm(), point, 1);
+  for (const NodeLoad& load : one.nodes) size.add(load.load, point, 1);
   for (const MemberLoad& load : one.members) {
-    const double value = std::max(load.first.norm(), load.last.norm());
-    if (load.kind == MemberLoad::Kind::point) size.add(value, point, 1);
-    if (load.kind == MemberLoad::Kind::distributed) size.add(value, line, load.to - load.from);
+    const Vec6& larger = load.last.norm() > load.first.norm() ? load.last : load.first;
+    if (load.kind == MemberLoad::Kind::point) size.add(larger, point, 1);
+    if (load.kind == MemberLoad::Kind::distributed) size.add(larger, line, load.to - load.from);
   }
   for (const PanelLoad& load : one.panels) {
     size.add(std::abs(load.pressure), area, panel_area(building, building[load.panel], true));
+    size.level = false;
   }
   return size;
 }
 
-/// 20 typed for 20 kN: each load of a case is smaller than any that is counted with, and all of them are nothing beside
-/// the structure's weight.
+/// 20 typed for 20 kN: each load of a case is smaller than any that is counted with, and all of them are next to
+/// nothing beside the structure's weight: what is meant is seldom below a twentieth of it, and a slip leaves a
+/// thousandth. Level loads may be notional ones, some thousandths of it.
 void find_tiny_loads(const Building& building, std::vector<std::string>& warnings) {
   if (building.units.consistent) return;
-  constexpr double nothing = 1e-3;
+  constexpr double nothing = 0.02, notional = 1e-3;
   const double weight = own_mass(building) * building.gravity;
   Several tiny;
   for (const LoadCase& one : building.cases) {
     const LoadSize size = size_of(one, building);
-    if (!(size.over_usual > 0) || size.over_usual >= 1 || size.sum >= nothing * weight || !one.self_weight.isZero(0))
-      continue;
-    char text[64];
-    std::snprintf(text, sizeof text, " comes to %.4g N in all, beside a weight of %.4g N", size.sum, weight);
+    if (!(size.over_usual > 0) || size.over_usual >= 1) continue;
+    if (size.sum >= (size.level ? notional : nothing) * weight) continue;
+    char text[96];
+    std::snprintf(text, sizeof text, " comes to %.4g N in all%s, beside a weight of %.4g N", size.sum,
+                  one.self_weight.isZero(0) ? "" : " but for its self weight", weight);
     tiny.add("load case " + one.name + text);
   }
   tiny.tell(warnings, "loads are in N, N/m and Pa; are kilonewtons meant?");
+}
+
+/// A file that floats on purpose gives a shift for its modes.
+void find_no_supports(const Building& building, std::vector<std::string>& warnings) {
+  if (building.supports.empty() && building.edge_supports.empty() && building.requested.frequency_shift <= 0)
+    warnings.emplace_back("nothing is supported: no node and no edge of a shell; `supports` hold a structure");
 }
 
 std::size_t edit_distance(const std::string& a, const std::string& b) {
@@ -310,6 +324,7 @@ std::vector<std::string> modelling_warnings(const Building& building) {
     find_overlapping_members(building, warnings);
   }
   find_near_nodes(building, tolerance, warnings);
+  find_no_supports(building, warnings);
   find_odd_materials(building, warnings);
   find_thick_members(building, warnings);
   find_idle_cases(building, warnings);

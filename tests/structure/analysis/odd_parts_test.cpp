@@ -104,6 +104,16 @@ TEST_CASE("loads that lift the structure on balance are told") {
   CHECK_FALSE(told(found("0"), "lift"));
 }
 
+TEST_CASE("a structure without any support is told") {
+  const auto found = [](const std::string& supports) {
+    return told(warnings_of(R"("nodes": {"A": [0,0,0], "B": [6,0,0]}, )" + supports +
+                            R"("loads": {"u": {"self_weight": 1}}, "members": {)" + beam("AB", "A", "B") + "}"),
+                "nothing is supported");
+  };
+  CHECK(found(""));
+  CHECK_FALSE(found(R"("supports": {"A": "fixed"}, )"));
+}
+
 TEST_CASE("loads typed in kilonewtons are told") {
   const auto found = [](const std::string& loads, const std::string& more = "") {
     return told(
@@ -113,7 +123,10 @@ TEST_CASE("loads typed in kilonewtons are told") {
   };
   CHECK(found(R"("nodes": {"B": {"z": -20}})"));         // beside 25 kN of weight
   CHECK_FALSE(found(R"("nodes": {"B": {"z": -200}})"));  // a small load may be meant
-  CHECK_FALSE(found(R"("nodes": {"B": {"z": -26}})"));   // a thousandth of the weight: a notional one
+  CHECK(found(R"("nodes": {"B": {"x": 20}})"));
+  CHECK_FALSE(found(R"("nodes": {"B": {"x": 26}})"));  // a thousandth of the weight: a notional one
+  CHECK(found(R"("self_weight": 1.0, "members": {"AB": [{"uniform": {"z": -7}}]})"));  // 420 N; 7 typed for 7 kN/m
+  CHECK_FALSE(found(R"("members": {"AB": [{"uniform": {"z": -12}}]})"));  // 720 N: a fortieth of the weight, a cable's
   CHECK_FALSE(found(R"("nodes": {"B": {"z": 0}})"));
   CHECK_FALSE(found(R"("self_weight": 1.0)"));
 }
