@@ -15,7 +15,6 @@
 #include "progress.h"
 #include "topple/structure/analysis.h"
 #include "topple/structure/direct_analysis.h"
-#include "topple/structure/divide_member.h"
 #include "topple/structure/error.h"
 #include "topple/structure/formats/files.h"
 #include "topple/structure/formats/input_files.h"
@@ -109,7 +108,6 @@ int run(const AnalyseOptions& options) {
   tell_progress("reading", -1);
   Building read = read_model(file);
   for (std::string& warning : modelling_warnings(read)) read.warnings.push_back(std::move(warning));
-  if (options.divide > 1) divide_all_members(read, options.divide);
   const bool direct = !options.direct_analysis.empty(), computes_tau_b = options.direct_analysis == "tau-b";
   const double share = computes_tau_b ? out_of_plumb : out_of_plumb + in_place_of_tau_b;
   const Building building = direct ? with_notional_loads(read, combinations_of(read, options), share) : std::move(read);
@@ -219,7 +217,7 @@ std::function<int()> declare(CLI::App& app) {
   declare_motion_options(app, options->motion);
   app.add_option("--modes", options->modes, "Lowest natural frequencies and modes")->check(whole_number(1, 100000));
   app.add_option("--divide", options->divide,
-                 "With --modes: elements of every member, which then swing by themselves as well (1)")
+                 "With --modes: elements of every member in the modes, which then swing by themselves as well (1)")
       ->check(whole_number(1, 64));
   app.add_option("--mass", options->mass, "Mass of elements: consistent (default) or lumped")
       ->check(CLI::IsMember({"consistent", "lumped"}));

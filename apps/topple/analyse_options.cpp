@@ -88,6 +88,7 @@ int processors() { return static_cast<int>(std::thread::hardware_concurrency());
 /// Options come before what the file asks for itself.
 void ask_for_modes(const AnalyseOptions& options, const RequestedAnalyses& requested, AnalysisRequest& request) {
   request.modes = options.modes > 0 ? options.modes : requested.modes;
+  request.divide = options.divide;
   for (const auto& [asked, name] : {std::pair{!options.mass.empty(), "--mass"},
                                     {!options.torsional_mass.empty(), "--torsional-mass"},
                                     {options.rotary_inertia, "--rotary-inertia"}})
@@ -126,11 +127,6 @@ void require_sound(const AnalyseOptions& options) {
     throw InputError("--direct-analysis: the method of AISC 360 chapter C; accepted: with --code aisc360 --p-delta");
   if (options.divide > 1 && options.modes == 0)
     throw InputError("--divide: it is for natural modes; accepted: with --modes");
-  if (options.divide > 1 && (!options.code.empty() || !options.lose.empty() || !options.lose_each.empty()))
-    throw InputError(
-        "--divide: checks and losses are of whole members (effective lengths, joints at their ends), of which pieces "
-        "would have neither; accepted: without --code, --lose and --lose-each, which a run of its own without --divide "
-        "takes; modes need the pieces, forces do not: within members they are exact");
   if (options.sudden && options.lose.empty() && options.lose_each.empty())
     throw InputError("--sudden: nothing is lost; accepted: with --lose or --lose-each");
   check_motion_options(options.motion, !options.lose.empty() || !options.lose_each.empty(), !options.output.empty());

@@ -7,6 +7,7 @@
 
 #include "analysis/answer_recovery.h"
 #include "analysis/answer_warnings.h"
+#include "analysis/divided_member.h"
 #include "analysis/instability.h"
 #include "analysis/largest_displacement.h"
 #include "analysis/motion/modal_masses.h"
@@ -15,6 +16,7 @@
 #include "analysis/sample_analysis.h"
 #include "analysis/undivided_members.h"
 #include "loads/case_loads.h"
+#include "mesh/frame_mesh.h"
 #include "mesh/semi_rigid_edges.h"
 #include "parallel/in_order.h"
 #include "topple/solver/case_sums.h"
@@ -310,37 +312,40 @@ class Analysis {
   /// Without load, all one-way members taut; with second order as the last combination has left the structure.
   void find_modes(AnalysisResult& result) const {
     tell("natural modes");
+    Frame frame = frame_;
+    const bool tangent_counts = request_.second_order != solver::SecondOrder::none && !floats_;
+    if (tangent_counts) frame.model.beams = tangent_beams_;
+    if (request_.divide > 1) result.mode_cuts = divide_evenly(building_, request_.divide, frame);
     solver::MassModel masses{request_.mass,
                              request_.torsional_mass,
                              request_.rotary_inertia,
-                             modal_masses(building_, frame_, edges_),
-                             mass_lengths(building_, frame_),
+                             modal_masses(building_, frame, edges_, request_.divide > 1),
+                             mass_lengths(building_, frame),
                              jointed_};
-    solver::FrameModel model = carrying_both(frame_.model);
-    const bool loaded = request_.second_order != solver::SecondOrder::none;
-    if (loaded && !floats_) model.beams = tangent_beams_;
-    const solver::AxialState* tangent = loaded && !floats_ ? &tangent_ : nullptr;
+    const solver::FrameModel model = carrying_both(frame.model);
+    const solver::AxialState state = tangent_counts ? divided_state(frame_, frame, tangent_) : solver::AxialState();
+    const solver::AxialState* tangent = tangent_counts ? &state : nullptr;
     solver::ModalAnswer answer =
         floats_ ? solver::shifted_modes(model, masses, request_.modes, building_.requested.frequency_shift,
                                         request_.solver, tangent)
                 : solver::natural_modes(model, masses, request_.modes, request_.solver, tangent);
     result.modes = std::move(answer.modes);
-    for (solver::VibrationMode& mode : result.modes) scale_shape(mode.shape);
+    for (solver::VibrationMode& mode : result.modes) scale_shape(mode.shape, result.mode_cuts);
     result.moving_mass = answer.moving_mass;
     if (static_cast<int>(result.modes.size()) < request_.modes)
       result.warnings.push_back("the masses have " + std::to_string(result.modes.size()) + " modes, " +
                                 std::to_string(request_.modes) + " were asked for");
     // Frame3DD's files ask for modes themselves, and for elements as they are.
     if (building_.requested.modes > 0) return;
-    if (std::string told = told_undivided(building_, frame_, result.modes); !told.empty())
+    if (std::string told = told_undivided(building_, frame, result.modes); !told.empty())
       result.warnings.push_back(std::move(told));
   }
 
   /// So that no point of any node or member, bent between its ends, moves by more than 1; what is noise beside that is
   /// nothing.
-  void scale_shape(std::vector<Vec6>& shape) const {
+  void scale_shape(std::vector<Vec6>& shape, const std::vector<std::vector<int>>& cuts = {}) const {
     make_shape_absolute(frame_, shape);
-    const double largest = largest_in_shape(building_, shape);
+    const double largest = largest_in_shape(building_, shape, cuts);
     double most = 0;
     for (const Vec6& motion : shape) most = std::max(most, motion.cwiseAbs().maxCoeff());
     constexpr double noise = 1e-12;

@@ -1,5 +1,7 @@
 #include "analysis/divided_member.h"
 
+#include "loads/on_pieces.h"
+
 namespace topple::structure {
 
 WholeMember whole_member(const Frame& frame, std::size_t member, const std::vector<solver::Beam>& beams,
@@ -23,6 +25,32 @@ WholeMember whole_member(const Frame& frame, std::size_t member, const std::vect
     whole.loads.push_back(tie);
   }
   return whole;
+}
+
+solver::AxialState divided_state(const Frame& frame, const Frame& divided, solver::AxialState state) {
+  const std::size_t beams = divided.model.beams.size();
+  state.first_axial.resize(beams, 0);
+  state.loads.resize(beams);
+  if (!state.shell_displacements.empty()) state.shell_displacements.resize(divided.model.nodes.size(), Vec6::Zero());
+  for (std::size_t m = 0; m < divided.pieces.size(); ++m) {
+    if (divided.pieces[m].empty() || !frame.pieces[m].empty()) continue;
+    std::vector<solver::BeamLoad> parts;
+    for (const solver::BeamLoad& load : state.loads[m]) lay_on_pieces(divided.model, divided.pieces[m], load, parts);
+    double tension = state.first_axial[m];
+    state.loads[m].clear();
+    for (const MemberPiece& piece : divided.pieces[m]) {
+      const auto beam = static_cast<std::size_t>(piece.beam);
+      state.first_axial[beam] = tension;
+      for (const solver::BeamLoad& part : parts) {
+        if (part.beam != piece.beam) continue;
+        state.loads[beam].push_back(part);
+        if (part.kind == solver::BeamLoad::Kind::point) tension -= part.first.x();
+        if (part.kind == solver::BeamLoad::Kind::distributed)
+          tension -= (part.first.x() + part.last.x()) / 2 * (part.to - part.from);
+      }
+    }
+  }
+  return state;
 }
 
 }  // namespace topple::structure

@@ -2,6 +2,7 @@
 // A member that a mesh divides, seen as one beam again.
 #include <vector>
 
+#include "topple/solver/second_order.h"
 #include "topple/solver/static_analysis.h"
 #include "topple/structure/frame.h"
 
@@ -17,5 +18,9 @@ struct WholeMember {
 [[nodiscard]] WholeMember whole_member(const Frame& frame, std::size_t member, const std::vector<solver::Beam>& beams,
                                        const std::vector<solver::Vec12>& end_forces,
                                        std::vector<solver::BeamLoad> loads);
+
+/// The axial forces of a frame, on one whose members have been divided further: tension at each piece's first end, and
+/// the loads on it.
+[[nodiscard]] solver::AxialState divided_state(const Frame& frame, const Frame& divided, solver::AxialState state);
 
 }  // namespace topple::structure

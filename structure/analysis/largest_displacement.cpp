@@ -20,6 +20,22 @@ double largest_of(const MemberResult& member, std::size_t quantity) {
   return std::max(std::abs(member.min[quantity].value), std::abs(member.max[quantity].value));
 }
 
+/// Of a cubic between two places, in local axes.
+double largest_between(const std::array<Vec3, 2>& u, const std::array<Vec3, 2>& r, double L) {
+  constexpr int along = 16;
+  double largest = 0;
+  for (int i = 1; i < along; ++i) {
+    const double s = static_cast<double>(i) / along;
+    const double h1 = 1 - 3 * s * s + 2 * s * s * s, h2 = L * s * (1 - s) * (1 - s), h3 = 1 - h1,
+                 h4 = -L * s * s * (1 - s);
+    const Vec3 moved(u[0].x() + s * (u[1].x() - u[0].x()),
+                     h1 * u[0].y() + h2 * r[0].z() + h3 * u[1].y() + h4 * r[1].z(),
+                     h1 * u[0].z() - h2 * r[0].y() + h3 * u[1].z() - h4 * r[1].y());
+    largest = std::max(largest, moved.norm());
+  }
+  return largest;
+}
+
 }  // namespace
 
 LargestDisplacement largest_displacement(const Building& building, const CombinationResult& result,
@@ -58,25 +74,24 @@ LargestDisplacement largest_displacement(const Building& building, const Combina
   return largest;
 }
 
-double largest_in_shape(const Building& building, const std::vector<Vec6>& shape) {
+double largest_in_shape(const Building& building, const std::vector<Vec6>& shape,
+                        const std::vector<std::vector<int>>& cuts) {
   double largest = 0;
   for (const Vec6& motion : shape) largest = std::max(largest, motion.head<3>().norm());
-  constexpr int along = 16;
-  for (const Member& member : building.members) {
-    const Vec3 u0 = member.axes * end_motion(member, 0, shape), u1 = member.axes * end_motion(member, 1, shape);
-    const auto turn = [&](std::size_t end) -> Vec3 {
-      return member.axes * shape[static_cast<std::size_t>(member.nodes[end].index)].tail<3>();
-    };
-    const Vec3 r0 = turn(0), r1 = turn(1);
-    const double L = member.length;
-    for (int i = 1; i < along; ++i) {
-      const double s = static_cast<double>(i) / along;
-      const double h1 = 1 - 3 * s * s + 2 * s * s * s, h2 = L * s * (1 - s) * (1 - s), h3 = 1 - h1,
-                   h4 = -L * s * s * (1 - s);
-      const Vec3 moved(u0.x() + s * (u1.x() - u0.x()), h1 * u0.y() + h2 * r0.z() + h3 * u1.y() + h4 * r1.z(),
-                       h1 * u0.z() - h2 * r0.y() + h3 * u1.z() - h4 * r1.y());
-      largest = std::max(largest, moved.norm());
+  for (std::size_t m = 0; m < building.members.size(); ++m) {
+    const Member& member = building.members[m];
+    std::vector<Vec3> moved{member.axes * end_motion(member, 0, shape)};
+    std::vector<Vec3> turned{member.axes * shape[static_cast<std::size_t>(member.nodes[0].index)].tail<3>()};
+    for (std::size_t i = 0; i < (cuts.empty() ? 0 : cuts[m].size()); ++i) {
+      const Vec6& inner = shape[static_cast<std::size_t>(cuts[m][i])];
+      moved.emplace_back(member.axes * inner.head<3>());
+      turned.emplace_back(member.axes * inner.tail<3>());
     }
+    moved.emplace_back(member.axes * end_motion(member, 1, shape));
+    turned.emplace_back(member.axes * shape[static_cast<std::size_t>(member.nodes[1].index)].tail<3>());
+    const double length = member.length / static_cast<double>(moved.size() - 1);
+    for (std::size_t i = 0; i + 1 < moved.size(); ++i)
+      largest = std::max(largest, largest_between({moved[i], moved[i + 1]}, {turned[i], turned[i + 1]}, length));
   }
   return largest;
 }

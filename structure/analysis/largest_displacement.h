@@ -15,7 +15,8 @@ using DeflectionAt = std::function<Vec2(std::size_t member, double distance)>;
                                                        const DeflectionAt& deflection);
 
 /// The largest displacement of any point of any member and node under a shape of node motions alone, members bent cubic
-/// between their ends: what a drawing of the shape shows.
-[[nodiscard]] double largest_in_shape(const Building& building, const std::vector<Vec6>& shape);
+/// between their ends, and their inner nodes where `cuts` has some (AnalysisResult::mode_cuts): what a drawing shows.
+[[nodiscard]] double largest_in_shape(const Building& building, const std::vector<Vec6>& shape,
+                                      const std::vector<std::vector<int>>& cuts);
 
 }  // namespace topple::structure

@@ -34,6 +34,7 @@ void require_request(const Building& building, const AnalysisRequest& request) {
   require_in({0, 100'000}, request.stations, "stations");
   require_in({0, 1'000'000}, request.buckling, "buckling");
   require_in({0, 1'000'000}, request.modes, "modes");
+  require_in({1, 1000}, request.divide, "divide");
   if (request.losses.any() && request.second_order != solver::SecondOrder::none)
     throw InputError(building.file + ": losses of members are found by first order; accepted: no --p-delta");
 }

@@ -1,6 +1,7 @@
 // Loads of whole members and shell panels, laid on the beams and elements that they are divided into.
 #include <algorithm>
 
+#include "loads/on_pieces.h"
 #include "mesh/semi_rigid_edges.h"
 #include "model/index_of.h"
 #include "topple/structure/frame.h"
@@ -37,8 +38,10 @@ void divide_distributed(const solver::FrameModel& model, const std::vector<Membe
   }
 }
 
-void divide(const solver::FrameModel& model, const std::vector<MemberPiece>& pieces, const BeamLoad& load,
-            std::vector<BeamLoad>& out) {
+}  // namespace
+
+void lay_on_pieces(const solver::FrameModel& model, const std::vector<MemberPiece>& pieces, const BeamLoad& load,
+                   std::vector<BeamLoad>& out) {
   BeamLoad part = load;
   switch (load.kind) {
     case BeamLoad::Kind::distributed:
@@ -60,8 +63,6 @@ void divide(const solver::FrameModel& model, const std::vector<MemberPiece>& pie
   }
 }
 
-}  // namespace
-
 solver::LoadSet on_frame(const Building& building, const Frame& frame, const PartLoads& loads,
                          const solver::LoadSet& whole) {
   solver::LoadSet set = whole;
@@ -71,7 +72,7 @@ solver::LoadSet on_frame(const Building& building, const Frame& frame, const Par
     if (pieces.empty())
       set.beams.push_back(load);
     else
-      divide(frame.model, pieces, load, set.beams);
+      lay_on_pieces(frame.model, pieces, load, set.beams);
   }
   for (std::size_t p = 0; p < building.panels.size(); ++p) {
     const PanelMesh& mesh = frame.meshes[p];

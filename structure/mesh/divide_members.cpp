@@ -4,6 +4,7 @@
 #include "mesh/frame_mesh.h"
 #include "mesh/panel_edges.h"
 #include "model/index_of.h"
+#include "topple/structure/error.h"
 
 namespace topple::structure {
 
@@ -98,6 +99,29 @@ void divide_members(const Building& building, Frame& frame) {
       cuts.add_edge(edges.nodes(PanelId(p), edge), frame.meshes[p].edge_nodes[edge]);
   for (std::size_t m = 0; m < building.members.size(); ++m)
     if (!cuts.of_member[m].empty()) divide(building.members[m], m, std::move(cuts.of_member[m]), frame);
+}
+
+std::vector<std::vector<int>> divide_evenly(const Building& building, int pieces, Frame& frame) {
+  std::vector<std::vector<int>> added(building.members.size());
+  const NameIndex names(building);
+  for (std::size_t m = 0; m < building.members.size() && pieces > 1; ++m) {
+    const Member& member = building.members[m];
+    if (!frame.pieces[m].empty() || member.axial != AxialAction::both) continue;
+    std::vector<Vec3>& nodes = frame.model.nodes;
+    const Vec3 x = member.axes.row(0), start = nodes[index_of(member.nodes[0])] + member.offsets[0];
+    std::vector<Cut> cuts;
+    for (int i = 1; i < pieces; ++i) {
+      if (const std::string name = member.name + "/cut-" + std::to_string(i); names.node(name))
+        throw InputError(building.file + ": \"" + name + "\" is the name of an inner node of a divided member; " +
+                         "expected nodes of other names");
+      const double at = member.length * i / pieces;
+      cuts.push_back({at, static_cast<int>(nodes.size())});
+      added[m].push_back(cuts.back().node);
+      nodes.emplace_back(start + at * x);
+    }
+    divide(member, m, std::move(cuts), frame);
+  }
+  return added;
 }
 
 }  // namespace topple::structure

@@ -14,6 +14,11 @@ void add_shell_panels(const Building& building, Frame& frame);
 /// tension or compression only stays in one piece, free between its ends.
 void divide_members(const Building& building, Frame& frame);
 
+/// Divides every member that is one beam and carries both signs into `pieces` of the same length, at nodes of the frame
+/// behind all others; everything else keeps its number. Returns, per member, these nodes. Throws InputError where a
+/// node of the building has the name ("M/cut-1" ...) that results give one of them.
+std::vector<std::vector<int>> divide_evenly(const Building& building, int pieces, Frame& frame);
+
 /// Adds supports of panel edges: one at each mesh node of the edge.
 void add_edge_supports(const Building& building, Frame& frame);
 

@@ -3,6 +3,7 @@ import { css, gradient, signedColour, useColour } from './colours.js';
 import { forceLabel, number, percent, units } from './format.js';
 import { buildPaper, setPaper } from './print.js';
 import { StructureView } from './scene.js';
+import { innerMotions } from './shape.js';
 import { TableView } from './table_view.js';
 import { tables } from './tables.js';
 
@@ -19,6 +20,7 @@ const byNode = (shape) => {
   if (!shape) return null;
   const list = new Array(model.nodes.length).fill(null);
   for (const [name, value] of Object.entries(shape)) if (nodeIndex.has(name)) list[nodeIndex.get(name)] = value;
+  list.inner = innerMotions(shape, (name) => nodeIndex.has(name));
   return list;
 };
 

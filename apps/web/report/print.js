@@ -4,6 +4,7 @@ import { deformedDrawing, diagramDrawing, loadDrawing, LOOKS, membersDrawing, mo
 import { number, percent, units } from './format.js';
 import { combinationRows, sectionRows, verdict } from './paper_summary.js';
 import { loadRows, onPaper, paperUnit, quantity } from './paper_units.js';
+import { innerMotions } from './shape.js';
 import { layOut } from './sheets.js';
 import { tables } from './tables.js';
 
@@ -193,7 +194,9 @@ function whatIsDrawn(data, load) {
 }
 
 function byNode(model, shape) {
-  return model.node_names.map((name) => shape?.[name] ?? null);
+  const list = model.node_names.map((name) => shape?.[name] ?? null), names = new Set(model.node_names);
+  list.inner = innerMotions(shape, (name) => names.has(name));
+  return list;
 }
 
 function drawResults(paper, data, u) {

@@ -18,12 +18,50 @@ function endMovement(movement, arm) {
   return { shift: add(movement.slice(0, 3), cross(turn, arm)), turn };
 }
 
+/** Motions of the inner nodes of members that the modes divide ("M/cut-1" ... of a shape), in lists by the member's name. */
+export function innerMotions(shape, isNode) {
+  const inner = new Map();
+  for (const [name, motion] of Object.entries(shape ?? {})) {
+    const [, member, number] = isNode(name) ? [] : name.match(/^(.*)\/cut-(\d+)$/) ?? [];
+    if (!member) continue;
+    if (!inner.has(member)) inner.set(member, []);
+    inner.get(member)[Number(number) - 1] = motion;
+  }
+  return inner;
+}
+
+/** A divided member's points: those of its pieces, each cubic between its own ends. */
+function dividedLine(member, nodes, movements, inner, scale, segments) {
+  const [first, second] = member.nodes;
+  const ends = [add(nodes[first], member.offsets[0]), add(nodes[second], member.offsets[1])];
+  const pieces = inner.length + 1, none = [0, 0, 0];
+  const at = (i) => add(ends[0], scaled(add(ends[1], scaled(ends[0], -1)), i / pieces));
+  const points = [];
+  for (let i = 0; i < pieces; ++i) {
+    const last = i + 1 === pieces;
+    const piece = {
+      ...member, nodes: [0, 1], length: member.length / pieces,
+      offsets: [i === 0 ? member.offsets[0] : none, last ? member.offsets[1] : none],
+    };
+    const line = memberLine(piece, [i === 0 ? nodes[first] : at(i), last ? nodes[second] : at(i + 1)],
+      [i === 0 ? movements[first] : inner[i - 1], last ? movements[second] : inner[i]], scale, 8, null);
+    points.push(...line.slice(i === 0 ? 0 : 1));
+  }
+  // The stations that were asked for, out of eight to a piece.
+  return Array.from({ length: segments + 1 }, (_, k) => {
+    const place = (k / segments) * (points.length - 1), before = Math.min(Math.floor(place), points.length - 2);
+    return add(points[before], scaled(add(points[before + 1], scaled(points[before], -1)), place - before));
+  });
+}
+
 /**
  * Points along a member at `segments + 1` even stations. With `bow`, rows of its deflections [y, z] from the chord at even
  * stations, they are as the analysis has them, loads, shear and releases included; without (modes, buckling shapes), cubic
- * between its ends.
+ * between its ends and the nodes of `movements.inner` (innerMotions).
  */
 export function memberLine(member, nodes, movements, scale, segments, bow) {
+  const inner = !bow && scale !== 0 ? movements?.inner?.get(member.name) : undefined;
+  if (inner) return dividedLine(member, nodes, movements, inner, scale, segments);
   const [first, second] = member.nodes;
   const start = add(nodes[first], member.offsets[0]);
   const end = add(nodes[second], member.offsets[1]);

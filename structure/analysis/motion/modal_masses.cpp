@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "loads/on_pieces.h"
 #include "topple/structure/error.h"
 
 namespace topple::structure {
@@ -12,23 +13,28 @@ namespace {
 /// Vertical loads gathered at nodes, downwards positive.
 class Downward {
  public:
-  Downward(const Building& building, const Frame& frame)
-      : building_(building), frame_(frame), at_(frame.model.nodes.size(), 0) {}
+  Downward(const Building& building, const Frame& frame, bool to_pieces)
+      : building_(building), frame_(frame), to_pieces_(to_pieces), at_(frame.model.nodes.size(), 0) {}
 
   void add(const std::vector<solver::NodeLoad>& loads) {
     for (const solver::NodeLoad& load : loads) add(static_cast<std::size_t>(load.node), -load.load.z());
   }
 
   void add(const std::vector<solver::BeamLoad>& loads) {
+    std::vector<solver::BeamLoad> parts;
     for (const solver::BeamLoad& load : loads) {
-      const Member& member = building_.members[static_cast<std::size_t>(load.beam)];
-      const auto down = [&](const Vec6& local) { return -(member.axes.transpose() * local.head<3>()).z(); };
-      if (load.kind == solver::BeamLoad::Kind::point) along(member, load.from, down(load.first));
-      if (load.kind != solver::BeamLoad::Kind::distributed) continue;
-      // Two triangles of a trapezoid, each at its own centroid.
-      const double width = load.to - load.from;
-      along(member, load.from + width / 3, down(load.first) * width / 2);
-      along(member, load.to - width / 3, down(load.last) * width / 2);
+      const auto m = static_cast<std::size_t>(load.beam);
+      const Member& member = building_.members[m];
+      if (!to_pieces_ || frame_.pieces[m].empty()) {
+        add(member, {member.nodes[0].index, member.nodes[1].index}, member.length, load);
+        continue;
+      }
+      parts.clear();
+      lay_on_pieces(frame_.model, frame_.pieces[m], load, parts);
+      for (const solver::BeamLoad& part : parts) {
+        const solver::Beam& beam = frame_.model.beams[static_cast<std::size_t>(part.beam)];
+        add(member, beam.node, beam.length, part);
+      }
     }
   }
 
@@ -45,19 +51,30 @@ class Downward {
 
  private:
   void add(std::size_t node, double force) { at_[node] += force; }
-  void along(const Member& member, double place, double force) {
-    const double second = force * place / member.length;
-    add(static_cast<std::size_t>(member.nodes[0].index), force - second);
-    add(static_cast<std::size_t>(member.nodes[1].index), second);
+  /// By the lever rule to two nodes that are `length` apart.
+  void add(const Member& member, const std::array<int, 2>& nodes, double length, const solver::BeamLoad& load) {
+    const auto down = [&](const Vec6& local) { return -(member.axes.transpose() * local.head<3>()).z(); };
+    const auto along = [&](double place, double force) {
+      const double second = force * place / length;
+      add(static_cast<std::size_t>(nodes[0]), force - second);
+      add(static_cast<std::size_t>(nodes[1]), second);
+    };
+    if (load.kind == solver::BeamLoad::Kind::point) along(load.from, down(load.first));
+    if (load.kind != solver::BeamLoad::Kind::distributed) return;
+    // Two triangles of a trapezoid, each at its own centroid.
+    const double width = load.to - load.from;
+    along(load.from + width / 3, down(load.first) * width / 2);
+    along(load.to - width / 3, down(load.last) * width / 2);
   }
 
   const Building& building_;
   const Frame& frame_;
+  bool to_pieces_;
   std::vector<double> at_;
 };
 
 /// The cases that become mass, as one combination of loads without self weight.
-std::vector<double> mass_of_loads(const Building& building, const Frame& frame) {
+std::vector<double> mass_of_loads(const Building& building, const Frame& frame, bool to_pieces) {
   Building loads = building;
   for (LoadCase& load_case : loads.cases) load_case.self_weight = Vec3::Zero();
   loads.combinations = {{"masses.loads", building.masses.loads}};
@@ -66,7 +83,7 @@ std::vector<double> mass_of_loads(const Building& building, const Frame& frame) 
   PartLoads parts = part_loads(loads, CombinationId(0));
   parts.settlements.clear();  // the push of a moved spring has no mass
   const solver::LoadSet set = load_set(loads, parts);
-  Downward down(building, frame);
+  Downward down(building, frame, to_pieces);
   down.add(set.nodes);
   down.add(set.beams);
   down.add(on_frame(loads, frame, parts, set).shells);
@@ -85,8 +102,9 @@ std::vector<double> mass_of_loads(const Building& building, const Frame& frame) 
 }
 
 /// Panels that are load alone: their mass goes where their weight does.
-std::vector<double> mass_of_claddings(const Building& building, const Frame& frame, const EdgeMembers& edges) {
-  Downward down(building, frame);
+std::vector<double> mass_of_claddings(const Building& building, const Frame& frame, const EdgeMembers& edges,
+                                      bool to_pieces) {
+  Downward down(building, frame, to_pieces);
   for (std::size_t p = 0; p < building.panels.size(); ++p) {
     const Panel& panel = building.panels[p];
     if (panel.model != PanelModel::cladding) continue;
@@ -112,18 +130,32 @@ std::vector<double> mass_lengths(const Building& building, const Frame& frame) {
     if (apart <= (1 + rounding) * member.length) continue;
     lengths.resize(frame.model.beams.size(), 0);
     lengths[m] = apart;
+    for (const MemberPiece& piece : frame.pieces[m]) {
+      const auto beam = static_cast<std::size_t>(piece.beam);
+      lengths[beam] = apart * frame.model.beams[beam].length / member.length;
+    }
   }
   return lengths;
 }
 
-std::vector<solver::NodeMass> modal_masses(const Building& building, const Frame& frame, const EdgeMembers& edges) {
-  std::vector<double> point = mass_of_claddings(building, frame, edges);
+std::vector<solver::NodeMass> modal_masses(const Building& building, const Frame& frame, const EdgeMembers& edges,
+                                           bool to_pieces) {
+  std::vector<double> point = mass_of_claddings(building, frame, edges, to_pieces);
   if (!building.masses.loads.empty()) {
-    const std::vector<double> loads = mass_of_loads(building, frame);
+    const std::vector<double> loads = mass_of_loads(building, frame, to_pieces);
     for (std::size_t n = 0; n < point.size(); ++n) point[n] += loads[n];
   }
-  for (const auto& [id, mass] : building.masses.members)
-    for (const NodeId node : building[id].nodes) point[static_cast<std::size_t>(node.index)] += mass / 2;
+  for (const auto& [id, mass] : building.masses.members) {
+    const Member& member = building[id];
+    const auto& pieces = frame.pieces[static_cast<std::size_t>(id.index)];
+    for (const NodeId node : member.nodes)
+      if (!to_pieces || pieces.empty()) point[static_cast<std::size_t>(node.index)] += mass / 2;
+    for (const MemberPiece& piece : pieces) {
+      const solver::Beam& beam = frame.model.beams[static_cast<std::size_t>(piece.beam)];
+      for (const int node : beam.node)
+        if (to_pieces) point[static_cast<std::size_t>(node)] += mass / 2 * beam.length / member.length;
+    }
+  }
   std::vector<solver::NodeMass> masses;
   for (const NodeMass& given : building.masses.nodes) masses.push_back({given.node.index, given.mass, given.inertia});
   for (std::size_t n = 0; n < point.size(); ++n)

@@ -169,6 +169,15 @@ void ResultsWriter::shape(const std::vector<Vec6>& motion) {
     w_.raw_key(names_->nodes[n]);
     shape_of(motion[n]);
   }
+  for (const std::size_t m : names_->written.members) {
+    if (result_.mode_cuts.empty()) break;
+    const std::vector<int>& cuts = result_.mode_cuts[m];
+    if (cuts.empty() || static_cast<std::size_t>(cuts.back()) >= motion.size()) continue;  // a buckling shape
+    for (std::size_t i = 0; i < cuts.size(); ++i) {
+      w_.key(b_.members[m].name + "/cut-" + std::to_string(i + 1));
+      shape_of(motion[static_cast<std::size_t>(cuts[i])]);
+    }
+  }
   w_.close('}');
 }
 

@@ -41,12 +41,14 @@ void write_array(std::string& out, const char* type, const std::string& name, in
 class Grid {
  public:
   using Shapes = std::vector<std::pair<std::string, const std::vector<Vec6>*>>;
-  Grid(const Building& building, const CombinationResult& result, const std::vector<Vec3>& mesh_nodes, Shapes shapes)
+  Grid(const Building& building, const CombinationResult& result, const std::vector<Vec3>& mesh_nodes, Shapes shapes,
+       const std::vector<std::vector<int>>& cuts = {})
       : building_(building),
         result_(result),
         mesh_nodes_(mesh_nodes),
         units_(building.units),
-        shapes_(std::move(shapes)) {
+        shapes_(std::move(shapes)),
+        cuts_(cuts) {
     drawn_.resize(shapes_.size());
     for (std::size_t m = 0; m < building.members.size(); ++m) add_member(MemberId(m));
     for (std::size_t p = 0; p < building.panels.size(); ++p) add_panel(PanelId(p));
@@ -108,15 +110,25 @@ class Grid {
   [[nodiscard]] Vec3 along_member(MemberId id, const std::vector<Vec6>& shape, double f) const {
     const Member& member = building_[id];
     const Vec3 axis = member.axes.row(0);
+    std::vector<int> nodes{member.nodes[0].index, member.nodes[1].index};
+    if (!cuts_.empty())
+      for (const int inner : cuts_[static_cast<std::size_t>(id.index)])
+        if (static_cast<std::size_t>(inner) < shape.size()) nodes.insert(nodes.end() - 1, inner);
+    const std::size_t pieces = nodes.size() - 1;
+    const std::size_t piece = std::min(pieces - 1, static_cast<std::size_t>(f * static_cast<double>(pieces)));
+    f = f * static_cast<double>(pieces) - static_cast<double>(piece);
     std::array<Vec3, 2> moved, slope;
+    const auto of_member = [&](std::size_t end) { return piece + end == (end == 0 ? 0 : pieces); };
     for (std::size_t end = 0; end < 2; ++end) {
-      const Vec6& node = shape[static_cast<std::size_t>(member.nodes[end].index)];
+      const Vec6& node = shape[static_cast<std::size_t>(nodes[piece + end])];
       const Vec3 turned = node.tail<3>();
-      moved[end] = node.head<3>() + turned.cross(member.offsets[end]);
-      slope[end] = member.length * turned.cross(axis);
+      moved[end] = node.head<3>();
+      if (of_member(end)) moved[end] += turned.cross(member.offsets[end]);
+      slope[end] = member.length / static_cast<double>(pieces) * turned.cross(axis);
     }
     const Vec3 chord = moved[1] - moved[0];
     for (std::size_t end = 0; end < 2; ++end) {
+      if (!of_member(end)) continue;
       const Vec6& stiffness = building_[building_.joint(id, static_cast<int>(end))].stiffness;
       for (const int about : {1, 2}) {  // a release about local y frees the slope along z, and the other way round
         if (stiffness(3 + about) != 0) continue;
@@ -192,7 +204,8 @@ class Grid {
       parts_;
   std::array<Numbers, forces> diagrams_;
   Shapes shapes_;
-  std::vector<Numbers> drawn_;  ///< per shape
+  std::vector<std::vector<int>> cuts_;  ///< AnalysisResult::mode_cuts
+  std::vector<Numbers> drawn_;          ///< per shape
 };
 
 /// A combination's name as a file's: what a file system may refuse becomes '_'.
@@ -237,8 +250,9 @@ NamedTexts results_vtu(const Building& building, const AnalysisResult& result) {
   for (const CombinationResult& combination : result.combinations) {
     std::string name = file_name(building[combination.combination].name);
     while (!taken.insert(name).second) name += '_';
-    files.emplace_back(name + ".vtu",
-                       Grid(building, combination, result.mesh_nodes, shapes(result, combination)).write());
+    files.emplace_back(
+        name + ".vtu",
+        Grid(building, combination, result.mesh_nodes, shapes(result, combination), result.mode_cuts).write());
   }
   return files;
 }

@@ -54,7 +54,8 @@ struct AnalysisRequest {
   std::vector<SectionCut> cuts;             ///< planes whose resultants are wanted
   LossRequest losses;                       ///< members to remove, one at a time
   std::optional<TimeHistory> time_history;  ///< followed as losses.motion says, from the state of each combination
-  int modes = 0;  ///< lowest natural frequencies; with second order about the tangent of the last combination
+  int modes = 0;   ///< lowest natural frequencies; with second order about the tangent of the last combination
+  int divide = 1;  ///< in the modes: elements of every member that is one otherwise and carries both signs
   solver::MassDistribution mass = solver::MassDistribution::consistent;  ///< of members and panels, in the modes
   solver::TorsionalMass torsional_mass = solver::TorsionalMass::polar;   ///< of members, in the modes
   bool rotary_inertia = false;  ///< of members' sections in bending, in the modes
@@ -158,12 +159,15 @@ struct AnalysisResult {
   double loss_seconds = 0;                                      ///< wall time that the losses took
   std::vector<std::pair<CombinationId, MotionResult>> motions;  ///< under the time history
   std::vector<solver::VibrationMode> modes;  ///< lowest first; fewer than asked for when the mass has no more
-  Vec3 moving_mass = Vec3::Zero();           ///< along x, y, z: what takes part in the modes
-  solver::AnalysisStatistics statistics;     ///< sizes and times of the factorisation
-  std::vector<std::string> warnings;         ///< sentences for a person
-  std::vector<std::string> unfinished;       ///< what was asked for and not computed, and why
-  std::optional<DesignCode> design_code;     ///< set by check_design() (member_checks.h)
-  double drift_limit = 0;                    ///< with it: storey drift that counts as a use of 1
+  /// Where AnalysisRequest::divide is above 1: of each member that the modes divide its inner nodes, evenly along it
+  /// from the first end, by their index in the modes' shapes, behind all others. Else empty.
+  std::vector<std::vector<int>> mode_cuts;
+  Vec3 moving_mass = Vec3::Zero();        ///< along x, y, z: what takes part in the modes
+  solver::AnalysisStatistics statistics;  ///< sizes and times of the factorisation
+  std::vector<std::string> warnings;      ///< sentences for a person
+  std::vector<std::string> unfinished;    ///< what was asked for and not computed, and why
+  std::optional<DesignCode> design_code;  ///< set by check_design() (member_checks.h)
+  double drift_limit = 0;                 ///< with it: storey drift that counts as a use of 1
 };
 
 /// What moves when a model is not stable, for reports and drawings.
