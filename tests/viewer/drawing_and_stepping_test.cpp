@@ -14,6 +14,7 @@
 #include "app/interface.h"
 #include "app/side_panel.h"
 #include "renderer/headless_context.h"
+#include "topple/structure/error.h"
 
 namespace {
 
@@ -46,6 +47,47 @@ TEST_CASE("a picture is drawn while a step takes its time") {
   driver.set_paused(true);
   drawn.set_value();
   CHECK(driver.error().empty());
+}
+
+TEST_CASE("a building is seen unloaded until its first answer is there, and orders wait for that") {
+  const Scene scene = open_scene("seed_building");
+  std::promise<void> looked;
+  ThreadDriver driver(*scene.building, scene.scenario.step, [&](std::shared_ptr<Recording> recording) {
+    looked.get_future().wait();
+    return std::make_unique<Session>(scene.building, scene.scenario, nullptr, std::move(recording));
+  });
+  CHECK_FALSE(driver.begun());
+  const Moment before = driver.moment();
+  CHECK(before.later->membership->members_standing == static_cast<int>(scene.building->members.size()));
+  for (const auto& displacement : before.later->answer->displacements) CHECK(displacement.isZero(0));
+  // The panels look back at any time.
+  CHECK(driver.recording().at(0).step == 0);
+  std::promise<std::size_t> ordered;
+  driver.set_paused(true);
+  driver.order([&](Session& session) { ordered.set_value(session.actions()); });
+  looked.set_value();
+  CHECK(ordered.get_future().get() == 0);
+  CHECK(driver.begun());
+  driver.require_beginning();
+  // Its own weight moves it, and what was drawn before is not a part of the run.
+  const auto standing = driver.moment().later;
+  CHECK(standing->step == 0);
+  double most = 0;
+  for (const auto& moved : standing->answer->displacements) most = std::max(most, double{moved.head<3>().norm()});
+  CHECK(most > 1e-5);
+  CHECK(driver.recording().frames().size() == 1);
+  CHECK(driver.recording().at(0).answer == standing->answer);
+}
+
+TEST_CASE("why a run cannot begin is told as what was thrown") {
+  const Scene scene = open_scene("seed_building");
+  const ThreadDriver driver(*scene.building, scene.scenario.step, [](const auto&) -> std::unique_ptr<Session> {
+    throw topple::structure::UnstableModel("node N sways");
+  });
+  while (driver.error().empty()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  CHECK_THROWS_AS(driver.require_beginning(), topple::structure::UnstableModel);
+  CHECK_FALSE(driver.begun());
+  CHECK(driver.moment().later->step == 0);
 }
 
 TEST_CASE("sixty pictures a second, with their panels, are made while one step takes two seconds") {

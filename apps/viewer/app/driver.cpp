@@ -1,5 +1,6 @@
 #include "app/driver.h"
 
+#include <exception>
 #include <utility>
 
 #include "topple/structure/step_thread.h"
@@ -18,11 +19,22 @@ void DirectDriver::order_and_show(Order what) {
 
 struct ThreadDriver::State {
   std::unique_ptr<Session> session;  ///< touched by the thread alone
+  std::exception_ptr failed;         ///< of its making; read once the thread has told that it ended
   std::function<void()> before_step;
   std::shared_ptr<const Snapshot> made;
   std::shared_ptr<const Snapshot> earlier, later;  ///< handed over while nobody looks
+  bool begun = false;                              ///< so is this
   std::unique_ptr<structure::StepThread> thread;
 
+  void begin(const SessionMaker& make, std::shared_ptr<Recording> recording) {
+    try {
+      session = make(std::move(recording));
+      made = session->snapshot();
+    } catch (...) {
+      failed = std::current_exception();
+      throw;
+    }
+  }
   bool step() {
     if (before_step) before_step();
     session->step();
@@ -32,6 +44,16 @@ struct ThreadDriver::State {
   void publish(bool follows) {
     earlier = follows ? later : nullptr;
     later = made;
+    begun = session != nullptr;
+  }
+  /// Steps of this length (s).
+  void start(double length, bool paused) {
+    structure::StepThread::Work work;
+    work.length = length;
+    work.step = [this] { return step(); };
+    work.publish = [this](bool follows) { publish(follows); };
+    work.paused = paused;
+    thread = std::make_unique<structure::StepThread>(std::move(work));
   }
 };
 
@@ -42,11 +64,24 @@ ThreadDriver::ThreadDriver(std::unique_ptr<Session> session, std::function<void(
   s->before_step = std::move(before_step);
   s->made = s->session->snapshot();
   s->publish(false);
-  structure::StepThread::Work work;
-  work.length = s->session->scenario().step;
-  work.step = [s] { return s->step(); };
-  work.publish = [s](bool follows) { s->publish(follows); };
-  s->thread = std::make_unique<structure::StepThread>(std::move(work));
+  s->start(s->session->scenario().step, false);
+}
+
+ThreadDriver::ThreadDriver(const structure::Building& building, double step, SessionMaker make)
+    : ThreadDriver(building, step, std::move(make), std::make_shared<Recording>()) {}
+
+ThreadDriver::ThreadDriver(const structure::Building& building, double step, SessionMaker make,
+                           std::shared_ptr<Recording> recording)
+    : Driver(recording), state_(std::make_unique<State>()) {
+  State* const s = state_.get();
+  s->made = std::make_shared<const Snapshot>(undeformed(building));
+  // There is something to look at; the session's own first snapshot takes its place.
+  recording->add(*s->made);
+  s->publish(false);
+  // No step before the session is there.
+  s->start(step, true);
+  s->thread->order([s, make = std::move(make), recording = std::move(recording)] { s->begin(make, recording); }, true);
+  s->thread->set_paused(false);
 }
 
 ThreadDriver::~ThreadDriver() = default;
@@ -71,6 +106,14 @@ Moment ThreadDriver::moment() const {
   Moment moment;
   state_->thread->look([&](double share) { moment = {state_->earlier, state_->later, share}; });
   return moment;
+}
+bool ThreadDriver::begun() const {
+  bool begun = false;
+  state_->thread->look([&](double) { begun = state_->begun; });
+  return begun;
+}
+void ThreadDriver::require_beginning() const {
+  if (!error().empty() && state_->failed) std::rethrow_exception(state_->failed);
 }
 std::string ThreadDriver::error() const { return state_->thread->error(); }
 

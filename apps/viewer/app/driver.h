@@ -46,6 +46,8 @@ class Driver {
   /// The same as it is: less than speed() while steps take longer than they last.
   [[nodiscard]] virtual double ratio() const = 0;
   [[nodiscard]] virtual Moment moment() const = 0;
+  /// False: the building's first answer is still sought, and it is drawn as it stands unloaded.
+  [[nodiscard]] virtual bool begun() const { return true; }
   [[nodiscard]] const Recording& recording() const { return *recording_; }
 
  protected:
@@ -84,6 +86,10 @@ class ThreadDriver : public Driver {
   /// The session is the thread's alone from now on. `before_step` (unless empty) is called on it before each step:
   /// tests make steps slow by it.
   explicit ThreadDriver(std::unique_ptr<Session> session, std::function<void()> before_step = {});
+  /// Makes the session of this building on the thread as well, as the first answer of a large one takes seconds. Until
+  /// then moment() is the unloaded building, and orders wait.
+  using SessionMaker = std::function<std::unique_ptr<Session>(std::shared_ptr<Recording> recording)>;
+  ThreadDriver(const structure::Building& building, double step, SessionMaker make);
   ~ThreadDriver() override;
   void order(Order what) override;
   void order_and_show(Order what) override;
@@ -93,10 +99,15 @@ class ThreadDriver : public Driver {
   [[nodiscard]] double speed() const override;
   [[nodiscard]] double ratio() const override;
   [[nodiscard]] Moment moment() const override;
+  [[nodiscard]] bool begun() const override;
+  /// Throws what the making of the session threw, if it did.
+  void require_beginning() const;
   /// Why the simulation stopped, when it threw; empty otherwise.
   [[nodiscard]] std::string error() const;
 
  private:
+  ThreadDriver(const structure::Building& building, double step, SessionMaker make,
+               std::shared_ptr<Recording> recording);
   struct State;
   std::unique_ptr<State> state_;
 };

@@ -16,11 +16,12 @@ constexpr double endless = 1e9;
 }  // namespace
 
 Session::Session(std::shared_ptr<const structure::Building> building, structure::Scenario scenario,
-                 std::shared_ptr<const std::vector<structure::DrawnMesh>> drawn)
+                 std::shared_ptr<const std::vector<structure::DrawnMesh>> drawn, std::shared_ptr<Recording> recording)
     : building_(std::move(building)),
       given_(building_),
       scenario_(std::move(scenario)),
-      drawn_meshes_(std::move(drawn)) {
+      drawn_meshes_(std::move(drawn)),
+      recording_(std::move(recording)) {
   scenario_.duration = endless;
   scenario_.until_rest = false;
   begin();

@@ -28,10 +28,11 @@ struct RunRules {
 
 class Session {
  public:
-  /// The scenario's end is put off: a person may act at any time. `drawn`: around the building; null: nothing. Throws
-  /// as structure::Simulation and structure::VisualMesh do.
+  /// The scenario's end is put off: a person may act at any time. `drawn`: around the building; null: nothing.
+  /// `recording`: what snapshots are added to. Throws as structure::Simulation and structure::VisualMesh do.
   Session(std::shared_ptr<const structure::Building> building, structure::Scenario scenario,
-          std::shared_ptr<const std::vector<structure::DrawnMesh>> drawn = nullptr);
+          std::shared_ptr<const std::vector<structure::DrawnMesh>> drawn = nullptr,
+          std::shared_ptr<Recording> recording = std::make_shared<Recording>());
 
   void step();
   void apply(const structure::Tool& tool);
@@ -112,7 +113,7 @@ class Session {
   SnapshotTaker taker_;
   Wanted wanted_;
   std::vector<Action> actions_;
-  std::shared_ptr<Recording> recording_ = std::make_shared<Recording>();
+  std::shared_ptr<Recording> recording_;
   std::size_t events_recorded_ = 0;
   std::optional<Shaking> shaking_;
   std::vector<Pulling> pulling_;

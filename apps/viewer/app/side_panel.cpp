@@ -401,6 +401,7 @@ void SidePanel::draw(Controller& controller, const Snapshot& moment, const Scene
   ImGui::TextWrapped("%s", controller.building().title.empty() ? "Topple" : controller.building().title.c_str());
   if (!error.empty()) ImGui::TextWrapped("The simulation stopped: %s", error.c_str());
   run_bar(controller);
+  if (!controller.driver().begun()) ImGui::TextWrapped("How it stands is being found; until then it is seen unloaded.");
   state(controller, moment);
   ImGui::TextWrapped("%s", controller.message ? controller.message->c_str() : "");
   if (ImGui::BeginTabBar("tabs")) {

@@ -24,6 +24,7 @@
 #include "renderer/frame_composer.h"
 #include "renderer/gl_errors.h"
 #include "renderer/picture_renderer.h"
+#include "topple/structure/error.h"
 
 namespace topple::viewer {
 namespace {
@@ -213,6 +214,18 @@ class Input {
   bool dragged_ = false;
 };
 
+/// While it lives, the window's input goes to this controller.
+class Served {
+ public:
+  Served(Input& input, Controller& controller) : input_(input) { input_.serve(&controller); }
+  ~Served() { input_.serve(nullptr); }
+  Served(const Served&) = delete;
+  Served& operator=(const Served&) = delete;
+
+ private:
+  Input& input_;
+};
+
 glm::dvec2 scene_size(const Window& window, const Controller& controller) {
   return controller.photo ? window.size() : SidePanel::scene_size(window.size());
 }
@@ -226,12 +239,15 @@ double processor_milliseconds() {
   return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
-/// What a person does with one scene. True: another is asked for; false: the window closes.
+/// What a person does with one scene. True: another is asked for; false: the window closes. Throws what the scene's
+/// simulation throws when it begins.
 bool run_scene(const Window& window, Input& input, const Scene& scene, const WindowOptions& options, Speaker* speaker) {
   const double ground = ground_height(*scene.building, scene.scenario);
   SceneInstances instances(*scene.building);
   Renderer renderer(instances, ground);
-  ThreadDriver driver(std::make_unique<Session>(scene.building, scene.scenario, scene.drawn));
+  ThreadDriver driver(*scene.building, scene.scenario.step, [&scene](std::shared_ptr<Recording> recording) {
+    return std::make_unique<Session>(scene.building, scene.scenario, scene.drawn, std::move(recording));
+  });
   Controller controller(driver, scene, ground, window.size());
   SidePanel panel;
   Outputs outputs;
@@ -239,11 +255,12 @@ bool run_scene(const Window& window, Input& input, const Scene& scene, const Win
   controller.frame_building();
   controller.has_sound = speaker != nullptr;
   for (const std::string& words : options.show) controller.show(words);
-  input.serve(&controller);
+  const Served served(input, controller);
   glm::dvec2 hovered_at{-1};
   double before = glfwGetTime();
   while (glfwWindowShouldClose(window.get()) == GLFW_FALSE && !controller.leaves && !controller.wants_another) {
     glfwPollEvents();
+    driver.require_beginning();
     const double now = glfwGetTime();
     input.fly(now - before);
     controller.resize(scene_size(window, controller));
@@ -270,13 +287,13 @@ bool run_scene(const Window& window, Input& input, const Scene& scene, const Win
     controller.picture_graphics = renderer.graphics_milliseconds();
     glfwSwapBuffers(window.get());
   }
-  input.serve(nullptr);
   return controller.wants_another;
 }
 
-/// The scene that a person chooses on the start page; none: the window closes.
-std::optional<Scene> choose_scene(const Window& window) {
+/// The scene that a person chooses on the start page; none: the window closes. `message`: what the page tells at first.
+std::optional<Scene> choose_scene(const Window& window, const std::string& message) {
   StartPage page;
+  page.message = message;
   while (glfwWindowShouldClose(window.get()) == GLFW_FALSE) {
     glfwWaitEventsTimeout(0.1);
     const glm::ivec2 pixels = window.pixels();
@@ -307,9 +324,21 @@ void run_window(std::optional<Scene> scene, const WindowOptions& options) {
   Input input(window.get(), options.screenshot);
   const WindowInterface interface(window.get(), options.scale);
   const std::unique_ptr<Speaker> speaker = options.sound ? Speaker::open() : nullptr;
-  do {
-    if (!scene) scene = choose_scene(window);
-  } while (scene && run_scene(window, input, *std::exchange(scene, std::nullopt), options, speaker.get()));
+  // One that was asked for by name ends the program when it cannot be run; one of the start page leads back there.
+  if (scene && !run_scene(window, input, *scene, options, speaker.get())) return;
+  std::string message;
+  for (bool another = true; another;) {
+    scene = choose_scene(window, message);
+    if (!scene) return;
+    try {
+      another = run_scene(window, input, *scene, options, speaker.get());
+      message.clear();
+    } catch (const structure::InputError& unfit) {
+      message = unfit.what();
+    } catch (const structure::UnstableModel& unstable) {
+      message = unstable.what();
+    }
+  }
 }
 
 }  // namespace topple::viewer
