@@ -50,9 +50,11 @@ float metres(float depth) { return picture.z * picture.w / (picture.w - depth * 
 void main() {
   float r2 = dot(place, place);
   if (r2 >= 1.0) discard;
-  float noise = clouds(vec3(2.7 * place, 5.0 * own) + 31.0 * own);
+  // Billows, and what is torn off them.
+  float broad = clouds(vec3(2.4 * place, 5.0 * own) + 31.0 * own), fine = clouds(vec3(7.5 * place, 9.0 * own) + 17.0 * own);
+  float noise = 0.62 * broad + 0.38 * fine;
   // Ragged: noise eats from the rim inwards.
-  float body = 1.0 - r2, soft = smoothstep(0.10, 0.85, body * (0.05 + 1.75 * noise));
+  float body = 1.0 - r2, soft = smoothstep(0.12, 1.05, body * (0.05 + 1.9 * noise));
   // No edge is seen where the ground or a wall cuts the disc.
   float behind = metres(texelFetch(depth_map, ivec2(gl_FragCoord.xy), 0).r) - metres(gl_FragCoord.z);
   soft *= smoothstep(-0.05 * thickness, 0.7 * thickness, behind) * smoothstep(0.0, 0.35 * thickness, height);
