@@ -43,6 +43,13 @@ Export export_for(const std::string& file) {
   throw structure::InputError("export to '" + file + "': accepted endings: .html, .usda, .glb");
 }
 
+/// What stands on piers is seen down to the ground.
+Bounds bounds_to_ground(const Scene& scene, double ground) {
+  Bounds bounds = bounds_of_target(*scene.building, scene.scenario);
+  bounds.low.z = std::min(bounds.low.z, ground);
+  return bounds;
+}
+
 }  // namespace
 
 Controller::Controller(Driver& driver, const Scene& scene, double ground, glm::dvec2 size)
@@ -56,10 +63,10 @@ Controller::Controller(Driver& driver, const Scene& scene, double ground, glm::d
   frame_building();
 }
 
-void Controller::frame_building() { camera = frame(bounds_of_target(building_, scene_.scenario), size_.x / size_.y); }
+void Controller::frame_building() { camera = frame(bounds_to_ground(scene_, ground_), size_.x / size_.y); }
 
 void Controller::view_from(double azimuth, double elevation) {
-  camera = frame(bounds_of_target(building_, scene_.scenario), size_.x / size_.y, 0.12, azimuth, elevation);
+  camera = frame(bounds_to_ground(scene_, ground_), size_.x / size_.y, 0.12, azimuth, elevation);
 }
 
 Snapshot Controller::now() const {

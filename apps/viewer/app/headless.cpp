@@ -37,7 +37,7 @@ class Stage {
  public:
   Stage(const Scene& scene, glm::ivec2 size, bool panel, double scale)
       : size_(size),
-        instances_(*scene.building),
+        instances_(*scene.building, ground_height(*scene.building, scene.scenario)),
         renderer_(instances_, ground_height(*scene.building, scene.scenario)) {
     if (!panel) return;
     interface_.emplace(static_cast<float>(scale));

@@ -34,8 +34,7 @@ void Session::begin() {
     drawn_ = std::make_unique<structure::VisualMesh>(*building_, *drawn_meshes_);
   taker_ = SnapshotTaker();
   taker_.want(wanted_);
-  for (const structure::Event& event : scenario_.events)
-    if (const auto* fire = std::get_if<structure::WeakenTool>(&event.tool)) taker_.burn(*fire, event.at);
+  for (const structure::Event& event : scenario_.events) watch(event.tool, event.at);
   tuning_ = std::make_unique<structure::JointTuning>(*building_);
   tuned_ = nullptr;
   if (building_ != given_) tell_capacities();
@@ -45,6 +44,12 @@ void Session::begin() {
   pulling_.clear();
   gravity_.reset();
   last_told_ = {-1, -1};
+}
+
+/// What of it is drawn beside what the simulation tells.
+void Session::watch(const structure::Tool& tool, double at) {
+  if (const auto* fire = std::get_if<structure::WeakenTool>(&tool)) taker_.burn(*fire, at);
+  if (const auto* gone = std::get_if<structure::RemoveTool>(&tool)) taker_.take_supports(gone->supports, at);
 }
 
 void Session::step() {
@@ -132,7 +137,7 @@ void Session::tune(const structure::JointChange& change) {
 void Session::carry_out(const Action& action) {
   if (const auto* tool = std::get_if<structure::Tool>(&action.what)) {
     simulation_->apply(*tool);
-    if (const auto* fire = std::get_if<structure::WeakenTool>(tool)) taker_.burn(*fire, simulation_->time());
+    watch(*tool, simulation_->time());
     if (const auto* other = std::get_if<structure::GravityTool>(tool)) gravity_ = other->gravity;
     return;
   }

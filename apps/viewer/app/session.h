@@ -89,6 +89,7 @@ class Session {
     int given = 0;    ///< increments so far
   };
   void begin();
+  void watch(const structure::Tool& tool, double at);
   void act_on();
   void keep(const Action& action, const std::string& told);
   [[nodiscard]] structure::Vec3 gravity_at_rest() const;

@@ -243,7 +243,7 @@ double processor_milliseconds() {
 /// simulation throws when it begins.
 bool run_scene(const Window& window, Input& input, const Scene& scene, const WindowOptions& options, Speaker* speaker) {
   const double ground = ground_height(*scene.building, scene.scenario);
-  SceneInstances instances(*scene.building);
+  SceneInstances instances(*scene.building, ground);
   Renderer renderer(instances, ground);
   ThreadDriver driver(*scene.building, scene.scenario.step, [&scene](std::shared_ptr<Recording> recording) {
     return std::make_unique<Session>(scene.building, scene.scenario, scene.drawn, std::move(recording));

@@ -122,6 +122,7 @@ GpuScene::GpuScene(const SceneInstances& scene) {
   for (const auto& batch : scene.panels(structure::PanelKind::wall))
     walls_.emplace_back(batch.mesh, panel_attributes(), sizeof(PanelInstance));
   projectiles_.emplace_back(scene.projectiles().mesh, rigid_attributes(), sizeof(RigidInstance));
+  piers_.emplace_back(scene.piers().mesh, rigid_attributes(), sizeof(RigidInstance));
   for (const auto* batch : {&scene.arrows(), &scene.buried_arrows()})
     arrows_.emplace_back(batch->mesh, rigid_attributes(), sizeof(RigidInstance));
 }
@@ -131,6 +132,7 @@ void GpuScene::update(const SceneInstances& scene) {
   update_all(slabs_, scene.panels(structure::PanelKind::slab));
   update_all(walls_, scene.panels(structure::PanelKind::wall));
   projectiles_[0].update(scene.projectiles());
+  piers_[0].update(scene.piers());
   arrows_[0].update(scene.arrows());
   arrows_[1].update(scene.buried_arrows());
   const auto follow = [](std::vector<GpuBatch>& gpu, const std::vector<InstanceBatch<RigidInstance>>& batches) {

@@ -55,9 +55,10 @@ class GpuScene {
     for (const GpuBatch& batch : members_) batch.draw(level);
   }
   void draw_panels(structure::PanelKind kind) const { draw(kind == structure::PanelKind::slab ? slabs_ : walls_); }
-  /// Projectiles, the chunks of broken panels, and what is drawn around the building.
+  /// Projectiles, piers, the chunks of broken panels, and what is drawn around the building.
   void draw_rigid() const {
     draw(projectiles_);
+    draw(piers_);
     draw(chunks_);
     draw(torn_ends_);
     draw(drawn_);
@@ -69,7 +70,7 @@ class GpuScene {
   static void draw(const std::vector<GpuBatch>& batches) {
     for (const GpuBatch& batch : batches) batch.draw();
   }
-  std::vector<GpuBatch> members_, slabs_, walls_, projectiles_, chunks_, torn_ends_, drawn_, arrows_;
+  std::vector<GpuBatch> members_, slabs_, walls_, projectiles_, piers_, chunks_, torn_ends_, drawn_, arrows_;
 };
 
 }  // namespace topple::viewer

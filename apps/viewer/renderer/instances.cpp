@@ -89,11 +89,13 @@ Bounds bounds_of(const Building& building) {
   return bounds;
 }
 
-SceneInstances::SceneInstances(const Building& building)
+SceneInstances::SceneInstances(const Building& building, std::optional<double> ground)
     : building_(building), bounds_(bounds_of(building)), origin_(bounds_.centre()) {
   place_members();
   place_panels();
   projectiles_.mesh = sphere_mesh(24);
+  piers_.mesh = pier_mesh();
+  if (ground) pier_places_ = piers_of(building_, *ground);
   arrows_.mesh = buried_arrows_.mesh = arrow_mesh(10);
 }
 
@@ -293,8 +295,20 @@ void SceneInstances::rebuild_standing(const Snapshot& snapshot, const ViewOption
       moving_panels_.push_back({i, place});
   }
   close(members_), close(slabs_), close(walls_);
+  place_piers(snapshot, options);
   draw_diagrams(snapshot, options);
   draw_arrows(snapshot, options);
+}
+
+void SceneInstances::place_piers(const Snapshot& snapshot, const ViewOptions& options) {
+  piers_.instances.clear();
+  for (const Pier& pier : pier_places_) {
+    if (options.colouring != Colouring::materials || !snapshot.membership->supports[pier.support]) continue;
+    const glm::vec3 foot(pier.foot - origin_), size(pier.width, pier.width, pier.height);
+    piers_.instances.push_back({foot, {0, 0, 0, 1}, size, look_colour(Look::concrete), foot});
+  }
+  piers_.standing = piers_.instances.size();
+  ++piers_.revision;
 }
 
 void SceneInstances::draw_diagrams(const Snapshot& snapshot, const ViewOptions& options) {

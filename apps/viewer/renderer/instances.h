@@ -8,6 +8,7 @@
 #include <glm/vec4.hpp>
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "renderer/camera.h"
@@ -15,6 +16,7 @@
 #include "renderer/shapes/mesh.h"
 #include "renderer/shapes/overlay.h"
 #include "renderer/shapes/palette.h"
+#include "renderer/shapes/piers.h"
 #include "renderer/snapshot.h"
 #include "renderer/view_options.h"
 
@@ -56,7 +58,8 @@ struct InstanceBatch {
 
 class SceneInstances {
  public:
-  explicit SceneInstances(const structure::Building& building);
+  /// `ground`: its height, m, on which piers stand below supports that lie above it; none: no piers are drawn.
+  explicit SceneInstances(const structure::Building& building, std::optional<double> ground = std::nullopt);
   void update(const Snapshot& snapshot, const ViewOptions& options);
 
   [[nodiscard]] const std::vector<InstanceBatch<MemberInstance>>& members() const { return members_; }
@@ -71,6 +74,8 @@ class SceneInstances {
   /// The same of a model that is drawn around the building: a batch for each piece, bent while it stands.
   [[nodiscard]] const std::vector<InstanceBatch<RigidInstance>>& drawn() const { return drawn_; }
 
+  /// Below supports, in the view of materials.
+  [[nodiscard]] const InstanceBatch<RigidInstance>& piers() const { return piers_; }
   /// Torn ends of members of concrete.
   [[nodiscard]] const std::vector<InstanceBatch<RigidInstance>>& torn_ends() const { return torn_ends_; }
 
@@ -120,6 +125,7 @@ class SceneInstances {
   void place_chunks(const Snapshot& snapshot);
   void find_torn_ends();
   void place_torn_ends(const Snapshot& snapshot);
+  void place_piers(const Snapshot& snapshot, const ViewOptions& options);
   void add_torn_end(std::size_t index, int end, const MemberInstance& instance);
   [[nodiscard]] std::size_t bars_of_chunk(structure::MaterialId material) const;
   void place_broken_panels(const Snapshot& snapshot);
@@ -142,7 +148,8 @@ class SceneInstances {
   std::vector<PanelPart> panel_parts_;
   std::vector<InstanceBatch<MemberInstance>> members_;
   std::vector<InstanceBatch<PanelInstance>> slabs_, walls_;
-  InstanceBatch<RigidInstance> projectiles_;
+  InstanceBatch<RigidInstance> projectiles_, piers_;
+  std::vector<Pier> pier_places_;
   std::vector<InstanceBatch<RigidInstance>> chunks_;
   std::map<std::int64_t, std::size_t> chunk_of_body_;
   std::vector<InstanceBatch<RigidInstance>> torn_ends_;  ///< variants of each section, in their order

@@ -14,7 +14,7 @@ struct PictureRenderer::State {
   Renderer renderer;
   glm::ivec2 size;
   State(const structure::Building& building, double ground, int width, int height)
-      : scene(building), renderer(scene, ground), size(width, height) {}
+      : scene(building, ground), renderer(scene, ground), size(width, height) {}
 };
 
 PictureRenderer::PictureRenderer(const structure::Building& building, double ground, int width, int height)

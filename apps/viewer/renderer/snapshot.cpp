@@ -14,6 +14,7 @@ Snapshot undeformed(const Building& building) {
   membership->panel.assign(building.panels.size(), part_stands);
   membership->segment.assign(building.members.size(), 0);
   membership->broken.resize(building.panels.size());
+  membership->supports.assign(building.supports.size(), true);
   membership->members_standing = static_cast<int>(building.members.size());
   membership->panels_standing = static_cast<int>(building.panels.size());
   snapshot.answer = std::move(answer);

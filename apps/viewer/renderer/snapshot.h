@@ -65,6 +65,7 @@ struct Membership {
   std::vector<int> segment;  ///< per member: number of its standing segment, -1 when it does not stand
   /// Per panel: what remains of one that is broken in part, where it stood undeformed; null while it is whole.
   std::vector<std::shared_ptr<const fracture::Mesh>> broken;
+  std::vector<bool> supports;  ///< per Building::supports: it has not been taken away
   int members_standing = 0, panels_standing = 0;
 };
 

@@ -240,6 +240,10 @@ Snapshot SnapshotTaker::take(const Simulation& simulation, structure::VisualMesh
   if (old || ids != seen_bodies_) {
     auto membership = read_membership(simulation);
     if (membership_ && stood_by) keep_bends(*membership, *membership_, *stood_by, simulation.building());
+    for (const structure::NodeSupport& support : simulation.building().supports)
+      membership->supports.push_back(std::none_of(taken_supports_.begin(), taken_supports_.end(), [&](const auto& one) {
+        return one.first == support.node && one.second <= simulation.time();
+      }));
     membership_ = std::move(membership);
   }
   seen_ = simulation.frame().counters();

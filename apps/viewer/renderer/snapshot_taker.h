@@ -22,6 +22,10 @@ class SnapshotTaker {
   void burn(const structure::WeakenTool& fire, double from, DustPuff::Kind kind = DustPuff::Kind::fire) {
     if (fire.over > 0) dust_.burn({fire.members, fire.joints, from, from + fire.over, kind});
   }
+  /// Supports of these nodes are taken away at this time (s).
+  void take_supports(const std::vector<structure::NodeId>& nodes, double at) {
+    for (const structure::NodeId node : nodes) taken_supports_.emplace_back(node, at);
+  }
   void blast(const Eigen::Vector3d& centre, double charge) { dust_.blast(centre, charge); }
 
  private:
@@ -33,6 +37,7 @@ class SnapshotTaker {
   std::size_t seen_events_ = 0;
   bool was_pending_ = false;
   std::vector<std::int64_t> seen_bodies_;
+  std::vector<std::pair<structure::NodeId, double>> taken_supports_;
   DustWatcher dust_;
   std::shared_ptr<const FrameAnswer> answer_, last_answer_;
   std::shared_ptr<const Membership> membership_;
