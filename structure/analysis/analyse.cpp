@@ -18,6 +18,7 @@
 #include "loads/case_loads.h"
 #include "mesh/frame_mesh.h"
 #include "mesh/semi_rigid_edges.h"
+#include "model/short_number.h"
 #include "parallel/in_order.h"
 #include "topple/solver/case_sums.h"
 #include "topple/solver/kept_memory.h"

@@ -18,7 +18,4 @@ void warn_of_answer(const Building& building, AnalysisResult& result);
 void warn_of_heated_elements(const Building& building, const std::vector<CombinationLoads>& loads,
                              AnalysisResult& result);
 
-/// Four digits.
-[[nodiscard]] std::string short_number(double number);
-
 }  // namespace topple::structure

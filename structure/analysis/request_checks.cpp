@@ -2,18 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 
+#include "model/short_number.h"
 #include "topple/structure/number_range.h"
 
 namespace topple::structure {
-
-std::string shown(double number) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", number);
-  return text;
-}
 
 /// What a caller asks for beside the model: ids of its own, numbers that mean something.
 void require_request(const Building& building, const AnalysisRequest& request) {
@@ -49,8 +43,8 @@ void require_stocky(const Building& building, const AnalysisRequest& request) {
     const double slenderness = member.length / std::sqrt(std::min(section.Iy, section.Iz) / section.area);
     if (!(slenderness <= most))
       throw InputError(building.file + ", members." + member.name +
-                       ": a slenderness (length / radius of gyration) of " + shown(slenderness) +
-                       " with second order or buckling; accepted: at most " + shown(most));
+                       ": a slenderness (length / radius of gyration) of " + short_number(slenderness, 3) +
+                       " with second order or buckling; accepted: at most " + short_number(most, 3));
   }
 }
 

@@ -7,7 +7,5 @@ namespace topple::structure {
 void require_request(const Building& building, const AnalysisRequest& request);
 /// Throws InputError for a member too slender for what is asked for.
 void require_stocky(const Building& building, const AnalysisRequest& request);
-/// A number for messages, with three digits.
-[[nodiscard]] std::string shown(double number);
 
 }  // namespace topple::structure

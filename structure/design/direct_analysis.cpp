@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <stdexcept>
 
 #include "design/aisc360_parts.h"
 #include "model/panel_area.h"
+#include "model/short_number.h"
 #include "topple/structure/error.h"
 
 namespace topple::structure {
@@ -120,9 +120,8 @@ std::vector<YieldedStiffness> yielded_stiffness(const Building& building, const 
       compression = std::max(compression, -c.members[m].min[0].value);
     all[m].ratio = compression / aisc360::section_strength(steel_section(building[member.section], material));
     if (!(all[m].ratio < 1)) {
-      char ratio[32];
-      std::snprintf(ratio, sizeof ratio, "%.3g", all[m].ratio);
-      throw InputError(building.file + ": members." + member.name + ": its compression is " + ratio +
+      throw InputError(building.file + ": members." + member.name + ": its compression is " +
+                       short_number(all[m].ratio, 3) +
                        " of what its section bears: no stiffness is left (AISC 360 C2.3(b)); accepted: a stronger "
                        "section, or --direct-analysis without tau-b");
     }

@@ -11,6 +11,7 @@
 #include "model/odd_parts.h"
 #include "model/own_mass.h"
 #include "model/panel_area.h"
+#include "model/short_number.h"
 
 namespace topple::structure {
 
@@ -74,10 +75,8 @@ void find_near_nodes(const Building& building, double tolerance, std::vector<std
       if (other <= n) return;
       const double apart = (building.nodes[other].position - building.nodes[n].position).norm();
       if (apart > tolerance) return;
-      char distance[32];
-      std::snprintf(distance, sizeof distance, "%.3g", apart / building.units.length);
-      close.add("nodes " + building.nodes[n].name + " and " + building.nodes[other].name + " are " + distance +
-                " apart");
+      close.add("nodes " + building.nodes[n].name + " and " + building.nodes[other].name + " are " +
+                short_number(apart / building.units.length, 3) + " apart");
     });
   close.tell(warnings, "they are not joined; use one node where one is meant, or say `connect`");
 }
@@ -118,9 +117,7 @@ void find_odd_materials(const Building& building, std::vector<std::string>& warn
   for (const Material& material : building.materials) {
     const double E = material.youngs_modulus;
     if (E >= softest && E <= stiffest) continue;
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4g", E);
-    odd.add("material " + material.name + " has a Young's modulus of " + text + " Pa");
+    odd.add("material " + material.name + " has a Young's modulus of " + short_number(E) + " Pa");
   }
   odd.tell(warnings, "materials of buildings lie between 1e9 and 1e12 Pa; look at the model's units");
   const auto outside = [&](double value, double least, double most) {
@@ -128,15 +125,10 @@ void find_odd_materials(const Building& building, std::vector<std::string>& warn
   };
   Several weak, light;
   for (const Material& material : building.materials) {
-    char text[32];
-    if (const double yield = material.yield_strength.value_or(0); outside(yield, weakest, strongest)) {
-      std::snprintf(text, sizeof text, "%.4g", yield);
-      weak.add("material " + material.name + " yields at " + text + " Pa");
-    }
-    if (outside(material.density, lightest, heaviest)) {
-      std::snprintf(text, sizeof text, "%.4g", material.density);
-      light.add("material " + material.name + " has a density of " + text + " kg/m3");
-    }
+    if (const double yield = material.yield_strength.value_or(0); outside(yield, weakest, strongest))
+      weak.add("material " + material.name + " yields at " + short_number(yield) + " Pa");
+    if (outside(material.density, lightest, heaviest))
+      light.add("material " + material.name + " has a density of " + short_number(material.density) + " kg/m3");
   }
   weak.tell(warnings, "metals yield between 1e7 and 2e9 Pa; look at the model's units");
   light.tell(warnings, "materials of buildings have 10 to 25,000 kg/m3; look at the model's units");
@@ -214,10 +206,9 @@ void find_tiny_loads(const Building& building, std::vector<std::string>& warning
     const LoadSize size = size_of(one, building);
     if (!(size.over_usual > 0) || size.over_usual >= 1) continue;
     if (size.sum >= (size.level ? notional : nothing) * weight) continue;
-    char text[96];
-    std::snprintf(text, sizeof text, " comes to %.4g N in all%s, beside a weight of %.4g N", size.sum,
-                  one.self_weight.isZero(0) ? "" : " but for its self weight", weight);
-    tiny.add("load case " + one.name + text);
+    tiny.add("load case " + one.name + " comes to " + short_number(size.sum) + " N in all" +
+             (one.self_weight.isZero(0) ? "" : " but for its self weight") + ", beside a weight of " +
+             short_number(weight) + " N");
   }
   tiny.tell(warnings, "loads are in N, N/m and Pa; are kilonewtons meant?");
 }
@@ -306,9 +297,9 @@ void find_weak_bending(const Building& building, std::vector<std::string>& warni
     if (!numbers && !turned) continue;
     const double I = turned ? section.Iz : section.Iy, other = turned ? section.Iy : section.Iz;
     if (!(weaker * I < other)) continue;
-    char text[64];
-    std::snprintf(text, sizeof text, "%s, 1/%.3g of %s", turned ? "Iz" : "Iy", other / I, turned ? "Iy" : "Iz");
-    weak.add("member " + member.name + " (section " + section.name + ") bends by its " + text);
+    const std::string by = turned ? "Iz" : "Iy", than = turned ? "Iy" : "Iz";
+    weak.add("member " + member.name + " (section " + section.name + ") bends by its " + by + ", 1/" +
+             short_number(other / I, 3) + " of " + than);
   }
   weak.tell(warnings,
             "level members bend vertically by Iy unless `up` turns them; are Iy and Iz, or the axes, exchanged?");

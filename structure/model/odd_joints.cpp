@@ -1,18 +1,18 @@
 // Strong and weak axes that do not go together: of a joint and its section, of two members in one line.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "model/index_of.h"
 #include "model/modelling_parts.h"
 #include "model/odd_parts.h"
+#include "model/short_number.h"
 
 namespace topple::structure {
 
 namespace {
 
-constexpr double much_stiffer =
-    3;  // a section has a strong and a weak axis from here on; squarer ones may go either way
+/// A section has a strong and a weak axis from here on; squarer ones may go either way.
+constexpr double much_stiffer = 3;
 
 /// 1: y is the section's strong axis by far, -1: z is, 0: neither.
 int strong_axis(const Section& section) {
@@ -28,11 +28,8 @@ double exchanged(double about_y, double about_z, int strong) {
   return about_z / about_y;
 }
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
+/// Three digits.
+std::string number(double value) { return short_number(value, 3); }
 
 /// A joint that bears or holds more about its section's weak axis than about the strong one.
 void find_exchanged_joints(const Building& building, std::vector<std::string>& warnings) {

@@ -3,20 +3,17 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "model/index_of.h"
 #include "model/modelling_parts.h"
+#include "model/short_number.h"
 
 namespace topple::structure {
 
 namespace {
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
+/// Three digits.
+std::string number(double value) { return short_number(value, 3); }
 
 Vec3 end_of(const Building& building, const Member& member, std::size_t end) {
   return building[member.nodes[end]].position + member.offsets[end];

@@ -7,6 +7,7 @@
 
 #include "analysis/request_checks.h"
 #include "model/index_of.h"
+#include "model/short_number.h"
 #include "topple/solver/modes.h"
 #include "topple/structure/error.h"
 
@@ -141,13 +142,13 @@ MotionResult FrameMotion::run(const MotionStart& start) const {
   if (request_.duration) result.duration = *request_.duration;
   result.substep = std::min({first_substep, result.period / substeps_of_period, result.duration});
   if (!(result.duration >= shortest))
-    throw InputError(whole_.file + ": followed for " + shown(result.duration) + " s; accepted: " + shown(shortest) +
-                     " s at least");
+    throw InputError(whole_.file + ": followed for " + short_number(result.duration, 3) +
+                     " s; accepted: " + short_number(shortest, 3) + " s at least");
   const double substeps = result.duration / result.substep;
   if (!(substeps <= most_substeps))
-    throw InputError(whole_.file + ": to follow it for " + shown(result.duration) + " s takes " +
-                     shown(std::ceil(substeps)) + " substeps of " + shown(result.substep) +
-                     " s; accepted: " + shown(most_substeps) + " at most, by a shorter time (--for)");
+    throw InputError(whole_.file + ": to follow it for " + short_number(result.duration, 3) + " s takes " +
+                     short_number(std::ceil(substeps), 3) + " substeps of " + short_number(result.substep, 3) +
+                     " s; accepted: " + short_number(most_substeps, 3) + " at most, by a shorter time (--for)");
   std::unique_ptr<MotionPeaks> peaks = follow(start, result, damping);
   result.change = std::numeric_limits<double>::infinity();
   while (result.change > settled_peak && result.halvings < most_halvings &&

@@ -3,6 +3,7 @@
 #include <cstdarg>
 #include <cstdio>
 
+#include "model/short_number.h"
 #include "topple/structure/analysis.h"
 
 namespace topple::structure {
@@ -29,11 +30,7 @@ class Text {
   std::string text_;
 };
 
-std::string short_number(double number) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.5g", number);
-  return buffer;
-}
+constexpr int digits = 5;
 
 /// Of a drift: 1/350, but 1/0.7 where a structure all but lies down.
 std::string whole_number(double number) {
@@ -122,8 +119,8 @@ void most_used_members(Text& text, const Building& building, const AnalysisResul
 /// Where something moves most, in the building's names.
 std::string place_of(const Building& building, const LargestDisplacement& largest) {
   if (largest.member.valid())
-    return "in member " + building[largest.member].name + ", " + short_number(largest.at / building.units.length) +
-           " from its first end";
+    return "in member " + building[largest.member].name + ", " +
+           short_number(largest.at / building.units.length, digits) + " from its first end";
   if (largest.mesh_node >= 0) return "within a shell panel";
   return largest.node.valid() ? "at node " + building[largest.node].name : "anywhere";
 }
@@ -200,7 +197,7 @@ void combination(Text& text, const Building& building, const AnalysisResult& res
   most_used(text, building, c);
   if (!c.buckling.empty()) {
     std::string factors;
-    for (const solver::BucklingMode& mode : c.buckling) factors += " " + short_number(mode.factor);
+    for (const solver::BucklingMode& mode : c.buckling) factors += " " + short_number(mode.factor, digits);
     text.line("  buckling factors    %s", factors.c_str());
   }
   if (c.second_order_iterations > 0)
@@ -257,7 +254,7 @@ void motion(Text& text, const std::string& what, const Building& building, const
                     });
   for (std::size_t k = 0; k < shown; ++k) {
     const JointPeak& joint = *order[k];
-    const std::string times = joint.amplification ? short_number(*joint.amplification) + " x static" : "";
+    const std::string times = joint.amplification ? short_number(*joint.amplification, digits) + " x static" : "";
     text.line("    %-20s %s  %-11s at %.4g s  %s", building[joint.joint].name.c_str(), percent(joint.use.value).c_str(),
               sense_names[static_cast<std::size_t>(joint.use.sense)], joint.at, times.c_str());
   }
