@@ -1,6 +1,7 @@
 // Strong and weak axes that do not go together: of a joint and its section, of two members in one line.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "model/index_of.h"
 #include "model/modelling_parts.h"
@@ -28,9 +29,6 @@ double exchanged(double about_y, double about_z, int strong) {
   return about_z / about_y;
 }
 
-/// Three digits.
-std::string number(double value) { return short_number(value, 3); }
-
 /// A joint that bears or holds more about its section's weak axis than about the strong one.
 void find_exchanged_joints(const Building& building, std::vector<std::string>& warnings) {
   constexpr double clearly = 1.5;  // splices and end plates may bear alike about both
@@ -48,10 +46,11 @@ void find_exchanged_joints(const Building& building, std::vector<std::string>& w
       const double bears = exchanged(capacity[static_cast<std::size_t>(Sense::moment_y)],
                                      capacity[static_cast<std::size_t>(Sense::moment_z)], strong);
       if (bears > clearly)
-        capacities.add(told + "a moment_" + weaker + " of " + number(bears) + " times its moment_" + stronger + of);
+        capacities.add(told + "a moment_" + weaker + " of " + short_number(bears, 3) + " times its moment_" + stronger +
+                       of);
       const double holds = exchanged(joint.stiffness(4), joint.stiffness(5), strong);
       if (holds > clearly)
-        springs.add(told + "a stiffness r" + weaker + " of " + number(holds) + " times its r" + stronger + of);
+        springs.add(told + "a stiffness r" + weaker + " of " + short_number(holds, 3) + " times its r" + stronger + of);
     }
   }
   const char* const meaning = "moments about y bend the member in its x-z plane; are they, or the axes, exchanged?";
@@ -83,9 +82,9 @@ void find_turned_pieces(const Building& building, std::vector<std::string>& warn
         if (a.section != b.section || a.kind != b.kind || !in_line(a, b, NodeId(n))) continue;
         const double along = std::abs(a.axes.row(2).dot(b.axes.row(2)));
         if (along > aligned) continue;
-        const double degrees = std::acos(std::min(1.0, along)) * 180 / 3.14159265358979;
-        turned.add("members " + a.name + " and " + b.name + " go on in one line, turned by " + number(degrees) +
-                   " degrees about it");
+        const double degrees = std::acos(along) * 180 / std::numbers::pi;
+        turned.add("members " + a.name + " and " + b.name + " go on in one line, turned by " +
+                   short_number(degrees, 3) + " degrees about it");
       }
   turned.tell(warnings,
               "the strong axis of the one meets the weak axis of the other; `up` or `roll` turns them (a post that is "

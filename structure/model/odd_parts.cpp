@@ -12,9 +12,6 @@ namespace topple::structure {
 
 namespace {
 
-/// Three digits.
-std::string number(double value) { return short_number(value, 3); }
-
 Vec3 end_of(const Building& building, const Member& member, std::size_t end) {
   return building[member.nodes[end]].position + member.offsets[end];
 }
@@ -33,10 +30,10 @@ void find_odd_slenderness(const Building& building, std::vector<std::string>& wa
     const double depth = depth_of(section);
     const double size = std::max(depth, section.depth > 0 ? 0 : std::sqrt(section.area));  // large areas are links
     if (member.axial == AxialAction::both && size > 0 && member.length > wire * size)
-      slender.add("member " + member.name + " is " + number(member.length / size) + " times as long as deep");
+      slender.add("member " + member.name + " is " + short_number(member.length / size, 3) + " times as long as deep");
     if (section.depth == 0 && depth > deepest * member.length)
       thick.add("member " + member.name + " (section " + section.name + ") has the bending stiffness of one " +
-                number(depth / member.length) + " times as deep as long");
+                short_number(depth / member.length, 3) + " times as deep as long");
   }
   slender.tell(warnings, "look at its nodes and section, and at the units of both");
   thick.tell(warnings, "look at its section and the model's units");
@@ -83,7 +80,7 @@ void find_ends_beside_members(const Building& building, double tolerance, std::v
       }
       if (nearest != nullptr)
         beside.add("member " + member.name + " ends at node " + building[member.nodes[end]].name + ", " +
-                   number(least / building.units.length) + " from member " + nearest->name);
+                   short_number(least / building.units.length, 3) + " from member " + nearest->name);
     }
   beside.tell(warnings, "nothing joins them; use one node where they meet, or an offset");
 }
@@ -200,7 +197,7 @@ void find_odd_panels(const Building& building, std::vector<std::string>& warning
       shortest =
           std::min(shortest, (building[panel.nodes[(i + 1) % 4]].position - building[panel.nodes[i]].position).norm());
     if (panel.thickness > half * shortest)
-      thick.add("panel " + panel.name + " is " + number(panel.thickness / building.units.length) + " thick");
+      thick.add("panel " + panel.name + " is " + short_number(panel.thickness / building.units.length, 3) + " thick");
   }
   for (const LoadCase& load_case : building.cases)
     for (const PanelLoad& load : load_case.panels)

@@ -11,28 +11,6 @@ using namespace topple::test;
 
 namespace {
 
-/// A doubly symmetric I of plates, in metres, its properties by rectangles (as the tests' hand calculations have them).
-Section welded(double h, double b, double tw, double tf) {
-  Section s;
-  s.name = "girder";
-  s.shape = Section::Shape::I;
-  s.depth = h;
-  s.width = b;
-  s.web = tw;
-  s.flange = tf;
-  const double hw = h - 2 * tf;
-  s.area = 2 * b * tf + hw * tw;
-  s.Iy = (b * h * h * h - (b - tw) * hw * hw * hw) / 12;
-  s.Iz = (2 * tf * b * b * b + hw * tw * tw * tw) / 12;
-  s.J = (2 * b * tf * tf * tf + hw * tw * tw * tw) / 3;
-  s.plastic_modulus_y = b * tf * (h - tf) + tw * hw * hw / 4;
-  s.plastic_modulus_z = tf * b * b / 2 + hw * tw * tw / 4;
-  s.plastic_shear_area_z = hw * tw;
-  s.plastic_shear_area_y = 2 * b * tf;
-  s.torsion_modulus = s.J / std::max(tw, tf);
-  return s;
-}
-
 Section ipe500() {
   Section s = welded(0.5, 0.2, 0.0102, 0.016);
   s.name = s.catalogue = "IPE500";
@@ -61,13 +39,6 @@ Section tube(double d, double b, double t, double area, double ix, double zx) {
   s.J = 2 * ix * std::pow(inch, 4);
   s.plastic_modulus_y = s.plastic_modulus_z = zx * std::pow(inch, 3);
   return s;
-}
-
-double clause(const DesignResult& result, const std::string& name) {
-  for (const DesignClause& c : result.clauses)
-    if (c.clause == name) return c.utilisation;
-  FAIL("no clause " << name);
-  return 0;
 }
 
 bool has(const DesignResult& result, const std::string& name) {

@@ -37,13 +37,6 @@ const Section w14x99 = w_shape(14.2, 14.6, 0.780, 0.485, 29.1, 1110, 402, 5.37, 
 const Section w14x132 = w_shape(14.7, 14.7, 1.03, 0.645, 38.8, 1530, 548, 12.3, 234, 113, 1.63);
 const Section w18x50 = w_shape(18.0, 7.50, 0.570, 0.355, 14.7, 800, 40.1, 1.24, 101, 16.6, 0.972);
 
-double clause(const DesignResult& result, const std::string& name) {
-  for (const DesignClause& c : result.clauses)
-    if (c.clause == name) return c.utilisation;
-  FAIL("no clause " << name);
-  return 0;
-}
-
 SectionForces forces(double axial, double my = 0, double mz = 0, double vz = 0) { return {axial, 0, vz, 0, my, mz}; }
 
 }  // namespace

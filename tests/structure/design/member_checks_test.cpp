@@ -4,11 +4,13 @@
 #include <cmath>
 
 #include "design/alignment_chart.h"
+#include "structure/design/design_steel.h"
 #include "topple/structure/error.h"
 #include "topple/structure/formats/files.h"
 #include "topple/structure/member_checks.h"
 
 using namespace topple::structure;
+using topple::test::clause;
 
 namespace {
 
@@ -21,13 +23,6 @@ AnalysisResult checked(const Building& building, DesignCode code, double drift_l
   AnalysisResult result = analyse(building, request);
   check_design(building, code, drift_limit, result);
   return result;
-}
-
-double clause(const DesignResult& result, const std::string& name) {
-  for (const DesignClause& c : result.clauses)
-    if (c.clause == name) return c.utilisation;
-  FAIL("no clause " << name);
-  return 0;
 }
 
 /// A simply supported W18x50 of 35 ft under 1.74 kip/ft (self weight included in it), A992, in kip and feet.
