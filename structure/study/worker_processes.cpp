@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -58,6 +59,21 @@ void send(int pipe, const Message& message, std::string_view text) {
   }
 }
 
+/// Keeps nothing of the parent's but the standard streams and this pipe: a lock on a folder lasts as long as any copy
+/// of its file, and a reader that is gone is noticed once the last copy of its end is closed.
+void keep_only(int pipe) {
+  constexpr unsigned first = STDERR_FILENO + 1;
+  const auto kept = static_cast<unsigned>(pipe);
+  if (kept > first) ::close_range(first, kept - 1, 0);
+  ::close_range(kept + 1, ~0U, 0);
+}
+
+/// A worker whose parent was killed works for nobody.
+void end_with_parent(pid_t parent) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(1);
+}
+
 [[noreturn]] void work(const StudyTask& task, std::size_t count, const std::function<Sample(std::size_t)>& make,
                        SharedCounter& counter, int pipe) {
   // Ctrl-C reaches all processes of a terminal: the first one decides, and ends the others.
@@ -86,9 +102,11 @@ class Worker {
     int ends[2];
     if (::pipe2(ends, O_CLOEXEC) != 0)
       throw std::runtime_error(std::string("no pipe for a worker: ") + std::strerror(errno));
+    const pid_t parent = ::getpid();
     id_ = ::fork();
     if (id_ == 0) {
-      ::close(ends[0]);
+      keep_only(ends[1]);
+      end_with_parent(parent);
       work(task, count, make, counter, ends[1]);
     }
     ::close(ends[1]);

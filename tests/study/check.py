@@ -5,6 +5,7 @@ and the study goes on; wrong files are refused with one line that names the plac
 usage: check.py TOPPLE [MPIRUN]
 """
 import csv
+import fcntl
 import json
 import os
 import pathlib
@@ -102,10 +103,43 @@ with tempfile.TemporaryDirectory() as folder:
         expect(status == expected or found.count("\n") == 120, f"signal {kill}: status {status}")
         if kill == signal.SIGKILL:
             (out / "journal.jsonl").write_text(found[:-40])
-        expect(run(longer, "-o", out, "--resume").returncode == 0, "a killed study does not go on")
+        # At once: what the killed run left behind neither holds its folder nor writes to it.
+        resumed = run(longer, "-o", out, "--resume")
+        expect(resumed.returncode == 0, f"a killed study does not go on: {resumed.stderr}")
+        if resumed.returncode != 0:
+            continue
         expect(len(journal(out)) == 120, "a resumed study lacks samples")
-    expect(journal(place / f"killed{signal.SIGKILL}") == journal(place / f"killed{signal.SIGINT}"), "a killed study has another journal")
+    if not failures:
+        expect(journal(place / f"killed{signal.SIGKILL}") == journal(place / f"killed{signal.SIGINT}"), "a killed study has another journal")
     expect("another study" in run(study, "-o", place / f"killed{signal.SIGKILL}", "--resume").stderr, "a foreign journal is taken")
+
+    # A killed run's workers are in the middle of a long sample, and yet hold nothing that the next run needs.
+    slow = place / "slow.json"
+    slow.write_text(json.dumps({"topple": 1, "base": {"scenario": "seed_hit"}, "samples": 4, "record": {"down": "members_down"},
+                                "vary": [{"at": "/events/0/projectile/from/1", "uniform": [-0.01, 0.01], "add": True}]}))
+    process = subprocess.Popen([topple, "study", str(slow), "-o", str(place / "slow"), "--threads", "2"], stdout=subprocess.DEVNULL,
+                               stderr=subprocess.DEVNULL)
+    children = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children")
+    workers = []
+    for _ in range(600):
+        workers = children.read_text().split()
+        if len(workers) == 2:
+            break
+        time.sleep(0.02)
+    time.sleep(0.1)
+    process.kill()
+    process.wait()
+    folder_file = os.open(place / "slow", os.O_RDONLY)
+    try:
+        fcntl.flock(folder_file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        expect(False, "workers of a killed study hold its folder")
+    os.close(folder_file)
+    expect(len(workers) == 2, f"{len(workers)} workers")
+    time.sleep(0.3)
+    expect(not any(pathlib.Path(f"/proc/{worker}/environ").exists() and
+                   "topple" in pathlib.Path(f"/proc/{worker}/cmdline").read_text() for worker in workers),
+           "workers of a killed study go on")
 
     # Samples that failed are done; they are run once more where that is asked for, and fail again.
     count = len((place / "one" / "journal.jsonl").read_text().splitlines())
