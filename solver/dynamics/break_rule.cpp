@@ -18,6 +18,9 @@ Vec12 FrameDynamics::State::fixed_end_forces(int beam, bool at_end) const {
     const auto own = pattern.fixed_end.find(beam);
     if (own != pattern.fixed_end.end()) fixed += (at_end ? pattern.now : pattern.before) * own->second;
   }
+  if (kinks_of_beam.empty()) return fixed;
+  for (const std::size_t k : kinks_of_beam[static_cast<std::size_t>(beam)])
+    fixed += (at_end ? kinks[k].now : kinks[k].before) * kinks[k].fixed_end;
   return fixed;
 }
 
@@ -80,6 +83,12 @@ void FrameDynamics::State::record_break(const JointBreak& found, double share, c
   frame.set_end_stiffness(found.beam, found.end, Vec6::Zero());
 }
 
+/// It broke in this substep, for another reason.
+bool FrameDynamics::State::is_broken(const JointBreak& joint) const {
+  return std::any_of(breaks.begin(), breaks.end(),
+                     [&](const JointBreak& one) { return one.beam == joint.beam && one.end == joint.end; });
+}
+
 bool FrameDynamics::State::break_joints(const JointLaw& law) {
   know_end();
   struct Crossing {
@@ -102,13 +111,20 @@ bool FrameDynamics::State::break_joints(const JointLaw& law) {
       crossings.push_back({{beam, end, time + share * method.h, own.at(share)}, share, own});
     }
   }
+  for (const PlasticHinge& hinge : law.plastic_hinges()) {
+    const std::optional<double> share = turned_out_at(hinge);
+    if (!share) continue;
+    const SubstepCourse<Vec12> own = course(hinge.beam);
+    crossings.push_back({{hinge.beam, hinge.end, time + *share * method.h, own.at(*share)}, *share, own});
+  }
   if (crossings.empty()) return false;
   std::stable_sort(crossings.begin(), crossings.end(),
                    [](const Crossing& a, const Crossing& b) { return a.share < b.share; });
   const double together =
       crossings.front().share + wave_times[static_cast<std::size_t>(crossings.front().joint.beam)] / method.h;
   for (const Crossing& crossing : crossings)
-    if (crossing.share <= together) record_break(crossing.joint, crossing.share, crossing.course);
+    if (crossing.share <= together && !is_broken(crossing.joint))
+      record_break(crossing.joint, crossing.share, crossing.course);
   return true;
 }
 

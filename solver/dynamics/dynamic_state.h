@@ -1,7 +1,10 @@
 #pragma once
 // What a FrameDynamics holds. Vectors are in the scaled equations of its frame system: displacements x with u = S x,
 // forces S f.
+#include <Eigen/SparseCore>
 #include <map>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "assembly/element_masses.h"
@@ -40,6 +43,22 @@ struct BrokenJoint {
   Vec6 mean_force = Vec6::Zero();
 };
 
+/// A plastic rotation of a beam's end: a kink, whose loads on the nodes of its beam follow its angle.
+struct Kink {
+  int beam = -1;
+  std::size_t end = 0;
+  int component = 4;
+  double before = 0, now = 0;  ///< rad, at both ends of the substep under way, or the last one
+  double current = 0;          ///< now
+  double held = 0;     ///< N m, where it turned in the substep under way, or the last one: of the sign of its turn
+  double tried = 0;    ///< N m, at the end of that substep had nothing turned
+  bool known = false;  ///< what follows, for the structure as it stands
+  Vec12 fixed_end = Vec12::Zero();    ///< of its beam, local, for 1 rad
+  Eigen::SparseVector<double> force;  ///< of its beam on the nodes, scaled, for 1 rad
+  Eigen::VectorXd response;           ///< of w in a substep to 1 rad more at its end; empty: to be found
+  [[nodiscard]] Eigen::Index place() const { return static_cast<Eigen::Index>(6 * end) + component; }
+};
+
 /// A beam whose ends changed at the start of the present substep: how its ends followed its nodes before, and its
 /// momentum then, as FrameDynamics::momentum().
 struct ChangedBeam {
@@ -55,6 +74,8 @@ struct FrameDynamics::State {
   Reanalysis frame;
   std::vector<double> wave_times;
   std::vector<LoadPattern> patterns;
+  std::vector<Kink> kinks;
+  std::vector<std::vector<std::size_t>> kinks_of_beam;  ///< empty while there is none
   double time = 0;
 
   MotionState before, now;  ///< at the start and at the end of the substep under way
@@ -111,6 +132,7 @@ struct FrameDynamics::State {
 
   // substep.cpp
   void take_substep();
+  void find_end();
   void accept();
   void book();
   void account_numerical();
@@ -126,8 +148,25 @@ struct FrameDynamics::State {
   [[nodiscard]] Eigen::VectorXd scaled_equations(const std::vector<Vec6>& per_node) const;
   [[nodiscard]] Eigen::VectorXd scaled(const Eigen::VectorXd& force) const;
 
+  // plastic_flow.cpp
+  [[nodiscard]] std::size_t kink_of(int beam, std::size_t end, int component);
+  void find_kink(Kink& kink);
+  void begin_kinks();
+  void forget_kinks();
+  [[nodiscard]] bool yields(const PlasticHinge& hinge) const;
+  /// Of the substep under way, as it was tried: what yields turns, and the motion at its end follows.
+  void yield(std::span<const PlasticHinge> hinges);
+  [[nodiscard]] double resistance(const Kink& of, const Kink& by) const;
+  [[nodiscard]] double elastic_of_kinks() const;
+  void account_kinks();
+  /// The share of the substep at which a hinge has turned too far, or at which one that nothing resists is over.
+  [[nodiscard]] std::optional<double> turned_out_at(const PlasticHinge& hinge);
+  /// By how much the load of a kink in a substep's equation grows with its angle at the end: what turns is not damped.
+  [[nodiscard]] double of_new_turn() const { return 1 - method.af + options.damping.stiffness / method.h; }
+
   // break_rule.cpp
   [[nodiscard]] bool break_joints(const JointLaw& law);
+  [[nodiscard]] bool is_broken(const JointBreak& joint) const;
   [[nodiscard]] static double reached_at(const JointLaw& law, int beam, int end, const SubstepCourse<Vec12>& course);
   void record_break(const JointBreak& broken, double share, const SubstepCourse<Vec12>& course);
   [[nodiscard]] Vec12 end_forces(int beam, bool at_end) const;

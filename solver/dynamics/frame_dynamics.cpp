@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 #include "assembly/mass_matrix.h"
 #include "dynamics/dynamic_state.h"
@@ -86,6 +87,30 @@ void FrameDynamics::set_beam_loads(int beam, std::vector<BeamLoad> loads) {
   state_->frame.set_beam_loads(beam, std::move(loads));
 }
 
+void FrameDynamics::set_plastic_rotation(int beam, int end, int component, double rotation) {
+  State& state = *state_;
+  (void)state.core().checked_beam(beam);
+  if (end < 0 || end > 1) throw std::invalid_argument("a beam has end 0 and end 1, not " + std::to_string(end));
+  if (component < 3 || component > 5)
+    throw std::invalid_argument("a plastic rotation is component 3 to 5, not " + std::to_string(component));
+  if (!std::isfinite(rotation)) throw std::invalid_argument("a plastic rotation must be finite");
+  state.begin_substep();
+  state.apply_changes();
+  const double stored = state.stored_energy();
+  Kink& kink = state.kinks[state.kink_of(beam, static_cast<std::size_t>(end), component)];
+  state.find_kink(kink);
+  kink.before = kink.now = kink.current = rotation;
+  if (state.options.keep_energy) state.energy.freed += stored - state.stored_energy();
+}
+
+Vec12 FrameDynamics::plastic_rotations(int beam) const {
+  const auto i = state_->core().checked_beam(beam);
+  Vec12 rotations = Vec12::Zero();
+  if (state_->kinks_of_beam.empty()) return rotations;
+  for (const std::size_t k : state_->kinks_of_beam[i]) rotations(state_->kinks[k].place()) = state_->kinks[k].current;
+  return rotations;
+}
+
 void FrameDynamics::set_mass_damping(double a0) {
   if (!(a0 >= 0)) throw std::invalid_argument("damping must not be negative");
   state_->options.damping.mass = a0;
@@ -114,12 +139,14 @@ const std::vector<JointBreak>& FrameDynamics::advance(const JointLaw* law) {
   state.apply_changes();
   state.find_patterns();
   state.take_substep();
+  if (law != nullptr) state.yield(law->plastic_hinges());
   ++state.counters.substeps;
   while (law != nullptr && state.break_joints(*law)) {
     ++state.counters.retaken;
     state.apply_changes();
     state.find_patterns();
     state.take_substep();
+    state.yield(law->plastic_hinges());
   }
   state.accept();
   return state.breaks;

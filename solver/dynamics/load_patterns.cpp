@@ -80,6 +80,8 @@ int FrameDynamics::add_holding_force() {
   LoadPattern pattern;
   pattern.kind = LoadPattern::Kind::holding;
   pattern.force = (Au.row(0) - state.method.s * Mu.row(0)).transpose() - state.constant_load;
+  for (const Kink& kink : state.kinks)
+    if (kink.current != 0) pattern.force -= kink.current * kink.force;
   state.patterns.push_back(std::move(pattern));
   return static_cast<int>(state.patterns.size()) - 1;
 }

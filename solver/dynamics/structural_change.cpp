@@ -16,6 +16,7 @@ void FrameDynamics::State::begin_substep() {
     pattern.before = pattern.current;
     pattern.now = pattern.next;
   }
+  begin_kinks();
 }
 
 void FrameDynamics::State::apply_changes() {
@@ -35,10 +36,13 @@ void FrameDynamics::State::apply_changes() {
   take_changes();
   clear_dropped();
   products_known = nodes_known = end_known = false;
+  forget_kinks();
+  for (Kink& kink : kinks)
+    if (kink.current != 0) find_kink(kink);
   if (options.keep_energy) energy.freed += stored - stored_energy();
   find_substep_load();
   for (LoadPattern& pattern : patterns)
-    if (pattern.kind == LoadPattern::Kind::ground) pattern.force.resize(0);
+    if (pattern.kind != LoadPattern::Kind::holding) pattern.force.resize(0);
 }
 
 void FrameDynamics::State::take_changes() {

@@ -1,4 +1,5 @@
 // One substep: from the motion before it to the one after it, and the accounts of energy.
+#include <algorithm>
 #include <utility>
 
 #include "dynamics/dynamic_state.h"
@@ -53,10 +54,16 @@ void FrameDynamics::State::find_collocated_load() {
     const double value = method.af * pattern.before + (1 - method.af) * pattern.now;
     if (value != 0) collocated_load += value * pattern.force;
   }
+  for (Kink& kink : kinks) {
+    if (kink.before == 0) continue;
+    find_kink(kink);
+    collocated_load += kink.before * kink.force;
+  }
 }
 
 void FrameDynamics::State::take_substep() {
   const double h = method.h, am = method.am, af = method.af, a0 = options.damping.mass, a1 = options.damping.stiffness;
+  for (Kink& kink : kinks) kink.now = kink.before;
   const double by_v = (1 - af) * h + a1;
   const double by_a = (1 - af) * h * h * (0.5 - method.beta) + a1 * (1 - af) * h * (1 - method.gamma);
   q = before.u + by_v * before.v + by_a * before.a;
@@ -74,6 +81,12 @@ void FrameDynamics::State::take_substep() {
     w += mass_z.row(0).transpose();
   }
   solve(w);
+  find_end();
+}
+
+/// From w: the motion at the substep's end.
+void FrameDynamics::State::find_end() {
+  const double h = method.h;
   now.a = (w - q) / method.c;
   now.u = before.u + h * before.v + h * h * ((0.5 - method.beta) * before.a + method.beta * now.a);
   now.v = before.v + h * ((1 - method.gamma) * before.a + method.gamma * now.a);
@@ -104,6 +117,7 @@ double FrameDynamics::State::stored_energy() {
   find_products();
   energy.kinetic = 0.5 * mass_products.row(1).dot(before.v.transpose());
   energy.elastic = 0.5 * (matrix_products.row(0) - method.s * mass_products.row(0)).dot(before.u.transpose());
+  energy.elastic += elastic_of_kinks();
   return energy.kinetic + energy.elastic;
 }
 
@@ -112,7 +126,10 @@ void FrameDynamics::State::book() {
   const double a0 = options.damping.mass, a1 = options.damping.stiffness, foreseen = (1 - method.af) * method.h;
   moved = now.u - before.u;
   const double of_breaks = substep_load.dot(moved);
+  for (const Kink& kink : kinks)
+    if (kink.now != kink.before) collocated_load += (kink.now - kink.before) * of_new_turn() * kink.force;
   energy.external_work += collocated_load.dot(moved) - of_breaks;
+  account_kinks();
   energy.freed -= of_breaks;
   if (a0 > 0) energy.damped += a0 * (mass_products.row(1) + foreseen * mass_products.row(2)).dot(moved.transpose());
   if (a1 > 0)
@@ -141,6 +158,7 @@ void FrameDynamics::State::account_numerical() {
 void FrameDynamics::State::accept() {
   if (options.keep_energy) book();
   std::swap(before, now);
+  for (Kink& kink : kinks) kink.current = kink.now;
   accepted = true;
   products_known = false;
   if (options.keep_energy) {
@@ -152,6 +170,7 @@ void FrameDynamics::State::accept() {
   }
   time += method.h;
   for (LoadPattern& pattern : patterns) pattern.current = pattern.now;
+  if (std::any_of(kinks.begin(), kinks.end(), [](const Kink& kink) { return kink.held != 0; })) ++counters.yielding;
 }
 
 }  // namespace topple::solver

@@ -40,17 +40,28 @@ struct DynamicOptions {
   AnalysisOptions analysis;  ///< threads and limits of the factorisation
 };
 
-/// Joules, since the start. kinetic + elastic + damped + numerical + freed = external_work + struck + the first kinetic
-/// + elastic, to rounding.
+/// Joules, since the start. kinetic + elastic + damped + numerical + dissipated + freed = external_work + struck + the
+/// first kinetic + elastic, to rounding.
 struct DynamicEnergy {
   double kinetic = 0;        ///< of all that moves, 1/2 v'Mv, now
-  double elastic = 0;        ///< now; elastic is 1/2 u'Ku
+  double elastic = 0;        ///< now; 1/2 u'Ku, plastic rotations apart
   double damped = 0;         ///< by C
   double numerical = 0;      ///< by the method itself; nothing at a spectral radius of 1
+  double dissipated = 0;     ///< in plastic hinges: what they hold times how far they turned
   double struck = 0;         ///< work of impulses
   double external_work = 0;  ///< of loads
   double freed = 0;          ///< by breaks and other changes of the structure: what left it, and what a member
                              ///< that swings from one end alone lost
+};
+
+/// A rotation at a beam's end that yields: elastic up to its capacity, which it holds while it turns further, and
+/// elastic again as soon as it would turn back.
+struct PlasticHinge {
+  int beam = -1;            ///< index in FrameModel::beams
+  int end = 0;              ///< 0 or 1
+  int component = 4;        ///< of the end's force: 3 torsion, 4 and 5 moments, local axes
+  double capacity = 0;      ///< N m, of either sign, above 0
+  double largest_turn = 0;  ///< rad, of the plastic rotation of either sign: the joint breaks there
 };
 
 /// What joints can bear: by whatever rule, a use of 1 is the capacity.
@@ -62,9 +73,11 @@ class JointLaw {
   [[nodiscard]] virtual double beam_use(int beam, const Vec12& end_forces) const = 0;
   /// At one end.
   [[nodiscard]] virtual double end_use(int beam, int end, const Vec12& end_forces) const = 0;
+  /// What yields, in an order that stays; asked for in every substep. Uses leave these components out.
+  [[nodiscard]] virtual std::span<const PlasticHinge> plastic_hinges() const { return {}; }
 };
 
-/// An end of a beam that reached its capacity within a substep.
+/// An end of a beam that reached its capacity, or the largest turn of its plastic hinge, within a substep.
 struct JointBreak {
   int beam = -1;                 ///< index in FrameModel::beams
   int end = 0;                   ///< 0 or 1
@@ -116,6 +129,7 @@ struct DynamicCounters {
   std::uint64_t substeps = 0;  ///< taken, each counted once
   std::uint64_t retaken = 0;   ///< taken again because joints broke
   std::uint64_t breaks = 0;    ///< of ends of beams
+  std::uint64_t yielding = 0;  ///< substeps in which a plastic hinge turned
 };
 
 /// The motion of a frame, substep by substep. Functions that take a beam, shell, patch, support or node throw
@@ -151,6 +165,9 @@ class FrameDynamics {
   void set_support_stiffness(int support, const Vec6& stiffness);
   /// These nodes, and all that reaches them, are no longer part of the frame.
   void drop_nodes(std::span<const int> nodes);
+  /// How far a beam's end has turned for good (rad, local axes, of the node against the beam's own end): 0 unless set
+  /// here or turned by advance(). `component`: 3 torsion, 4 and 5 bending.
+  void set_plastic_rotation(int beam, int end, int component, double rotation);
   /// Replaces the load on a node: N and N m, global axes.
   void set_node_load(int node, const Vec6& load);
   /// Replaces the loads on a beam, local axes.
@@ -189,9 +206,10 @@ class FrameDynamics {
   /// They act now, at once, on the frame with all that changed.
   void strike(std::span<const Impulse> impulses);
 
-  /// One substep. Of the joints over capacity at its end the one that reached it first breaks, with those that follow
-  /// within a wave's time, and the substep is taken again without them, their forces until then acting as loads (their
-  /// mean over the substep), until none is over. Returns the breaks in order.
+  /// One substep. What yields turns within it as far as it must to hold no more than its capacity at the end. Of the
+  /// joints over capacity then, or turned too far, the one that was first breaks, with those that follow within a
+  /// wave's time, and the substep is taken again without them, their forces until then acting as loads (their mean over
+  /// the substep), until none is over. Returns the breaks in order.
   const std::vector<JointBreak>& advance(const JointLaw* law = nullptr);
 
   /// s since the start.
@@ -211,6 +229,8 @@ class FrameDynamics {
   [[nodiscard]] Vec12 beam_end_force_rates(int beam) const;  ///< now, by time
   /// Of a beam's end forces in the last substep, as beam_end_forces() has them.
   [[nodiscard]] SubstepCourse<Vec12> beam_course(int beam) const;
+  /// Of both ends, by the components of end forces, as set_plastic_rotation() has them.
+  [[nodiscard]] Vec12 plastic_rotations(int beam) const;
   /// Global; `rates`: by time.
   [[nodiscard]] std::array<Vec6, 4> shell_corner_forces(int shell, bool rates = false) const;
   /// Linear and angular momentum about the origin, of what is free to move.

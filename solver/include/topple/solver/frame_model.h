@@ -88,8 +88,8 @@ struct BeamLoad {
   Kind kind = Kind::distributed;  ///< which of the members below count
   double from = 0;                ///< distance from the first end
   double to = 0;                  ///< distributed: extent; point: `from` is the place
-  Vec6 first = Vec6::Zero();      ///< distributed: intensity at `from` (force, moment per length); point: the load
-  Vec6 last = Vec6::Zero();       ///< distributed: intensity at `to`, linear between
+  Vec6 first = Vec6::Zero();      ///< line load at `from`; load at a point; temperature: kink (rad) at the first end
+  Vec6 last = Vec6::Zero();       ///< line load at `to`, linear between; temperature: kink at the second end
   double strain = 0;              ///< temperature: free axial strain alpha dT
   double curvature_y = 0;         ///< temperature: alpha dT/dy, free curvature from a gradient along local y
   double curvature_z = 0;         ///< temperature: alpha dT/dz

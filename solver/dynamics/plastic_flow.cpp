@@ -1,0 +1,246 @@
+// Plastic hinges within a substep. A hinge's plastic rotation is a kink of its beam: constant loads on the beam's nodes
+// times its angle, on the stiffness as it was. So the moments at the end of a substep are linear in how far the hinges
+// turn in it, M = M_tried - A dtheta with A symmetric and positive definite, and each hinge
+//   turns forward only where M = capacity, back only where M = -capacity, not at all between:
+// the return mapping of perfect plasticity, all hinges together (J. C. Simo, T. J. R. Hughes, Computational
+// Inelasticity, 1998, chapters 1 and 5). Damping acts on elastic rates alone: what yields is not braked by it.
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "dynamics/dynamic_state.h"
+
+namespace topple::solver {
+namespace {
+
+/// Of a capacity: what counts as beyond it. Above the rounding of end forces, far below what an engineer sees.
+constexpr double beyond = 1e-10;
+/// Of its beam's stiffness: a turn that meets less resistance than this falls freely.
+constexpr double resistless = 1e-9;
+/// Of the largest turn: when turns found one after the other no longer change.
+constexpr double settled = 1e-12;
+constexpr int most_sweeps = 100000;
+
+double beyond_capacity(double moment, double capacity) {
+  if (moment > capacity) return moment - capacity;
+  if (moment < -capacity) return moment + capacity;
+  return 0;
+}
+
+/// The share of the way from one value to another at which it is reached.
+double share_at(double from, double to, double value) {
+  return to > from ? std::clamp((value - from) / (to - from), 0.0, 1.0) : 1.0;
+}
+
+}  // namespace
+
+std::size_t FrameDynamics::State::kink_of(int beam, std::size_t end, int component) {
+  if (kinks_of_beam.empty()) kinks_of_beam.resize(system().model.beams.size());
+  std::vector<std::size_t>& own = kinks_of_beam[static_cast<std::size_t>(beam)];
+  for (const std::size_t k : own)
+    if (kinks[k].end == end && kinks[k].component == component) return k;
+  Kink kink;
+  kink.beam = beam;
+  kink.end = end;
+  kink.component = component;
+  kinks.push_back(std::move(kink));
+  own.push_back(kinks.size() - 1);
+  return own.back();
+}
+
+/// Loads of 1 rad, for the structure as it stands.
+void FrameDynamics::State::find_kink(Kink& kink) {
+  if (kink.known) return;
+  BeamLoad angle;
+  angle.beam = kink.beam;
+  angle.kind = BeamLoad::Kind::temperature;
+  (kink.end == 0 ? angle.first : angle.last)(kink.component) = 1;
+  LoadSet loads;
+  loads.beams = {angle};
+  LoadVector load = system().load_vector(loads);
+  system().drop_idle_moments(load);
+  kink.force = scaled(load.force).sparseView();
+  kink.fixed_end = load.beam_fixed_end[static_cast<std::size_t>(kink.beam)];
+  kink.response.resize(0);
+  kink.known = true;
+}
+
+/// What turned before is likely to turn again; of the others the responses, as long as the frame, are let go.
+void FrameDynamics::State::begin_kinks() {
+  for (Kink& kink : kinks) {
+    if (kink.held == 0) kink.response.resize(0);
+    kink.before = kink.now = kink.current;
+    kink.held = 0;
+  }
+}
+
+void FrameDynamics::State::forget_kinks() {
+  for (Kink& kink : kinks) kink.known = false;
+}
+
+/// E = 1/2 u'Ku - theta'G'u + 1/2 theta'D theta, G the kinks' forces, D what they hold against themselves: the last
+/// two.
+double FrameDynamics::State::elastic_of_kinks() const {
+  double sum = 0;
+  for (const Kink& kink : kinks) {
+    if (kink.current == 0) continue;
+    sum -= kink.current * kink.force.dot(before.u);
+    for (const std::size_t other : kinks_of_beam[static_cast<std::size_t>(kink.beam)])
+      sum -= 0.5 * kink.current * kinks[other].current * kinks[other].fixed_end(kink.place());
+  }
+  return sum;
+}
+
+bool FrameDynamics::State::yields(const PlasticHinge& hinge) const {
+  const auto i = static_cast<std::size_t>(hinge.beam);
+  return system().beam_stands[i] != 0 &&
+         system().model.beams[i].end_stiffness[static_cast<std::size_t>(hinge.end)](hinge.component) > 0;
+}
+
+namespace {
+
+/// A hinge at its capacity: how far it turns in the substep.
+struct Turning {
+  std::size_t kink = 0;
+  double capacity = 0, tried = 0;  ///< the moment tried, with no hinge turning
+  double turn = 0;
+};
+
+/// Each in turn, as the others stand: the matrix is definite, so that this comes to the one solution.
+void find_turns(const Eigen::MatrixXd& A, std::vector<Turning>& turning) {
+  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+    double change = 0, largest = 0;
+    for (std::size_t i = 0; i < turning.size(); ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      if (A(row, row) == 0) continue;
+      double moment = turning[i].tried + A(row, row) * turning[i].turn;
+      for (std::size_t j = 0; j < turning.size(); ++j) moment -= A(row, static_cast<Eigen::Index>(j)) * turning[j].turn;
+      const double turn = beyond_capacity(moment, turning[i].capacity) / A(row, row);
+      change = std::max(change, std::abs(turn - turning[i].turn));
+      largest = std::max(largest, std::abs(turn));
+      turning[i].turn = turn;
+    }
+    if (change <= settled * largest) return;
+  }
+  throw std::runtime_error("how far plastic hinges turn in a substep was not found");
+}
+
+}  // namespace
+
+void FrameDynamics::State::yield(std::span<const PlasticHinge> hinges) {
+  for (Kink& kink : kinks) kink.held = 0;
+  if (hinges.empty()) return;
+  std::vector<double> tried(hinges.size(), 0), moments;
+  std::vector<char> listed(hinges.size(), 0);
+  std::vector<Turning> turning;
+  Eigen::MatrixXd A;
+  const auto read_moments = [&] {
+    know_end();
+    moments.assign(hinges.size(), 0);
+    int beam_read = -1;
+    Vec12 forces = Vec12::Zero();
+    for (std::size_t h = 0; h < hinges.size(); ++h) {
+      if (!yields(hinges[h])) continue;
+      if (hinges[h].beam != beam_read) forces = end_forces(hinges[h].beam, true);
+      beam_read = hinges[h].beam;
+      moments[h] = forces(6 * hinges[h].end + hinges[h].component);
+    }
+  };
+  const auto add = [&](std::size_t h) {
+    const std::size_t k = kink_of(hinges[h].beam, static_cast<std::size_t>(hinges[h].end), hinges[h].component);
+    find_kink(kinks[k]);
+    if (kinks[k].response.size() == 0) {
+      kinks[k].response = of_new_turn() * kinks[k].force;
+      solve(kinks[k].response);
+    }
+    kinks[k].tried = tried[h];
+    listed[h] = 1;
+    turning.push_back({k, hinges[h].capacity, tried[h], 0});
+    const auto n = static_cast<Eigen::Index>(turning.size()) - 1;
+    A.conservativeResize(n + 1, n + 1);
+    for (Eigen::Index j = 0; j <= n; ++j)
+      A(n, j) = A(j, n) = resistance(kinks[k], kinks[turning[static_cast<std::size_t>(j)].kink]);
+    // Nothing holds it but the inertia that a beam on one end does not have: it is over, see turned_out_at().
+    if (A(n, n) > resistless * -kinks[k].fixed_end(kinks[k].place()) && A(n, n) > 0) return;
+    A.row(n).setZero();
+    A.col(n).setZero();
+  };
+  const auto add_those_beyond = [&] {
+    const std::size_t count = turning.size();
+    for (std::size_t h = 0; h < hinges.size(); ++h)
+      if (listed[h] == 0 && std::abs(moments[h]) > (1 + beyond) * hinges[h].capacity) add(h);
+    return turning.size() > count;
+  };
+  read_moments();
+  tried = moments;
+  const Eigen::VectorXd as_tried = w;
+  while (add_those_beyond()) {
+    find_turns(A, turning);
+    w = as_tried;
+    for (const Turning& one : turning) {
+      Kink& kink = kinks[one.kink];
+      kink.now = kink.before + one.turn;
+      kink.held = one.turn == 0 ? 0 : std::copysign(one.capacity, one.turn);
+      if (one.turn != 0) w += one.turn * kink.response;
+    }
+    find_end();
+    read_moments();
+  }
+}
+
+/// By how much the moment of one hinge falls at the end of a substep for 1 rad that another has turned more by then.
+double FrameDynamics::State::resistance(const Kink& of, const Kink& by) const {
+  double value = -method.h * method.h * method.beta / method.c * of.force.dot(by.response);
+  if (of.beam == by.beam) value -= by.fixed_end(of.place());
+  return value;
+}
+
+std::optional<double> FrameDynamics::State::turned_out_at(const PlasticHinge& hinge) {
+  if (!yields(hinge)) return std::nullopt;
+  const Kink& kink = kinks[kink_of(hinge.beam, static_cast<std::size_t>(hinge.end), hinge.component)];
+  const auto moment = [&](bool at_end) { return std::abs(end_forces(hinge.beam, at_end)(kink.place())); };
+  constexpr double rounding = 1e4 * beyond;
+  const bool over = moment(true) > (1 + rounding) * hinge.capacity;
+  if (!over && !(std::abs(kink.now) > hinge.largest_turn)) return std::nullopt;
+  know_nodes();
+  const double start = moment(false);
+  if (over) return share_at(start, moment(true), hinge.capacity);
+  // It begins to turn when it reaches its capacity, and turns evenly from there.
+  const double begun = share_at(start, std::abs(kink.tried), hinge.capacity), sign = std::copysign(1.0, kink.now);
+  return begun + (1 - begun) * share_at(sign * kink.before, sign * kink.now, hinge.largest_turn);
+}
+
+/// Of the substep under way, before it is accepted. With g = G'u the equation's kinks do theta_c'dg along it, theta_c =
+/// af theta0 + (1 - af) theta1, and d(theta'g) = theta_c'dg + dtheta'((1 - af) g0 + af g1): what is left beside the
+/// change of elastic energy is what the hinges took, but for the error of the method. Of the work of loads on a beam
+/// its kinks have a part.
+void FrameDynamics::State::account_kinks() {
+  double discrete = 0, damped = 0;
+  for (const Kink& kink : kinks) {
+    const double turn = kink.now - kink.before;
+    if (kink.now == 0 && kink.before == 0) continue;
+    const double before_this = kink.force.dot(before.u), at_end = kink.force.dot(now.u);
+    const double in_equation = method.af * kink.before + (1 - method.af) * kink.now;
+    energy.external_work -= in_equation * (at_end - before_this);  // has it among the loads
+    for (const std::size_t other : kinks_of_beam[static_cast<std::size_t>(kink.beam)]) {
+      const double against = -kinks[other].fixed_end(kink.place());
+      discrete -= 0.5 * against * (kink.now * kinks[other].now - kink.before * kinks[other].before);
+    }
+    if (turn == 0) continue;
+    discrete += turn * ((1 - method.af) * before_this + method.af * at_end);
+    damped += options.damping.stiffness / method.h * turn * (at_end - before_this);
+    Vec12 loads = core().fixed_end[static_cast<std::size_t>(kink.beam)];
+    for (const LoadPattern& pattern : patterns)
+      if (const auto own = pattern.fixed_end.find(kink.beam); own != pattern.fixed_end.end())
+        loads += pattern.now * own->second;
+    const double of_loads = loads(kink.place()) * turn;
+    energy.dissipated += kink.held * turn;
+    energy.external_work += of_loads;
+    energy.numerical -= kink.held * turn - of_loads;
+  }
+  energy.numerical += discrete;
+  energy.external_work -= damped;  // has it among the loads
+  energy.damped -= damped;
+}
+
+}  // namespace topple::solver
