@@ -96,11 +96,10 @@ void FrameDynamics::set_plastic_rotation(int beam, int end, int component, doubl
   if (!std::isfinite(rotation)) throw std::invalid_argument("a plastic rotation must be finite");
   state.begin_substep();
   state.apply_changes();
-  const double stored = state.stored_energy();
   Kink& kink = state.kinks[state.kink_of(beam, static_cast<std::size_t>(end), component)];
   state.find_kink(kink);
   kink.before = kink.now = kink.current = rotation;
-  if (state.options.keep_energy) state.energy.freed += stored - state.stored_energy();
+  state.stored_energy();
 }
 
 Vec12 FrameDynamics::plastic_rotations(int beam) const {

@@ -1,5 +1,7 @@
 // Plastic hinges in the statics of a standing frame. One that yields is a release, with the moment that it holds as a
 // load on the member's end and, reversed, on the rigid end; one that unloads is a joint with an angle in it.
+#include <type_traits>
+
 #include "model/index_of.h"
 #include "standing/frame_statics.h"
 
@@ -27,7 +29,13 @@ void FrameStatics::write_loads(MemberId member) {
   const Place& place = member_place_[index(member)];
   std::vector<solver::BeamLoad> loads = with_hinges(member, member_loads_[index(member)]);
   for (solver::BeamLoad& load : loads) load.beam = place.local;
-  change(place, [&](auto& frame) { frame.set_beam_loads(place.local, loads); });
+  change(place, [&](auto& frame) {
+    // One that moves turns its own hinges.
+    if constexpr (std::is_same_v<std::remove_reference_t<decltype(frame)>, solver::FrameDynamics>)
+      frame.set_beam_loads(place.local, member_loads_[index(member)]);
+    else
+      frame.set_beam_loads(place.local, loads);
+  });
   if (!hinges_.contains(member)) return;
   for (const int node : beam(member).node) write_load(parts(place.component).nodes[static_cast<std::size_t>(node)]);
 }

@@ -77,9 +77,9 @@ class FrameStatics {
   [[nodiscard]] int number(NodeId node) const { return node_place_[index(node)].local; }
   [[nodiscard]] int number(MemberId member) const { return member_place_[index(member)].local; }
   [[nodiscard]] int number(PanelId panel) const { return membrane_place_[index(panel)].local; }
-  /// What the solver has on a member, hinges included.
-  [[nodiscard]] std::vector<solver::BeamLoad> loads(MemberId member) const {
-    return with_hinges(member, member_loads_[index(member)]);
+  /// On a member; what stands for its plastic hinges apart.
+  [[nodiscard]] const std::vector<solver::BeamLoad>& loads(MemberId member) const {
+    return member_loads_[index(member)];
   }
   [[nodiscard]] const Vec6& load(NodeId node) const { return node_loads_[index(node)]; }
 

@@ -49,6 +49,34 @@ YieldingWay::YieldingWay(Sources sources)
       from_(std::move(sources)),
       ductile_(building_, from_.statics, from_.parts.segments, from_.parts.bearings, from_.applied) {}
 
+double YieldingWay::capacity(const PlasticHinge& hinge) const {
+  return building_[hinge.joint].capacity.value[static_cast<std::size_t>(hinge.sense())] *
+         from_.joints.strength(hinge.joint);
+}
+
+void YieldingWay::turned_in_motion(int c, std::size_t number, double plastic_rotation, double held) {
+  PlasticHinge& hinge = ductile_.hinges(c)[number];
+  hinge.plastic_rotation = plastic_rotation;
+  from_.joints.remember(hinge.joint, 1);
+  tell_yield(hinge, held);
+}
+
+void YieldingWay::lay_rotations(int c) {
+  for (PlasticHinge& hinge : ductile_.hinges(c)) {
+    const Joint& own = building_[hinge.joint];
+    const Eigen::Index place = 6 * own.end + hinge.axis;
+    if (from_.statics.plastic_rotations(own.member)(place) != hinge.plastic_rotation) unload(hinge);
+  }
+}
+
+bool YieldingWay::yields_in_answer(int c) {
+  const std::vector<PlasticHinge>& all = ductile_.hinges(c);
+  return std::any_of(all.begin(), all.end(), [&](const PlasticHinge& hinge) {
+    return from_.parts.standing(hinge.joint) &&
+           std::abs(from_.joints.demand(hinge.joint)(hinge.axis)) > (1 + no_change) * capacity(hinge);
+  });
+}
+
 double YieldingWay::demand_in_base(const PlasticHinge& hinge) const {
   return from_.joints.reference(hinge.joint)(hinge.axis);
 }
@@ -149,14 +177,12 @@ YieldingWay::NextEvent YieldingWay::find_next_event(int c) {
         next.take(std::max(0.0, left / std::abs(turning)), nullptr, hinge.joint);
       continue;
     }
-    const double capacity = building_[hinge.joint].capacity.value[static_cast<std::size_t>(hinge.sense())] *
-                            from_.joints.strength(hinge.joint);
-    const double from = demand_in_base(hinge),
+    const double bears = capacity(hinge), from = demand_in_base(hinge),
                  change = direction * (from_.joints.demand(hinge.joint)(hinge.axis) - from);
-    if (std::abs(from) > (1 + no_change) * capacity)
+    if (std::abs(from) > (1 + no_change) * bears)
       next.take(0, &hinge, {});
-    else if (std::abs(change) > no_change * capacity)
-      next.take(std::max(0.0, (capacity - std::copysign(from, from * change)) / std::abs(change)), &hinge, {});
+    else if (std::abs(change) > no_change * bears)
+      next.take(std::max(0.0, (bears - std::copysign(from, from * change)) / std::abs(change)), &hinge, {});
   }
   for (JointId joint : from_.components.joints[static_cast<std::size_t>(c)]) {
     if (!from_.parts.standing(joint)) continue;
@@ -220,11 +246,10 @@ YieldingWay::End YieldingWay::follow(int c, std::vector<JointId>& breaking) {
       if (std::find(nodes.begin(), nodes.end(), node) != nodes.end()) continue;
       members.push_back(own.member);
       nodes.push_back(node);
-      const double capacity =
-          own.capacity.value[static_cast<std::size_t>(hinge->sense())] * from_.joints.strength(hinge->joint);
+      const double bears = capacity(*hinge);
       const double towards = path.direction * (from_.joints.demand(hinge->joint)(hinge->axis) - demand_in_base(*hinge));
       const double now = demand_in_base(*hinge);
-      const double held = std::copysign(capacity, std::abs(now) > no_change * capacity ? now : towards);
+      const double held = std::copysign(bears, std::abs(now) > no_change * bears ? now : towards);
       if (from_.parts.segments.holds(building_.joint(own.member, 1 - own.end)))
         let_yield(*hinge, held);
       else if (turns_out_alone(*hinge, held))

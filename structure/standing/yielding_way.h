@@ -40,6 +40,18 @@ class YieldingWay {
     if (any(component)) ductile_.base_is_answer(component);
   }
 
+  // While the component moves, its hinges turn within substeps (solver::FrameDynamics), and no way is followed.
+  /// Those that have not broken, in order of joint.
+  [[nodiscard]] const std::vector<PlasticHinge>& hinges(int component) { return ductile_.hinges(component); }
+  /// What a hinge holds at most, as strong as its joint is now, N m.
+  [[nodiscard]] double capacity(const PlasticHinge& hinge) const;
+  /// The hinge at this place in hinges() has turned as far as that (rad), under what it holds (N m, of its sign).
+  void turned_in_motion(int component, std::size_t hinge, double plastic_rotation, double held);
+  /// The next static answer is that of the plastic rotations reached.
+  void lay_rotations(int component);
+  /// Whether a hinge would turn in the static answer.
+  [[nodiscard]] bool yields_in_answer(int component);
+
   enum class End {
     unyielding,  ///< no hinge has formed since the last state of rest, and none will
     breaking,    ///< joints break in the state reached

@@ -257,17 +257,22 @@ void Simulation::State::check_momentum(const Strike& hit, std::span<const PointI
 /// Until nothing is over capacity and no panel cracks.
 void Simulation::State::break_generations() {
   if (!frame->pending() && step > 1) return;
-  if (sways()) {
-    for (const JointBreak& broken : frame->move()) record(broken);
-    return;
-  }
-  do {
-    const std::vector<JointBreak> breaks = frame->settle();
+  const auto record_yielded = [&] {
     for (const JointBreak& line : frame->take_yielded()) {
       SimulationEvent& event = record(SimulationEvent::Kind::joint_yielded, building[line.joint].name);
       event.joint = line;
       event.position = line.position;
     }
+  };
+  if (sways()) {
+    const std::vector<JointBreak> breaks = frame->move();
+    record_yielded();
+    for (const JointBreak& broken : breaks) record(broken);
+    return;
+  }
+  do {
+    const std::vector<JointBreak> breaks = frame->settle();
+    record_yielded();
     for (const JointBreak& broken : breaks) record(broken);
     if (any_breakable) crack_panels();
   } while (frame->pending());

@@ -25,7 +25,7 @@ struct MotionSettings {
   double rest_looks = 0.25;
   /// rad. A chord that has turned by this has left small displacements: what can move without strain leaves the frame.
   double largest_turn = 0.1;
-  /// rad. From here on nothing is damped by mass: that would brake what falls.
+  /// rad. From here on nothing is damped by mass while it turns further: that would brake what falls.
   double falling_turn = 0.02;
 };
 

@@ -41,10 +41,14 @@ class StandingMotion::Law : public solver::JointLaw {
     if (!std::isfinite(use)) throw std::runtime_error("the motion of " + from_.building[joint].name + " is not finite");
     return use;
   }
+  [[nodiscard]] std::span<const solver::PlasticHinge> plastic_hinges() const override { return hinges_; }
+  /// As they are in the component now.
+  void set_hinges(std::vector<solver::PlasticHinge> hinges) { hinges_ = std::move(hinges); }
 
  private:
   const Sources& from_;
   const std::vector<MemberId>& members_;
+  std::vector<solver::PlasticHinge> hinges_;
 };
 
 struct StandingMotion::Moving {
@@ -52,6 +56,8 @@ struct StandingMotion::Moving {
   std::unique_ptr<Law> law;
   double elastic_at_start = 0;
   double first_frequency = 0;  ///< rad/s, lowest of all when it began to move
+  double mass_damping = 0;     ///< 1/s, of what does not fall
+  double turned = 0;           ///< rad, its largest turn a step ago
   double left_work = 0;        ///< J, of the weight of parts that left
   double looked = 0;           ///< s of its motion, when rest was looked for last
   std::vector<double> mass;    ///< per beam, as the frame has it
@@ -156,6 +162,28 @@ StandingMotion::Known StandingMotion::find(int c, const solver::FrameModel& mode
   return found;
 }
 
+/// As the component's hinges have turned so far.
+void StandingMotion::lay_plastic_rotations(int c, Moving& moving) const {
+  for (const PlasticHinge& hinge : from_.yielding.hinges(c)) {
+    if (hinge.plastic_rotation == 0 || !from_.parts.standing(hinge.joint)) continue;
+    const Joint& own = from_.building[hinge.joint];
+    moving.frame->set_plastic_rotation(from_.statics.number(own.member), own.end, hinge.axis, hinge.plastic_rotation);
+  }
+}
+
+void StandingMotion::take_plastic_rotations(int c, const Moving& moving) const {
+  const std::vector<PlasticHinge>& hinges = from_.yielding.hinges(c);
+  for (std::size_t h = 0; h < hinges.size(); ++h) {
+    const Joint& own = from_.building[hinges[h].joint];
+    if (!from_.parts.standing(hinges[h].joint)) continue;
+    const double turned =
+        moving.frame->plastic_rotations(from_.statics.number(own.member))(6 * own.end + hinges[h].axis);
+    if (turned == hinges[h].plastic_rotation) continue;
+    const double held = std::copysign(from_.yielding.capacity(hinges[h]), turned - hinges[h].plastic_rotation);
+    from_.yielding.turned_in_motion(c, h, turned, held);
+  }
+}
+
 void StandingMotion::start(int c) {
   if (moves(c)) return;
   const solver::FrameModel model = model_of(c);
@@ -174,8 +202,10 @@ void StandingMotion::start(int c) {
       known != known_.end() ? known->second : known_.emplace(c, find(c, model, masses, rest)).first->second;
   options.damping = own.damping;
   moving.first_frequency = own.first_frequency;
+  moving.mass_damping = own.damping.mass;
   moving.frame = std::make_unique<solver::FrameDynamics>(model, masses, options);
   put_loads(c, *moving.frame);
+  lay_plastic_rotations(c, moving);
   moving.frame->set_state(rest, std::vector<Vec6>(rest.size(), Vec6::Zero()));
   moving.elastic_at_start = moving.frame->energy().elastic;
   moving.law = std::make_unique<Law>(*this, c);
@@ -198,6 +228,11 @@ void StandingMotion::settle(int c) {
       own.setZero();
   }
   const solver::DynamicEnergy before = moving.frame->energy();
+  for (const PlasticHinge& hinge : from_.yielding.hinges(c)) {  // the way bends no hinge
+    const Joint& own = from_.building[hinge.joint];
+    if (hinge.plastic_rotation != 0)
+      moving.frame->set_plastic_rotation(from_.statics.number(own.member), own.end, hinge.axis, 0);
+  }
   moving.frame->set_state(way, std::vector<Vec6>(way.size(), Vec6::Zero()));
   past_.damped += moving.frame->energy().elastic;
   past_.freed += before.freed - moving.frame->energy().freed;  // what setting the state took for a change
@@ -220,6 +255,7 @@ void StandingMotion::stop(int c) {
   past_.external_work += stands ? moving.left_work : own.external_work;
   past_.struck += own.struck;
   past_.freed += own.freed;
+  past_.dissipated += own.dissipated;
   from_.statics.follow(c, nullptr);
   moving_.erase(found);
 }
@@ -289,7 +325,16 @@ void StandingMotion::update_masses() {
 std::vector<StandingMotion::Break> StandingMotion::advance(int c) {
   Moving& moving = *moving_.at(c);
   const double freed = moving.frame->energy().freed;
+  std::vector<solver::PlasticHinge> hinges;
+  for (const PlasticHinge& hinge : from_.yielding.hinges(c)) {
+    const Joint& own = from_.building[hinge.joint];
+    if (from_.parts.standing(hinge.joint))
+      hinges.push_back(
+          {from_.statics.number(own.member), own.end, hinge.axis, from_.yielding.capacity(hinge), hinge.limit});
+  }
+  moving.law->set_hinges(std::move(hinges));
   const std::vector<solver::JointBreak>& broken = moving.frame->advance(moving.law.get());
+  take_plastic_rotations(c, moving);
   std::vector<Break> breaks;
   for (const solver::JointBreak& one : broken) {
     const MemberId member = from_.statics.members(c)[static_cast<std::size_t>(one.beam)];
@@ -478,7 +523,12 @@ double StandingMotion::largest_turn(int c) const {
   return largest;
 }
 
-void StandingMotion::let_fall(int c) { moving_.at(c)->frame->set_mass_damping(0); }
+void StandingMotion::damp_by_mass(int c, double turn) {
+  Moving& moving = *moving_.at(c);
+  const bool falls = turn > settings_.falling_turn && turn > moving.turned;
+  moving.turned = turn;
+  moving.frame->set_mass_damping(falls ? 0 : moving.mass_damping);
+}
 
 bool StandingMotion::look_for_rest(int c) const {
   const Moving& moving = *moving_.at(c);
@@ -533,6 +583,7 @@ MotionEnergy StandingMotion::energy() const {
     sum.external_work += own.external_work;
     sum.struck += own.struck;
     sum.freed += own.freed;
+    sum.dissipated += own.dissipated;
   }
   return sum;
 }

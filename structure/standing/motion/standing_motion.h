@@ -11,6 +11,7 @@
 #include "standing/motion/motion_masses.h"
 #include "standing/motion/motion_settings.h"
 #include "standing/standing_parts.h"
+#include "standing/yielding_way.h"
 #include "topple/solver/frame_dynamics.h"
 
 namespace topple::structure {
@@ -20,7 +21,7 @@ struct MotionEnergy {
   double kinetic = 0, elastic_change = 0;
   double damped = 0, numerical = 0;  ///< by damping; by the method
   double external_work = 0;          ///< of loads, on what moves now
-  double struck = 0, freed = 0;
+  double struck = 0, freed = 0, dissipated = 0;
   double within =
       0;  ///< of `struck`: impulses between its own parts, as panels come to lie otherwise; accounted as freed
 };
@@ -34,6 +35,7 @@ class StandingMotion {
     const FrameLoads& loads;
     FrameStatics& statics;
     JointStates& joints;
+    YieldingWay& yielding;
     const ComponentParts& components;
     const std::vector<char>& node_solved;
     int threads = 1;
@@ -96,8 +98,9 @@ class StandingMotion {
 
   /// Largest turn of a chord in the component, rad.
   [[nodiscard]] double largest_turn(int component) const;
-  /// It falls: nothing is damped by mass any more.
-  void let_fall(int component);
+  /// Mass damps nothing while a component whose chords have turned by MotionSettings::falling_turn turns further: it
+  /// would brake what falls. `turn`: largest_turn() now, once a step.
+  void damp_by_mass(int component, double turn);
   /// Its statics were solved: whether every joint is at rest there, as the settings have it.
   [[nodiscard]] bool rests(int component);
   /// It is time to look.
@@ -119,6 +122,8 @@ class StandingMotion {
   [[nodiscard]] solver::FrameModel model_of(int component) const;
   [[nodiscard]] solver::MassModel masses_of(int component) const;
   [[nodiscard]] double damping_of(int component) const;
+  void lay_plastic_rotations(int component, Moving& moving) const;
+  void take_plastic_rotations(int component, const Moving& moving) const;
   void put_loads(int component, solver::FrameDynamics& frame) const;
   [[nodiscard]] Vec6 specific_momentum(MemberId member) const;
   /// By component: what a panel that lies on other members now brings them beyond their own velocity.

@@ -14,9 +14,6 @@ std::optional<std::string> why_it_stays_at_rest(const Building& building, const 
   if (rules.second_order) return "second order is not followed in motion";
   for (const Panel& panel : building.panels)
     if (panel.model == PanelModel::shell) return "shell panels do not move (" + panel.name + ")";
-  for (const Joint& joint : building.joints)
-    if (std::any_of(joint.capacity.ductility.begin(), joint.capacity.ductility.end(), [](double d) { return d > 0; }))
-      return "joints that yield do not move (" + joint.name + ")";
   if (!(building.gravity > 0)) return "mass is weight over gravity, and the model has none";
   return std::nullopt;
 }
@@ -27,8 +24,8 @@ void StandingFrame::let_move(double dt) {
     throw InputError(state.building.file + ": what stands cannot move: " + *reason);
   if (state.rules.sudden != 1) throw std::invalid_argument("what moves has no factor of a sudden loss: it must be 1");
   state.motion = std::make_unique<StandingMotion>(
-      StandingMotion::Sources{state.building, state.parts, state.loads, state.statics, state.joints, state.components,
-                              state.node_solved, state.threads},
+      StandingMotion::Sources{state.building, state.parts, state.loads, state.statics, state.joints, state.yielding,
+                              state.components, state.node_solved, state.threads},
       motion_settings);
   state.statics.before_changes([&state](int c) {
     if (state.solved_nodes[static_cast<std::size_t>(c)] > 0) state.motion->start(c);
@@ -59,6 +56,7 @@ FrameEnergy StandingFrame::energy() const {
   energy.damped = moving.damped;
   energy.numerical = moving.numerical;
   energy.struck = moving.struck;
+  energy.dissipated += moving.dissipated;
   return energy;
 }
 
@@ -168,7 +166,7 @@ void StandingFrame::State::begin_motion() {
     if (!std::exchange(to_check[static_cast<std::size_t>(c)], 0) || motion->moves(c)) continue;
     if (solved_nodes[static_cast<std::size_t>(c)] == 0)
       statics.forget(c);
-    else if (!bears(c))
+    else if (!bears(c) || yielding.yields_in_answer(c))
       motion->start(c);
   }
 }
@@ -223,7 +221,7 @@ void StandingFrame::State::break_edges_over(int c) {
 /// can move without strain; a part that cannot stays.
 void StandingFrame::State::leave_small_displacements(int c) {
   const double turn = motion->largest_turn(c);
-  if (turn > motion_settings.falling_turn) motion->let_fall(c);
+  motion->damp_by_mass(c, turn);
   if (!(turn > motion_settings.largest_turn)) return;
   while (motion->moves(c)) {
     const std::optional<FrameMechanism> mechanism = statics.solve(c);
@@ -249,11 +247,13 @@ void StandingFrame::State::read_motion(int c) {
 
 /// It is set to its static state, to the bit, once it is near and that state is borne.
 void StandingFrame::State::look_for_rest(int c) {
-  if (!motion->look_for_rest(c) || statics.solve(c) || !motion->rests(c)) return;
+  if (!motion->look_for_rest(c)) return;
+  yielding.lay_rotations(c);
+  if (statics.solve(c) || !motion->rests(c)) return;
   for (const PanelId panel : statics.membranes(c))
     if (parts.bearings.membrane(panel)) edge_loads.set_corner_forces(panel, statics.corner_forces(panel));
   read_demands(c, false);
-  if (!bears(c)) return;
+  if (!bears(c) || yielding.yields_in_answer(c)) return;
   motion->settle(c);
   const double freed = account.freed();
   come_to_rest(c);

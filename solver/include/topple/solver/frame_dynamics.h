@@ -165,8 +165,8 @@ class FrameDynamics {
   void set_support_stiffness(int support, const Vec6& stiffness);
   /// These nodes, and all that reaches them, are no longer part of the frame.
   void drop_nodes(std::span<const int> nodes);
-  /// How far a beam's end has turned for good (rad, local axes, of the node against the beam's own end): 0 unless set
-  /// here or turned by advance(). `component`: 3 torsion, 4 and 5 bending.
+  /// How far a beam's end has turned for good (rad, local axes, of the node against the beam's own end), as part of the
+  /// state: 0 unless set here or turned by advance(). `component`: 3 torsion, 4 and 5 bending.
   void set_plastic_rotation(int beam, int end, int component, double rotation);
   /// Replaces the load on a node: N and N m, global axes.
   void set_node_load(int node, const Vec6& load);
