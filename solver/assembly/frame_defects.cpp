@@ -8,14 +8,18 @@
 
 namespace topple::solver {
 
-Mat6 FrameSystem::supports_and_inert_rotations(int node) const {
+Mat6 FrameSystem::supports_and_inert_motions(int node) const {
   const auto n = static_cast<std::size_t>(node);
   Mat6 K = Mat6::Zero();
   if (node_stands[n] == 0) return K;
   K.diagonal() = own_springs(node);
-  for (int k = 0; k < inert_[n].count; ++k) {
-    const Vec3 d = inert_[n].directions.col(k);
-    K.bottomRightCorner<3, 3>() += inert_[n].stiffness * d * d.transpose();
+  for (std::size_t kind = 0; kind < inert_.size(); ++kind) {
+    const InertNode& inert = inert_[kind][n];
+    const auto first = static_cast<Eigen::Index>(3 * kind);
+    for (int k = 0; k < inert.count; ++k) {
+      const Vec3 d = inert.directions.col(k);
+      K.block<3, 3>(first, first) += inert.stiffness * d * d.transpose();
+    }
   }
   return K;
 }
@@ -23,7 +27,7 @@ Mat6 FrameSystem::supports_and_inert_rotations(int node) const {
 FrameSystem::NodeMatrix FrameSystem::own_stiffness(int node) const {
   const auto n = static_cast<std::size_t>(node);
   const int first = dofs_.first_equation[n], count = dofs_.first_equation[n + 1] - first;
-  const Mat6 K = supports_and_inert_rotations(node);
+  const Mat6 K = supports_and_inert_motions(node);
   NodeMatrix own = NodeMatrix::Zero(count, count);
   for (int i = 0; i < 6; ++i) {
     for (int j = 0; j < 6; ++j) {

@@ -242,7 +242,9 @@ void FrameSystem::add_settlement_forces(LoadVector& result) const {
 }
 
 std::optional<Defect> FrameSystem::unbalanced_load(const LoadVector& load, double lever_share) const {
-  if (load.unbalanced_beams.empty() && inert_nodes_ == 0) return std::nullopt;
+  const std::vector<InertNode>& inert = inert_[static_cast<std::size_t>(Motion::rotation)];
+  if (load.unbalanced_beams.empty() && inert_nodes_[static_cast<std::size_t>(Motion::rotation)] == 0)
+    return std::nullopt;
   Defect result;
   result.motion.motion.assign(model.nodes.size(), Vec6::Zero());
   if (!load.unbalanced_beams.empty()) {
@@ -260,7 +262,7 @@ std::optional<Defect> FrameSystem::unbalanced_load(const LoadVector& load, doubl
     }
     return m;
   };
-  for (std::size_t node = 0; node < inert_.size(); ++node) largest = std::max(largest, moment_at(node).norm());
+  for (std::size_t node = 0; node < inert.size(); ++node) largest = std::max(largest, moment_at(node).norm());
   if (lever_share > 0) {
     double longest = 0, force = 0;
     for (const Beam& beam : model.beams) longest = std::max(longest, beam.length);
@@ -271,9 +273,9 @@ std::optional<Defect> FrameSystem::unbalanced_load(const LoadVector& load, doubl
   }
   constexpr double rounding = 1e-10;  // of the largest moment on any node
   const double nothing = std::max(rounding * largest, lever_moment);
-  for (std::size_t node = 0; node < inert_.size(); ++node) {
-    for (int k = 0; k < inert_[node].count; ++k) {
-      const Vec3 axis = inert_[node].directions.col(k);
+  for (std::size_t node = 0; node < inert.size(); ++node) {
+    for (int k = 0; k < inert[node].count; ++k) {
+      const Vec3 axis = inert[node].directions.col(k);
       if (std::abs(axis.dot(moment_at(node))) <= nothing) continue;
       result.motion.nodes.push_back(static_cast<int>(node));
       result.motion.motion[node].tail<3>() = axis;
@@ -285,19 +287,38 @@ std::optional<Defect> FrameSystem::unbalanced_load(const LoadVector& load, doubl
   return result;
 }
 
-void FrameSystem::drop_idle_moments(LoadVector& load) const {
-  if (inert_nodes_ == 0) return;
-  for (std::size_t node = 0; node < inert_.size(); ++node)
-    for (int k = 0; k < inert_[node].count; ++k) {
-      const Vec3 axis = inert_[node].directions.col(k);
-      double idle = 0;
-      for (std::size_t c = 3; c < 6; ++c)
-        if (const int e = dofs_.number[node][c]; e < dofs_.equations)
-          idle += axis(static_cast<Eigen::Index>(c) - 3) * load.force(e);
-      for (std::size_t c = 3; c < 6; ++c)
-        if (const int e = dofs_.number[node][c]; e < dofs_.equations)
-          load.force(e) -= idle * axis(static_cast<Eigen::Index>(c) - 3);
-    }
+void FrameSystem::drop_idle(Motion kind, std::size_t node, std::span<const double> scale,
+                            Eigen::VectorXd& values) const {
+  const auto k = static_cast<std::size_t>(kind);
+  const InertNode& inert = inert_[k][node];
+  for (int i = 0; i < inert.count; ++i) {
+    const Vec3 axis = inert.directions.col(i);
+    double idle = 0;
+    for (std::size_t c = 0; c < 3; ++c)
+      if (const int e = dofs_.number[node][3 * k + c]; e < dofs_.equations)
+        idle +=
+            axis(static_cast<Eigen::Index>(c)) * values(e) * (scale.empty() ? 1 : scale[static_cast<std::size_t>(e)]);
+    for (std::size_t c = 0; c < 3; ++c)
+      if (const int e = dofs_.number[node][3 * k + c]; e < dofs_.equations)
+        values(e) -=
+            idle * axis(static_cast<Eigen::Index>(c)) / (scale.empty() ? 1 : scale[static_cast<std::size_t>(e)]);
+  }
+}
+
+void FrameSystem::drop_idle_loads(LoadVector& load) const {
+  for (const Motion kind : {Motion::translation, Motion::rotation}) {
+    const auto k = static_cast<std::size_t>(kind);
+    if (inert_nodes_[k] == 0) continue;
+    for (std::size_t node = 0; node < inert_[k].size(); ++node) drop_idle(kind, node, {}, load.force);
+  }
+}
+
+void FrameSystem::drop_idle_motion(Eigen::VectorXd& scaled) const {
+  for (const Motion kind : {Motion::translation, Motion::rotation}) {
+    const auto k = static_cast<std::size_t>(kind);
+    if (inert_nodes_[k] == 0) continue;
+    for (std::size_t node = 0; node < inert_[k].size(); ++node) drop_idle(kind, node, scale_, scaled);
+  }
 }
 
 }  // namespace topple::solver

@@ -57,7 +57,7 @@ FrameSystem::FrameSystem(FrameModel given)
       elements_of_node_(model.nodes.size()),
       matrix_(assembly_map_.empty_matrix()),
       scale_(static_cast<std::size_t>(dofs_.equations), 1.0),
-      inert_(model.nodes.size()) {
+      inert_{std::vector<InertNode>(model.nodes.size()), std::vector<InertNode>(model.nodes.size())} {
   int element = 0;
   const auto belongs = [&](std::span<const int> nodes) {
     for (int node : nodes) elements_of_node_[static_cast<std::size_t>(node)].push_back(element);
@@ -159,23 +159,27 @@ double& FrameSystem::entry(int equation, int other) {
 
 void FrameSystem::add_support_springs(int node) { add_diagonal(node, own_springs(node), matrix_); }
 
-void FrameSystem::forget_inert_rotations(std::size_t node) {
-  if (inert_[node].count > 0) --inert_nodes_;
-  inert_[node].count = 0;
+void FrameSystem::forget_inert_motions(std::size_t node) {
+  for (std::size_t kind = 0; kind < inert_.size(); ++kind) {
+    if (inert_[kind][node].count > 0) --inert_nodes_[kind];
+    inert_[kind][node].count = 0;
+  }
 }
 
 /// A node turned about an axis that no element resists strains nothing, bears nothing and belongs to nobody: a node of
-/// a truss. It is held at zero, in any direction in space; unbalanced_load() refuses a moment about it.
-void FrameSystem::hold_inert_rotations(int node) {
-  constexpr double inert_limit = 1e-13;  // of the largest rotational stiffness at the node: rounding of rotated zeros
-  const auto n = static_cast<std::size_t>(node);
-  forget_inert_rotations(n);
+/// a truss. It is held at zero, in any direction in space; unbalanced_load() refuses a moment about it. Of a frame that
+/// moves the same goes for a translation that has neither stiffness nor mass: what breaks may leave a node on nothing
+/// but a membrane.
+void FrameSystem::hold_inert_motions(int node, Motion kind) {
+  constexpr double inert_limit = 1e-13;  // of the largest stiffness of its kind at the node: rounding of rotated zeros
+  const auto n = static_cast<std::size_t>(node), k = static_cast<std::size_t>(kind);
+  const bool in_diaphragm = dofs_.diaphragm_of_node[n] >= 0;
   std::array<int, 3> component{}, equation{};
   std::size_t free = 0;
-  for (int c = 3; c < 6; ++c) {
-    const int e = dofs_.number[n][static_cast<std::size_t>(c)];
-    if (e >= dofs_.equations || (c == 5 && dofs_.diaphragm_of_node[n] >= 0)) continue;
-    component[free] = c - 3;
+  for (int c = 0; c < 3; ++c) {
+    const int e = dofs_.number[n][3 * k + static_cast<std::size_t>(c)];
+    if (e >= dofs_.equations || (in_diaphragm && (c == 2) == (kind == Motion::rotation))) continue;
+    component[free] = c;
     equation[free++] = e;
   }
   if (free == 0) return;
@@ -202,13 +206,14 @@ void FrameSystem::hold_inert_rotations(int node) {
   // A cheap test first: the determinant of a well-braced node is far from zero.
   if (largest > 0 && block.determinant() > 1e-9 * held * held * held) return;
   const Eigen::SelfAdjointEigenSolver<Mat3> modes(block);
+  InertNode& inert = inert_[k][n];
   for (int m = 0; m < 3; ++m) {
     if (std::abs(modes.eigenvalues()(m)) > inert_limit * held)
       continue;  // below zero: a softened node, not an inert one
     const Vec3 d = modes.eigenvectors().col(m);
-    if (inert_[n].count == 0) ++inert_nodes_;
-    inert_[n].directions.col(inert_[n].count++) = d;
-    inert_[n].stiffness = held;
+    if (inert.count == 0) ++inert_nodes_[k];
+    inert.directions.col(inert.count++) = d;
+    inert.stiffness = held;
     for (std::size_t i = 0; i < free; ++i) {
       for (std::size_t j = 0; j <= i; ++j) {
         entry(equation[i], equation[j]) += held * d(component[i]) * d(component[j]) *
@@ -223,12 +228,14 @@ void FrameSystem::finish_node(int node) {
   const auto n = static_cast<std::size_t>(node);
   if (node_stands[n] == 0) {
     for (int e = dofs_.first_equation[n]; e < dofs_.first_equation[n + 1]; ++e) entry(e, e) = 1;
-    forget_inert_rotations(n);
+    forget_inert_motions(n);
     return;
   }
   add_support_springs(node);
   add_node_mass(node);
-  hold_inert_rotations(node);
+  forget_inert_motions(n);
+  if (inertia != nullptr) hold_inert_motions(node, Motion::translation);
+  hold_inert_motions(node, Motion::rotation);
 }
 
 /// A diaphragm whose nodes have all left is held.

@@ -109,8 +109,8 @@ class FrameSystem {
   }
   /// Nodes of an element that is no beam.
   [[nodiscard]] std::span<const int> plate_nodes(std::size_t element) const;
-  /// What a node has besides its elements (support springs, held inert rotations), in its six components, not scaled.
-  [[nodiscard]] Mat6 supports_and_inert_rotations(int node) const;
+  /// What a node has besides its elements (support springs, held inert motions), in its six components, not scaled.
+  [[nodiscard]] Mat6 supports_and_inert_motions(int node) const;
   using NodeMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
   /// The same, scaled, in the node's own equations. For nodes of no diaphragm.
   [[nodiscard]] NodeMatrix own_stiffness(int node) const;
@@ -122,7 +122,10 @@ class FrameSystem {
   /// counts as none when the largest force would make it with a lever of this share of the longest beam.
   [[nodiscard]] std::optional<Defect> unbalanced_load(const LoadVector& load, double lever_share = 0) const;
   /// Takes away the moments on nodes that nothing keeps from turning: as if each node had turned until they are none.
-  void drop_idle_moments(LoadVector& load) const;
+  /// Of a frame that moves also the forces in directions with neither stiffness nor mass.
+  void drop_idle_loads(LoadVector& load) const;
+  /// Sets a motion (scaled equations) to zero in the directions in which a node has neither stiffness nor mass.
+  void drop_idle_motion(Eigen::VectorXd& scaled) const;
 
   [[nodiscard]] FixedEndForces fixed_end_forces(int beam, std::span<const BeamLoad> loads) const;
   /// Adds the reverse of a beam's fixed-end forces to the right-hand side of the equations.
@@ -172,8 +175,11 @@ class FrameSystem {
   void add_element_mass(std::size_t element, const std::vector<char>& wanted);
   void add_node_mass(int node);
   void add_diagonal(int node, const Vec6& diagonal, SparseSymmetric& matrix) const;
-  void hold_inert_rotations(int node);
-  void forget_inert_rotations(std::size_t node);
+  enum class Motion : std::size_t { translation, rotation };
+  void hold_inert_motions(int node, Motion kind);
+  void forget_inert_motions(std::size_t node);
+  /// Takes away the parts of a vector of forces (not scaled) or scaled displacements along the inert directions.
+  void drop_idle(Motion kind, std::size_t node, std::span<const double> scale, Eigen::VectorXd& values) const;
   void set_scale();
   [[nodiscard]] std::optional<Defect> defect(std::span<const int> nodes, std::span<const int> beams) const;
   [[nodiscard]] std::optional<Defect> unheld_freedoms(std::span<const int> nodes) const;
@@ -206,14 +212,14 @@ class FrameSystem {
   std::vector<std::vector<int>> elements_of_node_;
   SparseSymmetric matrix_, mass_;
   std::vector<double> scale_;
-  /// Per node: directions in which its node turns without straining anything (columns), held at zero.
+  /// Directions in which a node moves without straining anything (columns), held at zero.
   struct InertNode {
     int count = 0;
     double stiffness = 0;
     Mat3 directions = Mat3::Zero();
   };
-  std::vector<InertNode> inert_;
-  int inert_nodes_ = 0;  ///< with a count above 0
+  std::array<std::vector<InertNode>, 2> inert_;  ///< per Motion and node
+  std::array<int, 2> inert_nodes_{};             ///< with a count above 0
   // Scratch of reassemble() and defect(): what changes once a break must not ask for memory.
   std::vector<char> wanted_;  ///< per vertex; all 0 between calls
   std::vector<int> wanted_nodes_, wanted_elements_;

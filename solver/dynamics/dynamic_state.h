@@ -114,7 +114,8 @@ struct FrameDynamics::State {
   void take_changes();
   void remember_changing_beams();
   void drop_bare_nodes();
-  [[nodiscard]] bool bare(int node);
+  [[nodiscard]] std::vector<int> bare_part(int start);
+  [[nodiscard]] bool shell_holds(int shell, int node);
   void clear_dropped();
   void find_substep_load();
   void begin_substep();

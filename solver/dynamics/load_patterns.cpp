@@ -32,7 +32,7 @@ Eigen::VectorXd FrameDynamics::State::scaled_equations(const std::vector<Vec6>& 
 void FrameDynamics::State::find_pattern(LoadPattern& pattern) {
   if (pattern.kind == LoadPattern::Kind::loads) {
     LoadVector load = system().load_vector(pattern.loads);
-    system().drop_idle_moments(load);
+    system().drop_idle_loads(load);
     pattern.force = scaled(load.force);
     pattern.fixed_end.clear();
     for (const BeamLoad& one : pattern.loads.beams)

@@ -64,7 +64,7 @@ void FrameDynamics::State::take_changes() {
     throw Instability(defect.message, defect.motion);
   }
   LoadVector load = own.load;
-  own.system->drop_idle_moments(load);
+  own.system->drop_idle_loads(load);
   constant_load = scaled(load.force);
   if (own.system.get() == numbered || motion.u.empty()) return;
   // A support's freedom became free or held: the equations are others now. Accelerations begin anew.
@@ -90,33 +90,72 @@ void FrameDynamics::State::remember_changing_beams() {
   }
 }
 
-bool FrameDynamics::State::bare(int node) {
-  const auto n = static_cast<std::size_t>(node);
+bool FrameDynamics::State::shell_holds(int shell, int node) {
+  const auto i = static_cast<std::size_t>(shell);
+  if (core().shell_removed[i] != 0) return false;
   const FrameModel& model = system().model;
-  if (system().node_stands[n] == 0 || system().dofs().diaphragm_of_node[n] >= 0) return false;
-  if (!inertia.at_node[n].head<3>().isZero(0) || !system().patches_of_node(node).empty()) return false;
-  for (const Support& support : model.supports)
-    if (support.node == node && !support.stiffness.head<3>().isZero(0)) return false;
-  for (const int shell : system().shells_of_node(node))
-    if (core().shell_removed[static_cast<std::size_t>(shell)] == 0) return false;
-  for (const int beam : system().beams_of_node(node)) {
-    const BeamTarget& target = core().targets[static_cast<std::size_t>(beam)];
-    const Beam& b = model.beams[static_cast<std::size_t>(beam)];
-    for (std::size_t end = 0; end < 2; ++end)
-      if (b.node[end] == node && !target.removed && !target.end_stiffness[end].isZero(0)) return false;
-  }
-  return true;
+  if (model.shells[i].density != 0) return true;
+  const Mat24* stiffness = nullptr;
+  if (const auto own = model.shell_stiffness.find(shell); own != model.shell_stiffness.end()) stiffness = &own->second;
+  if (const auto next = core().given_stiffness.find(shell); next != core().given_stiffness.end())
+    stiffness = &next->second;
+  if (stiffness == nullptr) return true;
+  for (std::size_t corner = 0; corner < 4; ++corner)
+    if (model.shells[i].node[corner] == node &&
+        !stiffness->middleRows<6>(static_cast<Eigen::Index>(6 * corner)).isZero(0))
+      return true;
+  return false;
 }
 
-/// A node that holds nothing any more and has no mass is left out.
+/// The nodes to which what holds this one goes on, itself first; none where something of them has mass, or a support.
+std::vector<int> FrameDynamics::State::bare_part(int start) {
+  const FrameModel& model = system().model;
+  std::vector<int> part{start};
+  const auto reach = [&](int node) {
+    if (std::find(part.begin(), part.end(), node) == part.end()) part.push_back(node);
+  };
+  for (std::size_t next = 0; next < part.size(); ++next) {
+    const int node = part[next];
+    const auto n = static_cast<std::size_t>(node);
+    if (system().node_stands[n] == 0) continue;
+    if (system().dofs().diaphragm_of_node[n] >= 0 || !inertia.at_node[n].head<3>().isZero(0)) return {};
+    if (!system().patches_of_node(node).empty()) return {};
+    for (const Support& support : model.supports)
+      if (support.node == node && !support.stiffness.head<3>().isZero(0)) return {};
+    for (const int beam : system().beams_of_node(node)) {
+      const BeamTarget& target = core().targets[static_cast<std::size_t>(beam)];
+      const Beam& b = model.beams[static_cast<std::size_t>(beam)];
+      if (target.removed) continue;
+      for (std::size_t end = 0; end < 2; ++end) {
+        if (b.node[end] != node || target.end_stiffness[end].isZero(0)) continue;
+        if (target.density != 0) return {};
+        if (!target.end_stiffness[1 - end].isZero(0)) reach(b.node[1 - end]);
+      }
+    }
+    for (const int shell : system().shells_of_node(node)) {
+      if (!shell_holds(shell, node)) continue;
+      if (model.shells[static_cast<std::size_t>(shell)].density != 0) return {};
+      for (const int corner : model.shells[static_cast<std::size_t>(shell)].node)
+        if (shell_holds(shell, corner)) reach(corner);
+    }
+  }
+  return part;
+}
+
+/// A part without mass on nothing that holds it is left out: often a node to which nothing holds any more.
 void FrameDynamics::State::drop_bare_nodes() {
   std::vector<int> nodes;
   const auto look_at = [&](const auto& element_nodes) {
-    for (const int node : element_nodes)
-      if (bare(node)) nodes.push_back(node);
+    for (const int node : element_nodes) {
+      if (system().node_stands[static_cast<std::size_t>(node)] == 0) continue;
+      const std::vector<int> part = bare_part(node);
+      nodes.insert(nodes.end(), part.begin(), part.end());
+    }
   };
   for (const int beam : core().changed_beams) look_at(system().model.beams[static_cast<std::size_t>(beam)].node);
   for (const int shell : core().changed_shells) look_at(system().model.shells[static_cast<std::size_t>(shell)].node);
+  for (const auto& [shell, stiffness] : core().given_stiffness)
+    look_at(system().model.shells[static_cast<std::size_t>(shell)].node);
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   if (!nodes.empty()) frame.drop_nodes(nodes);
@@ -128,6 +167,7 @@ void FrameDynamics::State::clear_dropped() {
     if (system().node_stands[n] != 0) continue;
     for (int e = first[n]; e < first[n + 1]; ++e) before.u(e) = before.v(e) = before.a(e) = 0;
   }
+  for (Eigen::VectorXd* values : {&before.u, &before.v, &before.a}) system().drop_idle_motion(*values);
 }
 
 void FrameDynamics::State::add_on_rigid_ends(int beam, const Vec12& local, Eigen::VectorXd& force) const {

@@ -15,7 +15,7 @@ constexpr double entry_cost = 10, correction_cost = 4;
 BaseFactor::BaseFactor(const FrameSystem& system) : system_(system) {
   for (int node = 0; node < static_cast<int>(system.model.nodes.size()); ++node) {
     if (system.dofs().diaphragm_of_node[static_cast<std::size_t>(node)] >= 0) {
-      diaphragm_node_before_.emplace(node, system.supports_and_inert_rotations(node));
+      diaphragm_node_before_.emplace(node, system.supports_and_inert_motions(node));
       continue;
     }
     const auto own = system.own_stiffness(node);

@@ -106,7 +106,7 @@ bool BaseFactor::plan_nodes() {
     const bool dropped = inside_dropped(std::span(&node, 1));
     if (system_.dofs().diaphragm_of_node[n] >= 0) {
       // Its own equations alone: what it shares with the diaphragm is not corrected for.
-      if (dropped || diaphragm_node_before_.at(node) != system_.supports_and_inert_rotations(node)) return false;
+      if (dropped || diaphragm_node_before_.at(node) != system_.supports_and_inert_motions(node)) return false;
       continue;
     }
     FrameSystem::NodeMatrix D = system_.own_stiffness(node);

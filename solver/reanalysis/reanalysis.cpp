@@ -217,7 +217,7 @@ LoadVector Reanalysis::State::force_on_standing(const LoadSet& loads) const {
   if (!answer.stable || !structure_stands)
     throw Instability("the structure does not stand: it has no response", answer.mechanism);
   LoadVector result = system->load_vector(loads);
-  system->drop_idle_moments(result);
+  system->drop_idle_loads(result);
   if (const auto defect = system->unbalanced_load(result, negligible_lever))
     throw Instability(defect->message, defect->motion);
   return result;
