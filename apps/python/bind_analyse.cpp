@@ -22,12 +22,12 @@ namespace {
 /// A str, or any iterable of them.
 std::vector<std::string> names_in(const py::object& given, const char* what) {
   if (given.is_none()) return {};
-  if (py::isinstance<py::str>(given)) return {given.cast<std::string>()};
+  if (py::isinstance<py::str>(given)) return {utf8_of(given)};
   std::vector<std::string> names;
   for (const py::handle one : py::iter(given)) {
     if (!py::isinstance<py::str>(one))
       throw py::type_error(std::string(what) + ": accepted: a name, or a list of names");
-    names.push_back(one.cast<std::string>());
+    names.push_back(utf8_of(one));
   }
   return names;
 }

@@ -17,23 +17,33 @@ namespace topple::python {
 
 using namespace structure;
 
+std::string utf8_of(const py::handle& text) {
+  Py_ssize_t length = 0;
+  const char* const bytes = PyUnicode_AsUTF8AndSize(text.ptr(), &length);
+  if (bytes == nullptr) throw py::error_already_set();
+  return {bytes, static_cast<std::size_t>(length)};
+}
+
 namespace {
 
-/// Throws for the first number that is not finite, with its place among dicts and lists.
-void refuse_not_finite(const py::handle& value, const std::string& path) {
+/// Throws for the first number that is not finite, with its place among dicts and lists; for none where they go deeper
+/// than any format, or round in a circle.
+void refuse_not_finite(const py::handle& value, const std::string& path, int depth = 0) {
+  constexpr int deepest = 200;
+  if (depth > deepest) return;
   if (py::isinstance<py::float_>(value)) {
     const auto number = value.cast<double>();
     if (std::isfinite(number)) return;
     const std::string found = std::isnan(number) ? "nan" : "inf";
     throw PlacedInputError({"dict", path}, "found " + found + "; accepted: a number that is finite");
   }
-  if (py::hasattr(value, "tolist")) return refuse_not_finite(value.attr("tolist")(), path);
+  if (py::hasattr(value, "tolist")) return refuse_not_finite(value.attr("tolist")(), path, depth + 1);
   if (py::isinstance<py::dict>(value)) {
     for (const auto& [key, item] : py::reinterpret_borrow<py::dict>(value))
-      refuse_not_finite(item, path + (path.empty() ? "" : ".") + std::string(py::str(key)));
+      refuse_not_finite(item, path + (path.empty() ? "" : ".") + utf8_of(py::str(key)), depth + 1);
   } else if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) {
     std::size_t place = 0;
-    for (const py::handle item : value) refuse_not_finite(item, path + "[" + std::to_string(place++) + "]");
+    for (const py::handle item : value) refuse_not_finite(item, path + "[" + std::to_string(place++) + "]", depth + 1);
   }
 }
 
@@ -48,11 +58,10 @@ std::string json_text(const py::handle& value) {
                          "; accepted: what JSON can hold, numpy numbers and arrays, paths");
   });
   try {
-    return py::module_::import("json")
-        .attr("dumps")(value, py::arg("default") = plain, py::arg("ensure_ascii") = false, py::arg("allow_nan") = false)
-        .cast<std::string>();
+    return utf8_of(py::module_::import("json").attr("dumps")(
+        value, py::arg("default") = plain, py::arg("ensure_ascii") = false, py::arg("allow_nan") = false));
   } catch (py::error_already_set& error) {
-    if (error.matches(PyExc_ValueError)) refuse_not_finite(value, {});
+    if (error.matches(PyExc_ValueError) && !error.matches(PyExc_UnicodeError)) refuse_not_finite(value, {});
     throw;
   }
 }
@@ -60,8 +69,8 @@ std::string json_text(const py::handle& value) {
 py::object json_object(const std::string& text) { return py::module_::import("json").attr("loads")(text); }
 
 std::optional<std::string> path_of(const py::handle& value) {
-  if (py::isinstance<py::str>(value)) return value.cast<std::string>();
-  if (py::hasattr(value, "__fspath__")) return py::str(value.attr("__fspath__")()).cast<std::string>();
+  if (py::isinstance<py::str>(value)) return utf8_of(value);
+  if (py::hasattr(value, "__fspath__")) return utf8_of(py::str(value.attr("__fspath__")()));
   return std::nullopt;
 }
 

@@ -7,6 +7,7 @@
 #include "bindings.h"
 #include "simulation.h"
 #include "simulation_bindings.h"
+#include "topple/structure/number_range.h"
 
 namespace topple::python {
 
@@ -90,11 +91,13 @@ void bind_stepping(Bound& simulation) {
       .def(
           "run",
           [](SimulationHost& host, std::optional<double> until) {
+            constexpr NumberRange times{0, ranges::session.most};
+            if (until) require_in(times, *until, "until");
             return host.advance(std::numeric_limits<std::int64_t>::max(), until, true);
           },
           py::arg("until") = py::none(),
           "Steps to a time (s), or until the run is finished, over idle time at once. Returns what happened, as "
-          "`events` has it. Ctrl-C ends it between two steps.")
+          "`events` has it. Ctrl-C ends it between two steps. Raises InputError.")
       .def_property_readonly(
           "finished", [](SimulationHost& h) { return h.with([](Simulation& s) { return s.finished(); }); },
           "True when the duration is over, or all is at rest and nothing is to come.")

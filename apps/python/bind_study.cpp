@@ -40,6 +40,9 @@ StudyValue value_of(const py::handle& given) {
     value.json = json_text(given);
   else
     value.number = py::float_(py::reinterpret_borrow<py::object>(given));
+  if (value.is_number() && !std::isfinite(value.number))
+    throw py::value_error("found " + std::string(std::isnan(value.number) ? "nan" : "inf") +
+                          "; accepted: a number that is finite");
   return value;
 }
 
@@ -80,7 +83,11 @@ Distribution listed(Distribution::Kind kind, const py::iterable& values,
                     const std::optional<std::vector<double>>& weights) {
   Distribution d;
   d.kind = kind;
-  for (const py::handle value : values) d.values.push_back(value_of(value));
+  constexpr std::size_t most = 1'000'000;
+  for (const py::handle value : values) {
+    if (d.values.size() == most) throw py::value_error("accepted: at most " + std::to_string(most) + " values");
+    d.values.push_back(value_of(value));
+  }
   if (d.values.empty()) throw py::value_error("accepted: at least one value");
   if (!weights) return d;
   const auto sound = [](double w) { return std::isfinite(w) && w >= 0; };
@@ -263,8 +270,8 @@ std::shared_ptr<StudyResult> run(const StudyHost& host, const py::object& functi
     throw py::type_error(host.of_file() ? "run: a study of a file has no function" : "run: function is missing");
   StudyTask task = host.task;
   if (!host.of_file()) {
-    task.outputs = py::isinstance<py::str>(outputs) ? std::vector{outputs.cast<std::string>()}
-                                                    : outputs.cast<std::vector<std::string>>();
+    task.outputs =
+        py::isinstance<py::str>(outputs) ? std::vector{utf8_of(outputs)} : outputs.cast<std::vector<std::string>>();
     if (task.outputs.empty()) throw py::value_error("run: outputs: accepted: names of what the function returns");
     std::string all = host.described + "\n" + version;
     for (const std::string& name : task.outputs) all += "\n" + name;
@@ -334,7 +341,11 @@ std::shared_ptr<StudyResult> run(const StudyHost& host, const py::object& functi
 void bind_distributions(py::module_& module) {
   py::class_<Distribution>(module, "Distribution", "How a variable of a Study is spread.")
       .def(
-          "quantile", [](const Distribution& d, double share) { return object_of(d.quantile(share)); },
+          "quantile",
+          [](const Distribution& d, double share) {
+            if (!(share > 0 && share < 1)) throw py::value_error("quantile: accepted: a share above 0 and below 1");
+            return object_of(d.quantile(share));
+          },
           py::arg("share"), "The value below which a share of it lies, 0 < share < 1.");
   module.def("uniform", &uniform, py::arg("low"), py::arg("high"),
              "Evenly spread from low to high. Raises ValueError.");

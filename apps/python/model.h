@@ -50,6 +50,9 @@ template <class Id>
   return names;
 }
 
+/// A str as UTF-8. Throws Python's UnicodeEncodeError for one that has none (half a surrogate pair), TypeError for what
+/// is no str.
+[[nodiscard]] std::string utf8_of(const py::handle& text);
 /// A dict (or anything that json can write, numpy numbers and arrays included) as JSON text.
 [[nodiscard]] std::string json_text(const py::handle& value);
 /// JSON text as Python objects.
