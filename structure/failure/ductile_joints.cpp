@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/index_of.h"
+#include "model/member_shape.h"
 
 namespace topple::structure {
 

@@ -8,8 +8,8 @@
 // base + x (answer - base). Between two events (a hinge forms, turns back, a joint breaks) everything is linear in x.
 #include <vector>
 
+#include "failure/panel_bearings.h"
 #include "failure/segmentation.h"
-#include "standing/energy_account.h"
 #include "standing/frame_statics.h"
 
 namespace topple::structure {

@@ -18,12 +18,12 @@ void StandingFrame::State::apply(const Change& change) {
   std::visit(Overloaded{[&](const BreakJoint& one) { break_joint(one.joint, one.cause); },
                         [&](MemberId member) { remove(member); }, [&](PanelId panel) { remove(panel); },
                         [&](const RemoveSupport& one) {
-                          if (node_solved[index_of(one.node)]) account.lose_support(one.node);
+                          if (node_solved[index_of(one.node)]) account.change(one.node).lose_support(one.node);
                           parts.segments.remove_support(one.node);
                           statics.remove_support(one.node);
                         },
                         [&](const EventLoad& one) {
-                          account.add_load(one.node, one.load);
+                          if (node_solved[index_of(one.node)]) account.change(one.node).add_load(one.node, one.load);
                           loads.add_load(one.node, one.load);
                         },
                         [&](const Gravity& one) {
@@ -79,7 +79,7 @@ void StandingFrame::State::damage(JointId joint, int told) {
 
 /// Everything but segmentation, which knows already.
 void StandingFrame::State::lose_member_joint(JointId joint, int told) {
-  account.lose_joint(joint, told);
+  account.change(building[joint].member).lose_joint(joint, told);
   const Joint& own = building[joint];
   const NodeId node = building[own.member].nodes[static_cast<std::size_t>(own.end)];
   statics.break_joint(own.member, own.end);
@@ -95,7 +95,7 @@ void StandingFrame::State::lose_member_joint(JointId joint, int told) {
   // A node without members: a support that bears nothing, or about to leave. The solver has no stiffness for it.
   take(parts.bearings.bare(node), nullptr);
   if (!node_solved[index_of(node)]) return;
-  account.drop(node);
+  account.change(node).drop(node);
   drop_node(node);
 }
 
@@ -108,14 +108,14 @@ void StandingFrame::State::drop_node(NodeId node) {
 }
 
 void StandingFrame::State::hand_on_anew(PanelId panel) {
-  account.hand_on(panel);
+  account.change(panel).hand_on(panel);
   loads.hand_on_anew(panel);
 }
 
 /// `leaving`: those that leave in the same change, by their numbers.
 void StandingFrame::State::take(const PanelBearings::Changes& changes, std::vector<Detached>* leaving) {
   for (PanelId panel : changes.lost_membrane) {
-    account.lose_membrane(panel);
+    account.change(panel).lose_membrane(panel);
     statics.remove_membrane(panel);
   }
   const auto settle_edges = [&](PanelId panel) {
@@ -143,13 +143,12 @@ void StandingFrame::State::take(const PanelBearings::Changes& changes, std::vect
 
 /// A membrane keeps what stiffness its remains have while all of its edges hold.
 void StandingFrame::State::fracture(PanelId panel, const PanelRemains& remains) {
-  account.lighten(panel);
   if (!parts.bearings.serves(panel)) return fracture_shell(panel, remains);
   const bool membrane = parts.bearings.membrane(panel);
   parts.bearings.fracture(panel, remains.edge_length);
   const TributaryLoads before = loads.handed(panel);
   loads.fracture(panel, remains);
-  account.lightened(panel, before, loads.handed(panel));
+  account.change(panel).lighten(panel, before, loads.handed(panel));
   to_check[static_cast<std::size_t>(components.of(panel))] = 1;
   if (membrane) condense(panel, remains);
   break_bare_edges(panel, remains);
@@ -184,7 +183,7 @@ void StandingFrame::State::remove(MemberId member) {
     lose_member_joint(joint, -1);
   }
   parts.segments.remove(member);
-  account.leave(member);
+  account.change(member).leave(member);
   statics.remove(member);
   contacts.drop(member);
   take(parts.bearings.leave({{{member, -1}}, {}}), nullptr);
@@ -219,7 +218,7 @@ void StandingFrame::State::remove(PanelId panel) {
     return;
   }
   if (parts.bearings.membrane(panel)) {
-    account.lose_membrane(panel);
+    account.change(panel).lose_membrane(panel);
     statics.remove_membrane(panel);
   }
   parts.bearings.remove(panel);

@@ -219,7 +219,7 @@ void StandingFrame::set_stiffness_factor(MemberId member, double factor) {
   if (!(factor > 0 && factor <= 1)) throw std::invalid_argument("a stiffness factor must be above 0 and at most 1");
   State& state = *state_;
   if (!state.stands(member) || state.statics.stiffness(member) == factor) return;
-  state.account.soften(member);
+  state.account.change(member).soften(member);
   state.statics.set_stiffness(member, factor);
   state.softened = state.pending = true;
 }

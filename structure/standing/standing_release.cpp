@@ -39,14 +39,14 @@ void StandingFrame::State::take_unanchored() {
       leaving[p].mechanism = leaving[p].mechanism || in_mechanism[index_of(member)];
       if (const auto cut = cut_inside.extract(member)) leaving[p].cut = cut.mapped();
       contacts.drop(member);
-      account.leave(member);
+      account.change(member).leave(member);
       statics.remove(member);
       for (int end = 0; end < 2; ++end) yielding.lose(building.joint(member, end), statics.component(member));
       to_check[static_cast<std::size_t>(statics.component(member))] = 1;
     }
     for (NodeId node : loose[p].nodes) {
       left.nodes.emplace_back(node, static_cast<int>(p));
-      if (node_solved[index_of(node)]) account.leave(node);
+      if (node_solved[index_of(node)]) account.change(node).leave(node);
       drop_node(node);
     }
   }
@@ -106,7 +106,7 @@ void StandingFrame::State::release_mechanism(const FrameMechanism& mechanism) {
   for (JointId joint : part.holds) let_hang(joint);
   release_moving_shells(part.nodes);
   for (NodeId node : part.nodes) {
-    if (node_solved[index_of(node)]) account.lose_support(node);
+    if (node_solved[index_of(node)]) account.change(node).lose_support(node);
     parts.segments.remove_support(node);
     statics.remove_support(node);
   }

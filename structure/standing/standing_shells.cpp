@@ -30,7 +30,7 @@ std::optional<PanelStress> StandingFrame::State::stress(PanelId panel) const {
 
 void StandingFrame::State::replace_stiffness(PanelId panel, const Eigen::MatrixXd& before) {
   const Eigen::MatrixXd now = shells.of(panel)->stiffness();
-  account.soften(panel, before - now);
+  account.change(panel).soften(panel, before - now);
   statics.set_stiffness(panel, now);
 }
 
@@ -41,7 +41,7 @@ void StandingFrame::State::fracture_shell(PanelId panel, const PanelRemains& rem
   shells.of(panel)->fracture(remains);
   replace_stiffness(panel, stiffness);
   loads.fracture(panel, remains);
-  account.lightened(panel, before, loads.handed(panel));
+  account.change(panel).lighten(panel, before, loads.handed(panel));
   contacts.place_again(panel);
   let_go_of_bare_nodes(panel);
   to_check[static_cast<std::size_t>(components.of(panel))] = 1;
@@ -57,7 +57,7 @@ void StandingFrame::State::lose_edge_supports(PanelId panel, int edge) {
     std::vector<NodeId> held = building[panel].edge_nodes[e];
     for (const std::size_t corner : {e, (e + 1) % 4}) held.push_back(building[panel].nodes[corner]);
     for (const NodeId node : held) {
-      if (node_solved[index_of(node)]) account.lose_support(node, statics.reaction(node, s));
+      if (node_solved[index_of(node)]) account.change(node).lose_support(node, statics.reaction(node, s));
       statics.remove_support(node, s);
     }
   }
@@ -81,11 +81,11 @@ void StandingFrame::State::lose_shell_edge(PanelId panel, int edge) {
 /// The panel stands no more: its stiffness and its load go with it.
 void StandingFrame::State::leave_shell(PanelId panel) {
   if (statics.stiff(panel)) {
-    account.lose_membrane(panel);
+    account.change(panel).lose_membrane(panel);
     statics.remove_membrane(panel);
   }
   for (int edge = 0; edge < 4; ++edge) lose_edge_supports(panel, edge);
-  account.hand_on(panel);
+  account.change(panel).hand_on(panel);
   loads.remove(panel);
   for (int edge = 0; edge < 4; ++edge) joints.lose(building.joint(panel, edge));
   let_go_of_bare_nodes(panel);
@@ -101,7 +101,7 @@ void StandingFrame::State::let_go_of_bare_nodes(PanelId panel) {
     parts.segments.detach(panel, nodes[n]);
     if (!node_solved[index_of(nodes[n])] || parts.segments.degree(nodes[n]) > 0) continue;
     take(parts.bearings.bare(nodes[n]), nullptr);
-    account.drop(nodes[n]);
+    account.change(nodes[n]).drop(nodes[n]);
     drop_node(nodes[n]);
   }
 }

@@ -12,7 +12,7 @@
 #include "loads/frame_loads.h"
 #include "standing/component_parts.h"
 #include "standing/contact_loads.h"
-#include "standing/energy_account.h"
+#include "standing/energy/energy_account.h"
 #include "standing/frame_response.h"
 #include "standing/motion/standing_motion.h"
 #include "standing/panel_superelements.h"

@@ -83,7 +83,7 @@ double YieldingWay::demand_in_base(const PlasticHinge& hinge) const {
 
 double YieldingWay::plastic_rotation_in_answer(const PlasticHinge& hinge) const {
   const Joint& own = building_[hinge.joint];
-  const MemberShape shape = from_.account.shape_now(own.member);
+  const MemberShape shape = from_.account.now().shape(own.member);
   return shape.rigid_end(own.end)(hinge.axis) - shape.end(own.end)(hinge.axis) - hinge.held / own.stiffness(hinge.axis);
 }
 
@@ -127,7 +127,7 @@ void YieldingWay::move_base(int c, double part, double energy) {
   for (PlasticHinge& hinge : ductile_.hinges(c)) {
     if (!hinge.yields) continue;
     const double turned = part * path.direction * (plastic_rotation_in_answer(hinge) - hinge.plastic_rotation);
-    from_.account.dissipate(building_[hinge.joint].member, hinge.held * turned);
+    from_.account.change(building_[hinge.joint].member).dissipate(hinge.held * turned);
     hinge.plastic_rotation += turned;
   }
   for (JointId joint : from_.components.joints[static_cast<std::size_t>(c)])
@@ -274,7 +274,7 @@ bool YieldingWay::turns_out_alone(PlasticHinge& hinge, double held) {
   tell_yield(hinge, held);
   from_.joints.remember(hinge.joint, 1);
   hinge.plastic_rotation += std::copysign(amount, held);
-  from_.account.dissipate(own.member, amount * std::abs(held));
+  from_.account.change(own.member).dissipate(amount * std::abs(held));
   path.surplus = std::max(0.0, path.surplus + gain * amount);
   if (amount >= left) return true;
   unload(hinge);
@@ -293,10 +293,10 @@ std::optional<std::vector<JointId>> YieldingWay::swing(int c, const FrameMechani
   double resisted = 0, largest = 0, fastest = 0, loaded = 0;
   const auto rigid = [&](MemberId member) {
     const auto& nodes = building_[member].nodes;
-    return MemberShape(
-        from_.statics.beam(member), solver::Vec12::Zero(),
-        from_.account.rigid_ends(member, mechanism.motion[index_of(nodes[0])], mechanism.motion[index_of(nodes[1])]),
-        {});
+    return MemberShape(from_.statics.beam(member), solver::Vec12::Zero(),
+                       from_.account.now().rigid_ends(member, mechanism.motion[index_of(nodes[0])],
+                                                      mechanism.motion[index_of(nodes[1])]),
+                       {});
   };
   for (PlasticHinge& hinge : ductile_.hinges(c)) {
     if (!hinge.yields || !from_.parts.standing(hinge.joint)) continue;
@@ -342,7 +342,7 @@ std::optional<std::vector<JointId>> YieldingWay::swing(int c, const FrameMechani
   if (arrested) amount = path.surplus / -gain;
   for (const auto& [hinge, rate] : turning) {
     hinge->plastic_rotation += amount * rate;
-    from_.account.dissipate(building_[hinge->joint].member, amount * rate * hinge->held);
+    from_.account.change(building_[hinge->joint].member).dissipate(amount * rate * hinge->held);
   }
   ductile_.move_base(c, mechanism.motion, sign * amount);
   path.surplus = std::max(0.0, path.surplus + gain * amount);

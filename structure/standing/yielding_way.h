@@ -8,7 +8,7 @@
 #include "failure/ductile_joints.h"
 #include "failure/joint_states.h"
 #include "standing/component_parts.h"
-#include "standing/energy_account.h"
+#include "standing/energy/energy_account.h"
 #include "standing/standing_parts.h"
 
 namespace topple::structure {

@@ -177,3 +177,56 @@ TEST_CASE("the way to rest needs no frame around it: a fixed beam sheds what its
   const double turn = force * length * length / (16 * E * Iy) - moment * length / (2 * E * Iy);
   CHECK(account.energy().dissipated == Approx(2 * moment * turn).epsilon(1e-6));
 }
+
+TEST_CASE("energies need no frame around them: a sudden load frees Clapeyron's half, a break what was stored") {
+  const double length = 6, force = 1e4, stored = force * force * length * length * length / (6 * E * Iy);
+  constexpr double rounding = 1e-9;  // relative, of a solve of 12 equations
+  FrameBuilder f;
+  const NodeId root = f.node("R", 0, 0, 3), middle = f.node("M", length / 2, 0, 3), tip = f.node("T", length, 0, 3);
+  f.member("RM", MemberKind::beam, root, middle);
+  const MemberId outer = f.member("MT", MemberKind::beam, middle, tip);
+  f.support(root);
+  f.load_case();
+  Parts all(f.building);
+  const std::vector<std::vector<topple::solver::BeamLoad>> applied(2);
+  const SolvedFrame now{f.building, all.parts.segments, all.parts.bearings, all.loads, all.statics, all.node_solved,
+                        applied};
+  const int c = all.statics.component(outer);
+  StateOfRest rest(now);
+  rest.record(c);
+  CHECK(rest.elastic(c, {}) == 0);
+  std::vector<JointBreak> lines;
+
+  ChangeFromRest loaded(now, rest);
+  loaded.write(tip, Vec6::Zero());
+  const Vec6 load = (Vec6() << 0, 0, -force, 0, 0, 0).finished();
+  all.loads.add_load(tip, load);
+  all.statics.set_load(tip, load);
+  REQUIRE_FALSE(all.statics.solve(c));
+  CHECK(loaded.finish(c, false, lines).freed == Approx(stored).epsilon(rounding));  // F u less 1/2 F u
+  loaded.hand_over(rest);
+  rest.record(c);
+  CHECK(rest.elastic(c, {}) == Approx(stored).epsilon(rounding));
+  CHECK(rest.load_work(c).other == Approx(2 * stored).epsilon(rounding));
+  CHECK(rest.displacement(tip)(2) == Approx(-2 * stored / force).epsilon(rounding));
+
+  // The outer half leaves with the load; the inner half springs back.
+  ChangeFromRest broken(now, rest);
+  const JointId joint = f.building.joint(outer, 0);
+  broken.lose_joint(joint, -1);
+  all.parts.segments.break_joint(joint);
+  REQUIRE(all.parts.segments.take_unanchored().size() == 1);
+  broken.leave(outer);
+  broken.leave(tip);
+  all.statics.remove(outer);
+  all.statics.drop({tip});
+  all.node_solved[static_cast<std::size_t>(tip.index)] = 0;
+  REQUIRE_FALSE(all.statics.solve(c));
+  const ChangeFromRest::Sums sums = broken.finish(c, false, lines);
+  CHECK(sums.freed == Approx(stored).epsilon(rounding));
+  CHECK(sums.left.other == Approx(2 * stored).epsilon(rounding));  // the work that the load has done stays done
+  broken.hand_over(rest);
+  rest.record(c);
+  // Nothing but rounding of what was there.
+  CHECK(std::abs(rest.elastic(c, {})) < rounding * stored);
+}
