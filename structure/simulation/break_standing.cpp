@@ -17,7 +17,7 @@
 namespace topple::structure {
 
 double Simulation::State::punching_force(PanelId id, const Vec3& along, double radius) const {
-  const Panel& panel = building[id];
+  const Panel& panel = scene.building[id];
   const BreakablePanel& breakable = breakable_panels[static_cast<std::size_t>(id.index)];
   if (!breakable.settings || std::abs(panel.axes.row(2).dot(along)) < debris_settings.flattest_punch) return unlimited;
   return breakable.tensile_strength * M_PI * panel.thickness * (2 * radius + panel.thickness);
@@ -31,7 +31,7 @@ double Simulation::State::punching_force(const Strike& hit) const {
 double Simulation::State::speed_through(const Strike& hit, double force) const {
   if (force == unlimited) return 0;
   const std::size_t panel = static_cast<std::size_t>(hit.part.panel.index);
-  const double work = force * building.panels[panel].thickness / 2;
+  const double work = force * scene.building.panels[panel].thickness / 2;
   const double left = hit.speed * hit.speed - 2 * work / hit.mass;
   return hit.speed > breakable_panels[panel].breaking_speed && left > 0 ? std::sqrt(left) : 0;
 }
@@ -59,7 +59,7 @@ double Simulation::State::break_out(Strike& hit) {
   double plug = 0;
   for (const PanelChunk& chunk : chunks) plug += chunk.hit ? chunk.rest.mass : 0;
   if (chunks.empty()) return 0;
-  record(SimulationEvent::Kind::panel_fractured, building[panel].name).position = hit.place.point;
+  log.record(SimulationEvent::Kind::panel_fractured, scene.building[panel].name).position = hit.place.point;
   hit.chunks = break_standing(panel, std::move(chunks));
   return plug;
 }
@@ -69,7 +69,7 @@ BrokenPanel& Simulation::State::breaking(PanelId panel) {
   if (const auto found = broken_panels.find(panel); found != broken_panels.end()) return found->second;
   const auto& settings = breakable_panels[static_cast<std::size_t>(panel.index)].settings;
   return broken_panels
-      .emplace(panel, BrokenPanel(building, panel, masses.of(panel).mass, shapes.corners(panel),
+      .emplace(panel, BrokenPanel(scene.building, panel, masses.of(panel).mass, shapes.corners(panel),
                                   settings.value_or(fracture::PanelSettings()), held(panel)))
       .first->second;
 }
@@ -90,22 +90,22 @@ const std::array<Simulation::State::EdgeBearers, 4>& Simulation::State::bearers(
   if (!made) return known->second;
   for (int edge = 0; edge < 4; ++edge) {
     EdgeBearers& own = known->second[static_cast<std::size_t>(edge)];
-    const auto on_edge = [&](NodeId node) { return lies_on_edge(building[shell], edge, node); };
-    for (const EdgeSupport& support : building.edge_supports)
+    const auto on_edge = [&](NodeId node) { return lies_on_edge(scene.building[shell], edge, node); };
+    for (const EdgeSupport& support : scene.building.edge_supports)
       own.supported = own.supported || (support.panel == shell && support.edge == edge);
-    for (const NodeSupport& support : building.supports) own.supported = own.supported || on_edge(support.node);
-    for (std::size_t m = 0; m < building.members.size(); ++m)
+    for (const NodeSupport& support : scene.building.supports) own.supported = own.supported || on_edge(support.node);
+    for (std::size_t m = 0; m < scene.building.members.size(); ++m)
       for (int end = 0; end < 2; ++end)
-        if (on_edge(building.members[m].nodes[static_cast<std::size_t>(end)]))
-          own.joints.push_back(building.joint(MemberId(m), end));
-    for (std::size_t p = 0; p < building.panels.size(); ++p) {
-      const Panel& other = building.panels[p];
+        if (on_edge(scene.building.members[m].nodes[static_cast<std::size_t>(end)]))
+          own.joints.push_back(scene.building.joint(MemberId(m), end));
+    for (std::size_t p = 0; p < scene.building.panels.size(); ++p) {
+      const Panel& other = scene.building.panels[p];
       if (PanelId(p) == shell || other.model != PanelModel::shell) continue;
       for (int of_other = 0; of_other < 4; ++of_other) {
         const std::vector<NodeId> nodes = other.all_nodes();
         if (std::any_of(nodes.begin(), nodes.end(),
                         [&](NodeId node) { return lies_on_edge(other, of_other, node) && on_edge(node); }))
-          own.joints.push_back(building.joint(PanelId(p), of_other));
+          own.joints.push_back(scene.building.joint(PanelId(p), of_other));
       }
     }
   }
@@ -115,17 +115,17 @@ const std::array<Simulation::State::EdgeBearers, 4>& Simulation::State::bearers(
 /// A joint holds an edge where something is there to hold it: of a shell, which joins at its corners, at supported
 /// edges and where members or other shells lie along it, that is not so for every edge.
 std::array<bool, 4> Simulation::State::held(PanelId panel) {
-  const bool shell = building[panel].model == PanelModel::shell;
+  const bool shell = scene.building[panel].model == PanelModel::shell;
   std::array<bool, 4> edges{};
   for (int edge = 0; edge < 4; ++edge) {
     bool& holds = edges[static_cast<std::size_t>(edge)];
-    holds = frame->intact(building.joint(panel, edge));
+    holds = scene.frame->intact(scene.building.joint(panel, edge));
     if (!holds || !shell) continue;
     const EdgeBearers& there = bearers(panel)[static_cast<std::size_t>(edge)];
     holds = there.supported || std::any_of(there.joints.begin(), there.joints.end(), [&](JointId joint) {
-              const Joint& other = building[joint];
-              return frame->intact(joint) &&
-                     (other.member.valid() ? frame->stands(other.member) : frame->stands(other.panel));
+              const Joint& other = scene.building[joint];
+              return scene.frame->intact(joint) &&
+                     (other.member.valid() ? scene.frame->stands(other.member) : scene.frame->stands(other.panel));
             });
   }
   return edges;
@@ -133,18 +133,18 @@ std::array<bool, 4> Simulation::State::held(PanelId panel) {
 
 /// Panels that have openings from the start have the shape of what is there.
 void Simulation::State::open_panels() {
-  for (std::size_t p = 0; p < building.panels.size(); ++p)
-    if (!building.panels[p].openings.empty()) shapes.set_broken(PanelId(p), breaking(PanelId(p)).hulls());
+  for (std::size_t p = 0; p < scene.building.panels.size(); ++p)
+    if (!scene.building.panels[p].openings.empty()) shapes.set_broken(PanelId(p), breaking(PanelId(p)).hulls());
 }
 
 /// Where the static stress passes what the material bears, a panel cracks at its largest; what that leaves is looked at
 /// again.
 void Simulation::State::crack_panels() {
-  for (std::size_t p = 0; p < building.panels.size(); ++p) {
+  for (std::size_t p = 0; p < scene.building.panels.size(); ++p) {
     const BreakablePanel& breakable = breakable_panels[p];
     const PanelId panel(p);
-    if (!breakable.settings || !frame->stands(panel)) continue;
-    const std::optional<PanelStress> stress = frame->stress(panel);
+    if (!breakable.settings || !scene.frame->stands(panel)) continue;
+    const std::optional<PanelStress> stress = scene.frame->stress(panel);
     if (!stress) continue;
     const double tension = stress->tension / breakable.tensile_strength;
     const double compression = stress->compression / breakable.compressive_strength;
@@ -152,7 +152,7 @@ void Simulation::State::crack_panels() {
     const Vec3 at = tension >= compression ? stress->tension_at : stress->compression_at;
     std::vector<PanelChunk> chunks = breaking(panel).hit(at, std::nullopt);
     if (chunks.empty()) continue;
-    record(SimulationEvent::Kind::panel_fractured, building[panel].name).position = at;
+    log.record(SimulationEvent::Kind::panel_fractured, scene.building[panel].name).position = at;
     (void)break_standing(panel, std::move(chunks));
   }
 }
@@ -163,19 +163,19 @@ std::vector<collision::BodyId> Simulation::State::break_standing(PanelId panel, 
   const BrokenPanel& left = broken_panels.at(panel);
   const Part part(panel);
   Vec3 sunk = Vec3::Zero();
-  for (const NodeId node : building[panel].nodes) sunk += frame->displacement(node).head<3>() / 4;
+  for (const NodeId node : scene.building[panel].nodes) sunk += scene.frame->displacement(node).head<3>() / 4;
   if (sunk.norm() > debris_settings.largest_start) sunk *= debris_settings.largest_start / sunk.norm();
 
-  frame->fracture(panel, left.remains());
+  scene.frame->fracture(panel, left.remains());
   if (left.hulls().empty()) {
     part_is_gone(part);
-    body_of_part[static_cast<std::size_t>(part_number(building, part))] = -2;
+    body_of_part[static_cast<std::size_t>(part_number(scene.building, part))] = -2;
   } else {
     masses.set(panel, left.rest());
     shapes.set_broken(panel, left.hulls());
-    timer.engine([&] { obstacles.renew(part, *world); });
+    scene.timer.engine([&] { obstacles.renew(part, *scene.world); });
     for (const collision::BodyId lying : resting.on(part))
-      if (bodies.contains(lying.value)) world->wake(lying);
+      if (bodies.contains(lying.value)) scene.world->wake(lying);
   }
 
   std::vector<collision::BodyId> out;
@@ -184,14 +184,14 @@ std::vector<collision::BodyId> Simulation::State::break_standing(PanelId panel, 
   for (PanelChunk& chunk : chunks) {
     const bool of_hit = chunk.hit;
     Body piece = chunk_body(panel, std::move(chunk), ++number);
-    if (piece.volume < scenario.debris.smallest_volume) {
+    if (piece.volume < scene.scenario.debris.smallest_volume) {
       dust += piece.rest.mass;
       continue;
     }
     const collision::BodyId id = add_body(std::move(piece), Vec3::Zero(), Vec3::Zero(), sunk);
     if (of_hit) out.push_back(id);
   }
-  if (dust > 0) record(SimulationEvent::Kind::limited, building[panel].name).mass = dust;
+  if (dust > 0) log.record(SimulationEvent::Kind::limited, scene.building[panel].name).mass = dust;
   return out;
 }
 
@@ -209,22 +209,22 @@ void Simulation::State::push_chunks(const Strike& hit) {
     touched.body = id;
     pass(hit.body->id, touched);
     const Vec3 gained = hit.speed_out * hit.normal;
-    collision::BodyState state = world->state(id);
+    collision::BodyState state = scene.world->state(id);
     state.velocity += gained;
-    ledger.lost_in_impacts -= bodies.at(id.value).rest.mass * gained.squaredNorm() / 2;
-    world->set_state(id, state);
+    sums.ledger.lost_in_impacts -= bodies.at(id.value).rest.mass * gained.squaredNorm() / 2;
+    scene.world->set_state(id, state);
   }
 }
 
 /// Where edges of broken panels have failed since, pieces that only they held leave.
 void Simulation::State::drop_loose_pieces() {
   for (auto& [panel, broken] : broken_panels) {
-    if (!frame->stands(panel)) continue;
+    if (!scene.frame->stands(panel)) continue;
     const std::array<bool, 4> now = held(panel);
     if (now == broken.held()) continue;
     std::vector<PanelChunk> loose = broken.hold(now);
     if (loose.empty()) continue;
-    record(SimulationEvent::Kind::panel_fractured, building[panel].name).position = loose.front().rest.centre;
+    log.record(SimulationEvent::Kind::panel_fractured, scene.building[panel].name).position = loose.front().rest.centre;
     (void)break_standing(panel, std::move(loose));
   }
 }

@@ -40,10 +40,10 @@ std::vector<Carrier> Simulation::what_carries(PanelId panel) const {
 std::vector<Carrier> Simulation::State::what_carries(const ContactPlace& place) const {
   constexpr double least = 0.01;  // smaller shares say nothing about where a load goes
   std::vector<Carrier> carriers;
-  if (!(place.member.valid() ? frame->stands(place.member) : frame->stands(place.panel))) return carriers;
-  const Vec3 down = gravity.norm() > 0 ? Vec3(gravity.normalized()) : Vec3(-Vec3::UnitZ());
-  for (const auto& [joint, demand] : frame->respond(place, down).demands) {
-    const double share = std::abs(global_force(building, joint, demand).dot(down));
+  if (!(place.member.valid() ? scene.frame->stands(place.member) : scene.frame->stands(place.panel))) return carriers;
+  const Vec3 down = scene.gravity.norm() > 0 ? Vec3(scene.gravity.normalized()) : Vec3(-Vec3::UnitZ());
+  for (const auto& [joint, demand] : scene.frame->respond(place, down).demands) {
+    const double share = std::abs(global_force(scene.building, joint, demand).dot(down));
     if (share >= least) carriers.push_back({joint, share});
   }
   std::stable_sort(carriers.begin(), carriers.end(),
@@ -54,8 +54,8 @@ std::vector<Carrier> Simulation::State::what_carries(const ContactPlace& place) 
 std::vector<std::pair<JointId, Utilisation>> Simulation::next_to_break(std::size_t count) const {
   const State& s = *state_;
   std::vector<std::pair<JointId, Utilisation>> closest;
-  for (std::size_t i = 0; i < s.building.joints.size(); ++i) {
-    const Utilisation used = s.frame->utilisation(JointId(i));
+  for (std::size_t i = 0; i < s.scene.building.joints.size(); ++i) {
+    const Utilisation used = s.scene.frame->utilisation(JointId(i));
     if (used.value > 0) closest.emplace_back(JointId(i), used);
   }
   count = std::min(count, closest.size());

@@ -8,19 +8,19 @@
 namespace topple::structure {
 
 Building Simulation::State::building_at_start() const {
-  Building start = building;
+  Building start = scene.building;
   for (const auto& [joint, capacity] : given_capacities)
     start.joints[static_cast<std::size_t>(joint.index)].capacity = capacity;
   return start;
 }
 
 Snapshot Simulation::save() const {
-  return {state_->step, hash(), scene_hash(state_->building_at_start(), state_->scenario), state_->actions};
+  return {state_->scene.step, hash(), scene_hash(state_->building_at_start(), state_->scene.scenario), state_->actions};
 }
 
 /// Steps over idle time at once, but no farther than `last`.
 void Simulation::run_to(std::int64_t last) {
-  while (state_->step < last) {
+  while (state_->scene.step < last) {
     skip_idle_before(last);
     step();
   }
@@ -32,12 +32,12 @@ void Simulation::restore(const Snapshot& snapshot) {
   // What another building would refuse by a crash is refused here by its name.
   for (const Snapshot::Action& action : snapshot.actions) now.require_parts(action);
   Building start = now.building_at_start();
-  if (snapshot.scene != scene_hash(start, now.scenario))
+  if (snapshot.scene != scene_hash(start, now.scene.scenario))
     throw InputError("the snapshot is of another scene: its model, its scenario or what was tuned in them differs");
-  auto listeners = std::move(now.listeners);
+  auto listeners = now.log.take_listeners();
   std::unique_ptr<State> left = std::move(state_);
   try {
-    state_ = std::make_unique<State>(std::move(start), left->scenario, left->options);
+    state_ = std::make_unique<State>(std::move(start), left->scene.scenario, left->scene.options);
     for (const Snapshot::Action& action : snapshot.actions) {
       run_to(action.step);
       if (const Tool* tool = std::get_if<Tool>(&action.what))
@@ -53,11 +53,10 @@ void Simulation::restore(const Snapshot& snapshot) {
                        std::to_string(snapshot.step) + ": another program made it");
   } catch (...) {
     state_ = std::move(left);
-    state_->listeners = std::move(listeners);
+    state_->log.set_listeners(std::move(listeners));
     throw;
   }
-  state_->listeners = std::move(listeners);
-  state_->events_heard = state_->events.size();
+  state_->log.set_listeners(std::move(listeners));
 }
 
 namespace {
@@ -72,8 +71,8 @@ void require(const std::vector<Id>& ids, std::size_t count) {
 }  // namespace
 
 void Simulation::State::require_parts(const Snapshot::Action& action) const {
-  const std::size_t members = building.members.size(), panels = building.panels.size();
-  const std::size_t joints = building.joints.size(), nodes = building.nodes.size();
+  const std::size_t members = scene.building.members.size(), panels = scene.building.panels.size();
+  const std::size_t joints = scene.building.joints.size(), nodes = scene.building.nodes.size();
   if (const auto* contact = std::get_if<HostContact>(&action.what)) {
     if (contact->member.valid()) require(std::vector{contact->member}, members);
     if (contact->panel.valid()) require(std::vector{contact->panel}, panels);

@@ -15,15 +15,15 @@ namespace topple::structure {
 
 void Simulation::step() {
   State& s = *state_;
-  ++s.step;
-  s.timer.start_step();
+  ++s.scene.step;
+  s.scene.timer.start_step();
   s.changes = {};
   s.host_impulses.clear();
   if (s.nothing_to_do()) {
-    ++s.counters.steps_idle;
+    ++s.sums.counters.steps_idle;
   } else {
     const auto timed = [&](Stage stage, const auto& work) {
-      return s.timer.stage(static_cast<std::size_t>(stage), work);
+      return s.scene.timer.stage(static_cast<std::size_t>(stage), work);
     };
     timed(Stage::load, [&] { s.use_tools(); });
     const auto contacts = timed(Stage::sweep, [&] { return s.sweep(); });
@@ -39,75 +39,42 @@ void Simulation::step() {
     timed(Stage::account, [&] { s.account(); });
   }
   s.record_rest_and_end();
-  s.call_listeners();
+  s.log.call_listeners();
 }
-
-namespace {
-
-double ground_height(const Building& building, const Scenario& scenario) {
-  if (scenario.ground) return *scenario.ground;
-  double lowest = unlimited;
-  for (const NodeSupport& support : building.supports) lowest = std::min(lowest, building[support.node].position.z());
-  for (const EdgeSupport& support : building.edge_supports)
-    for (const NodeId node : building[support.panel].nodes) lowest = std::min(lowest, building[node].position.z());
-  return lowest < unlimited ? lowest : 0;
-}
-
-CombinationId combination_of(const Building& building, const Scenario& scenario) {
-  if (scenario.combination) return *scenario.combination;
-  if (building.combinations.size() == 1) return CombinationId(0u);
-  throw InputError(scenario.file + ": combination: missing; the model has several and needs one to be named");
-}
-
-/// What moves has no factor of a sudden loss.
-FailureRules rules_of(const Scenario& scenario) {
-  FailureRules rules = scenario.failure;
-  if (scenario.standing == StandingRule::dynamics) rules.sudden = 1;
-  return rules;
-}
-
-}  // namespace
 
 Simulation::State::State(Building the_building, Scenario the_scenario, SimulationOptions the_options)
-    : building(std::move(the_building)),
-      scenario(std::move(the_scenario)),
-      options(std::move(the_options)),
-      gravity(0, 0, -building.gravity),
-      frame(std::make_unique<StandingFrame>(building, combination_of(building, scenario), rules_of(scenario),
-                                            options.threads)),
-      world(options.make_world ? options.make_world() : collision::make_bullet_world()),
-      masses(building, combination_of(building, scenario), *frame),
-      shapes(building),
-      grid(building, shapes),
-      obstacles(building, shapes, grid, scenario.debris.friction, scenario.debris.restitution),
-      strength_factors(building.joints.size(), 1.0),
-      body_of_part(part_count(building), -1),
-      debris_broken(building.joints.size(), 0),
-      stiffness_factors(building.members.size(), 1.0) {
+    : scene(std::move(the_building), std::move(the_scenario), std::move(the_options)),
+      log(scene),
+      masses(scene.building, scene.combination, *scene.frame),
+      shapes(scene.building),
+      grid(scene.building, shapes),
+      obstacles(scene.building, shapes, grid, scene.scenario.debris.friction, scene.scenario.debris.restitution),
+      body_of_part(part_count(scene.building), -1),
+      debris_broken(scene.building.joints.size(), 0),
+      stiffness_factors(scene.building.members.size(), 1.0) {
   find_breakable_panels();
-  if (sways()) {
-    std::optional<std::string> reason = why_it_stays_at_rest(building, scenario.failure);
+  if (scene.sways()) {
+    std::optional<std::string> reason = why_it_stays_at_rest(scene.building, scene.scenario.failure);
     if (any_breakable) reason = "panels that break do not move";
     if (reason)
-      throw InputError((scenario.file.empty() ? "scenario" : scenario.file) +
+      throw InputError((scene.scenario.file.empty() ? "scenario" : scene.scenario.file) +
                        ": standing: \"dynamic\" is not possible: " + *reason + "; accepted: \"static\"");
-    frame->let_move(scenario.step);
+    scene.frame->let_move(scene.scenario.step);
   }
   open_panels();
-  world->set_gravity(gravity);
-  world->set_ground(ground_height(building, scenario), scenario.debris.friction, scenario.debris.restitution);
 }
 
 Simulation::State::~State() = default;
 
 bool Simulation::State::nothing_to_do() const {
-  if (step <= 1 || !asked.empty() || !touches.empty() || frame->pending() || world->awake_count() > 0) return false;
+  if (scene.step <= 1 || !asked.empty() || !touches.empty() || scene.frame->pending() || scene.world->awake_count() > 0)
+    return false;
   const double next = next_instant();
-  return next == unlimited || step_of(next, scenario.step) > step;
+  return next == unlimited || step_of(next, scene.scenario.step) > scene.step;
 }
 
 double Simulation::State::next_instant() const {
-  double next = next_event == scenario.events.size() ? unlimited : scenario.events[next_event].at;
+  double next = next_event == scene.scenario.events.size() ? unlimited : scene.scenario.events[next_event].at;
   for (const Weakening& weakening : weakenings) next = std::min(next, weakening.next());
   return next;
 }
@@ -115,42 +82,6 @@ double Simulation::State::next_instant() const {
 Body* Simulation::State::body(collision::BodyId id) {
   const auto found = bodies.find(id.value);
   return found == bodies.end() ? nullptr : &found->second;
-}
-
-Vec3 Simulation::State::joint_position(JointId id) const {
-  const Joint& joint = building[id];
-  if (joint.member.valid()) {
-    const Member& member = building[joint.member];
-    const auto end = static_cast<std::size_t>(joint.end);
-    return building[member.nodes[end]].position + member.offsets[end];
-  }
-  const Panel& panel = building[joint.panel];
-  return (building[panel.nodes[static_cast<std::size_t>(joint.end)]].position +
-          building[panel.nodes[static_cast<std::size_t>((joint.end + 1) % 4)]].position) /
-         2;
-}
-
-SimulationEvent& Simulation::State::record(SimulationEvent::Kind kind, const std::string& name) {
-  SimulationEvent event;
-  event.time = time();
-  event.step = step;
-  event.kind = kind;
-  event.name = name;
-  events.push_back(std::move(event));
-  return events.back();
-}
-
-void Simulation::State::call_listeners() {
-  for (; events_heard < events.size(); ++events_heard)
-    for (const auto& listener : listeners) listener(SimulationEvent(events[events_heard]));
-}
-
-void Simulation::State::record(const JointBreak& broken) {
-  const Joint& joint = building[broken.joint];
-  SimulationEvent& event =
-      record(SimulationEvent::Kind::joint_broke, broken.inside ? building[joint.member].name : joint.name);
-  event.joint = broken;
-  event.position = broken.position;
 }
 
 Simulation::Simulation(Building building, Scenario scenario, SimulationOptions options) {
@@ -162,55 +93,56 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
 std::int64_t Simulation::skip_idle() {
-  return skip_idle_before(step_of(state_->scenario.duration, state_->scenario.step));
+  return skip_idle_before(step_of(state_->scene.scenario.duration, state_->scene.scenario.step));
 }
 
 /// Passes over idle steps, at most to the one before `end`.
 std::int64_t Simulation::skip_idle_before(std::int64_t end) {
   State& s = *state_;
   std::int64_t passed = 0;
-  if (s.step < 1 || !s.asked.empty() || !s.touches.empty() || s.frame->pending() || s.world->awake_count() > 0)
+  if (s.scene.step < 1 || !s.asked.empty() || !s.touches.empty() || s.scene.frame->pending() ||
+      s.scene.world->awake_count() > 0)
     return 0;
   const double instant = s.next_instant();
-  const std::int64_t next = instant < unlimited ? std::min(end, step_of(instant, s.scenario.step)) : end;
-  passed = std::max<std::int64_t>(0, next - 1 - s.step);
-  s.step += passed;
-  s.counters.steps_idle += static_cast<std::uint64_t>(passed);
+  const std::int64_t next = instant < unlimited ? std::min(end, step_of(instant, s.scene.scenario.step)) : end;
+  passed = std::max<std::int64_t>(0, next - 1 - s.scene.step);
+  s.scene.step += passed;
+  s.sums.counters.steps_idle += static_cast<std::uint64_t>(passed);
   return passed;
 }
 
 bool Simulation::finished() const { return state_->finished(); }
-double Simulation::time() const { return state_->time(); }
-std::int64_t Simulation::steps() const { return state_->step; }
+double Simulation::time() const { return state_->scene.time(); }
+std::int64_t Simulation::steps() const { return state_->scene.step; }
 bool Simulation::at_rest() const { return state_->rests(); }
 void Simulation::apply(const Tool& tool) {
-  require_tool(state_->building, tool);
+  require_tool(state_->scene.building, tool);
   state_->asked.push_back(tool);
-  state_->actions.push_back({state_->step, tool});
+  state_->actions.push_back({state_->scene.step, tool});
 }
 void Simulation::on_event(std::function<void(const SimulationEvent&)> listener) {
-  state_->listeners.push_back(std::move(listener));
+  state_->log.listen(std::move(listener));
 }
-std::span<const SimulationEvent> Simulation::events() const { return state_->events; }
-const Building& Simulation::building() const { return state_->building; }
-const Scenario& Simulation::scenario() const { return state_->scenario; }
-const StandingFrame& Simulation::frame() const { return *state_->frame; }
+std::span<const SimulationEvent> Simulation::events() const { return state_->log.events(); }
+const Building& Simulation::building() const { return state_->scene.building; }
+const Scenario& Simulation::scenario() const { return state_->scene.scenario; }
+const StandingFrame& Simulation::frame() const { return *state_->scene.frame; }
 std::span<const BodyView> Simulation::bodies() const { return state_->views; }
 std::span<const double> Simulation::poses() const { return *state_->poses; }
 std::shared_ptr<const std::vector<double>> Simulation::held_poses() const { return state_->poses; }
 const PieceChanges& Simulation::changes() const { return state_->changes; }
 
 collision::BodyId Simulation::body_of(MemberId member) const {
-  require_id(state_->building, member, "body_of");
+  require_id(state_->scene.building, member, "body_of");
   return {state_->body_of_part[static_cast<std::size_t>(member.index)]};
 }
 collision::BodyId Simulation::body_of(PanelId panel) const {
-  require_id(state_->building, panel, "body_of");
-  return {state_->body_of_part[static_cast<std::size_t>(part_number(state_->building, Part(panel)))]};
+  require_id(state_->scene.building, panel, "body_of");
+  return {state_->body_of_part[static_cast<std::size_t>(part_number(state_->scene.building, Part(panel)))]};
 }
 
 std::shared_ptr<const fracture::Mesh> Simulation::broken_panel(PanelId panel) const {
-  require_id(state_->building, panel, "broken_panel");
+  require_id(state_->scene.building, panel, "broken_panel");
   const BrokenPanel* broken = state_->broken_panel(panel);
   return broken ? broken->mesh() : nullptr;
 }
@@ -223,9 +155,9 @@ std::optional<Simulation::RayHit> Simulation::ray_cast(const Vec3& from, const V
   RayHit nearest;
   nearest.distance = sight;
   bool found = false;
-  for (std::size_t i = 0; i < part_count(s.building); ++i) {
-    const Part part = part_of_number(s.building, static_cast<std::int64_t>(i));
-    if (!s.stands(part)) continue;
+  for (std::size_t i = 0; i < part_count(s.scene.building); ++i) {
+    const Part part = part_of_number(s.scene.building, static_cast<std::int64_t>(i));
+    if (!s.scene.stands(part)) continue;
     const BrokenPanel* broken = part.panel.valid() ? s.broken_panel(part.panel) : nullptr;
     const auto distance = broken ? broken->ray(from, n) : s.shapes.ray(part, from, n);
     if (!distance || *distance >= nearest.distance) continue;
@@ -234,7 +166,7 @@ std::optional<Simulation::RayHit> Simulation::ray_cast(const Vec3& from, const V
     nearest.distance = *distance;
     found = true;
   }
-  if (const auto hit = s.world->ray_cast(from, from + sight * n); hit && hit->distance < nearest.distance) {
+  if (const auto hit = s.scene.world->ray_cast(from, from + sight * n); hit && hit->distance < nearest.distance) {
     const Part part =
         hit->what.kind == collision::Touched::Kind::obstacle ? s.obstacles.part_of(hit->what.obstacle) : Part();
     nearest = {part.member, part.panel, hit->what.body, hit->point, hit->distance};
@@ -247,12 +179,12 @@ std::optional<Simulation::RayHit> Simulation::ray_cast(const Vec3& from, const V
 
 const Ledger& Simulation::ledger() const {
   state_->account_now();
-  return state_->ledger;
+  return state_->sums.ledger;
 }
 
 const SimulationCounters& Simulation::counters() const {
-  const FrameCounters& frame = state_->frame->counters();
-  SimulationCounters& counters = state_->counters;
+  const FrameCounters& frame = state_->scene.frame->counters();
+  SimulationCounters& counters = state_->sums.counters;
   counters.solves = frame.solves;
   counters.low_rank = frame.low_rank;
   counters.refactorisations = frame.refactorisations;
@@ -263,8 +195,8 @@ const SimulationCounters& Simulation::counters() const {
   return counters;
 }
 
-const std::array<double, 6>& Simulation::stage_seconds() const { return state_->timer.stages(); }
-double Simulation::collision_engine_seconds() const { return state_->timer.engine_seconds(); }
+const std::array<double, 6>& Simulation::stage_seconds() const { return state_->scene.timer.stages(); }
+double Simulation::collision_engine_seconds() const { return state_->scene.timer.engine_seconds(); }
 
 std::uint64_t Simulation::hash() const {
   const State& s = *state_;
@@ -275,17 +207,17 @@ std::uint64_t Simulation::hash() const {
     std::sort(order.begin(), order.end(), [&](auto a, auto b) { return things[a].name < things[b].name; });
     return order;
   };
-  for (const std::size_t i : by_name(s.building.joints))
-    if (!s.holds_in_debris(JointId(i))) hash.add(s.building.joints[i].name);
-  for (const std::size_t i : by_name(s.building.nodes)) {
-    if (!s.frame->stands(NodeId(i))) continue;
-    hash.add(s.building.nodes[i].name);
-    hash.add(s.frame->displacement(NodeId(i)));
+  for (const std::size_t i : by_name(s.scene.building.joints))
+    if (!s.holds_in_debris(JointId(i))) hash.add(s.scene.building.joints[i].name);
+  for (const std::size_t i : by_name(s.scene.building.nodes)) {
+    if (!s.scene.frame->stands(NodeId(i))) continue;
+    hash.add(s.scene.building.nodes[i].name);
+    hash.add(s.scene.frame->displacement(NodeId(i)));
   }
   std::map<std::string, const Body*> named;
   for (const auto& [id, body] : s.bodies) named.emplace(body.name, &body);
   for (const auto& [name, body] : named) {
-    const collision::BodyState state = s.world->state(body->id);
+    const collision::BodyState state = s.scene.world->state(body->id);
     hash.add(name);
     hash.add(state.pose.position);
     hash.add(Eigen::Vector4d(state.pose.orientation.coeffs()));

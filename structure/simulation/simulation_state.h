@@ -2,7 +2,8 @@
 // What a Simulation is made of, and its stages. Each stage has a file of its own.
 #include <map>
 
-#include "simulation/accounts/stage_timer.h"
+#include "simulation/accounts/event_log.h"
+#include "simulation/accounts/running_sums.h"
 #include "simulation/debris/bodies.h"
 #include "simulation/debris/obstacles.h"
 #include "simulation/debris/part_masses.h"
@@ -14,7 +15,7 @@
 #include "simulation/impact/pressing_forces.h"
 #include "simulation/impact/rigid_mobility.h"
 #include "simulation/impact/struck_joints.h"
-#include "topple/structure/simulation.h"
+#include "simulation/scene.h"
 
 namespace topple::structure {
 
@@ -85,7 +86,6 @@ struct Simulation::State {
   void go_on(SimultaneousImpact& pushed, const Eigen::VectorXd& shift);
   void send_on(SimultaneousImpact& pushed);
   void break_generations();
-  [[nodiscard]] bool sways() const { return scenario.standing == StandingRule::dynamics; }
 
   /// Momentum that an impact gave to what it broke off, handed over when that part becomes a body.
   struct ReleaseImpulse {
@@ -277,23 +277,11 @@ struct Simulation::State {
   /// When the next event or stage acts; unlimited when none is to come.
   [[nodiscard]] double next_instant() const;
   [[nodiscard]] bool finished() const;
-  [[nodiscard]] double time() const { return static_cast<double>(step) * scenario.step; }
-  [[nodiscard]] VelocityReading reading() const { return {gravity * scenario.step / 2}; }
-  [[nodiscard]] bool stands(Part part) const {
-    return part.member.valid() ? frame->stands(part.member) : frame->stands(part.panel);
-  }
-  [[nodiscard]] Vec3 joint_position(JointId joint) const;
-  SimulationEvent& record(SimulationEvent::Kind kind, const std::string& name);
-  void record(const JointBreak& broken);
-  void call_listeners();
   Body* body(collision::BodyId id);
 
-  Building building;
-  Scenario scenario;
-  SimulationOptions options;
-  Vec3 gravity;
-  std::unique_ptr<StandingFrame> frame;
-  std::unique_ptr<collision::World> world;
+  Scene scene;
+  EventLog log;
+  RunningSums sums;
   PartMasses masses;
   PartShapes shapes;
   PartGrid grid;
@@ -307,7 +295,6 @@ struct Simulation::State {
     MassProperties mass;
   };
   std::vector<Frozen> frozen;
-  std::vector<double> strength_factors;  ///< per joint
   Bodies bodies;
   std::vector<std::int64_t> body_of_part;  ///< by part number; -1 stands, -2 gone
 
@@ -332,7 +319,6 @@ struct Simulation::State {
   };
   std::map<std::int64_t, StruckClock> struck;
 
-  std::int64_t step = 0;
   std::size_t next_event = 0;
   std::vector<Weakening> weakenings;      ///< those with stages to come
   std::vector<double> stiffness_factors;  ///< per member
@@ -352,16 +338,8 @@ struct Simulation::State {
   std::int64_t last_hinge_load = 0;         ///< keys of their loads go down from -1
   bool was_at_rest = false, done_told = false;
 
-  std::vector<SimulationEvent> events;
-  std::vector<std::function<void(const SimulationEvent&)>> listeners;
-  std::size_t events_heard = 0;
-  Ledger ledger;
-  double body_gravity_work = 0, body_work_put_in = 0;
-  double kinetic_released = 0;  ///< J that parts of what stands took along as they left
-  SimulationCounters counters;
   collision::OverlapWatch overlap_watch;
   BodyOverlaps overlaps;
-  StageTimer timer;
   std::vector<BodyView> views;
   std::shared_ptr<std::vector<double>> poses = std::make_shared<std::vector<double>>();
   PieceChanges changes;

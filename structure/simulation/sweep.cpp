@@ -10,8 +10,8 @@ namespace topple::structure {
 
 /// Of a body in this step: its way, and how far its turn takes a point that is `radius` from its centre.
 Simulation::State::Sweep Simulation::State::sweep_of(const collision::BodyState& state, double radius) const {
-  const double dt = scenario.step;
-  return {reading().true_velocity(state.velocity) * dt + gravity * dt * dt / 2,
+  const double dt = scene.scenario.step;
+  return {scene.reading().true_velocity(state.velocity) * dt + scene.gravity * dt * dt / 2,
           state.angular_velocity.norm() * dt * radius};
 }
 
@@ -60,7 +60,7 @@ void Simulation::State::approach(BodyMotion& one, const collision::BodyState& st
     one.looked_over.add(Vec3(swept.high + Vec3::Constant(debris_settings.look_ahead)));
     near = obstacles.without_shape(one.looked_over);
   }
-  if (!near.empty()) obstacles.approach(near, swept, *frame, *world);
+  if (!near.empty()) obstacles.approach(near, swept, *scene.frame, *scene.world);
   const auto [travel, turned_by] = sweep_of(state, one.reach);
   double room = (swept.low - one.looked_over.low).cwiseMin(one.looked_over.high - swept.high).minCoeff();
   for (const Part part : near) room = std::min(room, gap(swept, shapes.bounds(part)));
@@ -71,16 +71,16 @@ std::vector<collision::Contact> Simulation::State::sweep() {
   struck.clear();
   release_impulses.clear();
   for (BodyMotion& one : bodies.motions()) {
-    const collision::BodyState state = world->state({one.id});
+    const collision::BodyState state = scene.world->state({one.id});
     one.step_start = state.pose.position;
     if (!state.asleep) approach(one, state);
   }
-  if (world->awake_count() == 0) return {};
+  if (scene.world->awake_count() == 0) return {};
   // Bodies are looked for where some can break against each other.
   const bool any_composed = std::any_of(bodies.composed().begin(), bodies.composed().end(),
                                         [&](std::int64_t id) { return !bodies.motion(id).asleep || may_break({id}); });
   const collision::Sweep what = any_composed ? collision::Sweep::everything : collision::Sweep::obstacles;
-  return timer.engine([&] { return world->sweep(scenario.step, what, impact_settings.least_speed); });
+  return scene.timer.engine([&] { return scene.world->sweep(scene.scenario.step, what, impact_settings.least_speed); });
 }
 
 }  // namespace topple::structure

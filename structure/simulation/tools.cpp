@@ -8,24 +8,25 @@
 namespace topple::structure {
 
 void Simulation::set_capacities(std::span<const std::pair<JointId, JointCapacity>> capacities) {
-  require_capacities(state_->building, capacities);
-  state_->actions.push_back({state_->step, CapacityChange{{capacities.begin(), capacities.end()}}});
+  require_capacities(state_->scene.building, capacities);
+  state_->actions.push_back({state_->scene.step, CapacityChange{{capacities.begin(), capacities.end()}}});
   for (const auto& [joint, capacity] : capacities) {
-    JointCapacity& own = state_->building.joints[static_cast<std::size_t>(joint.index)].capacity;
+    JointCapacity& own = state_->scene.building.joints[static_cast<std::size_t>(joint.index)].capacity;
     state_->given_capacities.try_emplace(joint, own);
     const JointCapacity before = std::exchange(own, capacity);
     // Hinges are made where a ductile sense has a capacity from the start; one that gets it later breaks at once.
     for (std::size_t sense = 0; sense < 7; ++sense)
       if (before.value[sense] == unlimited) own.ductility[sense] = 0;
-    state_->frame->capacity_changed(joint);
+    state_->scene.frame->capacity_changed(joint);
   }
 }
 
 void Simulation::State::use_tools() {
-  for (; next_event < scenario.events.size() && step_of(scenario.events[next_event].at, scenario.step) <= step;
+  for (; next_event < scene.scenario.events.size() &&
+         step_of(scene.scenario.events[next_event].at, scene.scenario.step) <= scene.step;
        ++next_event)
-    use_at(scenario.events[next_event].at, scenario.events[next_event].tool);
-  for (const Tool& tool : std::exchange(asked, {})) use_at(time(), tool);
+    use_at(scene.scenario.events[next_event].at, scene.scenario.events[next_event].tool);
+  for (const Tool& tool : std::exchange(asked, {})) use_at(scene.time(), tool);
   use_stages();
 }
 
@@ -47,8 +48,8 @@ collision::BodyId Simulation::State::launch(const std::string& kind, const Vec3&
   sphere.volume = 4.0 / 3.0 * M_PI * radius * radius * radius;
   sphere.bounds.add(Vec3::Constant(-radius));
   sphere.bounds.add(Vec3::Constant(radius));
-  body_work_put_in += mass * velocity.squaredNorm() / 2;
-  SimulationEvent& event = record(SimulationEvent::Kind::tool, kind);
+  sums.body_work_put_in += mass * velocity.squaredNorm() / 2;
+  SimulationEvent& event = log.record(SimulationEvent::Kind::tool, kind);
   event.mass = mass;
   event.position = from;
   return add_body(std::move(sphere), velocity, Vec3::Zero(), Vec3::Zero());
@@ -56,38 +57,38 @@ collision::BodyId Simulation::State::launch(const std::string& kind, const Vec3&
 
 void Simulation::State::use(const WreckingBall& ball) {
   const collision::BodyId id = launch("wrecking ball", ball.from, ball.mass, ball.radius, Vec3::Zero());
-  cables[id.value] = {world->add_cable({id, ball.anchor, ball.cable}), ball.anchor};
+  cables[id.value] = {scene.world->add_cable({id, ball.anchor, ball.cable}), ball.anchor};
 }
 
 void Simulation::State::use(const CutTool& cut) {
-  record(SimulationEvent::Kind::tool, "cut");
+  log.record(SimulationEvent::Kind::tool, "cut");
   for (const JointId joint : cut.joints)
-    if (frame->intact(joint)) frame->break_joint(joint, BreakCause::tool);
+    if (scene.frame->intact(joint)) scene.frame->break_joint(joint, BreakCause::tool);
 }
 
 void Simulation::State::use(const RemoveTool& remove) {
-  record(SimulationEvent::Kind::tool, "remove");
+  log.record(SimulationEvent::Kind::tool, "remove");
   for (const MemberId member : remove.members) {
-    if (!frame->stands(member)) continue;
-    frame->remove(member);
+    if (!scene.frame->stands(member)) continue;
+    scene.frame->remove(member);
     body_of_part[static_cast<std::size_t>(member.index)] = -2;
     part_is_gone(Part(member));
   }
   for (const PanelId panel : remove.panels) {
-    if (!frame->stands(panel)) continue;
-    frame->remove(panel);
-    body_of_part[static_cast<std::size_t>(part_number(building, Part(panel)))] = -2;
+    if (!scene.frame->stands(panel)) continue;
+    scene.frame->remove(panel);
+    body_of_part[static_cast<std::size_t>(part_number(scene.building, Part(panel)))] = -2;
     part_is_gone(Part(panel));
   }
-  for (const NodeId support : remove.supports) frame->remove_support(support);
+  for (const NodeId support : remove.supports) scene.frame->remove_support(support);
 }
 
 void Simulation::State::use(const ChargeTool& charge) {
-  record(SimulationEvent::Kind::tool, "charge").position = charge.centre;
-  for (std::size_t i = 0; i < building.joints.size(); ++i) {
+  log.record(SimulationEvent::Kind::tool, "charge").position = charge.centre;
+  for (std::size_t i = 0; i < scene.building.joints.size(); ++i) {
     const JointId joint(i);
-    if (!building[joint].capacity.breakable || !frame->intact(joint)) continue;
-    const double distance = (joint_position(joint) - charge.centre).norm();
+    if (!scene.building[joint].capacity.breakable || !scene.frame->intact(joint)) continue;
+    const double distance = (scene.joint_position(joint) - charge.centre).norm();
     if (distance > charge.radius) continue;
     const double factor =
         charge.strength_at_centre + (charge.strength_at_radius - charge.strength_at_centre) * distance / charge.radius;
@@ -96,24 +97,24 @@ void Simulation::State::use(const ChargeTool& charge) {
 }
 
 void Simulation::State::use(const GravityTool& tool) {
-  record(SimulationEvent::Kind::tool, "gravity");
-  const VelocityReading old = reading();
-  gravity = tool.gravity;
-  frame->set_gravity(gravity);
-  world->set_gravity(gravity);
+  log.record(SimulationEvent::Kind::tool, "gravity");
+  const VelocityReading old = scene.reading();
+  scene.gravity = tool.gravity;
+  scene.frame->set_gravity(scene.gravity);
+  scene.world->set_gravity(scene.gravity);
   for (auto& [id, one] : bodies) {  // the true velocity stays
-    collision::BodyState state = world->state(one.id);
-    if (!state.asleep) state.velocity = reading().to_world(old.true_velocity(state.velocity));
+    collision::BodyState state = scene.world->state(one.id);
+    if (!state.asleep) state.velocity = scene.reading().to_world(old.true_velocity(state.velocity));
     state.asleep = false;
-    world->set_state(one.id, state);
-    world->wake(one.id);
+    scene.world->set_state(one.id, state);
+    scene.world->wake(one.id);
   }
 }
 
 void Simulation::State::use(const LoadTool& load) {
-  record(SimulationEvent::Kind::tool, "load");
+  log.record(SimulationEvent::Kind::tool, "load");
   for (const NodeLoad& one : load.nodes)
-    if (frame->stands(one.node)) frame->add_load(one.node, one.load);
+    if (scene.frame->stands(one.node)) scene.frame->add_load(one.node, one.load);
 }
 
 }  // namespace topple::structure

@@ -9,13 +9,13 @@ void Simulation::State::use(const WeakenTool& tool) { weakenings.push_back({tool
 
 void Simulation::State::use_stages() {
   for (Weakening& weakening : weakenings)
-    while (!weakening.over() && step_of(weakening.next(), scenario.step) <= step) use_stage(weakening);
+    while (!weakening.over() && step_of(weakening.next(), scene.scenario.step) <= scene.step) use_stage(weakening);
   std::erase_if(weakenings, [](const Weakening& weakening) { return weakening.over(); });
 }
 
 void Simulation::State::use_stage(Weakening& weakening) {
   const WeakenTool& tool = weakening.tool;
-  record(SimulationEvent::Kind::tool, "weaken");
+  log.record(SimulationEvent::Kind::tool, "weaken");
   const auto change = [&](double last) {
     return weakening.after(weakening.stage + 1, last) / weakening.after(weakening.stage, last);
   };
@@ -23,22 +23,22 @@ void Simulation::State::use_stage(Weakening& weakening) {
   ++weakening.stage;
   for (const JointId joint : tool.joints) weaken(joint, strength);
   for (const MemberId member : tool.members) {
-    if (stiffness == 1 || !frame->stands(member)) continue;
+    if (stiffness == 1 || !scene.frame->stands(member)) continue;
     double& factor = stiffness_factors[static_cast<std::size_t>(member.index)];
     factor *= stiffness;
-    frame->set_stiffness_factor(member, factor);
+    scene.frame->set_stiffness_factor(member, factor);
   }
 }
 
 /// Multiplies a joint's strength; one that is left with none breaks.
 void Simulation::State::weaken(JointId joint, double change) {
-  if (change == 1 || !building[joint].capacity.breakable || !frame->intact(joint)) return;
+  if (change == 1 || !scene.building[joint].capacity.breakable || !scene.frame->intact(joint)) return;
   if (change > 0) {
-    double& factor = strength_factors[static_cast<std::size_t>(joint.index)];
+    double& factor = scene.strength_factors[static_cast<std::size_t>(joint.index)];
     factor *= change;
-    frame->set_strength_factor(joint, factor);
+    scene.frame->set_strength_factor(joint, factor);
   } else {
-    frame->break_joint(joint, BreakCause::tool);
+    scene.frame->break_joint(joint, BreakCause::tool);
   }
 }
 

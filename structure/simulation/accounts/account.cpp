@@ -7,11 +7,11 @@
 namespace topple::structure {
 
 void Simulation::State::move() {
-  for (BodyMotion& one : bodies.motions()) one.before = world->state({one.id});
-  if (world->awake_count() == 0) return;
-  timer.engine([&] { world->step(scenario.step); });
+  for (BodyMotion& one : bodies.motions()) one.before = scene.world->state({one.id});
+  if (scene.world->awake_count() == 0) return;
+  scene.timer.engine([&] { scene.world->step(scene.scenario.step); });
   watch_overlaps();
-  ++counters.collision_steps;
+  ++sums.counters.collision_steps;
 }
 
 void Simulation::State::account() {
@@ -19,9 +19,9 @@ void Simulation::State::account() {
   pull_hinges();
   for (BodyMotion& one : bodies.motions()) account_body(one);
   auto next = bodies.motions().begin();  // asked for in order of id
-  resting.read(contact_records, obstacles, scenario.step, [&](collision::BodyId id) {
+  resting.read(contact_records, obstacles, scene.scenario.step, [&](collision::BodyId id) {
     while (next != bodies.motions().end() && next->id < id.value) ++next;
-    return next != bodies.motions().end() && next->id == id.value && !world->state(id).asleep;
+    return next != bodies.motions().end() && next->id == id.value && !scene.world->state(id).asleep;
   });
   shatter_landed();
   const std::map<PanelId, PanelImpact> impacts = impacts_on_panels();
@@ -34,23 +34,23 @@ void Simulation::State::account() {
 /// The collision world measures what each contact took from the bodies, in the same reading of velocities.
 void Simulation::State::account_contacts() {
   contact_records.clear();
-  for (const collision::Contact& contact : world->contacts()) {
-    ledger.lost_in_contacts += contact.work_lost;
+  for (const collision::Contact& contact : scene.world->contacts()) {
+    sums.ledger.lost_in_contacts += contact.work_lost;
     if (is_felt(contact)) contact_records.push_back(felt(contact));
   }
-  for (const auto& [id, hung] : cables) ledger.lost_in_contacts += world->cable_pull(hung.cable).work_lost;
+  for (const auto& [id, hung] : cables) sums.ledger.lost_in_contacts += scene.world->cable_pull(hung.cable).work_lost;
 }
 
 void Simulation::State::account_body(BodyMotion& one) {
-  const collision::BodyState after = world->state({one.id});
+  const collision::BodyState after = scene.world->state({one.id});
   if (one.asleep && after.asleep) return;
-  const Vec3 weight = one.mass * gravity;
-  body_gravity_work += weight.dot(after.pose.position - one.step_start);
+  const Vec3 weight = one.mass * scene.gravity;
+  sums.body_gravity_work += weight.dot(after.pose.position - one.step_start);
   if (one.asleep != after.asleep) {  // a body at rest is read as having no velocity at all, and does not move
     collision::BodyState awake = one.before;
     awake.asleep = false;
-    const Kinetic kinetic = kinetic_energy(*one.body, awake, reading());
-    ledger.lost_in_contacts += (after.asleep ? 1 : -1) * (kinetic.translation + kinetic.rotation);
+    const Kinetic kinetic = kinetic_energy(*one.body, awake, scene.reading());
+    sums.ledger.lost_in_contacts += (after.asleep ? 1 : -1) * (kinetic.translation + kinetic.rotation);
     one.asleep = after.asleep;
   }
 }
@@ -92,7 +92,7 @@ void Simulation::State::update_views() {
   poses->clear();
   poses->reserve(7 * views.size());
   for (BodyView& view : views) {
-    const collision::BodyState state = world->state(view.id);
+    const collision::BodyState state = scene.world->state(view.id);
     view.pose = state.pose;
     view.asleep = state.asleep;
     const Vec3& at = state.pose.position;
@@ -120,42 +120,32 @@ void Simulation::State::record_changes(std::span<const std::int64_t> before) {
 }
 
 bool Simulation::State::rests() const {
-  return step > 0 && world->awake_count() == 0 && !frame->pending() && asked.empty() && touches.empty() &&
-         next_instant() == unlimited;
+  return scene.step > 0 && scene.world->awake_count() == 0 && !scene.frame->pending() && asked.empty() &&
+         touches.empty() && next_instant() == unlimited;
 }
 
 bool Simulation::State::finished() const {
-  return step >= step_of(scenario.duration, scenario.step) || (scenario.until_rest && rests());
+  return scene.step >= step_of(scene.scenario.duration, scene.scenario.step) || (scene.scenario.until_rest && rests());
 }
 
 void Simulation::State::record_rest_and_end() {
   const bool resting_now = rests();
-  if (resting_now && !was_at_rest) record(SimulationEvent::Kind::at_rest, "");
+  if (resting_now && !was_at_rest) log.record(SimulationEvent::Kind::at_rest, "");
   was_at_rest = resting_now;
   if (done_told || !finished()) return;
   done_told = true;
-  record(SimulationEvent::Kind::done, "");
+  log.record(SimulationEvent::Kind::done, "");
 }
 
 /// Brings the ledger's entries that are states, not sums, up to date.
 void Simulation::State::account_now() {
-  const FrameEnergy energy = frame->energy();
-  ledger.elastic = energy.elastic;
-  // What left took its motion along: that energy is the bodies' now.
-  ledger.freed_by_breaks = energy.freed - kinetic_released;
-  ledger.kinetic_standing = energy.kinetic;
-  ledger.damped = energy.damped;
-  ledger.lost_in_integration = energy.numerical;
-  ledger.dissipated_in_joints = energy.dissipated;
-  // The loads were laid on slowly before time began, and what lies on the frame goes down with it.
-  ledger.gravity_work = energy.elastic_at_start + energy.gravity_work + energy.contact_work + body_gravity_work;
-  ledger.work_put_in = body_work_put_in + energy.other_work;
-  ledger.kinetic_translation = ledger.kinetic_rotation = 0;
+  double translation = 0, rotation = 0;
   for (const auto& [id, one] : bodies) {
-    const Kinetic kinetic = kinetic_energy(one, world->state(one.id), reading());
-    ledger.kinetic_translation += kinetic.translation;
-    ledger.kinetic_rotation += kinetic.rotation;
+    const Kinetic kinetic = kinetic_energy(one, scene.world->state(one.id), scene.reading());
+    translation += kinetic.translation;
+    rotation += kinetic.rotation;
   }
+  sums.bring_up_to_date(scene.frame->energy(), translation, rotation);
 }
 
 }  // namespace topple::structure

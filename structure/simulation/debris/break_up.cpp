@@ -16,18 +16,18 @@
 namespace topple::structure {
 
 bool Simulation::State::holds_in_debris(JointId joint) const {
-  return frame->intact(joint) && debris_broken[static_cast<std::size_t>(joint.index)] == 0;
+  return scene.frame->intact(joint) && debris_broken[static_cast<std::size_t>(joint.index)] == 0;
 }
 
 /// Only where a panel can break: others come down whole, with what most of their corners are joined to.
 std::optional<std::array<double, 4>> Simulation::State::free_panel_edges(PanelId id) const {
   if (!breakable_panels[static_cast<std::size_t>(id.index)].settings) return std::nullopt;
-  const Panel& panel = building[id];
+  const Panel& panel = scene.building[id];
   const BrokenPanel* broken = broken_panel(id);
   std::array<double, 4> length{};
   for (std::size_t edge = 0; edge < 4; ++edge) {
-    if (!holds_in_debris(building.joint(id, static_cast<int>(edge)))) continue;
-    const Vec3 way = building[panel.nodes[(edge + 1) % 4]].position - building[panel.nodes[edge]].position;
+    if (!holds_in_debris(scene.building.joint(id, static_cast<int>(edge)))) continue;
+    const Vec3 way = scene.building[panel.nodes[(edge + 1) % 4]].position - scene.building[panel.nodes[edge]].position;
     length[edge] = broken ? broken->edge_length(edge) : way.norm();
   }
   return length;
@@ -56,33 +56,34 @@ FreeSegmentParts Simulation::State::parts_of(const Body& one) const {
 }
 
 bool Simulation::State::spins_hard(const Body& one, const Vec3& spin) const {
-  return spin.squaredNorm() * (one.bounds.high - one.bounds.low).norm() / 2 > impact_settings.hard * building.gravity;
+  return spin.squaredNorm() * (one.bounds.high - one.bounds.low).norm() / 2 >
+         impact_settings.hard * scene.building.gravity;
 }
 
 /// Bodies of several parts that are pressed hard, or that spin fast, and what acts on them in their undeformed axes.
 std::vector<Simulation::State::BodyActions> Simulation::State::pressed_hard() {
-  pressing.read(contact_records, scenario.step, [&](collision::BodyId id) -> std::optional<BodyPlace> {
+  pressing.read(contact_records, scene.scenario.step, [&](collision::BodyId id) -> std::optional<BodyPlace> {
     const auto composed = bodies.composed();
     if (!std::binary_search(composed.begin(), composed.end(), id.value)) return std::nullopt;
-    return BodyPlace{world->state(id).pose, bodies.at(id.value).rest.centre};
+    return BodyPlace{scene.world->state(id).pose, bodies.at(id.value).rest.centre};
   });
   std::vector<BodyActions> all;
   for (const std::int64_t id : bodies.composed()) {
     const Body& one = bodies.at(id);
     if (bodies.motion(id).asleep || !may_fall_apart(one)) continue;
-    const collision::BodyState state = world->state(one.id);
-    if (pressing.size(one.id) <= impact_settings.hard * one.rest.mass * building.gravity &&
+    const collision::BodyState state = scene.world->state(one.id);
+    if (pressing.size(one.id) <= impact_settings.hard * one.rest.mass * scene.building.gravity &&
         !spins_hard(one, state.angular_velocity))
       continue;
     const Mat3 back = state.pose.orientation.toRotationMatrix().transpose();
-    all.push_back({one.id, pressing.on(one.id, building), back * state.angular_velocity, back * gravity});
+    all.push_back({one.id, pressing.on(one.id, scene.building), back * state.angular_velocity, back * scene.gravity});
   }
   return all;
 }
 
 /// One generation of each body after the other, until nothing breaks.
 void Simulation::State::break_up_landed() {
-  if (world->awake_count() == 0) return;
+  if (scene.world->awake_count() == 0) return;
   std::vector<BodyActions> fallen = pressed_hard();
   std::deque<BodyActions> waiting(std::make_move_iterator(fallen.begin()), std::make_move_iterator(fallen.end()));
   while (!waiting.empty()) {
@@ -114,8 +115,8 @@ FreeSegment& Simulation::State::free_segment_of(const Body& one) {
   std::unique_ptr<FreeSegment>& segment = free_segments[one.id.value];
   if (!segment)
     segment = std::make_unique<FreeSegment>(
-        building, parts_of(one), [&](JointId joint) { return holds_in_debris(joint); },
-        [&](PanelId shell) { return frame->shell_stiffness(shell); },
+        scene.building, parts_of(one), [&](JointId joint) { return holds_in_debris(joint); },
+        [&](PanelId shell) { return scene.frame->shell_stiffness(shell); },
         [&](PanelId panel) { return free_panel_edges(panel); });
   return *segment;
 }
@@ -129,8 +130,8 @@ bool Simulation::State::break_joints_of(const BodyActions& loading) {
   std::vector<std::pair<JointId, Utilisation>> over;
   double largest = 1;
   for (const auto& [joint, demand] : answer.demands) {
-    const Utilisation used =
-        utilisation(building[joint].capacity, demand, strength_factors[static_cast<std::size_t>(joint.index)]);
+    const Utilisation used = utilisation(scene.building[joint].capacity, demand,
+                                         scene.strength_factors[static_cast<std::size_t>(joint.index)]);
     if (!(used.value > 1)) continue;
     over.emplace_back(joint, used);
     largest = std::max(largest, used.value);
@@ -146,7 +147,7 @@ bool Simulation::State::break_joints_of(const BodyActions& loading) {
 /// What it is now: itself when it still hangs together.
 std::vector<collision::BodyId> Simulation::State::come_apart(collision::BodyId id) {
   const std::vector<FreeSegmentParts> parts = connected_parts(
-      building, parts_of(bodies.at(id.value)), [&](JointId joint) { return holds_in_debris(joint); },
+      scene.building, parts_of(bodies.at(id.value)), [&](JointId joint) { return holds_in_debris(joint); },
       [&](PanelId panel) { return free_panel_edges(panel); });
   if (parts.size() == 1) return {id};
   return split(id, parts);
@@ -155,14 +156,14 @@ std::vector<collision::BodyId> Simulation::State::come_apart(collision::BodyId i
 void Simulation::State::record_breaks_in_debris(const Body& one,
                                                 const std::vector<std::pair<JointId, Utilisation>>& broken,
                                                 int generation) {
-  const collision::BodyState state = world->state(one.id);
+  const collision::BodyState state = scene.world->state(one.id);
   const Mat3 turn = state.pose.orientation.toRotationMatrix();
   for (const auto& [joint, used] : broken) {
     debris_broken[static_cast<std::size_t>(joint.index)] = 1;
     JointBreak line = impact_break(joint, used);
     line.generation = generation;
-    line.position = state.pose.position + turn * (joint_position(joint) - one.rest.centre);
-    record(line);
+    line.position = state.pose.position + turn * (scene.joint_position(joint) - one.rest.centre);
+    log.record(line);
   }
 }
 
@@ -171,11 +172,11 @@ std::vector<collision::BodyId> Simulation::State::split(collision::BodyId id,
                                                         const std::vector<FreeSegmentParts>& parts,
                                                         std::vector<Body> chunks) {
   const Body whole = bodies.at(id.value);
-  const collision::BodyState state = world->state(id);
+  const collision::BodyState state = scene.world->state(id);
   const Mat3 turn = state.pose.orientation.toRotationMatrix();
-  (void)resting.forget(id, *frame, false);
+  (void)resting.forget(id, *scene.frame, false);
   const std::vector<JointId> hung = take_off(id);
-  timer.engine([&] { world->remove_body(id); });
+  scene.timer.engine([&] { scene.world->remove_body(id); });
   bodies.erase(id.value);
   free_segments.erase(id.value);
 
@@ -193,19 +194,19 @@ std::vector<collision::BodyId> Simulation::State::split(collision::BodyId id,
   // One that is too small to be a body takes its energy with it.
   const auto go_on = [&](Body own) {
     const collision::BodyState moving = motion_of(own);
-    if (own.volume < scenario.debris.smallest_volume) {
-      const Kinetic lost = kinetic_energy(own, moving, reading());
-      ledger.removed += lost.translation + lost.rotation;
+    if (own.volume < scene.scenario.debris.smallest_volume) {
+      const Kinetic lost = kinetic_energy(own, moving, scene.reading());
+      sums.ledger.removed += lost.translation + lost.rotation;
       for (const MemberId member : own.members) body_of_part[static_cast<std::size_t>(member.index)] = -2;
       for (const PanelId panel : own.panels)
-        body_of_part[static_cast<std::size_t>(part_number(building, Part(panel)))] = -2;
-      record(SimulationEvent::Kind::limited, own.name).mass = own.rest.mass;
+        body_of_part[static_cast<std::size_t>(part_number(scene.building, Part(panel)))] = -2;
+      log.record(SimulationEvent::Kind::limited, own.name).mass = own.rest.mass;
       handed_on.add(own, moving);
       return;
     }
     made.push_back(add_body(std::move(own), moving));
     bodies.motion(made.back().value).step_start = moving.pose.position;
-    handed_on.add(bodies.at(made.back().value), world->state(made.back()));
+    handed_on.add(bodies.at(made.back().value), scene.world->state(made.back()));
     changes.split.push_back({id.value, made.back().value});
   };
   for (const FreeSegmentParts& part : parts) {
@@ -217,7 +218,7 @@ std::vector<collision::BodyId> Simulation::State::split(collision::BodyId id,
     if (piece.members.empty() && piece.panels.empty() && mass <= 0) continue;  // a bare node
     Body own = describe(piece);
     if (parts.size() > 1) {
-      SimulationEvent& event = record(SimulationEvent::Kind::split, own.name);
+      SimulationEvent& event = log.record(SimulationEvent::Kind::split, own.name);
       event.members = own.members;
       event.panels = own.panels;
       event.mass = own.rest.mass;
@@ -227,7 +228,7 @@ std::vector<collision::BodyId> Simulation::State::split(collision::BodyId id,
   }
   const std::size_t parts_made = made.size();
   for (Body& chunk : chunks) go_on(std::move(chunk));
-  ledger.momentum_error = std::max(ledger.momentum_error, carried.error(handed_on));
+  sums.ledger.momentum_error = std::max(sums.ledger.momentum_error, carried.error(handed_on));
   hang_again(hung);
   // Parts are born inside each other where they were joined.
   for (std::size_t i = 0; i < parts_made; ++i)

@@ -38,24 +38,25 @@ fracture::Mesh box(const Vec3& half, const Mat3& axes, const Vec3& from_centre) 
 
 /// The piece at one end of a member that was cut at this fraction of its length. It takes along what lies on it.
 Body Simulation::State::piece_of(MemberId id, int end, double cut) const {
-  const Member& member = building[id];
+  const Member& member = scene.building[id];
   const double at = cut * member.length, from = end == 0 ? 0 : at, to = end == 0 ? at : member.length;
   Body piece;
   piece.name = member.name + "#" + std::to_string(end + 1);
   piece.chunk_of = piece_kind(member.kind);
-  piece.end_joint = building.joint(id, end);
-  piece.rest = masses.of(building, id, from, to);
+  piece.end_joint = scene.building.joint(id, end);
+  piece.rest = masses.of(scene.building, id, from, to);
   for (const Frozen& lying : frozen) {
     if (lying.on != Part(id)) continue;
-    const double where = (lying.mass.centre - member_start(building, member)).dot(member.axes.row(0));
+    const double where = (lying.mass.centre - member_start(scene.building, member)).dot(member.axes.row(0));
     if ((where < at) == (end == 0)) piece.rest.add(lying.mass);
   }
   const double share = (to - from) / member.length;
-  piece.volume = share * member_volume(building, member);
-  for (const Vec3& corner : shapes.corners(building, id, from, to)) piece.hull.push_back(corner - piece.rest.centre);
+  piece.volume = share * member_volume(scene.building, member);
+  for (const Vec3& corner : shapes.corners(scene.building, id, from, to))
+    piece.hull.push_back(corner - piece.rest.centre);
   for (const Vec3& corner : piece.hull) piece.bounds.add(corner);
-  const Vec2 size = section_size(building[member.section]);
-  const Vec3 middle = member_start(building, member) + (from + to) / 2 * member.axes.row(0).transpose();
+  const Vec2 size = section_size(scene.building[member.section]);
+  const Vec3 middle = member_start(scene.building, member) + (from + to) / 2 * member.axes.row(0).transpose();
   piece.mesh = std::make_shared<const fracture::Mesh>(
       box(Vec3(to - from, size.x(), size.y()) / 2, member.axes, middle - piece.rest.centre));
   return piece;
@@ -75,7 +76,7 @@ void Simulation::State::release_in_two(const Detached& part) {
   const Part gone(member);
   part_is_gone(gone);
   body_of_part[static_cast<std::size_t>(member.index)] = -2;
-  SimulationEvent& event = record(SimulationEvent::Kind::detached, whole.name);
+  SimulationEvent& event = log.record(SimulationEvent::Kind::detached, whole.name);
   event.members = whole.members;
   event.mass = whole.rest.mass;
   event.position = whole.rest.centre;
@@ -89,12 +90,12 @@ void Simulation::State::release_in_two(const Detached& part) {
     Body piece = piece_of(member, end, *part.cut);
     if (!(piece.rest.mass > 0)) continue;
     const Vec3 moves = velocity + spin.cross(piece.rest.centre - whole.rest.centre);
-    const NodeId node = building[member].nodes[static_cast<std::size_t>(end)];
-    Vec3 displacement = frame->displacement(node).head<3>();
+    const NodeId node = scene.building[member].nodes[static_cast<std::size_t>(end)];
+    Vec3 displacement = scene.frame->displacement(node).head<3>();
     if (displacement.norm() > debris_settings.largest_start)
       displacement *= debris_settings.largest_start / displacement.norm();
-    if (piece.volume < scenario.debris.smallest_volume) {
-      record(SimulationEvent::Kind::limited, piece.name).mass = piece.rest.mass;
+    if (piece.volume < scene.scenario.debris.smallest_volume) {
+      log.record(SimulationEvent::Kind::limited, piece.name).mass = piece.rest.mass;
       handed_on.add(piece, {{piece.rest.centre, Eigen::Quaterniond::Identity()}, moves, spin});
       leave_weight(piece.rest);
       continue;
@@ -102,13 +103,13 @@ void Simulation::State::release_in_two(const Detached& part) {
     const JointId joint = piece.end_joint;
     const collision::BodyId id = add_body(std::move(piece), moves, spin, displacement);
     made.push_back(id);
-    collision::BodyState state = world->state(id);
-    state.velocity = reading().true_velocity(state.velocity);
+    collision::BodyState state = scene.world->state(id);
+    state.velocity = scene.reading().true_velocity(state.velocity);
     state.pose.position -= displacement;
     handed_on.add(bodies.at(id.value), state);
     if (std::find(part.hinges.begin(), part.hinges.end(), joint) != part.hinges.end()) hang_on({joint}, id);
   }
-  ledger.momentum_error = std::max(ledger.momentum_error, carried.error(handed_on));
+  sums.ledger.momentum_error = std::max(sums.ledger.momentum_error, carried.error(handed_on));
   if (made.size() == 2) {
     collision::Touched other;
     other.kind = collision::Touched::Kind::body;

@@ -20,11 +20,11 @@ bool has(const std::vector<Id>& list, Id id) {
 
 /// The other side of a joint whose member (or else its rigid end) hangs.
 ContactPlace Simulation::State::hold_of(JointId joint, bool member_hangs) const {
-  const Joint& own = building[joint];
+  const Joint& own = scene.building[joint];
   ContactPlace place;
-  place.point = joint_position(joint);
+  place.point = scene.joint_position(joint);
   if (member_hangs)
-    place.node = building[own.member].nodes[static_cast<std::size_t>(own.end)];
+    place.node = scene.building[own.member].nodes[static_cast<std::size_t>(own.end)];
   else
     place.member = own.member;
   return place;
@@ -40,31 +40,31 @@ collision::BodyId Simulation::State::body_with(const ContactPlace& place) const 
 }
 
 Mat3 Simulation::State::turned_with(collision::BodyId id) const {
-  return id.value < 0 ? Mat3(Mat3::Identity()) : world->state(id).pose.orientation.toRotationMatrix();
+  return id.value < 0 ? Mat3(Mat3::Identity()) : scene.world->state(id).pose.orientation.toRotationMatrix();
 }
 
 /// Hangs a body by a joint on what stands or on another body. False when there is nothing to hang it on.
 bool Simulation::State::hang(JointId joint, collision::BodyId id) {
   const Body& one = bodies.at(id.value);
-  const Member& member = building[building[joint].member];
+  const Member& member = scene.building[scene.building[joint].member];
   Hung hung;
   hung.joint = joint;
   hung.body = id;
-  hung.member_hangs = has(one.members, building[joint].member) || one.end_joint == joint;
+  hung.member_hangs = has(one.members, scene.building[joint].member) || one.end_joint == joint;
   const ContactPlace on = hold_of(joint, hung.member_hangs);
-  const bool on_frame = on.member.valid() ? frame->stands(on.member) : frame->stands(on.node);
+  const bool on_frame = on.member.valid() ? scene.frame->stands(on.member) : scene.frame->stands(on.node);
   if (!on_frame) hung.holder = body_with(on);
   if (!on_frame && (hung.holder.value < 0 || hung.holder == id)) return false;
 
   collision::HingeDescription description;
   description.body = id;
   if (!on_frame) description.other = hung.holder;
-  description.point = world->state(id).pose * Vec3(joint_position(joint) - one.rest.centre);
+  description.point = scene.world->state(id).pose * Vec3(scene.joint_position(joint) - one.rest.centre);
   description.axes = member.axes * turned_with(hung.member_hangs ? id : hung.holder).transpose();
-  for (int c = 0; c < 6; ++c) description.held[static_cast<std::size_t>(c)] = building[joint].stiffness(c) != 0;
+  for (int c = 0; c < 6; ++c) description.held[static_cast<std::size_t>(c)] = scene.building[joint].stiffness(c) != 0;
   if (std::find(description.held.begin(), description.held.end(), true) == description.held.end()) return false;
   hung.axes = description.axes * turned_with(hung.holder);
-  hung.hinge = world->add_hinge(description);
+  hung.hinge = scene.world->add_hinge(description);
   hung.load_key = --last_hinge_load;
   pass_what_holds(id, on.point, hung.holder);
   hinges.emplace(hung.hinge.value, hung);
@@ -83,7 +83,7 @@ void Simulation::State::pass_what_holds(collision::BodyId id, const Vec3& point,
   Bounds around;
   around.add(point - Vec3::Constant(debris_settings.joint_room));
   around.add(point + Vec3::Constant(debris_settings.joint_room));
-  obstacles.approach(around, *frame, *world);
+  obstacles.approach(around, *scene.frame, *scene.world);
   touched.kind = collision::Touched::Kind::obstacle;
   for (const Part part : grid.near(around)) {
     touched.obstacle = obstacles.obstacle_of(part);
@@ -97,8 +97,8 @@ void Simulation::State::hang_on(const std::vector<JointId>& joints, collision::B
     if (hang(joint, id)) continue;
     JointBreak lost;
     lost.joint = joint;
-    lost.position = joint_position(joint);
-    record(lost);
+    lost.position = scene.joint_position(joint);
+    log.record(lost);
   }
 }
 
@@ -108,7 +108,7 @@ void Simulation::State::hang_on_what_left() {
   for (const auto& [key, hung] : hinges) {
     if (hung.holder.value >= 0) continue;
     const ContactPlace on = hold_of(hung.joint, hung.member_hangs);
-    if (!(on.member.valid() ? frame->stands(on.member) : frame->stands(on.node))) loose.push_back(hung);
+    if (!(on.member.valid() ? scene.frame->stands(on.member) : scene.frame->stands(on.node))) loose.push_back(hung);
   }
   for (const Hung& hung : loose) {
     take_off(hung);
@@ -117,8 +117,8 @@ void Simulation::State::hang_on_what_left() {
 }
 
 void Simulation::State::take_off(const Hung& hung) {
-  frame->remove_contact_load(hung.load_key);
-  world->remove_hinge(hung.hinge);
+  scene.frame->remove_contact_load(hung.load_key);
+  scene.world->remove_hinge(hung.hinge);
   hinges.erase(hung.hinge.value);
 }
 
@@ -151,10 +151,11 @@ void Simulation::State::hang_again(const std::vector<JointId>& joints) {
 void Simulation::State::pull_hinges() {
   std::vector<std::pair<Hung, Utilisation>> over;
   for (auto& [key, hung] : hinges) {
-    if (world->state(hung.body).asleep) continue;
-    pass_what_holds(hung.body, joint_position(hung.joint), hung.holder);  // it may have turned clear of it and back
-    ledger.lost_in_contacts += world->hinge_work_lost(hung.hinge);
-    const Vec6 held = world->hinge_force(hung.hinge);  // of the body on its holder
+    if (scene.world->state(hung.body).asleep) continue;
+    pass_what_holds(hung.body, scene.joint_position(hung.joint),
+                    hung.holder);  // it may have turned clear of it and back
+    sums.ledger.lost_in_contacts += scene.world->hinge_work_lost(hung.hinge);
+    const Vec6 held = scene.world->hinge_force(hung.hinge);  // of the body on its holder
     const Mat3 to_global = (hung.axes * turned_with(hung.holder).transpose()).transpose();
     const Vec3 force = to_global * held.head<3>(), moment = to_global * held.tail<3>();
     const Utilisation used = utilisation_of(hung, force, moment);
@@ -170,37 +171,38 @@ void Simulation::State::pull_hinges() {
     line.demand = used.demand;
     line.capacity = used.capacity;
     const Body& one = bodies.at(hung.body.value);
-    line.position = world->state(hung.body).pose * Vec3(joint_position(hung.joint) - one.rest.centre);
-    record(line);
+    line.position = scene.world->state(hung.body).pose * Vec3(scene.joint_position(hung.joint) - one.rest.centre);
+    log.record(line);
     take_off(hung);
   }
 }
 
 /// `force` and `moment` of the body on its holder, global axes.
 Utilisation Simulation::State::utilisation_of(const Hung& hung, const Vec3& force, const Vec3& moment) const {
-  const Joint& joint = building[hung.joint];
-  const Mat3 axes = building[joint.member].axes * turned_with(hung.member_hangs ? hung.body : hung.holder).transpose();
+  const Joint& joint = scene.building[hung.joint];
+  const Mat3 axes =
+      scene.building[joint.member].axes * turned_with(hung.member_hangs ? hung.body : hung.holder).transpose();
   // End forces are what the rigid end does to the member.
   const double sign = hung.member_hangs ? -1 : 1;
   Eigen::Matrix<double, 12, 1> end_forces = Eigen::Matrix<double, 12, 1>::Zero();
   end_forces.segment<3>(6 * joint.end) = sign * axes * force;
   end_forces.segment<3>(6 * joint.end + 3) = sign * axes * moment;
   return utilisation(joint.capacity, member_joint_demand(end_forces, joint.end),
-                     strength_factors[static_cast<std::size_t>(hung.joint.index)]);
+                     scene.strength_factors[static_cast<std::size_t>(hung.joint.index)]);
 }
 
 /// The smoothed pull on what stands, told when it has changed beyond a band.
 void Simulation::State::load_by(Hung& hung, const Vec3& force, const Vec3& moment) {
-  const double share = std::min(1.0, scenario.step / debris_settings.smoothing_time);
+  const double share = std::min(1.0, scene.scenario.step / debris_settings.smoothing_time);
   hung.force += share * (force - hung.force);
   hung.moment += share * (moment - hung.moment);
-  const double band = debris_settings.hinge_band * bodies.at(hung.body.value).rest.mass * building.gravity;
-  const double arm = building[building[hung.joint].member].length;
+  const double band = debris_settings.hinge_band * bodies.at(hung.body.value).rest.mass * scene.building.gravity;
+  const double arm = scene.building[scene.building[hung.joint].member].length;
   const double changed = (hung.force - hung.applied).norm() + (hung.moment - hung.moment_applied).norm() / arm;
   if (changed <= band) return;
   hung.applied = hung.force;
   hung.moment_applied = hung.moment;
-  frame->set_contact_load({hung.load_key, hold_of(hung.joint, hung.member_hangs), hung.force, hung.moment});
+  scene.frame->set_contact_load({hung.load_key, hold_of(hung.joint, hung.member_hangs), hung.force, hung.moment});
 }
 
 }  // namespace topple::structure

@@ -15,9 +15,9 @@ Vec3 point_velocity(const HostContact& contact) {
 }  // namespace
 
 void Simulation::touch(const HostContact& contact) {
-  require_contact(state_->building, contact);
+  require_contact(state_->scene.building, contact);
   state_->touches.push_back(contact);
-  state_->actions.push_back({state_->step, contact});
+  state_->actions.push_back({state_->scene.step, contact});
 }
 
 std::span<const HostImpulse> Simulation::host_impulses() const { return state_->host_impulses; }
@@ -32,7 +32,7 @@ void Simulation::State::strike_by_host() {
     if (felt.speed_in > 0) {
       if (!part.valid())
         push_debris(contact, felt);
-      else if (stands(part))
+      else if (scene.stands(part))
         strike_by_host(contact, part, felt);
     }
     host_impulses.push_back(felt);
@@ -47,7 +47,7 @@ void Simulation::State::strike_by_host(const HostContact& contact, Part part, Ho
   guest.rest.inertia = contact.inertia;
   guest.radius = debris_settings.stand_in_radius;
   const collision::BodyId id = add_body(std::move(guest), contact.velocity, contact.angular_velocity, Vec3::Zero());
-  obstacles.approach(shapes.bounds(part), *frame, *world);
+  obstacles.approach(shapes.bounds(part), *scene.frame, *scene.world);
 
   collision::Contact touch;
   touch.body = id;
@@ -57,20 +57,20 @@ void Simulation::State::strike_by_host(const HostContact& contact, Part part, Ho
   touch.normal = contact.normal;
   touch.approach_speed = felt.speed_in;
   const auto now = [&] {
-    collision::BodyState state = world->state(id);
-    state.velocity = reading().true_velocity(state.velocity);
+    collision::BodyState state = scene.world->state(id);
+    state.velocity = scene.reading().true_velocity(state.velocity);
     return state;
   };
   const Body& striking = bodies.at(id.value);
-  const Kinetic before = kinetic_energy(striking, world->state(id), reading());
-  sways() ? strike_bodies({touch}) : strike_all({touch});
+  const Kinetic before = kinetic_energy(striking, scene.world->state(id), scene.reading());
+  scene.sways() ? strike_bodies({touch}) : strike_all({touch});
   const collision::BodyState after = now();
-  const Kinetic left = kinetic_energy(striking, world->state(id), reading());
-  body_work_put_in += before.translation + before.rotation - left.translation - left.rotation;
+  const Kinetic left = kinetic_energy(striking, scene.world->state(id), scene.reading());
+  sums.body_work_put_in += before.translation + before.rotation - left.translation - left.rotation;
   felt.impulse = contact.mass * (after.velocity - contact.velocity);
   felt.speed_out = (after.velocity + after.angular_velocity.cross(contact.point - contact.centre)).dot(contact.normal);
-  felt.through = !stands(part);
-  world->remove_body(id);
+  felt.through = !scene.stands(part);
+  scene.world->remove_body(id);
   bodies.erase(id.value);
   struck.erase(id.value);
 }
@@ -79,24 +79,24 @@ void Simulation::State::strike_by_host(const HostContact& contact, Part part, Ho
 void Simulation::State::push_debris(const HostContact& contact, HostImpulse& felt) {
   const Body* one = body(contact.body);
   if (!one) return;
-  const collision::BodyState state = world->state(contact.body);
+  const collision::BodyState state = scene.world->state(contact.body);
   const Vec3 arm = contact.point - state.pose.position, own_arm = contact.point - contact.centre;
   const Vec3 velocity = state.asleep
                             ? Vec3(Vec3::Zero())
-                            : Vec3(reading().true_velocity(state.velocity) + state.angular_velocity.cross(arm));
+                            : Vec3(scene.reading().true_velocity(state.velocity) + state.angular_velocity.cross(arm));
   const double closing = felt.speed_in - velocity.dot(contact.normal);
   if (closing <= 0) return;
   const Mat3 inverse = world_inertia(*one, state.pose.orientation).inverse();
   const double debris_mass = effective_mass(one->rest.mass, inverse, arm, contact.normal);
   const double own_mass = effective_mass(contact.mass, contact.inertia.inverse(), own_arm, contact.normal);
-  const double reduced = own_mass * debris_mass / (own_mass + debris_mass), e = scenario.impact.restitution;
+  const double reduced = own_mass * debris_mass / (own_mass + debris_mass), e = scene.scenario.impact.restitution;
   const double size = (1 + e) * reduced * closing;
-  world->apply_impulse(contact.body, size * contact.normal, contact.point);
+  scene.world->apply_impulse(contact.body, size * contact.normal, contact.point);
   felt.impulse = -size * contact.normal;
   felt.speed_out = felt.speed_in - size / own_mass;
   const double lost = reduced * closing * closing * (1 - e * e) / 2;
-  ledger.lost_in_impacts += lost;
-  body_work_put_in += own_mass * (felt.speed_in * felt.speed_in - felt.speed_out * felt.speed_out) / 2;
+  sums.ledger.lost_in_impacts += lost;
+  sums.body_work_put_in += own_mass * (felt.speed_in * felt.speed_in - felt.speed_out * felt.speed_out) / 2;
 }
 
 }  // namespace topple::structure

@@ -5,19 +5,19 @@ namespace topple::structure {
 
 /// Of a part of the building, or of the chunk or ball that the body is.
 std::string Simulation::State::touched_name(collision::BodyId body, std::int64_t part_tag) const {
-  if (part_tag >= 0) return part_name(building, part_of_number(building, part_tag));
+  if (part_tag >= 0) return part_name(scene.building, part_of_number(scene.building, part_tag));
   const auto found = bodies.find(body.value);
   return found == bodies.end() ? std::string() : found->second.name;
 }
 
 void Simulation::State::watch_overlaps() {
-  overlap_watch.read(world->contacts(), scenario.step);
+  overlap_watch.read(scene.world->contacts(), scene.scenario.step);
   overlaps.deep = overlap_watch.deep_count();
   const std::optional<collision::Overlap>& deepest = overlap_watch.deepest();
   if (!deepest || deepest->depth == overlaps.depth) return;
   overlaps.depth = deepest->depth;
   overlaps.thickness = deepest->thickness;
-  overlaps.time = static_cast<double>(step) * scenario.step;
+  overlaps.time = static_cast<double>(scene.step) * scene.scenario.step;
   overlaps.body = touched_name(deepest->body, deepest->part_tag);
   switch (deepest->other.kind) {
     case collision::Touched::Kind::ground:
@@ -25,7 +25,7 @@ void Simulation::State::watch_overlaps() {
       break;
     case collision::Touched::Kind::obstacle: {
       const Part part = obstacles.part_of(deepest->other.obstacle);
-      overlaps.with = part.valid() ? part_name(building, part) : std::string();
+      overlaps.with = part.valid() ? part_name(scene.building, part) : std::string();
       break;
     }
     case collision::Touched::Kind::body:

@@ -23,42 +23,42 @@ bool belongs(const Detached& part, Part one) {
 
 /// What lies where its body was dropped goes on weighing, and falls with what it lies on.
 void Simulation::State::freeze(const std::vector<RestingLoads::Kept>& lying) {
-  const double g = gravity.norm();
+  const double g = scene.gravity.norm();
   if (g == 0) return;
   for (const RestingLoads::Kept& one : lying)
-    if (const double mass = one.force.dot(gravity) / (g * g); mass > 0)
+    if (const double mass = one.force.dot(scene.gravity) / (g * g); mass > 0)
       frozen.push_back({one.on, point_mass(one.point, mass)});
 }
 
 /// A part too small to be a body comes down on what stands under it, and its weight stays there.
 void Simulation::State::leave_weight(const MassProperties& rest) {
-  const double g = gravity.norm();
+  const double g = scene.gravity.norm();
   if (g == 0) return;
-  const Vec3 down = gravity / g;
+  const Vec3 down = scene.gravity / g;
   Part under;
   double nearest = unlimited;
-  for (std::size_t i = 0; i < part_count(building); ++i) {
-    const Part part = part_of_number(building, static_cast<std::int64_t>(i));
-    if (!stands(part)) continue;
+  for (std::size_t i = 0; i < part_count(scene.building); ++i) {
+    const Part part = part_of_number(scene.building, static_cast<std::int64_t>(i));
+    if (!scene.stands(part)) continue;
     const auto distance = shapes.ray(part, rest.centre, down);
     if (!distance || *distance >= nearest) continue;
     nearest = *distance;
     under = part;
   }
   if (!under.valid()) return;
-  const RestingLoads::Kept weight{under, rest.mass * gravity, rest.centre + nearest * down};
-  resting.lay_for_good(weight, *frame);
+  const RestingLoads::Kept weight{under, rest.mass * scene.gravity, rest.centre + nearest * down};
+  resting.lay_for_good(weight, *scene.frame);
   freeze({weight});
 }
 
 void Simulation::State::parts_are_gone(std::span<const Part> parts) {
-  for (const Part& part : parts) timer.engine([&] { obstacles.remove(part, *world); });
-  for (const collision::BodyId lying : resting.drop(parts, *frame))
-    if (bodies.contains(lying.value)) world->wake(lying);
+  for (const Part& part : parts) scene.timer.engine([&] { obstacles.remove(part, *scene.world); });
+  for (const collision::BodyId lying : resting.drop(parts, *scene.frame))
+    if (bodies.contains(lying.value)) scene.world->wake(lying);
 }
 
 void Simulation::State::release() {
-  for (Detached& part : frame->take_detached()) {
+  for (Detached& part : scene.frame->take_detached()) {
     // Of a panel that is broken out altogether nothing is left to leave.
     std::erase_if(part.panels, [&](PanelId panel) {
       const BrokenPanel* left = broken_panel(panel);
@@ -73,7 +73,7 @@ void Simulation::State::release() {
 
 Body Simulation::State::describe(const Detached& part) const {
   Body one;
-  one.name = name_of(building, part);
+  one.name = name_of(scene.building, part);
   one.members = part.members;
   one.panels = part.panels;
   one.nodes = part.nodes;
@@ -81,12 +81,12 @@ Body Simulation::State::describe(const Detached& part) const {
   for (const Frozen& lying : frozen)
     if (belongs(part, lying.on)) one.rest.add(lying.mass);
   for (const MemberId member : part.members) {
-    one.volume += member_volume(building, building[member]);
+    one.volume += member_volume(scene.building, scene.building[member]);
     one.bounds.add(shapes.bounds(Part(member)));
   }
   for (const PanelId panel : part.panels) {
     const BrokenPanel* left = broken_panel(panel);
-    one.volume += left ? left->volume() : panel_volume(building, building[panel]);
+    one.volume += left ? left->volume() : panel_volume(scene.building, scene.building[panel]);
     one.bounds.add(shapes.bounds(Part(panel)));
   }
   if (part.members.empty() && part.panels.empty()) {
@@ -108,7 +108,7 @@ void Simulation::State::release(const Detached& part) {
   if (part.members.empty() && part.panels.empty() && masses.of(part).mass <= 0) return;  // a bare node
   Body one = describe(part);
   Vec3 displacement = Vec3::Zero();
-  for (const NodeId node : part.nodes) displacement += frame->displacement(node).head<3>();
+  for (const NodeId node : part.nodes) displacement += scene.frame->displacement(node).head<3>();
   if (!part.nodes.empty()) displacement /= static_cast<double>(part.nodes.size());
   if (displacement.norm() > debris_settings.largest_start)
     displacement *= debris_settings.largest_start / displacement.norm();
@@ -117,15 +117,16 @@ void Simulation::State::release(const Detached& part) {
     displacement = part.motion->displacement;
     velocity = part.motion->momentum / one.rest.mass;
     spin = one.rest.inertia.inverse() * (part.motion->angular - one.rest.centre.cross(part.motion->momentum));
-    kinetic_released += (part.motion->momentum.dot(velocity) + spin.dot(one.rest.inertia * spin)) / 2;
+    sums.kinetic_released += (part.motion->momentum.dot(velocity) + spin.dot(one.rest.inertia * spin)) / 2;
   }
   std::vector<Part> gone(part.members.begin(), part.members.end());
   for (const PanelId panel : part.panels) gone.emplace_back(panel);
   parts_are_gone(gone);
 
-  if (part.mechanism) record(SimulationEvent::Kind::mechanism, one.name).mass = one.rest.mass;
-  const bool small = one.volume < scenario.debris.smallest_volume;
-  SimulationEvent& event = record(small ? SimulationEvent::Kind::limited : SimulationEvent::Kind::detached, one.name);
+  if (part.mechanism) log.record(SimulationEvent::Kind::mechanism, one.name).mass = one.rest.mass;
+  const bool small = one.volume < scene.scenario.debris.smallest_volume;
+  SimulationEvent& event =
+      log.record(small ? SimulationEvent::Kind::limited : SimulationEvent::Kind::detached, one.name);
   event.members = one.members;
   event.panels = one.panels;
   event.mass = one.rest.mass;
@@ -134,8 +135,8 @@ void Simulation::State::release(const Detached& part) {
   if (small) {
     for (const MemberId member : part.members) body_of_part[static_cast<std::size_t>(member.index)] = nowhere;
     for (const PanelId panel : part.panels)
-      body_of_part[static_cast<std::size_t>(part_number(building, Part(panel)))] = nowhere;
-    ledger.removed += (one.rest.mass * velocity.squaredNorm() + spin.dot(one.rest.inertia * spin)) / 2;
+      body_of_part[static_cast<std::size_t>(part_number(scene.building, Part(panel)))] = nowhere;
+    sums.ledger.removed += (one.rest.mass * velocity.squaredNorm() + spin.dot(one.rest.inertia * spin)) / 2;
     leave_weight(one.rest);
     return;
   }
@@ -185,14 +186,14 @@ void Simulation::State::apply_release_impulses(const Body& one, Vec3& velocity, 
     const Vec3 impulse = std::min(size, mass * given.speed) * n;
     velocity += impulse / one.rest.mass;
     spin += inverse * r.cross(impulse);
-    ledger.lost_in_impacts -= impulse.squaredNorm() / mass / 2;
+    sums.ledger.lost_in_impacts -= impulse.squaredNorm() / mass / 2;
   }
 }
 
 /// All the momentum that the world's body has must be what it left with, and what release impulses gave it.
 void Simulation::State::check_momentum(const Body& one, const std::optional<Detached::Motion>& motion) {
-  collision::BodyState state = world->state(one.id);
-  state.velocity = reading().true_velocity(state.velocity);
+  collision::BodyState state = scene.world->state(one.id);
+  state.velocity = scene.reading().true_velocity(state.velocity);
   Momentum measured{state.pose.position}, given{state.pose.position};
   measured.add(one, state);
   if (motion) {
@@ -208,18 +209,18 @@ void Simulation::State::check_momentum(const Body& one, const std::optional<Deta
       const Vec3 impulse = std::min(size, effective_mass(one.rest.mass, inverse, r, n) * given_impulse.speed) * n;
       given.add_impulse(impulse, state.pose.position + r);
     }
-  ledger.momentum_error = std::max(ledger.momentum_error, measured.error(given));
+  sums.ledger.momentum_error = std::max(sums.ledger.momentum_error, measured.error(given));
 }
 
 void Simulation::State::pass(collision::BodyId id, const collision::Touched& other) {
-  timer.engine([&] { world->ignore_until_separated(id, other); });
+  scene.timer.engine([&] { scene.world->ignore_until_separated(id, other); });
 }
 
 collision::BodyId Simulation::State::add_body(Body one, const Vec3& velocity, const Vec3& spin,
                                               const Vec3& displacement) {
   collision::BodyState state;
   state.pose.position = one.rest.centre + displacement;
-  state.velocity = reading().to_world(velocity);
+  state.velocity = scene.reading().to_world(velocity);
   state.angular_velocity = spin;
   return add_body(std::move(one), state);
 }
@@ -250,12 +251,12 @@ collision::BodyId Simulation::State::add_body(Body one, const collision::BodySta
   description.pose = state.pose;
   description.velocity = state.velocity;
   description.angular_velocity = state.angular_velocity;
-  description.friction = scenario.debris.friction;
-  description.restitution = scenario.debris.restitution;
-  one.id = timer.engine([&] { return world->add_body(description); });
+  description.friction = scene.scenario.debris.friction;
+  description.restitution = scene.scenario.debris.restitution;
+  one.id = scene.timer.engine([&] { return scene.world->add_body(description); });
   for (const MemberId member : one.members) body_of_part[static_cast<std::size_t>(member.index)] = one.id.value;
   for (const PanelId panel : one.panels)
-    body_of_part[static_cast<std::size_t>(part_number(building, Part(panel)))] = one.id.value;
+    body_of_part[static_cast<std::size_t>(part_number(scene.building, Part(panel)))] = one.id.value;
   const collision::BodyId id = one.id;
   bodies.add(id.value, std::move(one));
   bodies.motion(id.value).step_start = state.pose.position;
@@ -264,13 +265,13 @@ collision::BodyId Simulation::State::add_body(Body one, const collision::BodySta
 
 void Simulation::State::remove_body(collision::BodyId id, bool keep_weight) {
   const auto found = bodies.find(id.value);
-  const Kinetic kinetic = kinetic_energy(found->second, world->state(id), reading());
-  ledger.removed += kinetic.translation + kinetic.rotation;
+  const Kinetic kinetic = kinetic_energy(found->second, scene.world->state(id), scene.reading());
+  sums.ledger.removed += kinetic.translation + kinetic.rotation;
   for (std::int64_t& of_part : body_of_part)
     if (of_part == id.value) of_part = -2;
-  freeze(resting.forget(id, *frame, keep_weight));
+  freeze(resting.forget(id, *scene.frame, keep_weight));
   (void)take_off(id);
-  timer.engine([&] { world->remove_body(id); });
+  scene.timer.engine([&] { scene.world->remove_body(id); });
   free_segments.erase(id.value);
   cables.erase(id.value);
   bodies.erase(id.value);
@@ -279,21 +280,21 @@ void Simulation::State::remove_body(collision::BodyId id, bool keep_weight) {
 /// Above the limit of bodies, sleeping ones are dropped, the smallest first and of equals the oldest. Their weight
 /// stays where it lies.
 void Simulation::State::keep_limit() {
-  if (!scenario.debris.limit) return;
-  const auto limit = static_cast<std::size_t>(std::max(0, *scenario.debris.limit));
+  if (!scene.scenario.debris.limit) return;
+  const auto limit = static_cast<std::size_t>(std::max(0, *scene.scenario.debris.limit));
   if (bodies.size() <= limit) return;
   std::vector<std::pair<double, std::int64_t>> sleeping;
   for (const auto& [id, one] : bodies)
-    if (world->state(one.id).asleep) sleeping.emplace_back(one.volume, id);
+    if (scene.world->state(one.id).asleep) sleeping.emplace_back(one.volume, id);
   std::sort(sleeping.begin(), sleeping.end());
   for (const auto& [volume, id] : sleeping) {
     if (bodies.size() <= limit) return;
     const Body& one = bodies.at(id);
-    SimulationEvent& event = record(SimulationEvent::Kind::limited, one.name);
+    SimulationEvent& event = log.record(SimulationEvent::Kind::limited, one.name);
     event.members = one.members;
     event.panels = one.panels;
     event.mass = one.rest.mass;
-    event.position = world->state(one.id).pose.position;
+    event.position = scene.world->state(one.id).pose.position;
     remove_body({id}, true);
   }
 }

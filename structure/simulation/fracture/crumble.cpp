@@ -18,12 +18,12 @@ std::map<PanelId, Simulation::State::PanelImpact> Simulation::State::impacts_on_
   if (!any_breakable) return impacts;
   const auto feel = [&](collision::BodyId id, std::int64_t tag, const ContactRecord& contact, collision::BodyId other) {
     if (tag < 0) return;
-    const PanelId panel = part_of_number(building, tag).panel;
+    const PanelId panel = part_of_number(scene.building, tag).panel;
     if (!panel.valid() || !breakable_panels[static_cast<std::size_t>(panel.index)].settings) return;
     const auto found = bodies.find(id.value);
     if (found == bodies.end() || bodies.motion(id.value).asleep || breakable_of(found->second).valid()) return;
     const Body& one = found->second;
-    const collision::BodyState state = world->state(id);
+    const collision::BodyState state = scene.world->state(id);
     const Vec3 arm = contact.point - state.pose.position;
     const double impulse = std::abs(contact.impulse.dot(contact.normal));
     const Mat3 turn = state.pose.orientation.toRotationMatrix();
@@ -36,7 +36,7 @@ std::map<PanelId, Simulation::State::PanelImpact> Simulation::State::impacts_on_
     impact.radius = by == bodies.end() ? 0 : by->second.radius;
     // The energy with which the two came together: the impulse is (1 + e) times what stops them.
     const double inverse_mass = 1 / own + (by == bodies.end() ? 0 : inverse_effective_mass(by->second, contact));
-    const double stops = impulse / (1 + scenario.debris.restitution);
+    const double stops = impulse / (1 + scene.scenario.debris.restitution);
     impact.energy = stops * stops * inverse_mass / 2;
     const bool crushes = impulse / own >= breakable_panels[static_cast<std::size_t>(panel.index)].breaking_speed;
     if (!crushes && (contact.persistent || impact.energy < punching_energy(panel, impact.at, across, impact.radius)))
@@ -56,35 +56,35 @@ std::map<PanelId, Simulation::State::PanelImpact> Simulation::State::impacts_on_
 /// thickness, as where it stands (break_standing.cpp).
 double Simulation::State::punching_energy(PanelId panel, const Vec3& at, const Vec3& along, double radius) const {
   const double bears = punching_force(panel, along, radius);
-  return bears * bears * panel_bending_compliance(building, panel, at, along) / 2 +
-         bears * building[panel].thickness / 2;
+  return bears * bears * panel_bending_compliance(scene.building, panel, at, along) / 2 +
+         bears * scene.building[panel].thickness / 2;
 }
 
 double Simulation::State::inverse_effective_mass(const Body& one, const ContactRecord& contact) const {
-  const collision::BodyState state = world->state(one.id);
+  const collision::BodyState state = scene.world->state(one.id);
   const Mat3 inverse = world_inertia(one, state.pose.orientation).inverse();
   return 1 / effective_mass(one.rest.mass, inverse, contact.point - state.pose.position, contact.normal);
 }
 
 /// An edge holds by what the body still has at its nodes.
 std::array<bool, 4> Simulation::State::held_in_flight(PanelId panel, const Body& one) const {
-  const Panel& own = building[panel];
+  const Panel& own = scene.building[panel];
   const auto bears = [&](NodeId node) {
     for (const MemberId member : one.members)
       for (int end = 0; end < 2; ++end)
-        if (building[member].nodes[static_cast<std::size_t>(end)] == node &&
-            holds_in_debris(building.joint(member, end)))
+        if (scene.building[member].nodes[static_cast<std::size_t>(end)] == node &&
+            holds_in_debris(scene.building.joint(member, end)))
           return true;
     for (const PanelId other : one.panels) {
-      if (other == panel || building[other].model != PanelModel::shell) continue;
-      const std::vector<NodeId> nodes = building[other].all_nodes();
+      if (other == panel || scene.building[other].model != PanelModel::shell) continue;
+      const std::vector<NodeId> nodes = scene.building[other].all_nodes();
       if (std::find(nodes.begin(), nodes.end(), node) != nodes.end()) return true;
     }
     return false;
   };
   std::array<bool, 4> edges{};
   for (std::size_t edge = 0; edge < 4; ++edge)
-    edges[edge] = holds_in_debris(building.joint(panel, static_cast<int>(edge))) &&
+    edges[edge] = holds_in_debris(scene.building.joint(panel, static_cast<int>(edge))) &&
                   (bears(own.nodes[edge]) || bears(own.nodes[(edge + 1) % 4]) ||
                    std::any_of(own.edge_nodes[edge].begin(), own.edge_nodes[edge].end(), bears));
   return edges;
@@ -92,7 +92,7 @@ std::array<bool, 4> Simulation::State::held_in_flight(PanelId panel, const Body&
 
 /// The chunks that leave the panel, as bodies where they were in the undeformed building.
 std::vector<Body> Simulation::State::break_out_in_flight(PanelId panel, const PanelImpact& impact) {
-  const Body& one = bodies.at(body_of_part[static_cast<std::size_t>(part_number(building, Part(panel)))]);
+  const Body& one = bodies.at(body_of_part[static_cast<std::size_t>(part_number(scene.building, Part(panel)))]);
   const std::array<bool, 4> holding = held_in_flight(panel, one);
   BrokenPanel& left = breaking(panel);
   const int before = left.chunks_out();
@@ -112,17 +112,17 @@ void Simulation::State::crumble(const std::map<PanelId, PanelImpact>& impacts) {
   std::map<std::int64_t, std::vector<Body>> chunks;  // by the body that they leave
   for (const auto& [hit, impact] : impacts) {
     const PanelId panel = hit;
-    const std::int64_t id = body_of_part[static_cast<std::size_t>(part_number(building, Part(panel)))];
+    const std::int64_t id = body_of_part[static_cast<std::size_t>(part_number(scene.building, Part(panel)))];
     if (!bodies.contains(id)) continue;
     // What lies frozen on it could not go with any one chunk.
     if (std::any_of(frozen.begin(), frozen.end(), [&](const Frozen& lying) { return lying.on == Part(panel); }))
       continue;
     const Body& one = bodies.at(id);
-    const collision::BodyState state = world->state(one.id);
+    const collision::BodyState state = scene.world->state(one.id);
     const Vec3 at = state.pose * (impact.at - one.rest.centre);
     std::vector<Body> pieces = break_out_in_flight(panel, impact);
     if (pieces.empty()) continue;
-    record(SimulationEvent::Kind::panel_fractured, building[panel].name).position = at;
+    log.record(SimulationEvent::Kind::panel_fractured, scene.building[panel].name).position = at;
     for (Body& piece : pieces) chunks[id].push_back(std::move(piece));
   }
   for (auto& [id, pieces] : chunks) {
@@ -130,13 +130,13 @@ void Simulation::State::crumble(const std::map<PanelId, PanelImpact>& impacts) {
     for (std::size_t p = left.panels.size(); p-- > 0;) {
       const BrokenPanel* broken = broken_panel(left.panels[p]);
       if (!broken || !broken->hulls().empty()) continue;
-      body_of_part[static_cast<std::size_t>(part_number(building, Part(left.panels[p])))] = -2;
+      body_of_part[static_cast<std::size_t>(part_number(scene.building, Part(left.panels[p])))] = -2;
       left.panels.erase(left.panels.begin() + static_cast<std::ptrdiff_t>(p));
       left.panel_mass.erase(left.panel_mass.begin() + static_cast<std::ptrdiff_t>(p));
     }
     (void)split({id},
                 connected_parts(
-                    building, left, [&](JointId joint) { return holds_in_debris(joint); },
+                    scene.building, left, [&](JointId joint) { return holds_in_debris(joint); },
                     [&](PanelId panel) { return free_panel_edges(panel); }),
                 std::move(pieces));
   }

@@ -15,23 +15,25 @@
 namespace topple::structure {
 
 void Simulation::State::find_breakable_panels() {
-  for (std::size_t i = 0; i < building.panels.size(); ++i) {
-    const Panel& panel = building.panels[i];
-    const Material& material = building[panel.material];
-    const auto& settings = panel.fracture ? panel.fracture : material.fracture ? material.fracture : scenario.fracture;
+  for (std::size_t i = 0; i < scene.building.panels.size(); ++i) {
+    const Panel& panel = scene.building.panels[i];
+    const Material& material = scene.building[panel.material];
+    const auto& settings = panel.fracture      ? panel.fracture
+                           : material.fracture ? material.fracture
+                                               : scene.scenario.fracture;
     BreakablePanel breakable;
     if (settings) {
       if (!material.compressive_strength)
-        throw InputError(building.file + ", materials." + material.name +
+        throw InputError(scene.building.file + ", materials." + material.name +
                          ".compressive_strength: missing; expected, because panel \"" + panel.name +
                          "\" of this material can break (fracture)");
       breakable.settings = *settings;
       any_breakable = true;
-      frame->expect_fracture(PanelId(i));
+      scene.frame->expect_fracture(PanelId(i));
       // Every panel has a pattern of its own (splitmix64's increment keeps their seeds far apart).
-      breakable.settings->seed = scenario.seed + (i + 1) * 0x9e3779b97f4a7c15u;
+      breakable.settings->seed = scene.scenario.seed + (i + 1) * 0x9e3779b97f4a7c15u;
       const double density =
-          material.density > 0 ? material.density : masses.of(PanelId(i)).mass / panel_volume(building, panel);
+          material.density > 0 ? material.density : masses.of(PanelId(i)).mass / panel_volume(scene.building, panel);
       // Where it is not given: that of concrete of this compressive strength (EN 1992-1-1, table 3.1).
       breakable.tensile_strength =
           material.tensile_strength.value_or(0.3e6 * std::pow(*material.compressive_strength / 1e6, 2.0 / 3.0));
@@ -58,11 +60,11 @@ const BrokenPanel* Simulation::State::broken_panel(PanelId panel) const {
 
 Body Simulation::State::chunk_body(PanelId panel, PanelChunk chunk, int number) const {
   Body piece;
-  piece.name = building[panel].name + "#" + std::to_string(number);
+  piece.name = scene.building[panel].name + "#" + std::to_string(number);
   piece.rest = chunk.rest;
   piece.volume = chunk.volume;
   piece.hull = std::move(chunk.hull);
-  piece.chunk_of = piece_kind(building[panel].kind);
+  piece.chunk_of = piece_kind(scene.building[panel].kind);
   piece.mesh = std::move(chunk.mesh);
   for (const Vec3& corner : piece.hull) piece.bounds.add(corner);
   return piece;
@@ -74,23 +76,23 @@ std::vector<collision::BodyId> Simulation::State::shatter(collision::BodyId id, 
                                                           std::optional<double> radius, std::size_t& out) {
   const Body one = bodies.at(id.value);
   const PanelId panel = breakable_of(one);
-  const collision::BodyState state = world->state(id);
+  const collision::BodyState state = scene.world->state(id);
   const Mat3 turn = state.pose.orientation.toRotationMatrix();
   const Vec3 at = one.rest.centre + turn.transpose() * (point - state.pose.position);
   const BrokenPanel* left = broken_panel(panel);
   const int before = left ? left->chunks_out() : 0;
-  std::vector<PanelChunk> chunks = left
-                                       ? break_up(*left, at, radius)
-                                       : break_panel(building, panel, one.rest.mass, shapes.corners(panel), at, radius,
-                                                     *breakable_panels[static_cast<std::size_t>(panel.index)].settings);
+  std::vector<PanelChunk> chunks =
+      left ? break_up(*left, at, radius)
+           : break_panel(scene.building, panel, one.rest.mass, shapes.corners(panel), at, radius,
+                         *breakable_panels[static_cast<std::size_t>(panel.index)].settings);
   out = 0;
   if (chunks.empty()) return {};
-  record(SimulationEvent::Kind::panel_fractured, building[panel].name).position = point;
-  (void)resting.forget(id, *frame, false);
+  log.record(SimulationEvent::Kind::panel_fractured, scene.building[panel].name).position = point;
+  (void)resting.forget(id, *scene.frame, false);
   (void)take_off(id);
-  timer.engine([&] { world->remove_body(id); });
+  scene.timer.engine([&] { scene.world->remove_body(id); });
   bodies.erase(id.value);
-  body_of_part[static_cast<std::size_t>(part_number(building, Part(panel)))] = -2;
+  body_of_part[static_cast<std::size_t>(part_number(scene.building, Part(panel)))] = -2;
 
   std::vector<collision::BodyId> made;
   Momentum carried{state.pose.position}, handed_on{state.pose.position};
@@ -103,9 +105,9 @@ std::vector<collision::BodyId> Simulation::State::shatter(collision::BodyId id, 
     collision::BodyState moving = state;
     moving.pose.position += arm;
     moving.velocity += state.angular_velocity.cross(arm);
-    if (piece.volume < scenario.debris.smallest_volume) {
-      const Kinetic lost = kinetic_energy(piece, moving, reading());
-      ledger.removed += lost.translation + lost.rotation;
+    if (piece.volume < scene.scenario.debris.smallest_volume) {
+      const Kinetic lost = kinetic_energy(piece, moving, scene.reading());
+      sums.ledger.removed += lost.translation + lost.rotation;
       handed_on.add(piece, moving);
       dust += piece.rest.mass;
       continue;
@@ -114,21 +116,21 @@ std::vector<collision::BodyId> Simulation::State::shatter(collision::BodyId id, 
     made.push_back(add_body(std::move(piece), moving));
   }
   for (const collision::BodyId piece : made) {
-    handed_on.add(bodies.at(piece.value), world->state(piece));
+    handed_on.add(bodies.at(piece.value), scene.world->state(piece));
     changes.split.push_back({id.value, piece.value});
   }
-  ledger.momentum_error = std::max(ledger.momentum_error, carried.error(handed_on));
-  if (dust > 0) record(SimulationEvent::Kind::limited, building[panel].name).mass = dust;
+  sums.ledger.momentum_error = std::max(sums.ledger.momentum_error, carried.error(handed_on));
+  if (dust > 0) log.record(SimulationEvent::Kind::limited, scene.building[panel].name).mass = dust;
   return made;
 }
 
 void Simulation::State::push_whole(collision::BodyId id) {
   Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();
   apply_release_impulses(bodies.at(id.value), velocity, spin);
-  collision::BodyState state = world->state(id);
+  collision::BodyState state = scene.world->state(id);
   state.velocity += velocity;
   state.angular_velocity += spin;
-  world->set_state(id, state);
+  scene.world->set_state(id, state);
 }
 
 /// A panel that an impact broke off the frame: what hit it pushes the chunks that it broke out, each by its share of
@@ -158,11 +160,11 @@ void Simulation::State::shatter_struck(collision::BodyId id) {
       if (i >= out || size == 0) continue;
       const double mass = bodies.at(made[i].value).rest.mass;
       const Vec3 gained = std::min(size / struck_mass, given_impulse.speed) * given_impulse.impulse / size;
-      collision::BodyState state = world->state(made[i]);
-      const Vec3 before = reading().true_velocity(state.velocity);
+      collision::BodyState state = scene.world->state(made[i]);
+      const Vec3 before = scene.reading().true_velocity(state.velocity);
       state.velocity += gained;
-      ledger.lost_in_impacts -= mass * gained.dot(before + gained / 2);
-      world->set_state(made[i], state);
+      sums.ledger.lost_in_impacts -= mass * gained.dot(before + gained / 2);
+      scene.world->set_state(made[i], state);
     }
     return;
   }
@@ -178,7 +180,7 @@ void Simulation::State::shatter_landed() {
   const auto feel = [&](collision::BodyId id, const ContactRecord& contact) {
     if (!std::binary_search(awake.begin(), awake.end(), id.value)) return;
     const Body* one = body(id);
-    const collision::BodyState state = world->state(id);
+    const collision::BodyState state = scene.world->state(id);
     const Mat3 inverse = world_inertia(*one, state.pose.orientation).inverse();
     const double mass = effective_mass(one->rest.mass, inverse, contact.point - state.pose.position, contact.normal);
     const double change = std::abs(contact.impulse.dot(contact.normal)) / mass;
@@ -195,7 +197,7 @@ void Simulation::State::shatter_landed() {
     }
   for (const auto& [id, landing] : landings) {
     std::size_t out = 0;
-    (void)shatter({id}, world->state({id}).pose * landing.at, std::nullopt, out);
+    (void)shatter({id}, scene.world->state({id}).pose * landing.at, std::nullopt, out);
   }
   if (!landings.empty()) keep_limit();
 }

@@ -34,14 +34,14 @@ std::vector<const collision::Contact*> at_one_instant(std::span<const collision:
 }  // namespace
 
 void Simulation::State::load() {
-  counters.contacts_ignored += resting.lay(*frame, strength_factors, [&](collision::BodyId id) {
+  sums.counters.contacts_ignored += resting.lay(*scene.frame, scene.strength_factors, [&](collision::BodyId id) {
     const Body* one = body(id);
-    return one ? one->rest.mass * gravity.norm() : 0.0;
+    return one ? one->rest.mass * scene.gravity.norm() : 0.0;
   });
 }
 
 void Simulation::State::strike_all(const std::vector<collision::Contact>& contacts) {
-  if (sways()) return;  // strike_bodies.cpp: what moves is struck as bodies are
+  if (scene.sways()) return;  // strike_bodies.cpp: what moves is struck as bodies are
   std::vector<collision::Contact> impacts;
   for (const collision::Contact& contact : contacts) {
     if (contact.other.kind != collision::Touched::Kind::obstacle) continue;
@@ -70,7 +70,7 @@ void Simulation::State::strike(const collision::Contact& contact) {
 }
 
 void Simulation::State::record_impact(const Strike& hit) {
-  SimulationEvent& event = record(SimulationEvent::Kind::impact, part_name(building, hit.part));
+  SimulationEvent& event = log.record(SimulationEvent::Kind::impact, part_name(scene.building, hit.part));
   event.body = hit.body->id;
   event.body_name = hit.body->name;
   event.mass = hit.mass;
@@ -78,7 +78,7 @@ void Simulation::State::record_impact(const Strike& hit) {
   event.speed_in = hit.speed;
   event.speed_out = hit.speed_out;
   event.position = hit.place.point;
-  for (const JointBreak& broken : hit.breaks) record(broken);
+  for (const JointBreak& broken : hit.breaks) log.record(broken);
 }
 
 /// Nothing when the contact is no impact any more: what it would hit has fallen, or an earlier impact of this step has
@@ -86,7 +86,7 @@ void Simulation::State::record_impact(const Strike& hit) {
 std::optional<Simulation::State::Strike> Simulation::State::aim(const collision::Contact& contact) {
   const Part part = obstacles.part_of(contact.other.obstacle);
   Body* hitting = body(contact.body);
-  if (!part.valid() || !hitting || !stands(part)) return std::nullopt;
+  if (!part.valid() || !hitting || !scene.stands(part)) return std::nullopt;
   // What was swept may have been broken out since.
   if (const BrokenPanel* left = part.panel.valid() ? broken_panel(part.panel) : nullptr)
     if (obstacles.obstacle_of(part) != contact.other.obstacle && !left->holds(contact.point)) return std::nullopt;
@@ -96,8 +96,8 @@ std::optional<Simulation::State::Strike> Simulation::State::aim(const collision:
   hit.place = {part.member, part.panel, contact.point};
   hit.normal = contact.normal;
   hit.swept_at = contact.time;
-  hit.state = world->state(hitting->id);
-  hit.state.velocity = reading().true_velocity(hit.state.velocity);
+  hit.state = scene.world->state(hitting->id);
+  hit.state.velocity = scene.reading().true_velocity(hit.state.velocity);
 
   double time = contact.time;
   if (const auto earlier = struck.find(hitting->id.value); earlier != struck.end()) {
@@ -106,12 +106,12 @@ std::optional<Simulation::State::Strike> Simulation::State::aim(const collision:
     const double now = (hit.state.velocity + hit.state.angular_velocity.cross(r)).dot(contact.normal);
     if (now <= 0) return std::nullopt;
     time = earlier->second.base + (contact.time - earlier->second.at) * std::max(1.0, contact.approach_speed / now);
-    if (time > scenario.step) return std::nullopt;  // swept again in the next step
+    if (time > scene.scenario.step) return std::nullopt;  // swept again in the next step
   }
   hit.own_time = time;
-  hit.state.pose.position += hit.state.velocity * time + gravity * (time * time / 2);
+  hit.state.pose.position += hit.state.velocity * time + scene.gravity * (time * time / 2);
   hit.state.pose.orientation = turned(hit.state.pose.orientation, hit.state.angular_velocity * time);
-  hit.state.velocity += gravity * time;
+  hit.state.velocity += scene.gravity * time;
 
   const Vec3 r = contact.point - hit.state.pose.position;
   hit.speed = (hit.state.velocity + hit.state.angular_velocity.cross(r)).dot(hit.normal);
@@ -123,7 +123,7 @@ std::optional<Simulation::State::Strike> Simulation::State::aim(const collision:
 
 /// A body that is let go stays where it is: what its weight would have done further in is not its own.
 double Simulation::State::rebound(const Indentation& pushing) const {
-  return -scenario.impact.restitution * pushing.elastic_rebound_speed();
+  return -scene.scenario.impact.restitution * pushing.elastic_rebound_speed();
 }
 
 /// Whether what is hit provably bears the push: the joints that bear it directly do not fail, and the energy is less
@@ -131,22 +131,22 @@ double Simulation::State::rebound(const Indentation& pushing) const {
 /// is told of it (peak force, speed out) is a bound as well. Most impacts of debris end here, at a part of the cost.
 bool Simulation::State::bears(Strike& hit, double weight, double punching) {
   constexpr double rounding = 1e-6;
-  const StandingFrame::UnitResponse near = frame->respond_near(hit.place, hit.normal);
-  const double mass = scenario.impact.structure_mass ? near.rayleigh_mass : 0;
+  const StandingFrame::UnitResponse near = scene.frame->respond_near(hit.place, hit.normal);
+  const double mass = scene.scenario.impact.structure_mass ? near.rayleigh_mass : 0;
   Indentation pushing(hit.mass, hit.speed, weight, mass);
-  const FirstFailure own = first_failure(*frame, near, strength_factors, unlimited);
+  const FirstFailure own = first_failure(*scene.frame, near, scene.strength_factors, unlimited);
   if (pushing.push(near.compliance, std::min(own.force, punching)) != Indentation::Stop::stood) return false;
-  if (pushing.stored(near.compliance) > (1 - rounding) * frame->critical_energy(hit.place)) return false;
+  if (pushing.stored(near.compliance) > (1 - rounding) * scene.frame->critical_energy(hit.place)) return false;
   hit.structure_mass = mass;
   hit.speed_out = rebound(pushing);
   hit.peak_force = pushing.peak_force();
-  ++counters.impacts_bounded;
+  ++sums.counters.impacts_bounded;
   return true;
 }
 
 /// The pushing, break after break, until the body stops or nothing is left to push.
 void Simulation::State::push_in(Strike& hit) {
-  const double weight = hit.mass * gravity.dot(hit.normal);
+  const double weight = hit.mass * scene.gravity.dot(hit.normal);
   double punching = punching_force(hit);
   // A fast impact goes through whatever the joints bear.
   if (const double left = speed_through(hit, punching); left > 0) {
@@ -154,11 +154,11 @@ void Simulation::State::push_in(Strike& hit) {
   } else if (bears(hit, weight, punching)) {
     return record_loss(hit);
   }
-  StandingFrame::UnitResponse response = frame->respond(hit.place, hit.normal);
-  hit.structure_mass = scenario.impact.structure_mass ? response.rayleigh_mass : 0;
+  StandingFrame::UnitResponse response = scene.frame->respond(hit.place, hit.normal);
+  hit.structure_mass = scene.scenario.impact.structure_mass ? response.rayleigh_mass : 0;
   Indentation pushing(hit.mass, hit.speed, weight, hit.structure_mass);
   for (;;) {
-    const FirstFailure first = first_failure(*frame, response, strength_factors, unlimited);
+    const FirstFailure first = first_failure(*scene.frame, response, scene.strength_factors, unlimited);
     const bool punches = punching < unlimited && punching <= first.force;
     const Indentation::Stop stop = pushing.push(response.compliance, std::min(first.force, punching));
     if (stop != Indentation::Stop::failed) {
@@ -176,17 +176,17 @@ void Simulation::State::push_in(Strike& hit) {
       continue;
     }
     const double stored = pushing.stored(response.compliance);
-    const double shift = frame->break_in_impact(first.joints, hit.place, hit.normal);
-    hit.through = !stands(hit.part);
+    const double shift = scene.frame->break_in_impact(first.joints, hit.place, hit.normal);
+    hit.through = !scene.stands(hit.part);
     const bool ends = hit.through || std::abs(shift) > impact_settings.largest_shift;
     if (!ends) {
       pushing.shift(shift);
-      response = frame->respond(hit.place, hit.normal);
+      response = scene.frame->respond(hit.place, hit.normal);
     }
     const double freed = ends ? stored : std::max(0.0, stored - pushing.stored(response.compliance));
     for (JointBreak broken : first.joints) {
       broken.energy = freed / static_cast<double>(first.joints.size());
-      broken.position = joint_position(broken.joint);
+      broken.position = scene.joint_position(broken.joint);
       hit.breaks.push_back(broken);
     }
     if (ends) {
@@ -211,7 +211,7 @@ void Simulation::State::send_on(const Strike& hit) {
   collision::BodyState after = hit.state;
   after.velocity += impulse / one.rest.mass;
   after.angular_velocity += inertia.inverse() * r.cross(impulse);
-  ledger.lost_in_impacts += hit.lost;
+  sums.ledger.lost_in_impacts += hit.lost;
   if (hit.through && hit.chunks.empty()) keep_release_impulse(hit);
   const PointImpulse given{impulse, hit.place.point};
   move_on(hit, after, std::span(&given, 1));
@@ -231,13 +231,13 @@ void Simulation::State::move_on(const Strike& hit, collision::BodyState after, s
   if (hit.through) {
     // It flies on as if it had come with its new speed: at the instant of impact it is where it is.
     const double t = hit.own_time;
-    after.velocity -= gravity * t;
-    after.pose.position -= after.velocity * t + gravity * (t * t / 2);
+    after.velocity -= scene.gravity * t;
+    after.pose.position -= after.velocity * t + scene.gravity * (t * t / 2);
     after.pose.orientation = turned(after.pose.orientation, -after.angular_velocity * t);
   }
-  after.velocity = reading().to_world(after.velocity);
+  after.velocity = scene.reading().to_world(after.velocity);
   after.asleep = false;
-  world->set_state(hit.body->id, after);
+  scene.world->set_state(hit.body->id, after);
   check_momentum(hit, impulses);
 }
 
@@ -246,36 +246,36 @@ void Simulation::State::check_momentum(const Strike& hit, std::span<const PointI
   Momentum given{hit.state.pose.position}, measured{hit.state.pose.position};
   given.add(*hit.body, hit.state);
   for (const PointImpulse& one : impulses) given.add_impulse(one.impulse, one.point);
-  collision::BodyState now = world->state(hit.body->id);
-  now.velocity = reading().true_velocity(now.velocity);
-  if (hit.through) now.velocity += gravity * hit.own_time;
+  collision::BodyState now = scene.world->state(hit.body->id);
+  now.velocity = scene.reading().true_velocity(now.velocity);
+  if (hit.through) now.velocity += scene.gravity * hit.own_time;
   now.pose = hit.state.pose;
   measured.add(*hit.body, now);
-  ledger.momentum_error = std::max(ledger.momentum_error, measured.error(given));
+  sums.ledger.momentum_error = std::max(sums.ledger.momentum_error, measured.error(given));
 }
 
 /// Until nothing is over capacity and no panel cracks.
 void Simulation::State::break_generations() {
-  if (!frame->pending() && step > 1) return;
+  if (!scene.frame->pending() && scene.step > 1) return;
   const auto record_yielded = [&] {
-    for (const JointBreak& line : frame->take_yielded()) {
-      SimulationEvent& event = record(SimulationEvent::Kind::joint_yielded, building[line.joint].name);
+    for (const JointBreak& line : scene.frame->take_yielded()) {
+      SimulationEvent& event = log.record(SimulationEvent::Kind::joint_yielded, scene.building[line.joint].name);
       event.joint = line;
       event.position = line.position;
     }
   };
-  if (sways()) {
-    const std::vector<JointBreak> breaks = frame->move();
+  if (scene.sways()) {
+    const std::vector<JointBreak> breaks = scene.frame->move();
     record_yielded();
-    for (const JointBreak& broken : breaks) record(broken);
+    for (const JointBreak& broken : breaks) log.record(broken);
     return;
   }
   do {
-    const std::vector<JointBreak> breaks = frame->settle();
+    const std::vector<JointBreak> breaks = scene.frame->settle();
     record_yielded();
-    for (const JointBreak& broken : breaks) record(broken);
+    for (const JointBreak& broken : breaks) log.record(broken);
     if (any_breakable) crack_panels();
-  } while (frame->pending());
+  } while (scene.frame->pending());
 }
 
 }  // namespace topple::structure

@@ -45,9 +45,9 @@ std::vector<int> independent_places(const Eigen::MatrixXd& compliance) {
 
 /// Of the body that holds the joint's member or panel.
 std::int64_t Simulation::State::body_of_joint(JointId joint) const {
-  const Joint& own = building[joint];
+  const Joint& own = scene.building[joint];
   const Part part = own.member.valid() ? Part(own.member) : Part(own.panel);
-  return body_of_part[static_cast<std::size_t>(part_number(building, part))];
+  return body_of_part[static_cast<std::size_t>(part_number(scene.building, part))];
 }
 
 bool Simulation::State::may_break(collision::BodyId id) const {
@@ -81,7 +81,7 @@ void Simulation::State::strike_bodies(const std::vector<collision::Contact>& con
     const std::optional<collision::Contact> first = contact_now(contacts[i]);
     if (!first) continue;
     const bool two = first->other.kind == collision::Touched::Kind::body;
-    const bool on_moving = sways() && first->other.kind == collision::Touched::Kind::obstacle;
+    const bool on_moving = scene.sways() && first->other.kind == collision::Touched::Kind::obstacle;
     if (!on_moving && !may_break(first->body) && !(two && may_break(first->other.body))) continue;
     std::vector<collision::Contact> together;
     for (std::size_t k = i; k < contacts.size(); ++k) {
@@ -104,18 +104,18 @@ Simulation::State::ImpactSide Simulation::State::side_at(collision::BodyId id, d
   ImpactSide side;
   side.id = id;
   if (id.value < 0) return side;
-  const collision::BodyState state = world->state(id);
+  const collision::BodyState state = scene.world->state(id);
   const Body& one = bodies.at(id.value);
   side.slept = state.asleep;
   side.time = state.asleep ? 0 : time;
   side.pose = state.pose;
   side.motion.inverse_mass = 1 / one.rest.mass;
   if (!state.asleep) {
-    side.motion.velocity = reading().true_velocity(state.velocity);
+    side.motion.velocity = scene.reading().true_velocity(state.velocity);
     side.motion.spin = state.angular_velocity;
-    side.pose.position += side.motion.velocity * time + gravity * (time * time / 2);
+    side.pose.position += side.motion.velocity * time + scene.gravity * (time * time / 2);
     side.pose.orientation = turned(state.pose.orientation, side.motion.spin * time);
-    side.motion.velocity += gravity * time;
+    side.motion.velocity += scene.gravity * time;
   }
   side.motion.centre = side.pose.position;
   side.motion.inverse_inertia = world_inertia(one, side.pose.orientation).inverse();
@@ -127,16 +127,16 @@ void Simulation::State::set_side(const ImpactSide& side) {
   if (side.id.value < 0) return;
   collision::BodyState state;
   const double t = side.time;
-  state.velocity = side.motion.velocity - gravity * t;
+  state.velocity = side.motion.velocity - scene.gravity * t;
   state.angular_velocity = side.motion.spin;
-  state.pose.position = side.pose.position - state.velocity * t - gravity * (t * t / 2);
+  state.pose.position = side.pose.position - state.velocity * t - scene.gravity * (t * t / 2);
   state.pose.orientation = turned(side.pose.orientation, -side.motion.spin * t);
   BodyMotion& motion = bodies.motion(side.id.value);
   // The weight has done its work on the way to the instant, wherever the body is said to come from.
-  body_gravity_work += motion.mass * gravity.dot(state.pose.position - motion.step_start);
+  sums.body_gravity_work += motion.mass * scene.gravity.dot(state.pose.position - motion.step_start);
   motion.step_start = state.pose.position;
-  state.velocity = reading().to_world(state.velocity);
-  world->set_state(side.id, state);
+  state.velocity = scene.reading().to_world(state.velocity);
+  scene.world->set_state(side.id, state);
 }
 
 /// How a side gives way at the places, what its joints bear of it, and what they bear without it.
@@ -151,7 +151,7 @@ void Simulation::State::find_flexibility(ImpactSide& side, const std::vector<Imp
     for (Eigen::Index i = 0; i < n; ++i) {
       const ImpactPlace& place = places[static_cast<std::size_t>(i)];
       side.flexibility.compliance(i, i) =
-          frame->respond_near({side.standing.member, side.standing.panel, place.point}, place.normal).compliance;
+          scene.frame->respond_near({side.standing.member, side.standing.panel, place.point}, place.normal).compliance;
     }
     return;
   }
@@ -160,7 +160,7 @@ void Simulation::State::find_flexibility(ImpactSide& side, const std::vector<Imp
   const Mat3 back = side.pose.orientation.toRotationMatrix().transpose();
   std::vector<FreePush> pushes;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const Part part = part_of_number(building, side.tags[i]);
+    const Part part = part_of_number(scene.building, side.tags[i]);
     pushes.push_back({part.member, part.panel, one->rest.centre + back * (places[i].point - side.pose.position),
                       sign * (back * places[i].normal)});
   }
@@ -174,11 +174,11 @@ void Simulation::State::find_held(ImpactSide& side, const std::vector<ImpactPlac
   std::vector<ContactPlace> at;
   std::vector<Vec3> along;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const Part part = part_of_number(building, side.tags[i]);
+    const Part part = part_of_number(scene.building, side.tags[i]);
     at.push_back({part.member, part.panel, places[i].point});
     along.push_back(places[i].normal);
   }
-  side.response = frame->respond_held(at, along);
+  side.response = scene.frame->respond_held(at, along);
   side.flexibility.compliance = side.response.compliance;
   side.flexibility.demands = side.response.demands;
   for (const auto& [joint, modes] : side.response.node_demands) {
@@ -187,7 +187,8 @@ void Simulation::State::find_held(ImpactSide& side, const std::vector<ImpactPlac
     if (std::none_of(demands.begin(), demands.end(), same))
       demands.emplace_back(joint, Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, side.response.compliance.cols()));
   }
-  for (const auto& [joint, columns] : side.flexibility.demands) side.borne.emplace_back(joint, frame->demand(joint));
+  for (const auto& [joint, columns] : side.flexibility.demands)
+    side.borne.emplace_back(joint, scene.frame->demand(joint));
 }
 
 std::vector<StruckJoint> Simulation::State::struck_joints(const BodyImpact& impact) const {
@@ -199,8 +200,9 @@ std::vector<StruckJoint> Simulation::State::struck_joints(const BodyImpact& impa
       Eigen::Matrix<double, 6, Eigen::Dynamic> by_force = Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, n + m);
       by_force.leftCols(n) = columns;
       if (side.held) by_force.rightCols(m) = side.mode_demands[k];
-      joints.push_back({joint, &building[joint].capacity, strength_factors[static_cast<std::size_t>(joint.index)],
-                        side.borne[k].second, std::move(by_force)});
+      joints.push_back({joint, &scene.building[joint].capacity,
+                        scene.strength_factors[static_cast<std::size_t>(joint.index)], side.borne[k].second,
+                        std::move(by_force)});
     }
   return joints;
 }
@@ -213,18 +215,19 @@ void Simulation::State::strike_bodies_at(const std::vector<collision::Contact>& 
   impact.sides[1] = two ? side_at(first.other.body, time_since_state(first.other.body, first.time)) : ImpactSide();
   if (first.other.kind == collision::Touched::Kind::obstacle) {
     impact.sides[1].standing = obstacles.part_of(first.other.obstacle);
-    impact.sides[1].held = sways();
-    if (!sways() && (!impact.sides[1].standing.valid() || !stands(impact.sides[1].standing))) return;  // it broke there
+    impact.sides[1].held = scene.sways();
+    if (!scene.sways() && (!impact.sides[1].standing.valid() || !scene.stands(impact.sides[1].standing)))
+      return;  // it broke there
   }
   for (const collision::Contact& contact : contacts) {
     const Part struck_part = impact.sides[1].held ? obstacles.part_of(contact.other.obstacle) : Part();
-    if (impact.sides[1].held && (!struck_part.valid() || !stands(struck_part))) continue;
+    if (impact.sides[1].held && (!struck_part.valid() || !scene.stands(struck_part))) continue;
     // An area is met at its corners.
     for (int corner = 0; corner < std::max(1, contact.corner_count); ++corner) {
       const Vec3 point = contact.corner_count > 0 ? contact.corners[static_cast<std::size_t>(corner)] : contact.point;
       impact.places.push_back({point, contact.normal});
       impact.sides[0].tags.push_back(contact.part_tag);
-      const std::int64_t tag = struck_part.valid() ? part_number(building, struck_part) : -1;
+      const std::int64_t tag = struck_part.valid() ? part_number(scene.building, struck_part) : -1;
       impact.sides[1].tags.push_back(two ? contact.other.part_tag : tag);
     }
   }
@@ -268,24 +271,24 @@ void Simulation::State::push_bodies(BodyImpact& impact) {
     const StruckJoints joints(all, borne.peak_force(), static_cast<int>(impact.sides[1].mode_compliance.size()));
     const double hardest = borne.peak_force().head(n).maxCoeff();
     const auto used = [&](const Eigen::VectorXd& force) { return joints.utilisation(force); };
-    if (told) events[*told].peak_force = std::max(events[*told].peak_force, joints.empty() ? hardest : 0);
+    if (told) log[*told].peak_force = std::max(log[*told].peak_force, joints.empty() ? hardest : 0);
     if (joints.empty() || push->push(used, deepest) != Impact::Stop::failed) {
       for (std::size_t k = 0; k < all.size(); ++k)
-        if (uses[k] > 0) frame->remember_utilisation(all[k].joint, std::min(uses[k], 1.0));
+        if (uses[k] > 0) scene.frame->remember_utilisation(all[k].joint, std::min(uses[k], 1.0));
       break;
     }
     if (!told) told = record_body_impact(impact, speed_in);
     const std::vector<JointBreak> broken = joints.failing(push->force());
-    SimulationEvent& event = events[*told];
+    SimulationEvent& event = log[*told];
     event.peak_force = std::max(event.peak_force, push->peak_force().head(n).maxCoeff());
     give_impulses(impact, push->take_impulse().head(n));
     goes_on = break_bodies(impact, *push, broken);
-    events[*told].speed_out = push->closing_speed()(0);
+    log[*told].speed_out = push->closing_speed()(0);
     if (!goes_on) break;
   }
   if (!impact.sides[1].held || !goes_on) return;
   leave_with_restitution(impact);
-  SimulationEvent& event = events[*told];
+  SimulationEvent& event = log[*told];
   event.peak_force = std::max(event.peak_force, push->peak_force().head(impact.compliance.rows()).maxCoeff());
   event.speed_out = impact.closing()(0);
 }
@@ -312,11 +315,12 @@ double Simulation::State::deepest_push(const BodyImpact& impact) const {
       extent = std::max(extent, (bounds.high - bounds.low).norm());
       continue;
     }
-    const Part part = side.held ? part_of_number(building, side.tags.front()) : side.standing;
-    if (part.member.valid()) extent = std::max(extent, building[part.member].length);
+    const Part part = side.held ? part_of_number(scene.building, side.tags.front()) : side.standing;
+    if (part.member.valid()) extent = std::max(extent, scene.building[part.member].length);
     if (!part.panel.valid()) continue;
-    const Panel& panel = building[part.panel];
-    extent = std::max(extent, (building[panel.nodes[2]].position - building[panel.nodes[0]].position).norm());
+    const Panel& panel = scene.building[part.panel];
+    extent =
+        std::max(extent, (scene.building[panel.nodes[2]].position - scene.building[panel.nodes[0]].position).norm());
   }
   return impact_settings.small_displacements * extent;
 }
@@ -327,7 +331,7 @@ void Simulation::State::leave_with_restitution(BodyImpact& impact) {
   constexpr int most_passes = 1000;
   constexpr double settled = 1e-12;
   const Eigen::MatrixXd mobility = impact.mobility_of_both();
-  const Eigen::VectorXd wanted = (1 + scenario.impact.restitution) * impact.closing();
+  const Eigen::VectorXd wanted = (1 + scene.scenario.impact.restitution) * impact.closing();
   Eigen::VectorXd impulses = Eigen::VectorXd::Zero(wanted.size());
   for (int pass = 0; pass < most_passes; ++pass) {
     double changed = 0;
@@ -350,7 +354,7 @@ Impact Simulation::State::begin_push(const BodyImpact& impact, bool follows) con
   for (std::size_t i = 0; i < impact.places.size(); ++i) {
     // What lies asleep is held up by what it lies on.
     const auto falls = [&](const ImpactSide& side) {
-      return side.id.value >= 0 && !side.slept ? gravity.dot(impact.places[i].normal) : 0.0;
+      return side.id.value >= 0 && !side.slept ? scene.gravity.dot(impact.places[i].normal) : 0.0;
     };
     acceleration(static_cast<Eigen::Index>(i)) = falls(impact.sides[0]) - falls(impact.sides[1]);
   }
@@ -362,16 +366,16 @@ Impact Simulation::State::begin_push(const BodyImpact& impact, bool follows) con
 std::size_t Simulation::State::record_body_impact(const BodyImpact& impact, double speed_in) {
   const ImpactSide &by = impact.sides[0], &on = impact.sides[1];
   SimulationEvent& event =
-      record(SimulationEvent::Kind::impact, on.standing.valid() ? part_name(building, on.standing)
-                                            : on.id.value < 0   ? "ground"
-                                                                : touched_name(on.id, on.tags.front()));
+      log.record(SimulationEvent::Kind::impact, on.standing.valid() ? part_name(scene.building, on.standing)
+                                                : on.id.value < 0   ? "ground"
+                                                                    : touched_name(on.id, on.tags.front()));
   event.body = by.id;
   event.other_body = on.id;
   event.body_name = bodies.at(by.id.value).name;
   event.mass = bodies.at(by.id.value).rest.mass;
   event.speed_in = speed_in;
   event.position = impact.places.front().point;
-  return events.size() - 1;
+  return log.size() - 1;
 }
 
 /// What the law has done so far becomes velocity of both; the world hears of it.
@@ -398,7 +402,7 @@ void Simulation::State::give_impulses(BodyImpact& impact, const Eigen::VectorXd&
   impact.give(impulses);
   double given = 0;
   if (ImpactSide& held = impact.sides[1]; held.held) {
-    given = frame->strike(held.response, impulses);
+    given = scene.frame->strike(held.response, impulses);
     held.response.speed += held.response.mobility * impulses;
   }
   if (impact.sides[1].id.value < 0)
@@ -408,8 +412,8 @@ void Simulation::State::give_impulses(BodyImpact& impact, const Eigen::VectorXd&
     set_side(side);
     if (side.id.value >= 0) side = side_again(side, side.id);
   }
-  ledger.lost_in_impacts += kinetic - measure(after) - given;
-  ledger.momentum_error = std::max(ledger.momentum_error, after.error(before));
+  sums.ledger.lost_in_impacts += kinetic - measure(after) - given;
+  sums.ledger.momentum_error = std::max(sums.ledger.momentum_error, after.error(before));
 }
 
 /// The same places and the same instant, on a body as the world has it now.
@@ -435,19 +439,19 @@ bool Simulation::State::break_bodies(BodyImpact& impact, Impact& push, const std
     JointBreak line = one;
     const collision::BodyId id{body_of_joint(one.joint)};
     if (id.value < 0) {
-      line.position = joint_position(one.joint);
+      line.position = scene.joint_position(one.joint);
       of_frame.push_back(one);
-      lines.push_back(events.size());
-      record(line);
+      lines.push_back(log.size());
+      log.record(line);
       continue;
     }
     debris_broken[static_cast<std::size_t>(one.joint.index)] = 1;
-    const collision::BodyState state = world->state(id);
-    line.position = state.pose * (joint_position(one.joint) - bodies.at(id.value).rest.centre);
-    lines.push_back(events.size());
-    record(line);
+    const collision::BodyState state = scene.world->state(id);
+    line.position = state.pose * (scene.joint_position(one.joint) - bodies.at(id.value).rest.centre);
+    lines.push_back(log.size());
+    log.record(line);
   }
-  if (!of_frame.empty()) frame->break_in_impact(of_frame);
+  if (!of_frame.empty()) scene.frame->break_in_impact(of_frame);
   std::vector<int> kept;
   for (ImpactSide& side : impact.sides) {
     if (side.id.value < 0) continue;
@@ -461,7 +465,7 @@ bool Simulation::State::break_bodies(BodyImpact& impact, Impact& push, const std
     side = side_again(side, {piece});
   }
   const auto holds = [&](const ImpactSide& side, std::size_t place) {
-    if (side.held) return stands(part_of_number(building, side.tags[place]));
+    if (side.held) return scene.stands(part_of_number(scene.building, side.tags[place]));
     return side.id.value < 0 || side.tags[place] < 0 ||
            body_of_part[static_cast<std::size_t>(side.tags[place])] == side.id.value;
   };
@@ -493,7 +497,7 @@ bool Simulation::State::break_bodies(BodyImpact& impact, Impact& push, const std
     left = push.stored();
   }
   for (const std::size_t line : lines)
-    events[line].joint.energy = std::max(0.0, stored - left) / static_cast<double>(lines.size());
+    log[line].joint.energy = std::max(0.0, stored - left) / static_cast<double>(lines.size());
   return goes_on;
 }
 

@@ -156,16 +156,16 @@ bool Simulation::State::strike_together(std::span<const collision::Contact* cons
     pushed.normals.push_back(hit.normal);
   }
   // What is known at little cost tells of most pushes that they are borne, and of some that they are taken one by one.
-  pushed.response = frame->respond_near(pushed.places, pushed.normals);
+  pushed.response = scene.frame->respond_near(pushed.places, pushed.normals);
   if (!take_up(pushed)) return false;
   if (bears(pushed)) {
-    ++counters.impacts_bounded;
+    ++sums.counters.impacts_bounded;
   } else {
-    pushed.response = frame->respond(pushed.places, pushed.normals);
+    pushed.response = scene.frame->respond(pushed.places, pushed.normals);
     if (!take_up(pushed)) return false;
     push_in(pushed);
   }
-  ++counters.impacts_together;
+  ++sums.counters.impacts_together;
   send_on(pushed);
   for (const Strike& hit : hits) record_impact(hit);
   return true;
@@ -179,11 +179,11 @@ bool Simulation::State::take_up(SimultaneousImpact& pushed) const {
   const collision::BodyState& state = hits.front().state;
   pushed.body = {one.rest.mass,          world_inertia(one, state.pose.orientation),
                  state.pose.position,    state.velocity,
-                 state.angular_velocity, one.rest.mass * gravity};
+                 state.angular_velocity, one.rest.mass * scene.gravity};
   pushed.pushed_at.clear();
   for (const Strike& hit : hits) pushed.pushed_at.push_back({hit.place.point, hit.normal});
   Eigen::MatrixXd share;
-  if (scenario.impact.structure_mass) {
+  if (scene.scenario.impact.structure_mass) {
     const Eigen::MatrixXd stiffness = pushed.response.compliance.inverse();
     share = stiffness * pushed.response.inertia * stiffness;
     for (std::size_t i = 0; i < hits.size(); ++i) hits[i].structure_mass = pushed.response.places[i].rayleigh_mass;
@@ -199,11 +199,11 @@ bool Simulation::State::bears(SimultaneousImpact& pushed) {
   CoupledPush borne = *pushed.push;
   const CoupledPush::Stop end = borne.push();
   const Eigen::VectorXd& peak = borne.peak_force();
-  if (!WatchedJoints(*frame, pushed.response.places, strength_factors, peak).empty()) return false;
+  if (!WatchedJoints(*scene.frame, pushed.response.places, scene.strength_factors, peak).empty()) return false;
   const double stored = peak.dot(pushed.response.compliance.cwiseAbs() * peak) / 2;
   for (const ContactPlace& place : pushed.places)
-    if (stored > (1 - rounding) * frame->critical_energy(place)) return false;
-  pushed.leave(std::move(borne), end, scenario.impact.restitution);
+    if (stored > (1 - rounding) * scene.frame->critical_energy(place)) return false;
+  pushed.leave(std::move(borne), end, scene.scenario.impact.restitution);
   return true;
 }
 
@@ -212,18 +212,18 @@ void Simulation::State::push_in(SimultaneousImpact& pushed) {
   for (;;) {
     CoupledPush borne = push;
     const CoupledPush::Stop end = borne.push();
-    const WatchedJoints watched(*frame, pushed.response.places, strength_factors, borne.peak_force());
+    const WatchedJoints watched(*scene.frame, pushed.response.places, scene.strength_factors, borne.peak_force());
     const auto used = [&](const Eigen::VectorXd& force) { return watched.worst_use(force); };
-    if (watched.empty()) return pushed.leave(std::move(borne), end, scenario.impact.restitution);
+    if (watched.empty()) return pushed.leave(std::move(borne), end, scene.scenario.impact.restitution);
     if (push.push(used) != CoupledPush::Stop::failed)
-      return pushed.leave(CoupledPush(push), end, scenario.impact.restitution);
+      return pushed.leave(CoupledPush(push), end, scene.scenario.impact.restitution);
     const std::vector<JointBreak> breaks = watched.failing(push.force());
     const double stored = push.stored();
-    const Eigen::VectorXd shift = frame->break_in_impact(breaks, pushed.places, pushed.normals);
+    const Eigen::VectorXd shift = scene.frame->break_in_impact(breaks, pushed.places, pushed.normals);
     bool stays = false, slips = false;
     for (std::size_t i = 0; i < pushed.hits.size(); ++i) {
       Strike& hit = pushed.hits[i];
-      hit.through = !stands(hit.part);
+      hit.through = !scene.stands(hit.part);
       if (hit.through) push.let_go(i);
       stays = stays || push.touches(i);
       slips = slips || std::abs(shift(static_cast<Eigen::Index>(i))) > impact_settings.largest_shift;
@@ -233,7 +233,7 @@ void Simulation::State::push_in(SimultaneousImpact& pushed) {
     const double freed = ends ? stored : std::max(0.0, stored - push.stored());
     for (JointBreak broken : breaks) {
       broken.energy = freed / static_cast<double>(breaks.size());
-      broken.position = joint_position(broken.joint);
+      broken.position = scene.joint_position(broken.joint);
       pushed.hits.front().breaks.push_back(broken);
     }
     if (ends) {
@@ -254,7 +254,7 @@ void Simulation::State::go_on(SimultaneousImpact& pushed, const Eigen::VectorXd&
     places.push_back(pushed.places[i]);
     normals.push_back(pushed.normals[i]);
   }
-  StandingFrame::CoupledResponse now = frame->respond(places, normals);
+  StandingFrame::CoupledResponse now = scene.frame->respond(places, normals);
   for (StandingFrame::UnitResponse& one : pushed.response.places) one.demands.clear();
   for (std::size_t k = 0; k < left.size(); ++k)
     pushed.response.places[static_cast<std::size_t>(left[k])] = std::move(now.places[k]);
@@ -272,7 +272,7 @@ void Simulation::State::send_on(SimultaneousImpact& pushed) {
   state.velocity += impulses.change.head<3>();
   state.angular_velocity += impulses.change.tail<3>();
   const Kinetic came = kinetic_energy(one, first.state), goes = kinetic_energy(one, state);
-  ledger.lost_in_impacts += (came.translation + came.rotation) - (goes.translation + goes.rotation);
+  sums.ledger.lost_in_impacts += (came.translation + came.rotation) - (goes.translation + goes.rotation);
   std::vector<PointImpulse> given;
   for (std::size_t i = 0; i < pushed.hits.size(); ++i) {
     Strike& hit = pushed.hits[i];
