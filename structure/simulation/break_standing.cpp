@@ -69,7 +69,7 @@ BrokenPanel& Simulation::State::breaking(PanelId panel) {
   if (const auto found = broken_panels.find(panel); found != broken_panels.end()) return found->second;
   const auto& settings = breakable_panels[static_cast<std::size_t>(panel.index)].settings;
   return broken_panels
-      .emplace(panel, BrokenPanel(scene.building, panel, masses.of(panel).mass, shapes.corners(panel),
+      .emplace(panel, BrokenPanel(scene.building, panel, debris.masses.of(panel).mass, debris.shapes.corners(panel),
                                   settings.value_or(fracture::PanelSettings()), held(panel)))
       .first->second;
 }
@@ -134,7 +134,7 @@ std::array<bool, 4> Simulation::State::held(PanelId panel) {
 /// Panels that have openings from the start have the shape of what is there.
 void Simulation::State::open_panels() {
   for (std::size_t p = 0; p < scene.building.panels.size(); ++p)
-    if (!scene.building.panels[p].openings.empty()) shapes.set_broken(PanelId(p), breaking(PanelId(p)).hulls());
+    if (!scene.building.panels[p].openings.empty()) debris.shapes.set_broken(PanelId(p), breaking(PanelId(p)).hulls());
 }
 
 /// Where the static stress passes what the material bears, a panel cracks at its largest; what that leaves is looked at
@@ -168,14 +168,12 @@ std::vector<collision::BodyId> Simulation::State::break_standing(PanelId panel, 
 
   scene.frame->fracture(panel, left.remains());
   if (left.hulls().empty()) {
-    part_is_gone(part);
-    body_of_part[static_cast<std::size_t>(part_number(scene.building, part))] = -2;
+    debris.stop_standing(part);
+    debris.lose(part);
   } else {
-    masses.set(panel, left.rest());
-    shapes.set_broken(panel, left.hulls());
-    scene.timer.engine([&] { obstacles.renew(part, *scene.world); });
-    for (const collision::BodyId lying : resting.on(part))
-      if (bodies.contains(lying.value)) scene.world->wake(lying);
+    debris.masses.set(panel, left.rest());
+    debris.shapes.set_broken(panel, left.hulls());
+    debris.renew_shape(part);
   }
 
   std::vector<collision::BodyId> out;
@@ -188,7 +186,7 @@ std::vector<collision::BodyId> Simulation::State::break_standing(PanelId panel, 
       dust += piece.rest.mass;
       continue;
     }
-    const collision::BodyId id = add_body(std::move(piece), Vec3::Zero(), Vec3::Zero(), sunk);
+    const collision::BodyId id = debris.add(std::move(piece), Vec3::Zero(), Vec3::Zero(), sunk);
     if (of_hit) out.push_back(id);
   }
   if (dust > 0) log.record(SimulationEvent::Kind::limited, scene.building[panel].name).mass = dust;
@@ -198,20 +196,18 @@ std::vector<collision::BodyId> Simulation::State::break_standing(PanelId panel, 
 /// What a hit broke out of a standing panel leaves with the speed of the body, which flies on through the hole.
 void Simulation::State::push_chunks(const Strike& hit) {
   if (!hit.part.panel.valid() || !hit.through) return;
-  collision::Touched touched;
-  if (const collision::ObstacleId panel = obstacles.obstacle_of(hit.part); panel.value >= 0) {
+  if (const collision::ObstacleId panel = debris.obstacles.obstacle_of(hit.part); panel.value >= 0) {
+    collision::Touched touched;
     touched.kind = collision::Touched::Kind::obstacle;
     touched.obstacle = panel;
-    pass(hit.body->id, touched);
+    debris.pass(hit.body->id, touched);
   }
-  touched.kind = collision::Touched::Kind::body;
   for (const collision::BodyId id : hit.chunks) {
-    touched.body = id;
-    pass(hit.body->id, touched);
+    debris.pass(hit.body->id, id);
     const Vec3 gained = hit.speed_out * hit.normal;
     collision::BodyState state = scene.world->state(id);
     state.velocity += gained;
-    sums.ledger.lost_in_impacts -= bodies.at(id.value).rest.mass * gained.squaredNorm() / 2;
+    sums.ledger.lost_in_impacts -= debris.bodies.at(id.value).rest.mass * gained.squaredNorm() / 2;
     scene.world->set_state(id, state);
   }
 }

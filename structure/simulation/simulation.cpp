@@ -45,11 +45,7 @@ void Simulation::step() {
 Simulation::State::State(Building the_building, Scenario the_scenario, SimulationOptions the_options)
     : scene(std::move(the_building), std::move(the_scenario), std::move(the_options)),
       log(scene),
-      masses(scene.building, scene.combination, *scene.frame),
-      shapes(scene.building),
-      grid(scene.building, shapes),
-      obstacles(scene.building, shapes, grid, scene.scenario.debris.friction, scene.scenario.debris.restitution),
-      body_of_part(part_count(scene.building), -1),
+      debris(scene),
       debris_broken(scene.building.joints.size(), 0),
       stiffness_factors(scene.building.members.size(), 1.0) {
   find_breakable_panels();
@@ -77,11 +73,6 @@ double Simulation::State::next_instant() const {
   double next = next_event == scene.scenario.events.size() ? unlimited : scene.scenario.events[next_event].at;
   for (const Weakening& weakening : weakenings) next = std::min(next, weakening.next());
   return next;
-}
-
-Body* Simulation::State::body(collision::BodyId id) {
-  const auto found = bodies.find(id.value);
-  return found == bodies.end() ? nullptr : &found->second;
 }
 
 Simulation::Simulation(Building building, Scenario scenario, SimulationOptions options) {
@@ -134,11 +125,11 @@ const PieceChanges& Simulation::changes() const { return state_->changes; }
 
 collision::BodyId Simulation::body_of(MemberId member) const {
   require_id(state_->scene.building, member, "body_of");
-  return {state_->body_of_part[static_cast<std::size_t>(member.index)]};
+  return {state_->debris.body_of(Part(member))};
 }
 collision::BodyId Simulation::body_of(PanelId panel) const {
   require_id(state_->scene.building, panel, "body_of");
-  return {state_->body_of_part[static_cast<std::size_t>(part_number(state_->scene.building, Part(panel)))]};
+  return {state_->debris.body_of(Part(panel))};
 }
 
 std::shared_ptr<const fracture::Mesh> Simulation::broken_panel(PanelId panel) const {
@@ -159,7 +150,7 @@ std::optional<Simulation::RayHit> Simulation::ray_cast(const Vec3& from, const V
     const Part part = part_of_number(s.scene.building, static_cast<std::int64_t>(i));
     if (!s.scene.stands(part)) continue;
     const BrokenPanel* broken = part.panel.valid() ? s.broken_panel(part.panel) : nullptr;
-    const auto distance = broken ? broken->ray(from, n) : s.shapes.ray(part, from, n);
+    const auto distance = broken ? broken->ray(from, n) : s.debris.shapes.ray(part, from, n);
     if (!distance || *distance >= nearest.distance) continue;
     nearest.member = part.member;
     nearest.panel = part.panel;
@@ -168,7 +159,7 @@ std::optional<Simulation::RayHit> Simulation::ray_cast(const Vec3& from, const V
   }
   if (const auto hit = s.scene.world->ray_cast(from, from + sight * n); hit && hit->distance < nearest.distance) {
     const Part part =
-        hit->what.kind == collision::Touched::Kind::obstacle ? s.obstacles.part_of(hit->what.obstacle) : Part();
+        hit->what.kind == collision::Touched::Kind::obstacle ? s.debris.obstacles.part_of(hit->what.obstacle) : Part();
     nearest = {part.member, part.panel, hit->what.body, hit->point, hit->distance};
     return nearest;
   }
@@ -215,7 +206,7 @@ std::uint64_t Simulation::hash() const {
     hash.add(s.scene.frame->displacement(NodeId(i)));
   }
   std::map<std::string, const Body*> named;
-  for (const auto& [id, body] : s.bodies) named.emplace(body.name, &body);
+  for (const auto& [id, body] : s.debris.bodies) named.emplace(body.name, &body);
   for (const auto& [name, body] : named) {
     const collision::BodyState state = s.scene.world->state(body->id);
     hash.add(name);

@@ -4,10 +4,7 @@
 
 #include "simulation/accounts/event_log.h"
 #include "simulation/accounts/running_sums.h"
-#include "simulation/debris/bodies.h"
-#include "simulation/debris/obstacles.h"
-#include "simulation/debris/part_masses.h"
-#include "simulation/debris/resting_loads.h"
+#include "simulation/debris/debris.h"
 #include "simulation/fracture/broken_panel.h"
 #include "simulation/impact/free_segment.h"
 #include "simulation/impact/impact.h"
@@ -103,7 +100,6 @@ struct Simulation::State {
   void strike_bodies_at(const std::vector<collision::Contact>& contacts);
   void push_bodies(BodyImpact& impact);
   [[nodiscard]] bool may_break(collision::BodyId id) const;
-  [[nodiscard]] std::int64_t body_of_joint(JointId joint) const;
   [[nodiscard]] ImpactSide side_at(collision::BodyId id, double time) const;
   [[nodiscard]] double time_since_state(collision::BodyId id, double swept_at) const;
   [[nodiscard]] ImpactSide side_again(const ImpactSide& side, collision::BodyId id) const;
@@ -128,20 +124,13 @@ struct Simulation::State {
   // cut_in_two.cpp: the pieces of a post that buckled inside.
   void release_in_two(const Detached& part);
   [[nodiscard]] Body piece_of(MemberId member, int end, double cut) const;
-  void parts_are_gone(std::span<const Part> parts);
-  void part_is_gone(Part part) { parts_are_gone({&part, 1}); }
   [[nodiscard]] Body describe(const Detached& part) const;
-  collision::BodyId add_body(Body body, const Vec3& velocity, const Vec3& spin, const Vec3& displacement);
   void apply_release_impulses(const Body& body, Vec3& velocity, Vec3& spin);
   void check_momentum(const Body& body, const std::optional<Detached::Motion>& motion);
   [[nodiscard]] static bool was_struck(const ReleaseImpulse& given, const Body& one);
   [[nodiscard]] std::vector<collision::BodyId> breakers_of(const Body& one) const;
-  collision::BodyId add_body(Body body, const collision::BodyState& state);
   void remove_body(collision::BodyId id, bool keep_weight);
-  void pass(collision::BodyId id, const collision::Touched& other);
   void keep_limit();
-  void freeze(const std::vector<RestingLoads::Kept>& lying);
-  void leave_weight(const MassProperties& rest);
 
   // hinges.cpp: what moves as a mechanism hangs on.
   struct Hung {
@@ -165,8 +154,6 @@ struct Simulation::State {
   void load_by(Hung& hung, const Vec3& force, const Vec3& moment);
   [[nodiscard]] Utilisation utilisation_of(const Hung& hung, const Vec3& force, const Vec3& moment) const;
   [[nodiscard]] ContactPlace hold_of(JointId joint, bool member_hangs) const;
-  [[nodiscard]] collision::BodyId body_with(const ContactPlace& place) const;
-  [[nodiscard]] Mat3 turned_with(collision::BodyId id) const;
 
   // shatter.cpp: panels that came off break into chunks.
   void find_breakable_panels();
@@ -252,7 +239,6 @@ struct Simulation::State {
   void account_body(BodyMotion& one);
   void account_contacts();
   void watch_overlaps();
-  [[nodiscard]] std::string touched_name(collision::BodyId body, std::int64_t part_tag) const;
   [[nodiscard]] BodyView view_of(const Body& one) const;
   void update_views();
   void record_changes(std::span<const std::int64_t> before);
@@ -277,26 +263,13 @@ struct Simulation::State {
   /// When the next event or stage acts; unlimited when none is to come.
   [[nodiscard]] double next_instant() const;
   [[nodiscard]] bool finished() const;
-  Body* body(collision::BodyId id);
 
   Scene scene;
   EventLog log;
   RunningSums sums;
-  PartMasses masses;
-  PartShapes shapes;
-  PartGrid grid;
-  Obstacles obstacles;
+  Debris debris;
   std::vector<ContactRecord> contact_records;  ///< of the last collision step
   PressingForces pressing;
-  RestingLoads resting;
-  /// Debris that is no body any more and lies as dead weight.
-  struct Frozen {
-    Part on;
-    MassProperties mass;
-  };
-  std::vector<Frozen> frozen;
-  Bodies bodies;
-  std::vector<std::int64_t> body_of_part;  ///< by part number; -1 stands, -2 gone
 
   struct BreakablePanel {
     std::optional<fracture::PanelSettings> settings;                        ///< none: it never breaks
@@ -329,13 +302,8 @@ struct Simulation::State {
   std::vector<HostContact> touches;                   ///< to come in the next step
   std::vector<HostImpulse> host_impulses;
   std::map<std::string, int> launched;  ///< balls by kind
-  struct HungBall {
-    collision::CableId cable;
-    Vec3 anchor;
-  };
-  std::map<std::int64_t, HungBall> cables;  ///< by body
-  std::map<std::int64_t, Hung> hinges;      ///< by hinge
-  std::int64_t last_hinge_load = 0;         ///< keys of their loads go down from -1
+  std::map<std::int64_t, Hung> hinges;  ///< by hinge
+  std::int64_t last_hinge_load = 0;     ///< keys of their loads go down from -1
   bool was_at_rest = false, done_told = false;
 
   collision::OverlapWatch overlap_watch;

@@ -58,27 +58,28 @@ void Simulation::State::approach(BodyMotion& one, const collision::BodyState& st
     one.looked_over = swept;
     one.looked_over.add(Vec3(swept.low - Vec3::Constant(debris_settings.look_ahead)));
     one.looked_over.add(Vec3(swept.high + Vec3::Constant(debris_settings.look_ahead)));
-    near = obstacles.without_shape(one.looked_over);
+    near = debris.obstacles.without_shape(one.looked_over);
   }
-  if (!near.empty()) obstacles.approach(near, swept, *scene.frame, *scene.world);
+  if (!near.empty()) debris.obstacles.approach(near, swept, *scene.frame, *scene.world);
   const auto [travel, turned_by] = sweep_of(state, one.reach);
   double room = (swept.low - one.looked_over.low).cwiseMin(one.looked_over.high - swept.high).minCoeff();
-  for (const Part part : near) room = std::min(room, gap(swept, shapes.bounds(part)));
+  for (const Part part : near) room = std::min(room, gap(swept, debris.shapes.bounds(part)));
   one.seen = {room, state.pose.position, travel, state.pose.orientation, turned_by};
 }
 
 std::vector<collision::Contact> Simulation::State::sweep() {
   struck.clear();
   release_impulses.clear();
-  for (BodyMotion& one : bodies.motions()) {
+  for (BodyMotion& one : debris.bodies.motions()) {
     const collision::BodyState state = scene.world->state({one.id});
     one.step_start = state.pose.position;
     if (!state.asleep) approach(one, state);
   }
   if (scene.world->awake_count() == 0) return {};
   // Bodies are looked for where some can break against each other.
-  const bool any_composed = std::any_of(bodies.composed().begin(), bodies.composed().end(),
-                                        [&](std::int64_t id) { return !bodies.motion(id).asleep || may_break({id}); });
+  const bool any_composed =
+      std::any_of(debris.bodies.composed().begin(), debris.bodies.composed().end(),
+                  [&](std::int64_t id) { return !debris.bodies.motion(id).asleep || may_break({id}); });
   const collision::Sweep what = any_composed ? collision::Sweep::everything : collision::Sweep::obstacles;
   return scene.timer.engine([&] { return scene.world->sweep(scene.scenario.step, what, impact_settings.least_speed); });
 }

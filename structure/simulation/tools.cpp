@@ -52,12 +52,12 @@ collision::BodyId Simulation::State::launch(const std::string& kind, const Vec3&
   SimulationEvent& event = log.record(SimulationEvent::Kind::tool, kind);
   event.mass = mass;
   event.position = from;
-  return add_body(std::move(sphere), velocity, Vec3::Zero(), Vec3::Zero());
+  return debris.add(std::move(sphere), velocity, Vec3::Zero(), Vec3::Zero());
 }
 
 void Simulation::State::use(const WreckingBall& ball) {
   const collision::BodyId id = launch("wrecking ball", ball.from, ball.mass, ball.radius, Vec3::Zero());
-  cables[id.value] = {scene.world->add_cable({id, ball.anchor, ball.cable}), ball.anchor};
+  debris.cables[id.value] = {scene.world->add_cable({id, ball.anchor, ball.cable}), ball.anchor};
 }
 
 void Simulation::State::use(const CutTool& cut) {
@@ -71,14 +71,14 @@ void Simulation::State::use(const RemoveTool& remove) {
   for (const MemberId member : remove.members) {
     if (!scene.frame->stands(member)) continue;
     scene.frame->remove(member);
-    body_of_part[static_cast<std::size_t>(member.index)] = -2;
-    part_is_gone(Part(member));
+    debris.lose(Part(member));
+    debris.stop_standing(Part(member));
   }
   for (const PanelId panel : remove.panels) {
     if (!scene.frame->stands(panel)) continue;
     scene.frame->remove(panel);
-    body_of_part[static_cast<std::size_t>(part_number(scene.building, Part(panel)))] = -2;
-    part_is_gone(Part(panel));
+    debris.lose(Part(panel));
+    debris.stop_standing(Part(panel));
   }
   for (const NodeId support : remove.supports) scene.frame->remove_support(support);
 }
@@ -102,7 +102,7 @@ void Simulation::State::use(const GravityTool& tool) {
   scene.gravity = tool.gravity;
   scene.frame->set_gravity(scene.gravity);
   scene.world->set_gravity(scene.gravity);
-  for (auto& [id, one] : bodies) {  // the true velocity stays
+  for (auto& [id, one] : debris.bodies) {  // the true velocity stays
     collision::BodyState state = scene.world->state(one.id);
     if (!state.asleep) state.velocity = scene.reading().to_world(old.true_velocity(state.velocity));
     state.asleep = false;

@@ -7,7 +7,7 @@
 namespace topple::structure {
 
 void Simulation::State::move() {
-  for (BodyMotion& one : bodies.motions()) one.before = scene.world->state({one.id});
+  for (BodyMotion& one : debris.bodies.motions()) one.before = scene.world->state({one.id});
   if (scene.world->awake_count() == 0) return;
   scene.timer.engine([&] { scene.world->step(scene.scenario.step); });
   watch_overlaps();
@@ -17,11 +17,11 @@ void Simulation::State::move() {
 void Simulation::State::account() {
   account_contacts();
   pull_hinges();
-  for (BodyMotion& one : bodies.motions()) account_body(one);
-  auto next = bodies.motions().begin();  // asked for in order of id
-  resting.read(contact_records, obstacles, scene.scenario.step, [&](collision::BodyId id) {
-    while (next != bodies.motions().end() && next->id < id.value) ++next;
-    return next != bodies.motions().end() && next->id == id.value && !scene.world->state(id).asleep;
+  for (BodyMotion& one : debris.bodies.motions()) account_body(one);
+  auto next = debris.bodies.motions().begin();  // asked for in order of id
+  debris.resting.read(contact_records, debris.obstacles, scene.scenario.step, [&](collision::BodyId id) {
+    while (next != debris.bodies.motions().end() && next->id < id.value) ++next;
+    return next != debris.bodies.motions().end() && next->id == id.value && !scene.world->state(id).asleep;
   });
   shatter_landed();
   const std::map<PanelId, PanelImpact> impacts = impacts_on_panels();
@@ -38,7 +38,8 @@ void Simulation::State::account_contacts() {
     sums.ledger.lost_in_contacts += contact.work_lost;
     if (is_felt(contact)) contact_records.push_back(felt(contact));
   }
-  for (const auto& [id, hung] : cables) sums.ledger.lost_in_contacts += scene.world->cable_pull(hung.cable).work_lost;
+  for (const auto& [id, hung] : debris.cables)
+    sums.ledger.lost_in_contacts += scene.world->cable_pull(hung.cable).work_lost;
 }
 
 void Simulation::State::account_body(BodyMotion& one) {
@@ -75,7 +76,7 @@ void Simulation::State::update_views() {
   std::vector<std::int64_t> before;
   before.reserve(views.size());
   for (const BodyView& view : views) before.push_back(view.id.value);
-  const std::span<const BodyMotion> motions = bodies.motions();
+  const std::span<const BodyMotion> motions = debris.bodies.motions();
   const auto same_id = [](std::int64_t id, const BodyMotion& one) { return id == one.id; };
   if (!std::equal(before.begin(), before.end(), motions.begin(), motions.end(), same_id)) {
     std::vector<BodyView> now;
@@ -98,9 +99,9 @@ void Simulation::State::update_views() {
     const Vec3& at = state.pose.position;
     const Eigen::Vector4d turn = state.pose.orientation.coeffs();
     poses->insert(poses->end(), {at.x(), at.y(), at.z(), turn[0], turn[1], turn[2], turn[3]});
-    if (cables.empty() && !view.cable_anchor) continue;
-    const auto hung = cables.find(view.id.value);
-    view.cable_anchor = hung != cables.end() ? std::optional(hung->second.anchor) : std::nullopt;
+    if (debris.cables.empty() && !view.cable_anchor) continue;
+    const auto hung = debris.cables.find(view.id.value);
+    view.cable_anchor = hung != debris.cables.end() ? std::optional(hung->second.anchor) : std::nullopt;
   }
   record_changes(before);
 }
@@ -140,7 +141,7 @@ void Simulation::State::record_rest_and_end() {
 /// Brings the ledger's entries that are states, not sums, up to date.
 void Simulation::State::account_now() {
   double translation = 0, rotation = 0;
-  for (const auto& [id, one] : bodies) {
+  for (const auto& [id, one] : debris.bodies) {
     const Kinetic kinetic = kinetic_energy(one, scene.world->state(one.id), scene.reading());
     translation += kinetic.translation;
     rotation += kinetic.rotation;

@@ -45,13 +45,14 @@ FreeSegmentParts Simulation::State::parts_of(const Body& one) const {
   parts.nodes = one.nodes;
   // What lies frozen on a part is of its mass.
   const auto of = [&](Part part, double own) {
-    for (const Frozen& lying : frozen)
+    for (const Debris::Frozen& lying : debris.frozen)
       if (lying.on == part) own += lying.mass.mass;
     return own;
   };
-  for (const MemberId member : one.members) parts.member_mass.push_back(of(Part(member), masses.of(member).mass));
-  for (const PanelId panel : one.panels) parts.panel_mass.push_back(of(Part(panel), masses.of(panel).mass));
-  for (const NodeId node : one.nodes) parts.node_mass.push_back(masses.of(node).mass);
+  for (const MemberId member : one.members)
+    parts.member_mass.push_back(of(Part(member), debris.masses.of(member).mass));
+  for (const PanelId panel : one.panels) parts.panel_mass.push_back(of(Part(panel), debris.masses.of(panel).mass));
+  for (const NodeId node : one.nodes) parts.node_mass.push_back(debris.masses.of(node).mass);
   return parts;
 }
 
@@ -63,14 +64,14 @@ bool Simulation::State::spins_hard(const Body& one, const Vec3& spin) const {
 /// Bodies of several parts that are pressed hard, or that spin fast, and what acts on them in their undeformed axes.
 std::vector<Simulation::State::BodyActions> Simulation::State::pressed_hard() {
   pressing.read(contact_records, scene.scenario.step, [&](collision::BodyId id) -> std::optional<BodyPlace> {
-    const auto composed = bodies.composed();
+    const auto composed = debris.bodies.composed();
     if (!std::binary_search(composed.begin(), composed.end(), id.value)) return std::nullopt;
-    return BodyPlace{scene.world->state(id).pose, bodies.at(id.value).rest.centre};
+    return BodyPlace{scene.world->state(id).pose, debris.bodies.at(id.value).rest.centre};
   });
   std::vector<BodyActions> all;
-  for (const std::int64_t id : bodies.composed()) {
-    const Body& one = bodies.at(id);
-    if (bodies.motion(id).asleep || !may_fall_apart(one)) continue;
+  for (const std::int64_t id : debris.bodies.composed()) {
+    const Body& one = debris.bodies.at(id);
+    if (debris.bodies.motion(id).asleep || !may_fall_apart(one)) continue;
     const collision::BodyState state = scene.world->state(one.id);
     if (pressing.size(one.id) <= impact_settings.hard * one.rest.mass * scene.building.gravity &&
         !spins_hard(one, state.angular_velocity))
@@ -99,7 +100,7 @@ std::vector<Simulation::State::BodyActions> Simulation::State::handed_on(
     const BodyActions& loading, const std::vector<collision::BodyId>& pieces) const {
   std::vector<BodyActions> parts;
   for (const collision::BodyId id : pieces) {
-    const Body& own = bodies.at(id.value);
+    const Body& own = debris.bodies.at(id.value);
     if (!may_fall_apart(own)) continue;
     BodyActions part{id, {}, loading.spin, loading.gravity, loading.generation + 1};
     for (const FreePush& push : loading.pushes)
@@ -123,7 +124,7 @@ FreeSegment& Simulation::State::free_segment_of(const Body& one) {
 
 /// One generation of a body's breaks. False when nothing broke.
 bool Simulation::State::break_joints_of(const BodyActions& loading) {
-  const Body& one = bodies.at(loading.on.value);
+  const Body& one = debris.bodies.at(loading.on.value);
   FreeSegment& segment = free_segment_of(one);
   if (!segment.can_break()) return false;
   const FreeSegment::Answer answer = segment.bear(loading.pushes, loading.spin, loading.gravity);
@@ -147,7 +148,7 @@ bool Simulation::State::break_joints_of(const BodyActions& loading) {
 /// What it is now: itself when it still hangs together.
 std::vector<collision::BodyId> Simulation::State::come_apart(collision::BodyId id) {
   const std::vector<FreeSegmentParts> parts = connected_parts(
-      scene.building, parts_of(bodies.at(id.value)), [&](JointId joint) { return holds_in_debris(joint); },
+      scene.building, parts_of(debris.bodies.at(id.value)), [&](JointId joint) { return holds_in_debris(joint); },
       [&](PanelId panel) { return free_panel_edges(panel); });
   if (parts.size() == 1) return {id};
   return split(id, parts);
@@ -171,13 +172,12 @@ void Simulation::State::record_breaks_in_debris(const Body& one,
 std::vector<collision::BodyId> Simulation::State::split(collision::BodyId id,
                                                         const std::vector<FreeSegmentParts>& parts,
                                                         std::vector<Body> chunks) {
-  const Body whole = bodies.at(id.value);
+  const Body whole = debris.bodies.at(id.value);
   const collision::BodyState state = scene.world->state(id);
   const Mat3 turn = state.pose.orientation.toRotationMatrix();
-  (void)resting.forget(id, *scene.frame, false);
+  (void)debris.resting.forget(id, *scene.frame, false);
   const std::vector<JointId> hung = take_off(id);
-  scene.timer.engine([&] { scene.world->remove_body(id); });
-  bodies.erase(id.value);
+  debris.remove(id);
   free_segments.erase(id.value);
 
   std::vector<collision::BodyId> made;
@@ -197,16 +197,15 @@ std::vector<collision::BodyId> Simulation::State::split(collision::BodyId id,
     if (own.volume < scene.scenario.debris.smallest_volume) {
       const Kinetic lost = kinetic_energy(own, moving, scene.reading());
       sums.ledger.removed += lost.translation + lost.rotation;
-      for (const MemberId member : own.members) body_of_part[static_cast<std::size_t>(member.index)] = -2;
-      for (const PanelId panel : own.panels)
-        body_of_part[static_cast<std::size_t>(part_number(scene.building, Part(panel)))] = -2;
+      for (const MemberId member : own.members) debris.lose(Part(member));
+      for (const PanelId panel : own.panels) debris.lose(Part(panel));
       log.record(SimulationEvent::Kind::limited, own.name).mass = own.rest.mass;
       handed_on.add(own, moving);
       return;
     }
-    made.push_back(add_body(std::move(own), moving));
-    bodies.motion(made.back().value).step_start = moving.pose.position;
-    handed_on.add(bodies.at(made.back().value), scene.world->state(made.back()));
+    made.push_back(debris.add(std::move(own), moving));
+    debris.bodies.motion(made.back().value).step_start = moving.pose.position;
+    handed_on.add(debris.bodies.at(made.back().value), scene.world->state(made.back()));
     changes.split.push_back({id.value, made.back().value});
   };
   for (const FreeSegmentParts& part : parts) {
@@ -214,7 +213,7 @@ std::vector<collision::BodyId> Simulation::State::split(collision::BodyId id,
     piece.members = part.members;
     piece.panels = part.panels;
     piece.nodes = part.nodes;
-    const double mass = masses.of(piece).mass;
+    const double mass = debris.masses.of(piece).mass;
     if (piece.members.empty() && piece.panels.empty() && mass <= 0) continue;  // a bare node
     Body own = describe(piece);
     if (parts.size() > 1) {
@@ -232,12 +231,7 @@ std::vector<collision::BodyId> Simulation::State::split(collision::BodyId id,
   hang_again(hung);
   // Parts are born inside each other where they were joined.
   for (std::size_t i = 0; i < parts_made; ++i)
-    for (std::size_t j = i + 1; j < parts_made; ++j) {
-      collision::Touched other;
-      other.kind = collision::Touched::Kind::body;
-      other.body = made[j];
-      pass(made[i], other);
-    }
+    for (std::size_t j = i + 1; j < parts_made; ++j) debris.pass(made[i], made[j]);
   return made;
 }
 

@@ -44,15 +44,15 @@ Body Simulation::State::piece_of(MemberId id, int end, double cut) const {
   piece.name = member.name + "#" + std::to_string(end + 1);
   piece.chunk_of = piece_kind(member.kind);
   piece.end_joint = scene.building.joint(id, end);
-  piece.rest = masses.of(scene.building, id, from, to);
-  for (const Frozen& lying : frozen) {
+  piece.rest = debris.masses.of(scene.building, id, from, to);
+  for (const Debris::Frozen& lying : debris.frozen) {
     if (lying.on != Part(id)) continue;
     const double where = (lying.mass.centre - member_start(scene.building, member)).dot(member.axes.row(0));
     if ((where < at) == (end == 0)) piece.rest.add(lying.mass);
   }
   const double share = (to - from) / member.length;
   piece.volume = share * member_volume(scene.building, member);
-  for (const Vec3& corner : shapes.corners(scene.building, id, from, to))
+  for (const Vec3& corner : debris.shapes.corners(scene.building, id, from, to))
     piece.hull.push_back(corner - piece.rest.centre);
   for (const Vec3& corner : piece.hull) piece.bounds.add(corner);
   const Vec2 size = section_size(scene.building[member.section]);
@@ -74,8 +74,8 @@ void Simulation::State::release_in_two(const Detached& part) {
   post.members = {member};
   const Body whole = describe(post);
   const Part gone(member);
-  part_is_gone(gone);
-  body_of_part[static_cast<std::size_t>(member.index)] = -2;
+  debris.stop_standing(gone);
+  debris.lose(Part(member));
   SimulationEvent& event = log.record(SimulationEvent::Kind::detached, whole.name);
   event.members = whole.members;
   event.mass = whole.rest.mass;
@@ -97,25 +97,20 @@ void Simulation::State::release_in_two(const Detached& part) {
     if (piece.volume < scene.scenario.debris.smallest_volume) {
       log.record(SimulationEvent::Kind::limited, piece.name).mass = piece.rest.mass;
       handed_on.add(piece, {{piece.rest.centre, Eigen::Quaterniond::Identity()}, moves, spin});
-      leave_weight(piece.rest);
+      debris.leave_weight(piece.rest);
       continue;
     }
     const JointId joint = piece.end_joint;
-    const collision::BodyId id = add_body(std::move(piece), moves, spin, displacement);
+    const collision::BodyId id = debris.add(std::move(piece), moves, spin, displacement);
     made.push_back(id);
     collision::BodyState state = scene.world->state(id);
     state.velocity = scene.reading().true_velocity(state.velocity);
     state.pose.position -= displacement;
-    handed_on.add(bodies.at(id.value), state);
+    handed_on.add(debris.bodies.at(id.value), state);
     if (std::find(part.hinges.begin(), part.hinges.end(), joint) != part.hinges.end()) hang_on({joint}, id);
   }
   sums.ledger.momentum_error = std::max(sums.ledger.momentum_error, carried.error(handed_on));
-  if (made.size() == 2) {
-    collision::Touched other;
-    other.kind = collision::Touched::Kind::body;
-    other.body = made[1];
-    pass(made[0], other);
-  }
+  if (made.size() == 2) debris.pass(made[0], made[1]);
 }
 
 }  // namespace topple::structure

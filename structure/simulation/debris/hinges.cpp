@@ -30,22 +30,9 @@ ContactPlace Simulation::State::hold_of(JointId joint, bool member_hangs) const 
   return place;
 }
 
-/// The body that a member or node is part of; -1: none.
-collision::BodyId Simulation::State::body_with(const ContactPlace& place) const {
-  if (place.member.valid())
-    return {std::max<std::int64_t>(-1, body_of_part[static_cast<std::size_t>(place.member.index)])};
-  for (const auto& [id, one] : bodies)
-    if (has(one.nodes, place.node)) return {id};
-  return {};
-}
-
-Mat3 Simulation::State::turned_with(collision::BodyId id) const {
-  return id.value < 0 ? Mat3(Mat3::Identity()) : scene.world->state(id).pose.orientation.toRotationMatrix();
-}
-
 /// Hangs a body by a joint on what stands or on another body. False when there is nothing to hang it on.
 bool Simulation::State::hang(JointId joint, collision::BodyId id) {
-  const Body& one = bodies.at(id.value);
+  const Body& one = debris.bodies.at(id.value);
   const Member& member = scene.building[scene.building[joint].member];
   Hung hung;
   hung.joint = joint;
@@ -53,17 +40,17 @@ bool Simulation::State::hang(JointId joint, collision::BodyId id) {
   hung.member_hangs = has(one.members, scene.building[joint].member) || one.end_joint == joint;
   const ContactPlace on = hold_of(joint, hung.member_hangs);
   const bool on_frame = on.member.valid() ? scene.frame->stands(on.member) : scene.frame->stands(on.node);
-  if (!on_frame) hung.holder = body_with(on);
+  if (!on_frame) hung.holder = debris.body_with(on);
   if (!on_frame && (hung.holder.value < 0 || hung.holder == id)) return false;
 
   collision::HingeDescription description;
   description.body = id;
   if (!on_frame) description.other = hung.holder;
   description.point = scene.world->state(id).pose * Vec3(scene.joint_position(joint) - one.rest.centre);
-  description.axes = member.axes * turned_with(hung.member_hangs ? id : hung.holder).transpose();
+  description.axes = member.axes * debris.rotation(hung.member_hangs ? id : hung.holder).transpose();
   for (int c = 0; c < 6; ++c) description.held[static_cast<std::size_t>(c)] = scene.building[joint].stiffness(c) != 0;
   if (std::find(description.held.begin(), description.held.end(), true) == description.held.end()) return false;
-  hung.axes = description.axes * turned_with(hung.holder);
+  hung.axes = description.axes * debris.rotation(hung.holder);
   hung.hinge = scene.world->add_hinge(description);
   hung.load_key = --last_hinge_load;
   pass_what_holds(id, on.point, hung.holder);
@@ -73,21 +60,16 @@ bool Simulation::State::hang(JointId joint, collision::BodyId id) {
 
 /// A part that hangs on begins inside what it was joined to, and turns through it.
 void Simulation::State::pass_what_holds(collision::BodyId id, const Vec3& point, collision::BodyId holder) {
-  collision::Touched touched;
-  if (holder.value >= 0) {
-    touched.kind = collision::Touched::Kind::body;
-    touched.body = holder;
-    pass(id, touched);
-    return;
-  }
+  if (holder.value >= 0) return debris.pass(id, holder);
   Bounds around;
   around.add(point - Vec3::Constant(debris_settings.joint_room));
   around.add(point + Vec3::Constant(debris_settings.joint_room));
-  obstacles.approach(around, *scene.frame, *scene.world);
+  debris.obstacles.approach(around, *scene.frame, *scene.world);
+  collision::Touched touched;
   touched.kind = collision::Touched::Kind::obstacle;
-  for (const Part part : grid.near(around)) {
-    touched.obstacle = obstacles.obstacle_of(part);
-    if (touched.obstacle.value >= 0) pass(id, touched);
+  for (const Part part : debris.grid.near(around)) {
+    touched.obstacle = debris.obstacles.obstacle_of(part);
+    if (touched.obstacle.value >= 0) debris.pass(id, touched);
   }
 }
 
@@ -138,10 +120,11 @@ std::vector<JointId> Simulation::State::take_off(collision::BodyId id) {
 /// After a body fell apart into others: what it hung by, and what hung on it, goes on with the piece that has its side.
 void Simulation::State::hang_again(const std::vector<JointId>& joints) {
   for (const JointId joint : joints) {
-    const auto piece =
-        std::find_if(bodies.begin(), bodies.end(), [&](const auto& one) { return one.second.end_joint == joint; });
-    const collision::BodyId of_member = piece != bodies.end() ? piece->second.id : body_with(hold_of(joint, false));
-    const collision::BodyId of_rigid_end = body_with(hold_of(joint, true));
+    const auto piece = std::find_if(debris.bodies.begin(), debris.bodies.end(),
+                                    [&](const auto& one) { return one.second.end_joint == joint; });
+    const collision::BodyId of_member =
+        piece != debris.bodies.end() ? piece->second.id : debris.body_with(hold_of(joint, false));
+    const collision::BodyId of_rigid_end = debris.body_with(hold_of(joint, true));
     const collision::BodyId hanging = of_member.value >= 0 ? of_member : of_rigid_end;
     if (hanging.value >= 0) hang_on({joint}, hanging);
   }
@@ -156,7 +139,7 @@ void Simulation::State::pull_hinges() {
                     hung.holder);  // it may have turned clear of it and back
     sums.ledger.lost_in_contacts += scene.world->hinge_work_lost(hung.hinge);
     const Vec6 held = scene.world->hinge_force(hung.hinge);  // of the body on its holder
-    const Mat3 to_global = (hung.axes * turned_with(hung.holder).transpose()).transpose();
+    const Mat3 to_global = (hung.axes * debris.rotation(hung.holder).transpose()).transpose();
     const Vec3 force = to_global * held.head<3>(), moment = to_global * held.tail<3>();
     const Utilisation used = utilisation_of(hung, force, moment);
     if (used.value > 1)
@@ -170,7 +153,7 @@ void Simulation::State::pull_hinges() {
     line.sense = used.sense;
     line.demand = used.demand;
     line.capacity = used.capacity;
-    const Body& one = bodies.at(hung.body.value);
+    const Body& one = debris.bodies.at(hung.body.value);
     line.position = scene.world->state(hung.body).pose * Vec3(scene.joint_position(hung.joint) - one.rest.centre);
     log.record(line);
     take_off(hung);
@@ -181,7 +164,7 @@ void Simulation::State::pull_hinges() {
 Utilisation Simulation::State::utilisation_of(const Hung& hung, const Vec3& force, const Vec3& moment) const {
   const Joint& joint = scene.building[hung.joint];
   const Mat3 axes =
-      scene.building[joint.member].axes * turned_with(hung.member_hangs ? hung.body : hung.holder).transpose();
+      scene.building[joint.member].axes * debris.rotation(hung.member_hangs ? hung.body : hung.holder).transpose();
   // End forces are what the rigid end does to the member.
   const double sign = hung.member_hangs ? -1 : 1;
   Eigen::Matrix<double, 12, 1> end_forces = Eigen::Matrix<double, 12, 1>::Zero();
@@ -196,7 +179,7 @@ void Simulation::State::load_by(Hung& hung, const Vec3& force, const Vec3& momen
   const double share = std::min(1.0, scene.scenario.step / debris_settings.smoothing_time);
   hung.force += share * (force - hung.force);
   hung.moment += share * (moment - hung.moment);
-  const double band = debris_settings.hinge_band * bodies.at(hung.body.value).rest.mass * scene.building.gravity;
+  const double band = debris_settings.hinge_band * debris.bodies.at(hung.body.value).rest.mass * scene.building.gravity;
   const double arm = scene.building[scene.building[hung.joint].member].length;
   const double changed = (hung.force - hung.applied).norm() + (hung.moment - hung.moment_applied).norm() / arm;
   if (changed <= band) return;

@@ -46,13 +46,13 @@ void Simulation::State::strike_by_host(const HostContact& contact, Part part, Ho
   guest.rest.centre = contact.centre;
   guest.rest.inertia = contact.inertia;
   guest.radius = debris_settings.stand_in_radius;
-  const collision::BodyId id = add_body(std::move(guest), contact.velocity, contact.angular_velocity, Vec3::Zero());
-  obstacles.approach(shapes.bounds(part), *scene.frame, *scene.world);
+  const collision::BodyId id = debris.add(std::move(guest), contact.velocity, contact.angular_velocity, Vec3::Zero());
+  debris.obstacles.approach(debris.shapes.bounds(part), *scene.frame, *scene.world);
 
   collision::Contact touch;
   touch.body = id;
   touch.other.kind = collision::Touched::Kind::obstacle;
-  touch.other.obstacle = obstacles.obstacle_of(part);
+  touch.other.obstacle = debris.obstacles.obstacle_of(part);
   touch.point = contact.point;
   touch.normal = contact.normal;
   touch.approach_speed = felt.speed_in;
@@ -61,7 +61,7 @@ void Simulation::State::strike_by_host(const HostContact& contact, Part part, Ho
     state.velocity = scene.reading().true_velocity(state.velocity);
     return state;
   };
-  const Body& striking = bodies.at(id.value);
+  const Body& striking = debris.bodies.at(id.value);
   const Kinetic before = kinetic_energy(striking, scene.world->state(id), scene.reading());
   scene.sways() ? strike_bodies({touch}) : strike_all({touch});
   const collision::BodyState after = now();
@@ -70,14 +70,13 @@ void Simulation::State::strike_by_host(const HostContact& contact, Part part, Ho
   felt.impulse = contact.mass * (after.velocity - contact.velocity);
   felt.speed_out = (after.velocity + after.angular_velocity.cross(contact.point - contact.centre)).dot(contact.normal);
   felt.through = !scene.stands(part);
-  scene.world->remove_body(id);
-  bodies.erase(id.value);
+  debris.remove(id);
   struck.erase(id.value);
 }
 
 /// Two rigid bodies: the impulse that leaves them apart with the scenario's restitution (Newton's law of impact).
 void Simulation::State::push_debris(const HostContact& contact, HostImpulse& felt) {
-  const Body* one = body(contact.body);
+  const Body* one = debris.find(contact.body);
   if (!one) return;
   const collision::BodyState state = scene.world->state(contact.body);
   const Vec3 arm = contact.point - state.pose.position, own_arm = contact.point - contact.centre;

@@ -3,13 +3,6 @@
 
 namespace topple::structure {
 
-/// Of a part of the building, or of the chunk or ball that the body is.
-std::string Simulation::State::touched_name(collision::BodyId body, std::int64_t part_tag) const {
-  if (part_tag >= 0) return part_name(scene.building, part_of_number(scene.building, part_tag));
-  const auto found = bodies.find(body.value);
-  return found == bodies.end() ? std::string() : found->second.name;
-}
-
 void Simulation::State::watch_overlaps() {
   overlap_watch.read(scene.world->contacts(), scene.scenario.step);
   overlaps.deep = overlap_watch.deep_count();
@@ -18,18 +11,18 @@ void Simulation::State::watch_overlaps() {
   overlaps.depth = deepest->depth;
   overlaps.thickness = deepest->thickness;
   overlaps.time = static_cast<double>(scene.step) * scene.scenario.step;
-  overlaps.body = touched_name(deepest->body, deepest->part_tag);
+  overlaps.body = debris.name(deepest->body, deepest->part_tag);
   switch (deepest->other.kind) {
     case collision::Touched::Kind::ground:
       overlaps.with = "ground";
       break;
     case collision::Touched::Kind::obstacle: {
-      const Part part = obstacles.part_of(deepest->other.obstacle);
+      const Part part = debris.obstacles.part_of(deepest->other.obstacle);
       overlaps.with = part.valid() ? part_name(scene.building, part) : std::string();
       break;
     }
     case collision::Touched::Kind::body:
-      overlaps.with = touched_name(deepest->other.body, deepest->other.part_tag);
+      overlaps.with = debris.name(deepest->other.body, deepest->other.part_tag);
       break;
   }
 }

@@ -21,42 +21,6 @@ bool belongs(const Detached& part, Part one) {
 }
 }  // namespace
 
-/// What lies where its body was dropped goes on weighing, and falls with what it lies on.
-void Simulation::State::freeze(const std::vector<RestingLoads::Kept>& lying) {
-  const double g = scene.gravity.norm();
-  if (g == 0) return;
-  for (const RestingLoads::Kept& one : lying)
-    if (const double mass = one.force.dot(scene.gravity) / (g * g); mass > 0)
-      frozen.push_back({one.on, point_mass(one.point, mass)});
-}
-
-/// A part too small to be a body comes down on what stands under it, and its weight stays there.
-void Simulation::State::leave_weight(const MassProperties& rest) {
-  const double g = scene.gravity.norm();
-  if (g == 0) return;
-  const Vec3 down = scene.gravity / g;
-  Part under;
-  double nearest = unlimited;
-  for (std::size_t i = 0; i < part_count(scene.building); ++i) {
-    const Part part = part_of_number(scene.building, static_cast<std::int64_t>(i));
-    if (!scene.stands(part)) continue;
-    const auto distance = shapes.ray(part, rest.centre, down);
-    if (!distance || *distance >= nearest) continue;
-    nearest = *distance;
-    under = part;
-  }
-  if (!under.valid()) return;
-  const RestingLoads::Kept weight{under, rest.mass * scene.gravity, rest.centre + nearest * down};
-  resting.lay_for_good(weight, *scene.frame);
-  freeze({weight});
-}
-
-void Simulation::State::parts_are_gone(std::span<const Part> parts) {
-  for (const Part& part : parts) scene.timer.engine([&] { obstacles.remove(part, *scene.world); });
-  for (const collision::BodyId lying : resting.drop(parts, *scene.frame))
-    if (bodies.contains(lying.value)) scene.world->wake(lying);
-}
-
 void Simulation::State::release() {
   for (Detached& part : scene.frame->take_detached()) {
     // Of a panel that is broken out altogether nothing is left to leave.
@@ -77,17 +41,17 @@ Body Simulation::State::describe(const Detached& part) const {
   one.members = part.members;
   one.panels = part.panels;
   one.nodes = part.nodes;
-  one.rest = masses.of(part);
-  for (const Frozen& lying : frozen)
+  one.rest = debris.masses.of(part);
+  for (const Debris::Frozen& lying : debris.frozen)
     if (belongs(part, lying.on)) one.rest.add(lying.mass);
   for (const MemberId member : part.members) {
     one.volume += member_volume(scene.building, scene.building[member]);
-    one.bounds.add(shapes.bounds(Part(member)));
+    one.bounds.add(debris.shapes.bounds(Part(member)));
   }
   for (const PanelId panel : part.panels) {
     const BrokenPanel* left = broken_panel(panel);
     one.volume += left ? left->volume() : panel_volume(scene.building, scene.building[panel]);
-    one.bounds.add(shapes.bounds(Part(panel)));
+    one.bounds.add(debris.shapes.bounds(Part(panel)));
   }
   if (part.members.empty() && part.panels.empty()) {
     one.radius = debris_settings.node_radius;
@@ -105,7 +69,7 @@ Body Simulation::State::describe(const Detached& part) const {
 void Simulation::State::release(const Detached& part) {
   if (part.members.empty() && part.panels.empty() && part.nodes.empty()) return;
   if (part.cut) return release_in_two(part);
-  if (part.members.empty() && part.panels.empty() && masses.of(part).mass <= 0) return;  // a bare node
+  if (part.members.empty() && part.panels.empty() && debris.masses.of(part).mass <= 0) return;  // a bare node
   Body one = describe(part);
   Vec3 displacement = Vec3::Zero();
   for (const NodeId node : part.nodes) displacement += scene.frame->displacement(node).head<3>();
@@ -121,7 +85,7 @@ void Simulation::State::release(const Detached& part) {
   }
   std::vector<Part> gone(part.members.begin(), part.members.end());
   for (const PanelId panel : part.panels) gone.emplace_back(panel);
-  parts_are_gone(gone);
+  debris.stop_standing(gone);
 
   if (part.mechanism) log.record(SimulationEvent::Kind::mechanism, one.name).mass = one.rest.mass;
   const bool small = one.volume < scene.scenario.debris.smallest_volume;
@@ -131,31 +95,26 @@ void Simulation::State::release(const Detached& part) {
   event.panels = one.panels;
   event.mass = one.rest.mass;
   event.position = one.rest.centre + displacement;
-  const std::int64_t nowhere = -2;
   if (small) {
-    for (const MemberId member : part.members) body_of_part[static_cast<std::size_t>(member.index)] = nowhere;
-    for (const PanelId panel : part.panels)
-      body_of_part[static_cast<std::size_t>(part_number(scene.building, Part(panel)))] = nowhere;
+    for (const MemberId member : part.members) debris.lose(Part(member));
+    for (const PanelId panel : part.panels) debris.lose(Part(panel));
     sums.ledger.removed += (one.rest.mass * velocity.squaredNorm() + spin.dot(one.rest.inertia * spin)) / 2;
-    leave_weight(one.rest);
+    debris.leave_weight(one.rest);
     return;
   }
   const bool breaks =
       breakable_of(one).valid() && std::any_of(release_impulses.begin(), release_impulses.end(),
                                                [&](const ReleaseImpulse& k) { return was_struck(k, one); });
   if (breaks) {
-    shatter_struck(add_body(std::move(one), velocity, spin, displacement));
+    shatter_struck(debris.add(std::move(one), velocity, spin, displacement));
     return;
   }
   apply_release_impulses(one, velocity, spin);
   const std::vector<collision::BodyId> passing = breakers_of(one);
-  const collision::BodyId id = add_body(std::move(one), velocity, spin, displacement);
-  check_momentum(bodies.at(id.value), part.motion);
+  const collision::BodyId id = debris.add(std::move(one), velocity, spin, displacement);
+  check_momentum(debris.bodies.at(id.value), part.motion);
   hang_on(part.hinges, id);
-  collision::Touched broken;
-  broken.kind = collision::Touched::Kind::body;
-  broken.body = id;
-  for (const collision::BodyId by : passing) pass(by, broken);
+  for (const collision::BodyId by : passing) debris.pass(by, id);
 }
 
 /// True when an impact of this step broke this body off.
@@ -169,7 +128,7 @@ bool Simulation::State::was_struck(const ReleaseImpulse& given, const Body& one)
 std::vector<collision::BodyId> Simulation::State::breakers_of(const Body& one) const {
   std::vector<collision::BodyId> passing;
   for (const ReleaseImpulse& given : release_impulses)
-    if (was_struck(given, one) && bodies.contains(given.by.value)) passing.push_back(given.by);
+    if (was_struck(given, one) && debris.bodies.contains(given.by.value)) passing.push_back(given.by);
   return passing;
 }
 
@@ -212,69 +171,18 @@ void Simulation::State::check_momentum(const Body& one, const std::optional<Deta
   sums.ledger.momentum_error = std::max(sums.ledger.momentum_error, measured.error(given));
 }
 
-void Simulation::State::pass(collision::BodyId id, const collision::Touched& other) {
-  scene.timer.engine([&] { scene.world->ignore_until_separated(id, other); });
-}
-
-collision::BodyId Simulation::State::add_body(Body one, const Vec3& velocity, const Vec3& spin,
-                                              const Vec3& displacement) {
-  collision::BodyState state;
-  state.pose.position = one.rest.centre + displacement;
-  state.velocity = scene.reading().to_world(velocity);
-  state.angular_velocity = spin;
-  return add_body(std::move(one), state);
-}
-
-/// `state` as the collision world reads it.
-collision::BodyId Simulation::State::add_body(Body one, const collision::BodyState& state) {
-  collision::BodyDescription description;
-  if (one.radius > 0) {
-    collision::ConvexPart sphere;
-    sphere.kind = collision::ConvexPart::Kind::sphere;
-    sphere.half_extents = Vec3::Constant(one.radius);
-    description.parts = {sphere};
-  }
-  if (!one.hull.empty()) {
-    collision::ConvexPart hull;
-    hull.kind = collision::ConvexPart::Kind::hull;
-    hull.points = one.hull;
-    description.parts = {hull};
-  }
-  const auto add_shapes = [&](Part part) {
-    for (collision::ConvexPart& convex : shapes.parts(part, one.rest.centre))
-      description.parts.push_back(std::move(convex));
-  };
-  for (const MemberId member : one.members) add_shapes(Part(member));
-  for (const PanelId panel : one.panels) add_shapes(Part(panel));
-  description.mass = one.rest.mass;
-  description.inertia = one.rest.inertia;
-  description.pose = state.pose;
-  description.velocity = state.velocity;
-  description.angular_velocity = state.angular_velocity;
-  description.friction = scene.scenario.debris.friction;
-  description.restitution = scene.scenario.debris.restitution;
-  one.id = scene.timer.engine([&] { return scene.world->add_body(description); });
-  for (const MemberId member : one.members) body_of_part[static_cast<std::size_t>(member.index)] = one.id.value;
-  for (const PanelId panel : one.panels)
-    body_of_part[static_cast<std::size_t>(part_number(scene.building, Part(panel)))] = one.id.value;
-  const collision::BodyId id = one.id;
-  bodies.add(id.value, std::move(one));
-  bodies.motion(id.value).step_start = state.pose.position;
-  return id;
-}
-
 void Simulation::State::remove_body(collision::BodyId id, bool keep_weight) {
-  const auto found = bodies.find(id.value);
+  const auto found = debris.bodies.find(id.value);
   const Kinetic kinetic = kinetic_energy(found->second, scene.world->state(id), scene.reading());
   sums.ledger.removed += kinetic.translation + kinetic.rotation;
-  for (std::int64_t& of_part : body_of_part)
+  for (std::int64_t& of_part : debris.body_of_part)
     if (of_part == id.value) of_part = -2;
-  freeze(resting.forget(id, *scene.frame, keep_weight));
+  debris.freeze(debris.resting.forget(id, *scene.frame, keep_weight));
   (void)take_off(id);
   scene.timer.engine([&] { scene.world->remove_body(id); });
   free_segments.erase(id.value);
-  cables.erase(id.value);
-  bodies.erase(id.value);
+  debris.cables.erase(id.value);
+  debris.bodies.erase(id.value);
 }
 
 /// Above the limit of bodies, sleeping ones are dropped, the smallest first and of equals the oldest. Their weight
@@ -282,14 +190,14 @@ void Simulation::State::remove_body(collision::BodyId id, bool keep_weight) {
 void Simulation::State::keep_limit() {
   if (!scene.scenario.debris.limit) return;
   const auto limit = static_cast<std::size_t>(std::max(0, *scene.scenario.debris.limit));
-  if (bodies.size() <= limit) return;
+  if (debris.bodies.size() <= limit) return;
   std::vector<std::pair<double, std::int64_t>> sleeping;
-  for (const auto& [id, one] : bodies)
+  for (const auto& [id, one] : debris.bodies)
     if (scene.world->state(one.id).asleep) sleeping.emplace_back(one.volume, id);
   std::sort(sleeping.begin(), sleeping.end());
   for (const auto& [volume, id] : sleeping) {
-    if (bodies.size() <= limit) return;
-    const Body& one = bodies.at(id);
+    if (debris.bodies.size() <= limit) return;
+    const Body& one = debris.bodies.at(id);
     SimulationEvent& event = log.record(SimulationEvent::Kind::limited, one.name);
     event.members = one.members;
     event.panels = one.panels;

@@ -20,8 +20,9 @@ std::map<PanelId, Simulation::State::PanelImpact> Simulation::State::impacts_on_
     if (tag < 0) return;
     const PanelId panel = part_of_number(scene.building, tag).panel;
     if (!panel.valid() || !breakable_panels[static_cast<std::size_t>(panel.index)].settings) return;
-    const auto found = bodies.find(id.value);
-    if (found == bodies.end() || bodies.motion(id.value).asleep || breakable_of(found->second).valid()) return;
+    const auto found = debris.bodies.find(id.value);
+    if (found == debris.bodies.end() || debris.bodies.motion(id.value).asleep || breakable_of(found->second).valid())
+      return;
     const Body& one = found->second;
     const collision::BodyState state = scene.world->state(id);
     const Vec3 arm = contact.point - state.pose.position;
@@ -29,13 +30,13 @@ std::map<PanelId, Simulation::State::PanelImpact> Simulation::State::impacts_on_
     const Mat3 turn = state.pose.orientation.toRotationMatrix();
     const Mat3 inverse = world_inertia(one, state.pose.orientation).inverse();
     const double own = effective_mass(one.rest.mass, inverse, arm, contact.normal);
-    const auto by = bodies.find(other.value);
+    const auto by = debris.bodies.find(other.value);
     const Vec3 across = turn.transpose() * contact.normal;
     PanelImpact impact;
     impact.at = one.rest.centre + turn.transpose() * arm;
-    impact.radius = by == bodies.end() ? 0 : by->second.radius;
+    impact.radius = by == debris.bodies.end() ? 0 : by->second.radius;
     // The energy with which the two came together: the impulse is (1 + e) times what stops them.
-    const double inverse_mass = 1 / own + (by == bodies.end() ? 0 : inverse_effective_mass(by->second, contact));
+    const double inverse_mass = 1 / own + (by == debris.bodies.end() ? 0 : inverse_effective_mass(by->second, contact));
     const double stops = impulse / (1 + scene.scenario.debris.restitution);
     impact.energy = stops * stops * inverse_mass / 2;
     const bool crushes = impulse / own >= breakable_panels[static_cast<std::size_t>(panel.index)].breaking_speed;
@@ -92,7 +93,7 @@ std::array<bool, 4> Simulation::State::held_in_flight(PanelId panel, const Body&
 
 /// The chunks that leave the panel, as bodies where they were in the undeformed building.
 std::vector<Body> Simulation::State::break_out_in_flight(PanelId panel, const PanelImpact& impact) {
-  const Body& one = bodies.at(body_of_part[static_cast<std::size_t>(part_number(scene.building, Part(panel)))]);
+  const Body& one = debris.bodies.at(debris.body_of(Part(panel)));
   const std::array<bool, 4> holding = held_in_flight(panel, one);
   BrokenPanel& left = breaking(panel);
   const int before = left.chunks_out();
@@ -103,8 +104,8 @@ std::vector<Body> Simulation::State::break_out_in_flight(PanelId panel, const Pa
   std::vector<Body> pieces;
   for (PanelChunk& chunk : chunks)
     pieces.push_back(chunk_body(panel, std::move(chunk), before + static_cast<int>(pieces.size()) + 1));
-  masses.set(panel, left.rest());
-  shapes.set_broken(panel, left.hulls());
+  debris.masses.set(panel, left.rest());
+  debris.shapes.set_broken(panel, left.hulls());
   return pieces;
 }
 
@@ -112,12 +113,13 @@ void Simulation::State::crumble(const std::map<PanelId, PanelImpact>& impacts) {
   std::map<std::int64_t, std::vector<Body>> chunks;  // by the body that they leave
   for (const auto& [hit, impact] : impacts) {
     const PanelId panel = hit;
-    const std::int64_t id = body_of_part[static_cast<std::size_t>(part_number(scene.building, Part(panel)))];
-    if (!bodies.contains(id)) continue;
+    const std::int64_t id = debris.body_of(Part(panel));
+    if (!debris.bodies.contains(id)) continue;
     // What lies frozen on it could not go with any one chunk.
-    if (std::any_of(frozen.begin(), frozen.end(), [&](const Frozen& lying) { return lying.on == Part(panel); }))
+    if (std::any_of(debris.frozen.begin(), debris.frozen.end(),
+                    [&](const Debris::Frozen& lying) { return lying.on == Part(panel); }))
       continue;
-    const Body& one = bodies.at(id);
+    const Body& one = debris.bodies.at(id);
     const collision::BodyState state = scene.world->state(one.id);
     const Vec3 at = state.pose * (impact.at - one.rest.centre);
     std::vector<Body> pieces = break_out_in_flight(panel, impact);
@@ -126,11 +128,11 @@ void Simulation::State::crumble(const std::map<PanelId, PanelImpact>& impacts) {
     for (Body& piece : pieces) chunks[id].push_back(std::move(piece));
   }
   for (auto& [id, pieces] : chunks) {
-    FreeSegmentParts left = parts_of(bodies.at(id));
+    FreeSegmentParts left = parts_of(debris.bodies.at(id));
     for (std::size_t p = left.panels.size(); p-- > 0;) {
       const BrokenPanel* broken = broken_panel(left.panels[p]);
       if (!broken || !broken->hulls().empty()) continue;
-      body_of_part[static_cast<std::size_t>(part_number(scene.building, Part(left.panels[p])))] = -2;
+      debris.lose(Part(left.panels[p]));
       left.panels.erase(left.panels.begin() + static_cast<std::ptrdiff_t>(p));
       left.panel_mass.erase(left.panel_mass.begin() + static_cast<std::ptrdiff_t>(p));
     }

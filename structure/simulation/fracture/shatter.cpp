@@ -32,8 +32,9 @@ void Simulation::State::find_breakable_panels() {
       scene.frame->expect_fracture(PanelId(i));
       // Every panel has a pattern of its own (splitmix64's increment keeps their seeds far apart).
       breakable.settings->seed = scene.scenario.seed + (i + 1) * 0x9e3779b97f4a7c15u;
-      const double density =
-          material.density > 0 ? material.density : masses.of(PanelId(i)).mass / panel_volume(scene.building, panel);
+      const double density = material.density > 0
+                                 ? material.density
+                                 : debris.masses.of(PanelId(i)).mass / panel_volume(scene.building, panel);
       // Where it is not given: that of concrete of this compressive strength (EN 1992-1-1, table 3.1).
       breakable.tensile_strength =
           material.tensile_strength.value_or(0.3e6 * std::pow(*material.compressive_strength / 1e6, 2.0 / 3.0));
@@ -49,7 +50,7 @@ PanelId Simulation::State::breakable_of(const Body& one) const {
   if (!one.members.empty() || one.panels.size() != 1) return {};
   const PanelId panel = one.panels.front();
   // A node that carries a point mass of its own cannot go with any one chunk.
-  if (std::abs(one.rest.mass - masses.of(panel).mass) > 1e-12 * one.rest.mass) return {};
+  if (std::abs(one.rest.mass - debris.masses.of(panel).mass) > 1e-12 * one.rest.mass) return {};
   return breakable_panels[static_cast<std::size_t>(panel.index)].settings ? panel : PanelId();
 }
 
@@ -74,7 +75,7 @@ Body Simulation::State::chunk_body(PanelId panel, PanelChunk chunk, int number) 
 /// how many these are. Nothing when the impact falls where nothing can break.
 std::vector<collision::BodyId> Simulation::State::shatter(collision::BodyId id, const Vec3& point,
                                                           std::optional<double> radius, std::size_t& out) {
-  const Body one = bodies.at(id.value);
+  const Body one = debris.bodies.at(id.value);
   const PanelId panel = breakable_of(one);
   const collision::BodyState state = scene.world->state(id);
   const Mat3 turn = state.pose.orientation.toRotationMatrix();
@@ -83,16 +84,15 @@ std::vector<collision::BodyId> Simulation::State::shatter(collision::BodyId id, 
   const int before = left ? left->chunks_out() : 0;
   std::vector<PanelChunk> chunks =
       left ? break_up(*left, at, radius)
-           : break_panel(scene.building, panel, one.rest.mass, shapes.corners(panel), at, radius,
+           : break_panel(scene.building, panel, one.rest.mass, debris.shapes.corners(panel), at, radius,
                          *breakable_panels[static_cast<std::size_t>(panel.index)].settings);
   out = 0;
   if (chunks.empty()) return {};
   log.record(SimulationEvent::Kind::panel_fractured, scene.building[panel].name).position = point;
-  (void)resting.forget(id, *scene.frame, false);
+  (void)debris.resting.forget(id, *scene.frame, false);
   (void)take_off(id);
-  scene.timer.engine([&] { scene.world->remove_body(id); });
-  bodies.erase(id.value);
-  body_of_part[static_cast<std::size_t>(part_number(scene.building, Part(panel)))] = -2;
+  debris.remove(id);
+  debris.lose(Part(panel));
 
   std::vector<collision::BodyId> made;
   Momentum carried{state.pose.position}, handed_on{state.pose.position};
@@ -113,10 +113,10 @@ std::vector<collision::BodyId> Simulation::State::shatter(collision::BodyId id, 
       continue;
     }
     if (of_hit) ++out;
-    made.push_back(add_body(std::move(piece), moving));
+    made.push_back(debris.add(std::move(piece), moving));
   }
   for (const collision::BodyId piece : made) {
-    handed_on.add(bodies.at(piece.value), scene.world->state(piece));
+    handed_on.add(debris.bodies.at(piece.value), scene.world->state(piece));
     changes.split.push_back({id.value, piece.value});
   }
   sums.ledger.momentum_error = std::max(sums.ledger.momentum_error, carried.error(handed_on));
@@ -126,7 +126,7 @@ std::vector<collision::BodyId> Simulation::State::shatter(collision::BodyId id, 
 
 void Simulation::State::push_whole(collision::BodyId id) {
   Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();
-  apply_release_impulses(bodies.at(id.value), velocity, spin);
+  apply_release_impulses(debris.bodies.at(id.value), velocity, spin);
   collision::BodyState state = scene.world->state(id);
   state.velocity += velocity;
   state.angular_velocity += spin;
@@ -136,29 +136,26 @@ void Simulation::State::push_whole(collision::BodyId id) {
 /// A panel that an impact broke off the frame: what hit it pushes the chunks that it broke out, each by its share of
 /// the mass, and flies on through the gap.
 void Simulation::State::shatter_struck(collision::BodyId id) {
-  const Body& one = bodies.at(id.value);
+  const Body& one = debris.bodies.at(id.value);
   if (!breakable_of(one).valid()) return;
   for (const ReleaseImpulse& given : release_impulses) {
     if (!was_struck(given, one)) continue;
-    const Body* by = body(given.by);
+    const Body* by = debris.find(given.by);
     const std::optional<double> radius = by && by->radius > 0 ? std::optional(by->radius) : std::nullopt;
     const ReleaseImpulse given_impulse = given;
     std::size_t out = 0;
     const std::vector<collision::BodyId> made = shatter(id, given_impulse.point, radius, out);
     if (made.empty()) {  // hit where there is nothing to break: it is pushed as a whole
-      if (bodies.contains(id.value)) push_whole(id);
+      if (debris.bodies.contains(id.value)) push_whole(id);
       return;
     }
     double struck_mass = 0;
-    for (std::size_t i = 0; i < out; ++i) struck_mass += bodies.at(made[i].value).rest.mass;
+    for (std::size_t i = 0; i < out; ++i) struck_mass += debris.bodies.at(made[i].value).rest.mass;
     const double size = given_impulse.impulse.norm();
     for (std::size_t i = 0; i < made.size(); ++i) {
-      collision::Touched broken;
-      broken.kind = collision::Touched::Kind::body;
-      broken.body = made[i];
-      if (bodies.contains(given_impulse.by.value)) pass(given_impulse.by, broken);
+      if (debris.bodies.contains(given_impulse.by.value)) debris.pass(given_impulse.by, made[i]);
       if (i >= out || size == 0) continue;
-      const double mass = bodies.at(made[i].value).rest.mass;
+      const double mass = debris.bodies.at(made[i].value).rest.mass;
       const Vec3 gained = std::min(size / struck_mass, given_impulse.speed) * given_impulse.impulse / size;
       collision::BodyState state = scene.world->state(made[i]);
       const Vec3 before = scene.reading().true_velocity(state.velocity);
@@ -175,11 +172,11 @@ void Simulation::State::shatter_landed() {
   if (!any_breakable) return;
   std::map<std::int64_t, Landing> landings;  // by body
   std::vector<std::int64_t> awake;
-  for (const std::int64_t id : bodies.single_panels())
-    if (!bodies.motion(id).asleep && breakable_of(bodies.at(id)).valid()) awake.push_back(id);
+  for (const std::int64_t id : debris.bodies.single_panels())
+    if (!debris.bodies.motion(id).asleep && breakable_of(debris.bodies.at(id)).valid()) awake.push_back(id);
   const auto feel = [&](collision::BodyId id, const ContactRecord& contact) {
     if (!std::binary_search(awake.begin(), awake.end(), id.value)) return;
-    const Body* one = body(id);
+    const Body* one = debris.find(id);
     const collision::BodyState state = scene.world->state(id);
     const Mat3 inverse = world_inertia(*one, state.pose.orientation).inverse();
     const double mass = effective_mass(one->rest.mass, inverse, contact.point - state.pose.position, contact.normal);

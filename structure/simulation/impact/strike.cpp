@@ -34,8 +34,8 @@ std::vector<const collision::Contact*> at_one_instant(std::span<const collision:
 }  // namespace
 
 void Simulation::State::load() {
-  sums.counters.contacts_ignored += resting.lay(*scene.frame, scene.strength_factors, [&](collision::BodyId id) {
-    const Body* one = body(id);
+  sums.counters.contacts_ignored += debris.resting.lay(*scene.frame, scene.strength_factors, [&](collision::BodyId id) {
+    const Body* one = debris.find(id);
     return one ? one->rest.mass * scene.gravity.norm() : 0.0;
   });
 }
@@ -84,12 +84,13 @@ void Simulation::State::record_impact(const Strike& hit) {
 /// Nothing when the contact is no impact any more: what it would hit has fallen, or an earlier impact of this step has
 /// stopped the body.
 std::optional<Simulation::State::Strike> Simulation::State::aim(const collision::Contact& contact) {
-  const Part part = obstacles.part_of(contact.other.obstacle);
-  Body* hitting = body(contact.body);
+  const Part part = debris.obstacles.part_of(contact.other.obstacle);
+  Body* hitting = debris.find(contact.body);
   if (!part.valid() || !hitting || !scene.stands(part)) return std::nullopt;
   // What was swept may have been broken out since.
   if (const BrokenPanel* left = part.panel.valid() ? broken_panel(part.panel) : nullptr)
-    if (obstacles.obstacle_of(part) != contact.other.obstacle && !left->holds(contact.point)) return std::nullopt;
+    if (debris.obstacles.obstacle_of(part) != contact.other.obstacle && !left->holds(contact.point))
+      return std::nullopt;
   Strike hit;
   hit.body = hitting;
   hit.part = part;

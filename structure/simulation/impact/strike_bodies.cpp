@@ -43,26 +43,19 @@ std::vector<int> independent_places(const Eigen::MatrixXd& compliance) {
 
 }  // namespace
 
-/// Of the body that holds the joint's member or panel.
-std::int64_t Simulation::State::body_of_joint(JointId joint) const {
-  const Joint& own = scene.building[joint];
-  const Part part = own.member.valid() ? Part(own.member) : Part(own.panel);
-  return body_of_part[static_cast<std::size_t>(part_number(scene.building, part))];
-}
-
 bool Simulation::State::may_break(collision::BodyId id) const {
-  const auto found = bodies.find(id.value);
-  return found != bodies.end() && may_fall_apart(found->second);
+  const auto found = debris.bodies.find(id.value);
+  return found != debris.bodies.end() && may_fall_apart(found->second);
 }
 
 /// The contact as it is now: of a body that has fallen apart since it was swept, that of the piece which has the part.
 /// Nothing where that is no body any more.
 std::optional<collision::Contact> Simulation::State::contact_now(const collision::Contact& swept) const {
   const auto now = [&](collision::BodyId& id, std::int64_t tag) {
-    if (bodies.contains(id.value)) return true;
+    if (debris.bodies.contains(id.value)) return true;
     if (tag < 0) return false;
-    id = {body_of_part[static_cast<std::size_t>(tag)]};
-    return bodies.contains(id.value);
+    id = {debris.body_of_part[static_cast<std::size_t>(tag)]};
+    return debris.bodies.contains(id.value);
   };
   collision::Contact contact = swept;
   if (!now(contact.body, contact.part_tag)) return std::nullopt;
@@ -105,7 +98,7 @@ Simulation::State::ImpactSide Simulation::State::side_at(collision::BodyId id, d
   side.id = id;
   if (id.value < 0) return side;
   const collision::BodyState state = scene.world->state(id);
-  const Body& one = bodies.at(id.value);
+  const Body& one = debris.bodies.at(id.value);
   side.slept = state.asleep;
   side.time = state.asleep ? 0 : time;
   side.pose = state.pose;
@@ -131,7 +124,7 @@ void Simulation::State::set_side(const ImpactSide& side) {
   state.angular_velocity = side.motion.spin;
   state.pose.position = side.pose.position - state.velocity * t - scene.gravity * (t * t / 2);
   state.pose.orientation = turned(side.pose.orientation, -side.motion.spin * t);
-  BodyMotion& motion = bodies.motion(side.id.value);
+  BodyMotion& motion = debris.bodies.motion(side.id.value);
   // The weight has done its work on the way to the instant, wherever the body is said to come from.
   sums.body_gravity_work += motion.mass * scene.gravity.dot(state.pose.position - motion.step_start);
   motion.step_start = state.pose.position;
@@ -155,7 +148,7 @@ void Simulation::State::find_flexibility(ImpactSide& side, const std::vector<Imp
     }
     return;
   }
-  const Body* one = body(side.id);
+  const Body* one = debris.find(side.id);
   if (!one || (one->members.empty() && one->panels.empty())) return;
   const Mat3 back = side.pose.orientation.toRotationMatrix().transpose();
   std::vector<FreePush> pushes;
@@ -214,13 +207,13 @@ void Simulation::State::strike_bodies_at(const std::vector<collision::Contact>& 
   impact.sides[0] = side_at(first.body, time_since_state(first.body, first.time));
   impact.sides[1] = two ? side_at(first.other.body, time_since_state(first.other.body, first.time)) : ImpactSide();
   if (first.other.kind == collision::Touched::Kind::obstacle) {
-    impact.sides[1].standing = obstacles.part_of(first.other.obstacle);
+    impact.sides[1].standing = debris.obstacles.part_of(first.other.obstacle);
     impact.sides[1].held = scene.sways();
     if (!scene.sways() && (!impact.sides[1].standing.valid() || !scene.stands(impact.sides[1].standing)))
       return;  // it broke there
   }
   for (const collision::Contact& contact : contacts) {
-    const Part struck_part = impact.sides[1].held ? obstacles.part_of(contact.other.obstacle) : Part();
+    const Part struck_part = impact.sides[1].held ? debris.obstacles.part_of(contact.other.obstacle) : Part();
     if (impact.sides[1].held && (!struck_part.valid() || !scene.stands(struck_part))) continue;
     // An area is met at its corners.
     for (int corner = 0; corner < std::max(1, contact.corner_count); ++corner) {
@@ -299,7 +292,7 @@ Impact::Utilisation Simulation::State::note_uses(const std::vector<StruckJoint>&
   return [&](const Eigen::VectorXd& force) {
     for (std::size_t k = 0; k < joints.size(); ++k) {
       const StruckJoint& one = joints[k];
-      if (body_of_joint(one.joint) >= 0) continue;
+      if (debris.body_of(one.joint) >= 0) continue;
       uses[k] = std::max(uses[k], utilisation(*one.capacity, one.demand + one.step * force, one.strength).value);
     }
     return 0.0;
@@ -311,7 +304,7 @@ double Simulation::State::deepest_push(const BodyImpact& impact) const {
   double extent = 0;
   for (const ImpactSide& side : impact.sides) {
     if (side.id.value >= 0) {
-      const Bounds& bounds = bodies.at(side.id.value).bounds;
+      const Bounds& bounds = debris.bodies.at(side.id.value).bounds;
       extent = std::max(extent, (bounds.high - bounds.low).norm());
       continue;
     }
@@ -368,11 +361,11 @@ std::size_t Simulation::State::record_body_impact(const BodyImpact& impact, doub
   SimulationEvent& event =
       log.record(SimulationEvent::Kind::impact, on.standing.valid() ? part_name(scene.building, on.standing)
                                                 : on.id.value < 0   ? "ground"
-                                                                    : touched_name(on.id, on.tags.front()));
+                                                                    : debris.name(on.id, on.tags.front()));
   event.body = by.id;
   event.other_body = on.id;
-  event.body_name = bodies.at(by.id.value).name;
-  event.mass = bodies.at(by.id.value).rest.mass;
+  event.body_name = debris.bodies.at(by.id.value).name;
+  event.mass = debris.bodies.at(by.id.value).rest.mass;
   event.speed_in = speed_in;
   event.position = impact.places.front().point;
   return log.size() - 1;
@@ -391,8 +384,8 @@ void Simulation::State::give_impulses(BodyImpact& impact, const Eigen::VectorXd&
     double kinetic = 0;
     for (const ImpactSide& side : impact.sides) {
       if (side.id.value < 0) continue;
-      sum.add(bodies.at(side.id.value), state_of(side));
-      const Kinetic own = kinetic_energy(bodies.at(side.id.value), state_of(side));
+      sum.add(debris.bodies.at(side.id.value), state_of(side));
+      const Kinetic own = kinetic_energy(debris.bodies.at(side.id.value), state_of(side));
       kinetic += own.translation + own.rotation;
     }
     return kinetic;
@@ -437,7 +430,7 @@ bool Simulation::State::break_bodies(BodyImpact& impact, Impact& push, const std
   std::vector<JointBreak> of_frame;
   for (const JointBreak& one : broken) {
     JointBreak line = one;
-    const collision::BodyId id{body_of_joint(one.joint)};
+    const collision::BodyId id{debris.body_of(one.joint)};
     if (id.value < 0) {
       line.position = scene.joint_position(one.joint);
       of_frame.push_back(one);
@@ -447,7 +440,7 @@ bool Simulation::State::break_bodies(BodyImpact& impact, Impact& push, const std
     }
     debris_broken[static_cast<std::size_t>(one.joint.index)] = 1;
     const collision::BodyState state = scene.world->state(id);
-    line.position = state.pose * (scene.joint_position(one.joint) - bodies.at(id.value).rest.centre);
+    line.position = state.pose * (scene.joint_position(one.joint) - debris.bodies.at(id.value).rest.centre);
     lines.push_back(log.size());
     log.record(line);
   }
@@ -456,18 +449,18 @@ bool Simulation::State::break_bodies(BodyImpact& impact, Impact& push, const std
   for (ImpactSide& side : impact.sides) {
     if (side.id.value < 0) continue;
     const bool of_this = std::any_of(broken.begin(), broken.end(),
-                                     [&](const JointBreak& one) { return body_of_joint(one.joint) == side.id.value; });
+                                     [&](const JointBreak& one) { return debris.body_of(one.joint) == side.id.value; });
     if (!of_this) continue;
     free_segments.erase(side.id.value);
     (void)come_apart(side.id);
-    const std::int64_t piece = body_of_part[static_cast<std::size_t>(side.tags.front())];
-    if (!bodies.contains(piece)) return false;
+    const std::int64_t piece = debris.body_of_part[static_cast<std::size_t>(side.tags.front())];
+    if (!debris.bodies.contains(piece)) return false;
     side = side_again(side, {piece});
   }
   const auto holds = [&](const ImpactSide& side, std::size_t place) {
     if (side.held) return scene.stands(part_of_number(scene.building, side.tags[place]));
     return side.id.value < 0 || side.tags[place] < 0 ||
-           body_of_part[static_cast<std::size_t>(side.tags[place])] == side.id.value;
+           debris.body_of_part[static_cast<std::size_t>(side.tags[place])] == side.id.value;
   };
   for (std::size_t i = 0; i < impact.places.size(); ++i)
     if (push.may_touch(i) && holds(impact.sides[0], i) && holds(impact.sides[1], i))
