@@ -58,7 +58,7 @@ void FrameDynamics::State::find_kink(Kink& kink) {
   LoadSet loads;
   loads.beams = {angle};
   LoadVector load = system().load_vector(loads);
-  system().drop_idle_moments(load);
+  system().drop_idle_loads(load);
   kink.force = scaled(load.force).sparseView();
   kink.fixed_end = load.beam_fixed_end[static_cast<std::size_t>(kink.beam)];
   kink.response.resize(0);
