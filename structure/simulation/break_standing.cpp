@@ -157,8 +157,8 @@ void Simulation::State::crack_panels() {
   }
 }
 
-/// These chunks of a standing panel become bodies at rest; everybody hears of what remains. Returns the bodies of
-/// those that a hit broke out.
+/// These chunks of a standing panel become bodies that move as it did, without its turn; everybody hears of what
+/// remains. Returns the bodies of those that a hit broke out.
 std::vector<collision::BodyId> Simulation::State::break_standing(PanelId panel, std::vector<PanelChunk> chunks) {
   const BrokenPanel& left = broken_panels.at(panel);
   const Part part(panel);
@@ -166,6 +166,7 @@ std::vector<collision::BodyId> Simulation::State::break_standing(PanelId panel, 
   for (const NodeId node : scene.building[panel].nodes) sunk += scene.frame->displacement(node).head<3>() / 4;
   if (sunk.norm() > debris_settings.largest_start) sunk *= debris_settings.largest_start / sunk.norm();
 
+  const Vec3 velocity = scene.frame->velocity(panel);
   scene.frame->fracture(panel, left.remains());
   if (left.hulls().empty()) {
     debris.stop_standing(part);
@@ -186,7 +187,8 @@ std::vector<collision::BodyId> Simulation::State::break_standing(PanelId panel, 
       dust += piece.rest.mass;
       continue;
     }
-    const collision::BodyId id = debris.add(std::move(piece), Vec3::Zero(), Vec3::Zero(), sunk);
+    sums.kinetic_released += piece.rest.mass * velocity.squaredNorm() / 2;
+    const collision::BodyId id = debris.add(std::move(piece), velocity, Vec3::Zero(), sunk);
     if (of_hit) out.push_back(id);
   }
   if (dust > 0) log.record(SimulationEvent::Kind::limited, scene.building[panel].name).mass = dust;
@@ -204,10 +206,11 @@ void Simulation::State::push_chunks(const Strike& hit) {
   }
   for (const collision::BodyId id : hit.chunks) {
     debris.pass(hit.body->id, id);
-    const Vec3 gained = hit.speed_out * hit.normal;
     collision::BodyState state = scene.world->state(id);
+    const Vec3 came = scene.reading().true_velocity(state.velocity);
+    const Vec3 gained = (hit.speed_out - came.dot(hit.normal)) * hit.normal;
     state.velocity += gained;
-    sums.ledger.lost_in_impacts -= debris.bodies.at(id.value).rest.mass * gained.squaredNorm() / 2;
+    sums.ledger.lost_in_impacts -= debris.bodies.at(id.value).rest.mass * gained.dot(came + gained / 2);
     scene.world->set_state(id, state);
   }
 }

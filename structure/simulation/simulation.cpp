@@ -50,9 +50,7 @@ Simulation::State::State(Building the_building, Scenario the_scenario, Simulatio
       stiffness_factors(scene.building.members.size(), 1.0) {
   find_breakable_panels();
   if (scene.sways()) {
-    std::optional<std::string> reason = why_it_stays_at_rest(scene.building, scene.scenario.failure);
-    if (any_breakable) reason = "panels that break do not move";
-    if (reason)
+    if (const auto reason = why_it_stays_at_rest(scene.building, scene.scenario.failure))
       throw InputError((scene.scenario.file.empty() ? "scenario" : scene.scenario.file) +
                        ": standing: \"dynamic\" is not possible: " + *reason + "; accepted: \"static\"");
     scene.frame->let_move(scene.scenario.step);

@@ -193,6 +193,9 @@ struct Simulation::State {
   /// Returns the mass that the hit broke out; 0 when nothing can break there.
   double break_out(Strike& hit);
   void push_chunks(const Strike& hit);
+  // punch_moving.cpp: the same where what stands moves. False when the contact is no punch.
+  [[nodiscard]] bool punch_moving(const collision::Contact& contact);
+  [[nodiscard]] bool joint_fails_below(const StandingFrame::HeldResponse& response, double force) const;
   BrokenPanel& breaking(PanelId panel);
   [[nodiscard]] std::array<bool, 4> held(PanelId panel);
   /// What is there, in the whole building, to hold an edge of a shell: supports, and joints of members and other

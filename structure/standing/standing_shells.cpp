@@ -21,11 +21,13 @@ PanelLoading StandingFrame::State::loading(PanelId panel) const {
 
 std::optional<PanelStress> StandingFrame::State::stress(PanelId panel) const {
   if (!stands(panel) || !statics.stiff(panel)) return std::nullopt;
+  const bool in_motion = moves(components.of(panel));
   if (const PanelSuperelement* shell = shells.of(panel)) {
     const PanelLoading all = parts.bearings.serves(panel) ? PanelLoading{} : loading(panel);
-    return shell->worst_stress(node_displacements(building[panel], statics), all);
+    return shell->worst_stress(
+        in_motion ? node_displacements(building[panel], *motion) : node_displacements(building[panel], statics), all);
   }
-  return mean_membrane_stress(building, panel, statics.corner_forces(panel));
+  return mean_membrane_stress(building, panel, in_motion ? motion->corner_forces(panel) : statics.corner_forces(panel));
 }
 
 void StandingFrame::State::replace_stiffness(PanelId panel, const Eigen::MatrixXd& before) {

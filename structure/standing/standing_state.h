@@ -106,7 +106,7 @@ struct StandingFrame::State {
   void read_panel_demands(int component, bool slow);
 
   // Motion (standing_sway.cpp).
-  void move();
+  void move(const std::function<void()>& after_substep);
   void begin_motion();
   void sway(int component);
   void break_in_motion(JointId joint, const Vec6& demand, double freed);
@@ -116,6 +116,7 @@ struct StandingFrame::State {
   void read_motion(int component);
   void look_for_rest(int component);
   [[nodiscard]] Detached::Motion motion_of(const Detached& part);
+  void leave_in_part(PanelId panel, double mass);
   [[nodiscard]] std::map<int, std::vector<Eigen::Index>> places_by_component(const HeldResponse& pushed) const;
   [[nodiscard]] bool moves(int component) const { return motion && motion->moves(component); }
 

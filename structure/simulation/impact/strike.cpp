@@ -266,7 +266,8 @@ void Simulation::State::break_generations() {
     }
   };
   if (scene.sways()) {
-    const std::vector<JointBreak> breaks = scene.frame->move();
+    const auto crack = any_breakable ? std::function<void()>([&] { crack_panels(); }) : std::function<void()>();
+    const std::vector<JointBreak> breaks = scene.frame->move(crack);
     record_yielded();
     for (const JointBreak& broken : breaks) log.record(broken);
     return;

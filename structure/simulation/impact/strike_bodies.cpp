@@ -76,6 +76,7 @@ void Simulation::State::strike_bodies(const std::vector<collision::Contact>& con
     const bool two = first->other.kind == collision::Touched::Kind::body;
     const bool on_moving = scene.sways() && first->other.kind == collision::Touched::Kind::obstacle;
     if (!on_moving && !may_break(first->body) && !(two && may_break(first->other.body))) continue;
+    if (on_moving && punch_moving(*first)) continue;
     std::vector<collision::Contact> together;
     for (std::size_t k = i; k < contacts.size(); ++k) {
       if (done[k] != 0 ||

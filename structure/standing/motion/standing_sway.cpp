@@ -34,14 +34,14 @@ void StandingFrame::let_move(double dt) {
   state.gravity = Vec3(0, 0, -state.building.gravity);
 }
 
-std::vector<JointBreak> StandingFrame::move() {
+std::vector<JointBreak> StandingFrame::move(const std::function<void()>& after_substep) {
   State& state = *state_;
   if (!state.motion) throw std::logic_error("what stands was not let move: let_move()");
   if (!state.pending) {
     ++state.idle_settles;
     return {};
   }
-  state.move();
+  state.move(after_substep);
   return std::exchange(state.breaks, {});
 }
 
@@ -142,10 +142,14 @@ std::map<int, std::vector<Eigen::Index>> StandingFrame::State::places_by_compone
   return by;
 }
 
-void StandingFrame::State::move() {
+void StandingFrame::State::move(const std::function<void()>& after_substep) {
   begin_motion();
-  for (generation = 0; generation < substeps && motion->any(); ++generation)
+  for (generation = 0; generation < substeps && motion->any(); ++generation) {
     for (const int c : motion->moving()) sway(c);
+    if (!after_substep) continue;
+    after_substep();
+    follow_breaks();
+  }
   for (const int c : motion->moving()) leave_small_displacements(c);
   for (const int c : motion->moving()) {
     look_for_rest(c);
@@ -259,6 +263,23 @@ void StandingFrame::State::look_for_rest(int c) {
   come_to_rest(c);
   rested_freed += account.freed() - freed;
   if (buckles(c)) snap_buckled();
+}
+
+/// The weight of what is broken out of a panel that moves has gone down with it.
+void StandingFrame::State::leave_in_part(PanelId panel, double mass) {
+  const int c = components.of(panel);
+  Vec3 moved = Vec3::Zero();
+  for (const NodeId node : building[panel].nodes)
+    if (node_solved[index_of(node)] != 0)
+      moved += (motion->displacement(node) - account.displacement(node)).head<3>() / 4;
+  motion->part_leaves(c, mass * gravity.dot(moved));
+}
+
+Vec3 StandingFrame::velocity(PanelId panel) const {
+  const State& state = *state_;
+  const double mass = state.loads.mass(panel);
+  if (!(mass > 0) || !state.stands(panel) || !state.moves(state.components.of(panel))) return Vec3::Zero();
+  return state.motion->momentum(panel).head<3>() / mass;
 }
 
 /// Its own momentum, and that of the panels that leave with it; those that stay, or fall alone, keep theirs.

@@ -4,6 +4,7 @@
 //
 // One solver::Reanalysis serves each connected component that the building has at the start; joints that break change
 // it in place, and what detaches is dropped from it.
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -230,8 +231,9 @@ class StandingFrame {
   /// why_it_stays_at_rest() names a reason.
   void let_move(double dt);
   /// Changes act, and all that is not at rest moves on by the time of let_move(). Joints break as they
-  /// are reached, those of members within substeps, those of panels at their ends. Returns what broke, in order.
-  std::vector<JointBreak> move();
+  /// are reached, those of members within substeps, those of panels at their ends. `after_substep` is called at the end
+  /// of each, and may call fracture(). Returns what broke, in order.
+  std::vector<JointBreak> move(const std::function<void()>& after_substep = {});
   /// How what stands takes unit pushes at places on different parts, each along its direction, that are faster than its
   /// motion (the law of impact, simulation/impact/impact.h): the struck part gives way with its nodes held, its own
   /// joints bear it, and the mass that shares at first touch is that of its nodes, g'M^-1 g. The joints of whatever
@@ -309,8 +311,11 @@ class StandingFrame {
   void expect_fracture(PanelId panel);
   /// A standing panel is broken in part, now: it hands on what remains of its weight by where that lies, its edge
   /// joints bear over what remains of their length (told as broken by the next settle() when nothing does), and it
-  /// is as stiff as what remains. Holes are all since it was whole.
+  /// is as stiff as what remains. Holes are all since it was whole. What is broken out of a panel that moves leaves
+  /// with velocity().
   void fracture(PanelId panel, const PanelRemains& remains);
+  /// Mean velocity of a panel's mass where it stands and moves, m/s, global axes; 0 at rest.
+  [[nodiscard]] Vec3 velocity(PanelId panel) const;
   /// Of a shell panel as it is, or was when it left: in the freedoms of its nodes (Panel::all_nodes()), global.
   [[nodiscard]] Eigen::MatrixXd shell_stiffness(PanelId shell) const;
 
