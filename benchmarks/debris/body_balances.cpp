@@ -100,7 +100,10 @@ void BodyBalances::end_step(const DebrisRun& run, const World& world) {
     }
     const Vector3d lost = body.mass * state.velocity - body.momentum - body.mass * kDebrisStep * gravity - body.told;
     body.force += lost;
-    body.moment += spin_momentum(body.inertia, state) - body.spin_momentum - body.told_moment;
+    // About where its centre was when the step began, which is fixed in space; gravity acts there, as velocities are
+    // stored.
+    body.moment += (state.pose.position - body.position).cross(body.mass * state.velocity) +
+                   spin_momentum(body.inertia, state) - body.spin_momentum - body.told_moment;
     unaccounted_ += lost;
     if (++body.steps < kWindow) continue;
     const double pressed = body.weight * kWindow * kDebrisStep;

@@ -152,6 +152,7 @@ class DebrisWorld final : public World {
   // Contacts.
   void tell_contacts(double dt, std::span<const char> left_out = {});
   void tell(const SolverContact& solved, double dt);
+  void place(const SolverContact& solved, double dt, Contact& contact) const;
   void account_work(std::span<Island* const> islands, double dt);
   [[nodiscard]] DebrisBody* moving(const SolverContact& solved, bool second) const;
   void merge_contacts();

@@ -49,6 +49,22 @@ double DebrisWorld::energy(const DebrisBody& one, double dt) const {
          spin.dot(one.moments.cwiseProduct(spin)) / 2;
 }
 
+/// Where its impulse acted, in the mean over the step: the two have moved on since the step began.
+void DebrisWorld::place(const SolverContact& solved, double dt, Contact& contact) const {
+  contact.point = solved.centre;
+  contact.moment = solved.moment + solved.carried;
+  const double squared = solved.impulse.squaredNorm();
+  if (!(squared > 0)) return;
+  Vec3 velocity = Vec3::Zero();
+  int count = 0;
+  for (const int number : {solved.first, solved.second})
+    if (number != 0) velocity += solver_.body(number).velocity, ++count;
+  const double time = std::clamp(solved.late.dot(solved.impulse) / squared, 0.0, dt);
+  const Vec3 way = time / count * velocity;
+  contact.point += way;
+  contact.moment -= way.cross(solved.impulse);
+}
+
 void DebrisWorld::tell(const SolverContact& solved, double dt) {
   NearPair& pair = *solved.pair;
   const Manifold& manifold = pair.manifold;
@@ -67,10 +83,9 @@ void DebrisWorld::tell(const SolverContact& solved, double dt) {
   contact.body.value = a.solid->id;
   contact.part_tag = part.tag;
   contact.other = touched(*b.solid, other ? other->tag : -1);
-  contact.point = solved.centre;
   contact.normal = manifold.normal;
   contact.impulse = solved.impulse;
-  contact.moment = solved.moment;
+  place(solved, dt, contact);
   contact.depth = std::max(0.0, -nearest);
   contact.thickness = other ? std::min(part.thickness, other->thickness) : part.thickness;
   contact.persistent = pair.persistent;
@@ -83,7 +98,7 @@ void DebrisWorld::tell(const SolverContact& solved, double dt) {
     const int number = second ? solved.second : solved.first;
     if (number == 0) return Vec3::Zero();
     const SolverBody& moves = solver_.body(number);
-    return moves.velocity + gravity_ * (dt / 2) + moves.spin.cross(contact.point - moves.at.position);
+    return moves.velocity + gravity_ * (dt / 2) + moves.spin.cross(solved.centre - moves.at.position);
   };
   contact.approach_speed = (velocity_at(false) - velocity_at(true)).dot(contact.normal);
 }

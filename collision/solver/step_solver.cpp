@@ -228,18 +228,27 @@ void StepSolver::run(double dt, int substeps, const Vec3& gravity) {
 /// impulses P have turned them by too little or too much, by Q x (v2 - v1) with Q = sum of P times the time left, v the
 /// velocities in the end. It is given back by the same change of spin of both: that costs the least energy, and does
 /// not set a slender body spinning about its length beside a heavy one.
+/// About a fixed point a body that moves on takes v x Q from the impulse besides, and this: both take the same.
 void StepSolver::keep_angular_momentum() {
   for (SolverContact& contact : contacts_) {
-    if (contact.first == 0 || contact.second == 0 || contact.late.isZero(0)) continue;
+    if (contact.late.isZero(0)) continue;
     SolverBody &first = bodies_[static_cast<std::size_t>(contact.first)],
                &second = bodies_[static_cast<std::size_t>(contact.second)];
+    if (contact.first == 0 || contact.second == 0) {
+      contact.carried = (contact.first == 0 ? second : first).velocity.cross(contact.late);
+      continue;
+    }
     const Vec3 moment = contact.late.cross(second.velocity - first.velocity);
     const auto half = [&](const SolverBody& turned) {
       return Vec3(turned.at.turn * turned.inverse_root_moments.cwiseProduct(turned.scaled_moment(moment / 2)));
     };
     Vec3 of_first = half(first), of_second = half(second);
-    if (std::max(of_first.norm(), of_second.norm()) > settings_.spins_by)
-      of_first = of_second = Mat3(first.inertia() + second.inertia()).ldlt().solve(moment);
+    contact.carried = second.velocity.cross(contact.late) + moment / 2;
+    if (std::max(of_first.norm(), of_second.norm()) > settings_.spins_by) {
+      const Mat3 inertia = second.inertia();
+      of_first = of_second = Mat3(first.inertia() + inertia).ldlt().solve(moment);
+      contact.carried = second.velocity.cross(contact.late) + inertia * of_second;
+    }
     first.spin += of_first;
     second.spin += of_second;
   }

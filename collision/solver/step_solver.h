@@ -35,6 +35,7 @@ struct SolverContact {
   Vec3 anchor = Vec3::Zero();   ///< where friction acts
   double lever = 0;             ///< m: mean distance of its points from there; a twist counts as a force there
   Vec3 late = Vec3::Zero();     ///< N s2: the impulse times the step, less what of that moved the bodies
+  Vec3 carried = Vec3::Zero();  ///< N m s on the second, about any fixed point: it acted while the two moved on
   double load = 0;              ///< m/s2: the largest force of a point over its effective mass
 };
 

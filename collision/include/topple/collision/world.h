@@ -104,7 +104,8 @@ struct Contact {
       0;            ///< relative speed at the point along the normal, rotation included, positive when closing
   double time = 0;  ///< sweep: time of impact from now; step: 0
   Vec3 impulse = Vec3::Zero();  ///< step: what the body did to the other during the last step, friction included, N s
-  Vec3 moment = Vec3::Zero();   ///< step: the same about the point, N m s: friction that turns about the normal
+  Vec3 moment = Vec3::Zero();   ///< step: the same about the point, N m s. With both, what is told of a body makes up
+                               ///< its change of angular momentum about any point that is fixed in space
   double work_lost = 0;  ///< step: energy, of motion (velocities read at mid-step) and of height, that it took out of
                          ///< the bodies, J
   double depth = 0;      ///< step: how far the two were inside each other when it began (m; a hull's skin counts)
