@@ -41,7 +41,13 @@ std::uint32_t NearPairs::add(Solid* solid, int part, std::uint64_t order, const 
     free_colliders_.pop_back();
   }
   Collider& made = colliders_[index];
-  made = {solid, part, order, fat, fat, nullptr, solid->kind != Touched::Kind::body, true};
+  made = {};
+  made.solid = solid;
+  made.part = part;
+  made.order = order;
+  made.fat = made.tight = fat;
+  made.stands = solid->kind != Touched::Kind::body;
+  made.moved = true;
   made.leaf = (made.stands ? standing_ : moving_).insert(volume(fat), nullptr);
   made.leaf->dataAsInt = static_cast<int>(index);
   moved_.push_back(index);

@@ -28,14 +28,18 @@ struct Collider {
   Solid* solid = nullptr;
   int part = 0;
   std::uint64_t order = 0;  ///< bodies by id and part, then obstacles, then the ground
+  double gone = 0;          ///< m: no point of its solid has come farther, step by step, since it was added
+  double way = 0;           ///< m: none comes farther in the next step
+  bool moves = false;       ///< in the next step
   Box3 fat, tight;          ///< tight: with what the next step may move it
   btDbvtNode* leaf = nullptr;
   bool stands = false, moved = false;
 };
 
-struct NearPair {
+struct alignas(64) NearPair {
   std::uint32_t first = 0, second = 0;  ///< colliders, by order
   std::uint64_t first_order = 0, second_order = 0;
+  double free_until = -1;  ///< m: there is no contact before the two have come so far together, by what they have gone
   Manifold manifold;
   SeparatingAxis axis;
   Mat3 turn = Mat3::Identity();    ///< of the second in the first's frame when contacts were last sought ...
@@ -65,6 +69,13 @@ class NearPairs {
   /// Where the part is now or will be before the next step; bounds are made anew, larger by `margin`, when it is
   /// outside of them (always, with a margin of zero).
   void move(std::uint32_t collider, const Box3& tight, double margin);
+  /// What its solid has come, in all, and may come in the next step (Collider).
+  void note_way(std::uint32_t collider, double gone, double way, bool moves) {
+    Collider& of = colliders_[collider];
+    of.gone = gone;
+    of.way = way;
+    of.moves = moves;
+  }
   /// Brings the pairs up to date.
   void find();
 

@@ -65,20 +65,23 @@ void take_over(const Manifold& old, Manifold& now, double matched) {
 
 }  // namespace
 
-void update_contacts(NearPair& pair, const PairMotion& motion, double kept, double matched) {
+double update_contacts(NearPair& pair, const PairMotion& motion, double kept, double matched) {
   const Placement &first = *motion.first_at, &second = *motion.second_at;
   if (motion.second == nullptr) {
     const Manifold old = pair.manifold;
     collide_with_ground(*motion.first, first, motion.ground_height, motion.margin, pair.manifold);
     take_over(old, pair.manifold, matched);
-    return;
+    return 0;
   }
   const Mat3 turn = first.turn.transpose() * second.turn;
   const Vec3 shift = first.turn.transpose() * (second.position - first.position);
   if (pair.sought && motion.first->polyhedron && motion.second->polyhedron) {
     const double away = moved(pair, turn, shift, motion.second->polyhedron->reach);
-    if (pair.clear > 0 && away + motion.margin < pair.clear) return;
-    if (pair.clear <= 0 && away <= kept && motion.margin <= pair.margin + kept) return carry(pair, motion);
+    if (pair.clear > 0 && away + motion.margin < pair.clear) return pair.clear - away;
+    if (pair.clear <= 0 && away <= kept && motion.margin <= pair.margin + kept) {
+      carry(pair, motion);
+      return 0;
+    }
   }
   const Manifold old = pair.manifold;
   collide(*motion.first, first, *motion.second, second, motion.margin, pair.axis, pair.manifold);
@@ -88,6 +91,7 @@ void update_contacts(NearPair& pair, const PairMotion& motion, double kept, doub
   pair.shift = shift;
   pair.margin = motion.margin;
   pair.clear = pair.manifold.count > 0 ? -1 : std::max(motion.margin, pair.axis.gap);
+  return motion.first->polyhedron && motion.second->polyhedron ? std::max(0.0, pair.clear) : 0;
 }
 
 }  // namespace topple::collision

@@ -13,6 +13,8 @@ struct PairMotion {
 };
 
 /// `kept`: m by which a point of the second may move against the first; `matched`: m between an old and a new point.
-void update_contacts(NearPair& pair, const PairMotion& motion, double kept, double matched);
+/// Returns m that the two may come together and still be no nearer than zero, at least; 0 where they touch or none is
+/// known.
+double update_contacts(NearPair& pair, const PairMotion& motion, double kept, double matched);
 
 }  // namespace topple::collision

@@ -90,9 +90,12 @@ struct Pair {
   static bool arcs_cross(double c, double d, double e, double f) { return c * d < 0 && e * f < 0 && c * f > 0; }
 };
 
-template <class Separation>
-void try_all(int count, SeparatingAxis::Kind kind, const Separation& separation, Found& best, double margin) {
+/// `most`: no separation is larger along that face. What cannot be the best is not looked at.
+template <class Separation, class Most>
+void try_all(int count, SeparatingAxis::Kind kind, const Separation& separation, const Most& most, Found& best,
+             double margin) {
   for (int f = 0; f < count; ++f) {
+    if (most(f) <= best.separation) continue;
     const double now = separation(f);
     if (now <= best.separation) continue;
     best.separation = now;
@@ -104,7 +107,7 @@ void try_all(int count, SeparatingAxis::Kind kind, const Separation& separation,
 
 struct Room {
   std::vector<Vec3> vertices, places;
-  std::vector<double> on_first, on_second;
+  std::vector<int> first_edges, second_edges;
   std::vector<Vec3> polygon, clipped;
   std::vector<ManifoldPoint> points;
 };
@@ -114,48 +117,76 @@ Room& room() {
   return own;
 }
 
-void try_edges(const Pair& pair, Found& best, double margin, Room& work) {
-  const std::size_t first_edges = pair.first.edges.size(), second_edges = pair.second.edges.size();
-  const std::size_t first_faces = pair.first.faces.size(), second_faces = pair.second.faces.size();
-  work.on_first.resize(first_edges * second_faces);
-  for (std::size_t f = 0; f < second_faces; ++f) {
-    const Vec3 normal = pair.turn * pair.second.faces[f].normal;
-    for (std::size_t i = 0; i < first_edges; ++i)
-      work.on_first[i * second_faces + f] = -pair.first.edges[i].direction.dot(normal);
+/// The largest n x way of all unit normals n between those of the edge's two faces.
+double most_along(const Polyhedron& of, const Polyhedron::Edge& edge, const Vec3& way) {
+  const Vec3 &left = of.faces[static_cast<std::size_t>(edge.left)].normal,
+             &right = of.faces[static_cast<std::size_t>(edge.right)].normal;
+  const Vec3 seen = way - way.dot(edge.direction) * edge.direction;
+  const double side = edge.direction.dot(left.cross(right));
+  const bool between =
+      side * edge.direction.dot(left.cross(seen)) >= 0 && side * edge.direction.dot(seen.cross(right)) >= 0;
+  return between ? seen.norm() : std::max(left.dot(seen), right.dot(seen));
+}
+
+/// Edges of `of` that may part it by more than `least` from another, a ball in which (centre, radius) is known: a
+/// normal on which both edges lie outermost parts the two by no more than the ball is away from the edge.
+void keep_edges(const Polyhedron& of, const Vec3& centre, double radius, double least, std::vector<int>& kept) {
+  kept.clear();
+  for (std::size_t i = 0; i < of.edges.size(); ++i) {
+    const Polyhedron::Edge& edge = of.edges[i];
+    if (most_along(of, edge, centre - of.vertices[static_cast<std::size_t>(edge.from)]) - radius > least)
+      kept.push_back(static_cast<int>(i));
   }
-  work.on_second.resize(first_faces);
-  for (std::size_t j = 0; j < second_edges; ++j) {
-    const Polyhedron::Edge& b = pair.second.edges[j];
-    const Vec3 other = pair.turn * b.direction;
-    for (std::size_t f = 0; f < first_faces; ++f) work.on_second[f] = other.dot(pair.first.faces[f].normal);
-    for (std::size_t i = 0; i < first_edges; ++i) {
-      const Polyhedron::Edge& a = pair.first.edges[i];
-      const double* row = &work.on_first[i * second_faces];
-      if (!Pair::arcs_cross(row[b.left], row[b.right], work.on_second[static_cast<std::size_t>(a.left)],
-                            work.on_second[static_cast<std::size_t>(a.right)]))
+}
+
+void try_edges(const Pair& pair, const Vec3& first_centre, const Vec3& second_centre, Found& best, double margin,
+               Room& work) {
+  const double least = best.separation + kFaceFirst;
+  keep_edges(pair.first, second_centre, pair.second.inner, least, work.first_edges);
+  if (work.first_edges.empty()) return;
+  keep_edges(pair.second, first_centre, pair.first.inner, least, work.second_edges);
+  for (const int j : work.second_edges) {
+    const Polyhedron::Edge& b = pair.second.edges[static_cast<std::size_t>(j)];
+    const Vec3 other = pair.turn * b.direction,
+               left = pair.turn * pair.second.faces[static_cast<std::size_t>(b.left)].normal,
+               right = pair.turn * pair.second.faces[static_cast<std::size_t>(b.right)].normal;
+    for (const int i : work.first_edges) {
+      const Polyhedron::Edge& a = pair.first.edges[static_cast<std::size_t>(i)];
+      if (!Pair::arcs_cross(-a.direction.dot(left), -a.direction.dot(right),
+                            other.dot(pair.first.faces[static_cast<std::size_t>(a.left)].normal),
+                            other.dot(pair.first.faces[static_cast<std::size_t>(a.right)].normal)))
         continue;
-      const double now = pair.edges(static_cast<int>(i), static_cast<int>(j));
+      const double now = pair.edges(i, j);
       if (now <= best.separation + kFaceFirst) continue;
       best.separation = now;
-      best.axis = {SeparatingAxis::Kind::edges, static_cast<int>(i), static_cast<int>(j), 0};
+      best.axis = {SeparatingAxis::Kind::edges, i, j, 0};
       if (now > margin) return;
     }
   }
 }
 
 Found search(const Pair& pair, double margin, const SeparatingAxis& last, Room& work) {
+  // Each one's centre, as the other sees it.
+  const Vec3 second_centre = pair.shift + pair.turn * pair.second.centre,
+             first_centre = pair.turn.transpose() * (pair.first.centre - pair.shift);
+  const auto most = [](const Polyhedron& of, const Vec3& centre, double radius) {
+    return [&, radius](int f) {
+      const Polyhedron::Face& face = of.faces[static_cast<std::size_t>(f)];
+      return face.normal.dot(centre) - face.offset - radius;
+    };
+  };
   Found best;
   try_all(
       static_cast<int>(pair.first.faces.size()), SeparatingAxis::Kind::first_face,
-      [&](int f) { return pair.first_face(f); }, best, margin);
+      [&](int f) { return pair.first_face(f); }, most(pair.first, second_centre, pair.second.inner), best, margin);
   if (best.separation > margin) return best;
   Found second;
   try_all(
       static_cast<int>(pair.second.faces.size()), SeparatingAxis::Kind::second_face,
-      [&](int f) { return pair.second_face(f); }, second, margin);
+      [&](int f) { return pair.second_face(f); }, most(pair.second, first_centre, pair.first.inner), second, margin);
   if (second.separation > best.separation + kFaceFirst) best = second;
   if (best.separation > margin) return best;
-  try_edges(pair, best, margin, work);
+  try_edges(pair, first_centre, second_centre, best, margin, work);
   if (best.separation > margin || last.kind == SeparatingAxis::Kind::none) return best;
   const double before = pair.along(last);
   if (before >= best.separation - kLastFirst) best = {before, last};

@@ -120,6 +120,10 @@ std::shared_ptr<const Polyhedron> make_polyhedron(std::vector<Vec3> vertices, st
   join_coplanar(made->vertices, made->centre, faces);
   add_faces(faces, *made);
   add_edges(*made);
+  made->inner = made->reach;
+  for (const Polyhedron::Face& face : made->faces)
+    made->inner = std::min(made->inner, face.offset - face.normal.dot(made->centre));
+  made->inner = std::max(0.0, made->inner);
   return made;
 }
 

@@ -25,6 +25,7 @@ struct Polyhedron {
   std::vector<int> loops;
   std::vector<Edge> edges;
   Vec3 centre = Vec3::Zero();  ///< mean of the vertices
+  double inner = 0;            ///< radius of a ball about the centre that lies inside, m
   double reach = 0;            ///< no point is farther from the frame's origin, m
   double thickness = 0;        ///< least width across any of its faces, m
 };

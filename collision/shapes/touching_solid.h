@@ -1,5 +1,7 @@
 #pragma once
 // A solid with the shapes that our own search for contacts reads, and where it is.
+#include <cmath>
+
 #include "contacts/manifold.h"
 #include "shapes/polyhedron.h"
 #include "shapes/solid.h"
@@ -9,6 +11,14 @@ namespace topple::collision {
 struct TouchingSolid : Solid {
   std::vector<PartShape> shapes;  ///< of its parts, in its frame
   Placement at;
+  Placement seen;   ///< where it was when it was last asked how far it has come ...
+  double gone = 0;  ///< ... in all, and no point of it farther: m, step by step
+
+  /// After it has moved.
+  void look_how_far() {
+    gone += (at.position - seen.position).norm() + reach * (at.turn - seen.turn).norm() / std::sqrt(2.0);
+    seen = at;
+  }
 };
 
 /// From the parts of the solid (make_parts) and what they were made from.

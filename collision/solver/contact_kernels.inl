@@ -118,12 +118,18 @@ void warm_start(ContactPack* packs, PackPoint* points, std::size_t begin, std::s
 TOPPLE_INLINE Wide magnitude(const Wide& a) { return a > all(0) ? a : -a; }
 TOPPLE_INLINE bool any(const Wide& a) { return a[0] > 0 || a[1] > 0 || a[2] > 0 || a[3] > 0; }
 
+/// How far the points of a pack are apart now.
+TOPPLE_INLINE void measure(const ContactPack& pack, PackPoint* own, const Motion6* displacement) {
+  Both moved;
+  load(pack, displacement, moved);
+  for (int i = 0; i < pack.point_count; ++i)
+    own[i].apart = own[i].separation + relative(pack, pack.normal, own[i].first, own[i].second, moved);
+}
+
 /// The normal impulse with which a point closes no faster than it comes to touch.
-TOPPLE_INLINE Wide stopping(const ContactPack& pack, const PackPoint& point, const Both& now, const Both& moved,
-                            const Wide& rate) {
+TOPPLE_INLINE Wide stopping(const ContactPack& pack, const PackPoint& point, const Both& now, const Wide& rate) {
   const Wide none = all(0);
-  const Wide separation = point.separation + relative(pack, pack.normal, point.first, point.second, moved);
-  const Wide bias = separation > none ? separation * rate : none;
+  const Wide bias = point.apart > none ? point.apart * rate : none;
   const Wide speed = relative(pack, pack.normal, point.first, point.second, now);
   return larger(point.impulse - point.mass * (speed + bias), none);
 }
@@ -136,12 +142,12 @@ void solve(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t
   Wide* const changes = step.again->change;
   for (std::size_t k = begin; k < end; ++k) {
     ContactPack& pack = packs[k];
-    Both now, moved;
+    if (step.first) measure(pack, points + pack.first_point, displacement);
+    Both now;
     load(pack, velocity, now);
-    load(pack, displacement, moved);
     for (int i = 0; i < pack.point_count; ++i) {
       PackPoint& point = points[pack.first_point + static_cast<std::size_t>(i)];
-      const Wide impulse = stopping(pack, point, now, moved, rate), change = impulse - point.impulse;
+      const Wide impulse = stopping(pack, point, now, rate), change = impulse - point.impulse;
       point.impulse = impulse;
       const Wide excess = magnitude(change) - settled * point.mass;
       over = larger(over, excess);
@@ -218,20 +224,19 @@ TOPPLE_INLINE bool concerned(const ContactPack& pack, const unsigned char* moved
   return one != 0;
 }
 
-void relax(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity,
-           const Motion6* displacement, const SubStep& step) {
+void relax(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity, const Motion6*,
+           const SubStep& step) {
   const Wide rate = all(1 / step.length), settled = all(step.again->settled), none = all(0);
   for (std::size_t k = begin; k < end; ++k) {
     ContactPack& pack = packs[k];
     if (!concerned(pack, step.again->moved)) continue;
     Wide over = none;
     PackPoint* const own = points + pack.first_point;
-    Both now, moved;
+    Both now;
     load(pack, velocity, now);
-    load(pack, displacement, moved);
     for (int i = 0; i < pack.point_count; ++i) {
       PackPoint& point = own[i];
-      const Wide impulse = stopping(pack, point, now, moved, rate), change = impulse - point.impulse;
+      const Wide impulse = stopping(pack, point, now, rate), change = impulse - point.impulse;
       point.impulse = impulse;
       over = larger(over, magnitude(change) - settled * point.mass);
       push(pack, pack.normal, point.first, point.second, change, now);
@@ -247,35 +252,30 @@ void relax(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t
   }
 }
 
-void tell(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6*, const Motion6*,
-          const SubStep&) {
-  for (std::size_t k = begin; k < end; ++k) {
-    ContactPack& pack = packs[k];
-    for (int i = 0; i < pack.point_count; ++i) {
-      PackPoint& point = points[pack.first_point + static_cast<std::size_t>(i)];
-      point.parting = point.impulse;
-      point.total += point.impulse;
-      pack.carried += point.total;
-    }
-    for (int i = 0; i < 2; ++i) {
-      pack.slide_total[i] += pack.slide[i];
-      pack.slide_carried[i] += pack.slide_total[i];
-    }
-    pack.twist_total += pack.twist;
+TOPPLE_INLINE void add_up(ContactPack& pack, PackPoint* own) {
+  for (int i = 0; i < pack.point_count; ++i) {
+    own[i].parting = own[i].impulse;
+    own[i].total += own[i].impulse;
+    pack.carried += own[i].total;
   }
+  for (int i = 0; i < 2; ++i) {
+    pack.slide_total[i] += pack.slide[i];
+    pack.slide_carried[i] += pack.slide_total[i];
+  }
+  pack.twist_total += pack.twist;
 }
 
 void separate(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity,
-              const Motion6* displacement, const SubStep& step) {
+              const Motion6*, const SubStep& step) {
   const Wide rate = all(1 / step.length), none = all(0), one = all(1), fastest = all(-step.pushed_apart);
   for (std::size_t k = begin; k < end; ++k) {
     ContactPack& pack = packs[k];
-    Both now, moved;
+    if (step.first) add_up(pack, points + pack.first_point);
+    Both now;
     load(pack, velocity, now);
-    load(pack, displacement, moved);
     for (int i = 0; i < pack.point_count; ++i) {
       PackPoint& point = points[pack.first_point + static_cast<std::size_t>(i)];
-      const Wide separation = point.separation + relative(pack, pack.normal, point.first, point.second, moved);
+      const Wide& separation = point.apart;
       const Lanes apart = separation > none;
       const Wide bias = apart ? separation * rate : larger(pack.mass_scale * pack.bias_rate * separation, fastest);
       const Wide scale = apart ? one : pack.mass_scale, given_back = apart ? none : pack.impulse_scale;
@@ -314,7 +314,7 @@ void restitute(ContactPack* packs, PackPoint* points, std::size_t begin, std::si
 }  // namespace
 
 extern const ContactKernels kernels;
-const ContactKernels kernels{warm_start, solve, go_on, relax, tell, separate, restitute};
+const ContactKernels kernels{warm_start, solve, go_on, relax, separate, restitute};
 
 }  // namespace TOPPLE_KERNELS
 }  // namespace topple::collision

@@ -29,6 +29,7 @@ static_assert(sizeof(Motion6) == 64);
 struct alignas(32) PackPoint {
   Wide first[3], second[3];  ///< angular parts of the normal row
   Wide separation;           ///< when the step began
+  Wide apart;                ///< when the sub-step began
   Wide mass;                 ///< effective, of the row; 0: no point in this lane
   Wide impulse;              ///< of this sub-step
   Wide total;                ///< over the step
@@ -76,6 +77,7 @@ struct SubStep {
   double pushed_apart = 0;  ///< m/s
   double restitution_from = 0;
   Again* again = nullptr;
+  bool first = false;  ///< pass of its kind in the sub-step
 };
 
 /// The inner loops, in the widest instructions that the processor has; the bits are the same in all.
@@ -83,11 +85,10 @@ struct ContactKernels {
   using Pass = void (*)(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity,
                         const Motion6* displacement, const SubStep& step);
   Pass warm_start;  ///< applies the impulses that the packs hold
-  Pass solve;       ///< normal rows
+  Pass solve;       ///< normal rows; the first looks how far points are apart now
   Pass go_on;       ///< goes on the way of the last passes
   Pass relax;       ///< normal rows, then friction
-  Pass tell;        ///< adds up the totals
-  Pass separate;    ///< normal rows with the springs: nothing but `parting` changes
+  Pass separate;    ///< normal rows with the springs: nothing but `parting` changes. The first adds up the totals
   Pass restitute;   ///< after the last sub-step
 };
 [[nodiscard]] const ContactKernels& contact_kernels();

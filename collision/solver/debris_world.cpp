@@ -174,8 +174,11 @@ void DebrisWorld::move_obstacle(ObstacleId id, const Pose& pose) {
   wake_touching(moved);
   moved.pose = pose;
   moved.at = placement_of(moved);
-  for (std::size_t i = 0; i < moved.parts.size(); ++i)
+  moved.look_how_far();
+  for (std::size_t i = 0; i < moved.parts.size(); ++i) {
     pairs_.move(moved.colliders[i], bounds_of(moved.shapes[i], moved.at), 0);
+    pairs_.note_way(moved.colliders[i], moved.gone, 0, false);
+  }
 }
 
 BodyState DebrisWorld::state(BodyId id) const {

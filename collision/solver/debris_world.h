@@ -133,9 +133,10 @@ class DebrisWorld final : public World {
   void read_velocities_by(const Vec3& more);
   void move_on(double dt);
   void update_bounds(double dt);
+  void note_ways(double dt);
+  void find_touching();
   void find_contacts(double dt);
-  void seek(std::uint32_t index, double dt);
-  [[nodiscard]] double margin_of(const NearPair& pair, double dt) const;
+  void seek(std::uint32_t index);
   void wake_struck(double dt);
   void wake_hinged();
   void wake_round(DebrisBody& struck, double momentum);
@@ -211,6 +212,7 @@ class DebrisWorld final : public World {
   std::map<SolidPair, std::uint64_t> released_;  ///< after which step
 
   StepSolver solver_;
+  std::vector<std::uint32_t> touching_;  ///< pairs that have contacts, in order
   std::vector<Island> islands_;
   std::vector<SolverContact> solved_;  ///< of the last part of a step
   std::uint64_t step_number_ = 0;

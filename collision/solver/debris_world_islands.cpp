@@ -33,9 +33,8 @@ void DebrisWorld::gather_islands() {
     auto* one = static_cast<DebrisBody*>(solid);
     return one->asleep ? nullptr : one;
   };
-  for (const std::uint32_t index : pairs_.order()) {
+  for (const std::uint32_t index : touching_) {
     const NearPair& pair = pairs_.pair(index);
-    if (pair.manifold.count == 0) continue;
     DebrisBody *a = moves(pair.first), *b = moves(pair.second);
     if (a && b) join(*a, *b);
   }
@@ -60,9 +59,8 @@ void DebrisWorld::gather_islands() {
   const auto island_of = [&](const DebrisBody& one) -> Island& {
     return islands_[static_cast<std::size_t>(one.island)];
   };
-  for (const std::uint32_t index : pairs_.order()) {
+  for (const std::uint32_t index : touching_) {
     const NearPair& pair = pairs_.pair(index);
-    if (pair.manifold.count == 0) continue;
     const DebrisBody *a = moves(pair.first), *b = moves(pair.second);
     if (a || b) island_of(a ? *a : *b).pairs.push_back(index);
   }

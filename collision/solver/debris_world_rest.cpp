@@ -77,9 +77,8 @@ DebrisWorld::Island DebrisWorld::with_sleeping(const Island& island) const {
       whole.bodies.push_back(&next);
       grows = true;
     }
-    for (const std::uint32_t index : pairs_.order()) {
+    for (const std::uint32_t index : touching_) {
       const NearPair& pair = pairs_.pair(index);
-      if (pair.manifold.count == 0) continue;
       DebrisBody *a = sleeping(pair.first), *b = sleeping(pair.second);
       const bool first = known.contains(pairs_.collider(pair.first).solid),
                  second = known.contains(pairs_.collider(pair.second).solid);
@@ -126,9 +125,8 @@ void DebrisWorld::wake_struck(double dt) {
   while (again) {
     again = false;
     std::vector<std::pair<DebrisBody*, double>> struck;
-    for (const std::uint32_t index : pairs_.order()) {
+    for (const std::uint32_t index : touching_) {
       const NearPair& pair = pairs_.pair(index);
-      if (pair.manifold.count == 0) continue;
       Solid *a = pairs_.collider(pair.first).solid, *b = pairs_.collider(pair.second).solid;
       if (a->kind != Touched::Kind::body || b->kind != Touched::Kind::body) continue;
       auto &first = static_cast<DebrisBody&>(*a), &second = static_cast<DebrisBody&>(*b);
@@ -151,10 +149,11 @@ void DebrisWorld::wake_struck(double dt) {
         wake_round(*one, momentum);
         again = true;
       }
-    if (again) wake_hinged();
-    if (again)
-      for (const std::uint32_t index : pairs_.order())
-        if (awake(pairs_.pair(index))) seek(index, dt);
+    if (!again) break;
+    wake_hinged();
+    note_ways(dt);
+    for (const std::uint32_t index : pairs_.order()) seek(index);
+    find_touching();
   }
 }
 
@@ -179,9 +178,8 @@ void DebrisWorld::wake_round(DebrisBody& struck, double momentum) {
   for (std::size_t i = 0; i < reached.size() && (i == 0 || moved * settings_.struck_from < momentum); ++i) {
     moved += reached[i]->mass;
     wake_up(*reached[i]);
-    for (const std::uint32_t index : pairs_.order()) {
+    for (const std::uint32_t index : touching_) {
       const NearPair& pair = pairs_.pair(index);
-      if (pair.manifold.count == 0) continue;
       Solid *a = pairs_.collider(pair.first).solid, *b = pairs_.collider(pair.second).solid;
       if (a != reached[i] && b != reached[i]) continue;
       Solid* other = a == reached[i] ? b : a;

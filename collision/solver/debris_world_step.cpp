@@ -63,9 +63,8 @@ int DebrisWorld::parts_of_step(double dt) const {
     const double angle = std::min(M_PI, one.spin.norm() * dt);
     most = std::max(most, one.reach * (1 - std::cos(angle)));
   };
-  for (const std::uint32_t index : pairs_.order()) {
+  for (const std::uint32_t index : touching_) {
     const NearPair& pair = pairs_.pair(index);
-    if (pair.manifold.count == 0) continue;
     look_at(pair.first);
     if (pair.second != NearPairs::ground) look_at(pair.second);
   }
@@ -110,38 +109,30 @@ const Placement& placement(const Solid& solid) {
   return solid.kind == Touched::Kind::ground ? unplaced : static_cast<const TouchingSolid&>(solid).at;
 }
 
-/// Velocity of a body that moves, else zero.
-Vec3 velocity_of(const Solid& solid, const Vec3& gravity_part) {
-  if (solid.kind != Touched::Kind::body) return Vec3::Zero();
-  const auto& body = static_cast<const DebrisBody&>(solid);
-  return body.asleep ? Vec3(Vec3::Zero()) : Vec3(body.velocity + gravity_part);
-}
-Vec3 spin_of(const Solid& solid) {
-  if (solid.kind != Touched::Kind::body) return Vec3::Zero();
-  const auto& body = static_cast<const DebrisBody&>(solid);
-  return body.asleep ? Vec3(Vec3::Zero()) : body.spin;
-}
-
 }  // namespace
 
-/// What could come together within the step is a contact already. Two that fly side by side may: the one in front is
-/// stopped in this step, and the one behind goes on.
-double DebrisWorld::margin_of(const NearPair& pair, double dt) const {
-  const Collider &a = pairs_.collider(pair.first), &b = pairs_.collider(pair.second);
+/// No point of a body comes farther in the step than this: by its contacts it may lose its speed, but what pushes it
+/// comes with that much itself.
+void DebrisWorld::note_ways(double dt) {
   const Vec3 half_kick = gravity_ * (dt / 2);
-  const auto turning = [&](const Collider& of) {
-    return of.solid->kind == Touched::Kind::body
-               ? spin_of(*of.solid).norm() * of.solid->parts[static_cast<std::size_t>(of.part)].reach
-               : 0;
-  };
-  const double speed =
-      velocity_of(*a.solid, half_kick).norm() + velocity_of(*b.solid, half_kick).norm() + turning(a) + turning(b);
-  return std::max(settings_.margin, speed * dt);
+  for (const BodyId id : order_) {
+    DebrisBody& one = body(id.value);
+    one.look_how_far();
+    const double straight = one.asleep ? 0 : (one.velocity + half_kick).norm() * dt;
+    const double spin = one.asleep ? 0 : one.spin.norm() * dt;
+    for (std::size_t i = 0; i < one.parts.size(); ++i)
+      pairs_.note_way(one.colliders[i], one.gone, straight + spin * one.parts[i].reach, !one.asleep);
+  }
 }
 
-void DebrisWorld::seek(std::uint32_t index, double dt) {
+void DebrisWorld::seek(std::uint32_t index) {
   NearPair& pair = pairs_.pair(index);
   const Collider &a = pairs_.collider(pair.first), &b = pairs_.collider(pair.second);
+  if (!a.moves && !b.moves) return;
+  // What could come together within the step is a contact already. Two that fly side by side may: the one in front is
+  // stopped in this step, and the one behind goes on.
+  const double margin = std::max(settings_.margin, a.way + b.way);
+  if (a.gone + b.gone + margin < pair.free_until) return;
   if (pair.second != NearPairs::ground && !a.tight.meets(b.tight)) {
     if (pair.manifold.count > 0) pair.sought = false;
     pair.manifold.count = 0;
@@ -159,18 +150,25 @@ void DebrisWorld::seek(std::uint32_t index, double dt) {
   motion.second = pair.second == NearPairs::ground ? nullptr : shape(b);
   motion.first_at = &placement(*a.solid);
   motion.second_at = &placement(*b.solid);
-  motion.margin = margin_of(pair, dt);
+  motion.margin = margin;
   motion.ground_height = ground_height_;
-  update_contacts(pair, motion, settings_.kept, settings_.matched);
+  pair.free_until = a.gone + b.gone + update_contacts(pair, motion, settings_.kept, settings_.matched);
 }
 
 void DebrisWorld::find_contacts(double dt) {
   wake_hinged();
   update_bounds(dt);
   pairs_.find();
-  for (const std::uint32_t index : pairs_.order())
-    if (awake(pairs_.pair(index))) seek(index, dt);
+  note_ways(dt);
+  for (const std::uint32_t index : pairs_.order()) seek(index);
+  find_touching();
   wake_struck(dt);
+}
+
+void DebrisWorld::find_touching() {
+  touching_.clear();
+  for (const std::uint32_t index : pairs_.order())
+    if (pairs_.pair(index).manifold.count > 0) touching_.push_back(index);
 }
 
 /// A body that nothing touches: exactly.

@@ -80,7 +80,9 @@ void StepSolver::stop_closing(SubStep step) {
   Again again;
   again.settled = settings_.settled;
   step.again = &again;
+  step.first = true;
   each_pack(kernels.solve, step);
+  step.first = false;
   if (!again.unsettled) return;
   changes_.assign(points_.size(), PackWide{});
   ways_.assign(points_.size(), PackWide{});
@@ -114,11 +116,10 @@ void StepSolver::relax(SubStep step) {
     moved_.swap(moves_);
     again.moved = moved_.data();
   }
-  each_pack(kernels.tell, step);
 }
 
 void StepSolver::sub_step(int number) {
-  const SubStep step{h_, settings_.pushed_apart, settings_.restitution_from, nullptr};
+  const SubStep step{h_, settings_.pushed_apart, settings_.restitution_from};
   const ContactKernels& kernels = contact_kernels();
   for (std::size_t i = 1; i < bodies_.size(); ++i) {
     begun_[i] = velocity_[i];
@@ -159,13 +160,16 @@ void StepSolver::sub_step(int number) {
 
 /// Bodies move by their velocities, and by what pushes overlaps apart: that is no speed and no force, or what is jammed
 /// between two parts would press them by the stiffness of springs that nothing has.
-void StepSolver::move(const SubStep& step) {
+void StepSolver::move(SubStep step) {
   moving_ = velocity_;
   ignored_.assign(bodies_.size(), {});
   const double frequency = std::min(settings_.joint_frequency, 0.25 / h_);
   for (const HingeRows* hinge : hinges_)
     HingeRows(*hinge).solve(frequency, settings_.joint_damping, h_, moving_.data(), ignored_.data());
-  for (int pass = 0; pass < settings_.moving_passes; ++pass) each_pack(contact_kernels().separate, step, moving_);
+  for (int pass = 0; pass < settings_.moving_passes; ++pass) {
+    step.first = pass == 0;
+    each_pack(contact_kernels().separate, step, moving_);
+  }
   for (std::size_t i = 1; i < bodies_.size(); ++i)
     for (int k = 0; k < 3; ++k) {
       displacement_[i].linear[k] += h_ * moving_[i].linear[k];
@@ -217,7 +221,7 @@ void StepSolver::run(double dt, int substeps, const Vec3& gravity) {
   for (SolverContact& contact : contacts_) prepare(contact);
   for (HingeRows* hinge : hinges_) hinge->begin_step(h_);
   for (int i = 0; i < substeps; ++i) sub_step(i);
-  each_pack(contact_kernels().restitute, {h_, settings_.pushed_apart, settings_.restitution_from, nullptr});
+  each_pack(contact_kernels().restitute, {h_, settings_.pushed_apart, settings_.restitution_from});
   for (SolverContact& contact : contacts_) store_contact(contact, dt);
   for (HingeRows* hinge : hinges_) hinge->end_step(h_);
   unscale_bodies(dt, gravity);

@@ -82,7 +82,7 @@ class StepSolver {
   void each_pack(ContactKernels::Pass pass, const SubStep& step, std::vector<Motion6>& velocity);
   void stop_closing(SubStep step);
   void relax(SubStep step);
-  void move(const SubStep& step);
+  void move(SubStep step);
   void add_to(Equilibrium& equilibrium, const SolverContact& contact) const;
   void take_rest(const RestContact& found, SolverContact& contact, double dt) const;
   /// Only what touches may bear.
