@@ -17,6 +17,28 @@ NearPairs::~NearPairs() {
   standing_.clear();
 }
 
+void NearPairs::copy(const NearPairs& of, const std::function<Solid*(const Solid&)>& own) {
+  moving_.clear();
+  standing_.clear();
+  colliders_ = of.colliders_;
+  for (std::size_t i = 0; i < colliders_.size(); ++i) {
+    Collider& one = colliders_[i];
+    if (one.solid) one.solid = own(*one.solid);
+    if (!one.leaf) continue;
+    one.leaf = (one.stands ? standing_ : moving_).insert(volume(one.fat), nullptr);
+    one.leaf->dataAsInt = static_cast<int>(i);
+  }
+  free_colliders_ = of.free_colliders_;
+  moved_ = of.moved_;
+  pairs_ = of.pairs_;
+  ends_ = of.ends_;
+  free_pairs_ = of.free_pairs_;
+  order_ = of.order_;
+  known_ = of.known_;
+  ground_height_ = of.ground_height_;
+  stale_ = of.stale_;
+}
+
 void NearPairs::set_ground(Solid* solid, double height) {
   Collider& of_ground = colliders_[ground];
   of_ground.solid = solid;
@@ -95,6 +117,7 @@ void NearPairs::add_pair(std::uint32_t a, std::uint32_t b) {
   if (free_pairs_.empty()) {
     index = static_cast<std::uint32_t>(pairs_.size());
     pairs_.emplace_back();
+    ends_.emplace_back();
   } else {
     index = free_pairs_.back();
     free_pairs_.pop_back();
@@ -103,6 +126,7 @@ void NearPairs::add_pair(std::uint32_t a, std::uint32_t b) {
   NearPair& made = pairs_[index];
   made.first = a;
   made.second = b;
+  ends_[index] = {a, b, -1, false};
   made.first_order = colliders_[a].order;
   made.second_order = colliders_[b].order;
   made_.push_back(index);
@@ -119,7 +143,7 @@ void NearPairs::seek_for(std::uint32_t index) {
   if (colliders_[ground].solid && one.fat.low.z() <= ground_height_) add_pair(index, ground);
 }
 
-bool NearPairs::near(const NearPair& pair) const {
+bool NearPairs::near(const PairEnds& pair) const {
   const Collider &a = colliders_[pair.first], &b = colliders_[pair.second];
   if (pair.second == ground) return b.solid && a.fat.low.z() <= ground_height_;
   return a.fat.meets(b.fat);
@@ -129,7 +153,7 @@ void NearPairs::find() {
   if (moved_.empty() && !stale_) return;
   stale_ = false;
   std::erase_if(order_, [&](std::uint32_t index) {
-    const NearPair& one = pairs_[index];
+    const PairEnds& one = ends_[index];
     if ((!colliders_[one.first].moved && !colliders_[one.second].moved && one.second != ground) || near(one))
       return false;
     known_.erase(key(one.first, one.second));

@@ -4,6 +4,7 @@
 #include <BulletCollision/BroadphaseCollision/btDbvt.h>
 
 #include <cstdint>
+#include <functional>
 #include <unordered_set>
 #include <vector>
 
@@ -36,10 +37,16 @@ struct Collider {
   bool stands = false, moved = false;
 };
 
-struct alignas(64) NearPair {
+/// What is asked of every pair in every step, apart from what few are asked for.
+struct PairEnds {
+  std::uint32_t first = 0, second = 0;  ///< colliders, by order
+  double free_until = -1;  ///< m: there is no contact before the two have come so far together, by what they have gone
+  bool touches = false;    ///< there are contacts
+};
+
+struct NearPair {
   std::uint32_t first = 0, second = 0;  ///< colliders, by order
   std::uint64_t first_order = 0, second_order = 0;
-  double free_until = -1;  ///< m: there is no contact before the two have come so far together, by what they have gone
   Manifold manifold;
   SeparatingAxis axis;
   Mat3 turn = Mat3::Identity();    ///< of the second in the first's frame when contacts were last sought ...
@@ -63,6 +70,8 @@ class NearPairs {
   NearPairs(const NearPairs&) = delete;
   NearPairs& operator=(const NearPairs&) = delete;
 
+  /// All that `of` holds, of solids that `own` gives for its own.
+  void copy(const NearPairs& of, const std::function<Solid*(const Solid&)>& own);
   void set_ground(Solid* solid, double height);
   std::uint32_t add(Solid* solid, int part, std::uint64_t order, const Box3& fat);
   void remove(std::uint32_t collider);
@@ -84,6 +93,8 @@ class NearPairs {
   [[nodiscard]] const std::vector<std::uint32_t>& order() const { return order_; }
   [[nodiscard]] NearPair& pair(std::uint32_t index) { return pairs_[index]; }
   [[nodiscard]] const NearPair& pair(std::uint32_t index) const { return pairs_[index]; }
+  [[nodiscard]] PairEnds& ends(std::uint32_t index) { return ends_[index]; }
+  [[nodiscard]] const PairEnds& ends(std::uint32_t index) const { return ends_[index]; }
   /// Colliders whose bounds meet the box.
   template <class Call>
   void each_in(const Box3& box, bool standing, const Call& call) const;
@@ -91,7 +102,7 @@ class NearPairs {
  private:
   void add_pair(std::uint32_t a, std::uint32_t b);
   void seek_for(std::uint32_t collider);
-  [[nodiscard]] bool near(const NearPair& pair) const;
+  [[nodiscard]] bool near(const PairEnds& pair) const;
   static std::uint64_t key(std::uint32_t a, std::uint32_t b) {
     return a < b ? std::uint64_t{a} << 32 | b : std::uint64_t{b} << 32 | a;
   }
@@ -100,6 +111,7 @@ class NearPairs {
   std::vector<Collider> colliders_;
   std::vector<std::uint32_t> free_colliders_, moved_;
   std::vector<NearPair> pairs_;
+  std::vector<PairEnds> ends_;  ///< of each pair
   std::vector<std::uint32_t> free_pairs_, order_, made_;
   std::unordered_set<std::uint64_t> known_;
   double ground_height_ = 0;

@@ -21,7 +21,7 @@ inline constexpr double kSkin = 0.002;
 
 /// One convex part in the frame of its solid's Bullet transform.
 struct SolidPart {
-  std::unique_ptr<btConvexShape> shape;
+  std::shared_ptr<btConvexShape> shape;  ///< never changed, so that copies of a solid share it
   btTransform local = btTransform::getIdentity();
   std::int64_t tag = -1;
   double reach = 0;      ///< no point of it is farther from the solid's origin, m
@@ -32,7 +32,7 @@ struct Solid {
   Touched::Kind kind = Touched::Kind::ground;
   std::int64_t id = -1;
   std::vector<SolidPart> parts;
-  std::unique_ptr<btCompoundShape> compound;       ///< none when one part fills the frame
+  std::shared_ptr<btCompoundShape> compound;       ///< none when one part fills the frame
   btTransform frame = btTransform::getIdentity();  ///< of Bullet's transform in the caller's (a rotation)
   bool turned = false;                             ///< the frame is not the identity
   btCollisionObject* object = nullptr;

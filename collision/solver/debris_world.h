@@ -1,7 +1,8 @@
 #pragma once
 // collision::World with a contact solver of its own. Its parts by file: bodies, obstacles, queries of state
 // (debris_world), the step (debris_world_step), what touches and what is told of it (debris_world_contacts), rest
-// (debris_world_rest), sweeps and rays (debris_world_sweep), hinges and cables (debris_world_joints).
+// (debris_world_rest), sweeps and rays (debris_world_sweep), hinges and cables (debris_world_joints), copies
+// (debris_world_copy).
 #include <map>
 #include <memory>
 #include <optional>
@@ -71,8 +72,8 @@ class DebrisWorld final : public World {
  public:
   explicit DebrisWorld(const SolverSettings& settings);
   ~DebrisWorld() override;
-  DebrisWorld(const DebrisWorld&) = delete;
   DebrisWorld& operator=(const DebrisWorld&) = delete;
+  [[nodiscard]] std::unique_ptr<World> copy() const override;
 
   void set_gravity(const Vec3& gravity) override;
   void set_ground(double height, double friction, double restitution) override;
@@ -102,6 +103,7 @@ class DebrisWorld final : public World {
   [[nodiscard]] std::vector<ObstacleId> obstacles_in(const Vec3& low, const Vec3& high) const override;
 
  private:
+  DebrisWorld(const DebrisWorld& of);
   struct Mover;  // an awake body during a sweep
   /// Awake bodies that touch or hang together.
   struct Island {

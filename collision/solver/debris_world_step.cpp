@@ -126,22 +126,23 @@ void DebrisWorld::note_ways(double dt) {
 }
 
 void DebrisWorld::seek(std::uint32_t index) {
-  NearPair& pair = pairs_.pair(index);
-  const Collider &a = pairs_.collider(pair.first), &b = pairs_.collider(pair.second);
+  PairEnds& ends = pairs_.ends(index);
+  const Collider &a = pairs_.collider(ends.first), &b = pairs_.collider(ends.second);
   if (!a.moves && !b.moves) return;
   // What could come together within the step is a contact already. Two that fly side by side may: the one in front is
   // stopped in this step, and the one behind goes on.
   const double margin = std::max(settings_.margin, a.way + b.way);
-  if (a.gone + b.gone + margin < pair.free_until) return;
-  if (pair.second != NearPairs::ground && !a.tight.meets(b.tight)) {
-    if (pair.manifold.count > 0) pair.sought = false;
-    pair.manifold.count = 0;
+  if (a.gone + b.gone + margin < ends.free_until) return;
+  const bool far = ends.second != NearPairs::ground && !a.tight.meets(b.tight);
+  if (far || (!ignored_.empty() && ignores(*a.solid, *b.solid))) {
+    if (!ends.touches) return;
+    NearPair& parted = pairs_.pair(index);
+    if (far) parted.sought = false;
+    parted.manifold.count = 0;
+    ends.touches = false;
     return;
   }
-  if (!ignored_.empty() && ignores(*a.solid, *b.solid)) {
-    pair.manifold.count = 0;
-    return;
-  }
+  NearPair& pair = pairs_.pair(index);
   PairMotion motion;
   const auto shape = [](const Collider& of) {
     return &static_cast<const TouchingSolid*>(of.solid)->shapes[static_cast<std::size_t>(of.part)];
@@ -152,7 +153,8 @@ void DebrisWorld::seek(std::uint32_t index) {
   motion.second_at = &placement(*b.solid);
   motion.margin = margin;
   motion.ground_height = ground_height_;
-  pair.free_until = a.gone + b.gone + update_contacts(pair, motion, settings_.kept, settings_.matched);
+  ends.free_until = a.gone + b.gone + update_contacts(pair, motion, settings_.kept, settings_.matched);
+  ends.touches = pair.manifold.count > 0;
 }
 
 void DebrisWorld::find_contacts(double dt) {
@@ -168,7 +170,7 @@ void DebrisWorld::find_contacts(double dt) {
 void DebrisWorld::find_touching() {
   touching_.clear();
   for (const std::uint32_t index : pairs_.order())
-    if (pairs_.pair(index).manifold.count > 0) touching_.push_back(index);
+    if (pairs_.ends(index).touches) touching_.push_back(index);
 }
 
 /// A body that nothing touches: exactly.

@@ -105,7 +105,7 @@ struct Contact {
   double time = 0;  ///< sweep: time of impact from now; step: 0
   Vec3 impulse = Vec3::Zero();  ///< step: what the body did to the other during the last step, friction included, N s
   Vec3 moment = Vec3::Zero();   ///< step: the same about the point, N m s. With both, what is told of a body makes up
-                               ///< its change of angular momentum about any point that is fixed in space
+                                ///< its change of angular momentum about any point that is fixed in space
   double work_lost = 0;  ///< step: energy, of motion (velocities read at mid-step) and of height, that it took out of
                          ///< the bodies, J
   double depth = 0;      ///< step: how far the two were inside each other when it began (m; a hull's skin counts)
@@ -165,6 +165,10 @@ struct CablePull {
 class World {
  public:
   virtual ~World() = default;
+
+  /// The same world once more, with its handles and all that its next steps depend on: under the same calls both go on
+  /// alike, to the bit. Null where an engine has no such copy.
+  [[nodiscard]] virtual std::unique_ptr<World> copy() const { return nullptr; }
 
   /// m/s2. Wakes every body.
   virtual void set_gravity(const Vec3& gravity) = 0;
