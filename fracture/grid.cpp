@@ -17,19 +17,31 @@ constexpr int kNewtonSteps = 4;
 
 }  // namespace
 
+std::array<int, 2> cells_in_grid(const std::array<Vec2, 4>& outline, double cell, const std::array<int, 2>& divisions) {
+  constexpr int most_in_row = 100'000;
+  constexpr double most = 1e6;
+  constexpr const char* refusal =
+      "cell is too small for the panel; accepted: at most 100000 cells in a row and 1000000 in all";
+  const auto length = [&](std::size_t edge) { return (outline[(edge + 1) % 4] - outline[edge]).norm(); };
+  const auto cells = [&](int given, double size) {
+    if (given > 0) return given;
+    if (!(size / cell < most_in_row)) throw UnfitSettings(refusal);
+    return std::max(1, static_cast<int>(std::lround(size / cell)));
+  };
+  const std::array<int, 2> count{cells(divisions[0], (length(0) + length(2)) / 2),
+                                 cells(divisions[1], (length(1) + length(3)) / 2)};
+  if (static_cast<double>(count[0]) * count[1] > most) throw UnfitSettings(refusal);
+  return count;
+}
+
 Grid::Grid(const std::array<Vec2, 4>& outline, double cell, const std::array<int, 2>& divisions) : outline_(outline) {
   if (!(cell > 0)) throw std::invalid_argument("cell must be above 0");
   for (std::size_t i = 0; i < 4; ++i)
     if (!(cross(outline[(i + 1) % 4] - outline[i], outline[(i + 2) % 4] - outline[(i + 1) % 4]) > 0))
       throw std::invalid_argument("the outline must be convex and go counter-clockwise");
-  const auto length = [&](std::size_t edge) { return (outline[(edge + 1) % 4] - outline[edge]).norm(); };
-  const auto cells = [&](double size) {
-    if (!(size / cell < 1e5))
-      throw UnfitSettings("cell is too small for the panel; accepted: at most 100000 cells in a row");
-    return std::max(1, static_cast<int>(std::lround(size / cell)));
-  };
-  columns_ = divisions[0] > 0 ? divisions[0] : cells((length(0) + length(2)) / 2);
-  rows_ = divisions[1] > 0 ? divisions[1] : cells((length(1) + length(3)) / 2);
+  const std::array<int, 2> count = cells_in_grid(outline, cell, divisions);
+  columns_ = count[0];
+  rows_ = count[1];
 
   // The map from the grid to the panel stretches every direction by at least min det J / max |J|: its determinant is
   // linear and its largest singular value convex, so both bounds are found at the corners. The panel is convex, so a

@@ -6,11 +6,16 @@
 
 namespace topple::fracture {
 
+/// Columns and rows that bring the cells over an outline closest to the size `cell` (m), or those of `divisions` where
+/// it is not 0. Throws UnfitSettings for more than can be of use.
+[[nodiscard]] std::array<int, 2> cells_in_grid(const std::array<Vec2, 4>& outline, double cell,
+                                               const std::array<int, 2>& divisions);
+
 class Grid {
  public:
   Grid() = default;
-  /// As many columns and rows as bring the cells closest to the size `cell` (m), or those of `divisions` where it is
-  /// not 0. Throws std::invalid_argument when the outline is not convex and counter-clockwise or `cell` is not above 0.
+  /// Columns and rows are those of cells_in_grid(). Throws std::invalid_argument when the outline is not convex and
+  /// counter-clockwise or `cell` is not above 0.
   Grid(const std::array<Vec2, 4>& outline, double cell, const std::array<int, 2>& divisions);
 
   [[nodiscard]] int columns() const { return columns_; }

@@ -9,6 +9,7 @@
 
 #include "cell_source.h"
 #include "convex_pieces.h"
+#include "grid.h"
 #include "panel_mesh.h"
 #include "predicates.h"
 #include "topple/fracture/unfit_settings.h"
@@ -55,6 +56,16 @@ void check(const PanelShape& shape) {
 }
 
 }  // namespace
+
+void expect_fit(const PanelShape& shape, const PanelSettings& settings) {
+  if (settings.method == Method::local) {
+    if (settings.local.ring < bounds(shape).size() * kLeastRing)
+      throw UnfitSettings("ring is too small for the panel; accepted: at least a ten-thousandth of its size");
+  } else if (shape.outline.size() == 4) {
+    const Polygon& corner = shape.outline;
+    (void)cells_in_grid({corner[0], corner[1], corner[2], corner[3]}, settings.cell, {});
+  }
+}
 
 class BreakablePanel::Impl {
  public:
@@ -113,8 +124,7 @@ BreakablePanel::Impl::Impl(const PanelShape& given, const PanelSettings& setting
       triangulation(box.lower - Vec2::Constant(kMargin * box.size()), box.upper + Vec2::Constant(kMargin * box.size()),
                     kTolerance * box.size()),
       mesh(given.thickness) {
-  if (settings.method == Method::local && settings.local.ring < box.size() * kLeastRing)
-    throw UnfitSettings("ring is too small for the panel; accepted: at least a ten-thousandth of its size");
+  expect_fit(given, settings);
   if (shape.held.empty()) shape.held.assign(shape.outline.size(), true);
   Loop border;
   if (!insert(shape.outline, border) || border.corners.size() != shape.outline.size())

@@ -10,6 +10,7 @@
 #include "topple/structure/formats/panel_file.h"
 #include "topple/structure/formats/plain_text.h"
 #include "topple/structure/modelling_checks.h"
+#include "topple/structure/simulation.h"
 #include "topple/structure/study/study.h"
 #include "topple/structure/study/study_optimise.h"
 #include "topple/structure/visual_mesh.h"
@@ -116,6 +117,7 @@ int check_scenario(const std::filesystem::path& file) {
     std::printf("    at %g s: %s\n", event.at, tool_name(event.tool));
   print_outcome("demolish", [&, &b = building, &s = scenario] {
     (void)structure::read_drawn_meshes(b, structure::find_model(s.model, file.parent_path()));
+    (void)structure::Simulation(b, s);  // what only model and scenario together can tell
   });
   return success;
 }

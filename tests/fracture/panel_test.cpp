@@ -378,6 +378,23 @@ TEST_CASE("a panel that cannot be is refused") {
   CHECK_THROWS_AS(panel.hit(Vec2(0, 0), INFINITY), std::invalid_argument);
 }
 
+TEST_CASE("more cells than can be of use are refused before any is made") {
+  PanelShape vast = wall();
+  // Nearly 1e10 cells, of which no row is too long.
+  vast.outline = {Vec2(0, 0), Vec2(99'000, 0), Vec2(99'000, 99'000), Vec2(0, 99'000)};
+  for (const Method method : {Method::voronoi, Method::quadrilateral}) {
+    PanelSettings fine = settings(method);
+    fine.cell = 1;
+    CHECK_THROWS_WITH(expect_fit(vast, fine), Catch::Contains("cell is too small for the panel"));
+    CHECK_THROWS_WITH(BreakablePanel(vast, fine), Catch::Contains("cell is too small for the panel"));
+    fine.cell = 1000;
+    CHECK_NOTHROW(expect_fit(vast, fine));
+  }
+  PanelSettings rings = settings(Method::local);
+  rings.local.ring = 0.01;
+  CHECK_THROWS_WITH(expect_fit(vast, rings), Catch::Contains("ring is too small for the panel"));
+}
+
 TEST_CASE("the work of a hit grows with its damage, not with the wall nor with earlier damage elsewhere") {
   for (const Method method : kMethods) {
     BreakablePanel small(wall(10, 10), settings(method)), large(wall(100, 100), settings(method));

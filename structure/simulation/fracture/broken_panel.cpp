@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "topple/fracture/unfit_settings.h"
+#include "topple/structure/error.h"
+
 namespace topple::structure {
 
 namespace {
@@ -89,6 +92,14 @@ fracture::PanelShape BrokenPanel::shape_of(const Building& building, const Panel
   shape.openings = panel.openings;
   shape.held.assign(held.begin(), held.end());
   return shape;
+}
+
+void BrokenPanel::expect_fit(const Building& building, const Panel& panel, const fracture::PanelSettings& settings) {
+  try {
+    fracture::expect_fit(shape_of(building, panel, {building[panel.nodes[0]].position, panel.axes}, {}), settings);
+  } catch (const fracture::UnfitSettings& error) {
+    throw InputError(building.file + ", panels." + panel.name + ": fracture: " + error.what());
+  }
 }
 
 BrokenPanel::BrokenPanel(const Building& building, PanelId id, double mass, const std::vector<Vec3>& space,

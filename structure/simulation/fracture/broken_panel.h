@@ -29,6 +29,10 @@ class BrokenPanel {
   BrokenPanel(const Building& building, PanelId id, double mass, const std::vector<Vec3>& space,
               const fracture::PanelSettings& settings, const std::array<bool, 4>& held = {true, true, true, true});
 
+  /// Throws InputError that names the panel where its cells or ring cracks are too small for it: what would else come
+  /// out when it is hit.
+  static void expect_fit(const Building& building, const Panel& panel, const fracture::PanelSettings& settings);
+
   /// What a hit at a point breaks out and what then hangs on nothing. Empty when nothing can break there.
   [[nodiscard]] std::vector<PanelChunk> hit(const Vec3& at, std::optional<double> radius);
   /// The same for a body of this radius that goes through: the hit is as much larger as it takes for nothing of the

@@ -28,6 +28,7 @@ void Simulation::State::find_breakable_panels() {
                          ".compressive_strength: missing; expected, because panel \"" + panel.name +
                          "\" of this material can break (fracture)");
       breakable.settings = *settings;
+      BrokenPanel::expect_fit(building, panel, *settings);
       any_breakable = true;
       scene.frame->expect_fracture(PanelId(i));
       // Every panel has a pattern of its own (splitmix64's increment keeps their seeds far apart).

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "simulation/debris/part_shapes.h"
+#include "simulation/fracture/broken_panel.h"
 #include "simulation/fracture/panel_chunks.h"
 #include "support/scratch_folder.h"
 #include "topple/fracture/mesh.h"
@@ -254,6 +255,21 @@ TEST_CASE("without the key nothing breaks, and a strength that is missing is nam
   } catch (const InputError& error) {
     CHECK(std::string(error.what()).find("materials.C30.compressive_strength: missing") != std::string::npos);
   }
+}
+
+TEST_CASE("cells too small for a panel are refused by the panel's name, before it is hit") {
+  Building vast = building();
+  for (Node& node : vast.nodes) node.position *= 100;
+  topple::fracture::PanelSettings fine;
+  fine.cell = 0.01;  // 60,000 in a row
+  try {
+    BrokenPanel::expect_fit(vast, vast.panels.front(), fine);
+    FAIL("3.6e9 cells were taken");
+  } catch (const InputError& error) {
+    const std::string said = error.what();
+    CHECK(said.find("panels." + vast.panels.front().name + ": fracture: cell is too small") != std::string::npos);
+  }
+  CHECK_NOTHROW(BrokenPanel::expect_fit(building(), vast.panels.front(), fine));
 }
 
 TEST_CASE("a collapse with broken panels is the same in every run") {

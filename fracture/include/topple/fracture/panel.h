@@ -42,6 +42,10 @@ struct Fracture {
   std::size_t triangles_changed = 0;  ///< of the triangulation: the measure of the work done
 };
 
+/// Throws UnfitSettings where cells or ring cracks are too small for the panel, as BreakablePanel() does, and makes
+/// nothing.
+void expect_fit(const PanelShape& shape, const PanelSettings& settings);
+
 /// One panel that is hit again and again: it keeps what remains as a triangulation.
 class BreakablePanel {
  public:
