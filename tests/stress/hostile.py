@@ -12,6 +12,8 @@ import argparse, copy, json, os, pathlib, random, re, shutil, signal, struct, su
 from concurrent.futures import ThreadPoolExecutor
 
 from hostile_odd import odd_cases
+from hostile_rest import (CHARGES, CONNECT, CUTS, DRAWN, GROUND, LOSSES, OPTIMISE, PLAN, POSTS, QUAKE, QUICK, REST,
+                          untried_keys)
 from hostile_scenes import (ACTIONS, BRITTLE, BUILDING, FRAME3DD, HISTORY, LOCAL, MODEL, MORE_ACTIONS, MOVING, PANEL, PLAIN, QUADS, SCENARIO,
                             STUDY, WIDE)
 
@@ -40,6 +42,23 @@ def put(tree, at, value):
     for key in at[:-1]:
         spot = spot[key]
     spot[at[-1]] = value
+    return tree
+
+
+def inner_places(tree, at=()):
+    """Every key and index of a JSON tree as a path."""
+    if isinstance(tree, (dict, list)):
+        for key in (tree if isinstance(tree, dict) else range(len(tree))):
+            yield at + (key,)
+            yield from inner_places(tree[key], at + (key,))
+
+
+def without(tree, at):
+    tree = copy.deepcopy(tree)
+    spot = tree
+    for key in at[:-1]:
+        spot = spot[key]
+    del spot[at[-1]]
     return tree
 
 
@@ -380,8 +399,54 @@ ALL = ["--modes", "2", "--buckling", "1", "--code", "en1993", "--p-delta", "--st
 ACT = ["m.json", "--headless", "--actions"]
 
 
+def rest_scenes():
+    """(kind, tree, its file, words, files beside it, program) of what few files have."""
+    model = {"m.json": text(MODEL)}
+    yield "rest of a model", REST, "m.json", ["analyse", "m.json", "--code", "en1993", "-o", "o", "--csv"], {}, "topple"
+    yield "rest of a model converted", REST, "m.json", ["convert", "m.json", "n.json"], {}, "topple"
+    yield "connected", CONNECT, "m.json", ["analyse", "m.json", "-o", "o"], {}, "topple"
+    yield "plan", PLAN, "m.json", ["analyse", "m.json", "-o", "o"], {}, "topple"
+    yield "drawn", DRAWN, "m.json", ["check", "m.json"], {"x.glb": glb([{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}], [{"mesh": 0, "name": "a"}])}, "topple"
+    yield "cuts", CUTS, "c.json", ["analyse", "m.json", "--cuts", "c.json", "-o", "o"], model, "topple"
+    yield "optimise", OPTIMISE, "t.json", ["study", "t.json", "-o", "o", "--threads", "1", "--html"], {"m.json": text(POSTS)}, "topple"
+    yield "charges", CHARGES, "t.json", ["study", "t.json", "-o", "o", "--threads", "1"], {**model, "s.json": text(QUICK)}, "topple"
+    yield "losses", LOSSES, "t.json", ["study", "t.json", "-o", "o", "--threads", "1"], model, "topple"
+    yield "earthquake", QUAKE, "a.json", [*ACT, "a.json"], {**model, "ground.csv": GROUND}, "topple-viewer"
+
+
+def rest_cases():
+    for kind, tree, name, words, beside, program in rest_scenes():
+        for case in [Case(f"base {kind}", words, {**beside, name: text(tree)}, (0,)), *tree_cases(kind, tree, name, words, beside)]:
+            case.program = program
+            yield case
+
+
+def shape_cases():
+    """Keys and items that are not there, that are there twice, or hold something of another shape."""
+    scenes = [*rest_scenes(), ("wide", WIDE, "m.json", ["analyse", "m.json", *ALL], {}, "topple"),
+              ("moving", MOVING, "s.json", ["demolish", "s.json", "-o", "o"], {"m.json": text(BRITTLE)}, "topple"),
+              ("scenario", SCENARIO, "s.json", ["demolish", "s.json", "-o", "o"], {"m.json": text(MODEL)}, "topple"),
+              ("panel", PANEL, "p.json", ["fracture", "p.json", "-o", "o"], {}, "topple"),
+              ("study", STUDY, "t.json", ["study", "t.json", "-o", "o", "--threads", "1"], {"m.json": text(MODEL)}, "topple")]
+    for kind, tree, name, words, beside, program in scenes:
+        for at in inner_places(tree):
+            spot = tree
+            for key in at[:-1]:
+                spot = spot[key]
+            others = {"gone": None, "empty": [] if isinstance(spot[at[-1]], list) else {}, "a list": [spot[at[-1]]]}
+            if isinstance(spot[at[-1]], list):
+                others.update({"twice": spot[at[-1]] * 2, "backwards": spot[at[-1]][::-1]})
+            for what, other in others.items():
+                case = Case(f"shape {kind} {'.'.join(map(str, at))} {what}", words,
+                            {**beside, name: text(without(tree, at) if what == "gone" else put(tree, at, other))})
+                case.program = program
+                yield case
+
+
 def all_cases(bin_dir):
     yield from base_cases()
+    yield from rest_cases()
+    yield from shape_cases()
     yield from tree_cases("wide model", WIDE, "m.json", ["analyse", "m.json", *ALL])
     yield from tree_cases("wide model as 3dd", WIDE, "m.json", ["convert", "m.json", "m.3dd"])
     yield from tree_cases("building", BUILDING, "m.json", ["analyse", "m.json", "-o", "o"])
@@ -425,6 +490,9 @@ def main():
     if options.sanitized:
         global BOUNDS
         BOUNDS = SANITIZED
+    if untried := untried_keys():
+        print(f"hostile: no scene has {', '.join(untried)}")
+        return 1
     cases = [case for case in all_cases(bin_dir) if options.only in case.name]
     cases = [case for case in cases if (bin_dir / case.program).exists()]
     first, step = map(int, options.slice.split("/"))
