@@ -16,15 +16,8 @@
 
 namespace topple::structure {
 
-double Simulation::State::punching_force(PanelId id, const Vec3& along, double radius) const {
-  const Panel& panel = scene.building[id];
-  const BreakablePanel& breakable = breakable_panels[static_cast<std::size_t>(id.index)];
-  if (!breakable.settings || std::abs(panel.axes.row(2).dot(along)) < debris_settings.flattest_punch) return unlimited;
-  return breakable.tensile_strength * M_PI * panel.thickness * (2 * radius + panel.thickness);
-}
-
 double Simulation::State::punching_force(const Strike& hit) const {
-  return hit.part.panel.valid() ? punching_force(hit.part.panel, hit.normal, hit.body->radius) : unlimited;
+  return hit.part.panel.valid() ? panels.punching_force(hit.part.panel, hit.normal, hit.body->radius) : unlimited;
 }
 
 /// Speed that the punch leaves an impact that is fast enough to feel the panel alone; 0 for one that is not.
@@ -33,7 +26,7 @@ double Simulation::State::speed_through(const Strike& hit, double force) const {
   const std::size_t panel = static_cast<std::size_t>(hit.part.panel.index);
   const double work = force * scene.building.panels[panel].thickness / 2;
   const double left = hit.speed * hit.speed - 2 * work / hit.mass;
-  return hit.speed > breakable_panels[panel].breaking_speed && left > 0 ? std::sqrt(left) : 0;
+  return hit.speed > panels.of(hit.part.panel).breaking_speed && left > 0 ? std::sqrt(left) : 0;
 }
 
 /// With the speed that is left. True when it went through.
@@ -51,11 +44,11 @@ double Simulation::State::break_out(Strike& hit) {
   const PanelId panel = hit.part.panel;
   auto radius = hit.body->radius > 0 ? std::optional(hit.body->radius) : std::nullopt;
   // Local damage has lengths of its own; only a larger body makes it larger.
-  const auto& settings = breakable_panels[static_cast<std::size_t>(panel.index)].settings;
+  const auto& settings = panels.of(panel).settings;
   if (radius && settings->method == fracture::Method::local && *radius < settings->local.length[1]) radius.reset();
   std::vector<PanelChunk> chunks = hit.body->radius > 0
-                                       ? breaking(panel).hit_through(hit.place.point, radius, hit.body->radius)
-                                       : breaking(panel).hit(hit.place.point, radius);
+                                       ? panels.breaking(panel).hit_through(hit.place.point, radius, hit.body->radius)
+                                       : panels.breaking(panel).hit(hit.place.point, radius);
   double plug = 0;
   for (const PanelChunk& chunk : chunks) plug += chunk.hit ? chunk.rest.mass : 0;
   if (chunks.empty()) return 0;
@@ -64,85 +57,12 @@ double Simulation::State::break_out(Strike& hit) {
   return plug;
 }
 
-/// The panel as it is broken now, whole at first.
-BrokenPanel& Simulation::State::breaking(PanelId panel) {
-  if (const auto found = broken_panels.find(panel); found != broken_panels.end()) return found->second;
-  const auto& settings = breakable_panels[static_cast<std::size_t>(panel.index)].settings;
-  return broken_panels
-      .emplace(panel, BrokenPanel(scene.building, panel, debris.masses.of(panel).mass, debris.shapes.corners(panel),
-                                  settings.value_or(fracture::PanelSettings()), held(panel)))
-      .first->second;
-}
-
-namespace {
-
-bool lies_on_edge(const Panel& panel, int edge, NodeId node) {
-  const auto e = static_cast<std::size_t>(edge);
-  const std::vector<NodeId>& inside = panel.edge_nodes[e];
-  return panel.nodes[e] == node || panel.nodes[(e + 1) % 4] == node ||
-         std::find(inside.begin(), inside.end(), node) != inside.end();
-}
-
-}  // namespace
-
-const std::array<Simulation::State::EdgeBearers, 4>& Simulation::State::bearers(PanelId shell) {
-  const auto [known, made] = edge_bearers.try_emplace(shell);
-  if (!made) return known->second;
-  for (int edge = 0; edge < 4; ++edge) {
-    EdgeBearers& own = known->second[static_cast<std::size_t>(edge)];
-    const auto on_edge = [&](NodeId node) { return lies_on_edge(scene.building[shell], edge, node); };
-    for (const EdgeSupport& support : scene.building.edge_supports)
-      own.supported = own.supported || (support.panel == shell && support.edge == edge);
-    for (const NodeSupport& support : scene.building.supports) own.supported = own.supported || on_edge(support.node);
-    for (std::size_t m = 0; m < scene.building.members.size(); ++m)
-      for (int end = 0; end < 2; ++end)
-        if (on_edge(scene.building.members[m].nodes[static_cast<std::size_t>(end)]))
-          own.joints.push_back(scene.building.joint(MemberId(m), end));
-    for (std::size_t p = 0; p < scene.building.panels.size(); ++p) {
-      const Panel& other = scene.building.panels[p];
-      if (PanelId(p) == shell || other.model != PanelModel::shell) continue;
-      for (int of_other = 0; of_other < 4; ++of_other) {
-        const std::vector<NodeId> nodes = other.all_nodes();
-        if (std::any_of(nodes.begin(), nodes.end(),
-                        [&](NodeId node) { return lies_on_edge(other, of_other, node) && on_edge(node); }))
-          own.joints.push_back(scene.building.joint(PanelId(p), of_other));
-      }
-    }
-  }
-  return known->second;
-}
-
-/// A joint holds an edge where something is there to hold it: of a shell, which joins at its corners, at supported
-/// edges and where members or other shells lie along it, that is not so for every edge.
-std::array<bool, 4> Simulation::State::held(PanelId panel) {
-  const bool shell = scene.building[panel].model == PanelModel::shell;
-  std::array<bool, 4> edges{};
-  for (int edge = 0; edge < 4; ++edge) {
-    bool& holds = edges[static_cast<std::size_t>(edge)];
-    holds = scene.frame->intact(scene.building.joint(panel, edge));
-    if (!holds || !shell) continue;
-    const EdgeBearers& there = bearers(panel)[static_cast<std::size_t>(edge)];
-    holds = there.supported || std::any_of(there.joints.begin(), there.joints.end(), [&](JointId joint) {
-              const Joint& other = scene.building[joint];
-              return scene.frame->intact(joint) &&
-                     (other.member.valid() ? scene.frame->stands(other.member) : scene.frame->stands(other.panel));
-            });
-  }
-  return edges;
-}
-
-/// Panels that have openings from the start have the shape of what is there.
-void Simulation::State::open_panels() {
-  for (std::size_t p = 0; p < scene.building.panels.size(); ++p)
-    if (!scene.building.panels[p].openings.empty()) debris.shapes.set_broken(PanelId(p), breaking(PanelId(p)).hulls());
-}
-
 /// Where the static stress passes what the material bears, a panel cracks at its largest; what that leaves is looked at
 /// again.
 void Simulation::State::crack_panels() {
   for (std::size_t p = 0; p < scene.building.panels.size(); ++p) {
-    const BreakablePanel& breakable = breakable_panels[p];
     const PanelId panel(p);
+    const BreakablePanel& breakable = panels.of(panel);
     if (!breakable.settings || !scene.frame->stands(panel)) continue;
     const std::optional<PanelStress> stress = scene.frame->stress(panel);
     if (!stress) continue;
@@ -150,7 +70,7 @@ void Simulation::State::crack_panels() {
     const double compression = stress->compression / breakable.compressive_strength;
     if (std::max(tension, compression) <= 1) continue;
     const Vec3 at = tension >= compression ? stress->tension_at : stress->compression_at;
-    std::vector<PanelChunk> chunks = breaking(panel).hit(at, std::nullopt);
+    std::vector<PanelChunk> chunks = panels.breaking(panel).hit(at, std::nullopt);
     if (chunks.empty()) continue;
     log.record(SimulationEvent::Kind::panel_fractured, scene.building[panel].name).position = at;
     (void)break_standing(panel, std::move(chunks));
@@ -160,7 +80,7 @@ void Simulation::State::crack_panels() {
 /// These chunks of a standing panel become bodies that move as it did, without its turn; everybody hears of what
 /// remains. Returns the bodies of those that a hit broke out.
 std::vector<collision::BodyId> Simulation::State::break_standing(PanelId panel, std::vector<PanelChunk> chunks) {
-  const BrokenPanel& left = broken_panels.at(panel);
+  const BrokenPanel& left = panels.breaking(panel);
   const Part part(panel);
   Vec3 sunk = Vec3::Zero();
   for (const NodeId node : scene.building[panel].nodes) sunk += scene.frame->displacement(node).head<3>() / 4;
@@ -182,7 +102,7 @@ std::vector<collision::BodyId> Simulation::State::break_standing(PanelId panel, 
   double dust = 0;
   for (PanelChunk& chunk : chunks) {
     const bool of_hit = chunk.hit;
-    Body piece = chunk_body(panel, std::move(chunk), ++number);
+    Body piece = chunk_body(scene.building, panel, std::move(chunk), ++number);
     if (piece.volume < scene.scenario.debris.smallest_volume) {
       dust += piece.rest.mass;
       continue;
@@ -217,9 +137,9 @@ void Simulation::State::push_chunks(const Strike& hit) {
 
 /// Where edges of broken panels have failed since, pieces that only they held leave.
 void Simulation::State::drop_loose_pieces() {
-  for (auto& [panel, broken] : broken_panels) {
+  for (auto& [panel, broken] : panels.all_broken()) {
     if (!scene.frame->stands(panel)) continue;
-    const std::array<bool, 4> now = held(panel);
+    const std::array<bool, 4> now = panels.held(panel);
     if (now == broken.held()) continue;
     std::vector<PanelChunk> loose = broken.hold(now);
     if (loose.empty()) continue;

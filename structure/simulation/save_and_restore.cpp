@@ -71,11 +71,11 @@ void require(const std::vector<Id>& ids, std::size_t count) {
 }  // namespace
 
 void Simulation::State::require_parts(const Snapshot::Action& action) const {
-  const std::size_t members = scene.building.members.size(), panels = scene.building.panels.size();
+  const std::size_t members = scene.building.members.size(), panel_count = scene.building.panels.size();
   const std::size_t joints = scene.building.joints.size(), nodes = scene.building.nodes.size();
   if (const auto* contact = std::get_if<HostContact>(&action.what)) {
     if (contact->member.valid()) require(std::vector{contact->member}, members);
-    if (contact->panel.valid()) require(std::vector{contact->panel}, panels);
+    if (contact->panel.valid()) require(std::vector{contact->panel}, panel_count);
     return;
   }
   if (const auto* change = std::get_if<CapacityChange>(&action.what)) {
@@ -86,7 +86,7 @@ void Simulation::State::require_parts(const Snapshot::Action& action) const {
   if (const auto* cut = std::get_if<CutTool>(&tool)) require(cut->joints, joints);
   if (const auto* remove = std::get_if<RemoveTool>(&tool)) {
     require(remove->members, members);
-    require(remove->panels, panels);
+    require(remove->panels, panel_count);
     require(remove->supports, nodes);
   }
   if (const auto* weaken = std::get_if<WeakenTool>(&tool)) {

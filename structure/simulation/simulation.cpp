@@ -46,16 +46,17 @@ Simulation::State::State(Building the_building, Scenario the_scenario, Simulatio
     : scene(std::move(the_building), std::move(the_scenario), std::move(the_options)),
       log(scene),
       debris(scene),
+      hinges(scene, log, sums, debris),
+      panels(scene, debris),
       debris_broken(scene.building.joints.size(), 0),
       stiffness_factors(scene.building.members.size(), 1.0) {
-  find_breakable_panels();
   if (scene.sways()) {
     if (const auto reason = why_it_stays_at_rest(scene.building, scene.scenario.failure))
       throw InputError((scene.scenario.file.empty() ? "scenario" : scene.scenario.file) +
                        ": standing: \"dynamic\" is not possible: " + *reason + "; accepted: \"static\"");
     scene.frame->let_move(scene.scenario.step);
   }
-  open_panels();
+  panels.open();
 }
 
 Simulation::State::~State() = default;
@@ -132,7 +133,7 @@ collision::BodyId Simulation::body_of(PanelId panel) const {
 
 std::shared_ptr<const fracture::Mesh> Simulation::broken_panel(PanelId panel) const {
   require_id(state_->scene.building, panel, "broken_panel");
-  const BrokenPanel* broken = state_->broken_panel(panel);
+  const BrokenPanel* broken = state_->panels.broken(panel);
   return broken ? broken->mesh() : nullptr;
 }
 
@@ -147,7 +148,7 @@ std::optional<Simulation::RayHit> Simulation::ray_cast(const Vec3& from, const V
   for (std::size_t i = 0; i < part_count(s.scene.building); ++i) {
     const Part part = part_of_number(s.scene.building, static_cast<std::int64_t>(i));
     if (!s.scene.stands(part)) continue;
-    const BrokenPanel* broken = part.panel.valid() ? s.broken_panel(part.panel) : nullptr;
+    const BrokenPanel* broken = part.panel.valid() ? s.panels.broken(part.panel) : nullptr;
     const auto distance = broken ? broken->ray(from, n) : s.debris.shapes.ray(part, from, n);
     if (!distance || *distance >= nearest.distance) continue;
     nearest.member = part.member;

@@ -5,7 +5,9 @@
 #include "simulation/accounts/event_log.h"
 #include "simulation/accounts/running_sums.h"
 #include "simulation/debris/debris.h"
-#include "simulation/fracture/broken_panel.h"
+#include "simulation/debris/hinges.h"
+#include "simulation/debris/release_impulses.h"
+#include "simulation/fracture/breakable_panels.h"
 #include "simulation/impact/free_segment.h"
 #include "simulation/impact/impact.h"
 #include "simulation/impact/indentation.h"
@@ -84,14 +86,6 @@ struct Simulation::State {
   void send_on(SimultaneousImpact& pushed);
   void break_generations();
 
-  /// Momentum that an impact gave to what it broke off, handed over when that part becomes a body.
-  struct ReleaseImpulse {
-    Part part;
-    Vec3 impulse, point;
-    double speed = 0;  ///< of the contact place along the impulse: no part is thrown faster
-    collision::BodyId by;
-  };
-
   // strike_bodies.cpp: the law of impact between bodies, and of bodies on the ground and on what stands firm.
   struct BodyImpact;
   struct ImpactSide;
@@ -125,41 +119,11 @@ struct Simulation::State {
   void release_in_two(const Detached& part);
   [[nodiscard]] Body piece_of(MemberId member, int end, double cut) const;
   [[nodiscard]] Body describe(const Detached& part) const;
-  void apply_release_impulses(const Body& body, Vec3& velocity, Vec3& spin);
   void check_momentum(const Body& body, const std::optional<Detached::Motion>& motion);
-  [[nodiscard]] static bool was_struck(const ReleaseImpulse& given, const Body& one);
-  [[nodiscard]] std::vector<collision::BodyId> breakers_of(const Body& one) const;
   void remove_body(collision::BodyId id, bool keep_weight);
   void keep_limit();
 
-  // hinges.cpp: what moves as a mechanism hangs on.
-  struct Hung {
-    JointId joint;
-    collision::HingeId hinge;
-    collision::BodyId body, holder;  ///< holder -1: what stands
-    bool member_hangs = true;        ///< the joint's member is of the body, else its node
-    Mat3 axes = Mat3::Identity();    ///< of the joint, in the holder's own frame
-    std::int64_t load_key = 0;
-    Vec3 force = Vec3::Zero(), moment = Vec3::Zero();  ///< on the holder about the joint, smoothed
-    Vec3 applied = Vec3::Zero(), moment_applied = Vec3::Zero();
-  };
-  bool hang(JointId joint, collision::BodyId id);
-  void hang_on(const std::vector<JointId>& joints, collision::BodyId id);
-  void hang_on_what_left();
-  void hang_again(const std::vector<JointId>& joints);
-  void take_off(const Hung& hung);
-  std::vector<JointId> take_off(collision::BodyId id);
-  void pass_what_holds(collision::BodyId id, const Vec3& point, collision::BodyId holder);
-  void pull_hinges();
-  void load_by(Hung& hung, const Vec3& force, const Vec3& moment);
-  [[nodiscard]] Utilisation utilisation_of(const Hung& hung, const Vec3& force, const Vec3& moment) const;
-  [[nodiscard]] ContactPlace hold_of(JointId joint, bool member_hangs) const;
-
   // shatter.cpp: panels that came off break into chunks.
-  void find_breakable_panels();
-  [[nodiscard]] const BrokenPanel* broken_panel(PanelId panel) const;
-  [[nodiscard]] PanelId breakable_of(const Body& one) const;
-  [[nodiscard]] Body chunk_body(PanelId panel, PanelChunk chunk, int number) const;
   std::vector<collision::BodyId> shatter(collision::BodyId id, const Vec3& point, std::optional<double> radius,
                                          std::size_t& out);
   void push_whole(collision::BodyId id);
@@ -178,15 +142,12 @@ struct Simulation::State {
     double radius = 0;       ///< of the ball that hit it
   };
   [[nodiscard]] std::map<PanelId, PanelImpact> impacts_on_panels() const;
-  [[nodiscard]] double punching_energy(PanelId panel, const Vec3& at, const Vec3& along, double radius) const;
   [[nodiscard]] double inverse_effective_mass(const Body& one, const ContactRecord& contact) const;
   void crumble(const std::map<PanelId, PanelImpact>& impacts);
   std::vector<Body> break_out_in_flight(PanelId panel, const PanelImpact& impact);
   [[nodiscard]] std::array<bool, 4> held_in_flight(PanelId panel, const Body& one) const;
 
   // break_standing.cpp: panels that break where they stand.
-  /// Of a panel that can break, for a body of this radius; `along` in the axes of the undeformed building.
-  [[nodiscard]] double punching_force(PanelId panel, const Vec3& along, double radius) const;
   [[nodiscard]] double punching_force(const Strike& hit) const;
   [[nodiscard]] double speed_through(const Strike& hit, double force) const;
   bool punch_at_once(Strike& hit, double force, double left);
@@ -196,19 +157,9 @@ struct Simulation::State {
   // punch_moving.cpp: the same where what stands moves. False when the contact is no punch.
   [[nodiscard]] bool punch_moving(const collision::Contact& contact);
   [[nodiscard]] bool joint_fails_below(const StandingFrame::HeldResponse& response, double force) const;
-  BrokenPanel& breaking(PanelId panel);
-  [[nodiscard]] std::array<bool, 4> held(PanelId panel);
-  /// What is there, in the whole building, to hold an edge of a shell: supports, and joints of members and other
-  /// shells.
-  struct EdgeBearers {
-    bool supported = false;
-    std::vector<JointId> joints;
-  };
-  const std::array<EdgeBearers, 4>& bearers(PanelId shell);
   std::vector<collision::BodyId> break_standing(PanelId panel, std::vector<PanelChunk> chunks);
   void drop_loose_pieces();
   void crack_panels();
-  void open_panels();
 
   // break_up.cpp: bodies of several members that are hit hard fall apart.
   /// What presses on a body, its spin and gravity do to it, in the axes of the undeformed building.
@@ -271,23 +222,15 @@ struct Simulation::State {
   EventLog log;
   RunningSums sums;
   Debris debris;
+  Hinges hinges;
+  BreakablePanels panels;
   std::vector<ContactRecord> contact_records;  ///< of the last collision step
   PressingForces pressing;
-
-  struct BreakablePanel {
-    std::optional<fracture::PanelSettings> settings;                        ///< none: it never breaks
-    double breaking_speed = unlimited;                                      ///< change of speed that breaks it, m/s
-    double tensile_strength = unlimited, compressive_strength = unlimited;  ///< Pa
-  };
-  std::vector<BreakablePanel> breakable_panels;  ///< per panel
-  bool any_breakable = false;
-  std::map<PanelId, BrokenPanel> broken_panels;  ///< those that are broken in part: standing, or whole bodies
-  std::map<PanelId, std::array<EdgeBearers, 4>> edge_bearers;  ///< looked up when first asked for
 
   std::vector<char> debris_broken;                                     ///< per joint: broke after it had left the frame
   std::map<std::int64_t, std::unique_ptr<FreeSegment>> free_segments;  ///< by body, made when it is first hit hard
 
-  std::vector<ReleaseImpulse> release_impulses;
+  ReleaseImpulses release_impulses;
   /// Where in this step a body that has struck something stands in time: see strike.cpp.
   struct StruckClock {
     double at = 0;    ///< time of its last impact, as swept
@@ -305,7 +248,6 @@ struct Simulation::State {
   std::vector<HostContact> touches;                   ///< to come in the next step
   std::vector<HostImpulse> host_impulses;
   std::map<std::string, int> launched;  ///< balls by kind
-  std::map<std::int64_t, Hung> hinges;  ///< by hinge
   std::int64_t last_hinge_load = 0;     ///< keys of their loads go down from -1
   bool was_at_rest = false, done_told = false;
 

@@ -16,7 +16,7 @@ void Simulation::State::move() {
 
 void Simulation::State::account() {
   account_contacts();
-  pull_hinges();
+  hinges.pull();
   for (BodyMotion& one : debris.bodies.motions()) account_body(one);
   auto next = debris.bodies.motions().begin();  // asked for in order of id
   debris.resting.read(contact_records, debris.obstacles, scene.scenario.step, [&](collision::BodyId id) {

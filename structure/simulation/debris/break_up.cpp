@@ -21,9 +21,9 @@ bool Simulation::State::holds_in_debris(JointId joint) const {
 
 /// Only where a panel can break: others come down whole, with what most of their corners are joined to.
 std::optional<std::array<double, 4>> Simulation::State::free_panel_edges(PanelId id) const {
-  if (!breakable_panels[static_cast<std::size_t>(id.index)].settings) return std::nullopt;
+  if (!panels.of(id).settings) return std::nullopt;
   const Panel& panel = scene.building[id];
-  const BrokenPanel* broken = broken_panel(id);
+  const BrokenPanel* broken = panels.broken(id);
   std::array<double, 4> length{};
   for (std::size_t edge = 0; edge < 4; ++edge) {
     if (!holds_in_debris(scene.building.joint(id, static_cast<int>(edge)))) continue;
@@ -35,7 +35,7 @@ std::optional<std::array<double, 4>> Simulation::State::free_panel_edges(PanelId
 
 /// Its joints are asked what they bear when it is hit hard.
 bool Simulation::State::may_fall_apart(const Body& one) const {
-  return one.members.size() > 1 || (any_breakable && one.members.size() == 1 && !one.panels.empty());
+  return one.members.size() > 1 || (panels.any() && one.members.size() == 1 && !one.panels.empty());
 }
 
 FreeSegmentParts Simulation::State::parts_of(const Body& one) const {
@@ -176,7 +176,7 @@ std::vector<collision::BodyId> Simulation::State::split(collision::BodyId id,
   const collision::BodyState state = scene.world->state(id);
   const Mat3 turn = state.pose.orientation.toRotationMatrix();
   (void)debris.resting.forget(id, *scene.frame, false);
-  const std::vector<JointId> hung = take_off(id);
+  const std::vector<JointId> hung = hinges.take_off(id);
   debris.remove(id);
   free_segments.erase(id.value);
 
@@ -228,7 +228,7 @@ std::vector<collision::BodyId> Simulation::State::split(collision::BodyId id,
   const std::size_t parts_made = made.size();
   for (Body& chunk : chunks) go_on(std::move(chunk));
   sums.ledger.momentum_error = std::max(sums.ledger.momentum_error, carried.error(handed_on));
-  hang_again(hung);
+  hinges.hang_again(hung);
   // Parts are born inside each other where they were joined.
   for (std::size_t i = 0; i < parts_made; ++i)
     for (std::size_t j = i + 1; j < parts_made; ++j) debris.pass(made[i], made[j]);

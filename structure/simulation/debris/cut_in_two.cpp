@@ -81,7 +81,7 @@ void Simulation::State::release_in_two(const Detached& part) {
   event.mass = whole.rest.mass;
   event.position = whole.rest.centre;
   Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();
-  apply_release_impulses(whole, velocity, spin);
+  release_impulses.apply(whole, velocity, spin, sums.ledger);
 
   std::vector<collision::BodyId> made;
   Momentum carried{whole.rest.centre}, handed_on{whole.rest.centre};
@@ -107,7 +107,7 @@ void Simulation::State::release_in_two(const Detached& part) {
     state.velocity = scene.reading().true_velocity(state.velocity);
     state.pose.position -= displacement;
     handed_on.add(debris.bodies.at(id.value), state);
-    if (std::find(part.hinges.begin(), part.hinges.end(), joint) != part.hinges.end()) hang_on({joint}, id);
+    if (std::find(part.hinges.begin(), part.hinges.end(), joint) != part.hinges.end()) hinges.hang_on({joint}, id);
   }
   sums.ledger.momentum_error = std::max(sums.ledger.momentum_error, carried.error(handed_on));
   if (made.size() == 2) debris.pass(made[0], made[1]);

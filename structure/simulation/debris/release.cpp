@@ -25,12 +25,12 @@ void Simulation::State::release() {
   for (Detached& part : scene.frame->take_detached()) {
     // Of a panel that is broken out altogether nothing is left to leave.
     std::erase_if(part.panels, [&](PanelId panel) {
-      const BrokenPanel* left = broken_panel(panel);
+      const BrokenPanel* left = panels.broken(panel);
       return left && left->hulls().empty();
     });
     release(part);
   }
-  hang_on_what_left();
+  hinges.hang_on_what_left();
   drop_loose_pieces();
   keep_limit();
 }
@@ -49,7 +49,7 @@ Body Simulation::State::describe(const Detached& part) const {
     one.bounds.add(debris.shapes.bounds(Part(member)));
   }
   for (const PanelId panel : part.panels) {
-    const BrokenPanel* left = broken_panel(panel);
+    const BrokenPanel* left = panels.broken(panel);
     one.volume += left ? left->volume() : panel_volume(scene.building, scene.building[panel]);
     one.bounds.add(debris.shapes.bounds(Part(panel)));
   }
@@ -102,51 +102,17 @@ void Simulation::State::release(const Detached& part) {
     debris.leave_weight(one.rest);
     return;
   }
-  const bool breaks =
-      breakable_of(one).valid() && std::any_of(release_impulses.begin(), release_impulses.end(),
-                                               [&](const ReleaseImpulse& k) { return was_struck(k, one); });
+  const bool breaks = panels.breakable_of(one).valid() && release_impulses.first_on(one) != nullptr;
   if (breaks) {
     shatter_struck(debris.add(std::move(one), velocity, spin, displacement));
     return;
   }
-  apply_release_impulses(one, velocity, spin);
-  const std::vector<collision::BodyId> passing = breakers_of(one);
+  release_impulses.apply(one, velocity, spin, sums.ledger);
+  const std::vector<collision::BodyId> passing = release_impulses.breakers_of(one, debris.bodies);
   const collision::BodyId id = debris.add(std::move(one), velocity, spin, displacement);
   check_momentum(debris.bodies.at(id.value), part.motion);
-  hang_on(part.hinges, id);
+  hinges.hang_on(part.hinges, id);
   for (const collision::BodyId by : passing) debris.pass(by, id);
-}
-
-/// True when an impact of this step broke this body off.
-bool Simulation::State::was_struck(const ReleaseImpulse& given, const Body& one) {
-  return given.part.member.valid()
-             ? std::binary_search(one.members.begin(), one.members.end(), given.part.member)
-             : std::find(one.panels.begin(), one.panels.end(), given.part.panel) != one.panels.end();
-}
-
-/// Bodies that go on through what they broke off.
-std::vector<collision::BodyId> Simulation::State::breakers_of(const Body& one) const {
-  std::vector<collision::BodyId> passing;
-  for (const ReleaseImpulse& given : release_impulses)
-    if (was_struck(given, one) && debris.bodies.contains(given.by.value)) passing.push_back(given.by);
-  return passing;
-}
-
-/// A part that an impact broke off takes the momentum of the share of the structure that moved with the body.
-void Simulation::State::apply_release_impulses(const Body& one, Vec3& velocity, Vec3& spin) {
-  for (const ReleaseImpulse& given : release_impulses) {
-    if (!was_struck(given, one)) continue;
-    const Vec3 r = given.point - one.rest.centre;
-    const Mat3 inverse = one.rest.inertia.inverse();
-    const double size = given.impulse.norm();
-    if (size == 0) continue;
-    const Vec3 n = given.impulse / size;
-    const double mass = effective_mass(one.rest.mass, inverse, r, n);
-    const Vec3 impulse = std::min(size, mass * given.speed) * n;
-    velocity += impulse / one.rest.mass;
-    spin += inverse * r.cross(impulse);
-    sums.ledger.lost_in_impacts -= impulse.squaredNorm() / mass / 2;
-  }
 }
 
 /// All the momentum that the world's body has must be what it left with, and what release impulses gave it.
@@ -159,15 +125,7 @@ void Simulation::State::check_momentum(const Body& one, const std::optional<Deta
     given.add_impulse(motion->momentum, state.pose.position);
     given.add_turn(motion->angular - one.rest.centre.cross(motion->momentum));
   }
-  const Mat3 inverse = one.rest.inertia.inverse();
-  for (const ReleaseImpulse& given_impulse : release_impulses)
-    if (was_struck(given_impulse, one)) {
-      const double size = given_impulse.impulse.norm();
-      if (size == 0) continue;
-      const Vec3 r = given_impulse.point - one.rest.centre, n = given_impulse.impulse / size;
-      const Vec3 impulse = std::min(size, effective_mass(one.rest.mass, inverse, r, n) * given_impulse.speed) * n;
-      given.add_impulse(impulse, state.pose.position + r);
-    }
+  release_impulses.add_to(given, one, state.pose.position);
   sums.ledger.momentum_error = std::max(sums.ledger.momentum_error, measured.error(given));
 }
 
@@ -178,7 +136,7 @@ void Simulation::State::remove_body(collision::BodyId id, bool keep_weight) {
   for (std::int64_t& of_part : debris.body_of_part)
     if (of_part == id.value) of_part = -2;
   debris.freeze(debris.resting.forget(id, *scene.frame, keep_weight));
-  (void)take_off(id);
+  (void)hinges.take_off(id);
   scene.timer.engine([&] { scene.world->remove_body(id); });
   free_segments.erase(id.value);
   debris.cables.erase(id.value);

@@ -15,13 +15,14 @@ namespace topple::structure {
 /// the body that had it.
 std::map<PanelId, Simulation::State::PanelImpact> Simulation::State::impacts_on_panels() const {
   std::map<PanelId, PanelImpact> impacts;
-  if (!any_breakable) return impacts;
+  if (!panels.any()) return impacts;
   const auto feel = [&](collision::BodyId id, std::int64_t tag, const ContactRecord& contact, collision::BodyId other) {
     if (tag < 0) return;
     const PanelId panel = part_of_number(scene.building, tag).panel;
-    if (!panel.valid() || !breakable_panels[static_cast<std::size_t>(panel.index)].settings) return;
+    if (!panel.valid() || !panels.of(panel).settings) return;
     const auto found = debris.bodies.find(id.value);
-    if (found == debris.bodies.end() || debris.bodies.motion(id.value).asleep || breakable_of(found->second).valid())
+    if (found == debris.bodies.end() || debris.bodies.motion(id.value).asleep ||
+        panels.breakable_of(found->second).valid())
       return;
     const Body& one = found->second;
     const collision::BodyState state = scene.world->state(id);
@@ -39,8 +40,9 @@ std::map<PanelId, Simulation::State::PanelImpact> Simulation::State::impacts_on_
     const double inverse_mass = 1 / own + (by == debris.bodies.end() ? 0 : inverse_effective_mass(by->second, contact));
     const double stops = impulse / (1 + scene.scenario.debris.restitution);
     impact.energy = stops * stops * inverse_mass / 2;
-    const bool crushes = impulse / own >= breakable_panels[static_cast<std::size_t>(panel.index)].breaking_speed;
-    if (!crushes && (contact.persistent || impact.energy < punching_energy(panel, impact.at, across, impact.radius)))
+    const bool crushes = impulse / own >= panels.of(panel).breaking_speed;
+    if (!crushes &&
+        (contact.persistent || impact.energy < panels.punching_energy(panel, impact.at, across, impact.radius)))
       return;
     PanelImpact& hardest = impacts[panel];
     if (impact.energy > hardest.energy) hardest = impact;
@@ -51,14 +53,6 @@ std::map<PanelId, Simulation::State::PanelImpact> Simulation::State::impacts_on_
     if (two) feel(contact.other.body, contact.other.part_tag, contact, contact.body);
   }
   return impacts;
-}
-
-/// What bends the panel to the force that punches it, and punches it then: elastic energy, and that force over half the
-/// thickness, as where it stands (break_standing.cpp).
-double Simulation::State::punching_energy(PanelId panel, const Vec3& at, const Vec3& along, double radius) const {
-  const double bears = punching_force(panel, along, radius);
-  return bears * bears * panel_bending_compliance(scene.building, panel, at, along) / 2 +
-         bears * scene.building[panel].thickness / 2;
 }
 
 double Simulation::State::inverse_effective_mass(const Body& one, const ContactRecord& contact) const {
@@ -95,7 +89,7 @@ std::array<bool, 4> Simulation::State::held_in_flight(PanelId panel, const Body&
 std::vector<Body> Simulation::State::break_out_in_flight(PanelId panel, const PanelImpact& impact) {
   const Body& one = debris.bodies.at(debris.body_of(Part(panel)));
   const std::array<bool, 4> holding = held_in_flight(panel, one);
-  BrokenPanel& left = breaking(panel);
+  BrokenPanel& left = panels.breaking(panel);
   const int before = left.chunks_out();
   std::vector<PanelChunk> chunks = left.hit(impact.at, impact.radius > 0 ? std::optional(impact.radius) : std::nullopt);
   if (chunks.empty()) return {};
@@ -103,7 +97,7 @@ std::vector<Body> Simulation::State::break_out_in_flight(PanelId panel, const Pa
     for (PanelChunk& loose : left.hold(holding)) chunks.push_back(std::move(loose));
   std::vector<Body> pieces;
   for (PanelChunk& chunk : chunks)
-    pieces.push_back(chunk_body(panel, std::move(chunk), before + static_cast<int>(pieces.size()) + 1));
+    pieces.push_back(chunk_body(scene.building, panel, std::move(chunk), before + static_cast<int>(pieces.size()) + 1));
   debris.masses.set(panel, left.rest());
   debris.shapes.set_broken(panel, left.hulls());
   return pieces;
@@ -130,7 +124,7 @@ void Simulation::State::crumble(const std::map<PanelId, PanelImpact>& impacts) {
   for (auto& [id, pieces] : chunks) {
     FreeSegmentParts left = parts_of(debris.bodies.at(id));
     for (std::size_t p = left.panels.size(); p-- > 0;) {
-      const BrokenPanel* broken = broken_panel(left.panels[p]);
+      const BrokenPanel* broken = panels.broken(left.panels[p]);
       if (!broken || !broken->hulls().empty()) continue;
       debris.lose(Part(left.panels[p]));
       left.panels.erase(left.panels.begin() + static_cast<std::ptrdiff_t>(p));

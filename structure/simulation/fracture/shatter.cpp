@@ -14,84 +14,26 @@
 
 namespace topple::structure {
 
-void Simulation::State::find_breakable_panels() {
-  for (std::size_t i = 0; i < scene.building.panels.size(); ++i) {
-    const Panel& panel = scene.building.panels[i];
-    const Material& material = scene.building[panel.material];
-    const auto& settings = panel.fracture      ? panel.fracture
-                           : material.fracture ? material.fracture
-                                               : scene.scenario.fracture;
-    BreakablePanel breakable;
-    if (settings) {
-      if (!material.compressive_strength)
-        throw InputError(scene.building.file + ", materials." + material.name +
-                         ".compressive_strength: missing; expected, because panel \"" + panel.name +
-                         "\" of this material can break (fracture)");
-      breakable.settings = *settings;
-      BrokenPanel::expect_fit(building, panel, *settings);
-      any_breakable = true;
-      scene.frame->expect_fracture(PanelId(i));
-      // Every panel has a pattern of its own (splitmix64's increment keeps their seeds far apart).
-      breakable.settings->seed = scene.scenario.seed + (i + 1) * 0x9e3779b97f4a7c15u;
-      const double density = material.density > 0
-                                 ? material.density
-                                 : debris.masses.of(PanelId(i)).mass / panel_volume(scene.building, panel);
-      // Where it is not given: that of concrete of this compressive strength (EN 1992-1-1, table 3.1).
-      breakable.tensile_strength =
-          material.tensile_strength.value_or(0.3e6 * std::pow(*material.compressive_strength / 1e6, 2.0 / 3.0));
-      breakable.compressive_strength = *material.compressive_strength;
-      breakable.breaking_speed = *material.compressive_strength / std::sqrt(material.youngs_modulus * density);
-    }
-    breakable_panels.push_back(std::move(breakable));
-  }
-}
-
-/// The panel that a body consists of, when nothing else belongs to it and it can break.
-PanelId Simulation::State::breakable_of(const Body& one) const {
-  if (!one.members.empty() || one.panels.size() != 1) return {};
-  const PanelId panel = one.panels.front();
-  // A node that carries a point mass of its own cannot go with any one chunk.
-  if (std::abs(one.rest.mass - debris.masses.of(panel).mass) > 1e-12 * one.rest.mass) return {};
-  return breakable_panels[static_cast<std::size_t>(panel.index)].settings ? panel : PanelId();
-}
-
-const BrokenPanel* Simulation::State::broken_panel(PanelId panel) const {
-  const auto found = broken_panels.find(panel);
-  return found == broken_panels.end() ? nullptr : &found->second;
-}
-
-Body Simulation::State::chunk_body(PanelId panel, PanelChunk chunk, int number) const {
-  Body piece;
-  piece.name = scene.building[panel].name + "#" + std::to_string(number);
-  piece.rest = chunk.rest;
-  piece.volume = chunk.volume;
-  piece.hull = std::move(chunk.hull);
-  piece.chunk_of = piece_kind(scene.building[panel].kind);
-  piece.mesh = std::move(chunk.mesh);
-  for (const Vec3& corner : piece.hull) piece.bounds.add(corner);
-  return piece;
-}
-
 /// Replaces the body by chunks that move as it did. Returns those that became bodies, what was hit out first; `out`:
 /// how many these are. Nothing when the impact falls where nothing can break.
 std::vector<collision::BodyId> Simulation::State::shatter(collision::BodyId id, const Vec3& point,
                                                           std::optional<double> radius, std::size_t& out) {
   const Body one = debris.bodies.at(id.value);
-  const PanelId panel = breakable_of(one);
+  const PanelId panel = panels.breakable_of(one);
   const collision::BodyState state = scene.world->state(id);
   const Mat3 turn = state.pose.orientation.toRotationMatrix();
   const Vec3 at = one.rest.centre + turn.transpose() * (point - state.pose.position);
-  const BrokenPanel* left = broken_panel(panel);
+  const BrokenPanel* left = panels.broken(panel);
   const int before = left ? left->chunks_out() : 0;
-  std::vector<PanelChunk> chunks =
-      left ? break_up(*left, at, radius)
-           : break_panel(scene.building, panel, one.rest.mass, debris.shapes.corners(panel), at, radius,
-                         *breakable_panels[static_cast<std::size_t>(panel.index)].settings);
+  std::vector<PanelChunk> chunks = left
+                                       ? break_up(*left, at, radius)
+                                       : break_panel(scene.building, panel, one.rest.mass, debris.shapes.corners(panel),
+                                                     at, radius, *panels.of(panel).settings);
   out = 0;
   if (chunks.empty()) return {};
   log.record(SimulationEvent::Kind::panel_fractured, scene.building[panel].name).position = point;
   (void)debris.resting.forget(id, *scene.frame, false);
-  (void)take_off(id);
+  (void)hinges.take_off(id);
   debris.remove(id);
   debris.lose(Part(panel));
 
@@ -101,7 +43,7 @@ std::vector<collision::BodyId> Simulation::State::shatter(collision::BodyId id, 
   double dust = 0;
   for (std::size_t i = 0; i < chunks.size(); ++i) {
     const bool of_hit = chunks[i].hit;
-    Body piece = chunk_body(panel, std::move(chunks[i]), before + static_cast<int>(i) + 1);
+    Body piece = chunk_body(scene.building, panel, std::move(chunks[i]), before + static_cast<int>(i) + 1);
     const Vec3 arm = turn * (piece.rest.centre - one.rest.centre);
     collision::BodyState moving = state;
     moving.pose.position += arm;
@@ -127,7 +69,7 @@ std::vector<collision::BodyId> Simulation::State::shatter(collision::BodyId id, 
 
 void Simulation::State::push_whole(collision::BodyId id) {
   Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();
-  apply_release_impulses(debris.bodies.at(id.value), velocity, spin);
+  release_impulses.apply(debris.bodies.at(id.value), velocity, spin, sums.ledger);
   collision::BodyState state = scene.world->state(id);
   state.velocity += velocity;
   state.angular_velocity += spin;
@@ -138,43 +80,41 @@ void Simulation::State::push_whole(collision::BodyId id) {
 /// the mass, and flies on through the gap.
 void Simulation::State::shatter_struck(collision::BodyId id) {
   const Body& one = debris.bodies.at(id.value);
-  if (!breakable_of(one).valid()) return;
-  for (const ReleaseImpulse& given : release_impulses) {
-    if (!was_struck(given, one)) continue;
-    const Body* by = debris.find(given.by);
-    const std::optional<double> radius = by && by->radius > 0 ? std::optional(by->radius) : std::nullopt;
-    const ReleaseImpulse given_impulse = given;
-    std::size_t out = 0;
-    const std::vector<collision::BodyId> made = shatter(id, given_impulse.point, radius, out);
-    if (made.empty()) {  // hit where there is nothing to break: it is pushed as a whole
-      if (debris.bodies.contains(id.value)) push_whole(id);
-      return;
-    }
-    double struck_mass = 0;
-    for (std::size_t i = 0; i < out; ++i) struck_mass += debris.bodies.at(made[i].value).rest.mass;
-    const double size = given_impulse.impulse.norm();
-    for (std::size_t i = 0; i < made.size(); ++i) {
-      if (debris.bodies.contains(given_impulse.by.value)) debris.pass(given_impulse.by, made[i]);
-      if (i >= out || size == 0) continue;
-      const double mass = debris.bodies.at(made[i].value).rest.mass;
-      const Vec3 gained = std::min(size / struck_mass, given_impulse.speed) * given_impulse.impulse / size;
-      collision::BodyState state = scene.world->state(made[i]);
-      const Vec3 before = scene.reading().true_velocity(state.velocity);
-      state.velocity += gained;
-      sums.ledger.lost_in_impacts -= mass * gained.dot(before + gained / 2);
-      scene.world->set_state(made[i], state);
-    }
+  if (!panels.breakable_of(one).valid()) return;
+  const ReleaseImpulse* const first = release_impulses.first_on(one);
+  if (first == nullptr) return;
+  const ReleaseImpulse given = *first;
+  const Body* by = debris.find(given.by);
+  const std::optional<double> radius = by && by->radius > 0 ? std::optional(by->radius) : std::nullopt;
+  std::size_t out = 0;
+  const std::vector<collision::BodyId> made = shatter(id, given.point, radius, out);
+  if (made.empty()) {  // hit where there is nothing to break: it is pushed as a whole
+    if (debris.bodies.contains(id.value)) push_whole(id);
     return;
+  }
+  double struck_mass = 0;
+  for (std::size_t i = 0; i < out; ++i) struck_mass += debris.bodies.at(made[i].value).rest.mass;
+  const double size = given.impulse.norm();
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    if (debris.bodies.contains(given.by.value)) debris.pass(given.by, made[i]);
+    if (i >= out || size == 0) continue;
+    const double mass = debris.bodies.at(made[i].value).rest.mass;
+    const Vec3 gained = std::min(size / struck_mass, given.speed) * given.impulse / size;
+    collision::BodyState state = scene.world->state(made[i]);
+    const Vec3 before = scene.reading().true_velocity(state.velocity);
+    state.velocity += gained;
+    sums.ledger.lost_in_impacts -= mass * gained.dot(before + gained / 2);
+    scene.world->set_state(made[i], state);
   }
 }
 
 /// Panels that came down hard in this step.
 void Simulation::State::shatter_landed() {
-  if (!any_breakable) return;
+  if (!panels.any()) return;
   std::map<std::int64_t, Landing> landings;  // by body
   std::vector<std::int64_t> awake;
   for (const std::int64_t id : debris.bodies.single_panels())
-    if (!debris.bodies.motion(id).asleep && breakable_of(debris.bodies.at(id)).valid()) awake.push_back(id);
+    if (!debris.bodies.motion(id).asleep && panels.breakable_of(debris.bodies.at(id)).valid()) awake.push_back(id);
   const auto feel = [&](collision::BodyId id, const ContactRecord& contact) {
     if (!std::binary_search(awake.begin(), awake.end(), id.value)) return;
     const Body* one = debris.find(id);
@@ -183,7 +123,7 @@ void Simulation::State::shatter_landed() {
     const double mass = effective_mass(one->rest.mass, inverse, contact.point - state.pose.position, contact.normal);
     const double change = std::abs(contact.impulse.dot(contact.normal)) / mass;
     const PanelId panel = one->panels.front();
-    if (change < breakable_panels[static_cast<std::size_t>(panel.index)].breaking_speed) return;
+    if (change < panels.of(panel).breaking_speed) return;
     Landing& hardest = landings[id.value];
     if (change > hardest.speed)
       hardest = {change, state.pose.orientation.conjugate() * (contact.point - state.pose.position)};

@@ -88,7 +88,7 @@ std::optional<Simulation::State::Strike> Simulation::State::aim(const collision:
   Body* hitting = debris.find(contact.body);
   if (!part.valid() || !hitting || !scene.stands(part)) return std::nullopt;
   // What was swept may have been broken out since.
-  if (const BrokenPanel* left = part.panel.valid() ? broken_panel(part.panel) : nullptr)
+  if (const BrokenPanel* left = part.panel.valid() ? panels.broken(part.panel) : nullptr)
     if (debris.obstacles.obstacle_of(part) != contact.other.obstacle && !left->holds(contact.point))
       return std::nullopt;
   Strike hit;
@@ -220,7 +220,7 @@ void Simulation::State::send_on(const Strike& hit) {
 
 /// What was hit and came off takes along its share of the momentum.
 void Simulation::State::keep_release_impulse(const Strike& hit) {
-  release_impulses.push_back(
+  release_impulses.add(
       {hit.part, hit.structure_mass * hit.speed_out * hit.normal, hit.place.point, hit.speed_out, hit.body->id});
 }
 
@@ -266,7 +266,7 @@ void Simulation::State::break_generations() {
     }
   };
   if (scene.sways()) {
-    const auto crack = any_breakable ? std::function<void()>([&] { crack_panels(); }) : std::function<void()>();
+    const auto crack = panels.any() ? std::function<void()>([&] { crack_panels(); }) : std::function<void()>();
     const std::vector<JointBreak> breaks = scene.frame->move(crack);
     record_yielded();
     for (const JointBreak& broken : breaks) log.record(broken);
@@ -276,7 +276,7 @@ void Simulation::State::break_generations() {
     const std::vector<JointBreak> breaks = scene.frame->settle();
     record_yielded();
     for (const JointBreak& broken : breaks) log.record(broken);
-    if (any_breakable) crack_panels();
+    if (panels.any()) crack_panels();
   } while (scene.frame->pending());
 }
 
