@@ -1,4 +1,7 @@
-// Snapshots: what was done, and doing it again.
+// Snapshots: what was done, and doing it again. Capacities that a host gives are part of what was done.
+#include <utility>
+
+#include "simulation/call_checks.h"
 #include "simulation/scene_hash.h"
 #include "simulation/simulation_state.h"
 #include "simulation/step_clock.h"
@@ -6,6 +9,20 @@
 #include "topple/structure/number_range.h"
 
 namespace topple::structure {
+
+void Simulation::set_capacities(std::span<const std::pair<JointId, JointCapacity>> capacities) {
+  require_capacities(state_->scene.building, capacities);
+  state_->actions.push_back({state_->scene.step, CapacityChange{{capacities.begin(), capacities.end()}}});
+  for (const auto& [joint, capacity] : capacities) {
+    JointCapacity& own = state_->scene.building.joints[static_cast<std::size_t>(joint.index)].capacity;
+    state_->given_capacities.try_emplace(joint, own);
+    const JointCapacity before = std::exchange(own, capacity);
+    // Hinges are made where a ductile sense has a capacity from the start; one that gets it later breaks at once.
+    for (std::size_t sense = 0; sense < 7; ++sense)
+      if (before.value[sense] == unlimited) own.ductility[sense] = 0;
+    state_->scene.frame->capacity_changed(joint);
+  }
+}
 
 Building Simulation::State::building_at_start() const {
   Building start = scene.building;

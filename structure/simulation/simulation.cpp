@@ -17,7 +17,7 @@ void Simulation::step() {
   State& s = *state_;
   ++s.scene.step;
   s.scene.timer.start_step();
-  s.changes = {};
+  s.views.start_step();
   s.host_impulses.clear();
   if (s.nothing_to_do()) {
     ++s.sums.counters.steps_idle;
@@ -25,13 +25,13 @@ void Simulation::step() {
     const auto timed = [&](Stage stage, const auto& work) {
       return s.scene.timer.stage(static_cast<std::size_t>(stage), work);
     };
-    timed(Stage::load, [&] { s.use_tools(); });
+    timed(Stage::load, [&] { s.tools.use(); });
     const auto contacts = timed(Stage::sweep, [&] { return s.sweep(); });
     timed(Stage::load, [&] { s.load(); });
     timed(Stage::break_, [&] {
       s.strike_by_host();
-      s.strike_all(contacts);
-      s.strike_bodies(contacts);
+      s.standing_impacts.strike_all(contacts);
+      s.body_impacts.strike_all(contacts);
       s.break_generations();
     });
     timed(Stage::release, [&] { s.release(); });
@@ -48,8 +48,13 @@ Simulation::State::State(Building the_building, Scenario the_scenario, Simulatio
       debris(scene),
       hinges(scene, log, sums, debris),
       panels(scene, debris),
-      debris_broken(scene.building.joints.size(), 0),
-      stiffness_factors(scene.building.members.size(), 1.0) {
+      tools(scene, log, sums, debris),
+      views(scene, debris),
+      break_up({scene, log, sums, debris, hinges, panels, views}),
+      standing_fracture(scene, log, sums, debris, panels),
+      standing_impacts({scene, log, sums, debris, panels, standing_fracture, release_impulses, struck}),
+      body_impacts({scene, log, sums, debris, break_up, standing_impacts, struck}),
+      debris_fracture({scene, log, sums, debris, hinges, panels, views, break_up, release_impulses}) {
   if (scene.sways()) {
     if (const auto reason = why_it_stays_at_rest(scene.building, scene.scenario.failure))
       throw InputError((scene.scenario.file.empty() ? "scenario" : scene.scenario.file) +
@@ -61,17 +66,44 @@ Simulation::State::State(Building the_building, Scenario the_scenario, Simulatio
 
 Simulation::State::~State() = default;
 
-bool Simulation::State::nothing_to_do() const {
-  if (scene.step <= 1 || !asked.empty() || !touches.empty() || scene.frame->pending() || scene.world->awake_count() > 0)
-    return false;
-  const double next = next_instant();
-  return next == unlimited || step_of(next, scene.scenario.step) > scene.step;
+void Simulation::State::load() {
+  sums.counters.contacts_ignored += debris.resting.lay(*scene.frame, scene.strength_factors, [&](collision::BodyId id) {
+    const Body* one = debris.find(id);
+    return one ? one->rest.mass * scene.gravity.norm() : 0.0;
+  });
 }
 
-double Simulation::State::next_instant() const {
-  double next = next_event == scene.scenario.events.size() ? unlimited : scene.scenario.events[next_event].at;
-  for (const Weakening& weakening : weakenings) next = std::min(next, weakening.next());
-  return next;
+/// Until nothing is over capacity and no panel cracks.
+void Simulation::State::break_generations() {
+  if (!scene.frame->pending() && scene.step > 1) return;
+  const auto record_yielded = [&] {
+    for (const JointBreak& line : scene.frame->take_yielded()) {
+      SimulationEvent& event = log.record(SimulationEvent::Kind::joint_yielded, scene.building[line.joint].name);
+      event.joint = line;
+      event.position = line.position;
+    }
+  };
+  if (scene.sways()) {
+    const auto crack =
+        panels.any() ? std::function<void()>([&] { standing_fracture.crack(); }) : std::function<void()>();
+    const std::vector<JointBreak> breaks = scene.frame->move(crack);
+    record_yielded();
+    for (const JointBreak& broken : breaks) log.record(broken);
+    return;
+  }
+  do {
+    const std::vector<JointBreak> breaks = scene.frame->settle();
+    record_yielded();
+    for (const JointBreak& broken : breaks) log.record(broken);
+    if (panels.any()) standing_fracture.crack();
+  } while (scene.frame->pending());
+}
+
+bool Simulation::State::nothing_to_do() const {
+  if (scene.step <= 1 || tools.asked() || !touches.empty() || scene.frame->pending() || scene.world->awake_count() > 0)
+    return false;
+  const double next = tools.next_instant();
+  return next == unlimited || step_of(next, scene.scenario.step) > scene.step;
 }
 
 Simulation::Simulation(Building building, Scenario scenario, SimulationOptions options) {
@@ -90,10 +122,10 @@ std::int64_t Simulation::skip_idle() {
 std::int64_t Simulation::skip_idle_before(std::int64_t end) {
   State& s = *state_;
   std::int64_t passed = 0;
-  if (s.scene.step < 1 || !s.asked.empty() || !s.touches.empty() || s.scene.frame->pending() ||
+  if (s.scene.step < 1 || s.tools.asked() || !s.touches.empty() || s.scene.frame->pending() ||
       s.scene.world->awake_count() > 0)
     return 0;
-  const double instant = s.next_instant();
+  const double instant = s.tools.next_instant();
   const std::int64_t next = instant < unlimited ? std::min(end, step_of(instant, s.scene.scenario.step)) : end;
   passed = std::max<std::int64_t>(0, next - 1 - s.scene.step);
   s.scene.step += passed;
@@ -107,7 +139,7 @@ std::int64_t Simulation::steps() const { return state_->scene.step; }
 bool Simulation::at_rest() const { return state_->rests(); }
 void Simulation::apply(const Tool& tool) {
   require_tool(state_->scene.building, tool);
-  state_->asked.push_back(tool);
+  state_->tools.ask(tool);
   state_->actions.push_back({state_->scene.step, tool});
 }
 void Simulation::on_event(std::function<void(const SimulationEvent&)> listener) {
@@ -117,10 +149,10 @@ std::span<const SimulationEvent> Simulation::events() const { return state_->log
 const Building& Simulation::building() const { return state_->scene.building; }
 const Scenario& Simulation::scenario() const { return state_->scene.scenario; }
 const StandingFrame& Simulation::frame() const { return *state_->scene.frame; }
-std::span<const BodyView> Simulation::bodies() const { return state_->views; }
-std::span<const double> Simulation::poses() const { return *state_->poses; }
-std::shared_ptr<const std::vector<double>> Simulation::held_poses() const { return state_->poses; }
-const PieceChanges& Simulation::changes() const { return state_->changes; }
+std::span<const BodyView> Simulation::bodies() const { return state_->views.all(); }
+std::span<const double> Simulation::poses() const { return *state_->views.poses(); }
+std::shared_ptr<const std::vector<double>> Simulation::held_poses() const { return state_->views.poses(); }
+const PieceChanges& Simulation::changes() const { return state_->views.changes(); }
 
 collision::BodyId Simulation::body_of(MemberId member) const {
   require_id(state_->scene.building, member, "body_of");
@@ -198,7 +230,7 @@ std::uint64_t Simulation::hash() const {
     return order;
   };
   for (const std::size_t i : by_name(s.scene.building.joints))
-    if (!s.holds_in_debris(JointId(i))) hash.add(s.scene.building.joints[i].name);
+    if (!s.break_up.holds(JointId(i))) hash.add(s.scene.building.joints[i].name);
   for (const std::size_t i : by_name(s.scene.building.nodes)) {
     if (!s.scene.frame->stands(NodeId(i))) continue;
     hash.add(s.scene.building.nodes[i].name);

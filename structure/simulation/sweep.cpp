@@ -78,8 +78,9 @@ std::vector<collision::Contact> Simulation::State::sweep() {
   if (scene.world->awake_count() == 0) return {};
   // Bodies are looked for where some can break against each other.
   const bool any_composed =
-      std::any_of(debris.bodies.composed().begin(), debris.bodies.composed().end(),
-                  [&](std::int64_t id) { return !debris.bodies.motion(id).asleep || may_break({id}); });
+      std::any_of(debris.bodies.composed().begin(), debris.bodies.composed().end(), [&](std::int64_t id) {
+        return !debris.bodies.motion(id).asleep || break_up.may_fall_apart(collision::BodyId{id});
+      });
   const collision::Sweep what = any_composed ? collision::Sweep::everything : collision::Sweep::obstacles;
   return scene.timer.engine([&] { return scene.world->sweep(scene.scenario.step, what, impact_settings.least_speed); });
 }

@@ -23,12 +23,12 @@ void Simulation::State::account() {
     while (next != debris.bodies.motions().end() && next->id < id.value) ++next;
     return next != debris.bodies.motions().end() && next->id == id.value && !scene.world->state(id).asleep;
   });
-  shatter_landed();
-  const std::map<PanelId, PanelImpact> impacts = impacts_on_panels();
-  break_up_landed();
-  crumble(impacts);
+  if (debris_fracture.shatter_landed(contact_records)) keep_limit();
+  const auto impacts = debris_fracture.impacts_on_panels(contact_records);
+  break_up.break_landed(contact_records);
+  debris_fracture.crumble(impacts);
   keep_limit();  // some may have fallen asleep
-  update_views();
+  views.update();
 }
 
 /// The collision world measures what each contact took from the bodies, in the same reading of velocities.
@@ -56,73 +56,9 @@ void Simulation::State::account_body(BodyMotion& one) {
   }
 }
 
-/// What of a body does not change while it is there.
-BodyView Simulation::State::view_of(const Body& one) const {
-  BodyView view;
-  view.id = one.id;
-  view.name = one.name;
-  view.rest_centre = one.rest.centre;
-  view.mass = one.rest.mass;
-  view.radius = one.radius;
-  view.members = one.members;
-  view.panels = one.panels;
-  view.chunk = one.mesh;
-  view.chunk_of = one.chunk_of;
-  return view;
-}
-
-/// Both lists are in order of id; those of bodies that stay are written over.
-void Simulation::State::update_views() {
-  std::vector<std::int64_t> before;
-  before.reserve(views.size());
-  for (const BodyView& view : views) before.push_back(view.id.value);
-  const std::span<const BodyMotion> motions = debris.bodies.motions();
-  const auto same_id = [](std::int64_t id, const BodyMotion& one) { return id == one.id; };
-  if (!std::equal(before.begin(), before.end(), motions.begin(), motions.end(), same_id)) {
-    std::vector<BodyView> now;
-    now.reserve(motions.size());
-    auto old = views.begin();
-    for (const BodyMotion& one : motions) {
-      while (old != views.end() && old->id.value < one.id) ++old;
-      const bool stays = old != views.end() && old->id.value == one.id;
-      now.push_back(stays ? std::move(*old) : view_of(*one.body));
-    }
-    views = std::move(now);
-  }
-  if (poses.use_count() > 1) poses = std::make_shared<std::vector<double>>();  // a host holds the last ones
-  poses->clear();
-  poses->reserve(7 * views.size());
-  for (BodyView& view : views) {
-    const collision::BodyState state = scene.world->state(view.id);
-    view.pose = state.pose;
-    view.asleep = state.asleep;
-    const Vec3& at = state.pose.position;
-    const Eigen::Vector4d turn = state.pose.orientation.coeffs();
-    poses->insert(poses->end(), {at.x(), at.y(), at.z(), turn[0], turn[1], turn[2], turn[3]});
-    if (debris.cables.empty() && !view.cable_anchor) continue;
-    const auto hung = debris.cables.find(view.id.value);
-    view.cable_anchor = hung != debris.cables.end() ? std::optional(hung->second.anchor) : std::nullopt;
-  }
-  record_changes(before);
-}
-
-/// Both lists of bodies are in order of id.
-void Simulation::State::record_changes(std::span<const std::int64_t> before) {
-  auto old = before.begin();
-  for (const BodyView& view : views) {
-    for (; old != before.end() && *old < view.id.value; ++old) changes.gone.push_back(*old);
-    if (old != before.end() && *old == view.id.value)
-      ++old;
-    else
-      changes.made.push_back(view.id.value);
-    if (!view.asleep) changes.moved.push_back(view.id.value);
-  }
-  for (; old != before.end(); ++old) changes.gone.push_back(*old);
-}
-
 bool Simulation::State::rests() const {
-  return scene.step > 0 && scene.world->awake_count() == 0 && !scene.frame->pending() && asked.empty() &&
-         touches.empty() && next_instant() == unlimited;
+  return scene.step > 0 && scene.world->awake_count() == 0 && !scene.frame->pending() && !tools.asked() &&
+         touches.empty() && tools.next_instant() == unlimited;
 }
 
 bool Simulation::State::finished() const {

@@ -72,7 +72,7 @@ void Simulation::State::release_in_two(const Detached& part) {
   }
   Detached post;
   post.members = {member};
-  const Body whole = describe(post);
+  const Body whole = break_up.describe(post);
   const Part gone(member);
   debris.stop_standing(gone);
   debris.lose(Part(member));

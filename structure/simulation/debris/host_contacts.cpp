@@ -63,7 +63,7 @@ void Simulation::State::strike_by_host(const HostContact& contact, Part part, Ho
   };
   const Body& striking = debris.bodies.at(id.value);
   const Kinetic before = kinetic_energy(striking, scene.world->state(id), scene.reading());
-  scene.sways() ? strike_bodies({touch}) : strike_all({touch});
+  scene.sways() ? body_impacts.strike_all({touch}) : standing_impacts.strike_all({touch});
   const collision::BodyState after = now();
   const Kinetic left = kinetic_energy(striking, scene.world->state(id), scene.reading());
   sums.body_work_put_in += before.translation + before.rotation - left.translation - left.rotation;

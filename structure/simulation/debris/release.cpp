@@ -7,20 +7,6 @@
 
 namespace topple::structure {
 
-namespace {
-
-std::string name_of(const Building& building, const Detached& part) {
-  if (!part.members.empty()) return building[part.members.front()].name;
-  if (!part.panels.empty()) return building[part.panels.front()].name;
-  return building[part.nodes.front()].name;
-}
-
-bool belongs(const Detached& part, Part one) {
-  const auto has = [](const auto& list, auto id) { return std::find(list.begin(), list.end(), id) != list.end(); };
-  return one.member.valid() ? has(part.members, one.member) : has(part.panels, one.panel);
-}
-}  // namespace
-
 void Simulation::State::release() {
   for (Detached& part : scene.frame->take_detached()) {
     // Of a panel that is broken out altogether nothing is left to leave.
@@ -31,46 +17,15 @@ void Simulation::State::release() {
     release(part);
   }
   hinges.hang_on_what_left();
-  drop_loose_pieces();
+  standing_fracture.drop_loose_pieces();
   keep_limit();
-}
-
-Body Simulation::State::describe(const Detached& part) const {
-  Body one;
-  one.name = name_of(scene.building, part);
-  one.members = part.members;
-  one.panels = part.panels;
-  one.nodes = part.nodes;
-  one.rest = debris.masses.of(part);
-  for (const Debris::Frozen& lying : debris.frozen)
-    if (belongs(part, lying.on)) one.rest.add(lying.mass);
-  for (const MemberId member : part.members) {
-    one.volume += member_volume(scene.building, scene.building[member]);
-    one.bounds.add(debris.shapes.bounds(Part(member)));
-  }
-  for (const PanelId panel : part.panels) {
-    const BrokenPanel* left = panels.broken(panel);
-    one.volume += left ? left->volume() : panel_volume(scene.building, scene.building[panel]);
-    one.bounds.add(debris.shapes.bounds(Part(panel)));
-  }
-  if (part.members.empty() && part.panels.empty()) {
-    one.radius = debris_settings.node_radius;
-    one.rest = sphere_mass(one.rest.centre, one.rest.mass, debris_settings.node_radius);
-    one.volume =
-        4.0 / 3.0 * M_PI * debris_settings.node_radius * debris_settings.node_radius * debris_settings.node_radius;
-    one.bounds.low = one.rest.centre - Vec3::Constant(debris_settings.node_radius);
-    one.bounds.high = one.rest.centre + Vec3::Constant(debris_settings.node_radius);
-  }
-  one.bounds.low -= one.rest.centre;
-  one.bounds.high -= one.rest.centre;
-  return one;
 }
 
 void Simulation::State::release(const Detached& part) {
   if (part.members.empty() && part.panels.empty() && part.nodes.empty()) return;
   if (part.cut) return release_in_two(part);
   if (part.members.empty() && part.panels.empty() && debris.masses.of(part).mass <= 0) return;  // a bare node
-  Body one = describe(part);
+  Body one = break_up.describe(part);
   Vec3 displacement = Vec3::Zero();
   for (const NodeId node : part.nodes) displacement += scene.frame->displacement(node).head<3>();
   if (!part.nodes.empty()) displacement /= static_cast<double>(part.nodes.size());
@@ -104,7 +59,7 @@ void Simulation::State::release(const Detached& part) {
   }
   const bool breaks = panels.breakable_of(one).valid() && release_impulses.first_on(one) != nullptr;
   if (breaks) {
-    shatter_struck(debris.add(std::move(one), velocity, spin, displacement));
+    debris_fracture.shatter_struck(debris.add(std::move(one), velocity, spin, displacement));
     return;
   }
   release_impulses.apply(one, velocity, spin, sums.ledger);
@@ -138,7 +93,7 @@ void Simulation::State::remove_body(collision::BodyId id, bool keep_weight) {
   debris.freeze(debris.resting.forget(id, *scene.frame, keep_weight));
   (void)hinges.take_off(id);
   scene.timer.engine([&] { scene.world->remove_body(id); });
-  free_segments.erase(id.value);
+  break_up.forget(id);
   debris.cables.erase(id.value);
   debris.bodies.erase(id.value);
 }

@@ -8,7 +8,7 @@
 namespace topple::structure {
 
 /// Which modes of the struck nodes the push moves. The faster ones bear it as at rest.
-void Simulation::State::BodyImpact::follow() {
+void BodyImpact::follow() {
   ImpactSide& side = sides[1];
   const StandingFrame::HeldResponse& response = side.response;
   const Eigen::MatrixXd body = mobility(sides[0].motion, places);
@@ -54,7 +54,7 @@ void Simulation::State::BodyImpact::follow() {
   }
 }
 
-Eigen::MatrixXd Simulation::State::BodyImpact::followed_mobility() const {
+Eigen::MatrixXd BodyImpact::followed_mobility() const {
   if (!sides[1].held) return mobility_of_both();
   const Eigen::MatrixXd pushed = sides[1].response.pushed(sides[1].modes, Eigen::all);
   const Eigen::Index n = compliance.rows(), m = pushed.rows();
@@ -65,7 +65,7 @@ Eigen::MatrixXd Simulation::State::BodyImpact::followed_mobility() const {
   return all;
 }
 
-Eigen::MatrixXd Simulation::State::BodyImpact::followed_compliance() const {
+Eigen::MatrixXd BodyImpact::followed_compliance() const {
   const Eigen::Index n = compliance.rows(), m = sides[1].mode_compliance.size();
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(n + m, n + m);
   all.topLeftCorner(n, n) = compliance;
@@ -73,7 +73,7 @@ Eigen::MatrixXd Simulation::State::BodyImpact::followed_compliance() const {
   return all;
 }
 
-void Simulation::State::BodyImpact::keep(const std::vector<int>& kept) {
+void BodyImpact::keep(const std::vector<int>& kept) {
   std::vector<ImpactPlace> fewer;
   for (const int k : kept) fewer.push_back(places[static_cast<std::size_t>(k)]);
   places = std::move(fewer);
@@ -96,7 +96,7 @@ void Simulation::State::BodyImpact::keep(const std::vector<int>& kept) {
 }
 
 /// To both sides at once, opposite and equal.
-void Simulation::State::BodyImpact::give(const Eigen::VectorXd& impulses) {
+void BodyImpact::give(const Eigen::VectorXd& impulses) {
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Vec3 impulse = impulses(static_cast<Eigen::Index>(i)) * places[i].normal;
     sides[0].motion.push(-impulse, places[i].point);
@@ -105,8 +105,7 @@ void Simulation::State::BodyImpact::give(const Eigen::VectorXd& impulses) {
 }
 
 /// Of the modes of the struck nodes that the push moves: coordinates, or their rates.
-Eigen::VectorXd Simulation::State::carried_over(const ImpactSide& before, const Eigen::VectorXd& moved,
-                                                const ImpactSide& now) {
+Eigen::VectorXd carried_over(const ImpactSide& before, const Eigen::VectorXd& moved, const ImpactSide& now) {
   Eigen::VectorXd from = Eigen::VectorXd::Zero(before.response.squared.size()),
                   to = Eigen::VectorXd::Zero(now.response.squared.size());
   from(before.modes) = moved;

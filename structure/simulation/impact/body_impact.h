@@ -4,12 +4,14 @@
 #include <array>
 #include <vector>
 
+#include "simulation/debris/body.h"
+#include "simulation/impact/free_segment.h"
 #include "simulation/impact/rigid_mobility.h"
-#include "simulation/simulation_state.h"
+#include "topple/structure/standing_frame.h"
 
 namespace topple::structure {
 
-struct Simulation::State::ImpactSide {
+struct ImpactSide {
   collision::BodyId id;  ///< -1: the ground, or a part that stands
   Part standing;         ///< valid: that part
   double time = 0;       ///< of the impact, since the body's state
@@ -29,7 +31,7 @@ struct Simulation::State::ImpactSide {
 };
 
 /// An impact under way. Side 0 is the body of the contact, side 1 what it comes upon.
-struct Simulation::State::BodyImpact {
+struct BodyImpact {
   std::vector<ImpactPlace> places;
   std::array<ImpactSide, 2> sides;
   Eigen::MatrixXd compliance;
@@ -49,5 +51,10 @@ struct Simulation::State::BodyImpact {
   void keep(const std::vector<int>& kept);
   void give(const Eigen::VectorXd& impulses);
 };
+
+/// How far the modes of the struck nodes have moved, or how fast they move, when what is struck is another after a
+/// break: `moved` is of `before`.
+[[nodiscard]] Eigen::VectorXd carried_over(const ImpactSide& before, const Eigen::VectorXd& moved,
+                                           const ImpactSide& now);
 
 }  // namespace topple::structure

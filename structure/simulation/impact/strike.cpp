@@ -1,13 +1,10 @@
-// Load and break: resting contacts load the frame; new contacts strike it by the law of impact (indentation.h), one
-// after the other by time of impact, those of a body at one instant together (strike_together.cpp); then generations
-// break what is over capacity.
 #include <algorithm>
 #include <cmath>
 
 #include "simulation/debris/momentum.h"
 #include "simulation/impact/first_failure.h"
 #include "simulation/impact/impact_settings.h"
-#include "simulation/impact/strike.h"
+#include "simulation/impact/standing_impacts.h"
 #include "simulation/step_clock.h"
 
 namespace topple::structure {
@@ -33,15 +30,18 @@ std::vector<const collision::Contact*> at_one_instant(std::span<const collision:
 }
 }  // namespace
 
-void Simulation::State::load() {
-  sums.counters.contacts_ignored += debris.resting.lay(*scene.frame, scene.strength_factors, [&](collision::BodyId id) {
-    const Body* one = debris.find(id);
-    return one ? one->rest.mass * scene.gravity.norm() : 0.0;
-  });
-}
+StandingImpacts::StandingImpacts(const Sources& sources)
+    : scene_(sources.scene),
+      log_(sources.log),
+      sums_(sources.sums),
+      debris_(sources.debris),
+      panels_(sources.panels),
+      fracture_(sources.fracture),
+      release_impulses_(sources.release_impulses),
+      struck_(sources.struck) {}
 
-void Simulation::State::strike_all(const std::vector<collision::Contact>& contacts) {
-  if (scene.sways()) return;  // strike_bodies.cpp: what moves is struck as bodies are
+void StandingImpacts::strike_all(const std::vector<collision::Contact>& contacts) {
+  if (scene_.sways()) return;  // strike_bodies.cpp: what moves is struck as bodies are
   std::vector<collision::Contact> impacts;
   for (const collision::Contact& contact : contacts) {
     if (contact.other.kind != collision::Touched::Kind::obstacle) continue;
@@ -60,17 +60,17 @@ void Simulation::State::strike_all(const std::vector<collision::Contact>& contac
   }
 }
 
-void Simulation::State::strike(const collision::Contact& contact) {
+void StandingImpacts::strike(const collision::Contact& contact) {
   std::optional<Strike> hit = aim(contact);
   if (!hit) return;
   push_in(*hit);
   send_on(*hit);
-  push_chunks(*hit);
+  fracture_.push_chunks(*hit);
   record_impact(*hit);
 }
 
-void Simulation::State::record_impact(const Strike& hit) {
-  SimulationEvent& event = log.record(SimulationEvent::Kind::impact, part_name(scene.building, hit.part));
+void StandingImpacts::record_impact(const Strike& hit) {
+  SimulationEvent& event = log_.record(SimulationEvent::Kind::impact, part_name(scene_.building, hit.part));
   event.body = hit.body->id;
   event.body_name = hit.body->name;
   event.mass = hit.mass;
@@ -78,18 +78,18 @@ void Simulation::State::record_impact(const Strike& hit) {
   event.speed_in = hit.speed;
   event.speed_out = hit.speed_out;
   event.position = hit.place.point;
-  for (const JointBreak& broken : hit.breaks) log.record(broken);
+  for (const JointBreak& broken : hit.breaks) log_.record(broken);
 }
 
 /// Nothing when the contact is no impact any more: what it would hit has fallen, or an earlier impact of this step has
 /// stopped the body.
-std::optional<Simulation::State::Strike> Simulation::State::aim(const collision::Contact& contact) {
-  const Part part = debris.obstacles.part_of(contact.other.obstacle);
-  Body* hitting = debris.find(contact.body);
-  if (!part.valid() || !hitting || !scene.stands(part)) return std::nullopt;
+std::optional<Strike> StandingImpacts::aim(const collision::Contact& contact) {
+  const Part part = debris_.obstacles.part_of(contact.other.obstacle);
+  Body* hitting = debris_.find(contact.body);
+  if (!part.valid() || !hitting || !scene_.stands(part)) return std::nullopt;
   // What was swept may have been broken out since.
-  if (const BrokenPanel* left = part.panel.valid() ? panels.broken(part.panel) : nullptr)
-    if (debris.obstacles.obstacle_of(part) != contact.other.obstacle && !left->holds(contact.point))
+  if (const BrokenPanel* left = part.panel.valid() ? panels_.broken(part.panel) : nullptr)
+    if (debris_.obstacles.obstacle_of(part) != contact.other.obstacle && !left->holds(contact.point))
       return std::nullopt;
   Strike hit;
   hit.body = hitting;
@@ -97,22 +97,22 @@ std::optional<Simulation::State::Strike> Simulation::State::aim(const collision:
   hit.place = {part.member, part.panel, contact.point};
   hit.normal = contact.normal;
   hit.swept_at = contact.time;
-  hit.state = scene.world->state(hitting->id);
-  hit.state.velocity = scene.reading().true_velocity(hit.state.velocity);
+  hit.state = scene_.world->state(hitting->id);
+  hit.state.velocity = scene_.reading().true_velocity(hit.state.velocity);
 
   double time = contact.time;
-  if (const auto earlier = struck.find(hitting->id.value); earlier != struck.end()) {
+  if (const auto earlier = struck_.find(hitting->id.value); earlier != struck_.end()) {
     // After an impact the body is slower (or stopped where it was): the rest of its way takes as much longer.
     const Vec3 r = contact.point - hit.state.pose.position;
     const double now = (hit.state.velocity + hit.state.angular_velocity.cross(r)).dot(contact.normal);
     if (now <= 0) return std::nullopt;
     time = earlier->second.base + (contact.time - earlier->second.at) * std::max(1.0, contact.approach_speed / now);
-    if (time > scene.scenario.step) return std::nullopt;  // swept again in the next step
+    if (time > scene_.scenario.step) return std::nullopt;  // swept again in the next step
   }
   hit.own_time = time;
-  hit.state.pose.position += hit.state.velocity * time + scene.gravity * (time * time / 2);
+  hit.state.pose.position += hit.state.velocity * time + scene_.gravity * (time * time / 2);
   hit.state.pose.orientation = turned(hit.state.pose.orientation, hit.state.angular_velocity * time);
-  hit.state.velocity += scene.gravity * time;
+  hit.state.velocity += scene_.gravity * time;
 
   const Vec3 r = contact.point - hit.state.pose.position;
   hit.speed = (hit.state.velocity + hit.state.angular_velocity.cross(r)).dot(hit.normal);
@@ -123,43 +123,43 @@ std::optional<Simulation::State::Strike> Simulation::State::aim(const collision:
 }
 
 /// A body that is let go stays where it is: what its weight would have done further in is not its own.
-double Simulation::State::rebound(const Indentation& pushing) const {
-  return -scene.scenario.impact.restitution * pushing.elastic_rebound_speed();
+double StandingImpacts::rebound(const Indentation& pushing) const {
+  return -scene_.scenario.impact.restitution * pushing.elastic_rebound_speed();
 }
 
 /// Whether what is hit provably bears the push: the joints that bear it directly do not fail, and the energy is less
 /// than any other joint fails at. A lower bound of the mass that takes part makes the push harder than it is, so what
 /// is told of it (peak force, speed out) is a bound as well. Most impacts of debris end here, at a part of the cost.
-bool Simulation::State::bears(Strike& hit, double weight, double punching) {
+bool StandingImpacts::bears(Strike& hit, double weight, double punching) {
   constexpr double rounding = 1e-6;
-  const StandingFrame::UnitResponse near = scene.frame->respond_near(hit.place, hit.normal);
-  const double mass = scene.scenario.impact.structure_mass ? near.rayleigh_mass : 0;
+  const StandingFrame::UnitResponse near = scene_.frame->respond_near(hit.place, hit.normal);
+  const double mass = scene_.scenario.impact.structure_mass ? near.rayleigh_mass : 0;
   Indentation pushing(hit.mass, hit.speed, weight, mass);
-  const FirstFailure own = first_failure(*scene.frame, near, scene.strength_factors, unlimited);
+  const FirstFailure own = first_failure(*scene_.frame, near, scene_.strength_factors, unlimited);
   if (pushing.push(near.compliance, std::min(own.force, punching)) != Indentation::Stop::stood) return false;
-  if (pushing.stored(near.compliance) > (1 - rounding) * scene.frame->critical_energy(hit.place)) return false;
+  if (pushing.stored(near.compliance) > (1 - rounding) * scene_.frame->critical_energy(hit.place)) return false;
   hit.structure_mass = mass;
   hit.speed_out = rebound(pushing);
   hit.peak_force = pushing.peak_force();
-  ++sums.counters.impacts_bounded;
+  ++sums_.counters.impacts_bounded;
   return true;
 }
 
 /// The pushing, break after break, until the body stops or nothing is left to push.
-void Simulation::State::push_in(Strike& hit) {
-  const double weight = hit.mass * scene.gravity.dot(hit.normal);
-  double punching = punching_force(hit);
+void StandingImpacts::push_in(Strike& hit) {
+  const double weight = hit.mass * scene_.gravity.dot(hit.normal);
+  double punching = fracture_.punching_force(hit);
   // A fast impact goes through whatever the joints bear.
-  if (const double left = speed_through(hit, punching); left > 0) {
-    if (punch_at_once(hit, punching, left)) return record_loss(hit);
+  if (const double left = fracture_.speed_through(hit, punching); left > 0) {
+    if (fracture_.punch_at_once(hit, punching, left)) return record_loss(hit);
   } else if (bears(hit, weight, punching)) {
     return record_loss(hit);
   }
-  StandingFrame::UnitResponse response = scene.frame->respond(hit.place, hit.normal);
-  hit.structure_mass = scene.scenario.impact.structure_mass ? response.rayleigh_mass : 0;
+  StandingFrame::UnitResponse response = scene_.frame->respond(hit.place, hit.normal);
+  hit.structure_mass = scene_.scenario.impact.structure_mass ? response.rayleigh_mass : 0;
   Indentation pushing(hit.mass, hit.speed, weight, hit.structure_mass);
   for (;;) {
-    const FirstFailure first = first_failure(*scene.frame, response, scene.strength_factors, unlimited);
+    const FirstFailure first = first_failure(*scene_.frame, response, scene_.strength_factors, unlimited);
     const bool punches = punching < unlimited && punching <= first.force;
     const Indentation::Stop stop = pushing.push(response.compliance, std::min(first.force, punching));
     if (stop != Indentation::Stop::failed) {
@@ -167,7 +167,7 @@ void Simulation::State::push_in(Strike& hit) {
       break;
     }
     if (punches) {
-      if (const double plug = break_out(hit); plug > 0) {
+      if (const double plug = fracture_.break_out(hit); plug > 0) {
         hit.through = true;
         hit.speed_out =
             let_through(hit.speed, pushing) * hit.mass / (hit.mass + plug);  // it takes along what it broke out
@@ -177,17 +177,17 @@ void Simulation::State::push_in(Strike& hit) {
       continue;
     }
     const double stored = pushing.stored(response.compliance);
-    const double shift = scene.frame->break_in_impact(first.joints, hit.place, hit.normal);
-    hit.through = !scene.stands(hit.part);
+    const double shift = scene_.frame->break_in_impact(first.joints, hit.place, hit.normal);
+    hit.through = !scene_.stands(hit.part);
     const bool ends = hit.through || std::abs(shift) > impact_settings.largest_shift;
     if (!ends) {
       pushing.shift(shift);
-      response = scene.frame->respond(hit.place, hit.normal);
+      response = scene_.frame->respond(hit.place, hit.normal);
     }
     const double freed = ends ? stored : std::max(0.0, stored - pushing.stored(response.compliance));
     for (JointBreak broken : first.joints) {
       broken.energy = freed / static_cast<double>(first.joints.size());
-      broken.position = scene.joint_position(broken.joint);
+      broken.position = scene_.joint_position(broken.joint);
       hit.breaks.push_back(broken);
     }
     if (ends) {
@@ -199,12 +199,12 @@ void Simulation::State::push_in(Strike& hit) {
   record_loss(hit);
 }
 
-void Simulation::State::record_loss(Strike& hit) {
+void StandingImpacts::record_loss(Strike& hit) {
   hit.lost = hit.mass * (hit.speed * hit.speed - hit.speed_out * hit.speed_out) / 2;
 }
 
 /// Gives the body its outgoing velocity, before the collision world moves it.
-void Simulation::State::send_on(const Strike& hit) {
+void StandingImpacts::send_on(const Strike& hit) {
   const Body& one = *hit.body;
   const Vec3 impulse = hit.mass * (hit.speed_out - hit.speed) * hit.normal;  // on the body
   const Vec3 r = hit.place.point - hit.state.pose.position;
@@ -212,72 +212,47 @@ void Simulation::State::send_on(const Strike& hit) {
   collision::BodyState after = hit.state;
   after.velocity += impulse / one.rest.mass;
   after.angular_velocity += inertia.inverse() * r.cross(impulse);
-  sums.ledger.lost_in_impacts += hit.lost;
+  sums_.ledger.lost_in_impacts += hit.lost;
   if (hit.through && hit.chunks.empty()) keep_release_impulse(hit);
   const PointImpulse given{impulse, hit.place.point};
   move_on(hit, after, std::span(&given, 1));
 }
 
 /// What was hit and came off takes along its share of the momentum.
-void Simulation::State::keep_release_impulse(const Strike& hit) {
-  release_impulses.add(
+void StandingImpacts::keep_release_impulse(const Strike& hit) {
+  release_impulses_.add(
       {hit.part, hit.structure_mass * hit.speed_out * hit.normal, hit.place.point, hit.speed_out, hit.body->id});
 }
 
 /// `after`: where and how it moves at the instant of the impact, true velocities; `impulses`: what made it so.
-void Simulation::State::move_on(const Strike& hit, collision::BodyState after, std::span<const PointImpulse> impulses) {
-  StruckClock& clock = struck[hit.body->id.value];
+void StandingImpacts::move_on(const Strike& hit, collision::BodyState after, std::span<const PointImpulse> impulses) {
+  StruckClock& clock = struck_[hit.body->id.value];
   clock.at = hit.swept_at;
   clock.base = hit.through ? hit.own_time : 0;
   if (hit.through) {
     // It flies on as if it had come with its new speed: at the instant of impact it is where it is.
     const double t = hit.own_time;
-    after.velocity -= scene.gravity * t;
-    after.pose.position -= after.velocity * t + scene.gravity * (t * t / 2);
+    after.velocity -= scene_.gravity * t;
+    after.pose.position -= after.velocity * t + scene_.gravity * (t * t / 2);
     after.pose.orientation = turned(after.pose.orientation, -after.angular_velocity * t);
   }
-  after.velocity = scene.reading().to_world(after.velocity);
+  after.velocity = scene_.reading().to_world(after.velocity);
   after.asleep = false;
-  scene.world->set_state(hit.body->id, after);
+  scene_.world->set_state(hit.body->id, after);
   check_momentum(hit, impulses);
 }
 
 /// The momentum that the world's body has at the instant of the impact must be what it had before and the impulses.
-void Simulation::State::check_momentum(const Strike& hit, std::span<const PointImpulse> impulses) {
+void StandingImpacts::check_momentum(const Strike& hit, std::span<const PointImpulse> impulses) {
   Momentum given{hit.state.pose.position}, measured{hit.state.pose.position};
   given.add(*hit.body, hit.state);
   for (const PointImpulse& one : impulses) given.add_impulse(one.impulse, one.point);
-  collision::BodyState now = scene.world->state(hit.body->id);
-  now.velocity = scene.reading().true_velocity(now.velocity);
-  if (hit.through) now.velocity += scene.gravity * hit.own_time;
+  collision::BodyState now = scene_.world->state(hit.body->id);
+  now.velocity = scene_.reading().true_velocity(now.velocity);
+  if (hit.through) now.velocity += scene_.gravity * hit.own_time;
   now.pose = hit.state.pose;
   measured.add(*hit.body, now);
-  sums.ledger.momentum_error = std::max(sums.ledger.momentum_error, measured.error(given));
-}
-
-/// Until nothing is over capacity and no panel cracks.
-void Simulation::State::break_generations() {
-  if (!scene.frame->pending() && scene.step > 1) return;
-  const auto record_yielded = [&] {
-    for (const JointBreak& line : scene.frame->take_yielded()) {
-      SimulationEvent& event = log.record(SimulationEvent::Kind::joint_yielded, scene.building[line.joint].name);
-      event.joint = line;
-      event.position = line.position;
-    }
-  };
-  if (scene.sways()) {
-    const auto crack = panels.any() ? std::function<void()>([&] { crack_panels(); }) : std::function<void()>();
-    const std::vector<JointBreak> breaks = scene.frame->move(crack);
-    record_yielded();
-    for (const JointBreak& broken : breaks) log.record(broken);
-    return;
-  }
-  do {
-    const std::vector<JointBreak> breaks = scene.frame->settle();
-    record_yielded();
-    for (const JointBreak& broken : breaks) log.record(broken);
-    if (panels.any()) crack_panels();
-  } while (scene.frame->pending());
+  sums_.ledger.momentum_error = std::max(sums_.ledger.momentum_error, measured.error(given));
 }
 
 }  // namespace topple::structure

@@ -1,18 +1,21 @@
 #pragma once
 // One contact between a body and a standing part, at its instant.
-#include "simulation/simulation_state.h"
+#include <vector>
+
+#include "simulation/debris/body.h"
+#include "topple/structure/standing_frame.h"
 
 namespace topple::structure {
 
-struct Simulation::State::Strike {
+struct Strike {
   Body* body = nullptr;
   ContactPlace place;
   Part part;
   Vec3 normal;                 ///< into the structure
   collision::BodyState state;  ///< where the body is at that instant, true velocities
-  double swept_at = 0;         ///< time of impact as swept
+  double swept_at = 0;         ///< time of impact as swept, s
   double own_time = 0;         ///< the same since the body's state was last set
-  double mass = 0;             ///< effective, along the normal
+  double mass = 0;             ///< effective, along the normal, kg
   double speed = 0, speed_out = 0;
   double peak_force = 0;
   double structure_mass = 0, lost = 0;
@@ -22,7 +25,7 @@ struct Simulation::State::Strike {
 };
 
 /// N s at a global point, on the body.
-struct Simulation::State::PointImpulse {
+struct PointImpulse {
   Vec3 impulse, point;
 };
 

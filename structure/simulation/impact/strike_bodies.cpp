@@ -11,10 +11,8 @@
 #include <optional>
 
 #include "simulation/debris/momentum.h"
-#include "simulation/impact/body_impact.h"
-#include "simulation/impact/impact.h"
+#include "simulation/impact/body_impacts.h"
 #include "simulation/impact/impact_settings.h"
-#include "simulation/impact/struck_joints.h"
 
 namespace topple::structure {
 
@@ -43,19 +41,23 @@ std::vector<int> independent_places(const Eigen::MatrixXd& compliance) {
 
 }  // namespace
 
-bool Simulation::State::may_break(collision::BodyId id) const {
-  const auto found = debris.bodies.find(id.value);
-  return found != debris.bodies.end() && may_fall_apart(found->second);
-}
+BodyImpacts::BodyImpacts(const Sources& sources)
+    : scene_(sources.scene),
+      log_(sources.log),
+      sums_(sources.sums),
+      debris_(sources.debris),
+      break_up_(sources.break_up),
+      standing_(sources.standing),
+      struck_(sources.struck) {}
 
 /// The contact as it is now: of a body that has fallen apart since it was swept, that of the piece which has the part.
 /// Nothing where that is no body any more.
-std::optional<collision::Contact> Simulation::State::contact_now(const collision::Contact& swept) const {
+std::optional<collision::Contact> BodyImpacts::contact_now(const collision::Contact& swept) const {
   const auto now = [&](collision::BodyId& id, std::int64_t tag) {
-    if (debris.bodies.contains(id.value)) return true;
+    if (debris_.bodies.contains(id.value)) return true;
     if (tag < 0) return false;
-    id = {debris.body_of_part[static_cast<std::size_t>(tag)]};
-    return debris.bodies.contains(id.value);
+    id = {debris_.body_of_part[static_cast<std::size_t>(tag)]};
+    return debris_.bodies.contains(id.value);
   };
   collision::Contact contact = swept;
   if (!now(contact.body, contact.part_tag)) return std::nullopt;
@@ -67,16 +69,17 @@ std::optional<collision::Contact> Simulation::State::contact_now(const collision
 
 /// Those of one pair at one instant, in order of time; pairs of which nothing can break are left to the collision
 /// world. What comes later in the step comes upon the pieces of what broke before.
-void Simulation::State::strike_bodies(const std::vector<collision::Contact>& contacts) {
+void BodyImpacts::strike_all(const std::vector<collision::Contact>& contacts) {
   std::vector<char> done(contacts.size(), 0);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     if (done[i] != 0 || contacts[i].approach_speed < impact_settings.least_speed) continue;
     const std::optional<collision::Contact> first = contact_now(contacts[i]);
     if (!first) continue;
     const bool two = first->other.kind == collision::Touched::Kind::body;
-    const bool on_moving = scene.sways() && first->other.kind == collision::Touched::Kind::obstacle;
-    if (!on_moving && !may_break(first->body) && !(two && may_break(first->other.body))) continue;
-    if (on_moving && punch_moving(*first)) continue;
+    const bool on_moving = scene_.sways() && first->other.kind == collision::Touched::Kind::obstacle;
+    if (!on_moving && !break_up_.may_fall_apart(first->body) && !(two && break_up_.may_fall_apart(first->other.body)))
+      continue;
+    if (on_moving && standing_.punch_moving(*first)) continue;
     std::vector<collision::Contact> together;
     for (std::size_t k = i; k < contacts.size(); ++k) {
       if (done[k] != 0 ||
@@ -89,27 +92,27 @@ void Simulation::State::strike_bodies(const std::vector<collision::Contact>& con
       together.push_back(*next);
       done[k] = 1;
     }
-    strike_bodies_at(together);
+    strike(together);
   }
 }
 
 /// Where it is and how it moves `time` after the step began.
-Simulation::State::ImpactSide Simulation::State::side_at(collision::BodyId id, double time) const {
+ImpactSide BodyImpacts::side_at(collision::BodyId id, double time) const {
   ImpactSide side;
   side.id = id;
   if (id.value < 0) return side;
-  const collision::BodyState state = scene.world->state(id);
-  const Body& one = debris.bodies.at(id.value);
+  const collision::BodyState state = scene_.world->state(id);
+  const Body& one = debris_.bodies.at(id.value);
   side.slept = state.asleep;
   side.time = state.asleep ? 0 : time;
   side.pose = state.pose;
   side.motion.inverse_mass = 1 / one.rest.mass;
   if (!state.asleep) {
-    side.motion.velocity = scene.reading().true_velocity(state.velocity);
+    side.motion.velocity = scene_.reading().true_velocity(state.velocity);
     side.motion.spin = state.angular_velocity;
-    side.pose.position += side.motion.velocity * time + scene.gravity * (time * time / 2);
+    side.pose.position += side.motion.velocity * time + scene_.gravity * (time * time / 2);
     side.pose.orientation = turned(state.pose.orientation, side.motion.spin * time);
-    side.motion.velocity += scene.gravity * time;
+    side.motion.velocity += scene_.gravity * time;
   }
   side.motion.centre = side.pose.position;
   side.motion.inverse_inertia = world_inertia(one, side.pose.orientation).inverse();
@@ -117,24 +120,24 @@ Simulation::State::ImpactSide Simulation::State::side_at(collision::BodyId id, d
 }
 
 /// The body from the step's start on, so that it comes through that instant as it is now.
-void Simulation::State::set_side(const ImpactSide& side) {
+void BodyImpacts::set_side(const ImpactSide& side) {
   if (side.id.value < 0) return;
   collision::BodyState state;
   const double t = side.time;
-  state.velocity = side.motion.velocity - scene.gravity * t;
+  state.velocity = side.motion.velocity - scene_.gravity * t;
   state.angular_velocity = side.motion.spin;
-  state.pose.position = side.pose.position - state.velocity * t - scene.gravity * (t * t / 2);
+  state.pose.position = side.pose.position - state.velocity * t - scene_.gravity * (t * t / 2);
   state.pose.orientation = turned(side.pose.orientation, -side.motion.spin * t);
-  BodyMotion& motion = debris.bodies.motion(side.id.value);
+  BodyMotion& motion = debris_.bodies.motion(side.id.value);
   // The weight has done its work on the way to the instant, wherever the body is said to come from.
-  sums.body_gravity_work += motion.mass * scene.gravity.dot(state.pose.position - motion.step_start);
+  sums_.body_gravity_work += motion.mass * scene_.gravity.dot(state.pose.position - motion.step_start);
   motion.step_start = state.pose.position;
-  state.velocity = scene.reading().to_world(state.velocity);
-  scene.world->set_state(side.id, state);
+  state.velocity = scene_.reading().to_world(state.velocity);
+  scene_.world->set_state(side.id, state);
 }
 
 /// How a side gives way at the places, what its joints bear of it, and what they bear without it.
-void Simulation::State::find_flexibility(ImpactSide& side, const std::vector<ImpactPlace>& places, double sign) {
+void BodyImpacts::find_flexibility(ImpactSide& side, const std::vector<ImpactPlace>& places, double sign) {
   const auto n = static_cast<Eigen::Index>(places.size());
   side.flexibility = {};
   side.flexibility.compliance = Eigen::MatrixXd::Zero(n, n);
@@ -145,34 +148,34 @@ void Simulation::State::find_flexibility(ImpactSide& side, const std::vector<Imp
     for (Eigen::Index i = 0; i < n; ++i) {
       const ImpactPlace& place = places[static_cast<std::size_t>(i)];
       side.flexibility.compliance(i, i) =
-          scene.frame->respond_near({side.standing.member, side.standing.panel, place.point}, place.normal).compliance;
+          scene_.frame->respond_near({side.standing.member, side.standing.panel, place.point}, place.normal).compliance;
     }
     return;
   }
-  const Body* one = debris.find(side.id);
+  const Body* one = debris_.find(side.id);
   if (!one || (one->members.empty() && one->panels.empty())) return;
   const Mat3 back = side.pose.orientation.toRotationMatrix().transpose();
   std::vector<FreePush> pushes;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const Part part = part_of_number(scene.building, side.tags[i]);
+    const Part part = part_of_number(scene_.building, side.tags[i]);
     pushes.push_back({part.member, part.panel, one->rest.centre + back * (places[i].point - side.pose.position),
                       sign * (back * places[i].normal)});
   }
-  FreeSegment& segment = free_segment_of(*one);
+  FreeSegment& segment = break_up_.free_segment_of(*one);
   side.flexibility = segment.flexibility(pushes);
   if (segment.can_break()) side.borne = segment.bear({}, back * side.motion.spin, Vec3::Zero()).demands;
 }
 
 /// What stands gives way by the struck parts alone, with its nodes' mass.
-void Simulation::State::find_held(ImpactSide& side, const std::vector<ImpactPlace>& places) {
+void BodyImpacts::find_held(ImpactSide& side, const std::vector<ImpactPlace>& places) {
   std::vector<ContactPlace> at;
   std::vector<Vec3> along;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const Part part = part_of_number(scene.building, side.tags[i]);
+    const Part part = part_of_number(scene_.building, side.tags[i]);
     at.push_back({part.member, part.panel, places[i].point});
     along.push_back(places[i].normal);
   }
-  side.response = scene.frame->respond_held(at, along);
+  side.response = scene_.frame->respond_held(at, along);
   side.flexibility.compliance = side.response.compliance;
   side.flexibility.demands = side.response.demands;
   for (const auto& [joint, modes] : side.response.node_demands) {
@@ -182,10 +185,10 @@ void Simulation::State::find_held(ImpactSide& side, const std::vector<ImpactPlac
       demands.emplace_back(joint, Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, side.response.compliance.cols()));
   }
   for (const auto& [joint, columns] : side.flexibility.demands)
-    side.borne.emplace_back(joint, scene.frame->demand(joint));
+    side.borne.emplace_back(joint, scene_.frame->demand(joint));
 }
 
-std::vector<StruckJoint> Simulation::State::struck_joints(const BodyImpact& impact) const {
+std::vector<StruckJoint> BodyImpacts::struck_joints(const BodyImpact& impact) const {
   std::vector<StruckJoint> joints;
   const Eigen::Index n = impact.compliance.rows(), m = impact.sides[1].mode_compliance.size();
   for (const ImpactSide& side : impact.sides)
@@ -194,48 +197,48 @@ std::vector<StruckJoint> Simulation::State::struck_joints(const BodyImpact& impa
       Eigen::Matrix<double, 6, Eigen::Dynamic> by_force = Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, n + m);
       by_force.leftCols(n) = columns;
       if (side.held) by_force.rightCols(m) = side.mode_demands[k];
-      joints.push_back({joint, &scene.building[joint].capacity,
-                        scene.strength_factors[static_cast<std::size_t>(joint.index)], side.borne[k].second,
+      joints.push_back({joint, &scene_.building[joint].capacity,
+                        scene_.strength_factors[static_cast<std::size_t>(joint.index)], side.borne[k].second,
                         std::move(by_force)});
     }
   return joints;
 }
 
-void Simulation::State::strike_bodies_at(const std::vector<collision::Contact>& contacts) {
+void BodyImpacts::strike(const std::vector<collision::Contact>& contacts) {
   const collision::Contact& first = contacts.front();
   const bool two = first.other.kind == collision::Touched::Kind::body;
   BodyImpact impact;
   impact.sides[0] = side_at(first.body, time_since_state(first.body, first.time));
   impact.sides[1] = two ? side_at(first.other.body, time_since_state(first.other.body, first.time)) : ImpactSide();
   if (first.other.kind == collision::Touched::Kind::obstacle) {
-    impact.sides[1].standing = debris.obstacles.part_of(first.other.obstacle);
-    impact.sides[1].held = scene.sways();
-    if (!scene.sways() && (!impact.sides[1].standing.valid() || !scene.stands(impact.sides[1].standing)))
+    impact.sides[1].standing = debris_.obstacles.part_of(first.other.obstacle);
+    impact.sides[1].held = scene_.sways();
+    if (!scene_.sways() && (!impact.sides[1].standing.valid() || !scene_.stands(impact.sides[1].standing)))
       return;  // it broke there
   }
   for (const collision::Contact& contact : contacts) {
-    const Part struck_part = impact.sides[1].held ? debris.obstacles.part_of(contact.other.obstacle) : Part();
-    if (impact.sides[1].held && (!struck_part.valid() || !scene.stands(struck_part))) continue;
+    const Part struck_part = impact.sides[1].held ? debris_.obstacles.part_of(contact.other.obstacle) : Part();
+    if (impact.sides[1].held && (!struck_part.valid() || !scene_.stands(struck_part))) continue;
     // An area is met at its corners.
     for (int corner = 0; corner < std::max(1, contact.corner_count); ++corner) {
       const Vec3 point = contact.corner_count > 0 ? contact.corners[static_cast<std::size_t>(corner)] : contact.point;
       impact.places.push_back({point, contact.normal});
       impact.sides[0].tags.push_back(contact.part_tag);
-      const std::int64_t tag = struck_part.valid() ? part_number(scene.building, struck_part) : -1;
+      const std::int64_t tag = struck_part.valid() ? part_number(scene_.building, struck_part) : -1;
       impact.sides[1].tags.push_back(two ? contact.other.part_tag : tag);
     }
   }
-  if (!impact.places.empty()) push_bodies(impact);
+  if (!impact.places.empty()) push(impact);
 }
 
 /// What has struck something standing in this step has a state from there on (strike.cpp).
-double Simulation::State::time_since_state(collision::BodyId id, double swept_at) const {
-  const auto earlier = struck.find(id.value);
-  return earlier == struck.end() ? swept_at : earlier->second.base + std::max(0.0, swept_at - earlier->second.at);
+double BodyImpacts::time_since_state(collision::BodyId id, double swept_at) const {
+  const auto earlier = struck_.find(id.value);
+  return earlier == struck_.end() ? swept_at : earlier->second.base + std::max(0.0, swept_at - earlier->second.at);
 }
 
 /// Both sides' flexibility, and the places that are left of it. False: nothing gives way, or nothing closes.
-bool Simulation::State::take_up(BodyImpact& impact) {
+bool BodyImpacts::take_up(BodyImpact& impact) {
   find_flexibility(impact.sides[0], impact.places, -1);
   find_flexibility(impact.sides[1], impact.places, 1);
   impact.compliance = impact.sides[0].flexibility.compliance + impact.sides[1].flexibility.compliance;
@@ -244,7 +247,7 @@ bool Simulation::State::take_up(BodyImpact& impact) {
   return true;
 }
 
-void Simulation::State::push_bodies(BodyImpact& impact) {
+void BodyImpacts::push(BodyImpact& impact) {
   const Eigen::VectorXd own = closing_speeds(impact.sides[0].motion, impact.sides[1].motion, impact.places);
   if (!(own.maxCoeff() >= impact_settings.least_speed) || !take_up(impact)) return;
   if (!(impact.closing().maxCoeff() >= impact_settings.least_speed)) return;  // what stands makes way
@@ -253,7 +256,7 @@ void Simulation::State::push_bodies(BodyImpact& impact) {
   std::optional<Impact> push = begin_push(impact, true);
   const double speed_in = push->closing_speed()(0);
   std::optional<std::size_t> told;  // which event tells of it: on what moves always, else once something broke
-  if (impact.sides[1].held) told = record_body_impact(impact, speed_in);
+  if (impact.sides[1].held) told = record(impact, speed_in);
   bool goes_on = true;
   for (;;) {
     const double deepest = deepest_push(impact);
@@ -265,35 +268,34 @@ void Simulation::State::push_bodies(BodyImpact& impact) {
     const StruckJoints joints(all, borne.peak_force(), static_cast<int>(impact.sides[1].mode_compliance.size()));
     const double hardest = borne.peak_force().head(n).maxCoeff();
     const auto used = [&](const Eigen::VectorXd& force) { return joints.utilisation(force); };
-    if (told) log[*told].peak_force = std::max(log[*told].peak_force, joints.empty() ? hardest : 0);
+    if (told) log_[*told].peak_force = std::max(log_[*told].peak_force, joints.empty() ? hardest : 0);
     if (joints.empty() || push->push(used, deepest) != Impact::Stop::failed) {
       for (std::size_t k = 0; k < all.size(); ++k)
-        if (uses[k] > 0) scene.frame->remember_utilisation(all[k].joint, std::min(uses[k], 1.0));
+        if (uses[k] > 0) scene_.frame->remember_utilisation(all[k].joint, std::min(uses[k], 1.0));
       break;
     }
-    if (!told) told = record_body_impact(impact, speed_in);
+    if (!told) told = record(impact, speed_in);
     const std::vector<JointBreak> broken = joints.failing(push->force());
-    SimulationEvent& event = log[*told];
+    SimulationEvent& event = log_[*told];
     event.peak_force = std::max(event.peak_force, push->peak_force().head(n).maxCoeff());
     give_impulses(impact, push->take_impulse().head(n));
-    goes_on = break_bodies(impact, *push, broken);
-    log[*told].speed_out = push->closing_speed()(0);
+    goes_on = break_joints(impact, *push, broken);
+    log_[*told].speed_out = push->closing_speed()(0);
     if (!goes_on) break;
   }
   if (!impact.sides[1].held || !goes_on) return;
   leave_with_restitution(impact);
-  SimulationEvent& event = log[*told];
+  SimulationEvent& event = log_[*told];
   event.peak_force = std::max(event.peak_force, push->peak_force().head(impact.compliance.rows()).maxCoeff());
   event.speed_out = impact.closing()(0);
 }
 
 /// Fails nothing, and keeps the largest utilisation of each joint of what stands.
-Impact::Utilisation Simulation::State::note_uses(const std::vector<StruckJoint>& joints,
-                                                 std::vector<double>& uses) const {
+Impact::Utilisation BodyImpacts::note_uses(const std::vector<StruckJoint>& joints, std::vector<double>& uses) const {
   return [&](const Eigen::VectorXd& force) {
     for (std::size_t k = 0; k < joints.size(); ++k) {
       const StruckJoint& one = joints[k];
-      if (debris.body_of(one.joint) >= 0) continue;
+      if (debris_.body_of(one.joint) >= 0) continue;
       uses[k] = std::max(uses[k], utilisation(*one.capacity, one.demand + one.step * force, one.strength).value);
     }
     return 0.0;
@@ -301,31 +303,31 @@ Impact::Utilisation Simulation::State::note_uses(const std::vector<StruckJoint>&
 }
 
 /// m: as far as displacements are small in what is pushed in.
-double Simulation::State::deepest_push(const BodyImpact& impact) const {
+double BodyImpacts::deepest_push(const BodyImpact& impact) const {
   double extent = 0;
   for (const ImpactSide& side : impact.sides) {
     if (side.id.value >= 0) {
-      const Bounds& bounds = debris.bodies.at(side.id.value).bounds;
+      const Bounds& bounds = debris_.bodies.at(side.id.value).bounds;
       extent = std::max(extent, (bounds.high - bounds.low).norm());
       continue;
     }
-    const Part part = side.held ? part_of_number(scene.building, side.tags.front()) : side.standing;
-    if (part.member.valid()) extent = std::max(extent, scene.building[part.member].length);
+    const Part part = side.held ? part_of_number(scene_.building, side.tags.front()) : side.standing;
+    if (part.member.valid()) extent = std::max(extent, scene_.building[part.member].length);
     if (!part.panel.valid()) continue;
-    const Panel& panel = scene.building[part.panel];
+    const Panel& panel = scene_.building[part.panel];
     extent =
-        std::max(extent, (scene.building[panel.nodes[2]].position - scene.building[panel.nodes[0]].position).norm());
+        std::max(extent, (scene_.building[panel.nodes[2]].position - scene_.building[panel.nodes[0]].position).norm());
   }
   return impact_settings.small_displacements * extent;
 }
 
 /// Nothing more fails: the impulses after which no place closes, and each that was pushed parts with the scenario's
 /// share of its closing speed (Newton's law of impact for several contacts; Gauss-Seidel over the places).
-void Simulation::State::leave_with_restitution(BodyImpact& impact) {
+void BodyImpacts::leave_with_restitution(BodyImpact& impact) {
   constexpr int most_passes = 1000;
   constexpr double settled = 1e-12;
   const Eigen::MatrixXd mobility = impact.mobility_of_both();
-  const Eigen::VectorXd wanted = (1 + scene.scenario.impact.restitution) * impact.closing();
+  const Eigen::VectorXd wanted = (1 + scene_.scenario.impact.restitution) * impact.closing();
   Eigen::VectorXd impulses = Eigen::VectorXd::Zero(wanted.size());
   for (int pass = 0; pass < most_passes; ++pass) {
     double changed = 0;
@@ -341,14 +343,14 @@ void Simulation::State::leave_with_restitution(BodyImpact& impact) {
 }
 
 /// `follows`: with the modes of the struck nodes.
-Impact Simulation::State::begin_push(const BodyImpact& impact, bool follows) const {
+Impact BodyImpacts::begin_push(const BodyImpact& impact, bool follows) const {
   const Eigen::Index n = impact.compliance.rows(), bound = follows ? impact.sides[1].mode_compliance.size() : 0;
   Eigen::VectorXd acceleration = Eigen::VectorXd::Zero(n + bound), closing = acceleration;
   closing.head(n) = impact.closing();
   for (std::size_t i = 0; i < impact.places.size(); ++i) {
     // What lies asleep is held up by what it lies on.
     const auto falls = [&](const ImpactSide& side) {
-      return side.id.value >= 0 && !side.slept ? scene.gravity.dot(impact.places[i].normal) : 0.0;
+      return side.id.value >= 0 && !side.slept ? scene_.gravity.dot(impact.places[i].normal) : 0.0;
     };
     acceleration(static_cast<Eigen::Index>(i)) = falls(impact.sides[0]) - falls(impact.sides[1]);
   }
@@ -357,23 +359,23 @@ Impact Simulation::State::begin_push(const BodyImpact& impact, bool follows) con
                 static_cast<int>(bound));
 }
 
-std::size_t Simulation::State::record_body_impact(const BodyImpact& impact, double speed_in) {
+std::size_t BodyImpacts::record(const BodyImpact& impact, double speed_in) {
   const ImpactSide &by = impact.sides[0], &on = impact.sides[1];
   SimulationEvent& event =
-      log.record(SimulationEvent::Kind::impact, on.standing.valid() ? part_name(scene.building, on.standing)
-                                                : on.id.value < 0   ? "ground"
-                                                                    : debris.name(on.id, on.tags.front()));
+      log_.record(SimulationEvent::Kind::impact, on.standing.valid() ? part_name(scene_.building, on.standing)
+                                                 : on.id.value < 0   ? "ground"
+                                                                     : debris_.name(on.id, on.tags.front()));
   event.body = by.id;
   event.other_body = on.id;
-  event.body_name = debris.bodies.at(by.id.value).name;
-  event.mass = debris.bodies.at(by.id.value).rest.mass;
+  event.body_name = debris_.bodies.at(by.id.value).name;
+  event.mass = debris_.bodies.at(by.id.value).rest.mass;
   event.speed_in = speed_in;
   event.position = impact.places.front().point;
-  return log.size() - 1;
+  return log_.size() - 1;
 }
 
 /// What the law has done so far becomes velocity of both; the world hears of it.
-void Simulation::State::give_impulses(BodyImpact& impact, const Eigen::VectorXd& impulses) {
+void BodyImpacts::give_impulses(BodyImpact& impact, const Eigen::VectorXd& impulses) {
   const auto state_of = [](const ImpactSide& side) {
     collision::BodyState state;
     state.pose = side.pose;
@@ -385,8 +387,8 @@ void Simulation::State::give_impulses(BodyImpact& impact, const Eigen::VectorXd&
     double kinetic = 0;
     for (const ImpactSide& side : impact.sides) {
       if (side.id.value < 0) continue;
-      sum.add(debris.bodies.at(side.id.value), state_of(side));
-      const Kinetic own = kinetic_energy(debris.bodies.at(side.id.value), state_of(side));
+      sum.add(debris_.bodies.at(side.id.value), state_of(side));
+      const Kinetic own = kinetic_energy(debris_.bodies.at(side.id.value), state_of(side));
       kinetic += own.translation + own.rotation;
     }
     return kinetic;
@@ -396,7 +398,7 @@ void Simulation::State::give_impulses(BodyImpact& impact, const Eigen::VectorXd&
   impact.give(impulses);
   double given = 0;
   if (ImpactSide& held = impact.sides[1]; held.held) {
-    given = scene.frame->strike(held.response, impulses);
+    given = scene_.frame->strike(held.response, impulses);
     held.response.speed += held.response.mobility * impulses;
   }
   if (impact.sides[1].id.value < 0)
@@ -406,12 +408,12 @@ void Simulation::State::give_impulses(BodyImpact& impact, const Eigen::VectorXd&
     set_side(side);
     if (side.id.value >= 0) side = side_again(side, side.id);
   }
-  sums.ledger.lost_in_impacts += kinetic - measure(after) - given;
-  sums.ledger.momentum_error = std::max(sums.ledger.momentum_error, after.error(before));
+  sums_.ledger.lost_in_impacts += kinetic - measure(after) - given;
+  sums_.ledger.momentum_error = std::max(sums_.ledger.momentum_error, after.error(before));
 }
 
 /// The same places and the same instant, on a body as the world has it now.
-Simulation::State::ImpactSide Simulation::State::side_again(const ImpactSide& side, collision::BodyId id) const {
+ImpactSide BodyImpacts::side_again(const ImpactSide& side, collision::BodyId id) const {
   ImpactSide now = side_at(id, side.time);
   now.tags = side.tags;
   now.flexibility = side.flexibility;
@@ -420,7 +422,7 @@ Simulation::State::ImpactSide Simulation::State::side_again(const ImpactSide& si
 }
 
 /// These joints fail; bodies fall apart, and the push goes on with the pieces that touch. False: it is over.
-bool Simulation::State::break_bodies(BodyImpact& impact, Impact& push, const std::vector<JointBreak>& broken) {
+bool BodyImpacts::break_joints(BodyImpact& impact, Impact& push, const std::vector<JointBreak>& broken) {
   const double stored = push.stored();
   const Eigen::MatrixXd compliance = impact.compliance;
   const Eigen::VectorXd force = push.force().head(compliance.rows());
@@ -431,37 +433,38 @@ bool Simulation::State::break_bodies(BodyImpact& impact, Impact& push, const std
   std::vector<JointBreak> of_frame;
   for (const JointBreak& one : broken) {
     JointBreak line = one;
-    const collision::BodyId id{debris.body_of(one.joint)};
+    const collision::BodyId id{debris_.body_of(one.joint)};
     if (id.value < 0) {
-      line.position = scene.joint_position(one.joint);
+      line.position = scene_.joint_position(one.joint);
       of_frame.push_back(one);
-      lines.push_back(log.size());
-      log.record(line);
+      lines.push_back(log_.size());
+      log_.record(line);
       continue;
     }
-    debris_broken[static_cast<std::size_t>(one.joint.index)] = 1;
-    const collision::BodyState state = scene.world->state(id);
-    line.position = state.pose * (scene.joint_position(one.joint) - debris.bodies.at(id.value).rest.centre);
-    lines.push_back(log.size());
-    log.record(line);
+    break_up_.lose(one.joint);
+    const collision::BodyState state = scene_.world->state(id);
+    line.position = state.pose * (scene_.joint_position(one.joint) - debris_.bodies.at(id.value).rest.centre);
+    lines.push_back(log_.size());
+    log_.record(line);
   }
-  if (!of_frame.empty()) scene.frame->break_in_impact(of_frame);
+  if (!of_frame.empty()) scene_.frame->break_in_impact(of_frame);
   std::vector<int> kept;
   for (ImpactSide& side : impact.sides) {
     if (side.id.value < 0) continue;
-    const bool of_this = std::any_of(broken.begin(), broken.end(),
-                                     [&](const JointBreak& one) { return debris.body_of(one.joint) == side.id.value; });
+    const bool of_this = std::any_of(broken.begin(), broken.end(), [&](const JointBreak& one) {
+      return debris_.body_of(one.joint) == side.id.value;
+    });
     if (!of_this) continue;
-    free_segments.erase(side.id.value);
-    (void)come_apart(side.id);
-    const std::int64_t piece = debris.body_of_part[static_cast<std::size_t>(side.tags.front())];
-    if (!debris.bodies.contains(piece)) return false;
+    break_up_.forget(side.id);
+    (void)break_up_.come_apart(side.id);
+    const std::int64_t piece = debris_.body_of_part[static_cast<std::size_t>(side.tags.front())];
+    if (!debris_.bodies.contains(piece)) return false;
     side = side_again(side, {piece});
   }
   const auto holds = [&](const ImpactSide& side, std::size_t place) {
-    if (side.held) return scene.stands(part_of_number(scene.building, side.tags[place]));
+    if (side.held) return scene_.stands(part_of_number(scene_.building, side.tags[place]));
     return side.id.value < 0 || side.tags[place] < 0 ||
-           debris.body_of_part[static_cast<std::size_t>(side.tags[place])] == side.id.value;
+           debris_.body_of_part[static_cast<std::size_t>(side.tags[place])] == side.id.value;
   };
   for (std::size_t i = 0; i < impact.places.size(); ++i)
     if (push.may_touch(i) && holds(impact.sides[0], i) && holds(impact.sides[1], i))
@@ -491,7 +494,7 @@ bool Simulation::State::break_bodies(BodyImpact& impact, Impact& push, const std
     left = push.stored();
   }
   for (const std::size_t line : lines)
-    log[line].joint.energy = std::max(0.0, stored - left) / static_cast<double>(lines.size());
+    log_[line].joint.energy = std::max(0.0, stored - left) / static_cast<double>(lines.size());
   return goes_on;
 }
 

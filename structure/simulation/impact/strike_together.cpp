@@ -10,7 +10,7 @@
 #include "simulation/impact/first_failure.h"
 #include "simulation/impact/impact_settings.h"
 #include "simulation/impact/push_impulses.h"
-#include "simulation/impact/strike.h"
+#include "simulation/impact/standing_impacts.h"
 #include "simulation/step_clock.h"
 
 namespace topple::structure {
@@ -119,7 +119,7 @@ std::vector<JointBreak> WatchedJoints::failing(const Eigen::VectorXd& force) con
 }  // namespace
 
 /// The push under way: its contacts, and what they are pushed against.
-struct Simulation::State::SimultaneousImpact {
+struct StandingImpacts::SimultaneousImpact {
   std::vector<Strike> hits;
   std::vector<ContactPlace> places;
   std::vector<Vec3> normals;
@@ -139,12 +139,12 @@ struct Simulation::State::SimultaneousImpact {
 };
 
 /// False when they are better taken one after the other, or are no impacts any more; nothing has happened then.
-bool Simulation::State::strike_together(std::span<const collision::Contact* const> contacts) {
+bool StandingImpacts::strike_together(std::span<const collision::Contact* const> contacts) {
   SimultaneousImpact pushed;
   for (const collision::Contact* contact : contacts) {
     std::optional<Strike> hit = aim(*contact);
     if (!hit) continue;
-    if (punching_force(*hit) < unlimited) return false;  // what breaks out of a panel leaves alone
+    if (fracture_.punching_force(*hit) < unlimited) return false;  // what breaks out of a panel leaves alone
     pushed.hits.push_back(std::move(*hit));
   }
   std::vector<Strike>& hits = pushed.hits;
@@ -156,34 +156,34 @@ bool Simulation::State::strike_together(std::span<const collision::Contact* cons
     pushed.normals.push_back(hit.normal);
   }
   // What is known at little cost tells of most pushes that they are borne, and of some that they are taken one by one.
-  pushed.response = scene.frame->respond_near(pushed.places, pushed.normals);
+  pushed.response = scene_.frame->respond_near(pushed.places, pushed.normals);
   if (!take_up(pushed)) return false;
   if (bears(pushed)) {
-    ++sums.counters.impacts_bounded;
+    ++sums_.counters.impacts_bounded;
   } else {
-    pushed.response = scene.frame->respond(pushed.places, pushed.normals);
+    pushed.response = scene_.frame->respond(pushed.places, pushed.normals);
     if (!take_up(pushed)) return false;
     push_in(pushed);
   }
-  ++sums.counters.impacts_together;
+  ++sums_.counters.impacts_together;
   send_on(pushed);
   for (const Strike& hit : hits) record_impact(hit);
   return true;
 }
 
 /// The push against what is known of the structure. False when the places are better taken one after the other.
-bool Simulation::State::take_up(SimultaneousImpact& pushed) const {
+bool StandingImpacts::take_up(SimultaneousImpact& pushed) const {
   std::vector<Strike>& hits = pushed.hits;
   if (!independent(pushed.response.compliance)) return false;
   const Body& one = *hits.front().body;
   const collision::BodyState& state = hits.front().state;
   pushed.body = {one.rest.mass,          world_inertia(one, state.pose.orientation),
                  state.pose.position,    state.velocity,
-                 state.angular_velocity, one.rest.mass * scene.gravity};
+                 state.angular_velocity, one.rest.mass * scene_.gravity};
   pushed.pushed_at.clear();
   for (const Strike& hit : hits) pushed.pushed_at.push_back({hit.place.point, hit.normal});
   Eigen::MatrixXd share;
-  if (scene.scenario.impact.structure_mass) {
+  if (scene_.scenario.impact.structure_mass) {
     const Eigen::MatrixXd stiffness = pushed.response.compliance.inverse();
     share = stiffness * pushed.response.inertia * stiffness;
     for (std::size_t i = 0; i < hits.size(); ++i) hits[i].structure_mass = pushed.response.places[i].rayleigh_mass;
@@ -194,36 +194,36 @@ bool Simulation::State::take_up(SimultaneousImpact& pushed) const {
 
 /// As for one place (strike.cpp): the joints that bear the push directly do not fail under its peaks, and the strain
 /// energy, at most that of all peaks at once, is less than any other joint fails at. Then the push is done.
-bool Simulation::State::bears(SimultaneousImpact& pushed) {
+bool StandingImpacts::bears(SimultaneousImpact& pushed) {
   constexpr double rounding = 1e-6;
   CoupledPush borne = *pushed.push;
   const CoupledPush::Stop end = borne.push();
   const Eigen::VectorXd& peak = borne.peak_force();
-  if (!WatchedJoints(*scene.frame, pushed.response.places, scene.strength_factors, peak).empty()) return false;
+  if (!WatchedJoints(*scene_.frame, pushed.response.places, scene_.strength_factors, peak).empty()) return false;
   const double stored = peak.dot(pushed.response.compliance.cwiseAbs() * peak) / 2;
   for (const ContactPlace& place : pushed.places)
-    if (stored > (1 - rounding) * scene.frame->critical_energy(place)) return false;
-  pushed.leave(std::move(borne), end, scene.scenario.impact.restitution);
+    if (stored > (1 - rounding) * scene_.frame->critical_energy(place)) return false;
+  pushed.leave(std::move(borne), end, scene_.scenario.impact.restitution);
   return true;
 }
 
-void Simulation::State::push_in(SimultaneousImpact& pushed) {
+void StandingImpacts::push_in(SimultaneousImpact& pushed) {
   CoupledPush& push = *pushed.push;
   for (;;) {
     CoupledPush borne = push;
     const CoupledPush::Stop end = borne.push();
-    const WatchedJoints watched(*scene.frame, pushed.response.places, scene.strength_factors, borne.peak_force());
+    const WatchedJoints watched(*scene_.frame, pushed.response.places, scene_.strength_factors, borne.peak_force());
     const auto used = [&](const Eigen::VectorXd& force) { return watched.worst_use(force); };
-    if (watched.empty()) return pushed.leave(std::move(borne), end, scene.scenario.impact.restitution);
+    if (watched.empty()) return pushed.leave(std::move(borne), end, scene_.scenario.impact.restitution);
     if (push.push(used) != CoupledPush::Stop::failed)
-      return pushed.leave(CoupledPush(push), end, scene.scenario.impact.restitution);
+      return pushed.leave(CoupledPush(push), end, scene_.scenario.impact.restitution);
     const std::vector<JointBreak> breaks = watched.failing(push.force());
     const double stored = push.stored();
-    const Eigen::VectorXd shift = scene.frame->break_in_impact(breaks, pushed.places, pushed.normals);
+    const Eigen::VectorXd shift = scene_.frame->break_in_impact(breaks, pushed.places, pushed.normals);
     bool stays = false, slips = false;
     for (std::size_t i = 0; i < pushed.hits.size(); ++i) {
       Strike& hit = pushed.hits[i];
-      hit.through = !scene.stands(hit.part);
+      hit.through = !scene_.stands(hit.part);
       if (hit.through) push.let_go(i);
       stays = stays || push.touches(i);
       slips = slips || std::abs(shift(static_cast<Eigen::Index>(i))) > impact_settings.largest_shift;
@@ -233,7 +233,7 @@ void Simulation::State::push_in(SimultaneousImpact& pushed) {
     const double freed = ends ? stored : std::max(0.0, stored - push.stored());
     for (JointBreak broken : breaks) {
       broken.energy = freed / static_cast<double>(breaks.size());
-      broken.position = scene.joint_position(broken.joint);
+      broken.position = scene_.joint_position(broken.joint);
       pushed.hits.front().breaks.push_back(broken);
     }
     if (ends) {
@@ -244,7 +244,7 @@ void Simulation::State::push_in(SimultaneousImpact& pushed) {
 }
 
 /// The structure as the breaks left it. Places that are gone keep a compliance that nothing reads.
-void Simulation::State::go_on(SimultaneousImpact& pushed, const Eigen::VectorXd& shift) {
+void StandingImpacts::go_on(SimultaneousImpact& pushed, const Eigen::VectorXd& shift) {
   std::vector<Eigen::Index> left;
   std::vector<ContactPlace> places;
   std::vector<Vec3> normals;
@@ -254,7 +254,7 @@ void Simulation::State::go_on(SimultaneousImpact& pushed, const Eigen::VectorXd&
     places.push_back(pushed.places[i]);
     normals.push_back(pushed.normals[i]);
   }
-  StandingFrame::CoupledResponse now = scene.frame->respond(places, normals);
+  StandingFrame::CoupledResponse now = scene_.frame->respond(places, normals);
   for (StandingFrame::UnitResponse& one : pushed.response.places) one.demands.clear();
   for (std::size_t k = 0; k < left.size(); ++k)
     pushed.response.places[static_cast<std::size_t>(left[k])] = std::move(now.places[k]);
@@ -262,7 +262,7 @@ void Simulation::State::go_on(SimultaneousImpact& pushed, const Eigen::VectorXd&
   pushed.push->weaken(pushed.response.compliance, shift);
 }
 
-void Simulation::State::send_on(SimultaneousImpact& pushed) {
+void StandingImpacts::send_on(SimultaneousImpact& pushed) {
   Strike& first = pushed.hits.front();
   const Body& one = *first.body;
   std::vector<char> through;
@@ -272,7 +272,7 @@ void Simulation::State::send_on(SimultaneousImpact& pushed) {
   state.velocity += impulses.change.head<3>();
   state.angular_velocity += impulses.change.tail<3>();
   const Kinetic came = kinetic_energy(one, first.state), goes = kinetic_energy(one, state);
-  sums.ledger.lost_in_impacts += (came.translation + came.rotation) - (goes.translation + goes.rotation);
+  sums_.ledger.lost_in_impacts += (came.translation + came.rotation) - (goes.translation + goes.rotation);
   std::vector<PointImpulse> given;
   for (std::size_t i = 0; i < pushed.hits.size(); ++i) {
     Strike& hit = pushed.hits[i];

@@ -1,0 +1,65 @@
+#pragma once
+// The law of impact (impact.h) between bodies, and of bodies on the ground, on what stands firm, and on what stands and
+// moves.
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "simulation/accounts/event_log.h"
+#include "simulation/accounts/running_sums.h"
+#include "simulation/debris/break_up.h"
+#include "simulation/impact/body_impact.h"
+#include "simulation/impact/impact.h"
+#include "simulation/impact/standing_impacts.h"
+#include "simulation/impact/struck_clock.h"
+#include "simulation/impact/struck_joints.h"
+
+namespace topple::structure {
+
+class BodyImpacts {
+ public:
+  /// What it looks at and changes; all of it must outlive it.
+  struct Sources {
+    Scene& scene;
+    EventLog& log;
+    RunningSums& sums;
+    Debris& debris;
+    BreakUp& break_up;
+    StandingImpacts& standing;
+    const StruckClocks& struck;
+  };
+  explicit BodyImpacts(const Sources& sources);
+
+  /// Contacts of this step that are fast enough and of which something can break, in order of time.
+  void strike_all(const std::vector<collision::Contact>& contacts);
+
+ private:
+  [[nodiscard]] std::optional<collision::Contact> contact_now(const collision::Contact& swept) const;
+  void strike(const std::vector<collision::Contact>& contacts);
+  void push(BodyImpact& impact);
+  [[nodiscard]] ImpactSide side_at(collision::BodyId id, double time) const;
+  [[nodiscard]] double time_since_state(collision::BodyId id, double swept_at) const;
+  [[nodiscard]] ImpactSide side_again(const ImpactSide& side, collision::BodyId id) const;
+  void set_side(const ImpactSide& side);
+  void find_flexibility(ImpactSide& side, const std::vector<ImpactPlace>& places, double sign);
+  void find_held(ImpactSide& side, const std::vector<ImpactPlace>& places);
+  void leave_with_restitution(BodyImpact& impact);
+  [[nodiscard]] bool take_up(BodyImpact& impact);
+  [[nodiscard]] Impact begin_push(const BodyImpact& impact, bool follows) const;
+  [[nodiscard]] Impact::Utilisation note_uses(const std::vector<StruckJoint>& joints, std::vector<double>& uses) const;
+  [[nodiscard]] double deepest_push(const BodyImpact& impact) const;
+  [[nodiscard]] std::vector<StruckJoint> struck_joints(const BodyImpact& impact) const;
+  std::size_t record(const BodyImpact& impact, double speed_in);
+  void give_impulses(BodyImpact& impact, const Eigen::VectorXd& impulses);
+  bool break_joints(BodyImpact& impact, Impact& push, const std::vector<JointBreak>& broken);
+
+  Scene& scene_;
+  EventLog& log_;
+  RunningSums& sums_;
+  Debris& debris_;
+  BreakUp& break_up_;
+  StandingImpacts& standing_;
+  const StruckClocks& struck_;
+};
+
+}  // namespace topple::structure
