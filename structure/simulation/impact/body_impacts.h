@@ -51,6 +51,8 @@ class BodyImpacts {
   [[nodiscard]] std::vector<StruckJoint> struck_joints(const BodyImpact& impact) const;
   std::size_t record(const BodyImpact& impact, double speed_in);
   void give_impulses(BodyImpact& impact, const Eigen::VectorXd& impulses);
+  std::vector<std::size_t> record_breaks(const std::vector<JointBreak>& broken);
+  bool fall_apart(BodyImpact& impact, const std::vector<JointBreak>& broken);
   bool break_joints(BodyImpact& impact, Impact& push, const std::vector<JointBreak>& broken);
 
   Scene& scene_;

@@ -96,98 +96,6 @@ void BodyImpacts::strike_all(const std::vector<collision::Contact>& contacts) {
   }
 }
 
-/// Where it is and how it moves `time` after the step began.
-ImpactSide BodyImpacts::side_at(collision::BodyId id, double time) const {
-  ImpactSide side;
-  side.id = id;
-  if (id.value < 0) return side;
-  const collision::BodyState state = scene_.world->state(id);
-  const Body& one = debris_.bodies.at(id.value);
-  side.slept = state.asleep;
-  side.time = state.asleep ? 0 : time;
-  side.pose = state.pose;
-  side.motion.inverse_mass = 1 / one.rest.mass;
-  if (!state.asleep) {
-    side.motion.velocity = scene_.reading().true_velocity(state.velocity);
-    side.motion.spin = state.angular_velocity;
-    side.pose.position += side.motion.velocity * time + scene_.gravity * (time * time / 2);
-    side.pose.orientation = turned(state.pose.orientation, side.motion.spin * time);
-    side.motion.velocity += scene_.gravity * time;
-  }
-  side.motion.centre = side.pose.position;
-  side.motion.inverse_inertia = world_inertia(one, side.pose.orientation).inverse();
-  return side;
-}
-
-/// The body from the step's start on, so that it comes through that instant as it is now.
-void BodyImpacts::set_side(const ImpactSide& side) {
-  if (side.id.value < 0) return;
-  collision::BodyState state;
-  const double t = side.time;
-  state.velocity = side.motion.velocity - scene_.gravity * t;
-  state.angular_velocity = side.motion.spin;
-  state.pose.position = side.pose.position - state.velocity * t - scene_.gravity * (t * t / 2);
-  state.pose.orientation = turned(side.pose.orientation, -side.motion.spin * t);
-  BodyMotion& motion = debris_.bodies.motion(side.id.value);
-  // The weight has done its work on the way to the instant, wherever the body is said to come from.
-  sums_.body_gravity_work += motion.mass * scene_.gravity.dot(state.pose.position - motion.step_start);
-  motion.step_start = state.pose.position;
-  state.velocity = scene_.reading().to_world(state.velocity);
-  scene_.world->set_state(side.id, state);
-}
-
-/// How a side gives way at the places, what its joints bear of it, and what they bear without it.
-void BodyImpacts::find_flexibility(ImpactSide& side, const std::vector<ImpactPlace>& places, double sign) {
-  const auto n = static_cast<Eigen::Index>(places.size());
-  side.flexibility = {};
-  side.flexibility.compliance = Eigen::MatrixXd::Zero(n, n);
-  side.borne.clear();
-  if (side.held) return find_held(side, places);
-  if (side.standing.valid()) {
-    // It holds, as strike.cpp found; each place gives way by itself.
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const ImpactPlace& place = places[static_cast<std::size_t>(i)];
-      side.flexibility.compliance(i, i) =
-          scene_.frame->respond_near({side.standing.member, side.standing.panel, place.point}, place.normal).compliance;
-    }
-    return;
-  }
-  const Body* one = debris_.find(side.id);
-  if (!one || (one->members.empty() && one->panels.empty())) return;
-  const Mat3 back = side.pose.orientation.toRotationMatrix().transpose();
-  std::vector<FreePush> pushes;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const Part part = part_of_number(scene_.building, side.tags[i]);
-    pushes.push_back({part.member, part.panel, one->rest.centre + back * (places[i].point - side.pose.position),
-                      sign * (back * places[i].normal)});
-  }
-  FreeSegment& segment = break_up_.free_segment_of(*one);
-  side.flexibility = segment.flexibility(pushes);
-  if (segment.can_break()) side.borne = segment.bear({}, back * side.motion.spin, Vec3::Zero()).demands;
-}
-
-/// What stands gives way by the struck parts alone, with its nodes' mass.
-void BodyImpacts::find_held(ImpactSide& side, const std::vector<ImpactPlace>& places) {
-  std::vector<ContactPlace> at;
-  std::vector<Vec3> along;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const Part part = part_of_number(scene_.building, side.tags[i]);
-    at.push_back({part.member, part.panel, places[i].point});
-    along.push_back(places[i].normal);
-  }
-  side.response = scene_.frame->respond_held(at, along);
-  side.flexibility.compliance = side.response.compliance;
-  side.flexibility.demands = side.response.demands;
-  for (const auto& [joint, modes] : side.response.node_demands) {
-    const auto same = [id = joint](const auto& one) { return one.first == id; };
-    auto& demands = side.flexibility.demands;
-    if (std::none_of(demands.begin(), demands.end(), same))
-      demands.emplace_back(joint, Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, side.response.compliance.cols()));
-  }
-  for (const auto& [joint, columns] : side.flexibility.demands)
-    side.borne.emplace_back(joint, scene_.frame->demand(joint));
-}
-
 std::vector<StruckJoint> BodyImpacts::struck_joints(const BodyImpact& impact) const {
   std::vector<StruckJoint> joints;
   const Eigen::Index n = impact.compliance.rows(), m = impact.sides[1].mode_compliance.size();
@@ -229,22 +137,6 @@ void BodyImpacts::strike(const std::vector<collision::Contact>& contacts) {
     }
   }
   if (!impact.places.empty()) push(impact);
-}
-
-/// What has struck something standing in this step has a state from there on (strike.cpp).
-double BodyImpacts::time_since_state(collision::BodyId id, double swept_at) const {
-  const auto earlier = struck_.find(id.value);
-  return earlier == struck_.end() ? swept_at : earlier->second.base + std::max(0.0, swept_at - earlier->second.at);
-}
-
-/// Both sides' flexibility, and the places that are left of it. False: nothing gives way, or nothing closes.
-bool BodyImpacts::take_up(BodyImpact& impact) {
-  find_flexibility(impact.sides[0], impact.places, -1);
-  find_flexibility(impact.sides[1], impact.places, 1);
-  impact.compliance = impact.sides[0].flexibility.compliance + impact.sides[1].flexibility.compliance;
-  if (!(impact.compliance.diagonal().minCoeff() > 0)) return false;
-  if (impact.sides[1].held) impact.follow();
-  return true;
 }
 
 void BodyImpacts::push(BodyImpact& impact) {
@@ -412,23 +304,8 @@ void BodyImpacts::give_impulses(BodyImpact& impact, const Eigen::VectorXd& impul
   sums_.ledger.momentum_error = std::max(sums_.ledger.momentum_error, after.error(before));
 }
 
-/// The same places and the same instant, on a body as the world has it now.
-ImpactSide BodyImpacts::side_again(const ImpactSide& side, collision::BodyId id) const {
-  ImpactSide now = side_at(id, side.time);
-  now.tags = side.tags;
-  now.flexibility = side.flexibility;
-  now.borne = side.borne;
-  return now;
-}
-
-/// These joints fail; bodies fall apart, and the push goes on with the pieces that touch. False: it is over.
-bool BodyImpacts::break_joints(BodyImpact& impact, Impact& push, const std::vector<JointBreak>& broken) {
-  const double stored = push.stored();
-  const Eigen::MatrixXd compliance = impact.compliance;
-  const Eigen::VectorXd force = push.force().head(compliance.rows());
-  const ImpactSide before_break = impact.sides[1];
-  const Eigen::VectorXd moved = push.indentation().tail(before_break.mode_compliance.size()),
-                        moving = push.closing_speed().tail(before_break.mode_compliance.size());
+/// Joints of the frame break there as well. Returns the lines of the events.
+std::vector<std::size_t> BodyImpacts::record_breaks(const std::vector<JointBreak>& broken) {
   std::vector<std::size_t> lines;
   std::vector<JointBreak> of_frame;
   for (const JointBreak& one : broken) {
@@ -448,7 +325,11 @@ bool BodyImpacts::break_joints(BodyImpact& impact, Impact& push, const std::vect
     log_.record(line);
   }
   if (!of_frame.empty()) scene_.frame->break_in_impact(of_frame);
-  std::vector<int> kept;
+  return lines;
+}
+
+/// Sides that lost joints are the pieces that were hit. False: a piece is no body.
+bool BodyImpacts::fall_apart(BodyImpact& impact, const std::vector<JointBreak>& broken) {
   for (ImpactSide& side : impact.sides) {
     if (side.id.value < 0) continue;
     const bool of_this = std::any_of(broken.begin(), broken.end(), [&](const JointBreak& one) {
@@ -461,6 +342,20 @@ bool BodyImpacts::break_joints(BodyImpact& impact, Impact& push, const std::vect
     if (!debris_.bodies.contains(piece)) return false;
     side = side_again(side, {piece});
   }
+  return true;
+}
+
+/// These joints fail; bodies fall apart, and the push goes on with the pieces that touch. False: it is over.
+bool BodyImpacts::break_joints(BodyImpact& impact, Impact& push, const std::vector<JointBreak>& broken) {
+  const double stored = push.stored();
+  const Eigen::MatrixXd compliance = impact.compliance;
+  const Eigen::VectorXd force = push.force().head(compliance.rows());
+  const ImpactSide before_break = impact.sides[1];
+  const Eigen::VectorXd moved = push.indentation().tail(before_break.mode_compliance.size()),
+                        moving = push.closing_speed().tail(before_break.mode_compliance.size());
+  const std::vector<std::size_t> lines = record_breaks(broken);
+  std::vector<int> kept;
+  if (!fall_apart(impact, broken)) return false;
   const auto holds = [&](const ImpactSide& side, std::size_t place) {
     if (side.held) return scene_.stands(part_of_number(scene_.building, side.tags[place]));
     return side.id.value < 0 || side.tags[place] < 0 ||
