@@ -1,6 +1,7 @@
 // A hit that punches a hole in a panel that stands and moves. The law of impact for one contact (impact.h), with the
 // panel's own bending and its nodes' mass; the force that punches it (standing_fracture.h) ends the push where no joint
 // of it fails before. What the push gave until then goes to the panel's nodes; what breaks out is taken along.
+#include <algorithm>
 #include <cmath>
 
 #include "simulation/impact/standing_impacts.h"
@@ -38,6 +39,7 @@ bool StandingImpacts::punch_moving(const collision::Contact& contact) {
         joint_fails_below(response, punching))
       return false;
     left = std::sqrt(std::max(0.0, closing * closing - (punching - 2 * weight) * punching * compliance / mass));
+    left = std::min(left, closing);  // its weight does its work on the way that follows, and not twice
     // Of both sides together: the body keeps its share of what the panel's nodes take.
     left = closing - (closing - left) * mass / hit->mass;
   }
