@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "dynamics/dynamic_state.h"
+#include "elements/beam.h"
 
 namespace topple::solver {
 namespace {
@@ -81,6 +82,12 @@ void FrameDynamics::State::record_break(const JointBreak& found, double share, c
   breaks.push_back(found);
   ++counters.breaks;
   frame.set_end_stiffness(found.beam, found.end, Vec6::Zero());
+  // A beam that hangs on a pin alone is no part of the frame: it leaves.
+  const auto i = static_cast<std::size_t>(found.beam);
+  Beam left = system().model.beams[i];
+  left.end_stiffness = core().targets[i].end_stiffness;
+  if (CondensedBeam(left, system().beam_factor[i]).loose())
+    frame.set_end_stiffness(found.beam, 1 - found.end, Vec6::Zero());
 }
 
 /// It broke in this substep, for another reason.
