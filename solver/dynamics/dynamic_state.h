@@ -50,6 +50,7 @@ struct Kink {
   int component = 4;
   double before = 0, now = 0;  ///< rad, at both ends of the substep under way, or the last one
   double current = 0;          ///< now
+  double started_at = 0;       ///< rad, at set_state()
   double held = 0;     ///< N m, where it turned in the substep under way, or the last one: of the sign of its turn
   double tried = 0;    ///< N m, at the end of that substep had nothing turned
   bool known = false;  ///< what follows, for the structure as it stands
@@ -80,6 +81,7 @@ struct FrameDynamics::State {
 
   MotionState before, now;  ///< at the start and at the end of the substep under way
   bool accepted = true;     ///< no substep is under way: `before` is the motion now, `now` that before the last substep
+  std::vector<Vec6> started_at;                 ///< per node: displacements at set_state(), else 0
   NodeMotion nodes_before, nodes_now;           ///< at both ends of the substep under way, or the last one
   bool nodes_known = false, end_known = false;  ///< all of them, the displacements at the end
   [[nodiscard]] const MotionState& current() const { return before; }

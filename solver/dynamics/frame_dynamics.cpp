@@ -44,7 +44,7 @@ FrameDynamics::State::State(FrameModel model, MassModel masses, DynamicOptions g
   if (!(options.damping.mass >= 0)) throw std::invalid_argument("damping must not be negative");
   core().system->inertia = &inertia;
   nodes_before.u.assign(frame.model().nodes.size(), Vec6::Zero());
-  nodes_before.v = nodes_now.u = nodes_now.v = nodes_before.u;
+  nodes_before.v = nodes_now.u = nodes_now.v = started_at = nodes_before.u;
 }
 
 FrameDynamics::FrameDynamics(FrameModel model, MassModel masses, DynamicOptions options)
@@ -122,6 +122,8 @@ void FrameDynamics::set_state(const std::vector<Vec6>& displacements, const std:
     throw std::invalid_argument("a state has six displacements and six velocities for each node");
   state.begin_substep();
   state.apply_changes();
+  state.started_at = displacements;
+  for (Kink& kink : state.kinks) kink.started_at = kink.current;
   state.before.u = state.scaled_equations(displacements);
   state.before.v = state.scaled_equations(velocities);
   state.before.a.setZero(state.equations());
@@ -209,6 +211,16 @@ Vec6 FrameDynamics::momentum() const {
 }
 
 const DynamicEnergy& FrameDynamics::energy() const { return state_->energy; }
+double FrameDynamics::work_of_present_loads() {
+  State& state = *state_;
+  state.begin_substep();
+  state.apply_changes();
+  double work = state.constant_load.dot(state.current().u - state.scaled_equations(state.started_at));
+  for (const Kink& kink : state.kinks)
+    work +=
+        state.core().fixed_end[static_cast<std::size_t>(kink.beam)](kink.place()) * (kink.current - kink.started_at);
+  return work;
+}
 double FrameDynamics::mass_damping() const { return state_->options.damping.mass; }
 
 double FrameDynamics::rayleigh_quotient(const std::vector<Vec6>& displacements) const {

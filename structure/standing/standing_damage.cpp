@@ -147,9 +147,7 @@ void StandingFrame::State::fracture(PanelId panel, const PanelRemains& remains) 
   const bool membrane = parts.bearings.membrane(panel);
   parts.bearings.fracture(panel, remains.edge_length);
   const TributaryLoads before = loads.handed(panel);
-  const double mass = loads.mass(panel);
   loads.fracture(panel, remains);
-  if (moves(components.of(panel))) leave_in_part(panel, mass - loads.mass(panel));
   account.change(panel).lighten(panel, before, loads.handed(panel));
   to_check[static_cast<std::size_t>(components.of(panel))] = 1;
   if (membrane) condense(panel, remains);

@@ -116,7 +116,6 @@ struct StandingFrame::State {
   void read_motion(int component);
   void look_for_rest(int component);
   [[nodiscard]] Detached::Motion motion_of(const Detached& part);
-  void leave_in_part(PanelId panel, double mass);
   [[nodiscard]] std::map<int, std::vector<Eigen::Index>> places_by_component(const HeldResponse& pushed) const;
   [[nodiscard]] bool moves(int component) const { return motion && motion->moves(component); }
 

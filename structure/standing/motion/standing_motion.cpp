@@ -58,7 +58,7 @@ struct StandingMotion::Moving {
   double first_frequency = 0;  ///< rad/s, lowest of all when it began to move
   double mass_damping = 0;     ///< 1/s, of what does not fall
   double turned = 0;           ///< rad, its largest turn a step ago
-  double left_work = 0;        ///< J, of the weight of parts that left
+  double left_work = 0;        ///< J, at rest: of loads that have changed since, which the account of rest never sees
   double looked = 0;           ///< s of its motion, when rest was looked for last
   std::vector<double> mass;    ///< per beam, as the frame has it
 };
@@ -218,6 +218,8 @@ void StandingMotion::start(int c) {
 /// What it still has beyond its static state is damped now: 1/2 v'Mv + 1/2 d'Kd, d the way to that state.
 void StandingMotion::settle(int c) {
   Moving& moving = *moving_.at(c);
+  const double of_present = moving.frame->work_of_present_loads();
+  moving.left_work = moving.frame->energy().external_work - of_present;
   past_.damped += moving.frame->energy().kinetic;
   std::vector<Vec6> way = moving.frame->displacements();
   for (const NodeId node : from_.statics.nodes(c)) {
@@ -564,10 +566,6 @@ bool StandingMotion::rests(int c) {
     }
   }
   return true;
-}
-
-void StandingMotion::part_leaves(int c, double weight_work) {
-  if (const auto found = moving_.find(c); found != moving_.end()) found->second->left_work += weight_work;
 }
 
 MotionEnergy StandingMotion::energy() const {

@@ -75,8 +75,6 @@ class StandingMotion {
   [[nodiscard]] Vec6 velocity(NodeId node) const;
   [[nodiscard]] solver::Vec12 end_forces(MemberId member) const;
   [[nodiscard]] std::array<Vec6, 4> corner_forces(PanelId membrane) const;
-  /// A part leaves that moves: J that its weight has done since it was at rest, which the account of rest never sees.
-  void part_leaves(int component, double weight_work);
   /// Linear momentum, and angular about the origin, of displacements about the unloaded place.
   [[nodiscard]] Vec6 momentum(MemberId member) const;  ///< panels that lie on it apart
   [[nodiscard]] Vec6 momentum(PanelId panel) const;

@@ -265,16 +265,6 @@ void StandingFrame::State::look_for_rest(int c) {
   if (buckles(c)) snap_buckled();
 }
 
-/// The weight of what is broken out of a panel that moves has gone down with it.
-void StandingFrame::State::leave_in_part(PanelId panel, double mass) {
-  const int c = components.of(panel);
-  Vec3 moved = Vec3::Zero();
-  for (const NodeId node : building[panel].nodes)
-    if (node_solved[index_of(node)] != 0)
-      moved += (motion->displacement(node) - account.displacement(node)).head<3>() / 4;
-  motion->part_leaves(c, mass * gravity.dot(moved));
-}
-
 Vec3 StandingFrame::velocity(PanelId panel) const {
   const State& state = *state_;
   const double mass = state.loads.mass(panel);
@@ -285,17 +275,13 @@ Vec3 StandingFrame::velocity(PanelId panel) const {
 /// Its own momentum, and that of the panels that leave with it; those that stay, or fall alone, keep theirs.
 Detached::Motion StandingFrame::State::motion_of(const Detached& part) {
   Vec6 momentum = Vec6::Zero();
-  Vec3 now = Vec3::Zero(), at_rest = Vec3::Zero();
+  Vec3 displacement = Vec3::Zero();
   double mass = 0;
-  int component = -1;
   const auto add = [&](double weighs, std::span<const NodeId> nodes) {
     mass += weighs;
     for (const NodeId node : nodes) {
-      component = statics.component(node);
-      const Vec3 rest = account.displacement(node).head<3>();
-      const double share = weighs / static_cast<double>(nodes.size());
-      at_rest += share * rest;
-      now += share * (moves(component) ? Vec3(motion->displacement(node).head<3>()) : rest);
+      const Vec6& own = moves(statics.component(node)) ? motion->displacement(node) : account.displacement(node);
+      displacement += weighs / static_cast<double>(nodes.size()) * own.head<3>();
     }
   };
   for (const MemberId member : part.members) {
@@ -310,11 +296,10 @@ Detached::Motion StandingFrame::State::motion_of(const Detached& part) {
     momentum += motion->momentum(node);
     add(loads.mass(node), {&node, 1});
   }
-  if (component >= 0) motion->part_leaves(component, gravity.dot(now - at_rest));
   Detached::Motion found;
   found.momentum = momentum.head<3>();
   found.angular = momentum.tail<3>();
-  if (mass > 0) found.displacement = now / mass;
+  if (mass > 0) found.displacement = displacement / mass;
   return found;
 }
 

@@ -18,6 +18,17 @@ TEST_CASE("random buildings under random tools come to rest, on the ground, with
   }
 }
 
+TEST_CASE("random buildings that move come to rest as well, and their joints that yield and panels that break") {
+  for (std::uint64_t number = 0; number < 16; ++number) {
+    CAPTURE(number);
+    try {
+      CHECK(topple::test::fault_of_moving_collapse(number) == "");
+    } catch (const topple::structure::UnstableModel&) {
+      WARN("scenario " << number << " does not stand at the start");
+    }
+  }
+}
+
 TEST_CASE("random buildings whose floors break in each way come to rest as well") {
   std::array<int, 3> tried{};
   for (std::uint64_t number = 100; *std::min_element(tried.begin(), tried.end()) == 0; ++number) {

@@ -242,6 +242,9 @@ class FrameDynamics {
   [[nodiscard]] Vec6 node_momentum(int node) const;
   /// Since the start; not kept where DynamicOptions::keep_energy is false.
   [[nodiscard]] const DynamicEnergy& energy() const;
+  /// What the loads that act now would have done along the whole displacement since set_state(), J: external_work, but
+  /// for what loads did that have changed since. Patterns apart.
+  [[nodiscard]] double work_of_present_loads();
   /// a0 of the Rayleigh damping, 1/s.
   [[nodiscard]] double mass_damping() const;
   /// Rayleigh's quotient u'Ku/u'Mu of a displacement, (rad/s)2; 0 when it moves no mass.
