@@ -55,7 +55,7 @@ double StandingFracture::break_out(Strike& hit) {
   return plug;
 }
 
-/// Where the static stress passes what the material bears, a panel cracks at its largest; what that leaves is looked at
+/// Where the stress passes what the material bears, a panel cracks at its largest; what that leaves is looked at
 /// again.
 void StandingFracture::crack() {
   for (std::size_t p = 0; p < scene_.building.panels.size(); ++p) {

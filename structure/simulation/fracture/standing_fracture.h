@@ -28,8 +28,8 @@ class StandingFracture {
   void push_chunks(const Strike& hit);
   /// Where edges of broken panels have failed since, pieces that only they held leave.
   void drop_loose_pieces();
-  /// Where the static stress passes what the material bears, a panel cracks at its largest; what that leaves is looked
-  /// at again when the frame has settled.
+  /// Where the stress (of rest, or of the motion now) passes what the material bears, a panel cracks at its largest;
+  /// what that leaves is looked at again when the frame has settled, or after its next substep.
   void crack();
 
  private:

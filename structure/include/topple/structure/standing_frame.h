@@ -310,7 +310,7 @@ class StandingFrame {
   /// This panel may be broken in part later: what all panels of its shape have in common is found now.
   void expect_fracture(PanelId panel);
   /// A standing panel is broken in part, now: it hands on what remains of its weight by where that lies, its edge
-  /// joints bear over what remains of their length (told as broken by the next settle() when nothing does), and it
+  /// joints bear over what remains of their length (told as broken by settle() or move() when nothing does), and it
   /// is as stiff as what remains. Holes are all since it was whole. What is broken out of a panel that moves leaves
   /// with velocity().
   void fracture(PanelId panel, const PanelRemains& remains);
