@@ -66,18 +66,29 @@ Eigen::MatrixXd FrameSystem::patch_node_stiffness(std::size_t patch) const {
   if (shells_pushed())
     if (const JointedShell* shell = jointed_shell_of_patch(second_order->jointed, static_cast<int>(patch)))
       K += shell->corners.transpose() * shell_geometric_stiffness(shell->shell) * shell->corners;
-  const std::vector<int>& nodes = model.patches[patch].node;
+  leave_out_gone(model.patches[patch].node, K);
+  return K;
+}
+
+Eigen::MatrixXd FrameSystem::patch_node_mass(std::size_t patch) const {
+  Eigen::MatrixXd M = model.patches[patch].mass;
+  leave_out_gone(model.patches[patch].node, M);
+  return M;
+}
+
+/// Rows and columns of nodes that no longer stand.
+void FrameSystem::leave_out_gone(std::span<const int> nodes, Eigen::MatrixXd& matrix) const {
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     if (node_stands[static_cast<std::size_t>(nodes[n])] != 0) continue;
-    K.middleRows<6>(static_cast<Eigen::Index>(6 * n)).setZero();
-    K.middleCols<6>(static_cast<Eigen::Index>(6 * n)).setZero();
+    matrix.middleRows<6>(static_cast<Eigen::Index>(6 * n)).setZero();
+    matrix.middleCols<6>(static_cast<Eigen::Index>(6 * n)).setZero();
   }
-  return K;
 }
 
 Eigen::MatrixXd FrameSystem::patch_stiffness(int index) const {
   const auto i = static_cast<std::size_t>(index);
   Eigen::MatrixXd K = patch_node_stiffness(i);
+  if (inertia != nullptr && model.patches[i].mass.size() > 0) K += inertia->factor * patch_node_mass(i);
   add_diaphragm_arms(model.patches[i].node, K);
   return K;
 }

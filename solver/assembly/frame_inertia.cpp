@@ -47,6 +47,12 @@ void FrameSystem::add_element_mass(std::size_t element, const std::vector<char>&
     Mat24 M = shell_mass(*this, inertia->masses, static_cast<int>(element - beams));
     add_diaphragm_arms(shell.node, M);
     assembly_map_.add(element, M.data(), scale_, wanted, mass_);
+  } else if (element >= element_of_patch(0) && element < element_of_patch(0) + model.patches.size()) {
+    const std::size_t patch = element - element_of_patch(0);
+    if (model.patches[patch].mass.size() == 0) return;
+    Eigen::MatrixXd M = patch_node_mass(patch);
+    add_diaphragm_arms(model.patches[patch].node, M);
+    assembly_map_.add(element, M.data(), scale_, wanted, mass_);
   }
 }
 

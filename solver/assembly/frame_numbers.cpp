@@ -15,6 +15,8 @@ void check_patch(const Patch& patch, std::size_t index, int nodes) {
       throw std::invalid_argument(name + ": node " + std::to_string(node) + " does not exist");
   if (patch.stiffness.rows() != size || patch.stiffness.cols() != size || !patch.stiffness.allFinite())
     throw std::invalid_argument(name + ": its stiffness is not a finite matrix of six freedoms for each node");
+  if (patch.mass.size() > 0 && (patch.mass.rows() != size || patch.mass.cols() != size || !patch.mass.allFinite()))
+    throw std::invalid_argument(name + ": its mass is not a finite matrix of six freedoms for each node");
 }
 
 }  // namespace

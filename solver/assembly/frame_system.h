@@ -152,6 +152,8 @@ class FrameSystem {
   /// that its membrane forces have in the second order.
   [[nodiscard]] std::array<Vec6, 4> corner_forces(int shell, const std::vector<Vec6>& displacements,
                                                   const Vec24& fixed) const;
+  /// M of a patch that has mass, as patch_stiffness() without what diaphragms add.
+  [[nodiscard]] Eigen::MatrixXd patch_node_mass(std::size_t patch) const;
   /// Per node of the patch: what the node does to it, global.
   [[nodiscard]] std::vector<Vec6> patch_forces(int patch, const std::vector<Vec6>& displacements) const;
   /// Per support: what it does to the structure.
@@ -192,6 +194,7 @@ class FrameSystem {
   [[nodiscard]] Vec24 corner_displacements(int shell, const std::vector<Vec6>& displacements) const;
   /// K of a patch in the global freedoms of its nodes.
   [[nodiscard]] Eigen::MatrixXd patch_node_stiffness(std::size_t patch) const;
+  void leave_out_gone(std::span<const int> nodes, Eigen::MatrixXd& matrix) const;
   [[nodiscard]] std::vector<int> numbers_of_node(int node, std::size_t first, std::size_t count) const;
   [[nodiscard]] bool shells_pushed() const {
     return second_order != nullptr && !second_order->shell_displacements.empty();

@@ -37,6 +37,12 @@ MassMatrix::MassMatrix(const FrameSystem& system, const MassModel& masses, int t
   }
   for (std::size_t i = 0; i < model.shells.size(); ++i)
     if (model.shells[i].density != 0) add_shell(static_cast<int>(i), masses);
+  for (std::size_t i = 0; i < model.patches.size(); ++i) {
+    if (model.patches[i].mass.size() == 0) continue;
+    Eigen::MatrixXd M = model.patches[i].mass;
+    system.add_diaphragm_arms(model.patches[i].node, M);
+    system.assembly_map().add(system.element_of_patch(static_cast<int>(i)), M.data(), system.scale(), {}, matrix_);
+  }
   const std::vector<Vec6> at_node = masses_at_nodes(model, masses);
   for (std::size_t n = 0; n < at_node.size(); ++n)
     if (!at_node[n].isZero(0)) add_node(static_cast<int>(n), at_node[n]);

@@ -25,9 +25,17 @@ Vec12 FrameDynamics::State::fixed_end_forces(int beam, bool at_end) const {
   return fixed;
 }
 
-Vec12 FrameDynamics::State::end_forces(int beam, bool at_end) const {
+Vec12 FrameDynamics::State::elastic_end_forces(int beam, bool at_end) const {
   return core().end_forces(static_cast<std::size_t>(beam), (at_end ? nodes_now : nodes_before).u,
                            fixed_end_forces(beam, at_end));
+}
+
+/// Of the beam in the place that it has, with second order.
+Vec12 FrameDynamics::State::end_forces(int beam, bool at_end) const {
+  Vec12 forces = elastic_end_forces(beam, at_end);
+  if (options.second_order && system().beam_stands[static_cast<std::size_t>(beam)] != 0)
+    forces += geometric_end_forces(beam, (at_end ? nodes_now : nodes_before).u, forces);
+  return forces;
 }
 
 Vec12 FrameDynamics::State::fixed_end_rate(int beam) const {
@@ -35,18 +43,23 @@ Vec12 FrameDynamics::State::fixed_end_rate(int beam) const {
   return (fixed_end_forces(beam, true) - fixed_end_forces(beam, false)) / method.h;
 }
 
-Vec12 FrameDynamics::State::end_force_rates(int beam) const {
-  return core().end_forces(static_cast<std::size_t>(beam), nodes_now.v, fixed_end_rate(beam));
+Vec12 FrameDynamics::State::end_force_rates(int beam, bool at_end) const {
+  const NodeMotion& nodes = at_end ? nodes_now : nodes_before;
+  Vec12 rates = core().end_forces(static_cast<std::size_t>(beam), nodes.v, fixed_end_rate(beam));
+  if (!options.second_order || system().beam_stands[static_cast<std::size_t>(beam)] == 0) return rates;
+  // d/dt Kg(N) u = Kg(N) v + Kg(dN/dt) u
+  rates += geometric_end_forces(beam, nodes.v, elastic_end_forces(beam, at_end)) +
+           geometric_end_forces(beam, nodes.u, rates);
+  return rates;
 }
 
 SubstepCourse<Vec12> FrameDynamics::State::course(int beam) const {
-  const auto i = static_cast<std::size_t>(beam);
   SubstepCourse<Vec12> course;
   course.start = end_forces(beam, false);
   course.end = end_forces(beam, true);
   course.length = method.h;
-  course.start_rate = core().end_forces(i, nodes_before.v, fixed_end_rate(beam));
-  course.end_rate = end_force_rates(beam);
+  course.start_rate = end_force_rates(beam, false);
+  course.end_rate = end_force_rates(beam, true);
   return course;
 }
 

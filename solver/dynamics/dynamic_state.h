@@ -90,6 +90,7 @@ struct FrameDynamics::State {
   SideBySide<2> matrix_products;
   bool products_known = false;
   Eigen::VectorXd constant_load, collocated_load, substep_load;  ///< substep_load: of what broke in this substep
+  Eigen::VectorXd geometric_before, geometric_now;  ///< second order: at both ends of the substep under way
   std::vector<BrokenJoint> broken;
   std::vector<ChangedBeam> changed;
   std::map<int, Vec12> substep_fixed_end;  ///< of beams that bear the force of their broken end, local
@@ -118,6 +119,8 @@ struct FrameDynamics::State {
   void drop_bare_nodes();
   [[nodiscard]] std::vector<int> bare_part(int start);
   [[nodiscard]] bool shell_holds(int shell, int node);
+  [[nodiscard]] bool patch_holds(int patch, int node);
+  [[nodiscard]] bool patch_weighs(int patch);
   void clear_dropped();
   void find_substep_load();
   void begin_substep();
@@ -134,7 +137,9 @@ struct FrameDynamics::State {
   void follow_jump(const Eigen::VectorXd& change);
 
   // substep.cpp
-  void take_substep();
+  /// To its end, with what yields, joints that break apart.
+  void take_substep(const JointLaw* law);
+  void take_first_order_substep(const JointLaw* law);
   void find_end();
   void accept();
   void book();
@@ -167,16 +172,23 @@ struct FrameDynamics::State {
   /// By how much the load of a kink in a substep's equation grows with its angle at the end: what turns is not damped.
   [[nodiscard]] double of_new_turn() const { return 1 - method.af + options.damping.stiffness / method.h; }
 
+  // geometric_loads.cpp
+  [[nodiscard]] Vec12 geometric_end_forces(int beam, const std::vector<Vec6>& displacements,
+                                           const Vec12& elastic) const;
+  [[nodiscard]] Eigen::VectorXd find_geometric_load(const std::vector<Vec6>& displacements, bool at_end) const;
+  void take_second_order_substep(const JointLaw* law);
+
   // break_rule.cpp
   [[nodiscard]] bool break_joints(const JointLaw& law);
   [[nodiscard]] bool is_broken(const JointBreak& joint) const;
   [[nodiscard]] static double reached_at(const JointLaw& law, int beam, int end, const SubstepCourse<Vec12>& course);
   void record_break(const JointBreak& broken, double share, const SubstepCourse<Vec12>& course);
   [[nodiscard]] Vec12 end_forces(int beam, bool at_end) const;
+  [[nodiscard]] Vec12 elastic_end_forces(int beam, bool at_end) const;
   [[nodiscard]] Vec12 fixed_end_forces(int beam, bool at_end) const;
   /// Of loads that go with time, which change linearly within a substep.
   [[nodiscard]] Vec12 fixed_end_rate(int beam) const;
-  [[nodiscard]] Vec12 end_force_rates(int beam) const;
+  [[nodiscard]] Vec12 end_force_rates(int beam, bool at_end) const;
   [[nodiscard]] SubstepCourse<Vec12> course(int beam) const;
 };
 

@@ -64,6 +64,13 @@ void FrameDynamics::remove_shell(int shell) { state_->frame.remove_shell(shell);
 void FrameDynamics::set_patch_stiffness(int patch, Eigen::MatrixXd stiffness) {
   state_->frame.set_patch_stiffness(patch, std::move(stiffness));
 }
+void FrameDynamics::set_patch_mass(int patch, Eigen::MatrixXd mass) {
+  Reanalysis::State& core = state_->core();
+  const Patch& own = state_->system().model.patches[core.checked_patch(patch)];
+  if (mass.rows() != own.stiffness.rows() || mass.cols() != own.stiffness.cols() || !mass.allFinite())
+    throw std::invalid_argument("mass of patch " + std::to_string(patch) + " is not a finite matrix of its size");
+  core.given_mass[patch] = std::move(mass);
+}
 void FrameDynamics::set_beam_stiffness_factor(int beam, double factor) {
   state_->frame.set_beam_stiffness_factor(beam, factor);
 }
@@ -139,15 +146,13 @@ const std::vector<JointBreak>& FrameDynamics::advance(const JointLaw* law) {
   state.begin_substep();
   state.apply_changes();
   state.find_patterns();
-  state.take_substep();
-  if (law != nullptr) state.yield(law->plastic_hinges());
+  state.take_substep(law);
   ++state.counters.substeps;
   while (law != nullptr && state.break_joints(*law)) {
     ++state.counters.retaken;
     state.apply_changes();
     state.find_patterns();
-    state.take_substep();
-    state.yield(law->plastic_hinges());
+    state.take_substep(law);
   }
   state.accept();
   return state.breaks;
@@ -191,7 +196,7 @@ SubstepCourse<Vec12> FrameDynamics::beam_course(int beam) const {
 Vec12 FrameDynamics::beam_end_force_rates(int beam) const {
   (void)state_->core().checked_beam(beam);
   state_->know_nodes();
-  return state_->end_force_rates(beam);
+  return state_->end_force_rates(beam, true);
 }
 
 std::array<Vec6, 4> FrameDynamics::shell_corner_forces(int shell, bool rates) const {

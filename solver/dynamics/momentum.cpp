@@ -174,4 +174,21 @@ Vec6 FrameDynamics::node_momentum(int node) const {
   return sum;
 }
 
+Vec6 FrameDynamics::patch_momentum(int patch) const {
+  const State& state = *state_;
+  const std::size_t i = state.core().checked_patch(patch);
+  const Patch& own = state.system().model.patches[i];
+  if (own.mass.size() == 0) return Vec6::Zero();
+  Eigen::VectorXd velocity(own.mass.cols());
+  Eigen::Matrix<double, Eigen::Dynamic, 6> motions(own.mass.cols(), 6);
+  for (std::size_t n = 0; n < own.node.size(); ++n) {
+    const auto row = static_cast<Eigen::Index>(6 * n);
+    const int node = own.node[n];
+    velocity.segment<6>(row) = state.system().node_displacement_of_scaled(node, state.current().v);
+    for (int c = 0; c < 6; ++c)
+      motions.block<6, 1>(row, c) = rigid_motion_at(state.system().model.nodes[static_cast<std::size_t>(node)], c);
+  }
+  return motions.transpose() * (state.system().patch_node_mass(i) * velocity);
+}
+
 }  // namespace topple::solver

@@ -107,6 +107,22 @@ bool FrameDynamics::State::shell_holds(int shell, int node) {
   return false;
 }
 
+bool FrameDynamics::State::patch_holds(int patch, int node) {
+  const Patch& own = system().model.patches[static_cast<std::size_t>(patch)];
+  const auto next = core().given_to_patch.find(patch);
+  const Eigen::MatrixXd& stiffness = next == core().given_to_patch.end() ? own.stiffness : next->second;
+  for (std::size_t n = 0; n < own.node.size(); ++n)
+    if (own.node[n] == node && !stiffness.middleRows<6>(static_cast<Eigen::Index>(6 * n)).isZero(0)) return true;
+  return false;
+}
+
+bool FrameDynamics::State::patch_weighs(int patch) {
+  const auto next = core().given_mass.find(patch);
+  const Eigen::MatrixXd& mass =
+      next == core().given_mass.end() ? system().model.patches[static_cast<std::size_t>(patch)].mass : next->second;
+  return !mass.isZero(0);
+}
+
 /// The nodes to which what holds this one goes on, itself first; none where something of them has mass, or a support.
 std::vector<int> FrameDynamics::State::bare_part(int start) {
   const FrameModel& model = system().model;
@@ -119,7 +135,8 @@ std::vector<int> FrameDynamics::State::bare_part(int start) {
     const auto n = static_cast<std::size_t>(node);
     if (system().node_stands[n] == 0) continue;
     if (system().dofs().diaphragm_of_node[n] >= 0 || !inertia.at_node[n].head<3>().isZero(0)) return {};
-    if (!system().patches_of_node(node).empty()) return {};
+    for (const int patch : system().patches_of_node(node))  // some hold on to the ground
+      if (patch_weighs(patch) || patch_holds(patch, node)) return {};
     for (const Support& support : model.supports)
       if (support.node == node && !support.stiffness.head<3>().isZero(0)) return {};
     for (const int beam : system().beams_of_node(node)) {
@@ -156,6 +173,8 @@ void FrameDynamics::State::drop_bare_nodes() {
   for (const int shell : core().changed_shells) look_at(system().model.shells[static_cast<std::size_t>(shell)].node);
   for (const auto& [shell, stiffness] : core().given_stiffness)
     look_at(system().model.shells[static_cast<std::size_t>(shell)].node);
+  for (const auto& [patch, stiffness] : core().given_to_patch)
+    look_at(system().model.patches[static_cast<std::size_t>(patch)].node);
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   if (!nodes.empty()) frame.drop_nodes(nodes);

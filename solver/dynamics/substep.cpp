@@ -59,9 +59,14 @@ void FrameDynamics::State::find_collocated_load() {
     find_kink(kink);
     collocated_load += kink.before * kink.force;
   }
+  if (options.second_order) collocated_load += method.af * geometric_before + (1 - method.af) * geometric_now;
 }
 
-void FrameDynamics::State::take_substep() {
+void FrameDynamics::State::take_substep(const JointLaw* law) {
+  options.second_order ? take_second_order_substep(law) : take_first_order_substep(law);
+}
+
+void FrameDynamics::State::take_first_order_substep(const JointLaw* law) {
   const double h = method.h, am = method.am, af = method.af, a0 = options.damping.mass, a1 = options.damping.stiffness;
   for (Kink& kink : kinks) kink.now = kink.before;
   const double by_v = (1 - af) * h + a1;
@@ -82,6 +87,7 @@ void FrameDynamics::State::take_substep() {
   }
   solve(w);
   find_end();
+  if (law != nullptr) yield(law->plastic_hinges());
 }
 
 /// From w: the motion at the substep's end.

@@ -5,6 +5,7 @@
 
 #include "elements/beam_end_springs.h"
 #include "topple/solver/frame_model.h"
+#include "topple/solver/geometric_forces.h"
 
 namespace topple::solver {
 
@@ -53,11 +54,6 @@ using BeamStrainStiffness = Eigen::Matrix<double, 12, 6>;
 
 /// What the second end moves beyond the rigid motion of the first, local axes: all that strains the beam.
 [[nodiscard]] Vec6 relative_motion(double length, const Vec12& rigid_end_displacements);
-
-/// Displacements of the rigid ends at the beam's ends (after the arms), local axes, from node displacements (global).
-[[nodiscard]] Vec12 rigid_end_displacements(const Beam& beam, const Vec6& first_node, const Vec6& second_node);
-/// Transpose of the same: local end forces to forces on the element at its nodes, global.
-[[nodiscard]] Vec12 node_forces(const Beam& beam, const Vec12& end_forces);
 
 /// K in global node freedoms from K in local rigid end freedoms. `arm[end]` maps the node's rotations to the
 /// translation of the beam's end: minus the cross matrix of the rigid arm, plus what a diaphragm adds.

@@ -110,25 +110,42 @@ Eigen::VectorXd Condensation::condense(const Eigen::VectorXd& loads) const {
   return result;
 }
 
-Eigen::VectorXd Condensation::recover(const Eigen::VectorXd& loads, const Eigen::VectorXd& kept) const {
-  if (!factor_) return kept;
+template <class Columns>
+void Condensation::back_substitute(Columns& y) const {
   const Supernodes& fronts = factor_->fronts();
-  // A response to what acts elsewhere has no loads in here.
-  Eigen::VectorXd y = loads.isZero(0) ? Eigen::VectorXd(Eigen::VectorXd::Zero(size_)) : forward(loads), below;
-  for (Eigen::Index k = 0; k < size_; ++k)
-    if (is_kept(k)) y(k) = kept(row_at(k) - inner_);
+  Columns below;
   for (auto run = runs_.rbegin(); run != runs_.rend(); ++run) {
     const Panel L = panel_of(*factor_, run->front);
     const Eigen::Index columns = run->end - run->begin, rest = L.rows() - run->end;
     const std::int64_t* rows = fronts.row.data() + fronts.row_start[run->front] + run->end;
-    below.resize(rest);
-    for (Eigen::Index i = 0; i < rest; ++i) below(i) = y(rows[i]);
-    auto own = y.segment(fronts.first[run->front] + run->begin, columns);
+    below.resize(rest, y.cols());
+    for (Eigen::Index i = 0; i < rest; ++i) below.row(i) = y.row(rows[i]);
+    auto own = y.middleRows(fronts.first[run->front] + run->begin, columns);
     own.noalias() -= L.block(run->end, run->begin, rest, columns).transpose() * below;
     L.block(run->begin, run->begin, columns, columns).triangularView<Eigen::Lower>().transpose().solveInPlace(own);
   }
+}
+
+Eigen::VectorXd Condensation::recover(const Eigen::VectorXd& loads, const Eigen::VectorXd& kept) const {
+  if (!factor_) return kept;
+  // A response to what acts elsewhere has no loads in here.
+  Eigen::VectorXd y = loads.isZero(0) ? Eigen::VectorXd(Eigen::VectorXd::Zero(size_)) : forward(loads);
+  for (Eigen::Index k = 0; k < size_; ++k)
+    if (is_kept(k)) y(k) = kept(row_at(k) - inner_);
+  back_substitute(y);
   Eigen::VectorXd all(size_);
   for (Eigen::Index k = 0; k < size_; ++k) all(row_at(k)) = y(k);
+  return all;
+}
+
+Eigen::MatrixXd Condensation::shapes() const {
+  const Eigen::Index kept = size_ - inner_;
+  if (!factor_) return Eigen::MatrixXd::Identity(kept, kept);
+  Eigen::MatrixXd y = Eigen::MatrixXd::Zero(size_, kept), all(size_, kept);
+  for (Eigen::Index k = 0; k < size_; ++k)
+    if (is_kept(k)) y(k, row_at(k) - inner_) = 1;
+  back_substitute(y);
+  for (Eigen::Index k = 0; k < size_; ++k) all.row(row_at(k)) = y.row(k);
   return all;
 }
 

@@ -32,6 +32,8 @@ class Condensation {
   [[nodiscard]] Eigen::VectorXd condense(const Eigen::VectorXd& loads) const;
   /// All unknowns, those of the kept rows being `kept`: ui = Kii^-1 (fi - Kik uk).
   [[nodiscard]] Eigen::VectorXd recover(const Eigen::VectorXd& loads, const Eigen::VectorXd& kept) const;
+  /// All unknowns without loads, a column for a unit of each kept row.
+  [[nodiscard]] Eigen::MatrixXd shapes() const;
 
  private:
   /// Columns of one front that stand together and are inner ones.
@@ -40,6 +42,9 @@ class Condensation {
     Eigen::Index begin, end;
   };
   [[nodiscard]] Eigen::VectorXd forward(const Eigen::VectorXd& loads) const;
+  /// From the kept rows on, in the order of elimination; a column for each case.
+  template <class Columns>
+  void back_substitute(Columns& y) const;
   /// The row of the matrix that is eliminated k-th.
   [[nodiscard]] Eigen::Index row_at(std::int64_t k) const {
     return static_cast<Eigen::Index>(factor_->fronts().order[static_cast<std::size_t>(k)]);

@@ -365,6 +365,18 @@ std::vector<Vec6> Superelement::recover(const Eigen::VectorXd& kept, const std::
   return displacements;
 }
 
+Eigen::MatrixXd Superelement::shapes() const {
+  const State& s = *state_;
+  const Eigen::MatrixXd all = s.condensation.shapes();
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(6 * s.plan->patch.nodes.size()), all.cols());
+  for (Eigen::Index row = 0; row < result.rows(); ++row) {
+    const Seen& from = s.plan->seen(static_cast<int>(row / 6), static_cast<int>(row % 6));
+    for (std::size_t i = 0; i < 2; ++i)
+      if (from.number[i] >= 0) result.row(row) += from.weight[i] * all.row(from.number[i]);
+  }
+  return result;
+}
+
 std::vector<Vec6> Superelement::reactions(const std::vector<Vec6>& displacements,
                                           const std::vector<Vec6>& loads) const {
   const State& s = *state_;

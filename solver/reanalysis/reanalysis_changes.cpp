@@ -64,7 +64,8 @@ void Reanalysis::State::mark(int beam) { changed_beams.push_back(beam); }
 
 bool Reanalysis::State::pending() const {
   return !answered || !changed_beams.empty() || !changed_shells.empty() || node_loads_changed ||
-         !dropped_nodes.empty() || !changed_supports.empty() || !given_stiffness.empty() || !given_to_patch.empty();
+         !dropped_nodes.empty() || !changed_supports.empty() || !given_stiffness.empty() || !given_to_patch.empty() ||
+         !given_mass.empty();
 }
 
 void Reanalysis::State::apply_supports(std::vector<int>& touched) {
@@ -174,7 +175,7 @@ void Reanalysis::State::remember_plate(std::size_t element) {
 }
 
 void Reanalysis::State::apply_given_stiffness(std::vector<int>& touched) {
-  if (given_stiffness.empty() && given_to_patch.empty()) return;
+  if (given_stiffness.empty() && given_to_patch.empty() && given_mass.empty()) return;
   // What uses can grow by was read from other matrices.
   complete(nullptr);
   if (selective) selective->forget_growths();
@@ -184,14 +185,19 @@ void Reanalysis::State::apply_given_stiffness(std::vector<int>& touched) {
     system->model.shell_stiffness[index] = stiffness;
     touched.insert(touched.end(), nodes.begin(), nodes.end());
   }
-  for (const auto& [index, stiffness] : given_to_patch) {
-    remember_plate(system->element_of_patch(index));
-    Patch& patch = system->model.patches[static_cast<std::size_t>(index)];
-    patch.stiffness = stiffness;
-    touched.insert(touched.end(), patch.node.begin(), patch.node.end());
-  }
+  const auto replace = [&](const std::map<int, Eigen::MatrixXd>& given, Eigen::MatrixXd Patch::*matrix) {
+    for (const auto& [index, now] : given) {
+      remember_plate(system->element_of_patch(index));
+      Patch& patch = system->model.patches[static_cast<std::size_t>(index)];
+      patch.*matrix = now;
+      touched.insert(touched.end(), patch.node.begin(), patch.node.end());
+    }
+  };
+  replace(given_to_patch, &Patch::stiffness);
+  replace(given_mass, &Patch::mass);
   given_stiffness.clear();
   given_to_patch.clear();
+  given_mass.clear();
 }
 
 void Reanalysis::State::apply_shells(std::vector<int>& touched) {

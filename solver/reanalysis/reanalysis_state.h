@@ -61,6 +61,7 @@ struct Reanalysis::State {
   std::vector<char> shell_removed;
   std::map<int, Mat24> given_stiffness;           ///< of shells, that wait for the next solve()
   std::map<int, Eigen::MatrixXd> given_to_patch;  ///< of patches
+  std::map<int, Eigen::MatrixXd> given_mass;      ///< of patches, where the frame moves
   std::vector<Vec6> node_loads;
   bool node_loads_changed = false;
   std::vector<int> dropped_nodes;

@@ -5,8 +5,8 @@
 
 #include "failure/panel_bearings.h"
 #include "model/index_of.h"
-#include "standing/geometric_forces.h"
 #include "topple/solver/buckling.h"
+#include "topple/solver/geometric_forces.h"
 
 namespace topple::structure {
 
@@ -147,8 +147,10 @@ bool BucklingBracing::iterate(int c, Iteration& iteration) const {
     const auto& nodes = building_[member].nodes;
     const solver::Beam& beam = statics_.beam(member);
     const solver::Vec12& force = statics_.end_forces(member);
-    const solver::Vec12 rigid_ends = rigid_ends_of(beam, shape.displacement(nodes[0]), shape.displacement(nodes[1]));
-    const solver::Vec12 push = -forces_at_nodes(beam, geometric_forces(beam, (force(6) - force(0)) / 2, rigid_ends));
+    const solver::Vec12 rigid_ends =
+        solver::rigid_end_displacements(beam, shape.displacement(nodes[0]), shape.displacement(nodes[1]));
+    const solver::Vec12 push =
+        -solver::node_forces(beam, solver::geometric_forces(beam, (force(6) - force(0)) / 2, rigid_ends));
     for (int end = 0; end < 2; ++end) at[index_of(nodes[static_cast<std::size_t>(end)])] += push.segment<6>(6 * end);
   }
   for (auto& [node, load] : iteration.loads.nodes) {
@@ -246,7 +248,7 @@ std::optional<BuckledPost> BucklingBracing::judge(int c) const {
     one.post = members[i];
     one.compression = compression;
     for (std::size_t end = 0; end < 2; ++end) one.motion[end] = mode.shape[static_cast<std::size_t>(beam.node[end])];
-    const solver::Vec12 rigid_ends = rigid_ends_of(beam, one.motion[0], one.motion[1]);
+    const solver::Vec12 rigid_ends = solver::rigid_end_displacements(beam, one.motion[0], one.motion[1]);
     one.rests = rigid_ends.isZero(0);
     if (one.rests) one.share = compression / solver::buckling_load_between_resting_ends(beam);
     one.bend = solver::buckling_bend(beam, mode.factor * compression, rigid_ends);

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "standing/frame_statics.h"
-#include "standing/geometric_forces.h"
+#include "topple/solver/geometric_forces.h"
 
 namespace topple::structure {
 
@@ -44,9 +44,10 @@ bool FrameStatics::displace(int number) {
       const solver::Vec12& force = end_forces_[index(member)];
       if (force.isZero(0)) continue;
       const solver::Beam& own = beam(member);
-      const solver::Vec12 rigid_ends = rigid_ends_of(own, before[static_cast<std::size_t>(own.node[0])],
-                                                     before[static_cast<std::size_t>(own.node[1])]);
-      const solver::Vec12 at = forces_at_nodes(own, geometric_forces(own, (force(6) - force(0)) / 2, rigid_ends));
+      const solver::Vec12 rigid_ends = solver::rigid_end_displacements(
+          own, before[static_cast<std::size_t>(own.node[0])], before[static_cast<std::size_t>(own.node[1])]);
+      const solver::Vec12 at =
+          solver::node_forces(own, solver::geometric_forces(own, (force(6) - force(0)) / 2, rigid_ends));
       for (std::size_t end = 0; end < 2; ++end)
         push[static_cast<std::size_t>(own.node[end])] -= at.segment<6>(static_cast<Eigen::Index>(6 * end));
     }
@@ -67,9 +68,9 @@ bool FrameStatics::displace(int number) {
         const solver::Beam& own = beam(member);
         solver::Vec12& force = end_forces_[index(member)];
         if (force.isZero(0)) continue;
-        const solver::Vec12 rigid_ends =
-            rigid_ends_of(own, now[static_cast<std::size_t>(own.node[0])], now[static_cast<std::size_t>(own.node[1])]);
-        force += geometric_forces(own, (force(6) - force(0)) / 2, rigid_ends);
+        const solver::Vec12 rigid_ends = solver::rigid_end_displacements(
+            own, now[static_cast<std::size_t>(own.node[0])], now[static_cast<std::size_t>(own.node[1])]);
+        force += solver::geometric_forces(own, (force(6) - force(0)) / 2, rigid_ends);
       }
       return true;
     }

@@ -33,6 +33,9 @@ struct DynamicOptions {
   /// power of the substep.
   double spectral_radius = 0.8;
   RayleighDamping damping;  ///< C of the equations of motion
+  /// Axial forces act on the beams as they lie at the moment: end forces are those of the displaced beam, and the work
+  /// of the geometric forces counts as external.
+  bool second_order = false;
   bool keep_energy = true;  ///< false: no ledger, and a cheaper substep
   /// Per beam, s: how long a wave takes along it. Joints that reach their capacity within that time of the first one,
   /// whose beam counts, break together. Empty: its length over the speed of sound of its Young's modulus and density.
@@ -126,10 +129,11 @@ struct LocalModes {
 
 /// What was done so far.
 struct DynamicCounters {
-  std::uint64_t substeps = 0;  ///< taken, each counted once
-  std::uint64_t retaken = 0;   ///< taken again because joints broke
-  std::uint64_t breaks = 0;    ///< of ends of beams
-  std::uint64_t yielding = 0;  ///< substeps in which a plastic hinge turned
+  std::uint64_t substeps = 0;   ///< taken, each counted once
+  std::uint64_t retaken = 0;    ///< taken again because joints broke
+  std::uint64_t breaks = 0;     ///< of ends of beams
+  std::uint64_t yielding = 0;   ///< substeps in which a plastic hinge turned
+  std::uint64_t unsettled = 0;  ///< substeps in which a beam was pressed beyond its critical load
 };
 
 /// The motion of a frame, substep by substep. Functions that take a beam, shell, patch, support or node throw
@@ -155,6 +159,9 @@ class FrameDynamics {
   void remove_shell(int shell);
   /// Stiffness of a patch in the global freedoms of its nodes; zero takes it away.
   void set_patch_stiffness(int patch, Eigen::MatrixXd stiffness);
+  /// Mass of a patch, as Patch::mass has it: it comes or goes with the velocities of the nodes, and what it takes along
+  /// is counted as freed.
+  void set_patch_mass(int patch, Eigen::MatrixXd mass);
   /// Factor on the beam's E and G, above 0.
   void set_beam_stiffness_factor(int beam, double factor);
   /// Stiffness of a shell in the global freedoms of its four nodes, condensed elsewhere.
@@ -240,11 +247,16 @@ class FrameDynamics {
   [[nodiscard]] Vec6 beam_momentum(int beam) const;
   /// Of the mass at a node.
   [[nodiscard]] Vec6 node_momentum(int node) const;
+  /// Of the mass of a patch, changes since the last substep apart.
+  [[nodiscard]] Vec6 patch_momentum(int patch) const;
   /// Since the start; not kept where DynamicOptions::keep_energy is false.
   [[nodiscard]] const DynamicEnergy& energy() const;
   /// What the loads that act now would have done along the whole displacement since set_state(), J: external_work, but
   /// for what loads did that have changed since. Patterns apart.
   [[nodiscard]] double work_of_present_loads();
+  /// What the geometric forces would do on the straight way from here to these displacements (per node), J: by their
+  /// mean at both ends. 0 without second order.
+  [[nodiscard]] double geometric_work_to(const std::vector<Vec6>& displacements);
   /// a0 of the Rayleigh damping, 1/s.
   [[nodiscard]] double mass_damping() const;
   /// Rayleigh's quotient u'Ku/u'Mu of a displacement, (rad/s)2; 0 when it moves no mass.

@@ -65,6 +65,7 @@ struct Diaphragm {
 struct Patch {
   std::vector<int> node;      ///< indices in FrameModel::nodes
   Eigen::MatrixXd stiffness;  ///< square, six rows for each node
+  Eigen::MatrixXd mass = {};  ///< the same, symmetric, of what moves (kg, kg m, kg m2); empty: it has none
 };
 
 /// All that the solver is given of a structure. Indices point into these arrays.

@@ -59,6 +59,8 @@ class Superelement {
   [[nodiscard]] Eigen::VectorXd condense(const std::vector<Vec6>& loads) const;
   /// Displacements of all nodes; zero where nothing stands.
   [[nodiscard]] std::vector<Vec6> recover(const Eigen::VectorXd& kept, const std::vector<Vec6>& loads) const;
+  /// Displacements of all nodes (six rows each, global) for a unit of each freedom of the kept ones, without loads.
+  [[nodiscard]] Eigen::MatrixXd shapes() const;
   /// What would have to act on each node, beside the loads, to keep it at these displacements: reactions of supports
   /// and of what holds the kept nodes; rounding elsewhere.
   [[nodiscard]] std::vector<Vec6> reactions(const std::vector<Vec6>& displacements,

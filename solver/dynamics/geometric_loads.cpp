@@ -1,0 +1,71 @@
+// Second order in motion: the axial forces of the moment push and pull the beams that have moved. The matrix stays
+// elastic, these forces act as loads, K u' = F - Kg(N) u, at both ends of each substep: those at its end are found with
+// the motion there. Beside K + s M the geometric stiffness is small, so that each pass brings several digits.
+#include "dynamics/dynamic_state.h"
+#include "topple/solver/geometric_forces.h"
+
+namespace topple::solver {
+namespace {
+
+/// Of the geometric loads: what they may still change from one pass to the next.
+constexpr double settled = 1e-9;
+constexpr int most_passes = 20;
+
+}  // namespace
+
+Vec12 FrameDynamics::State::geometric_end_forces(int beam, const std::vector<Vec6>& displacements,
+                                                 const Vec12& elastic) const {
+  const Beam& own = system().model.beams[static_cast<std::size_t>(beam)];
+  const auto at = [&](std::size_t end) -> const Vec6& {
+    return displacements[static_cast<std::size_t>(own.node[end])];
+  };
+  return geometric_forces(own, (elastic(6) - elastic(0)) / 2, rigid_end_displacements(own, at(0), at(1)));
+}
+
+/// Scaled; `at_end`: plastic rotations and loads as at the end of the substep under way, else as at its start.
+Eigen::VectorXd FrameDynamics::State::find_geometric_load(const std::vector<Vec6>& displacements, bool at_end) const {
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(system().dofs().equations + system().dofs().held);
+  for (int beam = 0; beam < static_cast<int>(system().model.beams.size()); ++beam) {
+    const auto i = static_cast<std::size_t>(beam);
+    if (system().beam_stands[i] == 0) continue;
+    const Vec12 elastic = core().end_forces(i, displacements, fixed_end_forces(beam, at_end));
+    const Vec12 own = geometric_end_forces(beam, displacements, elastic);
+    if (!own.isZero(0)) add_on_rigid_ends(beam, -own, force);
+  }
+  return scaled(force);
+}
+
+/// Where the passes do not settle, a beam is pressed beyond what it bears: the loads of the substep's start act on.
+void FrameDynamics::State::take_second_order_substep(const JointLaw* law) {
+  nodes_known = false;
+  accepted = false;  // the nodes at the start are those of `before`
+  system().node_displacements_of_scaled(before.u, nodes_before.u);
+  geometric_before = find_geometric_load(nodes_before.u, false);
+  geometric_now = geometric_before;
+  for (int pass = 0; pass < most_passes; ++pass) {
+    take_first_order_substep(law);
+    know_end();
+    Eigen::VectorXd next = find_geometric_load(nodes_now.u, true);
+    if (!next.allFinite()) break;
+    const double change = (next - geometric_now).lpNorm<Eigen::Infinity>();
+    const double size = next.lpNorm<Eigen::Infinity>();
+    if (change <= settled * size) return;
+    geometric_now = std::move(next);
+  }
+  ++counters.unsettled;
+  geometric_now = geometric_before;
+  take_first_order_substep(law);
+}
+
+double FrameDynamics::geometric_work_to(const std::vector<Vec6>& displacements) {
+  State& state = *state_;
+  if (!state.options.second_order) return 0;
+  state.begin_substep();
+  state.apply_changes();
+  state.know_nodes();
+  const Eigen::VectorXd way = state.scaled_equations(displacements) - state.current().u;
+  return 0.5 *
+         way.dot(state.find_geometric_load(state.nodes_now.u, true) + state.find_geometric_load(displacements, true));
+}
+
+}  // namespace topple::solver
