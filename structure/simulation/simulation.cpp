@@ -56,7 +56,7 @@ Simulation::State::State(Building the_building, Scenario the_scenario, Simulatio
       body_impacts({scene, log, sums, debris, break_up, standing_impacts, struck}),
       debris_fracture({scene, log, sums, debris, hinges, panels, views, break_up, release_impulses}) {
   if (scene.sways()) {
-    if (const auto reason = why_it_stays_at_rest(scene.building, scene.scenario.failure))
+    if (const auto reason = why_it_stays_at_rest(scene.building))
       throw InputError((scene.scenario.file.empty() ? "scenario" : scene.scenario.file) +
                        ": standing: \"dynamic\" is not possible: " + *reason + "; accepted: \"static\"");
     scene.frame->let_move(scene.scenario.step);
@@ -89,6 +89,7 @@ void Simulation::State::break_generations() {
     const std::vector<JointBreak> breaks = scene.frame->move(crack);
     record_yielded();
     for (const JointBreak& broken : breaks) log.record(broken);
+    scene.timer.engine([&] { debris.obstacles.follow(*scene.frame, *scene.world); });
     return;
   }
   do {

@@ -39,7 +39,8 @@ bool Simulation::State::stays(const BodyMotion& one, const collision::BodyState&
   // Two quaternions that are c apart lie a turn of 4 asin(c/2) < pi c apart.
   const double apart = std::sqrt(std::min((now - then).squaredNorm(), (now + then).squaredNorm()));
   const double moved = (state.pose.position - seen.position).norm() + (travel - seen.travel).norm() +
-                       M_PI * apart * one.reach + std::max(0.0, turned_by - seen.turned_by);
+                       M_PI * apart * one.reach + std::max(0.0, turned_by - seen.turned_by) +
+                       std::max(0.0, debris.obstacles.reach() - seen.reach);
   return moved < seen.room;
 }
 
@@ -52,7 +53,10 @@ double gap(const Bounds& a, const Bounds& b) { return (a.low - b.high).cwiseMax(
 /// place that was looked over.
 void Simulation::State::approach(BodyMotion& one, const collision::BodyState& state) {
   if (stays(one, state)) return;
-  const Bounds swept = swept_bounds(*one.body, state);
+  Bounds swept = swept_bounds(*one.body, state);
+  const double reach = debris.obstacles.reach();  // what is looked for lies so far from where it is looked up
+  swept.low.array() -= reach;
+  swept.high.array() += reach;
   std::vector<Part>& near = one.body->near;
   if (!one.looked_over.holds(swept)) {
     one.looked_over = swept;
@@ -64,7 +68,7 @@ void Simulation::State::approach(BodyMotion& one, const collision::BodyState& st
   const auto [travel, turned_by] = sweep_of(state, one.reach);
   double room = (swept.low - one.looked_over.low).cwiseMin(one.looked_over.high - swept.high).minCoeff();
   for (const Part part : near) room = std::min(room, gap(swept, debris.shapes.bounds(part)));
-  one.seen = {room, state.pose.position, travel, state.pose.orientation, turned_by};
+  one.seen = {room, state.pose.position, travel, state.pose.orientation, turned_by, reach};
 }
 
 std::vector<collision::Contact> Simulation::State::sweep() {

@@ -43,7 +43,6 @@ void FrameStatics::write_loads(MemberId member) {
 void FrameStatics::write_load(NodeId node) {
   const Place& place = node_place_[index(node)];
   Vec6 load = node_loads_[index(node)];
-  if (second_order_) load += geometric_[index(node)];
   for (const auto& [member, hinges] : hinges_) {
     if (member_place_[index(member)].component != place.component) continue;
     const solver::Beam& own = beam(member);
@@ -51,7 +50,12 @@ void FrameStatics::write_load(NodeId node) {
       if (own.node[end] == place.local)
         load.tail<3>() -= own.axes.transpose() * hinges.held.segment<3>(static_cast<Eigen::Index>(6 * end + 3));
   }
-  change(place, [&](auto& frame) { frame.set_node_load(place.local, load); });
+  // A frame that moves finds the geometric forces of its own motion.
+  const Vec6 at_rest = second_order_ ? Vec6(load + geometric_[index(node)]) : load;
+  change(place, [&](auto& frame) {
+    constexpr bool rests = std::is_same_v<std::decay_t<decltype(frame)>, solver::Reanalysis>;
+    frame.set_node_load(place.local, rests ? at_rest : load);
+  });
 }
 
 void FrameStatics::set_hinge(MemberId member, int end, int axis, double stiffness, double held,

@@ -314,6 +314,14 @@ const solver::Vec12& FrameStatics::end_forces(MemberId member) const {
   return end_forces_[index(member)];
 }
 
+solver::Vec12 FrameStatics::elastic_end_forces(MemberId member) const {
+  if (!second_order_) return end_forces(member);
+  const Place& place = member_place_[index(member)];
+  solver::Vec12 forces = parts(place.component).analysis->beam_end_forces(place.local);
+  if (const auto found = hinges_.find(member); found != hinges_.end()) forces += found->second.held;
+  return forces;
+}
+
 std::optional<FrameMechanism> FrameStatics::told(int number, const solver::ReanalysisAnswer& answer) {
   Component& component = components_[static_cast<std::size_t>(number)];
   component.changed = false;

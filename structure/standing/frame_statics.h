@@ -126,6 +126,8 @@ class FrameStatics {
   [[nodiscard]] const Vec6& displacement(NodeId node) const;
   /// What flowing hinges hold included. They outlive a mechanism that solve() finds later.
   [[nodiscard]] const solver::Vec12& end_forces(MemberId member) const;
+  /// The same without the geometric forces of second order: those of what strains the member.
+  [[nodiscard]] solver::Vec12 elastic_end_forces(MemberId member) const;
   /// As it is now, weakened E and G included.
   [[nodiscard]] solver::Beam beam(MemberId member) const;
   [[nodiscard]] double stiffness(MemberId member) const { return member_stiffness_[index(member)]; }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "failure/panel_demand.h"
+#include "standing/shell_reading.h"
 #include "topple/solver/held_beam.h"
 
 namespace topple::structure {
@@ -69,7 +70,15 @@ void HeldPush::add_demands(const Pushed& pushed, Eigen::Index place, StandingFra
     }
   }
   const PanelId panel = pushed.placed.panel;
-  if (!panel.valid() || !from_.parts.bearings.serves(panel)) return;
+  if (!panel.valid()) return;
+  if (!from_.parts.bearings.serves(panel)) {
+    const PanelSuperelement& shell = *from_.shells.of(panel);
+    const std::vector<Vec6> held(shell.nodes(), Vec6::Zero());
+    const std::array<Vec6, 4> demands =
+        shell_edge_demands(shell, from_.parts.bearings, panel, held, {Vec3::Zero(), {pushed.placed.on_shell}});
+    for (int edge = 0; edge < 4; ++edge) add(building.joint(panel, edge), demands[static_cast<std::size_t>(edge)]);
+    return;
+  }
   for (int edge = 0; edge < 4; ++edge)
     add(building.joint(panel, edge), handed_edge_demand(building, from_.parts.bearings, panel, edge,
                                                         pushed.placed.edge_force[static_cast<std::size_t>(edge)]));

@@ -12,6 +12,7 @@ class HeldPush {
  public:
   struct Sources {
     const StandingParts& parts;
+    const PanelSuperelements& shells;
     const FrameStatics& statics;
     const FrameResponse& response;
   };

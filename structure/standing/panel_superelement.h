@@ -52,6 +52,9 @@ class PanelSuperelement {
   // nothing of it is left, has zeros.
   [[nodiscard]] Eigen::MatrixXd stiffness() const;
   [[nodiscard]] std::vector<Vec6> loads_at_nodes(const PanelLoading& loading) const;
+  /// Consistent mass for so many kilograms of what is there, evenly over its area; what lies between the nodes follows
+  /// them statically (R. J. Guyan, AIAA Journal 3 (1965), 380). Rows and columns as stiffness() has them.
+  [[nodiscard]] Eigen::MatrixXd mass(double kilograms) const;
   /// True while the panel is held at this node and something of it stands there.
   [[nodiscard]] bool stands_at(std::size_t node) const;
   [[nodiscard]] std::size_t nodes() const { return node_.size(); }
@@ -97,6 +100,7 @@ class PanelSuperelement {
   };
   [[nodiscard]] Grip grip(const Vec2& at) const;
   void add_force(const PanelForce& one, std::vector<Vec6>& loads) const;
+  [[nodiscard]] Eigen::MatrixXd of_all_nodes(const Eigen::MatrixXd& kept) const;
   [[nodiscard]] std::vector<Vec6> recover(const std::vector<Vec6>& at_nodes, const PanelLoading& loading) const;
   Mat3 axes_;  ///< of the panel
   Vec3 origin_;

@@ -98,10 +98,12 @@ Vec6 StandingFrame::State::solved_demand(JointId joint) const {
   return edge_demands(own.panel)[static_cast<std::size_t>(own.end)];
 }
 
-std::array<Vec6, 4> StandingFrame::State::edge_demands(PanelId panel) const {
+std::array<Vec6, 4> StandingFrame::State::edge_demands(PanelId panel, bool in_motion) const {
   if (!parts.bearings.serves(panel))
-    return shell_edge_demands(*shells.of(panel), parts.bearings, panel, node_displacements(building[panel], statics),
-                              loading(panel));
+    return shell_edge_demands(
+        *shells.of(panel), parts.bearings, panel,
+        in_motion ? node_displacements(building[panel], *motion) : node_displacements(building[panel], statics),
+        loading(panel));
   return panel_edge_demands(
       building, parts.bearings, loads, panel,
       parts.bearings.membrane(panel) ? std::optional(statics.corner_forces(panel)) : std::nullopt);

@@ -43,6 +43,7 @@ void StandingFrame::State::fracture_shell(PanelId panel, const PanelRemains& rem
   shells.of(panel)->fracture(remains);
   replace_stiffness(panel, stiffness);
   loads.fracture(panel, remains);
+  if (motion) motion->update_mass(panel);
   account.change(panel).lighten(panel, before, loads.handed(panel));
   contacts.place_again(panel);
   let_go_of_bare_nodes(panel);
@@ -73,6 +74,7 @@ void StandingFrame::State::lose_shell_edge(PanelId panel, int edge) {
     const Eigen::MatrixXd before = shells.of(panel)->stiffness();
     shells.of(panel)->release_edge(edge);
     replace_stiffness(panel, before);
+    if (motion) motion->update_mass(panel);
     hand_on_anew(panel);
     contacts.place_again(panel);
     let_go_of_bare_nodes(panel);
@@ -85,6 +87,7 @@ void StandingFrame::State::leave_shell(PanelId panel) {
   if (statics.stiff(panel)) {
     account.change(panel).lose_membrane(panel);
     statics.remove_membrane(panel);
+    if (motion) motion->update_mass(panel);
   }
   for (int edge = 0; edge < 4; ++edge) lose_edge_supports(panel, edge);
   account.change(panel).hand_on(panel);

@@ -175,7 +175,7 @@ void StandingFrame::State::read_demands(int c, bool slow) {
 }
 
 /// Loads that panels hand on change without anything moving. Shells are read from what their corners do.
-void StandingFrame::State::read_panel_demands(int c, bool slow) {
+void StandingFrame::State::read_panel_demands(int c, bool slow, bool in_motion) {
   PanelId panel_read;
   std::array<Vec6, 4> shell;
   const std::array<Vec6, 4>* of_edges = nullptr;
@@ -184,7 +184,7 @@ void StandingFrame::State::read_panel_demands(int c, bool slow) {
     if (own.panel != panel_read) {
       of_edges = nullptr;
       if (!parts.bearings.serves(own.panel)) {
-        of_edges = &(shell = edge_demands(own.panel));
+        of_edges = &(shell = edge_demands(own.panel, in_motion));
       } else if (edge_loads.changed(own.panel)) {
         of_edges = &edge_loads.read(own.panel);
       }

@@ -50,7 +50,7 @@ struct StandingFrame::State {
   [[nodiscard]] bool stands(const ContactPlace& place) const;
   [[nodiscard]] Vec6 demand(JointId joint) const;
   [[nodiscard]] Vec6 solved_demand(JointId joint) const;  ///< read from the solver; the joint must hold
-  [[nodiscard]] std::array<Vec6, 4> edge_demands(PanelId panel) const;
+  [[nodiscard]] std::array<Vec6, 4> edge_demands(PanelId panel, bool in_motion = false) const;
 
   // Shell panels (standing_shells.cpp).
   [[nodiscard]] PanelLoading loading(PanelId panel) const;
@@ -103,7 +103,7 @@ struct StandingFrame::State {
   void complete(int component);
   void know_demands();
   void read_demands(int component, bool slow);
-  void read_panel_demands(int component, bool slow);
+  void read_panel_demands(int component, bool slow, bool in_motion = false);
 
   // Motion (standing_sway.cpp).
   void move(const std::function<void()>& after_substep);

@@ -215,11 +215,10 @@ inline std::string fault_of(RandomCollapse collapse) {
 
 inline std::string fault_of_collapse(std::uint64_t seed) { return fault_of(random_collapse(seed)); }
 
-/// The same where what stands moves, to the first order.
+/// The same where what stands moves.
 inline std::string fault_of_moving_collapse(std::uint64_t seed) {
   RandomCollapse collapse = random_collapse(seed);
   collapse.scenario.standing = StandingRule::dynamics;
-  collapse.scenario.failure.second_order = false;
   return fault_of(std::move(collapse));
 }
 

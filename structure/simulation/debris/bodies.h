@@ -27,6 +27,7 @@ struct BodyMotion {
     Vec3 position = Vec3::Zero(), travel = Vec3::Zero();
     Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
     double turned_by = 0;  ///< m
+    double reach = 0;      ///< m, Obstacles::reach()
   } seen;
 };
 

@@ -42,6 +42,10 @@ struct DebrisSettings {
   /// Sine of the angle to a panel below which an impact does not punch it.
   double flattest_punch = 0.5;
 
+  /// m. Where what stands moves, a part is hit where it is once it is off by this; nearer, where it was. Larger: debris
+  /// rests as far above or in what has sunk; smaller: what lies on a floor that sways is woken more often.
+  double follow = 0.01;
+
   // What is looked for. These decide what is computed, not what comes out.
   /// m around a body's swept bounds: what its shapes' skins and a step's turn may add.
   double sweep_margin = 0.25;

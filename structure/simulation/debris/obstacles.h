@@ -20,6 +20,11 @@ class Obstacles {
   void approach(std::vector<Part>& near, const Bounds& box, const StandingFrame& frame, collision::World& world);
   /// Parts at the box that have no shape in the world, in order of number; some may be gone.
   [[nodiscard]] std::vector<Part> without_shape(const Bounds& box) const { return grid_.near(box, settled_); }
+  /// Shapes of parts that have moved go after them, once they are off by DebrisSettings::follow; to be called when what
+  /// stands has moved.
+  void follow(const StandingFrame& frame, collision::World& world);
+  /// m: no part that stands is farther from its unloaded place.
+  [[nodiscard]] double reach() const { return reach_; }
   /// The part has another shape now. What was swept against the old one still tells the part.
   void renew(Part part, collision::World& world);
   /// The part stands no more.
@@ -29,7 +34,14 @@ class Obstacles {
   [[nodiscard]] collision::ObstacleId obstacle_of(Part part) const;
 
  private:
+  /// Of a part as a rigid body about the middle of its bounds: m, and rad about global axes.
+  struct Shift {
+    Vec3 moved = Vec3::Zero(), turned = Vec3::Zero();
+  };
+  [[nodiscard]] Shift shift_of(Part part, const StandingFrame& frame) const;
+  [[nodiscard]] Vec3 middle(Part part) const;
   [[nodiscard]] collision::ObstacleId make(Part part, collision::World& world);
+  void put(std::size_t number, collision::World& world) const;
   const Building& building_;
   const PartShapes& shapes_;
   const PartGrid& grid_;
@@ -37,6 +49,8 @@ class Obstacles {
   std::vector<collision::ObstacleId> obstacle_of_part_;
   std::vector<char> settled_;  ///< by part number: has a shape, or has been seen to be gone
   std::map<std::int64_t, Part> part_of_obstacle_;
+  std::map<std::size_t, Shift> shifted_;  ///< by part number: where shapes are that are not at their unloaded place
+  double reach_ = 0;
 };
 
 }  // namespace topple::structure

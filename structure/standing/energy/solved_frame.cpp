@@ -39,8 +39,8 @@ solver::Vec12 SolvedFrame::rigid_ends(MemberId member) const {
 }
 
 MemberShape SolvedFrame::shape(MemberId member) const {
-  return {statics.beam(member), statics.end_forces(member), rigid_ends(member) - statics.plastic_rotations(member),
-          applied[index_of(member)]};
+  return {statics.beam(member), statics.elastic_end_forces(member),
+          rigid_ends(member) - statics.plastic_rotations(member), applied[index_of(member)]};
 }
 
 LoadWork SolvedFrame::load_work(int component) const {

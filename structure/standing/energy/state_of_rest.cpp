@@ -23,6 +23,7 @@ void StateOfRest::record(int component) {
     at_rest.stands = now_.stands(member);
     if (!at_rest.stands) continue;
     at_rest.end_forces = now_.statics.end_forces(member);
+    at_rest.elastic_end_forces = now_.statics.elastic_end_forces(member);
     if (const solver::Vec12 plastic_rotations = now_.statics.plastic_rotations(member); !plastic_rotations.isZero(0))
       plastic_rotations_[member] = plastic_rotations;
     else
@@ -91,7 +92,7 @@ MemberShape StateOfRest::shape(MemberId member) const {
   const auto& nodes = now_.building[member].nodes;
   const solver::Vec12 at =
       now_.rigid_ends(member, displacement(nodes[0]), displacement(nodes[1])) - plastic_rotations(member);
-  return {beam, at_rest.end_forces, at, at_rest.loads};
+  return {beam, at_rest.elastic_end_forces, at, at_rest.loads};
 }
 
 PanelAtRest StateOfRest::panel(PanelId panel) const {

@@ -56,7 +56,7 @@ class StateOfRest {
     Vec6 stiffness = Vec6::Zero();  ///< infinite where it does not give
   };
   struct OfMember {
-    solver::Vec12 end_forces = solver::Vec12::Zero();
+    solver::Vec12 end_forces = solver::Vec12::Zero(), elastic_end_forces = solver::Vec12::Zero();
     std::vector<solver::BeamLoad> loads;
     std::size_t own_loads = 0;  ///< those of `loads` that are no contacts, which come first
     double stiffness = 1;

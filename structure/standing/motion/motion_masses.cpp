@@ -53,9 +53,10 @@ void MotionMasses::hang(const Shares& shares, double sign) {
   for (const auto& [node, mass] : shares.nodes) hung_nodes_[index(node)] += sign * mass;
 }
 
-/// As its weight is shared out, so is its mass.
+/// As its weight is shared out, so is its mass. A shell has its own in the frame.
 MotionMasses::Shares MotionMasses::read(PanelId panel) const {
   Shares shares;
+  if (!bearings_.serves(panel)) return shares;
   const TributaryLoads& handed = loads_.handed(panel);
   Vec3 total = Vec3::Zero();
   for (const solver::BeamLoad& load : handed.beams)

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "model/index_of.h"
+#include "model/panel_area.h"
 
 namespace topple::structure {
 namespace {
@@ -102,11 +103,36 @@ solver::FrameModel StandingMotion::model_of(int c) const {
   const std::vector<PanelId>& membranes = from_.statics.membranes(c);
   for (std::size_t s = 0; s < membranes.size(); ++s)
     if (!from_.statics.stiff(membranes[s])) model.shell_stiffness[static_cast<int>(s)].setZero();
+  for (const PanelId shell : from_.statics.shells(c))
+    if (from_.statics.stiff(shell))
+      model.patches[static_cast<std::size_t>(from_.statics.number(shell))].mass = mass_of(shell);
   const std::vector<NodeId>& nodes = from_.statics.nodes(c);
   for (std::size_t n = 0; n < nodes.size(); ++n)
     if (from_.node_solved[index_of(nodes[n])] == 0)
       model.supports.push_back({static_cast<int>(n), Vec6::Constant(solver::rigid)});
   return model;
+}
+
+/// A membrane that is broken in part has a superelement as well.
+bool StandingMotion::is_shell(PanelId panel) const { return from_.building[panel].model == PanelModel::shell; }
+
+/// By its weight; without any by its material's.
+Eigen::MatrixXd StandingMotion::mass_of(PanelId id) const {
+  const Panel& panel = from_.building[id];
+  const double by_weight = from_.loads.mass(id);
+  const double of_material =
+      from_.building[panel.material].density * panel.thickness * panel_area(from_.building, panel, true);
+  return from_.shells.of(id)->mass(by_weight > 0 ? by_weight : of_material);
+}
+
+void StandingMotion::update_mass(PanelId id) {
+  const auto found = moving_.find(from_.components.of(id));
+  if (found == moving_.end() || !is_shell(id)) return;
+  solver::FrameDynamics& frame = *found->second->frame;
+  const int number = from_.statics.number(id);
+  Eigen::MatrixXd mass = from_.statics.shell_stiffness(id);
+  mass = from_.statics.stiff(id) ? mass_of(id) : Eigen::MatrixXd::Zero(mass.rows(), mass.cols());
+  frame.set_patch_mass(number, std::move(mass));
 }
 
 solver::MassModel StandingMotion::masses_of(int c) const {
@@ -201,6 +227,7 @@ void StandingMotion::start(int c) {
   const Known& own =
       known != known_.end() ? known->second : known_.emplace(c, find(c, model, masses, rest)).first->second;
   options.damping = own.damping;
+  options.second_order = from_.second_order;
   moving.first_frequency = own.first_frequency;
   moving.mass_damping = own.damping.mass;
   moving.frame = std::make_unique<solver::FrameDynamics>(model, masses, options);
@@ -221,6 +248,10 @@ void StandingMotion::settle(int c) {
   const double of_present = moving.frame->work_of_present_loads();
   moving.left_work = moving.frame->energy().external_work - of_present;
   past_.damped += moving.frame->energy().kinetic;
+  std::vector<Vec6> rest;
+  for (const NodeId node : from_.statics.nodes(c))
+    rest.push_back(from_.node_solved[index_of(node)] != 0 ? from_.statics.displacement(node) : Vec6(Vec6::Zero()));
+  moving.left_work += moving.frame->geometric_work_to(rest);
   std::vector<Vec6> way = moving.frame->displacements();
   for (const NodeId node : from_.statics.nodes(c)) {
     Vec6& own = way[static_cast<std::size_t>(from_.statics.number(node))];
@@ -410,6 +441,10 @@ std::array<Vec3, 4> quarters(const std::array<Vec3, 4>& corner) {
 /// Its mass moved with what bore it. Once it leaves, that mass lies where the panel is, and turns as its corners do:
 /// the linear momentum is kept.
 Vec6 StandingMotion::momentum(PanelId panel) const {
+  if (is_shell(panel)) {
+    const Moving* moving = of(from_.components.of(panel));
+    return moving == nullptr ? Vec6(Vec6::Zero()) : moving->frame->patch_momentum(from_.statics.number(panel));
+  }
   Vec6 sum = Vec6::Zero();
   const MotionMasses::Shares& shares = masses_.shares(panel);
   for (const auto& [member, mass] : shares.members) sum += mass * specific_momentum(member);
@@ -433,6 +468,21 @@ Vec6 StandingMotion::momentum(PanelId panel) const {
   const Vec3 spin = inertia_of(places, middle, 1).ldlt().solve(turning);
   sum.tail<3>() += inertia_of(mass_at, centre, from_.loads.mass(panel) / 4) * spin;
   return sum;
+}
+
+Vec3 StandingMotion::velocity(PanelId panel) const {
+  const Vec3 linear = momentum(panel).head<3>();
+  double mass = from_.loads.mass(panel);
+  if (is_shell(panel)) {  // as the frame has it
+    const Moving* moving = of(from_.components.of(panel));
+    if (moving == nullptr) return Vec3::Zero();
+    const auto number = static_cast<std::size_t>(from_.statics.number(panel));
+    const Eigen::MatrixXd& own = moving->frame->model().patches[number].mass;
+    mass = 0;
+    for (Eigen::Index row = 2; row < own.rows(); row += 6)
+      for (Eigen::Index column = 2; column < own.cols(); column += 6) mass += own(row, column);
+  }
+  return mass > 0 ? Vec3(linear / mass) : Vec3(Vec3::Zero());
 }
 
 Vec6 StandingMotion::momentum(NodeId node) const {

@@ -10,6 +10,7 @@
 #include "standing/component_parts.h"
 #include "standing/motion/motion_masses.h"
 #include "standing/motion/motion_settings.h"
+#include "standing/panel_superelements.h"
 #include "standing/standing_parts.h"
 #include "standing/yielding_way.h"
 #include "topple/solver/frame_dynamics.h"
@@ -37,7 +38,9 @@ class StandingMotion {
     JointStates& joints;
     YieldingWay& yielding;
     const ComponentParts& components;
+    const PanelSuperelements& shells;
     const std::vector<char>& node_solved;
+    bool second_order = false;
     int threads = 1;
   };
   StandingMotion(const Sources& sources, const MotionSettings& settings);
@@ -59,6 +62,8 @@ class StandingMotion {
   void stop(int component);
   /// Masses as panels hand on their weight now, for all that moves.
   void update_masses();
+  /// Of a shell panel of which less is there, or that lets go of an edge.
+  void update_mass(PanelId shell);
 
   /// A joint that broke within a substep, and what its member bore then.
   struct Break {
@@ -79,6 +84,7 @@ class StandingMotion {
   [[nodiscard]] Vec6 momentum(MemberId member) const;  ///< panels that lie on it apart
   [[nodiscard]] Vec6 momentum(PanelId panel) const;
   [[nodiscard]] Vec6 momentum(NodeId node) const;
+  [[nodiscard]] Vec3 velocity(PanelId panel) const;  ///< of its mass, in the mean
 
   /// Mobility of nodal forces (1/kg for unit forces), and what an impulse of them does.
   using NodalForces = std::vector<std::pair<NodeId, Vec6>>;
@@ -119,6 +125,8 @@ class StandingMotion {
   [[nodiscard]] const Moving* of(int component) const;
   [[nodiscard]] solver::FrameModel model_of(int component) const;
   [[nodiscard]] solver::MassModel masses_of(int component) const;
+  [[nodiscard]] Eigen::MatrixXd mass_of(PanelId shell) const;
+  [[nodiscard]] bool is_shell(PanelId panel) const;
   [[nodiscard]] double damping_of(int component) const;
   void lay_plastic_rotations(int component, Moving& moving) const;
   void take_plastic_rotations(int component, const Moving& moving) const;

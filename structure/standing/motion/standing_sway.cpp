@@ -10,22 +10,20 @@
 
 namespace topple::structure {
 
-std::optional<std::string> why_it_stays_at_rest(const Building& building, const FailureRules& rules) {
-  if (rules.second_order) return "second order is not followed in motion";
-  for (const Panel& panel : building.panels)
-    if (panel.model == PanelModel::shell) return "shell panels do not move (" + panel.name + ")";
+std::optional<std::string> why_it_stays_at_rest(const Building& building) {
   if (!(building.gravity > 0)) return "mass is weight over gravity, and the model has none";
   return std::nullopt;
 }
 
 void StandingFrame::let_move(double dt) {
   State& state = *state_;
-  if (const auto reason = why_it_stays_at_rest(state.building, state.rules))
+  if (const auto reason = why_it_stays_at_rest(state.building))
     throw InputError(state.building.file + ": what stands cannot move: " + *reason);
   if (state.rules.sudden != 1) throw std::invalid_argument("what moves has no factor of a sudden loss: it must be 1");
   state.motion = std::make_unique<StandingMotion>(
       StandingMotion::Sources{state.building, state.parts, state.loads, state.statics, state.joints, state.yielding,
-                              state.components, state.node_solved, state.threads},
+                              state.components, state.shells, state.node_solved, state.rules.second_order,
+                              state.threads},
       motion_settings);
   state.statics.before_changes([&state](int c) {
     if (state.solved_nodes[static_cast<std::size_t>(c)] > 0) state.motion->start(c);
@@ -89,7 +87,8 @@ void add_modes(int component, StandingMotion::LocalMotion local, const std::vect
 StandingFrame::HeldResponse StandingFrame::respond_held(std::span<const ContactPlace> places,
                                                         std::span<const Vec3> directions) {
   State& state = *state_;
-  HeldResponse answer = HeldPush({state.parts, state.statics, state.response}).respond(places, directions);
+  HeldResponse answer =
+      HeldPush({state.parts, state.shells, state.statics, state.response}).respond(places, directions);
   answer.pushed.resize(0, static_cast<Eigen::Index>(places.size()));
   for (const auto& [c, own] : state.places_by_component(answer)) {
     state.motion->start(c);
@@ -214,7 +213,7 @@ void StandingFrame::State::break_in_motion(JointId joint, const Vec6& demand, do
 void StandingFrame::State::break_edges_over(int c) {
   for (const PanelId panel : statics.membranes(c))
     if (parts.bearings.membrane(panel)) edge_loads.set_corner_forces(panel, motion->corner_forces(panel));
-  read_panel_demands(c, false);
+  read_panel_demands(c, false, true);
   std::vector<JointId> over;
   for (const JointId joint : components.edges[static_cast<std::size_t>(c)])
     if (parts.standing(joint) && joints.check(joint).value > 1) over.push_back(joint);
@@ -267,9 +266,8 @@ void StandingFrame::State::look_for_rest(int c) {
 
 Vec3 StandingFrame::velocity(PanelId panel) const {
   const State& state = *state_;
-  const double mass = state.loads.mass(panel);
-  if (!(mass > 0) || !state.stands(panel) || !state.moves(state.components.of(panel))) return Vec3::Zero();
-  return state.motion->momentum(panel).head<3>() / mass;
+  if (!state.stands(panel) || !state.moves(state.components.of(panel))) return Vec3::Zero();
+  return state.motion->velocity(panel);
 }
 
 /// Its own momentum, and that of the panels that leave with it; those that stay, or fall alone, keep theirs.

@@ -329,7 +329,7 @@ class StandingFrame {
   std::unique_ptr<State> state_;
 };
 
-/// What keeps this building under these rules from moving in a collapse, in words; nothing when it can.
-[[nodiscard]] std::optional<std::string> why_it_stays_at_rest(const Building& building, const FailureRules& rules);
+/// What keeps this building from moving in a collapse, in words; nothing when it can.
+[[nodiscard]] std::optional<std::string> why_it_stays_at_rest(const Building& building);
 
 }  // namespace topple::structure

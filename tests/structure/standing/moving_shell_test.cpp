@@ -1,0 +1,168 @@
+// Shell panels in motion: their mass against rigid bodies, their swing against a global mesh, losses and balls.
+#include <Eigen/Eigenvalues>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "standing/panel_superelement.h"
+#include "test_paths.h"
+#include "topple/solver/modes.h"
+#include "topple/structure/formats/files.h"
+#include "topple/structure/frame.h"
+#include "topple/structure/simulation.h"
+#include "topple/structure/standing_frame.h"
+
+using namespace topple::structure;
+
+namespace {
+
+constexpr double step = 1.0 / 60;
+
+/// A slab of 6 m by 4 m on four posts of 3 m, its corners fixed to their tops; `opening`: in the slab.
+std::string table(const std::string& opening = {}) {
+  return R"({"topple": 1, "title": "Table",
+ "materials": {"c": {"youngs_modulus": 30e9, "poisson_ratio": 0.2, "density": 2400, "compressive_strength": 30e6,
+                     "tensile_strength": 2.9e6}},
+ "sections": {"post": {"shape": "rectangle", "width": 0.25, "depth": 0.25}},
+ "nodes": {"A0": [0, 0, 0], "B0": [6, 0, 0], "C0": [6, 4, 0], "D0": [0, 4, 0],
+           "A1": [0, 0, 3], "B1": [6, 0, 3], "C1": [6, 4, 3], "D1": [0, 4, 3]},
+ "members": {"PA": {"kind": "post", "nodes": ["A0", "A1"], "section": "post", "material": "c"},
+             "PB": {"kind": "post", "nodes": ["B0", "B1"], "section": "post", "material": "c"},
+             "PC": {"kind": "post", "nodes": ["C0", "C1"], "section": "post", "material": "c"},
+             "PD": {"kind": "post", "nodes": ["D0", "D1"], "section": "post", "material": "c"}},
+ "panels": {"S": {"kind": "slab", "nodes": ["A1", "B1", "C1", "D1"], "thickness": 0.3, "material": "c",
+                  "model": "shell", "mesh": [12, 8])" +
+         opening + R"(}},
+ "supports": {"A0": "fixed", "B0": "fixed", "C0": "fixed", "D0": "fixed"},
+ "loads": {"dead": {"self_weight": 1.0}}})";
+}
+
+Building parsed(const std::string& text) { return parse_model(text, "table.json", Purpose::demolish); }
+
+FailureRules moving_rules() {
+  FailureRules rules;
+  rules.bracing = BracingRule::none;
+  rules.sudden = 1;
+  return rules;
+}
+
+/// rad/s, of the whole mesh with its mass where it is: nothing is condensed.
+double lowest_of_mesh(const Building& building) {
+  topple::solver::FrameModel model = make_frame(building).model;
+  for (topple::solver::Beam& beam : model.beams) beam.density = building.materials[0].density;
+  for (topple::solver::Shell& shell : model.shells) shell.density = building.materials[0].density;
+  return topple::solver::natural_modes(model, {}, 1, {}).modes.front().angular_frequency;
+}
+
+/// rad/s, by the first peak of the slab's corners, of the same sudden load on all of them along `direction`.
+double swing(const Building& building, int direction) {
+  StandingFrame frame(building, CombinationId(0u), moving_rules());
+  frame.let_move(1.0 / 2000);
+  const NodeId seen(4u);
+  const double before = frame.displacement(seen)(direction);
+  Vec6 load = Vec6::Zero();
+  load(direction) = 1e4;
+  for (std::size_t n = 4; n < 8; ++n) frame.add_load(NodeId(n), load);
+  double last = 0, now = 0, last_but_one = 0;
+  int steps = 0;
+  do {
+    (void)frame.move();
+    ++steps;
+    last_but_one = last;
+    last = now;
+    now = std::abs(frame.displacement(seen)(direction) - before);
+  } while (now >= last && steps < 4000);
+  // Where the parabola through the three has its top.
+  const double ahead = 0.5 * (now - last_but_one) / (2 * last - now - last_but_one);
+  return std::numbers::pi * 2000 / (steps - 1 + ahead);
+}
+
+const SimulationEvent* find(const Simulation& simulation, SimulationEvent::Kind kind) {
+  for (const SimulationEvent& event : simulation.events())
+    if (event.kind == kind) return &event;
+  return nullptr;
+}
+
+}  // namespace
+
+TEST_CASE("A shell's mass moves as a rigid plate does: its weight, its first and its second moments") {
+  for (const std::string opening : {"", R"(, "openings": [[[1, 1], [3, 1], [3, 2.5], [1, 2.5]]])"}) {
+    const Building b = parsed(table(opening));
+    const Frame frame = make_frame(b);
+    const PanelSuperelement slab(b, frame, PanelId(0u));
+    const double kilograms = 9000;
+    const Eigen::MatrixXd M = slab.mass(kilograms);
+    const auto motion = [&](int component) {
+      Eigen::VectorXd u(24);
+      for (std::size_t n = 0; n < 4; ++n) {
+        Vec6 at = Vec6::Zero();
+        at(component) = 1;
+        if (component > 2) at.head<3>() = Vec3::Unit(component - 3).cross(b[b.panels[0].nodes[n]].position);
+        u.segment<6>(static_cast<Eigen::Index>(6 * n)) = at;
+      }
+      return u;
+    };
+    // Moments of the whole less those of the opening, per kilogram and square metre.
+    const double area = opening.empty() ? 24 : 21, density = kilograms / area;
+    const double x = density * (6 * 4 * 3.0 - (opening.empty() ? 0 : 2 * 1.5 * 2.0)),
+                 yy = density * (6 * 64 / 3.0 - (opening.empty() ? 0 : 2 * (std::pow(2.5, 3) - 1) / 3)),
+                 xx = density * (4 * 216 / 3.0 - (opening.empty() ? 0 : 1.5 * (27 - 1) / 3.0));
+    for (int c = 0; c < 3; ++c) CHECK(motion(c).dot(M * motion(c)) == Approx(kilograms).epsilon(1e-9));
+    CHECK(motion(2).dot(M * motion(4)) == Approx(-x).epsilon(1e-9));                  // -x about y moves down
+    CHECK(motion(3).dot(M * motion(3)) == Approx(yy + 9 * kilograms).epsilon(1e-9));  // 3 m above the origin
+    CHECK(motion(5).dot(M * motion(5)) == Approx(xx + yy).epsilon(1e-9));
+    CHECK((M - M.transpose()).norm() == 0);
+    CHECK(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(M).eigenvalues()(0) > -1e-9 * M.norm());
+  }
+}
+
+TEST_CASE("A slab on posts sways as the whole mesh does") {
+  const Building b = parsed(table());
+  // 5 % of damping make the period 0.1 % longer; what higher modes add to the peak's time is as little.
+  CHECK(std::min(swing(b, 0), swing(b, 1)) == Approx(lowest_of_mesh(b)).epsilon(0.01));
+}
+
+TEST_CASE("What a shell on posts has lost sways to the static state of what is left, and energy and momentum close") {
+  const Building b = parsed(table());
+  StandingFrame moving(b, CombinationId(0u), moving_rules()), still(b, CombinationId(0u), moving_rules());
+  moving.let_move(step);
+  Vec6 load = Vec6::Zero();
+  load << 3e4, 1e4, -5e4, 0, 0, 0;
+  for (StandingFrame* frame : {&moving, &still}) {
+    frame->add_load(NodeId(6u), load);
+    frame->remove(MemberId(1u));
+  }
+  (void)still.settle(1000);
+  double peak = 0, worst = 0;
+  for (int n = 0; n < 3600 && moving.pending(); ++n) {
+    CHECK(moving.move().empty());
+    const FrameEnergy e = moving.energy();
+    peak = std::max(peak, -moving.displacement(NodeId(5u)).z());
+    worst = std::max(worst, std::abs(e.elastic - e.elastic_at_start + e.kinetic + e.damped + e.numerical + e.freed -
+                                     e.gravity_work - e.other_work - e.contact_work - e.struck));
+  }
+  CHECK_FALSE(moving.pending());
+  for (std::size_t n = 4; n < 8; ++n)
+    CHECK((moving.displacement(NodeId(n)) - still.displacement(NodeId(n))).norm() <
+          1e-9 * still.displacement(NodeId(n)).norm());
+  CHECK(peak > 1.3 * -still.displacement(NodeId(5u)).z());  // it went on beyond
+  // The strain between the lost post's ends, of its own weight (q2 L3/(24 EA), 1.3 mJ), left with it: no motion has it.
+  CHECK(worst < 1e-5 * moving.energy().damped);
+}
+
+TEST_CASE("A ball goes through a shell wall that moves, chunks fly, and the wall comes to rest") {
+  auto [model, scenario] = read_scenario(std::string(TOPPLE_SOURCE_DIR "/models/scenarios/wall_hit.json"));
+  scenario.standing = StandingRule::dynamics;
+  Simulation simulation(model, scenario);
+  const double whole = simulation.frame().mass(PanelId(0u));
+  while (!simulation.finished()) simulation.step();
+  REQUIRE(find(simulation, SimulationEvent::Kind::panel_fractured));
+  double chunks = 0;
+  for (const BodyView& body : simulation.bodies()) chunks += body.chunk ? body.mass : 0;
+  CHECK(chunks > 0);
+  CHECK(chunks + simulation.frame().mass(PanelId(0u)) == Approx(whole).epsilon(2e-3));  // but for dust
+  CHECK(simulation.at_rest());
+  CHECK(simulation.frame().stands(PanelId(0u)));
+  CHECK(simulation.ledger().momentum_error < 1e-10);
+  CHECK(std::abs(simulation.ledger().residual()) < 0.005);
+}
