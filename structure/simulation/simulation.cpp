@@ -9,7 +9,6 @@
 #include "simulation/call_checks.h"
 #include "simulation/simulation_state.h"
 #include "simulation/step_clock.h"
-#include "topple/structure/error.h"
 
 namespace topple::structure {
 
@@ -55,12 +54,7 @@ Simulation::State::State(Building the_building, Scenario the_scenario, Simulatio
       standing_impacts({scene, log, sums, debris, panels, standing_fracture, release_impulses, struck}),
       body_impacts({scene, log, sums, debris, break_up, standing_impacts, struck}),
       debris_fracture({scene, log, sums, debris, hinges, panels, views, break_up, release_impulses}) {
-  if (scene.sways()) {
-    if (const auto reason = why_it_stays_at_rest(scene.building))
-      throw InputError((scene.scenario.file.empty() ? "scenario" : scene.scenario.file) +
-                       ": standing: \"dynamic\" is not possible: " + *reason + "; accepted: \"static\"");
-    scene.frame->let_move(scene.scenario.step);
-  }
+  if (scene.sways()) scene.frame->let_move(scene.scenario.step);
   panels.open();
 }
 

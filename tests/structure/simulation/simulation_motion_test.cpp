@@ -7,7 +7,6 @@
 #include "structure/frame_builder.h"
 #include "structure/simulation_run.h"
 #include "structure/struck_post.h"
-#include "topple/structure/error.h"
 #include "topple/structure/simulation.h"
 
 namespace {
@@ -142,12 +141,4 @@ TEST_CASE("What breaks off leaves with its momentum, the ledger balances, and th
     hashes.push_back(simulation.hash());
   }
   CHECK(hashes[0] == hashes[1]);
-}
-
-TEST_CASE("A scenario that asks for motion of what cannot move is refused by the key's name") {
-  FrameBuilder frame = mass_on_bars();
-  Scenario scenario = struck_by(1, 100, 1.0 / 60);
-  frame.building.gravity = 0;
-  CHECK_THROWS_WITH(Simulation(frame.building, scenario), Catch::Contains("standing: \"dynamic\" is not possible") &&
-                                                              Catch::Contains("accepted: \"static\""));
 }
