@@ -32,16 +32,18 @@ TOPPLE_INLINE void transpose(Wide& a, Wide& b, Wide& c, Wide& d) {
   d = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
 }
 
-TOPPLE_INLINE Wide row(const double* from) { return *reinterpret_cast<const Wide*>(from); }
+/// The two rows of four that a motion is.
+TOPPLE_INLINE const Wide* rows_of(const Motion6& motion) { return reinterpret_cast<const Wide*>(&motion); }
+TOPPLE_INLINE Wide* rows_of(Motion6& motion) { return reinterpret_cast<Wide*>(&motion); }
 
 TOPPLE_INLINE void gather(const Motion6* from, const int* index, Gathered& to) {
-  const double *a = from[index[0]].linear, *b = from[index[1]].linear, *c = from[index[2]].linear,
-               *d = from[index[3]].linear;
-  to.linear[0] = row(a), to.linear[1] = row(b), to.linear[2] = row(c), to.angular[0] = row(d);
+  const Wide *a = rows_of(from[index[0]]), *b = rows_of(from[index[1]]), *c = rows_of(from[index[2]]),
+             *d = rows_of(from[index[3]]);
+  to.linear[0] = a[0], to.linear[1] = b[0], to.linear[2] = c[0], to.angular[0] = d[0];
   transpose(to.linear[0], to.linear[1], to.linear[2], to.angular[0]);
-  Wide unused = row(d + 4);
-  to.angular[1] = row(a + 4), to.angular[2] = row(b + 4);
-  Wide third = row(c + 4);
+  Wide unused = d[1];
+  to.angular[1] = a[1], to.angular[2] = b[1];
+  Wide third = c[1];
   transpose(to.angular[1], to.angular[2], third, unused);
 }
 
@@ -52,8 +54,8 @@ TOPPLE_INLINE void scatter(const Gathered& from, const int* index, Motion6* to) 
   transpose(rest[0], rest[1], rest[2], rest[3]);
   for (int lane = 0; lane < kLanes; ++lane) {
     if (index[lane] == 0) continue;
-    *reinterpret_cast<Wide*>(to[index[lane]].linear) = rows[lane];
-    *reinterpret_cast<Wide*>(to[index[lane]].linear + 4) = rest[lane];
+    Wide* row = rows_of(to[index[lane]]);
+    row[0] = rows[lane], row[1] = rest[lane];
   }
 }
 
