@@ -1,6 +1,7 @@
 #include "topple/solver/modes.h"
 
 #include <cmath>
+#include <limits>
 
 #include "assembly/frame_system.h"
 #include "assembly/mass_matrix.h"
@@ -8,6 +9,7 @@
 #include "eigen/block_krylov.h"
 #include "factor/factor.h"
 #include "topple/solver/shifted_modes.h"
+#include "topple/solver/unresolved_modes.h"
 
 namespace topple::solver {
 namespace {
@@ -35,6 +37,16 @@ class Modes {
   }
 
   ModalAnswer find(int count) {
+    try {
+      return found(count);
+    } catch (const std::runtime_error& error) {
+      require_resolved(error.what());
+      throw;
+    }
+  }
+
+ private:
+  ModalAnswer found(int count) {
     ModalAnswer answer;
     if (order_.empty()) return answer;
     if (mass_->matrix().value.empty() ||
@@ -62,7 +74,25 @@ class Modes {
     throw std::runtime_error("the Sturm count finds more natural frequencies than the iteration does");
   }
 
- private:
+  /// Whether what has failed is due to the model: its softest freedom is lost in the rounding of the stiffest one's, or
+  /// of the shift's. Freedoms by themselves, as each bounds the frequencies from one side.
+  void require_resolved(const std::string& failed) const {
+    if (!mass_) return;
+    constexpr double resolved = 1e15;  // what 53 bits hold, and a bit for the sums
+    UnresolvedModes::Place least{std::numeric_limits<double>::infinity(), -1}, largest{shift_, -1};
+    const SparseSymmetric &K = system_.matrix(), &M = mass_->matrix();
+    for (std::size_t row = 0; row + 1 < M.start.size(); ++row) {
+      const double mass = M.value[static_cast<std::size_t>(M.start[row])];
+      if (!(mass > 0)) continue;
+      const double ratio = K.value[static_cast<std::size_t>(K.start[row])] / mass;
+      const int vertex = system_.dofs().vertex_of_equation[row];
+      const int node = vertex < static_cast<int>(system_.dofs().number.size()) ? vertex : -1;
+      if (ratio < least.first) least = {ratio, node};
+      if (ratio > largest.first) largest = {ratio, node};
+    }
+    if (!(largest.first < resolved * least.first)) throw UnresolvedModes(failed, least, largest);
+  }
+
   static constexpr int least_extra = 4, most_extra = 4096, few_restarts = 15, most_restarts = 200;
 
   static void require_none(const std::optional<Defect>& defect) {

@@ -281,12 +281,12 @@ class Analysis {
       if (one_way.any()) answer = one_way.settle(loads_[k].set, std::move(answer), solve_anew, member_names());
       return iterations;
     } catch (const solver::Buckled& buckled) {
-      auto modes = solver::buckling_modes(model, loads_[k].set, 1, request_.solver, largest_buckling_factor, jointed_);
+      const auto modes = modes_if_any(model, k);
       const std::string message = place + ": " + beyond_buckling(modes, buckled);
       Diagnosis diagnosis = diagnose(building_, frame_, buckled, "buckling", combinations_[k], message);
       if (!modes.empty()) {
-        scale_shape(modes.front().shape);
         diagnosis.shape = modes.front().shape;
+        scale_shape(diagnosis.shape);
       }
       throw UnstableAnalysis(std::move(diagnosis));
     } catch (const solver::Instability& unstable) {
@@ -294,6 +294,15 @@ class Analysis {
       throw UnstableAnalysis(diagnose(building_, frame_, unstable, "mechanism", combinations_[k], message));
     } catch (const std::runtime_error& cycle) {
       throw std::runtime_error(place + ", second order: " + cycle.what());
+    }
+  }
+
+  /// How the frame buckles by linear theory, for the words of a refusal, which stands without it too.
+  [[nodiscard]] std::vector<solver::BucklingMode> modes_if_any(const solver::FrameModel& model, std::size_t k) const {
+    try {
+      return solver::buckling_modes(model, loads_[k].set, 1, request_.solver, largest_buckling_factor, jointed_);
+    } catch (const std::runtime_error&) {  // as loads of 1e20 are: no factor can be told from rounding
+      return {};
     }
   }
 
@@ -326,10 +335,7 @@ class Analysis {
     const solver::FrameModel model = carrying_both(frame.model);
     const solver::AxialState state = tangent_counts ? divided_state(frame_, frame, tangent_) : solver::AxialState();
     const solver::AxialState* tangent = tangent_counts ? &state : nullptr;
-    solver::ModalAnswer answer =
-        floats_ ? solver::shifted_modes(model, masses, request_.modes, building_.requested.frequency_shift,
-                                        request_.solver, tangent)
-                : solver::natural_modes(model, masses, request_.modes, request_.solver, tangent);
+    solver::ModalAnswer answer = modes_of(model, masses, tangent);
     result.modes = std::move(answer.modes);
     for (solver::VibrationMode& mode : result.modes) scale_shape(mode.shape, result.mode_cuts);
     result.moving_mass = answer.moving_mass;
@@ -340,6 +346,17 @@ class Analysis {
     if (building_.requested.modes > 0) return;
     if (std::string told = told_undivided(building_, frame, result.modes); !told.empty())
       result.warnings.push_back(std::move(told));
+  }
+
+  [[nodiscard]] solver::ModalAnswer modes_of(const solver::FrameModel& model, const solver::MassModel& masses,
+                                             const solver::AxialState* tangent) const {
+    try {
+      if (!floats_) return solver::natural_modes(model, masses, request_.modes, request_.solver, tangent);
+      return solver::shifted_modes(model, masses, request_.modes, building_.requested.frequency_shift, request_.solver,
+                                   tangent);
+    } catch (const solver::UnresolvedModes& unresolved) {
+      throw InputError(describe_unresolved(building_, unresolved));
+    }
   }
 
   /// So that no point of any node or member, bent between its ends, moves by more than 1; what is noise beside that is

@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "analysis/instability.h"
+#include "model/short_number.h"
 #include "standing/unstable_model.h"
 
 namespace topple::structure {
@@ -115,6 +116,20 @@ Diagnosis diagnose(const Building& building, const Frame& frame, const solver::I
     if (hangs_on || alone[m] != 0) result.members.push_back(MemberId(m));
   }
   return result;
+}
+
+std::string describe_unresolved(const Building& building, const solver::UnresolvedModes& unresolved) {
+  const auto told = [&](const solver::UnresolvedModes::Place& place) {
+    const auto node = static_cast<std::size_t>(place.second);
+    return short_number(place.first) + " 1/s2" +
+           (node < building.nodes.size() ? " at node " + building.nodes[node].name : "");
+  };
+  return building.file + ", natural modes: " + unresolved.what() + ": stiffness over mass goes from " +
+         told(unresolved.least) + " to " + told(unresolved.largest) +
+         (building.requested.frequency_shift > 0
+              ? ", with a shift of " + short_number(building.requested.frequency_shift)
+              : "") +
+         "; accepted: models in which less than 1e15 lies between the two, and the shift";
 }
 
 }  // namespace topple::structure

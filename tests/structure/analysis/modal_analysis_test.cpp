@@ -137,6 +137,32 @@ TEST_CASE("a structure that floats is unstable where its file gives no shift") {
                   UnstableModel);
 }
 
+TEST_CASE("modes that are lost in rounding are refused with the nodes that lie too far apart") {
+  AnalysisRequest request;
+  request.modes = 8;
+  for (const char* number : {"2e11", "8e10", "7800", "0.01", "1e-4", "2e-5", "1e-5", "1000"})
+    for (const char* other : {"1e-100", "1e-60", "1e-30", "1e-20", "1e-10", "1e10", "1e20", "1e30", "1e60", "1e100"}) {
+      std::string text = floating_bar(R"({"modes": 8, "shift": 1000})");
+      for (std::size_t at; (at = text.find(std::string(" ") + number)) != std::string::npos;)
+        text.replace(at + 1, std::string(number).size(), other);
+      INFO(number << " is " << other);
+      try {  // an answer, or a refusal: never a failure of what has computed
+        for (const solver::VibrationMode& mode : analyse(parse_model(text, "bar.json"), request).modes)
+          CHECK(std::isfinite(mode.angular_frequency));
+      } catch (const InputError& error) {
+        CHECK_THAT(error.what(), Catch::Contains("bar.json"));
+      } catch (const UnstableModel&) {
+      }
+    }
+  const Building soft = parse_model(floating_bar(R"({"modes": 8, "shift": 1e30})"), "bar.json");
+  try {
+    CHECK(analyse(soft, request).modes.size() == 8);
+  } catch (const InputError& error) {
+    CHECK_THAT(error.what(), Catch::Contains("bar.json, natural modes") && Catch::Contains("at node n") &&
+                                 Catch::Contains("with a shift of 1e+30"));
+  }
+}
+
 TEST_CASE("divided members swing by themselves, with what lies on them") {
   // omega = k^2/L^2 sqrt(E I/m): k = pi between hinges, 4.73004 between held ends (Timoshenko, Vibration Problems in
   // Engineering). Nothing but 100 kg/m of load is mass.
