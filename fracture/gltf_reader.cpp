@@ -7,8 +7,10 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <exception>
 #include <filesystem>
 #include <fstream>
+#include <new>
 #include <optional>
 #include <stdexcept>
 
@@ -251,10 +253,16 @@ std::vector<NamedMesh> read_gltf(const std::string& file) {
   const std::string base = std::filesystem::path(file).parent_path().string();
   const auto size = static_cast<unsigned int>(bytes.size());
   const bool binary = file.size() > 4 && file.compare(file.size() - 4, 4, ".glb") == 0;
-  const bool read =
-      binary ? loader.LoadBinaryFromMemory(&model, &error, &warning, bytes.data(), size, base)
-             : loader.LoadASCIIFromString(&model, &error, &warning, reinterpret_cast<const char*>(bytes.data()), size,
-                                          base.empty() ? "." : base);
+  bool read = false;
+  try {
+    read = binary ? loader.LoadBinaryFromMemory(&model, &error, &warning, bytes.data(), size, base)
+                  : loader.LoadASCIIFromString(&model, &error, &warning, reinterpret_cast<const char*>(bytes.data()),
+                                               size, base.empty() ? "." : base);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& parser) {  // what the parser itself does not turn into a text
+    error = parser.what();
+  }
   if (!read) throw std::runtime_error(file + ": no glTF 2.0 file: " + (error.empty() ? warning : error));
   return Reader(model, file).read();
 }
