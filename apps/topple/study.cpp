@@ -1,6 +1,7 @@
 // topple study: many samples of an analysis or a collapse, their distribution, and what it hangs on.
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <memory>
@@ -207,7 +208,10 @@ void print_answer(const Prepared& all, const OptimiseResult& result) {
                 value.is_number() ? std::to_string(value.number).c_str() : value.json.c_str());
   }
   for (std::size_t i = 0; i < result.best.outputs.size(); ++i)
-    std::printf("    -> %-25s %.6g\n", all.task.outputs[i].c_str(), result.best.outputs[i]);
+    if (const double output = result.best.outputs[i]; std::isfinite(output))
+      std::printf("    -> %-25s %.6g\n", all.task.outputs[i].c_str(), output);
+    else  // what this design does not have, or whose runs failed
+      std::printf("    -> %-25s no number\n", all.task.outputs[i].c_str());
 }
 
 int optimise(const StudyOptions& options) {

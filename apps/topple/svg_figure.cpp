@@ -51,6 +51,8 @@ std::string escaped(std::string_view text) {
       result += "&gt;";
     else if (c == '"')
       result += "&quot;";
+    else if (c == '\'')
+      result += "&#39;";
     else
       result += c;
   }
@@ -58,6 +60,7 @@ std::string escaped(std::string_view text) {
 }
 
 std::string short_text(double value) {
+  if (!std::isfinite(value)) return "no number";
   char text[32];
   std::snprintf(text, sizeof text, "%.4g", value);
   return text;

@@ -360,7 +360,7 @@ def fault(case, bin_dir, folder):
         return "an escape reached the terminal"
     if run.returncode != 0 and told.strip().count(b"\n") > 0 and case.program == "topple":
         return f"more than one line: {line}"
-    named = re.search(r"= '(-?(?:nan|inf))'$", case.name)  # a text now, which is shown as one
+    named = re.search(r"(?:= |^word .*)'(-?(?:nan|inf))'$", case.name)  # a text now, which is shown as one
     if run.returncode == 0 and not named and NO_NUMBER.search(said.decode(errors="replace")):
         return "no number printed with status 0: " + NO_NUMBER.search(said.decode(errors="replace"))[0]
     for name, whole in before.items():
