@@ -35,8 +35,8 @@ double processor_seconds() {
 }  // namespace
 
 TEST_CASE("a picture is drawn while a step takes its time") {
+  std::promise<void> begun, drawn;  // outlive the driver, whose thread uses them
   ThreadDriver driver(seed_session());
-  std::promise<void> begun, drawn;
   driver.order([&](Session&) {
     begun.set_value();
     drawn.get_future().wait();  // a step that ends only when a picture has been drawn
@@ -52,6 +52,7 @@ TEST_CASE("a picture is drawn while a step takes its time") {
 TEST_CASE("a building is seen unloaded until its first answer is there, and orders wait for that") {
   const Scene scene = open_scene("seed_building");
   std::promise<void> looked;
+  std::promise<std::size_t> ordered;
   ThreadDriver driver(*scene.building, scene.scenario.step, [&](std::shared_ptr<Recording> recording) {
     looked.get_future().wait();
     return std::make_unique<Session>(scene.building, scene.scenario, nullptr, std::move(recording));
@@ -62,7 +63,6 @@ TEST_CASE("a building is seen unloaded until its first answer is there, and orde
   for (const auto& displacement : before.later->answer->displacements) CHECK(displacement.isZero(0));
   // The panels look back at any time.
   CHECK(driver.recording().at(0).step == 0);
-  std::promise<std::size_t> ordered;
   driver.set_paused(true);
   driver.order([&](Session& session) { ordered.set_value(session.actions()); });
   looked.set_value();

@@ -110,13 +110,13 @@ TEST_CASE("a frame's events are all of them, in order, each once") {
 
 TEST_CASE("what came in while it ran comes to the same bits when it is stepped again without a clock") {
   Simulation start = shipped("seed_idle", 60);
+  std::promise<Snapshot> saved;  // outlives the pacer, whose thread sets it
   Pacer pacer(std::move(start));
   pacer.set_speed(4);
   pacer.apply(ball_at(2));
   while (pacer.frame().time < 0.4) sleep(0.001);
   pacer.apply(ball_at(5));
   while (pacer.frame().time < 1.5) sleep(0.001);
-  std::promise<Snapshot> saved;
   pacer.order([&](Simulation& simulation) { saved.set_value(simulation.save()); });
   const Snapshot snapshot = saved.get_future().get();
   REQUIRE(snapshot.actions.size() == 2);
