@@ -22,7 +22,7 @@ readers=()
 for file in tests/structure/formats/*_test.cpp tests/structure/study/*_test.cpp; do readers+=("[#$(basename "$file" .cpp)]"); done
 readers+=("[#snapshot_test]" "[#section_cuts_test]" "[#trust_test]" "[#joint_tuning_test]")
 $build/bin/test_structure -# "$(IFS=,; echo "${readers[*]}")"
-$build/bin/test_viewer -# "a script*,[#start_page_test]"
+$build/bin/test_viewer -# "a script*,[#start_page_test],[#open_scene_test]"
 tests/analyse_command/run "$PWD/$build/bin/topple"
 python3 tests/fracture_command/check.py $build/bin/topple
 python3 tests/study/check.py $build/bin/topple
