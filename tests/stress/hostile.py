@@ -421,6 +421,17 @@ def rest_cases():
             yield case
 
 
+def sample_cases():
+    """Studies that put what is hostile into one place of a model, each value as a sample: samples fail, and the study goes on."""
+    for kind, tree in (("model", MODEL), ("rest", REST)):
+        for at in places(tree):
+            pointer = "".join("/" + str(key).replace("~", "~0").replace("/", "~1") for key in at)
+            study = {"topple": 1, "base": {"model": "m.json", "analyse": ["--modes", "1"]}, "record": {"use": "largest_use", "kg": "weight"},
+                     "vary": [{"name": "v", "at": pointer, "grid": NUMBERS + OTHERS}]}
+            yield Case(f"samples of a {kind} {'.'.join(map(str, at))}", ["study", "t.json", "-o", "o", "--threads", "1", "--html"],
+                       {"m.json": text(tree), "t.json": text(study)}, (0, 2))
+
+
 def shape_cases():
     """Keys and items that are not there, that are there twice, or hold something of another shape."""
     scenes = [*rest_scenes(), ("wide", WIDE, "m.json", ["analyse", "m.json", *ALL], {}, "topple"),
@@ -447,6 +458,7 @@ def all_cases(bin_dir):
     yield from base_cases()
     yield from rest_cases()
     yield from shape_cases()
+    yield from sample_cases()
     yield from tree_cases("wide model", WIDE, "m.json", ["analyse", "m.json", *ALL])
     yield from tree_cases("wide model as 3dd", WIDE, "m.json", ["convert", "m.json", "m.3dd"])
     yield from tree_cases("building", BUILDING, "m.json", ["analyse", "m.json", "-o", "o"])
