@@ -14,7 +14,8 @@ class UnresolvedModes : public std::runtime_error {
       std::pair<double, int>;  ///< stiffness over mass, 1/s^2; index in FrameModel::nodes, -1 where it is none
   UnresolvedModes(const std::string& what, const Place& softest, const Place& stiffest)
       : std::runtime_error(what), least(softest), largest(stiffest) {}
-  Place least, largest;
+  Place least;    ///< the softest freedom that has mass
+  Place largest;  ///< the stiffest one
 };
 
 }  // namespace topple::solver
