@@ -263,14 +263,24 @@ void Session::return_to(std::int64_t step) {
   run_again(step);
 }
 
+bool Session::is_acted_on() const {
+  return shaking_ || std::any_of(pulling_.begin(), pulling_.end(),
+                                 [](const Pulling& one) { return one.given < pull_steps(one.pull); });
+}
+
 void Session::run_again(std::int64_t until, bool record) {
   begin();
   auto next = actions_.begin();
   const auto act = [&] {
     for (; next != actions_.end() && next->step == simulation_->steps(); ++next) carry_out(*next);
   };
+  bool rested = false;
   for (act(); simulation_->steps() < until; act()) {
-    if (record) (void)snapshot();
+    // A long run is mostly rest, of which the first and the last step are kept: nothing changes between them.
+    const std::int64_t end = next == actions_.end() ? until : next->step;
+    const bool changes = !rested || !simulation_->at_rest() || is_acted_on() || taker_.burns(simulation_->time());
+    if (record && (changes || simulation_->steps() + 1 >= end)) (void)snapshot();
+    rested = simulation_->at_rest();
     step();
   }
   if (record) return;

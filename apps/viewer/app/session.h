@@ -101,6 +101,8 @@ class Session {
   void carry_out(const structure::CapacityChange& change);
   /// `record`: what is passed on the way is not in the recording yet.
   void run_again(std::int64_t until, bool record = false);
+  /// The ground shakes, or a rope is pulled.
+  [[nodiscard]] bool is_acted_on() const;
   void record_events();
 
   std::shared_ptr<const structure::Building> building_, given_;  ///< given_: with the strengths that it came with

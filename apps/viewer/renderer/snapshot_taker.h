@@ -22,6 +22,8 @@ class SnapshotTaker {
   void burn(const structure::WeakenTool& fire, double from, DustPuff::Kind kind = DustPuff::Kind::fire) {
     if (fire.over > 0) dust_.burn({fire.members, fire.joints, from, from + fire.over, kind});
   }
+  /// Flames are seen at this time, s: each step has its own.
+  [[nodiscard]] bool burns(double time) const { return dust_.burns(time); }
   /// Supports of these nodes are taken away at this time (s).
   void take_supports(const std::vector<structure::NodeId>& nodes, double at) {
     for (const structure::NodeId node : nodes) taken_supports_.emplace_back(node, at);

@@ -217,6 +217,11 @@ void DustWatcher::fire_at(const Eigen::Vector3d& place, double time, double size
 }
 
 /// The places that burn take turns, by the time alone, so that a run made again burns as it did.
+bool DustWatcher::burns(double time) const {
+  return std::any_of(fires_.begin(), fires_.end(),
+                     [time](const LaidFire& fire) { return fire.from <= time && time < fire.until; });
+}
+
 void DustWatcher::burn_on(const structure::Simulation& simulation) {
   const structure::Building& building = simulation.building();
   const double now = simulation.time(), before = std::max(time_, now - 0.1);

@@ -30,6 +30,8 @@ struct LaidFire {
 class DustWatcher {
  public:
   void burn(LaidFire fire) { fires_.push_back(std::move(fire)); }
+  /// Something burns at this time, s.
+  [[nodiscard]] bool burns(double time) const;
   /// A charge goes off: kg of TNT.
   void blast(const Eigen::Vector3d& centre, double charge);
   /// Puffs that are not gone yet, in order of time; null: none. The same pointer as before when nothing changed.
