@@ -3,7 +3,7 @@
 #include <fstream>
 
 #include "app/controller.h"
-#include "app/tuning_panel.h"
+#include "app/panels/tuning_panel.h"
 #include "support/scratch_folder.h"
 #include "topple/structure/error.h"
 #include "topple/structure/formats/files.h"
@@ -349,4 +349,27 @@ TEST_CASE(
   // To any moment of it.
   other.session.return_to(rested_from + 5'000'000);
   CHECK(other.session.simulation().hash() == saved.hash);
+}
+
+TEST_CASE("keys look along the time line: a quarter of a second each, to its ends, and on from there") {
+  Person person;
+  person.go(60);
+  person.controller.key("bracketleft");
+  REQUIRE(person.controller.looking_at());
+  CHECK(*person.controller.looking_at() == Approx(0.75));
+  CHECK(person.driver.paused());
+  for (int i = 0; i < 6; ++i) person.controller.key("bracketleft");
+  CHECK(*person.controller.looking_at() == 0);
+  person.controller.key("bracketright");
+  person.controller.key("bracketright");
+  CHECK(*person.controller.looking_at() == Approx(0.5));
+  person.controller.key("backspace");
+  CHECK_FALSE(person.controller.looking_at());
+  CHECK(person.session.simulation().steps() == 30);
+  // Beyond its end is the present; there is nothing to go on from.
+  person.controller.key("bracketleft");
+  person.controller.key("bracketright");
+  CHECK_FALSE(person.controller.looking_at());
+  person.controller.key("backspace");
+  CHECK(person.session.simulation().steps() == 30);
 }

@@ -92,7 +92,7 @@ def acting():
     yield seen(0)
     yield {"at": 0, "key": "h"}
     yield {"at": 0, "key": "v"}
-    for tab in ([576, 309], [616, 309], [657, 309], [698, 309], [744, 309], [790, 309], [657, 309]):
+    for tab in ([576, 309], [616, 309], [657, 309], [698, 309], [747, 309], [800, 309], [845, 309], [657, 309]):
         yield {"at": 0, "click": tab}
     yield {"at": 0, "drag": [[681, 375], [700, 375]]}  # the strength of all joints, in the tab that tunes
     yield seen(0, "tuned.png")

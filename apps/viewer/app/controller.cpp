@@ -354,6 +354,7 @@ const char* Controller::key_help() {
          ". ,               thermite, hook          - =           slower, faster\n"
          "arrows            orbit                   Enter         the tool in the middle\n"
          "F5 F6 F7          add a view, fly through all, photo mode (no panels)\n"
+         "[ ]               back and on in time     Backspace     go on from there\n"
          "F8                earthquake              Tab           panels by the keyboard\n"
          "H                 this help               Esc           end the program (asks first)";
 }
@@ -405,6 +406,12 @@ std::map<std::string, std::function<void()>> Controller::key_meanings() {
           {"i", [this] { options.diagram = options.diagram == 5 ? -1 : options.diagram + 1; }},
           {"o", [this] { options.loads = options.reactions = options.contacts = !options.loads; }},
           {"y", [this] { look_at_present(); }},
+          {"bracketleft", [this] { look_along(-look_step); }},
+          {"bracketright", [this] { look_along(look_step); }},
+          {"backspace",
+           [this] {
+             if (looking_at_) go_on_from_here();
+           }},
           {"6", hold(ToolKind::explosion)},
           {"7", [this] { view_from(-glm::half_pi<double>(), 0.05); }},
           {"8", [this] { view_from(0, 0.05); }},
@@ -551,6 +558,12 @@ void Controller::look_at(double time) {
   const auto span = driver_.recording().span();
   looking_at_ = std::clamp(time, span[0], span[1]);
   driver_.set_paused(true);
+}
+
+void Controller::look_along(double seconds) {
+  const std::array<double, 2> span = driver_.recording().span();
+  const double time = looking_at_.value_or(span[1]) + seconds;
+  time < span[1] ? look_at(std::max(time, span[0])) : look_at_present();
 }
 
 void Controller::look_at_present() {

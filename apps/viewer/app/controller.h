@@ -143,6 +143,9 @@ class Controller {
 
   // Looking back at what has been recorded.
   void look_at(double time);  ///< the simulation pauses
+  /// From what is looked at, within what was recorded; beyond its end is the present.
+  void look_along(double seconds);
+  static constexpr double look_step = 0.25;  ///< s, of a key
   void look_at_present();
   void replay(bool on) { replaying_ = on; }
   [[nodiscard]] bool replaying() const { return replaying_; }

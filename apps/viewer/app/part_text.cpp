@@ -1,5 +1,5 @@
 // What is told of one part: under the pointer, and in the panel.
-#include <cfloat>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -78,11 +78,12 @@ void draw_joint(Controller& controller, const Snapshot& moment, structure::Joint
   if (history.size() < 2) return;
   std::vector<float> values;
   for (const auto& point : history) values.push_back(100 * point[1]);
-  char text[64];
-  std::snprintf(text, sizeof text, "utilisation, %.1f to %.1f s", static_cast<double>(history.front()[0]),
-                static_cast<double>(history.back()[0]));
-  ImGui::PlotLines("%", values.data(), static_cast<int>(values.size()), 0, text, 0, FLT_MAX,
-                   ImVec2(0, 5 * ImGui::GetFontSize()));
+  const auto begin = static_cast<double>(history.front()[0]), end = static_cast<double>(history.back()[0]);
+  ImGui::Text("up to %.1f %%, %.1f to %.1f s", static_cast<double>(*std::max_element(values.begin(), values.end())),
+              begin, end);
+  const auto clicked = plot_line("##history", values, "", 5 * ImGui::GetFontSize(),
+                                 static_cast<float>((moment.time - begin) / std::max(end - begin, 1e-9)));
+  if (clicked) controller.look_at(begin + (end - begin) * static_cast<double>(*clicked));
 }
 
 namespace {

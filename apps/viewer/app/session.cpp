@@ -33,6 +33,7 @@ void Session::begin() {
   if (drawn_meshes_ && !drawn_meshes_->empty())
     drawn_ = std::make_unique<structure::VisualMesh>(*building_, *drawn_meshes_);
   taker_ = SnapshotTaker();
+  taker_.begin(*simulation_);
   taker_.want(wanted_);
   for (const structure::Event& event : scenario_.events) watch(event.tool, event.at);
   tuning_ = std::make_unique<structure::JointTuning>(*building_);

@@ -81,6 +81,7 @@ const std::map<std::string, Plain>& plain_words() {
         {"no failed", flag(&ViewOptions::failed_joints, false)},
         {"colour-blind safe", flag(&ViewOptions::colour_blind_safe, true)},
         {"usual colours", flag(&ViewOptions::colour_blind_safe, false)},
+        {"no motion-scale", [](ViewOptions& o, ModeView&) { o.motion_scale = ViewOptions::as_deflection; }},
         {"no diagram", [](ViewOptions& o, ModeView&) { o.diagram = -1; }},
         {"no mode", [](ViewOptions&, ModeView& m) { m.kind.reset(); }},
         {"frame", [](ViewOptions& o, ModeView&) { o.slab_opacity = o.wall_opacity = 0.06F; }},
@@ -104,6 +105,7 @@ const std::map<std::string, WithNumber>& numbered_words() {
   };
   static const std::map<std::string, WithNumber> words{
       {"deflection", [](ViewOptions& o, ModeView&, double n) { o.deflection_scale = static_cast<float>(n); }},
+      {"motion-scale", [](ViewOptions& o, ModeView&, double n) { o.motion_scale = static_cast<float>(n); }},
       {"diagram-scale", [](ViewOptions& o, ModeView&, double n) { o.diagram_scale = static_cast<float>(n); }},
       {"arrow-scale", [](ViewOptions& o, ModeView&, double n) { o.arrow_scale = static_cast<float>(n); }},
       {"slab-opacity",

@@ -1,7 +1,6 @@
 #include "app/side_panel.h"
 
 #include <algorithm>
-#include <cfloat>
 #include <cmath>
 #include <cstdio>
 #include <numeric>
@@ -258,6 +257,12 @@ void SidePanel::view(Controller& controller, const Snapshot& moment, const Scene
   arrows(options, moment);
   mode_choice(controller);
   ImGui::SliderFloat("deflection", &options.deflection_scale, 0, 1000, "x %.0f", ImGuiSliderFlags_Logarithmic);
+  float motion = options.motion_scale_now();
+  if (ImGui::SliderFloat("motion", &motion, 0, 1000, options.motion_scale < 0 ? "x %.0f, as above" : "x %.0f",
+                         ImGuiSliderFlags_Logarithmic))
+    options.motion_scale = motion;
+  if (options.motion_scale >= 0 && ImGui::Button("Motion as deflection"))
+    options.motion_scale = ViewOptions::as_deflection;
   ImGui::Separator();
   switches("shown", options.shown);
   switches("joints coloured", options.coloured);
@@ -350,22 +355,19 @@ void SidePanel::performance(const Controller& controller, const Snapshot& moment
     char text[48];
     std::snprintf(text, sizeof text, "%.3f ms", static_cast<double>(values.back()));
     const char* name = i < 6 ? structure::stage_names[i] : "step";
-    ImGui::PlotLines(name, values.data(), static_cast<int>(values.size()), 0, text, 0, FLT_MAX,
-                     ImVec2(0, 1.6F * ImGui::GetFontSize()));
+    (void)plot_line(name, values, text, 1.6F * ImGui::GetFontSize());
   }
   picture_history_.push_back(static_cast<float>(controller.picture_processor));
   if (picture_history_.size() > history_length) picture_history_.erase(picture_history_.begin());
   char text[64];
   std::snprintf(text, sizeof text, "%.2f ms of processor time", controller.picture_processor);
-  ImGui::PlotLines("picture", picture_history_.data(), static_cast<int>(picture_history_.size()), 0, text, 0, FLT_MAX,
-                   ImVec2(0, 1.6F * ImGui::GetFontSize()));
+  (void)plot_line("picture", picture_history_, text, 1.6F * ImGui::GetFontSize());
   const auto curve = [](const char* name, std::vector<float>& history, double value, const char* format) {
     history.push_back(static_cast<float>(value));
     if (history.size() > history_length) history.erase(history.begin());
     char shown[64];
     std::snprintf(shown, sizeof shown, format, value);
-    ImGui::PlotLines(name, history.data(), static_cast<int>(history.size()), 0, shown, 0, FLT_MAX,
-                     ImVec2(0, 1.6F * ImGui::GetFontSize()));
+    (void)plot_line(name, history, shown, 1.6F * ImGui::GetFontSize());
   };
   curve("graphics", graphics_history_, controller.picture_graphics, "%.2f ms on the graphics card");
   curve("pace", pace_history_, driver.paused() ? 0 : driver.ratio(), "x %.2f of real time");
@@ -416,6 +418,7 @@ void SidePanel::draw(Controller& controller, const Snapshot& moment, const Scene
     tab("Part", [&] { part(controller, moment); });
     tab("Tune", [&] { tuning_.draw(controller, moment); });
     tab("Files", [&] { output_.draw(controller); });
+    tab("Energy", [&] { energies_.draw(controller, moment); });
     tab("Times", [&] { performance(controller, moment); });
     tab("Play", [&] { play_.draw(controller); });
     ImGui::EndTabBar();

@@ -6,8 +6,9 @@
 
 #include "app/controller.h"
 #include "app/output/output_panel.h"
-#include "app/play_panel.h"
-#include "app/tuning_panel.h"
+#include "app/panels/energy_panel.h"
+#include "app/panels/play_panel.h"
+#include "app/panels/tuning_panel.h"
 #include "renderer/instances.h"
 
 namespace topple::viewer {
@@ -28,6 +29,7 @@ class SidePanel {
   void performance(const Controller& controller, const Snapshot& moment);
   void joints(Controller& controller, const Snapshot& moment);
   TuningPanel tuning_;
+  EnergyPanel energies_;
   PlayPanel play_;
   OutputPanel output_;
   static constexpr std::size_t history_length = 240;       ///< steps drawn: four seconds

@@ -56,7 +56,12 @@ void event_marks(Controller& controller, const std::vector<Recording::Event>& ev
   ImGui::Dummy(ImVec2(width, height));
   if (near.empty()) return;
   if (more > 12) near += "\n... " + std::to_string(more) + " in all";
-  ImGui::SetTooltip("%s", near.c_str());
+  // Above the panel, in the scene, and towards its middle.
+  const bool left = 2 * mouse.x > from.x + width;
+  ImGui::SetNextWindowPos(ImVec2(mouse.x, ImGui::GetWindowPos().y), ImGuiCond_Always, ImVec2(left ? 1.0F : 0.0F, 1.0F));
+  ImGui::BeginTooltip();
+  ImGui::TextUnformatted(near.c_str());
+  ImGui::EndTooltip();
   if (ImGui::IsMouseClicked(0)) controller.look_at(span[0] + length * static_cast<double>((mouse.x - from.x) / width));
 }
 

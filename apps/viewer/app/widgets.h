@@ -2,6 +2,9 @@
 // Small parts of panels.
 #include <imgui.h>
 
+#include <optional>
+#include <span>
+
 #include "renderer/shapes/palette.h"
 
 namespace topple::viewer {
@@ -34,6 +37,12 @@ inline bool slider(const char* label, double& value, double low, double high, co
   value = static_cast<double>(v);
   return true;
 }
+/// Values at even distances as a line over the width of an item (of all that is left, where the label begins with ##),
+/// `text` in it, the label beside it; `marked`: a share of the width. Nothing pops up over it. Returns the share of the
+/// width that was clicked.
+std::optional<float> plot_line(const char* label, std::span<const float> values, const char* text, float height,
+                               std::optional<float> marked = std::nullopt);
+
 /// A button that is lit when it is on.
 inline bool toggle_button(const char* label, bool on) {
   if (on) ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0.85F, 0.45F, 0.10F, 1.0F));

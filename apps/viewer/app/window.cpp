@@ -119,7 +119,9 @@ class Input {
       if (of(w).controller_ && !ImGui::GetIO().WantCaptureMouse) of(w).controller_->scroll(y);
     });
     glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int) {
-      if (action == GLFW_PRESS && !ImGui::GetIO().WantTextInput) of(w).key(key);
+      // Who looks along the time line holds the key down.
+      const bool held = action == GLFW_REPEAT && (key == GLFW_KEY_LEFT_BRACKET || key == GLFW_KEY_RIGHT_BRACKET);
+      if ((action == GLFW_PRESS || held) && !ImGui::GetIO().WantTextInput) of(w).key(key);
     });
   }
   /// Whose scene is seen; null: none is, and Esc closes the window.
@@ -186,9 +188,17 @@ class Input {
     if (enter && !controller_->asks_to_leave) controller_->key("enter");
     if (key == GLFW_KEY_P) controller_->picture_wanted = screenshot_file_;
     if (key == GLFW_KEY_SPACE) controller_->key("space");
-    const std::pair<int, const char*> named[] = {
-        {GLFW_KEY_PERIOD, "period"}, {GLFW_KEY_COMMA, "comma"}, {GLFW_KEY_MINUS, "minus"}, {GLFW_KEY_EQUAL, "equal"},
-        {GLFW_KEY_F5, "f5"},         {GLFW_KEY_F6, "f6"},       {GLFW_KEY_F7, "f7"},       {GLFW_KEY_F8, "f8"}};
+    const std::pair<int, const char*> named[] = {{GLFW_KEY_PERIOD, "period"},
+                                                 {GLFW_KEY_COMMA, "comma"},
+                                                 {GLFW_KEY_MINUS, "minus"},
+                                                 {GLFW_KEY_EQUAL, "equal"},
+                                                 {GLFW_KEY_LEFT_BRACKET, "bracketleft"},
+                                                 {GLFW_KEY_RIGHT_BRACKET, "bracketright"},
+                                                 {GLFW_KEY_BACKSPACE, "backspace"},
+                                                 {GLFW_KEY_F5, "f5"},
+                                                 {GLFW_KEY_F6, "f6"},
+                                                 {GLFW_KEY_F7, "f7"},
+                                                 {GLFW_KEY_F8, "f8"}};
     for (const auto& [code, name] : named)
       if (key == code) controller_->key(name);
     if ((key >= GLFW_KEY_0 && key <= GLFW_KEY_9) || (key >= GLFW_KEY_A && key <= GLFW_KEY_Z))
@@ -290,10 +300,20 @@ bool run_scene(const Window& window, Input& input, const Scene& scene, const Win
   return controller.wants_another;
 }
 
+/// While it lives, arrows, space and Enter reach all that is shown.
+class SteeredByKeyboard {
+ public:
+  SteeredByKeyboard() { ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard; }
+  ~SteeredByKeyboard() { ImGui::GetIO().ConfigFlags &= ~ImGuiConfigFlags_NavEnableKeyboard; }
+  SteeredByKeyboard(const SteeredByKeyboard&) = delete;
+  SteeredByKeyboard& operator=(const SteeredByKeyboard&) = delete;
+};
+
 /// The scene that a person chooses on the start page; none: the window closes. `message`: what the page tells at first.
 std::optional<Scene> choose_scene(const Window& window, const std::string& message) {
   StartPage page;
   page.message = message;
+  const SteeredByKeyboard steered;
   while (glfwWindowShouldClose(window.get()) == GLFW_FALSE) {
     glfwWaitEventsTimeout(0.1);
     const glm::ivec2 pixels = window.pixels();

@@ -55,15 +55,25 @@ Rgba crack_of(const FrameAnswer::Joint& joint) {
   return rgba(0, 0, 0, static_cast<unsigned>(255 * std::clamp(open, 0.0F, 1.0F)));
 }
 
-/// Displacements as they are drawn: those of a mode when there is one.
+/// Displacements as they are drawn: those of a mode when there is one, else those at the start of the run by one scale
+/// and what has come to them by another.
 struct DrawnShape {
-  const std::vector<Eigen::Matrix<float, 6, 1>>& displacements;
-  float scale;
+  using Displacements = std::vector<Eigen::Matrix<float, 6, 1>>;
+  const Displacements& displacements;
+  const Displacements* at_start = nullptr;  ///< null: all by one scale
+  float scale, motion_scale;
   DrawnShape(const Snapshot& snapshot, const ViewOptions& options)
       : displacements(snapshot.shape ? *snapshot.shape : snapshot.answer->displacements),
-        scale(snapshot.shape ? snapshot.shape_scale : options.deflection_scale) {}
+        scale(snapshot.shape ? snapshot.shape_scale : options.deflection_scale),
+        motion_scale(options.motion_scale_now()) {
+    if (!snapshot.shape && motion_scale != scale) at_start = snapshot.answer->at_start.get();
+  }
   [[nodiscard]] Eigen::Matrix<float, 6, 1> at(structure::NodeId node) const {
-    return scale * displacements[static_cast<std::size_t>(node.index)];
+    const auto i = static_cast<std::size_t>(node.index);
+    const auto& now = displacements[i];
+    // A node that is held, or stands no more, has not moved.
+    if (at_start == nullptr || now.isZero(0)) return scale * now;
+    return scale * (*at_start)[i] + motion_scale * (now - (*at_start)[i]);
   }
 };
 

@@ -2,6 +2,7 @@
 // From a building and a snapshot to the arrays that the graphics card draws: one array for each section and one for
 // each shape of panel, standing parts first, moving ones after them. Standing parts are worked out again only when the
 // structure's answer or the options change; moving ones for each picture.
+#include <algorithm>
 #include <array>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
@@ -92,7 +93,9 @@ class SceneInstances {
   [[nodiscard]] const glm::dvec3& origin() const { return origin_; }
   [[nodiscard]] const Bounds& bounds() const { return bounds_; }
   /// Members are bent so that it is seen: displacements are enlarged, or a mode is drawn.
-  [[nodiscard]] bool bent() const { return built_shape_ != nullptr || built_options_.deflection_scale > 1; }
+  [[nodiscard]] bool bent() const {
+    return built_shape_ != nullptr || std::max(built_options_.deflection_scale, built_options_.motion_scale_now()) > 1;
+  }
   /// m: of the thinner side of most members.
   [[nodiscard]] float member_width() const { return member_width_; }
   /// The largest of the values that Scale::largest_in_view refers to.

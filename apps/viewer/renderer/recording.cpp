@@ -83,8 +83,8 @@ void Recording::add(const Snapshot& snapshot) {
   cut_from(snapshot.step);
   // Events of this very step stay: they led to it.
   std::erase_if(events_, [&](const Event& event) { return event.time > snapshot.time + 1e-9; });
-  Frame frame{snapshot.time,       snapshot.step,  snapshot.at_rest, snapshot.answer,
-              snapshot.membership, snapshot.tuned, snapshot.drawn,   snapshot.counters};
+  Frame frame{snapshot.time,  snapshot.step,  snapshot.at_rest,  snapshot.answer,  snapshot.membership,
+              snapshot.tuned, snapshot.drawn, snapshot.counters, snapshot.energies};
   bool news = frames_.empty();
   if (!news) {
     const Frame& last = frames_.back();
@@ -169,6 +169,7 @@ Snapshot Recording::frame_snapshot(std::size_t number) const {
   snapshot.tuned = frame.tuned;
   snapshot.drawn = frame.drawn;
   snapshot.counters = frame.counters;
+  snapshot.energies = frame.energies;
   snapshot.dust = dust_at(frame.time);
   const auto at = static_cast<std::int32_t>(number);
   for (const BodyTrack& track : tracks_)
@@ -195,18 +196,45 @@ std::vector<Recording::Event> Recording::events() const {
   return events_;
 }
 
+namespace {
+
+/// Even instants from the first to the last frame, the first and the last among them.
+std::vector<double> even_instants(std::size_t count, double begin, double end) {
+  std::vector<double> times;
+  for (std::size_t i = 0; i < count; ++i)
+    times.push_back(begin +
+                    (count > 1 ? (end - begin) * static_cast<double>(i) / static_cast<double>(count - 1) : 0.0));
+  return times;
+}
+
+constexpr double rounding = 1e-9;  // s
+
+}  // namespace
+
 std::vector<std::array<float, 2>> Recording::history(structure::JointId joint, std::size_t most) const {
   const std::lock_guard lock(mutex_);
   std::vector<std::array<float, 2>> points;
   if (frames_.empty()) return points;
-  const double begin = frames_.front().time, length = frames_.back().time - begin;
-  const std::size_t count = std::min(most, frames_.size());
-  for (std::size_t i = 0; i < count; ++i) {
-    const double time = begin + (count > 1 ? length * static_cast<double>(i) / static_cast<double>(count - 1) : 0.0);
-    const Frame& frame = frames_[frame_at(time + 1e-9)];
-    points.push_back(
-        {static_cast<float>(time), frame.answer->joints[static_cast<std::size_t>(joint.index)].utilisation});
+  const auto used = [&](std::size_t frame) {
+    return frames_[frame].answer->joints[static_cast<std::size_t>(joint.index)].utilisation;
+  };
+  // A frame that sways has its peaks between two instants of a long run.
+  std::size_t next = 0;
+  for (const double time : even_instants(std::min(most, frames_.size()), frames_.front().time, frames_.back().time)) {
+    const std::size_t last = frame_at(time + rounding);
+    float largest = used(last);
+    for (; next <= last; ++next) largest = std::max(largest, used(next));
+    points.push_back({static_cast<float>(time), largest});
   }
+  return points;
+}
+
+std::vector<Recording::Energies> Recording::energies(std::size_t most) const {
+  const std::lock_guard lock(mutex_);
+  std::vector<Energies> points;
+  if (frames_.empty()) return points;
+  for (const double time : even_instants(std::min(most, frames_.size()), frames_.front().time, frames_.back().time))
+    points.push_back({time, frames_[frame_at(time + rounding)].energies});
   return points;
 }
 

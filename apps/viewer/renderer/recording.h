@@ -49,6 +49,7 @@ class Recording {
     std::shared_ptr<const TunedJoints> tuned;
     std::shared_ptr<const std::vector<DrawnPiece>> drawn;
     structure::SimulationCounters counters;
+    structure::Ledger energies;
   };
 
   /// A step at or before the last one replaces all from there on (undo).
@@ -60,8 +61,15 @@ class Recording {
   /// Held to span(); between two frames as interpolate() has it. Something must have been recorded.
   [[nodiscard]] Snapshot at(double time) const;
   [[nodiscard]] std::vector<Event> events() const;
-  /// Utilisation of a joint over time, at most `most` points.
+  /// Utilisation of a joint over time, in at most `most` even intervals: the largest in each.
   [[nodiscard]] std::vector<std::array<float, 2>> history(structure::JointId joint, std::size_t most = 300) const;
+
+  /// Energies over time, at most `most` even instants.
+  struct Energies {
+    double time = 0;
+    structure::Ledger ledger;
+  };
+  [[nodiscard]] std::vector<Energies> energies(std::size_t most = 300) const;
 
   // For export, when nothing is added any more.
   [[nodiscard]] const std::vector<Frame>& frames() const { return frames_; }

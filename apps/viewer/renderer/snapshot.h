@@ -35,6 +35,8 @@ struct Wanted {
 /// The answer of the statics: shared by all snapshots until it changes.
 struct FrameAnswer {
   std::vector<Eigen::Matrix<float, 6, 1>> displacements;  ///< per node, global; zero where the node does not stand
+  /// The same when the run began, nothing lost; null: zero.
+  std::shared_ptr<const std::vector<Eigen::Matrix<float, 6, 1>>> at_start;
   struct Joint {
     std::array<float, 6> demand{};  ///< joint axes, N and N m (panels: per length)
     float utilisation = 0;
@@ -122,6 +124,7 @@ struct Snapshot {
   std::vector<std::array<Eigen::Vector3d, 2>> ropes;  ///< that a winch pulls, from end to end
   int blows = 0;                                      ///< what a person has done to the building
   structure::SimulationCounters counters;
+  structure::Ledger energies;
   std::array<double, 6> stage_seconds{};
   double collision_engine_seconds = 0;
 };

@@ -125,13 +125,19 @@ std::shared_ptr<const FrameForces> read_forces(const Simulation& simulation, Wan
   return forces;
 }
 
-std::shared_ptr<const FrameAnswer> read_answer(const Simulation& simulation, Wanted wanted) {
+std::vector<Eigen::Matrix<float, 6, 1>> read_displacements(const Simulation& simulation) {
+  const structure::StandingFrame& frame = simulation.frame();
+  std::vector<Eigen::Matrix<float, 6, 1>> read(simulation.building().nodes.size(), Eigen::Matrix<float, 6, 1>::Zero());
+  for (std::size_t i = 0; i < read.size(); ++i)
+    if (frame.stands(NodeId(i))) read[i] = frame.displacement(NodeId(i)).cast<float>();
+  return read;
+}
+
+std::shared_ptr<FrameAnswer> read_answer(const Simulation& simulation, Wanted wanted) {
   const Building& building = simulation.building();
   const structure::StandingFrame& frame = simulation.frame();
   auto answer = std::make_shared<FrameAnswer>();
-  answer->displacements.assign(building.nodes.size(), Eigen::Matrix<float, 6, 1>::Zero());
-  for (std::size_t i = 0; i < building.nodes.size(); ++i)
-    if (frame.stands(NodeId(i))) answer->displacements[i] = frame.displacement(NodeId(i)).cast<float>();
+  answer->displacements = read_displacements(simulation);
   answer->joints.reserve(building.joints.size());
   for (std::size_t i = 0; i < building.joints.size(); ++i)
     answer->joints.push_back(joint_answer(frame, building, JointId(i)));
@@ -230,12 +236,20 @@ bool SnapshotTaker::answer_is_old(const Simulation& simulation) const {
          seen_events_ != simulation.events().size();
 }
 
+void SnapshotTaker::begin(const Simulation& simulation) {
+  at_start_ = std::make_shared<const std::vector<Eigen::Matrix<float, 6, 1>>>(read_displacements(simulation));
+}
+
 Snapshot SnapshotTaker::take(const Simulation& simulation, structure::VisualMesh* drawn) {
   std::vector<std::int64_t> ids;
   for (const structure::BodyView& body : simulation.bodies()) ids.push_back(body.id.value);
   const bool old = answer_is_old(simulation);
   const auto stood_by = last_answer_;
-  if (old) answer_ = last_answer_ = read_answer(simulation, wanted_);
+  if (old) {
+    auto answer = read_answer(simulation, wanted_);
+    answer->at_start = at_start_;
+    answer_ = last_answer_ = std::move(answer);
+  }
   read_ = wanted_;
   if (old || ids != seen_bodies_) {
     auto membership = read_membership(simulation);
@@ -270,6 +284,9 @@ Snapshot SnapshotTaker::take(const Simulation& simulation, structure::VisualMesh
     snapshot.drawn = drawn_;
   }
   snapshot.counters = simulation.counters();
+  if (old || !snapshot.at_rest || !rested_) energies_ = simulation.ledger();
+  rested_ = snapshot.at_rest;
+  snapshot.energies = energies_;
   snapshot.stage_seconds = simulation.stage_seconds();
   snapshot.collision_engine_seconds = simulation.collision_engine_seconds();
   return snapshot;

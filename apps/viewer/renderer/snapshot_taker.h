@@ -12,6 +12,8 @@ namespace topple::viewer {
 /// Takes snapshots of one simulation, sharing what did not change since the last one. Used on the simulation's thread.
 class SnapshotTaker {
  public:
+  /// The run begins: what it has moved by later is counted from how it stands now.
+  void begin(const structure::Simulation& simulation);
   /// `drawn`: cut where its parts have come apart since, and seen.
   [[nodiscard]] Snapshot take(const structure::Simulation& simulation, structure::VisualMesh* drawn = nullptr);
   /// From the next snapshot on.
@@ -42,6 +44,9 @@ class SnapshotTaker {
   std::vector<std::pair<structure::NodeId, double>> taken_supports_;
   DustWatcher dust_;
   std::shared_ptr<const FrameAnswer> answer_, last_answer_;
+  std::shared_ptr<const std::vector<Eigen::Matrix<float, 6, 1>>> at_start_;
+  structure::Ledger energies_;
+  bool rested_ = false;  ///< when the energies were read
   std::shared_ptr<const Membership> membership_;
   std::shared_ptr<const std::vector<DrawnPiece>> drawn_;
   std::uint64_t drawn_revision_ = 0;

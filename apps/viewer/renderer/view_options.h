@@ -29,7 +29,9 @@ struct ViewOptions {
   PartSwitches shown, coloured;  ///< what is drawn at all; whose joints are coloured
   bool failed_joints = true;     ///< show failed joints in their colour
   bool colour_blind_safe = false;
-  float deflection_scale = 1;  ///< standing parts are drawn at this multiple of their displacement
+  static constexpr float as_deflection = -1;
+  float deflection_scale = 1;          ///< standing parts are drawn at this multiple of their displacement
+  float motion_scale = as_deflection;  ///< another multiple of what has come to it since the run began
   /// Below 1, what is behind shows through; `usual_opacity`: slabs not, walls only in views that colours give a
   /// meaning.
   float slab_opacity = usual_opacity, wall_opacity = usual_opacity;
@@ -44,6 +46,7 @@ struct ViewOptions {
   structure::PanelId hovered_panel, selected_panel;
   /// True where colours carry a meaning.
   [[nodiscard]] bool analysis() const { return colouring != Colouring::materials && colouring != Colouring::plain; }
+  [[nodiscard]] float motion_scale_now() const { return motion_scale < 0 ? deflection_scale : motion_scale; }
   [[nodiscard]] float slab_opacity_now() const { return slab_opacity < 0 ? 1 : slab_opacity; }
   [[nodiscard]] float wall_opacity_now() const { return wall_opacity < 0 ? (analysis() ? 0.4F : 1.0F) : wall_opacity; }
   bool operator==(const ViewOptions&) const = default;

@@ -1,4 +1,4 @@
-#include "app/tuning_panel.h"
+#include "app/panels/tuning_panel.h"
 
 #include <algorithm>
 #include <cmath>

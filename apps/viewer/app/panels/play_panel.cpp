@@ -1,4 +1,4 @@
-#include "app/play_panel.h"
+#include "app/panels/play_panel.h"
 
 #include <cmath>
 
