@@ -409,7 +409,7 @@ void SidePanel::draw(Controller& controller, const Snapshot& moment, const Scene
   if (ImGui::BeginTabBar("tabs")) {
     const auto tab = [](const char* name, const auto& content) {
       if (!ImGui::BeginTabItem(name)) return;
-      ImGui::BeginChild(name);
+      ImGui::BeginChild(name, ImVec2(0, 0), false, ImGuiWindowFlags_NavFlattened);
       content();
       ImGui::EndChild();
       ImGui::EndTabItem();

@@ -120,7 +120,7 @@ std::optional<std::string> StartPage::draw() {
   if (ImGui::BeginTabBar("start")) {
     const auto tab = [&](const char* name, void (StartPage::*content)()) {
       if (!ImGui::BeginTabItem(name)) return;
-      ImGui::BeginChild(name);
+      ImGui::BeginChild(name, ImVec2(0, 0), false, ImGuiWindowFlags_NavFlattened);
       (this->*content)();
       ImGui::EndChild();
       ImGui::EndTabItem();
