@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <ctime>
+#include <future>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <memory>
@@ -249,15 +250,36 @@ double processor_milliseconds() {
   return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
+/// Tells whoever waits that the first picture is there, or that none will come.
+class FirstPicture {
+ public:
+  explicit FirstPicture(std::promise<void>& promise) : promise_(promise) {}
+  ~FirstPicture() { tell(); }
+  FirstPicture(const FirstPicture&) = delete;
+  FirstPicture& operator=(const FirstPicture&) = delete;
+  void tell() {
+    if (!std::exchange(told_, true)) promise_.set_value();
+  }
+
+ private:
+  std::promise<void>& promise_;
+  bool told_ = false;
+};
+
 /// What a person does with one scene. True: another is asked for; false: the window closes. Throws what the scene's
 /// simulation throws when it begins.
 bool run_scene(const Window& window, Input& input, const Scene& scene, const WindowOptions& options, Speaker* speaker) {
   const double ground = ground_height(*scene.building, scene.scenario);
   SceneInstances instances(*scene.building, ground);
   Renderer renderer(instances, ground);
-  ThreadDriver driver(*scene.building, scene.scenario.step, [&scene](std::shared_ptr<Recording> recording) {
+  // Until something is seen the processor is the picture's alone: with few cores the two would wait for each other.
+  std::promise<void> drawn;
+  const std::shared_future<void> seen = drawn.get_future().share();
+  ThreadDriver driver(*scene.building, scene.scenario.step, [&scene, seen](std::shared_ptr<Recording> recording) {
+    seen.wait();
     return std::make_unique<Session>(scene.building, scene.scenario, scene.drawn, std::move(recording));
   });
+  FirstPicture first(drawn);
   Controller controller(driver, scene, ground, window.size());
   SidePanel panel;
   Outputs outputs;
@@ -296,6 +318,7 @@ bool run_scene(const Window& window, Input& input, const Scene& scene, const Win
     controller.picture_processor = processor_milliseconds() - started;
     controller.picture_graphics = renderer.graphics_milliseconds();
     glfwSwapBuffers(window.get());
+    first.tell();
   }
   return controller.wants_another;
 }
