@@ -12,6 +12,7 @@ class UnresolvedModes : public std::runtime_error {
  public:
   using Place =
       std::pair<double, int>;  ///< stiffness over mass, 1/s^2; index in FrameModel::nodes, -1 where it is none
+  /// `what`: for a person.
   UnresolvedModes(const std::string& what, const Place& softest, const Place& stiffest)
       : std::runtime_error(what), least(softest), largest(stiffest) {}
   Place least;    ///< the softest freedom that has mass
