@@ -76,6 +76,12 @@ Eigen::MatrixXd FrameSystem::patch_node_mass(std::size_t patch) const {
   return M;
 }
 
+Eigen::MatrixXd FrameSystem::patch_mass(std::size_t patch) const {
+  Eigen::MatrixXd M = patch_node_mass(patch);
+  add_diaphragm_arms(model.patches[patch].node, M);
+  return M;
+}
+
 /// Rows and columns of nodes that no longer stand.
 void FrameSystem::leave_out_gone(std::span<const int> nodes, Eigen::MatrixXd& matrix) const {
   for (std::size_t n = 0; n < nodes.size(); ++n) {

@@ -50,8 +50,7 @@ void FrameSystem::add_element_mass(std::size_t element, const std::vector<char>&
   } else if (element >= element_of_patch(0) && element < element_of_patch(0) + model.patches.size()) {
     const std::size_t patch = element - element_of_patch(0);
     if (model.patches[patch].mass.size() == 0) return;
-    Eigen::MatrixXd M = patch_node_mass(patch);
-    add_diaphragm_arms(model.patches[patch].node, M);
+    const Eigen::MatrixXd M = patch_mass(patch);
     assembly_map_.add(element, M.data(), scale_, wanted, mass_);
   }
 }

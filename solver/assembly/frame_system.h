@@ -152,8 +152,10 @@ class FrameSystem {
   /// that its membrane forces have in the second order.
   [[nodiscard]] std::array<Vec6, 4> corner_forces(int shell, const std::vector<Vec6>& displacements,
                                                   const Vec24& fixed) const;
-  /// M of a patch that has mass, as patch_stiffness() without what diaphragms add.
+  /// M of a patch that has mass, in the global freedoms of its nodes.
   [[nodiscard]] Eigen::MatrixXd patch_node_mass(std::size_t patch) const;
+  /// The same in the freedoms of its element.
+  [[nodiscard]] Eigen::MatrixXd patch_mass(std::size_t patch) const;
   /// Per node of the patch: what the node does to it, global.
   [[nodiscard]] std::vector<Vec6> patch_forces(int patch, const std::vector<Vec6>& displacements) const;
   /// Per support: what it does to the structure.

@@ -39,8 +39,7 @@ MassMatrix::MassMatrix(const FrameSystem& system, const MassModel& masses, int t
     if (model.shells[i].density != 0) add_shell(static_cast<int>(i), masses);
   for (std::size_t i = 0; i < model.patches.size(); ++i) {
     if (model.patches[i].mass.size() == 0) continue;
-    Eigen::MatrixXd M = model.patches[i].mass;
-    system.add_diaphragm_arms(model.patches[i].node, M);
+    const Eigen::MatrixXd M = system.patch_mass(i);
     system.assembly_map().add(system.element_of_patch(static_cast<int>(i)), M.data(), system.scale(), {}, matrix_);
   }
   const std::vector<Vec6> at_node = masses_at_nodes(model, masses);

@@ -25,16 +25,16 @@ Vec12 FrameDynamics::State::fixed_end_forces(int beam, bool at_end) const {
   return fixed;
 }
 
-Vec12 FrameDynamics::State::elastic_end_forces(int beam, bool at_end) const {
-  return core().end_forces(static_cast<std::size_t>(beam), (at_end ? nodes_now : nodes_before).u,
-                           fixed_end_forces(beam, at_end));
+Vec12 FrameDynamics::State::elastic_end_forces(int beam, const std::vector<Vec6>& displacements, bool at_end) const {
+  return core().end_forces(static_cast<std::size_t>(beam), displacements, fixed_end_forces(beam, at_end));
 }
 
 /// Of the beam in the place that it has, with second order.
 Vec12 FrameDynamics::State::end_forces(int beam, bool at_end) const {
-  Vec12 forces = elastic_end_forces(beam, at_end);
+  const std::vector<Vec6>& displacements = (at_end ? nodes_now : nodes_before).u;
+  Vec12 forces = elastic_end_forces(beam, displacements, at_end);
   if (options.second_order && system().beam_stands[static_cast<std::size_t>(beam)] != 0)
-    forces += geometric_end_forces(beam, (at_end ? nodes_now : nodes_before).u, forces);
+    forces += geometric_end_forces(beam, displacements, forces);
   return forces;
 }
 
@@ -48,7 +48,7 @@ Vec12 FrameDynamics::State::end_force_rates(int beam, bool at_end) const {
   Vec12 rates = core().end_forces(static_cast<std::size_t>(beam), nodes.v, fixed_end_rate(beam));
   if (!options.second_order || system().beam_stands[static_cast<std::size_t>(beam)] == 0) return rates;
   // d/dt Kg(N) u = Kg(N) v + Kg(dN/dt) u
-  rates += geometric_end_forces(beam, nodes.v, elastic_end_forces(beam, at_end)) +
+  rates += geometric_end_forces(beam, nodes.v, elastic_end_forces(beam, nodes.u, at_end)) +
            geometric_end_forces(beam, nodes.u, rates);
   return rates;
 }

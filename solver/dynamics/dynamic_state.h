@@ -184,7 +184,7 @@ struct FrameDynamics::State {
   [[nodiscard]] static double reached_at(const JointLaw& law, int beam, int end, const SubstepCourse<Vec12>& course);
   void record_break(const JointBreak& broken, double share, const SubstepCourse<Vec12>& course);
   [[nodiscard]] Vec12 end_forces(int beam, bool at_end) const;
-  [[nodiscard]] Vec12 elastic_end_forces(int beam, bool at_end) const;
+  [[nodiscard]] Vec12 elastic_end_forces(int beam, const std::vector<Vec6>& displacements, bool at_end) const;
   [[nodiscard]] Vec12 fixed_end_forces(int beam, bool at_end) const;
   /// Of loads that go with time, which change linearly within a substep.
   [[nodiscard]] Vec12 fixed_end_rate(int beam) const;

@@ -19,17 +19,15 @@ Vec12 FrameDynamics::State::geometric_end_forces(int beam, const std::vector<Vec
   const auto at = [&](std::size_t end) -> const Vec6& {
     return displacements[static_cast<std::size_t>(own.node[end])];
   };
-  return geometric_forces(own, (elastic(6) - elastic(0)) / 2, rigid_end_displacements(own, at(0), at(1)));
+  return geometric_forces(own, elastic, at(0), at(1));
 }
 
 /// Scaled; `at_end`: plastic rotations and loads as at the end of the substep under way, else as at its start.
 Eigen::VectorXd FrameDynamics::State::find_geometric_load(const std::vector<Vec6>& displacements, bool at_end) const {
   Eigen::VectorXd force = Eigen::VectorXd::Zero(system().dofs().equations + system().dofs().held);
   for (int beam = 0; beam < static_cast<int>(system().model.beams.size()); ++beam) {
-    const auto i = static_cast<std::size_t>(beam);
-    if (system().beam_stands[i] == 0) continue;
-    const Vec12 elastic = core().end_forces(i, displacements, fixed_end_forces(beam, at_end));
-    const Vec12 own = geometric_end_forces(beam, displacements, elastic);
+    if (system().beam_stands[static_cast<std::size_t>(beam)] == 0) continue;
+    const Vec12 own = geometric_end_forces(beam, displacements, elastic_end_forces(beam, displacements, at_end));
     if (!own.isZero(0)) add_on_rigid_ends(beam, -own, force);
   }
   return scaled(force);

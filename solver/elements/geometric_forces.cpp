@@ -33,4 +33,9 @@ Vec12 geometric_forces(const Beam& beam, double axial, const Vec12& rigid_ends) 
   return force;
 }
 
+Vec12 geometric_forces(const Beam& beam, const Vec12& end_forces, const Vec6& first_node, const Vec6& second_node) {
+  return geometric_forces(beam, (end_forces(6) - end_forces(0)) / 2,
+                          rigid_end_displacements(beam, first_node, second_node));
+}
+
 }  // namespace topple::solver

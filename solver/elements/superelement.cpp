@@ -396,6 +396,15 @@ std::vector<Vec6> Superelement::reactions(const std::vector<Vec6>& displacements
   return result;
 }
 
+Eigen::Matrix4d translation_mass(const FrameModel& model, int index, double per_area) {
+  const Shell& shell = model.shells[static_cast<std::size_t>(index)];
+  const Mat24 all = ShellElement(shell, corner_places(shell, model.nodes)).mass(per_area, false);
+  Eigen::Matrix4d mass;
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) mass(i, j) = all(6 * i, 6 * j);
+  return mass;
+}
+
 std::array<Vec6, 4> traction_loads(const FrameModel& model, int index, const Vec3& traction) {
   const Shell& shell = model.shells[static_cast<std::size_t>(index)];
   const Vec24 fixed = ShellElement(shell, corner_places(shell, model.nodes)).fixed_forces(traction, 0);

@@ -146,11 +146,9 @@ bool BucklingBracing::iterate(int c, Iteration& iteration) const {
     if (segments_.label(member) < 0) continue;
     const auto& nodes = building_[member].nodes;
     const solver::Beam& beam = statics_.beam(member);
-    const solver::Vec12& force = statics_.end_forces(member);
-    const solver::Vec12 rigid_ends =
-        solver::rigid_end_displacements(beam, shape.displacement(nodes[0]), shape.displacement(nodes[1]));
-    const solver::Vec12 push =
-        -solver::node_forces(beam, solver::geometric_forces(beam, (force(6) - force(0)) / 2, rigid_ends));
+    const solver::Vec12 push = -solver::node_forces(
+        beam, solver::geometric_forces(beam, statics_.end_forces(member), shape.displacement(nodes[0]),
+                                       shape.displacement(nodes[1])));
     for (int end = 0; end < 2; ++end) at[index_of(nodes[static_cast<std::size_t>(end)])] += push.segment<6>(6 * end);
   }
   for (auto& [node, load] : iteration.loads.nodes) {

@@ -34,6 +34,10 @@ double shrinkage(const std::vector<Vec6>& step, const std::vector<Vec6>& before)
 /// first-order answer is back.
 bool FrameStatics::displace(int number) {
   Component& component = components_[static_cast<std::size_t>(number)];
+  const auto geometric = [](const solver::Beam& own, const solver::Vec12& force, const std::vector<Vec6>& at) {
+    return solver::geometric_forces(own, force, at[static_cast<std::size_t>(own.node[0])],
+                                    at[static_cast<std::size_t>(own.node[1])]);
+  };
   std::vector<Vec6> before = component.analysis->displacements();
   std::vector<Vec6> step(before.size(), Vec6::Zero()), step_before = step;
   double last = 0, share = 0;
@@ -44,10 +48,7 @@ bool FrameStatics::displace(int number) {
       const solver::Vec12& force = end_forces_[index(member)];
       if (force.isZero(0)) continue;
       const solver::Beam& own = beam(member);
-      const solver::Vec12 rigid_ends = solver::rigid_end_displacements(
-          own, before[static_cast<std::size_t>(own.node[0])], before[static_cast<std::size_t>(own.node[1])]);
-      const solver::Vec12 at =
-          solver::node_forces(own, solver::geometric_forces(own, (force(6) - force(0)) / 2, rigid_ends));
+      const solver::Vec12 at = solver::node_forces(own, geometric(own, force, before));
       for (std::size_t end = 0; end < 2; ++end)
         push[static_cast<std::size_t>(own.node[end])] -= at.segment<6>(static_cast<Eigen::Index>(6 * end));
     }
@@ -68,9 +69,7 @@ bool FrameStatics::displace(int number) {
         const solver::Beam& own = beam(member);
         solver::Vec12& force = end_forces_[index(member)];
         if (force.isZero(0)) continue;
-        const solver::Vec12 rigid_ends = solver::rigid_end_displacements(
-            own, now[static_cast<std::size_t>(own.node[0])], now[static_cast<std::size_t>(own.node[1])]);
-        force += solver::geometric_forces(own, (force(6) - force(0)) / 2, rigid_ends);
+        force += geometric(own, force, now);
       }
       return true;
     }

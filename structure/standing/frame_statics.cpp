@@ -296,9 +296,13 @@ void FrameStatics::complete(int number, MemberWatch& watch) {
 }
 
 void FrameStatics::read_end_forces(const Component& component, MemberId member) const {
-  end_forces_[index(member)] = component.analysis->beam_end_forces(member_place_[index(member)].local);
-  const auto found = hinges_.find(member);
-  if (found != hinges_.end()) end_forces_[index(member)] += found->second.held;
+  end_forces_[index(member)] = answered_end_forces(component, member);
+}
+
+solver::Vec12 FrameStatics::answered_end_forces(const Component& component, MemberId member) const {
+  solver::Vec12 forces = component.analysis->beam_end_forces(member_place_[index(member)].local);
+  if (const auto found = hinges_.find(member); found != hinges_.end()) forces += found->second.held;
+  return forces;
 }
 
 void FrameStatics::read_end_forces(int number) { read_end_forces(parts(number)); }
@@ -316,10 +320,7 @@ const solver::Vec12& FrameStatics::end_forces(MemberId member) const {
 
 solver::Vec12 FrameStatics::elastic_end_forces(MemberId member) const {
   if (!second_order_) return end_forces(member);
-  const Place& place = member_place_[index(member)];
-  solver::Vec12 forces = parts(place.component).analysis->beam_end_forces(place.local);
-  if (const auto found = hinges_.find(member); found != hinges_.end()) forces += found->second.held;
-  return forces;
+  return answered_end_forces(parts(member_place_[index(member)].component), member);
 }
 
 std::optional<FrameMechanism> FrameStatics::told(int number, const solver::ReanalysisAnswer& answer) {

@@ -232,6 +232,7 @@ class FrameStatics {
   class Adapter;
   std::optional<FrameMechanism> told(int component, const solver::ReanalysisAnswer& answer);
   void read_end_forces(const Component& component, MemberId member) const;
+  [[nodiscard]] solver::Vec12 answered_end_forces(const Component& component, MemberId member) const;
   void read_end_forces(const Component& component) const;
   std::vector<solver::FrameModel> split(const Building& building, const Frame& frame);
 

@@ -77,26 +77,6 @@ Box2 box_of(const std::vector<Vec2>& polygon) {
   return box;
 }
 
-/// Of a quadrilateral of unit mass per area: the integral of products of its bilinear shapes (Gauss's two by two).
-Eigen::Matrix4d bilinear_mass(const fracture::Polygon& corner) {
-  constexpr std::array<std::array<double, 2>, 4> sign{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
-  const double gauss = 1 / std::sqrt(3.0);
-  Eigen::Matrix4d sum = Eigen::Matrix4d::Zero();
-  for (const auto& [a, b] : sign) {
-    const double r = gauss * a, s = gauss * b;
-    Eigen::Vector4d shape;
-    Eigen::Matrix2d slope = Eigen::Matrix2d::Zero();
-    for (std::size_t n = 0; n < 4; ++n) {
-      const auto& [x, y] = sign[n];
-      shape(static_cast<Eigen::Index>(n)) = (1 + x * r) * (1 + y * s) / 4;
-      slope.col(0) += x * (1 + y * s) / 4 * corner[n];
-      slope.col(1) += y * (1 + x * r) / 4 * corner[n];
-    }
-    sum += std::abs(slope.determinant()) * shape * shape.transpose();
-  }
-  return sum;
-}
-
 /// Larger and smaller principal value of a plane symmetric tensor (xx, yy, xy).
 std::array<double, 2> principal(const Vec3& s) {
   const double mean = (s(0) + s(1)) / 2, radius = std::hypot((s(0) - s(1)) / 2, s(2));
@@ -347,16 +327,13 @@ Eigen::MatrixXd PanelSuperelement::mass(double kilograms) const {
   const Eigen::MatrixXd shapes = patch_->shapes();
   // Of translations: rows of each node, three components side by side, by the freedoms of kept nodes.
   const auto nodes = static_cast<Eigen::Index>(patch_->patch().nodes.size()), kept = shapes.cols();
-  const auto translation = [&](int node) { return shapes.middleRows<3>(static_cast<Eigen::Index>(6 * node)); };
   Eigen::MatrixXd moved(3 * nodes, kept), inert = Eigen::MatrixXd::Zero(3 * nodes, kept);
-  for (int n = 0; n < static_cast<int>(nodes); ++n) moved.middleRows<3>(3 * n) = translation(n);
+  for (Eigen::Index n = 0; n < nodes; ++n) moved.middleRows<3>(3 * n) = shapes.middleRows<3>(6 * n);
   double area = 0;
   for (std::size_t k = 0; k < shells.size(); ++k) {
     if (share_[k] <= 0) continue;
     const std::array<int, 4>& corner = shells[k].node;
-    fracture::Polygon element;
-    for (const int node : corner) element.push_back(flat(node));
-    const Eigen::Matrix4d own = share_[k] * bilinear_mass(element);
+    const Eigen::Matrix4d own = share_[k] * element_[k]->mass;
     area += own.sum();
     if (patch_->stands(static_cast<int>(k))) {
       for (int i = 0; i < 4; ++i)
@@ -366,7 +343,9 @@ Eigen::MatrixXd PanelSuperelement::mass(double kilograms) const {
       continue;
     }
     // What is left of it hangs on one node, as its load does.
-    const Grip held = grip((element[0] + element[1] + element[2] + element[3]) / 4);
+    Vec2 centre = Vec2::Zero();
+    for (const int node : corner) centre += flat(node) / 4;
+    const Grip held = grip(centre);
     if (held.node[0] >= 0) inert.middleRows<3>(3 * held.node[0]) += own.sum() * moved.middleRows<3>(3 * held.node[0]);
   }
   if (!(area > 0)) return of_all_nodes(Eigen::MatrixXd::Zero(kept, kept));

@@ -2,14 +2,11 @@
 
 #include <cmath>
 
+#include "model/point_inertia.h"
+
 namespace topple::structure {
 
 namespace {
-
-/// m (r.r 1 - r r'): what a point mass adds to an inertia tensor.
-Mat3 point_inertia(double mass, const Vec3& r) {
-  return mass * (r.squaredNorm() * Mat3::Identity() - r * r.transpose());
-}
 
 /// Area, first and second moments of a polygon in its plane.
 struct AreaMoments {

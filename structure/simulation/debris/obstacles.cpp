@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "model/point_inertia.h"
 #include "simulation/debris/debris_settings.h"
 
 namespace topple::structure {
@@ -69,7 +70,7 @@ Obstacles::Shift Obstacles::shift_of(Part part, const StandingFrame& frame) cons
   Vec3 turning = Vec3::Zero();
   for (const NodeId node : nodes) {
     const Vec3 r = building_[node].position - centre;
-    spread += r.squaredNorm() * Mat3::Identity() - r * r.transpose();
+    spread += point_inertia(1, r);
     turning += r.cross(Vec3(frame.displacement(node).head<3>() - shift.moved));
   }
   const Eigen::SelfAdjointEigenSolver<Mat3> axes(spread);

@@ -10,6 +10,7 @@
 #include "failure/panel_demand.h"
 #include "mesh/shell_edges.h"
 #include "model/index_of.h"
+#include "model/point_inertia.h"
 #include "topple/structure/frame.h"
 #include "topple/structure/joint_check.h"
 
@@ -99,7 +100,7 @@ FreeSegment::FreeSegment(const Building& building, FreeSegmentParts parts, const
   }
   centre_ /= mass_;
   // So far about the origin.
-  inertia_ -= mass_ * (centre_.squaredNorm() * Mat3::Identity() - centre_ * centre_.transpose());
+  inertia_ -= point_inertia(mass_, centre_);
   const bool shell_asked = std::any_of(hung_.begin(), hung_.end(), [](const Hung& hung) { return hung.patch >= 0; });
   const bool member_asked = breakable && parts_.members.size() > 1;
   held_at_ = held_at;
@@ -247,7 +248,7 @@ double FreeSegment::polar(MemberId member) const {
 void FreeSegment::add_mass(const Vec3& at, double mass) {
   mass_ += mass;
   centre_ += mass * at;
-  inertia_ += mass * (at.squaredNorm() * Mat3::Identity() - at * at.transpose());
+  inertia_ += point_inertia(mass, at);
 }
 
 /// Those that are in the body; of a shell those that it holds on to, if it does to any.

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "model/own_mass.h"
+
 namespace topple::structure {
 namespace {
 
@@ -29,8 +31,7 @@ MotionMasses::MotionMasses(const Building& building, const FrameLoads& loads, co
 
 double MotionMasses::own(MemberId id) const {
   if (const double mass = loads_.mass(id); mass > 0) return mass;
-  const Member& member = building_[id];
-  return building_[member.material].density * building_[member.section].area * member.length;
+  return own_mass(building_, id);
 }
 
 std::vector<MotionMasses::Rehung> MotionMasses::update() {

@@ -7,7 +7,8 @@
 #include <stdexcept>
 
 #include "model/index_of.h"
-#include "model/panel_area.h"
+#include "model/own_mass.h"
+#include "standing/motion/moving_component.h"
 
 namespace topple::structure {
 namespace {
@@ -50,18 +51,6 @@ class StandingMotion::Law : public solver::JointLaw {
   const Sources& from_;
   const std::vector<MemberId>& members_;
   std::vector<solver::PlasticHinge> hinges_;
-};
-
-struct StandingMotion::Moving {
-  std::unique_ptr<solver::FrameDynamics> frame;
-  std::unique_ptr<Law> law;
-  double elastic_at_start = 0;
-  double first_frequency = 0;  ///< rad/s, lowest of all when it began to move
-  double mass_damping = 0;     ///< 1/s, of what does not fall
-  double turned = 0;           ///< rad, its largest turn a step ago
-  double left_work = 0;        ///< J, at rest: of loads that have changed since, which the account of rest never sees
-  double looked = 0;           ///< s of its motion, when rest was looked for last
-  std::vector<double> mass;    ///< per beam, as the frame has it
 };
 
 StandingMotion::StandingMotion(const Sources& sources, const MotionSettings& settings)
@@ -118,11 +107,8 @@ bool StandingMotion::is_shell(PanelId panel) const { return from_.building[panel
 
 /// By its weight; without any by its material's.
 Eigen::MatrixXd StandingMotion::mass_of(PanelId id) const {
-  const Panel& panel = from_.building[id];
   const double by_weight = from_.loads.mass(id);
-  const double of_material =
-      from_.building[panel.material].density * panel.thickness * panel_area(from_.building, panel, true);
-  return from_.shells.of(id)->mass(by_weight > 0 ? by_weight : of_material);
+  return from_.shells.of(id)->mass(by_weight > 0 ? by_weight : own_mass(from_.building, id));
 }
 
 void StandingMotion::update_mass(PanelId id) {
@@ -210,13 +196,19 @@ void StandingMotion::take_plastic_rotations(int c, const Moving& moving) const {
   }
 }
 
+/// Per node of the component, as solved last; zero where it is no part of it any more.
+std::vector<Vec6> StandingMotion::displacements_at_rest(int c) const {
+  std::vector<Vec6> rest;
+  for (const NodeId node : from_.statics.nodes(c))
+    rest.push_back(from_.node_solved[index_of(node)] != 0 ? from_.statics.displacement(node) : Vec6(Vec6::Zero()));
+  return rest;
+}
+
 void StandingMotion::start(int c) {
   if (moves(c)) return;
   const solver::FrameModel model = model_of(c);
   const solver::MassModel masses = masses_of(c);
-  std::vector<Vec6> rest;
-  for (const NodeId node : from_.statics.nodes(c))
-    rest.push_back(from_.node_solved[index_of(node)] != 0 ? from_.statics.displacement(node) : Vec6(Vec6::Zero()));
+  const std::vector<Vec6> rest = displacements_at_rest(c);
 
   Moving moving;
   solver::DynamicOptions options;
@@ -248,17 +240,12 @@ void StandingMotion::settle(int c) {
   const double of_present = moving.frame->work_of_present_loads();
   moving.left_work = moving.frame->energy().external_work - of_present;
   past_.damped += moving.frame->energy().kinetic;
-  std::vector<Vec6> rest;
-  for (const NodeId node : from_.statics.nodes(c))
-    rest.push_back(from_.node_solved[index_of(node)] != 0 ? from_.statics.displacement(node) : Vec6(Vec6::Zero()));
+  const std::vector<Vec6> rest = displacements_at_rest(c);
   moving.left_work += moving.frame->geometric_work_to(rest);
   std::vector<Vec6> way = moving.frame->displacements();
   for (const NodeId node : from_.statics.nodes(c)) {
-    Vec6& own = way[static_cast<std::size_t>(from_.statics.number(node))];
-    if (from_.node_solved[index_of(node)] != 0)
-      own -= from_.statics.displacement(node);
-    else
-      own.setZero();
+    const auto n = static_cast<std::size_t>(from_.statics.number(node));
+    way[n] = from_.node_solved[index_of(node)] != 0 ? Vec6(way[n] - rest[n]) : Vec6(Vec6::Zero());
   }
   const solver::DynamicEnergy before = moving.frame->energy();
   for (const PlasticHinge& hinge : from_.yielding.hinges(c)) {  // the way bends no hinge
@@ -291,49 +278,6 @@ void StandingMotion::stop(int c) {
   past_.dissipated += own.dissipated;
   from_.statics.follow(c, nullptr);
   moving_.erase(found);
-}
-
-/// Its mass has the mean velocity of what bore it, and shares it inelastically with what bears it now: linear and
-/// angular momentum are kept.
-void StandingMotion::bring_along(const MotionMasses::Rehung& panel, std::map<int, NodalForces>& impulses) const {
-  std::map<MemberId, double> gained;
-  for (const auto& [member, mass] : masses_.shares(panel.panel).members) gained[member] += mass;
-  for (const auto& [member, mass] : panel.before.members) gained[member] -= mass;
-  double lost = 0;
-  Vec3 momentum = Vec3::Zero();
-  for (const auto& [member, mass] : gained)
-    if (mass < 0) {
-      lost -= mass;
-      momentum -= mass * specific_momentum(member).head<3>();
-    }
-  for (const auto& [node, mass] : panel.before.nodes) {
-    lost += mass;
-    momentum += mass * velocity(node).head<3>();
-  }
-  for (const auto& [node, mass] : masses_.shares(panel.panel).nodes) {
-    lost -= mass;
-    momentum -= mass * velocity(node).head<3>();
-  }
-  if (!(lost > 0)) return;
-  for (const auto& [id, mass] : gained) {
-    const int c = from_.statics.component(id);
-    if (!(mass > 0) || !moves(c) || !from_.parts.stands(id)) continue;
-    const Member& member = from_.building[id];
-    const Vec3 middle = (from_.building[member.nodes[0]].position + from_.building[member.nodes[1]].position) / 2;
-    const Vec6 own = specific_momentum(id);
-    const Vec3 linear = mass * (momentum / lost - own.head<3>());
-    Vec3 turning = mass * (middle.cross(momentum / lost) - own.tail<3>());  // about the origin
-    std::vector<NodeId> held;
-    for (int end = 0; end < 2; ++end)
-      if (from_.parts.holds(from_.building.joint(id, end))) held.push_back(member.nodes[static_cast<std::size_t>(end)]);
-    const auto share = static_cast<double>(held.size());
-    for (const NodeId node : held) turning -= from_.building[node].position.cross(linear) / share;
-    for (const NodeId node : held) {
-      Vec6 given;
-      given << linear / share, turning / share;
-      impulses[c].emplace_back(node, given);
-    }
-  }
 }
 
 void StandingMotion::update_masses() {
@@ -394,103 +338,6 @@ solver::Vec12 StandingMotion::end_forces(MemberId member) const {
 
 std::array<Vec6, 4> StandingMotion::corner_forces(PanelId membrane) const {
   return moving_.at(from_.components.of(membrane))->frame->shell_corner_forces(from_.statics.number(membrane));
-}
-
-/// Per kg that moves with the member: what changes of mass the frame has not taken over yet does not count.
-Vec6 StandingMotion::specific_momentum(MemberId member) const {
-  const Moving* moving = of(from_.statics.component(member));
-  if (moving == nullptr) return Vec6::Zero();
-  const int number = from_.statics.number(member);
-  const solver::Beam& beam = moving->frame->model().beams[static_cast<std::size_t>(number)];
-  const double mass = beam.density * beam.area * beam.length;
-  return mass > 0 ? Vec6(moving->frame->beam_momentum(number) / mass) : Vec6(Vec6::Zero());
-}
-
-Vec6 StandingMotion::momentum(MemberId member) const { return masses_.own(member) * specific_momentum(member); }
-
-namespace {
-
-/// sum of m (r^2 1 - r r') of points about their centre; `weight` each.
-Mat3 inertia_of(std::span<const Vec3> points, const Vec3& centre, double weight) {
-  Mat3 sum = Mat3::Zero();
-  for (const Vec3& point : points) {
-    const Vec3 r = point - centre;
-    sum += weight * (r.squaredNorm() * Mat3::Identity() - r * r.transpose());
-  }
-  return sum;
-}
-
-Vec3 mean_of(std::span<const Vec3> points) {
-  Vec3 sum = Vec3::Zero();
-  for (const Vec3& point : points) sum += point;
-  return sum / static_cast<double>(points.size());
-}
-
-/// The places of a four-cornered plate that have its second moments, a quarter of its mass each (Gauss's two by two).
-std::array<Vec3, 4> quarters(const std::array<Vec3, 4>& corner) {
-  const double near = (1 + 1 / std::sqrt(3.0)) / 2, far = 1 - near;
-  std::array<Vec3, 4> points;
-  for (std::size_t i = 0; i < 4; ++i)
-    points[i] = near * near * corner[i] + near * far * (corner[(i + 1) % 4] + corner[(i + 3) % 4]) +
-                far * far * corner[(i + 2) % 4];
-  return points;
-}
-
-}  // namespace
-
-/// Its mass moved with what bore it. Once it leaves, that mass lies where the panel is, and turns as its corners do:
-/// the linear momentum is kept.
-Vec6 StandingMotion::momentum(PanelId panel) const {
-  if (is_shell(panel)) {
-    const Moving* moving = of(from_.components.of(panel));
-    return moving == nullptr ? Vec6(Vec6::Zero()) : moving->frame->patch_momentum(from_.statics.number(panel));
-  }
-  Vec6 sum = Vec6::Zero();
-  const MotionMasses::Shares& shares = masses_.shares(panel);
-  for (const auto& [member, mass] : shares.members) sum += mass * specific_momentum(member);
-  for (const auto& [node, mass] : shares.nodes) sum.head<3>() += mass * velocity(node).head<3>();
-  std::array<Vec3, 4> corner;
-  std::vector<Vec3> places, velocities;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const NodeId node = from_.building[panel].nodes[i];
-    corner[i] = from_.building[node].position;
-    if (from_.parts.segments.degree(node) == 0) continue;  // nothing tells how it moves
-    places.push_back(corner[i]);
-    velocities.emplace_back(velocity(node).head<3>());
-  }
-  const std::array<Vec3, 4> mass_at = quarters(corner);
-  const Vec3 centre = mean_of(mass_at), linear = sum.head<3>();
-  sum.tail<3>() = centre.cross(linear);
-  if (places.size() < 3) return sum;
-  const Vec3 middle = mean_of(places), mean = mean_of(velocities);
-  Vec3 turning = Vec3::Zero();
-  for (std::size_t i = 0; i < places.size(); ++i) turning += (places[i] - middle).cross(velocities[i] - mean);
-  const Vec3 spin = inertia_of(places, middle, 1).ldlt().solve(turning);
-  sum.tail<3>() += inertia_of(mass_at, centre, from_.loads.mass(panel) / 4) * spin;
-  return sum;
-}
-
-Vec3 StandingMotion::velocity(PanelId panel) const {
-  const Vec3 linear = momentum(panel).head<3>();
-  double mass = from_.loads.mass(panel);
-  if (is_shell(panel)) {  // as the frame has it
-    const Moving* moving = of(from_.components.of(panel));
-    if (moving == nullptr) return Vec3::Zero();
-    const auto number = static_cast<std::size_t>(from_.statics.number(panel));
-    const Eigen::MatrixXd& own = moving->frame->model().patches[number].mass;
-    mass = 0;
-    for (Eigen::Index row = 2; row < own.rows(); row += 6)
-      for (Eigen::Index column = 2; column < own.cols(); column += 6) mass += own(row, column);
-  }
-  return mass > 0 ? Vec3(linear / mass) : Vec3(Vec3::Zero());
-}
-
-Vec6 StandingMotion::momentum(NodeId node) const {
-  Vec6 sum = Vec6::Zero();
-  const Vec3 given = from_.loads.mass(node) * velocity(node).head<3>();
-  sum.head<3>() = given;
-  sum.tail<3>() = from_.building[node].position.cross(given);
-  return sum;
 }
 
 namespace {

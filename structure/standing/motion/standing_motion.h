@@ -125,6 +125,7 @@ class StandingMotion {
   [[nodiscard]] const Moving* of(int component) const;
   [[nodiscard]] solver::FrameModel model_of(int component) const;
   [[nodiscard]] solver::MassModel masses_of(int component) const;
+  [[nodiscard]] std::vector<Vec6> displacements_at_rest(int component) const;
   [[nodiscard]] Eigen::MatrixXd mass_of(PanelId shell) const;
   [[nodiscard]] bool is_shell(PanelId panel) const;
   [[nodiscard]] double damping_of(int component) const;

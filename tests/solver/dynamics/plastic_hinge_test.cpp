@@ -2,8 +2,7 @@
 // spring, and against an integration of a shear frame that shares no code.
 #include <catch2/catch.hpp>
 
-#include "frames.h"
-#include "topple/solver/frame_dynamics.h"
+#include "post_with_mass.h"
 
 using namespace topple::test;
 
@@ -20,21 +19,7 @@ class Yielding : public JointLaw {
   std::vector<PlasticHinge> hinges_;
 };
 
-double balance(const DynamicEnergy& now, double at_start) {
-  return now.kinetic + now.elastic + now.damped + now.numerical + now.dissipated + now.freed - now.external_work -
-         now.struck - at_start;
-}
-
-/// A post of 3 m without mass, held at its foot, with a mass on top that a force pushes along x.
-constexpr double height = 3, tip_mass = 1200, capacity = 9e4;
-FrameModel post() {
-  FrameModel model;
-  model.nodes = {Vec3(0, 0, 0), Vec3(0, 0, height)};
-  model.supports = {{0, fixed()}};
-  add_beam(model, 0, 1);
-  model.beams[0].density = 0;
-  return model;
-}
+constexpr double capacity = 9e4;
 double spring_of_post() {
   FrameModel model = post();
   LoadSet load;
@@ -55,13 +40,11 @@ struct Pushed {
   DynamicEnergy energy;
 };
 Pushed push_post(double share, double substep, double spectral_radius, RayleighDamping damping = {}) {
-  MassModel masses;
-  masses.nodes = {{1, tip_mass, Vec3::Zero()}};
   DynamicOptions options;
   options.substep = substep;
   options.spectral_radius = spectral_radius;
   options.damping = damping;
-  FrameDynamics frame(post(), masses, options);
+  FrameDynamics frame(post(), mass_on_post(), options);
   frame.set_node_load(1, unit(0, share * capacity / height));
   const Yielding law({{0, 0, bent(), capacity, 10}});
   Pushed result;
@@ -107,12 +90,10 @@ TEST_CASE("What a plastic hinge does balances with damping and with a method tha
 
 TEST_CASE("A post that has turned swings about where it stays, and turns no further under the same load") {
   const Pushed once = push_post(1 - 1 / 3.0, 5e-4, 1);
-  MassModel masses;
-  masses.nodes = {{1, tip_mass, Vec3::Zero()}};
   DynamicOptions options;
   options.substep = 5e-4;
   options.spectral_radius = 1;
-  FrameDynamics frame(post(), masses, options);
+  FrameDynamics frame(post(), mass_on_post(), options);
   const double sign = once.turned > 0 ? 1 : -1;
   // As found: the sign of the turn is that of what the hinge holds.
   const Vec12 forces = [&] {

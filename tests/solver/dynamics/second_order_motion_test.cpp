@@ -2,24 +2,13 @@
 // closed form, below and above the critical load.
 #include <catch2/catch.hpp>
 
-#include "frames.h"
-#include "topple/solver/frame_dynamics.h"
+#include "post_with_mass.h"
 
 using namespace topple::test;
 
 namespace {
 
-/// A post held at its foot, without mass, and a mass on top that a force pushes along x.
-constexpr double height = 3, tip_mass = 1200, push = 1e3;
-
-FrameModel post() {
-  FrameModel model;
-  model.nodes = {Vec3(0, 0, 0), Vec3(0, 0, height)};
-  model.supports = {{0, fixed()}};
-  add_beam(model, 0, 1);
-  model.beams[0].density = 0;
-  return model;
-}
+constexpr double push = 1e3;
 
 /// E I in the plane of the push, by the post's own give: H h^3/(3 EI) and its shear apart.
 double bending_stiffness() {
@@ -48,8 +37,6 @@ double cubic_stiffness(double P) {
 double critical() { return std::pow(pi / (2 * height), 2) * bending_stiffness(); }
 
 FrameDynamics pressed(double P, double substep, double spectral_radius = 1, RayleighDamping damping = {}) {
-  MassModel masses;
-  masses.nodes = {{1, tip_mass, Vec3::Zero()}};
   DynamicOptions options;
   options.substep = substep;
   options.spectral_radius = spectral_radius;
@@ -60,14 +47,10 @@ FrameDynamics pressed(double P, double substep, double spectral_radius = 1, Rayl
   LoadSet weight;
   weight.nodes = {{1, unit(2, -P)}};
   const std::vector<Vec6> rest = solve_one(model, weight).displacements;
-  FrameDynamics frame(model, masses, options);
+  FrameDynamics frame(model, mass_on_post(), options);
   frame.set_node_load(1, components(push, 0, -P, 0, 0, 0));
   frame.set_state(rest, std::vector<Vec6>(2, Vec6::Zero()));
   return frame;
-}
-
-double balance(const DynamicEnergy& now, double at_start) {
-  return now.kinetic + now.elastic + now.damped + now.numerical + now.freed - now.external_work - now.struck - at_start;
 }
 
 }  // namespace

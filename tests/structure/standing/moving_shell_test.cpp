@@ -5,6 +5,8 @@
 #include <numbers>
 
 #include "standing/panel_superelement.h"
+#include "structure/simulation_run.h"
+#include "structure/unbraced_rules.h"
 #include "test_paths.h"
 #include "topple/solver/modes.h"
 #include "topple/structure/formats/files.h"
@@ -12,7 +14,7 @@
 #include "topple/structure/simulation.h"
 #include "topple/structure/standing_frame.h"
 
-using namespace topple::structure;
+using namespace topple::test;
 
 namespace {
 
@@ -39,13 +41,6 @@ std::string table(const std::string& opening = {}) {
 
 Building parsed(const std::string& text) { return parse_model(text, "table.json", Purpose::demolish); }
 
-FailureRules moving_rules() {
-  FailureRules rules;
-  rules.bracing = BracingRule::none;
-  rules.sudden = 1;
-  return rules;
-}
-
 /// rad/s, of the whole mesh with its mass where it is: nothing is condensed.
 double lowest_of_mesh(const Building& building) {
   topple::solver::FrameModel model = make_frame(building).model;
@@ -56,7 +51,7 @@ double lowest_of_mesh(const Building& building) {
 
 /// rad/s, by the first peak of the slab's corners, of the same sudden load on all of them along `direction`.
 double swing(const Building& building, int direction) {
-  StandingFrame frame(building, CombinationId(0u), moving_rules());
+  StandingFrame frame(building, CombinationId(0u), unbraced_rules());
   frame.let_move(1.0 / 2000);
   const NodeId seen(4u);
   const double before = frame.displacement(seen)(direction);
@@ -75,12 +70,6 @@ double swing(const Building& building, int direction) {
   // Where the parabola through the three has its top.
   const double ahead = 0.5 * (now - last_but_one) / (2 * last - now - last_but_one);
   return std::numbers::pi * 2000 / (steps - 1 + ahead);
-}
-
-const SimulationEvent* find(const Simulation& simulation, SimulationEvent::Kind kind) {
-  for (const SimulationEvent& event : simulation.events())
-    if (event.kind == kind) return &event;
-  return nullptr;
 }
 
 }  // namespace
@@ -124,7 +113,7 @@ TEST_CASE("A slab on posts sways as the whole mesh does") {
 
 TEST_CASE("What a shell on posts has lost sways to the static state of what is left, and energy and momentum close") {
   const Building b = parsed(table());
-  StandingFrame moving(b, CombinationId(0u), moving_rules()), still(b, CombinationId(0u), moving_rules());
+  StandingFrame moving(b, CombinationId(0u), unbraced_rules()), still(b, CombinationId(0u), unbraced_rules());
   moving.let_move(step);
   Vec6 load = Vec6::Zero();
   load << 3e4, 1e4, -5e4, 0, 0, 0;
@@ -155,8 +144,8 @@ TEST_CASE("A ball goes through a shell wall that moves, chunks fly, and the wall
   scenario.standing = StandingRule::dynamics;
   Simulation simulation(model, scenario);
   const double whole = simulation.frame().mass(PanelId(0u));
-  while (!simulation.finished()) simulation.step();
-  REQUIRE(find(simulation, SimulationEvent::Kind::panel_fractured));
+  run(simulation);
+  REQUIRE_FALSE(of_kind(simulation, SimulationEvent::Kind::panel_fractured).empty());
   double chunks = 0;
   for (const BodyView& body : simulation.bodies()) chunks += body.chunk ? body.mass : 0;
   CHECK(chunks > 0);

@@ -3,18 +3,12 @@
 #include <random>
 
 #include "structure/frame_builder.h"
+#include "structure/unbraced_rules.h"
 #include "topple/structure/standing_frame.h"
 
 namespace {
 
 using namespace topple::test;
-
-FailureRules quiet() {
-  FailureRules rules;
-  rules.bracing = BracingRule::none;
-  rules.sudden = 1;
-  return rules;
-}
 
 /// What the balance misses, relative to the largest term.
 double imbalance(const FrameEnergy& e) {
@@ -35,7 +29,7 @@ TEST_CASE("a built-in beam that becomes a cantilever frees the difference of its
   frame.support(a);
   frame.support(b);
   frame.load(beam, -q);
-  StandingFrame standing(frame.building, CombinationId(0u), quiet());
+  StandingFrame standing(frame.building, CombinationId(0u), unbraced_rules());
   const double unit = q * q * std::pow(length, 5) / EI;
   CHECK(standing.elastic_energy() == Approx(unit / 1440).epsilon(1e-9));
   standing.break_joint(frame.building.joint(beam, 1), BreakCause::tool);
@@ -58,7 +52,7 @@ TEST_CASE("a weight that a cantilever cannot bear leaves no energy of a state th
   const MemberId beam = frame.member("AB", MemberKind::beam, a, b, same_capacity(1e4));
   frame.support(a);
   frame.load(b, (Vec6() << 0, 0, -200, 0, 0, 0).finished());
-  StandingFrame standing(frame.building, CombinationId(0u), quiet());
+  StandingFrame standing(frame.building, CombinationId(0u), unbraced_rules());
   const double elastic = standing.elastic_energy();
   standing.set_contact_load({1, {beam, {}, Vec3(length, 0, 3)}, Vec3(0, 0, -1e9)});  // 1e5 times what it bears
   REQUIRE(standing.settle(10).size() == 1);
@@ -76,7 +70,7 @@ TEST_CASE("a weight laid slowly on a cantilever puts half its force times its wa
   const MemberId beam = frame.member("AB", MemberKind::beam, a, b, same_capacity(1e9));
   frame.support(a);
   frame.load(b, (Vec6() << 0, 0, -2000, 0, 0, 0).finished());
-  StandingFrame standing(frame.building, CombinationId(0u), quiet());
+  StandingFrame standing(frame.building, CombinationId(0u), unbraced_rules());
   standing.set_contact_load({1, {beam, {}, Vec3(length, 0, 3)}, Vec3(0, 0, -force)});
   standing.settle(10);
   const double way = force / stiffness;
@@ -96,7 +90,7 @@ TEST_CASE("a load that an event adds at once frees half its work") {
   frame.member("AB", MemberKind::beam, a, b, same_capacity(1e9));
   frame.support(a);
   frame.load(b, (Vec6() << 0, 0, -2000, 0, 0, 0).finished());
-  StandingFrame standing(frame.building, CombinationId(0u), quiet());
+  StandingFrame standing(frame.building, CombinationId(0u), unbraced_rules());
   standing.add_load(b, (Vec6() << 0, force, 0, 0, 0, 0).finished());
   standing.settle(10);
   CHECK(standing.energy().other_work == Approx(force * force / stiffness).epsilon(1e-9));
@@ -123,7 +117,7 @@ TEST_CASE("energies balance through random damage, loads and losses") {
     if (trial % 2) frame.building.supports[3].stiffness << 1e8, 1e8, 5e7, 1e7, 1e7, 1e7;
     if (trial % 3 == 0) frame.building.joints[4].stiffness(4) = 3e6;
     const Building& building = frame.building;
-    StandingFrame standing(building, CombinationId(0u), quiet());
+    StandingFrame standing(building, CombinationId(0u), unbraced_rules());
     const std::size_t members = building.members.size();
     for (int round = 0; round < 14; ++round) {
       switch (random() % 7) {

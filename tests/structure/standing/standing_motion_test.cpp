@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "structure/frame_builder.h"
+#include "structure/unbraced_rules.h"
 #include "topple/structure/error.h"
 #include "topple/structure/standing_frame.h"
 
@@ -14,10 +15,8 @@ using namespace topple::test;
 constexpr double step = 1.0 / 60;
 
 FailureRules moving_rules() {
-  FailureRules rules;
-  rules.bracing = BracingRule::none;
+  FailureRules rules = unbraced_rules();
   rules.mechanism = MechanismRule::detach;
-  rules.sudden = 1;
   return rules;
 }
 

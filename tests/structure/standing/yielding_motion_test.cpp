@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "structure/frame_builder.h"
+#include "structure/unbraced_rules.h"
 #include "topple/structure/standing_frame.h"
 
 namespace {
@@ -10,13 +11,6 @@ namespace {
 using namespace topple::test;
 
 constexpr double step = 1.0 / 60;
-
-FailureRules moving_rules() {
-  FailureRules rules;
-  rules.bracing = BracingRule::none;
-  rules.sudden = 1;
-  return rules;
-}
 
 /// A cantilever without mass, a weight on its tip that a bar below bears until it goes, and a root that yields.
 struct ProppedTip {
@@ -57,7 +51,7 @@ TEST_CASE("A root that yields under a weight that is suddenly its own turns as f
   const double share = 0.8, yields_at = ProppedTip::weight / share / ProppedTip::stiffness;
   const double undamped = (1 / (2 * (1 - share)) - 1) * yields_at / ProppedTip::length;
   const ProppedTip model(share);
-  StandingFrame standing(model.frame.building, CombinationId(0u), moving_rules());
+  StandingFrame standing(model.frame.building, CombinationId(0u), unbraced_rules());
   standing.let_move(step);
   standing.break_joint(model.frame.building.joint(model.prop, 1), BreakCause::tool);
   int steps = 0;
@@ -89,7 +83,7 @@ TEST_CASE("A root that yields under a weight that is suddenly its own turns as f
 TEST_CASE("A root that bears less than its weight turns until it breaks, and its beam leaves") {
   const double largest_turn = 0.02;
   const ProppedTip model(1.3, largest_turn);
-  StandingFrame standing(model.frame.building, CombinationId(0u), moving_rules());
+  StandingFrame standing(model.frame.building, CombinationId(0u), unbraced_rules());
   standing.let_move(step);
   standing.break_joint(model.frame.building.joint(model.prop, 1), BreakCause::tool);
   std::vector<JointBreak> breaks;
@@ -104,7 +98,7 @@ TEST_CASE("A root that bears less than its weight turns until it breaks, and its
 
 TEST_CASE("What has turned and rests goes on from there when it moves again") {
   const ProppedTip model(0.8);
-  StandingFrame standing(model.frame.building, CombinationId(0u), moving_rules());
+  StandingFrame standing(model.frame.building, CombinationId(0u), unbraced_rules());
   standing.let_move(step);
   standing.break_joint(model.frame.building.joint(model.prop, 1), BreakCause::tool);
   for (int n = 0; n < 3600 && (n == 0 || standing.pending()); ++n) (void)standing.move();

@@ -216,12 +216,12 @@ void DustWatcher::fire_at(const Eigen::Vector3d& place, double time, double size
   changed_ = true;
 }
 
-/// The places that burn take turns, by the time alone, so that a run made again burns as it did.
 bool DustWatcher::burns(double time) const {
   return std::any_of(fires_.begin(), fires_.end(),
                      [time](const LaidFire& fire) { return fire.from <= time && time < fire.until; });
 }
 
+/// The places that burn take turns, by the time alone, so that a run made again burns as it did.
 void DustWatcher::burn_on(const structure::Simulation& simulation) {
   const structure::Building& building = simulation.building();
   const double now = simulation.time(), before = std::max(time_, now - 0.1);

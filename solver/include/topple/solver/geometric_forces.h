@@ -10,6 +10,9 @@ namespace topple::solver {
 /// Forces of the rigid ends on the beam, local axes, beside those of its elastic stiffness. `axial`: N, tension
 /// positive; `rigid_ends`: rigid_end_displacements().
 [[nodiscard]] Vec12 geometric_forces(const Beam& beam, double axial, const Vec12& rigid_ends);
+/// The same of a beam that bears these elastic end forces (local), by displacements of its nodes (global).
+[[nodiscard]] Vec12 geometric_forces(const Beam& beam, const Vec12& end_forces, const Vec6& first_node,
+                                     const Vec6& second_node);
 
 /// Displacements of the rigid ends at the beam's ends (after the arms), local axes, from node displacements (global).
 [[nodiscard]] Vec12 rigid_end_displacements(const Beam& beam, const Vec6& first_node, const Vec6& second_node);

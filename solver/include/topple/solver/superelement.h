@@ -74,6 +74,9 @@ class Superelement {
   std::unique_ptr<State> state_;
 };
 
+/// Consistent mass of a shell in one translation of its nodes, kg of each pair for `per_area` (kg/m2): by the bilinear
+/// shapes, what a warped shell's arms add to rotations apart.
+[[nodiscard]] Eigen::Matrix4d translation_mass(const FrameModel& model, int shell, double per_area);
 /// Forces at a shell's nodes that do the work of a traction (global, per area).
 [[nodiscard]] std::array<Vec6, 4> traction_loads(const FrameModel& model, int shell, const Vec3& traction);
 

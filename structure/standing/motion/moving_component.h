@@ -1,0 +1,19 @@
+#pragma once
+// A component that moves, as StandingMotion keeps it.
+#include "standing/motion/standing_motion.h"
+
+namespace topple::structure {
+
+struct StandingMotion::Moving {
+  std::unique_ptr<solver::FrameDynamics> frame;
+  std::unique_ptr<Law> law;
+  double elastic_at_start = 0;
+  double first_frequency = 0;  ///< rad/s, lowest of all when it began to move
+  double mass_damping = 0;     ///< 1/s, of what does not fall
+  double turned = 0;           ///< rad, its largest turn a step ago
+  double left_work = 0;        ///< J, at rest: of loads that have changed since, which the account of rest never sees
+  double looked = 0;           ///< s of its motion, when rest was looked for last
+  std::vector<double> mass;    ///< per beam, as the frame has it
+};
+
+}  // namespace topple::structure
