@@ -133,7 +133,8 @@ struct FrameDynamics::State {
   [[nodiscard]] Vec6 momentum_of(int beam, const Mat12& follows, const Eigen::VectorXd& velocities) const;
   [[nodiscard]] Vec6 momentum_left_with(const ChangedBeam& gone) const;
   [[nodiscard]] Eigen::VectorXd scaled_impulses(std::span<const Impulse> impulses) const;
-  [[nodiscard]] Eigen::VectorXd velocities_of(Eigen::VectorXd scaled) const;
+  [[nodiscard]] Eigen::VectorXd on_mass(Eigen::VectorXd impulses) const;
+  [[nodiscard]] Eigen::VectorXd velocities_of(Eigen::VectorXd left) const;
   void follow_jump(const Eigen::VectorXd& change);
 
   // substep.cpp

@@ -37,6 +37,10 @@ Vec6 resultant(const BeamLoad& load) {
   return sum;
 }
 
+double diagonal_of(const SparseSymmetric& A, Eigen::Index equation) {
+  return A.value[static_cast<std::size_t>(A.start[static_cast<std::size_t>(equation)])];
+}
+
 }  // namespace
 
 /// Its nodes move with these velocities (scaled equations), its ends follow them.
@@ -88,23 +92,38 @@ Eigen::VectorXd FrameDynamics::State::scaled_impulses(std::span<const Impulse> i
   return scaled(force);
 }
 
-/// M^-1 times scaled impulses.
+/// What freedoms without mass are given comes to nothing.
+Eigen::VectorXd FrameDynamics::State::on_mass(Eigen::VectorXd impulses) const {
+  for (Eigen::Index e = 0; e < equations(); ++e)
+    if (!(diagonal_of(system().mass(), e) > 0)) impulses(e) = 0;
+  return impulses;
+}
+
+/// (M + h a1 K)^-1 times scaled impulses on mass.
 Eigen::VectorXd FrameDynamics::State::velocities_of(Eigen::VectorXd left) const {
   const Eigen::Index n = equations();
-  const SparseSymmetric& M = system().mass();
+  const SparseSymmetric &M = system().mass(), &whole = system().matrix();
+  // K is what the substep's matrix has beside s M.
+  const double damped = method.h * options.damping.stiffness, inert = 1 - damped * method.s;
   Eigen::VectorXd inverse(n), x = Eigen::VectorXd::Zero(n);
   for (Eigen::Index e = 0; e < n; ++e) {
-    const double diagonal = M.value[static_cast<std::size_t>(M.start[static_cast<std::size_t>(e)])];
+    const double diagonal = damped > 0 ? damped * diagonal_of(whole, e) + inert * diagonal_of(M, e) : diagonal_of(M, e);
     inverse(e) = diagonal > 0 ? 1 / diagonal : 0;
-    if (!(diagonal > 0)) left(e) = 0;
   }
+  SideBySide<1> of_whole;
+  const auto apply = [&](const SideBySide<1>& v, SideBySide<1>& product) {
+    multiply<1>(M, v, product);
+    if (!(damped > 0)) return;
+    multiply<1>(whole, v, of_whole);
+    product = damped * of_whole + inert * product;
+  };
   const auto size = [&](const Eigen::VectorXd& r) { return r.dot(inverse.cwiseProduct(r)); };
   double now_left = size(left);
   const double enough = solved * solved * now_left;
   SideBySide<1> direction = inverse.cwiseProduct(left).transpose(), product;
   for (int pass = 0; now_left > enough; ++pass) {
     if (pass == most_passes) throw std::runtime_error("the velocities that an impulse leaves were not found");
-    multiply<1>(M, direction, product);
+    apply(direction, product);
     const double step = now_left / direction.row(0).dot(product.row(0));
     x += step * direction.row(0).transpose();
     left -= step * product.row(0).transpose();
@@ -115,7 +134,8 @@ Eigen::VectorXd FrameDynamics::State::velocities_of(Eigen::VectorXd left) const 
 }
 
 /// Damping answers a jump of velocities at once: accelerations that did not would make the method create energy in
-/// modes that it does not resolve.
+/// modes that it does not resolve. Implicit, as in velocities_of(): the acceleration itself would throw a mode that is
+/// damped within much less than a substep far beyond its place.
 void FrameDynamics::State::follow_jump(const Eigen::VectorXd& change) {
   const double a0 = options.damping.mass, a1 = options.damping.stiffness;
   if (a1 > 0) {
@@ -123,7 +143,7 @@ void FrameDynamics::State::follow_jump(const Eigen::VectorXd& change) {
     SideBySide<1> whole, inert;
     multiply<1>(system().matrix(), v, whole);
     multiply<1>(system().mass(), v, inert);
-    before.a -= a1 * velocities_of((whole.row(0) - method.s * inert.row(0)).transpose());
+    before.a -= a1 * velocities_of(on_mass((whole.row(0) - method.s * inert.row(0)).transpose()));
   }
   before.a -= a0 * change;
 }
@@ -131,7 +151,8 @@ void FrameDynamics::State::follow_jump(const Eigen::VectorXd& change) {
 std::vector<Vec6> FrameDynamics::velocities_of(std::span<const Impulse> impulses) const {
   const State& state = *state_;
   std::vector<Vec6> result(state.frame.model().nodes.size(), Vec6::Zero());
-  state.system().node_displacements_of_scaled(state.velocities_of(state.scaled_impulses(impulses)), result);
+  state.system().node_displacements_of_scaled(state.velocities_of(state.on_mass(state.scaled_impulses(impulses))),
+                                              result);
   return result;
 }
 
@@ -140,11 +161,15 @@ void FrameDynamics::strike(std::span<const Impulse> impulses) {
   // What changed comes first; the momentum that it leaves out is an impulse here, and no load of a substep to come.
   state.begin_substep();
   state.apply_changes();
-  const Eigen::VectorXd own = state.scaled_impulses(impulses), of_changes = state.method.h * state.substep_load;
+  const Eigen::VectorXd own = state.on_mass(state.scaled_impulses(impulses)),
+                        of_changes = state.on_mass(state.method.h * state.substep_load);
   const Eigen::VectorXd change = state.velocities_of(own + of_changes);
   const Eigen::VectorXd mean = state.before.v + change / 2;
+  SideBySide<1> inert;
+  multiply<1>(state.system().mass(), change.transpose(), inert);
   state.energy.struck += own.dot(mean);
   state.energy.freed -= of_changes.dot(mean);
+  state.energy.damped += (own + of_changes - inert.row(0).transpose()).dot(mean);
   state.substep_load.setZero();
   state.before.v += change;
   state.follow_jump(change);

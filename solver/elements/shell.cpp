@@ -125,6 +125,10 @@ Mat24 ShellElement::stiffness() const {
   Mat24 local = Mat24::Zero();
   put(membrane_.stiffness(), membrane_components, local);
   if (bending_) put(plate_.stiffness(), plate_components, local);
+  return to_global(local);
+}
+
+Mat24 ShellElement::to_global(const Mat24& local) const {
   Mat24 K;
   for (int i = 0; i < 8; ++i) {
     for (int j = i; j < 8; ++j) {

@@ -23,6 +23,9 @@ class ShellElement {
   [[nodiscard]] Vec24 fixed_forces(const Vec3& traction, double strain) const;
   /// Mass in the three translations, none in the rotations; bilinear shapes, or lumped at the nodes by them.
   [[nodiscard]] Mat24 mass(double per_area, bool lumped) const;
+  /// Of inertia per area (kg): for rotations about axes in the plane, and for drilling rotations beyond that of the
+  /// plane as it moves.
+  [[nodiscard]] Mat24 rotary_mass(double per_area) const;
   /// Of the membrane forces at these displacements (global): what they do to the gradient of all three translations.
   [[nodiscard]] Mat24 geometric_stiffness(const Vec24& displacements, double strain) const;
   /// Rows: element axes; x, y halve the angle between the element's middle lines.
@@ -34,6 +37,7 @@ class ShellElement {
  private:
   [[nodiscard]] Vec24 to_local(const Vec24& global) const;
   [[nodiscard]] Vec24 to_global(const Vec24& local) const;
+  [[nodiscard]] Mat24 to_global(const Mat24& local) const;  ///< symmetric
   [[nodiscard]] Mat24 on_translations(const Eigen::Matrix4d& entry) const;
   void add_arms(Mat24& K) const;  ///< of a warped quadrilateral, whose nodes lie off its plane
 

@@ -28,6 +28,26 @@ Mat24 ShellElement::mass(double per_area, bool lumped) const {
   return on_translations(m);
 }
 
+Mat24 ShellElement::rotary_mass(double per_area) const {
+  Mat24 local = Mat24::Zero();
+  for (const double xi : gauss2)
+    for (const double eta : gauss2) {
+      const Bilinear shape(xi, eta);
+      const Eigen::Matrix2d jacobian = shape.jacobian(corners_);
+      Eigen::Matrix<double, 2, 4> derivatives;
+      derivatives << shape.dxi.transpose(), shape.deta.transpose();
+      const Eigen::Matrix<double, 2, 4> gradient = jacobian.inverse() * derivatives;
+      Eigen::Matrix<double, 3, 24> turns = Eigen::Matrix<double, 3, 24>::Zero();
+      for (int n = 0; n < 4; ++n) {
+        for (int c = 0; c < 3; ++c) turns(c, 6 * n + 3 + c) = shape.N(n);
+        turns(2, 6 * n) = gradient(1, n) / 2;
+        turns(2, 6 * n + 1) = -gradient(0, n) / 2;
+      }
+      local += per_area * jacobian.determinant() * turns.transpose() * turns;
+    }
+  return to_global(local);
+}
+
 Mat24 ShellElement::geometric_stiffness(const Vec24& displacements, double strain) const {
   const Vec24 local = to_local(displacements);
   MembraneVector u;

@@ -396,13 +396,10 @@ std::vector<Vec6> Superelement::reactions(const std::vector<Vec6>& displacements
   return result;
 }
 
-Eigen::Matrix4d translation_mass(const FrameModel& model, int index, double per_area) {
+Mat24 shell_mass(const FrameModel& model, int index, double per_area) {
   const Shell& shell = model.shells[static_cast<std::size_t>(index)];
-  const Mat24 all = ShellElement(shell, corner_places(shell, model.nodes)).mass(per_area, false);
-  Eigen::Matrix4d mass;
-  for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 4; ++j) mass(i, j) = all(6 * i, 6 * j);
-  return mass;
+  const ShellElement element(shell, corner_places(shell, model.nodes));
+  return element.mass(per_area, false) + element.rotary_mass(per_area * shell.thickness * shell.thickness / 12);
 }
 
 std::array<Vec6, 4> traction_loads(const FrameModel& model, int index, const Vec3& traction) {

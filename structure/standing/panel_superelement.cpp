@@ -322,35 +322,56 @@ Eigen::MatrixXd PanelSuperelement::of_all_nodes(const Eigen::MatrixXd& kept) con
   return global;
 }
 
-Eigen::MatrixXd PanelSuperelement::mass(double kilograms) const {
+Eigen::MatrixXd PanelSuperelement::weighed(double kilograms, const Eigen::MatrixXd& motions) const {
   const auto& shells = patch_->patch().shells;
-  const Eigen::MatrixXd shapes = patch_->shapes();
-  // Of translations: rows of each node, three components side by side, by the freedoms of kept nodes.
-  const auto nodes = static_cast<Eigen::Index>(patch_->patch().nodes.size()), kept = shapes.cols();
-  Eigen::MatrixXd moved(3 * nodes, kept), inert = Eigen::MatrixXd::Zero(3 * nodes, kept);
-  for (Eigen::Index n = 0; n < nodes; ++n) moved.middleRows<3>(3 * n) = shapes.middleRows<3>(6 * n);
+  Eigen::MatrixXd inert = Eigen::MatrixXd::Zero(motions.rows(), motions.cols());
   double area = 0;
   for (std::size_t k = 0; k < shells.size(); ++k) {
     if (share_[k] <= 0) continue;
     const std::array<int, 4>& corner = shells[k].node;
-    const Eigen::Matrix4d own = share_[k] * element_[k]->mass;
-    area += own.sum();
+    const Mat24 own = share_[k] * element_[k]->mass;
+    double own_area = 0;  // along x, as along any axis
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 4; ++j) own_area += own(6 * i, 6 * j);
+    area += own_area;
     if (patch_->stands(static_cast<int>(k))) {
       for (int i = 0; i < 4; ++i)
         for (int j = 0; j < 4; ++j)
-          inert.middleRows<3>(3 * corner[static_cast<std::size_t>(i)]) +=
-              own(i, j) * moved.middleRows<3>(3 * corner[static_cast<std::size_t>(j)]);
+          inert.middleRows<6>(6 * corner[static_cast<std::size_t>(i)]) +=
+              own.block<6, 6>(6 * i, 6 * j) * motions.middleRows<6>(6 * corner[static_cast<std::size_t>(j)]);
       continue;
     }
     // What is left of it hangs on one node, as its load does.
     Vec2 centre = Vec2::Zero();
     for (const int node : corner) centre += flat(node) / 4;
     const Grip held = grip(centre);
-    if (held.node[0] >= 0) inert.middleRows<3>(3 * held.node[0]) += own.sum() * moved.middleRows<3>(3 * held.node[0]);
+    if (held.node[0] >= 0) inert.middleRows<3>(6 * held.node[0]) += own_area * motions.middleRows<3>(6 * held.node[0]);
   }
-  if (!(area > 0)) return of_all_nodes(Eigen::MatrixXd::Zero(kept, kept));
-  const Eigen::MatrixXd product = kilograms / area * (moved.transpose() * inert);
+  if (!(area > 0)) return Eigen::MatrixXd::Zero(motions.rows(), motions.cols());
+  return kilograms / area * inert;
+}
+
+Eigen::MatrixXd PanelSuperelement::mass(double kilograms) const {
+  const Eigen::MatrixXd shapes = patch_->shapes();
+  const Eigen::MatrixXd product = shapes.transpose() * weighed(kilograms, shapes);
   return of_all_nodes((product + product.transpose()) / 2);
+}
+
+Eigen::VectorXd PanelSuperelement::motion(const std::vector<Vec6>& at_nodes) const {
+  Eigen::VectorXd kept = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(6 * patch_->patch().kept.size()));
+  for (std::size_t n = 0; n < node_.size(); ++n)
+    if (place_[n] >= 0) kept.segment<6>(6 * place_[n]) = turned(turn_, at_nodes[n]);
+  return patch_->shapes() * kept;
+}
+
+Eigen::VectorXd PanelSuperelement::momentum(double kilograms, const Eigen::VectorXd& motion) const {
+  const Eigen::VectorXd kept = patch_->shapes().transpose() * weighed(kilograms, motion);
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(6 * node_.size()));
+  for (std::size_t n = 0; n < node_.size(); ++n)
+    if (place_[n] >= 0)
+      all.segment<6>(static_cast<Eigen::Index>(6 * n)) =
+          turned(turn_.transpose(), Vec6(kept.segment<6>(6 * place_[n])));
+  return all;
 }
 
 bool PanelSuperelement::stands_at(std::size_t node) const {

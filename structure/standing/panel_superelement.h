@@ -55,6 +55,12 @@ class PanelSuperelement {
   /// Consistent mass for so many kilograms of what is there, evenly over its area; what lies between the nodes follows
   /// them statically (R. J. Guyan, AIAA Journal 3 (1965), 380). Rows and columns as stiffness() has them.
   [[nodiscard]] Eigen::MatrixXd mass(double kilograms) const;
+  /// A motion of the panel: velocities of the nodes of its mesh, axes of the mesh, from those of its own nodes.
+  [[nodiscard]] Eigen::VectorXd motion(const std::vector<Vec6>& at_nodes) const;
+  /// What so many kilograms of what is there have of a motion that the panel had before it changed: impulses at its
+  /// nodes, rows as stiffness() has them. Over mass(): of all motions it can have now, the nearest (what differs is
+  /// lost).
+  [[nodiscard]] Eigen::VectorXd momentum(double kilograms, const Eigen::VectorXd& motion) const;
   /// True while the panel is held at this node and something of it stands there.
   [[nodiscard]] bool stands_at(std::size_t node) const;
   [[nodiscard]] std::size_t nodes() const { return node_.size(); }
@@ -101,6 +107,8 @@ class PanelSuperelement {
   [[nodiscard]] Grip grip(const Vec2& at) const;
   void add_force(const PanelForce& one, std::vector<Vec6>& loads) const;
   [[nodiscard]] Eigen::MatrixXd of_all_nodes(const Eigen::MatrixXd& kept) const;
+  /// So many kilograms, evenly over what is there, times motions of the nodes of the mesh (a column each).
+  [[nodiscard]] Eigen::MatrixXd weighed(double kilograms, const Eigen::MatrixXd& motions) const;
   [[nodiscard]] std::vector<Vec6> recover(const std::vector<Vec6>& at_nodes, const PanelLoading& loading) const;
   Mat3 axes_;  ///< of the panel
   Vec3 origin_;

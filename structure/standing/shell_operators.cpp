@@ -13,7 +13,7 @@ ShellOperators::Element operators_of(const solver::FrameModel& alone) {
     const std::array<Vec6, 4> own = solver::traction_loads(alone, 0, Vec3::Unit(axis));
     for (int n = 0; n < 4; ++n) element.loads.col(axis).segment<6>(6 * n) = own[static_cast<std::size_t>(n)];
   }
-  element.mass = solver::translation_mass(alone, 0, 1);
+  element.mass = solver::shell_mass(alone, 0, 1);
   for (int freedom = 0; freedom < 24; ++freedom) {
     std::vector<Vec6> u(4, Vec6::Zero());
     u[static_cast<std::size_t>(freedom / 6)](freedom % 6) = 1;

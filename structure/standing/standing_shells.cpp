@@ -40,6 +40,7 @@ void StandingFrame::State::fracture_shell(PanelId panel, const PanelRemains& rem
   parts.bearings.fracture(panel, remains.edge_length);
   const TributaryLoads before = loads.handed(panel);
   const Eigen::MatrixXd stiffness = shells.of(panel)->stiffness();
+  if (motion) motion->remember_motion(panel);
   shells.of(panel)->fracture(remains);
   replace_stiffness(panel, stiffness);
   loads.fracture(panel, remains);
@@ -72,6 +73,7 @@ void StandingFrame::State::lose_shell_edge(PanelId panel, int edge) {
   lose_edge_supports(panel, edge);
   if (parts.segments.label(panel) >= 0 && statics.stiff(panel)) {
     const Eigen::MatrixXd before = shells.of(panel)->stiffness();
+    if (motion) motion->remember_motion(panel);
     shells.of(panel)->release_edge(edge);
     replace_stiffness(panel, before);
     if (motion) motion->update_mass(panel);

@@ -14,6 +14,12 @@ struct StandingMotion::Moving {
   double left_work = 0;        ///< J, at rest: of loads that have changed since, which the account of rest never sees
   double looked = 0;           ///< s of its motion, when rest was looked for last
   std::vector<double> mass;    ///< per beam, as the frame has it
+  /// A shell panel that changed since the last substep or impulse.
+  struct ChangedShell {
+    Eigen::VectorXd motion;    ///< before it changed: PanelSuperelement::motion()
+    Eigen::VectorXd impulses;  ///< at its nodes: what it lacks of that motion's momentum now; empty: none
+  };
+  std::map<PanelId, ChangedShell> changed_shells;
 };
 
 }  // namespace topple::structure

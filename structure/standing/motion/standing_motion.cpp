@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "model/index_of.h"
 #include "model/own_mass.h"
@@ -106,9 +107,19 @@ solver::FrameModel StandingMotion::model_of(int c) const {
 bool StandingMotion::is_shell(PanelId panel) const { return from_.building[panel].model == PanelModel::shell; }
 
 /// By its weight; without any by its material's.
-Eigen::MatrixXd StandingMotion::mass_of(PanelId id) const {
-  const double by_weight = from_.loads.mass(id);
-  return from_.shells.of(id)->mass(by_weight > 0 ? by_weight : own_mass(from_.building, id));
+double StandingMotion::kilograms(PanelId shell) const {
+  const double by_weight = from_.loads.mass(shell);
+  return by_weight > 0 ? by_weight : own_mass(from_.building, shell);
+}
+
+Eigen::MatrixXd StandingMotion::mass_of(PanelId id) const { return from_.shells.of(id)->mass(kilograms(id)); }
+
+void StandingMotion::remember_motion(PanelId id) {
+  const auto found = moving_.find(from_.components.of(id));
+  if (found == moving_.end() || !is_shell(id) || found->second->changed_shells.contains(id)) return;
+  std::vector<Vec6> at_nodes;
+  for (const NodeId node : from_.building[id].all_nodes()) at_nodes.push_back(velocity(node));
+  found->second->changed_shells[id].motion = from_.shells.of(id)->motion(at_nodes);
 }
 
 void StandingMotion::update_mass(PanelId id) {
@@ -116,9 +127,34 @@ void StandingMotion::update_mass(PanelId id) {
   if (found == moving_.end() || !is_shell(id)) return;
   solver::FrameDynamics& frame = *found->second->frame;
   const int number = from_.statics.number(id);
-  Eigen::MatrixXd mass = from_.statics.shell_stiffness(id);
-  mass = from_.statics.stiff(id) ? mass_of(id) : Eigen::MatrixXd::Zero(mass.rows(), mass.cols());
-  frame.set_patch_mass(number, std::move(mass));
+  if (!from_.statics.stiff(id)) {  // it takes along what it has
+    const Eigen::Index size = from_.statics.shell_stiffness(id).rows();
+    frame.set_patch_mass(number, Eigen::MatrixXd::Zero(size, size));
+    found->second->changed_shells.erase(id);
+    return;
+  }
+  const Eigen::MatrixXd mass = mass_of(id);
+  if (const auto changed = found->second->changed_shells.find(id); changed != found->second->changed_shells.end()) {
+    const std::vector<NodeId> nodes = from_.building[id].all_nodes();
+    Eigen::VectorXd now(mass.rows());
+    for (std::size_t n = 0; n < nodes.size(); ++n)
+      now.segment<6>(static_cast<Eigen::Index>(6 * n)) = velocity(nodes[n]);
+    changed->second.impulses = from_.shells.of(id)->momentum(kilograms(id), changed->second.motion) - mass * now;
+  }
+  frame.set_patch_mass(number, mass);
+}
+
+void StandingMotion::pass_on_motion(int c) {
+  Moving& moving = *moving_.at(c);
+  if (moving.changed_shells.empty()) return;
+  NodalForces impulses;
+  for (const auto& [id, changed] : std::exchange(moving.changed_shells, {})) {
+    if (changed.impulses.size() == 0) continue;
+    const std::vector<NodeId> nodes = from_.building[id].all_nodes();
+    for (std::size_t n = 0; n < nodes.size(); ++n)
+      impulses.emplace_back(nodes[n], changed.impulses.segment<6>(static_cast<Eigen::Index>(6 * n)));
+  }
+  past_.within += strike(c, impulses);
 }
 
 solver::MassModel StandingMotion::masses_of(int c) const {
@@ -300,6 +336,7 @@ void StandingMotion::update_masses() {
 }
 
 std::vector<StandingMotion::Break> StandingMotion::advance(int c) {
+  pass_on_motion(c);
   Moving& moving = *moving_.at(c);
   const double freed = moving.frame->energy().freed;
   std::vector<solver::PlasticHinge> hinges;
@@ -394,6 +431,7 @@ StandingMotion::LocalMotion StandingMotion::local_motion(int c, std::span<const 
 }
 
 double StandingMotion::strike(int c, const NodalForces& impulses) {
+  pass_on_motion(c);
   solver::FrameDynamics& frame = *moving_.at(c)->frame;
   const double before = frame.energy().struck;
   frame.strike(numbered(from_.statics, impulses));

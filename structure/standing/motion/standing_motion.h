@@ -62,8 +62,14 @@ class StandingMotion {
   void stop(int component);
   /// Masses as panels hand on their weight now, for all that moves.
   void update_masses();
-  /// Of a shell panel of which less is there, or that lets go of an edge.
+  /// Of a shell panel of which less is there, or that lets go of an edge. What is left of it has the motion that it had
+  /// at remember_motion(), and shares it inelastically with what it hangs on: of shapes that it can move by now, the
+  /// nearest.
   void update_mass(PanelId shell);
+  /// Before a shell panel changes.
+  void remember_motion(PanelId shell);
+  /// What is left of panels that changed takes over its motion now: no later than with the next substep or impulse.
+  void pass_on_motion(int component);
 
   /// A joint that broke within a substep, and what its member bore then.
   struct Break {
@@ -128,6 +134,7 @@ class StandingMotion {
   [[nodiscard]] std::vector<Vec6> displacements_at_rest(int component) const;
   [[nodiscard]] Eigen::MatrixXd mass_of(PanelId shell) const;
   [[nodiscard]] bool is_shell(PanelId panel) const;
+  [[nodiscard]] double kilograms(PanelId shell) const;
   [[nodiscard]] double damping_of(int component) const;
   void lay_plastic_rotations(int component, Moving& moving) const;
   void take_plastic_rotations(int component, const Moving& moving) const;

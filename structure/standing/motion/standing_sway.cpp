@@ -92,6 +92,7 @@ StandingFrame::HeldResponse StandingFrame::respond_held(std::span<const ContactP
   answer.pushed.resize(0, static_cast<Eigen::Index>(places.size()));
   for (const auto& [c, own] : state.places_by_component(answer)) {
     state.motion->start(c);
+    state.motion->pass_on_motion(c);
     std::vector<StandingMotion::NodalForces> forces;
     for (const Eigen::Index i : own) forces.push_back(answer.at_nodes[static_cast<std::size_t>(i)]);
     answer.mobility(own, own) = state.motion->mobility(c, forces);

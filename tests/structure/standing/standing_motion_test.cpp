@@ -173,13 +173,15 @@ TEST_CASE("A blow on a bar is borne by the bar alone, its nodes held, and its im
   const bool strong =
       std::abs(held.compliance(0, 0) - squeeze - bent / 2e-4) < std::abs(held.compliance(0, 0) - squeeze - bent / 1e-4);
   CHECK(held.compliance(0, 0) == Approx(squeeze + bent / (strong ? 2e-4 : 1e-4)).epsilon(1e-9));
-  // Half of the push goes to the mass; its moment turns nothing that has mass.
-  CHECK(held.mobility(0, 0) == Approx(0.25 / MassOnBars::mass).epsilon(1e-6));
+  // Half of the push goes to the mass; its moment turns nothing that has mass. Damping takes a1 w2 of it within a
+  // substep: some 3e-5, the mass swinging across the bars at 28 rad/s.
+  const double share = 1e-4;
+  CHECK(held.mobility(0, 0) == Approx(0.25 / MassOnBars::mass).epsilon(share));
   const Eigen::VectorXd impulse = Eigen::VectorXd::Constant(1, 1e5);
-  CHECK(standing.strike(held, impulse) == Approx(1e10 * 0.25 / MassOnBars::mass / 2).epsilon(1e-6));
+  CHECK(standing.strike(held, impulse) == Approx(1e10 * 0.25 / MassOnBars::mass / 2).epsilon(share));
   CHECK(standing.respond_held({&place, 1}, {&along, 1}).speed(0) ==
-        Approx(1e5 * 0.25 / MassOnBars::mass).epsilon(1e-6));
-  CHECK(standing.energy().kinetic == Approx(standing.energy().struck).epsilon(1e-9));
+        Approx(1e5 * 0.25 / MassOnBars::mass).epsilon(share));
+  CHECK(standing.energy().kinetic + standing.energy().damped == Approx(standing.energy().struck).epsilon(1e-9));
 }
 
 TEST_CASE("What cannot move is refused by name") {

@@ -204,8 +204,10 @@ class FrameDynamics {
     int node = -1;                ///< that is struck
     Vec6 impulse = Vec6::Zero();  ///< x y z rx ry rz, global axes
   };
-  /// M^-1 J: by how much impulses change the velocities of the frame, per node, changes since the last substep apart.
-  /// Freedoms without mass take none. Conjugate gradients, to 1e-12 of J.
+  /// (M + h a1 K)^-1 J: by how much impulses change the velocities of the frame, per node, changes since the last
+  /// substep apart. That is M^-1 J but for modes that damp away within a substep: they take as much less as an implicit
+  /// step of their damping leaves, so that no impulse creates energy there. Freedoms without mass take none. Conjugate
+  /// gradients, to 1e-12 of J.
   [[nodiscard]] std::vector<Vec6> velocities_of(std::span<const Impulse> impulses) const;
   /// Of these nodes, with all others held, changes since the last substep apart: K and M as they stand. Freedoms
   /// without mass follow the others.

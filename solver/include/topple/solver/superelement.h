@@ -74,9 +74,11 @@ class Superelement {
   std::unique_ptr<State> state_;
 };
 
-/// Consistent mass of a shell in one translation of its nodes, kg of each pair for `per_area` (kg/m2): by the bilinear
-/// shapes, what a warped shell's arms add to rotations apart.
-[[nodiscard]] Eigen::Matrix4d translation_mass(const FrameModel& model, int shell, double per_area);
+/// Consistent mass of a shell in the freedoms of its four nodes (kg, kg m, kg m2; global axes) for `per_area` (kg/m2):
+/// by the bilinear shapes of its translations, and the rotary inertia of its thickness t, per_area t2/12: of rotations
+/// about axes in its plane (R. D. Mindlin, Journal of Applied Mechanics 18 (1951), 31), and of drilling rotations
+/// beyond the mean rotation of the plane, so that no freedom is without inertia and rigid motions have the plate's own.
+[[nodiscard]] Eigen::Matrix<double, 24, 24> shell_mass(const FrameModel& model, int shell, double per_area);
 /// Forces at a shell's nodes that do the work of a traction (global, per area).
 [[nodiscard]] std::array<Vec6, 4> traction_loads(const FrameModel& model, int shell, const Vec3& traction);
 
