@@ -134,7 +134,7 @@ struct FrameDynamics::State {
   [[nodiscard]] Vec6 momentum_left_with(const ChangedBeam& gone) const;
   [[nodiscard]] Eigen::VectorXd scaled_impulses(std::span<const Impulse> impulses) const;
   [[nodiscard]] Eigen::VectorXd on_mass(Eigen::VectorXd impulses) const;
-  [[nodiscard]] Eigen::VectorXd velocities_of(Eigen::VectorXd left) const;
+  [[nodiscard]] Eigen::VectorXd velocities_of(Eigen::VectorXd left);
   void follow_jump(const Eigen::VectorXd& change);
 
   // substep.cpp

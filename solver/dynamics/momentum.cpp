@@ -12,6 +12,8 @@ namespace {
 /// Conjugate gradients on M stop at this share of the impulses, and never go on beyond so many passes.
 constexpr double solved = 1e-12;
 constexpr int most_passes = 2000;
+/// From this ratio of smallest to largest eigenvalue on the factor guides them.
+constexpr double least_share = 0.01;
 
 /// Of a point at `at` in the rigid motion number `component`: translations along the axes, rotations about them through
 /// the origin.
@@ -99,14 +101,16 @@ Eigen::VectorXd FrameDynamics::State::on_mass(Eigen::VectorXd impulses) const {
   return impulses;
 }
 
-/// (M + h a1 K)^-1 times scaled impulses on mass.
-Eigen::VectorXd FrameDynamics::State::velocities_of(Eigen::VectorXd left) const {
+/// (M + h a1 K)^-1 times scaled impulses on mass. Conjugate gradients, guided by the substep's factor of K + s M where
+/// that has the better condition: by it all eigenvalues lie between 1/s and h a1.
+Eigen::VectorXd FrameDynamics::State::velocities_of(Eigen::VectorXd left) {
   const Eigen::Index n = equations();
   const SparseSymmetric &M = system().mass(), &whole = system().matrix();
   // K is what the substep's matrix has beside s M.
   const double damped = method.h * options.damping.stiffness, inert = 1 - damped * method.s;
+  const bool by_factor = damped * method.s > least_share;
   Eigen::VectorXd inverse(n), x = Eigen::VectorXd::Zero(n);
-  for (Eigen::Index e = 0; e < n; ++e) {
+  for (Eigen::Index e = 0; e < n && !by_factor; ++e) {
     const double diagonal = damped > 0 ? damped * diagonal_of(whole, e) + inert * diagonal_of(M, e) : diagonal_of(M, e);
     inverse(e) = diagonal > 0 ? 1 / diagonal : 0;
   }
@@ -117,18 +121,26 @@ Eigen::VectorXd FrameDynamics::State::velocities_of(Eigen::VectorXd left) const 
     multiply<1>(whole, v, of_whole);
     product = damped * of_whole + inert * product;
   };
-  const auto size = [&](const Eigen::VectorXd& r) { return r.dot(inverse.cwiseProduct(r)); };
-  double now_left = size(left);
+  Eigen::VectorXd guided;
+  const auto guide = [&] {
+    guided = left;
+    if (by_factor)
+      solve(guided);
+    else
+      guided = inverse.cwiseProduct(left);
+    return left.dot(guided);
+  };
+  double now_left = guide();
   const double enough = solved * solved * now_left;
-  SideBySide<1> direction = inverse.cwiseProduct(left).transpose(), product;
+  SideBySide<1> direction = guided.transpose(), product;
   for (int pass = 0; now_left > enough; ++pass) {
     if (pass == most_passes) throw std::runtime_error("the velocities that an impulse leaves were not found");
     apply(direction, product);
     const double step = now_left / direction.row(0).dot(product.row(0));
     x += step * direction.row(0).transpose();
     left -= step * product.row(0).transpose();
-    const double before_this = std::exchange(now_left, size(left));
-    direction = (inverse.cwiseProduct(left) + now_left / before_this * direction.row(0).transpose()).transpose();
+    const double before_this = std::exchange(now_left, guide());
+    direction = (guided + now_left / before_this * direction.row(0).transpose()).transpose();
   }
   return x;
 }
@@ -149,7 +161,7 @@ void FrameDynamics::State::follow_jump(const Eigen::VectorXd& change) {
 }
 
 std::vector<Vec6> FrameDynamics::velocities_of(std::span<const Impulse> impulses) const {
-  const State& state = *state_;
+  State& state = *state_;
   std::vector<Vec6> result(state.frame.model().nodes.size(), Vec6::Zero());
   state.system().node_displacements_of_scaled(state.velocities_of(state.on_mass(state.scaled_impulses(impulses))),
                                               result);
