@@ -122,6 +122,7 @@ struct FrameDynamics::State {
   [[nodiscard]] bool patch_holds(int patch, int node);
   [[nodiscard]] bool patch_weighs(int patch);
   void clear_dropped();
+  void set_method(const GeneralizedAlpha& other);
   void find_substep_load();
   void begin_substep();
   /// Momentum of a beam that its nodes' velocities leave out now (local node impulses), since its ends changed.

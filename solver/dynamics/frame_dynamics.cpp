@@ -122,6 +122,18 @@ void FrameDynamics::set_mass_damping(double a0) {
   state_->options.damping.mass = a0;
 }
 
+void FrameDynamics::set_damping(const RayleighDamping& damping) {
+  if (!(damping.mass >= 0 && damping.stiffness >= 0) || !std::isfinite(damping.mass + damping.stiffness))
+    throw std::invalid_argument("damping must be finite, and not negative");
+  State& state = *state_;
+  state.options.damping.mass = damping.mass;
+  if (damping.stiffness == state.options.damping.stiffness) return;
+  state.begin_substep();
+  state.apply_changes();
+  state.options.damping.stiffness = damping.stiffness;
+  state.set_method({state.method.h, state.options.spectral_radius, damping.stiffness});
+}
+
 void FrameDynamics::set_state(const std::vector<Vec6>& displacements, const std::vector<Vec6>& velocities) {
   State& state = *state_;
   const std::size_t count = state.frame.model().nodes.size();

@@ -76,6 +76,33 @@ void FrameDynamics::State::take_changes() {
   for (LoadPattern& pattern : patterns) pattern.force.resize(0);
 }
 
+/// The motion goes on by a matrix of another s, which has another scale.
+void FrameDynamics::State::set_method(const GeneralizedAlpha& other) {
+  const auto scale = [&] {
+    return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(system().scale().data(), equations()));
+  };
+  const Eigen::VectorXd scaled_by = scale();
+  method = other;
+  inertia.factor = method.s;
+  core().rebuild();
+  core().answered = false;
+  take_changes();
+  const Eigen::VectorXd ratio = scale().cwiseQuotient(scaled_by);
+  for (Eigen::VectorXd* motion : {&before.u, &before.v, &before.a}) *motion = motion->cwiseQuotient(ratio);
+  now = before;
+  substep_load.setZero(equations());
+  for (LoadPattern& pattern : patterns) {
+    if (pattern.kind == LoadPattern::Kind::holding)
+      pattern.force = pattern.force.cwiseProduct(ratio);
+    else
+      pattern.force.resize(0);
+  }
+  products_known = nodes_known = end_known = false;
+  forget_kinks();
+  for (Kink& kink : kinks)
+    if (kink.current != 0) find_kink(kink);
+}
+
 /// How the ends of beams that change followed their nodes at the start of this substep.
 void FrameDynamics::State::remember_changing_beams() {
   for (const int beam : core().changed_beams) {

@@ -194,13 +194,21 @@ void StandingMotion::put_loads(int c, solver::FrameDynamics& frame) const {
       frame.set_node_load(from_.statics.number(node), from_.statics.load(node));
 }
 
-/// As it stands when it first begins to move.
+std::size_t StandingMotion::holding(int c) const {
+  std::size_t count = 0;
+  for (const JointId joint : from_.components.joints[static_cast<std::size_t>(c)])
+    if (from_.parts.standing(joint)) ++count;
+  return count;
+}
+
+/// As it stands.
 StandingMotion::Known StandingMotion::find(int c, const solver::FrameModel& model, const solver::MassModel& masses,
                                            const std::vector<Vec6>& rest) const {
   solver::DynamicOptions still;
   still.analysis.threads = from_.threads;
   still.keep_energy = false;
   Known found;
+  found.holding = holding(c);
   const std::vector<solver::VibrationMode> modes = solver::natural_modes(model, masses, 1, still.analysis).modes;
   if (modes.empty()) return found;  // supports hold every node
   found.first_frequency = modes.front().angular_frequency;
@@ -208,6 +216,17 @@ StandingMotion::Known StandingMotion::find(int c, const solver::FrameModel& mode
   const double shape = quotient > 0 ? std::sqrt(quotient) : found.first_frequency;
   found.damping = solver::rayleigh_damping(damping_of(c), found.first_frequency, shape);
   return found;
+}
+
+void StandingMotion::update_damping(int c) {
+  Known& known = known_.at(c);
+  if (known.holding == holding(c)) return;
+  Moving& moving = *moving_.at(c);
+  const std::vector<Vec6> rest = displacements_at_rest(c);
+  known = find(c, model_of(c), masses_of(c), rest);
+  moving.first_frequency = known.first_frequency;
+  moving.mass_damping = known.damping.mass;
+  moving.frame->set_damping(known.damping);
 }
 
 /// As the component's hinges have turned so far.
@@ -251,9 +270,8 @@ void StandingMotion::start(int c) {
   options.substep = substep_;
   options.spectral_radius = settings_.spectral_radius;
   options.analysis.threads = from_.threads;
-  const auto known = known_.find(c);
-  const Known& own =
-      known != known_.end() ? known->second : known_.emplace(c, find(c, model, masses, rest)).first->second;
+  Known& own = known_[c];
+  if (own.holding == 0 || own.holding != holding(c)) own = find(c, model, masses, rest);
   options.damping = own.damping;
   options.second_order = from_.second_order;
   moving.first_frequency = own.first_frequency;

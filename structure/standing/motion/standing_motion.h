@@ -111,6 +111,8 @@ class StandingMotion {
   /// Mass damps nothing while a component whose chords have turned by MotionSettings::falling_turn turns further: it
   /// would brake what falls. `turn`: largest_turn() now, once a step.
   void damp_by_mass(int component, double turn);
+  /// Its statics were solved: where joints have broken since its damping was found, it is found anew, as it stands.
+  void update_damping(int component);
   /// Its statics were solved: whether every joint is at rest there, as the settings have it.
   [[nodiscard]] bool rests(int component);
   /// It is time to look.
@@ -121,11 +123,13 @@ class StandingMotion {
  private:
   struct Moving;
   class Law;
-  /// Found once for each component.
+  /// Of a component as it stood.
   struct Known {
     double first_frequency = 1;  ///< rad/s; of what cannot move any
     solver::RayleighDamping damping;
+    std::size_t holding = 0;  ///< its joints that held
   };
+  [[nodiscard]] std::size_t holding(int component) const;
   [[nodiscard]] Known find(int component, const solver::FrameModel& model, const solver::MassModel& masses,
                            const std::vector<Vec6>& rest) const;
   [[nodiscard]] const Moving* of(int component) const;

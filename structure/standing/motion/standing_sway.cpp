@@ -253,7 +253,9 @@ void StandingFrame::State::read_motion(int c) {
 void StandingFrame::State::look_for_rest(int c) {
   if (!motion->look_for_rest(c)) return;
   yielding.lay_rotations(c);
-  if (statics.solve(c) || !motion->rests(c)) return;
+  if (statics.solve(c)) return;
+  motion->update_damping(c);
+  if (!motion->rests(c)) return;
   for (const PanelId panel : statics.membranes(c))
     if (parts.bearings.membrane(panel)) edge_loads.set_corner_forces(panel, statics.corner_forces(panel));
   read_demands(c, false);

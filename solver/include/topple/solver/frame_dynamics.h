@@ -181,6 +181,8 @@ class FrameDynamics {
   void set_beam_loads(int beam, std::vector<BeamLoad> loads);
   /// From now on; a1 stays as it is.
   void set_mass_damping(double a0);
+  /// From now on. Another a1 is a new factor. Throws std::invalid_argument for what is negative or not finite.
+  void set_damping(const RayleighDamping& damping);
 
   // Loads that go with time, beside those: a distribution in space times a value that changes linearly within each
   // substep. Each returns the pattern's number; its value is 0.
