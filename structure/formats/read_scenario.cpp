@@ -46,6 +46,9 @@ bool boolean(const JsonValue& value) { return value.boolean(); }
 constexpr const char* pace_is_the_hosts =
     "a step computes all that happens in it, and the pace of the steps is the host's; leave the key out";
 
+/// More of them in a step serve nothing: a step of a tenth of a second has them at 10 kHz.
+constexpr std::int64_t most_substeps = 1000;
+
 class ScenarioReader {
  public:
   ScenarioReader(const JsonValue& root, const Building& building, CutPlaces cuts)
@@ -65,6 +68,7 @@ class ScenarioReader {
       if (rule != "static" && rule != "dynamic") v.refuse("\"static\" or \"dynamic\"");
       return rule == "dynamic" ? StandingRule::dynamics : StandingRule::statics;
     });
+    if (const auto dynamics = root_.find("dynamics")) read_dynamics(*dynamics);
     if (const auto failure = root_.find("failure")) read_failure(*failure);
     if (const auto impact = root_.find("impact")) read_impact(*impact);
     if (const auto debris = root_.find("debris")) read_debris(*debris);
@@ -110,6 +114,17 @@ class ScenarioReader {
     value->fail("there is no combination " + in_quotes(name) + "; accepted: " + quoted_list(accepted));
   }
 
+  void read_dynamics(const JsonValue& dynamics) {
+    if (scenario_.standing == StandingRule::statics)
+      dynamics.fail("what stands does not move in time with \"standing\": \"static\"; accepted: one of the two");
+    dynamics.only({"substeps", "damping", "spectral_radius"});
+    MotionRules& rules = scenario_.motion;
+    take(dynamics, "substeps", rules.substeps,
+         [](const JsonValue& v) { return static_cast<int>(v.whole(1, most_substeps)); });
+    take(dynamics, "damping", rules.damping, in(ranges::unit));
+    take(dynamics, "spectral_radius", rules.spectral_radius, in(ranges::unit));
+  }
+
   void read_failure(const JsonValue& failure) {
     if (const auto quota = failure.find("generations_per_second"))
       quota->fail("nothing limits what may break in a step any more: " + std::string(pace_is_the_hosts));
@@ -128,6 +143,9 @@ class ScenarioReader {
       return rule == "hinge" ? MechanismRule::hinge : MechanismRule::detach;
     });
     take(failure, "second_order", rules.second_order, boolean);
+    if (const auto sudden = failure.find("sudden"); sudden && scenario_.standing == StandingRule::dynamics)
+      sudden->fail(
+          "a factor of sudden losses acts with \"standing\": \"static\" alone: what moves overshoots by itself");
     take(failure, "sudden", rules.sudden, in(ranges::sudden));
   }
 
@@ -331,7 +349,7 @@ void require_scenario(const JsonDocument& document) {
   if (const auto budget = root.find("budget"))
     budget->fail("nothing limits what a step may compute any more: " + std::string(pace_is_the_hosts));
   root.only({"topple", "title", "model", "combination", "step", "duration", "until_rest", "seed", "ground", "standing",
-             "failure", "impact", "debris", "fracture", "events"});
+             "dynamics", "failure", "impact", "debris", "fracture", "events"});
   const JsonValue version = root.require("topple");
   if (!version.is_number() || version.number() != 1) version.refuse("1, the version of the format");
 }

@@ -158,6 +158,10 @@ class SceneHash {
     const auto& [bracing, mechanism, second_order, sudden] = rules;
     each(bracing, mechanism, second_order, sudden);
   }
+  void add(const MotionRules& rules) {
+    const auto& [substeps, damping, spectral_radius] = rules;
+    each(substeps, damping, spectral_radius);
+  }
   void add(const ImpactRules& rules) {
     const auto& [restitution, structure_mass] = rules;
     each(restitution, structure_mass);
@@ -167,11 +171,11 @@ class SceneHash {
     each(friction, restitution, limit, smallest_volume);
   }
   void add(const Scenario& scenario) {
-    const auto& [title, file, model, combination, step, duration, until_rest, seed, ground, standing, failure, impact,
-                 debris, fracture, events] = scenario;
+    const auto& [title, file, model, combination, step, duration, until_rest, seed, ground, standing, motion, failure,
+                 impact, debris, fracture, events] = scenario;
     static_cast<void>(title), static_cast<void>(file), static_cast<void>(model), static_cast<void>(duration),
         static_cast<void>(until_rest);  // a run may be taken up to go on longer
-    each(combination, step, seed, ground, standing, failure, impact, debris, fracture, events);
+    each(combination, step, seed, ground, standing, motion, failure, impact, debris, fracture, events);
   }
 
   ReplayHash hash_;

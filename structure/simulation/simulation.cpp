@@ -54,7 +54,7 @@ Simulation::State::State(Building the_building, Scenario the_scenario, Simulatio
       standing_impacts({scene, log, sums, debris, panels, standing_fracture, release_impulses, struck}),
       body_impacts({scene, log, sums, debris, break_up, standing_impacts, struck}),
       debris_fracture({scene, log, sums, debris, hinges, panels, views, break_up, release_impulses}) {
-  if (scene.sways()) scene.frame->let_move(scene.scenario.step);
+  if (scene.sways()) scene.frame->let_move(scene.scenario.step, scene.scenario.motion);
   panels.open();
 }
 

@@ -41,7 +41,7 @@ def test_a_beam_that_is_cut_off_falls_freely():
     assert happened[1]["name"] == "B:1" and happened[1]["cause"] == "tool"
     assert run.handles.shape == (1,)
     start = run.poses[0].copy()
-    assert start[:3] == pytest.approx([1.5, 0, 20], abs=0.05)  # where its middle hung
+    assert start[:3] == pytest.approx([1.5, 0, 20], abs=0.1)  # where its middle hung: the post leans by 5 cm
     run.step(240)
     # Semi-implicit Euler read at mid-step is exact in free flight: a second's fall, to what a step may shift it by.
     assert start[2] - run.poses[0, 2] == pytest.approx(GRAVITY / 2, rel=0.02)

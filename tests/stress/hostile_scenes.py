@@ -31,7 +31,7 @@ PLAIN = json.loads(json.dumps(MODEL))  # what tables can hold
 del PLAIN["materials"]["concrete"]["fracture"]
 SCENARIO = {
     "topple": 1, "model": "m.json", "combination": "collapse", "step": 0.02, "duration": 1.0, "seed": 3,
-    "failure": {"sudden": 1.5}, "impact": {"restitution": 0.2},
+    "standing": "static", "failure": {"sudden": 1.5}, "impact": {"restitution": 0.2},
     "debris": {"friction": 0.6, "restitution": 0.1, "limit": 100, "smallest_volume": 0.001},
     "fracture": {"method": "local", "points": [5, 9], "length": [0.3, 0.9], "ring": 0.4},
     "events": [
@@ -107,7 +107,7 @@ BUILDING = {"topple": 1, "materials": MODEL["materials"], "sections": MODEL["sec
 BRITTLE = json.loads(json.dumps(PLAIN))
 del BRITTLE["joints"]["j"]["ductility"]
 MOVING = {"topple": 1, "model": "m.json", "combination": "collapse", "step": 0.02, "duration": 0.3, "until_rest": True, "seed": 1,
-          "ground": -0.1, "standing": "dynamic", "impact": {"restitution": 0.1, "structure_mass": True},
+          "ground": -0.1, "standing": "dynamic", "dynamics": {"substeps": 4, "damping": 0.05, "spectral_radius": 0.8}, "impact": {"restitution": 0.1, "structure_mass": True},
           "failure": {"bracing": "buckling", "mechanism": "hinge"},
           "events": [{"at": 0, "remove": {"members": ["P1"], "supports": ["B"], "groups": ["slabs"]}},
                      {"at": 0.04, "cut": {"members": [{"member": "B2", "where": 0.5}]}},

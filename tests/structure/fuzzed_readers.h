@@ -245,7 +245,8 @@ inline FuzzTally fuzz_scenarios(int rounds) {
     "sections": {"b": {"shape": "box", "depth": 0.3, "width": 0.2, "thickness": 0.01}}, "joints": {"j": {"capacity": {"tension": 1e6}}},
     "nodes": {"A": [0,0,0], "B": [0,0,3]}, "supports": {"A": "fixed"},
     "members": {"P": {"kind": "post", "nodes": ["A", "B"], "section": "b", "material": "s", "joints": ["j", null]}}})";
-  const std::string scenario = R"({"topple": 1, "title": "Hit", "model": "post.json", "combination": "self weight",
+  const std::string scenario =
+      R"({"topple": 1, "title": "Hit", "model": "post.json", "standing": "static", "combination": "self weight",
     "step": 0.016666666666666666, "duration": 60, "until_rest": true, "seed": 1, "ground": 0.0,
     "failure": {"bracing": "classic", "mechanism": "detach", "sudden": 2.0},
     "impact": {"restitution": 0.1, "structure_mass": true},

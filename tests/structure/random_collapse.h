@@ -166,6 +166,7 @@ inline RandomCollapse random_collapse(std::uint64_t seed) {
         }
   RandomCollapse collapse{frame.building, {}};
   Scenario& scenario = collapse.scenario;
+  scenario.standing = StandingRule::statics;
   scenario.combination = CombinationId(0u);
   scenario.duration = 600;
   scenario.ground = 0;

@@ -94,7 +94,7 @@ inline MeetingOutcome meet(const Meeting& meeting, double step) {
   std::ostringstream scenario_text;
   scenario_text.precision(17);
   scenario_text
-      << R"({"topple": 1, "model": "mast.json", "ground": 0.0, "duration": 2.2, "until_rest": false, "failure": {"bracing": "none"}, "step": )"
+      << R"({"topple": 1, "model": "mast.json", "standing": "static", "ground": 0.0, "duration": 2.2, "until_rest": false, "failure": {"bracing": "none"}, "step": )"
       << step << R"(, "events": )" << meeting.events << "}";
   auto [building, scenario] = parse_scenario(scenario_text.str(), "s.json", folder.path());
   Simulation simulation(std::move(building), std::move(scenario));

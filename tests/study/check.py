@@ -70,7 +70,8 @@ with tempfile.TemporaryDirectory() as folder:
     model["joint_changes"] = [{"joints": name.removeprefix("strength of posts "), "strength": value}
                               for name, value in sample["inputs"].items() if name.startswith("strength of posts ")]
     (place / "by_hand_model.json").write_text(json.dumps(model))
-    (place / "by_hand.json").write_text(json.dumps({"topple": 1, "model": "by_hand_model.json", "combination": "collapse", "duration": 60,
+    (place / "by_hand.json").write_text(json.dumps({"topple": 1, "model": "by_hand_model.json", "combination": "collapse", "standing": "static",
+                                                    "duration": 60,
                                                     "events": [{"at": 1.0, "projectile": event}]}))
     by_hand = subprocess.run([topple, "demolish", place / "by_hand.json", "-o", place / "by_hand"], capture_output=True, text=True)
     expect(by_hand.returncode == 0, f"the scenario by hand: {by_hand.stderr}")

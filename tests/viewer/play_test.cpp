@@ -6,6 +6,7 @@
 
 #include "app/controller.h"
 #include "app/tools/score.h"
+#include "standing_still.h"
 #include "support/scratch_folder.h"
 #include "topple/structure/error.h"
 #include "topple/structure/formats/input_files.h"
@@ -18,7 +19,7 @@ using topple::structure::NodeId;
 using topple::structure::Vec3;
 
 struct Run {
-  Scene scene = open_scene("seed_building");
+  Scene scene = standing_still(open_scene("seed_building"));
   Session session{scene.building, scene.scenario};
   DirectDriver driver{session};
   Controller controller{driver, scene, 0, glm::dvec2(800, 600)};

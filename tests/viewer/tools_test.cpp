@@ -4,6 +4,7 @@
 
 #include "app/controller.h"
 #include "app/panels/tuning_panel.h"
+#include "standing_still.h"
 #include "support/scratch_folder.h"
 #include "topple/structure/error.h"
 #include "topple/structure/formats/files.h"
@@ -17,7 +18,7 @@ using topple::structure::MemberId;
 constexpr glm::dvec2 size{800, 600};
 
 struct Person {
-  Scene scene = open_scene("seed_building");
+  Scene scene = standing_still(open_scene("seed_building"));
   Session session{scene.building, scene.scenario};
   DirectDriver driver{session};
   Controller controller{driver, scene, 0, size};

@@ -13,6 +13,7 @@ struct StandingMotion::Moving {
   double turned = 0;           ///< rad, its largest turn a step ago
   double left_work = 0;        ///< J, at rest: of loads that have changed since, which the account of rest never sees
   double looked = 0;           ///< s of its motion, when rest was looked for last
+  std::size_t held = 0;        ///< its joints that held then
   std::vector<double> mass;    ///< per beam, as the frame has it
   /// A shell panel that changed since the last substep or impulse.
   struct ChangedShell {

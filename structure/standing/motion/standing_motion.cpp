@@ -220,8 +220,9 @@ StandingMotion::Known StandingMotion::find(int c, const solver::FrameModel& mode
 
 void StandingMotion::update_damping(int c) {
   Known& known = known_.at(c);
-  if (known.holding == holding(c)) return;
   Moving& moving = *moving_.at(c);
+  const std::size_t now = holding(c);
+  if (std::exchange(moving.held, now) != now || known.holding == now) return;
   const std::vector<Vec6> rest = displacements_at_rest(c);
   known = find(c, model_of(c), masses_of(c), rest);
   moving.first_frequency = known.first_frequency;

@@ -111,7 +111,8 @@ class StandingMotion {
   /// Mass damps nothing while a component whose chords have turned by MotionSettings::falling_turn turns further: it
   /// would brake what falls. `turn`: largest_turn() now, once a step.
   void damp_by_mass(int component, double turn);
-  /// Its statics were solved: where joints have broken since its damping was found, it is found anew, as it stands.
+  /// Its statics were solved: where joints have broken since its damping was found, but none since the last look for
+  /// rest, it is found anew, as it stands.
   void update_damping(int component);
   /// Its statics were solved: whether every joint is at rest there, as the settings have it.
   [[nodiscard]] bool rests(int component);

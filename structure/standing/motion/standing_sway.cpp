@@ -15,8 +15,21 @@ std::optional<std::string> why_it_stays_at_rest(const Building& building) {
   return std::nullopt;
 }
 
-void StandingFrame::let_move(double dt) {
+namespace {
+
+MotionSettings settings_of(const MotionRules& rules, double dt) {
+  MotionSettings settings = motion_settings;
+  settings.spectral_radius = rules.spectral_radius;
+  if (rules.damping) settings.metal_damping = settings.other_damping = *rules.damping;
+  if (rules.substeps) settings.longest_substep = dt / *rules.substeps;
+  return settings;
+}
+
+}  // namespace
+
+void StandingFrame::let_move(double dt, const MotionRules& rules) {
   State& state = *state_;
+  if (rules.substeps && *rules.substeps < 1) throw std::invalid_argument("a step has at least one substep");
   if (const auto reason = why_it_stays_at_rest(state.building))
     throw InputError(state.building.file + ": what stands cannot move: " + *reason);
   if (state.rules.sudden != 1) throw std::invalid_argument("what moves has no factor of a sudden loss: it must be 1");
@@ -24,7 +37,7 @@ void StandingFrame::let_move(double dt) {
       StandingMotion::Sources{state.building, state.parts, state.loads, state.statics, state.joints, state.yielding,
                               state.components, state.shells, state.node_solved, state.rules.second_order,
                               state.threads},
-      motion_settings);
+      settings_of(rules, dt));
   state.statics.before_changes([&state](int c) {
     if (state.solved_nodes[static_cast<std::size_t>(c)] > 0) state.motion->start(c);
   });

@@ -341,7 +341,8 @@ TEST_CASE("a wall that is taken out leaves members and neighbours standing as if
 TEST_CASE("a scenario cuts a member along a wall where it says, and names all of its pieces") {
   const topple::test::ScratchFolder folder;
   std::ofstream(folder / "walls.json") << text();
-  std::ofstream(folder / "s.json") << R"({"topple": 1, "model": "walls.json", "duration": 3, "events": [
+  std::ofstream(folder / "s.json")
+      << R"({"topple": 1, "model": "walls.json", "standing": "static", "duration": 3, "events": [
     {"at": 0.1, "cut": {"members": [{"member": "AB", "where": 0.4}]}}, {"at": 0.2, "remove": {"members": ["AB"]}}]})";
   const auto [building, scenario] = read_scenario(folder / "s.json");
   const NameIndex names(building);

@@ -140,6 +140,7 @@ TEST_CASE("an analysis and a standing frame agree on a slab with an opening, and
 TEST_CASE("a ball falls through the opening of a slab and hits it beside") {
   for (const bool through : {true, false}) {
     Scenario scenario;
+    scenario.standing = StandingRule::statics;
     scenario.step = 1.0 / 60;
     scenario.duration = 1;
     Simulation simulation(building(window), scenario);

@@ -81,6 +81,7 @@ TEST_CASE("an overhang that grows bay by bay breaks off at the joint that w x2/2
     const Expected expected = by_hand(capacity, together);
     REQUIRE(expected.bay >= held);
     Scenario scenario;
+    scenario.standing = StandingRule::statics;
     scenario.combination = CombinationId(0u);
     scenario.ground = 0;
     scenario.duration = 30;

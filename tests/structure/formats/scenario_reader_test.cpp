@@ -14,7 +14,8 @@ namespace {
 const std::string scenario_text = R"({
   "topple": 1, "title": "Corner post hit", "model": "seed_building", "combination": "collapse",
   "step": 0.01, "duration": 2000, "until_rest": false, "seed": 7, "ground": -0.5, "standing": "dynamic",
-  "failure": {"bracing": "none", "mechanism": "detach", "second_order": false, "sudden": 1.5},
+  "failure": {"bracing": "none", "mechanism": "detach", "second_order": false},
+  "dynamics": {"substeps": 4, "damping": 0.03, "spectral_radius": 0.9},
   "impact": {"restitution": 0.2, "structure_mass": false},
   "debris": {"friction": 0.5, "restitution": 0.3, "limit": 100, "smallest_volume": 0.01},
   "events": [
@@ -52,7 +53,9 @@ TEST_CASE("a scenario is read in full, its events in order of time") {
   CHECK(scenario.standing == StandingRule::dynamics);
   CHECK(scenario.failure.bracing == BracingRule::none);
   CHECK(scenario.failure.mechanism == MechanismRule::detach);
-  CHECK(scenario.failure.sudden == 1.5);
+  CHECK(scenario.motion.substeps == 4);
+  CHECK(scenario.motion.damping == 0.03);
+  CHECK(scenario.motion.spectral_radius == 0.9);
   CHECK(scenario.impact.restitution == 0.2);
   CHECK_FALSE(scenario.impact.structure_mass);
   CHECK(scenario.debris.limit == 100);
@@ -79,7 +82,10 @@ TEST_CASE("a scenario that says little takes the defaults") {
   CHECK(scenario.until_rest);
   CHECK(scenario.seed == 1);
   CHECK_FALSE(scenario.ground.has_value());
-  CHECK(scenario.standing == StandingRule::statics);
+  CHECK(scenario.standing == StandingRule::dynamics);
+  CHECK_FALSE(scenario.motion.substeps.has_value());
+  CHECK_FALSE(scenario.motion.damping.has_value());
+  CHECK(scenario.motion.spectral_radius == 0.8);
   CHECK(scenario.failure.sudden == 2);
   CHECK(scenario.impact.structure_mass);
   CHECK_FALSE(scenario.debris.limit.has_value());
@@ -98,26 +104,45 @@ TEST_CASE("the scenario reader names file, place, what it found and what is acce
   CHECK(error(", \"combination\": \"collapse\"", "") ==
         "s.json, line 1: the key \"combination\" is missing and the model has several; accepted: \"service\", "
         "\"collapse\"");
-  CHECK(error("\"sudden\": 1.5", "\"sudden\": 0.5") ==
-        "s.json, line 4, failure.sudden: found 0.5; accepted: a number from 1 to 10");
+  CHECK(error("\"substeps\": 4", "\"substeps\": 0") ==
+        "s.json, line 5, dynamics.substeps: found 0; accepted: a whole number from 1 to 1000");
+  CHECK(error("\"damping\": 0.03", "\"damping\": -0.03") ==
+        "s.json, line 5, dynamics.damping: found -0.03; accepted: a number from 0 to 1");
   CHECK(error("\"BX-1-1-1:1\"", "\"BX-1-1-1:3\"") ==
-        "s.json, line 10, events[2].cut.joints[0]: there is no joint \"BX-1-1-1:3\"; accepted: a name or pattern of "
+        "s.json, line 11, events[2].cut.joints[0]: there is no joint \"BX-1-1-1:3\"; accepted: a name or pattern of "
         "the model");
   CHECK(error("{\"at\": 4.0, ", "{\"at\": 4.0, \"cut\": {\"joints\": [\"P-1-1-1:1\"]}, ").find("found 2 tools") !=
         std::string::npos);
   CHECK(error("\"limit\": 100", "\"limit\": 1.5") ==
-        "s.json, line 6, debris.limit: found 1.5; accepted: a whole number from 0 to 1000000");
+        "s.json, line 7, debris.limit: found 1.5; accepted: a whole number from 0 to 1000000");
   CHECK(error("\"limit\": 100", "\"limit\": \"none\"") ==
-        "s.json, line 6, debris.limit: found \"none\"; accepted: a whole number from 0 to 1000000, or null for none");
+        "s.json, line 7, debris.limit: found \"none\"; accepted: a whole number from 0 to 1000000, or null for none");
 }
 
 TEST_CASE("keys that bounded what a step computes are refused, and it is said whose the pace is") {
   const std::string why =
       "a step computes all that happens in it, and the pace of the steps is the host's; leave the key out";
   CHECK(error_of(replaced(scenario_text, "\"events\"", "\"budget\": {\"operations\": 5e8}, \"events\"")) ==
-        "s.json, line 7, budget: nothing limits what a step may compute any more: " + why);
-  CHECK(error_of(replaced(scenario_text, "\"sudden\": 1.5", "\"sudden\": 1.5, \"generations_per_second\": 240")) ==
+        "s.json, line 8, budget: nothing limits what a step may compute any more: " + why);
+  CHECK(error_of(replaced(scenario_text, "\"none\"", "\"none\", \"generations_per_second\": 240")) ==
         "s.json, line 4, failure.generations_per_second: nothing limits what may break in a step any more: " + why);
+}
+
+TEST_CASE("what stands moves in time, or has a factor of sudden losses: each takes its own keys alone") {
+  const std::string still = replaced(scenario_text, "\"standing\": \"dynamic\"", "\"standing\": \"static\"");
+  CHECK(
+      error_of(still) ==
+      "s.json, line 5, dynamics: what stands does not move in time with \"standing\": \"static\"; accepted: one of the "
+      "two");
+  CHECK(
+      error_of(replaced(scenario_text, "\"none\"", "\"none\", \"sudden\": 1.5")) ==
+      "s.json, line 4, failure.sudden: a factor of sudden losses acts with \"standing\": \"static\" alone: what moves "
+      "overshoots by itself");
+  const std::string of_statics =
+      R"({"topple": 1, "model": "tower", "combination": "service", "standing": "static", "failure": {"sudden": 1.5}})";
+  CHECK(read(of_statics).second.failure.sudden == 1.5);
+  CHECK(error_of(replaced(of_statics, "1.5", "0.5")) ==
+        "s.json, line 1, failure.sudden: found 0.5; accepted: a number from 1 to 10");
 }
 
 TEST_CASE("rules of failure and fracture are read, others told by what is accepted") {
@@ -129,7 +154,7 @@ TEST_CASE("rules of failure and fracture are read, others told by what is accept
   CHECK(error("\"second_order\": false", "\"second_order\": true") == "no error");
   CHECK(error("\"impact\"", "\"fracture\": {\"method\": \"voronoi\"}, \"impact\"") == "no error");
   CHECK(error("\"impact\"", "\"fracture\": {\"method\": \"saw\"}, \"impact\"") ==
-        "s.json, line 5, fracture.method: found \"saw\"; accepted: \"voronoi\", \"quadrilateral\" or \"local\"");
+        "s.json, line 6, fracture.method: found \"saw\"; accepted: \"voronoi\", \"quadrilateral\" or \"local\"");
 }
 
 TEST_CASE("tools over time, on a cable and inside members are read") {

@@ -60,7 +60,7 @@ TEST_CASE("a drawn bar is cut where the beam's joints broke, and each piece foll
   const topple::test::ScratchFolder folder;
   write_bar(folder / "lintel.glb");
   std::ofstream(folder / "bay.json") << replaced(bay_text, "BIND", "\"nearest\"");
-  std::ofstream(folder / "s.json") << R"({"topple": 1, "model": "bay.json", "duration": 3,
+  std::ofstream(folder / "s.json") << R"({"topple": 1, "model": "bay.json", "standing": "static", "duration": 3,
     "events": [{"at": 0.1, "cut": {"joints": ["T:1", "T:2"]}}]})";
   auto [building, scenario] = read_scenario(folder / "s.json");
   Simulation simulation(building, scenario);
@@ -230,6 +230,7 @@ TEST_CASE("a drawn model is bent with its members") {
     meshes[0].member = MemberId(0u);
     VisualMesh model(b, std::move(meshes));
     Scenario scenario;
+    scenario.standing = StandingRule::statics;
     scenario.model = "arm";
     scenario.combination = CombinationId(0u);
     Simulation simulation(b, scenario);

@@ -38,11 +38,11 @@ Simulation bracket(const std::string& more_events = "", const std::string& joint
  "supports": {"F": "fixed", "K": "fixed"}})";
   const topple::test::ScratchFolder folder;
   std::ofstream(folder / "bracket.json") << model;
-  auto [building, course] =
-      parse_scenario(R"({"topple": 1, "model": "bracket.json", "duration": 20, "failure": {"sudden": 1},
+  auto [building, course] = parse_scenario(
+      R"({"topple": 1, "model": "bracket.json", "standing": "static", "duration": 20, "failure": {"sudden": 1},
  "events": [{"at": 0.5, "load": {"nodes": {"H": {"z": -1.2e6}}}})" +
-                         more_events + "]}",
-                     "s.json", folder.path());
+          more_events + "]}",
+      "s.json", folder.path());
   return Simulation(std::move(building), std::move(course));
 }
 

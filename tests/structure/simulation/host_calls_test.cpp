@@ -36,6 +36,7 @@ Simulation portal() {
   f.support(d);
   f.self_weight(7850);
   Scenario scenario;
+  scenario.standing = StandingRule::statics;
   scenario.combination = CombinationId(0u);
   scenario.duration = 1;
   scenario.ground = 0;

@@ -26,6 +26,7 @@ FrameBuilder beam_between_walls(const JointCapacity& joint = {}) {
 
 Scenario quiet(bool structure_mass = false) {
   Scenario scenario;
+  scenario.standing = StandingRule::statics;
   scenario.combination = CombinationId(0u);
   scenario.duration = 100;
   scenario.until_rest = false;

@@ -21,6 +21,7 @@ Simulation ball_on_a_beam(double mass) {
   f.support(a);
   f.load(MemberId(0u), -1000);
   Scenario scenario;
+  scenario.standing = StandingRule::statics;
   scenario.combination = CombinationId(0u);
   scenario.duration = 12;
   scenario.ground = 0;

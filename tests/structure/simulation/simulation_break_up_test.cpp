@@ -33,7 +33,7 @@ Simulation falling(double strength) {
   std::fputs(model(strength).c_str(), file);
   std::fclose(file);
   auto [building, scenario] = parse_scenario(
-      R"({"topple": 1, "model": "mast.json", "duration": 20, "failure": {"bracing": "none"},
+      R"({"topple": 1, "model": "mast.json", "standing": "static", "duration": 20, "failure": {"bracing": "none"},
           "events": [{"at": 0.1, "remove": {"supports": ["F"]}},
                      {"at": 0.15, "projectile": {"from": [-3, 1.2, 7], "velocity": [0, -30, 0], "mass": 40, "radius": 0.2}}]})",
       "s.json", folder.path());

@@ -36,7 +36,8 @@ Scenario scenario(const std::string& events, const std::string& method) {
   std::fputs(model_text, file);
   std::fclose(file);
   return parse_scenario(
-             "{\"topple\": 1, \"model\": \"bay.json\", \"duration\": 8, \"debris\": {\"smallest_volume\": 1e-9}, "
+             "{\"topple\": 1, \"model\": \"bay.json\", \"standing\": \"static\", \"duration\": 8, \"debris\": "
+             "{\"smallest_volume\": 1e-9}, "
              "\"fracture\": {\"method\": \"" +
                  method + "\"}, \"events\": [" + events + "]}",
              "s.json", folder.path())

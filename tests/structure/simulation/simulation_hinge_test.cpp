@@ -36,8 +36,8 @@ Simulation swinging(double tension, const std::string& rule, double step = 1.0 /
   std::fputs(model(tension).c_str(), file);
   std::fclose(file);
   auto [building, scenario] =
-      parse_scenario(R"({"topple": 1, "model": "pin.json", "duration": 8, "step": )" + std::to_string(step) +
-                         R"(, "failure": {"bracing": "none", "mechanism": ")" + rule + R"("},
+      parse_scenario(R"({"topple": 1, "model": "pin.json", "standing": "static", "duration": 8, "step": )" +
+                         std::to_string(step) + R"(, "failure": {"bracing": "none", "mechanism": ")" + rule + R"("},
                          "events": [{"at": 0.5, "remove": {"members": ["PP"]}}]})",
                      "s.json", folder.path());
   return Simulation(std::move(building), std::move(scenario));

@@ -24,6 +24,7 @@ FrameBuilder beam_between_walls(const JointCapacity& joint = {}) {
 
 Scenario dropping(double step, double height, double mass, bool structure_mass = false) {
   Scenario scenario;
+  scenario.standing = StandingRule::statics;
   scenario.combination = CombinationId(0u);
   scenario.step = step;
   scenario.duration = 5;
@@ -142,7 +143,11 @@ struct TwoBeams {
   }
   static constexpr double height = 2, mass = 400;
   FrameBuilder frame;
-  Scenario scenario;
+  Scenario scenario = [] {
+    Scenario still;
+    still.standing = StandingRule::statics;
+    return still;
+  }();
 };
 
 std::vector<SimulationEvent> impacts(const Simulation& simulation) {

@@ -29,6 +29,7 @@ FrameBuilder cantilever(const JointCapacity& joint = {}) {
 
 Scenario with(const Tool& tool, double at = 1, double duration = 20) {
   Scenario scenario;
+  scenario.standing = StandingRule::statics;
   scenario.combination = CombinationId(0u);
   scenario.duration = duration;
   scenario.ground = 0;

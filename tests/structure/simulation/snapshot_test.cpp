@@ -176,6 +176,7 @@ TEST_CASE(
     return Simulation(building, scenario).save().scene;
   };
   Scenario scenario;
+  scenario.standing = StandingRule::statics;
   scenario.combination = CombinationId(0u);
   const std::uint64_t own = scene(frame.building, scenario);
   const auto changed = [&](auto change) {

@@ -19,6 +19,7 @@ constexpr double g = 10;
 
 Scenario scenario_with(std::vector<Event> events, double duration = 60) {
   Scenario scenario;
+  scenario.standing = StandingRule::statics;
   scenario.combination = CombinationId(0u);
   scenario.duration = duration;
   scenario.ground = 0;

@@ -20,7 +20,13 @@ struct FailureRules {
   BracingRule bracing = BracingRule::buckling;     ///< how posts that lose their bracing are judged
   MechanismRule mechanism = MechanismRule::hinge;  ///< what becomes of a part that can move without strain
   bool second_order = false;                       ///< axial forces act on the displaced structure
-  double sudden = 2.0;                             ///< dynamic factor of a sudden loss; 1 is off
+  double sudden = 2.0;                             ///< dynamic factor of a sudden loss (static standing); 1 is off
+};
+/// How what stands moves. Keys of the scenario's `dynamics`.
+struct MotionRules {
+  std::optional<int> substeps;    ///< of a step, at least 1; none: as few as are no longer than 1/480 s
+  std::optional<double> damping;  ///< share of critical damping, from 0; none: 0.02 of metals, 0.05 of all else
+  double spectral_radius = 0.8;   ///< of generalized-alpha at infinite frequency, 0 to 1
 };
 /// How impacts are computed. Keys of the scenario's `impact`.
 struct ImpactRules {
@@ -105,7 +111,8 @@ struct Scenario {
   bool until_rest = true;                           ///< ends as soon as all is at rest and no event is to come
   std::uint64_t seed = 1;                           ///< of what is drawn by chance in fracture
   std::optional<double> ground;                     ///< height; none: the lowest support
-  StandingRule standing = StandingRule::statics;    ///< whether what stands moves
+  StandingRule standing = StandingRule::dynamics;   ///< whether what stands moves
+  MotionRules motion;                               ///< how it moves
   FailureRules failure;                             ///< what breaks
   ImpactRules impact;                               ///< how things strike each other
   DebrisRules debris;                               ///< what lies about

@@ -229,7 +229,7 @@ class StandingFrame {
   /// From now on what stands moves, and sudden losses are followed in time (docs/dynamics.md): move() takes the place
   /// of settle(), and pending() holds until all is at rest. Rules must have `sudden` 1. Throws InputError where
   /// why_it_stays_at_rest() names a reason.
-  void let_move(double dt);
+  void let_move(double dt, const MotionRules& rules = {});
   /// Changes act, and all that is not at rest moves on by the time of let_move(). Joints break as they
   /// are reached, those of members within substeps, those of panels at their ends. `after_substep` is called at the end
   /// of each, and may call fracture(). Returns what broke, in order.
