@@ -132,6 +132,32 @@ TEST_CASE("Damping of a share of the critical one decays as exp(-ratio w t), in 
   }
 }
 
+TEST_CASE("Damping that comes on the way goes on from the motion there, and decays by its own ratio") {
+  const double ratio = 0.05;
+  const int substeps = 200;
+  FrameDynamics frame(one_mass(), its_mass(), with(period / substeps, 1));
+  frame.set_state({unit(2, 0.01)}, {Vec6::Zero()});
+  for (int n = 0; n < substeps / 2; ++n) frame.advance();
+  const double before = frame.energy().kinetic + frame.energy().elastic, from = frame.time();
+  const double u0 = height(frame), v0 = frame.velocities()[0].z();
+  frame.set_damping(rayleigh_damping(ratio, angular_frequency, angular_frequency));
+  CHECK(height(frame) == Approx(u0).epsilon(1e-13));  // in other scales
+  CHECK(frame.velocities()[0].z() == Approx(v0).epsilon(1e-13));
+  const double w = angular_frequency, damped = w * std::sqrt(1 - ratio * ratio);
+  for (int n = 0; n < 3 * substeps; ++n) {
+    frame.advance();
+    const double t = frame.time() - from;
+    const double exact =
+        std::exp(-ratio * w * t) * (u0 * std::cos(damped * t) + (v0 + ratio * w * u0) / damped * std::sin(damped * t));
+    CHECK(height(frame) == Approx(exact).margin(4e-3 * 0.01));  // as above
+  }
+  const DynamicEnergy& e = frame.energy();
+  CHECK(e.damped > 0.5 * before);
+  CHECK(e.kinetic + e.elastic + e.damped + e.numerical == Approx(before).epsilon(1e-10));
+  CHECK_THROWS_AS(frame.set_damping({-1, 0}), std::invalid_argument);
+  CHECK_THROWS_AS(frame.set_damping({0, std::nan("")}), std::invalid_argument);
+}
+
 TEST_CASE("A ground that accelerates at once swings the mass about its new rest, relative to the ground") {
   FrameDynamics frame(one_mass(), its_mass(), with(period / 200, 1));
   const int ground = frame.add_ground_acceleration(Vec3(0, 0, 1));

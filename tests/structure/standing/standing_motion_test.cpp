@@ -90,6 +90,31 @@ TEST_CASE("Of two bars that bear a mass one goes: the other feels the overshoot 
   CHECK(standing.pending());
 }
 
+TEST_CASE("Substeps, damping and spectral radius are those that are asked for") {
+  const MassOnBars model(1e9);
+  StandingFrame standing(model.frame.building, CombinationId(0u), moving_rules());
+  MotionRules rules;
+  rules.substeps = 3;
+  rules.damping = 0.0;
+  rules.spectral_radius = 1;
+  standing.let_move(step, rules);
+  standing.break_joint(model.frame.building.joint(model.below, 0), BreakCause::tool);
+  int substeps = 0;
+  double largest = 0;
+  for (int n = 0; n < 240; ++n) {
+    (void)standing.move([&] { ++substeps; });
+    largest = std::max(largest, -standing.displacement(model.middle).z());
+  }
+  CHECK(substeps == 3 * 240);
+  // Nothing is damped, by nobody: after 4 s it still swings to half of its static way beyond it.
+  CHECK(standing.energy().damped == 0);
+  CHECK(std::abs(standing.energy().numerical) < 1e-9 * standing.energy().freed);
+  CHECK(largest * MassOnBars::stiffness / MassOnBars::weight == Approx(1.5).epsilon(0.01));
+  rules.substeps = 0;
+  StandingFrame other(model.frame.building, CombinationId(0u), moving_rules());
+  CHECK_THROWS_AS(other.let_move(step, rules), std::invalid_argument);
+}
+
 TEST_CASE("A joint breaks when the swing reaches its capacity, and what it held leaves with its momentum") {
   // The swing is between 0.5 and 1.5 of the weight: 1.2 is reached on its way.
   const MassOnBars model(1.2 * MassOnBars::weight);
