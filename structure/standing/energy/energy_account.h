@@ -43,6 +43,10 @@ class EnergyAccount {
 
   [[nodiscard]] FrameEnergy energy() const;
   [[nodiscard]] double freed() const { return past_.freed; }  ///< as in energy()
+  /// The last state of rest.
+  [[nodiscard]] const StateOfRest& at_rest() const { return rest_; }
+  /// J, of the component in its last state of rest.
+  [[nodiscard]] double elastic_at_rest(int component) const { return rest(component).elastic; }
 
  private:
   /// Sums over what stood in the state of rest, J.

@@ -69,6 +69,7 @@ void StateOfRest::lose_joint(JointId joint) {
 
 const Vec6& StateOfRest::displacement(NodeId node) const { return nodes_[index_of(node)].displacement; }
 const solver::Vec12& StateOfRest::end_forces(MemberId member) const { return members_[index_of(member)].end_forces; }
+bool StateOfRest::stands(MemberId member) const { return members_[index_of(member)].stands; }
 double StateOfRest::stiffness(MemberId member) const { return members_[index_of(member)].stiffness; }
 const std::vector<solver::BeamLoad>& StateOfRest::loads(MemberId member) const {
   return members_[index_of(member)].loads;
@@ -79,7 +80,7 @@ solver::Vec12 StateOfRest::plastic_rotations(MemberId member) const {
   return found == plastic_rotations_.end() ? solver::Vec12::Zero() : found->second;
 }
 
-MemberShape StateOfRest::shape(MemberId member) const {
+solver::Beam StateOfRest::beam(MemberId member) const {
   const OfMember& at_rest = members_[index_of(member)];
   solver::Beam beam = now_.statics.beam(member);
   const double stiffer = at_rest.stiffness / now_.statics.stiffness(member);
@@ -89,10 +90,15 @@ MemberShape StateOfRest::shape(MemberId member) const {
     beam.end_stiffness[end] = at_rest.holds[end]
                                   ? now_.building[now_.building.joint(member, static_cast<int>(end))].stiffness
                                   : Vec6(Vec6::Zero());
+  return beam;
+}
+
+MemberShape StateOfRest::shape(MemberId member) const {
+  const OfMember& at_rest = members_[index_of(member)];
   const auto& nodes = now_.building[member].nodes;
   const solver::Vec12 at =
       now_.rigid_ends(member, displacement(nodes[0]), displacement(nodes[1])) - plastic_rotations(member);
-  return {beam, at_rest.elastic_end_forces, at, at_rest.loads};
+  return {beam(member), at_rest.elastic_end_forces, at, at_rest.loads};
 }
 
 PanelAtRest StateOfRest::panel(PanelId panel) const {

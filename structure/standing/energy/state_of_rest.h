@@ -33,11 +33,14 @@ class StateOfRest {
   /// On the member by its nodes, local axes.
   [[nodiscard]] const solver::Vec12& end_forces(MemberId member) const;
   [[nodiscard]] solver::Vec12 plastic_rotations(MemberId member) const;
+  [[nodiscard]] bool stands(MemberId member) const;
   /// Factor on E and G.
   [[nodiscard]] double stiffness(MemberId member) const;
   /// Contacts included, local axes.
   [[nodiscard]] const std::vector<solver::BeamLoad>& loads(MemberId member) const;
   [[nodiscard]] const std::map<std::int64_t, PlacedLoad>& contacts() const { return contacts_; }
+  /// As it held.
+  [[nodiscard]] solver::Beam beam(MemberId member) const;
   [[nodiscard]] MemberShape shape(MemberId member) const;
   /// By the stiffness that it has in the answer.
   [[nodiscard]] PanelAtRest panel(PanelId panel) const;

@@ -8,6 +8,7 @@ struct StandingMotion::Moving {
   std::unique_ptr<solver::FrameDynamics> frame;
   std::unique_ptr<Law> law;
   double elastic_at_start = 0;
+  double between_nodes = 0;    ///< J, at the start: strain of loads between nodes, which no motion of nodes has
   double first_frequency = 0;  ///< rad/s, lowest of all when it began to move
   double mass_damping = 0;     ///< 1/s, of what does not fall
   double turned = 0;           ///< rad, its largest turn a step ago

@@ -10,6 +10,7 @@
 #include "model/index_of.h"
 #include "model/own_mass.h"
 #include "standing/motion/moving_component.h"
+#include "topple/solver/held_beam.h"
 
 namespace topple::structure {
 namespace {
@@ -282,11 +283,45 @@ void StandingMotion::start(int c) {
   lay_plastic_rotations(c, moving);
   moving.frame->set_state(rest, std::vector<Vec6>(rest.size(), Vec6::Zero()));
   moving.elastic_at_start = moving.frame->energy().elastic;
+  moving.between_nodes = from_.account.elastic_at_rest(c) - moving.elastic_at_start;
   moving.law = std::make_unique<Law>(*this, c);
   for (const MemberId member : from_.statics.members(c)) moving.mass.push_back(masses_.of(member));
   from_.statics.follow(c, moving.frame.get());
   moving_.emplace(c, std::make_unique<Moving>(std::move(moving)));
   ++starts_;
+}
+
+solver::Beam StandingMotion::beam_of(MemberId member) const {
+  solver::Beam beam = from_.statics.beam(member);
+  for (int end = 0; end < 2; ++end)
+    if (!from_.parts.holds(from_.building.joint(member, end)))
+      beam.end_stiffness[static_cast<std::size_t>(end)].setZero();
+  return beam;
+}
+
+/// J, on the way to rest, of what loads do between nodes. The strain of members that left went with them. Where a
+/// member holds otherwise by now, its nodes bear other shares of its loads, and these moved between nodes: by the
+/// shares, at the places of the start, and by twice the strain that is there more.
+double StandingMotion::freed_between_nodes(int c) const {
+  const StateOfRest& start = from_.account.at_rest();
+  double freed = 0;
+  for (const MemberId member : from_.statics.members(c)) {
+    if (!start.stands(member)) continue;
+    const solver::Beam before = start.beam(member);
+    if (!from_.parts.stands(member)) {
+      freed += solver::held_strain_energy(before, start.loads(member));
+      continue;
+    }
+    const std::vector<solver::BeamLoad>& loads = from_.statics.loads(member);
+    const solver::Beam now = beam_of(member);
+    if (loads.empty() || (now.end_stiffness == before.end_stiffness && now.youngs_modulus == before.youngs_modulus))
+      continue;
+    freed += solver::held_strain_energy(now, loads) - solver::held_strain_energy(before, loads);
+    const solver::HeldBeam held = solver::hold_beam(now, loads), was_held = solver::hold_beam(before, loads);
+    for (std::size_t end = 0; end < 2; ++end)
+      freed += (held.on_nodes[end] - was_held.on_nodes[end]).dot(start.displacement(from_.building[member].nodes[end]));
+  }
+  return freed;
 }
 
 /// What it still has beyond its static state is damped now: 1/2 v'Mv + 1/2 d'Kd, d the way to that state.
@@ -311,6 +346,7 @@ void StandingMotion::settle(int c) {
   moving.frame->set_state(way, std::vector<Vec6>(way.size(), Vec6::Zero()));
   past_.damped += moving.frame->energy().elastic;
   past_.freed += before.freed - moving.frame->energy().freed;  // what setting the state took for a change
+  past_.freed += freed_between_nodes(c);
   stop(c);
 }
 
@@ -322,7 +358,8 @@ void StandingMotion::stop(int c) {
   const std::vector<NodeId>& nodes = from_.statics.nodes(c);
   const bool stands =
       std::any_of(nodes.begin(), nodes.end(), [&](NodeId node) { return from_.node_solved[index_of(node)] != 0; });
-  if (!stands) past_.freed += own.kinetic + own.elastic;  // all that it had went with what left
+  // All that it had went with what left.
+  if (!stands) past_.freed += own.kinetic + own.elastic + moving.between_nodes;
   past_.damped += own.damped;
   past_.numerical += own.numerical;
   // Where it comes to rest the account of rest has the works of its loads, but those of what left. Where nothing of it

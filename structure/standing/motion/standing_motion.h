@@ -8,6 +8,7 @@
 
 #include "failure/joint_states.h"
 #include "standing/component_parts.h"
+#include "standing/energy/energy_account.h"
 #include "standing/motion/motion_masses.h"
 #include "standing/motion/motion_settings.h"
 #include "standing/panel_superelements.h"
@@ -39,6 +40,7 @@ class StandingMotion {
     YieldingWay& yielding;
     const ComponentParts& components;
     const PanelSuperelements& shells;
+    const EnergyAccount& account;
     const std::vector<char>& node_solved;
     bool second_order = false;
     int threads = 1;
@@ -141,6 +143,9 @@ class StandingMotion {
   [[nodiscard]] bool is_shell(PanelId panel) const;
   [[nodiscard]] double kilograms(PanelId shell) const;
   [[nodiscard]] double damping_of(int component) const;
+  /// As it holds now, broken joints let go.
+  [[nodiscard]] solver::Beam beam_of(MemberId member) const;
+  [[nodiscard]] double freed_between_nodes(int component) const;
   void lay_plastic_rotations(int component, Moving& moving) const;
   void take_plastic_rotations(int component, const Moving& moving) const;
   void put_loads(int component, solver::FrameDynamics& frame) const;

@@ -35,8 +35,8 @@ void StandingFrame::let_move(double dt, const MotionRules& rules) {
   if (state.rules.sudden != 1) throw std::invalid_argument("what moves has no factor of a sudden loss: it must be 1");
   state.motion = std::make_unique<StandingMotion>(
       StandingMotion::Sources{state.building, state.parts, state.loads, state.statics, state.joints, state.yielding,
-                              state.components, state.shells, state.node_solved, state.rules.second_order,
-                              state.threads},
+                              state.components, state.shells, state.account, state.node_solved,
+                              state.rules.second_order, state.threads},
       settings_of(rules, dt));
   state.statics.before_changes([&state](int c) {
     if (state.solved_nodes[static_cast<std::size_t>(c)] > 0) state.motion->start(c);
