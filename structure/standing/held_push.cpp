@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "failure/panel_demand.h"
+#include "standing/beam_as_it_holds.h"
 #include "standing/shell_reading.h"
 #include "topple/solver/held_beam.h"
 
@@ -15,14 +16,7 @@ double squeeze(const solver::Beam& beam) { return std::sqrt(beam.area) / (beam.y
 
 }  // namespace
 
-/// As it holds now, broken joints let go.
-solver::Beam HeldPush::beam(MemberId member) const {
-  solver::Beam own = from_.statics.beam(member);
-  for (int end = 0; end < 2; ++end)
-    if (!from_.parts.segments.holds(from_.parts.building().joint(member, end)))
-      own.end_stiffness[static_cast<std::size_t>(end)].setZero();
-  return own;
-}
+solver::Beam HeldPush::beam(MemberId member) const { return beam_as_it_holds(from_.statics, from_.parts, member); }
 
 HeldPush::Pushed HeldPush::push(const ContactPlace& place, const Vec3& direction) const {
   Pushed pushed;

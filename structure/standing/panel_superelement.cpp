@@ -329,12 +329,10 @@ Eigen::MatrixXd PanelSuperelement::weighed(double kilograms, const Eigen::Matrix
   for (std::size_t k = 0; k < shells.size(); ++k) {
     if (share_[k] <= 0) continue;
     const std::array<int, 4>& corner = shells[k].node;
-    const Mat24 own = share_[k] * element_[k]->mass;
-    double own_area = 0;  // along x, as along any axis
-    for (int i = 0; i < 4; ++i)
-      for (int j = 0; j < 4; ++j) own_area += own(6 * i, 6 * j);
+    const double own_area = share_[k] * element_[k]->area;
     area += own_area;
     if (patch_->stands(static_cast<int>(k))) {
+      const Mat24 own = share_[k] * element_[k]->mass;
       for (int i = 0; i < 4; ++i)
         for (int j = 0; j < 4; ++j)
           inert.middleRows<6>(6 * corner[static_cast<std::size_t>(i)]) +=

@@ -14,6 +14,8 @@ ShellOperators::Element operators_of(const solver::FrameModel& alone) {
     for (int n = 0; n < 4; ++n) element.loads.col(axis).segment<6>(6 * n) = own[static_cast<std::size_t>(n)];
   }
   element.mass = solver::shell_mass(alone, 0, 1);
+  for (int i = 0; i < 4; ++i)  // along x, as along any axis
+    for (int j = 0; j < 4; ++j) element.area += element.mass(6 * i, 6 * j);
   for (int freedom = 0; freedom < 24; ++freedom) {
     std::vector<Vec6> u(4, Vec6::Zero());
     u[static_cast<std::size_t>(freedom / 6)](freedom % 6) = 1;

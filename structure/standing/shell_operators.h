@@ -16,6 +16,7 @@ class ShellOperators {
   struct Element {
     Eigen::Matrix<double, 24, 3> loads;       ///< at its nodes, of a unit traction along each axis
     Eigen::Matrix<double, 24, 24> mass;       ///< of a unit of mass per area, as solver::shell_mass() has it
+    double area = 0;                          ///< m2
     Eigen::Matrix<double, 6, 24> resultants;  ///< nx, ny, nxy, mx, my, mxy at its centre, of its nodes' displacements
   };
   /// Stays where it is. Elements are alike when material, thickness and their nodes seen from the first are equal to

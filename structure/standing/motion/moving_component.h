@@ -8,14 +8,12 @@ struct StandingMotion::Moving {
   std::unique_ptr<solver::FrameDynamics> frame;
   std::unique_ptr<Law> law;
   double elastic_at_start = 0;
-  double between_nodes = 0;    ///< J, at the start: strain of loads between nodes, which no motion of nodes has
-  double first_frequency = 0;  ///< rad/s, lowest of all when it began to move
-  double mass_damping = 0;     ///< 1/s, of what does not fall
-  double turned = 0;           ///< rad, its largest turn a step ago
-  double left_work = 0;        ///< J, at rest: of loads that have changed since, which the account of rest never sees
-  double looked = 0;           ///< s of its motion, when rest was looked for last
-  std::size_t held = 0;        ///< its joints that held then
-  std::vector<double> mass;    ///< per beam, as the frame has it
+  double between_nodes = 0;  ///< J, at the start: strain of loads between nodes, which no motion of nodes has
+  double turned = 0;         ///< rad, its largest turn a step ago
+  double left_work = 0;      ///< J, at rest: of loads that have changed since, which the account of rest never sees
+  double looked = 0;         ///< s of its motion, when rest was looked for last
+  std::size_t held = 0;      ///< its joints that held then
+  std::vector<double> mass;  ///< per beam, as the frame has it
   /// A shell panel that changed since the last substep or impulse.
   struct ChangedShell {
     Eigen::VectorXd motion;    ///< before it changed: PanelSuperelement::motion()

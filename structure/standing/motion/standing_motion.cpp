@@ -225,8 +225,6 @@ void StandingMotion::update_damping(int c) {
   if (std::exchange(moving.held, now) != now || known.holding == now) return;
   const std::vector<Vec6> rest = displacements_at_rest(c);
   known = find(c, model_of(c), masses_of(c), rest);
-  moving.first_frequency = known.first_frequency;
-  moving.mass_damping = known.damping.mass;
   moving.frame->set_damping(known.damping);
 }
 
@@ -275,8 +273,6 @@ void StandingMotion::start(int c) {
   if (own.holding == 0 || own.holding != holding(c)) own = find(c, model, masses, rest);
   options.damping = own.damping;
   options.second_order = from_.second_order;
-  moving.first_frequency = own.first_frequency;
-  moving.mass_damping = own.damping.mass;
   moving.frame = std::make_unique<solver::FrameDynamics>(model, masses, options);
   put_loads(c, *moving.frame);
   lay_plastic_rotations(c, moving);
@@ -460,7 +456,7 @@ void StandingMotion::damp_by_mass(int c, double turn) {
   Moving& moving = *moving_.at(c);
   const bool falls = turn > settings_.falling_turn && turn > moving.turned;
   moving.turned = turn;
-  moving.frame->set_mass_damping(falls ? 0 : moving.mass_damping);
+  moving.frame->set_mass_damping(falls ? 0 : known_.at(c).damping.mass);
 }
 
 }  // namespace topple::structure

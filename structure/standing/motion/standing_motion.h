@@ -128,9 +128,9 @@ class StandingMotion {
   class Law;
   /// Of a component as it stood.
   struct Known {
-    double first_frequency = 1;  ///< rad/s; of what cannot move any
-    solver::RayleighDamping damping;
-    std::size_t holding = 0;  ///< its joints that held
+    double first_frequency = 1;       ///< rad/s, the lowest; of what cannot move any
+    solver::RayleighDamping damping;  ///< of what does not fall
+    std::size_t holding = 0;          ///< its joints that held
   };
   [[nodiscard]] std::size_t holding(int component) const;
   [[nodiscard]] Known find(int component, const solver::FrameModel& model, const solver::MassModel& masses,
@@ -143,8 +143,6 @@ class StandingMotion {
   [[nodiscard]] bool is_shell(PanelId panel) const;
   [[nodiscard]] double kilograms(PanelId shell) const;
   [[nodiscard]] double damping_of(int component) const;
-  /// As it holds now, broken joints let go.
-  [[nodiscard]] solver::Beam beam_of(MemberId member) const;
   [[nodiscard]] double freed_between_nodes(int component) const;
   void lay_plastic_rotations(int component, Moving& moving) const;
   void take_plastic_rotations(int component, const Moving& moving) const;

@@ -2,18 +2,11 @@
 #include <algorithm>
 
 #include "model/index_of.h"
+#include "standing/beam_as_it_holds.h"
 #include "standing/motion/moving_component.h"
 #include "topple/solver/held_beam.h"
 
 namespace topple::structure {
-
-solver::Beam StandingMotion::beam_of(MemberId member) const {
-  solver::Beam beam = from_.statics.beam(member);
-  for (int end = 0; end < 2; ++end)
-    if (!from_.parts.holds(from_.building.joint(member, end)))
-      beam.end_stiffness[static_cast<std::size_t>(end)].setZero();
-  return beam;
-}
 
 /// J, on the way to rest, of what loads do between nodes. The strain of members that left went with them. Where a
 /// member holds otherwise by now, its nodes bear other shares of its loads, and these moved between nodes: by the
@@ -29,7 +22,7 @@ double StandingMotion::freed_between_nodes(int c) const {
       continue;
     }
     const std::vector<solver::BeamLoad>& loads = from_.statics.loads(member);
-    const solver::Beam now = beam_of(member);
+    const solver::Beam now = beam_as_it_holds(from_.statics, from_.parts, member);
     if (loads.empty() || (now.end_stiffness == before.end_stiffness && now.youngs_modulus == before.youngs_modulus))
       continue;
     freed += solver::held_strain_energy(now, loads) - solver::held_strain_energy(before, loads);
@@ -76,7 +69,7 @@ bool StandingMotion::look_for_rest(int c) const {
 bool StandingMotion::rests(int c) {
   Moving& moving = *moving_.at(c);
   moving.looked = moving.frame->time();
-  const double slowest = moving.first_frequency;
+  const double slowest = known_.at(c).first_frequency;
   const std::vector<Vec6>&u = moving.frame->displacements(), &v = moving.frame->velocities();
   for (const NodeId node : from_.statics.nodes(c)) {
     if (from_.node_solved[index_of(node)] == 0) continue;

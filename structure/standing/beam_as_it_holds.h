@@ -1,0 +1,16 @@
+#pragma once
+// A standing member's beam without what has broken, whether the statics have taken that over or not.
+#include "standing/frame_statics.h"
+#include "standing/standing_parts.h"
+
+namespace topple::structure {
+
+[[nodiscard]] inline solver::Beam beam_as_it_holds(const FrameStatics& statics, const StandingParts& parts,
+                                                   MemberId member) {
+  solver::Beam beam = statics.beam(member);
+  for (int end = 0; end < 2; ++end)
+    if (!parts.holds(parts.building().joint(member, end))) beam.end_stiffness[static_cast<std::size_t>(end)].setZero();
+  return beam;
+}
+
+}  // namespace topple::structure
