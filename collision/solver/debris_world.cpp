@@ -133,12 +133,10 @@ void DebrisWorld::remove_body(BodyId id) {
   order_.erase(std::lower_bound(order_.begin(), order_.end(), id));
 }
 
-namespace {
-Placement placement_of(const DebrisObstacle& obstacle) {
-  const btTransform at = to_bullet(obstacle.pose) * obstacle.frame;
-  return {from_bullet(at.getOrigin()), from_bullet(at.getBasis())};
+Placement DebrisObstacle::placement() const {
+  const btTransform placed = to_bullet(pose) * frame;
+  return {from_bullet(placed.getOrigin()), from_bullet(placed.getBasis())};
 }
-}  // namespace
 
 ObstacleId DebrisWorld::add_obstacle(const ObstacleDescription& description) {
   const std::string owner = "obstacle " + std::to_string(next_obstacle_);
@@ -150,7 +148,7 @@ ObstacleId DebrisWorld::add_obstacle(const ObstacleDescription& description) {
   make_parts(description.parts, owner, polyhedra_, *made);
   make_shapes(description.parts, *made);
   made->pose = description.pose;
-  made->at = placement_of(*made);
+  made->at = made->placement();
   made->friction = description.friction;
   made->restitution = description.restitution;
   for (std::size_t i = 0; i < made->parts.size(); ++i)
@@ -166,6 +164,7 @@ void DebrisWorld::remove_obstacle(ObstacleId id) {
   forget_ignored_of(Touched::Kind::obstacle, id.value);
   forget_contacts_of(Touched::Kind::obstacle, id.value);
   for (const std::uint32_t collider : gone.colliders) pairs_.remove(collider);
+  std::erase(moving_obstacles_, id.value);
   obstacles_.erase(id.value);
 }
 
@@ -173,7 +172,7 @@ void DebrisWorld::move_obstacle(ObstacleId id, const Pose& pose) {
   DebrisObstacle& moved = obstacle(id.value);
   wake_touching(moved);
   moved.pose = pose;
-  moved.at = placement_of(moved);
+  moved.at = moved.placement();
   moved.look_how_far();
   for (std::size_t i = 0; i < moved.parts.size(); ++i) {
     pairs_.move(moved.colliders[i], bounds_of(moved.shapes[i], moved.at), 0);
@@ -186,7 +185,7 @@ BodyState DebrisWorld::state(BodyId id) const {
   BodyState state;
   state.pose.position = seen.at.position;
   state.pose.orientation = seen.turned ? seen.turn * from_bullet(seen.frame.getRotation()).conjugate() : seen.turn;
-  state.velocity = seen.velocity;
+  state.velocity = stepping_ && !seen.asleep ? Vec3(seen.velocity - reading_) : seen.velocity;
   state.angular_velocity = seen.spin;
   state.asleep = seen.asleep;
   return state;
@@ -199,6 +198,7 @@ void DebrisWorld::set_state(BodyId id, const BodyState& state) {
   }
   place(set, state.pose);
   set.velocity = state.velocity;
+  if (stepping_ && !set.asleep && !state.asleep) set.velocity += reading_;  // else wake_up() does
   set.spin = state.angular_velocity;
   set.acceleration = gravity_;
   for (std::size_t i = 0; i < set.parts.size(); ++i)

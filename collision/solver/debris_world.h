@@ -1,8 +1,8 @@
 #pragma once
 // collision::World with a contact solver of its own. Its parts by file: bodies, obstacles, queries of state
 // (debris_world), the step (debris_world_step), what touches and what is told of it (debris_world_contacts), rest
-// (debris_world_rest), sweeps and rays (debris_world_sweep), hinges and cables (debris_world_joints), copies
-// (debris_world_copy).
+// (debris_world_rest), what stands and moves (debris_world_moving), sweeps and rays (debris_world_sweep), hinges and
+// cables (debris_world_joints), copies (debris_world_copy).
 #include <map>
 #include <memory>
 #include <optional>
@@ -48,6 +48,24 @@ struct DebrisObstacle : TouchingSolid {
   Pose pose;
   double friction = 0, restitution = 0;
   std::vector<std::uint32_t> colliders;
+  // While it moves.
+  bool moves = false;
+  ObstacleMotion motion;
+  // What touched it, about its pose: in this part of the step, N s and N m s, and in the mean of the last, N and N m.
+  Vec3 impulse = Vec3::Zero(), angular_impulse = Vec3::Zero(), force = Vec3::Zero(), moment = Vec3::Zero();
+  double gives_way = 1;  ///< its mobility, as a share of that which it has by itself
+  double alike = 0;      ///< share of the force of the last part that was there in the one before
+  double lasting = 0;    ///< share of it that goes on: the rest is part of a blow
+  int known_for = 0;     ///< parts of a step, at most three
+  int solver = -1;       ///< its number in the step's solver; -1: not in it yet
+  int island = -1;
+
+  /// m/s: no point of it is faster.
+  [[nodiscard]] double speed() const {
+    return moves ? motion.velocity.norm() + motion.angular_velocity.norm() * reach : 0;
+  }
+  /// Where the pose has its shapes.
+  [[nodiscard]] Placement placement() const;
 };
 
 struct DebrisHinge {
@@ -98,6 +116,7 @@ class DebrisWorld final : public World {
   [[nodiscard]] std::size_t awake_count() const override { return awake_count_; }
   [[nodiscard]] std::vector<Contact> sweep(double dt, Sweep what, double least_speed) override;
   void step(double dt) override;
+  void step(double dt, int parts, MovingStructure& structure) override;
   [[nodiscard]] std::span<const Contact> contacts() const override { return contacts_; }
   [[nodiscard]] std::optional<RayHit> ray_cast(const Vec3& from, const Vec3& to) const override;
   [[nodiscard]] std::vector<ObstacleId> obstacles_in(const Vec3& low, const Vec3& high) const override;
@@ -113,7 +132,7 @@ class DebrisWorld final : public World {
     std::vector<DebrisCable*> cables;
     double load = 0;          ///< m/s2
     double substep_rate = 0;  ///< 1/s: the highest of its bodies
-    bool slow = true;
+    bool carried = false;     ///< by an obstacle that moves at a noticeable speed
   };
 
   [[nodiscard]] DebrisBody& body(std::int64_t id) const;
@@ -131,8 +150,10 @@ class DebrisWorld final : public World {
   [[nodiscard]] static Box3 bounds_of(const PartShape& shape, const Placement& at);
 
   // The step.
+  void begin_step(double dt);
   [[nodiscard]] int parts_of_step(double dt) const;
   void read_velocities_by(const Vec3& more);
+  void fall_asleep_where_held(double dt);
   void move_on(double dt);
   void update_bounds(double dt);
   void note_ways(double dt);
@@ -146,11 +167,21 @@ class DebrisWorld final : public World {
   void gather_islands();
   [[nodiscard]] int substeps(const Island& island, double dt) const;
   void solve(std::span<Island* const> islands, int substeps, double dt);
-  void fill_solver(std::span<Island* const> islands);
+  void fill_solver(std::span<Island* const> islands, double dt, int substeps);
+  void add_contacts(const Island& island);
   void fly(DebrisBody& body, double dt) const;
   void take_results(std::span<Island* const> islands, double dt);
   void turn(DebrisBody& body, const Vec3& turned, double dt) const;
   void resist_rolling(double dt);
+
+  // What stands and moves.
+  void place_moving(double dt, MovingStructure& structure);
+  void place(DebrisObstacle& obstacle, const ObstacleMotion& motion, double dt);
+  void learn(DebrisObstacle& obstacle, const ObstacleMotion& now, const Vec3& force, const Vec3& moment) const;
+  void stand_still(DebrisObstacle& obstacle);
+  void add_moving(const Island& island, double dt, double substep);
+  void press_moving(double dt);
+  void wake_carried();
 
   // Contacts.
   void tell_contacts(double dt, std::span<const char> left_out = {});
@@ -201,7 +232,8 @@ class DebrisWorld final : public World {
   std::map<std::int64_t, std::unique_ptr<DebrisObstacle>> obstacles_;
   std::map<std::int64_t, std::unique_ptr<DebrisHinge>> hinges_;
   std::map<std::int64_t, std::unique_ptr<DebrisCable>> cables_;
-  std::vector<BodyId> order_;  ///< of the bodies that are there, ascending
+  std::vector<std::int64_t> moving_obstacles_;  ///< ascending
+  std::vector<BodyId> order_;                   ///< of the bodies that are there, ascending
   std::size_t awake_count_ = 0;
   std::int64_t next_obstacle_ = 0, next_hinge_ = 0, next_cable_ = 0;
 
@@ -220,6 +252,7 @@ class DebrisWorld final : public World {
   std::uint64_t step_number_ = 0;
   int parts_ = 1;                ///< of this step
   Vec3 reading_ = Vec3::Zero();  ///< by which velocities are read otherwise than between steps
+  bool stepping_ = false;        ///< a structure moves on between two parts of a step
   std::vector<Contact> contacts_;
 };
 

@@ -39,7 +39,8 @@ void merge(const Contact& more, Contact& sum) {
 
 DebrisBody* DebrisWorld::moving(const SolverContact& solved, bool second) const {
   if ((second ? solved.second : solved.first) == 0) return nullptr;
-  return static_cast<DebrisBody*>(pairs_.collider(second ? solved.pair->second : solved.pair->first).solid);
+  Solid* const solid = pairs_.collider(second ? solved.pair->second : solved.pair->first).solid;
+  return solid->kind == Touched::Kind::body ? static_cast<DebrisBody*>(solid) : nullptr;
 }
 
 /// Kinetic and of height. Velocities are those of mid-step.
@@ -98,7 +99,7 @@ void DebrisWorld::tell(const SolverContact& solved, double dt) {
     const int number = second ? solved.second : solved.first;
     if (number == 0) return Vec3::Zero();
     const SolverBody& moves = solver_.body(number);
-    return moves.velocity + gravity_ * (dt / 2) + moves.spin.cross(solved.centre - moves.at.position);
+    return moves.velocity + moves.acceleration * (dt / 2) + moves.spin.cross(solved.centre - moves.at.position);
   };
   contact.approach_speed = (velocity_at(false) - velocity_at(true)).dot(contact.normal);
 }
@@ -206,7 +207,9 @@ void DebrisWorld::mark_persistent(std::vector<Contact>& found) const {
   for (Contact& contact : found) contact.persistent = std::binary_search(known.begin(), known.end(), parts_of(contact));
 }
 
+/// What goes within a step leaves its contacts to the account of that step.
 void DebrisWorld::forget_contacts_of(Touched::Kind kind, std::int64_t id) {
+  if (stepping_) return;
   std::erase_if(contacts_, [&](const Contact& contact) {
     if (kind == Touched::Kind::obstacle) return contact.other.obstacle.value == id;
     return contact.body.value == id || contact.other.body.value == id;

@@ -16,6 +16,7 @@ void copy_each(const Map& from, Map& to) {
 DebrisWorld::DebrisWorld(const DebrisWorld& of)
     : settings_(of.settings_),
       gravity_(of.gravity_),
+      moving_obstacles_(of.moving_obstacles_),
       order_(of.order_),
       awake_count_(of.awake_count_),
       next_obstacle_(of.next_obstacle_),

@@ -7,7 +7,8 @@
 
 namespace topple::collision {
 
-/// Of bodies that touch or hang together. What stands, or sleeps, joins none.
+/// Of bodies that touch or hang together, or touch the same obstacle that moves. What stands still, or sleeps, joins
+/// none.
 void DebrisWorld::gather_islands() {
   std::vector<DebrisBody*> awake_bodies;
   for (const BodyId id : order_) {
@@ -33,10 +34,18 @@ void DebrisWorld::gather_islands() {
     auto* one = static_cast<DebrisBody*>(solid);
     return one->asleep ? nullptr : one;
   };
+  for (const std::int64_t id : moving_obstacles_) obstacle(id).island = -1;
   for (const std::uint32_t index : touching_) {
     const NearPair& pair = pairs_.pair(index);
     DebrisBody *a = moves(pair.first), *b = moves(pair.second);
     if (a && b) join(*a, *b);
+    Solid* const second = pairs_.collider(pair.second).solid;
+    if (!a || second->kind != Touched::Kind::obstacle || !static_cast<DebrisObstacle*>(second)->moves) continue;
+    int& first = static_cast<DebrisObstacle*>(second)->island;
+    if (first < 0)
+      first = a->island;
+    else
+      join(*a, *awake_bodies[static_cast<std::size_t>(first)]);
   }
   for (auto& [id, hinge] : hinges_)
     if (hinge->other >= 0 && !body(hinge->body).asleep) join(body(hinge->body), body(hinge->other));
@@ -62,7 +71,11 @@ void DebrisWorld::gather_islands() {
   for (const std::uint32_t index : touching_) {
     const NearPair& pair = pairs_.pair(index);
     const DebrisBody *a = moves(pair.first), *b = moves(pair.second);
-    if (a || b) island_of(a ? *a : *b).pairs.push_back(index);
+    if (!a && !b) continue;
+    Island& island = island_of(a ? *a : *b);
+    island.pairs.push_back(index);
+    if (const Solid* second = pairs_.collider(pair.second).solid; second->kind == Touched::Kind::obstacle)
+      island.carried = island.carried || static_cast<const DebrisObstacle*>(second)->speed() > settings_.carries_from;
   }
   for (auto& [id, hinge] : hinges_)
     if (!body(hinge->body).asleep) island_of(body(hinge->body)).hinges.push_back(hinge.get());

@@ -19,7 +19,7 @@ bool DebrisWorld::come_to_rest(Island& island, double dt) {
   Island whole = with_sleeping(island), outside = awake_on(whole);
   for (DebrisBody* one : whole.bodies) one->asleep = false;  // rows of what sleeps are rows, here
   Island* const only = &whole;
-  fill_solver(std::array{&whole, &outside});
+  fill_solver(std::array{&whole, &outside}, dt, 0);
   std::vector<double> sizes{1};
   for (const DebrisBody* one : whole.bodies) sizes.push_back(one->reach);
   for (const DebrisBody* one : outside.bodies) sizes.push_back(one->reach);
@@ -218,13 +218,14 @@ void DebrisWorld::wake_changed(double dt) {
   }
 }
 
-/// How long each body has stayed where it is. What rocks to and fro by less than that is slow as well.
+/// How long each body has stayed where it is. What rocks to and fro by less than that is slow as well, but not on
+/// something that moves.
 void DebrisWorld::look_for_rest(double dt) {
   const double far = settings_.slow * settings_.slow_for;
   for (const Island& island : islands_)
     for (DebrisBody* one : island.bodies) {
       if (one->asleep) continue;
-      const bool held = !island.pairs.empty() || !island.hinges.empty() || !island.cables.empty();
+      const bool held = !island.carried && (!island.pairs.empty() || !island.hinges.empty() || !island.cables.empty());
       const double turned = one->reach * one->turn.angularDistance(one->turn_then);
       if (!held || (one->at.position - one->position_then).norm() + turned > far || swings(*one)) {
         one->slow_for = 0;

@@ -8,7 +8,7 @@
 
 namespace topple::collision {
 
-void DebrisWorld::step(double dt) {
+void DebrisWorld::begin_step(double dt) {
   if (!(dt > 0) || !std::isfinite(dt))
     throw std::invalid_argument("step of " + std::to_string(dt) + " s; it must be above zero");
   std::erase_if(released_, [&](const auto& one) { return one.second + 1 < step_number_; });
@@ -20,25 +20,35 @@ void DebrisWorld::step(double dt) {
     if (!body(hinge->body).asleep) hinge->forget_step();
   for (auto& [id, cable] : cables_)
     if (!body(cable->body).asleep) cable->pull = {};
+}
+
+void DebrisWorld::step(double dt) {
+  begin_step(dt);
+  while (!moving_obstacles_.empty()) stand_still(obstacle(moving_obstacles_.back()));
+  if (awake_count_ == 0) return;
   find_contacts(dt);
   parts_ = parts_of_step(dt);
   read_velocities_by(gravity_ * ((1 - 1.0 / parts_) * dt / 2));
   for (int part = 0; part < parts_; ++part) {
     if (part > 0) find_contacts(dt / parts_);
+    solved_.clear();
+    gather_islands();
+    if (parts_ == 1) fall_asleep_where_held(dt);
     move_on(dt / parts_);
   }
   read_velocities_by(Vec3::Zero());
   merge_contacts();
 }
 
-/// One part of a step, once contacts are found.
-void DebrisWorld::move_on(double dt) {
-  solved_.clear();
-  gather_islands();
+/// Before a step is solved, in one.
+void DebrisWorld::fall_asleep_where_held(double dt) {
   bool slept = false;
-  if (parts_ == 1)
-    for (Island& island : islands_) slept = come_to_rest(island, dt) || slept;
+  for (Island& island : islands_) slept = come_to_rest(island, dt) || slept;
   if (slept) gather_islands();
+}
+
+/// One part of a step, once contacts and islands are found.
+void DebrisWorld::move_on(double dt) {
   std::map<int, std::vector<Island*>> by_substeps;
   for (Island& island : islands_) {
     if (island.pairs.empty() && island.hinges.empty() && island.cables.empty())
@@ -164,6 +174,7 @@ void DebrisWorld::find_contacts(double dt) {
   note_ways(dt);
   for (const std::uint32_t index : pairs_.order()) seek(index);
   find_touching();
+  wake_carried();
   wake_struck(dt);
 }
 
@@ -216,8 +227,10 @@ void DebrisWorld::turn(DebrisBody& one, const Vec3& turned, double dt) const {
   one.at.turn = one.turn.toRotationMatrix();
 }
 
-void DebrisWorld::fill_solver(std::span<Island* const> islands) {
+/// `substeps` of `dt`: for which obstacles that move go on; with none they stand still as the others.
+void DebrisWorld::fill_solver(std::span<Island* const> islands, double dt, int substeps) {
   solver_.clear();
+  for (const std::int64_t id : moving_obstacles_) obstacle(id).solver = -1;
   for (const Island* island : islands)
     for (DebrisBody* one : island->bodies) {
       SolverBody moving;
@@ -226,10 +239,21 @@ void DebrisWorld::fill_solver(std::span<Island* const> islands) {
       moving.inverse_root_moments = one->inverse_root_moments;
       moving.velocity = one->velocity;
       moving.spin = one->spin;
+      moving.acceleration = gravity_;
       one->solver = solver_.add(moving);
     }
+  if (substeps > 0)
+    for (const Island* island : islands) add_moving(*island, dt, dt / substeps);
+  for (const Island* island : islands) add_contacts(*island);
+}
+
+void DebrisWorld::add_contacts(const Island& island) {
   const auto number = [&](const Solid& solid) {
-    if (solid.kind != Touched::Kind::body) return 0;
+    if (solid.kind == Touched::Kind::ground) return 0;
+    if (solid.kind == Touched::Kind::obstacle) {
+      const auto& one = static_cast<const DebrisObstacle&>(solid);
+      return one.moves ? std::max(0, one.solver) : 0;
+    }
     const auto& one = static_cast<const DebrisBody&>(solid);
     return one.asleep ? 0 : one.solver;
   };
@@ -245,37 +269,35 @@ void DebrisWorld::fill_solver(std::span<Island* const> islands) {
     const auto& one = static_cast<const DebrisBody&>(solid);
     return {one.friction, one.restitution};
   };
-  for (const Island* island : islands) {
-    for (const std::uint32_t index : island->pairs) {
-      SolverContact contact;
-      contact.pair = &pairs_.pair(index);
-      const Solid &first = *pairs_.collider(contact.pair->first).solid,
-                  &second = *pairs_.collider(contact.pair->second).solid;
-      contact.first = number(first);
-      contact.second = number(second);
-      contact.first_at = &placement(first);
-      contact.second_at = &placement(second);
-      const Surface a = surface(first), b = surface(second);
-      contact.friction = std::sqrt(a.friction * b.friction);
-      contact.restitution = std::sqrt(a.restitution * b.restitution);
-      solver_.add(contact);
-    }
-    for (DebrisHinge* hinge : island->hinges) {
-      hinge->rows.body = body(hinge->body).solver;
-      hinge->rows.holder = hinge->other < 0 ? 0 : body(hinge->other).solver;
-      solver_.add(&hinge->rows);
-    }
-    for (DebrisCable* cable : island->cables) {
-      cable->row.body = body(cable->body).solver;
-      cable->row.impulse.setZero();
-      cable->row.pulled = 0;
-      solver_.add(&cable->row);
-    }
+  for (const std::uint32_t index : island.pairs) {
+    SolverContact contact;
+    contact.pair = &pairs_.pair(index);
+    const Solid &first = *pairs_.collider(contact.pair->first).solid,
+                &second = *pairs_.collider(contact.pair->second).solid;
+    contact.first = number(first);
+    contact.second = number(second);
+    contact.first_at = &placement(first);
+    contact.second_at = &placement(second);
+    const Surface a = surface(first), b = surface(second);
+    contact.friction = std::sqrt(a.friction * b.friction);
+    contact.restitution = std::sqrt(a.restitution * b.restitution);
+    solver_.add(contact);
+  }
+  for (DebrisHinge* hinge : island.hinges) {
+    hinge->rows.body = body(hinge->body).solver;
+    hinge->rows.holder = hinge->other < 0 ? 0 : body(hinge->other).solver;
+    solver_.add(&hinge->rows);
+  }
+  for (DebrisCable* cable : island.cables) {
+    cable->row.body = body(cable->body).solver;
+    cable->row.impulse.setZero();
+    cable->row.pulled = 0;
+    solver_.add(&cable->row);
   }
 }
 
 void DebrisWorld::solve(std::span<Island* const> islands, int substeps, double dt) {
-  fill_solver(islands);
+  fill_solver(islands, dt, substeps);
   for (const Island* island : islands)
     for (DebrisBody* one : island->bodies) {
       one->substep_rate = substeps / dt;
@@ -283,8 +305,9 @@ void DebrisWorld::solve(std::span<Island* const> islands, int substeps, double d
       one->spin_before = one->spin;
       one->energy_before = energy(*one, dt);
     }
-  solver_.run(dt, substeps, gravity_);
+  solver_.run(dt, substeps);
   tell_contacts(dt);  // where things were when the step began
+  press_moving(dt);
   take_results(islands, dt);
   account_work(islands, dt);
 }

@@ -12,8 +12,9 @@ struct SolverBody {
   Placement at;                  ///< principal axes
   double inverse_root_mass = 0;  ///< 1/sqrt(kg)
   Vec3 inverse_root_moments = Vec3::Zero();
-  Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();  ///< stored ones (BodyState), global
-  Vec3 moved = Vec3::Zero(), turned = Vec3::Zero();   ///< by the step: m, rad about global axes
+  Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();                      ///< stored ones (BodyState), global
+  Vec3 acceleration = Vec3::Zero(), angular_acceleration = Vec3::Zero();  ///< contacts and joints apart
+  Vec3 moved = Vec3::Zero(), turned = Vec3::Zero();                       ///< by the step: m, rad about global axes
 
   /// The angular part of a row of moment m per unit impulse.
   [[nodiscard]] Vec3 scaled_moment(const Vec3& moment) const {

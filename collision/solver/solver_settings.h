@@ -40,6 +40,12 @@ struct SolverSettings {
   double restitution_from = 1;      ///< m/s: slower contacts do not bounce, so that piles come to rest
   double rolling_resistance = 0.1;  ///< of the normal force times the radius, a ball on soil: it would roll for ever
 
+  // What stands and moves.
+  /// How much a force on it has to change, squared, as a share of it, before its motion tells by how much it gives way:
+  /// what else moves it counts as much else. Decides how soon forces on it settle, not on what.
+  double telling_change = 0.25;
+  double gives_way_least = 0.02;  ///< of what it would by itself: the least that its motion is taken to tell
+
   // Joints.
   double joint_frequency = 120;  ///< Hz at most (a quarter of the sub-steps' rate): gaps of hinges close with it
   double joint_damping = 2;      ///< ratio
@@ -48,7 +54,10 @@ struct SolverSettings {
   double slow = 0.05;        ///< m/s, mean over `slow_for` of the farthest point: a body that is slower ...
   double slow_for = 0.5;     ///< s: ... for so long, and all that touch it, sleep
   double struck_from = 0.1;  ///< m/s: what sleeps is woken before it is come upon faster than this
-  double wakes_from = 0.1;   ///< of its weight: what sleeps wakes when a force on it changes by more ...
+  /// m/s: what lies on something that stands and moves faster is awake. A building that swings once in a second goes
+  /// on by 1.6 mm at that, which is about as near as points `touch`.
+  double carries_from = 0.01;
+  double wakes_from = 0.1;  ///< of its weight: what sleeps wakes when a force on it changes by more ...
   double pressed_over =
       0.1;                  ///< s: ... averaged over this: a blow wakes from a speed of 0.1 m/s, as `struck_from` does
   double touching = 0.001;  ///< m: points that are nearer bear at rest

@@ -34,7 +34,7 @@ void accumulate(const Motion6& more, Motion6& to) {
 Vec3 get(const Wide* of, int lane) { return {of[0][lane], of[1][lane], of[2][lane]}; }
 }  // namespace
 
-void StepSolver::scale_bodies(double dt, const Vec3& gravity) {
+void StepSolver::scale_bodies(double dt) {
   const std::size_t count = bodies_.size();
   velocity_.assign(count, {});
   displacement_.assign(count, {});
@@ -44,16 +44,17 @@ void StepSolver::scale_bodies(double dt, const Vec3& gravity) {
   for (std::size_t i = 1; i < count; ++i) {
     const SolverBody& body = bodies_[i];
     // From the middle of the step to that of a sub-step before the first.
-    body.set(body.velocity + gravity * ((dt - h_) / 2), body.spin, velocity_[i]);
-    body.set(gravity * h_, Vec3::Zero(), kick_[i]);
+    body.set(body.velocity + body.acceleration * ((dt - h_) / 2),
+             body.spin + body.angular_acceleration * ((dt - h_) / 2), velocity_[i]);
+    body.set(body.acceleration * h_, body.angular_acceleration * h_, kick_[i]);
   }
 }
 
-void StepSolver::unscale_bodies(double dt, const Vec3& gravity) {
+void StepSolver::unscale_bodies(double dt) {
   for (std::size_t i = 1; i < bodies_.size(); ++i) {
     SolverBody& body = bodies_[i];
-    body.velocity = body.linear(velocity_[i]) - gravity * ((dt - h_) / 2);
-    body.spin = body.angular(velocity_[i]);
+    body.velocity = body.linear(velocity_[i]) - body.acceleration * ((dt - h_) / 2);
+    body.spin = body.angular(velocity_[i]) - body.angular_acceleration * ((dt - h_) / 2);
     body.moved = body.linear(displacement_[i]);
     body.turned = body.angular(displacement_[i]);
   }
@@ -213,9 +214,9 @@ void StepSolver::store_contact(SolverContact& contact, double dt) {
   contact.moment = pack.twist_total[lane] * manifold.normal + (contact.anchor - contact.centre).cross(slide_total);
 }
 
-void StepSolver::run(double dt, int substeps, const Vec3& gravity) {
+void StepSolver::run(double dt, int substeps) {
   h_ = dt / substeps;
-  scale_bodies(dt, gravity);
+  scale_bodies(dt);
   colour();
   fill_packs();
   for (SolverContact& contact : contacts_) prepare(contact);
@@ -224,7 +225,7 @@ void StepSolver::run(double dt, int substeps, const Vec3& gravity) {
   each_pack(contact_kernels().restitute, {h_, settings_.pushed_apart, settings_.restitution_from});
   for (SolverContact& contact : contacts_) store_contact(contact, dt);
   for (HingeRows* hinge : hinges_) hinge->end_step(h_);
-  unscale_bodies(dt, gravity);
+  unscale_bodies(dt);
   keep_angular_momentum();
 }
 

@@ -53,7 +53,7 @@ class StepSolver {
   void add(HingeRows* hinge) { hinges_.push_back(hinge); }
   void add(CableRow* cable) { cables_.push_back(cable); }
   /// `dt` in `substeps` parts.
-  void run(double dt, int substeps, const Vec3& gravity);
+  void run(double dt, int substeps);
 
   /// Whether the bodies can stay where they are: contacts, hinges and cables then hold the forces that keep them there,
   /// as those of a step `dt` long; nothing has moved. `sizes`: of each body (by its number), m. Those that `moves`
@@ -75,7 +75,7 @@ class StepSolver {
   void prepare(SolverContact& contact);
   void prepare_points(SolverContact& contact, ContactPack& pack, double h);
   void prepare_friction(SolverContact& contact, ContactPack& pack, double h);
-  void scale_bodies(double dt, const Vec3& gravity);
+  void scale_bodies(double dt);
   void sub_step(int number);
   void begin_sub_step(int number);
   void each_pack(ContactKernels::Pass pass, const SubStep& step) { each_pack(pass, step, velocity_); }
@@ -89,7 +89,7 @@ class StepSolver {
   [[nodiscard]] bool bears_at_rest(const ManifoldPoint& point) const { return point.separation <= settings_.touching; }
   void place_friction(SolverContact& contact) const;
   void store_contact(SolverContact& contact, double dt);
-  void unscale_bodies(double dt, const Vec3& gravity);
+  void unscale_bodies(double dt);
   void keep_angular_momentum();
 
   const SolverSettings& settings_;

@@ -129,6 +129,32 @@ struct BodyState {
   bool asleep = false;                   ///< nothing is computed for it until something wakes it
 };
 
+/// How an obstacle moves with the structure that it is part of, as a rigid body about its pose's position. Global axes.
+struct ObstacleMotion {
+  Pose pose;                             ///< now
+  Vec3 velocity = Vec3::Zero();          ///< of the pose's position, now, m/s
+  Vec3 angular_velocity = Vec3::Zero();  ///< now, rad/s
+  /// m/s2, mean of the part of a step before, with what touched it then: it goes on so while it is touched alike.
+  Vec3 acceleration = Vec3::Zero();
+  Vec3 angular_acceleration = Vec3::Zero();  ///< rad/s2, as the acceleration
+  /// What it has by itself, or less: kg. Where it is touched otherwise than in the part of a step before, it gives way
+  /// by no more than a body of that.
+  double mass = 0;
+  Mat3 inertia = Mat3::Zero();  ///< as the mass: kg m2, about the pose's position
+};
+
+/// A structure that moves beside the bodies of a world, and shares the parts of a step with them.
+class MovingStructure {
+ public:
+  virtual ~MovingStructure() = default;
+  /// Nothing for an obstacle that stands still. Asked at the start of each part of a step.
+  [[nodiscard]] virtual std::optional<ObstacleMotion> motion(ObstacleId obstacle) = 0;
+  /// It moves on by `dt` (s) under what the bodies did to it meanwhile: contacts of this part of the step, not merged,
+  /// those of bodies that fell asleep apart. Bodies, obstacles and hinges may come and go in this call; contacts()
+  /// tells after the step of those that are gone as well.
+  virtual void advance(double dt, std::span<const Contact> contacts) = 0;
+};
+
 /// Where a ray first hits.
 struct RayHit {
   Touched what;                ///< that is hit
@@ -227,6 +253,10 @@ class World {
                                                    double least_speed = 0) = 0;
   /// Integrates awake bodies by dt > 0 (one internal step, semi-implicit Euler; rotation keeps angular momentum).
   virtual void step(double dt) = 0;
+  /// The same in `parts` equal parts, after each of which the structure moves on: obstacles that move touch bodies with
+  /// their velocity, give way as bodies do, and are where the structure has them. An engine that cannot do this takes
+  /// one step past obstacles that stand still, and hands on its mean forces.
+  virtual void step(double dt, int parts, MovingStructure& structure);
   /// Contacts of awake bodies in the last step, one for each pair of parts, in order of ids and tags. What a sleeping
   /// body pressed with when it fell asleep, it presses with still.
   [[nodiscard]] virtual std::span<const Contact> contacts() const = 0;

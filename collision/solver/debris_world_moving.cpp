@@ -1,0 +1,201 @@
+// Obstacles that move with a structure. Such an obstacle is a body of the solver for the length of one part of a step,
+// and then the structure says where it is and how fast.
+//
+// Within a part it goes on as it did in the last one, and where what touches it does otherwise it gives way as it would
+// by itself: the structure gives way by less, so that no energy comes of it. The force between a body and the structure
+// then goes to its true value by a factor sqrt(1 - q) for each part, q being the mobility of both over what was taken
+// for it; it grows where q is above 4/3. By how much the structure gives way its last two parts tell, where the force
+// on it changed between them by enough (a secant, as in partitioned schemes for fluids and structures; U. Kuettler, W.
+// A. Wall, Computational Mechanics 43 (2008), 61).
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "solver/debris_world.h"
+
+namespace topple::collision {
+
+void DebrisWorld::step(double dt, int parts, MovingStructure& structure) {
+  if (parts < 1) throw std::invalid_argument("a step of " + std::to_string(parts) + " parts; it has at least one");
+  const double part_time = dt / parts;
+  place_moving(part_time, structure);
+  find_touching();
+  wake_carried();
+  begin_step(dt);
+  find_contacts(part_time);
+  const int finer = (parts_of_step(dt) + parts - 1) / parts;
+  solved_.clear();
+  gather_islands();
+  parts_ = 1;
+  if (finer == 1) fall_asleep_where_held(dt);
+  parts_ = parts * finer;
+  read_velocities_by(gravity_ * ((1 - 1.0 / parts_) * dt / 2));
+  for (int part = 0; part < parts; ++part) {
+    const std::size_t told = contacts_.size();
+    if (part > 0) place_moving(part_time, structure);
+    for (int i = 0; i < finer && (awake_count_ > 0 || !moving_obstacles_.empty()); ++i) {
+      if (part + i > 0) {
+        find_contacts(dt / parts_);
+        solved_.clear();
+        gather_islands();
+      }
+      if (awake_count_ > 0) move_on(dt / parts_);
+    }
+    const std::vector<Contact> own(contacts_.begin() + static_cast<std::ptrdiff_t>(told), contacts_.end());
+    stepping_ = true;
+    structure.advance(part_time, own);
+    stepping_ = false;
+  }
+  read_velocities_by(Vec3::Zero());
+  merge_contacts();
+}
+
+/// Those near bodies are asked for; what moved before and is near none any more is left where it is.
+void DebrisWorld::place_moving(double dt, MovingStructure& structure) {
+  update_bounds(dt);
+  pairs_.find();
+  std::vector<std::int64_t> near;
+  for (const std::uint32_t index : pairs_.order()) {
+    const Solid* second = pairs_.collider(pairs_.pair(index).second).solid;
+    if (second->kind == Touched::Kind::obstacle) near.push_back(second->id);
+  }
+  std::sort(near.begin(), near.end());
+  near.erase(std::unique(near.begin(), near.end()), near.end());
+  const std::vector<std::int64_t> before = moving_obstacles_;
+  for (const std::int64_t id : near) {
+    DebrisObstacle& one = obstacle(id);
+    if (const std::optional<ObstacleMotion> motion = structure.motion({id}))
+      place(one, *motion, dt);
+    else if (one.moves)
+      stand_still(one);
+  }
+  for (const std::int64_t id : before)
+    if (!std::binary_search(near.begin(), near.end(), id)) stand_still(obstacle(id));
+}
+
+void DebrisWorld::place(DebrisObstacle& one, const ObstacleMotion& motion, double dt) {
+  if (!one.moves) {
+    one.moves = true;
+    moving_obstacles_.insert(std::lower_bound(moving_obstacles_.begin(), moving_obstacles_.end(), one.id), one.id);
+    one.impulse = one.angular_impulse = one.force = one.moment = Vec3::Zero();
+    one.gives_way = 1;
+    one.alike = 0;
+    one.known_for = 0;
+  }
+  const Vec3 force = std::exchange(one.impulse, Vec3::Zero()) / dt,
+             moment = std::exchange(one.angular_impulse, Vec3::Zero()) / dt;
+  one.known_for = std::min(one.known_for + 1, 3);
+  learn(one, motion, force, moment);
+  one.force = force;
+  one.moment = moment;
+  one.motion = motion;
+  one.pose = motion.pose;
+  one.at = one.placement();
+  one.look_how_far();
+  const Vec3 straight = motion.velocity * dt;
+  const double spin = motion.angular_velocity.norm() * dt;
+  for (std::size_t i = 0; i < one.parts.size(); ++i) {
+    Box3 bounds = bounds_of(one.shapes[i], one.at);
+    const Vec3 out = Vec3::Constant(spin * one.parts[i].reach);
+    bounds.low += straight.cwiseMin(0) - out;
+    bounds.high += straight.cwiseMax(0) + out;
+    pairs_.move(one.colliders[i], bounds, settings_.fat);
+    pairs_.note_way(one.colliders[i], one.gone, straight.norm() + spin * one.parts[i].reach, true);
+  }
+}
+
+/// From what it did in the last two parts of a step: the share of its own mobility that its accelerations show, and
+/// how much of the force goes on.
+void DebrisWorld::learn(DebrisObstacle& one, const ObstacleMotion& now, const Vec3& force, const Vec3& moment) const {
+  const Mat3 inverse = now.inertia.inverse();
+  const auto product = [&](const Vec3& a, const Vec3& turning_a, const Vec3& b, const Vec3& turning_b) {
+    return a.dot(b) / now.mass + turning_a.dot(inverse * turning_b);
+  };
+  const double present = product(force, moment, force, moment),
+               before = product(one.force, one.moment, one.force, one.moment);
+  const Vec3 more = force - one.force, more_moment = moment - one.moment;
+  const double own = product(more, more_moment, more, more_moment);
+  const double alike = present > own ? 1 - std::sqrt(own / present) : 0;
+  one.lasting = std::min(alike, std::exchange(one.alike, alike));  // a blow takes two parts
+  if (one.known_for < 3) return;  // by how much its acceleration changed is not known yet
+  if (!(own > settings_.telling_change * std::max(before, present))) return;
+  const double shown = more.dot(now.acceleration - one.motion.acceleration) +
+                       more_moment.dot(now.angular_acceleration - one.motion.angular_acceleration);
+  if (shown > 0) one.gives_way = std::clamp(shown / own, settings_.gives_way_least, 1.0);
+}
+
+void DebrisWorld::stand_still(DebrisObstacle& one) {
+  one.moves = false;
+  std::erase(moving_obstacles_, one.id);
+  for (std::size_t i = 0; i < one.parts.size(); ++i) {
+    pairs_.move(one.colliders[i], bounds_of(one.shapes[i], one.at), 0);
+    pairs_.note_way(one.colliders[i], one.gone, 0, false);
+  }
+}
+
+/// Obstacles that the island touches, as bodies of the solver.
+void DebrisWorld::add_moving(const Island& island, double dt, double substep) {
+  for (const std::uint32_t index : island.pairs) {
+    Solid* const second = pairs_.collider(pairs_.pair(index).second).solid;
+    if (second->kind != Touched::Kind::obstacle) continue;
+    auto& one = static_cast<DebrisObstacle&>(*second);
+    if (!one.moves || one.solver > 0) continue;
+    const Eigen::SelfAdjointEigenSolver<Mat3> principal(one.motion.inertia);
+    SolverBody moving;
+    moving.at = {one.pose.position, principal.eigenvectors()};
+    if (moving.at.turn.determinant() < 0) moving.at.turn.col(2) *= -1;
+    moving.inverse_root_mass = std::sqrt(one.gives_way / one.motion.mass);
+    moving.inverse_root_moments = std::sqrt(one.gives_way) * principal.eigenvalues().cwiseSqrt().cwiseInverse();
+    const double by_force = one.gives_way / one.motion.mass;
+    const Vec3 by_moment = moving.at.turn * moving.inverse_root_moments.cwiseProduct(moving.scaled_moment(one.moment));
+    // As it went on, without what touched it then.
+    moving.acceleration = one.motion.acceleration - by_force * one.force;
+    moving.angular_acceleration = one.motion.angular_acceleration - by_moment;
+    // The solver begins half a sub-step before the part does; there what lasts acted already.
+    moving.velocity =
+        one.motion.velocity - moving.acceleration * (dt / 2) - one.lasting * by_force * one.force * (substep / 2);
+    moving.spin =
+        one.motion.angular_velocity - moving.angular_acceleration * (dt / 2) - one.lasting * by_moment * (substep / 2);
+    one.solver = solver_.add(moving);
+  }
+}
+
+/// After a part of a step: what was done to the obstacles, and how they would go on by themselves.
+void DebrisWorld::press_moving(double dt) {
+  for (const SolverContact& solved : solver_.contacts()) {
+    if (solved.second == 0) continue;
+    Solid* const second = pairs_.collider(solved.pair->second).solid;
+    if (second->kind != Touched::Kind::obstacle) continue;
+    auto& one = static_cast<DebrisObstacle&>(*second);
+    one.impulse += solved.impulse;
+    one.angular_impulse += (solved.centre - one.pose.position).cross(solved.impulse) + solved.moment;
+  }
+  for (const std::int64_t id : moving_obstacles_) {
+    DebrisObstacle& one = obstacle(id);
+    if (one.solver <= 0) continue;
+    const SolverBody& moved = solver_.body(one.solver);
+    one.motion.velocity = moved.velocity + moved.acceleration * (dt / 2);
+    one.motion.angular_velocity = moved.spin + moved.angular_acceleration * (dt / 2);
+  }
+}
+
+/// What sleeps on something that moves at a noticeable speed goes along, awake.
+void DebrisWorld::wake_carried() {
+  if (moving_obstacles_.empty()) return;
+  for (const std::uint32_t index : touching_) {
+    const NearPair& pair = pairs_.pair(index);
+    Solid *const first = pairs_.collider(pair.first).solid, *const second = pairs_.collider(pair.second).solid;
+    if (second->kind != Touched::Kind::obstacle || !static_cast<DebrisBody&>(*first).asleep) continue;
+    const auto& one = static_cast<const DebrisObstacle&>(*second);
+    if (!one.moves) continue;
+    for (int i = 0; i < pair.manifold.count; ++i) {
+      const Vec3 arm = one.at * pair.manifold.points[static_cast<std::size_t>(i)].on_second - one.pose.position;
+      const Vec3 velocity = one.motion.velocity + one.motion.angular_velocity.cross(arm);
+      if (velocity.norm() > settings_.carries_from) wake_up(static_cast<DebrisBody&>(*first));
+    }
+  }
+}
+
+}  // namespace topple::collision
