@@ -31,10 +31,11 @@ void Simulation::step() {
       s.strike_by_host();
       s.standing_impacts.strike_all(contacts);
       s.body_impacts.strike_all(contacts);
-      s.break_generations();
+      s.scene.sways() ? s.begin_motion() : s.break_generations();
     });
     timed(Stage::release, [&] { s.release(); });
     timed(Stage::move, [&] { s.move(); });
+    if (s.scene.sways()) timed(Stage::break_, [&] { s.end_motion(); });
     timed(Stage::account, [&] { s.account(); });
   }
   s.record_rest_and_end();
@@ -54,6 +55,7 @@ Simulation::State::State(Building the_building, Scenario the_scenario, Simulatio
       standing_impacts({scene, log, sums, debris, panels, standing_fracture, release_impulses, struck}),
       body_impacts({scene, log, sums, debris, break_up, standing_impacts, struck}),
       debris_fracture({scene, log, sums, debris, hinges, panels, views, break_up, release_impulses}) {
+  moving_parts = std::make_unique<MovingParts>(debris, sums, [this] { substep(); });
   if (scene.sways()) scene.frame->let_move(scene.scenario.step, scene.scenario.motion);
   panels.open();
 }
@@ -61,37 +63,50 @@ Simulation::State::State(Building the_building, Scenario the_scenario, Simulatio
 Simulation::State::~State() = default;
 
 void Simulation::State::load() {
-  sums.counters.contacts_ignored += debris.resting.lay(*scene.frame, scene.strength_factors, [&](collision::BodyId id) {
-    const Body* one = debris.find(id);
-    return one ? one->rest.mass * scene.gravity.norm() : 0.0;
-  });
+  sums.counters.contacts_ignored +=
+      debris.resting.lay(*scene.frame, scene.strength_factors, scene.sways(), [&](collision::BodyId id) {
+        const Body* one = debris.find(id);
+        return one ? one->rest.mass * scene.gravity.norm() : 0.0;
+      });
+}
+
+void Simulation::State::record(const std::vector<JointBreak>& breaks) {
+  for (const JointBreak& line : scene.frame->take_yielded()) {
+    SimulationEvent& event = log.record(SimulationEvent::Kind::joint_yielded, scene.building[line.joint].name);
+    event.joint = line;
+    event.position = line.position;
+  }
+  for (const JointBreak& broken : breaks) log.record(broken);
 }
 
 /// Until nothing is over capacity and no panel cracks.
 void Simulation::State::break_generations() {
   if (!scene.frame->pending() && scene.step > 1) return;
-  const auto record_yielded = [&] {
-    for (const JointBreak& line : scene.frame->take_yielded()) {
-      SimulationEvent& event = log.record(SimulationEvent::Kind::joint_yielded, scene.building[line.joint].name);
-      event.joint = line;
-      event.position = line.position;
-    }
-  };
-  if (scene.sways()) {
-    const auto crack =
-        panels.any() ? std::function<void()>([&] { standing_fracture.crack(); }) : std::function<void()>();
-    const std::vector<JointBreak> breaks = scene.frame->move(crack);
-    record_yielded();
-    for (const JointBreak& broken : breaks) log.record(broken);
-    scene.timer.engine([&] { debris.obstacles.follow(*scene.frame, *scene.world); });
-    return;
-  }
   do {
-    const std::vector<JointBreak> breaks = scene.frame->settle();
-    record_yielded();
-    for (const JointBreak& broken : breaks) log.record(broken);
+    record(scene.frame->settle());
     if (panels.any()) standing_fracture.crack();
   } while (scene.frame->pending());
+}
+
+/// Tools, impacts and what lies on it act on what stands.
+void Simulation::State::begin_motion() {
+  if (scene.frame->pending() || scene.step <= 1) record(scene.frame->begin_move());
+}
+
+/// One substep of what stands; what lost its hold in it leaves at once.
+void Simulation::State::substep() {
+  const auto crack = panels.any() ? std::function<void()>([&] { standing_fracture.crack(); }) : std::function<void()>();
+  scene.timer.within(static_cast<std::size_t>(Stage::move), static_cast<std::size_t>(Stage::break_),
+                     [&] { scene.frame->move_on(crack); });
+  if (!crack && !scene.frame->has_detached()) return;
+  record(scene.frame->take_breaks());
+  release();
+}
+
+void Simulation::State::end_motion() {
+  if (!scene.frame->pending() && scene.step > 1) return;
+  record(scene.frame->end_move());
+  scene.timer.engine([&] { debris.obstacles.follow(*scene.frame, *scene.world); });
 }
 
 bool Simulation::State::nothing_to_do() const {

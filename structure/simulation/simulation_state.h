@@ -8,6 +8,7 @@
 #include "simulation/debris/break_up.h"
 #include "simulation/debris/debris.h"
 #include "simulation/debris/hinges.h"
+#include "simulation/debris/moving_parts.h"
 #include "simulation/debris/release_impulses.h"
 #include "simulation/fracture/breakable_panels.h"
 #include "simulation/fracture/debris_fracture.h"
@@ -37,8 +38,11 @@ struct Simulation::State {
   // simulation.cpp
   /// Resting contacts load the frame.
   void load();
-  /// Until nothing is over capacity and no panel cracks.
   void break_generations();
+  void begin_motion();
+  void substep();
+  void end_motion();
+  void record(const std::vector<JointBreak>& breaks);
 
   // release.cpp: what left the frame becomes bodies.
   void release();
@@ -91,6 +95,7 @@ struct Simulation::State {
   StandingImpacts standing_impacts;
   BodyImpacts body_impacts;
   DebrisFracture debris_fracture;
+  std::unique_ptr<MovingParts> moving_parts;
   std::vector<ContactRecord> contact_records;  ///< of the last collision step
 
   std::vector<Snapshot::Action> actions;              ///< all that was asked for so far

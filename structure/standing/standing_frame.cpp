@@ -222,7 +222,9 @@ void StandingFrame::set_stiffness_factor(MemberId member, double factor) {
   State& state = *state_;
   if (!state.stands(member) || state.statics.stiffness(member) == factor) return;
   state.account.change(member).soften(member);
+  state.slowly = true;
   state.statics.set_stiffness(member, factor);
+  state.slowly = false;
   state.softened = state.pending = true;
 }
 
@@ -273,6 +275,7 @@ void StandingFrame::State::settle(int generations) {
 }
 
 std::vector<JointBreak> StandingFrame::take_yielded() { return state_->yielding.take_yielded(); }
+bool StandingFrame::has_detached() const { return !state_->detached.empty(); }
 std::vector<Detached> StandingFrame::take_detached() { return std::exchange(state_->detached, {}); }
 
 StandingFrame::UnitResponse StandingFrame::respond(const ContactPlace& place, const Vec3& direction) const {

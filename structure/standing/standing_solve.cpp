@@ -141,9 +141,14 @@ void StandingFrame::State::know_demands() {
   for (int c = 0; c < statics.components(); ++c) {
     if (!std::exchange(demands_behind[static_cast<std::size_t>(c)], 0)) continue;
     read_demands(c, false);
-    for (const JointId joint : components.joints[static_cast<std::size_t>(c)])
-      if (parts.standing(joint)) (void)joints.check(joint);
+    remember_demands(c);
   }
+}
+
+/// For largest_utilisation_so_far().
+void StandingFrame::State::remember_demands(int c) {
+  for (const JointId joint : components.joints[static_cast<std::size_t>(c)])
+    if (parts.standing(joint)) (void)joints.check(joint);
 }
 
 /// The rest of what solve() read.
@@ -153,8 +158,7 @@ void StandingFrame::State::complete(int c) {
   Watch watch(*this);
   statics.complete(c, watch);
   read_panel_demands(c, false);
-  for (const JointId joint : components.joints[static_cast<std::size_t>(c)])
-    if (parts.standing(joint)) (void)joints.check(joint);
+  remember_demands(c);
 }
 
 void StandingFrame::State::read_demands(int c, bool slow) {

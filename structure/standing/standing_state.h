@@ -102,11 +102,14 @@ struct StandingFrame::State {
   [[nodiscard]] bool may_restrict(int component) const;
   void complete(int component);
   void know_demands();
+  void remember_demands(int c);
   void read_demands(int component, bool slow);
   void read_panel_demands(int component, bool slow, bool in_motion = false);
 
   // Motion (standing_sway.cpp).
-  void move(const std::function<void()>& after_substep);
+  void move_on(const std::function<void()>& after_substep);
+  void end_motion();
+  void soften_at_rest();
   void begin_motion();
   void sway(int component);
   void break_in_motion(JointId joint, const Vec6& demand, double freed);
@@ -155,6 +158,7 @@ struct StandingFrame::State {
   std::vector<Change> queue;
   bool pending = false;
   bool softened = false;            ///< stiffness factors changed since the last solve
+  bool slowly = false;              ///< what changes now does so slowly: what is at rest goes on resting
   std::vector<char> in_mechanism;   ///< per member: it moves, and is about to leave
   std::vector<MemberId> half_held;  ///< members that have just lost one end
   std::vector<JointId> unbraced;

@@ -8,14 +8,18 @@ namespace topple::structure {
 
 void Simulation::State::move() {
   for (BodyMotion& one : debris.bodies.motions()) one.before = scene.world->state({one.id});
-  if (scene.world->awake_count() == 0) return;
-  scene.timer.engine([&] { scene.world->step(scene.scenario.step); });
+  const double dt = scene.scenario.step;
+  const bool together = scene.frame->in_motion();
+  if (scene.world->awake_count() == 0 && !together) return;
+  scene.timer.engine(
+      [&] { together ? scene.world->step(dt, scene.frame->substeps(), *moving_parts) : scene.world->step(dt); });
   watch_overlaps();
   ++sums.counters.collision_steps;
 }
 
 void Simulation::State::account() {
   account_contacts();
+  if (scene.frame->has_detached()) release();  // at the end of its motion
   hinges.pull();
   for (BodyMotion& one : debris.bodies.motions()) account_body(one);
   auto next = debris.bodies.motions().begin();  // asked for in order of id

@@ -8,6 +8,7 @@ struct RunningSums {
   Ledger ledger;
   double body_gravity_work = 0;  ///< J, of gravity on bodies
   double body_work_put_in = 0;   ///< J, by what is launched and by hosts
+  double passed_on = 0;          ///< J, of contacts of bodies on what stands and moves
   double kinetic_released = 0;   ///< J that parts of what stands took along as they left
   SimulationCounters counters;
 
@@ -22,7 +23,8 @@ struct RunningSums {
     ledger.lost_in_integration = frame.numerical;
     ledger.dissipated_in_joints = frame.dissipated;
     // The loads were laid on slowly before time began, and what lies on the frame goes down with it.
-    ledger.gravity_work = frame.elastic_at_start + frame.gravity_work + frame.contact_work + body_gravity_work;
+    ledger.gravity_work =
+        frame.elastic_at_start + frame.gravity_work + frame.contact_work + body_gravity_work - passed_on;
     ledger.work_put_in = body_work_put_in + frame.other_work;
     ledger.kinetic_translation = translation;
     ledger.kinetic_rotation = rotation;

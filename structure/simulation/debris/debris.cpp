@@ -10,7 +10,8 @@ Debris::Debris(Scene& the_scene)
       masses(scene.building, scene.combination, *scene.frame),
       shapes(scene.building),
       grid(scene.building, shapes),
-      obstacles(scene.building, shapes, grid, scene.scenario.debris.friction, scene.scenario.debris.restitution),
+      obstacles(scene.building, shapes, grid, scene.scenario.debris.friction, scene.scenario.debris.restitution,
+                scene.sways()),
       body_of_part(part_count(scene.building), -1) {}
 
 Body* Debris::find(collision::BodyId id) {

@@ -46,6 +46,12 @@ struct DebrisSettings {
   /// rests as far above or in what has sunk; smaller: what lies on a floor that sways is woken more often.
   double follow = 0.01;
 
+  /// Of a part's own mass: what gives way where debris presses on a part that moves otherwise than in the substep
+  /// before. Below 4/3 of it forces between the two settle (collision/solver/debris_world_moving.cpp); a half leaves
+  /// room for a part whose end moves more easily than its middle. It decides how soon they settle, in substeps, and not
+  /// on what.
+  double share_of_part = 0.5;
+
   // What is looked for. These decide what is computed, not what comes out.
   /// m around a body's swept bounds: what its shapes' skins and a step's turn may add.
   double sweep_margin = 0.25;

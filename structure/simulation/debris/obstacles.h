@@ -4,6 +4,7 @@
 #include <map>
 
 #include "simulation/debris/part_grid.h"
+#include "simulation/debris/part_motion.h"
 #include "topple/collision/world.h"
 #include "topple/structure/standing_frame.h"
 
@@ -12,7 +13,7 @@ namespace topple::structure {
 class Obstacles {
  public:
   Obstacles(const Building& building, const PartShapes& shapes, const PartGrid& grid, double friction,
-            double restitution);
+            double restitution, bool sways);
 
   /// Makes shapes for the standing parts that reach into the box.
   void approach(const Bounds& box, const StandingFrame& frame, collision::World& world);
@@ -23,6 +24,10 @@ class Obstacles {
   /// Shapes of parts that have moved go after them, once they are off by DebrisSettings::follow; to be called when what
   /// stands has moved.
   void follow(const StandingFrame& frame, collision::World& world);
+  /// Where the part is now; the collision world takes its shape there by itself.
+  [[nodiscard]] collision::Pose carry(Part part, const StandingFrame& frame);
+  /// Of a part's bounds, undeformed: its shape turns about it.
+  [[nodiscard]] Vec3 middle(Part part) const;
   /// m: no part that stands is farther from its unloaded place.
   [[nodiscard]] double reach() const { return reach_; }
   /// The part has another shape now. What was swept against the old one still tells the part.
@@ -34,22 +39,19 @@ class Obstacles {
   [[nodiscard]] collision::ObstacleId obstacle_of(Part part) const;
 
  private:
-  /// Of a part as a rigid body about the middle of its bounds: m, and rad about global axes.
-  struct Shift {
-    Vec3 moved = Vec3::Zero(), turned = Vec3::Zero();
-  };
-  [[nodiscard]] Shift shift_of(Part part, const StandingFrame& frame) const;
-  [[nodiscard]] Vec3 middle(Part part) const;
+  [[nodiscard]] collision::Pose pose_of(Part part, const PartMotion& shift) const;
   [[nodiscard]] collision::ObstacleId make(Part part, collision::World& world);
   void put(std::size_t number, collision::World& world) const;
   const Building& building_;
   const PartShapes& shapes_;
   const PartGrid& grid_;
   double friction_, restitution_;
+  bool sways_;  ///< parts move, and have their shapes where they are
   std::vector<collision::ObstacleId> obstacle_of_part_;
   std::vector<char> settled_;  ///< by part number: has a shape, or has been seen to be gone
   std::map<std::int64_t, Part> part_of_obstacle_;
-  std::map<std::size_t, Shift> shifted_;  ///< by part number: where shapes are that are not at their unloaded place
+  /// By part number, about middle(): where shapes are that are not at their unloaded place.
+  std::map<std::size_t, PartMotion> shifted_;
   double reach_ = 0;
 };
 

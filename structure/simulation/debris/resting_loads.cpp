@@ -48,19 +48,36 @@ double largest_utilisation(const StandingFrame& frame, Part part) {
 
 }  // namespace
 
-void RestingLoads::gather(std::span<const ContactRecord> contacts, const Obstacles& obstacles, double dt) {
-  for (const ContactRecord& contact : contacts) {
-    if (contact.other.kind != collision::Touched::Kind::obstacle) continue;
-    const Part part = obstacles.part_of(contact.other.obstacle);
-    if (!part.valid()) continue;
-    const auto [entry, made] = resting_.try_emplace(Key{contact.body.value, part});
-    Resting& resting = entry->second;
-    if (made) resting.load_key = next_key_++;
-    const double weight = contact.impulse.norm() / dt;
-    resting.seen_force += contact.impulse / dt;
-    resting.seen_point += weight * contact.point;
-    resting.seen_weight += weight;
+void RestingLoads::forget_seen() {
+  for (auto& [key, resting] : resting_) {
+    resting.seen_force = resting.seen_point = Vec3::Zero();
+    resting.seen_weight = 0;
   }
+}
+
+void RestingLoads::gather(collision::BodyId body, Part part, const Vec3& impulse, const Vec3& point, double dt) {
+  if (!part.valid()) return;
+  const auto [entry, made] = resting_.try_emplace(Key{body.value, part});
+  Resting& resting = entry->second;
+  if (made) resting.load_key = next_key_++;
+  const double weight = impulse.norm() / dt;
+  resting.seen_force += impulse / dt;
+  resting.seen_point += weight * point;
+  resting.seen_weight += weight;
+}
+
+/// As it was seen.
+void RestingLoads::act(const Key& key, Resting& resting, StandingFrame& frame) {
+  if (resting.seen_weight == 0) {
+    if (resting.laid) frame.remove_contact_load(resting.load_key);
+    resting.laid = false;
+    resting.applied.setZero();
+    return;
+  }
+  resting.applied = resting.seen_force;
+  resting.applied_at = resting.seen_point / resting.seen_weight;
+  frame.set_contact_load({resting.load_key, {key.part.member, key.part.panel, resting.applied_at}, resting.applied});
+  resting.laid = true;
 }
 
 void RestingLoads::smooth(Resting& resting, double dt) {
@@ -70,6 +87,12 @@ void RestingLoads::smooth(Resting& resting, double dt) {
   const Vec3 at = resting.seen_point / resting.seen_weight;
   resting.point =
       resting.force.isZero(0) || resting.point.isZero(0) ? at : resting.point + share * (at - resting.point);
+}
+
+void RestingLoads::skip_average(Resting& resting, double weight) {
+  if (!((resting.seen_force - resting.applied).norm() > debris_settings.largest_band * weight)) return;
+  resting.force = resting.seen_force;
+  if (resting.seen_weight > 0) resting.point = resting.seen_point / resting.seen_weight;
 }
 
 double RestingLoads::band(const StandingFrame& frame, std::span<const double> strength_factors, Part part,
@@ -84,6 +107,7 @@ double RestingLoads::band(const StandingFrame& frame, std::span<const double> st
 bool RestingLoads::lay_one(const Key& key, Resting& resting, StandingFrame& frame,
                            std::span<const double> strength_factors, double weight) {
   if (!resting.laid && resting.force.isZero(0)) return false;
+  if (moves(frame, key.part)) return false;  // act()
   const double allowed = band(frame, strength_factors, key.part, weight);
   const double length = key.part.member.valid()
                             ? frame.building()[key.part.member].length

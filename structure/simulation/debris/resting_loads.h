@@ -1,7 +1,8 @@
 #pragma once
-// What lies on the standing frame loads it: the contact forces of bodies on each part, smoothed over a tenth of a
-// second (impacts are the business of the law of impact), laid on only when they differ by more than a dead band from
-// what is already there. The band is a share of what the part can still bear.
+// What lies on the standing frame loads it. At rest: the contact forces of bodies on each part, smoothed over a tenth
+// of a second (impacts are the business of the law of impact), laid on only when they differ by more than a dead band
+// from what is already there. The band is a share of what the part can still bear. What moves bears them as they are,
+// in each substep.
 #include <map>
 #include <span>
 
@@ -16,9 +17,16 @@ class RestingLoads {
   /// stay); it is asked in order of id.
   template <class Awake>
   void read(std::span<const ContactRecord> contacts, const Obstacles& obstacles, double dt, const Awake& awake);
-  /// Hands to the frame what changed beyond the band; returns how many changes the band ignored.
+  /// For a substep of `dt`: what moves bears the mean forces of these contacts, and of sleeping bodies those that they
+  /// rest with. `awake` as for read().
+  template <class Awake>
+  void act(std::span<const collision::Contact> contacts, const Obstacles& obstacles, double dt, StandingFrame& frame,
+           const Awake& awake);
+  /// Hands to the frame what changed beyond the band; returns how many changes the band ignored. `at_once`: what has
+  /// changed by more than any band within the last step is not averaged first; it sets the frame in motion.
   template <class Weight>
-  std::uint64_t lay(StandingFrame& frame, std::span<const double> strength_factors, const Weight& weight_of);
+  std::uint64_t lay(StandingFrame& frame, std::span<const double> strength_factors, bool at_once,
+                    const Weight& weight_of);
   /// The parts stand no more: their loads are dropped. Returns the bodies that lay on them.
   std::vector<collision::BodyId> drop(std::span<const Part> parts, StandingFrame& frame);
   /// The bodies that lie on a part.
@@ -50,7 +58,13 @@ class RestingLoads {
     double seen_weight = 0;
     bool laid = false;
   };
-  void gather(std::span<const ContactRecord> contacts, const Obstacles& obstacles, double dt);
+  [[nodiscard]] static bool moves(const StandingFrame& frame, Part part) {
+    return frame.moves({part.member, part.panel});
+  }
+  void forget_seen();
+  void gather(collision::BodyId body, Part part, const Vec3& impulse, const Vec3& point, double dt);
+  void act(const Key& key, Resting& resting, StandingFrame& frame);
+  static void skip_average(Resting& resting, double weight);
   static void smooth(Resting& resting, double dt);
   static double band(const StandingFrame& frame, std::span<const double> strength_factors, Part part, double weight);
   bool lay_one(const Key& key, Resting& resting, StandingFrame& frame, std::span<const double> strength_factors,
@@ -63,22 +77,33 @@ class RestingLoads {
 template <class Awake>
 void RestingLoads::read(std::span<const ContactRecord> contacts, const Obstacles& obstacles, double dt,
                         const Awake& awake) {
-  for (auto& [key, resting] : resting_) {
-    resting.seen_force = resting.seen_point = Vec3::Zero();
-    resting.seen_weight = 0;
-  }
-  gather(contacts, obstacles, dt);
+  forget_seen();
+  for (const ContactRecord& contact : contacts)
+    if (contact.other.kind == collision::Touched::Kind::obstacle)
+      gather(contact.body, obstacles.part_of(contact.other.obstacle), contact.impulse, contact.point, dt);
   for (auto& [key, resting] : resting_)
     if (awake(collision::BodyId{key.body})) smooth(resting, dt);
 }
 
+template <class Awake>
+void RestingLoads::act(std::span<const collision::Contact> contacts, const Obstacles& obstacles, double dt,
+                       StandingFrame& frame, const Awake& awake) {
+  forget_seen();
+  for (const collision::Contact& contact : contacts)
+    if (contact.other.kind == collision::Touched::Kind::obstacle)
+      gather(contact.body, obstacles.part_of(contact.other.obstacle), contact.impulse, contact.point, dt);
+  for (auto& [key, resting] : resting_)
+    if (moves(frame, key.part) && awake(collision::BodyId{key.body})) act(key, resting, frame);
+}
+
 template <class Weight>
-std::uint64_t RestingLoads::lay(StandingFrame& frame, std::span<const double> strength_factors,
+std::uint64_t RestingLoads::lay(StandingFrame& frame, std::span<const double> strength_factors, bool at_once,
                                 const Weight& weight_of) {
   std::uint64_t ignored = 0;
   for (auto entry = resting_.begin(); entry != resting_.end();) {
     auto& [key, resting] = *entry;
     const double weight = weight_of(collision::BodyId{key.body});
+    if (at_once) skip_average(resting, weight);
     if (lay_one(key, resting, frame, strength_factors, weight)) {
       ++entry;
     } else if (resting.seen_weight == 0 && !resting.laid) {

@@ -39,21 +39,49 @@ void StandingFrame::let_move(double dt, const MotionRules& rules) {
                               state.rules.second_order, state.threads},
       settings_of(rules, dt));
   state.statics.before_changes([&state](int c) {
-    if (state.solved_nodes[static_cast<std::size_t>(c)] > 0) state.motion->start(c);
+    if (!state.slowly && state.solved_nodes[static_cast<std::size_t>(c)] > 0) state.motion->start(c);
   });
   state.substeps = state.motion->set_step(dt);
   state.gravity = Vec3(0, 0, -state.building.gravity);
 }
 
 std::vector<JointBreak> StandingFrame::move(const std::function<void()>& after_substep) {
-  State& state = *state_;
-  if (!state.motion) throw std::logic_error("what stands was not let move: let_move()");
-  if (!state.pending) {
-    ++state.idle_settles;
+  if (state_->motion && !state_->pending) {
+    ++state_->idle_settles;
     return {};
   }
-  state.move(after_substep);
-  return std::exchange(state.breaks, {});
+  std::vector<JointBreak> breaks = begin_move();
+  for (int substep = 0; substep < substeps() && in_motion(); ++substep) move_on(after_substep);
+  const std::vector<JointBreak> later = end_move();
+  breaks.insert(breaks.end(), later.begin(), later.end());
+  return breaks;
+}
+
+std::vector<JointBreak> StandingFrame::begin_move() {
+  if (!state_->motion) throw std::logic_error("what stands was not let move: let_move()");
+  state_->begin_motion();
+  return take_breaks();
+}
+
+bool StandingFrame::in_motion() const { return state_->motion && state_->motion->any(); }
+int StandingFrame::substeps() const { return state_->substeps; }
+void StandingFrame::move_on(const std::function<void()>& after_substep) { state_->move_on(after_substep); }
+
+std::vector<JointBreak> StandingFrame::take_breaks() { return std::exchange(state_->breaks, {}); }
+
+std::vector<JointBreak> StandingFrame::end_move() {
+  state_->end_motion();
+  return take_breaks();
+}
+
+bool StandingFrame::moves(const ContactPlace& place) const {
+  return state_->motion && state_->stands(place) && state_->moves(state_->components.of(place));
+}
+
+Vec6 StandingFrame::velocity(NodeId node) const {
+  const State& state = *state_;
+  const bool moves = state.moves(state.statics.component(node)) && state.node_solved[index_of(node)] != 0;
+  return moves ? state.motion->velocity(node) : Vec6(Vec6::Zero());
 }
 
 FrameEnergy StandingFrame::energy() const {
@@ -155,14 +183,17 @@ std::map<int, std::vector<Eigen::Index>> StandingFrame::State::places_by_compone
   return by;
 }
 
-void StandingFrame::State::move(const std::function<void()>& after_substep) {
-  begin_motion();
-  for (generation = 0; generation < substeps && motion->any(); ++generation) {
-    for (const int c : motion->moving()) sway(c);
-    if (!after_substep) continue;
+void StandingFrame::State::move_on(const std::function<void()>& after_substep) {
+  if (loads.changed()) follow_breaks();
+  for (const int c : motion->moving()) sway(c);
+  if (after_substep) {
     after_substep();
     follow_breaks();
   }
+  ++generation;
+}
+
+void StandingFrame::State::end_motion() {
   for (const int c : motion->moving()) leave_small_displacements(c);
   for (const int c : motion->moving()) {
     look_for_rest(c);
@@ -176,7 +207,7 @@ void StandingFrame::State::move(const std::function<void()>& after_substep) {
 /// Tools, contacts and new capacities act.
 void StandingFrame::State::begin_motion() {
   generation = 0;
-  softened = false;
+  if (std::exchange(softened, false)) soften_at_rest();
   for (const Change& change : std::exchange(queue, {})) apply(change);
   follow_breaks();
   for (int c = 0; c < statics.components(); ++c) {
@@ -185,6 +216,22 @@ void StandingFrame::State::begin_motion() {
       statics.forget(c);
     else if (!bears(c) || yielding.yields_in_answer(c))
       motion->start(c);
+    else
+      remember_demands(c);
+  }
+}
+
+/// A fire is slower than anything that moves: what is at rest goes from one state of rest to the next, as long as it
+/// bears that.
+void StandingFrame::State::soften_at_rest() {
+  for (int c = 0; c < statics.components(); ++c) {
+    if (!statics.changed(c) || motion->moves(c) || solved_nodes[static_cast<std::size_t>(c)] == 0) continue;
+    slowly = true;  // a state of rest is sought by loads, too
+    const bool found = !solve_slow(c);
+    slowly = false;
+    if (!found) continue;  // factors above 0 make no mechanism of what stood
+    account.finish(c, true, breaks);
+    to_check[static_cast<std::size_t>(c)] = 1;
   }
 }
 

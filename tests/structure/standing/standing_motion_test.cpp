@@ -185,6 +185,36 @@ TEST_CASE("What has come to rest is the static answer to the bit, and costs noth
   CHECK(standing.counters().solves == solves);
 }
 
+TEST_CASE("A bar that softens hands over its load at rest, and what cannot bear that breaks and begins to move") {
+  const MassOnBars model(0.75 * MassOnBars::weight);
+  const JointId held = model.frame.building.joint(model.above, 1);
+  StandingFrame standing(model.frame.building, CombinationId(0u), moving_rules());
+  standing.let_move(step);
+  for (const double factor : {0.8, 0.5}) {
+    standing.set_stiffness_factor(model.below, factor);
+    CHECK(standing.pending());
+    CHECK(standing.move().empty());
+    CHECK_FALSE(standing.pending());
+    CHECK(standing.energy().kinetic == 0);
+    const double share = 1 / (1 + factor);  // of two springs side by side
+    CHECK(-standing.displacement(model.middle).z() ==
+          Approx(share * MassOnBars::weight / MassOnBars::stiffness).epsilon(1e-9));
+    // A swing to there from the state before would have reached more.
+    CHECK(standing.largest_utilisation_so_far(held) == Approx(share / 0.75).epsilon(1e-9));
+  }
+  standing.set_stiffness_factor(model.below, 0.25);  // leaves four fifths of the weight to the bar above
+  const std::vector<JointBreak> breaks = standing.move();
+  REQUIRE(breaks.size() == 1);
+  CHECK(breaks[0].joint == held);
+  CHECK(breaks[0].demand == Approx(0.8 * MassOnBars::weight).epsilon(1e-9));
+  CHECK(standing.pending());
+  CHECK(standing.energy().kinetic > 0);
+  // The softened bar below bears four times its first way alone, after the swing.
+  for (int n = 0; n < 6000 && standing.pending(); ++n) CHECK(standing.move().empty());
+  CHECK(-standing.displacement(model.middle).z() ==
+        Approx(4 * MassOnBars::weight / MassOnBars::stiffness).epsilon(1e-9));
+}
+
 TEST_CASE("A blow on a bar is borne by the bar alone, its nodes held, and its impulse is the frame's") {
   MassOnBars model(1e12, 1e12);
   StandingFrame standing(model.frame.building, CombinationId(0u), moving_rules());

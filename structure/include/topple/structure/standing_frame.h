@@ -234,6 +234,25 @@ class StandingFrame {
   /// are reached, those of members within substeps, those of panels at their ends. `after_substep` is called at the end
   /// of each, and may call fracture(). Returns what broke, in order.
   std::vector<JointBreak> move(const std::function<void()>& after_substep = {});
+  // move() in parts, for what moves together with it.
+  /// Changes act. Returns what broke with them.
+  std::vector<JointBreak> begin_move();
+  /// Anything moves.
+  [[nodiscard]] bool in_motion() const;
+  /// Substeps of a step.
+  [[nodiscard]] int substeps() const;
+  /// One substep, under the contact loads of the moment. `after_substep` may call fracture().
+  void move_on(const std::function<void()>& after_substep = {});
+  /// What broke since it was last told, in order.
+  std::vector<JointBreak> take_breaks();
+  /// After the last substep. Returns what take_breaks() would.
+  std::vector<JointBreak> end_move();
+  /// What the place is on stands and is not at rest.
+  [[nodiscard]] bool moves(const ContactPlace& place) const;
+  /// m/s and rad/s, global axes; 0 at rest.
+  [[nodiscard]] Vec6 velocity(NodeId node) const;
+  /// Something has left that take_detached() has not handed out.
+  [[nodiscard]] bool has_detached() const;
   /// How what stands takes unit pushes at places on different parts, each along its direction, that are faster than its
   /// motion (the law of impact, simulation/impact/impact.h): the struck part gives way with its nodes held, its own
   /// joints bear it, and the mass that shares at first touch is that of its nodes, g'M^-1 g. The joints of whatever

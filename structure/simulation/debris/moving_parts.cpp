@@ -1,0 +1,65 @@
+#include "simulation/debris/moving_parts.h"
+
+#include <Eigen/Geometry>
+
+#include "simulation/debris/debris_settings.h"
+
+namespace topple::structure {
+
+PartMotion MovingParts::velocity(Part part) const {
+  return rigid_velocity(*debris_.scene.frame, part, debris_.obstacles.middle(part));
+}
+
+std::optional<collision::ObstacleMotion> MovingParts::motion(collision::ObstacleId id) {
+  const Part part = debris_.obstacles.part_of(id);
+  const StandingFrame& frame = *debris_.scene.frame;
+  if (!part.valid() || !frame.moves({part.member, part.panel})) {
+    known_.erase(id.value);
+    return std::nullopt;
+  }
+  Known& known = known_[id.value];
+  known.velocity = velocity(part);
+  const MassProperties& own = part.member.valid() ? debris_.masses.of(part.member) : debris_.masses.of(part.panel);
+  collision::ObstacleMotion motion;
+  motion.pose = debris_.obstacles.carry(part, frame);
+  motion.velocity = known.velocity.moved;
+  motion.angular_velocity = known.velocity.turned;
+  motion.acceleration = known.acceleration.moved;
+  motion.angular_acceleration = known.acceleration.turned;
+  motion.mass = debris_settings.share_of_part * own.mass;
+  motion.inertia = debris_settings.share_of_part * own.inertia;
+  return motion;
+}
+
+void MovingParts::advance(double dt, std::span<const collision::Contact> contacts) {
+  const StandingFrame& frame = *debris_.scene.frame;
+  debris_.resting.act(contacts, debris_.obstacles, dt, *debris_.scene.frame, [&](collision::BodyId id) {
+    return debris_.bodies.contains(id.value) && !debris_.scene.world->state(id).asleep;
+  });
+  substep_();
+  std::map<std::int64_t, Known> after;
+  for (const auto& [id, known] : known_) {
+    const Part part = debris_.obstacles.part_of({id});
+    if (!part.valid() || !frame.moves({part.member, part.panel})) continue;
+    Known now;
+    now.velocity = velocity(part);
+    now.acceleration.moved = (now.velocity.moved - known.velocity.moved) / dt;
+    now.acceleration.turned = (now.velocity.turned - known.velocity.turned) / dt;
+    after.emplace(id, now);
+  }
+  // What contacts did to what moved on: not lost, and no work of gravity.
+  for (const collision::Contact& contact : contacts) {
+    const auto before = known_.find(contact.other.obstacle.value), now = after.find(contact.other.obstacle.value);
+    if (contact.other.kind != collision::Touched::Kind::obstacle || before == known_.end() || now == after.end())
+      continue;
+    const Vec3 arm = contact.point - debris_.obstacles.middle(debris_.obstacles.part_of(contact.other.obstacle));
+    double work = 0;
+    for (const PartMotion& velocity : {before->second.velocity, now->second.velocity})
+      work += contact.impulse.dot(velocity.moved + velocity.turned.cross(arm)) / 2;
+    sums_.passed_on += work;
+    sums_.ledger.lost_in_contacts -= work;
+  }
+  known_ = std::move(after);
+}
+
+}  // namespace topple::structure

@@ -1,0 +1,60 @@
+#include "simulation/debris/part_motion.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
+#include "model/point_inertia.h"
+
+namespace topple::structure {
+namespace {
+
+/// `value`: displacement or velocity of a node.
+template <class Value>
+PartMotion nearest(const StandingFrame& frame, Part part, const Vec3& at, const Value& value) {
+  const Building& building = frame.building();
+  std::vector<NodeId> nodes;
+  const auto take = [&](const auto& all) {
+    for (const NodeId node : all)
+      if (frame.stands(node)) nodes.push_back(node);
+  };
+  part.member.valid() ? take(building[part.member].nodes) : take(building[part.panel].nodes);
+  PartMotion motion;
+  if (nodes.empty()) return motion;
+  const auto count = static_cast<double>(nodes.size());
+  Vec3 centre = Vec3::Zero();
+  for (const NodeId node : nodes) {
+    const Vec6 u = value(node);
+    centre += building[node].position / count;
+    motion.moved += u.head<3>() / count;
+    motion.turned += u.tail<3>() / count;
+  }
+  // Where its nodes' places tell of a turn, that counts; about a line of them their rotations do.
+  Mat3 spread = Mat3::Zero();
+  Vec3 turning = Vec3::Zero();
+  for (const NodeId node : nodes) {
+    const Vec3 r = building[node].position - centre;
+    spread += point_inertia(1, r);
+    turning += r.cross(Vec3(value(node).template head<3>() - motion.moved));
+  }
+  const Eigen::SelfAdjointEigenSolver<Mat3> axes(spread);
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    constexpr double on_a_line = 1e-6;
+    if (!(axes.eigenvalues()(axis) > on_a_line * axes.eigenvalues()(2))) continue;
+    const Vec3 along = axes.eigenvectors().col(axis);
+    motion.turned += (along.dot(turning) / axes.eigenvalues()(axis) - along.dot(motion.turned)) * along;
+  }
+  motion.moved += motion.turned.cross(at - centre);
+  return motion;
+}
+
+}  // namespace
+
+PartMotion rigid_displacement(const StandingFrame& frame, Part part, const Vec3& at) {
+  return nearest(frame, part, at, [&](NodeId node) -> const Vec6& { return frame.displacement(node); });
+}
+
+PartMotion rigid_velocity(const StandingFrame& frame, Part part, const Vec3& at) {
+  return nearest(frame, part, at, [&](NodeId node) { return frame.velocity(node); });
+}
+
+}  // namespace topple::structure

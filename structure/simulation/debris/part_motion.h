@@ -1,0 +1,18 @@
+#pragma once
+// How a standing part moves as a rigid body, from how its nodes do.
+#include "simulation/debris/part.h"
+#include "topple/structure/standing_frame.h"
+
+namespace topple::structure {
+
+/// About a place of the undeformed building: m and rad, or m/s and rad/s, global axes.
+struct PartMotion {
+  Vec3 moved = Vec3::Zero(), turned = Vec3::Zero();
+};
+
+/// Displacement of a standing part about `at`: of the rigid motions the one nearest to those of its nodes that stand.
+[[nodiscard]] PartMotion rigid_displacement(const StandingFrame& frame, Part part, const Vec3& at);
+/// The same of its velocity.
+[[nodiscard]] PartMotion rigid_velocity(const StandingFrame& frame, Part part, const Vec3& at);
+
+}  // namespace topple::structure
