@@ -12,12 +12,19 @@ namespace {
 template <class Value>
 PartMotion nearest(const StandingFrame& frame, Part part, const Vec3& at, const Value& value) {
   const Building& building = frame.building();
+  // An end or corner that has let go does not go with its node any more.
   std::vector<NodeId> nodes;
-  const auto take = [&](const auto& all) {
-    for (const NodeId node : all)
-      if (frame.stands(node)) nodes.push_back(node);
+  const auto take = [&](NodeId node, bool holds) {
+    if (holds && frame.stands(node)) nodes.push_back(node);
   };
-  part.member.valid() ? take(building[part.member].nodes) : take(building[part.panel].nodes);
+  if (part.member.valid()) {
+    for (int end = 0; end < 2; ++end)
+      take(building[part.member].nodes[static_cast<std::size_t>(end)], frame.intact(building.joint(part.member, end)));
+  } else {
+    for (int k = 0; k < 4; ++k)
+      take(building[part.panel].nodes[static_cast<std::size_t>(k)],
+           frame.intact(building.joint(part.panel, k)) || frame.intact(building.joint(part.panel, (k + 3) % 4)));
+  }
   PartMotion motion;
   if (nodes.empty()) return motion;
   const auto count = static_cast<double>(nodes.size());

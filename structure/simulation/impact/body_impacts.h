@@ -47,6 +47,7 @@ class BodyImpacts {
   [[nodiscard]] bool take_up(BodyImpact& impact);
   [[nodiscard]] Impact begin_push(const BodyImpact& impact, bool follows) const;
   [[nodiscard]] Impact::Utilisation note_uses(const std::vector<StruckJoint>& joints, std::vector<double>& uses) const;
+  [[nodiscard]] static bool later(const BodyImpact& impact, const Eigen::VectorXd& impulses);
   [[nodiscard]] double deepest_push(const BodyImpact& impact) const;
   [[nodiscard]] std::vector<StruckJoint> struck_joints(const BodyImpact& impact) const;
   std::size_t record(const BodyImpact& impact, double speed_in);

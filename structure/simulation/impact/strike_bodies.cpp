@@ -166,6 +166,7 @@ void BodyImpacts::push(BodyImpact& impact) {
         if (uses[k] > 0) scene_.frame->remember_utilisation(all[k].joint, std::min(uses[k], 1.0));
       break;
     }
+    if (later(impact, push->impulse().head(n))) break;
     if (!told) told = record(impact, speed_in);
     const std::vector<JointBreak> broken = joints.failing(push->force());
     SimulationEvent& event = log_[*told];
@@ -180,6 +181,13 @@ void BodyImpacts::push(BodyImpact& impact) {
   SimulationEvent& event = log_[*told];
   event.peak_force = std::max(event.peak_force, push->peak_force().head(impact.compliance.rows()).maxCoeff());
   event.speed_out = impact.closing()(0);
+}
+
+/// Whether what moves makes way before these impulses have acted: all at once they would drive the sides apart. In the
+/// push, nodes around the struck parts hold; they would take up in no time what they do in the motion. There the joint
+/// is seen to.
+bool BodyImpacts::later(const BodyImpact& impact, const Eigen::VectorXd& impulses) {
+  return impact.sides[1].held && impulses.dot(impact.mobility_of_both() * impulses) > impulses.dot(impact.closing());
 }
 
 /// Fails nothing, and keeps the largest utilisation of each joint of what stands.
