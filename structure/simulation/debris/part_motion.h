@@ -10,7 +10,8 @@ struct PartMotion {
   Vec3 moved = Vec3::Zero(), turned = Vec3::Zero();
 };
 
-/// Displacement of a standing part about `at`: of the rigid motions the one nearest to those of its nodes that stand.
+/// Displacement of a standing part about `at`: of the rigid motions the one nearest to those of its nodes that
+/// stand and that it still holds on to.
 [[nodiscard]] PartMotion rigid_displacement(const StandingFrame& frame, Part part, const Vec3& at);
 /// The same of its velocity.
 [[nodiscard]] PartMotion rigid_velocity(const StandingFrame& frame, Part part, const Vec3& at);

@@ -61,6 +61,8 @@ class RestingLoads {
   [[nodiscard]] static bool moves(const StandingFrame& frame, Part part) {
     return frame.moves({part.member, part.panel});
   }
+  template <class Contacts>
+  void see(const Contacts& contacts, const Obstacles& obstacles, double dt);
   void forget_seen();
   void gather(collision::BodyId body, Part part, const Vec3& impulse, const Vec3& point, double dt);
   void act(const Key& key, Resting& resting, StandingFrame& frame);
@@ -74,13 +76,19 @@ class RestingLoads {
   std::int64_t next_key_ = 0;
 };
 
+/// All that bodies do to what stands now, in place of what was seen before.
+template <class Contacts>
+void RestingLoads::see(const Contacts& contacts, const Obstacles& obstacles, double dt) {
+  forget_seen();
+  for (const auto& contact : contacts)
+    if (contact.other.kind == collision::Touched::Kind::obstacle)
+      gather(contact.body, obstacles.part_of(contact.other.obstacle), contact.impulse, contact.point, dt);
+}
+
 template <class Awake>
 void RestingLoads::read(std::span<const ContactRecord> contacts, const Obstacles& obstacles, double dt,
                         const Awake& awake) {
-  forget_seen();
-  for (const ContactRecord& contact : contacts)
-    if (contact.other.kind == collision::Touched::Kind::obstacle)
-      gather(contact.body, obstacles.part_of(contact.other.obstacle), contact.impulse, contact.point, dt);
+  see(contacts, obstacles, dt);
   for (auto& [key, resting] : resting_)
     if (awake(collision::BodyId{key.body})) smooth(resting, dt);
 }
@@ -88,10 +96,7 @@ void RestingLoads::read(std::span<const ContactRecord> contacts, const Obstacles
 template <class Awake>
 void RestingLoads::act(std::span<const collision::Contact> contacts, const Obstacles& obstacles, double dt,
                        StandingFrame& frame, const Awake& awake) {
-  forget_seen();
-  for (const collision::Contact& contact : contacts)
-    if (contact.other.kind == collision::Touched::Kind::obstacle)
-      gather(contact.body, obstacles.part_of(contact.other.obstacle), contact.impulse, contact.point, dt);
+  see(contacts, obstacles, dt);
   for (auto& [key, resting] : resting_)
     if (moves(frame, key.part) && awake(collision::BodyId{key.body})) act(key, resting, frame);
 }
