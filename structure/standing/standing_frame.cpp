@@ -4,109 +4,26 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "failure/panel_demand.h"
-#include "loads/placed_load.h"
 #include "model/index_of.h"
-#include "standing/shell_reading.h"
 #include "standing/standing_state.h"
-#include "standing/unstable_model.h"
-#include "topple/structure/error.h"
 
 namespace topple::structure {
 
-namespace {
-
-/// The combination's loads; a settlement would have to be held through every change and is refused.
-PartLoads loads_to_stand(const Building& building, CombinationId combination) {
-  PartLoads loads = part_loads(building, combination);
-  if (loads.settlements.empty()) return loads;
-  const Node& node = building.nodes[static_cast<std::size_t>(loads.settlements.front().node)];
-  throw InputError(building.file + ": combinations." + building[combination].name + ": settles node " + node.name +
-                   "; demolition takes combinations without settlements");
-}
-
-}  // namespace
-
-StandingFrame::State::State(const Building& given, CombinationId combination, const FailureRules& failure,
+StandingFrame::State::State(const Building& given, CombinationId of_loads, const FailureRules& failure,
                             int given_threads)
-    : building(given),
-      rules(failure),
-      threads(given_threads),
-      parts(given),
-      shells(given),
-      loads(given, loads_to_stand(given, combination), parts.bearings, shells),
-      edge_loads(given, parts.bearings, loads),
-      statics(given, shells, threads),
-      components(given, statics),
-      joints(given, failure.sudden),
-      node_solved(given.nodes.size(), 1),
-      applied(given.members.size()),
-      node_applied(given.nodes.size(), Vec6::Zero()),
-      account({given, parts.segments, parts.bearings, loads, statics, node_solved, applied}),
-      yielding({parts, components, loads, applied, node_solved, statics, joints, account, failure.sudden, generation,
-                [this] { bring_up_to_date(); }}),
-      response({parts, shells, loads, statics, joints, components, node_solved}),
-      contacts(response, loads),
-      to_check(components.joints.size(), 1),
-      demands_behind(components.joints.size(), 0),
-      solved_nodes(components.joints.size(), 0),
-      in_mechanism(given.members.size(), 0) {
-  if (rules.bracing == BracingRule::classic) bracing.emplace(building);
-  if (rules.bracing == BracingRule::buckling)
-    buckling.emplace(building, statics, parts.segments, parts.bearings, applied, node_applied, node_solved);
-  if (rules.second_order) statics.use_second_order();
-  for (std::size_t n = 0; n < building.nodes.size(); ++n)
-    ++solved_nodes[static_cast<std::size_t>(statics.component(NodeId(n)))];
-  if (const auto floating = parts.segments.take_unanchored(); !floating.empty()) {
-    FrameMechanism mechanism;
-    mechanism.nodes = floating.front().nodes;
-    mechanism.motion.assign(building.nodes.size(), Vec6::Zero());
-    for (NodeId node : mechanism.nodes) mechanism.motion[index_of(node)](2) = -1;
-    throw UnstableModel(describe_mechanism(building, mechanism) + "; nothing connects them to a support");
-  }
-  write_loads();
-  for (int c = 0; c < statics.components(); ++c) {
-    if (const auto mechanism = statics.solve(c)) throw UnstableModel(describe_mechanism(building, *mechanism));
-    read_demands(c, true);
-    yielding.rest(c);
-    if (!buckling) continue;
-    if (const std::optional<BuckledPost> post = buckling->find(c, statics.diverged(c)))
-      throw UnstableModel(building.file + ": post " + (post->post.valid() ? building[post->post].name : "") +
-                          " buckles under combination " + building[combination].name + ": the critical factor is " +
-                          std::to_string(post->factor));
-  }
-  account.start();
-  // Nothing broke to get here: this state is R0. Joints over capacity break in the first generation.
-  pending = !next_generation().empty();
-}
-
-bool StandingFrame::State::stands(const ContactPlace& place) const {
-  if (place.node.valid()) return stands(place.node) && node_solved[index_of(place.node)] != 0;
-  return place.member.valid() ? stands(place.member) : place.panel.valid() && stands(place.panel);
-}
-
-Vec6 StandingFrame::State::demand(JointId joint) const {
-  if (!parts.standing(joint)) return Vec6::Zero();
-  const Joint& own = building[joint];
-  if (own.capacity.breakable) return joints.demand(joint);
-  return solved_demand(joint);
-}
-
-Vec6 StandingFrame::State::solved_demand(JointId joint) const {
-  const Joint& own = building[joint];
-  if (own.member.valid()) return member_joint_demand(statics.end_forces(own.member), own.end);
-  return edge_demands(own.panel)[static_cast<std::size_t>(own.end)];
-}
-
-std::array<Vec6, 4> StandingFrame::State::edge_demands(PanelId panel, bool in_motion) const {
-  if (!parts.bearings.serves(panel))
-    return shell_edge_demands(
-        *shells.of(panel), parts.bearings, panel,
-        in_motion ? node_displacements(building[panel], *motion) : node_displacements(building[panel], statics),
-        loading(panel));
-  return panel_edge_demands(
-      building, parts.bearings, loads, panel,
-      parts.bearings.membrane(panel) ? std::optional(statics.corner_forces(panel)) : std::nullopt);
+    : StructuralState(given, of_loads, failure, given_threads),
+      breaks(parts, joints),
+      yielding({parts, components, loads, in_solver.member_loads(), in_solver.held_nodes(), statics, joints, account,
+                failure.sudden, breaks.generation(), [this] { generations.bring_up_to_date(); }}),
+      answers(*this, yielding),
+      slow(*this, answers, yielding, breaks),
+      departures(*this),
+      shell_damage(*this, departures),
+      damage({*this, yielding, breaks, slow, departures, shell_damage}),
+      release({*this, yielding, breaks, departures, shell_damage, damage}),
+      generations({*this, yielding, breaks, answers, damage, release}),
+      queue(*this, damage) {
+  pending = generations.start();
 }
 
 StandingFrame::StandingFrame(const Building& building, CombinationId combination, const FailureRules& rules,
@@ -120,18 +37,17 @@ bool StandingFrame::stands(NodeId node) const { return state_->stands(node); }
 bool StandingFrame::intact(JointId joint) const { return state_->parts.holds(joint); }
 const Vec6& StandingFrame::displacement(NodeId node) const {
   const State& state = *state_;
-  const bool moves = state.moves(state.statics.component(node)) && state.node_solved[index_of(node)] != 0;
+  const bool moves = state.moves(state.statics.component(node)) && state.in_solver.holds(node);
   return moves ? state.motion->displacement(node) : state.account.displacement(node);
 }
 Vec6 StandingFrame::demand(JointId joint) const {
-  state_->know_demands();
-  return state_->demand(joint);
+  state_->answers.know_demands();
+  return state_->answers.demand(joint);
 }
 double StandingFrame::largest_utilisation_so_far(JointId joint) const {
-  state_->know_demands();
+  state_->answers.know_demands();
   return state_->joints.largest(joint);
 }
-std::optional<PanelStress> StandingFrame::stress(PanelId panel) const { return state_->stress(panel); }
 double StandingFrame::elastic_energy() const { return energy().elastic; }
 double StandingFrame::mass(MemberId member) const { return state_->loads.mass(member); }
 double StandingFrame::mass(PanelId panel) const { return state_->loads.mass(panel); }
@@ -139,7 +55,7 @@ double StandingFrame::node_mass(NodeId node) const { return state_->loads.mass(n
 const Building& StandingFrame::building() const { return state_->building; }
 
 Utilisation StandingFrame::utilisation(JointId joint) const {
-  state_->know_demands();
+  state_->answers.know_demands();
   const bool counts = state_->building[joint].capacity.breakable && state_->parts.standing(joint);
   return counts ? state_->joints.utilisation(joint) : Utilisation{};
 }
@@ -152,7 +68,7 @@ Eigen::Matrix<double, 12, 1> StandingFrame::end_forces(MemberId member) const {
 
 Vec6 StandingFrame::reaction(NodeId node) const {
   Vec6 sum = Vec6::Zero();
-  if (!state_->node_solved[index_of(node)]) return sum;
+  if (!state_->in_solver.holds(node)) return sum;
   const auto& supports = state_->building.supports;
   for (std::size_t s = 0; s < supports.size(); ++s)
     if (supports[s].node == node) sum += state_->statics.reaction(s);
@@ -182,27 +98,27 @@ double StandingFrame::roof_sag() const {
 }
 
 void StandingFrame::break_joint(JointId joint, BreakCause cause) {
-  state_->queue.push_back(State::BreakJoint{joint, cause});
+  state_->queue.add(QueuedChanges::BreakJoint{joint, cause});
   state_->pending = true;
 }
 void StandingFrame::remove(MemberId member) {
-  state_->queue.push_back(member);
+  state_->queue.add(member);
   state_->pending = true;
 }
 void StandingFrame::remove(PanelId panel) {
-  state_->queue.push_back(panel);
+  state_->queue.add(panel);
   state_->pending = true;
 }
 void StandingFrame::remove_support(NodeId node) {
-  state_->queue.push_back(State::RemoveSupport{node});
+  state_->queue.add(QueuedChanges::RemoveSupport{node});
   state_->pending = true;
 }
 void StandingFrame::set_gravity(const Vec3& gravity) {
-  state_->queue.push_back(State::Gravity{gravity});
+  state_->queue.add(QueuedChanges::Gravity{gravity});
   state_->pending = true;
 }
 void StandingFrame::add_load(NodeId node, const Vec6& load) {
-  state_->queue.push_back(State::EventLoad{node, load});
+  state_->queue.add(QueuedChanges::EventLoad{node, load});
   state_->pending = true;
 }
 
@@ -212,7 +128,7 @@ void StandingFrame::set_strength_factor(JointId joint, double factor) {
   if (!(factor > 0)) return break_joint(joint, BreakCause::tool);
   state.joints.set_strength(joint, factor);
   state.statics.forget_uses(state.components.of(joint));
-  state.to_check[static_cast<std::size_t>(state.components.of(joint))] = 1;
+  state.check_again(state.components.of(joint));
   state.response.forget_bounds(state.components.of(joint));
   state.pending = true;
 }
@@ -225,7 +141,8 @@ void StandingFrame::set_stiffness_factor(MemberId member, double factor) {
   state.slowly = true;
   state.statics.set_stiffness(member, factor);
   state.slowly = false;
-  state.softened = state.pending = true;
+  state.slow.soften();
+  state.pending = true;
 }
 
 void StandingFrame::set_contact_load(const ContactLoad& load) {
@@ -236,7 +153,7 @@ void StandingFrame::remove_contact_load(std::int64_t key) {
   if (state_->contacts.remove(key)) state_->pending = true;
 }
 
-void StandingFrame::restrict_answers_from(int nodes) { state_->selective_from = nodes; }
+void StandingFrame::restrict_answers_from(int nodes) { state_->answers.restrict_from(nodes); }
 
 bool StandingFrame::pending() const { return state_->pending; }
 
@@ -247,36 +164,24 @@ std::vector<JointBreak> StandingFrame::settle(int generations) {
     ++state.idle_settles;
     return {};
   }
-  state.generation = 0;
+  state.breaks.start_generations();
   state.settle(generations);
-  state.generation = 0;
+  state.breaks.start_generations();
   state.account.lines_are_out();
-  return std::exchange(state.breaks, {});
+  return state.breaks.take();
 }
 
-void StandingFrame::State::settle(int generations) {
-  lay_contacts();
-  if (!queue.empty()) know_demands();  // of what a tool breaks
-  for (const Change& change : std::exchange(queue, {})) apply(change);
-  bring_up_to_date();
-  for (;;) {
-    const std::vector<JointId> next = next_generation();
-    pending = !next.empty() || !buckled.empty();
-    if (!pending) return;
-    if (generation == generations) {
-      buckled.clear();  // found again
-      return;
-    }
-    break_joints(next, BreakCause::overload);
-    snap_buckled();
-    bring_up_to_date();
-    ++generation;
-  }
+void StandingFrame::State::settle(int most) {
+  slow.lay();
+  if (!queue.empty()) answers.know_demands();  // of what a tool breaks
+  queue.act();
+  generations.bring_up_to_date();
+  pending = generations.run(most);
 }
 
 std::vector<JointBreak> StandingFrame::take_yielded() { return state_->yielding.take_yielded(); }
-bool StandingFrame::has_detached() const { return !state_->detached.empty(); }
-std::vector<Detached> StandingFrame::take_detached() { return std::exchange(state_->detached, {}); }
+bool StandingFrame::has_detached() const { return state_->departures.any(); }
+std::vector<Detached> StandingFrame::take_detached() { return state_->departures.take(); }
 
 StandingFrame::UnitResponse StandingFrame::respond(const ContactPlace& place, const Vec3& direction) const {
   return std::move(respond({&place, 1}, {&direction, 1}).places.front());
@@ -297,7 +202,7 @@ StandingFrame::CoupledResponse StandingFrame::respond_near(std::span<const Conta
 }
 
 double StandingFrame::critical_energy(const ContactPlace& place) const {
-  state_->know_demands();
+  state_->answers.know_demands();
   return state_->response.critical_energy(state_->components.of(place));
 }
 
@@ -309,18 +214,18 @@ double StandingFrame::break_in_impact(std::span<const JointBreak> breaks, const 
 Eigen::VectorXd StandingFrame::break_in_impact(std::span<const JointBreak> breaks, std::span<const ContactPlace> places,
                                                std::span<const Vec3> directions) {
   State& state = *state_;
-  state.lay_contacts();
+  state.slow.lay();
   Eigen::VectorXd shift(static_cast<Eigen::Index>(places.size()));
   for (std::size_t i = 0; i < places.size(); ++i)
     shift(static_cast<Eigen::Index>(i)) =
         state.stands(places[i]) ? state.response.displacement_along(places[i], directions[i]) : 0.0;
   std::vector<JointId> broken;
   for (const JointBreak& one : breaks) broken.push_back(one.joint);
-  state.break_joints(broken, BreakCause::impact);
-  state.bring_up_to_date();
+  state.damage.break_joints(broken, BreakCause::impact);
+  state.generations.bring_up_to_date();
   state.account.lines_are_out();
   // The caller knows its own breaks; what they brought with them is told by the next settle().
-  std::erase_if(state.breaks, [](const JointBreak& one) { return one.cause == BreakCause::impact; });
+  std::erase_if(state.breaks.lines(), [](const JointBreak& one) { return one.cause == BreakCause::impact; });
   state.pending = true;
   for (std::size_t i = 0; i < places.size(); ++i) {
     double& by = shift(static_cast<Eigen::Index>(i));
@@ -336,7 +241,7 @@ void StandingFrame::expect_fracture(PanelId panel) {
 void StandingFrame::fracture(PanelId panel, const PanelRemains& remains) {
   State& state = *state_;
   if (!state.stands(panel)) return;
-  state.fracture(panel, remains);
+  state.damage.fracture(panel, remains);
   state.pending = true;
 }
 

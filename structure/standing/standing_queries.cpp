@@ -1,7 +1,7 @@
 // What acts on a standing frame and how it bears it, for drawings; and capacities that change while it stands.
 #include <algorithm>
 
-#include "model/index_of.h"
+#include "standing/shell_reading.h"
 #include "standing/standing_state.h"
 #include "topple/solver/beam_diagram.h"
 
@@ -11,7 +11,7 @@ std::vector<std::array<double, 8>> StandingFrame::internal_forces(MemberId membe
   const State& state = *state_;
   if (!state.stands(member)) return {};
   const solver::BeamDiagram diagram(state.statics.beam(member), state.statics.end_forces(member),
-                                    state.applied[index_of(member)]);
+                                    state.in_solver.loads(member));
   std::vector<std::array<double, 8>> values;
   const double length = state.building[member].length;
   for (int i = 0; i <= intervals; ++i) values.push_back(diagram.values(length * i / intervals));
@@ -19,11 +19,11 @@ std::vector<std::array<double, 8>> StandingFrame::internal_forces(MemberId membe
 }
 
 std::vector<solver::BeamLoad> StandingFrame::member_loads(MemberId member) const {
-  return state_->stands(member) ? state_->applied[index_of(member)] : std::vector<solver::BeamLoad>();
+  return state_->stands(member) ? state_->in_solver.loads(member) : std::vector<solver::BeamLoad>();
 }
 
 Vec6 StandingFrame::node_load(NodeId node) const {
-  return state_->stands(node) ? state_->node_applied[index_of(node)] : Vec6(Vec6::Zero());
+  return state_->stands(node) ? state_->in_solver.load(node) : Vec6(Vec6::Zero());
 }
 
 Vec6 StandingFrame::reaction(std::size_t support) const {
@@ -38,6 +38,20 @@ std::vector<ContactLoad> StandingFrame::contact_loads() const {
   return loads;
 }
 
+std::optional<PanelStress> StandingFrame::stress(PanelId panel) const {
+  const State& state = *state_;
+  if (!state.stands(panel) || !state.statics.stiff(panel)) return std::nullopt;
+  const bool in_motion = state.moves(state.components.of(panel));
+  const Panel& own = state.building[panel];
+  if (const PanelSuperelement* shell = state.shells.of(panel)) {
+    const PanelLoading all = state.parts.bearings.serves(panel) ? PanelLoading{} : state.loading(panel);
+    return shell->worst_stress(
+        in_motion ? node_displacements(own, *state.motion) : node_displacements(own, state.statics), all);
+  }
+  return mean_membrane_stress(state.building, panel,
+                              in_motion ? state.motion->corner_forces(panel) : state.statics.corner_forces(panel));
+}
+
 void StandingFrame::capacity_changed(JointId joint) {
   State& state = *state_;
   const int c = state.components.of(joint);
@@ -49,12 +63,12 @@ void StandingFrame::capacity_changed(JointId joint) {
   if (breakable && !was_checked) {
     checked.insert(place, joint);
     if (state.parts.standing(joint)) {
-      state.joints.set_demand(joint, state.solved_demand(joint));
+      state.joints.set_demand(joint, state.answers.solved_demand(joint));
       state.joints.accept(joint);
     }
   }
   state.joints.capacity_changed(joint);
-  state.to_check[static_cast<std::size_t>(c)] = 1;
+  state.check_again(c);
   state.pending = true;
 }
 

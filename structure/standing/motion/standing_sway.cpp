@@ -3,7 +3,6 @@
 #include <cmath>
 #include <span>
 
-#include "model/index_of.h"
 #include "standing/held_push.h"
 #include "standing/standing_state.h"
 #include "topple/structure/error.h"
@@ -35,14 +34,13 @@ void StandingFrame::let_move(double dt, const MotionRules& rules) {
   if (state.rules.sudden != 1) throw std::invalid_argument("what moves has no factor of a sudden loss: it must be 1");
   state.motion = std::make_unique<StandingMotion>(
       StandingMotion::Sources{state.building, state.parts, state.loads, state.statics, state.joints, state.yielding,
-                              state.components, state.shells, state.account, state.node_solved,
+                              state.components, state.shells, state.account, state.in_solver.held_nodes(),
                               state.rules.second_order, state.threads},
       settings_of(rules, dt));
   state.statics.before_changes([&state](int c) {
-    if (!state.slowly && state.solved_nodes[static_cast<std::size_t>(c)] > 0) state.motion->start(c);
+    if (!state.slowly && state.in_solver.nodes_of(c) > 0) state.motion->start(c);
   });
   state.substeps = state.motion->set_step(dt);
-  state.gravity = Vec3(0, 0, -state.building.gravity);
 }
 
 std::vector<JointBreak> StandingFrame::move(const std::function<void()>& after_substep) {
@@ -67,7 +65,7 @@ bool StandingFrame::in_motion() const { return state_->motion && state_->motion-
 int StandingFrame::substeps() const { return state_->substeps; }
 void StandingFrame::move_on(const std::function<void()>& after_substep) { state_->move_on(after_substep); }
 
-std::vector<JointBreak> StandingFrame::take_breaks() { return std::exchange(state_->breaks, {}); }
+std::vector<JointBreak> StandingFrame::take_breaks() { return state_->breaks.take(); }
 
 std::vector<JointBreak> StandingFrame::end_move() {
   state_->end_motion();
@@ -80,7 +78,7 @@ bool StandingFrame::moves(const ContactPlace& place) const {
 
 Vec6 StandingFrame::velocity(NodeId node) const {
   const State& state = *state_;
-  const bool moves = state.moves(state.statics.component(node)) && state.node_solved[index_of(node)] != 0;
+  const bool moves = state.moves(state.statics.component(node)) && state.in_solver.holds(node);
   return moves ? state.motion->velocity(node) : Vec6(Vec6::Zero());
 }
 
@@ -167,7 +165,7 @@ void StandingFrame::break_in_impact(std::span<const JointBreak> breaks) {
   for (const JointBreak& one : breaks) {
     if (!state.parts.standing(one.joint)) continue;
     state.joints.remember(one.joint, 1);
-    state.damage(one.joint, -1);
+    state.damage.let_go(one.joint);
   }
   state.follow_breaks();
   // The push goes on against what is left.
@@ -190,7 +188,7 @@ void StandingFrame::State::move_on(const std::function<void()>& after_substep) {
     after_substep();
     follow_breaks();
   }
-  ++generation;
+  breaks.next_generation();
 }
 
 void StandingFrame::State::end_motion() {
@@ -199,25 +197,25 @@ void StandingFrame::State::end_motion() {
     look_for_rest(c);
     if (motion->moves(c)) read_motion(c);
   }
-  generation = 0;
+  breaks.start_generations();
   account.lines_are_out();
   pending = motion->any() || !queue.empty();
 }
 
 /// Tools, contacts and new capacities act.
 void StandingFrame::State::begin_motion() {
-  generation = 0;
-  if (std::exchange(softened, false)) soften_at_rest();
-  for (const Change& change : std::exchange(queue, {})) apply(change);
+  breaks.start_generations();
+  if (slow.take_softened()) soften_at_rest();
+  queue.act();
   follow_breaks();
   for (int c = 0; c < statics.components(); ++c) {
     if (!std::exchange(to_check[static_cast<std::size_t>(c)], 0) || motion->moves(c)) continue;
-    if (solved_nodes[static_cast<std::size_t>(c)] == 0)
+    if (in_solver.nodes_of(c) == 0)
       statics.forget(c);
-    else if (!bears(c) || yielding.yields_in_answer(c))
+    else if (!answers.bears(c) || yielding.yields_in_answer(c))
       motion->start(c);
     else
-      remember_demands(c);
+      answers.remember(c);
   }
 }
 
@@ -225,13 +223,13 @@ void StandingFrame::State::begin_motion() {
 /// bears that.
 void StandingFrame::State::soften_at_rest() {
   for (int c = 0; c < statics.components(); ++c) {
-    if (!statics.changed(c) || motion->moves(c) || solved_nodes[static_cast<std::size_t>(c)] == 0) continue;
+    if (!statics.changed(c) || motion->moves(c) || in_solver.nodes_of(c) == 0) continue;
     slowly = true;  // a state of rest is sought by loads, too
-    const bool found = !solve_slow(c);
+    const bool found = !answers.solve_slow(c);
     slowly = false;
     if (!found) continue;  // factors above 0 make no mechanism of what stood
-    account.finish(c, true, breaks);
-    to_check[static_cast<std::size_t>(c)] = 1;
+    account.finish(c, true, breaks.lines());
+    check_again(c);
   }
 }
 
@@ -239,15 +237,15 @@ void StandingFrame::State::soften_at_rest() {
 void StandingFrame::State::follow_breaks() {
   parts.forget_numbers();
   do {
-    release();
+    release.release();
     write_loads();
-  } while (!half_held.empty() || !unbraced.empty());
+  } while (damage.leaves_open());
   for (const int c : motion->moving()) {
-    if (solved_nodes[static_cast<std::size_t>(c)] > 0) continue;
+    if (in_solver.nodes_of(c) > 0) continue;
     motion->stop(c);
     statics.forget(c);
     const double freed = account.freed();
-    come_to_rest(c);
+    generations.come_to_rest(c);
     rested_freed += account.freed() - freed;
   }
 }
@@ -265,16 +263,13 @@ void StandingFrame::State::sway(int c) {
 void StandingFrame::State::break_in_motion(JointId joint, const Vec6& demand, double freed) {
   if (!parts.standing(joint)) return;
   joints.set_demand(joint, demand);
-  tell(joint, BreakCause::overload);
-  breaks.back().energy = freed;
-  damage(joint, -1);
+  breaks.tell(joint, BreakCause::overload).energy = freed;
+  damage.let_go(joint);
 }
 
 /// Edges of panels bear what lies on the panel, and the membrane's traction: looked at after each substep.
 void StandingFrame::State::break_edges_over(int c) {
-  for (const PanelId panel : statics.membranes(c))
-    if (parts.bearings.membrane(panel)) edge_loads.set_corner_forces(panel, motion->corner_forces(panel));
-  read_panel_demands(c, false, true);
+  answers.read_edges_in_motion(c);
   std::vector<JointId> over;
   for (const JointId joint : components.edges[static_cast<std::size_t>(c)])
     if (parts.standing(joint) && joints.check(joint).value > 1) over.push_back(joint);
@@ -290,7 +285,7 @@ void StandingFrame::State::leave_small_displacements(int c) {
   while (motion->moves(c)) {
     const std::optional<FrameMechanism> mechanism = statics.solve(c);
     if (!mechanism) return;
-    release_mechanism(*mechanism);
+    release.cut_free(*mechanism);
     follow_breaks();
   }
 }
@@ -316,52 +311,19 @@ void StandingFrame::State::look_for_rest(int c) {
   if (statics.solve(c)) return;
   motion->update_damping(c);
   if (!motion->rests(c)) return;
-  for (const PanelId panel : statics.membranes(c))
-    if (parts.bearings.membrane(panel)) edge_loads.set_corner_forces(panel, statics.corner_forces(panel));
-  read_demands(c, false);
-  if (!bears(c) || yielding.yields_in_answer(c)) return;
+  answers.read(c, false);
+  if (!answers.bears(c) || yielding.yields_in_answer(c)) return;
   motion->settle(c);
   const double freed = account.freed();
-  come_to_rest(c);
+  generations.come_to_rest(c);
   rested_freed += account.freed() - freed;
-  if (buckles(c)) snap_buckled();
+  generations.snap_what_buckles(c);
 }
 
 Vec3 StandingFrame::velocity(PanelId panel) const {
   const State& state = *state_;
   if (!state.stands(panel) || !state.moves(state.components.of(panel))) return Vec3::Zero();
   return state.motion->velocity(panel);
-}
-
-/// Its own momentum, and that of the panels that leave with it; those that stay, or fall alone, keep theirs.
-Detached::Motion StandingFrame::State::motion_of(const Detached& part) {
-  Vec6 momentum = Vec6::Zero();
-  Vec3 displacement = Vec3::Zero();
-  double mass = 0;
-  const auto add = [&](double weighs, std::span<const NodeId> nodes) {
-    mass += weighs;
-    for (const NodeId node : nodes) {
-      const Vec6& own = moves(statics.component(node)) ? motion->displacement(node) : account.displacement(node);
-      displacement += weighs / static_cast<double>(nodes.size()) * own.head<3>();
-    }
-  };
-  for (const MemberId member : part.members) {
-    momentum += motion->momentum(member);
-    add(loads.mass(member), building[member].nodes);
-  }
-  for (const PanelId panel : part.panels) {
-    momentum += motion->momentum(panel);
-    add(loads.mass(panel), building[panel].nodes);
-  }
-  for (const NodeId node : part.nodes) {
-    momentum += motion->momentum(node);
-    add(loads.mass(node), {&node, 1});
-  }
-  Detached::Motion found;
-  found.momentum = momentum.head<3>();
-  found.angular = momentum.tail<3>();
-  if (mass > 0) found.displacement = displacement / mass;
-  return found;
 }
 
 }  // namespace topple::structure

@@ -1,13 +1,14 @@
 #pragma once
 // Reads a standing frame's joints while its statics are brought up to date where it may matter.
-#include "standing/standing_state.h"
+#include "standing/joint_answers.h"
 
 namespace topple::structure {
 
-class StandingFrame::State::Watch : public MemberWatch {
+class JointAnswers::Watch : public MemberWatch {
  public:
   /// `slow`: only what comes on slowly changed since the answer was whole.
-  explicit Watch(State& frame, bool slow = false) : frame_(frame), slow_(slow) {}
+  explicit Watch(JointAnswers& answers, bool slow = false)
+      : state_(answers.state_), edge_loads_(answers.edge_loads_), slow_(slow) {}
   double member_use(MemberId member, const solver::Vec12& end_forces) override;
   double membrane_use(PanelId membrane, const std::array<Vec6, 4>& corner_forces) override;
   double member_growth(MemberId member, const solver::Vec12& root) override;
@@ -17,7 +18,8 @@ class StandingFrame::State::Watch : public MemberWatch {
   [[nodiscard]] double read(JointId joint, const Vec6& demand);
   [[nodiscard]] double growth(JointId joint, const Vec6& most) const;
 
-  State& frame_;
+  StructuralState& state_;
+  EdgeDemands& edge_loads_;
   bool slow_;
 };
 
