@@ -21,23 +21,7 @@ Vec3 global_force(const Building& building, JointId id, const Vec6& demand) {
   return y.norm() * (along.cross(z) * demand(0) + along * demand(1) + z * demand(2));
 }
 
-}  // namespace
-
-std::vector<Carrier> Simulation::what_carries(MemberId member) const {
-  require_id(building(), member, "what_carries");
-  const Member& own = building()[member];
-  const Vec3 middle = member_start(building(), own) + own.axes.row(0).transpose() * (own.length / 2);
-  return state_->what_carries({member, {}, middle});
-}
-
-std::vector<Carrier> Simulation::what_carries(PanelId panel) const {
-  require_id(building(), panel, "what_carries");
-  Vec3 middle = Vec3::Zero();
-  for (const NodeId node : building()[panel].nodes) middle += building()[node].position / 4;
-  return state_->what_carries({{}, panel, middle});
-}
-
-std::vector<Carrier> Simulation::State::what_carries(const ContactPlace& place) const {
+std::vector<Carrier> carriers_of(const Scene& scene, const ContactPlace& place) {
   constexpr double least = 0.01;  // smaller shares say nothing about where a load goes
   std::vector<Carrier> carriers;
   if (!(place.member.valid() ? scene.frame->stands(place.member) : scene.frame->stands(place.panel))) return carriers;
@@ -49,6 +33,22 @@ std::vector<Carrier> Simulation::State::what_carries(const ContactPlace& place) 
   std::stable_sort(carriers.begin(), carriers.end(),
                    [](const Carrier& a, const Carrier& b) { return a.share > b.share; });
   return carriers;
+}
+
+}  // namespace
+
+std::vector<Carrier> Simulation::what_carries(MemberId member) const {
+  require_id(building(), member, "what_carries");
+  const Member& own = building()[member];
+  const Vec3 middle = member_start(building(), own) + own.axes.row(0).transpose() * (own.length / 2);
+  return carriers_of(state_->scene, {member, {}, middle});
+}
+
+std::vector<Carrier> Simulation::what_carries(PanelId panel) const {
+  require_id(building(), panel, "what_carries");
+  Vec3 middle = Vec3::Zero();
+  for (const NodeId node : building()[panel].nodes) middle += building()[node].position / 4;
+  return carriers_of(state_->scene, {{}, panel, middle});
 }
 
 std::vector<std::pair<JointId, Utilisation>> Simulation::next_to_break(std::size_t count) const {

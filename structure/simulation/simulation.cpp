@@ -17,28 +17,26 @@ void Simulation::step() {
   ++s.scene.step;
   s.scene.timer.start_step();
   s.views.start_step();
-  s.host_impulses.clear();
-  if (s.nothing_to_do()) {
+  s.hosts.start_step();
+  if (s.progress.idle()) {
     ++s.sums.counters.steps_idle;
   } else {
     const auto timed = [&](Stage stage, const auto& work) {
       return s.scene.timer.stage(static_cast<std::size_t>(stage), work);
     };
     timed(Stage::load, [&] { s.tools.use(); });
-    const auto contacts = timed(Stage::sweep, [&] { return s.sweep(); });
+    const auto contacts = timed(Stage::sweep, [&] { return s.sense(); });
     timed(Stage::load, [&] { s.load(); });
     timed(Stage::break_, [&] {
-      s.strike_by_host();
-      s.standing_impacts.strike_all(contacts);
-      s.body_impacts.strike_all(contacts);
+      s.strike(contacts);
       s.scene.sways() ? s.begin_motion() : s.break_generations();
     });
-    timed(Stage::release, [&] { s.release(); });
+    timed(Stage::release, [&] { s.release.release(); });
     timed(Stage::move, [&] { s.move(); });
     if (s.scene.sways()) timed(Stage::break_, [&] { s.end_motion(); });
     timed(Stage::account, [&] { s.account(); });
   }
-  s.record_rest_and_end();
+  s.progress.record();
   s.log.call_listeners();
 }
 
@@ -51,16 +49,36 @@ Simulation::State::State(Building the_building, Scenario the_scenario, Simulatio
       tools(scene, log, sums, debris),
       views(scene, debris),
       break_up({scene, log, sums, debris, hinges, panels, views}),
+      sweep(scene, debris, break_up),
       standing_fracture(scene, log, sums, debris, panels),
       standing_impacts({scene, log, sums, debris, panels, standing_fracture, release_impulses, struck}),
       body_impacts({scene, log, sums, debris, break_up, standing_impacts, struck}),
-      debris_fracture({scene, log, sums, debris, hinges, panels, views, break_up, release_impulses}) {
+      hosts({scene, sums, debris, standing_impacts, body_impacts, struck}),
+      debris_fracture({scene, log, sums, debris, hinges, panels, views, break_up, release_impulses}),
+      release{scene, log, sums, debris, hinges, panels, break_up, release_impulses, standing_fracture, debris_fracture},
+      bodies(scene, sums, debris),
+      overlaps(scene, debris),
+      progress(scene, log, tools, hosts),
+      actions(scene) {
   moving_parts = std::make_unique<MovingParts>(debris, sums, [this] { substep(); });
   if (scene.sways()) scene.frame->let_move(scene.scenario.step, scene.scenario.motion);
   panels.open();
 }
 
 Simulation::State::~State() = default;
+
+/// What is told of the impacts of a step is forgotten before the next one's contacts are found.
+std::vector<collision::Contact> Simulation::State::sense() {
+  struck.clear();
+  release_impulses.clear();
+  return sweep.contacts();
+}
+
+void Simulation::State::strike(const std::vector<collision::Contact>& contacts) {
+  hosts.strike_all();
+  standing_impacts.strike_all(contacts);
+  body_impacts.strike_all(contacts);
+}
 
 void Simulation::State::load() {
   sums.counters.contacts_ignored +=
@@ -100,7 +118,7 @@ void Simulation::State::substep() {
                      [&] { scene.frame->move_on(crack); });
   if (!crack && !scene.frame->has_detached()) return;
   record(scene.frame->take_breaks());
-  release();
+  release.release();
 }
 
 void Simulation::State::end_motion() {
@@ -109,11 +127,35 @@ void Simulation::State::end_motion() {
   scene.timer.engine([&] { debris.obstacles.follow(*scene.frame, *scene.world); });
 }
 
-bool Simulation::State::nothing_to_do() const {
-  if (scene.step <= 1 || tools.asked() || !touches.empty() || scene.frame->pending() || scene.world->awake_count() > 0)
-    return false;
-  const double next = tools.next_instant();
-  return next == unlimited || step_of(next, scene.scenario.step) > scene.step;
+/// The collision world moves what is awake, and what stands where it moves.
+void Simulation::State::move() {
+  bodies.start_motion();
+  const double dt = scene.scenario.step;
+  const bool together = scene.frame->in_motion();
+  if (scene.world->awake_count() == 0 && !together) return;
+  scene.timer.engine(
+      [&] { together ? scene.world->step(dt, scene.frame->substeps(), *moving_parts) : scene.world->step(dt); });
+  overlaps.read();
+  ++sums.counters.collision_steps;
+}
+
+/// Energies, events and counters; what came down hard breaks up.
+void Simulation::State::account() {
+  bodies.count_contacts();
+  if (scene.frame->has_detached()) release.release();  // at the end of its motion
+  hinges.pull();
+  bodies.count_bodies();
+  auto next = debris.bodies.motions().begin();  // asked for in order of id
+  debris.resting.read(bodies.contacts(), debris.obstacles, scene.scenario.step, [&](collision::BodyId id) {
+    while (next != debris.bodies.motions().end() && next->id < id.value) ++next;
+    return next != debris.bodies.motions().end() && next->id == id.value && !scene.world->state(id).asleep;
+  });
+  if (debris_fracture.shatter_landed(bodies.contacts())) release.keep_limit();
+  const auto impacts = debris_fracture.impacts_on_panels(bodies.contacts());
+  break_up.break_landed(bodies.contacts());
+  debris_fracture.crumble(impacts);
+  release.keep_limit();  // some may have fallen asleep
+  views.update();
 }
 
 Simulation::Simulation(Building building, Scenario scenario, SimulationOptions options) {
@@ -130,28 +172,27 @@ std::int64_t Simulation::skip_idle() {
 
 /// Passes over idle steps, at most to the one before `end`.
 std::int64_t Simulation::skip_idle_before(std::int64_t end) {
-  State& s = *state_;
-  std::int64_t passed = 0;
-  if (s.scene.step < 1 || s.tools.asked() || !s.touches.empty() || s.scene.frame->pending() ||
-      s.scene.world->awake_count() > 0)
-    return 0;
-  const double instant = s.tools.next_instant();
-  const std::int64_t next = instant < unlimited ? std::min(end, step_of(instant, s.scene.scenario.step)) : end;
-  passed = std::max<std::int64_t>(0, next - 1 - s.scene.step);
-  s.scene.step += passed;
-  s.sums.counters.steps_idle += static_cast<std::uint64_t>(passed);
+  const std::int64_t passed = state_->progress.skip_idle_before(end);
+  state_->sums.counters.steps_idle += static_cast<std::uint64_t>(passed);
   return passed;
 }
 
-bool Simulation::finished() const { return state_->finished(); }
+bool Simulation::finished() const { return state_->progress.finished(); }
 double Simulation::time() const { return state_->scene.time(); }
 std::int64_t Simulation::steps() const { return state_->scene.step; }
-bool Simulation::at_rest() const { return state_->rests(); }
+bool Simulation::at_rest() const { return state_->progress.rests(); }
 void Simulation::apply(const Tool& tool) {
   require_tool(state_->scene.building, tool);
   state_->tools.ask(tool);
-  state_->actions.push_back({state_->scene.step, tool});
+  state_->actions.add(tool);
 }
+void Simulation::touch(const HostContact& contact) {
+  require_contact(state_->scene.building, contact);
+  state_->hosts.add(contact);
+  state_->actions.add(contact);
+}
+std::span<const HostImpulse> Simulation::host_impulses() const { return state_->hosts.impulses(); }
+const BodyOverlaps& Simulation::overlaps() const { return state_->overlaps.told(); }
 void Simulation::on_event(std::function<void(const SimulationEvent&)> listener) {
   state_->log.listen(std::move(listener));
 }
@@ -210,7 +251,7 @@ std::optional<Simulation::RayHit> Simulation::ray_cast(const Vec3& from, const V
 }
 
 const Ledger& Simulation::ledger() const {
-  state_->account_now();
+  state_->bodies.bring_ledger_up_to_date();
   return state_->sums.ledger;
 }
 

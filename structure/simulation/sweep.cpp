@@ -1,25 +1,24 @@
-// Sense: shapes are made for what awake bodies may reach in this step, then the collision world sweeps.
+#include "simulation/sweep.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "simulation/debris/debris_settings.h"
 #include "simulation/impact/impact_settings.h"
-#include "simulation/simulation_state.h"
 
 namespace topple::structure {
 
-/// Of a body in this step: its way, and how far its turn takes a point that is `radius` from its centre.
-Simulation::State::Sweep Simulation::State::sweep_of(const collision::BodyState& state, double radius) const {
-  const double dt = scene.scenario.step;
-  return {scene.reading().true_velocity(state.velocity) * dt + scene.gravity * dt * dt / 2,
+Sweep::Way Sweep::way_of(const collision::BodyState& state, double radius) const {
+  const double dt = scene_.scenario.step;
+  return {scene_.reading().true_velocity(state.velocity) * dt + scene_.gravity * dt * dt / 2,
           state.angular_velocity.norm() * dt * radius};
 }
 
-Bounds Simulation::State::swept_bounds(const Body& body, const collision::BodyState& state) const {
+Bounds Sweep::swept_bounds(const Body& body, const collision::BodyState& state) const {
   const Mat3 turn = state.pose.orientation.toRotationMatrix();
   const Vec3 middle = state.pose.position + turn * ((body.bounds.low + body.bounds.high) / 2);
   const Vec3 half = turn.cwiseAbs() * ((body.bounds.high - body.bounds.low) / 2);
-  const auto [travel, turned_by] = sweep_of(state, (body.bounds.high - body.bounds.low).norm() / 2);
+  const auto [travel, turned_by] = way_of(state, (body.bounds.high - body.bounds.low).norm() / 2);
   const Vec3 margin = half + Vec3::Constant(debris_settings.sweep_margin + turned_by);
   Bounds swept;
   for (const Vec3& at : {middle, Vec3(middle + travel)}) {
@@ -31,16 +30,16 @@ Bounds Simulation::State::swept_bounds(const Body& body, const collision::BodySt
 
 /// What was seen of its surroundings holds: its swept bounds are within the room that there was. No side of them has
 /// moved by more than the centre, the farthest point by the turn between, and what of travel and turn is new.
-bool Simulation::State::stays(const BodyMotion& one, const collision::BodyState& state) const {
+bool Sweep::stays(const BodyMotion& one, const collision::BodyState& state) const {
   const BodyMotion::Seen& seen = one.seen;
   if (!(seen.room > 0)) return false;
-  const auto [travel, turned_by] = sweep_of(state, one.reach);
+  const auto [travel, turned_by] = way_of(state, one.reach);
   const auto &now = state.pose.orientation.coeffs(), &then = seen.orientation.coeffs();
   // Two quaternions that are c apart lie a turn of 4 asin(c/2) < pi c apart.
   const double apart = std::sqrt(std::min((now - then).squaredNorm(), (now + then).squaredNorm()));
   const double moved = (state.pose.position - seen.position).norm() + (travel - seen.travel).norm() +
                        M_PI * apart * one.reach + std::max(0.0, turned_by - seen.turned_by) +
-                       std::max(0.0, debris.obstacles.reach() - seen.reach);
+                       std::max(0.0, debris_.obstacles.reach() - seen.reach);
   return moved < seen.room;
 }
 
@@ -51,10 +50,10 @@ double gap(const Bounds& a, const Bounds& b) { return (a.low - b.high).cwiseMax(
 
 /// Parts never come to stand where none stood: what may stand around a body is looked up again only when it leaves the
 /// place that was looked over.
-void Simulation::State::approach(BodyMotion& one, const collision::BodyState& state) {
+void Sweep::approach(BodyMotion& one, const collision::BodyState& state) {
   if (stays(one, state)) return;
   Bounds swept = swept_bounds(*one.body, state);
-  const double reach = debris.obstacles.reach();  // what is looked for lies so far from where it is looked up
+  const double reach = debris_.obstacles.reach();  // what is looked for lies so far from where it is looked up
   swept.low.array() -= reach;
   swept.high.array() += reach;
   std::vector<Part>& near = one.body->near;
@@ -62,31 +61,30 @@ void Simulation::State::approach(BodyMotion& one, const collision::BodyState& st
     one.looked_over = swept;
     one.looked_over.add(Vec3(swept.low - Vec3::Constant(debris_settings.look_ahead)));
     one.looked_over.add(Vec3(swept.high + Vec3::Constant(debris_settings.look_ahead)));
-    near = debris.obstacles.without_shape(one.looked_over);
+    near = debris_.obstacles.without_shape(one.looked_over);
   }
-  if (!near.empty()) debris.obstacles.approach(near, swept, *scene.frame, *scene.world);
-  const auto [travel, turned_by] = sweep_of(state, one.reach);
+  if (!near.empty()) debris_.obstacles.approach(near, swept, *scene_.frame, *scene_.world);
+  const auto [travel, turned_by] = way_of(state, one.reach);
   double room = (swept.low - one.looked_over.low).cwiseMin(one.looked_over.high - swept.high).minCoeff();
-  for (const Part part : near) room = std::min(room, gap(swept, debris.shapes.bounds(part)));
+  for (const Part part : near) room = std::min(room, gap(swept, debris_.shapes.bounds(part)));
   one.seen = {room, state.pose.position, travel, state.pose.orientation, turned_by, reach};
 }
 
-std::vector<collision::Contact> Simulation::State::sweep() {
-  struck.clear();
-  release_impulses.clear();
-  for (BodyMotion& one : debris.bodies.motions()) {
-    const collision::BodyState state = scene.world->state({one.id});
+std::vector<collision::Contact> Sweep::contacts() {
+  for (BodyMotion& one : debris_.bodies.motions()) {
+    const collision::BodyState state = scene_.world->state({one.id});
     one.step_start = state.pose.position;
     if (!state.asleep) approach(one, state);
   }
-  if (scene.world->awake_count() == 0) return {};
+  if (scene_.world->awake_count() == 0) return {};
   // Bodies are looked for where some can break against each other.
   const bool any_composed =
-      std::any_of(debris.bodies.composed().begin(), debris.bodies.composed().end(), [&](std::int64_t id) {
-        return !debris.bodies.motion(id).asleep || break_up.may_fall_apart(collision::BodyId{id});
+      std::any_of(debris_.bodies.composed().begin(), debris_.bodies.composed().end(), [&](std::int64_t id) {
+        return !debris_.bodies.motion(id).asleep || break_up_.may_fall_apart(collision::BodyId{id});
       });
   const collision::Sweep what = any_composed ? collision::Sweep::everything : collision::Sweep::obstacles;
-  return scene.timer.engine([&] { return scene.world->sweep(scene.scenario.step, what, impact_settings.least_speed); });
+  return scene_.timer.engine(
+      [&] { return scene_.world->sweep(scene_.scenario.step, what, impact_settings.least_speed); });
 }
 
 }  // namespace topple::structure

@@ -4,8 +4,8 @@
 #include <map>
 #include <utility>
 
+#include "standing/damage/generations.h"
 #include "standing/damage/queued_changes.h"
-#include "standing/generations.h"
 
 namespace topple::structure {
 

@@ -5,7 +5,7 @@
 
 #include "simulation/debris/debris_settings.h"
 #include "simulation/debris/momentum.h"
-#include "simulation/simulation_state.h"
+#include "simulation/debris/release.h"
 
 namespace topple::structure {
 
@@ -37,7 +37,7 @@ fracture::Mesh box(const Vec3& half, const Mat3& axes, const Vec3& from_centre) 
 }  // namespace
 
 /// The piece at one end of a member that was cut at this fraction of its length. It takes along what lies on it.
-Body Simulation::State::piece_of(MemberId id, int end, double cut) const {
+Body Release::piece_of(MemberId id, int end, double cut) const {
   const Member& member = scene.building[id];
   const double at = cut * member.length, from = end == 0 ? 0 : at, to = end == 0 ? at : member.length;
   Body piece;
@@ -62,7 +62,7 @@ Body Simulation::State::piece_of(MemberId id, int end, double cut) const {
   return piece;
 }
 
-void Simulation::State::release_in_two(const Detached& part) {
+void Release::release_in_two(const Detached& part) {
   const MemberId member = part.members.front();
   // Panels that only the post bore go by themselves.
   for (const PanelId panel : part.panels) {

@@ -1,13 +1,13 @@
-// Release: what lost its hold on the frame becomes rigid bodies with true mass, centre and inertia.
+#include "simulation/debris/release.h"
+
 #include <algorithm>
 
 #include "simulation/debris/debris_settings.h"
 #include "simulation/debris/momentum.h"
-#include "simulation/simulation_state.h"
 
 namespace topple::structure {
 
-void Simulation::State::release() {
+void Release::release() {
   for (Detached& part : scene.frame->take_detached()) {
     // Of a panel that is broken out altogether nothing is left to leave.
     std::erase_if(part.panels, [&](PanelId panel) {
@@ -21,7 +21,7 @@ void Simulation::State::release() {
   keep_limit();
 }
 
-void Simulation::State::release(const Detached& part) {
+void Release::release(const Detached& part) {
   if (part.members.empty() && part.panels.empty() && part.nodes.empty()) return;
   if (part.cut) return release_in_two(part);
   if (part.members.empty() && part.panels.empty() && debris.masses.of(part).mass <= 0) return;  // a bare node
@@ -71,7 +71,7 @@ void Simulation::State::release(const Detached& part) {
 }
 
 /// All the momentum that the world's body has must be what it left with, and what release impulses gave it.
-void Simulation::State::check_momentum(const Body& one, const std::optional<Detached::Motion>& motion) {
+void Release::check_momentum(const Body& one, const std::optional<Detached::Motion>& motion) {
   collision::BodyState state = scene.world->state(one.id);
   state.velocity = scene.reading().true_velocity(state.velocity);
   Momentum measured{state.pose.position}, given{state.pose.position};
@@ -84,7 +84,7 @@ void Simulation::State::check_momentum(const Body& one, const std::optional<Deta
   sums.ledger.momentum_error = std::max(sums.ledger.momentum_error, measured.error(given));
 }
 
-void Simulation::State::remove_body(collision::BodyId id, bool keep_weight) {
+void Release::remove_body(collision::BodyId id, bool keep_weight) {
   const auto found = debris.bodies.find(id.value);
   const Kinetic kinetic = kinetic_energy(found->second, scene.world->state(id), scene.reading());
   sums.ledger.removed += kinetic.translation + kinetic.rotation;
@@ -98,9 +98,7 @@ void Simulation::State::remove_body(collision::BodyId id, bool keep_weight) {
   debris.bodies.erase(id.value);
 }
 
-/// Above the limit of bodies, sleeping ones are dropped, the smallest first and of equals the oldest. Their weight
-/// stays where it lies.
-void Simulation::State::keep_limit() {
+void Release::keep_limit() {
   if (!scene.scenario.debris.limit) return;
   const auto limit = static_cast<std::size_t>(std::max(0, *scene.scenario.debris.limit));
   if (debris.bodies.size() <= limit) return;

@@ -1,8 +1,8 @@
 // The parts that damage a standing frame and follow what that sets free, each by itself.
 #include <catch2/catch.hpp>
 
+#include "standing/damage/generations.h"
 #include "standing/damage/queued_changes.h"
-#include "standing/generations.h"
 #include "structure/frame_builder.h"
 
 namespace {

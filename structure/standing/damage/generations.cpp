@@ -1,4 +1,4 @@
-#include "standing/generations.h"
+#include "standing/damage/generations.h"
 
 #include <algorithm>
 

@@ -1,0 +1,47 @@
+#include "simulation/accounts/body_account.h"
+
+namespace topple::structure {
+
+void BodyAccount::start_motion() {
+  for (BodyMotion& one : debris_.bodies.motions()) one.before = scene_.world->state({one.id});
+}
+
+void BodyAccount::count_contacts() {
+  contacts_.clear();
+  for (const collision::Contact& contact : scene_.world->contacts()) {
+    sums_.ledger.lost_in_contacts += contact.work_lost;
+    if (is_felt(contact)) contacts_.push_back(felt(contact));
+  }
+  for (const auto& [id, hung] : debris_.cables)
+    sums_.ledger.lost_in_contacts += scene_.world->cable_pull(hung.cable).work_lost;
+}
+
+void BodyAccount::count_bodies() {
+  for (BodyMotion& one : debris_.bodies.motions()) count(one);
+}
+
+void BodyAccount::count(BodyMotion& one) {
+  const collision::BodyState after = scene_.world->state({one.id});
+  if (one.asleep && after.asleep) return;
+  const Vec3 weight = one.mass * scene_.gravity;
+  sums_.body_gravity_work += weight.dot(after.pose.position - one.step_start);
+  if (one.asleep != after.asleep) {  // a body at rest is read as having no velocity at all, and does not move
+    collision::BodyState awake = one.before;
+    awake.asleep = false;
+    const Kinetic kinetic = kinetic_energy(*one.body, awake, scene_.reading());
+    sums_.ledger.lost_in_contacts += (after.asleep ? 1 : -1) * (kinetic.translation + kinetic.rotation);
+    one.asleep = after.asleep;
+  }
+}
+
+void BodyAccount::bring_ledger_up_to_date() {
+  double translation = 0, rotation = 0;
+  for (const auto& [id, one] : debris_.bodies) {
+    const Kinetic kinetic = kinetic_energy(one, scene_.world->state(one.id), scene_.reading());
+    translation += kinetic.translation;
+    rotation += kinetic.rotation;
+  }
+  sums_.bring_up_to_date(scene_.frame->energy(), translation, rotation);
+}
+
+}  // namespace topple::structure

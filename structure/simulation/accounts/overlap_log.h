@@ -1,0 +1,24 @@
+#pragma once
+// What stays inside each other is told by name, when it is seen: bodies split and go.
+#include "simulation/debris/debris.h"
+#include "topple/collision/overlap_watch.h"
+
+namespace topple::structure {
+
+class OverlapLog {
+ public:
+  /// Both must outlive it.
+  OverlapLog(const Scene& scene, const Debris& debris) : scene_(scene), debris_(debris) {}
+
+  /// After each step of the collision world.
+  void read();
+  [[nodiscard]] const BodyOverlaps& told() const { return told_; }
+
+ private:
+  const Scene& scene_;
+  const Debris& debris_;
+  collision::OverlapWatch watch_;
+  BodyOverlaps told_;
+};
+
+}  // namespace topple::structure

@@ -1,0 +1,39 @@
+#pragma once
+// Release: what lost its hold on the frame becomes rigid bodies with true mass, centre and inertia.
+#include <optional>
+
+#include "simulation/debris/release_impulses.h"
+#include "simulation/fracture/debris_fracture.h"
+#include "simulation/fracture/standing_fracture.h"
+
+namespace topple::structure {
+
+/// What it looks at and changes must outlive it.
+struct Release {
+  /// What has left the frame since the last time.
+  void release();
+  /// Above the limit of bodies, sleeping ones are dropped, the smallest first and of equals the oldest. Their weight
+  /// stays where it lies.
+  void keep_limit();
+
+  Scene& scene;
+  EventLog& log;
+  RunningSums& sums;
+  Debris& debris;
+  Hinges& hinges;
+  const BreakablePanels& panels;
+  BreakUp& break_up;
+  ReleaseImpulses& release_impulses;
+  StandingFracture& standing_fracture;
+  DebrisFracture& debris_fracture;
+
+ private:
+  void release(const Detached& part);
+  // cut_in_two.cpp: the pieces of a post that buckled inside.
+  void release_in_two(const Detached& part);
+  [[nodiscard]] Body piece_of(MemberId member, int end, double cut) const;
+  void check_momentum(const Body& body, const std::optional<Detached::Motion>& motion);
+  void remove_body(collision::BodyId id, bool keep_weight);
+};
+
+}  // namespace topple::structure
