@@ -5,7 +5,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <map>
-#include <numeric>
 
 #include "failure/panel_demand.h"
 #include "mesh/shell_edges.h"
@@ -46,8 +45,29 @@ Vec3 start_of(const Building& building, const Member& member) {
 FreeSegment::FreeSegment(const Building& building, FreeSegmentParts parts, const std::function<bool(JointId)>& holds,
                          const std::function<Eigen::MatrixXd(PanelId)>& shell_stiffness, const FreePanelEdges& edges)
     : building_(building), parts_(std::move(parts)), node_number_(building.nodes.size(), -1) {
-  int held_at = -1;
-  bool breakable = false;
+  add_members(holds);
+  const bool breakable = !joints_.empty();
+  for (const PanelId panel : parts_.panels)
+    if (shell_stiffness && building[panel].model == PanelModel::shell) add_shell(panel, shell_stiffness(panel), holds);
+  if (edges) find_hung_panels(edges);
+  add_point_masses();
+  for (std::size_t i = 0; i < parts_.members.size(); ++i) {
+    const Vec3 along = building[parts_.members[i]].axes.row(0);
+    inertia_ += polar(parts_.members[i]) * parts_.member_mass[i] * along * along.transpose();
+  }
+  centre_ /= mass_;
+  // So far about the origin.
+  inertia_ -= point_inertia(mass_, centre_);
+  const bool shell_asked = std::any_of(hung_.begin(), hung_.end(), [](const Hung& hung) { return hung.patch >= 0; });
+  const bool member_asked = breakable && parts_.members.size() > 1;
+  can_break_ = !hung_.empty();
+  if (!(member_asked || shell_asked) || held_at_ < 0) return;
+  analyse();
+  can_break_ = can_break_ || analysis_ != nullptr;
+}
+
+void FreeSegment::add_members(const std::function<bool(JointId)>& holds) {
+  const Building& building = building_;
   for (std::size_t i = 0; i < parts_.members.size(); ++i) {
     const MemberId id = parts_.members[i];
     const Member& member = building[id];
@@ -58,10 +78,7 @@ FreeSegment::FreeSegment(const Building& building, FreeSegmentParts parts, const
       if (holds(joint)) {
         beam.node[e] = node_at(member.nodes[e]);
         beam.end_stiffness[e] = building[joint].stiffness;
-        if (building[joint].capacity.breakable) {
-          joints_.push_back(joint);
-          breakable = true;
-        }
+        if (building[joint].capacity.breakable) joints_.push_back(joint);
       } else {  // a free end, with a node of its own
         beam.node[e] = static_cast<int>(model_.nodes.size());
         beam.offset[e].setZero();
@@ -69,7 +86,7 @@ FreeSegment::FreeSegment(const Building& building, FreeSegmentParts parts, const
         point_mass_.push_back(0);
       }
       // Whatever hangs on the node that holds the body holds it in all its motions only if it is rigid there.
-      if (held_at < 0 && (beam.end_stiffness[e].array() == solver::rigid).all()) held_at = beam.node[e];
+      if (held_at_ < 0 && (beam.end_stiffness[e].array() == solver::rigid).all()) held_at_ = beam.node[e];
     }
     model_.beams.push_back(beam);
     const Vec3 first = start_of(building, member), along = member.axes.row(0).transpose() * member.length;
@@ -78,9 +95,10 @@ FreeSegment::FreeSegment(const Building& building, FreeSegmentParts parts, const
       add_mass(first + place * along, parts_.member_mass[i] / 2);
   }
   std::sort(joints_.begin(), joints_.end());
-  for (const PanelId panel : parts_.panels)
-    if (shell_stiffness && building[panel].model == PanelModel::shell) add_shell(panel, shell_stiffness(panel), holds);
-  if (edges) find_hung_panels(edges);
+}
+
+/// Of nodes, and of panels at the corners that take their mass.
+void FreeSegment::add_point_masses() {
   for (std::size_t i = 0; i < parts_.nodes.size(); ++i) {
     const int number = node_number_[index_of(parts_.nodes[i])];
     if (number < 0) continue;
@@ -88,26 +106,12 @@ FreeSegment::FreeSegment(const Building& building, FreeSegmentParts parts, const
   }
   for (std::size_t i = 0; i < parts_.panels.size(); ++i) {
     std::vector<int> corners;
-    for (NodeId node : building[parts_.panels[i]].nodes)
+    for (NodeId node : building_[parts_.panels[i]].nodes)
       if (takes(parts_.panels[i], node)) corners.push_back(node_number_[index_of(node)]);
     for (int number : corners)
       point_mass_[static_cast<std::size_t>(number)] += parts_.panel_mass[i] / static_cast<double>(corners.size());
   }
   for (std::size_t n = 0; n < point_mass_.size(); ++n) add_mass(model_.nodes[n], point_mass_[n]);
-  for (std::size_t i = 0; i < parts_.members.size(); ++i) {
-    const Vec3 along = building[parts_.members[i]].axes.row(0);
-    inertia_ += polar(parts_.members[i]) * parts_.member_mass[i] * along * along.transpose();
-  }
-  centre_ /= mass_;
-  // So far about the origin.
-  inertia_ -= point_inertia(mass_, centre_);
-  const bool shell_asked = std::any_of(hung_.begin(), hung_.end(), [](const Hung& hung) { return hung.patch >= 0; });
-  const bool member_asked = breakable && parts_.members.size() > 1;
-  held_at_ = held_at;
-  can_break_ = !hung_.empty();
-  if (!(member_asked || shell_asked) || held_at < 0) return;
-  analyse();
-  can_break_ = can_break_ || analysis_ != nullptr;
 }
 
 void FreeSegment::analyse() {
@@ -390,95 +394,6 @@ FreeSegment::Answer FreeSegment::bear(std::span<const FreePush> pushes, const Ve
   }
   read_demands(solution ? &*solution : nullptr, pushes, spin, gravity, answer);
   return answer;
-}
-
-std::vector<FreeSegmentParts> connected_parts(const Building& building, const FreeSegmentParts& whole,
-                                              const std::function<bool(JointId)>& holds, const FreePanelEdges& edges) {
-  // Vertices: members, then nodes, then panels, of which only shells are joined to anything.
-  const std::size_t members = whole.members.size(), first_panel = members + whole.nodes.size();
-  std::map<NodeId, std::size_t> node_vertex;
-  for (std::size_t n = 0; n < whole.nodes.size(); ++n) node_vertex[whole.nodes[n]] = members + n;
-  std::vector<std::size_t> parent(first_panel + whole.panels.size());
-  std::iota(parent.begin(), parent.end(), std::size_t{0});
-  const auto find = [&](std::size_t v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
-  for (std::size_t m = 0; m < members; ++m)
-    for (int end = 0; end < 2; ++end) {
-      const NodeId node = building[whole.members[m]].nodes[static_cast<std::size_t>(end)];
-      const auto vertex = node_vertex.find(node);
-      if (vertex == node_vertex.end() || !holds(building.joint(whole.members[m], end))) continue;
-      const std::size_t a = find(m), b = find(vertex->second);
-      parent[std::max(a, b)] = std::min(a, b);
-    }
-  const auto is_shell = [&](std::size_t p) { return building[whole.panels[p]].model == PanelModel::shell; };
-  for (std::size_t p = 0; p < whole.panels.size(); ++p)
-    for (int edge = 0; edge < 4 && is_shell(p); ++edge) {
-      if (!holds(building.joint(whole.panels[p], edge))) continue;
-      for (const NodeId node : nodes_of_edge(building, whole.panels[p], edge)) {
-        const auto vertex = node_vertex.find(node);
-        if (vertex == node_vertex.end()) continue;
-        const std::size_t a = find(first_panel + p), b = find(vertex->second);
-        parent[std::max(a, b)] = std::min(a, b);
-      }
-    }
-  std::vector<FreeSegmentParts> parts;
-  std::vector<int> part_of(parent.size(), -1);
-  const auto part = [&](std::size_t vertex) -> FreeSegmentParts& {
-    int& number = part_of[find(vertex)];
-    if (number < 0) {
-      number = static_cast<int>(parts.size());
-      parts.emplace_back();
-    }
-    return parts[static_cast<std::size_t>(number)];
-  };
-  for (std::size_t m = 0; m < members; ++m) {
-    FreeSegmentParts& own = part(m);
-    own.members.push_back(whole.members[m]);
-    own.member_mass.push_back(whole.member_mass[m]);
-  }
-  for (std::size_t n = 0; n < whole.nodes.size(); ++n) {
-    FreeSegmentParts& own = part(members + n);
-    own.nodes.push_back(whole.nodes[n]);
-    own.node_mass.push_back(whole.node_mass[n]);
-  }
-  for (std::size_t p = 0; p < whole.panels.size(); ++p) {
-    if (is_shell(p)) {
-      FreeSegmentParts& own = part(first_panel + p);
-      own.panels.push_back(whole.panels[p]);
-      own.panel_mass.push_back(whole.panel_mass[p]);
-      continue;
-    }
-    const auto part_at = [&](std::size_t corner) {
-      const auto vertex = node_vertex.find(building[whole.panels[p]].nodes[corner % 4]);
-      return vertex == node_vertex.end() ? -1 : part_of[find(vertex->second)];
-    };
-    if (const auto length = edges ? edges(whole.panels[p]) : std::nullopt) {
-      const auto held_by = [&](std::size_t edge) {
-        return (*length)[edge] > 0 && part_at(edge) == part_at(edge + 1) ? part_at(edge) : -1;
-      };
-      int holder = -1;
-      for (const std::size_t edge : {std::size_t{1}, std::size_t{0}})
-        if (held_by(edge) >= 0 && held_by(edge) == held_by(edge + 2)) holder = held_by(edge);
-      if (holder < 0) parts.emplace_back();
-      FreeSegmentParts& own = holder < 0 ? parts.back() : parts[static_cast<std::size_t>(holder)];
-      own.panels.push_back(whole.panels[p]);
-      own.panel_mass.push_back(whole.panel_mass[p]);
-      continue;
-    }
-    std::vector<int> corners(parts.size(), 0);
-    for (NodeId node : building[whole.panels[p]].nodes)
-      if (const auto vertex = node_vertex.find(node); vertex != node_vertex.end())
-        ++corners[static_cast<std::size_t>(part_of[find(vertex->second)])];
-    const auto most = std::max_element(corners.begin(), corners.end());
-    if (most == corners.end() || *most == 0) parts.emplace_back();
-    FreeSegmentParts& own =
-        most == corners.end() || *most == 0 ? parts.back() : parts[static_cast<std::size_t>(most - corners.begin())];
-    own.panels.push_back(whole.panels[p]);
-    own.panel_mass.push_back(whole.panel_mass[p]);
-  }
-  return parts;
 }
 
 }  // namespace topple::structure

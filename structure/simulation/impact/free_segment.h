@@ -93,6 +93,8 @@ class FreeSegment {
     int patch = -1;             ///< of a shell
     std::vector<NodeId> nodes;  ///< of the patch, in its order
   };
+  void add_members(const std::function<bool(JointId)>& holds);
+  void add_point_masses();
   void add_shell(PanelId panel, const Eigen::MatrixXd& stiffness, const std::function<bool(JointId)>& holds);
   void find_hung_panels(const FreePanelEdges& edges);
   [[nodiscard]] std::vector<PanelPush> pushes_on(const Hung& hung, std::span<const FreePush> pushes,
