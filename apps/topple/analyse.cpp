@@ -99,6 +99,27 @@ void write_answer(const AnalyseOptions& options, const Building& building, const
   write_files(options.output, files, streamed);
 }
 
+/// Stations and sections that reports, drawings and design checks look at, beside those that were asked for.
+AnalysisRequest with_all_that_is_written(const AnalyseOptions& options, const AnalysisRequest& request) {
+  AnalysisRequest wider = request;
+  const int wanted = std::max({options.html ? report_stations : 0, options.vtu ? drawing_stations : 0,
+                               options.code.empty() ? 0 : design_stations});
+  wider.stations = whole_multiple(request.stations, wanted);
+  wider.critical_sections = !options.code.empty();
+  wider.progress = tell_progress;
+  return wider;
+}
+
+/// `yielded`: stiffness that direct analysis with tau_b found.
+AnalysisResult answer(const AnalyseOptions& options, const Building& building, const AnalysisRequest& request,
+                      std::vector<YieldedStiffness>& yielded) {
+  if (options.direct_analysis != "tau-b")
+    return analyse(options.direct_analysis.empty() ? building : with_reduced_stiffness(building), request);
+  DirectAnalysis found = analyse_directly(building, request);
+  yielded = std::move(found.yielded);
+  return std::move(found.result);
+}
+
 int run(const AnalyseOptions& options) {
   require_sound(options);
   StageClock clock;
@@ -114,24 +135,13 @@ int run(const AnalyseOptions& options) {
   give_back_free_memory();
   clock.stop("read");
   const AnalysisRequest request = analysis_request(options, file, building);
-  AnalysisRequest wider = request;
-  const int wanted = std::max({options.html ? report_stations : 0, options.vtu ? drawing_stations : 0,
-                               options.code.empty() ? 0 : design_stations});
-  wider.stations = whole_multiple(request.stations, wanted);
-  wider.critical_sections = !options.code.empty();
-  wider.progress = tell_progress;
+  const AnalysisRequest wider = with_all_that_is_written(options, request);
   // Kept to the end of the process, which gives it back at once: piece by piece that takes longer than a solve.
   static AnalysisResult result;
   std::vector<YieldedStiffness> yielded;
   std::optional<UnstableAnalysis> failed;  // some combinations; the others are written all the same
   try {
-    if (computes_tau_b) {
-      DirectAnalysis found = analyse_directly(building, wider);
-      result = std::move(found.result);
-      yielded = std::move(found.yielded);
-    } else {
-      result = analyse(direct ? with_reduced_stiffness(building) : building, wider);
-    }
+    result = answer(options, building, wider, yielded);
   } catch (const UnstableAnalysis& unstable) {
     if (options.diagnose) write_diagnosis(options, building, request, unstable.diagnosis);
     if (!unstable.partial) throw;
@@ -166,6 +176,40 @@ int run(const AnalyseOptions& options) {
   return success;
 }
 
+void declare_design(CLI::App& app, AnalyseOptions& options) {
+  app.add_option("--code", options.code, "Check every member by EN 1993-1-1 or AISC 360")
+      ->check(CLI::IsMember({"en1993", "aisc360"}));
+  app.add_option("--effective-lengths", options.effective_lengths,
+                 "With --code: automatic (charts; with --buckling its modes), charts, or assumed (posts sway)")
+      ->check(CLI::IsMember({"automatic", "charts", "assumed"}));
+  app.add_option("--stiffeners", options.stiffeners,
+                 "With --code: NAME=SPACING of transverse stiffeners, by member, pattern or group")
+      ->expected(1)
+      ->take_all();
+  app.add_flag("--direct-analysis{notional}", options.direct_analysis,
+               "With --code aisc360 --p-delta: notional loads, reduced stiffness and K = 1 (AISC 360 chapter C); with "
+               "=tau-b, tau_b from the axial forces")
+      ->check(CLI::IsMember({"notional", "tau-b"}));
+  app.add_flag("--rigid-end-posts", options.rigid_end_posts, "With --code en1993: rigid end posts of webs");
+  app.add_option("--warping", options.warping, "With --code: warping at members' ends, free or held (else the worst)")
+      ->check(CLI::IsMember({"free", "held"}));
+  app.add_option("--drift-limit", options.drift_limit, "With --code: limit of the storey drift, height/N")
+      ->check(in_range({0, 1e6, true}));
+}
+
+void declare_modes(CLI::App& app, AnalyseOptions& options) {
+  app.add_option("--modes", options.modes, "Lowest natural frequencies and modes")->check(whole_number(1, 100000));
+  app.add_option("--divide", options.divide,
+                 "With --modes: elements of every member in the modes, which then swing by themselves as well (1)")
+      ->check(whole_number(1, 64));
+  app.add_option("--mass", options.mass, "Mass of elements: consistent (default) or lumped")
+      ->check(CLI::IsMember({"consistent", "lumped"}));
+  app.add_option("--torsional-mass", options.torsional_mass,
+                 "Spin of members about their axes: density x polar moment (default) or density x J")
+      ->check(CLI::IsMember({"polar", "j"}));
+  app.add_flag("--rotary-inertia", options.rotary_inertia, "Rotary inertia of members' sections in bending");
+}
+
 std::function<int()> declare(CLI::App& app) {
   auto options = std::make_shared<AnalyseOptions>();
   app.add_option("MODEL", options->model, "A shipped model's name, a file (.json, .3dd), or a folder of tables (.csv)")
@@ -186,24 +230,7 @@ std::function<int()> declare(CLI::App& app) {
       ->check(CLI::IsMember({"exact", "cubic"}));
   app.add_option("--buckling", options->buckling, "Lowest buckling factors of each combination")
       ->check(whole_number(1, 1000));
-  app.add_option("--code", options->code, "Check every member by EN 1993-1-1 or AISC 360")
-      ->check(CLI::IsMember({"en1993", "aisc360"}));
-  app.add_option("--effective-lengths", options->effective_lengths,
-                 "With --code: automatic (charts; with --buckling its modes), charts, or assumed (posts sway)")
-      ->check(CLI::IsMember({"automatic", "charts", "assumed"}));
-  app.add_option("--stiffeners", options->stiffeners,
-                 "With --code: NAME=SPACING of transverse stiffeners, by member, pattern or group")
-      ->expected(1)
-      ->take_all();
-  app.add_flag("--direct-analysis{notional}", options->direct_analysis,
-               "With --code aisc360 --p-delta: notional loads, reduced stiffness and K = 1 (AISC 360 chapter C); with "
-               "=tau-b, tau_b from the axial forces")
-      ->check(CLI::IsMember({"notional", "tau-b"}));
-  app.add_flag("--rigid-end-posts", options->rigid_end_posts, "With --code en1993: rigid end posts of webs");
-  app.add_option("--warping", options->warping, "With --code: warping at members' ends, free or held (else the worst)")
-      ->check(CLI::IsMember({"free", "held"}));
-  app.add_option("--drift-limit", options->drift_limit, "With --code: limit of the storey drift, height/N")
-      ->check(in_range({0, 1e6, true}));
+  declare_design(app, *options);
   app.add_option("--lose", options->lose, "Member to lose suddenly, alone, with the whole state after it")
       ->expected(1)
       ->take_all();
@@ -215,16 +242,7 @@ std::function<int()> declare(CLI::App& app) {
   app.add_option("--cuts", options->cuts,
                  "JSON file of planes: resultants of all that passes each of them, beside the model's own `cuts`");
   declare_motion_options(app, options->motion);
-  app.add_option("--modes", options->modes, "Lowest natural frequencies and modes")->check(whole_number(1, 100000));
-  app.add_option("--divide", options->divide,
-                 "With --modes: elements of every member in the modes, which then swing by themselves as well (1)")
-      ->check(whole_number(1, 64));
-  app.add_option("--mass", options->mass, "Mass of elements: consistent (default) or lumped")
-      ->check(CLI::IsMember({"consistent", "lumped"}));
-  app.add_option("--torsional-mass", options->torsional_mass,
-                 "Spin of members about their axes: density x polar moment (default) or density x J")
-      ->check(CLI::IsMember({"polar", "j"}));
-  app.add_flag("--rotary-inertia", options->rotary_inertia, "Rotary inertia of members' sections in bending");
+  declare_modes(app, *options);
   app.add_flag("--csv", options->csv, "Write tables: displacements, reactions, members, joints, panels");
   app.add_flag("--vtu", options->vtu, "Write COMBINATION.vtu for ParaView");
   app.add_flag("--diagnose", options->diagnose,

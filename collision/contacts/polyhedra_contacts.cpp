@@ -340,6 +340,86 @@ void keep_four(const Vec3& normal, std::vector<ManifoldPoint>& points, std::vect
   take(chosen);
 }
 
+namespace {
+
+/// Points found so far where two of a pair touch, given in the first's frame.
+struct Touching {
+  const Pair& pair;
+  Mat3 forth;  ///< from the first's frame to the second's
+  double margin;
+  Room& work;
+
+  void operator()(const Vec3& on_first, const Vec3& on_second, double separation) const {
+    ManifoldPoint point;
+    point.on_first = on_first;
+    point.on_second = forth * (on_second - pair.shift);
+    point.separation = separation;
+    work.points.push_back(point);
+    work.places.push_back(on_first);
+  }
+};
+
+// Each adds the points by the axis that was found, and returns the normal in the first's frame.
+
+Vec3 touch_on_first_face(const Touching& add, const SeparatingAxis& axis, Manifold& manifold) {
+  const Pair& pair = add.pair;
+  const Polyhedron::Face& face = pair.first.faces[static_cast<std::size_t>(axis.first)];
+  const Vec3 normal = face.normal;
+  clip_face(pair.first, axis.first, normal, pair.second, pair.turn, add.work.vertices, add.work);
+  for (const Vec3& place : add.work.polygon) {
+    const double separation = normal.dot(place) - face.offset;
+    if (separation <= add.margin) add(place - separation * normal, place, separation);
+  }
+  manifold.normal_on_first = true;
+  manifold.local_normal = normal;
+  return normal;
+}
+
+Vec3 touch_on_second_face(const Touching& add, const SeparatingAxis& axis, Manifold& manifold) {
+  const Pair& pair = add.pair;
+  const Polyhedron::Face& face = pair.second.faces[static_cast<std::size_t>(axis.second)];
+  const Vec3 normal = -(pair.turn * face.normal);
+  std::vector<Vec3>& in_second = add.work.vertices;
+  in_second.resize(pair.first.vertices.size());
+  for (std::size_t i = 0; i < pair.first.vertices.size(); ++i)
+    in_second[i] = add.forth * (pair.first.vertices[i] - pair.shift);
+  clip_face(pair.second, axis.second, face.normal, pair.first, add.forth, in_second, add.work);
+  for (const Vec3& place : add.work.polygon) {
+    const double separation = face.normal.dot(place) - face.offset;
+    if (separation > add.margin) continue;
+    const Vec3 on_first = pair.shift + pair.turn * place;
+    add(on_first, on_first + separation * normal, separation);
+  }
+  manifold.normal_on_first = false;
+  manifold.local_normal = -face.normal;
+  return normal;
+}
+
+Vec3 touch_on_edges(const Touching& add, const SeparatingAxis& axis, double separation, Manifold& manifold) {
+  const Pair& pair = add.pair;
+  const Polyhedron::Edge &a = pair.first.edges[static_cast<std::size_t>(axis.first)],
+                         &b = pair.second.edges[static_cast<std::size_t>(axis.second)];
+  const Vec3 normal = pair.edge_normal(a, b);
+  const auto corner = [](const std::vector<Vec3>& vertices, int i) { return vertices[static_cast<std::size_t>(i)]; };
+  const auto [near_first, near_second] =
+      nearest_of_edges(corner(pair.first.vertices, a.from), corner(pair.first.vertices, a.to),
+                       corner(add.work.vertices, b.from), corner(add.work.vertices, b.to));
+  const bool beside = faces_beside(pair, normal, add.margin, add.work, add);
+  const auto deepest = std::min_element(
+      add.work.points.begin(), add.work.points.end(),
+      [](const ManifoldPoint& one, const ManifoldPoint& other) { return one.separation < other.separation; });
+  if (!beside || deepest->separation > separation + kSame) {
+    // Both on one line along the normal, as far apart as the axis says.
+    const Vec3 middle = (near_first + near_second) / 2;
+    add(middle - separation / 2 * normal, middle + separation / 2 * normal, separation);
+  }
+  manifold.normal_on_first = true;
+  manifold.local_normal = normal;
+  return normal;
+}
+
+}  // namespace
+
 void collide(const Polyhedron& first, const Placement& first_at, const Polyhedron& second, const Placement& second_at,
              double margin, SeparatingAxis& axis, Manifold& manifold) {
   Room& work = room();
@@ -357,61 +437,11 @@ void collide(const Polyhedron& first, const Placement& first_at, const Polyhedro
 
   work.points.clear();
   work.places.clear();
-  const Mat3 forth = pair.turn.transpose();
-  const auto add = [&](const Vec3& on_first, const Vec3& on_second, double separation) {  // both in the first's frame
-    ManifoldPoint point;
-    point.on_first = on_first;
-    point.on_second = forth * (on_second - pair.shift);
-    point.separation = separation;
-    work.points.push_back(point);
-    work.places.push_back(on_first);
-  };
-  Vec3 normal;  // in the first's frame
-  if (axis.kind == SeparatingAxis::Kind::first_face) {
-    const Polyhedron::Face& face = first.faces[static_cast<std::size_t>(axis.first)];
-    normal = face.normal;
-    clip_face(first, axis.first, normal, second, pair.turn, work.vertices, work);
-    for (const Vec3& place : work.polygon) {
-      const double separation = normal.dot(place) - face.offset;
-      if (separation <= margin) add(place - separation * normal, place, separation);
-    }
-    manifold.normal_on_first = true;
-    manifold.local_normal = normal;
-  } else if (axis.kind == SeparatingAxis::Kind::second_face) {
-    const Polyhedron::Face& face = second.faces[static_cast<std::size_t>(axis.second)];
-    normal = -(pair.turn * face.normal);
-    std::vector<Vec3>& in_second = work.vertices;
-    in_second.resize(first.vertices.size());
-    for (std::size_t i = 0; i < first.vertices.size(); ++i) in_second[i] = forth * (first.vertices[i] - pair.shift);
-    clip_face(second, axis.second, face.normal, first, forth, in_second, work);
-    for (const Vec3& place : work.polygon) {
-      const double separation = face.normal.dot(place) - face.offset;
-      if (separation > margin) continue;
-      const Vec3 on_first = pair.shift + pair.turn * place;
-      add(on_first, on_first + separation * normal, separation);
-    }
-    manifold.normal_on_first = false;
-    manifold.local_normal = -face.normal;
-  } else {
-    const Polyhedron::Edge &a = first.edges[static_cast<std::size_t>(axis.first)],
-                           &b = second.edges[static_cast<std::size_t>(axis.second)];
-    normal = pair.edge_normal(a, b);
-    const auto corner = [](const std::vector<Vec3>& vertices, int i) { return vertices[static_cast<std::size_t>(i)]; };
-    const auto [near_first, near_second] =
-        nearest_of_edges(corner(first.vertices, a.from), corner(first.vertices, a.to), corner(work.vertices, b.from),
-                         corner(work.vertices, b.to));
-    const bool beside = faces_beside(pair, normal, margin, work, add);
-    const auto deepest = std::min_element(
-        work.points.begin(), work.points.end(),
-        [](const ManifoldPoint& one, const ManifoldPoint& other) { return one.separation < other.separation; });
-    if (!beside || deepest->separation > found.separation + kSame) {
-      // Both on one line along the normal, as far apart as the axis says.
-      const Vec3 middle = (near_first + near_second) / 2;
-      add(middle - found.separation / 2 * normal, middle + found.separation / 2 * normal, found.separation);
-    }
-    manifold.normal_on_first = true;
-    manifold.local_normal = normal;
-  }
+  const Touching add{pair, pair.turn.transpose(), margin, work};
+  const Vec3 normal = axis.kind == SeparatingAxis::Kind::first_face ? touch_on_first_face(add, axis, manifold)
+                      : axis.kind == SeparatingAxis::Kind::second_face
+                          ? touch_on_second_face(add, axis, manifold)
+                          : touch_on_edges(add, axis, found.separation, manifold);
   manifold.normal = first_at.turn * normal;
   double nearest = 1e300;
   for (const ManifoldPoint& point : work.points) nearest = std::min(nearest, point.separation);

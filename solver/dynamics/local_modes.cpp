@@ -45,6 +45,33 @@ std::vector<int> equations_of(const FrameSystem& system, std::span<const int> no
   return found;
 }
 
+/// Of the beams that stand at these nodes, in each of the motions that `motions` has by column for these equations.
+std::vector<std::pair<int, Eigen::Matrix<double, 12, Eigen::Dynamic>>> end_forces_of(const FrameSystem& system,
+                                                                                     std::span<const int> nodes,
+                                                                                     const std::vector<int>& equations,
+                                                                                     const Eigen::MatrixXd& motions) {
+  std::vector<int> beams;
+  for (const int node : nodes)
+    for (const int beam : system.beams_of_node(node))
+      if (system.beam_stands[static_cast<std::size_t>(beam)] != 0) beams.push_back(beam);
+  std::sort(beams.begin(), beams.end());
+  beams.erase(std::unique(beams.begin(), beams.end()), beams.end());
+  std::vector<std::pair<int, Eigen::Matrix<double, 12, Eigen::Dynamic>>> all;
+  for (const int beam : beams)
+    all.emplace_back(beam, Eigen::Matrix<double, 12, Eigen::Dynamic>::Zero(12, motions.cols()));
+  Eigen::VectorXd moved = Eigen::VectorXd::Zero(system.dofs().equations);
+  std::vector<Vec6> by_node(system.model.nodes.size(), Vec6::Zero());
+  for (Eigen::Index mode = 0; mode < motions.cols(); ++mode) {
+    for (std::size_t i = 0; i < equations.size(); ++i)
+      moved(equations[i]) = motions(static_cast<Eigen::Index>(i), mode);
+    for (const auto& [beam, forces] : all)
+      for (const int node : system.model.beams[static_cast<std::size_t>(beam)].node)
+        by_node[static_cast<std::size_t>(node)] = system.node_displacement_of_scaled(node, moved);
+    for (auto& [beam, forces] : all) forces.col(mode) = system.end_forces(beam, by_node, Vec12::Zero());
+  }
+  return all;
+}
+
 }  // namespace
 
 LocalModes FrameDynamics::local_modes(std::span<const int> nodes, std::span<const std::vector<Impulse>> pushes) const {
@@ -91,23 +118,7 @@ LocalModes FrameDynamics::local_modes(std::span<const int> nodes, std::span<cons
     const Eigen::VectorXd force = state.scaled_impulses(pushes[k]);
     local.pushed.col(static_cast<Eigen::Index>(k)) = whole.transpose() * force(all);
   }
-  std::vector<int> beams;
-  for (const int node : nodes)
-    for (const int beam : system.beams_of_node(node))
-      if (system.beam_stands[static_cast<std::size_t>(beam)] != 0) beams.push_back(beam);
-  std::sort(beams.begin(), beams.end());
-  beams.erase(std::unique(beams.begin(), beams.end()), beams.end());
-  for (const int beam : beams)
-    local.end_forces.emplace_back(beam, Eigen::Matrix<double, 12, Eigen::Dynamic>::Zero(12, n));
-  Eigen::VectorXd moved = Eigen::VectorXd::Zero(state.equations());
-  std::vector<Vec6> by_node(system.model.nodes.size(), Vec6::Zero());
-  for (Eigen::Index mode = 0; mode < n; ++mode) {
-    for (std::size_t i = 0; i < all.size(); ++i) moved(all[i]) = whole(static_cast<Eigen::Index>(i), mode);
-    for (const auto& [beam, forces] : local.end_forces)
-      for (const int node : system.model.beams[static_cast<std::size_t>(beam)].node)
-        by_node[static_cast<std::size_t>(node)] = system.node_displacement_of_scaled(node, moved);
-    for (auto& [beam, forces] : local.end_forces) forces.col(mode) = system.end_forces(beam, by_node, Vec12::Zero());
-  }
+  local.end_forces = end_forces_of(system, nodes, all, whole);
   return local;
 }
 

@@ -168,40 +168,54 @@ double BucklingBracing::quotient(int c) const {
   return iteration.quotient;
 }
 
-std::optional<BuckledPost> BucklingBracing::judge(int c) const {
-  // What stands, numbered anew.
-  solver::FrameModel model;
-  solver::LoadSet loads;
-  std::vector<int> number(building_.nodes.size(), -1);
+BucklingBracing::Standing BucklingBracing::what_stands(int c) const {
+  Standing standing;
+  standing.number.assign(building_.nodes.size(), -1);
   for (NodeId node : statics_.nodes(c)) {
     if (node_solved_[index_of(node)] == 0 || segments_.label(node) < 0) continue;
-    number[index_of(node)] = static_cast<int>(model.nodes.size());
-    model.nodes.push_back(building_[node].position);
+    const int number = static_cast<int>(standing.model.nodes.size());
+    standing.number[index_of(node)] = number;
+    standing.model.nodes.push_back(building_[node].position);
     if (!node_applied_[index_of(node)].isZero(0))
-      loads.nodes.push_back({number[index_of(node)], node_applied_[index_of(node)]});
+      standing.loads.nodes.push_back({number, node_applied_[index_of(node)]});
   }
-  std::vector<MemberId> members;
+  add_members(c, standing);
+  add_panels(c, standing);
+  for (const solver::Support& support : statics_.supports(c)) {
+    solver::Support own = support;
+    own.node = standing.number[index_of(statics_.nodes(c)[static_cast<std::size_t>(support.node)])];
+    if (own.node >= 0 && !own.stiffness.isZero(0)) standing.model.supports.push_back(own);
+  }
+  return standing;
+}
+
+void BucklingBracing::add_members(int c, Standing& standing) const {
   for (MemberId member : statics_.members(c)) {
     if (segments_.label(member) < 0) continue;
     solver::Beam beam = statics_.beam(member);
     for (int end = 0; end < 2; ++end) {
       const auto e = static_cast<std::size_t>(end);
-      beam.node[e] = number[index_of(building_[member].nodes[e])];
+      beam.node[e] = standing.number[index_of(building_[member].nodes[e])];
     }
     if (beam.node[0] < 0 || beam.node[1] < 0) continue;
     for (solver::BeamLoad load : applied_[index_of(member)]) {
-      load.beam = static_cast<int>(model.beams.size());
-      loads.beams.push_back(load);
+      load.beam = static_cast<int>(standing.model.beams.size());
+      standing.loads.beams.push_back(load);
     }
-    model.beams.push_back(beam);
-    members.push_back(member);
+    standing.model.beams.push_back(beam);
+    standing.members.push_back(member);
   }
+}
+
+/// Membranes, and shells by the stiffness that their nodes feel of them.
+void BucklingBracing::add_panels(int c, Standing& standing) const {
+  solver::FrameModel& model = standing.model;
   for (PanelId panel : statics_.membranes(c)) {
     if (!statics_.stiff(panel)) continue;
     solver::Shell shell = statics_.shell(panel);
     for (std::size_t corner = 0; corner < 4; ++corner) {
       const NodeId node = building_[panel].nodes[corner];
-      shell.node[corner] = number[index_of(node)];
+      shell.node[corner] = standing.number[index_of(node)];
       if (shell.node[corner] >= 0) continue;
       // Nothing of the panel is left there.
       shell.node[corner] = static_cast<int>(model.nodes.size());
@@ -219,31 +233,34 @@ std::optional<BuckledPost> BucklingBracing::judge(int c) const {
     std::vector<int> kept;  // of its nodes: those that stand
     solver::Patch patch;
     for (std::size_t n = 0; n < nodes.size(); ++n) {
-      if (number[index_of(nodes[n])] < 0) continue;
-      patch.node.push_back(number[index_of(nodes[n])]);
+      if (standing.number[index_of(nodes[n])] < 0) continue;
+      patch.node.push_back(standing.number[index_of(nodes[n])]);
       for (int c6 = 0; c6 < 6; ++c6) kept.push_back(static_cast<int>(6 * n) + c6);
     }
     patch.stiffness = stiffness(kept, kept);
     model.patches.push_back(std::move(patch));
   }
-  for (const solver::Support& support : statics_.supports(c)) {
-    solver::Support own = support;
-    own.node = number[index_of(statics_.nodes(c)[static_cast<std::size_t>(support.node)])];
-    if (own.node >= 0 && !own.stiffness.isZero(0)) model.supports.push_back(own);
-  }
-  const std::vector<solver::BucklingMode> modes = solver::buckling_modes(model, loads, 1, {}, sought);
-  if (modes.empty() || modes.front().factor > 1) return std::nullopt;
-  const solver::BucklingMode& mode = modes.front();
+}
 
+std::optional<BuckledPost> BucklingBracing::judge(int c) const {
+  const Standing standing = what_stands(c);
+  const std::vector<solver::BucklingMode> modes = solver::buckling_modes(standing.model, standing.loads, 1, {}, sought);
+  if (modes.empty() || modes.front().factor > 1) return std::nullopt;
+  return give_way(most_bent(bent_posts(standing, modes.front())), modes.front().factor);
+}
+
+std::vector<BucklingBracing::Bent> BucklingBracing::bent_posts(const Standing& standing,
+                                                               const solver::BucklingMode& mode) const {
   std::vector<Bent> bent;
-  for (std::size_t i = 0; i < members.size(); ++i) {
-    if (building_[members[i]].kind != MemberKind::post) continue;
-    const solver::Vec12& force = statics_.end_forces(members[i]);
+  for (std::size_t i = 0; i < standing.members.size(); ++i) {
+    const MemberId member = standing.members[i];
+    if (building_[member].kind != MemberKind::post) continue;
+    const solver::Vec12& force = statics_.end_forces(member);
     const double compression = (force(0) - force(6)) / 2;
     if (!(compression > 0)) continue;
-    const solver::Beam& beam = model.beams[i];
+    const solver::Beam& beam = standing.model.beams[i];
     Bent one;
-    one.post = members[i];
+    one.post = member;
     one.compression = compression;
     for (std::size_t end = 0; end < 2; ++end) one.motion[end] = mode.shape[static_cast<std::size_t>(beam.node[end])];
     const solver::Vec12 rigid_ends = solver::rigid_end_displacements(beam, one.motion[0], one.motion[1]);
@@ -252,7 +269,7 @@ std::optional<BuckledPost> BucklingBracing::judge(int c) const {
     one.bend = solver::buckling_bend(beam, mode.factor * compression, rigid_ends);
     bent.push_back(one);
   }
-  return give_way(most_bent(std::move(bent)), mode.factor);
+  return bent;
 }
 
 /// Those that bend most, within what counts as the same. Where all nodes rest only the one that uses most of what it

@@ -18,6 +18,7 @@
 
 #include "failure/segmentation.h"
 #include "standing/frame_statics.h"
+#include "topple/solver/buckling.h"
 #include "topple/solver/buckling_bend.h"
 
 namespace topple::structure {
@@ -64,6 +65,16 @@ class BucklingBracing {
   [[nodiscard]] double quotient(int component) const;
   [[nodiscard]] bool buckles_inside(int component) const;
   [[nodiscard]] std::optional<BuckledPost> judge(int component) const;
+  /// What stands of a component, its nodes numbered anew; `members`: those of its beams.
+  struct Standing {
+    solver::FrameModel model;
+    solver::LoadSet loads;
+    std::vector<int> number;  ///< per node of the building; -1: it is not there
+    std::vector<MemberId> members;
+  };
+  [[nodiscard]] Standing what_stands(int component) const;
+  void add_members(int component, Standing& standing) const;
+  void add_panels(int component, Standing& standing) const;
   /// A compressed post in the critical shape.
   struct Bent {
     MemberId post;
@@ -73,6 +84,7 @@ class BucklingBracing {
     double share = 0;              ///< of what it bears between nodes that rest
     solver::BucklingBend bend;
   };
+  [[nodiscard]] std::vector<Bent> bent_posts(const Standing& standing, const solver::BucklingMode& mode) const;
   [[nodiscard]] static std::vector<Bent> most_bent(std::vector<Bent> bent);
   [[nodiscard]] BuckledPost give_way(const std::vector<Bent>& bent, double factor) const;
 

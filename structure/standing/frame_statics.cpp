@@ -77,10 +77,26 @@ std::vector<solver::FrameModel> FrameStatics::split(const Building& building, co
     models[c].beams.push_back(beam);
     components_[c].members.push_back(MemberId(m));
   }
+  place_panels(building, frame, models);
+  place_supports(building, frame, models);
+  for (solver::Diaphragm diaphragm : frame.model.diaphragms) {
+    const auto c = component(diaphragm.nodes.front());
+    for (int& node : diaphragm.nodes) node = local(node);
+    models[c].diaphragms.push_back(std::move(diaphragm));
+  }
+  return models;
+}
+
+/// Membranes as the frame has them; a shell panel as one element between its nodes, with the stiffness that its
+/// superelement will give it.
+void FrameStatics::place_panels(const Building& building, const Frame& frame, std::vector<solver::FrameModel>& models) {
+  const auto local = [&](int node) { return node_place_[static_cast<std::size_t>(node)].local; };
+  const auto component = [&](int node) {
+    return static_cast<std::size_t>(node_place_[static_cast<std::size_t>(node)].component);
+  };
   membrane_place_.resize(building.panels.size());
   for (std::size_t p = 0; p < building.panels.size(); ++p) {
     if (building.panels[p].model == PanelModel::shell) {
-      // One element between its nodes, with the stiffness that its superelement gives it.
       solver::Patch patch;
       for (const NodeId node : building.panels[p].all_nodes()) patch.node.push_back(local(node.index));
       const auto size = static_cast<Eigen::Index>(6 * patch.node.size());
@@ -101,6 +117,14 @@ std::vector<solver::FrameModel> FrameStatics::split(const Building& building, co
     models[c].shells.push_back(shell);
     components_[c].membranes.push_back(PanelId(p));
   }
+}
+
+void FrameStatics::place_supports(const Building& building, const Frame& frame,
+                                  std::vector<solver::FrameModel>& models) {
+  const auto local = [&](int node) { return node_place_[static_cast<std::size_t>(node)].local; };
+  const auto component = [&](int node) {
+    return static_cast<std::size_t>(node_place_[static_cast<std::size_t>(node)].component);
+  };
   std::vector<int> edge_of(frame.model.supports.size(), -1);
   for (std::size_t e = 0; e < frame.edge_supports.size(); ++e)
     for (const int s : frame.edge_supports[e]) edge_of[static_cast<std::size_t>(s)] = static_cast<int>(e);
@@ -114,12 +138,6 @@ std::vector<solver::FrameModel> FrameStatics::split(const Building& building, co
     support_place_.push_back({static_cast<int>(c), static_cast<int>(models[c].supports.size())});
     models[c].supports.push_back(support);
   }
-  for (solver::Diaphragm diaphragm : frame.model.diaphragms) {
-    const auto c = component(diaphragm.nodes.front());
-    for (int& node : diaphragm.nodes) node = local(node);
-    models[c].diaphragms.push_back(std::move(diaphragm));
-  }
-  return models;
 }
 
 const solver::Reanalysis& FrameStatics::at(const Place& place) const { return *parts(place.component).analysis; }

@@ -235,6 +235,8 @@ class FrameStatics {
   [[nodiscard]] solver::Vec12 answered_end_forces(const Component& component, MemberId member) const;
   void read_end_forces(const Component& component) const;
   std::vector<solver::FrameModel> split(const Building& building, const Frame& frame);
+  void place_panels(const Building& building, const Frame& frame, std::vector<solver::FrameModel>& models);
+  void place_supports(const Building& building, const Frame& frame, std::vector<solver::FrameModel>& models);
 
   std::vector<Place> node_place_, member_place_, membrane_place_, support_place_;
   std::vector<NodeId> support_node_;

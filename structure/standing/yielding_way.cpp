@@ -213,16 +213,8 @@ YieldingWay::End YieldingWay::follow(int c, std::vector<JointId>& breaking) {
     const double end = end_of_way(c, energy);
     if (!path.active && (next.flowing.empty() || next.at > end)) return End::unyielding;
     if (next.at > end) {
-      move_base(c, end, energy);
-      hold_all_again(c);
-      path.surplus = 0;
-      path.direction = 1;
-      const bool rests = !measured;
-      path.returning = true;
-      from_.bring_up_to_date();
-      if (!rests) continue;
-      path = {};
-      return End::resting;
+      if (end_reached(c, end, energy, measured)) return End::resting;
+      continue;
     }
     double at = next.at;
     if (std::abs(at - 1) < least_way && path.direction > 0 && measured) at = 1 - least_way;
@@ -236,30 +228,56 @@ YieldingWay::End YieldingWay::follow(int c, std::vector<JointId>& breaking) {
       breaking.insert(breaking.end(), next.breaking.begin(), next.breaking.end());
       return End::breaking;
     }
-    // Those that share a member or a node one after the other: the first may be enough for both.
-    std::vector<MemberId> members;
-    std::vector<NodeId> nodes;
-    for (PlasticHinge* hinge : next.flowing) {
-      const Joint& own = building_[hinge->joint];
-      const NodeId node = building_[own.member].nodes[static_cast<std::size_t>(own.end)];
-      if (std::find(members.begin(), members.end(), own.member) != members.end()) continue;
-      if (std::find(nodes.begin(), nodes.end(), node) != nodes.end()) continue;
-      members.push_back(own.member);
-      nodes.push_back(node);
-      const double bears = capacity(*hinge);
-      const double towards = path.direction * (from_.joints.demand(hinge->joint)(hinge->axis) - demand_in_base(*hinge));
-      const double now = demand_in_base(*hinge);
-      const double held = std::copysign(bears, std::abs(now) > no_change * bears ? now : towards);
-      if (from_.parts.segments.holds(building_.joint(own.member, 1 - own.end)))
-        let_yield(*hinge, held);
-      else if (turns_out_alone(*hinge, held))
-        breaking.push_back(hinge->joint);
-    }
+    let_flow(c, next, breaking);
     if (!breaking.empty()) {
       hold_all_again(c);
       return End::breaking;
     }
     from_.bring_up_to_date();
+  }
+}
+
+/// The way ends before anything happens on it. `measured`: it went as far as the work of what acts suddenly takes it,
+/// and the answer lies back from there. True: the answer is reached.
+bool YieldingWay::end_reached(int c, double end, double energy, bool measured) {
+  move_base(c, end, energy);
+  hold_all_again(c);
+  give_up_surplus(c);
+  from_.bring_up_to_date();
+  if (measured) return false;
+  ductile_.path(c) = {};
+  return true;
+}
+
+/// What acts suddenly has done all the work that it had to do: from here the way goes back to the answer.
+void YieldingWay::give_up_surplus(int c) {
+  PlasticPath& path = ductile_.path(c);
+  path.returning = true;
+  path.surplus = 0;
+  path.direction = 1;
+}
+
+/// Hinges at their capacity begin to turn. Those that share a member or a node one after the other: the first may be
+/// enough for both.
+void YieldingWay::let_flow(int c, const NextEvent& next, std::vector<JointId>& breaking) {
+  const PlasticPath& path = ductile_.path(c);  // one that comes to a stop may turn it round
+  std::vector<MemberId> members;
+  std::vector<NodeId> nodes;
+  for (PlasticHinge* hinge : next.flowing) {
+    const Joint& own = building_[hinge->joint];
+    const NodeId node = building_[own.member].nodes[static_cast<std::size_t>(own.end)];
+    if (std::find(members.begin(), members.end(), own.member) != members.end()) continue;
+    if (std::find(nodes.begin(), nodes.end(), node) != nodes.end()) continue;
+    members.push_back(own.member);
+    nodes.push_back(node);
+    const double bears = capacity(*hinge);
+    const double towards = path.direction * (from_.joints.demand(hinge->joint)(hinge->axis) - demand_in_base(*hinge));
+    const double now = demand_in_base(*hinge);
+    const double held = std::copysign(bears, std::abs(now) > no_change * bears ? now : towards);
+    if (from_.parts.segments.holds(building_.joint(own.member, 1 - own.end)))
+      let_yield(*hinge, held);
+    else if (turns_out_alone(*hinge, held))
+      breaking.push_back(hinge->joint);
   }
 }
 
@@ -279,29 +297,28 @@ bool YieldingWay::turns_out_alone(PlasticHinge& hinge, double held) {
   if (amount >= left) return true;
   unload(hinge);
   hold_all_again(from_.components.of(hinge.joint));
-  path.returning = true;
-  path.surplus = 0;
-  path.direction = 1;
+  give_up_surplus(from_.components.of(hinge.joint));
   return false;
 }
 
-/// A mechanism of hinges: they turn under what they hold, while the loads do more work or less, until one has turned
-/// too far or the surplus is used up. False when the mechanism is none of theirs.
-std::optional<std::vector<JointId>> YieldingWay::swing(int c, const FrameMechanism& mechanism) {
-  std::vector<std::pair<PlasticHinge*, double>> turning;
-  PlasticPath& path = ductile_.path(c);
-  double resisted = 0, largest = 0, fastest = 0, loaded = 0;
-  const auto rigid = [&](MemberId member) {
-    const auto& nodes = building_[member].nodes;
-    return MemberShape(from_.statics.beam(member), solver::Vec12::Zero(),
-                       from_.account.now().rigid_ends(member, mechanism.motion[index_of(nodes[0])],
-                                                      mechanism.motion[index_of(nodes[1])]),
-                       {});
-  };
+/// The member as a mechanism carries it, without strain.
+MemberShape YieldingWay::carried_along(MemberId member, const FrameMechanism& mechanism) const {
+  const auto& nodes = building_[member].nodes;
+  return MemberShape(from_.statics.beam(member), solver::Vec12::Zero(),
+                     from_.account.now().rigid_ends(member, mechanism.motion[index_of(nodes[0])],
+                                                    mechanism.motion[index_of(nodes[1])]),
+                     {});
+}
+
+/// `resisted`: what they hold does against a unit of the mechanism, J; `largest` of one of them.
+YieldingWay::Turning YieldingWay::turning_in(int c, const FrameMechanism& mechanism, double& resisted,
+                                             double& largest) {
+  Turning turning;
+  double fastest = 0;
   for (PlasticHinge& hinge : ductile_.hinges(c)) {
     if (!hinge.yields || !from_.parts.standing(hinge.joint)) continue;
     const Joint& own = building_[hinge.joint];
-    const MemberShape shape = rigid(own.member);
+    const MemberShape shape = carried_along(own.member, mechanism);
     const double rate = shape.rigid_end(own.end)(hinge.axis) - shape.end(own.end)(hinge.axis);
     turning.emplace_back(&hinge, rate);
     resisted += rate * hinge.held;
@@ -313,6 +330,46 @@ std::optional<std::vector<JointId>> YieldingWay::swing(int c, const FrameMechani
     if (from_.parts.stands(node)) fastest = std::max(fastest, motion.tail<3>().cwiseAbs().maxCoeff());
   }
   std::erase_if(turning, [&](const auto& one) { return std::abs(one.second) <= no_turn * fastest; });
+  return turning;
+}
+
+/// J, of a unit of the mechanism times `sign`.
+double YieldingWay::work_of_loads(int c, const FrameMechanism& mechanism, double sign) const {
+  double loaded = 0;
+  for (NodeId node : from_.statics.nodes(c))
+    if (from_.node_solved[index_of(node)]) loaded += sign * from_.loads.on(node).dot(mechanism.motion[index_of(node)]);
+  for (MemberId member : from_.statics.members(c))
+    if (from_.parts.stands(member) && !from_.applied[index_of(member)].empty())
+      loaded += sign * carried_along(member, mechanism).work(from_.applied[index_of(member)], Vec3::UnitZ()).sum();
+  return loaded;
+}
+
+/// Until one has turned too far, or, where less work is done than resisted, the surplus is used up: true then. `gain`:
+/// surplus from a unit of the mechanism, J.
+bool YieldingWay::turn_on(int c, const Turning& turning, const FrameMechanism& mechanism, double sign, double gain) {
+  PlasticPath& path = ductile_.path(c);
+  double amount = unlimited;
+  for (const auto& [hinge, rate] : turning)
+    amount = std::min(
+        amount, std::max(0.0, (hinge->limit - std::copysign(hinge->plastic_rotation, hinge->plastic_rotation * rate)) /
+                                  std::abs(rate)));
+  const bool arrested = gain < 0 && path.surplus < -gain * amount;
+  if (arrested) amount = path.surplus / -gain;
+  for (const auto& [hinge, rate] : turning) {
+    hinge->plastic_rotation += amount * rate;
+    from_.account.change(building_[hinge->joint].member).dissipate(amount * rate * hinge->held);
+  }
+  ductile_.move_base(c, mechanism.motion, sign * amount);
+  path.surplus = std::max(0.0, path.surplus + gain * amount);
+  return arrested;
+}
+
+/// A mechanism of hinges: they turn under what they hold, while the loads do more work or less, until one has turned
+/// too far or the surplus is used up. False when the mechanism is none of theirs.
+std::optional<std::vector<JointId>> YieldingWay::swing(int c, const FrameMechanism& mechanism) {
+  PlasticPath& path = ductile_.path(c);
+  double resisted = 0, largest = 0;
+  Turning turning = turning_in(c, mechanism, resisted, largest);
   if (turning.empty()) return std::nullopt;
   const double sign = resisted < 0 ? -1 : 1;
   bool back = false;
@@ -327,30 +384,10 @@ std::optional<std::vector<JointId>> YieldingWay::swing(int c, const FrameMechani
     if (!back) hold_all_again(c);
     return std::vector<JointId>();
   }
-  for (NodeId node : from_.statics.nodes(c))
-    if (from_.node_solved[index_of(node)]) loaded += sign * from_.loads.on(node).dot(mechanism.motion[index_of(node)]);
-  for (MemberId member : from_.statics.members(c))
-    if (from_.parts.stands(member) && !from_.applied[index_of(member)].empty())
-      loaded += sign * rigid(member).work(from_.applied[index_of(member)], Vec3::UnitZ()).sum();
-  const double gain = loaded - std::abs(resisted);
-  double amount = unlimited;
-  for (const auto& [hinge, rate] : turning)
-    amount = std::min(
-        amount, std::max(0.0, (hinge->limit - std::copysign(hinge->plastic_rotation, hinge->plastic_rotation * rate)) /
-                                  std::abs(rate)));
-  const bool arrested = gain < 0 && path.surplus < -gain * amount;
-  if (arrested) amount = path.surplus / -gain;
-  for (const auto& [hinge, rate] : turning) {
-    hinge->plastic_rotation += amount * rate;
-    from_.account.change(building_[hinge->joint].member).dissipate(amount * rate * hinge->held);
-  }
-  ductile_.move_base(c, mechanism.motion, sign * amount);
-  path.surplus = std::max(0.0, path.surplus + gain * amount);
-  if (arrested) {
+  const double gain = work_of_loads(c, mechanism, sign) - std::abs(resisted);
+  if (turn_on(c, turning, mechanism, sign, gain)) {
     hold_all_again(c);
-    path.returning = true;
-    path.surplus = 0;
-    path.direction = 1;
+    give_up_surplus(c);
     return std::vector<JointId>();
   }
   std::vector<JointId> turned_out;

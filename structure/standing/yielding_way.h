@@ -72,6 +72,15 @@ class YieldingWay {
   [[nodiscard]] double plastic_rotation_in_answer(const PlasticHinge& hinge) const;
   [[nodiscard]] double demand_in_base(const PlasticHinge& hinge) const;
   bool turn_back(int component);
+  [[nodiscard]] bool end_reached(int component, double end, double energy, bool measured);
+  void let_flow(int component, const NextEvent& next, std::vector<JointId>& breaking);
+  void give_up_surplus(int component);
+  /// Yielding hinges that turn in a mechanism, each with its turn per unit of it.
+  using Turning = std::vector<std::pair<PlasticHinge*, double>>;
+  [[nodiscard]] Turning turning_in(int component, const FrameMechanism& mechanism, double& resisted, double& largest);
+  [[nodiscard]] double work_of_loads(int component, const FrameMechanism& mechanism, double sign) const;
+  [[nodiscard]] MemberShape carried_along(MemberId member, const FrameMechanism& mechanism) const;
+  bool turn_on(int component, const Turning& turning, const FrameMechanism& mechanism, double sign, double gain);
   void move_base(int component, double part, double energy);
   void let_yield(PlasticHinge& hinge, double held);
   void unload(PlasticHinge& hinge);

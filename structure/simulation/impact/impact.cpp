@@ -282,6 +282,31 @@ bool Impact::fly_to_next_touch() {
   return true;
 }
 
+/// Of the places left behind, the largest overlap with the surface as the other forces move it: above zero they touch.
+double Impact::largest_overlap(const Modes& m, double t, Eigen::Index* which) const {
+  double most = -never;
+  const Eigen::VectorXd force = m.force(t), twice = m.force(t, 2);
+  for (const int i : m.apart) {
+    if (state_[static_cast<std::size_t>(i)] != Touch::behind) continue;
+    double overlap = depth_(i) + speed_(i) * t + acceleration_(i) * t * t / 2 - unloaded_(i);
+    for (std::size_t k = 0; k < m.touching.size(); ++k)
+      overlap -= mobility_(i, m.touching[k]) * twice(static_cast<Eigen::Index>(k)) +
+                 compliance_(i, m.touching[k]) * force(static_cast<Eigen::Index>(k));
+    if (overlap <= most) continue;
+    most = overlap;
+    if (which) *which = i;
+  }
+  return most;
+}
+
+/// Places whose force has come to nothing at this time, `touching` of them first among what touches.
+void Impact::part(const Modes& m, double at, Eigen::Index touching) {
+  const Eigen::VectorXd last = m.force(at);
+  const double none = no_force * std::max(peak_.head(places()).maxCoeff(), std::numeric_limits<double>::min());
+  for (std::size_t k = 0; static_cast<Eigen::Index>(k) < touching; ++k)
+    if (last(static_cast<Eigen::Index>(k)) <= none) state_[static_cast<std::size_t>(m.touching[k])] = Touch::gone;
+}
+
 /// Until a place lets go or is met (`changed`), something fails, or a full swing of the slowest mode has been seen.
 Impact::Stop Impact::swing(const Utilisation& utilisation, double deepest, bool& changed) {
   const Modes m = modes();
@@ -293,22 +318,6 @@ Impact::Stop Impact::swing(const Utilisation& utilisation, double deepest, bool&
     all(m.touching) = m.force(t);
     all.head(places()) = all.head(places()).cwiseMax(0.0);
     return utilisation(all);
-  };
-  // Of the places left behind, the largest overlap with the surface as the other forces move it: above zero they touch.
-  const auto met = [&](double t, Eigen::Index* which) {
-    double most = -never;
-    const Eigen::VectorXd force = m.force(t), twice = m.force(t, 2);
-    for (const int i : m.apart) {
-      if (state_[static_cast<std::size_t>(i)] != Touch::behind) continue;
-      double overlap = depth_(i) + speed_(i) * t + acceleration_(i) * t * t / 2 - unloaded_(i);
-      for (std::size_t k = 0; k < m.touching.size(); ++k)
-        overlap -= mobility_(i, m.touching[k]) * twice(static_cast<Eigen::Index>(k)) +
-                   compliance_(i, m.touching[k]) * force(static_cast<Eigen::Index>(k));
-      if (overlap <= most) continue;
-      most = overlap;
-      if (which) *which = i;
-    }
-    return most;
   };
   const auto depth = [&](double t) {
     return touching > 0 ? (m.root * (m.shape * m.coordinates(t, 0))).head(touching).maxCoeff() : 0.0;
@@ -323,9 +332,9 @@ Impact::Stop Impact::swing(const Utilisation& utilisation, double deepest, bool&
     double to = std::min(at + step, end);
     parted = least(to) < 0;
     if (parted) to = first_time(at, to, [&](double t) { return least(t) < 0 && t > at; });
-    if (met(to, nullptr) > 0) {
-      to = first_time(at, to, [&](double t) { return met(t, nullptr) > 0; });
-      (void)met(to, &touched);
+    if (largest_overlap(m, to, nullptr) > 0) {
+      to = first_time(at, to, [&](double t) { return largest_overlap(m, t, nullptr) > 0; });
+      (void)largest_overlap(m, to, &touched);
       parted = false;
     }
     if (utilisation && used(to) >= 1) {
@@ -348,12 +357,7 @@ Impact::Stop Impact::swing(const Utilisation& utilisation, double deepest, bool&
   if (deep) return Stop::deep;
   changed = parted || touched >= 0;
   if (touched >= 0) state_[static_cast<std::size_t>(touched)] = Touch::touching;
-  if (parted) {
-    const Eigen::VectorXd last = m.force(at);
-    const double none = no_force * std::max(peak_.head(places()).maxCoeff(), std::numeric_limits<double>::min());
-    for (std::size_t k = 0; static_cast<Eigen::Index>(k) < touching; ++k)
-      if (last(static_cast<Eigen::Index>(k)) <= none) state_[static_cast<std::size_t>(m.touching[k])] = Touch::gone;
-  }
+  if (parted) part(m, at, touching);
   return Stop::held;
 }
 

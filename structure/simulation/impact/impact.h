@@ -85,6 +85,8 @@ class Impact {
   void advance(const Modes& modes, double time);
   bool fly_to_next_touch();
   Stop swing(const Utilisation& utilisation, double deepest, bool& changed);
+  [[nodiscard]] double largest_overlap(const Modes& modes, double time, Eigen::Index* which) const;
+  void part(const Modes& modes, double at, Eigen::Index touching);
   void note_peaks(const Modes& modes, double from, double to);
   [[nodiscard]] bool any(Touch state) const;  ///< of places
   [[nodiscard]] Eigen::Index places() const { return depth_.size() - bound_; }
