@@ -23,9 +23,7 @@ Integers firsts(const std::vector<Pair>& pairs, const Owner& owner) {
       pairs, [](const Pair& one) { return &one.first.index; }, owner);
 }
 
-void bind_loss_state(py::class_<LossStateView>& state) {
-  using Joints = std::pair<JointId, Utilisation>;
-  using Ends = std::pair<MemberId, solver::Vec12>;
+void bind_verdict(py::class_<LossStateView>& state) {
   state
       .def_property_readonly(
           "combination", [](const LossStateView& s) { return s.building()[s.get().combination].name; },
@@ -61,7 +59,14 @@ void bind_loss_state(py::class_<LossStateView>& state) {
           "Of that joint, demand over capacity, 1 is the limit.")
       .def_property_readonly(
           "sense", [](const LossStateView& s) { return sense_names[static_cast<std::size_t>(s.get().use.sense)]; },
-          "The sense in which it is used most, one of topple.SENSES.")
+          "The sense in which it is used most, one of topple.SENSES.");
+}
+
+/// The whole state, of a member that was named.
+void bind_whole_state(py::class_<LossStateView>& state) {
+  using Joints = std::pair<JointId, Utilisation>;
+  using Ends = std::pair<MemberId, solver::Vec12>;
+  state
       .def_property_readonly(
           "displacements", [](const LossStateView& s) { return rows_of(s.get().displacements, s.owner()); },
           "Of a member that was named in `lose` the displacements of the nodes, shape (nodes, 6), m and rad; else "
@@ -93,6 +98,11 @@ void bind_loss_state(py::class_<LossStateView>& state) {
             return MotionView{s.analysis, &*s.get().dynamic};
           },
           "The loss through time (Motion), with analyse(..., dynamic=True); else None.");
+}
+
+void bind_loss_state(py::class_<LossStateView>& state) {
+  bind_verdict(state);
+  bind_whole_state(state);
 }
 
 /// Histories as one array: shape (times, things, numbers).

@@ -138,6 +138,9 @@ void bind_names(py::class_<Model, std::shared_ptr<Model>>& model) {
   list("combination_names", &Building::combinations, "Names of the load combinations.");
   list("material_names", &Building::materials, "Names of the materials.");
   list("section_names", &Building::sections, "Names of the sections.");
+}
+
+void bind_look_ups(py::class_<Model, std::shared_ptr<Model>>& model) {
   model
       .def(
           "node",
@@ -193,7 +196,7 @@ void bind_names(py::class_<Model, std::shared_ptr<Model>>& model) {
           "model's own. Raises KeyError.");
 }
 
-void bind_geometry(py::class_<Model, std::shared_ptr<Model>>& model) {
+void bind_members(py::class_<Model, std::shared_ptr<Model>>& model) {
   model
       .def_property_readonly(
           "positions",
@@ -247,7 +250,11 @@ void bind_geometry(py::class_<Model, std::shared_ptr<Model>>& model) {
             return field_of<Member, std::int32_t>(
                 m.building().members, [](const Member& one) { return &one.section.index; }, m.shared());
           },
-          "Indices of the members' sections in section_names, shape (members,).")
+          "Indices of the members' sections in section_names, shape (members,).");
+}
+
+void bind_other_parts(py::class_<Model, std::shared_ptr<Model>>& model) {
+  model
       .def_property_readonly(
           "panel_nodes",
           [](const Model& m) {
@@ -317,7 +324,9 @@ void bind_model(py::module_& module) {
                std::to_string(b.members.size()) + " members, " + std::to_string(b.panels.size()) + " panels>";
       });
   bind_names(model);
-  bind_geometry(model);
+  bind_look_ups(model);
+  bind_members(model);
+  bind_other_parts(model);
 }
 
 }  // namespace topple::python

@@ -149,7 +149,10 @@ void bind_body(py::module_& module) {
       .def("__repr__", [](const Body& b) { return "<topple.Body \"" + b.name + "\">"; });
 }
 
-void bind_standing(BoundSimulation& simulation) {
+namespace {
+
+/// What stands, in numbers.
+void bind_answers(BoundSimulation& simulation) {
   simulation
       .def_property_readonly(
           "displacements",
@@ -204,7 +207,12 @@ void bind_standing(BoundSimulation& simulation) {
               return numbers_of(s.building().supports.size(), 6, [&](std::size_t i) { return s.frame().reaction(i); });
             });
           },
-          "What the supports do to the structure, shape (supports, 6), N and N m, global axes. A new array.")
+          "What the supports do to the structure, shape (supports, 6), N and N m, global axes. A new array.");
+}
+
+/// Which joints hold, and what each part is in by now.
+void bind_whereabouts(BoundSimulation& simulation) {
+  simulation
       .def_property_readonly(
           "joints_hold",
           [](SimulationHost& h) {
@@ -244,7 +252,11 @@ void bind_standing(BoundSimulation& simulation) {
           },
           "Number of the standing segment that each member is part of, shape (members,); -1 where it does not stand. A "
           "new "
-          "array.")
+          "array.");
+}
+
+void bind_questions(BoundSimulation& simulation) {
+  simulation
       .def(
           "what_carries", &what_carries, py::arg("part"),
           "What carries a member or panel? List of (joint, share), the joints through which at least 1 % of a vertical "
@@ -254,6 +266,14 @@ void bind_standing(BoundSimulation& simulation) {
       .def("ray_cast", &ray_cast, py::arg("origin"), py::arg("direction"),
            "The nearest thing along a ray, a dict with member, panel or body, point (3,) and distance (m); None for "
            "nothing.");
+}
+
+}  // namespace
+
+void bind_standing(BoundSimulation& simulation) {
+  bind_answers(simulation);
+  bind_whereabouts(simulation);
+  bind_questions(simulation);
 }
 
 py::object summary_of(SimulationHost& host) {

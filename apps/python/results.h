@@ -59,4 +59,6 @@ template <class T, class Get>
   return field_of<structure::Utilisation, T>(uses, get, owner);
 }
 
+void bind_combination(py::module_& module);
+
 }  // namespace topple::python
