@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "failure/segmentation.h"
-#include "standing/frame_statics.h"
+#include "standing/statics/frame_statics.h"
 #include "topple/solver/buckling.h"
 #include "topple/solver/buckling_bend.h"
 

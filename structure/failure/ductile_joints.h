@@ -10,7 +10,7 @@
 
 #include "failure/panel_bearings.h"
 #include "failure/segmentation.h"
-#include "standing/frame_statics.h"
+#include "standing/statics/frame_statics.h"
 
 namespace topple::structure {
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "failure/segmentation.h"
-#include "standing/frame_statics.h"
+#include "standing/statics/frame_statics.h"
 
 namespace topple::structure {
 

@@ -1,7 +1,7 @@
 #pragma once
 // A standing member's beam without what has broken, whether the statics have taken that over or not.
-#include "standing/frame_statics.h"
 #include "standing/standing_parts.h"
+#include "standing/statics/frame_statics.h"
 
 namespace topple::structure {
 

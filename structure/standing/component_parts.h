@@ -3,7 +3,7 @@
 // them for good.
 #include <vector>
 
-#include "standing/frame_statics.h"
+#include "standing/statics/frame_statics.h"
 
 namespace topple::structure {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "model/index_of.h"
-#include "standing/frame_statics.h"
+#include "standing/statics/frame_statics.h"
 
 namespace topple::structure {
 

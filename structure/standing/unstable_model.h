@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "standing/frame_statics.h"
+#include "standing/statics/frame_statics.h"
 
 namespace topple::structure {
 

@@ -6,7 +6,7 @@
 #include "failure/segmentation.h"
 #include "loads/frame_loads.h"
 #include "model/member_shape.h"
-#include "standing/frame_statics.h"
+#include "standing/statics/frame_statics.h"
 
 namespace topple::structure {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "standing/frame_statics.h"
+#include "standing/statics/frame_statics.h"
 #include "topple/solver/geometric_forces.h"
 
 namespace topple::structure {
@@ -43,8 +43,8 @@ bool FrameStatics::displace(int number) {
   double last = 0, share = 0;
   int since = 0;  // steps since one was made longer
   for (int k = 0; k < most_iterations; ++k) {
-    std::vector<Vec6> push(component.nodes.size(), Vec6::Zero());
-    for (MemberId member : component.members) {
+    std::vector<Vec6> push(nodes(number).size(), Vec6::Zero());
+    for (MemberId member : members(number)) {
       const solver::Vec12& force = end_forces_[index(member)];
       if (force.isZero(0)) continue;
       const solver::Beam& own = beam(member);
@@ -53,8 +53,8 @@ bool FrameStatics::displace(int number) {
         push[static_cast<std::size_t>(own.node[end])] -= at.segment<6>(static_cast<Eigen::Index>(6 * end));
     }
     for (std::size_t n = 0; n < push.size(); ++n) {
-      geometric_[index(component.nodes[n])] = push[n];
-      write_load(component.nodes[n]);
+      geometric_[index(nodes(number)[n])] = push[n];
+      write_load(nodes(number)[n]);
     }
     if (!component.analysis->solve().stable) return true;  // as stable as it was without these loads
     read_end_forces(number);
@@ -65,7 +65,7 @@ bool FrameStatics::displace(int number) {
       size = std::max(size, now[n].cwiseAbs().maxCoeff());
     }
     if (moved <= settled * size) {
-      for (MemberId member : component.members) {
+      for (MemberId member : members(number)) {
         const solver::Beam& own = beam(member);
         solver::Vec12& force = end_forces_[index(member)];
         if (force.isZero(0)) continue;
@@ -84,7 +84,7 @@ bool FrameStatics::displace(int number) {
     for (std::size_t n = 0; n < before.size(); ++n) before[n] += share / (1 - share) * step[n];
     since = 0;
   }
-  for (NodeId node : component.nodes) {
+  for (NodeId node : nodes(number)) {
     geometric_[index(node)].setZero();
     write_load(node);
   }

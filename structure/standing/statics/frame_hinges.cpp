@@ -3,27 +3,9 @@
 #include <type_traits>
 
 #include "model/index_of.h"
-#include "standing/frame_statics.h"
+#include "standing/statics/frame_statics.h"
 
 namespace topple::structure {
-
-std::vector<solver::BeamLoad> FrameStatics::with_hinges(MemberId member, std::vector<solver::BeamLoad> loads) const {
-  const auto found = hinges_.find(member);
-  if (found == hinges_.end()) return loads;
-  for (int end = 0; end < 2; ++end) {
-    solver::BeamLoad held;
-    held.kind = solver::BeamLoad::Kind::point;
-    held.from = end == 0 ? 0 : beam(member).length;
-    held.first = found->second.held.segment<6>(6 * end);
-    if (!held.first.isZero(0)) loads.push_back(held);
-  }
-  solver::BeamLoad plastic_rotation;
-  plastic_rotation.kind = solver::BeamLoad::Kind::temperature;
-  plastic_rotation.first = found->second.plastic_rotation.head<6>();
-  plastic_rotation.last = found->second.plastic_rotation.tail<6>();
-  if (!plastic_rotation.first.isZero(0) || !plastic_rotation.last.isZero(0)) loads.push_back(plastic_rotation);
-  return loads;
-}
 
 void FrameStatics::write_loads(MemberId member) {
   const Place& place = member_place_[index(member)];
@@ -37,7 +19,7 @@ void FrameStatics::write_loads(MemberId member) {
       frame.set_beam_loads(place.local, loads);
   });
   if (!hinges_.contains(member)) return;
-  for (const int node : beam(member).node) write_load(parts(place.component).nodes[static_cast<std::size_t>(node)]);
+  for (const int node : beam(member).node) write_load(nodes(place.component)[static_cast<std::size_t>(node)]);
 }
 
 void FrameStatics::write_load(NodeId node) {
@@ -78,11 +60,6 @@ void FrameStatics::let_yield(MemberId member, int end, int axis, double held) {
 
 void FrameStatics::unload(MemberId member, int end, int axis, double stiffness, double plastic_rotation) {
   set_hinge(member, end, axis, stiffness, 0, plastic_rotation);
-}
-
-solver::Vec12 FrameStatics::plastic_rotations(MemberId member) const {
-  const auto found = hinges_.find(member);
-  return found == hinges_.end() ? solver::Vec12::Zero() : found->second.plastic_rotation;
 }
 
 }  // namespace topple::structure
