@@ -86,6 +86,24 @@ TEST_CASE("components: what an analysis serves, and which joints of it can break
   CHECK(all.components.of(ContactPlace{MemberId(3u), {}, Vec3(6, 4, 3)}) == all.components.of(JointId(4u)));
 }
 
+TEST_CASE("numbers: each component has a frame of its own, with its parts numbered within it") {
+  const FrameBuilder f = cantilevers(6);
+  std::vector<topple::solver::FrameModel> models;
+  const FrameNumbers numbers(f.building, make_frame(f.building), models);
+  REQUIRE(numbers.components() == 2);
+  REQUIRE(models.size() == 2);
+  CHECK(numbers.nodes(1) == std::vector<NodeId>{NodeId(3u), NodeId(4u), NodeId(5u)});
+  CHECK(numbers.members(1) == std::vector<MemberId>{MemberId(2u), MemberId(3u)});
+  CHECK(numbers.plates(1).empty());
+  CHECK(numbers.component(NodeId(5u)) == 1);
+  CHECK(numbers.number(NodeId(5u)) == 2);
+  CHECK(numbers.number(MemberId(3u)) == 1);
+  CHECK(models[1].nodes[2] == f.building[NodeId(5u)].position);
+  CHECK(models[1].beams[1].node == std::array{1, 2});
+  REQUIRE(models[1].supports.size() == 1);
+  CHECK(models[1].supports[0].node == 0);
+}
+
 TEST_CASE("a response needs no frame around it: a cantilever's tip, and its neighbour that feels nothing") {
   const double length = 6;
   const FrameBuilder f = cantilevers(length);
