@@ -13,53 +13,26 @@ constexpr double energy_rounding = 1e-8;
 /// A block by itself takes so much longer than in a pass over all.
 constexpr double block_by_block = 1.5;
 
-/// Numbers 0 ... count - 1 listed by the block that each belongs to (-1: none).
-void list_by_block(const std::vector<int>& block_of, std::size_t blocks, std::vector<int>& start,
-                   std::vector<int>& list) {
-  start.assign(blocks + 1, 0);
-  for (const int block : block_of)
-    if (block >= 0) ++start[static_cast<std::size_t>(block) + 1];
-  for (std::size_t b = 0; b < blocks; ++b) start[b + 1] += start[b];
-  list.resize(static_cast<std::size_t>(start[blocks]));
-  std::vector<int> next(start.begin(), start.end() - 1);
-  for (std::size_t i = 0; i < block_of.size(); ++i)
-    if (block_of[i] >= 0)
-      list[static_cast<std::size_t>(next[static_cast<std::size_t>(block_of[i])]++)] = static_cast<int>(i);
-}
-
-std::span<const int> listed(const std::vector<int>& start, const std::vector<int>& list, int block) {
-  const auto b = static_cast<std::size_t>(block);
-  return std::span(list).subspan(static_cast<std::size_t>(start[b]), static_cast<std::size_t>(start[b + 1] - start[b]));
-}
-
 }  // namespace
 
 SelectiveSolution::SelectiveSolution(const FrameSystem& system, const TriangularSolver& solver, BeamStiffness stiffness)
-    : system_(system), solver_(&solver), beam_stiffness_(std::move(stiffness)) {
+    : system_(system), solver_(&solver), contents_(system, solver), beam_stiffness_(std::move(stiffness)) {
   const auto blocks = static_cast<std::size_t>(solver.blocks());
-  std::vector<int> parents(blocks);
-  depth_.assign(blocks, 0);
   below_start_.push_back(0);
-  for (std::size_t b = 0; b < blocks; ++b) {
-    parents[b] = solver.parent(static_cast<int>(b));
-    below_start_.push_back(below_start_.back() +
-                           static_cast<std::int64_t>(solver.block(static_cast<int>(b)).below.size()));
-  }
   std::size_t most_below = 0;
-  for (std::size_t b = blocks; b-- > 0;) {
-    if (parents[b] >= 0) depth_[b] = depth_[static_cast<std::size_t>(parents[b])] + 1;
-    most_below = std::max(most_below, static_cast<std::size_t>(below_start_[b + 1] - below_start_[b]));
+  for (std::size_t b = 0; b < blocks; ++b) {
+    const std::size_t below = solver.block(static_cast<int>(b)).below.size();
+    below_start_.push_back(below_start_.back() + static_cast<std::int64_t>(below));
+    most_below = std::max(most_below, below);
   }
-  list_by_block(parents, blocks, child_start_, child_);
-  list_elements();
   older_.assign(blocks, 0);
   unread_.assign(blocks, 0);
   behind_.assign(static_cast<std::size_t>(below_start_.back()), 0.0);
   own_use_.assign(blocks, 0.0);
   bound_ = growth_ = slack_ = own_use_;
-  visited_.assign(blocks, 0);
-  below_.resize(most_below);
-  waiting_ = change_ = past_ = Eigen::VectorXd::Zero(solver.size());
+  now_.visited.assign(blocks, 0);
+  now_.below.resize(most_below);
+  waiting_ = now_.du = now_.past = Eigen::VectorXd::Zero(solver.size());
 }
 
 bool SelectiveSolution::serve(const TriangularSolver& solver) {
@@ -76,27 +49,6 @@ bool SelectiveSolution::serve(const TriangularSolver& solver) {
   return true;
 }
 
-int SelectiveSolution::lowest_block(std::span<const int> equations) const {
-  int lowest = solver_->size();
-  for (const int e : equations)
-    if (e >= 0 && e < system_.dofs().equations) lowest = std::min(lowest, solver_->position(e));
-  return lowest < solver_->size() ? solver_->block_of(solver_->row_at(lowest)) : -1;
-}
-
-void SelectiveSolution::list_elements() {
-  const auto blocks = static_cast<std::size_t>(solver_->blocks());
-  const std::size_t beams = system_.model.beams.size(), shells = system_.model.shells.size();
-  for (std::size_t i = 0; i < beams + shells; ++i) {
-    const int block = lowest_block(system_.assembly_map().freedoms(i));
-    (i < beams ? beam_block_ : shell_block_).push_back(block);
-    if (block < 0) (i < beams ? held_beams_ : held_shells_).push_back(static_cast<int>(i < beams ? i : i - beams));
-  }
-  for (const auto& numbers : system_.dofs().number) node_block_.push_back(lowest_block(numbers));
-  list_by_block(beam_block_, blocks, beam_start_, beam_);
-  list_by_block(shell_block_, blocks, shell_start_, shell_);
-  list_by_block(node_block_, blocks, node_start_, node_);
-}
-
 bool SelectiveSolution::is_current(int block) const {
   if (!partial_) return true;
   for (; block >= 0; block = solver_->parent(block))
@@ -104,7 +56,7 @@ bool SelectiveSolution::is_current(int block) const {
   return true;
 }
 
-/// Adds past_ or change_ of the block's rows to the answer: nodes that left stay at rest.
+/// Adds now_.past or now_.du of the block's rows to the answer: nodes that left stay at rest.
 void SelectiveSolution::add_to_solution(int block, Answer answer) {
   const auto own = solver_->block(block);
   const auto& vertex = system_.dofs().vertex_of_equation;
@@ -112,12 +64,12 @@ void SelectiveSolution::add_to_solution(int block, Answer answer) {
     const int row = solver_->row_at(k);
     const auto v = static_cast<std::size_t>(vertex[static_cast<std::size_t>(row)]);
     const bool left = v < system_.node_stands.size() && system_.node_stands[v] == 0;
-    answer.solution(row) = left ? 0.0 : answer.solution(row) + past_(k);
+    answer.solution(row) = left ? 0.0 : answer.solution(row) + now_.past(k);
   }
 }
 
 void SelectiveSolution::read_nodes(int block, Answer answer) const {
-  for (const int node : listed(node_start_, node_, block))
+  for (const int node : contents_.nodes(block))
     answer.displacements[static_cast<std::size_t>(node)] = system_.node_displacement_of_scaled(node, answer.solution);
 }
 
@@ -127,15 +79,15 @@ void SelectiveSolution::bring_older(int block, Answer answer) {
   const auto own = solver_->block(block);
   count_work(block_by_block * solver_->pass_cost(block));
   double* behind = behind_.data() + below_start_[b];
-  past_.segment(own.first, own.columns) = waiting_.segment(own.first, own.columns);
-  solver_->backward(block, past_.data() + own.first, behind);
-  for (std::size_t i = 0; i < own.below.size(); ++i) past_(own.below[i]) = behind[i];
+  now_.past.segment(own.first, own.columns) = waiting_.segment(own.first, own.columns);
+  solver_->backward(block, now_.past.data() + own.first, behind);
+  for (std::size_t i = 0; i < own.below.size(); ++i) now_.past(own.below[i]) = behind[i];
   add_to_solution(block, answer);
-  for (const int child : listed(child_start_, child_, block)) {
+  for (const int child : contents_.children(block)) {
     const auto c = static_cast<std::size_t>(child);
     const auto below = solver_->block(child).below;
     double* of_child = behind_.data() + below_start_[c];
-    for (std::size_t i = 0; i < below.size(); ++i) of_child[i] += past_(below[i]);
+    for (std::size_t i = 0; i < below.size(); ++i) of_child[i] += now_.past(below[i]);
     older_[c] = 1;
     bound_[c] += growth_[c] * slack_[b];
     slack_[c] += slack_[b];
@@ -171,39 +123,38 @@ void SelectiveSolution::read_unread(UseWatch& watch) {
   any_unread_ = false;
 }
 
-void SelectiveSolution::note(double use) { worst_ = std::max(worst_, use); }
+void SelectiveSolution::note(double use) { now_.worst = std::max(now_.worst, use); }
 
 void SelectiveSolution::read_uses(int block, UseWatch& watch) {
   constexpr double element = 750;  // ns, of its energy and its uses
   double use = 0;
-  count_work(element * static_cast<double>(listed(beam_start_, beam_, block).size() +
-                                           listed(shell_start_, shell_, block).size()));
-  for (const int beam : listed(beam_start_, beam_, block)) use = std::max(use, watch.beam_use(beam));
-  for (const int shell : listed(shell_start_, shell_, block)) use = std::max(use, watch.shell_use(shell));
+  count_work(element * static_cast<double>(contents_.beams(block).size() + contents_.shells(block).size()));
+  for (const int beam : contents_.beams(block)) use = std::max(use, watch.beam_use(beam));
+  for (const int shell : contents_.shells(block)) use = std::max(use, watch.shell_use(shell));
   own_use_[static_cast<std::size_t>(block)] = use;
   unread_[static_cast<std::size_t>(block)] = 0;
   note(use);
-  effort_.beams += static_cast<int>(listed(beam_start_, beam_, block).size());
-  effort_.shells += static_cast<int>(listed(shell_start_, shell_, block).size());
+  effort_.beams += static_cast<int>(contents_.beams(block).size());
+  effort_.shells += static_cast<int>(contents_.shells(block).size());
 }
 
 void SelectiveSolution::update_bound(int block) {
   const auto b = static_cast<std::size_t>(block);
   bound_[b] = own_use_[b];
-  for (const int child : listed(child_start_, child_, block))
+  for (const int child : contents_.children(block))
     bound_[b] = std::max(bound_[b], bound_[static_cast<std::size_t>(child)]);
 }
 
 void SelectiveSolution::read_all(UseWatch& watch) {
-  worst_ = 0;
+  now_.worst = 0;
   read_growths(watch);
   for (int block = 0; block < solver_->blocks(); ++block) {
     read_uses(block, watch);
     update_bound(block);
     slack_[static_cast<std::size_t>(block)] = 0;
   }
-  for (const int beam : held_beams_) note(watch.beam_use(beam));
-  for (const int shell : held_shells_) note(watch.shell_use(shell));
+  for (const int beam : contents_.held_beams()) note(watch.beam_use(beam));
+  for (const int shell : contents_.held_shells()) note(watch.shell_use(shell));
   uses_known_ = true;
   any_unread_ = false;
 }
@@ -213,11 +164,10 @@ void SelectiveSolution::read_growths(UseWatch& watch) {
   growths_known_ = true;
   for (int block = 0; block < solver_->blocks(); ++block) {
     constexpr double element = 1000;  // ns
-    count_work(element * static_cast<double>(listed(beam_start_, beam_, block).size() +
-                                             listed(shell_start_, shell_, block).size()));
+    count_work(element * static_cast<double>(contents_.beams(block).size() + contents_.shells(block).size()));
     double& growth = growth_[static_cast<std::size_t>(block)];
     growth = 0;
-    for (const int beam : listed(beam_start_, beam_, block)) {
+    for (const int beam : contents_.beams(block)) {
       const auto i = static_cast<std::size_t>(beam);
       if (system_.beam_stands[i] == 0) continue;
       const Mat12 K = CondensedBeam(system_.model.beams[i], system_.beam_factor[i]).stiffness();
@@ -225,60 +175,60 @@ void SelectiveSolution::read_growths(UseWatch& watch) {
       for (int k = 0; k < 12; ++k) root[k] = std::sqrt(std::max(0.0, K(k, k)));
       growth = std::max(growth, watch.beam_growth(beam, root));
     }
-    for (const int shell : listed(shell_start_, shell_, block)) {
+    for (const int shell : contents_.shells(block)) {
       if (system_.shell_stands[static_cast<std::size_t>(shell)] == 0) continue;
       const Mat24& K = system_.shell_node_stiffness(shell);
       double root[24];
       for (int k = 0; k < 24; ++k) root[k] = std::sqrt(std::max(0.0, K(k, k)));
       growth = std::max(growth, watch.shell_growth(shell, root));
     }
-    for (const int child : listed(child_start_, child_, block))
+    for (const int child : contents_.children(block))
       growth = std::max(growth, growth_[static_cast<std::size_t>(child)]);
   }
 }
 
 /// Rows that share an element with any of these, these included.
 void SelectiveSolution::reach_neighbours(std::span<const int> rows) {
-  near_rows_.assign(rows.begin(), rows.end());
+  now_.near_rows.assign(rows.begin(), rows.end());
   int last = -1;
   for (const int row : rows) {
     const int vertex = system_.dofs().vertex_of_equation[static_cast<std::size_t>(row)];
     if (vertex == last) continue;
     last = vertex;
-    elements_.clear();
-    system_.elements_of_vertex(vertex, elements_);
-    for (const int element : elements_) {
+    now_.elements.clear();
+    system_.elements_of_vertex(vertex, now_.elements);
+    for (const int element : now_.elements) {
       for (const int e : system_.assembly_map().freedoms(static_cast<std::size_t>(element)))
-        if (e >= 0 && e < system_.dofs().equations) near_rows_.push_back(e);
+        if (e >= 0 && e < system_.dofs().equations) now_.near_rows.push_back(e);
     }
   }
 }
 
 const std::vector<char>& SelectiveSolution::begin(std::span<const int> rows, Answer answer) {
   reach_neighbours(rows);
-  solver_->mark_paths(near_rows_, path_);
-  if (!partial_) return path_;
+  solver_->mark_paths(now_.near_rows, now_.path);
+  if (!partial_) return now_.path;
   for (int block = solver_->blocks() - 1; block >= 0; --block) {
     const auto b = static_cast<std::size_t>(block);
-    if (path_[b] == 0 || older_[b] == 0) continue;
+    if (now_.path[b] == 0 || older_[b] == 0) continue;
     bring_older(block, answer);
     read_nodes(block, answer);
   }
-  return path_;
+  return now_.path;
 }
 
 /// This change alone, in a block whose ancestors have it.
 void SelectiveSolution::step_now(int block, const Eigen::VectorXd& y, Answer answer) {
   const auto own = solver_->block(block);
   count_work(block_by_block * solver_->pass_cost(block));
-  for (std::size_t i = 0; i < own.below.size(); ++i) below_[i] = change_(own.below[i]);
-  change_.segment(own.first, own.columns) = y.segment(own.first, own.columns);
-  solver_->backward(block, change_.data() + own.first, below_.data());
-  past_.segment(own.first, own.columns) = change_.segment(own.first, own.columns);
+  for (std::size_t i = 0; i < own.below.size(); ++i) now_.below[i] = now_.du(own.below[i]);
+  now_.du.segment(own.first, own.columns) = y.segment(own.first, own.columns);
+  solver_->backward(block, now_.du.data() + own.first, now_.below.data());
+  now_.past.segment(own.first, own.columns) = now_.du.segment(own.first, own.columns);
   add_to_solution(block, answer);
   read_nodes(block, answer);
-  visited_[static_cast<std::size_t>(block)] = 1;
-  visits_.push_back(block);
+  now_.visited[static_cast<std::size_t>(block)] = 1;
+  now_.visits.push_back(block);
   effort_.entries += static_cast<double>(own.columns) * static_cast<double>(own.columns + own.below.size());
 }
 
@@ -289,7 +239,7 @@ Vec6 SelectiveSolution::node_change(int node) const {
   for (std::size_t c = 0; c < 6; ++c) {
     const int e = system_.dofs().number[n][c];
     if (e < system_.dofs().equations)
-      u(static_cast<Eigen::Index>(c)) = change_(solver_->position(e)) * system_.scale()[static_cast<std::size_t>(e)];
+      u(static_cast<Eigen::Index>(c)) = now_.du(solver_->position(e)) * system_.scale()[static_cast<std::size_t>(e)];
   }
   u(0) -= system_.dofs().arm[n][1] * u(5);
   u(1) += system_.dofs().arm[n][0] * u(5);
@@ -316,8 +266,8 @@ double SelectiveSolution::twice_energy_of_shell(int index) const {
 
 double SelectiveSolution::twice_energy_of_elements(int block) const {
   double sum = 0;
-  for (const int beam : listed(beam_start_, beam_, block)) sum += twice_energy_of_beam(beam);
-  for (const int shell : listed(shell_start_, shell_, block)) sum += twice_energy_of_shell(shell);
+  for (const int beam : contents_.beams(block)) sum += twice_energy_of_beam(beam);
+  for (const int shell : contents_.shells(block)) sum += twice_energy_of_shell(shell);
   return sum;
 }
 
@@ -326,49 +276,49 @@ void SelectiveSolution::leave_out(int block) {
   const auto b = static_cast<std::size_t>(block);
   const auto below = solver_->block(block).below;
   double* behind = behind_.data() + below_start_[b];
-  for (std::size_t i = 0; i < below.size(); ++i) behind[i] += change_(below[i]);
+  for (std::size_t i = 0; i < below.size(); ++i) behind[i] += now_.du(below[i]);
   older_[b] = 1;
   partial_ = true;
 }
 
 /// From the children of what was visited downwards, those deepest in the tree (nearest to the change) first.
 void SelectiveSolution::descend(const Eigen::VectorXd& y, UseWatch& watch, Answer answer) {
-  open_.clear();
-  for (const int block : visits_)
-    for (const int child : listed(child_start_, child_, block))
-      if (path_[static_cast<std::size_t>(child)] == 0) open_.push_back(child);
+  now_.open.clear();
+  for (const int block : now_.visits)
+    for (const int child : contents_.children(block))
+      if (now_.path[static_cast<std::size_t>(child)] == 0) now_.open.push_back(child);
   const auto shallower = [&](int a, int b) {
-    const int first = depth_[static_cast<std::size_t>(a)], second = depth_[static_cast<std::size_t>(b)];
+    const int first = contents_.depth(a), second = contents_.depth(b);
     return first != second ? first < second : a < b;
   };
-  std::sort(open_.begin(), open_.end(), shallower);
-  left_out_.clear();
-  while (!open_.empty()) {
-    const int block = open_.back();
+  std::sort(now_.open.begin(), now_.open.end(), shallower);
+  now_.left_out.clear();
+  while (!now_.open.empty()) {
+    const int block = now_.open.back();
     const auto b = static_cast<std::size_t>(block);
-    open_.pop_back();
-    const double limit = (1 - watch.margin) * (watch.largest_decides ? std::max(1.0, worst_) : 1.0);
+    now_.open.pop_back();
+    const double limit = (1 - watch.margin) * (watch.largest_decides ? std::max(1.0, now_.worst) : 1.0);
     if (!(bound_[b] + growth_[b] * std::sqrt(energy_left_out()) > limit)) {
-      left_out_.push_back(block);
+      now_.left_out.push_back(block);
       continue;
     }
     if (older_[b] != 0) bring_older(block, answer);
     step_now(block, y, answer);
-    remaining_ -= twice_energy_of_elements(block);
+    now_.remaining -= twice_energy_of_elements(block);
     read_uses(block, watch);
-    for (const int child : listed(child_start_, child_, block)) open_.push_back(child);
+    for (const int child : contents_.children(block)) now_.open.push_back(child);
   }
 }
 
 /// Twice the energy of this change in what was not visited, at most.
 double SelectiveSolution::energy_left_out() const {
-  return std::max(0.0, remaining_) + energy_rounding * 2 * effort_.energy;
+  return std::max(0.0, now_.remaining) + energy_rounding * 2 * effort_.energy;
 }
 
 /// What was left out waits, with a bound of what it missed.
 void SelectiveSolution::finish(const Eigen::VectorXd& y) {
   const double root = std::sqrt(energy_left_out());
-  for (const int block : left_out_) {
+  for (const int block : now_.left_out) {
     const auto b = static_cast<std::size_t>(block);
     leave_out(block);
     slack_[b] += root;
@@ -376,7 +326,7 @@ void SelectiveSolution::finish(const Eigen::VectorXd& y) {
     bound_left_out_ = std::max(bound_left_out_, bound_[b]);
   }
   for (int block = 0; block < solver_->blocks(); ++block) {
-    if (visited_[static_cast<std::size_t>(block)] != 0) {
+    if (now_.visited[static_cast<std::size_t>(block)] != 0) {
       update_bound(block);
     } else {
       const auto own = solver_->block(block);
@@ -389,20 +339,20 @@ void SelectiveSolution::finish(const Eigen::VectorXd& y) {
 void SelectiveSolution::advance(std::span<const int> rows, const Eigen::VectorXd& residual, const Eigen::VectorXd& y,
                                 UseWatch& watch, Answer answer) {
   effort_ = {};
-  visits_.clear();
-  worst_ = bound_left_out_ = 0;
-  std::fill(visited_.begin(), visited_.end(), 0);
+  now_.visits.clear();
+  now_.worst = bound_left_out_ = 0;
+  std::fill(now_.visited.begin(), now_.visited.end(), 0);
   for (int block = solver_->blocks() - 1; block >= 0; --block)
-    if (path_[static_cast<std::size_t>(block)] != 0) step_now(block, y, answer);
-  remaining_ = 0;
-  for (const int row : rows) remaining_ += residual(row) * change_(solver_->position(row));
-  effort_.energy = remaining_ / 2;
-  for (const int block : visits_) {
-    remaining_ -= twice_energy_of_elements(block);
+    if (now_.path[static_cast<std::size_t>(block)] != 0) step_now(block, y, answer);
+  now_.remaining = 0;
+  for (const int row : rows) now_.remaining += residual(row) * now_.du(solver_->position(row));
+  effort_.energy = now_.remaining / 2;
+  for (const int block : now_.visits) {
+    now_.remaining -= twice_energy_of_elements(block);
     read_uses(block, watch);
   }
-  for (const int beam : held_beams_) note(watch.beam_use(beam));
-  for (const int shell : held_shells_) note(watch.shell_use(shell));
+  for (const int beam : contents_.held_beams()) note(watch.beam_use(beam));
+  for (const int shell : contents_.held_shells()) note(watch.shell_use(shell));
   descend(y, watch, answer);
   finish(y);
 }

@@ -17,6 +17,7 @@
 #include "assembly/frame_system.h"
 #include "elements/beam_strain_forces.h"
 #include "factor/triangular.h"
+#include "reanalysis/block_contents.h"
 #include "topple/solver/use_watch.h"
 
 namespace topple::solver {
@@ -51,11 +52,9 @@ class SelectiveSolution {
   [[nodiscard]] bool partial() const { return partial_; }
   /// True when uses of elements that are up to date were not read.
   [[nodiscard]] bool unread() const { return any_unread_; }
-  [[nodiscard]] bool beam_is_current(int beam) const { return is_current(beam_block_[static_cast<std::size_t>(beam)]); }
-  [[nodiscard]] bool node_is_current(int node) const { return is_current(node_block_[static_cast<std::size_t>(node)]); }
-  [[nodiscard]] bool shell_is_current(int shell) const {
-    return is_current(shell_block_[static_cast<std::size_t>(shell)]);
-  }
+  [[nodiscard]] bool beam_is_current(int beam) const { return is_current(contents_.block_of_beam(beam)); }
+  [[nodiscard]] bool node_is_current(int node) const { return is_current(contents_.block_of_node(node)); }
+  [[nodiscard]] bool shell_is_current(int shell) const { return is_current(contents_.block_of_shell(shell)); }
 
   /// Prepares a change at these rows (of the matrix): they, all rows that share an element with them, and their
   /// ancestors are brought up to date. Returns the blocks on their paths.
@@ -78,8 +77,6 @@ class SelectiveSolution {
 
  private:
   [[nodiscard]] bool is_current(int block) const;
-  void list_elements();
-  [[nodiscard]] int lowest_block(std::span<const int> equations) const;
   void reach_neighbours(std::span<const int> rows);
   void bring_older(int block, Answer answer);
   void step_now(int block, const Eigen::VectorXd& y, Answer answer);
@@ -101,13 +98,7 @@ class SelectiveSolution {
 
   const FrameSystem& system_;
   const TriangularSolver* solver_;
-  std::vector<int> depth_;
-  std::vector<int> child_start_, child_;  ///< per block: its children
-  // Elements and nodes belong to the block of the first of their equations that is eliminated: when that is up to
-  // date, so are all of them. -1: they have none.
-  std::vector<int> beam_block_, shell_block_, node_block_;
-  std::vector<int> beam_start_, beam_, shell_start_, shell_, node_start_, node_;  ///< per block
-  std::vector<int> held_beams_, held_shells_;                                     ///< without any equation
+  BlockContents contents_;
   // Per block.
   std::vector<char> older_;   ///< it is behind by what `behind_` and `waiting_` hold
   std::vector<char> unread_;  ///< its uses are bounds
@@ -117,15 +108,19 @@ class SelectiveSolution {
   std::vector<double> bound_, growth_;  ///< of the whole subtree: of its uses; most growth
   std::vector<double> slack_;           ///< sqrt(2 energy) that the subtree may have taken since it was visited
   Eigen::VectorXd waiting_;             ///< y of blocks that are behind
-  Eigen::VectorXd change_;              ///< du of this change where visited
-  Eigen::VectorXd past_;                ///< scratch: older changes on one block's rows
-  std::vector<char> path_, visited_;
-  std::vector<int> visits_, open_, left_out_, near_rows_, elements_;
-  std::vector<double> below_;
+  /// The change under way.
+  struct Change {
+    Eigen::VectorXd du;    ///< where visited
+    Eigen::VectorXd past;  ///< scratch: older changes on one block's rows
+    std::vector<char> path, visited;
+    std::vector<int> visits, open, left_out, near_rows, elements;
+    std::vector<double> below;
+    double remaining = 0;  ///< twice the energy that it may have left in what was not visited
+    double worst = 0;
+  } now_;
   BeamStiffness beam_stiffness_;
   bool partial_ = false, any_unread_ = false, uses_known_ = false, growths_known_ = false;
-  double remaining_ = 0;  ///< twice the energy that the change may have left in what was not visited
-  double worst_ = 0, bound_left_out_ = 0;
+  double bound_left_out_ = 0;
   Effort effort_;
 };
 
