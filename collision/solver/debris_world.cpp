@@ -211,10 +211,10 @@ void DebrisWorld::set_state(BodyId id, const BodyState& state) {
 
 void DebrisWorld::apply_impulse(BodyId id, const Vec3& impulse, const Vec3& point) {
   DebrisBody& pushed = body(id.value);
+  wake_up(pushed);
   const Mat3& turn = pushed.at.turn;
   pushed.velocity += impulse / pushed.mass;
   pushed.spin += turn * (turn.transpose() * (point - pushed.at.position).cross(impulse)).cwiseQuotient(pushed.moments);
-  wake_up(pushed);
 }
 
 void DebrisWorld::wake(BodyId id) { wake_up(body(id.value)); }

@@ -30,6 +30,7 @@ struct DebrisBody : TouchingSolid {
   Eigen::Quaterniond turn_then = Eigen::Quaterniond::Identity();
   double load = 0;          ///< m/s2: force on a contact over its effective mass, the largest; how hard it is pressed
   double substep_rate = 0;  ///< 1/s: sub-steps in the last step
+  bool slept_now = false;   ///< fell asleep in the last step
   double retry_rest = 0;    ///< s until rest is tried again, where it was not found ...
   double rest_wait = 0;     ///< ... and how long that will be next time
   int ignored = 0;          ///< pairs that it is in and that are ignored until separated
@@ -111,6 +112,7 @@ class DebrisWorld final : public World {
   void set_state(BodyId body, const BodyState& state) override;
   void apply_impulse(BodyId body, const Vec3& impulse, const Vec3& point) override;
   void wake(BodyId body) override;
+  [[nodiscard]] bool fell_asleep(BodyId body) const override { return this->body(body.value).slept_now; }
   void ignore_until_separated(BodyId body, const Touched& other) override;
   [[nodiscard]] std::span<const BodyId> bodies() const override { return order_; }
   [[nodiscard]] std::size_t awake_count() const override { return awake_count_; }
@@ -132,7 +134,7 @@ class DebrisWorld final : public World {
     std::vector<DebrisCable*> cables;
     double load = 0;          ///< m/s2
     double substep_rate = 0;  ///< 1/s: the highest of its bodies
-    bool carried = false;     ///< by an obstacle that moves at a noticeable speed
+    bool carried = false;     ///< in part by an obstacle that moves at a noticeable speed
   };
 
   [[nodiscard]] DebrisBody& body(std::int64_t id) const;
@@ -150,6 +152,7 @@ class DebrisWorld final : public World {
   [[nodiscard]] static Box3 bounds_of(const PartShape& shape, const Placement& at);
 
   // The step.
+  void advance(double dt, int parts, MovingStructure* structure);
   void begin_step(double dt);
   [[nodiscard]] int parts_of_step(double dt) const;
   void read_velocities_by(const Vec3& more);
@@ -178,6 +181,8 @@ class DebrisWorld final : public World {
   void place_moving(double dt, MovingStructure& structure);
   void place(DebrisObstacle& obstacle, const ObstacleMotion& motion, double dt);
   void learn(DebrisObstacle& obstacle, const ObstacleMotion& now, const Vec3& force, const Vec3& moment) const;
+  void hand_over(double dt, std::size_t told, MovingStructure& structure);
+  [[nodiscard]] const DebrisObstacle* moving_obstacle(const NearPair& pair) const;
   void stand_still(DebrisObstacle& obstacle);
   void add_moving(const Island& island, double dt, double substep);
   void press_moving(double dt);
@@ -203,6 +208,7 @@ class DebrisWorld final : public World {
   // Rest.
   void look_for_rest(double dt);
   [[nodiscard]] bool come_to_rest(Island& island, double dt);
+  [[nodiscard]] Island quiet_part(const Island& island) const;
   [[nodiscard]] Island with_sleeping(const Island& island) const;
   [[nodiscard]] Island awake_on(const Island& whole) const;
   void wake_changed(double dt);
@@ -248,7 +254,8 @@ class DebrisWorld final : public World {
   StepSolver solver_;
   std::vector<std::uint32_t> touching_;  ///< pairs that have contacts, in order
   std::vector<Island> islands_;
-  std::vector<SolverContact> solved_;  ///< of the last part of a step
+  std::vector<std::int64_t> slept_now_;  ///< bodies that fell asleep in this step
+  std::vector<SolverContact> solved_;    ///< of the last part of a step
   std::uint64_t step_number_ = 0;
   int parts_ = 1;                ///< of this step
   Vec3 reading_ = Vec3::Zero();  ///< by which velocities are read otherwise than between steps

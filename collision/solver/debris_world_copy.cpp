@@ -31,6 +31,7 @@ DebrisWorld::DebrisWorld(const DebrisWorld& of)
       ignored_(of.ignored_),
       released_(of.released_),
       solver_(settings_),
+      slept_now_(of.slept_now_),
       step_number_(of.step_number_),
       parts_(of.parts_),
       reading_(of.reading_),

@@ -74,8 +74,8 @@ void DebrisWorld::gather_islands() {
     if (!a && !b) continue;
     Island& island = island_of(a ? *a : *b);
     island.pairs.push_back(index);
-    if (const Solid* second = pairs_.collider(pair.second).solid; second->kind == Touched::Kind::obstacle)
-      island.carried = island.carried || static_cast<const DebrisObstacle*>(second)->speed() > settings_.carries_from;
+    if (const DebrisObstacle* carrier = moving_obstacle(pair))
+      island.carried = island.carried || carrier->speed() > settings_.carries_from;
   }
   for (auto& [id, hinge] : hinges_)
     if (!body(hinge->body).asleep) island_of(body(hinge->body)).hinges.push_back(hinge.get());

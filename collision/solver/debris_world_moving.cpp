@@ -19,37 +19,23 @@ namespace topple::collision {
 
 void DebrisWorld::step(double dt, int parts, MovingStructure& structure) {
   if (parts < 1) throw std::invalid_argument("a step of " + std::to_string(parts) + " parts; it has at least one");
-  const double part_time = dt / parts;
-  place_moving(part_time, structure);
-  find_touching();
-  wake_carried();
-  begin_step(dt);
-  find_contacts(part_time);
-  const int finer = (parts_of_step(dt) + parts - 1) / parts;
-  solved_.clear();
-  gather_islands();
-  parts_ = 1;
-  if (finer == 1) fall_asleep_where_held(dt);
-  parts_ = parts * finer;
-  read_velocities_by(gravity_ * ((1 - 1.0 / parts_) * dt / 2));
-  for (int part = 0; part < parts; ++part) {
-    const std::size_t told = contacts_.size();
-    if (part > 0) place_moving(part_time, structure);
-    for (int i = 0; i < finer && (awake_count_ > 0 || !moving_obstacles_.empty()); ++i) {
-      if (part + i > 0) {
-        find_contacts(dt / parts_);
-        solved_.clear();
-        gather_islands();
-      }
-      if (awake_count_ > 0) move_on(dt / parts_);
-    }
-    const std::vector<Contact> own(contacts_.begin() + static_cast<std::ptrdiff_t>(told), contacts_.end());
-    stepping_ = true;
-    structure.advance(part_time, own);
-    stepping_ = false;
-  }
-  read_velocities_by(Vec3::Zero());
-  merge_contacts();
+  advance(dt, parts, &structure);
+}
+
+/// To the structure, what touched it since contact number `told`; it goes on.
+void DebrisWorld::hand_over(double dt, std::size_t told, MovingStructure& structure) {
+  const std::vector<Contact> own(contacts_.begin() + static_cast<std::ptrdiff_t>(told), contacts_.end());
+  stepping_ = true;
+  structure.advance(dt, own);
+  stepping_ = false;
+}
+
+/// That the pair's second part is of, where that moves.
+const DebrisObstacle* DebrisWorld::moving_obstacle(const NearPair& pair) const {
+  const Solid* const second = pairs_.collider(pair.second).solid;
+  if (second->kind != Touched::Kind::obstacle) return nullptr;
+  const auto* const one = static_cast<const DebrisObstacle*>(second);
+  return one->moves ? one : nullptr;
 }
 
 /// Those near bodies are asked for; what moved before and is near none any more is left where it is.
@@ -76,10 +62,13 @@ void DebrisWorld::place_moving(double dt, MovingStructure& structure) {
 }
 
 void DebrisWorld::place(DebrisObstacle& one, const ObstacleMotion& motion, double dt) {
-  if (!one.moves) {
+  const bool first = !one.moves;
+  if (first) {
     one.moves = true;
     moving_obstacles_.insert(std::lower_bound(moving_obstacles_.begin(), moving_obstacles_.end(), one.id), one.id);
     one.impulse = one.angular_impulse = one.force = one.moment = Vec3::Zero();
+  }
+  if (first || motion.held_anew) {
     one.gives_way = 1;
     one.alike = 0;
     one.known_for = 0;

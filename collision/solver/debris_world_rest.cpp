@@ -8,10 +8,42 @@
 
 namespace topple::collision {
 
+/// What has lain still in an island that something that moves carries in part, and does not touch that itself. A heap
+/// against a building that sways so sleeps but for what is near it.
+DebrisWorld::Island DebrisWorld::quiet_part(const Island& island) const {
+  std::set<const Solid*> stay;
+  for (const DebrisBody* one : island.bodies)
+    if (one->slow_for >= settings_.slow_for - 1e-9) stay.insert(one);
+  for (const std::uint32_t index : island.pairs)
+    if (const NearPair& pair = pairs_.pair(index); moving_obstacle(pair)) stay.erase(pairs_.collider(pair.first).solid);
+  for (bool again = true; again;) {  // what hangs together sleeps together
+    again = false;
+    for (const DebrisHinge* hinge : island.hinges) {
+      if (hinge->other < 0) continue;
+      const DebrisBody &one = body(hinge->body), &other = body(hinge->other);
+      if (stay.contains(&one) != stay.contains(&other)) again = stay.erase(&one) + stay.erase(&other) > 0;
+    }
+  }
+  Island quiet;
+  for (DebrisBody* one : island.bodies)
+    if (stay.contains(one)) quiet.bodies.push_back(one);
+  for (const std::uint32_t index : island.pairs) {
+    const NearPair& pair = pairs_.pair(index);
+    if (stay.contains(pairs_.collider(pair.first).solid) || stay.contains(pairs_.collider(pair.second).solid))
+      quiet.pairs.push_back(index);
+  }
+  for (DebrisHinge* hinge : island.hinges)
+    if (stay.contains(&body(hinge->body))) quiet.hinges.push_back(hinge);
+  for (DebrisCable* cable : island.cables)
+    if (stay.contains(&body(cable->body))) quiet.cables.push_back(cable);
+  return quiet;
+}
+
 /// Before the step is solved: an island all of whose bodies have been slow for some time stays where it is, if there
 /// are forces that hold it; with it, what it lies on and sleeps already is asked, for these forces change. A few bodies
 /// that no forces hold go on without it. True when any fell asleep.
 bool DebrisWorld::come_to_rest(Island& island, double dt) {
+  if (island.bodies.empty()) return false;
   for (DebrisBody* one : island.bodies) {
     if (one->slow_for < settings_.slow_for - 1e-9) return false;
     if (one->retry_rest > 0) return false;
@@ -47,6 +79,8 @@ bool DebrisWorld::come_to_rest(Island& island, double dt) {
   read_joints({&only, 1}, dt);
   for (DebrisBody* one : island.bodies) {
     if (goes_on(*one)) continue;
+    one->slept_now = true;
+    slept_now_.push_back(one->id);
     one->velocity.setZero();
     one->spin.setZero();
     one->asleep = true;
@@ -218,14 +252,14 @@ void DebrisWorld::wake_changed(double dt) {
   }
 }
 
-/// How long each body has stayed where it is. What rocks to and fro by less than that is slow as well, but not on
-/// something that moves.
+/// How long each body has stayed where it is. What rocks to and fro by less than that is slow as well; where something
+/// that moves carries some of an island, only what stays as near as points touch.
 void DebrisWorld::look_for_rest(double dt) {
-  const double far = settings_.slow * settings_.slow_for;
-  for (const Island& island : islands_)
+  for (const Island& island : islands_) {
+    const double far = island.carried ? settings_.touching : settings_.slow * settings_.slow_for;
     for (DebrisBody* one : island.bodies) {
       if (one->asleep) continue;
-      const bool held = !island.carried && (!island.pairs.empty() || !island.hinges.empty() || !island.cables.empty());
+      const bool held = !island.pairs.empty() || !island.hinges.empty() || !island.cables.empty();
       const double turned = one->reach * one->turn.angularDistance(one->turn_then);
       if (!held || (one->at.position - one->position_then).norm() + turned > far || swings(*one)) {
         one->slow_for = 0;
@@ -236,6 +270,7 @@ void DebrisWorld::look_for_rest(double dt) {
       one->slow_for += dt;
       one->retry_rest = std::max(0.0, one->retry_rest - dt);
     }
+  }
 }
 
 }  // namespace topple::collision

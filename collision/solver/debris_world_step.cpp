@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "solver/debris_world.h"
 #include "solver/free_rotation.h"
@@ -14,6 +15,8 @@ void DebrisWorld::begin_step(double dt) {
   std::erase_if(released_, [&](const auto& one) { return one.second + 1 < step_number_; });
   release_separated(dt, true);
   contacts_.clear();
+  for (const std::int64_t id : std::exchange(slept_now_, {}))
+    if (DebrisBody* one = bodies_[static_cast<std::size_t>(id)].get()) one->slept_now = false;
   if (awake_count_ == 0) return;
   ++step_number_;
   for (auto& [id, hinge] : hinges_)
@@ -22,19 +25,40 @@ void DebrisWorld::begin_step(double dt) {
     if (!body(cable->body).asleep) cable->pull = {};
 }
 
-void DebrisWorld::step(double dt) {
+void DebrisWorld::step(double dt) { advance(dt, 1, nullptr); }
+
+/// In `parts` after each of which the structure goes on, and each of those in as many as fast spins need. Without a
+/// structure obstacles stand still.
+void DebrisWorld::advance(double dt, int parts, MovingStructure* structure) {
+  const double part_time = dt / parts;
+  if (structure) {
+    place_moving(part_time, *structure);
+    find_touching();
+    wake_carried();
+  }
   begin_step(dt);
-  while (!moving_obstacles_.empty()) stand_still(obstacle(moving_obstacles_.back()));
-  if (awake_count_ == 0) return;
-  find_contacts(dt);
-  parts_ = parts_of_step(dt);
+  while (!structure && !moving_obstacles_.empty()) stand_still(obstacle(moving_obstacles_.back()));
+  if (!structure && awake_count_ == 0) return;
+  find_contacts(part_time);
+  const int finer = (parts_of_step(dt) + parts - 1) / parts;
+  gather_islands();
+  parts_ = 1;
+  if (finer == 1) fall_asleep_where_held(dt);
+  parts_ = parts * finer;
+  solved_.clear();  // the forces at rest are those of a whole step
   read_velocities_by(gravity_ * ((1 - 1.0 / parts_) * dt / 2));
-  for (int part = 0; part < parts_; ++part) {
-    if (part > 0) find_contacts(dt / parts_);
-    solved_.clear();
-    gather_islands();
-    if (parts_ == 1) fall_asleep_where_held(dt);
-    move_on(dt / parts_);
+  for (int part = 0; part < parts; ++part) {
+    const std::size_t told = contacts_.size();
+    if (part > 0) place_moving(part_time, *structure);
+    for (int i = 0; i < finer && (awake_count_ > 0 || !moving_obstacles_.empty()); ++i) {
+      if (part + i > 0) {
+        find_contacts(dt / parts_);
+        solved_.clear();
+        gather_islands();
+      }
+      if (awake_count_ > 0) move_on(dt / parts_);
+    }
+    if (structure) hand_over(part_time, told, *structure);
   }
   read_velocities_by(Vec3::Zero());
   merge_contacts();
@@ -43,7 +67,10 @@ void DebrisWorld::step(double dt) {
 /// Before a step is solved, in one.
 void DebrisWorld::fall_asleep_where_held(double dt) {
   bool slept = false;
-  for (Island& island : islands_) slept = come_to_rest(island, dt) || slept;
+  for (Island& island : islands_) {
+    Island quiet = island.carried ? quiet_part(island) : island;
+    slept = come_to_rest(quiet, dt) || slept;
+  }
   if (slept) gather_islands();
 }
 

@@ -25,13 +25,19 @@ void BodyAccount::count(BodyMotion& one) {
   if (one.asleep && after.asleep) return;
   const Vec3 weight = one.mass * scene_.gravity;
   sums_.body_gravity_work += weight.dot(after.pose.position - one.step_start);
-  if (one.asleep != after.asleep) {  // a body at rest is read as having no velocity at all, and does not move
-    collision::BodyState awake = one.before;
-    awake.asleep = false;
-    const Kinetic kinetic = kinetic_energy(*one.body, awake, scene_.reading());
-    sums_.ledger.lost_in_contacts += (after.asleep ? 1 : -1) * (kinetic.translation + kinetic.rotation);
-    one.asleep = after.asleep;
-  }
+  // A body at rest is read as having no velocity at all, and does not move.
+  const auto kinetic = [&](collision::BodyState state) {
+    state.asleep = false;
+    const Kinetic own = kinetic_energy(*one.body, state, scene_.reading());
+    return own.translation + own.rotation;
+  };
+  collision::BodyState woken;
+  woken.pose = one.before.pose;
+  if (one.asleep != after.asleep)
+    sums_.ledger.lost_in_contacts += (after.asleep ? 1 : -1) * kinetic(one.before);
+  else if (scene_.world->fell_asleep({one.id}))
+    sums_.ledger.lost_in_contacts += kinetic(one.before) - kinetic(woken);
+  one.asleep = after.asleep;
 }
 
 void BodyAccount::bring_ledger_up_to_date() {

@@ -141,6 +141,8 @@ struct ObstacleMotion {
   /// by no more than a body of that.
   double mass = 0;
   Mat3 inertia = Mat3::Zero();  ///< as the mass: kg m2, about the pose's position
+  /// Held otherwise than in the part of a step before, as something broke: how it gave way then tells nothing.
+  bool held_anew = false;
 };
 
 /// A structure that moves beside the bodies of a world, and shares the parts of a step with them.
@@ -235,6 +237,9 @@ class World {
   virtual void apply_impulse(BodyId body, const Vec3& impulse, const Vec3& point) = 0;
   /// It takes part in the next step.
   virtual void wake(BodyId body) = 0;
+  /// Within the last step, even if it was woken again before its end: then its motion was lost in between. False in
+  /// worlds whose bodies cannot do both in one step.
+  [[nodiscard]] virtual bool fell_asleep(BodyId) const { return false; }
   /// Contacts between this body and that other (body or obstacle) are left out of sweeps and steps until they have come
   /// apart and are not about to meet as an impact: a body that goes through what it broke, or is born inside what it
   /// was joined to.
