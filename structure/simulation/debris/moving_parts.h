@@ -6,6 +6,7 @@
 
 #include "simulation/accounts/running_sums.h"
 #include "simulation/debris/debris.h"
+#include "simulation/debris/parting.h"
 
 namespace topple::structure {
 
@@ -22,8 +23,10 @@ class MovingParts final : public collision::MovingStructure {
   struct Known {
     PartMotion velocity;      ///< at the start of the substep
     PartMotion acceleration;  ///< mean of the last one
+    bool held_anew = false;   ///< something broke in it
   };
   [[nodiscard]] PartMotion velocity(Part part) const;
+  [[nodiscard]] std::vector<PartingContact> may_part(std::span<const collision::Contact> contacts) const;
   /// By obstacle: those that were asked for since the last substep.
   std::map<std::int64_t, Known> known_;
   Debris& debris_;
