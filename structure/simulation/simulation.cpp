@@ -106,9 +106,11 @@ void Simulation::State::break_generations() {
   } while (scene.frame->pending());
 }
 
-/// Tools, impacts and what lies on it act on what stands.
+/// Tools, impacts and what lies on it act on what stands; panels that bear too much at rest crack, which moves them.
 void Simulation::State::begin_motion() {
-  if (scene.frame->pending() || scene.step <= 1) record(scene.frame->begin_move());
+  if (!scene.frame->pending() && scene.step > 1) return;
+  record(scene.frame->begin_move());
+  if (panels.any()) standing_fracture.crack();
 }
 
 /// One substep of what stands; what lost its hold in it leaves at once.
