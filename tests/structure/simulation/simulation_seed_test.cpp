@@ -10,8 +10,10 @@ using namespace topple::structure;
 
 namespace {
 
-Simulation shipped(const char* name, double duration, double strength = 1) {
+Simulation shipped(const char* name, double duration, StandingRule standing = StandingRule::dynamics,
+                   double strength = 1) {
   auto [building, scenario] = read_scenario(find_scenario(name));
+  scenario.standing = standing;
   scenario.duration = duration;
   for (Joint& joint : building.joints)
     for (double& value : joint.capacity.value) value *= strength;
@@ -40,32 +42,35 @@ TEST_CASE("the seed building stands for a minute without a solve, a segmentation
 }
 
 TEST_CASE("strong joints sag to the bit like weak ones") {
-  Simulation weak = shipped("seed_idle", 1), strong = shipped("seed_idle", 1, 1e6);
+  Simulation weak = shipped("seed_idle", 1), strong = shipped("seed_idle", 1, StandingRule::dynamics, 1e6);
   for (Simulation* simulation : {&weak, &strong}) simulation->step();
   CHECK(weak.hash() == strong.hash());
 }
 
 TEST_CASE("a hit on the corner post brings down what it carried, the same in every run") {
+  const StandingRule standing = GENERATE(StandingRule::statics, StandingRule::dynamics);
+  const bool at_rest = standing == StandingRule::statics;
   std::uint64_t hashes[2];
   for (std::uint64_t& hash : hashes) {
-    Simulation simulation = shipped("seed_hit", 6);
+    Simulation simulation = shipped("seed_hit", at_rest ? 6 : 4, standing);
     double freed = 0;
     const auto run_until = [&](double time) {
       while (!simulation.finished() && simulation.time() < time) {
         simulation.skip_idle();
         simulation.step();
-        // A structure that is let go of never takes energy up, whatever came to lie on it, or left it, on the way.
+        // A structure that is let go of at rest never takes energy up, whatever came to lie on it, or left it, on the
+        // way. In motion what pushes it does work until the joint fails.
         const double now = simulation.frame().energy().freed;
-        CHECK(now > freed - 1e-6);
+        if (at_rest) CHECK(now > freed - 1e-6);
         freed = now;
       }
     };
     run_until(2);  // the shot at 1 s took the corner and what stands behind it
     const CollapseCounts first = collapse_counts(simulation);
     CHECK(first.members_down >= 6);
-    CHECK(first.members_down < 40);
+    CHECK(first.members_down < (at_rest ? 40 : 120));
     CHECK(first.standing_segments == 1);
-    run_until(6);
+    run_until(simulation.scenario().duration);
     hash = simulation.hash();
     CHECK(collapse_counts(simulation).members_down > first.members_down);  // slabs of 26 t sweep the posts beside them
     for (const BodyView& body : simulation.bodies()) {
@@ -73,7 +78,7 @@ TEST_CASE("a hit on the corner post brings down what it carried, the same in eve
       CHECK(body.pose.position.z() > -0.5);  // nothing sinks into the ground: no part is thicker than a metre
     }
     const Ledger& ledger = simulation.ledger();
-    CHECK(std::abs(ledger.residual()) < 0.01);  // what the default step may leave open over a collapse
+    CHECK(std::abs(ledger.residual()) < (at_rest ? 0.01 : 1e-6));  // what the default step may leave open
     CHECK(ledger.momentum_error < 1e-10);
   }
   CHECK(hashes[0] == hashes[1]);

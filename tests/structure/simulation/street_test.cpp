@@ -40,7 +40,7 @@ Effort after_the_first_step(const char* name, double seconds) {
 }  // namespace
 
 TEST_CASE("of twenty houses only the one that is hit costs anything") {
-  const double seconds = 2.5;
+  const double seconds = 2;  // before the ball comes to the next house
   const Effort street = after_the_first_step("street_hit", seconds), house = after_the_first_step("house_hit", seconds);
   REQUIRE(house.broken > 5);
   REQUIRE(house.solves > 0);
