@@ -49,6 +49,8 @@ void draw_hover_text(Controller& controller, const Snapshot& moment);
 
 /// The joint's six components with capacities, its utilisation, and how that went.
 void draw_joint(Controller& controller, const Snapshot& moment, structure::JointId joint, bool with_history);
+/// "x 0.25"; slow runs keep two digits.
+[[nodiscard]] std::string ratio_text(double ratio);
 /// "PA: post, box 300, steel, 3.50 m"
 [[nodiscard]] std::string part_text(const structure::Building& building, structure::JointId joint);
 

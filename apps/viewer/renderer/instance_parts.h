@@ -1,0 +1,49 @@
+#pragma once
+// What the files of SceneInstances share: rotations and places as drawings have them, the motion of a body, and how far
+// what stands is drawn from where it stood.
+#include <Eigen/Geometry>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "renderer/instances.h"
+
+namespace topple::viewer {
+
+inline glm::dvec3 to_glm(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+inline glm::vec3 to_glm(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
+inline glm::dquat to_glm(const Eigen::Quaterniond& q) { return {q.w(), q.x(), q.y(), q.z()}; }
+inline glm::vec4 packed(const glm::dquat& q) { return {q.x, q.y, q.z, q.w}; }
+
+/// Displacements as they are drawn: those of a mode when there is one, else those at the start of the run by one scale
+/// and what has come to them by another.
+struct DrawnShape {
+  using Displacements = std::vector<Eigen::Matrix<float, 6, 1>>;
+  const Displacements& displacements;
+  const Displacements* at_start = nullptr;  ///< null: all by one scale
+  float scale, motion_scale;
+  DrawnShape(const Snapshot& snapshot, const ViewOptions& options)
+      : displacements(snapshot.shape ? *snapshot.shape : snapshot.answer->displacements),
+        scale(snapshot.shape ? snapshot.shape_scale : options.deflection_scale),
+        motion_scale(options.motion_scale_now()) {
+    if (!snapshot.shape && motion_scale != scale) at_start = snapshot.answer->at_start.get();
+  }
+  [[nodiscard]] Eigen::Matrix<float, 6, 1> at(structure::NodeId node) const {
+    const auto i = static_cast<std::size_t>(node.index);
+    const auto& now = displacements[i];
+    // A node that is held, or stands no more, has not moved.
+    if (at_start == nullptr || now.isZero(0)) return scale * now;
+    return scale * (*at_start)[i] + motion_scale * (now - (*at_start)[i]);
+  }
+};
+
+/// Rigid motion of a body as a drawing needs it.
+struct SceneInstances::Motion {
+  glm::dvec3 position, rest_centre;
+  glm::dquat turn;
+  explicit Motion(const BodyPose& body)
+      : position(to_glm(body.position)), rest_centre(to_glm(body.rest_centre)), turn(to_glm(body.orientation)) {}
+  [[nodiscard]] glm::dvec3 operator()(const glm::dvec3& point) const { return position + turn * (point - rest_centre); }
+};
+
+}  // namespace topple::viewer
