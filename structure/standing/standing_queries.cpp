@@ -10,8 +10,7 @@ namespace topple::structure {
 std::vector<std::array<double, 8>> StandingFrame::internal_forces(MemberId member, int intervals) const {
   const State& state = *state_;
   if (!state.stands(member)) return {};
-  const solver::BeamDiagram diagram(state.statics.beam(member), state.statics.end_forces(member),
-                                    state.in_solver.loads(member));
+  const solver::BeamDiagram diagram(state.statics.beam(member), end_forces(member), state.in_solver.loads(member));
   std::vector<std::array<double, 8>> values;
   const double length = state.building[member].length;
   for (int i = 0; i <= intervals; ++i) values.push_back(diagram.values(length * i / intervals));

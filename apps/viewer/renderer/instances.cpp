@@ -124,7 +124,7 @@ void SceneInstances::update(const Snapshot& snapshot, const ViewOptions& options
   place_torn_ends(snapshot);
   draw_marks(snapshot, options);
   draw_cables(snapshot);
-  place_broken_panels(snapshot);
+  place_broken_panels(snapshot, changed);
   place_drawn(snapshot, changed);
   dust_.clear();
   if (options.dust && snapshot.dust) place_dust(*snapshot.dust, snapshot.time, origin_, dust_);

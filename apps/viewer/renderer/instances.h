@@ -92,9 +92,11 @@ class SceneInstances {
   /// The centre of the undeformed building; single precision counts from here.
   [[nodiscard]] const glm::dvec3& origin() const { return origin_; }
   [[nodiscard]] const Bounds& bounds() const { return bounds_; }
-  /// Members are bent so that it is seen: displacements are enlarged, or a mode is drawn.
+  /// Members are bent so that it is seen: by what the run has done to them, because displacements are enlarged, or
+  /// because a mode is drawn.
   [[nodiscard]] bool bent() const {
-    return built_shape_ != nullptr || std::max(built_options_.deflection_scale, built_options_.motion_scale_now()) > 1;
+    return built_shape_ != nullptr || seen_bent_ ||
+           std::max(built_options_.deflection_scale, built_options_.motion_scale_now()) > 1;
   }
   /// m: of the thinner side of most members.
   [[nodiscard]] float member_width() const { return member_width_; }
@@ -105,6 +107,7 @@ class SceneInstances {
 
  private:
   struct Motion;
+  struct BrokenPanel;
   struct Part {
     std::size_t batch = 0;
     MemberInstance rest;
@@ -128,17 +131,19 @@ class SceneInstances {
   void place_chunks(const Snapshot& snapshot);
   void find_torn_ends();
   void place_torn_ends(const Snapshot& snapshot);
+  [[nodiscard]] bool is_seen_bent(const Snapshot& snapshot) const;
   void place_piers(const Snapshot& snapshot, const ViewOptions& options);
   void add_torn_end(std::size_t index, int end, const MemberInstance& instance);
   [[nodiscard]] std::size_t bars_of_chunk(structure::MaterialId material) const;
-  void place_broken_panels(const Snapshot& snapshot);
+  void place_broken_panels(const Snapshot& snapshot, bool bend);
+  void bend_broken_panel(std::size_t panel, const Snapshot& snapshot, BrokenPanel& drawn);
   [[nodiscard]] Rgba broken_colour(std::size_t panel) const;
   void place_drawn(const Snapshot& snapshot, bool bend);
   void bend_drawn(const DrawnPiece& piece, const Snapshot& snapshot, InstanceBatch<RigidInstance>& batch) const;
   void colour_member(std::size_t index, const Snapshot& snapshot, const ViewOptions& options);
   void colour_panel(std::size_t index, const Snapshot& snapshot, const ViewOptions& options);
   [[nodiscard]] MemberInstance moved_member(std::size_t index, const Motion& motion, const Snapshot& snapshot) const;
-  [[nodiscard]] PanelInstance moved_panel(std::size_t index, const Motion& motion) const;
+  [[nodiscard]] PanelInstance moved_panel(std::size_t index, const Motion& motion, const Snapshot& snapshot) const;
   [[nodiscard]] bool shown(const structure::Member& member, const PartSwitches& switches) const;
   [[nodiscard]] std::vector<InstanceBatch<PanelInstance>>& batches(const structure::Panel& panel) {
     return panel.kind == structure::PanelKind::slab ? slabs_ : walls_;
@@ -160,8 +165,15 @@ class SceneInstances {
   std::vector<DustInstance> dust_;
   Overlay diagrams_, marks_;
   std::array<double, 2> diagram_range_{};
-  /// Batches of standing panels that are broken in part, by panel, with the mesh that they draw.
-  std::map<std::size_t, std::pair<std::shared_ptr<const fracture::Mesh>, std::size_t>> chunk_of_panel_;
+  /// Of a panel that is broken in part: the mesh that it draws, where its vertices are while nothing bends it, and how
+  /// its corners have moved as it is drawn.
+  struct BrokenPanel {
+    std::shared_ptr<const fracture::Mesh> mesh;
+    std::size_t batch = 0;
+    std::vector<glm::vec3> rest;
+    std::array<Eigen::Vector3f, 4> moved{};
+  };
+  std::map<std::size_t, BrokenPanel> broken_panels_;
   std::vector<InstanceBatch<RigidInstance>> drawn_;
   struct DrawnBatch {
     std::size_t batch = 0;
@@ -170,6 +182,7 @@ class SceneInstances {
   std::map<std::shared_ptr<const fracture::Mesh>, DrawnBatch> batch_of_drawn_;
   double largest_ = 0;
   float member_width_ = 0;
+  bool seen_bent_ = false;
   // What the standing instances were built for.
   std::shared_ptr<const FrameAnswer> built_answer_;
   std::shared_ptr<const Membership> built_membership_;

@@ -16,15 +16,19 @@ MemberInstance SceneInstances::moved_member(std::size_t index, const Motion& mot
   const glm::vec4 q = instance.rotation;
   instance.first_end = glm::vec3(motion(glm::dvec3(instance.first_end) + origin_) - origin_);
   instance.rotation = packed(motion.turn * glm::dquat(q.w, q.x, q.y, q.z));
-  if (const auto& bend = snapshot.membership->bend; index < bend.size()) {
-    instance.rotation1 = glm::vec3(motion.turn * glm::dvec3(to_glm(bend[index][0])));
-    instance.rotation2 = glm::vec3(motion.turn * glm::dvec3(to_glm(bend[index][1])));
+  if (const auto& kept = snapshot.membership->member_shape; index < kept.size() && kept[index]) {
+    bend(instance, *kept[index]);
+    for (glm::vec3* way :
+         {&instance.displacement1, &instance.rotation1, &instance.displacement2, &instance.rotation2, &instance.bulge})
+      *way = glm::vec3(motion.turn * glm::dvec3(*way));
   }
   return instance;
 }
 
-PanelInstance SceneInstances::moved_panel(std::size_t index, const Motion& motion) const {
+PanelInstance SceneInstances::moved_panel(std::size_t index, const Motion& motion, const Snapshot& snapshot) const {
   PanelInstance instance = panel_parts_[index].rest;
+  if (const auto& kept = snapshot.membership->panel_shape; index < kept.size() && kept[index])
+    for (std::size_t c = 0; c < 4; ++c) instance.corner[c] += to_glm((*kept[index])[c]);
   for (glm::vec3& corner : instance.corner) corner = glm::vec3(motion(glm::dvec3(corner) + origin_) - origin_);
   return instance;
 }
@@ -43,7 +47,7 @@ void SceneInstances::append_moving(const Snapshot& snapshot) {
   for (const MovingPart& moving : moving_panels_) {
     const Motion& motion = motions[static_cast<std::size_t>(moving.body)];
     batches(building_.panels[moving.index])[panel_parts_[moving.index].batch].instances.push_back(
-        moved_panel(moving.index, motion));
+        moved_panel(moving.index, motion, snapshot));
   }
   projectiles_.instances.clear();
   for (const BodyPose& body : snapshot.bodies)

@@ -83,7 +83,7 @@ void SceneInstances::draw_marks(const Snapshot& snapshot, const ViewOptions& opt
     if (place == part_gone) return;
     add_mark(marks_,
              place == part_stands ? standing_panel(index, snapshot, options)
-                                  : moved_panel(index, motions[static_cast<std::size_t>(place)]),
+                                  : moved_panel(index, motions[static_cast<std::size_t>(place)], snapshot),
              colour);
   };
   mark_member(options.hovered_member, hovered);

@@ -53,8 +53,44 @@ Rgba SceneInstances::broken_colour(std::size_t panel) const {
              : panel_colour(building_.panels[panel].kind);
 }
 
-/// What remains of panels that are broken in part: at rest where it stood, else moved with its body.
-void SceneInstances::place_broken_panels(const Snapshot& snapshot) {
+/// Between its corners as they have moved, or as they had when it let go.
+void SceneInstances::bend_broken_panel(std::size_t index, const Snapshot& snapshot, BrokenPanel& drawn) {
+  const structure::Panel& panel = building_.panels[index];
+  std::array<Eigen::Vector3f, 4> moved;
+  moved.fill(Eigen::Vector3f::Zero());
+  if (snapshot.membership->panel[index] == part_stands) {
+    const DrawnShape shape(snapshot, built_options_);
+    for (std::size_t c = 0; c < 4; ++c) moved[c] = shape.at(panel.nodes[c]).head<3>();
+  } else if (const auto& kept = snapshot.membership->panel_shape; index < kept.size() && kept[index]) {
+    moved = *kept[index];
+  }
+  constexpr float seen = 1e-3F;  // m
+  bool bends = false;
+  for (std::size_t c = 0; c < 4; ++c) bends = bends || (moved[c] - drawn.moved[c]).norm() > seen;
+  if (!bends) return;
+  drawn.moved = moved;
+  // Shares of the ways from the first corner to its two neighbours.
+  const structure::Vec3 corner = building_[panel.nodes[0]].position;
+  Eigen::Matrix<double, 3, 2> sides;
+  sides << building_[panel.nodes[1]].position - corner, building_[panel.nodes[3]].position - corner;
+  const Eigen::Matrix<double, 2, 3> shares = (sides.transpose() * sides).inverse() * sides.transpose();
+  InstanceBatch<RigidInstance>& batch = chunks_[drawn.batch];
+  for (std::size_t v = 0; v < drawn.rest.size(); ++v) {
+    const glm::vec3 rest = drawn.rest[v];
+    const Eigen::Vector2f at = (shares * (Eigen::Vector3d(static_cast<double>(rest.x), static_cast<double>(rest.y),
+                                                          static_cast<double>(rest.z)) -
+                                          corner))
+                                   .cast<float>();
+    const Eigen::Vector3f way = (1 - at.y()) * ((1 - at.x()) * moved[0] + at.x() * moved[1]) +
+                                at.y() * ((1 - at.x()) * moved[3] + at.x() * moved[2]);
+    batch.mesh.vertices[v].position = rest + to_glm(way);
+  }
+  ++batch.mesh_revision;
+}
+
+/// What remains of panels that are broken in part: at rest where it stood, else moved with its body. `bend`: what
+/// stands is bent otherwise than before.
+void SceneInstances::place_broken_panels(const Snapshot& snapshot, bool bend) {
   for (std::size_t i = 0; i < building_.panels.size(); ++i) {
     const auto& mesh = snapshot.membership->broken[i];
     const int place = snapshot.membership->panel[i];
@@ -62,15 +98,20 @@ void SceneInstances::place_broken_panels(const Snapshot& snapshot) {
     if (!mesh || place == part_gone || mesh->triangles.empty()) continue;
     if (!(kind == PanelKind::slab ? built_options_.shown.slabs : built_options_.shown.walls)) continue;
     if (place != part_stands && !built_options_.debris) continue;
-    auto& [drawn, batch] = chunk_of_panel_[i];
-    if (drawn != mesh) {
-      drawn = mesh;
-      batch = chunks_.size();
+    BrokenPanel& drawn = broken_panels_[i];
+    const bool is_new = drawn.mesh != mesh;
+    if (is_new) {
+      drawn.mesh = mesh;
+      drawn.batch = chunks_.size();
+      drawn.moved.fill(Eigen::Vector3f::Zero());
       chunks_.emplace_back();
       chunks_.back().mesh = chunk_mesh(*mesh);
       mark_broken(chunks_.back().mesh, &building_, &building_.panels[i]);
       add_bars(chunks_.back().mesh, bars_of_chunk(building_.panels[i].material));
+      drawn.rest.clear();
+      for (const Vertex& vertex : chunks_.back().mesh.vertices) drawn.rest.push_back(vertex.position);
     }
+    if (bend || is_new) bend_broken_panel(i, snapshot, drawn);
     glm::dvec3 position(0);
     glm::dquat turn(1, 0, 0, 0);
     if (place != part_stands) {
@@ -78,7 +119,7 @@ void SceneInstances::place_broken_panels(const Snapshot& snapshot) {
       position = motion(glm::dvec3(0));
       turn = motion.turn;
     }
-    chunks_[batch].instances.push_back(
+    chunks_[drawn.batch].instances.push_back(
         {glm::vec3(position - origin_), packed(turn), glm::vec3(1), broken_colour(i), glm::vec3(-origin_)});
   }
 }

@@ -103,17 +103,8 @@ void SceneInstances::colour_panel(std::size_t index, const Snapshot& snapshot, c
 
 MemberInstance SceneInstances::standing_member(std::size_t index, const Snapshot& snapshot,
                                                const ViewOptions& options) const {
-  const Member& member = building_.members[index];
-  const DrawnShape shape(snapshot, options);
   MemberInstance instance = member_parts_[index].rest;
-  const auto end = [&](std::size_t e, glm::vec3& displacement, glm::vec3& rotation) {
-    const Eigen::Matrix<float, 6, 1> d = shape.at(member.nodes[e]);
-    rotation = to_glm(Eigen::Vector3f(d.tail<3>()));
-    displacement = to_glm(Eigen::Vector3f(d.head<3>())) + glm::cross(rotation, glm::vec3(to_glm(member.offsets[e])));
-  };
-  end(0, instance.displacement1, instance.rotation1);
-  end(1, instance.displacement2, instance.rotation2);
-  instance.bulge = glm::vec3(0);
+  bend(instance, DrawnShape(snapshot, options).of(building_, index));
   if (snapshot.shape && snapshot.shape_bulge)
     instance.bulge = snapshot.shape_scale * to_glm((*snapshot.shape_bulge)[index]);
   return instance;
@@ -168,9 +159,31 @@ void SceneInstances::rebuild_standing(const Snapshot& snapshot, const ViewOption
       moving_panels_.push_back({i, place});
   }
   close(members_), close(slabs_), close(walls_);
+  seen_bent_ = is_seen_bent(snapshot);
   place_piers(snapshot, options);
   draw_diagrams(snapshot, options);
   draw_arrows(snapshot, options);
+}
+
+/// More than a hundredth of a radian between an end and the line between both is seen.
+bool SceneInstances::is_seen_bent(const Snapshot& snapshot) const {
+  const auto bends = [&](const MemberShape& shape, const Member& member) {
+    constexpr float seen = 0.01F;
+    const Eigen::Vector3f axis = member.axes.row(0).transpose().cast<float>();
+    const Eigen::Vector3f way = shape.ends[1].head<3>() - shape.ends[0].head<3>();
+    const Eigen::Vector3f chord = axis.cross(way) / static_cast<float>(member.length);
+    return std::any_of(shape.ends.begin(), shape.ends.end(), [&](const Displacement& end) {
+      return axis.cross(Eigen::Vector3f(end.tail<3>() - chord)).norm() > seen;
+    });
+  };
+  const auto& shapes = snapshot.answer->shapes;
+  const auto& kept = snapshot.membership->member_shape;
+  for (std::size_t i = 0; i < building_.members.size(); ++i) {
+    const MemberShape* own = shapes ? shapes->find(i) : nullptr;
+    if (own == nullptr && i < kept.size()) own = kept[i].get();
+    if (own != nullptr && bends(*own, building_.members[i])) return true;
+  }
+  return false;
 }
 
 void SceneInstances::place_piers(const Snapshot& snapshot, const ViewOptions& options) {

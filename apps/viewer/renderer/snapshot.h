@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "renderer/member_shapes.h"
 #include "topple/structure/joint_tuning.h"
 #include "topple/structure/simulation.h"
 
@@ -34,9 +35,11 @@ struct Wanted {
 
 /// The answer of the statics: shared by all snapshots until it changes.
 struct FrameAnswer {
-  std::vector<Eigen::Matrix<float, 6, 1>> displacements;  ///< per node, global; zero where the node does not stand
+  std::vector<Displacement> displacements;     ///< per node, global; zero where the node does not stand
+  std::shared_ptr<const MemberShapes> shapes;  ///< null: nodes tell all
   /// The same when the run began, nothing lost; null: zero.
-  std::shared_ptr<const std::vector<Eigen::Matrix<float, 6, 1>>> at_start;
+  std::shared_ptr<const std::vector<Displacement>> at_start;
+  std::shared_ptr<const MemberShapes> shapes_at_start;
   struct Joint {
     std::array<float, 6> demand{};  ///< joint axes, N and N m (panels: per length)
     float utilisation = 0;
@@ -60,9 +63,10 @@ struct TunedJoints {
 /// Which part is where: index into Snapshot::bodies, or one of these.
 inline constexpr int part_stands = -1, part_gone = -2;
 struct Membership {
-  /// Per member that has let go: how its ends were turned against its chord then (rad, in the axes of the undeformed
-  /// building). It keeps that shape.
-  std::vector<std::array<Eigen::Vector3f, 2>> bend;
+  /// Per member, and per panel at its corners: how what has let go was bent then, beside the rigid motion of its body
+  /// that comes nearest (axes of the undeformed building). It keeps that shape. Null: none, or it stands.
+  std::vector<std::shared_ptr<const MemberShape>> member_shape;
+  std::vector<std::shared_ptr<const std::array<Eigen::Vector3f, 4>>> panel_shape;
   std::vector<int> member, panel;
   std::vector<int> segment;  ///< per member: number of its standing segment, -1 when it does not stand
   /// Per panel: what remains of one that is broken in part, where it stood undeformed; null while it is whole.

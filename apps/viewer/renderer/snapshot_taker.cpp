@@ -125,19 +125,21 @@ std::shared_ptr<const FrameForces> read_forces(const Simulation& simulation, Wan
   return forces;
 }
 
-std::vector<Eigen::Matrix<float, 6, 1>> read_displacements(const Simulation& simulation) {
+std::vector<Displacement> read_displacements(const Simulation& simulation) {
   const structure::StandingFrame& frame = simulation.frame();
-  std::vector<Eigen::Matrix<float, 6, 1>> read(simulation.building().nodes.size(), Eigen::Matrix<float, 6, 1>::Zero());
+  std::vector<Displacement> read(simulation.building().nodes.size(), Displacement::Zero());
   for (std::size_t i = 0; i < read.size(); ++i)
     if (frame.stands(NodeId(i))) read[i] = frame.displacement(NodeId(i)).cast<float>();
   return read;
 }
 
-std::shared_ptr<FrameAnswer> read_answer(const Simulation& simulation, Wanted wanted) {
+std::shared_ptr<FrameAnswer> read_answer(const Simulation& simulation, Wanted wanted,
+                                         const std::vector<bool>& yielded) {
   const Building& building = simulation.building();
   const structure::StandingFrame& frame = simulation.frame();
   auto answer = std::make_shared<FrameAnswer>();
   answer->displacements = read_displacements(simulation);
+  answer->shapes = read_member_shapes(frame, building, yielded, answer->displacements);
   answer->joints.reserve(building.joints.size());
   for (std::size_t i = 0; i < building.joints.size(); ++i)
     answer->joints.push_back(joint_answer(frame, building, JointId(i)));
@@ -169,28 +171,58 @@ std::shared_ptr<Membership> read_membership(const Simulation& simulation) {
   return membership;
 }
 
-/// Of a member by the displacements of its nodes: beside its chord's own turn.
-std::array<Eigen::Vector3f, 2> bend_of(const structure::Member& member, const FrameAnswer& answer) {
-  std::array<Eigen::Vector3f, 2> moved, turned;
-  for (std::size_t end = 0; end < 2; ++end) {
-    const auto& d = answer.displacements[static_cast<std::size_t>(member.nodes[end].index)];
-    turned[end] = d.tail<3>();
-    moved[end] = d.head<3>() + turned[end].cross(Eigen::Vector3f(member.offsets[end].cast<float>()));
+MemberShape shape_in(const FrameAnswer& answer, const Building& building, std::size_t member) {
+  const MemberShape* own = answer.shapes ? answer.shapes->find(member) : nullptr;
+  return own != nullptr ? *own : shape_of_nodes(building, MemberId(member), answer.displacements);
+}
+
+Eigen::Vector3d end_of(const Building& building, const structure::Member& member, std::size_t end) {
+  return building[member.nodes[end]].position + member.offsets[end];
+}
+
+/// What lets go now as one body.
+struct LettingGo {
+  std::vector<std::size_t> members, panels;
+};
+
+void keep_shape(Membership& now, const LettingGo& part, const FrameAnswer& stood_by, const Building& building) {
+  NearestMotion motion;
+  const auto moved = [&](NodeId node) { return stood_by.displacements[static_cast<std::size_t>(node.index)]; };
+  for (const std::size_t i : part.members) {
+    const MemberShape shape = shape_in(stood_by, building, i);
+    for (const std::size_t end : {0U, 1U}) motion.add(end_of(building, building.members[i], end), shape.ends[end]);
   }
-  const Eigen::Vector3f axis = member.axes.row(0).transpose().cast<float>();
-  const Eigen::Vector3f chord = axis.cross(moved[1] - moved[0]) / static_cast<float>(member.length);
-  // What both ends turn about the axis bends nothing.
-  const Eigen::Vector3f twist = 0.5F * (turned[0] + turned[1]).dot(axis) * axis;
-  return {turned[0] - chord - twist, turned[1] - chord - twist};
+  for (const std::size_t i : part.panels)
+    for (const NodeId node : building.panels[i].nodes) motion.add(building[node].position, moved(node));
+  motion.solve();
+  for (const std::size_t i : part.members) {
+    auto kept = std::make_shared<MemberShape>(shape_in(stood_by, building, i));
+    for (const std::size_t end : {0U, 1U})
+      kept->ends[end] = motion.beside(end_of(building, building.members[i], end), kept->ends[end]);
+    now.member_shape[i] = std::move(kept);
+  }
+  for (const std::size_t i : part.panels) {
+    auto kept = std::make_shared<std::array<Eigen::Vector3f, 4>>();
+    for (std::size_t c = 0; c < 4; ++c) {
+      const NodeId node = building.panels[i].nodes[c];
+      (*kept)[c] = motion.beside(building[node].position, moved(node)).head<3>();
+    }
+    now.panel_shape[i] = std::move(kept);
+  }
 }
 
 /// Keeps the shapes of those that let go before, and takes those of who does now from the answer that they stood by.
-void keep_bends(Membership& now, const Membership& before, const FrameAnswer& answer, const Building& building) {
-  now.bend = before.bend;
-  now.bend.resize(now.member.size(), {Eigen::Vector3f::Zero(), Eigen::Vector3f::Zero()});
+void keep_shapes(Membership& now, const Membership& before, const FrameAnswer& stood_by, const Building& building) {
+  now.member_shape = before.member_shape;
+  now.panel_shape = before.panel_shape;
+  now.member_shape.resize(now.member.size());
+  now.panel_shape.resize(now.panel.size());
+  std::map<int, LettingGo> parts;  // by body
   for (std::size_t i = 0; i < now.member.size(); ++i)
-    if (before.member[i] == part_stands && now.member[i] != part_stands)
-      now.bend[i] = bend_of(building.members[i], answer);
+    if (before.member[i] == part_stands && now.member[i] >= 0) parts[now.member[i]].members.push_back(i);
+  for (std::size_t i = 0; i < now.panel.size(); ++i)
+    if (before.panel[i] == part_stands && now.panel[i] >= 0) parts[now.panel[i]].panels.push_back(i);
+  for (const auto& [body, part] : parts) keep_shape(now, part, stood_by, building);
 }
 
 BodyPose pose_of(const structure::BodyView& body) {
@@ -236,8 +268,22 @@ bool SnapshotTaker::answer_is_old(const Simulation& simulation) const {
          seen_events_ != simulation.events().size();
 }
 
+void SnapshotTaker::read_yields(const Simulation& simulation) {
+  const auto& events = simulation.events();
+  if (events.size() < yielded_events_) yielded_.clear(), yielded_events_ = 0;
+  yielded_.resize(simulation.building().members.size(), false);
+  for (; yielded_events_ < events.size(); ++yielded_events_) {
+    const structure::SimulationEvent& event = events[yielded_events_];
+    if (event.kind != structure::SimulationEvent::Kind::joint_yielded) continue;
+    if (const MemberId member = simulation.building()[event.joint.joint].member; member.valid())
+      yielded_[static_cast<std::size_t>(member.index)] = true;
+  }
+}
+
 void SnapshotTaker::begin(const Simulation& simulation) {
-  at_start_ = std::make_shared<const std::vector<Eigen::Matrix<float, 6, 1>>>(read_displacements(simulation));
+  at_start_ = std::make_shared<const std::vector<Displacement>>(read_displacements(simulation));
+  read_yields(simulation);
+  shapes_at_start_ = read_member_shapes(simulation.frame(), simulation.building(), yielded_, *at_start_);
 }
 
 Snapshot SnapshotTaker::take(const Simulation& simulation, structure::VisualMesh* drawn) {
@@ -246,14 +292,16 @@ Snapshot SnapshotTaker::take(const Simulation& simulation, structure::VisualMesh
   const bool old = answer_is_old(simulation);
   const auto stood_by = last_answer_;
   if (old) {
-    auto answer = read_answer(simulation, wanted_);
+    read_yields(simulation);
+    auto answer = read_answer(simulation, wanted_, yielded_);
     answer->at_start = at_start_;
+    answer->shapes_at_start = shapes_at_start_;
     answer_ = last_answer_ = std::move(answer);
   }
   read_ = wanted_;
   if (old || ids != seen_bodies_) {
     auto membership = read_membership(simulation);
-    if (membership_ && stood_by) keep_bends(*membership, *membership_, *stood_by, simulation.building());
+    if (membership_ && stood_by) keep_shapes(*membership, *membership_, *stood_by, simulation.building());
     for (const structure::NodeSupport& support : simulation.building().supports)
       membership->supports.push_back(std::none_of(taken_supports_.begin(), taken_supports_.end(), [&](const auto& one) {
         return one.first == support.node && one.second <= simulation.time();

@@ -179,7 +179,7 @@ class StandingFrame {
 
   // What acts and what bears, for drawings. All of the statics as solved last; empty or zero for what stands no more.
   /// Along a standing member at `intervals` + 1 even places from its first end, in the order of
-  /// solver::BeamDiagram::Quantity (N, N m, m; member axes).
+  /// solver::BeamDiagram::Quantity (N, N m, m; member axes). Of one that moves: by what it bears now (end_forces()).
   [[nodiscard]] std::vector<std::array<double, 8>> internal_forces(MemberId member, int intervals) const;
   /// Loads of the combination, what panels hand on, events and contacts: member axes.
   [[nodiscard]] std::vector<solver::BeamLoad> member_loads(MemberId member) const;
