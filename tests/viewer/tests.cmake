@@ -8,7 +8,7 @@ if(TOPPLE_VIEWER)
     TOPPLE_PROGRAM="$<TARGET_FILE:topple>")
   add_dependencies(test_viewer topple-viewer topple)
   pkg_check_modules(IMGUI REQUIRED imgui)
-  set_source_files_properties("${CMAKE_CURRENT_LIST_DIR}/start_page_test.cpp" PROPERTIES INCLUDE_DIRECTORIES "${IMGUI_INCLUDE_DIRS}")
+  set_source_files_properties("${CMAKE_CURRENT_LIST_DIR}/start_page_test.cpp" "${CMAKE_CURRENT_LIST_DIR}/scale_test.cpp" PROPERTIES INCLUDE_DIRECTORIES "${IMGUI_INCLUDE_DIRS}")
 
   find_package(Python3 COMPONENTS Interpreter)
   if(Python3_FOUND)

@@ -21,21 +21,38 @@ void add_font(const unsigned char* begin, const unsigned char* end, float pixels
                                              std::round(pixels), &font);
 }
 
-}  // namespace
-
-Interface::Interface(float scale) {
-  IMGUI_CHECKVERSION();
-  ImGui::CreateContext();
-  ImGuiIO& io = ImGui::GetIO();
-  io.IniFilename = nullptr;
+/// All sizes from their values at scale 1, so that nothing is left of a scale before.
+void set_looks(float scale) {
   add_font(topple_font_begin, topple_font_end, text_pixels * scale);
   add_font(topple_table_font_begin, topple_table_font_end, table_pixels * scale);
-  io.Fonts->Build();  // so that sizes in text are known before the first frame
+  ImGui::GetIO().Fonts->Build();  // so that sizes in text are known before the first frame
+  ImGuiStyle& style = ImGui::GetStyle();
+  style = ImGuiStyle();
   ImGui::StyleColorsDark();
-  ImGui::GetStyle().ScaleAllSizes(scale);
-  ImGui::GetStyle().WindowRounding = 0;
-  ImGui::GetStyle().Colors[ImGuiCol_WindowBg] = ImVec4(0.09F, 0.10F, 0.12F, 1.0F);
+  style.ScaleAllSizes(scale);
+  style.WindowRounding = 0;
+  style.Colors[ImGuiCol_WindowBg] = ImVec4(0.09F, 0.10F, 0.12F, 1.0F);
+}
+
+}  // namespace
+
+Interface::Interface(float scale) : scale_(scale) {
+  IMGUI_CHECKVERSION();
+  ImGui::CreateContext();
+  ImGui::GetIO().IniFilename = nullptr;
+  set_looks(scale);
   ImGui_ImplOpenGL3_Init("#version 330 core");
+}
+
+void Interface::set_scale(float scale) {
+  if (scale == scale_) return;
+  scale_ = scale;
+  // Before the first frame the letters are not on the graphics card yet, and that frame brings them there.
+  const bool there = ImGui::GetIO().Fonts->TexID != nullptr;
+  if (there) ImGui_ImplOpenGL3_DestroyFontsTexture();
+  ImGui::GetIO().Fonts->Clear();
+  set_looks(scale);
+  if (there) ImGui_ImplOpenGL3_CreateFontsTexture();
 }
 
 Interface::~Interface() {

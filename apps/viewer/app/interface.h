@@ -14,6 +14,11 @@ class Interface {
   Interface(const Interface&) = delete;
   Interface& operator=(const Interface&) = delete;
 
+  /// The display has another scale now (the window was moved to another screen): fonts, sizes and spaces follow.
+  /// Between two frames.
+  void set_scale(float scale);
+  [[nodiscard]] float scale() const { return scale_; }
+
   // Without a window: what a pointer does comes from here.
   void begin_frame(glm::dvec2 size, double seconds);
   void point(glm::dvec2 pixel);
@@ -23,6 +28,9 @@ class Interface {
 
   /// Draws what was laid out since the frame began into the framebuffer that is bound.
   static void end_frame();
+
+ private:
+  float scale_ = 1;
 };
 
 }  // namespace topple::viewer

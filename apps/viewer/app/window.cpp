@@ -92,12 +92,17 @@ float content_scale(GLFWwindow* window) {
 /// Dear ImGui fed by the window. GLFW's callbacks of our own are set before.
 class WindowInterface {
  public:
-  WindowInterface(GLFWwindow* window, double scale) : interface_(content_scale(window) * static_cast<float>(scale)) {
+  WindowInterface(GLFWwindow* window, double scale)
+      : window_(window),
+        wanted_(static_cast<float>(scale)),
+        interface_(content_scale(window) * static_cast<float>(scale)) {
     ImGui_ImplGlfw_InitForOpenGL(window, true);
   }
   ~WindowInterface() { ImGui_ImplGlfw_Shutdown(); }
   WindowInterface(const WindowInterface&) = delete;
   WindowInterface& operator=(const WindowInterface&) = delete;
+  /// The window may have been moved to a screen of another scale: what is laid out from here on is as large there.
+  void follow_scale() { interface_.set_scale(content_scale(window_) * wanted_); }
   static void begin_frame() {
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
@@ -105,6 +110,8 @@ class WindowInterface {
   }
 
  private:
+  GLFWwindow* window_;
+  float wanted_;
   Interface interface_;
 };
 
@@ -268,7 +275,8 @@ class FirstPicture {
 
 /// What a person does with one scene. True: another is asked for; false: the window closes. Throws what the scene's
 /// simulation throws when it begins.
-bool run_scene(const Window& window, Input& input, const Scene& scene, const WindowOptions& options, Speaker* speaker) {
+bool run_scene(const Window& window, Input& input, WindowInterface& interface, const Scene& scene,
+               const WindowOptions& options, Speaker* speaker) {
   const double ground = ground_height(*scene.building, scene.scenario);
   SceneInstances instances(*scene.building, ground);
   Renderer renderer(instances, ground);
@@ -292,6 +300,7 @@ bool run_scene(const Window& window, Input& input, const Scene& scene, const Win
   double before = glfwGetTime();
   while (glfwWindowShouldClose(window.get()) == GLFW_FALSE && !controller.leaves && !controller.wants_another) {
     glfwPollEvents();
+    interface.follow_scale();
     driver.require_beginning();
     const double now = glfwGetTime();
     input.fly(now - before);
@@ -333,12 +342,13 @@ class SteeredByKeyboard {
 };
 
 /// The scene that a person chooses on the start page; none: the window closes. `message`: what the page tells at first.
-std::optional<Scene> choose_scene(const Window& window, const std::string& message) {
+std::optional<Scene> choose_scene(const Window& window, WindowInterface& interface, const std::string& message) {
   StartPage page;
   page.message = message;
   const SteeredByKeyboard steered;
   while (glfwWindowShouldClose(window.get()) == GLFW_FALSE) {
     glfwWaitEventsTimeout(0.1);
+    interface.follow_scale();
     const glm::ivec2 pixels = window.pixels();
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glViewport(0, 0, pixels.x, pixels.y);
@@ -365,16 +375,16 @@ std::optional<Scene> choose_scene(const Window& window, const std::string& messa
 void run_window(std::optional<Scene> scene, const WindowOptions& options) {
   const Window window(options.width, options.height, "Topple");
   Input input(window.get(), options.screenshot);
-  const WindowInterface interface(window.get(), options.scale);
+  WindowInterface interface(window.get(), options.scale);
   const std::unique_ptr<Speaker> speaker = options.sound ? Speaker::open() : nullptr;
   // One that was asked for by name ends the program when it cannot be run; one of the start page leads back there.
-  if (scene && !run_scene(window, input, *scene, options, speaker.get())) return;
+  if (scene && !run_scene(window, input, interface, *scene, options, speaker.get())) return;
   std::string message;
   for (bool another = true; another;) {
-    scene = choose_scene(window, message);
+    scene = choose_scene(window, interface, message);
     if (!scene) return;
     try {
-      another = run_scene(window, input, *scene, options, speaker.get());
+      another = run_scene(window, input, interface, *scene, options, speaker.get());
       message.clear();
     } catch (const structure::InputError& unfit) {
       message = unfit.what();
