@@ -6,6 +6,7 @@
 
 #include "renderer/instance_parts.h"
 #include "renderer/shapes/arrows.h"
+#include "renderer/shapes/looks.h"
 #include "renderer/shapes/torn_ends.h"
 
 namespace topple::viewer {
@@ -89,6 +90,7 @@ void SceneInstances::place_panels() {
       whole.nodes = panel.nodes;
       shapes.back().mesh = panel_mesh(building_, whole);
     }
+    has_glass_ = has_glass_ || look_of(building_[panel.material]) == Look::glass;
     PanelPart part;
     if (!panel.openings.empty()) {
       part.batch = shapes.size();

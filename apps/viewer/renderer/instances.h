@@ -98,6 +98,8 @@ class SceneInstances {
     return built_shape_ != nullptr || seen_bent_ ||
            std::max(built_options_.deflection_scale, built_options_.motion_scale_now()) > 1;
   }
+  /// Some panel is of glass.
+  [[nodiscard]] bool has_glass() const { return has_glass_; }
   /// m: of the thinner side of most members.
   [[nodiscard]] float member_width() const { return member_width_; }
   /// The largest of the values that Scale::largest_in_view refers to.
@@ -182,7 +184,7 @@ class SceneInstances {
   std::map<std::shared_ptr<const fracture::Mesh>, DrawnBatch> batch_of_drawn_;
   double largest_ = 0;
   float member_width_ = 0;
-  bool seen_bent_ = false;
+  bool seen_bent_ = false, has_glass_ = false;
   // What the standing instances were built for.
   std::shared_ptr<const FrameAnswer> built_answer_;
   std::shared_ptr<const Membership> built_membership_;

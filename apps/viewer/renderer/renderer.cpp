@@ -104,6 +104,7 @@ struct Renderer::State {
   void draw_scene(const SceneInstances& instances, const ViewOptions& options, const Overlay& lines);
   void draw_panels(PanelKind kind, float opacity);
   void blend_panels(PanelKind kind);
+  void draw_glass(const ViewOptions& options);
   void draw_overlay(const SceneInstances& instances, const Overlay& more);
   void draw_dust(const SceneInstances& instances);
   void draw_on_top();
@@ -210,6 +211,23 @@ void Renderer::State::blend_panels(PanelKind kind) {
   glDisable(GL_BLEND);
 }
 
+/// What is behind it is there already. Panes behind panes add up in any order well enough: none hides much.
+void Renderer::State::draw_glass(const ViewOptions& options) {
+  picture.opacity.w = 1;
+  send_block();
+  glEnable(GL_BLEND);
+  glDepthMask(GL_FALSE);
+  glUseProgram(programs.panel.get());
+  if (options.slab_opacity_now() > 0) scene.draw_panels(PanelKind::slab);
+  if (options.wall_opacity_now() > 0) scene.draw_panels(PanelKind::wall);
+  glUseProgram(programs.rigid.get());
+  scene.draw_rigid();
+  glDepthMask(GL_TRUE);
+  glDisable(GL_BLEND);
+  picture.opacity.w = 0;
+  send_block();
+}
+
 void Renderer::State::draw_overlay(const SceneInstances& instances, const Overlay& more) {
   diagrams.update(instances.diagrams());
   marks.update(instances.marks());
@@ -285,6 +303,7 @@ void Renderer::State::draw_scene(const SceneInstances& instances, const ViewOpti
   draw_overlay(instances, lines);
   if (slabs < 1) draw_panels(PanelKind::slab, slabs);
   if (walls < 1) draw_panels(PanelKind::wall, walls);
+  if (instances.has_glass() && options.colouring == Colouring::materials) draw_glass(options);
   draw_dust(instances);
   draw_on_top();
 }

@@ -133,6 +133,7 @@ void main() {
   float width = length(along_s), height = length(along_t);
   distances = vec4(t * height, (1.0 - s) * width, (1.0 - t) * height, s * width);
   gl_Position = TRANSFORM * vec4(point, 1.0);
+  if (!drawn_now(material)) gl_Position = not_drawn;
 }
 )";
 
@@ -143,8 +144,23 @@ flat in int material;
 in vec4 colours[4];
 in vec4 distances;
 out vec4 result;
+// Glass is framed along its edges, and standing glass divided by posts into lights no wider than 1.6 m. Share of a pixel.
+float bar_of_window(vec4 edges, bool stands) {
+  const float bar = 0.06, widest = 1.6;
+  float width = edges.y + edges.w, light = stands ? width / ceil(width / widest) : width;
+  float across = lines_covered((edges.w + 0.5 * bar) / light, bar / light, fwidth(edges.w) / light);
+  float level = clamp((bar - min(edges.x, edges.z)) / max(fwidth(edges.x), 1e-4) + 0.5, 0.0, 1.0);
+  return 1.0 - (1.0 - across) * (1.0 - level);
+}
 void main() {
   vec3 normal = normalize(surface_normal);
+  if (material == 4) {
+    result = glass(plain, normal, point, 0.0);
+    float bar = bar_of_window(distances, abs(part_normal.z) < 0.5);
+    Surface painted = Surface(linear(vec3(0.11, 0.12, 0.13)), 0.75, 0.0, 0.0);
+    if (bar > 0.0) result = mix(result, vec4(shade(painted, normal, point, normal), 1.0), bar);
+    return;
+  }
   if (material < 255) {
     Surface s = surface_of(material, plain, part_point, part_normal, 0.0);
     float open = 0.0;
@@ -185,6 +201,7 @@ void main() {
   surface_normal = turn(rotation, normal / scale);
   albedo = linear(colour.rgb);
   gl_Position = TRANSFORM * vec4(point, 1.0);
+  if (!drawn_now(material)) gl_Position = not_drawn;
 }
 )";
 
@@ -198,6 +215,10 @@ void main() {
   vec3 normal = normalize(surface_normal);
   if (material == 255) {
     result = vec4(shade_plain(albedo, normal, point, 0.45), 1.0);
+    return;
+  }
+  if (material == 4) {
+    result = glass(albedo, normal, point, broken);
     return;
   }
   bool bar = broken > 1.5;

@@ -19,7 +19,8 @@ struct PictureBlock {
   glm::vec4 picture;  ///< width, height (pixels), near, far
   glm::vec4 mode;     ///< x: 1 when members blend from end to end; y: ambient occlusion; z: its radius in the scene; w:
                       ///< share of even light
-  glm::vec4 opacity;  ///< x: panels of this draw; y: 1 in the view of materials; z: layer of the shadow map being drawn
+  glm::vec4 opacity;  ///< x: panels of this draw; y: 1 in the view of materials; z: layer of the shadow map being
+                      ///< drawn; w: 1 while glass is drawn, and nothing else
   glm::vec4 reaches, texels;  ///< of the layers: half their width, width of a texel, in the scene
   glm::vec4 plot;             ///< half of what the building covers, x and y; time, s; free
 };

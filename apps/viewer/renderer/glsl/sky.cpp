@@ -11,6 +11,9 @@ layout(std140) uniform Picture {
 vec3 linear(vec3 srgb) { return pow(srgb, vec3(2.2)); }
 vec3 turn(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
 const vec3 earth = vec3(0.30, 0.28, 0.25);
+// What is seen through is drawn by itself, after all else.
+bool drawn_now(int material) { return (material == 4) == (opacity.w > 0.5); }
+const vec4 not_drawn = vec4(0.0, 0.0, 2.0, 1.0);
 )";
 
 // Light scattered once in a clear atmosphere of even layers (air over 8 km, haze over 1.2 km), seen through the
