@@ -22,6 +22,7 @@ void hear(GLenum, GLenum type, GLuint, GLenum, GLsizei, const GLchar* text, cons
 }  // namespace
 
 void listen_for_gl_errors() {
+  told.clear();  // what another context told, and nobody asked for, is none of this one's
   if (!epoxy_has_gl_extension("GL_KHR_debug")) return;
   glEnable(GL_DEBUG_OUTPUT);
   glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
