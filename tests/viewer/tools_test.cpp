@@ -67,6 +67,20 @@ TEST_CASE("removing a part takes it away, and undo brings it back") {
   CHECK(person.now().membership->member[static_cast<std::size_t>(person.member("P-1-1-2").index)] == part_stands);
 }
 
+TEST_CASE("what is pointed at is marked while it stands, and no more when it has come off") {
+  Person person;
+  person.controller.key("m");
+  const MemberId post = person.member("P-1-1-2");
+  person.click_on("P-1-1-2", 0.5);  // looks at it; taken away with the next step
+  person.controller.hover(size / 2.0);
+  (void)person.controller.shown(false);
+  CHECK(person.controller.options.hovered_member == post);
+  person.go(1);
+  (void)person.controller.shown(false);
+  CHECK_FALSE(person.controller.options.hovered_member.valid());
+  CHECK_FALSE(person.controller.hovered());
+}
+
 TEST_CASE("a support goes with a click on what stands on it, and nothing with a click elsewhere") {
   Person person;
   person.controller.key("t");

@@ -45,6 +45,12 @@ Bounds bounds_to_ground(const Scene& scene, double ground) {
   return bounds;
 }
 
+/// The member or panel that was pointed at stands.
+bool stands(const Pick& picked, const Membership& membership) {
+  if (picked.member.valid()) return membership.member[static_cast<std::size_t>(picked.member.index)] == part_stands;
+  return picked.panel.valid() && membership.panel[static_cast<std::size_t>(picked.panel.index)] == part_stands;
+}
+
 }  // namespace
 
 Controller::Controller(Driver& driver, const Scene& scene, double ground, glm::dvec2 size)
@@ -168,8 +174,16 @@ void Controller::tune(const structure::JointChange& change) {
   driver_.order_and_show([change](Session& session) { session.tune(change); });
 }
 
+void Controller::leave_what_came_off(const Snapshot& moment) {
+  if (!hovered_ || !hovered_stood_ || stands(*hovered_, *moment.membership)) return;
+  hovered_.reset();
+  options.hovered_member = structure::MemberId();
+  options.hovered_panel = structure::PanelId();
+}
+
 void Controller::hover(glm::dvec2 pixel) {
   hovered_ = pick_at(pixel);
+  hovered_stood_ = hovered_ && stands(*hovered_, *now().membership);
   options.hovered_member = hovered_ ? hovered_->member : structure::MemberId();
   options.hovered_panel = hovered_ ? hovered_->panel : structure::PanelId();
 }
@@ -232,6 +246,7 @@ void Controller::update(double seconds) {
 
 Snapshot Controller::shown(bool wait) {
   Snapshot moment = now();
+  leave_what_came_off(moment);
   if (!mode.kind) return moment;
   const auto* known = wait ? &modes_.wait(*mode.kind) : modes_.find(*mode.kind);
   if (known == nullptr || known->empty()) return moment;

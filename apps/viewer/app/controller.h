@@ -162,6 +162,8 @@ class Controller {
 
  private:
   [[nodiscard]] Snapshot now() const;
+  /// What stood under the pointer and has come off is marked no more: the mark does not fly away with it.
+  void leave_what_came_off(const Snapshot& moment);
   [[nodiscard]] std::optional<Pick> pick_at(glm::dvec2 pixel) const;
   void use(const Pick& pick);
   void remove_support_at(const Pick& pick);
@@ -179,6 +181,7 @@ class Controller {
   double ground_;
   glm::dvec2 size_;
   std::optional<Pick> hovered_;
+  bool hovered_stood_ = false;
   std::optional<double> looking_at_;
   bool replaying_ = false;
   std::future<std::string> exporting_;  ///< the file, when it is whole
