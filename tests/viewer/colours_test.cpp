@@ -12,6 +12,7 @@
 #include "app/open_scene.h"
 #include "renderer/instances.h"
 #include "renderer/picture_renderer.h"
+#include "renderer/shapes/looks.h"
 #include "renderer/shapes/palette.h"
 #include "support/scratch_folder.h"
 
@@ -174,4 +175,21 @@ TEST_CASE("coloured members are drawn plain, and their colour fades from the joi
   CHECK(red[0] > 10);
   CHECK(red[1] == 0);
   CHECK(red[2] > 10);
+}
+
+TEST_CASE("a ball is of bare steel where materials are seen, and plain where colours mean something") {
+  const topple::structure::Building building = *open_scene("seed_building").building;
+  Snapshot snapshot = undeformed(building);
+  snapshot.bodies.emplace_back();
+  snapshot.bodies.back().radius = 0.4;
+  const auto material = [&](Colouring colouring) {
+    SceneInstances instances(building);
+    ViewOptions options;
+    options.colouring = colouring;
+    instances.update(snapshot, options);
+    REQUIRE(instances.projectiles().instances.size() == 1);
+    return instances.projectiles().instances[0].colour >> 24U;
+  };
+  CHECK(material(Colouring::materials) == static_cast<Rgba>(Look::steel));
+  CHECK(material(Colouring::joints) == 255);
 }

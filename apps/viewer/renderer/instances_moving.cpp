@@ -50,10 +50,14 @@ void SceneInstances::append_moving(const Snapshot& snapshot) {
         moved_panel(moving.index, motion, snapshot));
   }
   projectiles_.instances.clear();
+  // Bare steel where materials are seen.
+  const Rgba ball = built_options_.colouring == Colouring::materials
+                        ? (projectile_colour & 0xffffffU) | static_cast<Rgba>(Look::steel) << 24U
+                        : projectile_colour;
   for (const BodyPose& body : snapshot.bodies)
     if (body.radius > 0)
       projectiles_.instances.push_back({glm::vec3(to_glm(body.position) - origin_), packed(to_glm(body.orientation)),
-                                        glm::vec3(static_cast<float>(body.radius)), projectile_colour, glm::vec3(0)});
+                                        glm::vec3(static_cast<float>(body.radius)), ball, glm::vec3(0)});
 }
 
 /// A member was torn from all that was at its end where its own joint failed, or where nothing else of its body hangs.
