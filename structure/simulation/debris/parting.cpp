@@ -47,8 +47,8 @@ std::optional<Parting> parting_of(const Debris& debris, const PartingContact& on
                    1 / effective_mass(made.parts.mass, made.parts.inverse_inertia, made.parts.arm, made.normal));
   // The body as it came: without what this contact did to it.
   const Vec3 turned = made.pushes.inverse_inertia * made.pushes.arm.cross(contact.impulse);
-  const Vec3 came =
-      point_velocity(debris, made.pushes) + contact.impulse / made.pushes.mass + turned.cross(made.pushes.arm);
+  const Vec3 came = debris.scene.reading().true_velocity(point_velocity(debris, made.pushes)) +
+                    contact.impulse / made.pushes.mass + turned.cross(made.pushes.arm);
   made.allowed = restitution * std::max(0.0, (came - one.velocity).dot(made.normal));
   return made;
 }

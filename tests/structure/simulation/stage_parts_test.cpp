@@ -3,6 +3,7 @@
 
 #include "simulation/accounts/body_account.h"
 #include "simulation/action_record.h"
+#include "simulation/debris/parting.h"
 #include "simulation/debris/release.h"
 #include "simulation/run_progress.h"
 #include "simulation/sweep.h"
@@ -172,6 +173,46 @@ TEST_CASE(
   REQUIRE(all.debris.bodies.size() == 1);
   CHECK(all.debris.bodies.begin()->first == arm);
   CHECK(all.log.events().back().kind == SimulationEvent::Kind::limited);
+}
+
+TEST_CASE("what breaks off while it is pushed parts from the body by Newton's restitution, momentum kept") {
+  const FrameBuilder f = post_and_arm();
+  Parts all(f);
+  all.scene.step = 1;
+  const double ball_mass = 2000, arm_mass = 2 * weight / f.building.gravity, closing = 5, e = 0.3;
+  const Vec3 down(0, 0, -1);
+  // It came down on the arm's middle. Of free bodies 1 + e times this is the impulse.
+  const double of_free = closing / (1 / ball_mass + 1 / arm_mass), times = GENERATE(20.0, 0.5);
+  const double impulse = times * of_free;
+  const collision::BodyId ball = all.ball(Vec3(1, 0, height + 0.3), ball_mass, (closing - impulse / ball_mass) * down);
+  PartingContact pushed;
+  pushed.part = Part(MemberId(1u));
+  pushed.contact.body = ball;
+  pushed.contact.point = Vec3(1, 0, height);
+  pushed.contact.normal = down;
+  pushed.contact.impulse = impulse * down;
+  CHECK(limit_parting(all.debris, {&pushed, 1}, e) == 0);  // the arm is no body
+
+  all.scene.frame->break_joint(f.building.joint(MemberId(1u), 0), BreakCause::tool);
+  (void)all.scene.frame->settle();
+  all.release.release();
+  const collision::BodyId arm{all.debris.body_of(pushed.part)};
+  all.scene.world->apply_impulse(arm, impulse * down, all.scene.world->state(arm).pose.position);
+  const auto speed = [&](collision::BodyId id) {
+    return all.scene.reading().true_velocity(all.scene.world->state(id).velocity).dot(down);
+  };
+  const auto kinetic = [&] { return (ball_mass * speed(ball) * speed(ball) + arm_mass * speed(arm) * speed(arm)) / 2; };
+  const double had = kinetic(),
+               start = speed(arm) - impulse / arm_mass;  // a sixtieth of a second's fall, read at mid-step
+  const bool too_much = times > 1 + e;
+  const double lost = limit_parting(all.debris, {&pushed, 1}, e);
+  CHECK(ball_mass * speed(ball) + arm_mass * speed(arm) ==
+        Approx(ball_mass * closing + arm_mass * start).epsilon(rounding));
+  CHECK(lost == Approx(had - kinetic()).margin(rounding * had));
+  if (too_much)
+    CHECK(speed(arm) - speed(ball) == Approx(e * closing).epsilon(1e-4));  // the arm has sunk a little, and turns
+  else
+    CHECK(lost == 0);
 }
 
 TEST_CASE("the account of bodies: gravity's work is what a body that falls freely gains") {
