@@ -84,6 +84,7 @@ struct FrameDynamics::State {
   std::vector<Vec6> started_at;                 ///< per node: displacements at set_state(), else 0
   NodeMotion nodes_before, nodes_now;           ///< at both ends of the substep under way, or the last one
   bool nodes_known = false, end_known = false;  ///< all of them, the displacements at the end
+  std::vector<Vec6> reactions;                  ///< per support, with those displacements; empty: not asked for yet
   [[nodiscard]] const MotionState& current() const { return before; }
   /// Of `before`, with the structure as it stands: M u, M v, M a, and (K + s M) u, (K + s M) v.
   SideBySide<4> mass_products;

@@ -217,6 +217,24 @@ std::array<Vec6, 4> FrameDynamics::shell_corner_forces(int shell, bool rates) co
   return state_->system().corner_forces(shell, rates ? state_->nodes_now.v : state_->nodes_now.u, Vec24::Zero());
 }
 
+Vec6 FrameDynamics::reaction(int support) const {
+  State& state = *state_;
+  const FrameModel& model = state.frame.model();
+  if (support < 0 || static_cast<std::size_t>(support) >= model.supports.size())
+    throw std::invalid_argument("support " + std::to_string(support) + " does not exist; there are " +
+                                std::to_string(model.supports.size()));
+  state.know_end();
+  if (state.reactions.empty()) {
+    std::vector<Vec12> ends;
+    for (std::size_t i = 0; i < model.beams.size(); ++i) ends.push_back(state.end_forces(static_cast<int>(i), true));
+    std::vector<std::array<Vec6, 4>> corners;
+    for (std::size_t i = 0; i < model.shells.size(); ++i)
+      corners.push_back(state.system().corner_forces(static_cast<int>(i), state.nodes_now.u, Vec24::Zero()));
+    state.reactions = state.system().reactions(state.nodes_now.u, ends, corners, state.core().node_loads);
+  }
+  return state.reactions[static_cast<std::size_t>(support)];
+}
+
 Vec6 FrameDynamics::momentum() const {
   const State& state = *state_;
   const MassMatrix directions(state.system(), MassModel());

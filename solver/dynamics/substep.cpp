@@ -114,6 +114,7 @@ void FrameDynamics::State::know_nodes() {
 void FrameDynamics::State::know_end() {
   if (end_known) return;
   end_known = true;
+  reactions.clear();
   system().node_displacements_of_scaled((accepted ? before : now).u, nodes_now.u);
 }
 

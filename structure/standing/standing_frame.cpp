@@ -71,7 +71,7 @@ Vec6 StandingFrame::reaction(NodeId node) const {
   if (!state_->in_solver.holds(node)) return sum;
   const auto& supports = state_->building.supports;
   for (std::size_t s = 0; s < supports.size(); ++s)
-    if (supports[s].node == node) sum += state_->statics.reaction(s);
+    if (supports[s].node == node) sum += reaction(s);
   return sum;
 }
 

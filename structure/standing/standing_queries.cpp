@@ -27,7 +27,9 @@ Vec6 StandingFrame::node_load(NodeId node) const {
 
 Vec6 StandingFrame::reaction(std::size_t support) const {
   const NodeId node = state_->building.supports[support].node;
-  return state_->stands(node) ? state_->statics.reaction(support) : Vec6(Vec6::Zero());
+  if (!state_->stands(node)) return Vec6::Zero();
+  if (state_->moves(state_->statics.component(node))) return state_->motion->reaction(node, support);
+  return state_->statics.reaction(support);
 }
 
 std::vector<ContactLoad> StandingFrame::contact_loads() const {

@@ -365,6 +365,10 @@ solver::Vec12 StandingMotion::end_forces(MemberId member) const {
   return moving_.at(from_.statics.component(member))->frame->beam_end_forces(from_.statics.number(member));
 }
 
+Vec6 StandingMotion::reaction(NodeId node, std::size_t support) const {
+  return moving_.at(from_.statics.component(node))->frame->reaction(from_.statics.support_number(support));
+}
+
 std::array<Vec6, 4> StandingMotion::corner_forces(PanelId membrane) const {
   return moving_.at(from_.components.of(membrane))->frame->shell_corner_forces(from_.statics.number(membrane));
 }

@@ -87,6 +87,8 @@ class StandingMotion {
   [[nodiscard]] const Vec6& displacement(NodeId node) const;
   [[nodiscard]] Vec6 velocity(NodeId node) const;
   [[nodiscard]] solver::Vec12 end_forces(MemberId member) const;
+  /// Of a support of the node, by its place among the building's.
+  [[nodiscard]] Vec6 reaction(NodeId node, std::size_t support) const;
   [[nodiscard]] std::array<Vec6, 4> corner_forces(PanelId membrane) const;
   /// Linear momentum, and angular about the origin, of displacements about the unloaded place.
   [[nodiscard]] Vec6 momentum(MemberId member) const;  ///< panels that lie on it apart

@@ -25,6 +25,8 @@ class FrameNumbers {
   /// Index in the component's frame.
   [[nodiscard]] int number(NodeId node) const { return node_place_[index(node)].local; }
   [[nodiscard]] int number(MemberId member) const { return member_place_[index(member)].local; }
+  /// Among the supports of its component's frame; `support` in the order of the building's.
+  [[nodiscard]] int support_number(std::size_t support) const { return support_place_[support].local; }
   /// Among its membranes, or its patches.
   [[nodiscard]] int number(PanelId panel) const { return panel_place_[index(panel)].local; }
 

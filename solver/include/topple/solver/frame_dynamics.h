@@ -244,6 +244,11 @@ class FrameDynamics {
   [[nodiscard]] Vec12 plastic_rotations(int beam) const;
   /// Global; `rates`: by time.
   [[nodiscard]] std::array<Vec6, 4> shell_corner_forces(int shell, bool rates = false) const;
+  /// Of a support, by its number in the model: global axes, N and N m, as Reanalysis::reaction() has it. What holds it
+  /// against elastic end forces and the loads on its node; forces of damping and of mass at held nodes apart. So sums
+  /// of reactions and loads are the change of momentum(), but for damping. Throws std::invalid_argument for a support
+  /// that does not exist.
+  [[nodiscard]] Vec6 reaction(int support) const;
   /// Linear and angular momentum about the origin, of what is free to move.
   [[nodiscard]] Vec6 momentum() const;
   /// The same of one beam. Of one whose last joint broke in the last substep: what it left with, from its motion at the

@@ -152,7 +152,8 @@ class StandingFrame {
   /// As solved last: what the nodes do to a member (local axes, first end then second), what all supports of a
   /// node do to the structure (global axes). Zero for what does not stand.
   [[nodiscard]] Eigen::Matrix<double, 12, 1> end_forces(MemberId member) const;
-  /// What all supports of the node do to the structure, N and N m, global axes.
+  /// What all supports of the node do to the structure, N and N m, global axes. While it moves: at the end of the last
+  /// substep, forces of damping apart.
   [[nodiscard]] Vec6 reaction(NodeId node) const;
   /// Over all states that were checked, peaks of sudden losses included.
   [[nodiscard]] double largest_utilisation_so_far(JointId joint) const;
