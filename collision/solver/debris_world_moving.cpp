@@ -175,14 +175,14 @@ void DebrisWorld::wake_carried() {
   if (moving_obstacles_.empty()) return;
   for (const std::uint32_t index : touching_) {
     const NearPair& pair = pairs_.pair(index);
-    Solid *const first = pairs_.collider(pair.first).solid, *const second = pairs_.collider(pair.second).solid;
-    if (second->kind != Touched::Kind::obstacle || !static_cast<DebrisBody&>(*first).asleep) continue;
-    const auto& one = static_cast<const DebrisObstacle&>(*second);
-    if (!one.moves) continue;
+    const DebrisObstacle* const carrier = moving_obstacle(pair);
+    auto* const first = static_cast<DebrisBody*>(pairs_.collider(pair.first).solid);
+    if (!carrier || !first->asleep) continue;
+    const DebrisObstacle& one = *carrier;
     for (int i = 0; i < pair.manifold.count; ++i) {
       const Vec3 arm = one.at * pair.manifold.points[static_cast<std::size_t>(i)].on_second - one.pose.position;
       const Vec3 velocity = one.motion.velocity + one.motion.angular_velocity.cross(arm);
-      if (velocity.norm() > settings_.carries_from) wake_up(static_cast<DebrisBody&>(*first));
+      if (velocity.norm() > settings_.carries_from) wake_up(*first);
     }
   }
 }

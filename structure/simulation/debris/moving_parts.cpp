@@ -67,14 +67,13 @@ void MovingParts::advance(double dt, std::span<const collision::Contact> contact
     after.emplace(id, now);
   }
   // What contacts did to what moved on: not lost, and no work of gravity.
-  for (const collision::Contact& contact : contacts) {
-    const auto before = known_.find(contact.other.obstacle.value), now = after.find(contact.other.obstacle.value);
-    if (contact.other.kind != collision::Touched::Kind::obstacle || before == known_.end() || now == after.end())
-      continue;
-    const Vec3 arm = contact.point - debris_.obstacles.middle(debris_.obstacles.part_of(contact.other.obstacle));
-    double work = 0;
-    for (const PartMotion& velocity : {before->second.velocity, now->second.velocity})
-      work += contact.impulse.dot(velocity.moved + velocity.turned.cross(arm)) / 2;
+  for (const PartingContact& one : may_part) {
+    const auto now = after.find(one.contact.other.obstacle.value);
+    if (now == after.end()) continue;
+    const PartMotion& velocity = now->second.velocity;
+    const Vec3 arm = one.contact.point - debris_.obstacles.middle(one.part);
+    const double work = one.contact.impulse.dot(one.velocity) / 2 +
+                        one.contact.impulse.dot(velocity.moved + velocity.turned.cross(arm)) / 2;
     sums_.passed_on += work;
     sums_.ledger.lost_in_contacts -= work;
   }
