@@ -3,6 +3,7 @@
 // forces S f.
 #include <Eigen/SparseCore>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -69,6 +70,8 @@ struct ChangedBeam {
 };
 
 struct FrameDynamics::State {
+  struct ImpulseFactor;
+
   DynamicOptions options;
   GeneralizedAlpha method;
   SystemInertia inertia;
@@ -94,7 +97,10 @@ struct FrameDynamics::State {
   Eigen::VectorXd geometric_before, geometric_now;  ///< second order: at both ends of the substep under way
   std::vector<BrokenJoint> broken;
   std::vector<ChangedBeam> changed;
-  std::map<int, Vec12> substep_fixed_end;  ///< of beams that bear the force of their broken end, local
+  std::map<int, Vec6> brought;                   ///< add_momentum(), per beam
+  std::vector<FrameDynamics::Impulse> impulses;  ///< that wait
+  std::unique_ptr<ImpulseFactor> impulses_by;    ///< none: not asked for yet
+  std::map<int, Vec12> substep_fixed_end;        ///< of beams that bear the force of their broken end, local
   bool prepared = false;
   DynamicEnergy energy;
   DynamicCounters counters;
@@ -104,9 +110,10 @@ struct FrameDynamics::State {
   SideBySide<2> moved_columns;
   SideBySide<1> z, mass_z;
   SideBySide<2> old_products;  ///< M a and K u at the start of the substep that was accounted last
-  Eigen::VectorXd q, w, residual, moved;
+  Eigen::VectorXd q, w, moved;
 
   State(FrameModel model, MassModel masses, DynamicOptions given);
+  ~State();
   [[nodiscard]] Reanalysis::State& core() { return *frame.state_; }
   [[nodiscard]] const Reanalysis::State& core() const { return *frame.state_; }
   [[nodiscard]] const FrameSystem& system() const { return *core().system; }
@@ -126,17 +133,23 @@ struct FrameDynamics::State {
   void set_method(const GeneralizedAlpha& other);
   void find_substep_load();
   void begin_substep();
+  void begin_changed();
   /// Momentum of a beam that its nodes' velocities leave out now (local node impulses), since its ends changed.
   [[nodiscard]] Vec12 missing_momentum(const ChangedBeam& change);
+  void add_brought(Eigen::VectorXd& force) const;
   void add_on_rigid_ends(int beam, const Vec12& local, Eigen::VectorXd& force) const;
   double stored_energy();
 
   // momentum.cpp
   [[nodiscard]] Vec6 momentum_of(int beam, const Mat12& follows, const Eigen::VectorXd& velocities) const;
+  [[nodiscard]] Vec6 brought_to(int beam) const;
   [[nodiscard]] Vec6 momentum_left_with(const ChangedBeam& gone) const;
   [[nodiscard]] Eigen::VectorXd scaled_impulses(std::span<const Impulse> impulses) const;
   [[nodiscard]] Eigen::VectorXd on_mass(Eigen::VectorXd impulses) const;
-  [[nodiscard]] Eigen::VectorXd velocities_of(Eigen::VectorXd left);
+  [[nodiscard]] Eigen::VectorXd velocities_of(const Eigen::VectorXd& impulses);
+  [[nodiscard]] Eigen::VectorXd velocities_by_mass(Eigen::VectorXd left) const;
+  [[nodiscard]] bool damps_jumps() const;
+  [[nodiscard]] ImpulseFactor& impulse_factor();
   void follow_jump(const Eigen::VectorXd& change);
 
   // substep.cpp
@@ -149,7 +162,6 @@ struct FrameDynamics::State {
   void account_numerical();
   void find_products();
   void find_collocated_load();
-  void solve(Eigen::VectorXd& x);
   void know_nodes();
   void know_end();
 

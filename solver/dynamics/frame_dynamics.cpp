@@ -6,6 +6,7 @@
 
 #include "assembly/mass_matrix.h"
 #include "dynamics/dynamic_state.h"
+#include "dynamics/impulse_factor.h"
 
 namespace topple::solver {
 namespace {
@@ -52,6 +53,7 @@ FrameDynamics::FrameDynamics(FrameModel model, MassModel masses, DynamicOptions 
   state_->begin_substep();
   state_->apply_changes();
 }
+FrameDynamics::State::~State() = default;
 FrameDynamics::~FrameDynamics() = default;
 FrameDynamics::FrameDynamics(FrameDynamics&&) noexcept = default;
 FrameDynamics& FrameDynamics::operator=(FrameDynamics&&) noexcept = default;
@@ -155,8 +157,9 @@ void FrameDynamics::set_state(const std::vector<Vec6>& displacements, const std:
 
 const std::vector<JointBreak>& FrameDynamics::advance(const JointLaw* law) {
   State& state = *state_;
-  state.begin_substep();
-  state.apply_changes();
+  if (!state.impulses.empty()) strike({});
+  state.begin_changed();
+  if (const auto defect = state.core().renew_factor()) throw Instability(defect->message, defect->motion);
   state.find_patterns();
   state.take_substep(law);
   ++state.counters.substeps;

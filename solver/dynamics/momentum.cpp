@@ -4,15 +4,17 @@
 #include <utility>
 
 #include "dynamics/dynamic_state.h"
+#include "dynamics/impulse_factor.h"
 #include "elements/beam_mass.h"
 
 namespace topple::solver {
 namespace {
 
-/// Conjugate gradients on M stop at this share of the impulses, and never go on beyond so many passes.
+/// Velocities are found to this share of the impulses: by so many passes of conjugate gradients at most, or so many
+/// answers of the factor, of which one is nearly always enough.
 constexpr double solved = 1e-12;
-constexpr int most_passes = 2000;
-/// From this ratio of smallest to largest eigenvalue on the factor guides them.
+constexpr int most_passes = 2000, most_refinements = 3;
+/// Damping over a substep, of s: with less than this conjugate gradients on M take few passes.
 constexpr double least_share = 0.01;
 
 /// Of a point at `at` in the rigid motion number `component`: translations along the axes, rotations about them through
@@ -101,16 +103,37 @@ Eigen::VectorXd FrameDynamics::State::on_mass(Eigen::VectorXd impulses) const {
   return impulses;
 }
 
-/// (M + h a1 K)^-1 times scaled impulses on mass. Conjugate gradients, guided by the substep's factor of K + s M where
-/// that has the better condition: by it all eigenvalues lie between 1/s and h a1.
-Eigen::VectorXd FrameDynamics::State::velocities_of(Eigen::VectorXd left) {
+/// Stiffness damps what an impulse sets going within a substep: by so much of s that it has to be counted.
+bool FrameDynamics::State::damps_jumps() const { return method.h * options.damping.stiffness * method.s > least_share; }
+
+/// (M + h a1 K)^-1 times scaled impulses on mass.
+Eigen::VectorXd FrameDynamics::State::velocities_of(const Eigen::VectorXd& impulses) {
+  if (!damps_jumps()) return velocities_by_mass(impulses);
+  const double damped = method.h * options.damping.stiffness, inert = 1 - damped * method.s;
+  ImpulseFactor& factor = impulse_factor();
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(impulses.size()), left = impulses, more;
+  SideBySide<1> of_whole, of_mass;
+  const double enough = solved * impulses.norm();
+  for (int pass = 0; pass < most_refinements && left.norm() > enough; ++pass) {
+    more = left;
+    factor.solve(more);
+    x += more;
+    // K is what the substep's matrix has beside s M.
+    multiply<1>(system().matrix(), x.transpose(), of_whole);
+    multiply<1>(system().mass(), x.transpose(), of_mass);
+    left = impulses - (damped * of_whole.row(0) + inert * of_mass.row(0)).transpose();
+  }
+  if (!x.allFinite()) throw std::runtime_error("the velocities that an impulse leaves were not found");
+  return x;
+}
+
+/// The same where damping is next to nothing: conjugate gradients, each equation by its own mass.
+Eigen::VectorXd FrameDynamics::State::velocities_by_mass(Eigen::VectorXd left) const {
   const Eigen::Index n = equations();
   const SparseSymmetric &M = system().mass(), &whole = system().matrix();
-  // K is what the substep's matrix has beside s M.
   const double damped = method.h * options.damping.stiffness, inert = 1 - damped * method.s;
-  const bool by_factor = damped * method.s > least_share;
   Eigen::VectorXd inverse(n), x = Eigen::VectorXd::Zero(n);
-  for (Eigen::Index e = 0; e < n && !by_factor; ++e) {
+  for (Eigen::Index e = 0; e < n; ++e) {
     const double diagonal = damped > 0 ? damped * diagonal_of(whole, e) + inert * diagonal_of(M, e) : diagonal_of(M, e);
     inverse(e) = diagonal > 0 ? 1 / diagonal : 0;
   }
@@ -121,16 +144,8 @@ Eigen::VectorXd FrameDynamics::State::velocities_of(Eigen::VectorXd left) {
     multiply<1>(whole, v, of_whole);
     product = damped * of_whole + inert * product;
   };
-  Eigen::VectorXd guided;
-  const auto guide = [&] {
-    guided = left;
-    if (by_factor)
-      solve(guided);
-    else
-      guided = inverse.cwiseProduct(left);
-    return left.dot(guided);
-  };
-  double now_left = guide();
+  Eigen::VectorXd guided = inverse.cwiseProduct(left);
+  double now_left = left.dot(guided);
   const double enough = solved * solved * now_left;
   SideBySide<1> direction = guided.transpose(), product;
   for (int pass = 0; now_left > enough; ++pass) {
@@ -139,7 +154,8 @@ Eigen::VectorXd FrameDynamics::State::velocities_of(Eigen::VectorXd left) {
     const double step = now_left / direction.row(0).dot(product.row(0));
     x += step * direction.row(0).transpose();
     left -= step * product.row(0).transpose();
-    const double before_this = std::exchange(now_left, guide());
+    guided = inverse.cwiseProduct(left);
+    const double before_this = std::exchange(now_left, left.dot(guided));
     direction = (guided + now_left / before_this * direction.row(0).transpose()).transpose();
   }
   return x;
@@ -168,13 +184,31 @@ std::vector<Vec6> FrameDynamics::velocities_of(std::span<const Impulse> impulses
   return result;
 }
 
+Eigen::MatrixXd FrameDynamics::mobility(std::span<const std::vector<Impulse>> forces) const {
+  State& state = *state_;
+  const auto count = static_cast<Eigen::Index>(forces.size());
+  Eigen::MatrixXd F(state.equations(), count), on_mass(state.equations(), count);
+  for (Eigen::Index j = 0; j < count; ++j) {
+    F.col(j) = state.scaled_impulses(forces[static_cast<std::size_t>(j)]);
+    on_mass.col(j) = state.on_mass(F.col(j));
+  }
+  Eigen::MatrixXd result(count, count);
+  if (state.damps_jumps())
+    result = state.impulse_factor().between(F, on_mass);
+  else
+    for (Eigen::Index j = 0; j < count; ++j) result.col(j) = F.transpose() * state.velocities_by_mass(on_mass.col(j));
+  return (result + result.transpose()) / 2;
+}
+
 void FrameDynamics::strike(std::span<const Impulse> impulses) {
   State& state = *state_;
   // What changed comes first; the momentum that it leaves out is an impulse here, and no load of a substep to come.
-  state.begin_substep();
-  state.apply_changes();
+  state.begin_changed();
   const Eigen::VectorXd own = state.on_mass(state.scaled_impulses(impulses)),
-                        of_changes = state.on_mass(state.method.h * state.substep_load);
+                        of_changes = state.on_mass(state.method.h * state.substep_load +
+                                                   state.scaled_impulses(std::exchange(state.impulses, {})));
+  state.brought.clear();
+  if ((own + of_changes).isZero(0)) return;
   const Eigen::VectorXd change = state.velocities_of(own + of_changes);
   const Eigen::VectorXd mean = state.before.v + change / 2;
   SideBySide<1> inert;
@@ -189,13 +223,29 @@ void FrameDynamics::strike(std::span<const Impulse> impulses) {
   state.stored_energy();
 }
 
+void FrameDynamics::add_impulses(std::span<const Impulse> impulses) {
+  State& state = *state_;
+  (void)state.scaled_impulses(impulses);  // each has a node
+  state.impulses.insert(state.impulses.end(), impulses.begin(), impulses.end());
+}
+
+void FrameDynamics::add_momentum(int beam, const Vec6& momentum) {
+  (void)state_->core().checked_beam(beam);
+  state_->brought.try_emplace(beam, Vec6::Zero()).first->second += momentum;
+}
+
+Vec6 FrameDynamics::State::brought_to(int beam) const {
+  const auto found = brought.find(beam);
+  return found == brought.end() ? Vec6(Vec6::Zero()) : found->second;
+}
+
 Vec6 FrameDynamics::beam_momentum(int beam) const {
   const State& state = *state_;
   const auto i = state.core().checked_beam(beam);
   const Beam& own = state.system().model.beams[i];
   const bool hangs = !own.end_stiffness[0].isZero(0) || !own.end_stiffness[1].isZero(0);
   if (state.system().beam_stands[i] != 0 && hangs)
-    return state.momentum_of(beam, ends_by_rigid_ends(own), state.current().v);
+    return state.momentum_of(beam, ends_by_rigid_ends(own), state.current().v) + state.brought_to(beam);
   for (const ChangedBeam& change : state.changed)
     if (change.beam == beam) return state.momentum_left_with(change);
   return Vec6::Zero();

@@ -151,7 +151,7 @@ void FrameDynamics::State::yield(std::span<const PlasticHinge> hinges) {
     find_kink(kinks[k]);
     if (kinks[k].response.size() == 0) {
       kinks[k].response = of_new_turn() * kinks[k].force;
-      solve(kinks[k].response);
+      core().solve_as_it_stands(kinks[k].response);
     }
     kinks[k].tried = tried[h];
     listed[h] = 1;

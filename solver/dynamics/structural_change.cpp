@@ -1,7 +1,9 @@
 // What breaks, goes or is loaded otherwise: the matrices, and what becomes of momentum and energy.
+#include <Eigen/Geometry>
 #include <algorithm>
 
 #include "dynamics/dynamic_state.h"
+#include "dynamics/impulse_factor.h"
 #include "elements/beam_mass.h"
 
 namespace topple::solver {
@@ -17,6 +19,14 @@ void FrameDynamics::State::begin_substep() {
     pattern.now = pattern.next;
   }
   begin_kinks();
+}
+
+/// With all that came since the last one.
+void FrameDynamics::State::begin_changed() {
+  begin_substep();
+  const bool changes = !prepared || core().pending();
+  apply_changes();
+  if (!changes && !brought.empty()) find_substep_load();
 }
 
 void FrameDynamics::State::apply_changes() {
@@ -83,6 +93,7 @@ void FrameDynamics::State::set_method(const GeneralizedAlpha& other) {
   };
   const Eigen::VectorXd scaled_by = scale();
   method = other;
+  impulses_by.reset();
   inertia.factor = method.s;
   core().rebuild();
   core().answered = false;
@@ -113,7 +124,7 @@ void FrameDynamics::State::remember_changing_beams() {
     const bool known = std::any_of(changed.begin(), changed.end(), [&](const auto& c) { return c.beam == beam; });
     if (known) continue;
     const Mat12 follows = ends_by_rigid_ends(now_is);
-    changed.push_back({beam, follows, momentum_of(beam, follows, before.v)});
+    changed.push_back({beam, follows, momentum_of(beam, follows, before.v) + brought_to(beam)});
   }
 }
 
@@ -236,6 +247,28 @@ Vec12 FrameDynamics::State::missing_momentum(const ChangedBeam& change) {
   return follows.transpose() * M * (change.followed - follows) * rigid_ends;
 }
 
+/// Momentum that came to beams, as forces over a substep on the ends that hold them.
+void FrameDynamics::State::add_brought(Eigen::VectorXd& force) const {
+  for (const auto& [beam, momentum] : brought) {
+    const Beam& own = system().model.beams[static_cast<std::size_t>(beam)];
+    std::vector<int> held;
+    for (std::size_t end = 0; end < 2; ++end)
+      if (!own.end_stiffness[end].isZero(0) && system().node_stands[static_cast<std::size_t>(own.node[end])] != 0)
+        held.push_back(own.node[end]);
+    if (held.empty()) continue;  // it left
+    const Vec6 share = momentum / (method.h * static_cast<double>(held.size()));
+    const Vec3 linear = share.head<3>();
+    Vec3 turning = share.tail<3>();
+    for (const int node : held)
+      turning -= system().model.nodes[static_cast<std::size_t>(node)].cross(linear) / static_cast<double>(held.size());
+    for (const int node : held) {
+      Vec6 own_force;
+      own_force << linear, turning;
+      system().dofs().add_node_force(node, own_force, force.data());
+    }
+  }
+}
+
 /// Forces of joints until they broke, on the node and on the beam's own end, which hands it to its other node; and the
 /// momentum of beams that swing from one end alone now.
 void FrameDynamics::State::find_substep_load() {
@@ -258,6 +291,7 @@ void FrameDynamics::State::find_substep_load() {
     place->second += fixed;
   }
   for (const ChangedBeam& change : changed) add_on_rigid_ends(change.beam, missing_momentum(change) / method.h, force);
+  add_brought(force);
   substep_load = scaled(force);
 }
 

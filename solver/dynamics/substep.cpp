@@ -5,33 +5,6 @@
 #include "dynamics/dynamic_state.h"
 
 namespace topple::solver {
-namespace {
-
-/// Over a structure that became this much softer than the factor's one refinement is made.
-constexpr double soft = 1e3;
-
-}  // namespace
-
-void FrameDynamics::State::solve(Eigen::VectorXd& x) {
-  Reanalysis::State& own = core();
-  if (x.size() == 0) return;
-  if (!own.standing) {
-    Eigen::MatrixXd columns = x;
-    own.factor->solve(columns);
-    x = columns.col(0);
-    return;
-  }
-  if (!own.standing->changed() || own.standing->softening() < soft) {
-    own.standing->solve(x);
-    return;
-  }
-  const Eigen::VectorXd force = x;
-  own.standing->solve(x);
-  (void)own.rows->residual(own.system->matrix(), force, x, residual);
-  own.standing->solve(residual);
-  x += residual;
-}
-
 void FrameDynamics::State::find_products() {
   if (products_known) return;
   products_known = true;
@@ -85,7 +58,7 @@ void FrameDynamics::State::take_first_order_substep(const JointLaw* law) {
     multiply<1>(system().mass(), z, mass_z);
     w += mass_z.row(0).transpose();
   }
-  solve(w);
+  core().solve_as_it_stands(w);
   find_end();
   if (law != nullptr) yield(law->plastic_hinges());
 }
@@ -176,6 +149,7 @@ void FrameDynamics::State::accept() {
                        (matrix_products.row(1) - method.s * mass_products.row(1)).dot(moved.transpose());
   }
   time += method.h;
+  brought.clear();
   for (LoadPattern& pattern : patterns) pattern.current = pattern.now;
   if (std::any_of(kinks.begin(), kinks.end(), [](const Kink& kink) { return kink.held != 0; })) ++counters.yielding;
 }

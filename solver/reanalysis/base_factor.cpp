@@ -8,7 +8,7 @@ namespace topple::solver {
 namespace {
 
 /// Operations that one entry of the factor costs in a triangular solve, and one entry of the changes' columns.
-constexpr double entry_cost = 10, correction_cost = 4;
+constexpr double entry_operations = 10, correction_operations = 4;
 
 }  // namespace
 
@@ -281,7 +281,15 @@ Eigen::VectorXd BaseFactor::softest_motion() const {
 }
 
 double BaseFactor::solve_operations() const {
-  return 2 * entry_cost * solver_->entries() + correction_cost * correction_->entries();
+  return 2 * entry_operations * solver_->entries() + correction_operations * correction_->entries();
+}
+
+double BaseFactor::solve_cost() const {
+  return predicted_cost(SolveWork{solver_->entries(), static_cast<double>(solver_->blocks())});
+}
+
+double BaseFactor::correction_cost() const {
+  return changed() ? columns_cost(correction_->entries(), correction_->active_rank(), correction_->places()) : 0;
 }
 
 }  // namespace topple::solver

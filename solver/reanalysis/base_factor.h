@@ -98,6 +98,9 @@ class BaseFactor {
   [[nodiscard]] int rank() const { return correction_->active_rank(); }
   /// Operations of one answer.
   [[nodiscard]] double solve_operations() const;
+  /// Predicted cost (update_costs.h) of the factor's own part of one answer, and of its correction.
+  [[nodiscard]] double solve_cost() const;
+  [[nodiscard]] double correction_cost() const;
 
  private:
   enum class Kind { beam, shell, plate, node, ground };

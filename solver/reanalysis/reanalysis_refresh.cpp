@@ -15,8 +15,10 @@ constexpr int places_at_once = 6;
 
 void Reanalysis::State::begin_refresh_if_due() {
   if (next || refresh_failed || !standing || standing->rank() <= refresh_rules.columns) return;
-  const double anew = factor_operations();
-  if (anew < refresh_rules.least_operations) return;
+  if (factor_operations() >= refresh_rules.least_operations) begin_refresh();
+}
+
+void Reanalysis::State::begin_refresh() {
   unwanted.reset();
   next = std::make_unique<BaseFactor>(*system);
   refresh = std::make_unique<BackgroundFactor>(system->matrix(), order, options, refresh_rules.on_worker);
@@ -48,6 +50,23 @@ void Reanalysis::State::go_on_with_refresh() {
   const BaseFactor::CaughtUp done = next->catch_up(places_at_once);
   operations += done.operations;
   if (done.all) switch_factors();
+}
+
+void Reanalysis::State::count_answer(int solves) {
+  if (!standing) return;
+  const double solve = standing->solve_cost(), corrected = standing->correction_cost();
+  const double more = solve + residual_cost(static_cast<double>(system->matrix().value.size()));
+  correction_paid += solves * corrected + (solves - 1) * more;
+  refresh_paid += solves * (solve + corrected);
+}
+
+std::optional<Defect> Reanalysis::State::renew_factor() {
+  if (!standing || !standing->changed()) return std::nullopt;
+  go_on_with_refresh();
+  if (!standing->changed() || correction_paid <= predicted_cost(factor_work())) return std::nullopt;
+  if (factor_operations() < refresh_rules.least_operations) return refactorise();
+  if (!next && !refresh_failed) begin_refresh();
+  return std::nullopt;
 }
 
 /// At once, whatever it has to catch up with. False: there is none under way, or it is of no use.

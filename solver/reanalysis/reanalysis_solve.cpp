@@ -15,6 +15,8 @@ constexpr double acceptable_error = 1e-13;
 constexpr int most_refinements = 12;
 /// Answers to unit forces weigh blows, which are known far less well.
 constexpr double response_error = 1e-11;
+/// Over a structure that became this much softer than the factor's one refinement is made.
+constexpr double soft = 1e3;
 constexpr double worthwhile = 0.5;  ///< a step that does not cut the error to this share of the last one is the last
 
 /// Rows in which v is not zero.
@@ -308,6 +310,29 @@ void Reanalysis::State::take_changes(UseWatch* watch) {
     ++counters.load_solves;
   else
     mechanism = update_structure(touched_nodes);
+}
+
+bool Reanalysis::State::is_soft() const { return standing->changed() && standing->softening() >= soft; }
+
+void Reanalysis::State::solve_as_it_stands(Eigen::VectorXd& x) {
+  if (x.size() == 0) return;
+  if (!standing) {
+    Eigen::MatrixXd columns = x;
+    factor->solve(columns);
+    x = columns.col(0);
+    return;
+  }
+  if (!is_soft()) {
+    standing->solve(x);
+    count_answer(1);
+    return;
+  }
+  const Eigen::VectorXd force = x;
+  standing->solve(x);
+  (void)rows->residual(system->matrix(), force, x, improved);
+  standing->solve(improved);
+  x += improved;
+  count_answer(2);
 }
 
 const ReanalysisAnswer& Reanalysis::State::solve(UseWatch* watch) {

@@ -123,6 +123,17 @@ struct Reanalysis::State {
   /// Operations of a new factor with the estimate of its condition.
   [[nodiscard]] double factor_operations() const;
   void begin_refresh_if_due();
+  void begin_refresh();
+  /// x := K^-1 x (scaled equations) of the matrix as it stands, without a look at its error; refined once where the
+  /// structure is_soft().
+  void solve_as_it_stands(Eigen::VectorXd& x);
+  /// It became so much softer than when the factor was made that its correction loses digits.
+  [[nodiscard]] bool is_soft() const;
+  /// An answer was found outside of solve(), `solves` times over the factor and its correction.
+  void count_answer(int solves);
+  /// What answers cost beyond those of a new factor is borne until it comes to as much as that (to rent or to buy). To
+  /// be called between answers of a structure that does not change. A defect when it does not stand.
+  [[nodiscard]] std::optional<Defect> renew_factor();
   /// Replaces the factor by the one made in the background. False: there is none.
   [[nodiscard]] bool take_refreshed();
   void go_on_with_refresh();

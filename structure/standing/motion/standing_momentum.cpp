@@ -107,7 +107,7 @@ Vec6 StandingMotion::momentum(NodeId node) const {
 
 /// Its mass has the mean velocity of what bore it, and shares it inelastically with what bears it now: linear and
 /// angular momentum are kept.
-void StandingMotion::bring_along(const MotionMasses::Rehung& panel, std::map<int, NodalForces>& impulses) const {
+void StandingMotion::bring_along(const MotionMasses::Rehung& panel) {
   std::map<MemberId, double> gained;
   for (const auto& [member, mass] : masses_.shares(panel.panel).members) gained[member] += mass;
   for (const auto& [member, mass] : panel.before.members) gained[member] -= mass;
@@ -133,18 +133,10 @@ void StandingMotion::bring_along(const MotionMasses::Rehung& panel, std::map<int
     const Member& member = from_.building[id];
     const Vec3 middle = (from_.building[member.nodes[0]].position + from_.building[member.nodes[1]].position) / 2;
     const Vec6 own = specific_momentum(id);
-    const Vec3 linear = mass * (momentum / lost - own.head<3>());
-    Vec3 turning = mass * (middle.cross(momentum / lost) - own.tail<3>());  // about the origin
-    std::vector<NodeId> held;
-    for (int end = 0; end < 2; ++end)
-      if (from_.parts.holds(from_.building.joint(id, end))) held.push_back(member.nodes[static_cast<std::size_t>(end)]);
-    const auto share = static_cast<double>(held.size());
-    for (const NodeId node : held) turning -= from_.building[node].position.cross(linear) / share;
-    for (const NodeId node : held) {
-      Vec6 given;
-      given << linear / share, turning / share;
-      impulses[c].emplace_back(node, given);
-    }
+    Vec6 brought = -mass * own;
+    brought.head<3>() += mass / lost * momentum;
+    brought.tail<3>() += mass / lost * middle.cross(momentum);  // about the origin
+    moving_.at(c)->frame->add_momentum(from_.statics.number(id), brought);
   }
 }
 

@@ -24,6 +24,13 @@ double strain_energy(const solver::Beam& beam, const solver::Vec12& f) {
   return f(0) * f(0) * L / (2 * E * beam.area) + bending(4, beam.Iy) + bending(5, beam.Iz);
 }
 
+std::vector<solver::FrameDynamics::Impulse> numbered(const FrameStatics& statics,
+                                                     const StandingMotion::NodalForces& forces) {
+  std::vector<solver::FrameDynamics::Impulse> impulses;
+  for (const auto& [node, force] : forces) impulses.push_back({statics.number(node), force});
+  return impulses;
+}
+
 }  // namespace
 
 /// Capacities as the building has them; the largest uses are remembered as they come.
@@ -154,7 +161,7 @@ void StandingMotion::pass_on_motion(int c) {
     for (std::size_t n = 0; n < nodes.size(); ++n)
       impulses.emplace_back(nodes[n], changed.impulses.segment<6>(static_cast<Eigen::Index>(6 * n)));
   }
-  past_.within += strike(c, impulses);
+  moving.frame->add_impulses(numbered(from_.statics, impulses));
 }
 
 solver::MassModel StandingMotion::masses_of(int c) const {
@@ -309,9 +316,8 @@ void StandingMotion::stop(int c) {
 }
 
 void StandingMotion::update_masses() {
-  std::map<int, NodalForces> impulses;
   for (const MotionMasses::Rehung& panel : masses_.update())
-    if (from_.parts.stands(panel.panel)) bring_along(panel, impulses);
+    if (from_.parts.stands(panel.panel)) bring_along(panel);
   for (auto& [c, one] : moving_) {
     Moving& moving = *one;
     const std::vector<MemberId>& members = from_.statics.members(c);
@@ -322,8 +328,6 @@ void StandingMotion::update_masses() {
       const solver::Beam& beam = moving.frame->model().beams[b];
       moving.frame->set_beam_density(static_cast<int>(b), std::max(0.0, mass) / (beam.area * beam.length));
     }
-    // What is among its own parts comes from no blow.
-    if (const auto own = impulses.find(c); own != impulses.end()) past_.within += strike(c, own->second);
   }
 }
 
@@ -373,32 +377,10 @@ std::array<Vec6, 4> StandingMotion::corner_forces(PanelId membrane) const {
   return moving_.at(from_.components.of(membrane))->frame->shell_corner_forces(from_.statics.number(membrane));
 }
 
-namespace {
-
-std::vector<solver::FrameDynamics::Impulse> numbered(const FrameStatics& statics,
-                                                     const StandingMotion::NodalForces& forces) {
-  std::vector<solver::FrameDynamics::Impulse> impulses;
-  for (const auto& [node, force] : forces) impulses.push_back({statics.number(node), force});
-  return impulses;
-}
-
-}  // namespace
-
 Eigen::MatrixXd StandingMotion::mobility(int c, std::span<const NodalForces> forces) const {
-  const solver::FrameDynamics& frame = *moving_.at(c)->frame;
-  const auto n = static_cast<Eigen::Index>(forces.size());
-  Eigen::MatrixXd result(n, n);
-  for (Eigen::Index j = 0; j < n; ++j) {
-    const std::vector<Vec6> velocity =
-        frame.velocities_of(numbered(from_.statics, forces[static_cast<std::size_t>(j)]));
-    for (Eigen::Index i = 0; i < n; ++i) {
-      double sum = 0;
-      for (const auto& [node, force] : forces[static_cast<std::size_t>(i)])
-        sum += force.dot(velocity[static_cast<std::size_t>(from_.statics.number(node))]);
-      result(i, j) = sum;
-    }
-  }
-  return (result + result.transpose()) / 2;
+  std::vector<std::vector<solver::FrameDynamics::Impulse>> pushes;
+  for (const NodalForces& one : forces) pushes.push_back(numbered(from_.statics, one));
+  return moving_.at(c)->frame->mobility(pushes);
 }
 
 StandingMotion::LocalMotion StandingMotion::local_motion(int c, std::span<const NodalForces> forces) const {

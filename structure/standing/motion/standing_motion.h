@@ -24,8 +24,6 @@ struct MotionEnergy {
   double damped = 0, numerical = 0;  ///< by damping; by the method
   double external_work = 0;          ///< of loads, on what moves now
   double struck = 0, freed = 0, dissipated = 0;
-  double within =
-      0;  ///< of `struck`: impulses between its own parts, as panels come to lie otherwise; accounted as freed
 };
 
 class StandingMotion {
@@ -150,8 +148,8 @@ class StandingMotion {
   void take_plastic_rotations(int component, const Moving& moving) const;
   void put_loads(int component, solver::FrameDynamics& frame) const;
   [[nodiscard]] Vec6 specific_momentum(MemberId member) const;
-  /// By component: what a panel that lies on other members now brings them beyond their own velocity.
-  void bring_along(const MotionMasses::Rehung& panel, std::map<int, NodalForces>& impulses) const;
+  /// What a panel that lies on other members now brings them beyond their own velocity.
+  void bring_along(const MotionMasses::Rehung& panel);
 
   Sources from_;
   MotionSettings settings_;

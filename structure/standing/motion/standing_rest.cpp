@@ -97,8 +97,6 @@ bool StandingMotion::rests(int c) {
 
 MotionEnergy StandingMotion::energy() const {
   MotionEnergy sum = past_;
-  sum.struck -= past_.within;
-  sum.freed -= past_.within;
   for (const auto& [c, moving] : moving_) {
     const solver::DynamicEnergy& own = moving->frame->energy();
     sum.kinetic += own.kinetic;

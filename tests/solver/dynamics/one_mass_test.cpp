@@ -202,3 +202,17 @@ TEST_CASE("Of two supports one goes: the mass swings to twice the way to its new
   CHECK(frame.energy().freed == Approx(0.5 * k1 * rest[0](2) * rest[0](2)).epsilon(1e-9));
   CHECK(stored == Approx(0.5 * (k1 + k2) * rest[0](2) * rest[0](2)).epsilon(1e-9));
 }
+
+TEST_CASE("An impulse on a damped mass leaves it what an implicit step of its damping leaves: J/(m + h a1 k)") {
+  const double h = period / 20, impulse = 30;
+  for (const double a1 : {0.0, 1e-6, 0.02 / angular_frequency, 2 / angular_frequency}) {
+    FrameDynamics frame(one_mass(), its_mass(), with(h, 1, {0, a1}));
+    const std::vector<std::vector<FrameDynamics::Impulse>> push = {{{0, unit(2, impulse)}}};
+    const double exact = impulse / (mass + h * a1 * stiffness);
+    INFO("damping of stiffness " << a1 << " s");
+    CHECK(frame.velocities_of(push[0])[0].z() == Approx(exact).epsilon(1e-12));
+    CHECK(frame.mobility(push)(0, 0) == Approx(impulse * exact).epsilon(1e-12));
+    frame.strike(push[0]);
+    CHECK(frame.velocities()[0].z() == Approx(exact).epsilon(1e-12));
+  }
+}

@@ -208,14 +208,25 @@ class FrameDynamics {
   };
   /// (M + h a1 K)^-1 J: by how much impulses change the velocities of the frame, per node, changes since the last
   /// substep apart. That is M^-1 J but for modes that damp away within a substep: they take as much less as an implicit
-  /// step of their damping leaves, so that no impulse creates energy there. Freedoms without mass take none. Conjugate
-  /// gradients, to 1e-12 of J.
+  /// step of their damping leaves, so that no impulse creates energy there. Freedoms without mass take none. To 1e-12
+  /// of J, by a factor of M + h a1 K that the first impulse makes; without damping by conjugate gradients on M.
   [[nodiscard]] std::vector<Vec6> velocities_of(std::span<const Impulse> impulses) const;
+  /// By how much a unit of each of these forces' impulses changes the speed along each (1/kg for unit forces): f_i'
+  /// velocities_of(f_j), symmetric, as many rows as forces. With damping only what joins them in the factor is gone
+  /// through.
+  [[nodiscard]] Eigen::MatrixXd mobility(std::span<const std::vector<Impulse>> forces) const;
   /// Of these nodes, with all others held, changes since the last substep apart: K and M as they stand. Freedoms
   /// without mass follow the others.
   [[nodiscard]] LocalModes local_modes(std::span<const int> nodes, std::span<const std::vector<Impulse>> pushes) const;
   /// They act now, at once, on the frame with all that changed.
   void strike(std::span<const Impulse> impulses);
+  /// They act with the next strike(), or when the next substep begins. They come from within, with what changes: their
+  /// work is counted as freed, with its sign turned.
+  void add_impulses(std::span<const Impulse> impulses);
+  /// Momentum (N s, and N m s about the origin, global) that mass brings along which the beam bears from now on. It
+  /// acts evenly over the next substep, or at once with strike(), on the ends that hold the beam then, as the momentum
+  /// does that a broken end leaves, and is counted as that is. A beam that leaves before takes it along.
+  void add_momentum(int beam, const Vec6& momentum);
 
   /// One substep. What yields turns within it as far as it must to hold no more than its capacity at the end. Of the
   /// joints over capacity then, or turned too far, the one that was first breaks, with those that follow within a
