@@ -253,7 +253,7 @@ void DebrisWorld::wake_touching(const Solid& solid) {
 
 std::unique_ptr<World> make_small_steps_world() {
   require_double_precision_library();
-  return std::make_unique<DebrisWorld>(SolverSettings{});
+  return std::make_unique<DebrisWorld>(solver_settings);
 }
 
 std::unique_ptr<World> make_bullet_world() { return make_small_steps_world(); }

@@ -70,4 +70,10 @@ struct SolverSettings {
   double rest_again_at_most = 2;  ///< s: ... and so on to this, until something moves: what is sought in vain is dear
 };
 
+#ifdef TOPPLE_VARIED_CONSTANTS  // benchmarks/constants: each halved and doubled
+inline SolverSettings solver_settings{};
+#else
+inline constexpr SolverSettings solver_settings{};
+#endif
+
 }  // namespace topple::collision

@@ -1,5 +1,7 @@
 """The harness of the benchmarks: stored results are read back whole, and a comparison tells noise from a loss."""
 
+import contextlib
+import io
 import json
 import math
 import os
@@ -15,6 +17,7 @@ ROOT, TOPPLE = sys.argv.pop(1), sys.argv.pop(1)
 sys.path.insert(0, os.path.join(ROOT, "benchmarks", "harness"))
 
 import compare  # noqa: E402
+import constants  # noqa: E402
 import debris  # noqa: E402
 import labels  # noqa: E402
 import other_peers  # noqa: E402
@@ -256,6 +259,52 @@ class Labels(unittest.TestCase):
         placed = labels.place([("one label", 1.0, 1e-3), ("another", 1.0, 1e-3), ("a third", 1.1, 1e-3)], x_range, y_range)
         heights = sorted(labels.HEIGHT * math.log10(y / y_range[0]) / 18 for _, _, y, _, _ in placed)
         self.assertTrue(all(b - a >= labels.LINE for a, b in zip(heights, heights[1:])), heights)
+
+
+class Constants(unittest.TestCase):
+    """With a program in the place of bench_constants whose collapses hang on one constant of two."""
+
+    PROGRAM = """#!%s
+import json, sys
+if sys.argv[1] == "--list":
+    print("impact.first 1\\nimpact.second 2")
+    sys.exit(0)
+if sys.argv[2:] == ["impact.second", "2"]:
+    sys.exit("it failed")
+with open(sys.argv[1]) as stored:
+    y = json.load(stored)["events"][0]["projectile"]["from"][1]
+share = 0.5 + 0.1 * y + (0.25 if sys.argv[2:] == ["impact.first", "0.5"] else 0)
+print(json.dumps({"share": share, "half": 2.0}))
+"""
+
+    def test_it_tells_what_hangs_on_a_constant_from_what_does_not(self):
+        with tempfile.TemporaryDirectory() as folder:
+            program = os.path.join(folder, "bench_constants")
+            with open(program, "w", encoding="utf-8") as out:
+                out.write(self.PROGRAM % sys.executable)
+            os.chmod(program, 0o755)
+            one = context(folder)
+            one.root, one.programs, one.quick, one.start, one.broken = ROOT, folder, False, 0.0, []
+            one.scenarios, one.samples = ["house_hit"], 8
+            with contextlib.redirect_stdout(io.StringIO()):
+                constants.run(one)
+            rows = {(row["constant"], row["factor"]): row for row in output.read_results(os.path.join(folder, "constants.json"))["rows"]}
+            self.assertEqual(set(rows), {("impact.first", 0.5), ("impact.first", 2), ("impact.second", 0.5), ("impact.second", 2)})
+            self.assertAlmostEqual(rows["impact.first", 0.5]["change"], 0.25)
+            self.assertGreater(rows["impact.first", 0.5]["low"], 0)
+            self.assertAlmostEqual(rows["impact.first", 2]["change"], 0)
+            self.assertEqual(rows["impact.second", 2]["failed"], 8)
+            self.assertEqual(len(one.broken), 1)
+
+    def test_its_constants_are_those_of_the_page(self):
+        with tempfile.TemporaryDirectory() as folder:
+            table = os.path.join(folder, "table.inc")
+            subprocess.run([sys.executable, os.path.join(ROOT, "scripts", "constants"), "--table", table], check=True)
+            with open(table, encoding="utf-8") as text:
+                told = {line.split('"')[1].split(".")[1] for line in text}
+        with open(os.path.join(ROOT, "docs", "constants.md"), encoding="utf-8") as page:
+            cells = [line.split("|")[1] for line in page if line.startswith("| `")]
+        self.assertEqual(told, {name.strip(" `") for cell in cells for name in cell.split(",")})
 
 
 if __name__ == "__main__":

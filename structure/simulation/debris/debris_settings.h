@@ -59,6 +59,10 @@ struct DebrisSettings {
   double look_ahead = 1;
 };
 
+#ifdef TOPPLE_VARIED_CONSTANTS  // benchmarks/constants: each halved and doubled
+inline DebrisSettings debris_settings{};
+#else
 inline constexpr DebrisSettings debris_settings{};
+#endif
 
 }  // namespace topple::structure

@@ -41,6 +41,10 @@ struct ImpactSettings {
   double hard = 3;
 };
 
+#ifdef TOPPLE_VARIED_CONSTANTS  // benchmarks/constants: each halved and doubled
+inline ImpactSettings impact_settings{};
+#else
 inline constexpr ImpactSettings impact_settings{};
+#endif
 
 }  // namespace topple::structure

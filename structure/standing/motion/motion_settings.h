@@ -29,6 +29,10 @@ struct MotionSettings {
   double falling_turn = 0.02;
 };
 
+#ifdef TOPPLE_VARIED_CONSTANTS  // benchmarks/constants: each halved and doubled
+inline MotionSettings motion_settings{};
+#else
 inline constexpr MotionSettings motion_settings{};
+#endif
 
 }  // namespace topple::structure

@@ -1,0 +1,87 @@
+"""How much the outcome of a collapse hangs on each constant of docs/constants.md: the same inputs with the constant halved and doubled."""
+
+import concurrent.futures
+import json
+import os
+import random
+import statistics
+import subprocess
+
+import convergence
+import output
+import scatter
+
+SCENARIOS = ["house_hit", "house_hit_65", "tower_hit"]
+SAMPLES, QUICK_SAMPLES = 12, 4
+FACTORS = [0.5, 2]
+RATE = 60
+
+COLUMNS = [("constant", "constant"), ("factor", "times"), ("scenario", "scenario"), ("share", "share of members down"), ("change", "change"),
+           ("low", "90 % from"), ("high", "90 % to"), ("half", "half down, change, s"), ("failed", "runs that failed")]
+
+TEXT = ("Each constant of docs/constants.md halved and doubled (whole numbers at least 1), with the same inputs as without: lines of the projectile moved as in the suite convergence. The interval of the "
+        "change of the mean share of members down is by bootstrap over inputs. Of so many changes one in ten lies outside of its interval by chance.")
+
+
+def run_one(context, scenario, sample, change, seed):
+    folder = os.path.join(context.results, "constants")
+    path = os.path.join(folder, "%s-%d.json" % (scenario, sample))
+    if not os.path.exists(path):
+        content = scatter.moved(context.root, scenario, seed, sample)
+        content["step"] = 1.0 / RATE
+        content["model"] = os.path.join(context.root, "models", content["model"] + ".json")
+        unfinished = "%s.%d" % (path, id(content))
+        with open(unfinished, "w", encoding="utf-8") as out:
+            json.dump(content, out)
+        os.replace(unfinished, path)
+    words = [os.path.join(context.programs, "bench_constants"), path] + ([change[0], str(change[1])] if change else [])
+    done = subprocess.run(words, capture_output=True, text=True)
+    if done.returncode != 0:
+        return {"failed": done.stderr.strip()[-300:]}
+    return json.loads(done.stdout)
+
+
+def row_of(change, scenario, runs, before, draw):
+    both = [(a, b) for a, b in zip(runs, before) if "failed" not in a and "failed" not in b]
+    row = {"constant": change[0], "factor": change[1], "scenario": scenario, "failed": sum("failed" in run for run in runs)}
+    if both:
+        shares = [a["share"] - b["share"] for a, b in both]
+        halves = [a["half"] - b["half"] for a, b in both if a["half"] is not None and b["half"] is not None]
+        row["share"] = statistics.fmean(a["share"] for a, _ in both)
+        row["change"] = statistics.fmean(shares)
+        row["low"], row["high"] = convergence.bootstrap_interval(shares, draw)
+        row["half"] = statistics.fmean(halves) if halves else None
+    return row
+
+
+def run(context):
+    seed = context.provenance["commit"]
+    os.makedirs(os.path.join(context.results, "constants"))
+    listed = subprocess.run([os.path.join(context.programs, "bench_constants"), "--list"], capture_output=True, text=True, check=True).stdout
+    names = [line.split()[0] for line in listed.splitlines()]
+    scenarios = context.scenarios or (SCENARIOS[:2] if context.quick else SCENARIOS)
+    samples = context.samples or (QUICK_SAMPLES if context.quick else SAMPLES)
+    changes = [None] + [(name, factor) for name in names for factor in FACTORS]
+    jobs = [(scenario, sample, change) for change in changes for scenario in scenarios for sample in range(samples)]
+    found = {}
+    with concurrent.futures.ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
+        started = {pool.submit(run_one, context, *job, seed): job for job in jobs}
+        for number, one in enumerate(concurrent.futures.as_completed(started)):
+            found[started[one]] = one.result()
+            if number % 50 == 0:
+                output.progress(context, "%d of %d collapses" % (number + 1, len(jobs)))
+    draw = random.Random(seed)
+    runs = lambda scenario, change: [found[(scenario, sample, change)] for sample in range(samples)]
+    rows = [row_of(change, scenario, runs(scenario, change), runs(scenario, None), draw) for change in changes[1:] for scenario in scenarios]
+    rows.sort(key=lambda row: -abs(row.get("change", 0)))
+    lines = ["%s as they are: mean share down %.3f" % (scenario, statistics.fmean(run["share"] for run in runs(scenario, None) if "failed" not in run)) for scenario in scenarios]
+    for row in rows:
+        if row["failed"]:
+            context.broken.append("%s times %g, %s: %d runs failed" % (row["constant"], row["factor"], row["scenario"], row["failed"]))
+        if "change" in row and (row["low"] > 0 or row["high"] < 0):
+            lines.append("%s times %g, %s: %+.3f, 90 %% within %+.3f and %+.3f" % (row["constant"], row["factor"], row["scenario"], row["change"], row["low"], row["high"]))
+    for line in lines:
+        print("bench: " + line)
+    output.print_table(rows, COLUMNS)
+    output.write_results(context, "constants", rows, COLUMNS, ("constant", "factor", "scenario"), lines)
+    return [("Outcomes against constants", TEXT, [], (rows, COLUMNS))]
