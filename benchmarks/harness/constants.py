@@ -1,6 +1,5 @@
 """How much the outcome of a collapse hangs on each constant of docs/constants.md: the same inputs with the constant halved and doubled."""
 
-import concurrent.futures
 import json
 import os
 import random
@@ -63,13 +62,7 @@ def run(context):
     samples = context.samples or (QUICK_SAMPLES if context.quick else SAMPLES)
     changes = [None] + [(name, factor) for name in names for factor in FACTORS]
     jobs = [(scenario, sample, change) for change in changes for scenario in scenarios for sample in range(samples)]
-    found = {}
-    with concurrent.futures.ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
-        started = {pool.submit(run_one, context, *job, seed): job for job in jobs}
-        for number, one in enumerate(concurrent.futures.as_completed(started)):
-            found[started[one]] = one.result()
-            if number % 50 == 0:
-                output.progress(context, "%d of %d collapses" % (number + 1, len(jobs)))
+    found = convergence.run_all(context, run_one, jobs, seed)
     draw = random.Random(seed)
     runs = lambda scenario, change: [found[(scenario, sample, change)] for sample in range(samples)]
     rows = [row_of(change, scenario, runs(scenario, change), runs(scenario, None), draw) for change in changes[1:] for scenario in scenarios]

@@ -77,6 +77,18 @@ def run_one(context, scenario, rate, sample, seed):
             "half": half_down(events, counts["members_down"]), "residual": abs(summary["ledger"]["energy"]["residual"])}
 
 
+def run_all(context, run, jobs, seed):
+    """By job, what run(context, *job, seed) returned; as many at a time as there are processors."""
+    found = {}
+    with concurrent.futures.ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
+        started = {pool.submit(run, context, *job, seed): job for job in jobs}
+        for number, one in enumerate(concurrent.futures.as_completed(started)):
+            found[started[one]] = one.result()
+            if number % 50 == 0:
+                output.progress(context, "%d of %d collapses" % (number + 1, len(jobs)))
+    return found
+
+
 def mean_and_error(values):
     values = [value for value in values if value is not None]
     if not values:
@@ -173,13 +185,7 @@ def run(context):
     rates = STEPS[:-1] if context.quick else STEPS
     members = {name: members_of(context, name) for name in names}
     jobs = [(name, rate, sample) for name in names for rate in rates for sample in range(counts[name])]
-    found = {}
-    with concurrent.futures.ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as pool:
-        started = {pool.submit(run_one, context, *job, seed): job for job in jobs}
-        for number, one in enumerate(concurrent.futures.as_completed(started)):
-            found[started[one]] = one.result()
-            if number % 50 == 0:
-                output.progress(context, "%d of %d collapses" % (number + 1, len(jobs)))
+    found = run_all(context, run_one, jobs, seed)
     rows = [row for name in names for row in rows_of(name, members[name], found, rates, counts[name])]
     failed = sorted({run["failed"] for run in found.values() if "failed" in run})
     context.broken += ["a run failed: " + why for why in failed]
