@@ -106,6 +106,16 @@ FrameModel portal(double density) {
   return model;
 }
 
+/// Nothing holds it, and the method keeps its energy.
+FrameDynamics free_portal() {
+  FrameModel model = portal(7850);
+  model.supports.clear();
+  DynamicOptions options;
+  options.substep = 1.0 / 2000;
+  options.spectral_radius = 1;
+  return {model, {}, options};
+}
+
 }  // namespace
 
 TEST_CASE("Storey shears of a shear building under a sudden load peak as all modes say, to second order") {
@@ -181,19 +191,14 @@ TEST_CASE("Reactions and loads are the change of momentum, substep for substep")
 
 TEST_CASE("A frame that breaks keeps its account of energy and its momentum") {
   // No support: what acts on it are breaks alone.
-  FrameModel model = portal(7850);
-  model.supports.clear();
-  DynamicOptions options;
-  options.substep = 1.0 / 2000;
-  options.spectral_radius = 1;
-  FrameDynamics frame(model, {}, options);
+  FrameDynamics frame = free_portal();
   // A spin and a translation, and a strain that a break frees.
   std::vector<Vec6> moved(5, Vec6::Zero()), velocity(5);
   moved[4] = components(0.01, -0.004, 0.02, 0.002, 0.004, -0.003);
   moved[1] = components(-0.004, 0.002, 0.001, 0.001, 0.002, 0.001);
   for (std::size_t n = 0; n < 5; ++n) {
     const Vec3 spin(0.2, -0.3, 0.5);
-    velocity[n] << Vec3(1, 2, -0.5) + spin.cross(model.nodes[n]), spin;
+    velocity[n] << Vec3(1, 2, -0.5) + spin.cross(frame.model().nodes[n]), spin;
   }
   frame.set_state(moved, velocity);
   const Vec6 before = frame.momentum();
@@ -218,16 +223,11 @@ TEST_CASE("A frame that breaks keeps its account of energy and its momentum") {
 }
 
 TEST_CASE("Impulses on a free frame give it their momentum, and a beam that leaves takes its own along") {
-  FrameModel model = portal(7850);
-  model.supports.clear();
-  DynamicOptions options;
-  options.substep = 1.0 / 2000;
-  options.spectral_radius = 1;
-  FrameDynamics frame(model, {}, options);
+  FrameDynamics frame = free_portal();
   const Vec6 impulse = components(300, -200, 500, 20, 30, -40);
   const std::array<FrameDynamics::Impulse, 1> one{{{1, impulse}}};
   Vec6 given = impulse;
-  given.tail<3>() += model.nodes[1].cross(Vec3(impulse.head<3>()));
+  given.tail<3>() += frame.model().nodes[1].cross(Vec3(impulse.head<3>()));
   const auto near = [](const Vec6& a, const Vec6& b) { return (a - b).norm() < 1e-10 * b.norm(); };
   // The work of an impulse is that of its mean velocity: J'M^-1 J / 2 from rest.
   const double work = impulse.dot(frame.velocities_of(one)[1]) / 2;
@@ -237,7 +237,7 @@ TEST_CASE("Impulses on a free frame give it their momentum, and a beam that leav
   CHECK(frame.energy().kinetic == Approx(work).epsilon(1e-10));
   for (int n = 0; n < 10; ++n) frame.advance();
   Vec6 parts = Vec6::Zero();
-  for (int b = 0; b < static_cast<int>(model.beams.size()); ++b) parts += frame.beam_momentum(b);
+  for (int b = 0; b < static_cast<int>(frame.model().beams.size()); ++b) parts += frame.beam_momentum(b);
   CHECK(near(parts, given));
   // One beam loses both ends by a change, and what is left of the frame has the rest.
   const Vec6 leaving = frame.beam_momentum(1);
@@ -256,14 +256,9 @@ TEST_CASE("Impulses on a free frame give it their momentum, and a beam that leav
 }
 
 TEST_CASE("Mass that comes to a beam brings its momentum: over the next substep, or at once with an impulse") {
-  FrameModel model = portal(7850);
-  model.supports.clear();
-  DynamicOptions options;
-  options.substep = 1.0 / 2000;
-  options.spectral_radius = 1;
   const Vec6 brought = components(300, -200, 500, 20, 30, -40);
   for (const bool at_once : {false, true}) {
-    FrameDynamics frame(model, {}, options);
+    FrameDynamics frame = free_portal();
     frame.add_momentum(1, brought);
     CHECK((frame.beam_momentum(1) - brought).norm() < 1e-12 * brought.norm());
     if (at_once)
@@ -281,12 +276,7 @@ TEST_CASE("Mass that comes to a beam brings its momentum: over the next substep,
 }
 
 TEST_CASE("A beam that leaves takes along the momentum that has just come to it") {
-  FrameModel model = portal(7850);
-  model.supports.clear();
-  DynamicOptions options;
-  options.substep = 1.0 / 2000;
-  options.spectral_radius = 1;
-  FrameDynamics frame(model, {}, options);
+  FrameDynamics frame = free_portal();
   const std::array<FrameDynamics::Impulse, 1> one{{{1, components(300, -200, 500, 20, 30, -40)}}};
   frame.strike(one);
   frame.advance();
@@ -375,12 +365,7 @@ TEST_CASE("A beam that breaks off within a substep leaves with the momentum that
       return beam == 1 ? forces.segment<3>(6 * end).norm() / 200.0 : 0;
     }
   };
-  FrameModel model = portal(7850);
-  model.supports.clear();
-  DynamicOptions options;
-  options.substep = 1.0 / 2000;
-  options.spectral_radius = 1;
-  FrameDynamics frame(model, {}, options);
+  FrameDynamics frame = free_portal();
   const std::array<FrameDynamics::Impulse, 1> one{{{1, components(300, -200, 500, 20, 30, -40)}}};
   frame.strike(one);
   Vec6 given = frame.momentum();
