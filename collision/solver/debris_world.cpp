@@ -133,11 +133,6 @@ void DebrisWorld::remove_body(BodyId id) {
   order_.erase(std::lower_bound(order_.begin(), order_.end(), id));
 }
 
-Placement DebrisObstacle::placement() const {
-  const btTransform placed = to_bullet(pose) * frame;
-  return {from_bullet(placed.getOrigin()), from_bullet(placed.getBasis())};
-}
-
 ObstacleId DebrisWorld::add_obstacle(const ObstacleDescription& description) {
   const std::string owner = "obstacle " + std::to_string(next_obstacle_);
   check_surface(description.friction, description.restitution, owner);

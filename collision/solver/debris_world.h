@@ -12,80 +12,11 @@
 #include "contacts/first_touch.h"
 #include "contacts/near_pairs.h"
 #include "contacts/pair_contacts.h"
-#include "shapes/touching_solid.h"
+#include "solver/debris_parts.h"
+#include "solver/islands.h"
 #include "solver/step_solver.h"
 
 namespace topple::collision {
-
-/// A body turns in its principal axes inside (its frame), and is seen in the caller's.
-struct DebrisBody : TouchingSolid {
-  double mass = 0, friction = 0, restitution = 0;
-  double ball_radius = 0;  ///< of a body that is one ball; 0: any other
-  Vec3 moments = Vec3::Zero(), inverse_root_moments = Vec3::Zero();
-  Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();  ///< of the principal axes
-  Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();         ///< as BodyState tells them
-  bool asleep = false;
-  double slow_for = 0;  ///< s that it has stayed near where it was then
-  Vec3 position_then = Vec3::Zero();
-  Eigen::Quaterniond turn_then = Eigen::Quaterniond::Identity();
-  double load = 0;          ///< m/s2: force on a contact over its effective mass, the largest; how hard it is pressed
-  double substep_rate = 0;  ///< 1/s: sub-steps in the last step
-  bool slept_now = false;   ///< fell asleep in the last step
-  double retry_rest = 0;    ///< s until rest is tried again, where it was not found ...
-  double rest_wait = 0;     ///< ... and how long that will be next time
-  int ignored = 0;          ///< pairs that it is in and that are ignored until separated
-  int solver = 0;           ///< its number in the step's solver
-  int island = 0;
-  // Of the step: what it began with, for the account of energy.
-  Vec3 velocity_before = Vec3::Zero(), spin_before = Vec3::Zero();
-  double energy_before = 0, pushed = 0, booked = 0;
-  Vec3 acceleration = Vec3::Zero();  ///< of the last step, m/s2: what lies does not fall
-  double swung = 0;  ///< J by which its free rotation missed its energy: comes back, and is no contact's
-  std::vector<std::uint32_t> colliders;  ///< by part
-  std::set<std::int64_t> hinges, cables;
-};
-
-struct DebrisObstacle : TouchingSolid {
-  Pose pose;
-  double friction = 0, restitution = 0;
-  std::vector<std::uint32_t> colliders;
-  // While it moves.
-  bool moves = false;
-  ObstacleMotion motion;
-  // What touched it, about its pose: in this part of the step, N s and N m s, and in the mean of the last, N and N m.
-  Vec3 impulse = Vec3::Zero(), angular_impulse = Vec3::Zero(), force = Vec3::Zero(), moment = Vec3::Zero();
-  double gives_way = 1;  ///< its mobility, as a share of that which it has by itself
-  double alike = 0;      ///< share of the force of the last part that was there in the one before
-  double lasting = 0;    ///< share of it that goes on: the rest is part of a blow
-  int known_for = 0;     ///< parts of a step, at most three
-  int solver = -1;       ///< its number in the step's solver; -1: not in it yet
-  int island = -1;
-
-  /// m/s: no point of it is faster.
-  [[nodiscard]] double speed() const {
-    return moves ? motion.velocity.norm() + motion.angular_velocity.norm() * reach : 0;
-  }
-  /// Where the pose has its shapes.
-  [[nodiscard]] Placement placement() const;
-};
-
-struct DebrisHinge {
-  HingeRows rows;
-  std::int64_t body = -1, other = -1;
-  Eigen::Matrix<double, 6, 1> force = Eigen::Matrix<double, 6, 1>::Zero();
-  double work_lost = 0;
-
-  void forget_step() {
-    force.setZero();
-    work_lost = 0;
-  }
-};
-
-struct DebrisCable {
-  CableRow row;
-  std::int64_t body = -1;
-  CablePull pull;
-};
 
 class DebrisWorld final : public World {
  public:
@@ -127,16 +58,6 @@ class DebrisWorld final : public World {
   DebrisWorld(const DebrisWorld& of);
   struct Mover;  // an awake body during a sweep
   /// Awake bodies that touch or hang together.
-  struct Island {
-    std::vector<DebrisBody*> bodies;
-    std::vector<std::uint32_t> pairs;  ///< that touch
-    std::vector<DebrisHinge*> hinges;
-    std::vector<DebrisCable*> cables;
-    double load = 0;          ///< m/s2
-    double substep_rate = 0;  ///< 1/s: the highest of its bodies
-    bool carried = false;     ///< in part by an obstacle that moves at a noticeable speed
-  };
-
   [[nodiscard]] DebrisBody& body(std::int64_t id) const;
   [[nodiscard]] DebrisObstacle& obstacle(std::int64_t id) const;
   [[nodiscard]] DebrisHinge& hinge(std::int64_t id) const;
@@ -182,7 +103,6 @@ class DebrisWorld final : public World {
   void place(DebrisObstacle& obstacle, const ObstacleMotion& motion, double dt);
   void learn(DebrisObstacle& obstacle, const ObstacleMotion& now, const Vec3& force, const Vec3& moment) const;
   void hand_over(double dt, std::size_t told, MovingStructure& structure);
-  [[nodiscard]] const DebrisObstacle* moving_obstacle(const NearPair& pair) const;
   void stand_still(DebrisObstacle& obstacle);
   void add_moving(const Island& island, double dt, double substep);
   void press_moving(double dt);

@@ -30,14 +30,6 @@ void DebrisWorld::hand_over(double dt, std::size_t told, MovingStructure& struct
   stepping_ = false;
 }
 
-/// That the pair's second part is of, where that moves.
-const DebrisObstacle* DebrisWorld::moving_obstacle(const NearPair& pair) const {
-  const Solid* const second = pairs_.collider(pair.second).solid;
-  if (second->kind != Touched::Kind::obstacle) return nullptr;
-  const auto* const one = static_cast<const DebrisObstacle*>(second);
-  return one->moves ? one : nullptr;
-}
-
 /// Those near bodies are asked for; what moved before and is near none any more is left where it is.
 void DebrisWorld::place_moving(double dt, MovingStructure& structure) {
   update_bounds(dt);
@@ -175,7 +167,7 @@ void DebrisWorld::wake_carried() {
   if (moving_obstacles_.empty()) return;
   for (const std::uint32_t index : touching_) {
     const NearPair& pair = pairs_.pair(index);
-    const DebrisObstacle* const carrier = moving_obstacle(pair);
+    const DebrisObstacle* const carrier = moving_obstacle(pairs_, pair);
     auto* const first = static_cast<DebrisBody*>(pairs_.collider(pair.first).solid);
     if (!carrier || !first->asleep) continue;
     const DebrisObstacle& one = *carrier;

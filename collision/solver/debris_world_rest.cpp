@@ -10,12 +10,13 @@ namespace topple::collision {
 
 /// What has lain still in an island that something that moves carries in part, and does not touch that itself. A heap
 /// against a building that sways so sleeps but for what is near it.
-DebrisWorld::Island DebrisWorld::quiet_part(const Island& island) const {
+Island DebrisWorld::quiet_part(const Island& island) const {
   std::set<const Solid*> stay;
   for (const DebrisBody* one : island.bodies)
     if (one->slow_for >= settings_.slow_for - 1e-9) stay.insert(one);
   for (const std::uint32_t index : island.pairs)
-    if (const NearPair& pair = pairs_.pair(index); moving_obstacle(pair)) stay.erase(pairs_.collider(pair.first).solid);
+    if (const NearPair& pair = pairs_.pair(index); moving_obstacle(pairs_, pair))
+      stay.erase(pairs_.collider(pair.first).solid);
   for (bool again = true; again;) {  // what hangs together sleeps together
     again = false;
     for (const DebrisHinge* hinge : island.hinges) {
@@ -90,7 +91,7 @@ bool DebrisWorld::come_to_rest(Island& island, double dt) {
 }
 
 /// The island, and all bodies that sleep and touch it or hang on it, or on what does.
-DebrisWorld::Island DebrisWorld::with_sleeping(const Island& island) const {
+Island DebrisWorld::with_sleeping(const Island& island) const {
   Island whole = island;
   std::set<const Solid*> known(whole.bodies.begin(), whole.bodies.end());
   std::set<std::uint32_t> pairs(whole.pairs.begin(), whole.pairs.end());
@@ -138,7 +139,7 @@ DebrisWorld::Island DebrisWorld::with_sleeping(const Island& island) const {
 }
 
 /// Bodies of other islands that lie on what sleeps: they are awake, and press with the forces of the last step.
-DebrisWorld::Island DebrisWorld::awake_on(const Island& whole) const {
+Island DebrisWorld::awake_on(const Island& whole) const {
   const std::set<const Solid*> known(whole.bodies.begin(), whole.bodies.end());
   Island outside;
   for (const std::uint32_t index : whole.pairs)

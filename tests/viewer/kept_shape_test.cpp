@@ -97,11 +97,14 @@ TEST_CASE("a part of many members is drawn as bent as it stood: its ends are as 
       };
       for (const std::size_t a : part)
         for (const std::size_t b : part) {
-          const double was = (place(a, 0, shape_in(*last, scene, a)) - place(b, 1, shape_in(*last, scene, b))).norm();
+          const Eigen::Vector3d apart = place(a, 0, shape_in(*last, scene, a)) - place(b, 1, shape_in(*last, scene, b)),
+                                as_built = place(a, 0, MemberShape{}) - place(b, 1, MemberShape{});
           const double is =
               (place(a, 0, *now->membership->member_shape[a]) - place(b, 1, *now->membership->member_shape[b])).norm();
-          // A turn of a tenth, the most that stands, lengthens by its square halved.
-          CHECK(is == Approx(was).epsilon(0.006));
+          // Small displacements lengthen by a turn what is only turned: the shape that is kept has that, or has not.
+          const double share = 0.001;
+          CHECK(is <= (1 + share) * apart.norm());
+          CHECK(is >= (1 - share) * std::abs(apart.dot(as_built.normalized())));
           ++compared;
         }
     }

@@ -227,6 +227,25 @@ void BreakUp::record_breaks(const Body& one, const std::vector<std::pair<JointId
   }
 }
 
+namespace {
+
+Detached as_detached(const FreeSegmentParts& part) {
+  Detached piece;
+  piece.members = part.members;
+  piece.panels = part.panels;
+  piece.nodes = part.nodes;
+  return piece;
+}
+
+void write_part(const Body& own, const Vec3& position, SimulationEvent& event) {
+  event.members = own.members;
+  event.panels = own.panels;
+  event.mass = own.rest.mass;
+  event.position = position;
+}
+
+}  // namespace
+
 /// Replaces the body by its parts, each with the velocity of its centre in the whole.
 std::vector<collision::BodyId> BreakUp::split(collision::BodyId id, const std::vector<FreeSegmentParts>& parts,
                                               std::vector<Body> chunks) {
@@ -267,20 +286,12 @@ std::vector<collision::BodyId> BreakUp::split(collision::BodyId id, const std::v
     views_.record_split(id, made.back());
   };
   for (const FreeSegmentParts& part : parts) {
-    Detached piece;
-    piece.members = part.members;
-    piece.panels = part.panels;
-    piece.nodes = part.nodes;
+    const Detached piece = as_detached(part);
     const double mass = debris_.masses.of(piece).mass;
     if (piece.members.empty() && piece.panels.empty() && mass <= 0) continue;  // a bare node
     Body own = describe(piece);
-    if (parts.size() > 1) {
-      SimulationEvent& event = log_.record(SimulationEvent::Kind::split, own.name);
-      event.members = own.members;
-      event.panels = own.panels;
-      event.mass = own.rest.mass;
-      event.position = motion_of(own).pose.position;
-    }
+    if (parts.size() > 1)
+      write_part(own, motion_of(own).pose.position, log_.record(SimulationEvent::Kind::split, own.name));
     go_on(std::move(own));
   }
   const std::size_t parts_made = made.size();

@@ -1,0 +1,19 @@
+#include "solver/debris_parts.h"
+
+#include "bullet/bullet_types.h"
+
+namespace topple::collision {
+
+Placement DebrisObstacle::placement() const {
+  const btTransform placed = to_bullet(pose) * frame;
+  return {from_bullet(placed.getOrigin()), from_bullet(placed.getBasis())};
+}
+
+const DebrisObstacle* moving_obstacle(const NearPairs& pairs, const NearPair& pair) {
+  const Solid* const second = pairs.collider(pair.second).solid;
+  if (second->kind != Touched::Kind::obstacle) return nullptr;
+  const auto* const one = static_cast<const DebrisObstacle*>(second);
+  return one->moves ? one : nullptr;
+}
+
+}  // namespace topple::collision

@@ -1,0 +1,87 @@
+#pragma once
+// What a DebrisWorld holds: bodies, obstacles, hinges and cables.
+#include <cstdint>
+#include <set>
+#include <vector>
+
+#include "contacts/near_pairs.h"
+#include "shapes/touching_solid.h"
+#include "solver/cable_row.h"
+#include "solver/hinge_rows.h"
+
+namespace topple::collision {
+
+/// A body turns in its principal axes inside (its frame), and is seen in the caller's.
+struct DebrisBody : TouchingSolid {
+  double mass = 0, friction = 0, restitution = 0;
+  double ball_radius = 0;  ///< of a body that is one ball; 0: any other
+  Vec3 moments = Vec3::Zero(), inverse_root_moments = Vec3::Zero();
+  Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();  ///< of the principal axes
+  Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();         ///< as BodyState tells them
+  bool asleep = false;
+  double slow_for = 0;  ///< s that it has stayed near where it was then
+  Vec3 position_then = Vec3::Zero();
+  Eigen::Quaterniond turn_then = Eigen::Quaterniond::Identity();
+  double load = 0;          ///< m/s2: force on a contact over its effective mass, the largest; how hard it is pressed
+  double substep_rate = 0;  ///< 1/s: sub-steps in the last step
+  bool slept_now = false;   ///< fell asleep in the last step
+  double retry_rest = 0;    ///< s until rest is tried again, where it was not found ...
+  double rest_wait = 0;     ///< ... and how long that will be next time
+  int ignored = 0;          ///< pairs that it is in and that are ignored until separated
+  int solver = 0;           ///< its number in the step's solver
+  int island = 0;
+  // Of the step: what it began with, for the account of energy.
+  Vec3 velocity_before = Vec3::Zero(), spin_before = Vec3::Zero();
+  double energy_before = 0, pushed = 0, booked = 0;
+  Vec3 acceleration = Vec3::Zero();  ///< of the last step, m/s2: what lies does not fall
+  double swung = 0;  ///< J by which its free rotation missed its energy: comes back, and is no contact's
+  std::vector<std::uint32_t> colliders;  ///< by part
+  std::set<std::int64_t> hinges, cables;
+};
+
+struct DebrisObstacle : TouchingSolid {
+  Pose pose;
+  double friction = 0, restitution = 0;
+  std::vector<std::uint32_t> colliders;
+  // While it moves.
+  bool moves = false;
+  ObstacleMotion motion;
+  // What touched it, about its pose: in this part of the step, N s and N m s, and in the mean of the last, N and N m.
+  Vec3 impulse = Vec3::Zero(), angular_impulse = Vec3::Zero(), force = Vec3::Zero(), moment = Vec3::Zero();
+  double gives_way = 1;  ///< its mobility, as a share of that which it has by itself
+  double alike = 0;      ///< share of the force of the last part that was there in the one before
+  double lasting = 0;    ///< share of it that goes on: the rest is part of a blow
+  int known_for = 0;     ///< parts of a step, at most three
+  int solver = -1;       ///< its number in the step's solver; -1: not in it yet
+  int island = -1;
+
+  /// m/s: no point of it is faster.
+  [[nodiscard]] double speed() const {
+    return moves ? motion.velocity.norm() + motion.angular_velocity.norm() * reach : 0;
+  }
+  /// Where the pose has its shapes.
+  [[nodiscard]] Placement placement() const;
+};
+
+struct DebrisHinge {
+  HingeRows rows;
+  std::int64_t body = -1, other = -1;
+  Eigen::Matrix<double, 6, 1> force = Eigen::Matrix<double, 6, 1>::Zero();
+  double work_lost = 0;
+
+  void forget_step() {
+    force.setZero();
+    work_lost = 0;
+  }
+};
+
+struct DebrisCable {
+  CableRow row;
+  std::int64_t body = -1;
+  CablePull pull;
+};
+
+/// The obstacle of a pair, if it moves; else null.
+[[nodiscard]] const DebrisObstacle* moving_obstacle(const NearPairs& pairs, const NearPair& pair);
+
+}  // namespace topple::collision
