@@ -8,7 +8,6 @@ import subprocess
 
 import convergence
 import output
-import scatter
 
 SCENARIOS = ["house_hit", "house_hit_65", "tower_hit"]
 SAMPLES, QUICK_SAMPLES = 12, 4
@@ -22,18 +21,12 @@ TEXT = ("Each constant of docs/constants.md halved and doubled (whole numbers at
         "change of the mean share of members down is by bootstrap over inputs. Of so many changes one in ten lies outside of its interval by chance.")
 
 
-def run_one(context, scenario, sample, change, seed):
-    folder = os.path.join(context.results, "constants")
-    path = os.path.join(folder, "%s-%d.json" % (scenario, sample))
-    if not os.path.exists(path):
-        content = scatter.moved(context.root, scenario, seed, sample)
-        content["step"] = 1.0 / RATE
-        content["model"] = os.path.join(context.root, "models", content["model"] + ".json")
-        unfinished = "%s.%d" % (path, id(content))
-        with open(unfinished, "w", encoding="utf-8") as out:
-            json.dump(content, out)
-        os.replace(unfinished, path)
-    words = [os.path.join(context.programs, "bench_constants"), path] + ([change[0], str(change[1])] if change else [])
+def input_of(context, scenario, sample):
+    return os.path.join(context.results, "constants", "%s-%d.json" % (scenario, sample))
+
+
+def run_one(context, scenario, sample, change, _seed):
+    words = [os.path.join(context.programs, "bench_constants"), input_of(context, scenario, sample)] + ([change[0], str(change[1])] if change else [])
     done = subprocess.run(words, capture_output=True, text=True)
     if done.returncode != 0:
         return {"failed": done.stderr.strip()[-300:]}
@@ -62,6 +55,9 @@ def run(context):
     samples = context.samples or (QUICK_SAMPLES if context.quick else SAMPLES)
     changes = [None] + [(name, factor) for name in names for factor in FACTORS]
     jobs = [(scenario, sample, change) for change in changes for scenario in scenarios for sample in range(samples)]
+    for scenario in scenarios:
+        for sample in range(samples):
+            convergence.write_scenario(context, input_of(context, scenario, sample), scenario, RATE, sample, seed)
     found = convergence.run_all(context, run_one, jobs, seed)
     draw = random.Random(seed)
     runs = lambda scenario, change: [found[(scenario, sample, change)] for sample in range(samples)]

@@ -52,17 +52,22 @@ def half_down(events, down):
     return None
 
 
+def write_scenario(context, path, scenario, rate, sample, seed):
+    """The input of one run: its scatter, and so many steps a second."""
+    content = scatter.moved(context.root, scenario, seed, sample)
+    content["step"] = 1.0 / rate
+    content["model"] = os.path.join(context.root, "models", content["model"] + ".json")
+    with open(path, "w", encoding="utf-8") as out:
+        json.dump(content, out)
+
+
 def run_one(context, scenario, rate, sample, seed):
     """One collapse: what came of it, or why it failed."""
     name = "%s-%d-%d" % (scenario, rate, sample)
     folder = os.path.join(context.results, "convergence", name)
     os.makedirs(folder)
-    content = scatter.moved(context.root, scenario, seed, sample)
-    content["step"] = 1.0 / rate
-    content["model"] = os.path.join(context.root, "models", content["model"] + ".json")
     path = os.path.join(folder, "scenario.json")
-    with open(path, "w", encoding="utf-8") as out:
-        json.dump(content, out)
+    write_scenario(context, path, scenario, rate, sample, seed)
     done = subprocess.run([os.path.join(context.programs, "topple"), "demolish", path, "-o", folder], capture_output=True, text=True)
     if done.returncode != 0:
         return {"failed": done.stderr.strip()[-300:]}
