@@ -8,10 +8,6 @@
 namespace topple::solver {
 namespace {
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr int most_refinements = 12;
-/// A step that does not cut the error to this share of the last one is the last.
-constexpr double worthwhile = 0.5;
-
 }  // namespace
 
 RefinedSolution solve_refined(const SparseSymmetric& K, const LinearSolve& solve, const Eigen::MatrixXd& b) {
@@ -43,7 +39,7 @@ RefinedSolution refine(const ExtendedResidual& residual, const LinearSolve& solv
     if (first[static_cast<std::size_t>(j)] > backward_error_limit) open.push_back(j);
   }
   Eigen::MatrixXd better, right, better_residual;
-  for (int step = 0; step < most_refinements && !open.empty(); ++step) {
+  for (int step = 0; step < most_refinement_steps && !open.empty(); ++step) {
     better = r(Eigen::all, open);
     solve(better);
     better += result.x(Eigen::all, open);
@@ -53,7 +49,7 @@ RefinedSolution refine(const ExtendedResidual& residual, const LinearSolve& solv
     for (std::size_t k = 0; k < open.size(); ++k) {
       const Eigen::Index j = open[k], column = static_cast<Eigen::Index>(k);
       SolveQuality& quality = result.quality[static_cast<std::size_t>(j)];
-      const bool go_on = errors[k] <= worthwhile * quality.backward_error;
+      const bool go_on = errors[k] <= worthwhile_refinement * quality.backward_error;
       if (errors[k] < quality.backward_error) {
         result.x.col(j) = better.col(column);
         r.col(j) = better_residual.col(column);

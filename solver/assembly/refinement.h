@@ -17,6 +17,9 @@ using LinearSolve = std::function<void(Eigen::Ref<Eigen::MatrixXd>)>;
 
 /// What counts as rounding level.
 inline constexpr double backward_error_limit = 1e-14;
+inline constexpr int most_refinement_steps = 12;
+/// A step that does not cut the error to this share of the last one is the last.
+inline constexpr double worthwhile_refinement = 0.5;
 
 /// r = b - K x for all columns together, in one pass over the matrix for eight of them, accumulated in twice the
 /// precision (Ogita, Rump and Oishi 2005, Dot2; products split as Dekker 1971 does, so that the bits are the same with

@@ -14,7 +14,7 @@ constexpr int halvings = 30;
 }  // namespace
 
 Vec12 FrameDynamics::State::fixed_end_forces(int beam, bool at_end) const {
-  Vec12 fixed = core().fixed_end[static_cast<std::size_t>(beam)];
+  Vec12 fixed = core().load.fixed_end(static_cast<std::size_t>(beam));
   for (const LoadPattern& pattern : patterns) {
     const auto own = pattern.fixed_end.find(beam);
     if (own != pattern.fixed_end.end()) fixed += (at_end ? pattern.now : pattern.before) * own->second;
@@ -98,7 +98,7 @@ void FrameDynamics::State::record_break(const JointBreak& found, double share, c
   // A beam that hangs on a pin alone is no part of the frame: it leaves.
   const auto i = static_cast<std::size_t>(found.beam);
   Beam left = system().model.beams[i];
-  left.end_stiffness = core().targets[i].end_stiffness;
+  left.end_stiffness = core().changes.beam(i).end_stiffness;
   if (CondensedBeam(left, system().beam_factor[i]).loose())
     frame.set_end_stiffness(found.beam, 1 - found.end, Vec6::Zero());
 }

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "assembly/checked_index.h"
 #include "assembly/mass_matrix.h"
 #include "dynamics/dynamic_state.h"
 #include "dynamics/impulse_factor.h"
@@ -67,11 +68,10 @@ void FrameDynamics::set_patch_stiffness(int patch, Eigen::MatrixXd stiffness) {
   state_->frame.set_patch_stiffness(patch, std::move(stiffness));
 }
 void FrameDynamics::set_patch_mass(int patch, Eigen::MatrixXd mass) {
-  Reanalysis::State& core = state_->core();
-  const Patch& own = state_->system().model.patches[core.checked_patch(patch)];
+  const Patch& own = model().patches[checked_patch(model(), patch)];
   if (mass.rows() != own.stiffness.rows() || mass.cols() != own.stiffness.cols() || !mass.allFinite())
     throw std::invalid_argument("mass of patch " + std::to_string(patch) + " is not a finite matrix of its size");
-  core.given_mass[patch] = std::move(mass);
+  state_->core().changes.set_patch_mass(patch, std::move(mass));
 }
 void FrameDynamics::set_beam_stiffness_factor(int beam, double factor) {
   state_->frame.set_beam_stiffness_factor(beam, factor);
@@ -81,11 +81,7 @@ void FrameDynamics::set_shell_stiffness(int shell, const Eigen::Matrix<double, 2
 }
 void FrameDynamics::set_beam_density(int beam, double density) {
   if (!(density >= 0)) throw std::invalid_argument("a density must not be negative");
-  Reanalysis::State& core = state_->core();
-  double& target = core.targets[core.checked_beam(beam)].density;
-  if (target == density) return;
-  target = density;
-  core.mark(beam);
+  state_->core().changes.set_beam_density(checked_beam(model(), beam), density);
 }
 void FrameDynamics::set_support_stiffness(int support, const Vec6& stiffness) {
   state_->frame.set_support_stiffness(support, stiffness);
@@ -98,7 +94,7 @@ void FrameDynamics::set_beam_loads(int beam, std::vector<BeamLoad> loads) {
 
 void FrameDynamics::set_plastic_rotation(int beam, int end, int component, double rotation) {
   State& state = *state_;
-  (void)state.core().checked_beam(beam);
+  (void)checked_beam(model(), beam);
   if (end < 0 || end > 1) throw std::invalid_argument("a beam has end 0 and end 1, not " + std::to_string(end));
   if (component < 3 || component > 5)
     throw std::invalid_argument("a plastic rotation is component 3 to 5, not " + std::to_string(component));
@@ -112,7 +108,7 @@ void FrameDynamics::set_plastic_rotation(int beam, int end, int component, doubl
 }
 
 Vec12 FrameDynamics::plastic_rotations(int beam) const {
-  const auto i = state_->core().checked_beam(beam);
+  const auto i = checked_beam(model(), beam);
   Vec12 rotations = Vec12::Zero();
   if (state_->kinks_of_beam.empty()) return rotations;
   for (const std::size_t k : state_->kinks_of_beam[i]) rotations(state_->kinks[k].place()) = state_->kinks[k].current;
@@ -197,45 +193,40 @@ SubstepCourse<Vec6> FrameDynamics::node_course(int node) const {
 }
 
 Vec12 FrameDynamics::beam_end_forces(int beam) const {
-  (void)state_->core().checked_beam(beam);
+  (void)checked_beam(model(), beam);
   state_->know_end();
   return state_->end_forces(beam, true);
 }
 
 SubstepCourse<Vec12> FrameDynamics::beam_course(int beam) const {
-  (void)state_->core().checked_beam(beam);
+  (void)checked_beam(model(), beam);
   state_->know_nodes();
   return state_->course(beam);
 }
 
 Vec12 FrameDynamics::beam_end_force_rates(int beam) const {
-  (void)state_->core().checked_beam(beam);
+  (void)checked_beam(model(), beam);
   state_->know_nodes();
   return state_->end_force_rates(beam, true);
 }
 
 std::array<Vec6, 4> FrameDynamics::shell_corner_forces(int shell, bool rates) const {
-  (void)state_->core().checked_shell(shell);
+  (void)checked_shell(model(), shell);
   state_->know_nodes();
   return state_->system().corner_forces(shell, rates ? state_->nodes_now.v : state_->nodes_now.u, Vec24::Zero());
 }
 
 Vec6 FrameDynamics::reaction(int support) const {
   State& state = *state_;
-  const FrameModel& model = state.frame.model();
-  if (support < 0 || static_cast<std::size_t>(support) >= model.supports.size())
-    throw std::invalid_argument("support " + std::to_string(support) + " does not exist; there are " +
-                                std::to_string(model.supports.size()));
+  const std::size_t i = checked_support(model(), support);
   state.know_end();
   if (state.reactions.empty()) {
-    std::vector<Vec12> ends;
-    for (std::size_t i = 0; i < model.beams.size(); ++i) ends.push_back(state.end_forces(static_cast<int>(i), true));
-    std::vector<std::array<Vec6, 4>> corners;
-    for (std::size_t i = 0; i < model.shells.size(); ++i)
-      corners.push_back(state.system().corner_forces(static_cast<int>(i), state.nodes_now.u, Vec24::Zero()));
-    state.reactions = state.system().reactions(state.nodes_now.u, ends, corners, state.core().node_loads);
+    const std::vector<Vec6>& u = state.nodes_now.u;
+    state.reactions = state.core().reactions_of(
+        u, [&](int beam) { return state.end_forces(beam, true); },
+        [&](int shell) { return state.system().corner_forces(shell, u, Vec24::Zero()); });
   }
-  return state.reactions[static_cast<std::size_t>(support)];
+  return state.reactions[i];
 }
 
 Vec6 FrameDynamics::momentum() const {
@@ -255,8 +246,8 @@ double FrameDynamics::work_of_present_loads() {
   state.apply_changes();
   double work = state.constant_load.dot(state.current().u - state.scaled_equations(state.started_at));
   for (const Kink& kink : state.kinks)
-    work +=
-        state.core().fixed_end[static_cast<std::size_t>(kink.beam)](kink.place()) * (kink.current - kink.started_at);
+    work += state.core().load.fixed_end(static_cast<std::size_t>(kink.beam))(kink.place()) *
+            (kink.current - kink.started_at);
   return work;
 }
 double FrameDynamics::mass_damping() const { return state_->options.damping.mass; }
@@ -273,6 +264,6 @@ double FrameDynamics::rayleigh_quotient(const std::vector<Vec6>& displacements) 
 
 const FrameModel& FrameDynamics::model() const { return state_->frame.model(); }
 const DynamicCounters& FrameDynamics::counters() const { return state_->counters; }
-const ReanalysisCounters& FrameDynamics::reanalysis_counters() const { return state_->core().counters; }
+const ReanalysisCounters& FrameDynamics::reanalysis_counters() const { return state_->core().work.counters; }
 
 }  // namespace topple::solver

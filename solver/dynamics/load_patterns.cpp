@@ -2,13 +2,13 @@
 #include <stdexcept>
 
 #include "assembly/mass_matrix.h"
+#include "assembly/scaled_equations.h"
 #include "dynamics/dynamic_state.h"
 
 namespace topple::solver {
 
 Eigen::VectorXd FrameDynamics::State::scaled(const Eigen::VectorXd& force) const {
-  const Eigen::Index n = equations();
-  return force.head(n).cwiseProduct(Eigen::Map<const Eigen::VectorXd>(system().scale().data(), n));
+  return scaled_force(system(), force);
 }
 
 /// The equations' displacements (not forces) from those of nodes; of a diaphragm from its first node that stands.

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "assembly/checked_index.h"
 #include "dynamics/dynamic_state.h"
 
 namespace topple::solver {
@@ -34,9 +35,7 @@ Eigen::MatrixXd part_of(const SparseSymmetric& matrix, const std::vector<int>& e
 std::vector<int> equations_of(const FrameSystem& system, std::span<const int> nodes) {
   std::vector<int> found;
   for (const int node : nodes) {
-    if (node < 0 || static_cast<std::size_t>(node) >= system.model.nodes.size())
-      throw std::invalid_argument("node " + std::to_string(node) + " does not exist");
-    if (system.node_stands[static_cast<std::size_t>(node)] == 0) continue;
+    if (system.node_stands[checked_node(system.model, node)] == 0) continue;
     for (const int e : system.dofs().number[static_cast<std::size_t>(node)])
       if (e < system.dofs().equations) found.push_back(e);
   }

@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "assembly/checked_index.h"
 #include "dynamics/dynamic_state.h"
 #include "dynamics/impulse_factor.h"
 #include "elements/beam_mass.h"
@@ -74,7 +75,7 @@ Vec6 FrameDynamics::State::momentum_left_with(const ChangedBeam& gone) const {
   for (const BrokenJoint& joint : broken)
     if (joint.beam == gone.beam)
       impulse.segment<6>(static_cast<Eigen::Index>(6 * joint.end)) += method.h * joint.mean_force;
-  for (const BeamLoad& load : core().targets[i].loads) impulse.head<6>() += method.h * resultant(load);
+  for (const BeamLoad& load : core().changes.beam(i).loads) impulse.head<6>() += method.h * resultant(load);
   Vec6 sum = gone.momentum;
   for (int c = 0; c < 6; ++c) {
     const auto at = [&](std::size_t end) {
@@ -88,9 +89,7 @@ Vec6 FrameDynamics::State::momentum_left_with(const ChangedBeam& gone) const {
 Eigen::VectorXd FrameDynamics::State::scaled_impulses(std::span<const Impulse> impulses) const {
   Eigen::VectorXd force = Eigen::VectorXd::Zero(system().dofs().equations + system().dofs().held);
   for (const Impulse& one : impulses) {
-    if (one.node < 0 || static_cast<std::size_t>(one.node) >= system().model.nodes.size())
-      throw std::invalid_argument("node " + std::to_string(one.node) + " does not exist");
-    if (system().node_stands[static_cast<std::size_t>(one.node)] != 0)
+    if (system().node_stands[checked_node(system().model, one.node)] != 0)
       system().dofs().add_node_force(one.node, one.impulse, force.data());
   }
   return scaled(force);
@@ -230,7 +229,7 @@ void FrameDynamics::add_impulses(std::span<const Impulse> impulses) {
 }
 
 void FrameDynamics::add_momentum(int beam, const Vec6& momentum) {
-  (void)state_->core().checked_beam(beam);
+  (void)checked_beam(model(), beam);
   state_->brought.try_emplace(beam, Vec6::Zero()).first->second += momentum;
 }
 
@@ -241,7 +240,7 @@ Vec6 FrameDynamics::State::brought_to(int beam) const {
 
 Vec6 FrameDynamics::beam_momentum(int beam) const {
   const State& state = *state_;
-  const auto i = state.core().checked_beam(beam);
+  const auto i = checked_beam(model(), beam);
   const Beam& own = state.system().model.beams[i];
   const bool hangs = !own.end_stiffness[0].isZero(0) || !own.end_stiffness[1].isZero(0);
   if (state.system().beam_stands[i] != 0 && hangs)
@@ -263,7 +262,7 @@ Vec6 FrameDynamics::node_momentum(int node) const {
 
 Vec6 FrameDynamics::patch_momentum(int patch) const {
   const State& state = *state_;
-  const std::size_t i = state.core().checked_patch(patch);
+  const std::size_t i = checked_patch(model(), patch);
   const Patch& own = state.system().model.patches[i];
   if (own.mass.size() == 0) return Vec6::Zero();
   Eigen::VectorXd velocity(own.mass.cols());

@@ -229,7 +229,7 @@ void FrameDynamics::State::account_kinks() {
     if (turn == 0) continue;
     discrete += turn * ((1 - method.af) * before_this + method.af * at_end);
     damped += options.damping.stiffness / method.h * turn * (at_end - before_this);
-    Vec12 loads = core().fixed_end[static_cast<std::size_t>(kink.beam)];
+    Vec12 loads = core().load.fixed_end(static_cast<std::size_t>(kink.beam));
     for (const LoadPattern& pattern : patterns)
       if (const auto own = pattern.fixed_end.find(kink.beam); own != pattern.fixed_end.end())
         loads += pattern.now * own->second;

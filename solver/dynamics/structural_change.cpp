@@ -2,6 +2,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "assembly/scaled_equations.h"
 #include "dynamics/dynamic_state.h"
 #include "dynamics/impulse_factor.h"
 #include "elements/beam_mass.h"
@@ -57,7 +58,7 @@ void FrameDynamics::State::apply_changes() {
 
 void FrameDynamics::State::take_changes() {
   Reanalysis::State& own = core();
-  const bool supports_change = !own.changed_supports.empty();
+  const bool supports_change = !own.changes.supports().empty();
   const NodeMotion motion = [&] {
     NodeMotion found;
     if (!prepared || !supports_change) return found;
@@ -73,7 +74,7 @@ void FrameDynamics::State::take_changes() {
     const Defect defect = *std::exchange(own.mechanism, std::nullopt);
     throw Instability(defect.message, defect.motion);
   }
-  LoadVector load = own.load;
+  LoadVector load = own.load.vector();
   own.system->drop_idle_loads(load);
   constant_load = scaled(load.force);
   if (own.system.get() == numbered || motion.u.empty()) return;
@@ -88,9 +89,7 @@ void FrameDynamics::State::take_changes() {
 
 /// The motion goes on by a matrix of another s, which has another scale.
 void FrameDynamics::State::set_method(const GeneralizedAlpha& other) {
-  const auto scale = [&] {
-    return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(system().scale().data(), equations()));
-  };
+  const auto scale = [&]() -> Eigen::VectorXd { return scale_of(system()); };
   const Eigen::VectorXd scaled_by = scale();
   method = other;
   impulses_by.reset();
@@ -116,10 +115,11 @@ void FrameDynamics::State::set_method(const GeneralizedAlpha& other) {
 
 /// How the ends of beams that change followed their nodes at the start of this substep.
 void FrameDynamics::State::remember_changing_beams() {
-  for (const int beam : core().changed_beams) {
+  for (const int beam : core().changes.beams()) {
     const auto i = static_cast<std::size_t>(beam);
     const Beam& now_is = system().model.beams[i];
-    if (now_is.density == 0 || system().beam_stands[i] == 0 || now_is.end_stiffness == core().targets[i].end_stiffness)
+    if (now_is.density == 0 || system().beam_stands[i] == 0 ||
+        now_is.end_stiffness == core().changes.beam(i).end_stiffness)
       continue;
     const bool known = std::any_of(changed.begin(), changed.end(), [&](const auto& c) { return c.beam == beam; });
     if (known) continue;
@@ -130,13 +130,10 @@ void FrameDynamics::State::remember_changing_beams() {
 
 bool FrameDynamics::State::shell_holds(int shell, int node) {
   const auto i = static_cast<std::size_t>(shell);
-  if (core().shell_removed[i] != 0) return false;
+  if (core().changes.shell_removed(i)) return false;
   const FrameModel& model = system().model;
   if (model.shells[i].density != 0) return true;
-  const Mat24* stiffness = nullptr;
-  if (const auto own = model.shell_stiffness.find(shell); own != model.shell_stiffness.end()) stiffness = &own->second;
-  if (const auto next = core().given_stiffness.find(shell); next != core().given_stiffness.end())
-    stiffness = &next->second;
+  const Mat24* stiffness = core().changes.stiffness_of_shell(model, shell);
   if (stiffness == nullptr) return true;
   for (std::size_t corner = 0; corner < 4; ++corner)
     if (model.shells[i].node[corner] == node &&
@@ -147,18 +144,14 @@ bool FrameDynamics::State::shell_holds(int shell, int node) {
 
 bool FrameDynamics::State::patch_holds(int patch, int node) {
   const Patch& own = system().model.patches[static_cast<std::size_t>(patch)];
-  const auto next = core().given_to_patch.find(patch);
-  const Eigen::MatrixXd& stiffness = next == core().given_to_patch.end() ? own.stiffness : next->second;
+  const Eigen::MatrixXd& stiffness = core().changes.stiffness_of_patch(system().model, patch);
   for (std::size_t n = 0; n < own.node.size(); ++n)
     if (own.node[n] == node && !stiffness.middleRows<6>(static_cast<Eigen::Index>(6 * n)).isZero(0)) return true;
   return false;
 }
 
 bool FrameDynamics::State::patch_weighs(int patch) {
-  const auto next = core().given_mass.find(patch);
-  const Eigen::MatrixXd& mass =
-      next == core().given_mass.end() ? system().model.patches[static_cast<std::size_t>(patch)].mass : next->second;
-  return !mass.isZero(0);
+  return !core().changes.mass_of_patch(system().model, patch).isZero(0);
 }
 
 /// The nodes to which what holds this one goes on, itself first; none where something of them has mass, or a support.
@@ -178,7 +171,7 @@ std::vector<int> FrameDynamics::State::bare_part(int start) {
     for (const Support& support : model.supports)
       if (support.node == node && !support.stiffness.head<3>().isZero(0)) return {};
     for (const int beam : system().beams_of_node(node)) {
-      const BeamTarget& target = core().targets[static_cast<std::size_t>(beam)];
+      const BeamTarget& target = core().changes.beam(static_cast<std::size_t>(beam));
       const Beam& b = model.beams[static_cast<std::size_t>(beam)];
       if (target.removed) continue;
       for (std::size_t end = 0; end < 2; ++end) {
@@ -207,11 +200,11 @@ void FrameDynamics::State::drop_bare_nodes() {
       nodes.insert(nodes.end(), part.begin(), part.end());
     }
   };
-  for (const int beam : core().changed_beams) look_at(system().model.beams[static_cast<std::size_t>(beam)].node);
-  for (const int shell : core().changed_shells) look_at(system().model.shells[static_cast<std::size_t>(shell)].node);
-  for (const auto& [shell, stiffness] : core().given_stiffness)
+  for (const int beam : core().changes.beams()) look_at(system().model.beams[static_cast<std::size_t>(beam)].node);
+  for (const int shell : core().changes.shells()) look_at(system().model.shells[static_cast<std::size_t>(shell)].node);
+  for (const auto& [shell, stiffness] : core().changes.shell_stiffness())
     look_at(system().model.shells[static_cast<std::size_t>(shell)].node);
-  for (const auto& [patch, stiffness] : core().given_to_patch)
+  for (const auto& [patch, stiffness] : core().changes.patch_stiffness())
     look_at(system().model.patches[static_cast<std::size_t>(patch)].node);
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());

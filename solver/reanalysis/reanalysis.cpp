@@ -4,25 +4,12 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "assembly/checked_index.h"
 #include "elements/beam_energy.h"
 #include "reanalysis/reanalysis_state.h"
-#include "reanalysis/update_costs.h"
 #include "topple/solver/beam_diagram.h"
 
 namespace topple::solver {
-namespace {
-
-bool same(const BeamLoad& a, const BeamLoad& b) {
-  return a.kind == b.kind && a.from == b.from && a.to == b.to && a.first == b.first && a.last == b.last &&
-         a.strain == b.strain && a.curvature_y == b.curvature_y && a.curvature_z == b.curvature_z;
-}
-
-bool same(const std::vector<BeamLoad>& a, const std::vector<BeamLoad>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const BeamLoad& x, const BeamLoad& y) { return same(x, y); });
-}
-
-}  // namespace
 
 Reanalysis::Reanalysis(FrameModel model, const AnalysisOptions& options)
     : state_(std::make_unique<State>(std::move(model), options)) {}
@@ -33,100 +20,66 @@ Reanalysis& Reanalysis::operator=(Reanalysis&&) noexcept = default;
 void Reanalysis::set_end_stiffness(int beam, int end, const Vec6& stiffness) {
   if (end < 0 || end > 1) throw std::invalid_argument("a beam has end 0 and end 1, not " + std::to_string(end));
   if (!(stiffness.array() >= 0).all()) throw std::invalid_argument("end stiffness must be 0, a spring or rigid");
-  Vec6& target = state_->targets[state_->checked_beam(beam)].end_stiffness[static_cast<std::size_t>(end)];
-  if (target == stiffness) return;
-  target = stiffness;
-  state_->mark(beam);
+  state_->changes.set_end_stiffness(checked_beam(model(), beam), static_cast<std::size_t>(end), stiffness);
 }
 
-void Reanalysis::remove_beam(int beam) {
-  bool& removed = state_->targets[state_->checked_beam(beam)].removed;
-  if (removed) return;
-  removed = true;
-  state_->mark(beam);
-}
-
-void Reanalysis::restore_beam(int beam) {
-  bool& removed = state_->targets[state_->checked_beam(beam)].removed;
-  if (!removed) return;
-  removed = false;
-  state_->mark(beam);
-}
-
-void Reanalysis::remove_shell(int shell) { state_->set_shell_removed(shell, true); }
-void Reanalysis::restore_shell(int shell) { state_->set_shell_removed(shell, false); }
+void Reanalysis::remove_beam(int beam) { state_->changes.set_beam_removed(checked_beam(model(), beam), true); }
+void Reanalysis::restore_beam(int beam) { state_->changes.set_beam_removed(checked_beam(model(), beam), false); }
+void Reanalysis::remove_shell(int shell) { state_->changes.set_shell_removed(checked_shell(model(), shell), true); }
+void Reanalysis::restore_shell(int shell) { state_->changes.set_shell_removed(checked_shell(model(), shell), false); }
 
 Eigen::Matrix<double, 24, 24> Reanalysis::shell_stiffness(int shell) const {
-  (void)state_->checked_shell(shell);
+  (void)checked_shell(model(), shell);
   return state_->system->shell_node_stiffness(shell);
 }
 
 void Reanalysis::set_shell_stiffness(int shell, const Eigen::Matrix<double, 24, 24>& stiffness) {
-  (void)state_->checked_shell(shell);
+  (void)checked_shell(model(), shell);
   if (!stiffness.allFinite())
     throw std::invalid_argument("stiffness of shell " + std::to_string(shell) + " is not finite");
-  state_->given_stiffness[shell] = stiffness;
+  state_->changes.set_shell_stiffness(shell, stiffness);
 }
 
 void Reanalysis::set_patch_stiffness(int patch, Eigen::MatrixXd stiffness) {
-  const Patch& own = model().patches[state_->checked_patch(patch)];
+  const Patch& own = model().patches[checked_patch(model(), patch)];
   if (stiffness.rows() != own.stiffness.rows() || stiffness.cols() != own.stiffness.cols() || !stiffness.allFinite())
     throw std::invalid_argument("stiffness of patch " + std::to_string(patch) + " is not a finite matrix of its size");
-  state_->given_to_patch[patch] = std::move(stiffness);
+  state_->changes.set_patch_stiffness(patch, std::move(stiffness));
 }
 
 const Eigen::MatrixXd& Reanalysis::patch_stiffness(int patch) const {
-  return model().patches[state_->checked_patch(patch)].stiffness;
+  return model().patches[checked_patch(model(), patch)].stiffness;
 }
 
 std::vector<Vec6> Reanalysis::patch_forces(int patch) const {
-  (void)state_->checked_patch(patch);
+  (void)checked_patch(model(), patch);
   return state_->system->patch_forces(patch, state_->whole());
 }
 
 void Reanalysis::set_beam_stiffness_factor(int beam, double factor) {
   if (!(factor > 0) || !std::isfinite(factor)) throw std::invalid_argument("a stiffness factor must be above 0");
-  double& target = state_->targets[state_->checked_beam(beam)].factor;
-  if (target == factor) return;
-  target = factor;
-  state_->mark(beam);
+  state_->changes.set_beam_factor(checked_beam(model(), beam), factor);
 }
 
 void Reanalysis::set_support_stiffness(int support, const Vec6& stiffness) {
-  if (support < 0 || static_cast<std::size_t>(support) >= model().supports.size()) {
-    throw std::invalid_argument("support " + std::to_string(support) + " does not exist");
-  }
+  (void)checked_support(model(), support);
   if (!(stiffness.array() >= 0).all()) throw std::invalid_argument("support stiffness must be 0, a spring or rigid");
-  state_->changed_supports.emplace_back(support, stiffness);
+  state_->changes.set_support(support, stiffness);
 }
 
 void Reanalysis::drop_nodes(std::span<const int> nodes) {
-  for (int node : nodes) {
-    if (node < 0 || static_cast<std::size_t>(node) >= model().nodes.size()) {
-      throw std::invalid_argument("node " + std::to_string(node) + " does not exist");
-    }
-    if (state_->system->node_stands[static_cast<std::size_t>(node)] != 0) state_->dropped_nodes.push_back(node);
-  }
+  for (const int node : nodes)
+    if (state_->system->node_stands[checked_node(model(), node)] != 0) state_->changes.drop_node(node);
 }
 
 void Reanalysis::set_node_load(int node, const Vec6& load) {
-  if (node < 0 || static_cast<std::size_t>(node) >= model().nodes.size()) {
-    throw std::invalid_argument("node " + std::to_string(node) + " does not exist");
-  }
+  (void)checked_node(model(), node);
   if (!load.allFinite()) throw std::invalid_argument("load on node " + std::to_string(node) + " is not finite");
-  Vec6& target = state_->node_loads[static_cast<std::size_t>(node)];
-  if (target == load) return;
-  target = load;
-  state_->node_loads_changed = true;
-  state_->stale_load_nodes.push_back(node);
+  state_->load.set_node(node, load);
 }
 
 void Reanalysis::set_beam_loads(int beam, std::vector<BeamLoad> loads) {
-  std::vector<BeamLoad>& target = state_->targets[state_->checked_beam(beam)].loads;
-  for (BeamLoad& load : loads) load.beam = beam;
-  if (same(target, loads)) return;
-  target = std::move(loads);
-  state_->mark(beam);
+  state_->changes.set_beam_loads(checked_beam(model(), beam), std::move(loads));
 }
 
 const std::vector<Vec6>& Reanalysis::displacements() const { return state_->whole(); }
@@ -135,15 +88,7 @@ const std::vector<Vec6>& Reanalysis::displacements_at(std::span<const int> nodes
   const State& state = *state_;
   const bool here = !state.selective || std::all_of(nodes.begin(), nodes.end(),
                                                     [&](int node) { return state.selective->node_is_current(node); });
-  return here ? state.displacements : state.whole();
-}
-
-const BeamStrainForces& Reanalysis::State::strain_forces_of(std::size_t i) const {
-  if (strain_forces_known[i] == 0) {
-    strain_forces[i] = BeamStrainForces(CondensedBeam(system->model.beams[i], system->beam_factor[i]));
-    strain_forces_known[i] = 1;
-  }
-  return strain_forces[i];
+  return here ? state.solution.displacements() : state.whole();
 }
 
 Vec12 Reanalysis::State::end_forces(std::size_t i, const std::vector<Vec6>& u, const Vec12& fixed) const {
@@ -151,37 +96,28 @@ Vec12 Reanalysis::State::end_forces(std::size_t i, const std::vector<Vec6>& u, c
   const Beam& beam = system->model.beams[i];
   const Vec12 rigid_ends = rigid_end_displacements(beam, u[static_cast<std::size_t>(beam.node[0])],
                                                    u[static_cast<std::size_t>(beam.node[1])]);
-  return strain_forces_of(i)(relative_motion(beam.length, rigid_ends)) + fixed;
+  return strain_forces.of(*system, i)(relative_motion(beam.length, rigid_ends)) + fixed;
 }
 
 Vec12 Reanalysis::beam_end_forces(int beam) const {
-  const std::size_t i = state_->checked_beam(beam);
+  const std::size_t i = checked_beam(model(), beam);
   const bool here = !state_->selective || state_->selective->beam_is_current(beam);
-  return state_->end_forces(i, here ? state_->displacements : state_->whole(), state_->fixed_end[i]);
+  return state_->end_forces(i, here ? state_->solution.displacements() : state_->whole(), state_->load.fixed_end(i));
 }
 
 std::array<Vec6, 4> Reanalysis::shell_corner_forces(int shell) const {
-  (void)state_->checked_shell(shell);
+  (void)checked_shell(model(), shell);
   const bool here = !state_->selective || state_->selective->shell_is_current(shell);
-  return state_->system->corner_forces(shell, here ? state_->displacements : state_->whole(), Vec24::Zero());
+  return state_->system->corner_forces(shell, here ? state_->solution.displacements() : state_->whole(), Vec24::Zero());
 }
 
 Vec6 Reanalysis::reaction(int support) const {
-  const FrameSystem& system = *state_->system;
-  if (support < 0 || static_cast<std::size_t>(support) >= system.model.supports.size()) {
-    throw std::invalid_argument("support " + std::to_string(support) + " does not exist");
-  }
-  if (state_->reactions.empty()) {
-    std::vector<Vec12> forces;
-    forces.reserve(system.model.beams.size());
-    for (std::size_t i = 0; i < system.model.beams.size(); ++i) forces.push_back(beam_end_forces(static_cast<int>(i)));
-    std::vector<std::array<Vec6, 4>> corners;
-    for (std::size_t i = 0; i < system.model.shells.size(); ++i) {
-      corners.push_back(shell_corner_forces(static_cast<int>(i)));
-    }
-    state_->reactions = system.reactions(state_->whole(), forces, corners, state_->node_loads);
-  }
-  return state_->reactions[static_cast<std::size_t>(support)];
+  const std::size_t i = checked_support(model(), support);
+  if (state_->reactions.empty())
+    state_->reactions = state_->reactions_of(
+        state_->whole(), [&](int beam) { return beam_end_forces(beam); },
+        [&](int shell) { return shell_corner_forces(shell); });
+  return state_->reactions[i];
 }
 
 double Reanalysis::strain_energy() const {
@@ -191,7 +127,7 @@ double Reanalysis::strain_energy() const {
   for (std::size_t i = 0; i < system.model.beams.size(); ++i) {
     if (system.beam_stands[i] == 0) continue;
     energy += beam_strain_energy(system.model.beams[i], system.beam_factor[i], beam_end_forces(static_cast<int>(i)),
-                                 state_->targets[i].loads);
+                                 state_->changes.beam(i).loads);
   }
   for (std::size_t i = 0; i < system.model.shells.size(); ++i) {
     const std::array<Vec6, 4> corners = shell_corner_forces(static_cast<int>(i));
@@ -211,16 +147,6 @@ double Reanalysis::strain_energy() const {
     }
   }
   return energy;
-}
-
-LoadVector Reanalysis::State::force_on_standing(const LoadSet& loads) const {
-  if (!answer.stable || !structure_stands)
-    throw Instability("the structure does not stand: it has no response", answer.mechanism);
-  LoadVector result = system->load_vector(loads);
-  system->drop_idle_loads(result);
-  if (const auto defect = system->unbalanced_load(result, negligible_lever))
-    throw Instability(defect->message, defect->motion);
-  return result;
 }
 
 namespace {
@@ -243,9 +169,13 @@ Reanalysis::Response Reanalysis::respond_near(const LoadSet& loads, std::vector<
 
 Eigen::MatrixXd Reanalysis::State::forces_on_standing(std::span<const LoadSet> loads,
                                                       std::vector<LoadVector>& own) const {
+  if (!stands()) throw Instability("the structure does not stand: it has no response", answer.mechanism);
   Eigen::MatrixXd forces;
   for (std::size_t i = 0; i < loads.size(); ++i) {
-    own.push_back(force_on_standing(loads[i]));
+    own.push_back(system->load_vector(loads[i]));
+    system->drop_idle_loads(own[i]);
+    if (const auto defect = system->unbalanced_load(own[i], negligible_lever))
+      throw Instability(defect->message, defect->motion);
     if (i == 0) forces.resize(own[0].force.size(), static_cast<Eigen::Index>(loads.size()));
     forces.col(static_cast<Eigen::Index>(i)) = own[i].force;
   }
@@ -257,7 +187,7 @@ std::vector<Reanalysis::Response> Reanalysis::respond(std::span<const LoadSet> l
   if (loads.empty()) return {};
   std::vector<LoadVector> own;
   std::vector<double> errors;
-  const Eigen::MatrixXd u = state.solve_sparse(state.forces_on_standing(loads, own), errors);
+  const Eigen::MatrixXd u = state.serving->respond(state.forces_on_standing(loads, own), errors);
   std::vector<Response> responses(loads.size());
   for (std::size_t i = 0; i < loads.size(); ++i) {
     responses[i].displacements =
@@ -278,7 +208,7 @@ std::vector<Reanalysis::Response> Reanalysis::respond_near(std::span<const LoadS
   for (const LoadSet& set : loads)
     for (const BeamLoad& load : set.beams)
       for (const int node : model().beams[static_cast<std::size_t>(load.beam)].node) ends.push_back(node);
-  const Eigen::MatrixXd u = state.solve_on_paths(state.forces_on_standing(loads, own), ends, equation_known);
+  const Eigen::MatrixXd u = state.serving->respond_on_paths(state.forces_on_standing(loads, own), ends, equation_known);
   const DofMap& dofs = state.system->dofs();
   known.assign(state.system->model.nodes.size(), 1);
   for (std::size_t n = 0; n < known.size(); ++n)
@@ -296,11 +226,11 @@ std::vector<Reanalysis::Response> Reanalysis::respond_near(std::span<const LoadS
 }
 
 Vec12 Reanalysis::beam_stiffness_diagonal(int beam) const {
-  return CondensedBeam(state_->system->model.beams[state_->checked_beam(beam)]).stiffness().diagonal();
+  return CondensedBeam(state_->system->model.beams[checked_beam(model(), beam)]).stiffness().diagonal();
 }
 
 Vec12 Reanalysis::beam_end_forces(int beam, const Response& response) const {
-  const std::size_t i = state_->checked_beam(beam);
+  const std::size_t i = checked_beam(model(), beam);
   const auto fixed = std::lower_bound(response.fixed_end.begin(), response.fixed_end.end(), beam,
                                       [](const auto& one, int wanted) { return one.first < wanted; });
   const bool loaded = fixed != response.fixed_end.end() && fixed->first == beam;
@@ -309,7 +239,7 @@ Vec12 Reanalysis::beam_end_forces(int beam, const Response& response) const {
 
 Vec3 Reanalysis::point_displacement(int beam, double distance, const std::vector<Vec6>& node_displacements,
                                     std::span<const BeamLoad> own) const {
-  const std::size_t i = state_->checked_beam(beam);
+  const std::size_t i = checked_beam(model(), beam);
   const FrameSystem& system = *state_->system;
   const Beam& b = system.model.beams[i];
   const Vec12 rigid_ends = rigid_end_displacements(b, node_displacements[static_cast<std::size_t>(b.node[0])],
@@ -319,9 +249,9 @@ Vec3 Reanalysis::point_displacement(int beam, double distance, const std::vector
   return b.axes.transpose() * local.head<3>();
 }
 
-const ReanalysisCounters& Reanalysis::counters() const { return state_->counters; }
+const ReanalysisCounters& Reanalysis::counters() const { return state_->work.counters; }
 const FrameModel& Reanalysis::model() const { return state_->system->model; }
 const SelectiveEffort& Reanalysis::selective_effort() const { return state_->effort; }
-double Reanalysis::last_operations() const { return state_->operations; }
+double Reanalysis::last_operations() const { return state_->work.operations; }
 
 }  // namespace topple::solver

@@ -1,0 +1,26 @@
+#pragma once
+// To and from the scaled equations of a frame system (see its head): with the scale S, what is solved for is S^-1 u,
+// and a force f becomes S f.
+#include <Eigen/Core>
+
+#include "assembly/frame_system.h"
+
+namespace topple::solver {
+
+/// The diagonal of S.
+[[nodiscard]] inline Eigen::Map<const Eigen::VectorXd> scale_of(const FrameSystem& system) {
+  return {system.scale().data(), static_cast<Eigen::Index>(system.dofs().equations)};
+}
+
+/// S times the part of a force that acts on the equations; what acts on held freedoms, behind it, is left out. Into a
+/// vector that need not grow.
+inline void scale_force(const FrameSystem& system, const Eigen::VectorXd& force, Eigen::VectorXd& result) {
+  result = force.head(system.dofs().equations).cwiseProduct(scale_of(system));
+}
+[[nodiscard]] inline Eigen::VectorXd scaled_force(const FrameSystem& system, const Eigen::VectorXd& force) {
+  Eigen::VectorXd result;
+  scale_force(system, force, result);
+  return result;
+}
+
+}  // namespace topple::solver
