@@ -8,14 +8,18 @@
 
 namespace topple::solver {
 
-Mat12 beam_mass(const FrameSystem& system, const MassModel& masses, int index) {
+double mass_length(const MassModel& masses, const Beam& beam, int index) {
   const auto i = static_cast<std::size_t>(index);
-  const Beam& beam = system.model.beams[i];
+  const double given = i < masses.beam_lengths.size() ? masses.beam_lengths[i] : 0;
+  return given > 0 ? given : beam.length;
+}
+
+Mat12 beam_mass(const FrameSystem& system, const MassModel& masses, int index) {
+  const Beam& beam = system.model.beams[static_cast<std::size_t>(index)];
   std::array<Mat3, 2> arm;
   for (std::size_t end = 0; end < 2; ++end)
     arm[end] = arm_matrix(beam.offset[end]) + system.dofs().diaphragm_arm(beam.node[end]);
-  const double spread = i < masses.beam_lengths.size() ? masses.beam_lengths[i] : 0;
-  return to_node_freedoms(beam.axes, beam_mass_matrix(beam, masses, spread > 0 ? spread : beam.length), arm);
+  return to_node_freedoms(beam.axes, beam_mass_matrix(beam, masses, mass_length(masses, beam, index)), arm);
 }
 
 Mat24 shell_mass(const FrameSystem& system, const MassModel& masses, int index) {

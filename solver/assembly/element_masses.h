@@ -10,6 +10,8 @@ namespace topple::solver {
 
 class FrameSystem;
 
+/// Over which a beam's mass lies.
+[[nodiscard]] double mass_length(const MassModel& masses, const Beam& beam, int index);
 /// Consistent or lumped mass of a beam in the 12 freedoms of its element (diaphragm arms included), whether it stands
 /// or not.
 [[nodiscard]] Mat12 beam_mass(const FrameSystem& system, const MassModel& masses, int beam);

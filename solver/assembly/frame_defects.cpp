@@ -8,6 +8,10 @@
 
 namespace topple::solver {
 
+void require_none(const std::optional<Defect>& defect) {
+  if (defect) throw Instability(defect->message, defect->motion);
+}
+
 Mat6 FrameSystem::supports_and_inert_motions(int node) const {
   const auto n = static_cast<std::size_t>(node);
   Mat6 K = Mat6::Zero();

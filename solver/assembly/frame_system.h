@@ -25,6 +25,8 @@ struct Defect {
   std::string message;
   Mechanism motion;
 };
+/// Throws it as Instability, where there is one.
+void require_none(const std::optional<Defect>& defect);
 
 /// One right-hand side, not scaled, with what recovery needs again.
 struct LoadVector {

@@ -2,6 +2,7 @@
 // To and from the scaled equations of a frame system (see its head): with the scale S, what is solved for is S^-1 u,
 // and a force f becomes S f.
 #include <Eigen/Core>
+#include <vector>
 
 #include "assembly/frame_system.h"
 
@@ -22,5 +23,8 @@ inline void scale_force(const FrameSystem& system, const Eigen::VectorXd& force,
   scale_force(system, force, result);
   return result;
 }
+
+/// The equations' displacements (not forces) from those of nodes; of a diaphragm from its first node that stands.
+[[nodiscard]] Eigen::VectorXd scaled_displacements(const FrameSystem& system, const std::vector<Vec6>& per_node);
 
 }  // namespace topple::solver

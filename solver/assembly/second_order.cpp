@@ -36,7 +36,7 @@ struct SecondOrderAnalysis::State {
     axial_.mode = mode;
     axial_.jointed = std::move(jointed);
     system_.assemble();
-    if (const auto defect = system_.defect()) throw Instability(defect->message, defect->motion);
+    require_none(system_.defect());
     const auto start = std::chrono::steady_clock::now();
     if (system_.dofs().equations > 0)
       factor_ = std::make_unique<Factor>(system_.matrix(), system_.elimination_order(), options.factorisation,
@@ -154,7 +154,7 @@ struct SecondOrderAnalysis::State {
     const auto start = std::chrono::steady_clock::now();
     const double factorising = statistics.factor_seconds;
     const LoadVector load = system_.load_vector(loads);
-    if (const auto defect = system_.unbalanced_load(load)) throw Instability(defect->message, defect->motion);
+    require_none(system_.unbalanced_load(load));
     const Eigen::Index n = system_.dofs().equations;
     Eigen::MatrixXd b(n, 1);
     for (Eigen::Index i = 0; i < n; ++i) b(i, 0) = load.force(i) * system_.scale()[static_cast<std::size_t>(i)];

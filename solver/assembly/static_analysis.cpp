@@ -30,10 +30,6 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-void require_stable(const std::optional<Defect>& defect) {
-  if (defect) throw Instability(defect->message, defect->motion);
-}
-
 /// A frame's equations with their factor.
 struct Prepared {
   FrameSystem system;
@@ -72,7 +68,7 @@ void Prepared::order() {
 void Prepared::factorise() {
   const Stopwatch watch(statistics.factor_seconds);
   stability = factorise_and_judge(system, *factor, options);
-  require_stable(stability.defect);
+  require_none(stability.defect);
 }
 
 /// The estimate of the condition: solves one after the other that keep one processor busy, so that answers are found
@@ -146,7 +142,7 @@ std::unique_ptr<Prepared> prepare(FrameModel model, const AnalysisOptions& optio
     if (any) prepared->order();
   });
   prepared->assemble();
-  require_stable(prepared->system.defect());
+  require_none(prepared->system.defect());
   ordering.get();
   if (any) prepared->factorise();
   return prepared;
@@ -169,7 +165,7 @@ bool prepare_again(Prepared& prepared, FrameModel& model, const AnalysisOptions&
     if (!prepared.system.take_numbers(model)) return false;
   }
   prepared.assemble();
-  require_stable(prepared.system.defect());
+  require_none(prepared.system.defect());
   if (prepared.factor) prepared.factorise();
   return true;
 }
@@ -180,7 +176,7 @@ std::vector<StaticSolution> solve_each(Prepared& prepared, std::span<const LoadS
   {
     const Stopwatch watch(prepared.statistics.solve_seconds);
     std::vector<LoadVector> vectors = prepared.system.load_vectors(loads);
-    for (const LoadVector& vector : vectors) require_stable(prepared.system.unbalanced_load(vector));
+    for (const LoadVector& vector : vectors) require_none(prepared.system.unbalanced_load(vector));
     const Eigen::MatrixXd b = prepared.right_hand_sides(vectors);
     RefinedSolution refined{b, std::vector<SolveQuality>(loads.size())};
     if (b.rows() > 0) refined = solve_refined(prepared.system.matrix(), prepared.linear_solve(), b);

@@ -11,61 +11,9 @@ namespace {
 constexpr int looks = 8;
 constexpr int halvings = 30;
 
-}  // namespace
-
-Vec12 FrameDynamics::State::fixed_end_forces(int beam, bool at_end) const {
-  Vec12 fixed = core().load.fixed_end(static_cast<std::size_t>(beam));
-  for (const LoadPattern& pattern : patterns) {
-    const auto own = pattern.fixed_end.find(beam);
-    if (own != pattern.fixed_end.end()) fixed += (at_end ? pattern.now : pattern.before) * own->second;
-  }
-  if (kinks_of_beam.empty()) return fixed;
-  for (const std::size_t k : kinks_of_beam[static_cast<std::size_t>(beam)])
-    fixed += (at_end ? kinks[k].now : kinks[k].before) * kinks[k].fixed_end;
-  return fixed;
-}
-
-Vec12 FrameDynamics::State::elastic_end_forces(int beam, const std::vector<Vec6>& displacements, bool at_end) const {
-  return core().end_forces(static_cast<std::size_t>(beam), displacements, fixed_end_forces(beam, at_end));
-}
-
-/// Of the beam in the place that it has, with second order.
-Vec12 FrameDynamics::State::end_forces(int beam, bool at_end) const {
-  const std::vector<Vec6>& displacements = (at_end ? nodes_now : nodes_before).u;
-  Vec12 forces = elastic_end_forces(beam, displacements, at_end);
-  if (options.second_order && system().beam_stands[static_cast<std::size_t>(beam)] != 0)
-    forces += geometric_end_forces(beam, displacements, forces);
-  return forces;
-}
-
-Vec12 FrameDynamics::State::fixed_end_rate(int beam) const {
-  if (system().beam_stands[static_cast<std::size_t>(beam)] == 0) return Vec12::Zero();
-  return (fixed_end_forces(beam, true) - fixed_end_forces(beam, false)) / method.h;
-}
-
-Vec12 FrameDynamics::State::end_force_rates(int beam, bool at_end) const {
-  const NodeMotion& nodes = at_end ? nodes_now : nodes_before;
-  Vec12 rates = core().end_forces(static_cast<std::size_t>(beam), nodes.v, fixed_end_rate(beam));
-  if (!options.second_order || system().beam_stands[static_cast<std::size_t>(beam)] == 0) return rates;
-  // d/dt Kg(N) u = Kg(N) v + Kg(dN/dt) u
-  rates += geometric_end_forces(beam, nodes.v, elastic_end_forces(beam, nodes.u, at_end)) +
-           geometric_end_forces(beam, nodes.u, rates);
-  return rates;
-}
-
-SubstepCourse<Vec12> FrameDynamics::State::course(int beam) const {
-  SubstepCourse<Vec12> course;
-  course.start = end_forces(beam, false);
-  course.end = end_forces(beam, true);
-  course.length = method.h;
-  course.start_rate = end_force_rates(beam, false);
-  course.end_rate = end_force_rates(beam, true);
-  return course;
-}
-
 /// The share of the substep at which the joint first reaches its capacity, by the cubic course of its force; its end
 /// where that alone is beyond.
-double FrameDynamics::State::reached_at(const JointLaw& law, int beam, int end, const SubstepCourse<Vec12>& course) {
+double reached_at(const JointLaw& law, int beam, int end, const SubstepCourse<Vec12>& course) {
   const auto over = [&](double share) { return law.end_use(beam, end, course.at(share)) > 1; };
   if (over(0)) return 0;
   double low = 0, high = 1;
@@ -85,13 +33,64 @@ double FrameDynamics::State::reached_at(const JointLaw& law, int beam, int end, 
   return high;
 }
 
+}  // namespace
+
+Vec12 FrameDynamics::State::fixed_end_of_loads(std::size_t beam, bool at_end) const {
+  Vec12 fixed = core().load.fixed_end(beam);
+  patterns.add_fixed_end(static_cast<int>(beam), at_end, fixed);
+  return fixed;
+}
+
+Vec12 FrameDynamics::State::fixed_end_forces(int beam, bool at_end) const {
+  Vec12 fixed = fixed_end_of_loads(static_cast<std::size_t>(beam), at_end);
+  kinks.add_fixed_end(static_cast<std::size_t>(beam), at_end, fixed);
+  return fixed;
+}
+
+Vec12 FrameDynamics::State::elastic_end_forces(int beam, const std::vector<Vec6>& displacements, bool at_end) const {
+  return core().end_forces(static_cast<std::size_t>(beam), displacements, fixed_end_forces(beam, at_end));
+}
+
+/// Of the beam in the place that it has, with second order.
+Vec12 FrameDynamics::State::end_forces(int beam, bool at_end) const {
+  const std::vector<Vec6>& displacements = (at_end ? nodes.end() : nodes.start()).u;
+  Vec12 forces = elastic_end_forces(beam, displacements, at_end);
+  if (options.second_order && system().beam_stands[static_cast<std::size_t>(beam)] != 0)
+    forces += geometric_end_forces(beam, displacements, forces);
+  return forces;
+}
+
+Vec12 FrameDynamics::State::end_force_rates(int beam, bool at_end) const {
+  const NodeMotion& motion = at_end ? nodes.end() : nodes.start();
+  const auto i = static_cast<std::size_t>(beam);
+  // Loads that go with time change linearly within a substep.
+  Vec12 fixed_end_rate = Vec12::Zero();
+  if (system().beam_stands[i] != 0)
+    fixed_end_rate = (fixed_end_forces(beam, true) - fixed_end_forces(beam, false)) / method.h;
+  Vec12 rates = core().end_forces(i, motion.v, fixed_end_rate);
+  if (!options.second_order || system().beam_stands[i] == 0) return rates;
+  // d/dt Kg(N) u = Kg(N) v + Kg(dN/dt) u
+  rates += geometric_end_forces(beam, motion.v, elastic_end_forces(beam, motion.u, at_end)) +
+           geometric_end_forces(beam, motion.u, rates);
+  return rates;
+}
+
+SubstepCourse<Vec12> FrameDynamics::State::course(int beam) const {
+  SubstepCourse<Vec12> course;
+  course.start = end_forces(beam, false);
+  course.end = end_forces(beam, true);
+  course.length = method.h;
+  course.start_rate = end_force_rates(beam, false);
+  course.end_rate = end_force_rates(beam, true);
+  return course;
+}
+
 void FrameDynamics::State::record_break(const JointBreak& found, double share, const SubstepCourse<Vec12>& course) {
   const auto end = static_cast<std::size_t>(found.end);
   Vec12 mean = course.mean_until(share);
   // What the other end's joint handed over before it broke went through this one.
-  const auto through = substep_fixed_end.find(found.beam);
-  if (through != substep_fixed_end.end()) mean += through->second;
-  broken.push_back({found.beam, end, mean.segment<6>(static_cast<Eigen::Index>(6 * end))});
+  mean += changed.fixed_end(found.beam);
+  changed.break_joint(found.beam, end, mean.segment<6>(static_cast<Eigen::Index>(6 * end)));
   breaks.push_back(found);
   ++counters.breaks;
   frame.set_end_stiffness(found.beam, found.end, Vec6::Zero());
@@ -101,12 +100,6 @@ void FrameDynamics::State::record_break(const JointBreak& found, double share, c
   left.end_stiffness = core().changes.beam(i).end_stiffness;
   if (CondensedBeam(left, system().beam_factor[i]).loose())
     frame.set_end_stiffness(found.beam, 1 - found.end, Vec6::Zero());
-}
-
-/// It broke in this substep, for another reason.
-bool FrameDynamics::State::is_broken(const JointBreak& joint) const {
-  return std::any_of(breaks.begin(), breaks.end(),
-                     [&](const JointBreak& one) { return one.beam == joint.beam && one.end == joint.end; });
 }
 
 bool FrameDynamics::State::break_joints(const JointLaw& law) {
@@ -141,7 +134,12 @@ bool FrameDynamics::State::break_joints(const JointLaw& law) {
   std::stable_sort(crossings.begin(), crossings.end(),
                    [](const Crossing& a, const Crossing& b) { return a.share < b.share; });
   const double together =
-      crossings.front().share + wave_times[static_cast<std::size_t>(crossings.front().joint.beam)] / method.h;
+      crossings.front().share + options.wave_times[static_cast<std::size_t>(crossings.front().joint.beam)] / method.h;
+  // In this substep, for another reason.
+  const auto is_broken = [&](const JointBreak& joint) {
+    return std::any_of(breaks.begin(), breaks.end(),
+                       [&](const JointBreak& one) { return one.beam == joint.beam && one.end == joint.end; });
+  };
   for (const Crossing& crossing : crossings)
     if (crossing.share <= together && !is_broken(crossing.joint))
       record_break(crossing.joint, crossing.share, crossing.course);

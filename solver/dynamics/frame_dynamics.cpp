@@ -6,8 +6,10 @@
 
 #include "assembly/checked_index.h"
 #include "assembly/mass_matrix.h"
+#include "assembly/scaled_equations.h"
 #include "dynamics/dynamic_state.h"
 #include "dynamics/impulse_factor.h"
+#include "dynamics/jumps.h"
 
 namespace topple::solver {
 namespace {
@@ -42,11 +44,12 @@ FrameDynamics::State::State(FrameModel model, MassModel masses, DynamicOptions g
       method(options.substep, options.spectral_radius, options.damping.stiffness),
       inertia{checked(masses), masses_at_nodes(model, masses), method.s},
       frame(std::move(model), options.analysis),
-      wave_times(wave_times_of(frame.model(), options.wave_times)) {
+      started_at(frame.model().nodes.size(), Vec6::Zero()),
+      nodes(frame.model().nodes.size()),
+      jumps(std::make_unique<Jumps>(options.analysis, method.h * options.damping.stiffness)) {
+  options.wave_times = wave_times_of(frame.model(), options.wave_times);
   if (!(options.damping.mass >= 0)) throw std::invalid_argument("damping must not be negative");
   core().system->inertia = &inertia;
-  nodes_before.u.assign(frame.model().nodes.size(), Vec6::Zero());
-  nodes_before.v = nodes_now.u = nodes_now.v = started_at = nodes_before.u;
 }
 
 FrameDynamics::FrameDynamics(FrameModel model, MassModel masses, DynamicOptions options)
@@ -101,19 +104,12 @@ void FrameDynamics::set_plastic_rotation(int beam, int end, int component, doubl
   if (!std::isfinite(rotation)) throw std::invalid_argument("a plastic rotation must be finite");
   state.begin_substep();
   state.apply_changes();
-  Kink& kink = state.kinks[state.kink_of(beam, static_cast<std::size_t>(end), component)];
-  state.find_kink(kink);
-  kink.before = kink.now = kink.current = rotation;
+  PlasticKinks& kinks = state.kinks;
+  kinks.set(state.system(), kinks.number(model(), beam, static_cast<std::size_t>(end), component), rotation);
   state.stored_energy();
 }
 
-Vec12 FrameDynamics::plastic_rotations(int beam) const {
-  const auto i = checked_beam(model(), beam);
-  Vec12 rotations = Vec12::Zero();
-  if (state_->kinks_of_beam.empty()) return rotations;
-  for (const std::size_t k : state_->kinks_of_beam[i]) rotations(state_->kinks[k].place()) = state_->kinks[k].current;
-  return rotations;
-}
+Vec12 FrameDynamics::plastic_rotations(int beam) const { return state_->kinks.rotations(checked_beam(model(), beam)); }
 
 void FrameDynamics::set_mass_damping(double a0) {
   if (!(a0 >= 0)) throw std::invalid_argument("damping must not be negative");
@@ -140,29 +136,52 @@ void FrameDynamics::set_state(const std::vector<Vec6>& displacements, const std:
   state.begin_substep();
   state.apply_changes();
   state.started_at = displacements;
-  for (Kink& kink : state.kinks) kink.started_at = kink.current;
-  state.before.u = state.scaled_equations(displacements);
-  state.before.v = state.scaled_equations(velocities);
+  state.kinks.start_here();
+  state.before.u = scaled_displacements(state.system(), displacements);
+  state.before.v = scaled_displacements(state.system(), velocities);
   state.before.a.setZero(state.equations());
   state.clear_dropped();
   state.now = state.before;
-  state.products_known = state.nodes_known = state.end_known = false;
+  state.forget_motion();
   state.accepted = true;
   state.stored_energy();
 }
 
+int FrameDynamics::add_pattern(const LoadSet& loads) {
+  if (!loads.shells.empty() || !loads.settlements.empty())
+    throw std::invalid_argument("loads that go with time act on nodes and beams");
+  return state_->patterns.add(loads);
+}
+
+int FrameDynamics::add_ground_acceleration(const Vec3& direction) { return state_->patterns.add_ground(direction); }
+
+int FrameDynamics::add_holding_force() {
+  State& state = *state_;
+  state.begin_substep();
+  state.apply_changes();
+  SideBySide<1> u = state.current().u.transpose(), Au, Mu;
+  multiply<1>(state.system().matrix(), u, Au);
+  multiply<1>(state.system().mass(), u, Mu);
+  Eigen::VectorXd force = (Au.row(0) - state.method.s * Mu.row(0)).transpose() - state.constant_load;
+  state.kinks.subtract(force);
+  return state.patterns.add_holding(std::move(force));
+}
+
+void FrameDynamics::set_pattern(int pattern, double value_at_end) { state_->patterns.set(pattern, value_at_end); }
+void FrameDynamics::jump_pattern(int pattern, double value) { state_->patterns.jump(pattern, value); }
+
 const std::vector<JointBreak>& FrameDynamics::advance(const JointLaw* law) {
   State& state = *state_;
-  if (!state.impulses.empty()) strike({});
+  if (!state.waiting.empty()) strike({});
   state.begin_changed();
-  if (const auto defect = state.core().renew_factor()) throw Instability(defect->message, defect->motion);
-  state.find_patterns();
+  require_none(state.core().renew_factor());
+  state.patterns.find(state.system());
   state.take_substep(law);
   ++state.counters.substeps;
   while (law != nullptr && state.break_joints(*law)) {
     ++state.counters.retaken;
     state.apply_changes();
-    state.find_patterns();
+    state.patterns.find(state.system());
     state.take_substep(law);
   }
   state.accept();
@@ -173,11 +192,11 @@ double FrameDynamics::time() const { return state_->time; }
 double FrameDynamics::substep() const { return state_->method.h; }
 const std::vector<Vec6>& FrameDynamics::displacements() const {
   state_->know_end();
-  return state_->nodes_now.u;
+  return state_->nodes.end().u;
 }
 const std::vector<Vec6>& FrameDynamics::velocities() const {
   state_->know_nodes();
-  return state_->nodes_now.v;
+  return state_->nodes.end().v;
 }
 std::vector<Vec6> FrameDynamics::accelerations() const {
   std::vector<Vec6> result(state_->frame.model().nodes.size());
@@ -188,8 +207,8 @@ std::vector<Vec6> FrameDynamics::accelerations() const {
 SubstepCourse<Vec6> FrameDynamics::node_course(int node) const {
   state_->know_nodes();
   const auto n = static_cast<std::size_t>(node);
-  return {state_->nodes_before.u.at(n), state_->nodes_before.v.at(n), state_->nodes_now.u.at(n),
-          state_->nodes_now.v.at(n), state_->method.h};
+  const NodeMotion &start = state_->nodes.start(), &end = state_->nodes.end();
+  return {start.u.at(n), start.v.at(n), end.u.at(n), end.v.at(n), state_->method.h};
 }
 
 Vec12 FrameDynamics::beam_end_forces(int beam) const {
@@ -213,7 +232,7 @@ Vec12 FrameDynamics::beam_end_force_rates(int beam) const {
 std::array<Vec6, 4> FrameDynamics::shell_corner_forces(int shell, bool rates) const {
   (void)checked_shell(model(), shell);
   state_->know_nodes();
-  return state_->system().corner_forces(shell, rates ? state_->nodes_now.v : state_->nodes_now.u, Vec24::Zero());
+  return state_->system().corner_forces(shell, rates ? state_->nodes.end().v : state_->nodes.end().u, Vec24::Zero());
 }
 
 Vec6 FrameDynamics::reaction(int support) const {
@@ -221,7 +240,7 @@ Vec6 FrameDynamics::reaction(int support) const {
   const std::size_t i = checked_support(model(), support);
   state.know_end();
   if (state.reactions.empty()) {
-    const std::vector<Vec6>& u = state.nodes_now.u;
+    const std::vector<Vec6>& u = state.nodes.end().u;
     state.reactions = state.core().reactions_of(
         u, [&](int beam) { return state.end_forces(beam, true); },
         [&](int shell) { return state.system().corner_forces(shell, u, Vec24::Zero()); });
@@ -239,22 +258,20 @@ Vec6 FrameDynamics::momentum() const {
   return result;
 }
 
-const DynamicEnergy& FrameDynamics::energy() const { return state_->energy; }
+const DynamicEnergy& FrameDynamics::energy() const { return state_->ledger.terms(); }
 double FrameDynamics::work_of_present_loads() {
   State& state = *state_;
   state.begin_substep();
   state.apply_changes();
-  double work = state.constant_load.dot(state.current().u - state.scaled_equations(state.started_at));
-  for (const Kink& kink : state.kinks)
-    work += state.core().load.fixed_end(static_cast<std::size_t>(kink.beam))(kink.place()) *
-            (kink.current - kink.started_at);
+  double work = state.constant_load.dot(state.current().u - scaled_displacements(state.system(), state.started_at));
+  state.kinks.add_work([&](std::size_t beam) { return state.core().load.fixed_end(beam); }, work);
   return work;
 }
 double FrameDynamics::mass_damping() const { return state_->options.damping.mass; }
 
 double FrameDynamics::rayleigh_quotient(const std::vector<Vec6>& displacements) const {
   const State& state = *state_;
-  const SideBySide<1> u = state.scaled_equations(displacements).transpose();
+  const SideBySide<1> u = scaled_displacements(state.system(), displacements).transpose();
   SideBySide<1> Au, Mu;
   multiply<1>(state.system().matrix(), u, Au);
   multiply<1>(state.system().mass(), u, Mu);

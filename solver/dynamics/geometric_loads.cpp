@@ -1,14 +1,14 @@
 // Second order in motion: the axial forces of the moment push and pull the beams that have moved. The matrix stays
 // elastic, these forces act as loads, K u' = F - Kg(N) u, at both ends of each substep: those at its end are found with
 // the motion there. Beside K + s M the geometric stiffness is small, so that each pass brings several digits.
+#include "assembly/scaled_equations.h"
 #include "dynamics/dynamic_state.h"
+#include "dynamics/rigid_ends.h"
 #include "topple/solver/geometric_forces.h"
 
 namespace topple::solver {
 namespace {
 
-/// Of the geometric loads: what they may still change from one pass to the next.
-constexpr double settled = 1e-9;
 constexpr int most_passes = 20;
 
 }  // namespace
@@ -28,30 +28,25 @@ Eigen::VectorXd FrameDynamics::State::find_geometric_load(const std::vector<Vec6
   for (int beam = 0; beam < static_cast<int>(system().model.beams.size()); ++beam) {
     if (system().beam_stands[static_cast<std::size_t>(beam)] == 0) continue;
     const Vec12 own = geometric_end_forces(beam, displacements, elastic_end_forces(beam, displacements, at_end));
-    if (!own.isZero(0)) add_on_rigid_ends(beam, -own, force);
+    if (!own.isZero(0)) add_on_rigid_ends(system(), beam, -own, force);
   }
-  return scaled(force);
+  return scaled_force(system(), force);
 }
 
 /// Where the passes do not settle, a beam is pressed beyond what it bears: the loads of the substep's start act on.
 void FrameDynamics::State::take_second_order_substep(const JointLaw* law) {
-  nodes_known = false;
   accepted = false;  // the nodes at the start are those of `before`
-  system().node_displacements_of_scaled(before.u, nodes_before.u);
-  geometric_before = find_geometric_load(nodes_before.u, false);
-  geometric_now = geometric_before;
+  nodes.set_start(system(), before);
+  geometric.begin(find_geometric_load(nodes.start().u, false));
   for (int pass = 0; pass < most_passes; ++pass) {
     take_first_order_substep(law);
     know_end();
-    Eigen::VectorXd next = find_geometric_load(nodes_now.u, true);
-    if (!next.allFinite()) break;
-    const double change = (next - geometric_now).lpNorm<Eigen::Infinity>();
-    const double size = next.lpNorm<Eigen::Infinity>();
-    if (change <= settled * size) return;
-    geometric_now = std::move(next);
+    const SettlingLoad::Pass done = geometric.take(find_geometric_load(nodes.end().u, true));
+    if (done == SettlingLoad::Pass::settled) return;
+    if (done == SettlingLoad::Pass::lost) break;
   }
   ++counters.unsettled;
-  geometric_now = geometric_before;
+  geometric.give_up();
   take_first_order_substep(law);
 }
 
@@ -61,9 +56,9 @@ double FrameDynamics::geometric_work_to(const std::vector<Vec6>& displacements) 
   state.begin_substep();
   state.apply_changes();
   state.know_nodes();
-  const Eigen::VectorXd way = state.scaled_equations(displacements) - state.current().u;
+  const Eigen::VectorXd way = scaled_displacements(state.system(), displacements) - state.current().u;
   return 0.5 *
-         way.dot(state.find_geometric_load(state.nodes_now.u, true) + state.find_geometric_load(displacements, true));
+         way.dot(state.find_geometric_load(state.nodes.end().u, true) + state.find_geometric_load(displacements, true));
 }
 
 }  // namespace topple::solver

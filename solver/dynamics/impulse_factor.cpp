@@ -6,8 +6,9 @@
 
 namespace topple::solver {
 
-FrameDynamics::State::ImpulseFactor::ImpulseFactor(const State& of, double softened)
-    : softened_(softened), inertia_(of.inertia), frame_(of.frame.model(), of.options.analysis) {
+FrameDynamics::State::ImpulseFactor::ImpulseFactor(const FrameSystem& frame, const AnalysisOptions& options,
+                                                   double softened)
+    : softened_(softened), inertia_(*frame.inertia), frame_(frame.model, options) {
   inertia_.factor = 1 / softened;
   own().system->inertia = &inertia_;
 }
@@ -47,20 +48,20 @@ void FrameDynamics::State::ImpulseFactor::follow_nodes(const FrameSystem& now) {
       own().changes.set_support(static_cast<int>(i), now.model.supports[i].stiffness);
 }
 
-void FrameDynamics::State::ImpulseFactor::follow(const State& of) {
-  const FrameSystem& now = of.system();
+void FrameDynamics::State::ImpulseFactor::follow(const FrameSystem& now) {
   follow_beams(now);
   follow_plates(now);
   follow_nodes(now);
   if (own().pending()) {
     own().take_changes(nullptr);
-    if (own().mechanism) throw Instability(own().mechanism->message, own().mechanism->motion);
+    require_none(own().mechanism);
   }
-  if (const auto defect = own().renew_factor()) throw Instability(defect->message, defect->motion);
   if (own().system->dofs().equations != now.dofs().equations)
     throw std::logic_error("the factor for impulses has other equations than the frame");
   ratio_ = scale_of(*own().system).cwiseQuotient(scale_of(now));
 }
+
+void FrameDynamics::State::ImpulseFactor::renew() { require_none(own().renew_factor()); }
 
 void FrameDynamics::State::ImpulseFactor::solve(Eigen::VectorXd& x) {
   x = x.cwiseProduct(ratio_);
@@ -89,13 +90,6 @@ Eigen::MatrixXd FrameDynamics::State::ImpulseFactor::between(const Eigen::Matrix
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(F.cols(), G.cols());
   for (const int row : loaded) result += forces.row(row).transpose() * X.row(row);
   return result / softened_;
-}
-
-FrameDynamics::State::ImpulseFactor& FrameDynamics::State::impulse_factor() {
-  const double softened = method.h * options.damping.stiffness;
-  if (!impulses_by) impulses_by = std::make_unique<ImpulseFactor>(*this, softened);
-  impulses_by->follow(*this);
-  return *impulses_by;
 }
 
 }  // namespace topple::solver

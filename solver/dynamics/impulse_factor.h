@@ -6,13 +6,16 @@
 namespace topple::solver {
 
 struct FrameDynamics::State::ImpulseFactor {
-  /// The inertia and the frame are those of `of`. `softened`: e, s2, above 0.
-  ImpulseFactor(const State& of, double softened);
+  /// Of a frame that moves, with its inertia. `softened`: e, s2, above 0.
+  ImpulseFactor(const FrameSystem& frame, const AnalysisOptions& options, double softened);
   ImpulseFactor(const ImpulseFactor&) = delete;
   ImpulseFactor& operator=(const ImpulseFactor&) = delete;
 
   /// Takes over what has changed in the frame's matrices. Throws Instability.
-  void follow(const State& of);
+  void follow(const FrameSystem& now);
+  /// To be called before solves of a structure that does not change: Reanalysis::State::renew_factor(). Throws
+  /// Instability.
+  void renew();
   /// x := (M + e K)^-1 x, in the scaled equations of the frame.
   void solve(Eigen::VectorXd& x);
   /// F' (M + e K)^-1 G in these equations; G is zero wherever F is. Only what joins their rows in the factor is gone

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "dynamics/dynamic_state.h"
 
@@ -33,63 +34,6 @@ double share_at(double from, double to, double value) {
 }
 
 }  // namespace
-
-std::size_t FrameDynamics::State::kink_of(int beam, std::size_t end, int component) {
-  if (kinks_of_beam.empty()) kinks_of_beam.resize(system().model.beams.size());
-  std::vector<std::size_t>& own = kinks_of_beam[static_cast<std::size_t>(beam)];
-  for (const std::size_t k : own)
-    if (kinks[k].end == end && kinks[k].component == component) return k;
-  Kink kink;
-  kink.beam = beam;
-  kink.end = end;
-  kink.component = component;
-  kinks.push_back(std::move(kink));
-  own.push_back(kinks.size() - 1);
-  return own.back();
-}
-
-/// Loads of 1 rad, for the structure as it stands.
-void FrameDynamics::State::find_kink(Kink& kink) {
-  if (kink.known) return;
-  BeamLoad angle;
-  angle.beam = kink.beam;
-  angle.kind = BeamLoad::Kind::temperature;
-  (kink.end == 0 ? angle.first : angle.last)(kink.component) = 1;
-  LoadSet loads;
-  loads.beams = {angle};
-  LoadVector load = system().load_vector(loads);
-  system().drop_idle_loads(load);
-  kink.force = scaled(load.force).sparseView();
-  kink.fixed_end = load.beam_fixed_end[static_cast<std::size_t>(kink.beam)];
-  kink.response.resize(0);
-  kink.known = true;
-}
-
-/// What turned before is likely to turn again; of the others the responses, as long as the frame, are let go.
-void FrameDynamics::State::begin_kinks() {
-  for (Kink& kink : kinks) {
-    if (kink.held == 0) kink.response.resize(0);
-    kink.before = kink.now = kink.current;
-    kink.held = 0;
-  }
-}
-
-void FrameDynamics::State::forget_kinks() {
-  for (Kink& kink : kinks) kink.known = false;
-}
-
-/// E = 1/2 u'Ku - theta'G'u + 1/2 theta'D theta, G the kinks' forces, D what they hold against themselves: the last
-/// two.
-double FrameDynamics::State::elastic_of_kinks() const {
-  double sum = 0;
-  for (const Kink& kink : kinks) {
-    if (kink.current == 0) continue;
-    sum -= kink.current * kink.force.dot(before.u);
-    for (const std::size_t other : kinks_of_beam[static_cast<std::size_t>(kink.beam)])
-      sum -= 0.5 * kink.current * kinks[other].current * kinks[other].fixed_end(kink.place());
-  }
-  return sum;
-}
 
 bool FrameDynamics::State::yields(const PlasticHinge& hinge) const {
   const auto i = static_cast<std::size_t>(hinge.beam);
@@ -128,7 +72,7 @@ void find_turns(const Eigen::MatrixXd& A, std::vector<Turning>& turning) {
 }  // namespace
 
 void FrameDynamics::State::yield(std::span<const PlasticHinge> hinges) {
-  for (Kink& kink : kinks) kink.held = 0;
+  kinks.hold_nothing();
   if (hinges.empty()) return;
   std::vector<double> tried(hinges.size(), 0), moments;
   std::vector<char> listed(hinges.size(), 0);
@@ -147,19 +91,22 @@ void FrameDynamics::State::yield(std::span<const PlasticHinge> hinges) {
     }
   };
   const auto add = [&](std::size_t h) {
-    const std::size_t k = kink_of(hinges[h].beam, static_cast<std::size_t>(hinges[h].end), hinges[h].component);
-    find_kink(kinks[k]);
+    const std::size_t k =
+        kinks.number(system().model, hinges[h].beam, static_cast<std::size_t>(hinges[h].end), hinges[h].component);
+    kinks.find(system(), k);
     if (kinks[k].response.size() == 0) {
-      kinks[k].response = of_new_turn() * kinks[k].force;
-      core().solve_as_it_stands(kinks[k].response);
+      Eigen::VectorXd response;
+      response = of_new_turn() * kinks[k].force;
+      core().solve_as_it_stands(response);
+      kinks.set_response(k, std::move(response));
     }
-    kinks[k].tried = tried[h];
+    kinks.set_tried(k, tried[h]);
     listed[h] = 1;
     turning.push_back({k, hinges[h].capacity, tried[h], 0});
     const auto n = static_cast<Eigen::Index>(turning.size()) - 1;
     A.conservativeResize(n + 1, n + 1);
     for (Eigen::Index j = 0; j <= n; ++j)
-      A(n, j) = A(j, n) = resistance(kinks[k], kinks[turning[static_cast<std::size_t>(j)].kink]);
+      A(n, j) = A(j, n) = kinks.resistance(k, turning[static_cast<std::size_t>(j)].kink, method);
     // Nothing holds it but the inertia that a beam on one end does not have: it is over, see turned_out_at().
     if (A(n, n) > resistless * -kinks[k].fixed_end(kinks[k].place()) && A(n, n) > 0) return;
     A.row(n).setZero();
@@ -173,31 +120,23 @@ void FrameDynamics::State::yield(std::span<const PlasticHinge> hinges) {
   };
   read_moments();
   tried = moments;
-  const Eigen::VectorXd as_tried = w;
+  const Eigen::VectorXd as_tried = equation.w();
   while (add_those_beyond()) {
     find_turns(A, turning);
-    w = as_tried;
+    equation.w() = as_tried;
     for (const Turning& one : turning) {
-      Kink& kink = kinks[one.kink];
-      kink.now = kink.before + one.turn;
-      kink.held = one.turn == 0 ? 0 : std::copysign(one.capacity, one.turn);
-      if (one.turn != 0) w += one.turn * kink.response;
+      kinks.turn(one.kink, one.turn, one.capacity);
+      if (one.turn != 0) equation.w() += one.turn * kinks[one.kink].response;
     }
     find_end();
     read_moments();
   }
 }
 
-/// By how much the moment of one hinge falls at the end of a substep for 1 rad that another has turned more by then.
-double FrameDynamics::State::resistance(const Kink& of, const Kink& by) const {
-  double value = -method.h * method.h * method.beta / method.c * of.force.dot(by.response);
-  if (of.beam == by.beam) value -= by.fixed_end(of.place());
-  return value;
-}
-
 std::optional<double> FrameDynamics::State::turned_out_at(const PlasticHinge& hinge) {
   if (!yields(hinge)) return std::nullopt;
-  const Kink& kink = kinks[kink_of(hinge.beam, static_cast<std::size_t>(hinge.end), hinge.component)];
+  const Kink& kink =
+      kinks[kinks.number(system().model, hinge.beam, static_cast<std::size_t>(hinge.end), hinge.component)];
   const auto moment = [&](bool at_end) { return std::abs(end_forces(hinge.beam, at_end)(kink.place())); };
   constexpr double rounding = 1e4 * beyond;
   const bool over = moment(true) > (1 + rounding) * hinge.capacity;
@@ -208,39 +147,6 @@ std::optional<double> FrameDynamics::State::turned_out_at(const PlasticHinge& hi
   // It begins to turn when it reaches its capacity, and turns evenly from there.
   const double begun = share_at(start, std::abs(kink.tried), hinge.capacity), sign = std::copysign(1.0, kink.now);
   return begun + (1 - begun) * share_at(sign * kink.before, sign * kink.now, hinge.largest_turn);
-}
-
-/// Of the substep under way, before it is accepted. With g = G'u the equation's kinks do theta_c'dg along it, theta_c =
-/// af theta0 + (1 - af) theta1, and d(theta'g) = theta_c'dg + dtheta'((1 - af) g0 + af g1): what is left beside the
-/// change of elastic energy is what the hinges took, but for the error of the method. Of the work of loads on a beam
-/// its kinks have a part.
-void FrameDynamics::State::account_kinks() {
-  double discrete = 0, damped = 0;
-  for (const Kink& kink : kinks) {
-    const double turn = kink.now - kink.before;
-    if (kink.now == 0 && kink.before == 0) continue;
-    const double before_this = kink.force.dot(before.u), at_end = kink.force.dot(now.u);
-    const double in_equation = method.af * kink.before + (1 - method.af) * kink.now;
-    energy.external_work -= in_equation * (at_end - before_this);  // has it among the loads
-    for (const std::size_t other : kinks_of_beam[static_cast<std::size_t>(kink.beam)]) {
-      const double against = -kinks[other].fixed_end(kink.place());
-      discrete -= 0.5 * against * (kink.now * kinks[other].now - kink.before * kinks[other].before);
-    }
-    if (turn == 0) continue;
-    discrete += turn * ((1 - method.af) * before_this + method.af * at_end);
-    damped += options.damping.stiffness / method.h * turn * (at_end - before_this);
-    Vec12 loads = core().load.fixed_end(static_cast<std::size_t>(kink.beam));
-    for (const LoadPattern& pattern : patterns)
-      if (const auto own = pattern.fixed_end.find(kink.beam); own != pattern.fixed_end.end())
-        loads += pattern.now * own->second;
-    const double of_loads = loads(kink.place()) * turn;
-    energy.dissipated += kink.held * turn;
-    energy.external_work += of_loads;
-    energy.numerical -= kink.held * turn - of_loads;
-  }
-  energy.numerical += discrete;
-  energy.external_work -= damped;  // has it among the loads
-  energy.damped -= damped;
 }
 
 }  // namespace topple::solver

@@ -95,10 +95,6 @@ class Modes {
 
   static constexpr int least_extra = 4, most_extra = 4096, few_restarts = 15, most_restarts = 200;
 
-  static void require_none(const std::optional<Defect>& defect) {
-    if (defect) throw Instability(defect->message, defect->motion);
-  }
-
   void factorise_shifted(const AnalysisOptions& options) {
     const Factor::Outcome outcome = factor_->factorise(stiffness_);
     if (outcome.positive_definite && outcome.worst_pivot >= options.singular_limit) return;

@@ -174,8 +174,7 @@ Eigen::MatrixXd Reanalysis::State::forces_on_standing(std::span<const LoadSet> l
   for (std::size_t i = 0; i < loads.size(); ++i) {
     own.push_back(system->load_vector(loads[i]));
     system->drop_idle_loads(own[i]);
-    if (const auto defect = system->unbalanced_load(own[i], negligible_lever))
-      throw Instability(defect->message, defect->motion);
+    require_none(system->unbalanced_load(own[i], negligible_lever));
     if (i == 0) forces.resize(own[0].force.size(), static_cast<Eigen::Index>(loads.size()));
     forces.col(static_cast<Eigen::Index>(i)) = own[i].force;
   }

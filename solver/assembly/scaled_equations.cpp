@@ -1,0 +1,24 @@
+#include "assembly/scaled_equations.h"
+
+#include <stdexcept>
+
+namespace topple::solver {
+
+Eigen::VectorXd scaled_displacements(const FrameSystem& system, const std::vector<Vec6>& per_node) {
+  const DofMap& dofs = system.dofs();
+  if (per_node.size() != system.model.nodes.size())
+    throw std::invalid_argument("displacements: six for each node of the frame");
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(dofs.equations);
+  for (std::size_t k = per_node.size(); k-- > 0;) {
+    if (system.node_stands[k] == 0) continue;
+    Vec6 own = per_node[k];
+    own.head<3>() -= dofs.diaphragm_arm(static_cast<int>(k)) * own.tail<3>();
+    for (std::size_t c = 0; c < 6; ++c) {
+      const int e = dofs.number[k][c];
+      if (e < dofs.equations) x(e) = own(static_cast<Eigen::Index>(c)) / system.scale()[static_cast<std::size_t>(e)];
+    }
+  }
+  return x;
+}
+
+}  // namespace topple::solver

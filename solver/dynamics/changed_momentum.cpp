@@ -1,0 +1,140 @@
+#include "dynamics/changed_momentum.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "dynamics/rigid_ends.h"
+#include "elements/beam_mass.h"
+
+namespace topple::solver {
+namespace {
+
+/// Force and moment about the beam's first end of one of its loads, local axes; what makes no force is left out.
+Vec6 resultant(const BeamLoad& load) {
+  Vec6 sum = Vec6::Zero();
+  const auto add = [&](double at, const Vec6& force) {
+    sum += force;
+    sum.tail<3>() += Vec3(at, 0, 0).cross(Vec3(force.head<3>()));
+  };
+  if (load.kind == BeamLoad::Kind::point) add(load.from, load.first);
+  if (load.kind != BeamLoad::Kind::distributed) return sum;
+  const double length = load.to - load.from;
+  add(load.from + length / 3, load.first * (length / 2));
+  add(load.to - length / 3, load.last * (length / 2));
+  return sum;
+}
+
+/// Momentum of a beam that its nodes' velocities leave out now (local node impulses), since its ends followed them
+/// otherwise.
+Vec12 missing_momentum(const FrameSystem& system, const MassModel& masses, int beam, const Mat12& followed,
+                       const Eigen::VectorXd& velocities) {
+  const auto i = static_cast<std::size_t>(beam);
+  if (system.beam_stands[i] == 0) return Vec12::Zero();
+  const Mat12 follows = ends_by_rigid_ends(system.model.beams[i]);
+  const Mat12 M = mass_of_beam(system, masses, beam);
+  const Vec12 rigid_ends = rigid_end_motion(system, beam, velocities);
+  return follows.transpose() * M * (followed - follows) * rigid_ends;
+}
+
+}  // namespace
+
+void ChangedMomentum::begin_substep() {
+  broken_.clear();
+  changed_.clear();
+}
+
+void ChangedMomentum::remember(const FrameSystem& system, const SystemInertia& inertia, const RequestedChanges& changes,
+                               const Eigen::VectorXd& velocities) {
+  for (const int beam : changes.beams()) {
+    const auto i = static_cast<std::size_t>(beam);
+    const Beam& now_is = system.model.beams[i];
+    if (now_is.density == 0 || system.beam_stands[i] == 0 || now_is.end_stiffness == changes.beam(i).end_stiffness)
+      continue;
+    const bool known = std::any_of(changed_.begin(), changed_.end(), [&](const auto& c) { return c.beam == beam; });
+    if (known) continue;
+    const Mat12 follows = ends_by_rigid_ends(now_is);
+    changed_.push_back(
+        {beam, follows, momentum_of_beam(system, inertia.masses, beam, follows, velocities) + brought_to(beam)});
+  }
+}
+
+void ChangedMomentum::break_joint(int beam, std::size_t end, const Vec6& mean_force) {
+  broken_.push_back({beam, end, mean_force});
+}
+
+void ChangedMomentum::bring(int beam, const Vec6& momentum) {
+  brought_.try_emplace(beam, Vec6::Zero()).first->second += momentum;
+}
+
+Vec6 ChangedMomentum::brought_to(int beam) const {
+  const auto found = brought_.find(beam);
+  return found == brought_.end() ? Vec6(Vec6::Zero()) : found->second;
+}
+
+Vec12 ChangedMomentum::fixed_end(int beam) const {
+  const auto found = fixed_end_.find(beam);
+  return found == fixed_end_.end() ? Vec12(Vec12::Zero()) : found->second;
+}
+
+/// Its joints' forces until they broke pushed it the other way, and its loads went on.
+std::optional<Vec6> ChangedMomentum::left_with(const FrameSystem& system, int beam, const std::vector<BeamLoad>& loads,
+                                               double h) const {
+  const auto gone = std::find_if(changed_.begin(), changed_.end(), [&](const auto& c) { return c.beam == beam; });
+  if (gone == changed_.end()) return std::nullopt;
+  Vec12 impulse = Vec12::Zero();
+  for (const BrokenJoint& joint : broken_)
+    if (joint.beam == beam) impulse.segment<6>(static_cast<Eigen::Index>(6 * joint.end)) += h * joint.mean_force;
+  for (const BeamLoad& load : loads) impulse.head<6>() += h * resultant(load);
+  return gone->momentum + about_origin(system, beam, impulse);
+}
+
+/// Momentum that came to beams, as forces over a substep on the ends that hold them.
+void ChangedMomentum::add_brought(const FrameSystem& system, double h, Eigen::VectorXd& force) const {
+  for (const auto& [beam, momentum] : brought_) {
+    const Beam& own = system.model.beams[static_cast<std::size_t>(beam)];
+    std::vector<int> held;
+    for (std::size_t end = 0; end < 2; ++end)
+      if (!own.end_stiffness[end].isZero(0) && system.node_stands[static_cast<std::size_t>(own.node[end])] != 0)
+        held.push_back(own.node[end]);
+    if (held.empty()) continue;  // it left
+    const Vec6 share = momentum / (h * static_cast<double>(held.size()));
+    const Vec3 linear = share.head<3>();
+    Vec3 turning = share.tail<3>();
+    for (const int node : held)
+      turning -= system.model.nodes[static_cast<std::size_t>(node)].cross(linear) / static_cast<double>(held.size());
+    for (const int node : held) {
+      Vec6 own_force;
+      own_force << linear, turning;
+      system.dofs().add_node_force(node, own_force, force.data());
+    }
+  }
+}
+
+/// Forces of joints until they broke act on the node and on the beam's own end, which hands it to its other node.
+Eigen::VectorXd ChangedMomentum::load(const FrameSystem& system, const SystemInertia& inertia, double h,
+                                      const Eigen::VectorXd& velocities) {
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(system.dofs().equations + system.dofs().held);
+  fixed_end_.clear();
+  for (const BrokenJoint& joint : broken_) {
+    const Beam& beam = system.model.beams[static_cast<std::size_t>(joint.beam)];
+    Vec12 on_rigid_end = Vec12::Zero();
+    on_rigid_end.segment<6>(static_cast<Eigen::Index>(6 * joint.end)) = -joint.mean_force;
+    add_on_rigid_ends(system, joint.beam, on_rigid_end, force);
+    BeamLoad at_end;
+    at_end.beam = joint.beam;
+    at_end.kind = BeamLoad::Kind::point;
+    at_end.from = joint.end == 0 ? 0 : beam.length;
+    at_end.first = joint.mean_force;
+    if (system.beam_stands[static_cast<std::size_t>(joint.beam)] == 0) continue;
+    const Vec12 fixed = system.fixed_end_forces(joint.beam, {&at_end, 1}).force;
+    add_on_rigid_ends(system, joint.beam, -fixed, force);
+    fixed_end_.try_emplace(joint.beam, Vec12::Zero()).first->second += fixed;
+  }
+  for (const ChangedBeam& change : changed_)
+    add_on_rigid_ends(system, change.beam,
+                      missing_momentum(system, inertia.masses, change.beam, change.followed, velocities) / h, force);
+  add_brought(system, h, force);
+  return force;
+}
+
+}  // namespace topple::solver

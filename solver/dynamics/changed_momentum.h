@@ -1,0 +1,61 @@
+#pragma once
+// Momentum that a frame's velocities leave out when it changes within a substep: a joint's force acts until it breaks,
+// a beam that swings from one end alone leaves its nodes behind, mass brings its own along. Beside what follows it is a
+// load over that substep.
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "assembly/element_masses.h"
+#include "assembly/frame_system.h"
+#include "reanalysis/requested_changes.h"
+
+namespace topple::solver {
+
+class ChangedMomentum {
+ public:
+  /// Loads of the last substep's breaks end.
+  void begin_substep();
+  /// Before the frame changes: how the ends of beams that will change follow their nodes, which move with these
+  /// velocities (scaled equations), and the beams' momentum.
+  void remember(const FrameSystem& system, const SystemInertia& inertia, const RequestedChanges& changes,
+                const Eigen::VectorXd& velocities);
+  /// The joint broke; until then its force acted: its mean over the substep, local.
+  void break_joint(int beam, std::size_t end, const Vec6& mean_force);
+  /// FrameDynamics::add_momentum().
+  void bring(int beam, const Vec6& momentum);
+  [[nodiscard]] bool any_brought() const { return !brought_.empty(); }
+  /// It has acted.
+  void forget_brought() { brought_.clear(); }
+
+  /// The load over a substep of length h: per equation, then per held freedom; not scaled.
+  [[nodiscard]] Eigen::VectorXd load(const FrameSystem& system, const SystemInertia& inertia, double h,
+                                     const Eigen::VectorXd& velocities);
+  /// Of a beam that bears the force of its broken end in that load: fixed-end forces, local.
+  [[nodiscard]] Vec12 fixed_end(int beam) const;
+  [[nodiscard]] Vec6 brought_to(int beam) const;
+  /// What a beam that changed in this substep left with, if it did: its momentum before, less what its joints' forces
+  /// took, and with what its loads gave.
+  [[nodiscard]] std::optional<Vec6> left_with(const FrameSystem& system, int beam, const std::vector<BeamLoad>& loads,
+                                              double h) const;
+
+ private:
+  struct BrokenJoint {
+    int beam;
+    std::size_t end;
+    Vec6 mean_force;
+  };
+  struct ChangedBeam {
+    int beam;
+    Mat12 followed;
+    Vec6 momentum;
+  };
+  void add_brought(const FrameSystem& system, double h, Eigen::VectorXd& force) const;
+
+  std::vector<BrokenJoint> broken_;
+  std::vector<ChangedBeam> changed_;
+  std::map<int, Vec6> brought_;     ///< per beam
+  std::map<int, Vec12> fixed_end_;  ///< of beams that bear the force of their broken end, local
+};
+
+}  // namespace topple::solver

@@ -1,0 +1,40 @@
+#pragma once
+// How the velocities of a frame that moves answer impulses: (M + h a1 K)^-1, by conjugate gradients on M where damping
+// is next to nothing, else by a factor of its own.
+#include <memory>
+
+#include "dynamics/dynamic_state.h"
+
+namespace topple::solver {
+
+class FrameDynamics::State::Jumps {
+ public:
+  /// `softened`: h a1, s2.
+  Jumps(const AnalysisOptions& options, double softened);
+  ~Jumps();
+  Jumps(const Jumps&) = delete;
+  Jumps& operator=(const Jumps&) = delete;
+  /// The matrix K + s M has another s, or another h a1.
+  void set_softened(double softened);
+  /// The frame's matrices are others.
+  void forget_frame() { followed_ = false; }
+
+  /// In the scaled equations: what freedoms without mass are given comes to nothing.
+  [[nodiscard]] static Eigen::VectorXd on_mass(const FrameSystem& system, Eigen::VectorXd impulses);
+  /// (M + h a1 K)^-1 times impulses on mass.
+  [[nodiscard]] Eigen::VectorXd velocities(const FrameSystem& system, const Eigen::VectorXd& impulses);
+  /// F' (M + h a1 K)^-1 F of impulses in columns, of which those on mass alone act.
+  [[nodiscard]] Eigen::MatrixXd mobility(const FrameSystem& system, const Eigen::MatrixXd& F);
+
+ private:
+  [[nodiscard]] bool damps(const FrameSystem& system) const;
+  [[nodiscard]] Eigen::VectorXd velocities_by_mass(const FrameSystem& system, Eigen::VectorXd left) const;
+  [[nodiscard]] ImpulseFactor& factor(const FrameSystem& system);
+
+  const AnalysisOptions& options_;
+  double softened_;
+  std::unique_ptr<ImpulseFactor> factor_;  ///< none: not asked for yet
+  bool followed_ = false;                  ///< it has the frame's matrices as they are
+};
+
+}  // namespace topple::solver
