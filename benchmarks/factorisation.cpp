@@ -14,6 +14,7 @@
 #include <memory>
 #include <thread>
 
+#include "assembly/frame_loads.h"
 #include "assembly/frame_system.h"
 #include "assembly/refinement.h"
 #include "factor/factor.h"
@@ -240,7 +241,7 @@ int main(int argc, char** argv) {
   solver::FrameSystem system(frame.model);
   system.assemble();
   const Eigen::Index n = system.dofs().equations;
-  const Eigen::VectorXd load = system.load_vector(frame.loads)
+  const Eigen::VectorXd load = load_vector(system, frame.loads)
                                    .force.head(n)
                                    .cwiseProduct(Eigen::Map<const Eigen::VectorXd>(system.scale().data(), n));
   print_provenance("Ordering and factorisation of the regular steel frame", 1);

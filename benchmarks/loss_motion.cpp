@@ -7,6 +7,7 @@
 #include <map>
 
 #include "analysis/motion/frame_motion.h"
+#include "assembly/frame_recovery.h"
 #include "assembly/frame_system.h"
 #include "model/index_of.h"
 #include "support/provenance.h"
@@ -36,7 +37,7 @@ class ByModes : public DamagedFrame::Motion {
       fixed_.push_back(system.fixed_end_forces(static_cast<int>(b), moving.beam_loads[b]).force);
   }
   void take(const Eigen::VectorXd& u) {
-    nodes_ = system_.node_displacements(u, Eigen::VectorXd::Zero(system_.dofs().held));
+    nodes_ = node_displacements(system_, u, Eigen::VectorXd::Zero(system_.dofs().held));
   }
   [[nodiscard]] solver::Vec12 beam_end_forces(int beam) const override {
     return system_.end_forces(beam, nodes_, fixed_[static_cast<std::size_t>(beam)]);

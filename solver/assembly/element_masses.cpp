@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "assembly/frame_system.h"
+#include "assembly/frame_elements.h"
 #include "elements/beam_mass.h"
 
 namespace topple::solver {
@@ -14,18 +14,18 @@ double mass_length(const MassModel& masses, const Beam& beam, int index) {
   return given > 0 ? given : beam.length;
 }
 
-Mat12 beam_mass(const FrameSystem& system, const MassModel& masses, int index) {
-  const Beam& beam = system.model.beams[static_cast<std::size_t>(index)];
+Mat12 beam_mass(const FrameElements& frame, const MassModel& masses, int index) {
+  const Beam& beam = frame.model.beams[static_cast<std::size_t>(index)];
   std::array<Mat3, 2> arm;
   for (std::size_t end = 0; end < 2; ++end)
-    arm[end] = arm_matrix(beam.offset[end]) + system.dofs().diaphragm_arm(beam.node[end]);
+    arm[end] = arm_matrix(beam.offset[end]) + frame.dofs().diaphragm_arm(beam.node[end]);
   return to_node_freedoms(beam.axes, beam_mass_matrix(beam, masses, mass_length(masses, beam, index)), arm);
 }
 
-Mat24 shell_mass(const FrameSystem& system, const MassModel& masses, int index) {
-  const Shell& shell = system.model.shells[static_cast<std::size_t>(index)];
+Mat24 shell_mass(const FrameElements& frame, const MassModel& masses, int index) {
+  const Shell& shell = frame.model.shells[static_cast<std::size_t>(index)];
   const bool lumped = masses.distribution == MassDistribution::lumped;
-  return ShellElement(shell, corner_places(shell, system.model.nodes)).mass(shell.density * shell.thickness, lumped);
+  return ShellElement(shell, corner_places(shell, frame.model.nodes)).mass(shell.density * shell.thickness, lumped);
 }
 
 std::vector<Vec6> masses_at_nodes(const FrameModel& model, const MassModel& masses) {

@@ -1,17 +1,17 @@
-// Stiffnesses of single elements, as a system has them now.
-#include "assembly/frame_system.h"
+// Stiffnesses of single elements, as they stand.
+#include "assembly/frame_elements.h"
 #include "elements/second_order_beam.h"
 
 namespace topple::solver {
 
-Mat12 FrameSystem::rigid_end_stiffness(std::size_t i) const {
+Mat12 FrameElements::rigid_end_stiffness(std::size_t i) const {
   if (second_order == nullptr) return CondensedBeam(model.beams[i], beam_factor[i]).stiffness();
   return SecondOrderBeam(model.beams[i], beam_factor[i], second_order->mode, second_order->first_axial[i],
                          second_order->loads[i], ends_apart(static_cast<int>(i)))
       .stiffness();
 }
 
-double FrameSystem::ends_apart(int index) const {
+double FrameElements::ends_apart(int index) const {
   const Beam& beam = model.beams[static_cast<std::size_t>(index)];
   const auto place = [&](std::size_t end) -> Vec3 {
     return model.nodes[static_cast<std::size_t>(beam.node[end])] + beam.offset[end];
@@ -21,7 +21,17 @@ double FrameSystem::ends_apart(int index) const {
   return apart > (1 + rounding) * beam.length ? apart : beam.length;
 }
 
-Mat12 FrameSystem::beam_stiffness(int index) const {
+void FrameElements::add_diaphragm_arms(std::span<const int> nodes, Eigen::Ref<Eigen::MatrixXd> K) const {
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    if (dofs_.diaphragm_of_node[static_cast<std::size_t>(nodes[k])] < 0) continue;
+    const Mat3 C = dofs_.diaphragm_arm(nodes[k]);
+    const auto n = static_cast<Eigen::Index>(6 * k);
+    K.middleRows<3>(n + 3) += C.transpose() * K.middleRows<3>(n);
+    K.middleCols<3>(n + 3) += K.middleCols<3>(n) * C;
+  }
+}
+
+Mat12 FrameElements::beam_stiffness(int index) const {
   const auto i = static_cast<std::size_t>(index);
   if (beam_stands[i] == 0) return Mat12::Zero();
   const Beam& beam = model.beams[i];
@@ -34,7 +44,7 @@ Mat12 FrameSystem::beam_stiffness(int index) const {
   return K;
 }
 
-const Mat24& FrameSystem::shell_node_stiffness(int index) const {
+const Mat24& FrameElements::shell_node_stiffness(int index) const {
   if (const auto given = model.shell_stiffness.find(index); given != model.shell_stiffness.end()) return given->second;
   const Shell& shell = model.shells[static_cast<std::size_t>(index)];
   const std::array<Vec3, 4> corners = corner_places(shell, model.nodes);
@@ -50,7 +60,7 @@ const Mat24& FrameSystem::shell_node_stiffness(int index) const {
   return kept.stiffness;
 }
 
-Mat24 FrameSystem::shell_stiffness(int index) const {
+Mat24 FrameElements::shell_stiffness(int index) const {
   const auto i = static_cast<std::size_t>(index);
   if (shell_stands[i] == 0) return Mat24::Zero();
   Mat24 K = shell_node_stiffness(index);
@@ -61,7 +71,7 @@ Mat24 FrameSystem::shell_stiffness(int index) const {
   return K;
 }
 
-Eigen::MatrixXd FrameSystem::patch_node_stiffness(std::size_t patch) const {
+Eigen::MatrixXd FrameElements::patch_node_stiffness(std::size_t patch) const {
   Eigen::MatrixXd K = model.patches[patch].stiffness;
   if (shells_pushed())
     if (const JointedShell* shell = jointed_shell_of_patch(second_order->jointed, static_cast<int>(patch)))
@@ -70,20 +80,20 @@ Eigen::MatrixXd FrameSystem::patch_node_stiffness(std::size_t patch) const {
   return K;
 }
 
-Eigen::MatrixXd FrameSystem::patch_node_mass(std::size_t patch) const {
+Eigen::MatrixXd FrameElements::patch_node_mass(std::size_t patch) const {
   Eigen::MatrixXd M = model.patches[patch].mass;
   leave_out_gone(model.patches[patch].node, M);
   return M;
 }
 
-Eigen::MatrixXd FrameSystem::patch_mass(std::size_t patch) const {
+Eigen::MatrixXd FrameElements::patch_mass(std::size_t patch) const {
   Eigen::MatrixXd M = patch_node_mass(patch);
   add_diaphragm_arms(model.patches[patch].node, M);
   return M;
 }
 
 /// Rows and columns of nodes that no longer stand.
-void FrameSystem::leave_out_gone(std::span<const int> nodes, Eigen::MatrixXd& matrix) const {
+void FrameElements::leave_out_gone(std::span<const int> nodes, Eigen::MatrixXd& matrix) const {
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     if (node_stands[static_cast<std::size_t>(nodes[n])] != 0) continue;
     matrix.middleRows<6>(static_cast<Eigen::Index>(6 * n)).setZero();
@@ -91,7 +101,7 @@ void FrameSystem::leave_out_gone(std::span<const int> nodes, Eigen::MatrixXd& ma
   }
 }
 
-Eigen::MatrixXd FrameSystem::patch_stiffness(int index) const {
+Eigen::MatrixXd FrameElements::patch_stiffness(int index) const {
   const auto i = static_cast<std::size_t>(index);
   Eigen::MatrixXd K = patch_node_stiffness(i);
   if (inertia != nullptr && model.patches[i].mass.size() > 0) K += inertia->factor * patch_node_mass(i);
@@ -99,37 +109,21 @@ Eigen::MatrixXd FrameSystem::patch_stiffness(int index) const {
   return K;
 }
 
-Eigen::MatrixXd FrameSystem::plate_stiffness(std::size_t element) const {
+Eigen::MatrixXd FrameElements::plate_stiffness(std::size_t element) const {
   if (element < element_of_patch(0)) return shell_stiffness(static_cast<int>(element - element_of_shell(0)));
   return patch_stiffness(static_cast<int>(element - element_of_patch(0)));
 }
 
-std::span<const int> FrameSystem::plate_nodes(std::size_t element) const {
+std::span<const int> FrameElements::plate_nodes(std::size_t element) const {
   if (element < element_of_patch(0)) return model.shells[element - element_of_shell(0)].node;
   return model.patches[element - element_of_patch(0)].node;
 }
 
-const JointedShell* FrameSystem::jointed(int shell) const {
+const JointedShell* FrameElements::jointed(int shell) const {
   return second_order == nullptr ? nullptr : jointed_shell(second_order->jointed, shell);
 }
 
-Vec24 FrameSystem::corner_displacements(int index, const std::vector<Vec6>& displacements) const {
-  const JointedShell* hung = jointed(index);
-  if (hung == nullptr) {
-    Vec24 u;
-    const auto& nodes = model.shells[static_cast<std::size_t>(index)].node;
-    for (int n = 0; n < 4; ++n)
-      u.segment<6>(6 * n) = displacements[static_cast<std::size_t>(nodes[static_cast<std::size_t>(n)])];
-    return u;
-  }
-  const std::vector<int>& nodes = model.patches[static_cast<std::size_t>(hung->patch)].node;
-  Eigen::VectorXd all(static_cast<Eigen::Index>(6 * nodes.size()));
-  for (std::size_t n = 0; n < nodes.size(); ++n)
-    all.segment<6>(static_cast<Eigen::Index>(6 * n)) = displacements[static_cast<std::size_t>(nodes[n])];
-  return hung->corners * all;
-}
-
-Mat24 FrameSystem::shell_geometric_stiffness(int index) const {
+Mat24 FrameElements::shell_geometric_stiffness(int index) const {
   const auto i = static_cast<std::size_t>(index);
   const Shell& shell = model.shells[i];
   Vec24 u = corner_displacements(index, second_order->shell_displacements);

@@ -18,21 +18,17 @@ void FrameSystem::add_diagonal(int node, const Vec6& diagonal, SparseSymmetric& 
   const auto n = static_cast<std::size_t>(node);
   if ((diagonal.array() == 0).all()) return;
   Mat6 G = Mat6::Identity();
-  G.topRightCorner<3, 3>() = dofs_.diaphragm_arm(node);
+  G.topRightCorner<3, 3>() = dofs().diaphragm_arm(node);
   const Mat6 K = G.transpose() * diagonal.asDiagonal() * G;
   for (int i = 0; i < 6; ++i) {
     for (int j = 0; j <= i; ++j) {
-      const int row = dofs_.number[n][static_cast<std::size_t>(i)],
-                column = dofs_.number[n][static_cast<std::size_t>(j)];
-      if (K(i, j) == 0 || row >= dofs_.equations || column >= dofs_.equations) continue;
+      const int row = dofs().number[n][static_cast<std::size_t>(i)],
+                column = dofs().number[n][static_cast<std::size_t>(j)];
+      if (K(i, j) == 0 || row >= dofs().equations || column >= dofs().equations) continue;
       matrix.value[static_cast<std::size_t>(assembly_map_.position(row, column))] +=
           K(i, j) * scale_[static_cast<std::size_t>(row)] * scale_[static_cast<std::size_t>(column)];
     }
   }
-}
-
-void FrameSystem::add_node_mass(int node) {
-  if (inertia != nullptr) add_diagonal(node, inertia->at_node[static_cast<std::size_t>(node)], mass_);
 }
 
 void FrameSystem::add_element_mass(std::size_t element, const std::vector<char>& wanted) {
@@ -58,8 +54,8 @@ void FrameSystem::add_element_mass(std::size_t element, const std::vector<char>&
 void FrameSystem::clear_mass(std::span<const int> nodes, std::span<const int> elements) {
   for (const int n : nodes) {
     const auto node = static_cast<std::size_t>(n);
-    for (int e = dofs_.first_equation[node]; e < dofs_.first_equation[node + 1]; ++e)
-      for (int f = dofs_.first_equation[node]; f <= e; ++f)
+    for (int e = dofs().first_equation[node]; e < dofs().first_equation[node + 1]; ++e)
+      for (int f = dofs().first_equation[node]; f <= e; ++f)
         mass_.value[static_cast<std::size_t>(assembly_map_.position(e, f))] = 0;
   }
   for (const int element : elements) assembly_map_.clear(static_cast<std::size_t>(element), wanted_, mass_);
@@ -67,7 +63,7 @@ void FrameSystem::clear_mass(std::span<const int> nodes, std::span<const int> el
 
 void FrameSystem::scale_mass() {
   if (inertia == nullptr) return;
-  for (int column = 0; column < dofs_.equations; ++column) {
+  for (int column = 0; column < dofs().equations; ++column) {
     const auto c = static_cast<std::size_t>(column);
     for (auto k = mass_.start[c]; k < mass_.start[c + 1]; ++k) {
       const auto i = static_cast<std::size_t>(k);

@@ -57,19 +57,24 @@ bool same_numbering(const DofMap& some, const DofMap& others) {
 
 }  // namespace
 
-bool FrameSystem::take_numbers(FrameModel& given) {
+bool FrameElements::take_model(FrameModel& given) {
   if (!same_elements(model, given)) return false;
   given = checked_model(std::move(given));
   DofMap dofs(given);
   if (!same_numbering(dofs_, dofs)) return false;
   model = std::move(given);
-  support_ = support_stiffness(model);
   dofs_ = std::move(dofs);  // the arms of diaphragms
   std::fill(beam_factor.begin(), beam_factor.end(), 1.0);
   std::fill(beam_stands.begin(), beam_stands.end(), char{1});
   std::fill(shell_stands.begin(), shell_stands.end(), char{1});
   std::fill(node_stands.begin(), node_stands.end(), char{1});
   if (kept_shells_.size() < model.shells.size()) kept_shells_.resize(model.shells.size());
+  return true;
+}
+
+bool FrameSystem::take_numbers(FrameModel& given) {
+  if (!take_model(given)) return false;
+  support_ = support_stiffness(model);
   return true;
 }
 

@@ -46,72 +46,21 @@ std::string list_nodes(std::span<const int> nodes) {
 }
 
 FrameSystem::FrameSystem(FrameModel given)
-    : model(checked_model(std::move(given))),
-      beam_factor(model.beams.size(), 1.0),
-      beam_stands(model.beams.size(), 1),
-      shell_stands(model.shells.size(), 1),
-      node_stands(model.nodes.size(), 1),
+    : FrameElements(std::move(given)),
       support_(support_stiffness(model)),
-      dofs_(model),
-      assembly_map_(make_assembly_map(model, dofs_)),
-      elements_of_node_(model.nodes.size()),
+      assembly_map_(make_assembly_map(model, dofs())),
       matrix_(assembly_map_.empty_matrix()),
-      scale_(static_cast<std::size_t>(dofs_.equations), 1.0),
-      inert_{std::vector<InertNode>(model.nodes.size()), std::vector<InertNode>(model.nodes.size())} {
-  int element = 0;
-  const auto belongs = [&](std::span<const int> nodes) {
-    for (int node : nodes) elements_of_node_[static_cast<std::size_t>(node)].push_back(element);
-    ++element;
-  };
-  for (const Beam& beam : model.beams) belongs(beam.node);
-  for (const Shell& shell : model.shells) belongs(shell.node);
-  for (const Patch& patch : model.patches) belongs(patch.node);
-  for (const Diaphragm& diaphragm : model.diaphragms) {
-    for (int node : diaphragm.nodes) belongs(std::span(&node, 1));
-  }
-}
-
-std::span<const int> FrameSystem::beams_of_node(int node) const {
-  const auto& elements = elements_of_node_[static_cast<std::size_t>(node)];  // in order: beams first
-  const auto end = std::lower_bound(elements.begin(), elements.end(), static_cast<int>(model.beams.size()));
-  return {elements.begin(), end};
-}
-
-void FrameSystem::elements_of_vertex(int vertex, std::vector<int>& elements) const {
-  const auto v = static_cast<std::size_t>(vertex);
-  const auto append = [&](std::size_t node) {
-    elements.insert(elements.end(), elements_of_node_[node].begin(), elements_of_node_[node].end());
-  };
-  if (v < model.nodes.size()) return append(v);
-  for (const int node : model.diaphragms[v - model.nodes.size()].nodes) append(static_cast<std::size_t>(node));
-}
-
-/// Of the node's elements those from `first` on, `count` of that kind, counted from 0.
-std::vector<int> FrameSystem::numbers_of_node(int node, std::size_t first, std::size_t count) const {
-  std::vector<int> numbers;
-  for (int element : elements_of_node_[static_cast<std::size_t>(node)]) {
-    const auto e = static_cast<std::size_t>(element);
-    if (e >= first && e < first + count) numbers.push_back(static_cast<int>(e - first));
-  }
-  return numbers;
-}
-
-std::vector<int> FrameSystem::shells_of_node(int node) const {
-  return numbers_of_node(node, element_of_shell(0), model.shells.size());
-}
-
-std::vector<int> FrameSystem::patches_of_node(int node) const {
-  return numbers_of_node(node, element_of_patch(0), model.patches.size());
-}
+      scale_(static_cast<std::size_t>(dofs().equations), 1.0),
+      inert_(model.nodes.size()) {}
 
 std::vector<int> FrameSystem::elimination_order() const {
-  std::vector<int> active, index(static_cast<std::size_t>(dofs_.vertices()), -1), freedoms;
-  for (int v = 0; v < dofs_.vertices(); ++v) {
+  std::vector<int> active, index(static_cast<std::size_t>(dofs().vertices()), -1), freedoms;
+  for (int v = 0; v < dofs().vertices(); ++v) {
     const auto n = static_cast<std::size_t>(v);
-    if (dofs_.first_equation[n + 1] == dofs_.first_equation[n]) continue;
+    if (dofs().first_equation[n + 1] == dofs().first_equation[n]) continue;
     index[n] = static_cast<int>(active.size());
     active.push_back(v);
-    freedoms.push_back(dofs_.first_equation[n + 1] - dofs_.first_equation[n]);
+    freedoms.push_back(dofs().first_equation[n + 1] - dofs().first_equation[n]);
   }
   std::vector<std::pair<int, int>> edges;
   edges.reserve(assembly_map_.edges().size());
@@ -119,22 +68,12 @@ std::vector<int> FrameSystem::elimination_order() const {
     edges.emplace_back(index[static_cast<std::size_t>(v)], index[static_cast<std::size_t>(w)]);
   }
   std::vector<int> order;
-  order.reserve(static_cast<std::size_t>(dofs_.equations));
+  order.reserve(static_cast<std::size_t>(dofs().equations));
   for (int a : order_nodes(static_cast<int>(active.size()), edges, freedoms)) {
     const auto v = static_cast<std::size_t>(active[static_cast<std::size_t>(a)]);
-    for (int e = dofs_.first_equation[v]; e < dofs_.first_equation[v + 1]; ++e) order.push_back(e);
+    for (int e = dofs().first_equation[v]; e < dofs().first_equation[v + 1]; ++e) order.push_back(e);
   }
   return order;
-}
-
-void FrameSystem::add_diaphragm_arms(std::span<const int> nodes, Eigen::Ref<Eigen::MatrixXd> K) const {
-  for (std::size_t k = 0; k < nodes.size(); ++k) {
-    if (dofs_.diaphragm_of_node[static_cast<std::size_t>(nodes[k])] < 0) continue;
-    const Mat3 C = dofs_.diaphragm_arm(nodes[k]);
-    const auto n = static_cast<Eigen::Index>(6 * k);
-    K.middleRows<3>(n + 3) += C.transpose() * K.middleRows<3>(n);
-    K.middleCols<3>(n + 3) += K.middleCols<3>(n) * C;
-  }
 }
 
 void FrameSystem::add_element(std::size_t element, const std::vector<char>& wanted) {
@@ -157,28 +96,19 @@ double& FrameSystem::entry(int equation, int other) {
   return matrix_.value[static_cast<std::size_t>(assembly_map_.position(equation, other))];
 }
 
-void FrameSystem::add_support_springs(int node) { add_diagonal(node, own_springs(node), matrix_); }
-
-void FrameSystem::forget_inert_motions(std::size_t node) {
-  for (std::size_t kind = 0; kind < inert_.size(); ++kind) {
-    if (inert_[kind][node].count > 0) --inert_nodes_[kind];
-    inert_[kind][node].count = 0;
-  }
-}
-
 /// A node turned about an axis that no element resists strains nothing, bears nothing and belongs to nobody: a node of
 /// a truss. It is held at zero, in any direction in space; unbalanced_load() refuses a moment about it. Of a frame that
 /// moves the same goes for a translation that has neither stiffness nor mass: what breaks may leave a node on nothing
 /// but a membrane.
-void FrameSystem::hold_inert_motions(int node, Motion kind) {
+void FrameSystem::hold_inert_motions(int node, InertMotions::Kind kind) {
   constexpr double inert_limit = 1e-13;  // of the largest stiffness of its kind at the node: rounding of rotated zeros
   const auto n = static_cast<std::size_t>(node), k = static_cast<std::size_t>(kind);
-  const bool in_diaphragm = dofs_.diaphragm_of_node[n] >= 0;
+  const bool in_diaphragm = dofs().diaphragm_of_node[n] >= 0;
   std::array<int, 3> component{}, equation{};
   std::size_t free = 0;
   for (int c = 0; c < 3; ++c) {
-    const int e = dofs_.number[n][3 * k + static_cast<std::size_t>(c)];
-    if (e >= dofs_.equations || (in_diaphragm && (c == 2) == (kind == Motion::rotation))) continue;
+    const int e = dofs().number[n][3 * k + static_cast<std::size_t>(c)];
+    if (e >= dofs().equations || (in_diaphragm && (c == 2) == (kind == InertMotions::Kind::rotation))) continue;
     component[free] = c;
     equation[free++] = e;
   }
@@ -206,14 +136,11 @@ void FrameSystem::hold_inert_motions(int node, Motion kind) {
   // A cheap test first: the determinant of a well-braced node is far from zero.
   if (largest > 0 && block.determinant() > 1e-9 * held * held * held) return;
   const Eigen::SelfAdjointEigenSolver<Mat3> modes(block);
-  InertNode& inert = inert_[k][n];
   for (int m = 0; m < 3; ++m) {
     if (std::abs(modes.eigenvalues()(m)) > inert_limit * held)
       continue;  // below zero: a softened node, not an inert one
     const Vec3 d = modes.eigenvectors().col(m);
-    if (inert.count == 0) ++inert_nodes_[k];
-    inert.directions.col(inert.count++) = d;
-    inert.stiffness = held;
+    inert_.add(kind, n, d, held);
     for (std::size_t i = 0; i < free; ++i) {
       for (std::size_t j = 0; j <= i; ++j) {
         entry(equation[i], equation[j]) += held * d(component[i]) * d(component[j]) *
@@ -227,15 +154,15 @@ void FrameSystem::hold_inert_motions(int node, Motion kind) {
 void FrameSystem::finish_node(int node) {
   const auto n = static_cast<std::size_t>(node);
   if (node_stands[n] == 0) {
-    for (int e = dofs_.first_equation[n]; e < dofs_.first_equation[n + 1]; ++e) entry(e, e) = 1;
-    forget_inert_motions(n);
+    for (int e = dofs().first_equation[n]; e < dofs().first_equation[n + 1]; ++e) entry(e, e) = 1;
+    inert_.forget(n);
     return;
   }
-  add_support_springs(node);
-  add_node_mass(node);
-  forget_inert_motions(n);
-  if (inertia != nullptr) hold_inert_motions(node, Motion::translation);
-  hold_inert_motions(node, Motion::rotation);
+  add_diagonal(node, own_springs(node), matrix_);
+  if (inertia != nullptr) add_diagonal(node, inertia->at_node[n], mass_);
+  inert_.forget(n);
+  if (inertia != nullptr) hold_inert_motions(node, InertMotions::Kind::translation);
+  hold_inert_motions(node, InertMotions::Kind::rotation);
 }
 
 /// A diaphragm whose nodes have all left is held.
@@ -246,16 +173,16 @@ void FrameSystem::finish_diaphragms(const std::vector<char>& wanted) {
     const auto& nodes = model.diaphragms[d].nodes;
     if (std::any_of(nodes.begin(), nodes.end(), [&](int n) { return node_stands[static_cast<std::size_t>(n)] != 0; }))
       continue;
-    for (int e = dofs_.first_equation[v]; e < dofs_.first_equation[v + 1]; ++e) entry(e, e) = 1;
+    for (int e = dofs().first_equation[v]; e < dofs().first_equation[v + 1]; ++e) entry(e, e) = 1;
   }
 }
 
 void FrameSystem::set_scale() {
-  for (int e = 0; e < dofs_.equations; ++e) {
+  for (int e = 0; e < dofs().equations; ++e) {
     const double diagonal = entry(e, e);
     scale_[static_cast<std::size_t>(e)] = diagonal > 0 ? std::exp2(-std::round(std::log2(diagonal) / 2)) : 1.0;
   }
-  for (int column = 0; column < dofs_.equations; ++column) {
+  for (int column = 0; column < dofs().equations; ++column) {
     const auto c = static_cast<std::size_t>(column);
     for (auto k = matrix_.start[c]; k < matrix_.start[c + 1]; ++k) {
       const auto i = static_cast<std::size_t>(k);
@@ -313,11 +240,11 @@ void FrameSystem::want_node(int node) {
 
 /// The vertices of these nodes; a diaphragm takes all of its nodes along.
 void FrameSystem::want_vertices_of(std::span<const int> nodes) {
-  wanted_.resize(static_cast<std::size_t>(dofs_.vertices()), 0);
+  wanted_.resize(static_cast<std::size_t>(dofs().vertices()), 0);
   wanted_nodes_.clear();
   for (int node : nodes) {
     want_node(node);
-    const int d = dofs_.diaphragm_of_node[static_cast<std::size_t>(node)];
+    const int d = dofs().diaphragm_of_node[static_cast<std::size_t>(node)];
     if (d < 0) continue;
     wanted_[model.nodes.size() + static_cast<std::size_t>(d)] = 1;
     for (int other : model.diaphragms[static_cast<std::size_t>(d)].nodes) want_node(other);
@@ -332,9 +259,9 @@ void FrameSystem::reassemble(std::span<const int> nodes) {
   wanted_elements_.clear();
   for (const int n : wanted_nodes_) {
     const auto node = static_cast<std::size_t>(n);
-    wanted_elements_.insert(wanted_elements_.end(), elements_of_node_[node].begin(), elements_of_node_[node].end());
-    for (int e = dofs_.first_equation[node]; e < dofs_.first_equation[node + 1]; ++e) {
-      for (int f = dofs_.first_equation[node]; f <= e; ++f) entry(e, f) = 0;
+    wanted_elements_.insert(wanted_elements_.end(), elements_of_node(node).begin(), elements_of_node(node).end());
+    for (int e = dofs().first_equation[node]; e < dofs().first_equation[node + 1]; ++e) {
+      for (int f = dofs().first_equation[node]; f <= e; ++f) entry(e, f) = 0;
     }
   }
   std::sort(wanted_elements_.begin(), wanted_elements_.end());
@@ -346,6 +273,24 @@ void FrameSystem::reassemble(std::span<const int> nodes) {
   finish_diaphragms(wanted_);
   for (const int node : wanted_nodes_) wanted_[static_cast<std::size_t>(node)] = 0;
   std::fill(wanted_.begin() + static_cast<std::ptrdiff_t>(model.nodes.size()), wanted_.end(), char{0});
+}
+
+Vec6 FrameSystem::node_displacement_of_scaled(int node, const Eigen::VectorXd& solution) const {
+  const auto n = static_cast<std::size_t>(node);
+  Vec6 u = Vec6::Zero();
+  if (node_stands[n] == 0) return u;
+  for (std::size_t c = 0; c < 6; ++c) {
+    const int e = dofs().number[n][c];
+    if (e < dofs().equations) u(static_cast<Eigen::Index>(c)) = solution(e) * scale_[static_cast<std::size_t>(e)];
+  }
+  u(0) -= dofs().arm[n][1] * u(5);
+  u(1) += dofs().arm[n][0] * u(5);
+  return u;
+}
+
+void FrameSystem::node_displacements_of_scaled(const Eigen::VectorXd& solution, std::vector<Vec6>& result) const {
+  for (std::size_t n = 0; n < result.size(); ++n)
+    result[n] = node_displacement_of_scaled(static_cast<int>(n), solution);
 }
 
 }  // namespace topple::solver

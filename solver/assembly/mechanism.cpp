@@ -1,4 +1,5 @@
 #include "assembly/mechanism.h"
+#include "assembly/frame_recovery.h"
 
 #include <algorithm>
 #include <cmath>
@@ -80,7 +81,7 @@ Defect motion_defect(const FrameSystem& system, const Eigen::VectorXd& scaled_mo
   Defect defect;
   Eigen::VectorXd u(scaled_motion.size());
   for (Eigen::Index i = 0; i < u.size(); ++i) u(i) = scaled_motion(i) * system.scale()[static_cast<std::size_t>(i)];
-  defect.motion.motion = system.node_displacements(u, Eigen::VectorXd::Zero(system.dofs().held));
+  defect.motion.motion = node_displacements(system, u, Eigen::VectorXd::Zero(system.dofs().held));
   normalise(defect.motion, mean_beam_length(system.model));
   defect.message = describe(defect.motion);
   return defect;

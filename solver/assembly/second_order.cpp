@@ -3,6 +3,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "assembly/frame_loads.h"
+#include "assembly/frame_recovery.h"
 #include "assembly/frame_system.h"
 #include "assembly/mechanism.h"
 #include "assembly/refinement.h"
@@ -153,7 +155,7 @@ struct SecondOrderAnalysis::State {
   StaticSolution solve(const LoadSet& loads) {
     const auto start = std::chrono::steady_clock::now();
     const double factorising = statistics.factor_seconds;
-    const LoadVector load = system_.load_vector(loads);
+    const LoadVector load = load_vector(system_, loads);
     require_none(system_.unbalanced_load(load));
     const Eigen::Index n = system_.dofs().equations;
     Eigen::MatrixXd b(n, 1);
@@ -184,7 +186,7 @@ struct SecondOrderAnalysis::State {
 
   [[nodiscard]] StaticSolution recover(const LoadVector& load, const Eigen::VectorXd& u) const {
     LoadVector used_up = load;
-    StaticSolution solution = std::move(system_.recover({&used_up, 1}, u, options_.threads).front());
+    StaticSolution solution = std::move(recover_solutions(system_, {&used_up, 1}, u, options_.threads).front());
     if (axial_.mode == SecondOrder::frame3dd) print_as_frame3dd(load, solution);
     return solution;
   }

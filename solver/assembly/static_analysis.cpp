@@ -6,6 +6,8 @@
 #include <optional>
 #include <stdexcept>
 
+#include "assembly/frame_loads.h"
+#include "assembly/frame_recovery.h"
 #include "assembly/frame_system.h"
 #include "assembly/mechanism.h"
 #include "assembly/refinement.h"
@@ -114,7 +116,7 @@ std::vector<StaticSolution> answers(const Prepared& prepared, std::vector<LoadVe
                                     RefinedSolution refined) {
   const FrameSystem& system = prepared.system;
   refined.x.array().colwise() *= Eigen::Map<const Eigen::ArrayXd>(system.scale().data(), system.dofs().equations);
-  std::vector<StaticSolution> solutions = system.recover(vectors, refined.x, prepared.options.threads);
+  std::vector<StaticSolution> solutions = recover_solutions(system, vectors, refined.x, prepared.options.threads);
   for (std::size_t j = 0; j < vectors.size(); ++j) solutions[j].quality = refined.quality[j];
   return solutions;
 }
@@ -175,7 +177,7 @@ std::vector<StaticSolution> solve_each(Prepared& prepared, std::span<const LoadS
   std::vector<StaticSolution> solutions;
   {
     const Stopwatch watch(prepared.statistics.solve_seconds);
-    std::vector<LoadVector> vectors = prepared.system.load_vectors(loads);
+    std::vector<LoadVector> vectors = load_vectors(prepared.system, loads);
     for (const LoadVector& vector : vectors) require_none(prepared.system.unbalanced_load(vector));
     const Eigen::MatrixXd b = prepared.right_hand_sides(vectors);
     RefinedSolution refined{b, std::vector<SolveQuality>(loads.size())};
@@ -261,7 +263,7 @@ std::optional<std::vector<StaticSolution>> add_up(Prepared& prepared, std::span<
   {
     const Stopwatch watch(prepared.statistics.solve_seconds);
     const FrameSystem& system = prepared.system;
-    const std::vector<LoadVector> vectors = system.load_vectors(cases);
+    const std::vector<LoadVector> vectors = load_vectors(system, cases);
     for (const LoadVector& vector : vectors)
       if (system.unbalanced_load(vector)) return std::nullopt;
     const int threads = prepared.options.threads;

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "assembly/frame_loads.h"
 #include "assembly/mass_matrix.h"
 #include "assembly/scaled_equations.h"
 #include "dynamics/products.h"
@@ -51,7 +52,7 @@ void LoadPatterns::accept() {
 
 void LoadPatterns::find(const FrameSystem& system, Pattern& pattern) {
   if (pattern.kind == Pattern::Kind::loads) {
-    LoadVector load = system.load_vector(pattern.loads);
+    LoadVector load = load_vector(system, pattern.loads);
     system.drop_idle_loads(load);
     pattern.force = scaled_force(system, load.force);
     pattern.fixed_end.clear();

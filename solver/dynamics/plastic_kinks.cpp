@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "assembly/frame_loads.h"
 #include "assembly/scaled_equations.h"
 
 namespace topple::solver {
@@ -47,7 +48,7 @@ void PlasticKinks::find(const FrameSystem& system, std::size_t k) {
   (kink.end == 0 ? angle.first : angle.last)(kink.component) = 1;
   LoadSet loads;
   loads.beams = {angle};
-  LoadVector load = system.load_vector(loads);
+  LoadVector load = load_vector(system, loads);
   system.drop_idle_loads(load);
   kink.force = scaled_force(system, load.force).sparseView();
   kink.fixed_end = load.beam_fixed_end[static_cast<std::size_t>(kink.beam)];

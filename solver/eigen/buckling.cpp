@@ -6,6 +6,7 @@
 #include <numeric>
 #include <optional>
 
+#include "assembly/frame_recovery.h"
 #include "assembly/frame_system.h"
 #include "assembly/mass_matrix.h"
 #include "eigen/buckling_pairs.h"
@@ -72,7 +73,7 @@ class Buckling {
     Eigen::VectorXd x = pair.vector;
     for (Eigen::Index i = 0; i < x.size(); ++i)
       x(i) *= unloaded_scale_[static_cast<std::size_t>(i)] / system_.scale()[static_cast<std::size_t>(i)];
-    return system_.shape(x);
+    return normalised_shape(system_, x);
   }
 
   /// What the counts made so far leave for the k-th factor: `high` stays when none has been beyond it.
@@ -174,7 +175,7 @@ class Buckling {
     constexpr double singular = 1e5;  // what a vector grows by where the tangent is all but singular
     if (growth < singular) return shape;
     known.push_back(x);
-    return system_.shape(x);
+    return normalised_shape(system_, x);
   }
 
   [[nodiscard]] bool has_compression() const {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "assembly/frame_recovery.h"
 #include "assembly/frame_system.h"
 #include "assembly/mass_matrix.h"
 #include "assembly/mechanism.h"
@@ -153,7 +154,7 @@ class Modes {
           found.vectors.col(m) / std::sqrt(found.vectors.col(m).dot(mass_->times(found.vectors.col(m)).col(0)));
       for (std::size_t c = 0; c < 6; ++c)
         if (total[c] > 0) mode.mass_share[c] = std::pow(x.dot(pushed[c]), 2) / total[c];
-      mode.shape = system_.shape(x);
+      mode.shape = normalised_shape(system_, x);
       answer.modes.push_back(std::move(mode));
     }
   }

@@ -5,6 +5,8 @@
 #include <stdexcept>
 
 #include "assembly/checked_index.h"
+#include "assembly/frame_loads.h"
+#include "assembly/frame_recovery.h"
 #include "elements/beam_energy.h"
 #include "reanalysis/reanalysis_state.h"
 #include "topple/solver/beam_diagram.h"
@@ -172,7 +174,7 @@ Eigen::MatrixXd Reanalysis::State::forces_on_standing(std::span<const LoadSet> l
   if (!stands()) throw Instability("the structure does not stand: it has no response", answer.mechanism);
   Eigen::MatrixXd forces;
   for (std::size_t i = 0; i < loads.size(); ++i) {
-    own.push_back(system->load_vector(loads[i]));
+    own.push_back(load_vector(*system, loads[i]));
     system->drop_idle_loads(own[i]);
     require_none(system->unbalanced_load(own[i], negligible_lever));
     if (i == 0) forces.resize(own[0].force.size(), static_cast<Eigen::Index>(loads.size()));
@@ -190,7 +192,7 @@ std::vector<Reanalysis::Response> Reanalysis::respond(std::span<const LoadSet> l
   std::vector<Response> responses(loads.size());
   for (std::size_t i = 0; i < loads.size(); ++i) {
     responses[i].displacements =
-        state.system->node_displacements(u.col(static_cast<Eigen::Index>(i)), own[i].held_displacement);
+        node_displacements(*state.system, u.col(static_cast<Eigen::Index>(i)), own[i].held_displacement);
     responses[i].fixed_end = fixed_end_of(loads[i], own[i]);
     responses[i].backward_error = errors[i];
   }
@@ -216,7 +218,7 @@ std::vector<Reanalysis::Response> Reanalysis::respond_near(std::span<const LoadS
   std::vector<Response> responses(loads.size());
   for (std::size_t i = 0; i < loads.size(); ++i) {
     responses[i].displacements =
-        state.system->node_displacements(u.col(static_cast<Eigen::Index>(i)), own[i].held_displacement);
+        node_displacements(*state.system, u.col(static_cast<Eigen::Index>(i)), own[i].held_displacement);
     responses[i].fixed_end = fixed_end_of(loads[i], own[i]);
     for (std::size_t n = 0; n < known.size(); ++n)
       if (known[n] == 0) responses[i].displacements[n].setZero();

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "assembly/frame_recovery.h"
 #include "assembly/frame_system.h"
 #include "reanalysis/carried_solution.h"
 #include "reanalysis/changing_load.h"
@@ -128,7 +129,7 @@ struct Reanalysis::State {
     std::vector<std::array<Vec6, 4>> corners;
     for (std::size_t i = 0; i < system->model.shells.size(); ++i)
       corners.push_back(corner_forces_of(static_cast<int>(i)));
-    return system->reactions(displacements, ends, corners, load.on_nodes());
+    return support_reactions(*system, displacements, ends, corners, load.on_nodes());
   }
   /// The forces that loads make, a column each, of a structure that stands; throws Instability.
   [[nodiscard]] Eigen::MatrixXd forces_on_standing(std::span<const LoadSet> loads, std::vector<LoadVector>& own) const;

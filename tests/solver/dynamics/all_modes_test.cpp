@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
 
+#include "assembly/frame_recovery.h"
 #include "assembly/frame_system.h"
 #include "frames.h"
 #include "topple/solver/frame_dynamics.h"
@@ -111,7 +112,7 @@ Eigen::VectorXd exact_peaks(const Loss& loss) {
     }
     const Eigen::MatrixXd u = (modes.eigenvectors() * q).colwise() + still;
     for (int k = 0; k < together; ++k) {
-      const std::vector<Vec6> nodes = system.node_displacements(u.col(k), Eigen::VectorXd::Zero(system.dofs().held));
+      const std::vector<Vec6> nodes = node_displacements(system, u.col(k), Eigen::VectorXd::Zero(system.dofs().held));
       for (int b = 0; b < beams; ++b)
         if (b != loss.post)
           peaks.segment<2>(2 * b) =

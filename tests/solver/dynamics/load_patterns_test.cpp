@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "assembly/frame_loads.h"
 #include "assembly/scaled_equations.h"
 #include "frames.h"
 
@@ -17,7 +18,7 @@ TEST_CASE("a load that goes with time is known at both ends of a substep, and ju
   loads.beams = {uniform_load(3, system.model.beams[3].length, unit(2, -50))};
   const int pattern = patterns.add(loads);
   patterns.find(system);
-  const Eigen::VectorXd whole = scaled_force(system, system.load_vector(loads).force);
+  const Eigen::VectorXd whole = scaled_force(system, load_vector(system, loads).force);
   const auto force = [&](double share_of_start) {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(system.dofs().equations);
     patterns.add_to(share_of_start, sum);
