@@ -167,7 +167,8 @@ const Registration registration{
            ->allow_extra_args(false)
            ->check(in_range(structure::ranges::instant));
        app.add_option("--resume", options->resume, "Go on from a snapshot of the same scenario");
-       app.add_option("--threads", options->threads, "Threads of the solver")->check(whole_number(1, 256));
+       app.add_option("--threads", options->threads, "Threads of statics and debris; they change no number")
+           ->check(whole_number(1, 256));
        return [options] { return demolish(*options); };
      }}};
 

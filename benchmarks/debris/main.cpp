@@ -1,8 +1,9 @@
 // Debris that falls, lies and sleeps under a contact solver: what a step costs, how far things are inside each other,
 // when they rest, how true the forces are, energy, momentum, and whether two runs agree to the bit. One line of JSON
 // for each scene as it is done.
-//   bench_debris [--engine small-steps|sequential-impulse] [--seed N] [--runs N] [SCENE]...
+//   bench_debris [--engine small-steps|sequential-impulse] [--seed N] [--runs N] [--threads N] [--clock] [SCENE]...
 // --seed: of places and turns (default 1); --runs: how often a scene runs again for its times and bits (default 1);
+// --threads: that share a step (default 1); --clock: times by the clock, as always with threads, not of the processor;
 // scenes: default all, by the names that --scenes lists.
 #include <cinttypes>
 #include <cstdio>
@@ -14,6 +15,7 @@
 #include "support/measure.h"
 #include "topple/collision/sequential_impulse.h"
 #include "topple/collision/small_steps.h"
+#include "topple/solver/thread_pool.h"
 
 namespace {
 
@@ -22,7 +24,8 @@ using namespace topple::bench;
 struct Options {
   std::string engine = "small-steps";
   unsigned seed = 1;
-  int runs = 1;
+  int runs = 1, threads = 1;
+  bool clock = false;
   std::vector<std::string> scenes;
 };
 
@@ -30,6 +33,16 @@ MakeWorld engine_of(const std::string& name) {
   if (name == "small-steps") return topple::collision::make_small_steps_world;
   if (name == "sequential-impulse") return topple::collision::make_sequential_impulse_world;
   throw std::invalid_argument("no engine " + name + "; accepted: small-steps, sequential-impulse");
+}
+
+MakeWorld on_threads(MakeWorld make_world, int threads) {
+  if (threads == 1) return make_world;
+  const auto pool = std::make_shared<topple::solver::ThreadPool>(threads);
+  return [make_world, pool] {
+    auto world = make_world();
+    world->set_parallel_for([pool](std::size_t count, const auto& work) { pool->run(count, work); }, pool->threads());
+    return world;
+  };
 }
 
 unsigned count_of(const std::string& option, const std::string& text) {
@@ -59,8 +72,9 @@ void residuals(const std::string& when, const Residuals& of) {
 
 void print(const DebrisScene& scene, const Options& options, const DebrisMeasures& first, const Spread& times,
            bool same_bits) {
-  std::printf("{\"scene\": \"%s\", \"what\": \"%s\", \"engine\": \"%s\", \"seed\": %u, \"bodies\": %zu",
-              scene.name.c_str(), scene.what.c_str(), options.engine.c_str(), options.seed, first.bodies);
+  std::printf(
+      "{\"scene\": \"%s\", \"what\": \"%s\", \"engine\": \"%s\", \"seed\": %u, \"threads\": %d, \"bodies\": %zu",
+      scene.name.c_str(), scene.what.c_str(), options.engine.c_str(), options.seed, options.threads, first.bodies);
   number("milliseconds", times.median);
   number("low", times.low);
   number("high", times.high);
@@ -83,12 +97,13 @@ void print(const DebrisScene& scene, const Options& options, const DebrisMeasure
 
 void measure(const std::string& name, const Options& options) {
   const DebrisScene scene = debris_scene(name, options.seed);
-  const MakeWorld make_world = engine_of(options.engine);
+  const MakeWorld make_world = on_threads(engine_of(options.engine), options.threads);
   const DebrisMeasures first = measure_debris(scene, make_world);
   std::vector<double> times;
   bool same_bits = true;
   for (int i = 0; i < options.runs; ++i) {
-    const DebrisMeasures again = time_debris(scene, make_world);
+    const DebrisMeasures again =
+        time_debris(scene, make_world, options.threads > 1 || options.clock ? StepTime::clock : StepTime::processor);
     times.push_back(again.milliseconds);
     same_bits = same_bits && again.bits == first.bits;
   }
@@ -108,13 +123,18 @@ int main(int argc, char** argv) {
         options.seed = count_of(option, argv[++i]);
       } else if (option == "--runs" && i + 1 < argc) {
         options.runs = static_cast<int>(count_of(option, argv[++i]));
+      } else if (option == "--threads" && i + 1 < argc) {
+        options.threads = static_cast<int>(count_of(option, argv[++i]));
+      } else if (option == "--clock") {
+        options.clock = true;
       } else if (option == "--scenes") {
         for (const std::string& name : debris_scene_names()) std::cout << name << '\n';
         return 0;
       } else if (option.starts_with("-")) {
         throw std::invalid_argument(
-            "usage: bench_debris [--engine small-steps|sequential-impulse] [--seed N] [--runs N] [--scenes] "
-            "[SCENE]...");
+            "usage: bench_debris [--engine small-steps|sequential-impulse] [--seed N] [--runs N] [--threads N] "
+            "[--clock] "
+            "[--scenes] [SCENE]...");
       } else {
         options.scenes.push_back(option);
       }

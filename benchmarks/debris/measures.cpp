@@ -16,10 +16,10 @@ constexpr int kLook = 6;                // steps from look to look at overlaps
 constexpr double kSlow = 0.02;          // m/s
 constexpr double kWorthTelling = 0.01;  // m that everything falls: less is no fall, and its share says nothing
 
-/// Of all threads of this program, ms.
-double processor_time() {
+/// ms; the processor's: of all threads of this program.
+double time_by(StepTime by) {
   timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  clock_gettime(by == StepTime::clock ? CLOCK_MONOTONIC : CLOCK_PROCESS_CPUTIME_ID, &time);
   return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
 }
 
@@ -47,7 +47,8 @@ class Bits {
 
 /// Times and bits of a run; `before` and `after` are called around each step.
 template <class Before, class After>
-DebrisMeasures run_scene(DebrisRun& run, const DebrisScene& scene, const Before& before, const After& after) {
+DebrisMeasures run_scene(DebrisRun& run, const DebrisScene& scene, StepTime by, const Before& before,
+                         const After& after) {
   const int steps = static_cast<int>(std::lround(scene.seconds / kDebrisStep));
   std::vector<double> times;
   Bits bits;
@@ -56,9 +57,9 @@ DebrisMeasures run_scene(DebrisRun& run, const DebrisScene& scene, const Before&
     const bool added = run.begin_step(k);
     before(added);
     const bool awake = run.world().awake_count() > 0;
-    const double begun = processor_time();
+    const double begun = time_by(by);
     run.step();
-    if (awake) times.push_back(processor_time() - begun);
+    if (awake) times.push_back(time_by(by) - begun);
     for (const collision::BodyId id : run.bodies()) bits.add(run.world().state(id));
     after(k);
   }
@@ -139,10 +140,10 @@ class Energies {
 
 }  // namespace
 
-DebrisMeasures time_debris(const DebrisScene& scene, const MakeWorld& make_world) {
+DebrisMeasures time_debris(const DebrisScene& scene, const MakeWorld& make_world, StepTime by) {
   DebrisRun run(scene, make_world());
   return run_scene(
-      run, scene, [](bool) {}, [](int) {});
+      run, scene, by, [](bool) {}, [](int) {});
 }
 
 DebrisMeasures measure_debris(const DebrisScene& scene, const MakeWorld& make_world) {
@@ -158,7 +159,7 @@ DebrisMeasures measure_debris(const DebrisScene& scene, const MakeWorld& make_wo
     deepest = std::max(deepest, overlaps.deepest);
   };
   DebrisMeasures measured = run_scene(
-      run, scene,
+      run, scene, StepTime::processor,
       [&](bool added) {
         energies.begin(run, added);
         balances.begin_step(run, run.world());

@@ -12,7 +12,7 @@ namespace topple::bench {
 
 struct DebrisMeasures {
   std::size_t bodies = 0;
-  double milliseconds = 0;  ///< processor time of a step while anything is awake, median
+  double milliseconds = 0;  ///< of a step while anything is awake, median
   double worst_milliseconds = 0;
   std::size_t awake_steps = 0;
   Overlaps at_end;
@@ -27,11 +27,14 @@ struct DebrisMeasures {
   std::uint64_t bits = 0;         ///< of all states of all steps
 };
 
+/// Of the processor, or of the clock on the wall: what several threads share.
+enum class StepTime { processor, clock };
+
 using MakeWorld = std::function<std::unique_ptr<collision::World>()>;
 
 /// Overlaps are looked at each tenth of a second.
 [[nodiscard]] DebrisMeasures measure_debris(const DebrisScene& scene, const MakeWorld& make_world);
 /// The same run, without a look at anything but times and bits.
-[[nodiscard]] DebrisMeasures time_debris(const DebrisScene& scene, const MakeWorld& make_world);
+[[nodiscard]] DebrisMeasures time_debris(const DebrisScene& scene, const MakeWorld& make_world, StepTime by);
 
 }  // namespace topple::bench

@@ -19,6 +19,7 @@ SHOWN = [(key, title) for key, title in COLUMNS if key in ("scene", "engine", "b
                                                           "created", "momentum", "same_bits")]
 ENGINES = ("small-steps", "sequential-impulse")
 SEEDS, QUICK_SEEDS = 3, 1
+THREADED = ("chunks", "heap")
 ONCE = ("heap",)  # by one seed: it is long
 QUICK = ("plank", "heavy_10", "heavy_100", "heavy_1000", "stack", "lean", "dominoes", "thrown", "slabs", "floor")
 WORST = ("worst_milliseconds", "deepest_mm", "deepest_end_mm", "created", "momentum", "angular_momentum")
@@ -43,8 +44,8 @@ plot %s
 COLOURS = {"small-steps": "#1e8449", "sequential-impulse": "#c0392b"}
 
 
-def measured(context, engine, scene, seed):
-    done = subprocess.run([os.path.join(context.programs, "bench_debris"), "--engine", engine, "--seed", str(seed), scene], capture_output=True, text=True)
+def measured(context, engine, scene, seed, more=()):
+    done = subprocess.run([os.path.join(context.programs, "bench_debris"), "--engine", engine, "--seed", str(seed), *more, scene], capture_output=True, text=True)
     if done.returncode != 0:
         raise RuntimeError("bench_debris %s: %s" % (scene, done.stderr.strip()))
     return json.loads(done.stdout)
@@ -103,6 +104,18 @@ def verdict(rows):
     return lines
 
 
+def on_threads(context, scene):
+    """A line of what the second thread brings, by the clock; None where the machine has one processor."""
+    if (os.cpu_count() or 1) < 2:
+        return None
+    runs = 1 if context.quick else 3
+    alone, shared = (measured(context, "small-steps", scene, 1, ("--runs", str(runs), "--clock", "--threads", str(threads))) for threads in (1, 2))
+    if alone["bits"] != shared["bits"] or not shared["same_bits"]:
+        context.broken.append("debris: %s on two threads differs from one" % scene)
+    return "debris, %s: %.2f ms a step on one thread, %.2f on two (%.2f times as fast), bits %s" % (
+        scene, alone["milliseconds"], shared["milliseconds"], alone["milliseconds"] / shared["milliseconds"], "the same" if alone["bits"] == shared["bits"] else "not the same")
+
+
 def run(context):
     engines = ENGINES if context.engine == "both" else (context.engine,)
     scenes = subprocess.run([os.path.join(context.programs, "bench_debris"), "--scenes"], capture_output=True, text=True, check=True).stdout.split()
@@ -115,6 +128,7 @@ def run(context):
             rows.append(together([measured(context, engine, scene, seed) for seed in range(1, seeds + 1)]))
             output.progress(context, "debris: %s, %s" % (scene, engine))
     lines = verdict(rows)
+    lines += [line for line in (on_threads(context, scene) for scene in THREADED if not context.quick or scene in QUICK) if line]
     for line in lines:
         print("bench: " + line)
     for row in rows:

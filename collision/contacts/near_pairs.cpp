@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
-#include <tuple>
 
 namespace topple::collision {
 
@@ -126,9 +125,7 @@ void NearPairs::add_pair(std::uint32_t a, std::uint32_t b) {
   NearPair& made = pairs_[index];
   made.first = a;
   made.second = b;
-  ends_[index] = {a, b, -1, false};
-  made.first_order = colliders_[a].order;
-  made.second_order = colliders_[b].order;
+  ends_[index] = {a, b, colliders_[a].order, colliders_[b].order};
   made_.push_back(index);
 }
 
@@ -166,10 +163,7 @@ void NearPairs::find() {
     colliders_[index].moved = false;
   }
   moved_.clear();
-  const auto before = [&](std::uint32_t a, std::uint32_t b) {
-    return std::tie(pairs_[a].first_order, pairs_[a].second_order) <
-           std::tie(pairs_[b].first_order, pairs_[b].second_order);
-  };
+  const auto before = [&](std::uint32_t a, std::uint32_t b) { return in_order(a, b); };
   std::sort(made_.begin(), made_.end(), before);
   const auto middle = static_cast<std::ptrdiff_t>(order_.size());
   order_.insert(order_.end(), made_.begin(), made_.end());

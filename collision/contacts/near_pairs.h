@@ -39,14 +39,15 @@ struct Collider {
 
 /// What is asked of every pair in every step, apart from what few are asked for.
 struct PairEnds {
-  std::uint32_t first = 0, second = 0;  ///< colliders, by order
+  std::uint32_t first = 0, second = 0;              ///< colliders, by order
+  std::uint64_t first_order = 0, second_order = 0;  ///< of the colliders
   double free_until = -1;  ///< m: there is no contact before the two have come so far together, by what they have gone
   bool touches = false;    ///< there are contacts
+  bool rests = false;      ///< it has borne something that sleeps
 };
 
 struct NearPair {
   std::uint32_t first = 0, second = 0;  ///< colliders, by order
-  std::uint64_t first_order = 0, second_order = 0;
   Manifold manifold;
   SeparatingAxis axis;
   Mat3 turn = Mat3::Identity();    ///< of the second in the first's frame when contacts were last sought ...
@@ -88,6 +89,12 @@ class NearPairs {
   /// Brings the pairs up to date.
   void find();
 
+  /// Whether the one pair comes before the other, in order of their colliders.
+  [[nodiscard]] bool in_order(std::uint32_t a, std::uint32_t b) const {
+    const PairEnds &first = ends_[a], &second = ends_[b];
+    return first.first_order != second.first_order ? first.first_order < second.first_order
+                                                   : first.second_order < second.second_order;
+  }
   [[nodiscard]] const Collider& collider(std::uint32_t index) const { return colliders_[index]; }
   /// In order of their colliders.
   [[nodiscard]] const std::vector<std::uint32_t>& order() const { return order_; }

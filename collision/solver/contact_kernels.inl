@@ -100,7 +100,7 @@ TOPPLE_INLINE void store(const ContactPack& pack, const Both& from, Motion6* to)
   scatter(from.second, pack.second_body, to);
 }
 
-void warm_start(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity,
+bool warm_start(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity,
                 const Motion6*, const SubStep&) {
   for (std::size_t k = begin; k < end; ++k) {
     const ContactPack& pack = packs[k];
@@ -115,6 +115,7 @@ void warm_start(ContactPack* packs, PackPoint* points, std::size_t begin, std::s
     turn(pack, pack.twist, now);
     store(pack, now, velocity);
   }
+  return false;
 }
 
 TOPPLE_INLINE Wide magnitude(const Wide& a) { return a > all(0) ? a : -a; }
@@ -136,11 +137,11 @@ TOPPLE_INLINE Wide stopping(const ContactPack& pack, const PackPoint& point, con
   return larger(point.impulse - point.mass * (speed + bias), none);
 }
 
-void solve(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity,
+bool solve(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity,
            const Motion6* displacement, const SubStep& step) {
   const Wide rate = all(1 / step.length), none = all(0), one = all(1);
   const Wide settled = all(step.again->settled);
-  Wide over = none, energy = none;
+  Wide over = none;
   Wide* const changes = step.again->change;
   for (std::size_t k = begin; k < end; ++k) {
     ContactPack& pack = packs[k];
@@ -154,19 +155,20 @@ void solve(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t
       const Wide excess = magnitude(change) - settled * point.mass;
       over = larger(over, excess);
       if (changes) {
-        changes[pack.first_point + static_cast<std::size_t>(i)] = change;
-        energy += point.mass > none ? change * change / (point.mass > none ? point.mass : one) : none;
+        const std::size_t number = pack.first_point + static_cast<std::size_t>(i);
+        changes[number] = change;
+        step.again->energy[number] =
+            point.mass > none ? change * change / (point.mass > none ? point.mass : one) : none;
       }
       push(pack, pack.normal, point.first, point.second, change, now);
     }
     store(pack, now, velocity);
   }
-  if (any(over)) step.again->unsettled = true;
-  step.again->energy += energy[0] + energy[1] + energy[2] + energy[3];
+  return any(over);
 }
 
 /// Farther the way that passes have gone.
-void go_on(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity, const Motion6*,
+bool go_on(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity, const Motion6*,
            const SubStep& step) {
   const Wide share = all(step.again->share), none = all(0);
   for (std::size_t k = begin; k < end; ++k) {
@@ -185,6 +187,7 @@ void go_on(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t
     }
     store(pack, now, velocity);
   }
+  return false;
 }
 
 /// The patch slides and twists as one: both together are bounded by what presses it.
@@ -226,9 +229,10 @@ TOPPLE_INLINE bool concerned(const ContactPack& pack, const unsigned char* moved
   return one != 0;
 }
 
-void relax(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity, const Motion6*,
+bool relax(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity, const Motion6*,
            const SubStep& step) {
   const Wide rate = all(1 / step.length), settled = all(step.again->settled), none = all(0);
+  bool unsettled = false;
   for (std::size_t k = begin; k < end; ++k) {
     ContactPack& pack = packs[k];
     if (!concerned(pack, step.again->moved)) continue;
@@ -248,10 +252,12 @@ void relax(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t
     store(pack, now, velocity);
     for (int lane = 0; lane < kLanes; ++lane) {
       if (!(over[lane] > 0)) continue;
-      step.again->unsettled = true;
-      step.again->moves[pack.first_body[lane]] = step.again->moves[pack.second_body[lane]] = 1;
+      unsettled = true;
+      if (const int first = pack.first_body[lane]; first != 0) step.again->moves[first] = 1;
+      if (const int second = pack.second_body[lane]; second != 0) step.again->moves[second] = 1;
     }
   }
+  return unsettled;
 }
 
 TOPPLE_INLINE void add_up(ContactPack& pack, PackPoint* own) {
@@ -267,7 +273,7 @@ TOPPLE_INLINE void add_up(ContactPack& pack, PackPoint* own) {
   pack.twist_total += pack.twist;
 }
 
-void separate(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity,
+bool separate(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity,
               const Motion6*, const SubStep& step) {
   const Wide rate = all(1 / step.length), none = all(0), one = all(1), fastest = all(-step.pushed_apart);
   for (std::size_t k = begin; k < end; ++k) {
@@ -290,9 +296,10 @@ void separate(ContactPack* packs, PackPoint* points, std::size_t begin, std::siz
     }
     store(pack, now, velocity);
   }
+  return false;
 }
 
-void restitute(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity,
+bool restitute(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity,
                const Motion6*, const SubStep& step) {
   const Wide none = all(0), from = all(-step.restitution_from);
   for (std::size_t k = begin; k < end; ++k) {
@@ -311,6 +318,7 @@ void restitute(ContactPack* packs, PackPoint* points, std::size_t begin, std::si
     }
     store(pack, now, velocity);
   }
+  return false;
 }
 
 }  // namespace

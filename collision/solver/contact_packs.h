@@ -65,9 +65,8 @@ struct Again {
   double settled = 0;      ///< m/s: a pass that changes no point's speed by more is the last
   Wide* change = nullptr;  ///< of each point's impulse in the last pass; null: not kept
   Wide* way = nullptr;     ///< of each point
+  Wide* energy = nullptr;  ///< J, of each point: its change's square over its mass; written where changes are
   double share = 0;        ///< of the way that is gone on
-  bool unsettled = false;
-  double energy = 0;                     ///< J: sum of the changes' squares over their masses
   const unsigned char* moved = nullptr;  ///< of each body: the pass before has changed it; null: all may have been
   unsigned char* moves = nullptr;        ///< of each body: this pass changes it
 };
@@ -76,13 +75,15 @@ struct SubStep {
   double length = 0;        ///< s
   double pushed_apart = 0;  ///< m/s
   double restitution_from = 0;
-  Again* again = nullptr;
+  const Again* again = nullptr;
   bool first = false;  ///< pass of its kind in the sub-step
 };
 
 /// The inner loops, in the widest instructions that the processor has; the bits are the same in all.
+/// A pass is over packs of one colour, and may be shared among threads: whether a point has changed by more than
+/// `settled` is returned, and nothing is summed.
 struct ContactKernels {
-  using Pass = void (*)(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity,
+  using Pass = bool (*)(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity,
                         const Motion6* displacement, const SubStep& step);
   Pass warm_start;  ///< applies the impulses that the packs hold
   Pass solve;       ///< normal rows; the first looks how far points are apart now

@@ -45,7 +45,7 @@ double ball_radius(const std::vector<ConvexPart>& parts) {
 
 }  // namespace
 
-DebrisWorld::DebrisWorld(const SolverSettings& settings) : settings_(settings), solver_(settings_) {}
+DebrisWorld::DebrisWorld(const SolverSettings& settings) : settings_(settings), solver_(settings_, region_) {}
 DebrisWorld::~DebrisWorld() = default;
 
 DebrisBody& DebrisWorld::body(std::int64_t id) const {

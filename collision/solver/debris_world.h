@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "contacts/contact_forces.h"
 #include "contacts/first_touch.h"
@@ -24,6 +25,9 @@ class DebrisWorld final : public World {
   ~DebrisWorld() override;
   DebrisWorld& operator=(const DebrisWorld&) = delete;
   [[nodiscard]] std::unique_ptr<World> copy() const override;
+  void set_parallel_for(ParallelFor parallel_for, int threads) override {
+    region_ = {std::move(parallel_for), threads};
+  }
 
   void set_gravity(const Vec3& gravity) override;
   void set_ground(double height, double friction, double restitution) override;
@@ -83,6 +87,7 @@ class DebrisWorld final : public World {
   void note_ways(double dt);
   void find_touching();
   void find_contacts(double dt);
+  void seek_contacts();
   void seek(std::uint32_t index);
   void wake_struck(double dt);
   void wake_hinged();
@@ -91,12 +96,17 @@ class DebrisWorld final : public World {
   void gather_islands();
   [[nodiscard]] int substeps(const Island& island, double dt) const;
   void solve(std::span<Island* const> islands, int substeps, double dt);
+  /// Calls work(body) for all that the solver holds, side by side.
+  template <class Work>
+  void each_solved(const Work& work);
+  static void order_in_space(std::vector<DebrisBody*>& bodies);
   void fill_solver(std::span<Island* const> islands, double dt, int substeps);
+  [[nodiscard]] SolverContact solver_contact(NearPair& pair) const;
   void add_contacts(const Island& island);
   void fly(DebrisBody& body, double dt) const;
-  void take_results(std::span<Island* const> islands, double dt);
+  void take_results(double dt);
   void turn(DebrisBody& body, const Vec3& turned, double dt) const;
-  void resist_rolling(double dt);
+  void resist_rolling();
 
   // What stands and moves.
   void place_moving(double dt, MovingStructure& structure);
@@ -110,7 +120,8 @@ class DebrisWorld final : public World {
 
   // Contacts.
   void tell_contacts(double dt, std::span<const char> left_out = {});
-  void tell(const SolverContact& solved, double dt);
+  [[nodiscard]] bool touches(const SolverContact& solved);
+  void tell(const SolverContact& solved, double dt, Contact& contact) const;
   void place(const SolverContact& solved, double dt, Contact& contact) const;
   void account_work(std::span<Island* const> islands, double dt);
   [[nodiscard]] DebrisBody* moving(const SolverContact& solved, bool second) const;
@@ -171,11 +182,13 @@ class DebrisWorld final : public World {
   std::map<SolidPair, bool> ignored_;            ///< true: told again since the last step, and for the next in any case
   std::map<SolidPair, std::uint64_t> released_;  ///< after which step
 
+  ParallelRegion region_;
   StepSolver solver_;
+  std::vector<DebrisBody*> solving_;     ///< bodies that the solver holds: the first is its number 1
   std::vector<std::uint32_t> touching_;  ///< pairs that have contacts, in order
   std::vector<Island> islands_;
-  std::vector<std::int64_t> slept_now_;  ///< bodies that fell asleep in this step
-  std::vector<SolverContact> solved_;    ///< of the last part of a step
+  std::vector<std::int64_t> slept_now_;               ///< bodies that fell asleep in this step
+  std::vector<std::pair<NearPair*, Vec3>> impulses_;  ///< of the last part of a step, N s, where any body sleeps
   std::uint64_t step_number_ = 0;
   int parts_ = 1;                ///< of this step
   Vec3 reading_ = Vec3::Zero();  ///< by which velocities are read otherwise than between steps

@@ -18,6 +18,17 @@ constexpr double kTouching = 0.001;
 /// none.
 constexpr double kLeastPush = 1e-12;
 
+/// For which a piece of a loop is worth being handed on.
+constexpr std::size_t kContacts = 32;
+
+/// Separation of the nearest point, m.
+double nearest(const Manifold& manifold) {
+  double least = 1e300;
+  for (int i = 0; i < manifold.count; ++i)
+    least = std::min(least, manifold.points[static_cast<std::size_t>(i)].separation);
+  return least;
+}
+
 /// Two parts that share their tags with others of their bodies are told as one.
 void merge(const Contact& more, Contact& sum) {
   const double a = sum.impulse.norm(), b = more.impulse.norm(), share = a + b > 0 ? b / (a + b) : 0.5;
@@ -37,10 +48,10 @@ void merge(const Contact& more, Contact& sum) {
 
 }  // namespace
 
+/// Of a contact that the solver holds; null: no body, or one that sleeps.
 DebrisBody* DebrisWorld::moving(const SolverContact& solved, bool second) const {
-  if ((second ? solved.second : solved.first) == 0) return nullptr;
-  Solid* const solid = pairs_.collider(second ? solved.pair->second : solved.pair->first).solid;
-  return solid->kind == Touched::Kind::body ? static_cast<DebrisBody*>(solid) : nullptr;
+  const auto number = static_cast<std::size_t>(second ? solved.second : solved.first);
+  return number == 0 || number > solving_.size() ? nullptr : solving_[number - 1];
 }
 
 /// Kinetic and of height. Velocities are those of mid-step.
@@ -66,28 +77,29 @@ void DebrisWorld::place(const SolverContact& solved, double dt, Contact& contact
   contact.moment -= way.cross(solved.impulse);
 }
 
-void DebrisWorld::tell(const SolverContact& solved, double dt) {
+/// Whether it pushed or lay close, as its pair will know from now on.
+bool DebrisWorld::touches(const SolverContact& solved) {
   NearPair& pair = *solved.pair;
-  const Manifold& manifold = pair.manifold;
-  double nearest = 1e300;
-  for (int i = 0; i < manifold.count; ++i)
-    nearest = std::min(nearest, manifold.points[static_cast<std::size_t>(i)].separation);
   if (pair.told_in != step_number_) pair.persistent = pair.touches;
   pair.told_in = step_number_;
-  pair.touches = !solved.impulse.isZero(0) || nearest <= kTouching;
-  if (!pair.touches) return;
+  pair.touches = !solved.impulse.isZero(0) || nearest(pair.manifold) <= kTouching;
+  return pair.touches;
+}
+
+void DebrisWorld::tell(const SolverContact& solved, double dt, Contact& contact) const {
+  const NearPair& pair = *solved.pair;
+  const Manifold& manifold = pair.manifold;
   const Collider &a = pairs_.collider(pair.first), &b = pairs_.collider(pair.second);
   const SolidPart& part = a.solid->parts[static_cast<std::size_t>(a.part)];
   const SolidPart* other =
       pair.second == NearPairs::ground ? nullptr : &b.solid->parts[static_cast<std::size_t>(b.part)];
-  Contact& contact = contacts_.emplace_back();
   contact.body.value = a.solid->id;
   contact.part_tag = part.tag;
   contact.other = touched(*b.solid, other ? other->tag : -1);
   contact.normal = manifold.normal;
   contact.impulse = solved.impulse;
   place(solved, dt, contact);
-  contact.depth = std::max(0.0, -nearest);
+  contact.depth = std::max(0.0, -nearest(manifold));
   contact.thickness = other ? std::min(part.thickness, other->thickness) : part.thickness;
   contact.persistent = pair.persistent;
   for (int i = 0; i < manifold.count; ++i) {
@@ -107,13 +119,23 @@ void DebrisWorld::tell(const SolverContact& solved, double dt) {
 /// But those of bodies that are left out, by their numbers in the solver.
 void DebrisWorld::tell_contacts(double dt, std::span<const char> left_out) {
   const auto is_left_out = [&](int number) { return !left_out.empty() && left_out[static_cast<std::size_t>(number)]; };
-  for (const SolverContact& solved : solver_.contacts()) {
-    if (is_left_out(solved.first) || is_left_out(solved.second)) continue;
-    const std::size_t before = contacts_.size();
-    tell(solved, dt);
-    solved_.push_back(solved);
-    solved_.back().told = contacts_.size() > before ? static_cast<int>(before) : -1;
-  }
+  const std::span<SolverContact> solved = solver_.contacts();
+  const auto each = [&](const auto& work) {
+    region_.loop(solved.size(), kContacts, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) work(solved[i]);
+    });
+  };
+  each([&](SolverContact& one) {
+    const bool told = !is_left_out(one.first) && !is_left_out(one.second) && touches(one);
+    one.told = told ? 0 : -1;
+  });
+  std::size_t count = contacts_.size();
+  for (SolverContact& one : solved)
+    if (one.told == 0) one.told = static_cast<int>(count++);
+  contacts_.resize(count);
+  each([&](const SolverContact& one) {
+    if (one.told >= 0) tell(one, dt, contacts_[static_cast<std::size_t>(one.told)]);
+  });
 }
 
 /// Impulses times the mean of the velocities before and after them, and what is missing to a body's change of energy in
@@ -129,9 +151,7 @@ void DebrisWorld::account_work(std::span<Island* const> islands, double dt) {
     on.pushed += impulse.norm() + kLeastPush;
     return taken;
   };
-  const auto first = solved_.size() - solver_.contacts().size();
-  for (std::size_t i = first; i < solved_.size(); ++i) {
-    const SolverContact& solved = solved_[i];
+  for (const SolverContact& solved : solver_.contacts()) {
     if (solved.told < 0) continue;
     for (const bool second : {false, true})
       if (DebrisBody* on = moving(solved, second)) {
@@ -155,11 +175,10 @@ void DebrisWorld::account_work(std::span<Island* const> islands, double dt) {
     if (!(on.pushed > 0)) return 0.0;
     return size / on.pushed * (on.energy_before - (energy(on, dt) - on.swung) - on.booked);
   };
-  for (std::size_t i = first; i < solved_.size(); ++i)
+  for (const SolverContact& solved : solver_.contacts())
     for (const bool second : {false, true})
-      if (const DebrisBody* on = moving(solved_[i], second); on && solved_[i].told >= 0)
-        contacts_[static_cast<std::size_t>(solved_[i].told)].work_lost +=
-            share(*on, solved_[i].impulse.norm() + kLeastPush);
+      if (const DebrisBody* on = moving(solved, second); on && solved.told >= 0)
+        contacts_[static_cast<std::size_t>(solved.told)].work_lost += share(*on, solved.impulse.norm() + kLeastPush);
   for (const Island* island : islands) {
     for (DebrisHinge* hinge : island->hinges) {
       const double size = hinge->rows.force_total.norm() + kLeastPush;

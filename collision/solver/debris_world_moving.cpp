@@ -145,6 +145,7 @@ void DebrisWorld::add_moving(const Island& island, double dt, double substep) {
 
 /// After a part of a step: what was done to the obstacles, and how they would go on by themselves.
 void DebrisWorld::press_moving(double dt) {
+  if (moving_obstacles_.empty()) return;
   for (const SolverContact& solved : solver_.contacts()) {
     if (solved.second == 0) continue;
     Solid* const second = pairs_.collider(solved.pair->second).solid;

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <tuple>
 
 #include "solver/debris_world.h"
 
@@ -75,6 +74,7 @@ bool DebrisWorld::come_to_rest(Island& island, double dt) {
   tell_contacts(dt, moves);
   for (const SolverContact& solved : solver_.contacts())
     solved.pair->rest_force = solved.pair->pressed = solved.impulse / dt;
+  for (const std::uint32_t index : whole.pairs) pairs_.ends(index).rests = true;
   for (DebrisHinge* hinge : whole.hinges) hinge->forget_step();
   for (DebrisCable* cable : whole.cables) cable->pull = {};
   read_joints({&only, 1}, dt);
@@ -131,10 +131,8 @@ Island DebrisWorld::with_sleeping(const Island& island) const {
       if (hinge(id).body == whole.bodies[i]->id) whole.hinges.push_back(&hinge(id));
     for (const std::int64_t id : whole.bodies[i]->cables) whole.cables.push_back(&cable(id));
   }
-  std::sort(whole.pairs.begin(), whole.pairs.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const NearPair &first = pairs_.pair(a), &second = pairs_.pair(b);
-    return std::tie(first.first_order, first.second_order) < std::tie(second.first_order, second.second_order);
-  });
+  std::sort(whole.pairs.begin(), whole.pairs.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return pairs_.in_order(a, b); });
   return whole;
 }
 
@@ -187,7 +185,7 @@ void DebrisWorld::wake_struck(double dt) {
     if (!again) break;
     wake_hinged();
     note_ways(dt);
-    for (const std::uint32_t index : pairs_.order()) seek(index);
+    seek_contacts();
     find_touching();
   }
 }
@@ -230,9 +228,9 @@ void DebrisWorld::wake_round(DebrisBody& struck, double momentum) {
 void DebrisWorld::wake_changed(double dt) {
   if (awake_count_ == order_.size()) return;
   const double weight = gravity_.norm(), share = 1 - std::exp(-dt / settings_.pressed_over);
-  for (const SolverContact& solved : solved_) {
-    NearPair& pair = *solved.pair;
-    pair.pressed += share * (solved.impulse / dt - pair.pressed);
+  for (const auto& [solved, impulse] : impulses_) {
+    NearPair& pair = *solved;
+    pair.pressed += share * (impulse / dt - pair.pressed);
     for (const bool second : {false, true}) {
       Solid* solid = pairs_.collider(second ? pair.second : pair.first).solid;
       if (solid->kind != Touched::Kind::body || !static_cast<DebrisBody*>(solid)->asleep) continue;
@@ -242,14 +240,16 @@ void DebrisWorld::wake_changed(double dt) {
   }
   // And what was pressed by one that has gone.
   for (const std::uint32_t index : pairs_.order()) {
+    if (!pairs_.ends(index).rests || pairs_.ends(index).touches) continue;
     NearPair& pair = pairs_.pair(index);
-    if (pair.rest_force.isZero(0) || pair.manifold.count > 0 || !awake(pair)) continue;
+    if (pair.rest_force.isZero(0) || !awake(pair)) continue;
     for (const std::uint32_t side : {pair.first, pair.second}) {
       Solid* solid = pairs_.collider(side).solid;
       if (solid->kind == Touched::Kind::body) wake_up(static_cast<DebrisBody&>(*solid));
     }
     pair.rest_force.setZero();
     pair.pressed.setZero();
+    pairs_.ends(index).rests = false;
   }
 }
 

@@ -9,6 +9,13 @@
 
 namespace topple::collision {
 
+namespace {
+/// Fewer are not worth the ten microseconds that helpers take to come.
+constexpr std::size_t kContactsShared = 100, kPairsShared = 500;
+/// For which a piece of a loop is worth being handed on.
+constexpr std::size_t kBodies = 32, kPairs = 64;
+}  // namespace
+
 void DebrisWorld::begin_step(double dt) {
   if (!(dt > 0) || !std::isfinite(dt))
     throw std::invalid_argument("step of " + std::to_string(dt) + " s; it must be above zero");
@@ -45,7 +52,6 @@ void DebrisWorld::advance(double dt, int parts, MovingStructure* structure) {
   parts_ = 1;
   if (finer == 1) fall_asleep_where_held(dt);
   parts_ = parts * finer;
-  solved_.clear();  // the forces at rest are those of a whole step
   read_velocities_by(gravity_ * ((1 - 1.0 / parts_) * dt / 2));
   for (int part = 0; part < parts; ++part) {
     const std::size_t told = contacts_.size();
@@ -53,7 +59,6 @@ void DebrisWorld::advance(double dt, int parts, MovingStructure* structure) {
     for (int i = 0; i < finer && (awake_count_ > 0 || !moving_obstacles_.empty()); ++i) {
       if (part + i > 0) {
         find_contacts(dt / parts_);
-        solved_.clear();
         gather_islands();
       }
       if (awake_count_ > 0) move_on(dt / parts_);
@@ -83,7 +88,11 @@ void DebrisWorld::move_on(double dt) {
     else
       by_substeps[substeps(island, dt)].push_back(&island);
   }
-  for (const auto& [count, islands] : by_substeps) solve(islands, count, dt);
+  const auto solve_all = [&] {
+    for (const auto& [count, islands] : by_substeps) solve(islands, count, dt);
+  };
+  impulses_.clear();
+  touching_.size() >= kContactsShared ? region_.run(solve_all) : solve_all();
   wake_changed(dt);
   look_for_rest(dt);
 }
@@ -152,14 +161,16 @@ const Placement& placement(const Solid& solid) {
 /// comes with that much itself.
 void DebrisWorld::note_ways(double dt) {
   const Vec3 half_kick = gravity_ * (dt / 2);
-  for (const BodyId id : order_) {
-    DebrisBody& one = body(id.value);
+  const auto note = [&](DebrisBody& one) {
     one.look_how_far();
     const double straight = one.asleep ? 0 : (one.velocity + half_kick).norm() * dt;
     const double spin = one.asleep ? 0 : one.spin.norm() * dt;
     for (std::size_t i = 0; i < one.parts.size(); ++i)
       pairs_.note_way(one.colliders[i], one.gone, straight + spin * one.parts[i].reach, !one.asleep);
-  }
+  };
+  region_.loop(order_.size(), kBodies, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) note(body(order_[i].value));
+  });
 }
 
 void DebrisWorld::seek(std::uint32_t index) {
@@ -194,15 +205,26 @@ void DebrisWorld::seek(std::uint32_t index) {
   ends.touches = pair.manifold.count > 0;
 }
 
+/// Each pair by itself.
+void DebrisWorld::seek_contacts() {
+  const std::vector<std::uint32_t>& order = pairs_.order();
+  region_.loop(order.size(), kPairs, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) seek(order[i]);
+  });
+}
+
 void DebrisWorld::find_contacts(double dt) {
-  wake_hinged();
-  update_bounds(dt);
-  pairs_.find();
-  note_ways(dt);
-  for (const std::uint32_t index : pairs_.order()) seek(index);
-  find_touching();
-  wake_carried();
-  wake_struck(dt);
+  const auto find = [&] {
+    wake_hinged();
+    update_bounds(dt);
+    pairs_.find();
+    note_ways(dt);
+    seek_contacts();
+    find_touching();
+    wake_carried();
+    wake_struck(dt);
+  };
+  pairs_.order().size() >= kPairsShared ? region_.run(find) : find();
 }
 
 void DebrisWorld::find_touching() {
@@ -254,62 +276,77 @@ void DebrisWorld::turn(DebrisBody& one, const Vec3& turned, double dt) const {
   one.at.turn = one.turn.toRotationMatrix();
 }
 
+/// Along the axis on which they are spread widest: what is near each other is then near in memory, and on one thread.
+void DebrisWorld::order_in_space(std::vector<DebrisBody*>& bodies) {
+  Vec3 middle = Vec3::Zero(), spread = Vec3::Zero();
+  for (const DebrisBody* one : bodies) middle += one->at.position;
+  middle /= static_cast<double>(bodies.size());
+  for (const DebrisBody* one : bodies) spread += (one->at.position - middle).cwiseAbs();
+  Eigen::Index axis = 0;
+  spread.maxCoeff(&axis);
+  std::stable_sort(bodies.begin(), bodies.end(), [axis](const DebrisBody* a, const DebrisBody* b) {
+    return a->at.position[axis] < b->at.position[axis];
+  });
+}
+
 /// `substeps` of `dt`: for which obstacles that move go on; with none they stand still as the others.
 void DebrisWorld::fill_solver(std::span<Island* const> islands, double dt, int substeps) {
   solver_.clear();
+  solving_.clear();
   for (const std::int64_t id : moving_obstacles_) obstacle(id).solver = -1;
-  for (const Island* island : islands)
-    for (DebrisBody* one : island->bodies) {
-      SolverBody moving;
-      moving.at = one->at;
-      moving.inverse_root_mass = 1 / std::sqrt(one->mass);
-      moving.inverse_root_moments = one->inverse_root_moments;
-      moving.velocity = one->velocity;
-      moving.spin = one->spin;
-      moving.acceleration = gravity_;
-      one->solver = solver_.add(moving);
-    }
+  for (const Island* island : islands) solving_.insert(solving_.end(), island->bodies.begin(), island->bodies.end());
+  std::size_t contacts = 0;
+  for (const Island* island : islands) contacts += island->pairs.size();
+  if (substeps > 0 && solver_.domains_of(contacts) > 1) order_in_space(solving_);
+  for (DebrisBody* one : solving_) {
+    SolverBody moving;
+    moving.at = one->at;
+    moving.inverse_root_mass = 1 / std::sqrt(one->mass);
+    moving.inverse_root_moments = one->inverse_root_moments;
+    moving.velocity = one->velocity;
+    moving.spin = one->spin;
+    moving.acceleration = gravity_;
+    one->solver = solver_.add(moving);
+  }
+  solver_.end_of_order();
   if (substeps > 0)
     for (const Island* island : islands) add_moving(*island, dt, dt / substeps);
   for (const Island* island : islands) add_contacts(*island);
 }
 
+/// With the friction and restitution of the two, and their numbers in the solver.
+SolverContact DebrisWorld::solver_contact(NearPair& pair) const {
+  struct Side {
+    int number = 0;
+    double friction = 0, restitution = 0;
+  };
+  const auto side = [&](const Solid& solid) -> Side {
+    if (solid.kind == Touched::Kind::ground) return {0, ground_friction_, ground_restitution_};
+    if (solid.kind == Touched::Kind::obstacle) {
+      const auto& one = static_cast<const DebrisObstacle&>(solid);
+      return {one.moves ? std::max(0, one.solver) : 0, one.friction, one.restitution};
+    }
+    const auto& one = static_cast<const DebrisBody&>(solid);
+    return {one.asleep ? 0 : one.solver, one.friction, one.restitution};
+  };
+  const Solid &first = *pairs_.collider(pair.first).solid, &second = *pairs_.collider(pair.second).solid;
+  const Side a = side(first), b = side(second);
+  SolverContact contact;
+  contact.pair = &pair;
+  contact.first = a.number;
+  contact.second = b.number;
+  contact.first_at = &placement(first);
+  contact.second_at = &placement(second);
+  contact.friction = std::sqrt(a.friction * b.friction);
+  contact.restitution = std::sqrt(a.restitution * b.restitution);
+  return contact;
+}
+
 void DebrisWorld::add_contacts(const Island& island) {
-  const auto number = [&](const Solid& solid) {
-    if (solid.kind == Touched::Kind::ground) return 0;
-    if (solid.kind == Touched::Kind::obstacle) {
-      const auto& one = static_cast<const DebrisObstacle&>(solid);
-      return one.moves ? std::max(0, one.solver) : 0;
-    }
-    const auto& one = static_cast<const DebrisBody&>(solid);
-    return one.asleep ? 0 : one.solver;
-  };
-  struct Surface {
-    double friction, restitution;
-  };
-  const auto surface = [&](const Solid& solid) -> Surface {
-    if (solid.kind == Touched::Kind::ground) return {ground_friction_, ground_restitution_};
-    if (solid.kind == Touched::Kind::obstacle) {
-      const auto& one = static_cast<const DebrisObstacle&>(solid);
-      return {one.friction, one.restitution};
-    }
-    const auto& one = static_cast<const DebrisBody&>(solid);
-    return {one.friction, one.restitution};
-  };
-  for (const std::uint32_t index : island.pairs) {
-    SolverContact contact;
-    contact.pair = &pairs_.pair(index);
-    const Solid &first = *pairs_.collider(contact.pair->first).solid,
-                &second = *pairs_.collider(contact.pair->second).solid;
-    contact.first = number(first);
-    contact.second = number(second);
-    contact.first_at = &placement(first);
-    contact.second_at = &placement(second);
-    const Surface a = surface(first), b = surface(second);
-    contact.friction = std::sqrt(a.friction * b.friction);
-    contact.restitution = std::sqrt(a.restitution * b.restitution);
-    solver_.add(contact);
-  }
+  const std::span<SolverContact> made = solver_.add_contacts(island.pairs.size());
+  region_.loop(made.size(), kPairs, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) made[i] = solver_contact(pairs_.pair(island.pairs[i]));
+  });
   for (DebrisHinge* hinge : island.hinges) {
     hinge->rows.body = body(hinge->body).solver;
     hinge->rows.holder = hinge->other < 0 ? 0 : body(hinge->other).solver;
@@ -323,42 +360,48 @@ void DebrisWorld::add_contacts(const Island& island) {
   }
 }
 
+template <class Work>
+void DebrisWorld::each_solved(const Work& work) {
+  region_.loop(solving_.size(), kBodies, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) work(*solving_[i]);
+  });
+}
+
 void DebrisWorld::solve(std::span<Island* const> islands, int substeps, double dt) {
   fill_solver(islands, dt, substeps);
-  for (const Island* island : islands)
-    for (DebrisBody* one : island->bodies) {
-      one->substep_rate = substeps / dt;
-      one->velocity_before = one->velocity;
-      one->spin_before = one->spin;
-      one->energy_before = energy(*one, dt);
-    }
+  each_solved([&](DebrisBody& one) {
+    one.substep_rate = substeps / dt;
+    one.velocity_before = one.velocity;
+    one.spin_before = one.spin;
+    one.energy_before = energy(one, dt);
+  });
   solver_.run(dt, substeps);
   tell_contacts(dt);  // where things were when the step began
   press_moving(dt);
-  take_results(islands, dt);
+  take_results(dt);
   account_work(islands, dt);
+  if (awake_count_ < order_.size())
+    for (const SolverContact& solved : solver_.contacts()) impulses_.emplace_back(solved.pair, solved.impulse);
 }
 
-void DebrisWorld::take_results(std::span<Island* const> islands, double dt) {
-  for (const Island* island : islands)
-    for (DebrisBody* one : island->bodies) {
-      const SolverBody& moved = solver_.body(one->solver);
-      one->velocity = moved.velocity;
-      one->acceleration = (moved.velocity - one->velocity_before) / dt;
-      one->spin = moved.spin;
-      one->at.position += moved.moved;
-      one->load *= 0.9;  // so that the number of sub-steps does not follow the solver's chatter
-    }
+void DebrisWorld::take_results(double dt) {
+  each_solved([&](DebrisBody& one) {
+    const SolverBody& moved = solver_.body(one.solver);
+    one.velocity = moved.velocity;
+    one.acceleration = (moved.velocity - one.velocity_before) / dt;
+    one.spin = moved.spin;
+    one.at.position += moved.moved;
+    one.load *= 0.9;  // so that the number of sub-steps does not follow the solver's chatter
+  });
   for (const SolverContact& contact : solver_.contacts())
     for (const bool second : {false, true})
       if (DebrisBody* one = moving(contact, second)) one->load = std::max(one->load, contact.load);
-  resist_rolling(dt);
-  for (const Island* island : islands)
-    for (DebrisBody* one : island->bodies) turn(*one, solver_.body(one->solver).turned, dt);
+  resist_rolling();
+  each_solved([&](DebrisBody& one) { turn(one, solver_.body(one.solver).turned, dt); });
 }
 
 /// A ball on soil: by the normal force times a share of its radius.
-void DebrisWorld::resist_rolling(double) {
+void DebrisWorld::resist_rolling() {
   for (const SolverContact& contact : solver_.contacts())
     for (const bool second : {false, true}) {
       DebrisBody* ball = moving(contact, second);

@@ -26,6 +26,10 @@ struct SolverSettings {
   double settled = 0.3;   ///< m/s: passes are repeated in a sub-step that changes a contact's speed by more
   int most_passes = 100;  ///< in a sub-step: a blow through a stack of that many comes through
 
+  int contacts_of_domain = 256;  ///< a heap with twice as many is cut into domains that threads can take, so that four
+                                 ///< contacts fill each pack; passes go through it in another order then
+  int most_domains = 16;         ///< of a heap: threads beyond these find nothing to do in it
+
   double spins_by = 5;  ///< rad/s: where half of what angular momentum lacks would turn a body faster, both turn alike
 
   double leaves_plane = 0.02;  ///< m: a step is taken in parts where a body that touches leaves the planes of its

@@ -2,15 +2,43 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "solver/step_solver.h"
 
 namespace topple::collision {
 
-/// No body twice in a colour. In the order of contacts, so that it follows from handles.
-void StepSolver::colour() {
-  for (auto& list : by_colour_) list.clear();
+int StepSolver::domains_of(std::size_t contacts) const {
+  return std::clamp(static_cast<int>(contacts) / settings_.contacts_of_domain, 1, settings_.most_domains);
+}
+
+/// Set by set of their domains, in each colour by colour: whoever takes a set goes through its packs in this order.
+void StepSolver::pack_contacts() {
+  std::vector<ContactEnds> ends;
+  ends.reserve(contacts_.size());
+  for (const SolverContact& contact : contacts_) ends.push_back({contact.first, contact.second});
+  ContactDomains domains = find_domains(ends, ordered_, domains_of(contacts_.size()));
+  packs_.clear();
+  packed_.clear();
+  points_.clear();
+  colours_.clear();
+  sets_.clear();
   used_.assign(bodies_.size(), {});
+  for (const auto& set : domains.sets) {
+    sets_.push_back(packs_.size());
+    colour(set);
+    if (domains.sets.size() > 1) fill_last_packs();
+    for (const auto& list : by_colour_)
+      if (!list.empty()) fill_packs(list);
+  }
+  sets_.push_back(packs_.size());
+  colours_.push_back(packs_.size());
+  stages_ = std::move(domains.stages);
+}
+
+/// No body twice in a colour. In the order of contacts, so that it follows from handles.
+void StepSolver::colour(std::span<const std::uint32_t> set) {
+  for (auto& list : by_colour_) list.clear();
   const auto word = [&](int body, std::size_t w) -> std::uint64_t {
     const auto& used = used_[static_cast<std::size_t>(body)];
     return body == 0 || w >= used.size() ? 0 : used[w];
@@ -21,7 +49,7 @@ void StepSolver::colour() {
     if (used.size() <= chosen / 64) used.resize(chosen / 64 + 1, 0);
     used[chosen / 64] |= std::uint64_t{1} << (chosen % 64);
   };
-  for (std::uint32_t i = 0; i < contacts_.size(); ++i) {
+  for (const std::uint32_t i : set) {
     const SolverContact& contact = contacts_[i];
     std::size_t chosen = 0;
     for (std::size_t w = 0;; ++w) {
@@ -35,33 +63,62 @@ void StepSolver::colour() {
     if (by_colour_.size() <= chosen) by_colour_.resize(chosen + 1);
     by_colour_[chosen].push_back(i);
   }
+  // Few lanes of a pack stay without a point.
+  const auto points = [&](std::uint32_t i) { return contacts_[i].pair->manifold.count; };
+  for (auto& list : by_colour_)
+    std::stable_sort(list.begin(), list.end(), [&](std::uint32_t a, std::uint32_t b) { return points(a) > points(b); });
+  for (const std::uint32_t i : set)
+    for (const int body : {contacts_[i].first, contacts_[i].second}) used_[static_cast<std::size_t>(body)].clear();
 }
 
-void StepSolver::fill_packs() {
-  packs_.clear();
-  points_.clear();
-  colours_.clear();
-  const auto count = [&](std::uint32_t i) { return contacts_[i].pair->manifold.count; };
-  for (auto& list : by_colour_) {
-    if (list.empty()) continue;
-    colours_.push_back(packs_.size());
-    std::stable_sort(list.begin(), list.end(), [&](std::uint32_t a, std::uint32_t b) { return count(a) > count(b); });
-    for (std::size_t begin = 0; begin < list.size(); begin += kLanes) {
-      ContactPack pack{};
-      pack.first_point = points_.size();
-      pack.point_count = count(list[begin]);
-      points_.resize(points_.size() + static_cast<std::size_t>(pack.point_count), PackPoint{});
-      for (std::size_t lane = 0; lane < kLanes && begin + lane < list.size(); ++lane) {
-        SolverContact& contact = contacts_[list[begin + lane]];
-        contact.pack = static_cast<int>(packs_.size());
-        contact.lane = static_cast<int>(lane);
-        pack.first_body[lane] = contact.first;
-        pack.second_body[lane] = contact.second;
-      }
-      packs_.push_back(pack);
+/// The colours of a small set are short: lanes that stay free in the last pack of one take contacts of later colours.
+/// They are solved earlier then, which is no matter to one thread.
+void StepSolver::fill_last_packs() {
+  for (std::size_t c = 0; c + 1 < by_colour_.size(); ++c) {
+    auto& list = by_colour_[c];
+    const auto shares_body = [&](std::uint32_t i) {
+      const SolverContact& contact = contacts_[i];
+      return std::any_of(list.end() - static_cast<std::ptrdiff_t>(list.size() % kLanes), list.end(),
+                         [&](std::uint32_t other) {
+                           const SolverContact& of = contacts_[other];
+                           return (contact.first != 0 && (contact.first == of.first || contact.first == of.second)) ||
+                                  (contact.second != 0 && (contact.second == of.first || contact.second == of.second));
+                         });
+    };
+    for (std::size_t later = by_colour_.size() - 1; later > c && list.size() % kLanes != 0; --later) {
+      auto& from = by_colour_[later];
+      for (std::size_t i = 0; i < from.size() && list.size() % kLanes != 0;)
+        if (shares_body(from[i])) {
+          ++i;
+        } else {
+          list.push_back(from[i]);
+          from.erase(from.begin() + static_cast<std::ptrdiff_t>(i));
+        }
     }
   }
+}
+
+/// Of one colour.
+void StepSolver::fill_packs(std::span<const std::uint32_t> list) {
   colours_.push_back(packs_.size());
+  const auto points = [&](std::uint32_t i) { return contacts_[i].pair->manifold.count; };
+  for (std::size_t begin = 0; begin < list.size(); begin += kLanes) {
+    ContactPack pack{};
+    pack.first_point = points_.size();
+    for (std::size_t i = begin; i < std::min(begin + kLanes, list.size()); ++i)
+      pack.point_count = std::max(pack.point_count, points(list[i]));
+    points_.resize(points_.size() + static_cast<std::size_t>(pack.point_count), PackPoint{});
+    packed_.resize(packed_.size() + kLanes, kNone);
+    for (std::size_t lane = 0; lane < kLanes && begin + lane < list.size(); ++lane) {
+      SolverContact& contact = contacts_[list[begin + lane]];
+      packed_[kLanes * packs_.size() + lane] = list[begin + lane];
+      contact.pack = static_cast<int>(packs_.size());
+      contact.lane = static_cast<int>(lane);
+      pack.first_body[lane] = contact.first;
+      pack.second_body[lane] = contact.second;
+    }
+    packs_.push_back(pack);
+  }
 }
 
 namespace {

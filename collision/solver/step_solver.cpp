@@ -2,11 +2,14 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <numeric>
 
 namespace topple::collision {
 
 void StepSolver::clear() {
+  ordered_ = 0;
   bodies_.clear();
   bodies_.emplace_back();  // what stands
   contacts_.clear();
@@ -31,8 +34,26 @@ void accumulate(const Motion6& more, Motion6& to) {
     to.angular[i] += more.angular[i];
   }
 }
+/// Bodies, and packs of contacts, for which a piece of a loop is worth being handed on: a microsecond or two.
+constexpr std::size_t kBodies = 128, kPacks = 8;
 Vec3 get(const Wide* of, int lane) { return {of[0][lane], of[1][lane], of[2][lane]}; }
 }  // namespace
+
+template <class Work>
+void StepSolver::each_body(const Work& work) {
+  region_.loop(bodies_.size() - 1, kBodies, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) work(i + 1);
+  });
+}
+
+/// Those of a pack by one thread.
+template <class Work>
+void StepSolver::each_contact(const Work& work) {
+  region_.loop(packs_.size(), kPacks, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = kLanes * begin; k < std::min(kLanes * end, packed_.size()); ++k)
+      if (packed_[k] != kNone) work(contacts_[packed_[k]]);
+  });
+}
 
 void StepSolver::scale_bodies(double dt) {
   const std::size_t count = bodies_.size();
@@ -41,37 +62,61 @@ void StepSolver::scale_bodies(double dt) {
   kick_.assign(count, {});
   pushed_.assign(count, {});
   begun_.assign(count, {});
-  for (std::size_t i = 1; i < count; ++i) {
+  moving_.assign(count, {});
+  each_body([&](std::size_t i) {
     const SolverBody& body = bodies_[i];
     // From the middle of the step to that of a sub-step before the first.
     body.set(body.velocity + body.acceleration * ((dt - h_) / 2),
              body.spin + body.angular_acceleration * ((dt - h_) / 2), velocity_[i]);
     body.set(body.acceleration * h_, body.angular_acceleration * h_, kick_[i]);
-  }
+  });
 }
 
 void StepSolver::unscale_bodies(double dt) {
-  for (std::size_t i = 1; i < bodies_.size(); ++i) {
+  each_body([&](std::size_t i) {
     SolverBody& body = bodies_[i];
     body.velocity = body.linear(velocity_[i]) - body.acceleration * ((dt - h_) / 2);
     body.spin = body.angular(velocity_[i]) - body.angular_acceleration * ((dt - h_) / 2);
     body.moved = body.linear(displacement_[i]);
     body.turned = body.angular(displacement_[i]);
-  }
+  });
 }
 
-void StepSolver::each_pack(ContactKernels::Pass pass, const SubStep& step, std::vector<Motion6>& velocity) {
-  for (std::size_t c = 0; c + 1 < colours_.size(); ++c)
-    pass(packs_.data(), points_.data(), colours_[c], colours_[c + 1], velocity.data(), displacement_.data(), step);
+/// True where a point has changed by more than `settled`.
+bool StepSolver::each_pack(ContactKernels::Pass pass, const SubStep& step, std::vector<Motion6>& velocity) {
+  std::atomic<bool> unsettled{false};
+  for (std::size_t stage = 0; stage + 1 < stages_.size(); ++stage)
+    region_.loop(stages_[stage + 1] - stages_[stage], 1, [&](std::size_t begin, std::size_t end) {
+      const std::size_t first = sets_[stages_[stage] + begin], past = sets_[stages_[stage] + end];
+      if (pass(packs_.data(), points_.data(), first, past, velocity.data(), displacement_.data(), step))
+        unsettled.store(true, std::memory_order_relaxed);
+    });
+  return unsettled;
 }
 
 /// Gravity, and what contacts did in the sub-step before: Jacobians stay through a step, so that the sum over a body's
 /// contacts is known from its velocities.
 void StepSolver::begin_sub_step(int number) {
-  for (std::size_t i = 1; i < bodies_.size(); ++i) {
+  each_body([&](std::size_t i) {
+    begun_[i] = velocity_[i];
+    accumulate(kick_[i], begun_[i]);
     accumulate(kick_[i], velocity_[i]);
     if (number > 0) accumulate(pushed_[i], velocity_[i]);
-  }
+  });
+}
+
+/// Of the last pass, J: in the order of points, colour by colour.
+double StepSolver::energy_of_changes() {
+  colour_energies_.assign(colours_.size() - 1, 0);
+  region_.loop(colour_energies_.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = begin; c < end; ++c) {
+      Wide sum{};
+      for (std::size_t i = packs_[colours_[c]].first_point; i < end_of_points(colours_[c + 1]); ++i)
+        sum += energies_[i].value;
+      colour_energies_[c] = sum[0] + sum[1] + sum[2] + sum[3];
+    }
+  });
+  return std::accumulate(colour_energies_.begin(), colour_energies_.end(), 0.0);
 }
 
 /// One pass over the contacts serves what rests or goes on evenly: impulses of the sub-step before are near. A blow
@@ -82,21 +127,23 @@ void StepSolver::stop_closing(SubStep step) {
   again.settled = settings_.settled;
   step.again = &again;
   step.first = true;
-  each_pack(kernels.solve, step);
+  bool unsettled = each_pack(kernels.solve, step);
   step.first = false;
-  if (!again.unsettled) return;
+  if (!unsettled) return;
   changes_.assign(points_.size(), PackWide{});
   ways_.assign(points_.size(), PackWide{});
+  energies_.resize(points_.size());
   again.change = &changes_.data()->value;
   again.way = &ways_.data()->value;
+  again.energy = &energies_.data()->value;
   double before = 0;
-  for (int pass = 1; pass < settings_.most_passes && again.unsettled; ++pass) {
-    again.unsettled = false;
-    again.energy = 0;
-    each_pack(kernels.solve, step);
-    again.share = again.energy < before ? again.energy / before : 0;
-    before = again.energy;
-    if (again.unsettled) each_pack(kernels.go_on, step);
+  for (int pass = 1; pass < settings_.most_passes && unsettled; ++pass) {
+    unsettled = each_pack(kernels.solve, step);
+    if (!unsettled) break;
+    const double energy = energy_of_changes();
+    again.share = energy < before ? energy / before : 0;
+    before = energy;
+    each_pack(kernels.go_on, step);
   }
 }
 
@@ -106,14 +153,12 @@ void StepSolver::relax(SubStep step) {
   const ContactKernels& kernels = contact_kernels();
   Again again;
   again.settled = settings_.settled;
-  again.unsettled = true;
   step.again = &again;
-  for (int pass = 0; pass < settings_.most_passes && again.unsettled; ++pass) {
-    again.unsettled = false;
+  bool unsettled = true;
+  for (int pass = 0; pass < settings_.most_passes && unsettled; ++pass) {
     moves_.assign(bodies_.size(), 0);
     again.moves = moves_.data();
-    each_pack(kernels.relax, step);
-    moves_[0] = 0;  // what stands
+    unsettled = each_pack(kernels.relax, step);
     moved_.swap(moves_);
     again.moved = moved_.data();
   }
@@ -122,10 +167,6 @@ void StepSolver::relax(SubStep step) {
 void StepSolver::sub_step(int number) {
   const SubStep step{h_, settings_.pushed_apart, settings_.restitution_from};
   const ContactKernels& kernels = contact_kernels();
-  for (std::size_t i = 1; i < bodies_.size(); ++i) {
-    begun_[i] = velocity_[i];
-    accumulate(kick_[i], begun_[i]);
-  }
   begin_sub_step(number);
   if (number == 0) each_pack(kernels.warm_start, step);
   const auto of = [&](int body) -> const SolverBody& { return bodies_[static_cast<std::size_t>(body)]; };
@@ -151,19 +192,20 @@ void StepSolver::sub_step(int number) {
   hold_hinges();
   relax(step);
   for (HingeRows* hinge : hinges_) hinge->add_up();
-  for (std::size_t i = 1; i < bodies_.size(); ++i)
+  each_body([&](std::size_t i) {
     for (int k = 0; k < 3; ++k) {
       pushed_[i].linear[k] = velocity_[i].linear[k] - begun_[i].linear[k];
       pushed_[i].angular[k] = velocity_[i].angular[k] - begun_[i].angular[k];
     }
+    moving_[i] = velocity_[i];
+  });
   move(step);
 }
 
 /// Bodies move by their velocities, and by what pushes overlaps apart: that is no speed and no force, or what is jammed
 /// between two parts would press them by the stiffness of springs that nothing has.
 void StepSolver::move(SubStep step) {
-  moving_ = velocity_;
-  ignored_.assign(bodies_.size(), {});
+  if (!hinges_.empty()) ignored_.assign(bodies_.size(), {});
   const double frequency = std::min(settings_.joint_frequency, 0.25 / h_);
   for (const HingeRows* hinge : hinges_)
     HingeRows(*hinge).solve(frequency, settings_.joint_damping, h_, moving_.data(), ignored_.data());
@@ -171,11 +213,12 @@ void StepSolver::move(SubStep step) {
     step.first = pass == 0;
     each_pack(contact_kernels().separate, step, moving_);
   }
-  for (std::size_t i = 1; i < bodies_.size(); ++i)
+  each_body([&](std::size_t i) {
     for (int k = 0; k < 3; ++k) {
       displacement_[i].linear[k] += h_ * moving_[i].linear[k];
       displacement_[i].angular[k] += h_ * moving_[i].angular[k];
     }
+  });
 }
 
 void StepSolver::store_contact(SolverContact& contact, double dt) {
@@ -217,13 +260,12 @@ void StepSolver::store_contact(SolverContact& contact, double dt) {
 void StepSolver::run(double dt, int substeps) {
   h_ = dt / substeps;
   scale_bodies(dt);
-  colour();
-  fill_packs();
-  for (SolverContact& contact : contacts_) prepare(contact);
+  pack_contacts();
+  each_contact([&](SolverContact& contact) { prepare(contact); });
   for (HingeRows* hinge : hinges_) hinge->begin_step(h_);
   for (int i = 0; i < substeps; ++i) sub_step(i);
   each_pack(contact_kernels().restitute, {h_, settings_.pushed_apart, settings_.restitution_from});
-  for (SolverContact& contact : contacts_) store_contact(contact, dt);
+  each_contact([&](SolverContact& contact) { store_contact(contact, dt); });
   for (HingeRows* hinge : hinges_) hinge->end_step(h_);
   unscale_bodies(dt);
   keep_angular_momentum();

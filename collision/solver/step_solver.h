@@ -7,13 +7,16 @@
 //
 // Velocities inside are those of the middle of a sub-step, so that free flight is exact. Forces are the sums over
 // sub-steps of what was applied: they balance weight and momentum to rounding.
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "contacts/near_pairs.h"
 #include "solver/cable_row.h"
+#include "solver/contact_domains.h"
 #include "solver/contact_packs.h"
 #include "solver/hinge_rows.h"
+#include "solver/parallel_region.h"
 #include "solver/solver_body.h"
 #include "solver/solver_settings.h"
 
@@ -44,12 +47,21 @@ struct RestContact;
 
 class StepSolver {
  public:
-  explicit StepSolver(const SolverSettings& settings) : settings_(settings) {}
+  /// Shares its loops in `region`, when that is open.
+  StepSolver(const SolverSettings& settings, ParallelRegion& region) : settings_(settings), region_(region) {}
 
   void clear();
   /// Numbers from 1.
   int add(const SolverBody& body);
-  void add(const SolverContact& contact) { contacts_.push_back(contact); }
+  /// Into how many domains a heap of so many contacts is cut: with more than one, bodies are added in their order along
+  /// it, and `end_of_order` called after the last.
+  [[nodiscard]] int domains_of(std::size_t contacts) const;
+  void end_of_order() { ordered_ = static_cast<int>(body_count()); }
+  /// So many more, to be filled in.
+  [[nodiscard]] std::span<SolverContact> add_contacts(std::size_t count) {
+    contacts_.resize(contacts_.size() + count);
+    return std::span(contacts_).last(count);
+  }
   void add(HingeRows* hinge) { hinges_.push_back(hinge); }
   void add(CableRow* cable) { cables_.push_back(cable); }
   /// `dt` in `substeps` parts.
@@ -63,6 +75,7 @@ class StepSolver {
 
   [[nodiscard]] const SolverBody& body(int index) const { return bodies_[static_cast<std::size_t>(index)]; }
   [[nodiscard]] std::span<const SolverContact> contacts() const { return contacts_; }
+  [[nodiscard]] std::span<SolverContact> contacts() { return contacts_; }
   [[nodiscard]] std::size_t body_count() const { return bodies_.size() - 1; }
 
  private:
@@ -70,16 +83,28 @@ class StepSolver {
     double bias_rate, mass_scale, impulse_scale;
   };
   [[nodiscard]] static Softness softness(double frequency, double damping, double h);
-  void colour();
-  void fill_packs();
+  void pack_contacts();
+  void colour(std::span<const std::uint32_t> set);
+  void fill_last_packs();
+  void fill_packs(std::span<const std::uint32_t> list);
   void prepare(SolverContact& contact);
   void prepare_points(SolverContact& contact, ContactPack& pack, double h);
   void prepare_friction(SolverContact& contact, ContactPack& pack, double h);
   void scale_bodies(double dt);
   void sub_step(int number);
   void begin_sub_step(int number);
-  void each_pack(ContactKernels::Pass pass, const SubStep& step) { each_pack(pass, step, velocity_); }
-  void each_pack(ContactKernels::Pass pass, const SubStep& step, std::vector<Motion6>& velocity);
+  bool each_pack(ContactKernels::Pass pass, const SubStep& step) { return each_pack(pass, step, velocity_); }
+  bool each_pack(ContactKernels::Pass pass, const SubStep& step, std::vector<Motion6>& velocity);
+  /// Calls work(number), and work(contact), side by side.
+  template <class Work>
+  void each_body(const Work& work);
+  template <class Work>
+  void each_contact(const Work& work);
+  [[nodiscard]] double energy_of_changes();
+  /// One past the last point of the packs before this one.
+  [[nodiscard]] std::size_t end_of_points(std::size_t pack) const {
+    return pack < packs_.size() ? packs_[pack].first_point : points_.size();
+  }
   void stop_closing(SubStep step);
   void relax(SubStep step);
   void move(SubStep step);
@@ -92,8 +117,12 @@ class StepSolver {
   void unscale_bodies(double dt);
   void keep_angular_momentum();
 
+  static constexpr std::uint32_t kNone = 0xffffffff;
+
   const SolverSettings& settings_;
+  ParallelRegion& region_;
   double h_ = 0;
+  int ordered_ = 0;  ///< bodies that were added in order
   std::vector<SolverBody> bodies_;
   std::vector<SolverContact> contacts_;
   std::vector<HingeRows*> hinges_;
@@ -104,9 +133,12 @@ class StepSolver {
   std::vector<Motion6> moving_, ignored_;  ///< velocities by which bodies move, and what joints changed of those
   std::vector<ContactPack> packs_;
   std::vector<PackPoint> points_;
-  std::vector<PackWide> changes_, ways_;      ///< of points, where passes are repeated
+  std::vector<std::uint32_t> packed_;                ///< contact of each lane of each pack, or kNone
+  std::vector<PackWide> changes_, ways_, energies_;  ///< of points, where passes are repeated
+  std::vector<double> colour_energies_;
   std::vector<unsigned char> moved_, moves_;  ///< of bodies, where passes are repeated
-  std::vector<std::size_t> colours_;          ///< first pack of each, and the end
+  std::vector<std::size_t> sets_, stages_;    ///< first pack of each, first set of each, and the ends (ContactDomains)
+  std::vector<std::size_t> colours_;          ///< first pack of each in each set, and the end
   std::vector<std::vector<std::uint32_t>> by_colour_;
   std::vector<std::vector<std::uint64_t>> used_;
 };

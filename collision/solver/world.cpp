@@ -2,6 +2,8 @@
 
 namespace topple::collision {
 
+void World::set_parallel_for(ParallelFor, int) {}
+
 void World::step(double dt, int parts, MovingStructure& structure) {
   step(dt);
   std::vector<Contact> share(contacts().begin(), contacts().end());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "topple/solver/thread_pool.h"
 #include "topple/structure/error.h"
 
 namespace topple::structure {
@@ -42,6 +43,10 @@ Scene::Scene(Building the_building, Scenario the_scenario, SimulationOptions the
       world(options.make_world ? options.make_world() : collision::make_bullet_world()),
       strength_factors(building.joints.size(), 1.0) {
   world->set_gravity(gravity);
+  if (options.threads > 1) {
+    const auto pool = std::make_shared<solver::ThreadPool>(options.threads);  // copies of the world have it as well
+    world->set_parallel_for([pool](std::size_t count, const auto& work) { pool->run(count, work); }, pool->threads());
+  }
   world->set_ground(ground_height(building, scenario), scenario.debris.friction, scenario.debris.restitution);
 }
 

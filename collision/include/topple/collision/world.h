@@ -8,6 +8,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -187,6 +188,10 @@ struct CablePull {
   double work_lost = 0;  ///< energy that it took out of the body where it came taut (velocities read at mid-step), J
 };
 
+/// A host's way to use its threads: calls work(0) ... work(count - 1), in any order and side by side where it can, and
+/// returns when all have ended.
+using ParallelFor = std::function<void(std::size_t count, const std::function<void(std::size_t)>& work)>;
+
 /// Bodies, obstacles, ground, hinges and cables, and their contacts over time. Every function throws std::out_of_range
 /// for a handle that is not in the world. Functions that take a description throw std::invalid_argument, naming the
 /// part, for one without mass, with an inertia that is not positive definite, or with a part of no volume.
@@ -198,6 +203,11 @@ class World {
   /// alike, to the bit. Null where an engine has no such copy.
   [[nodiscard]] virtual std::unique_ptr<World> copy() const { return nullptr; }
 
+  /// Steps may spread over `threads` threads: those of as many calls in one `parallel_for`, each of which lasts as long
+  /// as the part of the step that is shared, and none of which waits for another to begin. It changes no bit. None (an
+  /// empty function, or one thread): the caller's alone, as from the beginning. Copies share alike. Worlds that cannot
+  /// share ignore it.
+  virtual void set_parallel_for(ParallelFor parallel_for, int threads);
   /// m/s2. Wakes every body.
   virtual void set_gravity(const Vec3& gravity) = 0;
   /// A half space below z = height; replaces the one before. Wakes every body.

@@ -158,7 +158,7 @@ struct Carrier {
 
 /// What a host may choose. None of it changes a result.
 struct SimulationOptions {
-  int threads = 1;                                                ///< for the statics
+  int threads = 1;                                                ///< of the statics, and of debris
   std::function<std::unique_ptr<collision::World>()> make_world;  ///< none: collision::make_bullet_world()
 };
 
