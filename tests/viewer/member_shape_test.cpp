@@ -9,7 +9,7 @@
 #include "app/open_scene.h"
 #include "app/session.h"
 #include "renderer/instances.h"
-#include "renderer/member_shapes.h"
+#include "topple/structure/member_shapes.h"
 #include "topple/structure/standing_frame.h"
 
 namespace {
@@ -27,7 +27,7 @@ std::vector<Displacement> displacements(const Building& building, const Standing
 }
 
 MemberShape shape_now(const Building& building, const StandingFrame& standing, MemberId member) {
-  return member_shape(standing, building, member, displacements(building, standing));
+  return topple::structure::member_shape(standing, building, member, displacements(building, standing));
 }
 
 /// Built in at A, under its own weight of 2 kN/m (it bends about y); by what is told at B.
@@ -127,7 +127,7 @@ TEST_CASE(
     d << (way + turn.cross(at)).cast<float>(), turn.cast<float>();
     return d;
   };
-  NearestMotion plain, kinked;
+  topple::structure::NearestMotion plain, kinked;
   Displacement down = Displacement::Zero();
   down(2) = -0.3F;  // of the middle: both halves turn by a tenth
   for (int i = 0; i < 3; ++i) {

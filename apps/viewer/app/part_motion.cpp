@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <map>
+#include <tuple>
 
 namespace topple::viewer {
 
@@ -89,18 +90,86 @@ std::vector<DrawnTrack> drawn_tracks(const Recording& recording) {
   return all;
 }
 
-Mesh placed_member_mesh(const structure::Building& building, const structure::Member& member,
-                        const Eigen::Vector3d& origin) {
-  Mesh mesh = section_mesh(building[member.section], 1);
-  const Eigen::Vector3d first = building[member.nodes[0]].position + member.offsets[0] - origin;
-  for (Vertex& v : mesh.vertices) {
-    const Eigen::Vector3d local(member.length * static_cast<double>(v.position.x), static_cast<double>(v.position.y),
-                                static_cast<double>(v.position.z));
-    const Eigen::Vector3d p = first + member.axes.transpose() * local;
-    const Eigen::Vector3d n =
-        member.axes.transpose() * Eigen::Vector3f(v.normal.x, v.normal.y, v.normal.z).cast<double>();
-    v.position = glm::vec3(p.x(), p.y(), p.z());
-    v.normal = glm::vec3(n.x(), n.y(), n.z());
+std::vector<ShapeChange> part_shapes(const structure::Building& building, const Recording& recording,
+                                     std::size_t part) {
+  const bool is_member = part < building.members.size();
+  const structure::MemberId member(is_member ? part : 0);
+  const structure::PanelId panel(is_member ? 0 : part - building.members.size());
+  structure::SteadyPart drawn_as = is_member ? steady(building, member) : steady(building, panel);
+  std::vector<ShapeChange> changes;
+  const auto note = [&](std::size_t frame, const structure::BentPart& shape) {
+    if (changes.empty() || !(changes.back().shape == shape))
+      changes.push_back({static_cast<std::int32_t>(frame), shape});
+  };
+  const Recording::Frame* seen = nullptr;
+  for (std::size_t f = 0; f < recording.frames().size(); ++f) {
+    const Recording::Frame& frame = recording.frames()[f];
+    if (seen != nullptr && seen->answer == frame.answer && seen->membership == frame.membership) continue;
+    seen = &frame;
+    const auto& [answer, membership] = std::tie(*frame.answer, *frame.membership);
+    note(f, drawn_as.at(is_member ? bent_member(building, member, drawn_shape(building, member, answer, membership))
+                                  : bent_panel(building, panel, moved_corners(building, panel, answer, membership))));
+  }
+  return changes;
+}
+
+std::size_t ways_of_bending(const std::vector<ShapeChange>& shapes) {
+  std::size_t ways = 0;
+  for (const ShapeChange& one : shapes)
+    for (std::size_t k = 0; k < one.shape.bend.size(); ++k)
+      if (one.shape.bend[k] != 0) ways = std::max(ways, k + 1);
+  return ways;
+}
+
+const structure::BentPart& shape_at(const std::vector<ShapeChange>& shapes, std::int32_t frame) {
+  const auto next = std::upper_bound(shapes.begin(), shapes.end(), frame,
+                                     [](std::int32_t f, const ShapeChange& one) { return f < one.frame; });
+  return next == shapes.begin() ? shapes.front().shape : (next - 1)->shape;
+}
+
+namespace {
+
+std::vector<structure::Vec3> places(const Mesh& mesh) {
+  std::vector<structure::Vec3> places;
+  for (const Vertex& v : mesh.vertices)
+    places.push_back(Eigen::Vector3f(v.position.x, v.position.y, v.position.z).cast<double>());
+  return places;
+}
+
+glm::vec3 vector(const Eigen::Vector3d& v) { return glm::vec3(v.x(), v.y(), v.z()); }
+
+}  // namespace
+
+PartMesh member_mesh(const structure::Building& building, structure::MemberId id, bool bent) {
+  const structure::Member& member = building[id];
+  PartMesh part;
+  part.rest = bent_member(building, id, MemberShape()).pose;
+  part.mesh = section_mesh(building[member.section], bent ? structure::bent_segments : 1);
+  for (Vertex& v : part.mesh.vertices) v.position.x = (v.position.x - 0.5F) * static_cast<float>(member.length);
+  if (bent) part.bends = structure::member_bends(member.length, places(part.mesh));
+  return part;
+}
+
+PartMesh panel_part_mesh(const structure::Building& building, structure::PanelId id, const PanelState& state,
+                         std::size_t ways) {
+  PartMesh part;
+  part.rest.position = Eigen::Vector3d::Zero();
+  for (const structure::NodeId node : building[id].nodes) part.rest.position += building[node].position / 4;
+  part.mesh = placed_panel_mesh(building, building[id], state, part.rest.position);
+  if (ways > 0) part.bends = structure::panel_bends(building, id, places(part.mesh));
+  part.bends.resize(std::min(ways, part.bends.size()));
+  return part;
+}
+
+Mesh placed(const PartMesh& part, const structure::BendWeights& bend, const Eigen::Vector3d& origin) {
+  Mesh mesh = part.mesh;
+  const auto local = places(mesh);
+  for (std::size_t v = 0; v < local.size(); ++v) {
+    Eigen::Vector3d at = local[v];
+    for (std::size_t k = 0; k < part.bends.size(); ++k) at += static_cast<double>(bend[k]) * part.bends[k][v];
+    const glm::vec3 n = mesh.vertices[v].normal;
+    mesh.vertices[v].position = vector(part.rest.position + part.rest.orientation * at - origin);
+    mesh.vertices[v].normal = vector(part.rest.orientation * Eigen::Vector3f(n.x, n.y, n.z).cast<double>());
   }
   return mesh;
 }
@@ -146,6 +215,19 @@ PartMotion motion_of(const BodyTrack& track, std::int32_t frame, const Eigen::Ve
   motion.turn = pose.orientation;
   motion.shift = pose.position - origin - pose.orientation * (pose.rest_centre - origin);
   return motion;
+}
+
+PartMotion motion_of(const structure::AnimatedPose& rest, const structure::AnimatedPose& now,
+                     const Eigen::Vector3d& origin) {
+  PartMotion motion;
+  if (now == rest) return motion;
+  motion.turn = (now.orientation * rest.orientation.conjugate()).normalized();
+  motion.shift = now.position - origin - motion.turn * (rest.position - origin);
+  return motion;
+}
+
+PartMotion operator*(const PartMotion& outer, const PartMotion& inner) {
+  return {outer.turn * inner.turn, outer.turn * inner.shift + outer.shift};
 }
 
 }  // namespace topple::viewer

@@ -5,6 +5,7 @@
 
 #include "renderer/recording.h"
 #include "renderer/shapes/mesh.h"
+#include "topple/structure/bent_part.h"
 
 namespace topple::viewer {
 
@@ -42,9 +43,35 @@ struct DrawnTrack {
 /// In the order in which they come, those of one frame as the snapshot has them.
 [[nodiscard]] std::vector<DrawnTrack> drawn_tracks(const Recording& recording);
 
+/// From a frame on, a part stands like this, or did when it let go: undeformed axes, its body's motion comes on top.
+struct ShapeChange {
+  std::int32_t frame = 0;
+  structure::BentPart shape;
+};
+/// Of one part, members counted first, then panels; in order of frame, the first that of frame 0. As the viewer draws
+/// it, to structure::drawn_tolerance.
+[[nodiscard]] std::vector<ShapeChange> part_shapes(const structure::Building& building, const Recording& recording,
+                                                   std::size_t part);
+/// How many of the ways of bending, the first ones, it takes to draw these.
+[[nodiscard]] std::size_t ways_of_bending(const std::vector<ShapeChange>& shapes);
+/// The last at or before this frame.
+[[nodiscard]] const structure::BentPart& shape_at(const std::vector<ShapeChange>& shapes, std::int32_t frame);
+
+/// What is drawn of a part, about the place and axes of its pose, and the ways in which it bends.
+struct PartMesh {
+  Mesh mesh;
+  std::vector<std::vector<structure::Vec3>> bends;  ///< SceneMesh::bends; empty: it stays as it is
+  structure::AnimatedPose rest;                     ///< undeformed
+};
+/// Straight in one part, or in as many as bend.
+[[nodiscard]] PartMesh member_mesh(const structure::Building& building, structure::MemberId member, bool bent);
+/// Of a panel, or of what remains of it, with so many ways of bending.
+[[nodiscard]] PartMesh panel_part_mesh(const structure::Building& building, structure::PanelId panel,
+                                       const PanelState& state, std::size_t ways);
+/// Where its vertices are at rest but for their bend; positions relative to `origin`.
+[[nodiscard]] Mesh placed(const PartMesh& part, const structure::BendWeights& bend, const Eigen::Vector3d& origin);
+
 /// Meshes in the undeformed building, global axes, double precision where it matters: positions relative to `origin`.
-[[nodiscard]] Mesh placed_member_mesh(const structure::Building& building, const structure::Member& member,
-                                      const Eigen::Vector3d& origin);
 [[nodiscard]] Mesh placed_panel_mesh(const structure::Building& building, const structure::Panel& panel,
                                      const Eigen::Vector3d& origin);
 
@@ -59,5 +86,10 @@ struct PartMotion {
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();
 };
 [[nodiscard]] PartMotion motion_of(const BodyTrack& track, std::int32_t frame, const Eigen::Vector3d& origin);
+/// From where a part was undeformed to where its shape has it.
+[[nodiscard]] PartMotion motion_of(const structure::AnimatedPose& rest, const structure::AnimatedPose& now,
+                                   const Eigen::Vector3d& origin);
+/// First `inner`, then `outer`.
+[[nodiscard]] PartMotion operator*(const PartMotion& outer, const PartMotion& inner);
 
 }  // namespace topple::viewer

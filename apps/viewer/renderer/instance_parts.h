@@ -64,7 +64,7 @@ struct DrawnShape {
     MemberShape shape = *own, start;
     if (at_start != nullptr) {
       const MemberShape* known = shapes_at_start != nullptr ? shapes_at_start->find(member) : nullptr;
-      start = known != nullptr ? *known : shape_of_nodes(building, id, *at_start);
+      start = known != nullptr ? *known : structure::shape_of_nodes(building, id, *at_start);
     }
     const auto scaled = [&](const auto& now, const auto& then) -> std::decay_t<decltype(now)> {
       if (at_start == nullptr) return scale * now;

@@ -9,11 +9,17 @@
 #include <optional>
 #include <vector>
 
-#include "renderer/member_shapes.h"
 #include "topple/structure/joint_tuning.h"
+#include "topple/structure/shape_watcher.h"
 #include "topple/structure/simulation.h"
 
 namespace topple::viewer {
+
+using structure::Displacement;
+using structure::MemberShape;
+using structure::MemberShapes;
+using structure::part_gone;
+using structure::part_stands;
 
 /// What acts on the frame and how its members bear it; read out only when it is wanted.
 struct FrameForces {
@@ -34,9 +40,7 @@ struct Wanted {
 };
 
 /// The answer of the statics: shared by all snapshots until it changes.
-struct FrameAnswer {
-  std::vector<Displacement> displacements;     ///< per node, global; zero where the node does not stand
-  std::shared_ptr<const MemberShapes> shapes;  ///< null: nodes tell all
+struct FrameAnswer : structure::StandingShapes {
   /// The same when the run began, nothing lost; null: zero.
   std::shared_ptr<const std::vector<Displacement>> at_start;
   std::shared_ptr<const MemberShapes> shapes_at_start;
@@ -60,14 +64,8 @@ struct TunedJoints {
   std::vector<structure::JointChange> changes;
 };
 
-/// Which part is where: index into Snapshot::bodies, or one of these.
-inline constexpr int part_stands = -1, part_gone = -2;
-struct Membership {
-  /// Per member, and per panel at its corners: how what has let go was bent then, beside the rigid motion of its body
-  /// that comes nearest (axes of the undeformed building). It keeps that shape. Null: none, or it stands.
-  std::vector<std::shared_ptr<const MemberShape>> member_shape;
-  std::vector<std::shared_ptr<const std::array<Eigen::Vector3f, 4>>> panel_shape;
-  std::vector<int> member, panel;
+/// Which part is where (index into Snapshot::bodies), what it keeps of its shape, what remains of it.
+struct Membership : structure::KeptShapes {
   std::vector<int> segment;  ///< per member: number of its standing segment, -1 when it does not stand
   /// Per panel: what remains of one that is broken in part, where it stood undeformed; null while it is whole.
   std::vector<std::shared_ptr<const fracture::Mesh>> broken;

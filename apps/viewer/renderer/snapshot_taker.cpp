@@ -125,104 +125,31 @@ std::shared_ptr<const FrameForces> read_forces(const Simulation& simulation, Wan
   return forces;
 }
 
-std::vector<Displacement> read_displacements(const Simulation& simulation) {
-  const structure::StandingFrame& frame = simulation.frame();
-  std::vector<Displacement> read(simulation.building().nodes.size(), Displacement::Zero());
-  for (std::size_t i = 0; i < read.size(); ++i)
-    if (frame.stands(NodeId(i))) read[i] = frame.displacement(NodeId(i)).cast<float>();
-  return read;
-}
-
 std::shared_ptr<FrameAnswer> read_answer(const Simulation& simulation, Wanted wanted,
-                                         const std::vector<bool>& yielded) {
+                                         const structure::StandingShapes& shapes) {
   const Building& building = simulation.building();
-  const structure::StandingFrame& frame = simulation.frame();
   auto answer = std::make_shared<FrameAnswer>();
-  answer->displacements = read_displacements(simulation);
-  answer->shapes = read_member_shapes(frame, building, yielded, answer->displacements);
+  static_cast<structure::StandingShapes&>(*answer) = shapes;
   answer->joints.reserve(building.joints.size());
   for (std::size_t i = 0; i < building.joints.size(); ++i)
-    answer->joints.push_back(joint_answer(frame, building, JointId(i)));
+    answer->joints.push_back(joint_answer(simulation.frame(), building, JointId(i)));
   answer->most_used = most_used(building, answer->joints);
   answer->forces = read_forces(simulation, wanted);
   return answer;
 }
 
-std::shared_ptr<Membership> read_membership(const Simulation& simulation) {
+std::shared_ptr<Membership> read_membership(const Simulation& simulation, const structure::KeptShapes& parts) {
   const Building& building = simulation.building();
   auto membership = std::make_shared<Membership>();
-  const auto place = [](auto id, const Simulation& from) { return from.frame().stands(id) ? part_stands : part_gone; };
-  for (std::size_t i = 0; i < building.members.size(); ++i) {
-    membership->member.push_back(place(MemberId(i), simulation));
+  static_cast<structure::KeptShapes&>(*membership) = parts;
+  for (std::size_t i = 0; i < building.members.size(); ++i)
     membership->segment.push_back(simulation.frame().segment(MemberId(i)));
-    membership->members_standing += membership->member.back() == part_stands ? 1 : 0;
-  }
-  for (std::size_t i = 0; i < building.panels.size(); ++i) {
-    membership->panel.push_back(place(PanelId(i), simulation));
-    membership->panels_standing += membership->panel.back() == part_stands ? 1 : 0;
+  for (std::size_t i = 0; i < building.panels.size(); ++i)
     membership->broken.push_back(simulation.broken_panel(PanelId(i)));
-  }
-  int index = 0;
-  for (const structure::BodyView& body : simulation.bodies()) {
-    for (const MemberId id : body.members) membership->member[static_cast<std::size_t>(id.index)] = index;
-    for (const PanelId id : body.panels) membership->panel[static_cast<std::size_t>(id.index)] = index;
-    ++index;
-  }
+  const auto standing = [&](auto id) { return simulation.frame().stands(id) ? 1 : 0; };
+  for (std::size_t i = 0; i < building.members.size(); ++i) membership->members_standing += standing(MemberId(i));
+  for (std::size_t i = 0; i < building.panels.size(); ++i) membership->panels_standing += standing(PanelId(i));
   return membership;
-}
-
-MemberShape shape_in(const FrameAnswer& answer, const Building& building, std::size_t member) {
-  const MemberShape* own = answer.shapes ? answer.shapes->find(member) : nullptr;
-  return own != nullptr ? *own : shape_of_nodes(building, MemberId(member), answer.displacements);
-}
-
-Eigen::Vector3d end_of(const Building& building, const structure::Member& member, std::size_t end) {
-  return building[member.nodes[end]].position + member.offsets[end];
-}
-
-/// What lets go now as one body.
-struct LettingGo {
-  std::vector<std::size_t> members, panels;
-};
-
-void keep_shape(Membership& now, const LettingGo& part, const FrameAnswer& stood_by, const Building& building) {
-  NearestMotion motion;
-  const auto moved = [&](NodeId node) { return stood_by.displacements[static_cast<std::size_t>(node.index)]; };
-  for (const std::size_t i : part.members) {
-    const MemberShape shape = shape_in(stood_by, building, i);
-    for (const std::size_t end : {0U, 1U}) motion.add(end_of(building, building.members[i], end), shape.ends[end]);
-  }
-  for (const std::size_t i : part.panels)
-    for (const NodeId node : building.panels[i].nodes) motion.add(building[node].position, moved(node));
-  motion.solve();
-  for (const std::size_t i : part.members) {
-    auto kept = std::make_shared<MemberShape>(shape_in(stood_by, building, i));
-    for (const std::size_t end : {0U, 1U})
-      kept->ends[end] = motion.beside(end_of(building, building.members[i], end), kept->ends[end]);
-    now.member_shape[i] = std::move(kept);
-  }
-  for (const std::size_t i : part.panels) {
-    auto kept = std::make_shared<std::array<Eigen::Vector3f, 4>>();
-    for (std::size_t c = 0; c < 4; ++c) {
-      const NodeId node = building.panels[i].nodes[c];
-      (*kept)[c] = motion.beside(building[node].position, moved(node)).head<3>();
-    }
-    now.panel_shape[i] = std::move(kept);
-  }
-}
-
-/// Keeps the shapes of those that let go before, and takes those of who does now from the answer that they stood by.
-void keep_shapes(Membership& now, const Membership& before, const FrameAnswer& stood_by, const Building& building) {
-  now.member_shape = before.member_shape;
-  now.panel_shape = before.panel_shape;
-  now.member_shape.resize(now.member.size());
-  now.panel_shape.resize(now.panel.size());
-  std::map<int, LettingGo> parts;  // by body
-  for (std::size_t i = 0; i < now.member.size(); ++i)
-    if (before.member[i] == part_stands && now.member[i] >= 0) parts[now.member[i]].members.push_back(i);
-  for (std::size_t i = 0; i < now.panel.size(); ++i)
-    if (before.panel[i] == part_stands && now.panel[i] >= 0) parts[now.panel[i]].panels.push_back(i);
-  for (const auto& [body, part] : parts) keep_shape(now, part, stood_by, building);
 }
 
 BodyPose pose_of(const structure::BodyView& body) {
@@ -245,11 +172,6 @@ std::shared_ptr<const std::vector<DrawnPiece>> read_drawn(const structure::Visua
   return drawn;
 }
 
-bool same(const structure::FrameCounters& a, const structure::FrameCounters& b) {
-  return a.solves == b.solves && a.low_rank == b.low_rank && a.refactorisations == b.refactorisations &&
-         a.segmentations == b.segmentations;
-}
-
 }  // namespace
 
 /// Chunks are named after the panel or member that they broke out of: "W#3".
@@ -263,55 +185,30 @@ structure::MaterialId SnapshotTaker::material_of(const Simulation& simulation, c
   return known->second;
 }
 
-bool SnapshotTaker::answer_is_old(const Simulation& simulation) const {
-  return !answer_ || !(wanted_ == read_) || was_pending_ || !same(seen_, simulation.frame().counters()) ||
-         seen_events_ != simulation.events().size();
-}
-
-void SnapshotTaker::read_yields(const Simulation& simulation) {
-  const auto& events = simulation.events();
-  if (events.size() < yielded_events_) yielded_.clear(), yielded_events_ = 0;
-  yielded_.resize(simulation.building().members.size(), false);
-  for (; yielded_events_ < events.size(); ++yielded_events_) {
-    const structure::SimulationEvent& event = events[yielded_events_];
-    if (event.kind != structure::SimulationEvent::Kind::joint_yielded) continue;
-    if (const MemberId member = simulation.building()[event.joint.joint].member; member.valid())
-      yielded_[static_cast<std::size_t>(member.index)] = true;
-  }
-}
-
-void SnapshotTaker::begin(const Simulation& simulation) {
-  at_start_ = std::make_shared<const std::vector<Displacement>>(read_displacements(simulation));
-  read_yields(simulation);
-  shapes_at_start_ = read_member_shapes(simulation.frame(), simulation.building(), yielded_, *at_start_);
-}
+void SnapshotTaker::begin(const Simulation& simulation) { at_start_ = shapes_.read(simulation); }
 
 Snapshot SnapshotTaker::take(const Simulation& simulation, structure::VisualMesh* drawn) {
-  std::vector<std::int64_t> ids;
-  for (const structure::BodyView& body : simulation.bodies()) ids.push_back(body.id.value);
-  const bool old = answer_is_old(simulation);
-  const auto stood_by = last_answer_;
+  const auto seen_standing = shapes_.standing();
+  const auto seen_parts = shapes_.parts();
+  shapes_.watch(simulation);
+  const bool old = !answer_ || !(wanted_ == read_) || seen_standing != shapes_.standing();
   if (old) {
-    read_yields(simulation);
-    auto answer = read_answer(simulation, wanted_, yielded_);
-    answer->at_start = at_start_;
-    answer->shapes_at_start = shapes_at_start_;
-    answer_ = last_answer_ = std::move(answer);
+    auto answer = read_answer(simulation, wanted_, *shapes_.standing());
+    if (at_start_) {
+      answer->at_start = {at_start_, &at_start_->displacements};
+      answer->shapes_at_start = at_start_->shapes;
+    }
+    answer_ = std::move(answer);
   }
   read_ = wanted_;
-  if (old || ids != seen_bodies_) {
-    auto membership = read_membership(simulation);
-    if (membership_ && stood_by) keep_shapes(*membership, *membership_, *stood_by, simulation.building());
+  if (old || seen_parts != shapes_.parts()) {
+    auto membership = read_membership(simulation, *shapes_.parts());
     for (const structure::NodeSupport& support : simulation.building().supports)
       membership->supports.push_back(std::none_of(taken_supports_.begin(), taken_supports_.end(), [&](const auto& one) {
         return one.first == support.node && one.second <= simulation.time();
       }));
     membership_ = std::move(membership);
   }
-  seen_ = simulation.frame().counters();
-  seen_events_ = simulation.events().size();
-  was_pending_ = simulation.frame().pending();
-  seen_bodies_ = std::move(ids);
 
   Snapshot snapshot;
   snapshot.time = simulation.time();

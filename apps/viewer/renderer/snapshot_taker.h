@@ -35,20 +35,12 @@ class SnapshotTaker {
  private:
   [[nodiscard]] structure::MaterialId material_of(const structure::Simulation& simulation,
                                                   const structure::BodyView& body);
-  void read_yields(const structure::Simulation& simulation);
-  [[nodiscard]] bool answer_is_old(const structure::Simulation& simulation) const;
   Wanted wanted_, read_;
-  structure::FrameCounters seen_;
-  std::size_t seen_events_ = 0;
-  std::vector<bool> yielded_;       ///< per member: a joint of it ever yielded
-  std::size_t yielded_events_ = 0;  ///< that were read for it
-  bool was_pending_ = false;
-  std::vector<std::int64_t> seen_bodies_;
+  structure::ShapeWatcher shapes_;
   std::vector<std::pair<structure::NodeId, double>> taken_supports_;
   DustWatcher dust_;
-  std::shared_ptr<const FrameAnswer> answer_, last_answer_;
-  std::shared_ptr<const std::vector<Displacement>> at_start_;
-  std::shared_ptr<const MemberShapes> shapes_at_start_;
+  std::shared_ptr<const FrameAnswer> answer_;
+  std::shared_ptr<const structure::StandingShapes> at_start_;
   structure::Ledger energies_;
   bool rested_ = false;  ///< when the energies were read
   std::shared_ptr<const Membership> membership_;

@@ -9,11 +9,17 @@ function bytes(base64) {
 export const floats = (base64) => new Float32Array(bytes(base64));
 export const integers = (base64) => new Int32Array(bytes(base64));
 
-export function geometry({ positions, normals, indices }) {
+/** One that bends has its ways of bending as morph targets. */
+export function geometry({ positions, normals, indices, bends }) {
   const result = new THREE.BufferGeometry();
   result.setAttribute('position', new THREE.BufferAttribute(floats(positions), 3));
   result.setAttribute('normal', new THREE.BufferAttribute(floats(normals), 3));
   result.setIndex(new THREE.BufferAttribute(new Uint32Array(bytes(indices)), 1));
+  if (bends) {
+    const ways = floats(bends), size = result.attributes.position.array.length;
+    result.morphTargetsRelative = true;
+    result.morphAttributes.position = Array.from({ length: ways.length / size }, (_, k) => new THREE.BufferAttribute(ways.subarray(k * size, (k + 1) * size), 3));
+  }
   return result;
 }
 
@@ -51,5 +57,29 @@ export class Track {
     this.turn.set(p[a + 3], p[a + 4], p[a + 5], p[a + 6]).slerp(new THREE.Quaternion(p[b + 3], p[b + 4], p[b + 5], p[b + 6]), share);
     const shift = this.centre.clone().add(this.offset).sub(this.centre.clone().applyQuaternion(this.turn));
     this.matrix.compose(shift, this.turn, new THREE.Vector3(1, 1, 1));
+  }
+}
+
+export const BENDS = 8;
+
+/** How one part stands and is bent, or was when it let go: steps from frame to frame, straight between two that follow each other. */
+export class Shape {
+  constructor({ frames, motions, weights }) {
+    this.frames = integers(frames);
+    this.motions = floats(motions);
+    this.weights = weights ? floats(weights) : null;
+    this.bend = new Array(BENDS).fill(0);
+    this.matrix = new THREE.Matrix4();
+  }
+  /** Sets bend, and the matrix that moves points of the undeformed building; smooth: it is in one place until the next frame. */
+  place(frame, smooth) {
+    const k = Math.max(0, lastNotAbove(this.frames, frame)), whole = Math.floor(frame);
+    const next = smooth && k + 1 < this.frames.length && this.frames[k + 1] === whole + 1 ? k + 1 : k, share = next > k ? frame - whole : 0;
+    const m = this.motions, a = 7 * k, b = 7 * next;
+    const shift = new THREE.Vector3(m[a], m[a + 1], m[a + 2]).lerp(new THREE.Vector3(m[b], m[b + 1], m[b + 2]), share);
+    const turn = new THREE.Quaternion(m[a + 3], m[a + 4], m[a + 5], m[a + 6]).slerp(new THREE.Quaternion(m[b + 3], m[b + 4], m[b + 5], m[b + 6]), share);
+    this.matrix.compose(shift, turn, new THREE.Vector3(1, 1, 1));
+    if (!this.weights) return;
+    for (let w = 0; w < BENDS; ++w) this.bend[w] = (1 - share) * this.weights[BENDS * k + w] + share * this.weights[BENDS * next + w];
   }
 }

@@ -1,7 +1,7 @@
 // A run seen again: to turn, to scrub, to play slowly. One page, no network; the data stand in it as JSON.
 import * as THREE from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
-import { GONE, STANDS, Track, floats, geometry, integers, lastNotAbove } from './data.js';
+import { GONE, STANDS, Shape, Track, floats, geometry, integers, lastNotAbove } from './data.js';
 
 const MEMBER_COLOURS = [0x5c6a7a, 0x8c98a4, 0xa4785c], PANEL_COLOURS = [0xcec8be, 0xdecdb4], PIECE_COLOURS = [...PANEL_COLOURS, ...MEMBER_COLOURS], DRAWN_COLOUR = 0xd6c8b0, FAILED = new THREE.Color(0x1e4ee8);
 // tool, impact, yielded, broke, fractured, mechanism, detached, split, at rest, limited, done
@@ -13,6 +13,7 @@ class Replay {
     this.data = data;
     this.times = floats(data.times);
     this.tracks = data.tracks.map((track) => new Track(track));
+    this.shapes = new Map(data.shapes.map((shape) => [shape.part, new Shape(shape)]));
     this.#stage();
     this.#members();
     this.#panels();
@@ -71,24 +72,32 @@ class Replay {
   }
 
   #members() {
-    const sections = this.data.sections.map(geometry), counts = sections.map(() => 0);
-    for (const member of this.data.members) member.instance = counts[member.section]++;
+    // Those that bend share meshes of their own, by section and length; the others are drawn by their section, stretched.
+    const sections = [...this.data.sections, ...this.data.bent].map(geometry), counts = sections.map(() => 0), straight = this.data.sections.length;
+    for (const member of this.data.members) {
+      member.batch = member.bent === undefined ? member.section : straight + member.bent;
+      member.instance = counts[member.batch]++;
+    }
     this.batches = sections.map((shape, s) => (counts[s] ? this.#instanced(shape, counts[s], 0xffffff) : null));
-    this.members = this.data.members.map(({ section, kind, instance, numbers }) => {
+    this.members = this.data.members.map(({ batch, bent, kind, instance, numbers }, m) => {
       const [x, y, z, length, ...axes] = floats(numbers);
-      const rest = new THREE.Matrix4().makeBasis(new THREE.Vector3(...axes.slice(0, 3)).multiplyScalar(length), new THREE.Vector3(...axes.slice(3, 6)), new THREE.Vector3(...axes.slice(6, 9))).setPosition(x, y, z);
-      return { batch: this.batches[section], instance, rest, colour: new THREE.Color(MEMBER_COLOURS[kind]) };
+      const along = new THREE.Vector3(...axes.slice(0, 3)), place = new THREE.Vector3(x, y, z);
+      if (bent === undefined) along.multiplyScalar(length);
+      else place.addScaledVector(along, length / 2);
+      const rest = new THREE.Matrix4().makeBasis(along, new THREE.Vector3(...axes.slice(3, 6)), new THREE.Vector3(...axes.slice(6, 9))).setPosition(place);
+      return { batch: this.batches[batch], instance, rest, bends: bent !== undefined, shape: this.shapes.get(m), colour: new THREE.Color(MEMBER_COLOURS[kind]) };
     });
   }
 
   #panels() {
-    this.panels = this.data.panels.map(({ kind, states }) => {
+    this.panels = this.data.panels.map(({ kind, states }, p) => {
       const opacity = kind === 1 ? 0.45 : 1;
       const panel = new THREE.Mesh(geometry(states[0].mesh), new THREE.MeshLambertMaterial({ color: PANEL_COLOURS[kind], transparent: opacity < 1, opacity }));
       panel.castShadow = panel.receiveShadow = true;
       panel.matrixAutoUpdate = false;
       panel.frames = states.map(({ frame }) => frame);
       panel.shapes = states.map(({ mesh }, k) => (k === 0 ? panel.geometry : geometry(mesh)));
+      panel.shape = this.shapes.get(this.members.length + p);
       this.scene.add(panel);
       return panel;
     });
@@ -151,26 +160,35 @@ class Replay {
       track.mesh.quaternion.copy(track.turn);
     }
     const nothing = new THREE.Matrix4().makeScale(0, 0, 0), moved = new THREE.Matrix4();
-    const placeOf = (part) => this.places[part][2 * lastNotAbove(this.places[part], whole, 2) + 1];
+    const placeOf = (part, at = whole) => this.places[part][2 * lastNotAbove(this.places[part], at, 2) + 1];
+    /** Where the part is, from where it was undeformed; sets how its shape is bent. */
+    const motionOf = (part, place, shape) => {
+      if (place >= 0) moved.copy(this.tracks[place].matrix);
+      else moved.identity();
+      if (!shape) return moved;
+      shape.place(frame, placeOf(part, whole + 1) === place);
+      return moved.multiply(shape.matrix);
+    };
     let standing = 0;
     this.members.forEach((member, m) => {
       const place = placeOf(m);
       if (place === STANDS) ++standing;
-      const matrix = place === STANDS ? member.rest : place === GONE ? nothing : moved.multiplyMatrices(this.tracks[place].matrix, member.rest);
-      member.batch.setMatrixAt(member.instance, matrix);
+      member.batch.setMatrixAt(member.instance, place === GONE ? nothing : motionOf(m, place, member.shape).multiply(member.rest));
+      if (member.bends) member.batch.setMorphAt(member.instance, { morphTargetInfluences: member.shape.bend });
       member.batch.setColorAt(member.instance, member.failed <= whole ? member.colour.clone().lerp(FAILED, 0.55) : member.colour);
     });
     for (const batch of this.batches) {
       if (!batch) continue;
       batch.instanceMatrix.needsUpdate = true;
       batch.instanceColor.needsUpdate = true;
+      if (batch.morphTexture) batch.morphTexture.needsUpdate = true;
     }
     this.panels.forEach((panel, p) => {
       const place = placeOf(this.members.length + p);
       panel.visible = place !== GONE && byId('panels').checked;
       panel.geometry = panel.shapes[Math.max(0, lastNotAbove(panel.frames, whole))];
-      if (place >= 0) panel.matrix.copy(this.tracks[place].matrix);
-      else panel.matrix.identity();
+      if (place !== GONE) panel.matrix.copy(motionOf(this.members.length + p, place, panel.shape));
+      if (panel.geometry.morphAttributes.position) panel.morphTargetInfluences = panel.shape.bend.slice(0, panel.geometry.morphAttributes.position.length);
       panel.matrixWorldNeedsUpdate = true;
     });
     for (const piece of this.drawn) {

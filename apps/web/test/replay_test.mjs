@@ -2,6 +2,7 @@
 // Fails when the page asks for the network, logs an error, or does not play, scrub and turn. With TOPPLE_REPLAY_PICTURE set, the
 // last view is written there.
 import { chromium } from 'playwright-core';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { pathToFileURL } from 'node:url';
 
 const [executablePath, replay] = process.argv.slice(2);
@@ -71,6 +72,22 @@ try {
   await picture(page);
   check((await page.locator('#play').textContent()) === 'Play', 'it plays and stops');
   check((await page.locator('#clock').textContent()) === at, 'it stands still where it was stopped');
+  // The same page without the weights of its bends: what bends is drawn straight there.
+  const stiff = await context.newPage(), without = replay.replace(/\.html$/, '-stiff.html');
+  writeFileSync(without, readFileSync(replay, 'utf8').replaceAll('"weights":', '"unused":'));
+  await stiff.goto(pathToFileURL(without).href);
+  await stiff.waitForSelector('body[data-ready]', { state: 'attached' });
+  const again = await context.newPage();
+  await again.goto(pathToFileURL(replay).href);
+  await again.waitForSelector('body[data-ready]', { state: 'attached' });
+  const shown = async (one) => {
+    await one.bringToFront();
+    await scrub(one, 3.9);
+    return picture(one);
+  };
+  check(fallen.equals(await shown(again)), 'a page opened again shows the same');
+  check(!fallen.equals(await shown(stiff)), 'members and panels are drawn bent');
+  await page.bringToFront();
   await scrub(page, 2.5);
   await picture(page);
   check(complaints.length === 0, `no console errors ${complaints.join('; ')}`);

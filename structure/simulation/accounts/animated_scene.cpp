@@ -4,16 +4,30 @@
 
 namespace topple::structure {
 
-/// A pose that stays is keyed where it begins and where it ends.
-void AnimatedNode::pose(int frame, const AnimatedPose& now) {
-  if (poses.empty()) {
-    poses.emplace_back(frame, now);
+namespace {
+
+/// What stays is keyed where it begins and where it ends.
+template <class Value>
+void add_key(std::vector<std::pair<int, Value>>& keys, int frame, const Value& now) {
+  if (keys.empty()) {
+    keys.emplace_back(frame, now);
     return;
   }
-  const auto last = poses.back();
+  const auto last = keys.back();
   if (last.second == now) return;
-  if (last.first < frame - 1) poses.emplace_back(frame - 1, last.second);
-  poses.emplace_back(frame, now);
+  if (last.first < frame - 1) keys.emplace_back(frame - 1, last.second);
+  keys.emplace_back(frame, now);
+}
+
+}  // namespace
+
+void AnimatedNode::pose(int frame, const AnimatedPose& now) { add_key(poses, frame, now); }
+
+void AnimatedNode::bend(int frame, const BendWeights& now) {
+  constexpr BendWeights straight{};
+  if (bends.empty() && now == straight) return;
+  if (bends.empty() && frame > 0) bends.emplace_back(0, straight);
+  add_key(bends, frame, now);
 }
 
 void AnimatedNode::show(int frame, bool now) {
@@ -35,28 +49,27 @@ void add_face(SceneMesh& mesh, const std::array<Vec3, 4>& corners) {
   mesh.triangles.push_back({first, first + 2, first + 3});
 }
 
-/// A six-sided solid between two quadrilaterals, `top` above `bottom`, both counter-clockwise seen from above.
-void add_block(SceneMesh& mesh, const std::array<Vec3, 4>& bottom, const std::array<Vec3, 4>& top) {
-  add_face(mesh, top);
-  add_face(mesh, {bottom[3], bottom[2], bottom[1], bottom[0]});
-  for (std::size_t i = 0; i < 4; ++i) {
-    const std::size_t j = (i + 1) % 4;
-    add_face(mesh, {bottom[i], bottom[j], top[j], top[i]});
-  }
-}
-
 }  // namespace
 
-SceneMesh box_mesh(const Vec3& half, int material) {
+SceneMesh box_mesh(const Vec3& half, int material, int segments) {
   SceneMesh mesh;
   mesh.material = material;
-  std::array<Vec3, 4> bottom, top;
-  const std::array<std::array<double, 2>, 4> round{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
-  for (std::size_t i = 0; i < 4; ++i) {
-    bottom[i] = Vec3(round[i][0] * half.x(), round[i][1] * half.y(), -half.z());
-    top[i] = Vec3(round[i][0] * half.x(), round[i][1] * half.y(), half.z());
+  // Its corners at a place along x, round it counter-clockwise seen from +x.
+  const auto round = [&](int place) {
+    const double x = half.x() * (2.0 * place / segments - 1);
+    return std::array<Vec3, 4>{Vec3(x, -half.y(), -half.z()), Vec3(x, half.y(), -half.z()), Vec3(x, half.y(), half.z()),
+                               Vec3(x, -half.y(), half.z())};
+  };
+  const auto first = round(0), last = round(segments);
+  add_face(mesh, {first[3], first[2], first[1], first[0]});
+  add_face(mesh, last);
+  for (int k = 0; k < segments; ++k) {
+    const auto here = round(k), there = round(k + 1);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::size_t j = (i + 1) % 4;
+      add_face(mesh, {here[i], here[j], there[j], there[i]});
+    }
   }
-  add_block(mesh, bottom, top);
   return mesh;
 }
 

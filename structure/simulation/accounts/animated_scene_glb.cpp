@@ -33,7 +33,8 @@ class GlbWriter {
     root_["asset"] = {{"version", "2.0"}, {"generator", "Topple " TOPPLE_VERSION}};
     root_["scene"] = 0;
     add_materials();
-    for (const SceneMesh& mesh : scene_.meshes) add_mesh(mesh);
+    count_bends();
+    for (std::size_t i = 0; i < scene_.meshes.size(); ++i) add_mesh(scene_.meshes[i], bends_[i]);
     Json children = Json::array();
     for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
       add_node(scene_.nodes[i], static_cast<int>(i));
@@ -94,7 +95,19 @@ class GlbWriter {
     root_["meshes"] = Json::array();
   }
 
-  void add_mesh(const SceneMesh& mesh) {
+  /// As many of each mesh as any node uses.
+  void count_bends() {
+    bends_.assign(scene_.meshes.size(), 0);
+    for (const AnimatedNode& node : scene_.nodes)
+      for (const auto& [frame, bend] : node.bends)
+        for (std::size_t k = 0; k < bend.size(); ++k)
+          if (bend[k] != 0) bends_[static_cast<std::size_t>(node.mesh)] = std::max(bends_of(node), k + 1);
+  }
+  [[nodiscard]] std::size_t bends_of(const AnimatedNode& node) const {
+    return bends_[static_cast<std::size_t>(node.mesh)];
+  }
+
+  void add_mesh(const SceneMesh& mesh, std::size_t bends) {
     std::vector<std::array<float, 3>> positions, normals;
     std::vector<std::uint32_t> indices;
     for (const Vec3& position : mesh.positions) positions.push_back(y_up(position));
@@ -111,8 +124,24 @@ class GlbWriter {
       attributes["TEXCOORD_0"] = add_accessor(texture, float_type, "VEC2", vertex_target);
     }
     const int index = add_accessor(indices, index_type, "SCALAR", index_target);
-    root_["meshes"].push_back(
-        {{"primitives", {{{"attributes", std::move(attributes)}, {"indices", index}, {"material", mesh.material}}}}});
+    Json primitive = {{"attributes", std::move(attributes)}, {"indices", index}, {"material", mesh.material}};
+    if (bends > 0) primitive["targets"] = targets(mesh, bends);
+    Json entry = {{"primitives", Json::array({std::move(primitive)})}};
+    if (bends > 0) entry["weights"] = std::vector<float>(bends, 0.0F);
+    root_["meshes"].push_back(std::move(entry));
+  }
+
+  /// Places alone: normals besides would be more than every program has to bear, and turn too little to be seen.
+  Json targets(const SceneMesh& mesh, std::size_t bends) {
+    Json list = Json::array();
+    for (std::size_t k = 0; k < bends; ++k) {
+      std::vector<std::array<float, 3>> ways;
+      for (const Vec3& way : mesh.bends[k]) ways.push_back(y_up(way));
+      const int accessor = add_accessor(ways, float_type, "VEC3", vertex_target);
+      add_bounds(accessor, ways);
+      list.push_back({{"POSITION", accessor}});
+    }
+    return list;
   }
 
   /// Key times are shared by all nodes with the same frames.
@@ -154,11 +183,16 @@ class GlbWriter {
                   {"translation", translations.front()},
                   {"rotation", rotations.front()}};
     if (!node.visible.front().second) entry["scale"] = {0, 0, 0};
+    if (!node.bends.empty()) {
+      const BendWeights& first = node.bends.front().second;
+      entry["weights"] = std::vector<float>(first.begin(), first.begin() + static_cast<std::ptrdiff_t>(bends_of(node)));
+    }
     root_["nodes"].push_back(std::move(entry));
     if (frames.size() > 1) {
       add_channel(number, "translation", "VEC3", "LINEAR", frames, translations);
       add_channel(number, "rotation", "VEC4", "LINEAR", frames, rotations);
     }
+    add_bends(node, number);
     if (node.visible.size() < 2) return;
     std::vector<int> changes;
     std::vector<std::array<float, 3>> scales;
@@ -167,6 +201,17 @@ class GlbWriter {
       scales.push_back(visible ? std::array<float, 3>{1, 1, 1} : std::array<float, 3>{0, 0, 0});
     }
     add_channel(number, "scale", "VEC3", "STEP", changes, scales);
+  }
+
+  void add_bends(const AnimatedNode& node, int number) {
+    if (node.bends.empty()) return;
+    std::vector<int> frames;
+    std::vector<std::array<float, 1>> weights;
+    for (const auto& [frame, bend] : node.bends) {
+      frames.push_back(frame);
+      for (std::size_t k = 0; k < bends_of(node); ++k) weights.push_back({bend[k]});
+    }
+    if (frames.size() > 1) add_channel(number, "weights", "SCALAR", "LINEAR", frames, weights);
   }
 
   std::string file() {
@@ -194,6 +239,7 @@ class GlbWriter {
   Json root_, accessors_ = Json::array(), views_ = Json::array(), channels_ = Json::array(), samplers_ = Json::array();
   std::string buffer_;
   std::map<std::vector<int>, int> times_;
+  std::vector<std::size_t> bends_;  ///< by mesh: ways in which it bends
 };
 
 }  // namespace

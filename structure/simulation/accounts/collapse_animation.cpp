@@ -8,6 +8,8 @@
 #include "simulation/debris/part_shapes.h"
 #include "topple/fracture/panel.h"
 #include "topple/structure/animated_scene.h"
+#include "topple/structure/bent_part.h"
+#include "topple/structure/shape_watcher.h"
 
 namespace topple::structure {
 
@@ -17,14 +19,6 @@ namespace {
 constexpr double frame_tolerance = 1e-6;
 
 enum Colour { post, beam, brace, slab, wall, ball, drawn_surface };
-
-Vec3 displaced(const StandingFrame& frame, const Member& member, std::size_t end) {
-  const Vec6& u = frame.displacement(member.nodes[end]);
-  const Vec3& arm = member.offsets[end];
-  return frame.building()[member.nodes[end]].position + arm + u.head<3>() + u.tail<3>().cross(arm);
-}
-
-Eigen::Quaterniond rest_turn(const Member& member) { return Eigen::Quaterniond(Mat3(member.axes.transpose())); }
 
 Vec3 middle(const Building& building, Part part) {
   if (part.member.valid()) {
@@ -69,6 +63,7 @@ struct CollapseAnimation::State {
       node.mesh =
           remains ? mesh_of(*remains, middle(building, part), colour_of(building[part.panel].kind)) : mesh_of(part);
       scene.nodes.push_back(std::move(node));
+      steady_parts.push_back(part.member.valid() ? steady(building, part.member) : steady(building, part.panel));
     }
   }
 
@@ -90,17 +85,33 @@ struct CollapseAnimation::State {
     return static_cast<int>(scene.meshes.size()) - 1;
   }
 
-  int mesh_of(Part part) {
+  int mesh_of(Part part, bool bends = false) {
     if (part.panel.valid())
       return mesh_of(whole_panel(building, building[part.panel]), middle(building, part),
                      colour_of(building[part.panel].kind));
     const Member& member = building[part.member];
     const Vec2 size = section_size(building[member.section]);
     const int material = colour_of(piece_kind(member.kind));
-    const auto [known, made] = boxes.try_emplace({member.length, size.x(), size.y(), static_cast<double>(material)},
-                                                 static_cast<int>(scene.meshes.size()));
-    if (made) scene.meshes.push_back(box_mesh(Vec3(member.length, size.x(), size.y()) / 2, material));
+    const auto [known, made] =
+        boxes.try_emplace({member.length, size.x(), size.y(), static_cast<double>(material), bends ? 1.0 : 0.0},
+                          static_cast<int>(scene.meshes.size()));
+    if (!made) return known->second;
+    const Vec3 half = Vec3(member.length, size.x(), size.y()) / 2;
+    scene.meshes.push_back(box_mesh(half, material, bends ? bent_segments : 1));
+    if (bends) scene.meshes.back().bends = member_bends(member.length, scene.meshes.back().positions);
     return known->second;
+  }
+
+  /// A part that is seen bent gets a mesh that can be.
+  void bend(AnimatedNode& node, Part part, const BendWeights& weights, int at) {
+    node.bend(at, weights);
+    if (node.bends.empty()) return;
+    SceneMesh& mesh = scene.meshes[static_cast<std::size_t>(node.mesh)];
+    if (!mesh.bends.empty()) return;
+    if (part.panel.valid())
+      mesh.bends = panel_bends(building, part.panel, mesh.positions);  // each has a mesh of its own
+    else
+      node.mesh = mesh_of(part, true);
   }
 
   AnimatedNode& node_of(Part part) { return scene.nodes[static_cast<std::size_t>(part_number(building, part))]; }
@@ -144,34 +155,32 @@ struct CollapseAnimation::State {
     return node;
   }
 
-  void add_standing(const Simulation& simulation, Part part, int at) {
-    const StandingFrame& frame = simulation.frame();
-    AnimatedPose pose;
-    if (part.member.valid()) {
-      const Member& member = building[part.member];
-      const Vec3 first = displaced(frame, member, 0), second = displaced(frame, member, 1);
-      pose.position = (first + second) / 2;
-      pose.orientation =
-          Eigen::Quaterniond::FromTwoVectors(member.axes.row(0).transpose(), second - first) * rest_turn(member);
-    } else {
-      pose.position = middle(building, part);
-      for (const NodeId node : building[part.panel].nodes) pose.position += frame.displacement(node).head<3>() / 4;
+  /// Where the part stands, or stood when it let go, and how it is bent there.
+  const BentPart& shape_of(Part part) {
+    const StandingShapes& standing = *shapes.standing();
+    const KeptShapes& parts = *shapes.parts();
+    SteadyPart& drawn_as = steady_parts[static_cast<std::size_t>(part_number(building, part))];
+    if (part.member.valid())
+      return drawn_as.at(bent_member(building, part.member, drawn_shape(building, part.member, standing, parts)));
+    return drawn_as.at(bent_panel(building, part.panel, moved_corners(building, part.panel, standing, parts)));
+  }
+
+  void show(const Simulation& simulation, Part part, int at, const BodyView* body = nullptr) {
+    AnimatedNode* node = node_of(part, simulation, at);
+    if (!node) return;
+    const BentPart& shape = shape_of(part);
+    AnimatedPose pose = shape.pose;
+    if (body != nullptr) {
+      pose.position = body->pose * (pose.position - body->rest_centre);
+      pose.orientation = body->pose.orientation * pose.orientation;
     }
-    show(node_of(part, simulation, at), at, pose);
+    bend(*node, part, shape.bend, at);
+    show(node, at, pose);
   }
 
   static void show(AnimatedNode* node, int at, const AnimatedPose& pose) {
-    if (!node) return;
     node->pose(at, pose);
     node->show(at, true);
-  }
-
-  void add_moving(const Simulation& simulation, const BodyView& body, Part part, int at) {
-    AnimatedPose pose;
-    pose.position = body.pose * (middle(building, part) - body.rest_centre);
-    pose.orientation = body.pose.orientation;
-    if (part.member.valid()) pose.orientation = pose.orientation * rest_turn(building[part.member]);
-    show(node_of(part, simulation, at), at, pose);
   }
 
   /// Pieces of the drawn model: each cut makes new ones.
@@ -208,14 +217,14 @@ struct CollapseAnimation::State {
       const Part part = part_of_number(building, static_cast<std::int64_t>(i));
       const bool stands = part.member.valid() ? frame.stands(part.member) : frame.stands(part.panel);
       if (stands)
-        add_standing(simulation, part, at);
+        show(simulation, part, at);
       else if ((part.member.valid() ? simulation.body_of(part.member) : simulation.body_of(part.panel)).value < 0)
         hide(part, at);
     }
     std::set<std::int64_t> seen;
     for (const BodyView& body : simulation.bodies()) {
-      for (const MemberId member : body.members) add_moving(simulation, body, Part(member), at);
-      for (const PanelId panel : body.panels) add_moving(simulation, body, Part(panel), at);
+      for (const MemberId member : body.members) show(simulation, Part(member), at, &body);
+      for (const PanelId panel : body.panels) show(simulation, Part(panel), at, &body);
       if (!body.chunk && !(body.radius > 0)) continue;
       AnimatedNode& node = node_of(body);
       node.pose(at, {body.pose.position, body.pose.orientation});
@@ -230,7 +239,9 @@ struct CollapseAnimation::State {
   const Building& building;
   const VisualMesh* drawn;
   AnimatedScene scene;
-  std::map<std::array<double, 4>, int> boxes;
+  std::map<std::array<double, 5>, int> boxes;
+  ShapeWatcher shapes;
+  std::vector<SteadyPart> steady_parts;  ///< by the part's number
   std::map<std::int64_t, std::size_t> of_body;
   struct Remains {
     std::shared_ptr<const fracture::Mesh> mesh;
@@ -251,6 +262,7 @@ CollapseAnimation::~CollapseAnimation() = default;
 
 void CollapseAnimation::add_due(const Simulation& simulation) {
   State& state = *state_;
+  state.shapes.watch(simulation);
   const double due = simulation.time() * state.scene.rate + frame_tolerance;
   if (state.next > due) return;
   // Frames that fell into steps that were passed over look like this one.

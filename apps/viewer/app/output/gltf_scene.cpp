@@ -35,10 +35,10 @@ class GltfWriter {
 
   [[nodiscard]] std::string bytes() {
     const auto places = part_places(building_, recording_);
-    for (std::size_t m = 0; m < building_.members.size(); ++m) member(building_.members[m], places[m]);
+    for (std::size_t m = 0; m < building_.members.size(); ++m) member(structure::MemberId(m), places[m]);
     const auto states = panel_states(building_, recording_);
     for (std::size_t p = 0; p < building_.panels.size(); ++p)
-      panel(building_.panels[p], states[p], places[building_.members.size() + p]);
+      panel(structure::PanelId(p), states[p], places[building_.members.size() + p]);
     for (const BodyTrack& track : recording_.tracks()) body(track);
     drawn();
     return structure::glb_of(scene_);
@@ -59,8 +59,9 @@ class GltfWriter {
     return known->second;
   }
 
-  int add(const Mesh& mesh, Rgba colour) {
+  int add(const Mesh& mesh, Rgba colour, std::vector<std::vector<structure::Vec3>> bends = {}) {
     SceneMesh added;
+    added.bends = std::move(bends);
     added.material = material(colour);
     for (const Vertex& v : mesh.vertices) {
       added.positions.push_back(vec3(v.position));
@@ -73,9 +74,9 @@ class GltfWriter {
     return static_cast<int>(scene_.meshes.size()) - 1;
   }
 
-  /// A part in its place, along the run; `lasts`: frames of the recording in which it is there at all.
-  void part(const std::string& name, int mesh, const AnimatedPose& rest, const std::vector<PlaceChange>& places,
-            std::pair<std::int32_t, std::int32_t> lasts = {0, never}) {
+  /// A part in its place and shape, along the run; `lasts`: frames of the recording in which it is there at all.
+  void part(const std::string& name, int mesh, const std::vector<ShapeChange>& shapes,
+            const std::vector<PlaceChange>& places, std::pair<std::int32_t, std::int32_t> lasts = {0, never}) {
     AnimatedNode node;
     node.name = name;
     node.mesh = mesh;
@@ -86,40 +87,42 @@ class GltfWriter {
       const int track = there ? places[next].track : part_gone;
       node.show(sample.code, track != part_gone);
       if (track == part_gone) continue;
-      AnimatedPose now = rest;
+      const structure::BentPart& shape = shape_at(shapes, sample.frame);
+      AnimatedPose now = shape.pose;
       if (track >= 0) {
         const PartMotion motion =
             motion_of(recording_.tracks()[static_cast<std::size_t>(track)], sample.frame, Eigen::Vector3d::Zero());
-        now = {motion.turn * rest.position + motion.shift, motion.turn * rest.orientation};
+        now = {motion.turn * now.position + motion.shift, motion.turn * now.orientation};
       }
       node.pose(sample.code, now);
+      node.bend(sample.code, shape.bend);
     }
     if (!node.poses.empty()) scene_.nodes.push_back(std::move(node));  // else it came and went between two frames
   }
 
-  void member(const structure::Member& member, const std::vector<PlaceChange>& places) {
-    const auto [known, made] = shapes_.try_emplace({member.section.index, member.kind, member.length}, 0);
+  void member(structure::MemberId id, const std::vector<PlaceChange>& places) {
+    const structure::Member& member = building_[id];
+    const auto shapes = part_shapes(building_, recording_, static_cast<std::size_t>(id.index));
+    const auto [known, made] =
+        meshes_.try_emplace({member.section.index, member.kind, member.length, ways_of_bending(shapes) > 0}, 0);
     if (made) {
-      Mesh mesh = section_mesh(building_[member.section], 1);
-      for (Vertex& v : mesh.vertices) v.position.x *= static_cast<float>(member.length);
-      known->second = add(mesh, member_colour(member.kind));
+      PartMesh mesh = member_mesh(building_, id, ways_of_bending(shapes) > 0);
+      known->second = add(mesh.mesh, member_colour(member.kind), std::move(mesh.bends));
     }
-    AnimatedPose rest;
-    rest.position = building_[member.nodes[0]].position + member.offsets[0];
-    rest.orientation = Eigen::Quaterniond(structure::Mat3(member.axes.transpose()));
-    part(member.name, known->second, rest, places);
+    part(member.name, known->second, shapes, places);
   }
 
-  void panel(const structure::Panel& panel, const std::vector<PanelState>& states,
-             const std::vector<PlaceChange>& places) {
-    AnimatedPose rest;
-    rest.position = building_[panel.nodes[0]].position;
+  void panel(structure::PanelId id, const std::vector<PanelState>& states, const std::vector<PlaceChange>& places) {
+    const structure::Panel& panel = building_[id];
+    const auto shapes =
+        part_shapes(building_, recording_, building_.members.size() + static_cast<std::size_t>(id.index));
     for (std::size_t k = 0; k < states.size(); ++k) {
       // What remains after each break is a node of its own, seen while it lasts.
       const std::string name = k == 0 ? panel.name : panel.name + " rest " + std::to_string(k);
       const std::int32_t end = k + 1 < states.size() ? states[k + 1].frame : never;
-      part(name, add(placed_panel_mesh(building_, panel, states[k], rest.position), panel_colour(panel.kind)), rest,
-           places, {states[k].frame, end});
+      PartMesh mesh = panel_part_mesh(building_, id, states[k], ways_of_bending(shapes));
+      part(name, add(mesh.mesh, panel_colour(panel.kind), std::move(mesh.bends)), shapes, places,
+           {states[k].frame, end});
     }
   }
 
@@ -146,7 +149,8 @@ class GltfWriter {
   void drawn() {
     int number = 0;
     for (const DrawnTrack& piece : drawn_tracks(recording_))
-      part("drawn " + std::to_string(++number), add(chunk_mesh(*piece.mesh), drawn_colour), {}, piece.places);
+      part("drawn " + std::to_string(++number), add(chunk_mesh(*piece.mesh), drawn_colour), {ShapeChange()},
+           piece.places);
   }
 
   const structure::Building& building_;
@@ -154,7 +158,7 @@ class GltfWriter {
   std::vector<ExportSample> samples_;
   structure::AnimatedScene scene_;
   std::map<Rgba, int> materials_;
-  std::map<std::tuple<std::int64_t, structure::MemberKind, double>, int> shapes_;
+  std::map<std::tuple<std::int64_t, structure::MemberKind, double, bool>, int> meshes_;  ///< of members
 };
 
 }  // namespace

@@ -71,7 +71,8 @@ class ReplayData {
     origin_ = {centre.x, centre.y, centre.z};
   }
 
-  [[nodiscard]] Json write() const {
+  [[nodiscard]] Json write() {
+    read_shapes();
     const Bounds bounds = bounds_of(building_);
     Json data;
     data["title"] = building_.title.empty() ? "Topple" : building_.title;
@@ -83,7 +84,9 @@ class ReplayData {
     data["sections"] = Json::array();
     for (const auto& section : building_.sections) data["sections"].push_back(mesh_json(section_mesh(section, 1)));
     data["members"] = members();
+    data["bent"] = std::move(bent_);
     data["panels"] = panels();
+    data["shapes"] = shapes();
     data["places"] = places();
     data["tracks"] = tracks();
     data["drawn"] = drawn();
@@ -95,10 +98,70 @@ class ReplayData {
   }
 
  private:
-  /// Name, section, kind; first end, length and axes (rows) as numbers.
-  [[nodiscard]] Json members() const {
+  void read_shapes() {
+    for (std::size_t part = 0; part < building_.members.size() + building_.panels.size(); ++part)
+      shapes_.push_back(part_shapes(building_, recording_, part));
+  }
+
+  /// A mesh and the ways in which it bends, one after the other.
+  static Json bending_json(const Mesh& mesh, const std::vector<std::vector<structure::Vec3>>& ways) {
+    Json json = mesh_json(mesh);
+    if (ways.empty()) return json;
+    std::vector<float> numbers;
+    for (const auto& way : ways)
+      for (const structure::Vec3& of : way)
+        for (const float x : floats(of)) numbers.push_back(x);
+    json["bends"] = base64(numbers);
+    return json;
+  }
+
+  /// The mesh of members like this one that bend: about their middle, in their axes.
+  int bent_mesh(structure::MemberId id) {
+    const structure::Member& member = building_[id];
+    const auto [known, made] = bent_meshes_.try_emplace({member.section.index, member.length}, bent_.size());
+    if (made) {
+      const PartMesh part = member_mesh(building_, id, true);
+      bent_.push_back(bending_json(part.mesh, part.bends));
+    }
+    return static_cast<int>(known->second);
+  }
+
+  /// Of parts that were ever drawn elsewhere than undeformed: number, frames; their motions since then in building
+  /// axes (shift, turn), and weights of bends where there are any, at each.
+  [[nodiscard]] Json shapes() const {
     Json list = Json::array();
-    for (const auto& member : building_.members) {
+    for (std::size_t part = 0; part < shapes_.size(); ++part) {
+      const structure::AnimatedPose rest = part < building_.members.size()
+                                               ? member_mesh(building_, structure::MemberId(part), false).rest
+                                               : panel_rest(structure::PanelId(part - building_.members.size()));
+      const bool bent = ways_of_bending(shapes_[part]) > 0;
+      if (shapes_[part].size() == 1 && !bent && shapes_[part][0].shape.pose == rest) continue;
+      std::vector<std::int32_t> frames;
+      std::vector<float> motions, weights;
+      for (const ShapeChange& change : shapes_[part]) {
+        frames.push_back(change.frame);
+        const PartMotion motion = motion_of(rest, change.shape.pose, origin_);
+        for (const float x : floats(motion.shift)) motions.push_back(x);
+        for (int c = 0; c < 4; ++c) motions.push_back(static_cast<float>(motion.turn.coeffs()[c]));
+        weights.insert(weights.end(), change.shape.bend.begin(), change.shape.bend.end());
+      }
+      Json one{{"part", part}, {"frames", base64(frames)}, {"motions", base64(motions)}};
+      if (bent) one["weights"] = base64(weights);
+      list.push_back(std::move(one));
+    }
+    return list;
+  }
+  [[nodiscard]] structure::AnimatedPose panel_rest(structure::PanelId id) const {
+    structure::AnimatedPose rest;
+    for (const structure::NodeId node : building_[id].nodes) rest.position += building_[node].position / 4;
+    return rest;
+  }
+
+  /// Name, section, kind; first end, length and axes (rows) as numbers; the mesh of one that bends.
+  [[nodiscard]] Json members() {
+    Json list = Json::array();
+    for (std::size_t m = 0; m < building_.members.size(); ++m) {
+      const structure::Member& member = building_.members[m];
       const Eigen::Vector3d first = building_[member.nodes[0]].position + member.offsets[0] - origin_;
       std::vector<float> numbers;
       for (const float x : floats(first)) numbers.push_back(x);
@@ -109,6 +172,7 @@ class ReplayData {
                       {"section", member.section.index},
                       {"kind", static_cast<int>(member.kind)},
                       {"numbers", base64(numbers)}});
+      if (ways_of_bending(shapes_[m]) > 0) list.back()["bent"] = bent_mesh(structure::MemberId(m));
     }
     return list;
   }
@@ -118,10 +182,12 @@ class ReplayData {
     const auto all = panel_states(building_, recording_);
     for (std::size_t p = 0; p < building_.panels.size(); ++p) {
       const structure::Panel& panel = building_.panels[p];
+      const std::size_t ways = ways_of_bending(shapes_[building_.members.size() + p]);
       Json states = Json::array();
-      for (const PanelState& state : all[p])
-        states.push_back(
-            {{"frame", state.frame}, {"mesh", mesh_json(placed_panel_mesh(building_, panel, state, origin_))}});
+      for (const PanelState& state : all[p]) {
+        const PartMesh part = panel_part_mesh(building_, structure::PanelId(p), state, ways);
+        states.push_back({{"frame", state.frame}, {"mesh", bending_json(placed(part, {}, origin_), part.bends)}});
+      }
       list.push_back({{"name", panel.name}, {"kind", static_cast<int>(panel.kind)}, {"states", std::move(states)}});
     }
     return list;
@@ -196,6 +262,9 @@ class ReplayData {
   const structure::Building& building_;
   const Recording& recording_;
   Eigen::Vector3d origin_;
+  std::vector<std::vector<ShapeChange>> shapes_;  ///< by part
+  Json bent_ = Json::array();                     ///< meshes of members that bend
+  std::map<std::pair<std::int64_t, double>, std::size_t> bent_meshes_;
 };
 
 /// "<" would end or open elements within the page's script.

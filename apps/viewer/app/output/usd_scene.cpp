@@ -1,6 +1,7 @@
 #include "app/output/usd_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
@@ -59,18 +60,17 @@ class UsdWriter {
     out_ << "    def Scope \"Members\"\n    {\n";
     PrimNames members;
     for (std::size_t m = 0; m < building_.members.size(); ++m)
-      part(members(building_.members[m].name), placed_member_mesh(building_, building_.members[m], origin_), places[m],
-           member_colour(building_.members[m].kind));
+      member(members(building_.members[m].name), structure::MemberId(m), places[m]);
     out_ << "    }\n    def Scope \"Panels\"\n    {\n";
     PrimNames panels;
     const auto states = panel_states(building_, recording_);
     for (std::size_t p = 0; p < building_.panels.size(); ++p)
       for (std::size_t k = 0; k < states[p].size(); ++k) {
         // What remains after each break is a prim of its own, seen while it lasts.
-        const structure::Panel& panel = building_.panels[p];
-        part(panels(k == 0 ? panel.name : panel.name + "_rest"),
-             placed_panel_mesh(building_, panel, states[p][k], origin_), places[building_.members.size() + p],
-             panel_colour(panel.kind), {states[p][k].frame, k + 1 < states[p].size() ? states[p][k + 1].frame : never});
+        const std::string& name = building_.panels[p].name;
+        panel(panels(k == 0 ? name : name + "_rest"), structure::PanelId(p), states[p][k],
+              places[building_.members.size() + p],
+              {states[p][k].frame, k + 1 < states[p].size() ? states[p][k + 1].frame : never});
       }
     out_ << "    }\n    def Scope \"Bodies\"\n    {\n";
     for (const BodyTrack& track : recording_.tracks()) body(track);
@@ -78,32 +78,54 @@ class UsdWriter {
     out_ << "    }\n    def Scope \"Drawn\"\n    {\n";
     int number = 0;
     for (const DrawnTrack& piece : drawn_tracks(recording_))
-      part("drawn_" + std::to_string(++number), placed_mesh(*piece.mesh, origin_), piece.places, drawn_colour);
+      part("drawn_" + std::to_string(++number), {placed_mesh(*piece.mesh, origin_), {}, {}}, {ShapeChange()},
+           piece.places, drawn_colour);
     out_ << "    }\n}\n";
   }
 
  private:
+  /// Vertices at one place are one point, which is written once; normals go with the corners of faces.
+  class Points {
+   public:
+    explicit Points(const Mesh& mesh) {
+      std::map<std::array<float, 3>, std::size_t> known;
+      for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+        const glm::vec3 p = mesh.vertices[v].position;
+        const auto [one, made] = known.try_emplace({p.x, p.y, p.z}, vertex_.size());
+        if (made) vertex_.push_back(v);
+        of_.push_back(one->second);
+      }
+    }
+    [[nodiscard]] std::size_t of(std::uint32_t vertex) const { return of_[vertex]; }
+    /// Of this mesh or the same one bent.
+    [[nodiscard]] std::string text(const Mesh& mesh) const {
+      std::string text;
+      for (const std::size_t v : vertex_) add(text, mesh.vertices[v].position);
+      return text;
+    }
+
+   private:
+    std::vector<std::size_t> of_, vertex_;  // of each vertex its point, of each point a vertex
+  };
+  static void add(std::string& text, const glm::vec3& p) {
+    text += print("%s(%.6g, %.6g, %.6g)", text.empty() ? "" : ", ", static_cast<double>(p.x), static_cast<double>(p.y),
+                  static_cast<double>(p.z));
+  }
+
   void mesh(const std::string& name, const Mesh& mesh, Rgba colour, const std::string& more) {
+    const Points points(mesh);
+    std::string normals;
     out_ << "        def Mesh \"" << name << "\"\n        {\n            int[] faceVertexCounts = [";
     for (std::size_t i = 0; i < mesh.indices.size() / 3; ++i) out_ << (i > 0 ? ", 3" : "3");
     out_ << "]\n            int[] faceVertexIndices = [";
-    for (std::size_t i = 0; i < mesh.indices.size(); ++i) out_ << (i > 0 ? ", " : "") << mesh.indices[i];
-    out_ << "]\n            point3f[] points = [";
-    vectors(mesh, &Vertex::position);
-    out_ << "]\n            normal3f[] normals = [";
-    vectors(mesh, &Vertex::normal);
-    out_ << "] (\n                interpolation = \"vertex\"\n            )\n"
+    for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+      out_ << (i > 0 ? ", " : "") << points.of(mesh.indices[i]);
+      add(normals, mesh.vertices[mesh.indices[i]].normal);
+    }
+    out_ << "]\n            point3f[] points = [" << points.text(mesh) << "]\n            normal3f[] normals = ["
+         << normals << "] (\n                interpolation = \"faceVarying\"\n            )\n"
          << "            uniform token subdivisionScheme = \"none\"\n";
     colour_and(colour, more);
-  }
-  void vectors(const Mesh& mesh, glm::vec3 Vertex::*what) {
-    bool first = true;
-    for (const Vertex& v : mesh.vertices) {
-      const glm::vec3 p = v.*what;
-      out_ << print("%s(%.6g, %.6g, %.6g)", first ? "" : ", ", static_cast<double>(p.x), static_cast<double>(p.y),
-                    static_cast<double>(p.z));
-      first = false;
-    }
   }
   void colour_and(Rgba colour, const std::string& more) {
     const glm::vec4 c = unpack(colour);
@@ -128,7 +150,7 @@ class UsdWriter {
         held = code;
         return;
       }
-      moved = moved || !last_translate.empty();
+      moved = moved || !last_translate.empty() || !motion.shift.isZero(0) || motion.turn.w() != 1;
       if (held >= 0) put(held, last_translate, last_orient);
       held = -1;
       put(code, t, q);
@@ -158,9 +180,55 @@ class UsdWriter {
   static constexpr std::int32_t never = std::numeric_limits<std::int32_t>::max();
   /// Frames of the recording: from the first to before the second.
   using Span = std::pair<std::int32_t, std::int32_t>;
-  void part(const std::string& name, const Mesh& shape, const std::vector<PlaceChange>& places, Rgba colour,
-            Span lasts = {0, never}) {
+  void member(const std::string& name, structure::MemberId id, const std::vector<PlaceChange>& places) {
+    const auto shapes = part_shapes(building_, recording_, static_cast<std::size_t>(id.index));
+    part(name, member_mesh(building_, id, ways_of_bending(shapes) > 0), shapes, places,
+         member_colour(building_[id].kind));
+  }
+  void panel(const std::string& name, structure::PanelId id, const PanelState& state,
+             const std::vector<PlaceChange>& places, Span lasts) {
+    const auto shapes =
+        part_shapes(building_, recording_, building_.members.size() + static_cast<std::size_t>(id.index));
+    part(name, panel_part_mesh(building_, id, state, ways_of_bending(shapes)), shapes, places,
+         panel_colour(building_[id].kind), lasts);
+  }
+
+  /// Points of a mesh that is bent, where they change: held until the code before, so that none lies between two.
+  class Bends {
+   public:
+    Bends(const PartMesh& part, const Eigen::Vector3d& origin)
+        : part_(part), origin_(origin), points_(placed(part, {}, origin)) {}
+    void add(int code, const structure::BendWeights& now) {
+      if (part_.bends.empty()) return;
+      if (!samples_.empty() && now == last_) {
+        held_ = code;
+        return;
+      }
+      if (held_ >= 0) put(held_, last_);
+      put(code, now);
+      last_ = now, held_ = -1;
+    }
+    [[nodiscard]] std::string text() const {
+      return samples_.empty() ? "" : "            point3f[] points.timeSamples = {\n" + samples_ + "            }\n";
+    }
+
+   private:
+    void put(int code, const structure::BendWeights& bend) {
+      samples_ +=
+          "                " + std::to_string(code) + ": [" + points_.text(placed(part_, bend, origin_)) + "],\n";
+    }
+    const PartMesh& part_;
+    Eigen::Vector3d origin_;
+    Points points_;
+    std::string samples_;
+    structure::BendWeights last_{};
+    int held_ = -1;
+  };
+
+  void part(const std::string& name, const PartMesh& drawn, const std::vector<ShapeChange>& shapes,
+            const std::vector<PlaceChange>& places, Rgba colour, Span lasts = {0, never}) {
     Motion motion;
+    Bends points(drawn, origin_);
     std::vector<std::pair<int, bool>> visible;
     std::size_t next = 0;
     for (const ExportSample& sample : samples_) {
@@ -170,11 +238,15 @@ class UsdWriter {
       if (visible.empty() || visible.back().second != (track != part_gone))
         visible.emplace_back(sample.code, track != part_gone);
       if (track == part_gone) continue;
+      const structure::BentPart& shape = shape_at(shapes, sample.frame);
+      const PartMotion own = motion_of(drawn.rest, shape.pose, origin_);
       motion.add(sample.code,
-                 track >= 0 ? motion_of(recording_.tracks()[static_cast<std::size_t>(track)], sample.frame, origin_)
-                            : PartMotion());
+                 track >= 0
+                     ? motion_of(recording_.tracks()[static_cast<std::size_t>(track)], sample.frame, origin_) * own
+                     : own);
+      points.add(sample.code, shape.bend);
     }
-    mesh(name, shape, colour, (motion.moved ? motion.text() : "") + seen(visible));
+    mesh(name, placed(drawn, {}, origin_), colour, points.text() + (motion.moved ? motion.text() : "") + seen(visible));
   }
 
   void body(const BodyTrack& track) {

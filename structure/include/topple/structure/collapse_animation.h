@@ -9,8 +9,8 @@
 
 namespace topple::structure {
 
-/// Records poses frame by frame. Standing parts are drawn where their ends are displaced to, straight between them;
-/// pieces of a drawn model as they were drawn, moved with their bodies.
+/// Records poses and bends frame by frame, as StandingShapes and KeptShapes have them, to drawn_tolerance; pieces of a
+/// drawn model as they were drawn, moved with their bodies.
 class CollapseAnimation {
  public:
   /// `rate`: frames for each simulated second, above 0. `drawn`: recorded as it is when frames are added; it has to
@@ -23,7 +23,8 @@ class CollapseAnimation {
   /// Recorded so far.
   [[nodiscard]] int frames() const;
   /// glTF 2.0 in its binary form, y up, m and s. Poses are keyed where they change, so that linear interpolation gives
-  /// every frame's own; a node has scale 1 from its birth to its removal, else 0.
+  /// every frame's own; a node has scale 1 from its birth to its removal, else 0. Members of one
+  /// section, kind and length share a mesh, and those of them that bend another with morph targets.
   [[nodiscard]] std::string glb() const;
 
  private:

@@ -1,16 +1,11 @@
-#include "renderer/member_shapes.h"
+#include "topple/structure/member_shapes.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
 
-namespace topple::viewer {
+namespace topple::structure {
 namespace {
-
-using structure::Building;
-using structure::Member;
-using structure::MemberId;
-using structure::StandingFrame;
 
 /// Beside the line between its own ends, local axes.
 struct Bow {
@@ -38,9 +33,8 @@ Bow bow_of(const StandingFrame& frame, MemberId id, double length) {
 
 bool has_own_shape(const StandingFrame& frame, const Building& building, MemberId id) {
   for (int end = 0; end < 2; ++end) {
-    const structure::JointId joint = building.joint(id, end);
-    if (!frame.intact(joint) || !(building[joint].stiffness.tail<3>().array() == structure::unlimited).all())
-      return true;
+    const JointId joint = building.joint(id, end);
+    if (!frame.intact(joint) || !(building[joint].stiffness.tail<3>().array() == unlimited).all()) return true;
   }
   return false;
 }
@@ -130,4 +124,4 @@ Displacement NearestMotion::beside(const Eigen::Vector3d& at, const Displacement
   return left;
 }
 
-}  // namespace topple::viewer
+}  // namespace topple::structure

@@ -10,7 +10,7 @@
 
 #include "topple/structure/simulation.h"
 
-namespace topple::viewer {
+namespace topple::structure {
 
 /// A displacement and a turn: m and rad, global axes.
 using Displacement = Eigen::Matrix<float, 6, 1>;
@@ -25,7 +25,8 @@ struct MemberShape {
 /// Shapes of those members whose nodes alone do not tell them.
 struct MemberShapes {
   std::vector<std::int32_t> place;  ///< per member: index in `known`, or -1; empty: none is known
-  std::vector<MemberShape> known;
+  std::vector<MemberShape> known;   ///< those that are
+  /// Null: its nodes tell it.
   [[nodiscard]] const MemberShape* find(std::size_t member) const {
     return member < place.size() && place[member] >= 0 ? &known[static_cast<std::size_t>(place[member])] : nullptr;
   }
@@ -36,15 +37,15 @@ struct MemberShapes {
 inline constexpr std::size_t all_shapes_up_to = 1000;
 
 /// Of a member that stands, by what it bears now and these displacements of its nodes.
-[[nodiscard]] MemberShape member_shape(const structure::StandingFrame& frame, const structure::Building& building,
-                                       structure::MemberId member, std::span<const Displacement> displacements);
+[[nodiscard]] MemberShape member_shape(const StandingFrame& frame, const Building& building, MemberId member,
+                                       std::span<const Displacement> displacements);
 /// Of all that stand and have one of their own. `yielded`: per member, whether a joint of it ever did.
-[[nodiscard]] std::shared_ptr<const MemberShapes> read_member_shapes(const structure::StandingFrame& frame,
-                                                                     const structure::Building& building,
+[[nodiscard]] std::shared_ptr<const MemberShapes> read_member_shapes(const StandingFrame& frame,
+                                                                     const Building& building,
                                                                      const std::vector<bool>& yielded,
                                                                      std::span<const Displacement> displacements);
 /// As its nodes alone tell it.
-[[nodiscard]] MemberShape shape_of_nodes(const structure::Building& building, structure::MemberId member,
+[[nodiscard]] MemberShape shape_of_nodes(const Building& building, MemberId member,
                                          std::span<const Displacement> displacements);
 
 /// The rigid motion that comes nearest to displacements of points, by least squares: what is left is how they are bent.
@@ -52,6 +53,7 @@ class NearestMotion {
  public:
   /// `at`: where it was in the undeformed building.
   void add(const Eigen::Vector3d& at, const Displacement& moved);
+  /// After all were added, once.
   void solve();
   /// What is left of the displacement of this point.
   [[nodiscard]] Displacement beside(const Eigen::Vector3d& at, const Displacement& moved) const;
@@ -64,4 +66,4 @@ class NearestMotion {
   Eigen::Vector3d centre_ = Eigen::Vector3d::Zero(), moved_ = Eigen::Vector3d::Zero(), turn_ = Eigen::Vector3d::Zero();
 };
 
-}  // namespace topple::viewer
+}  // namespace topple::structure
