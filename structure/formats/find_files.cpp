@@ -1,4 +1,5 @@
 // Where shipped models and scenarios lie.
+#include <algorithm>
 #include <cstdlib>
 #include <set>
 #include <vector>
@@ -50,6 +51,28 @@ std::vector<std::string> shipped(const fs::path& below) {
   return {names.begin(), names.end()};
 }
 
+/// Shipped scenarios in which this model stands.
+std::vector<std::string> scenarios_of(const std::string& model) {
+  std::vector<std::string> found;
+  for (const std::string& name : shipped("scenarios")) {
+    const formats::JsonDocument scenario = formats::JsonDocument::from_file(find_scenario(name));
+    const auto told = scenario.root().find("model");
+    if (told && told->is_text() && told->text() == model) found.push_back(name);
+  }
+  return found;
+}
+
+/// Who names a model where a scenario is asked for is told what there is of it.
+std::string if_a_model(const std::string& name) {
+  const std::vector<std::string> models = shipped({});
+  if (std::find(models.begin(), models.end(), name) == models.end()) return {};
+  const std::vector<std::string> scenarios = scenarios_of(name);
+  return " (it is a model: " +
+         (scenarios.empty() ? std::string("no shipped scenario has it")
+                            : "its scenarios are " + formats::quoted_list({scenarios.begin(), scenarios.end()})) +
+         "; topple-viewer takes it as it is)";
+}
+
 fs::path find(const std::string& name_or_path, const fs::path& folder, const char* kind, const fs::path& below) {
   const fs::path path = folder / name_or_path;
   if (is_file(path) || (std::string_view(kind) == "model" && is_folder_of_tables(path))) return path;
@@ -57,8 +80,9 @@ fs::path find(const std::string& name_or_path, const fs::path& folder, const cha
     for (const fs::path& place : shipped_folders())
       if (fs::path file = place / below / (name_or_path + ".json"); is_file(file)) return file;
   const std::vector<std::string> names = shipped(below);
+  const std::string model = std::string_view(kind) == "scenario" ? if_a_model(name_or_path) : std::string();
   throw InputError(
-      name_or_path + ": there is no such " + kind + did_you_mean(name_or_path, names) +
+      name_or_path + ": there is no such " + kind + (model.empty() ? did_you_mean(name_or_path, names) : model) +
       "; accepted: a path to a file, or a shipped one: " + formats::quoted_list({names.begin(), names.end()}));
 }
 

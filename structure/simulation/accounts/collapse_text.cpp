@@ -1,6 +1,7 @@
 // The summary of a collapse that a person reads.
 #include <cstdarg>
 #include <cstdio>
+#include <set>
 
 #include "topple/structure/collapse_report.h"
 
@@ -42,6 +43,14 @@ void add_overlaps(std::string& text, const BodyOverlaps& overlaps) {
          static_cast<unsigned long long>(overlaps.deep), 100 * collision::OverlapWatch::deep_share);
 }
 
+/// Each counts once, in however many senses it did.
+std::size_t joints_yielded(const Simulation& simulation) {
+  std::set<JointId> joints;
+  for (const SimulationEvent& event : simulation.events())
+    if (event.kind == SimulationEvent::Kind::joint_yielded) joints.insert(event.joint.joint);
+  return joints.size();
+}
+
 double fallen_mass(const Simulation& simulation) {
   double mass = 0;
   for (const SimulationEvent& event : simulation.events())
@@ -60,6 +69,8 @@ std::string collapse_text(const Simulation& simulation, const StepTimes& times) 
          simulation.scenario().title.empty() ? "collapse" : simulation.scenario().title.c_str(), simulation.time(),
          static_cast<long long>(simulation.steps()), simulation.at_rest() ? "all at rest" : "still moving");
   append(text, "  broke:  %zu of %zu joints\n", counts.joints_broken, building.joints.size());
+  if (const std::size_t yielded = joints_yielded(simulation); yielded > 0)
+    append(text, "  yielded: %zu joints, which took up %.4g J\n", yielded, ledger.dissipated_in_joints);
   append(text, "  down:   %zu of %zu members, %zu of %zu panels, %.4g t\n", counts.members_down,
          building.members.size(), counts.panels_down, building.panels.size(), fallen_mass(simulation) / 1000);
   append(text, "  left:   %zu standing segments, %zu bodies\n", counts.standing_segments, counts.bodies);

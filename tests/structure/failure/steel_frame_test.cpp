@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "topple/structure/collapse_report.h"
 #include "topple/structure/formats/files.h"
 #include "topple/structure/simulation.h"
 
@@ -53,6 +54,11 @@ TEST_CASE("the steel frame hangs by plastic hinges when it has lost a column, an
         broken += event.kind == SimulationEvent::Kind::joint_broke ? 1 : 0;
       }
       CHECK(simulation.bodies().empty());
+      // Who reads the summary is told of them, though nothing broke.
+      StepTimes times;
+      times.add(simulation);
+      CHECK_THAT(collapse_text(simulation, times),
+                 Catch::Contains("broke:  0 of 68 joints\n  yielded: 12 joints, which"));
     }
   }
   // Of the three beams that meet over the lost column, on both floors, both ends.

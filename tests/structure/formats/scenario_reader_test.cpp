@@ -209,3 +209,19 @@ TEST_CASE("every shipped scenario is read") {
   }
   CHECK_FALSE(is_scenario(find_model("tower")));
 }
+
+TEST_CASE("who asks for a model's name as a scenario is told that it is one, and which scenarios it has") {
+  const auto told = [](const char* name) {
+    try {
+      (void)find_scenario(name);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  CHECK_THAT(told("hall"), Catch::StartsWith("hall: there is no such scenario (it is a model: its scenarios are "
+                                             "\"hall_buckling\", \"hall_classic\"; topple-viewer takes it as it is)"));
+  CHECK_THAT(told("la3"),
+             Catch::StartsWith("la3: there is no such scenario (it is a model: no shipped scenario has it"));
+  CHECK_THAT(told("hal"), !Catch::Contains("it is a model"));
+}
