@@ -41,6 +41,7 @@ Vec12 missing_momentum(const FrameSystem& system, const MassModel& masses, int b
 void ChangedMomentum::begin_substep() {
   broken_.clear();
   changed_.clear();
+  fixed_end_.clear();
 }
 
 void ChangedMomentum::remember(const FrameSystem& system, const SystemInertia& inertia, const RequestedChanges& changes,

@@ -55,7 +55,7 @@ class ChangedMomentum {
   std::vector<BrokenJoint> broken_;
   std::vector<ChangedBeam> changed_;
   std::map<int, Vec6> brought_;     ///< per beam
-  std::map<int, Vec12> fixed_end_;  ///< of beams that bear the force of their broken end, local
+  std::map<int, Vec12> fixed_end_;  ///< of beams that bear the force of their broken end in this substep, local
 };
 
 }  // namespace topple::solver
