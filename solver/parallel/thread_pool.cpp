@@ -7,7 +7,7 @@ namespace topple::solver {
 
 namespace {
 /// Looks at the time between two loops before a thread sleeps: some 50 microseconds.
-constexpr int looks = 20000;
+constexpr int looks = 100000;
 }  // namespace
 
 ThreadPool::ThreadPool(int threads) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <thread>
 #include <utility>
 
 #include "app/event_text.h"
@@ -12,6 +13,9 @@ namespace {
 
 /// A person's session has no end of its own (s).
 constexpr double endless = 1e9;
+
+/// Drawing keeps a processor to itself. More threads than eight find little to do in a step.
+int threads_for_steps() { return std::clamp(static_cast<int>(std::thread::hardware_concurrency()) - 1, 1, 8); }
 
 }  // namespace
 
@@ -28,7 +32,8 @@ Session::Session(std::shared_ptr<const structure::Building> building, structure:
 }
 
 void Session::begin() {
-  simulation_ = std::make_unique<structure::Simulation>(*building_, scenario_);
+  simulation_ = std::make_unique<structure::Simulation>(*building_, scenario_,
+                                                        structure::SimulationOptions{threads_for_steps(), {}});
   drawn_.reset();
   if (drawn_meshes_ && !drawn_meshes_->empty())
     drawn_ = std::make_unique<structure::VisualMesh>(*building_, *drawn_meshes_);

@@ -155,7 +155,7 @@ TEST_CASE("posts of a portal have the chart's factor, and that of the buckling a
   request.critical_sections = true;
   AnalysisResult result = analyse(building, request);
   check_design(building, DesignCode::en1993, usual_drift_limit, result);
-  const DesignResult& chart = result.combinations[0].designs[0];
+  const DesignResult chart = result.combinations[0].designs[0];
   CHECK(chart.length_source[0] == LengthSource::chart_sway);
   CHECK(chart.lengths.y / 4 == Approx(1.3868).margin(1e-3));
   CHECK(chart.length_source[1] == LengthSource::chart_braced);

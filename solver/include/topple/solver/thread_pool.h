@@ -10,6 +10,7 @@
 
 namespace topple::solver {
 
+/// A loop's turns, on threads that are there already.
 class ThreadPool {
  public:
   /// `threads`, the caller's among them: one less is started, or as many as the system gives.
