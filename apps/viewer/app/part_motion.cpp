@@ -143,7 +143,7 @@ glm::vec3 vector(const Eigen::Vector3d& v) { return glm::vec3(v.x(), v.y(), v.z(
 PartMesh member_mesh(const structure::Building& building, structure::MemberId id, bool bent) {
   const structure::Member& member = building[id];
   PartMesh part;
-  part.rest = bent_member(building, id, MemberShape()).pose;
+  part.rest = rest_pose(building, id);
   part.mesh = section_mesh(building[member.section], bent ? structure::bent_segments : 1);
   for (Vertex& v : part.mesh.vertices) v.position.x = (v.position.x - 0.5F) * static_cast<float>(member.length);
   if (bent) part.bends = structure::member_bends(member.length, places(part.mesh));
@@ -153,8 +153,7 @@ PartMesh member_mesh(const structure::Building& building, structure::MemberId id
 PartMesh panel_part_mesh(const structure::Building& building, structure::PanelId id, const PanelState& state,
                          std::size_t ways) {
   PartMesh part;
-  part.rest.position = Eigen::Vector3d::Zero();
-  for (const structure::NodeId node : building[id].nodes) part.rest.position += building[node].position / 4;
+  part.rest = rest_pose(building, id);
   part.mesh = placed_panel_mesh(building, building[id], state, part.rest.position);
   if (ways > 0) part.bends = structure::panel_bends(building, id, places(part.mesh));
   part.bends.resize(std::min(ways, part.bends.size()));

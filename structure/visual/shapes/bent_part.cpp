@@ -203,16 +203,25 @@ const BentPart& SteadyPart::at(const BentPart& now) {
   return last_;
 }
 
+AnimatedPose rest_pose(const Building& building, MemberId member) {
+  return bent_member(building, member, MemberShape()).pose;
+}
+
+AnimatedPose rest_pose(const Building& building, PanelId panel) {
+  return {Quadrilateral(corners_of(building, panel)).centre, Eigen::Quaterniond::Identity()};
+}
+
 SteadyPart steady(const Building& building, MemberId member) {
-  return {bent_member(building, member, MemberShape()), building[member].length / 2, true};
+  BentPart rest;
+  rest.pose = rest_pose(building, member);
+  return {rest, building[member].length / 2, true};
 }
 
 SteadyPart steady(const Building& building, PanelId panel) {
-  const std::array<Vec3, 4> corners = corners_of(building, panel);
   BentPart rest;
-  rest.pose.position = Quadrilateral(corners).centre;
+  rest.pose = rest_pose(building, panel);
   double size = 0;
-  for (const Vec3& corner : corners) size = std::max(size, (corner - rest.pose.position).norm());
+  for (const Vec3& corner : corners_of(building, panel)) size = std::max(size, (corner - rest.pose.position).norm());
   return {rest, size, false};
 }
 

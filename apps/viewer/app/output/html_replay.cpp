@@ -131,9 +131,9 @@ class ReplayData {
   [[nodiscard]] Json shapes() const {
     Json list = Json::array();
     for (std::size_t part = 0; part < shapes_.size(); ++part) {
-      const structure::AnimatedPose rest = part < building_.members.size()
-                                               ? member_mesh(building_, structure::MemberId(part), false).rest
-                                               : panel_rest(structure::PanelId(part - building_.members.size()));
+      const structure::AnimatedPose rest =
+          part < building_.members.size() ? rest_pose(building_, structure::MemberId(part))
+                                          : rest_pose(building_, structure::PanelId(part - building_.members.size()));
       const bool bent = ways_of_bending(shapes_[part]) > 0;
       if (shapes_[part].size() == 1 && !bent && shapes_[part][0].shape.pose == rest) continue;
       std::vector<std::int32_t> frames;
@@ -150,11 +150,6 @@ class ReplayData {
       list.push_back(std::move(one));
     }
     return list;
-  }
-  [[nodiscard]] structure::AnimatedPose panel_rest(structure::PanelId id) const {
-    structure::AnimatedPose rest;
-    for (const structure::NodeId node : building_[id].nodes) rest.position += building_[node].position / 4;
-    return rest;
   }
 
   /// Name, section, kind; first end, length and axes (rows) as numbers; the mesh of one that bends.

@@ -62,6 +62,11 @@ class SteadyPart {
   double size_;
   bool is_member_;
 };
+/// Undeformed.
+[[nodiscard]] AnimatedPose rest_pose(const Building& building, MemberId member);
+/// Undeformed.
+[[nodiscard]] AnimatedPose rest_pose(const Building& building, PanelId panel);
+/// From where it is undeformed.
 [[nodiscard]] SteadyPart steady(const Building& building, MemberId member);
 [[nodiscard]] SteadyPart steady(const Building& building, PanelId panel);
 
