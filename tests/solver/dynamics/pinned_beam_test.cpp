@@ -35,9 +35,8 @@ class LetGo : public JointLaw {
   }
 };
 
-}  // namespace
-
-TEST_CASE("A beam on a pin leaves as its other end breaks, and the posts beside it go on") {
+/// Two posts on the ground, and a beam on them.
+FrameModel portal() {
   FrameModel model;
   model.nodes = {Vec3(0, 0, 0), Vec3(0, 0, 3), Vec3(5, 0, 0), Vec3(5, 0, 3)};
   model.supports = {{0, fixed()}, {2, fixed()}};
@@ -45,6 +44,13 @@ TEST_CASE("A beam on a pin leaves as its other end breaks, and the posts beside 
   add_beam(model, 2, 3);
   add_beam(model, 1, 3);
   for (Beam& beam : model.beams) beam.density = 7850;
+  return model;
+}
+
+}  // namespace
+
+TEST_CASE("A beam on a pin leaves as its other end breaks, and the posts beside it go on") {
+  FrameModel model = portal();
   model.beams[2].end_stiffness[0] = components(rigid, rigid, rigid, rigid, 0, 0);
   DynamicOptions options;
   options.substep = 1e-3;
@@ -77,13 +83,7 @@ TEST_CASE("A beam on a pin leaves as its other end breaks, and the posts beside 
 TEST_CASE(
     "A beam that hangs on from one joint leaves by the force of that joint, not by that of the one which broke "
     "before") {
-  FrameModel model;
-  model.nodes = {Vec3(0, 0, 0), Vec3(0, 0, 3), Vec3(5, 0, 0), Vec3(5, 0, 3)};
-  model.supports = {{0, fixed()}, {2, fixed()}};
-  add_beam(model, 0, 1);
-  add_beam(model, 2, 3);
-  add_beam(model, 1, 3);
-  for (Beam& beam : model.beams) beam.density = 7850;
+  const FrameModel model = portal();
   DynamicOptions options;
   options.substep = 1e-3;
   FrameDynamics frame(model, MassModel(), options);
