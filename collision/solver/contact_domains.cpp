@@ -48,16 +48,20 @@ ContactDomains cut(std::span<const ContactEnds> contacts, int bodies, int domain
 
 }  // namespace
 
+ContactDomains one_domain(std::size_t contacts) {
+  ContactDomains whole;
+  std::vector<std::uint32_t>& all = whole.sets.emplace_back(contacts);
+  std::iota(all.begin(), all.end(), 0U);
+  whole.stages = {0, 1};
+  return whole;
+}
+
 ContactDomains find_domains(std::span<const ContactEnds> contacts, int bodies, int domains) {
   for (; domains > 1; domains /= 2) {
     ContactDomains made = cut(contacts, bodies, domains);
     if (8 * made.sets.back().size() <= contacts.size()) return made;
   }
-  ContactDomains whole;
-  whole.sets.emplace_back(contacts.size());
-  for (std::uint32_t i = 0; i < contacts.size(); ++i) whole.sets[0][i] = i;
-  whole.stages = {0, 1};
-  return whole;
+  return one_domain(contacts.size());
 }
 
 }  // namespace topple::collision

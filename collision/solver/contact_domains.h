@@ -22,6 +22,8 @@ struct ContactEnds {
   int first = 0, second = 0;
 };
 
+/// All contacts in one set.
+[[nodiscard]] ContactDomains one_domain(std::size_t contacts);
 /// At most `domains`; half as often while more than an eighth of the contacts would be left over.
 [[nodiscard]] ContactDomains find_domains(std::span<const ContactEnds> contacts, int bodies, int domains);
 

@@ -1,6 +1,6 @@
 #pragma once
 // Contacts of four pairs of bodies side by side, as the solver's inner loops read them: plain numbers, no body twice in
-// a colour, so that packs of a colour can be done in any order and on any thread with the same bits.
+// a pack. Packs are done in their order, and side by side where they share no body (ContactDomains).
 //
 // Velocities and displacements are scaled by the roots of mass and moments: a row's Jacobian is then its own mass
 // matrix times itself, and half of what would be read is not there. For a body with mass m and principal moments I,
@@ -80,8 +80,8 @@ struct SubStep {
 };
 
 /// The inner loops, in the widest instructions that the processor has; the bits are the same in all.
-/// A pass is over packs of one colour, and may be shared among threads: whether a point has changed by more than
-/// `settled` is returned, and nothing is summed.
+/// A pass over packs sums nothing, so that threads may share it: whether a point has changed by more than `settled` is
+/// returned.
 struct ContactKernels {
   using Pass = bool (*)(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity,
                         const Motion6* displacement, const SubStep& step);

@@ -121,9 +121,7 @@ void DebrisWorld::tell_contacts(double dt, std::span<const char> left_out) {
   const auto is_left_out = [&](int number) { return !left_out.empty() && left_out[static_cast<std::size_t>(number)]; };
   const std::span<SolverContact> solved = solver_.contacts();
   const auto each = [&](const auto& work) {
-    region_.loop(solved.size(), kContacts, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) work(solved[i]);
-    });
+    region_.each(solved.size(), kContacts, [&](std::size_t i) { work(solved[i]); });
   };
   each([&](SolverContact& one) {
     const bool told = !is_left_out(one.first) && !is_left_out(one.second) && touches(one);

@@ -168,9 +168,7 @@ void DebrisWorld::note_ways(double dt) {
     for (std::size_t i = 0; i < one.parts.size(); ++i)
       pairs_.note_way(one.colliders[i], one.gone, straight + spin * one.parts[i].reach, !one.asleep);
   };
-  region_.loop(order_.size(), kBodies, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) note(body(order_[i].value));
-  });
+  region_.each(order_.size(), kBodies, [&](std::size_t i) { note(body(order_[i].value)); });
 }
 
 void DebrisWorld::seek(std::uint32_t index) {
@@ -208,9 +206,7 @@ void DebrisWorld::seek(std::uint32_t index) {
 /// Each pair by itself.
 void DebrisWorld::seek_contacts() {
   const std::vector<std::uint32_t>& order = pairs_.order();
-  region_.loop(order.size(), kPairs, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) seek(order[i]);
-  });
+  region_.each(order.size(), kPairs, [&](std::size_t i) { seek(order[i]); });
 }
 
 void DebrisWorld::find_contacts(double dt) {
@@ -344,9 +340,7 @@ SolverContact DebrisWorld::solver_contact(NearPair& pair) const {
 
 void DebrisWorld::add_contacts(const Island& island) {
   const std::span<SolverContact> made = solver_.add_contacts(island.pairs.size());
-  region_.loop(made.size(), kPairs, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) made[i] = solver_contact(pairs_.pair(island.pairs[i]));
-  });
+  region_.each(made.size(), kPairs, [&](std::size_t i) { made[i] = solver_contact(pairs_.pair(island.pairs[i])); });
   for (DebrisHinge* hinge : island.hinges) {
     hinge->rows.body = body(hinge->body).solver;
     hinge->rows.holder = hinge->other < 0 ? 0 : body(hinge->other).solver;
@@ -362,9 +356,7 @@ void DebrisWorld::add_contacts(const Island& island) {
 
 template <class Work>
 void DebrisWorld::each_solved(const Work& work) {
-  region_.loop(solving_.size(), kBodies, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) work(*solving_[i]);
-  });
+  region_.each(solving_.size(), kBodies, [&](std::size_t i) { work(*solving_[i]); });
 }
 
 void DebrisWorld::solve(std::span<Island* const> islands, int substeps, double dt) {

@@ -38,6 +38,14 @@ class ParallelRegion {
           [](const void* of, std::size_t begin, std::size_t end) { (*static_cast<const Work*>(of))(begin, end); });
   }
 
+  /// The same, turn by turn: calls work(0) ... work(count - 1).
+  template <class Work>
+  void each(std::size_t count, std::size_t least, const Work& work) {
+    loop(count, least, [&work](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) work(i);
+    });
+  }
+
  private:
   using Call = void (*)(const void* work, std::size_t begin, std::size_t end);
   void share(std::size_t count, std::size_t least, const void* work, Call call);

@@ -12,12 +12,18 @@ int StepSolver::domains_of(std::size_t contacts) const {
   return std::clamp(static_cast<int>(contacts) / settings_.contacts_of_domain, 1, settings_.most_domains);
 }
 
-/// Set by set of their domains, in each colour by colour: whoever takes a set goes through its packs in this order.
-void StepSolver::pack_contacts() {
+ContactDomains StepSolver::find_domains() const {
+  const int most = domains_of(contacts_.size());
+  if (most == 1) return one_domain(contacts_.size());
   std::vector<ContactEnds> ends;
   ends.reserve(contacts_.size());
   for (const SolverContact& contact : contacts_) ends.push_back({contact.first, contact.second});
-  ContactDomains domains = find_domains(ends, ordered_, domains_of(contacts_.size()));
+  return collision::find_domains(ends, ordered_, most);
+}
+
+/// Set by set of their domains, in each colour by colour: whoever takes a set goes through its packs in this order.
+void StepSolver::pack_contacts() {
+  ContactDomains domains = find_domains();
   packs_.clear();
   packed_.clear();
   points_.clear();

@@ -41,16 +41,14 @@ Vec3 get(const Wide* of, int lane) { return {of[0][lane], of[1][lane], of[2][lan
 
 template <class Work>
 void StepSolver::each_body(const Work& work) {
-  region_.loop(bodies_.size() - 1, kBodies, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) work(i + 1);
-  });
+  region_.each(bodies_.size() - 1, kBodies, [&](std::size_t i) { work(i + 1); });
 }
 
 /// Those of a pack by one thread.
 template <class Work>
 void StepSolver::each_contact(const Work& work) {
-  region_.loop(packs_.size(), kPacks, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = kLanes * begin; k < std::min(kLanes * end, packed_.size()); ++k)
+  region_.each(packs_.size(), kPacks, [&](std::size_t pack) {
+    for (std::size_t k = kLanes * pack; k < kLanes * (pack + 1); ++k)
       if (packed_[k] != kNone) work(contacts_[packed_[k]]);
   });
 }
@@ -108,13 +106,11 @@ void StepSolver::begin_sub_step(int number) {
 /// Of the last pass, J: in the order of points, colour by colour.
 double StepSolver::energy_of_changes() {
   colour_energies_.assign(colours_.size() - 1, 0);
-  region_.loop(colour_energies_.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t c = begin; c < end; ++c) {
-      Wide sum{};
-      for (std::size_t i = packs_[colours_[c]].first_point; i < end_of_points(colours_[c + 1]); ++i)
-        sum += energies_[i].value;
-      colour_energies_[c] = sum[0] + sum[1] + sum[2] + sum[3];
-    }
+  region_.each(colour_energies_.size(), 1, [&](std::size_t c) {
+    Wide sum{};
+    for (std::size_t i = packs_[colours_[c]].first_point; i < end_of_points(colours_[c + 1]); ++i)
+      sum += energies_[i].value;
+    colour_energies_[c] = sum[0] + sum[1] + sum[2] + sum[3];
   });
   return std::accumulate(colour_energies_.begin(), colour_energies_.end(), 0.0);
 }

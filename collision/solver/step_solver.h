@@ -83,6 +83,7 @@ class StepSolver {
     double bias_rate, mass_scale, impulse_scale;
   };
   [[nodiscard]] static Softness softness(double frequency, double damping, double h);
+  [[nodiscard]] ContactDomains find_domains() const;
   void pack_contacts();
   void colour(std::span<const std::uint32_t> set);
   void fill_last_packs();

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+#include "same_world.h"
 #include "topple/collision/sequential_impulse.h"
 #include "world_builder.h"
 
@@ -43,25 +44,6 @@ std::unique_ptr<World> busy_world() {
   return world;
 }
 
-void check_same(const World& a, const World& b) {
-  REQUIRE(a.bodies().size() == b.bodies().size());
-  CHECK(a.awake_count() == b.awake_count());
-  for (const BodyId id : a.bodies()) {
-    const BodyState one = a.state(id), other = b.state(id);
-    CHECK(one.pose.position == other.pose.position);
-    CHECK(one.pose.orientation.coeffs() == other.pose.orientation.coeffs());
-    CHECK(one.velocity == other.velocity);
-    CHECK(one.angular_velocity == other.angular_velocity);
-    CHECK(one.asleep == other.asleep);
-  }
-  REQUIRE(a.contacts().size() == b.contacts().size());
-  for (std::size_t i = 0; i < a.contacts().size(); ++i) {
-    CHECK(a.contacts()[i].impulse == b.contacts()[i].impulse);
-    CHECK(a.contacts()[i].moment == b.contacts()[i].moment);
-    CHECK(a.contacts()[i].persistent == b.contacts()[i].persistent);
-  }
-}
-
 /// A body more, and one less.
 void change(World& world) {
   world.remove_body(world.bodies()[3]);
@@ -77,15 +59,15 @@ TEST_CASE("a copy of a world goes on as the world does, to the bit, whenever it 
     run(*world, steps);
     const auto copy = world->copy();
     REQUIRE(copy);
-    check_same(*world, *copy);
+    require_same(*world, *copy);
     run(*world, 120);
     run(*copy, 120);
-    check_same(*world, *copy);
+    require_same(*world, *copy);
     for (World* each : {world.get(), copy.get()}) {
       change(*each);
       run(*each, 60);
     }
-    check_same(*world, *copy);
+    require_same(*world, *copy);
   }
 }
 
@@ -102,7 +84,7 @@ TEST_CASE("a copy outlives the world that it was taken of, and neither sees what
   second = first->copy();
   run(*first, 60);
   run(*second, 60);
-  check_same(*first, *second);
+  require_same(*first, *second);
   CHECK(!first->sweep(kStep).empty());
 }
 

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "same_world.h"
 #include "solver/contact_domains.h"
 #include "solver/parallel_region.h"
 #include "topple/collision/small_steps.h"
@@ -39,23 +40,6 @@ std::unique_ptr<World> large_heap() {
         box_body(half, 2500 * 8 * half.prod(), Vec3(0.7 * (i % 12), 0.6 * (i / 12 % 5), 1 + 0.5 * (i / 60))));
   }
   return world;
-}
-
-void require_same(const World& one, const World& other) {
-  REQUIRE(one.awake_count() == other.awake_count());
-  for (const BodyId id : one.bodies()) {
-    const BodyState a = one.state(id), b = other.state(id);
-    REQUIRE(a.pose.position == b.pose.position);
-    REQUIRE(a.pose.orientation.coeffs() == b.pose.orientation.coeffs());
-    REQUIRE(a.velocity == b.velocity);
-    REQUIRE(a.angular_velocity == b.angular_velocity);
-  }
-  REQUIRE(one.contacts().size() == other.contacts().size());
-  for (std::size_t i = 0; i < one.contacts().size(); ++i) {
-    REQUIRE(one.contacts()[i].impulse == other.contacts()[i].impulse);
-    REQUIRE(one.contacts()[i].point == other.contacts()[i].point);
-    REQUIRE(one.contacts()[i].work_lost == other.contacts()[i].work_lost);
-  }
 }
 
 }  // namespace
