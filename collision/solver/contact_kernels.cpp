@@ -8,12 +8,24 @@ namespace topple::collision {
 namespace avx2_kernels {
 extern const ContactKernels kernels;
 }
-const ContactKernels& contact_kernels() {
-  static const bool wide = __builtin_cpu_supports("avx2") != 0;
-  return wide ? avx2_kernels::kernels : plain_kernels::kernels;
+namespace avx512_kernels {
+extern const ContactKernels kernels;
 }
-#else
-const ContactKernels& contact_kernels() { return plain_kernels::kernels; }
 #endif
+
+std::vector<const ContactKernels*> usable_contact_kernels() {
+  std::vector<const ContactKernels*> usable{&plain_kernels::kernels};
+#ifdef __x86_64__
+  if (__builtin_cpu_supports("avx2")) usable.push_back(&avx2_kernels::kernels);
+  if (__builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq"))
+    usable.push_back(&avx512_kernels::kernels);
+#endif
+  return usable;
+}
+
+const ContactKernels& contact_kernels() {
+  static const ContactKernels& widest = *usable_contact_kernels().back();
+  return widest;
+}
 
 }  // namespace topple::collision

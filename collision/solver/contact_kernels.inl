@@ -83,6 +83,42 @@ TOPPLE_INLINE void push(const ContactPack& pack, const Wide* direction, const Wi
   }
 }
 
+/// The points of a patch share their normal: along it two bodies come apart with one speed, which all their points see,
+/// and what points push is put on the bodies at once when the last has been done.
+struct AlongNormal {
+  Wide speed;   ///< of the second's centre from the first's
+  Wide masses;  ///< 1/m of both together: so much faster by a unit impulse
+  Wide pushed;  ///< by all points since
+};
+
+TOPPLE_INLINE AlongNormal look_along_normal(const ContactPack& pack, const Both& of) {
+  Wide across[3];
+  for (int i = 0; i < 3; ++i)
+    across[i] = of.second.linear[i] * pack.second_root - of.first.linear[i] * pack.first_root;
+  return {dot(pack.normal, across), pack.first_root * pack.first_root + pack.second_root * pack.second_root, all(0)};
+}
+
+TOPPLE_INLINE Wide relative(const PackPoint& point, const AlongNormal& along, const Both& of) {
+  return along.speed + (dot(point.second, of.second.angular) - dot(point.first, of.first.angular));
+}
+
+TOPPLE_INLINE void push(const PackPoint& point, const Wide& impulse, AlongNormal& along, Both& velocity) {
+  along.speed += along.masses * impulse;
+  along.pushed += impulse;
+  for (int i = 0; i < 3; ++i) {
+    velocity.first.angular[i] -= point.first[i] * impulse;
+    velocity.second.angular[i] += point.second[i] * impulse;
+  }
+}
+
+TOPPLE_INLINE void push_centres(const ContactPack& pack, const AlongNormal& along, Both& velocity) {
+  const Wide first = along.pushed * pack.first_root, second = along.pushed * pack.second_root;
+  for (int i = 0; i < 3; ++i) {
+    velocity.first.linear[i] -= pack.normal[i] * first;
+    velocity.second.linear[i] += pack.normal[i] * second;
+  }
+}
+
 TOPPLE_INLINE void turn(const ContactPack& pack, const Wide& impulse, Both& velocity) {
   for (int i = 0; i < 3; ++i) {
     velocity.first.angular[i] -= pack.twist_first[i] * impulse;
@@ -100,21 +136,82 @@ TOPPLE_INLINE void store(const ContactPack& pack, const Both& from, Motion6* to)
   scatter(from.second, pack.second_body, to);
 }
 
+/// A pack while a pass is at it.
+struct Open {
+  ContactPack& pack;
+  PackPoint* points;
+  std::size_t first_point;
+  Both now;
+  AlongNormal along;
+  Wide over;  ///< by how much a point has changed beyond what counts as settled
+};
+
+TOPPLE_INLINE Open open(ContactPack& pack, PackPoint* points, const Motion6* velocity) {
+  Open one{pack, points + pack.first_point, pack.first_point, {}, {}, all(0)};
+  load(pack, velocity, one.now);
+  one.along = look_along_normal(pack, one.now);
+  return one;
+}
+
+TOPPLE_INLINE void close(Open& one, Motion6* velocity) { store(one.pack, one.now, velocity); }
+
+/// Each point waits for what the one before it did. Two packs that share no body are taken in turns, so that one is
+/// worked on while the other waits: no result depends on it.
+/// Work: takes(pack) whether it is looked at at all; begin(pack, points) before it is; point(open, i) for each; and
+/// end(open) once they are done.
+template <class Work>
+TOPPLE_INLINE void each_pack(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end,
+                             Motion6* velocity, Work& work) {
+  for (std::size_t k = begin; k < end; ++k) {
+    if (!work.takes(packs[k])) continue;
+    work.begin(packs[k], points + packs[k].first_point);
+    Open one = open(packs[k], points, velocity);
+    if (packs[k].apart_from_next && k + 1 < end && work.takes(packs[k + 1])) {
+      ++k;
+      work.begin(packs[k], points + packs[k].first_point);
+      Open other = open(packs[k], points, velocity);
+      const int fewer = one.pack.point_count < other.pack.point_count ? one.pack.point_count : other.pack.point_count;
+      for (int i = 0; i < fewer; ++i) {
+        work.point(one, i);
+        work.point(other, i);
+      }
+      for (int i = fewer; i < one.pack.point_count; ++i) work.point(one, i);
+      for (int i = fewer; i < other.pack.point_count; ++i) work.point(other, i);
+      push_centres(one.pack, one.along, one.now);
+      push_centres(other.pack, other.along, other.now);
+      work.end(one);
+      work.end(other);
+      close(one, velocity);
+      close(other, velocity);
+      continue;
+    }
+    for (int i = 0; i < one.pack.point_count; ++i) work.point(one, i);
+    push_centres(one.pack, one.along, one.now);
+    work.end(one);
+    close(one, velocity);
+  }
+}
+
+struct WholePack {
+  TOPPLE_INLINE bool takes(const ContactPack&) const { return true; }
+  TOPPLE_INLINE void begin(ContactPack&, PackPoint*) const {}
+  TOPPLE_INLINE void end(Open&) const {}
+};
+
+struct WarmStart : WholePack {
+  TOPPLE_INLINE void point(Open& one, int i) const { push(one.points[i], one.points[i].impulse, one.along, one.now); }
+  TOPPLE_INLINE void end(Open& one) const {
+    const ContactPack& pack = one.pack;
+    for (int i = 0; i < 2; ++i)
+      push(pack, pack.along[i], pack.along_first[i], pack.along_second[i], pack.slide[i], one.now);
+    turn(pack, pack.twist, one.now);
+  }
+};
+
 bool warm_start(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity,
                 const Motion6*, const SubStep&) {
-  for (std::size_t k = begin; k < end; ++k) {
-    const ContactPack& pack = packs[k];
-    Both now;
-    load(pack, velocity, now);
-    for (int i = 0; i < pack.point_count; ++i) {
-      const PackPoint& point = points[pack.first_point + static_cast<std::size_t>(i)];
-      push(pack, pack.normal, point.first, point.second, point.impulse, now);
-    }
-    for (int i = 0; i < 2; ++i)
-      push(pack, pack.along[i], pack.along_first[i], pack.along_second[i], pack.slide[i], now);
-    turn(pack, pack.twist, now);
-    store(pack, now, velocity);
-  }
+  WarmStart work;
+  each_pack(packs, points, begin, end, velocity, work);
   return false;
 }
 
@@ -125,68 +222,77 @@ TOPPLE_INLINE bool any(const Wide& a) { return a[0] > 0 || a[1] > 0 || a[2] > 0 
 TOPPLE_INLINE void measure(const ContactPack& pack, PackPoint* own, const Motion6* displacement) {
   Both moved;
   load(pack, displacement, moved);
-  for (int i = 0; i < pack.point_count; ++i)
-    own[i].apart = own[i].separation + relative(pack, pack.normal, own[i].first, own[i].second, moved);
+  const AlongNormal along = look_along_normal(pack, moved);
+  for (int i = 0; i < pack.point_count; ++i) own[i].apart = own[i].separation + relative(own[i], along, moved);
 }
 
 /// The normal impulse with which a point closes no faster than it comes to touch.
-TOPPLE_INLINE Wide stopping(const ContactPack& pack, const PackPoint& point, const Both& now, const Wide& rate) {
+TOPPLE_INLINE Wide stopping(const PackPoint& point, const AlongNormal& along, const Both& now, const Wide& rate) {
   const Wide none = all(0);
   const Wide bias = point.apart > none ? point.apart * rate : none;
-  const Wide speed = relative(pack, pack.normal, point.first, point.second, now);
-  return larger(point.impulse - point.mass * (speed + bias), none);
+  return larger(point.impulse - point.mass * (relative(point, along, now) + bias), none);
 }
+
+struct Solve : WholePack {
+  const Motion6* displacement;  ///< null: how far points are apart is known
+  Wide rate, settled, over;
+  Wide *changes, *energies;  ///< or null
+
+  TOPPLE_INLINE void begin(ContactPack& pack, PackPoint* own) const {
+    if (displacement) measure(pack, own, displacement);
+  }
+  TOPPLE_INLINE void point(Open& one, int i) {
+    PackPoint& point = one.points[i];
+    const Wide impulse = stopping(point, one.along, one.now, rate), change = impulse - point.impulse;
+    point.impulse = impulse;
+    over = larger(over, magnitude(change) - settled * point.mass);
+    if (changes) {
+      const Wide none = all(0);
+      const std::size_t number = one.first_point + static_cast<std::size_t>(i);
+      changes[number] = change;
+      energies[number] = point.mass > none ? change * change / (point.mass > none ? point.mass : all(1)) : none;
+    }
+    push(point, change, one.along, one.now);
+  }
+};
 
 bool solve(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity,
            const Motion6* displacement, const SubStep& step) {
-  const Wide rate = all(1 / step.length), none = all(0), one = all(1);
-  const Wide settled = all(step.again->settled);
-  Wide over = none;
-  Wide* const changes = step.again->change;
-  for (std::size_t k = begin; k < end; ++k) {
-    ContactPack& pack = packs[k];
-    if (step.first) measure(pack, points + pack.first_point, displacement);
-    Both now;
-    load(pack, velocity, now);
-    for (int i = 0; i < pack.point_count; ++i) {
-      PackPoint& point = points[pack.first_point + static_cast<std::size_t>(i)];
-      const Wide impulse = stopping(pack, point, now, rate), change = impulse - point.impulse;
-      point.impulse = impulse;
-      const Wide excess = magnitude(change) - settled * point.mass;
-      over = larger(over, excess);
-      if (changes) {
-        const std::size_t number = pack.first_point + static_cast<std::size_t>(i);
-        changes[number] = change;
-        step.again->energy[number] =
-            point.mass > none ? change * change / (point.mass > none ? point.mass : one) : none;
-      }
-      push(pack, pack.normal, point.first, point.second, change, now);
-    }
-    store(pack, now, velocity);
-  }
-  return any(over);
+  Solve work;
+  work.displacement = step.first ? displacement : nullptr;
+  work.rate = all(1 / step.length);
+  work.settled = all(step.again->settled);
+  work.over = all(0);
+  work.changes = step.again->change;
+  work.energies = step.again->energy;
+  each_pack(packs, points, begin, end, velocity, work);
+  return any(work.over);
 }
+
+struct GoOn : WholePack {
+  Wide share;
+  Wide *changes, *ways;
+
+  TOPPLE_INLINE void point(Open& one, int i) const {
+    const std::size_t number = one.first_point + static_cast<std::size_t>(i);
+    PackPoint& point = one.points[i];
+    Wide& way = ways[number];
+    const Wide farther = share * way, impulse = larger(point.impulse + farther, all(0)),
+               change = impulse - point.impulse;
+    way = farther + changes[number];
+    point.impulse = impulse;
+    push(point, change, one.along, one.now);
+  }
+};
 
 /// Farther the way that passes have gone.
 bool go_on(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity, const Motion6*,
            const SubStep& step) {
-  const Wide share = all(step.again->share), none = all(0);
-  for (std::size_t k = begin; k < end; ++k) {
-    const ContactPack& pack = packs[k];
-    Both now;
-    load(pack, velocity, now);
-    for (int i = 0; i < pack.point_count; ++i) {
-      const std::size_t number = pack.first_point + static_cast<std::size_t>(i);
-      PackPoint& point = points[number];
-      Wide& way = step.again->way[number];
-      const Wide farther = share * way, impulse = larger(point.impulse + farther, none),
-                 change = impulse - point.impulse;
-      way = farther + step.again->change[number];
-      point.impulse = impulse;
-      push(pack, pack.normal, point.first, point.second, change, now);
-    }
-    store(pack, now, velocity);
-  }
+  GoOn work;
+  work.share = all(step.again->share);
+  work.changes = step.again->change;
+  work.ways = step.again->way;
+  each_pack(packs, points, begin, end, velocity, work);
   return false;
 }
 
@@ -229,35 +335,44 @@ TOPPLE_INLINE bool concerned(const ContactPack& pack, const unsigned char* moved
   return one != 0;
 }
 
-bool relax(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity, const Motion6*,
-           const SubStep& step) {
-  const Wide rate = all(1 / step.length), settled = all(step.again->settled), none = all(0);
+struct Relax {
+  Wide rate, settled;
+  const unsigned char* moved;
+  unsigned char* moves;
   bool unsettled = false;
-  for (std::size_t k = begin; k < end; ++k) {
-    ContactPack& pack = packs[k];
-    if (!concerned(pack, step.again->moved)) continue;
-    Wide over = none;
-    PackPoint* const own = points + pack.first_point;
-    Both now;
-    load(pack, velocity, now);
-    for (int i = 0; i < pack.point_count; ++i) {
-      PackPoint& point = own[i];
-      const Wide impulse = stopping(pack, point, now, rate), change = impulse - point.impulse;
-      point.impulse = impulse;
-      over = larger(over, magnitude(change) - settled * point.mass);
-      push(pack, pack.normal, point.first, point.second, change, now);
-    }
-    // Last, so that friction is bounded by the normal impulses that are told.
-    over = larger(over, rub(pack, own, now) - settled * smaller(pack.inverse[0], pack.inverse[2]));
-    store(pack, now, velocity);
+
+  TOPPLE_INLINE bool takes(const ContactPack& pack) const { return concerned(pack, moved); }
+  TOPPLE_INLINE void begin(ContactPack&, PackPoint*) const {}
+  TOPPLE_INLINE void point(Open& one, int i) {
+    PackPoint& point = one.points[i];
+    const Wide impulse = stopping(point, one.along, one.now, rate), change = impulse - point.impulse;
+    point.impulse = impulse;
+    one.over = larger(one.over, magnitude(change) - settled * point.mass);
+    push(point, change, one.along, one.now);
+  }
+  /// Friction last, so that it is bounded by the normal impulses that are told.
+  TOPPLE_INLINE void end(Open& one) {
+    const ContactPack& pack = one.pack;
+    const Wide rubbed = rub(one.pack, one.points, one.now);
+    const Wide over = larger(one.over, rubbed - settled * smaller(pack.inverse[0], pack.inverse[2]));
     for (int lane = 0; lane < kLanes; ++lane) {
       if (!(over[lane] > 0)) continue;
       unsettled = true;
-      if (const int first = pack.first_body[lane]; first != 0) step.again->moves[first] = 1;
-      if (const int second = pack.second_body[lane]; second != 0) step.again->moves[second] = 1;
+      if (const int first = pack.first_body[lane]; first != 0) moves[first] = 1;
+      if (const int second = pack.second_body[lane]; second != 0) moves[second] = 1;
     }
   }
-  return unsettled;
+};
+
+bool relax(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity, const Motion6*,
+           const SubStep& step) {
+  Relax work;
+  work.rate = all(1 / step.length);
+  work.settled = all(step.again->settled);
+  work.moved = step.again->moved;
+  work.moves = step.again->moves;
+  each_pack(packs, points, begin, end, velocity, work);
+  return work.unsettled;
 }
 
 TOPPLE_INLINE void add_up(ContactPack& pack, PackPoint* own) {
@@ -273,51 +388,60 @@ TOPPLE_INLINE void add_up(ContactPack& pack, PackPoint* own) {
   pack.twist_total += pack.twist;
 }
 
+struct Separate : WholePack {
+  bool first;
+  Wide rate, fastest;
+
+  TOPPLE_INLINE void begin(ContactPack& pack, PackPoint* own) const {
+    if (first) add_up(pack, own);
+  }
+  TOPPLE_INLINE void point(Open& one, int i) const {
+    const ContactPack& pack = one.pack;
+    const Wide none = all(0), whole = all(1);
+    PackPoint& point = one.points[i];
+    const Wide& separation = point.apart;
+    const Lanes apart = separation > none;
+    const Wide bias = apart ? separation * rate : larger(pack.mass_scale * pack.bias_rate * separation, fastest);
+    const Wide scale = apart ? whole : pack.mass_scale, given_back = apart ? none : pack.impulse_scale;
+    const Wide speed = relative(point, one.along, one.now);
+    const Wide wanted = point.parting - point.mass * (scale * speed + bias) - given_back * point.parting;
+    const Wide impulse = larger(wanted, none), change = impulse - point.parting;
+    point.parting = impulse;
+    push(point, change, one.along, one.now);
+  }
+  TOPPLE_INLINE void end(Open& one) const { one.pack.carried += one.along.pushed; }
+};
+
 bool separate(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity,
               const Motion6*, const SubStep& step) {
-  const Wide rate = all(1 / step.length), none = all(0), one = all(1), fastest = all(-step.pushed_apart);
-  for (std::size_t k = begin; k < end; ++k) {
-    ContactPack& pack = packs[k];
-    if (step.first) add_up(pack, points + pack.first_point);
-    Both now;
-    load(pack, velocity, now);
-    for (int i = 0; i < pack.point_count; ++i) {
-      PackPoint& point = points[pack.first_point + static_cast<std::size_t>(i)];
-      const Wide& separation = point.apart;
-      const Lanes apart = separation > none;
-      const Wide bias = apart ? separation * rate : larger(pack.mass_scale * pack.bias_rate * separation, fastest);
-      const Wide scale = apart ? one : pack.mass_scale, given_back = apart ? none : pack.impulse_scale;
-      const Wide speed = relative(pack, pack.normal, point.first, point.second, now);
-      const Wide wanted = point.parting - point.mass * (scale * speed + bias) - given_back * point.parting;
-      const Wide impulse = larger(wanted, none), change = impulse - point.parting;
-      point.parting = impulse;
-      pack.carried += change;
-      push(pack, pack.normal, point.first, point.second, change, now);
-    }
-    store(pack, now, velocity);
-  }
+  Separate work;
+  work.first = step.first;
+  work.rate = all(1 / step.length);
+  work.fastest = all(-step.pushed_apart);
+  each_pack(packs, points, begin, end, velocity, work);
   return false;
 }
 
+struct Restitute : WholePack {
+  Wide from;
+
+  TOPPLE_INLINE void point(Open& one, int i) const {
+    const Wide none = all(0);
+    PackPoint& point = one.points[i];
+    const Lanes bounces = (point.approach < from) & (point.total > none);
+    const Wide speed = relative(point, one.along, one.now);
+    const Wide wanted = larger(point.total - point.mass * (speed + one.pack.restitution * point.approach), none);
+    const Wide change = bounces ? wanted - point.total : none;
+    point.total += change;
+    push(point, change, one.along, one.now);
+  }
+};
+
 bool restitute(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity,
                const Motion6*, const SubStep& step) {
-  const Wide none = all(0), from = all(-step.restitution_from);
-  for (std::size_t k = begin; k < end; ++k) {
-    ContactPack& pack = packs[k];
-    PackPoint* const own = points + pack.first_point;
-    Both now;
-    load(pack, velocity, now);
-    for (int i = 0; i < pack.point_count; ++i) {
-      PackPoint& point = own[i];
-      const Lanes bounces = (point.approach < from) & (point.total > none);
-      const Wide speed = relative(pack, pack.normal, point.first, point.second, now);
-      const Wide wanted = larger(point.total - point.mass * (speed + pack.restitution * point.approach), none);
-      const Wide change = bounces ? wanted - point.total : none;
-      point.total += change;
-      push(pack, pack.normal, point.first, point.second, change, now);
-    }
-    store(pack, now, velocity);
-  }
+  Restitute work;
+  work.from = all(-step.restitution_from);
+  each_pack(packs, points, begin, end, velocity, work);
   return false;
 }
 

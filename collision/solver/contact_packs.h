@@ -6,6 +6,7 @@
 // matrix times itself, and half of what would be read is not there. For a body with mass m and principal moments I,
 //   v^ = sqrt(m) v,   w^ = sqrt(I) R' w,   row on w^: R' (r x n)/sqrt(I).
 #include <cstddef>
+#include <vector>
 
 // Such vectors never cross a call that is not inlined.
 #pragma GCC diagnostic ignored "-Wpsabi"
@@ -41,6 +42,7 @@ struct alignas(32) ContactPack {
   int first_body[kLanes]{}, second_body[kLanes]{};  ///< 0: what stands
   std::size_t first_point = 0;
   int point_count = 0;
+  bool apart_from_next = false;  ///< no body is in this pack and in the next
   Wide normal[3];
   Wide first_root, second_root;  ///< 1/sqrt(mass)
   Wide bias_rate, mass_scale, impulse_scale;
@@ -93,5 +95,7 @@ struct ContactKernels {
   Pass restitute;   ///< after the last sub-step
 };
 [[nodiscard]] const ContactKernels& contact_kernels();
+/// All that this processor can run, the plainest first.
+[[nodiscard]] std::vector<const ContactKernels*> usable_contact_kernels();
 
 }  // namespace topple::collision

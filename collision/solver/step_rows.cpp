@@ -104,6 +104,19 @@ void StepSolver::fill_last_packs() {
   }
 }
 
+namespace {
+bool share_no_body(const ContactPack& one, const ContactPack& other) {
+  const auto has = [](const int* bodies, int body) {
+    return body != 0 && (bodies[0] == body || bodies[1] == body || bodies[2] == body || bodies[3] == body);
+  };
+  bool shared = false;
+  for (const int* mine : {one.first_body, one.second_body})
+    for (int lane = 0; lane < kLanes; ++lane)
+      shared = shared || has(other.first_body, mine[lane]) || has(other.second_body, mine[lane]);
+  return !shared;
+}
+}  // namespace
+
 /// Of one colour.
 void StepSolver::fill_packs(std::span<const std::uint32_t> list) {
   colours_.push_back(packs_.size());
@@ -123,6 +136,7 @@ void StepSolver::fill_packs(std::span<const std::uint32_t> list) {
       pack.first_body[lane] = contact.first;
       pack.second_body[lane] = contact.second;
     }
+    if (!packs_.empty()) packs_.back().apart_from_next = share_no_body(packs_.back(), pack);
     packs_.push_back(pack);
   }
 }
