@@ -14,10 +14,10 @@ struct Placement {
 };
 
 struct ManifoldPoint {
-  Vec3 on_first, on_second;  ///< the two points that meet, each in its solid's frame
-  double separation = 0;     ///< along the normal, negative inside, m
-  double impulse = 0;        ///< normal force of the last sub-step, to begin the next with, N
-  double force = 0;          ///< mean normal force of the last step, N
+  Vec3 on_first = Vec3::Zero(), on_second = Vec3::Zero();  ///< the two points that meet, each in its solid's frame
+  double separation = 0;                                   ///< along the normal, negative inside, m
+  double impulse = 0;  ///< normal force of the last sub-step, to begin the next with, N
+  double force = 0;    ///< mean normal force of the last step, N
 };
 
 struct Manifold {

@@ -107,6 +107,7 @@ void try_all(int count, SeparatingAxis::Kind kind, const Separation& separation,
 
 struct Room {
   std::vector<Vec3> vertices, places;
+  std::vector<double> first_faces, second_faces;  ///< each one's normals, times the other's centre, m
   std::vector<int> first_edges, second_edges;
   std::vector<Vec3> polygon, clipped;
   std::vector<ManifoldPoint> points;
@@ -117,34 +118,41 @@ Room& room() {
   return own;
 }
 
-/// The largest n x way of all unit normals n between those of the edge's two faces.
-double most_along(const Polyhedron& of, const Polyhedron::Edge& edge, const Vec3& way) {
-  const Vec3 &left = of.faces[static_cast<std::size_t>(edge.left)].normal,
-             &right = of.faces[static_cast<std::size_t>(edge.right)].normal;
-  const Vec3 seen = way - way.dot(edge.direction) * edge.direction;
-  const double side = edge.direction.dot(left.cross(right));
-  const bool between =
-      side * edge.direction.dot(left.cross(seen)) >= 0 && side * edge.direction.dot(seen.cross(right)) >= 0;
-  return between ? seen.norm() : std::max(left.dot(seen), right.dot(seen));
+void project(const Polyhedron& of, const Vec3& centre, std::vector<double>& along) {
+  along.resize(of.faces.size());
+  for (std::size_t f = 0; f < of.faces.size(); ++f) along[f] = of.faces[f].normal.dot(centre);
 }
 
-/// Edges of `of` that may part it by more than `least` from another, a ball in which (centre, radius) is known: a
-/// normal on which both edges lie outermost parts the two by no more than the ball is away from the edge.
-void keep_edges(const Polyhedron& of, const Vec3& centre, double radius, double least, std::vector<int>& kept) {
+/// Whether n x way is above `least` for any of the unit normals n between those of the edge's two faces, where way goes
+/// from the edge to a place that is `left` and `right` outside of the two. Across the edge it is a sum of their
+/// normals, with weights as left - cosine right and right - cosine left.
+bool any_between(const Polyhedron::Edge& edge, double left, double right, double least) {
+  constexpr double flat = 1e-9;
+  const double squared_sine = 1 - edge.cosine * edge.cosine;
+  if (least < 0 || squared_sine < flat) return true;
+  if (left < edge.cosine * right || right < edge.cosine * left) return std::max(left, right) > least;
+  return left * left + right * right - 2 * edge.cosine * left * right > least * least * squared_sine;
+}
+
+/// Edges of `of` that may part it by more than `least` from another, a ball in which is known: its centre by its
+/// distances `along` the faces' normals, its radius. A normal on which both edges lie outermost parts the two by no
+/// more than the ball is away from the edge.
+void keep_edges(const Polyhedron& of, const std::vector<double>& along, double radius, double least,
+                std::vector<int>& kept) {
   kept.clear();
   for (std::size_t i = 0; i < of.edges.size(); ++i) {
     const Polyhedron::Edge& edge = of.edges[i];
-    if (most_along(of, edge, centre - of.vertices[static_cast<std::size_t>(edge.from)]) - radius > least)
-      kept.push_back(static_cast<int>(i));
+    const double left = along[static_cast<std::size_t>(edge.left)] - edge.left_offset,
+                 right = along[static_cast<std::size_t>(edge.right)] - edge.right_offset;
+    if (any_between(edge, left, right, least + radius)) kept.push_back(static_cast<int>(i));
   }
 }
 
-void try_edges(const Pair& pair, const Vec3& first_centre, const Vec3& second_centre, Found& best, double margin,
-               Room& work) {
+void try_edges(const Pair& pair, Found& best, double margin, Room& work) {
   const double least = best.separation + kFaceFirst;
-  keep_edges(pair.first, second_centre, pair.second.inner, least, work.first_edges);
+  keep_edges(pair.first, work.first_faces, pair.second.inner, least, work.first_edges);
   if (work.first_edges.empty()) return;
-  keep_edges(pair.second, first_centre, pair.first.inner, least, work.second_edges);
+  keep_edges(pair.second, work.second_faces, pair.first.inner, least, work.second_edges);
   for (const int j : work.second_edges) {
     const Polyhedron::Edge& b = pair.second.edges[static_cast<std::size_t>(j)];
     const Vec3 other = pair.turn * b.direction,
@@ -169,27 +177,32 @@ Found search(const Pair& pair, double margin, const SeparatingAxis& last, Room& 
   // Each one's centre, as the other sees it.
   const Vec3 second_centre = pair.shift + pair.turn * pair.second.centre,
              first_centre = pair.turn.transpose() * (pair.first.centre - pair.shift);
-  const auto most = [](const Polyhedron& of, const Vec3& centre, double radius) {
-    return [&, radius](int f) {
-      const Polyhedron::Face& face = of.faces[static_cast<std::size_t>(f)];
-      return face.normal.dot(centre) - face.offset - radius;
+  project(pair.first, second_centre, work.first_faces);
+  project(pair.second, first_centre, work.second_faces);
+  // Nothing below what the last axis gives can be found, nor decide between what is.
+  const double known = last.kind == SeparatingAxis::Kind::none ? -1e300 : last.gap - kFaceFirst;
+  const auto most = [known](const Polyhedron& of, const std::vector<double>& along, double radius) {
+    return [&of, &along, radius, known](int f) {
+      const double most_of = along[static_cast<std::size_t>(f)] - of.faces[static_cast<std::size_t>(f)].offset - radius;
+      return most_of < known ? -1e300 : most_of;
     };
   };
   Found best;
   try_all(
       static_cast<int>(pair.first.faces.size()), SeparatingAxis::Kind::first_face,
-      [&](int f) { return pair.first_face(f); }, most(pair.first, second_centre, pair.second.inner), best, margin);
+      [&](int f) { return pair.first_face(f); }, most(pair.first, work.first_faces, pair.second.inner), best, margin);
   if (best.separation > margin) return best;
   Found second;
   try_all(
       static_cast<int>(pair.second.faces.size()), SeparatingAxis::Kind::second_face,
-      [&](int f) { return pair.second_face(f); }, most(pair.second, first_centre, pair.first.inner), second, margin);
+      [&](int f) { return pair.second_face(f); }, most(pair.second, work.second_faces, pair.first.inner), second,
+      margin);
   if (second.separation > best.separation + kFaceFirst) best = second;
   if (best.separation > margin) return best;
-  try_edges(pair, first_centre, second_centre, best, margin, work);
+  if (best.separation < known) best = {known, last};
+  try_edges(pair, best, margin, work);
   if (best.separation > margin || last.kind == SeparatingAxis::Kind::none) return best;
-  const double before = pair.along(last);
-  if (before >= best.separation - kLastFirst) best = {before, last};
+  if (last.gap >= best.separation - kLastFirst) best = {last.gap, last};
   return best;
 }
 

@@ -108,6 +108,17 @@ void add_edges(Polyhedron& made) {
   }
 }
 
+void measure_edges(Polyhedron& made) {
+  for (Polyhedron::Edge& edge : made.edges) {
+    const Vec3& from = made.vertices[static_cast<std::size_t>(edge.from)];
+    const Vec3 &left = made.faces[static_cast<std::size_t>(edge.left)].normal,
+               &right = made.faces[static_cast<std::size_t>(edge.right)].normal;
+    edge.left_offset = left.dot(from);
+    edge.right_offset = right.dot(from);
+    edge.cosine = left.dot(right);
+  }
+}
+
 }  // namespace
 
 std::shared_ptr<const Polyhedron> make_polyhedron(std::vector<Vec3> vertices, std::vector<std::vector<int>> faces) {
@@ -120,6 +131,7 @@ std::shared_ptr<const Polyhedron> make_polyhedron(std::vector<Vec3> vertices, st
   join_coplanar(made->vertices, made->centre, faces);
   add_faces(faces, *made);
   add_edges(*made);
+  measure_edges(*made);
   made->inner = made->reach;
   for (const Polyhedron::Face& face : made->faces)
     made->inner = std::min(made->inner, face.offset - face.normal.dot(made->centre));

@@ -16,9 +16,11 @@ struct Polyhedron {
     int first = 0, count = 0;  ///< of `loops`
   };
   struct Edge {
-    int from = 0, to = 0;     ///< vertices
-    int left = 0, right = 0;  ///< faces: the one whose loop goes from -> to, and the other
-    Vec3 direction;           ///< unit
+    int from = 0, to = 0;                      ///< vertices
+    int left = 0, right = 0;                   ///< faces: the one whose loop goes from -> to, and the other
+    Vec3 direction;                            ///< unit
+    double left_offset = 0, right_offset = 0;  ///< the edge along the normals of the two, m
+    double cosine = 1;                         ///< between these normals
   };
   std::vector<Vec3> vertices;
   std::vector<Face> faces;

@@ -9,8 +9,8 @@ Placement DebrisObstacle::placement() const {
   return {from_bullet(placed.getOrigin()), from_bullet(placed.getBasis())};
 }
 
-const DebrisObstacle* moving_obstacle(const NearPairs& pairs, const NearPair& pair) {
-  const Solid* const second = pairs.collider(pair.second).solid;
+const DebrisObstacle* moving_obstacle(const NearPairs& pairs, const PairEnds& ends) {
+  const Solid* const second = pairs.collider(ends.second).solid;
   if (second->kind != Touched::Kind::obstacle) return nullptr;
   const auto* const one = static_cast<const DebrisObstacle*>(second);
   return one->moves ? one : nullptr;

@@ -82,6 +82,6 @@ struct DebrisCable {
 };
 
 /// The obstacle of a pair, if it moves; else null.
-[[nodiscard]] const DebrisObstacle* moving_obstacle(const NearPairs& pairs, const NearPair& pair);
+[[nodiscard]] const DebrisObstacle* moving_obstacle(const NearPairs& pairs, const PairEnds& ends);
 
 }  // namespace topple::collision

@@ -88,6 +88,8 @@ class DebrisWorld final : public World {
   void find_touching();
   void find_contacts(double dt);
   void seek_contacts();
+  [[nodiscard]] double margin_of(const Collider& a, const Collider& b) const;
+  [[nodiscard]] bool is_due(const PairEnds& ends) const;
   void seek(std::uint32_t index);
   void wake_struck(double dt);
   void wake_hinged();
@@ -101,7 +103,7 @@ class DebrisWorld final : public World {
   void each_solved(const Work& work);
   static void order_in_space(std::vector<DebrisBody*>& bodies);
   void fill_solver(std::span<Island* const> islands, double dt, int substeps);
-  [[nodiscard]] SolverContact solver_contact(NearPair& pair) const;
+  [[nodiscard]] SolverContact solver_contact(std::uint32_t index);
   void add_contacts(const Island& island);
   void fly(DebrisBody& body, double dt) const;
   void take_results(double dt);
@@ -186,6 +188,7 @@ class DebrisWorld final : public World {
   StepSolver solver_;
   std::vector<DebrisBody*> solving_;     ///< bodies that the solver holds: the first is its number 1
   std::vector<std::uint32_t> touching_;  ///< pairs that have contacts, in order
+  std::vector<std::uint32_t> due_;       ///< pairs to be looked at in this step, in order
   std::vector<Island> islands_;
   std::vector<std::int64_t> slept_now_;               ///< bodies that fell asleep in this step
   std::vector<std::pair<NearPair*, Vec3>> impulses_;  ///< of the last part of a step, N s, where any body sleeps

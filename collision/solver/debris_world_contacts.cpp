@@ -20,6 +20,8 @@ constexpr double kLeastPush = 1e-12;
 
 /// For which a piece of a loop is worth being handed on.
 constexpr std::size_t kContacts = 32;
+/// Turns of a loop by which a pair is asked for before it is needed.
+constexpr std::size_t kAhead = 4;
 
 /// Separation of the nearest point, m.
 double nearest(const Manifold& manifold) {
@@ -121,7 +123,10 @@ void DebrisWorld::tell_contacts(double dt, std::span<const char> left_out) {
   const auto is_left_out = [&](int number) { return !left_out.empty() && left_out[static_cast<std::size_t>(number)]; };
   const std::span<SolverContact> solved = solver_.contacts();
   const auto each = [&](const auto& work) {
-    region_.each(solved.size(), kContacts, [&](std::size_t i) { work(solved[i]); });
+    region_.each(solved.size(), kContacts, [&](std::size_t i) {
+      if (i + kAhead < solved.size()) prefetch_lines(*solved[i + kAhead].pair);
+      work(solved[i]);
+    });
   };
   each([&](SolverContact& one) {
     const bool told = !is_left_out(one.first) && !is_left_out(one.second) && touches(one);

@@ -168,7 +168,7 @@ void DebrisWorld::wake_carried() {
   if (moving_obstacles_.empty()) return;
   for (const std::uint32_t index : touching_) {
     const NearPair& pair = pairs_.pair(index);
-    const DebrisObstacle* const carrier = moving_obstacle(pairs_, pair);
+    const DebrisObstacle* const carrier = moving_obstacle(pairs_, pairs_.ends(index));
     auto* const first = static_cast<DebrisBody*>(pairs_.collider(pair.first).solid);
     if (!carrier || !first->asleep) continue;
     const DebrisObstacle& one = *carrier;

@@ -14,8 +14,8 @@ Island DebrisWorld::quiet_part(const Island& island) const {
   for (const DebrisBody* one : island.bodies)
     if (one->slow_for >= settings_.slow_for - 1e-9) stay.insert(one);
   for (const std::uint32_t index : island.pairs)
-    if (const NearPair& pair = pairs_.pair(index); moving_obstacle(pairs_, pair))
-      stay.erase(pairs_.collider(pair.first).solid);
+    if (const PairEnds& ends = pairs_.ends(index); moving_obstacle(pairs_, ends))
+      stay.erase(pairs_.collider(ends.first).solid);
   for (bool again = true; again;) {  // what hangs together sleeps together
     again = false;
     for (const DebrisHinge* hinge : island.hinges) {
@@ -159,11 +159,12 @@ void DebrisWorld::wake_struck(double dt) {
     again = false;
     std::vector<std::pair<DebrisBody*, double>> struck;
     for (const std::uint32_t index : touching_) {
-      const NearPair& pair = pairs_.pair(index);
-      Solid *a = pairs_.collider(pair.first).solid, *b = pairs_.collider(pair.second).solid;
+      const PairEnds& ends = pairs_.ends(index);
+      Solid *a = pairs_.collider(ends.first).solid, *b = pairs_.collider(ends.second).solid;
       if (a->kind != Touched::Kind::body || b->kind != Touched::Kind::body) continue;
       auto &first = static_cast<DebrisBody&>(*a), &second = static_cast<DebrisBody&>(*b);
       if (first.asleep == second.asleep) continue;
+      const NearPair& pair = pairs_.pair(index);
       const DebrisBody& moves = first.asleep ? second : first;
       const double side = first.asleep ? -1 : 1;
       const Vec3 velocity = moves.velocity + gravity_ * dt;

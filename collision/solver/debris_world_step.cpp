@@ -13,7 +13,9 @@ namespace {
 /// Fewer are not worth the ten microseconds that helpers take to come.
 constexpr std::size_t kContactsShared = 100, kPairsShared = 500;
 /// For which a piece of a loop is worth being handed on.
-constexpr std::size_t kBodies = 32, kPairs = 64;
+constexpr std::size_t kBodies = 32, kPairs = 64, kDuePairs = 8;
+/// Turns of a loop by which a pair is asked for before it is needed.
+constexpr std::size_t kAhead = 4;
 }  // namespace
 
 void DebrisWorld::begin_step(double dt) {
@@ -171,14 +173,21 @@ void DebrisWorld::note_ways(double dt) {
   region_.each(order_.size(), kBodies, [&](std::size_t i) { note(body(order_[i].value)); });
 }
 
+/// m: how near they are looked at. What could come together within the step is a contact already. Two that fly side by
+/// side may: the one in front is stopped in this step, and the one behind goes on.
+double DebrisWorld::margin_of(const Collider& a, const Collider& b) const {
+  return std::max(settings_.margin, a.way + b.way);
+}
+
+/// Whether its two may have come together or apart since they were last looked at.
+bool DebrisWorld::is_due(const PairEnds& ends) const {
+  const Collider &a = pairs_.collider(ends.first), &b = pairs_.collider(ends.second);
+  return (a.moves || b.moves) && a.gone + b.gone + margin_of(a, b) >= ends.free_until;
+}
+
 void DebrisWorld::seek(std::uint32_t index) {
   PairEnds& ends = pairs_.ends(index);
   const Collider &a = pairs_.collider(ends.first), &b = pairs_.collider(ends.second);
-  if (!a.moves && !b.moves) return;
-  // What could come together within the step is a contact already. Two that fly side by side may: the one in front is
-  // stopped in this step, and the one behind goes on.
-  const double margin = std::max(settings_.margin, a.way + b.way);
-  if (a.gone + b.gone + margin < ends.free_until) return;
   const bool far = ends.second != NearPairs::ground && !a.tight.meets(b.tight);
   if (far || (!ignored_.empty() && ignores(*a.solid, *b.solid))) {
     if (!ends.touches) return;
@@ -194,19 +203,27 @@ void DebrisWorld::seek(std::uint32_t index) {
     return &static_cast<const TouchingSolid*>(of.solid)->shapes[static_cast<std::size_t>(of.part)];
   };
   motion.first = shape(a);
-  motion.second = pair.second == NearPairs::ground ? nullptr : shape(b);
+  motion.second = ends.second == NearPairs::ground ? nullptr : shape(b);
   motion.first_at = &placement(*a.solid);
   motion.second_at = &placement(*b.solid);
-  motion.margin = margin;
+  motion.margin = margin_of(a, b);
   motion.ground_height = ground_height_;
   ends.free_until = a.gone + b.gone + update_contacts(pair, motion, settings_.kept, settings_.matched);
   ends.touches = pair.manifold.count > 0;
 }
 
-/// Each pair by itself.
+/// Each pair by itself. Few of those that are near are due.
 void DebrisWorld::seek_contacts() {
+  due_.clear();
   const std::vector<std::uint32_t>& order = pairs_.order();
-  region_.each(order.size(), kPairs, [&](std::size_t i) { seek(order[i]); });
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (i + 4 * kAhead < order.size()) __builtin_prefetch(&pairs_.ends(order[i + 4 * kAhead]));
+    if (is_due(pairs_.ends(order[i]))) due_.push_back(order[i]);
+  }
+  region_.each(due_.size(), kDuePairs, [&](std::size_t i) {
+    if (i + kAhead < due_.size()) prefetch_lines(pairs_.pair(due_[i + kAhead]));
+    seek(due_[i]);
+  });
 }
 
 void DebrisWorld::find_contacts(double dt) {
@@ -311,7 +328,7 @@ void DebrisWorld::fill_solver(std::span<Island* const> islands, double dt, int s
 }
 
 /// With the friction and restitution of the two, and their numbers in the solver.
-SolverContact DebrisWorld::solver_contact(NearPair& pair) const {
+SolverContact DebrisWorld::solver_contact(std::uint32_t index) {
   struct Side {
     int number = 0;
     double friction = 0, restitution = 0;
@@ -325,10 +342,11 @@ SolverContact DebrisWorld::solver_contact(NearPair& pair) const {
     const auto& one = static_cast<const DebrisBody&>(solid);
     return {one.asleep ? 0 : one.solver, one.friction, one.restitution};
   };
-  const Solid &first = *pairs_.collider(pair.first).solid, &second = *pairs_.collider(pair.second).solid;
+  const PairEnds& ends = pairs_.ends(index);
+  const Solid &first = *pairs_.collider(ends.first).solid, &second = *pairs_.collider(ends.second).solid;
   const Side a = side(first), b = side(second);
   SolverContact contact;
-  contact.pair = &pair;
+  contact.pair = &pairs_.pair(index);
   contact.first = a.number;
   contact.second = b.number;
   contact.first_at = &placement(first);
@@ -340,7 +358,7 @@ SolverContact DebrisWorld::solver_contact(NearPair& pair) const {
 
 void DebrisWorld::add_contacts(const Island& island) {
   const std::span<SolverContact> made = solver_.add_contacts(island.pairs.size());
-  region_.each(made.size(), kPairs, [&](std::size_t i) { made[i] = solver_contact(pairs_.pair(island.pairs[i])); });
+  region_.each(made.size(), kPairs, [&](std::size_t i) { made[i] = solver_contact(island.pairs[i]); });
   for (DebrisHinge* hinge : island.hinges) {
     hinge->rows.body = body(hinge->body).solver;
     hinge->rows.holder = hinge->other < 0 ? 0 : body(hinge->other).solver;

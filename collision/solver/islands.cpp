@@ -34,10 +34,10 @@ DebrisBody* awake_body(const NearPairs& pairs, std::uint32_t collider) {
 
 void join_touching(const IslandParts& parts, DisjointSets& sets) {
   for (const std::uint32_t index : parts.touching) {
-    const NearPair& pair = parts.pairs.pair(index);
-    const DebrisBody *a = awake_body(parts.pairs, pair.first), *b = awake_body(parts.pairs, pair.second);
+    const PairEnds& ends = parts.pairs.ends(index);
+    const DebrisBody *a = awake_body(parts.pairs, ends.first), *b = awake_body(parts.pairs, ends.second);
     if (a && b) sets.join(a->island, b->island);
-    Solid* const second = parts.pairs.collider(pair.second).solid;
+    Solid* const second = parts.pairs.collider(ends.second).solid;
     if (!a || second->kind != Touched::Kind::obstacle) continue;
     auto* const carrier = static_cast<DebrisObstacle*>(second);
     if (!carrier->moves) continue;
@@ -78,12 +78,12 @@ std::vector<Island> find_islands(const IslandParts& parts) {
   std::vector<Island> islands = number(parts.awake, sets);
   const auto of = [&](const DebrisBody& one) -> Island& { return islands[static_cast<std::size_t>(one.island)]; };
   for (const std::uint32_t index : parts.touching) {
-    const NearPair& pair = parts.pairs.pair(index);
-    const DebrisBody *a = awake_body(parts.pairs, pair.first), *b = awake_body(parts.pairs, pair.second);
+    const PairEnds& ends = parts.pairs.ends(index);
+    const DebrisBody *a = awake_body(parts.pairs, ends.first), *b = awake_body(parts.pairs, ends.second);
     if (!a && !b) continue;
     Island& island = of(a ? *a : *b);
     island.pairs.push_back(index);
-    if (const DebrisObstacle* carrier = moving_obstacle(parts.pairs, pair))
+    if (const DebrisObstacle* carrier = moving_obstacle(parts.pairs, ends))
       island.carried = island.carried || carrier->speed() > parts.carries_from;
   }
   for (const IslandParts::Hung& hung : parts.hinges) of(*hung.body).hinges.push_back(hung.hinge);

@@ -15,10 +15,6 @@ std::array<Vec3, 3> directions(const Vec3& normal) {
   return {normal, across, normal.cross(across)};
 }
 
-Vec3 place_of(const SolverContact& contact, const ManifoldPoint& point) {
-  return (*contact.first_at * point.on_first + *contact.second_at * point.on_second) / 2;
-}
-
 Eigen::Matrix<double, 1, 6> row(const SolverBody& body, const Vec3& place, const Vec3& along) {
   Eigen::Matrix<double, 1, 6> made;
   made.head<3>() = body.inverse_root_mass * along;
@@ -40,7 +36,7 @@ void StepSolver::add_to(Equilibrium& equilibrium, const SolverContact& contact) 
   for (int i = 0; i < manifold.count; ++i) {
     const ManifoldPoint& point = manifold.points[static_cast<std::size_t>(i)];
     if (!bears_at_rest(point)) continue;
-    const Vec3 place = place_of(contact, point);
+    const Vec3& place = contact.places[static_cast<std::size_t>(i)];
     made.on_first.row(made.count) = row(first, place, along[0]);
     made.on_second.row(made.count) = row(second, place, along[0]);
     made.stiffness[made.count] =
@@ -76,6 +72,7 @@ bool StepSolver::rest(double dt, const Vec3& gravity, std::span<const double> si
   }
   equilibrium.contacts.reserve(contacts_.size());
   for (SolverContact& contact : contacts_) {
+    contact.find_places();
     place_friction(contact);
     add_to(equilibrium, contact);
   }
@@ -107,7 +104,7 @@ void StepSolver::take_rest(const RestContact& found, SolverContact& contact, dou
     ManifoldPoint& point = manifold.points[static_cast<std::size_t>(i)];
     point.impulse = point.force = bears_at_rest(point) ? found.force[k++] : 0;
     pressed += point.force;
-    middle += point.force * place_of(contact, point);
+    middle += point.force * contact.places[static_cast<std::size_t>(i)];
   }
   manifold.friction = manifold.friction_force = found.force[4] * along[1] + found.force[5] * along[2];
   manifold.twist = manifold.twist_force = found.force[6] * contact.lever;

@@ -29,7 +29,7 @@ void StepSolver::pack_contacts() {
   points_.clear();
   colours_.clear();
   sets_.clear();
-  used_.assign(bodies_.size(), {});
+  used_.assign(bodies_.size(), 0);
   for (const auto& set : domains.sets) {
     sets_.push_back(packs_.size());
     colour(set);
@@ -46,14 +46,21 @@ void StepSolver::pack_contacts() {
 void StepSolver::colour(std::span<const std::uint32_t> set) {
   for (auto& list : by_colour_) list.clear();
   const auto word = [&](int body, std::size_t w) -> std::uint64_t {
-    const auto& used = used_[static_cast<std::size_t>(body)];
-    return body == 0 || w >= used.size() ? 0 : used[w];
+    if (w == 0) return used_[static_cast<std::size_t>(body)];
+    const auto beyond = used_beyond_.find(body);
+    return beyond == used_beyond_.end() || w > beyond->second.size() ? 0 : beyond->second[w - 1];
   };
   const auto mark = [&](int body, std::size_t chosen) {
     if (body == 0) return;
-    auto& used = used_[static_cast<std::size_t>(body)];
-    if (used.size() <= chosen / 64) used.resize(chosen / 64 + 1, 0);
-    used[chosen / 64] |= std::uint64_t{1} << (chosen % 64);
+    const std::size_t w = chosen / 64;
+    const std::uint64_t bit = std::uint64_t{1} << (chosen % 64);
+    if (w == 0) {
+      used_[static_cast<std::size_t>(body)] |= bit;
+      return;
+    }
+    auto& beyond = used_beyond_[body];
+    if (beyond.size() < w) beyond.resize(w, 0);
+    beyond[w - 1] |= bit;
   };
   for (const std::uint32_t i : set) {
     const SolverContact& contact = contacts_[i];
@@ -74,7 +81,8 @@ void StepSolver::colour(std::span<const std::uint32_t> set) {
   for (auto& list : by_colour_)
     std::stable_sort(list.begin(), list.end(), [&](std::uint32_t a, std::uint32_t b) { return points(a) > points(b); });
   for (const std::uint32_t i : set)
-    for (const int body : {contacts_[i].first, contacts_[i].second}) used_[static_cast<std::size_t>(body)].clear();
+    for (const int body : {contacts_[i].first, contacts_[i].second}) used_[static_cast<std::size_t>(body)] = 0;
+  used_beyond_.clear();
 }
 
 /// The colours of a small set are short: lanes that stay free in the last pack of one take contacts of later colours.
@@ -122,7 +130,7 @@ void StepSolver::fill_packs(std::span<const std::uint32_t> list) {
   colours_.push_back(packs_.size());
   const auto points = [&](std::uint32_t i) { return contacts_[i].pair->manifold.count; };
   for (std::size_t begin = 0; begin < list.size(); begin += kLanes) {
-    ContactPack pack{};
+    ContactPack& pack = packs_.emplace_back();
     pack.first_point = points_.size();
     for (std::size_t i = begin; i < std::min(begin + kLanes, list.size()); ++i)
       pack.point_count = std::max(pack.point_count, points(list[i]));
@@ -130,14 +138,16 @@ void StepSolver::fill_packs(std::span<const std::uint32_t> list) {
     packed_.resize(packed_.size() + kLanes, kNone);
     for (std::size_t lane = 0; lane < kLanes && begin + lane < list.size(); ++lane) {
       SolverContact& contact = contacts_[list[begin + lane]];
-      packed_[kLanes * packs_.size() + lane] = list[begin + lane];
-      contact.pack = static_cast<int>(packs_.size());
+      packed_[packed_.size() - kLanes + lane] = list[begin + lane];
+      contact.pack = static_cast<int>(packs_.size()) - 1;
       contact.lane = static_cast<int>(lane);
       pack.first_body[lane] = contact.first;
       pack.second_body[lane] = contact.second;
     }
-    if (!packs_.empty()) packs_.back().apart_from_next = share_no_body(packs_.back(), pack);
-    packs_.push_back(pack);
+    if (packs_.size() > 1) {
+      ContactPack& before = packs_[packs_.size() - 2];
+      before.apart_from_next = share_no_body(before, pack);
+    }
   }
 }
 
@@ -146,6 +156,13 @@ void set(Wide* of, int lane, const Vec3& v) {
   for (int i = 0; i < 3; ++i) of[i][lane] = v[i];
 }
 }  // namespace
+
+void SolverContact::find_places() {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(pair->manifold.count); ++i) {
+    const ManifoldPoint& point = pair->manifold.points[i];
+    places[i] = (*first_at * point.on_first + *second_at * point.on_second) / 2;
+  }
+}
 
 void StepSolver::prepare(SolverContact& contact) {
   ContactPack& pack = packs_[static_cast<std::size_t>(contact.pack)];
@@ -161,6 +178,7 @@ void StepSolver::prepare(SolverContact& contact) {
   pack.restitution[lane] = contact.restitution;
   pack.friction[lane] = contact.friction;
   set(pack.normal, lane, contact.pair->manifold.normal);
+  contact.find_places();
   prepare_points(contact, pack, h_);
   prepare_friction(contact, pack, h_);
 }
@@ -183,7 +201,7 @@ void StepSolver::prepare_points(SolverContact& contact, ContactPack& pack, doubl
   for (int i = 0; i < manifold.count; ++i) {
     const ManifoldPoint& point = manifold.points[static_cast<std::size_t>(i)];
     PackPoint& row = points_[pack.first_point + static_cast<std::size_t>(i)];
-    const Vec3 place = (*contact.first_at * point.on_first + *contact.second_at * point.on_second) / 2;
+    const Vec3& place = contact.places[static_cast<std::size_t>(i)];
     const Vec3 a = first.scaled_moment((place - first.at.position).cross(n)),
                b = second.scaled_moment((place - second.at.position).cross(n));
     set(row.first, lane, a);
@@ -198,23 +216,21 @@ void StepSolver::prepare_points(SolverContact& contact, ContactPack& pack, doubl
 /// At the middle of the forces of the last step; where there are none yet, by nearness.
 void StepSolver::place_friction(SolverContact& contact) const {
   const Manifold& manifold = contact.pair->manifold;
-  std::array<Vec3, Manifold::most> places;
   std::array<double, Manifold::most> weights{};
   double sum = 0;
   for (int pass = 0; pass < 2 && !(sum > 0); ++pass)
     for (int i = 0; i < manifold.count; ++i) {
       const auto k = static_cast<std::size_t>(i);
       const ManifoldPoint& point = manifold.points[k];
-      places[k] = (*contact.first_at * point.on_first + *contact.second_at * point.on_second) / 2;
       weights[k] = pass == 0 ? point.force : 1 / (1 + std::max(0.0, point.separation) / settings_.margin);
       sum += weights[k];
     }
   contact.anchor.setZero();
   contact.lever = 0;
   for (int i = 0; i < manifold.count; ++i)
-    contact.anchor += weights[static_cast<std::size_t>(i)] / sum * places[static_cast<std::size_t>(i)];
+    contact.anchor += weights[static_cast<std::size_t>(i)] / sum * contact.places[static_cast<std::size_t>(i)];
   for (int i = 0; i < manifold.count; ++i) {
-    const Vec3 arm = places[static_cast<std::size_t>(i)] - contact.anchor;
+    const Vec3 arm = contact.places[static_cast<std::size_t>(i)] - contact.anchor;
     contact.lever +=
         weights[static_cast<std::size_t>(i)] / sum * (arm - manifold.normal.dot(arm) * manifold.normal).norm();
   }

@@ -48,6 +48,11 @@ void StepSolver::each_body(const Work& work) {
 template <class Work>
 void StepSolver::each_contact(const Work& work) {
   region_.each(packs_.size(), kPacks, [&](std::size_t pack) {
+    // Contacts of a pack are far from each other in memory, and so are their pairs.
+    for (std::size_t k = kLanes * (pack + 1); k < std::min(kLanes * (pack + 2), packed_.size()); ++k)
+      if (packed_[k] != kNone) prefetch_lines(*contacts_[packed_[k]].pair);
+    for (std::size_t k = kLanes * (pack + 2); k < std::min(kLanes * (pack + 3), packed_.size()); ++k)
+      if (packed_[k] != kNone) prefetch_lines(contacts_[packed_[k]]);
     for (std::size_t k = kLanes * pack; k < kLanes * (pack + 1); ++k)
       if (packed_[k] != kNone) work(contacts_[packed_[k]]);
   });
@@ -226,12 +231,11 @@ void StepSolver::store_contact(SolverContact& contact, double dt) {
   for (int i = 0; i < manifold.count; ++i) {
     ManifoldPoint& point = manifold.points[static_cast<std::size_t>(i)];
     const PackPoint& row = points_[pack.first_point + static_cast<std::size_t>(i)];
-    const Vec3 place = (*contact.first_at * point.on_first + *contact.second_at * point.on_second) / 2;
     point.impulse = row.impulse[lane] / h_;
     point.force = row.total[lane] / dt;
     total += row.total[lane];
     contact.load = std::max(contact.load, row.total[lane] / dt / row.mass[lane]);
-    contact.centre += row.total[lane] * place;
+    contact.centre += row.total[lane] * contact.places[static_cast<std::size_t>(i)];
   }
   if (total > 0)
     contact.centre /= total;

@@ -7,7 +7,9 @@
 //
 // Velocities inside are those of the middle of a sub-step, so that free flight is exact. Forces are the sums over
 // sub-steps of what was applied: they balance weight and momentum to rounding.
+#include <array>
 #include <cstdint>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -30,7 +32,8 @@ struct SolverContact {
   double friction = 0, restitution = 0;
   // Where it lies in the packs.
   int pack = -1, lane = 0;
-  int told = -1;  ///< which of the world's contacts tells of it
+  std::array<Vec3, Manifold::most> places;  ///< of its points when the step began, global
+  int told = -1;                            ///< which of the world's contacts tells of it
   // After the step.
   Vec3 impulse = Vec3::Zero();  ///< on the second, N s
   Vec3 centre = Vec3::Zero();   ///< of the normal impulses
@@ -40,6 +43,8 @@ struct SolverContact {
   Vec3 late = Vec3::Zero();     ///< N s2: the impulse times the step, less what of that moved the bodies
   Vec3 carried = Vec3::Zero();  ///< N m s on the second, about any fixed point: it acted while the two moved on
   double load = 0;              ///< m/s2: the largest force of a point over its effective mass
+
+  void find_places();
 };
 
 class Equilibrium;
@@ -141,7 +146,8 @@ class StepSolver {
   std::vector<std::size_t> sets_, stages_;    ///< first pack of each, first set of each, and the ends (ContactDomains)
   std::vector<std::size_t> colours_;          ///< first pack of each in each set, and the end
   std::vector<std::vector<std::uint32_t>> by_colour_;
-  std::vector<std::vector<std::uint64_t>> used_;
+  std::vector<std::uint64_t> used_;                        ///< of each body: its colours, a bit each, the first 64 ...
+  std::map<int, std::vector<std::uint64_t>> used_beyond_;  ///< ... and those beyond, of the few that have more
 };
 
 }  // namespace topple::collision
