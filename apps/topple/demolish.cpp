@@ -10,6 +10,7 @@
 
 #include "command.h"
 #include "image_sequence.h"
+#include "progress.h"
 #include "topple/structure/collapse_animation.h"
 #include "topple/structure/collapse_report.h"
 #include "topple/structure/error.h"
@@ -31,13 +32,16 @@ struct DemolishOptions {
   std::string resume;
 };
 
-/// A line on a terminal, rewritten every so many steps; nothing when standard error goes elsewhere.
+/// How far the run is: on a terminal a line that is rewritten every so many steps, elsewhere a line now and then.
 class Progress {
  public:
   void show(const structure::Simulation& simulation) {
-    if (!terminal_ || simulation.steps() % 30 != 0) return;
-    std::fprintf(stderr, "\r%8.2f s  %zu bodies  %zu events ", simulation.time(), simulation.bodies().size(),
-                 simulation.events().size());
+    if (simulation.steps() % 30 != 0) return;
+    if (terminal_)
+      std::fprintf(stderr, "\r%8.2f s  %zu bodies  %zu events ", simulation.time(), simulation.bodies().size(),
+                   simulation.events().size());
+    else
+      tell_progress("demolishing", simulation.time() / simulation.scenario().duration);
   }
   ~Progress() {
     if (terminal_) std::fprintf(stderr, "\r\033[K");
@@ -151,6 +155,7 @@ int demolish(const DemolishOptions& options) {
   if (images) images->finish(*results);
   saves.tell_missed(simulation);
   std::fputs(structure::collapse_text(simulation, times).c_str(), stdout);
+  if (options.folder.empty()) std::fputs("  files:  none; -o FOLDER writes what happened and what stands\n", stdout);
   return success;
 }
 

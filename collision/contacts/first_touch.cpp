@@ -23,6 +23,8 @@ constexpr double kTouching = 1e-4;
 constexpr double kLeastClosing = 5e-4;
 /// No advance is shorter than this share of the duration: bounds the work for a part that spins just above another.
 constexpr double kLeastAdvance = 1.0 / 256;
+/// Advances that are tried along one normal, each shorter than the one before.
+constexpr int kTries = 8;
 
 struct Closest {
   double distance = BT_LARGE_FLOAT;
@@ -55,6 +57,9 @@ double origins_bound(const Motion& first, const Motion& second, const btVector3&
   return std::max(closing(time), closing(duration));
 }
 
+/// What a normal turns with: what lies flat on a face that turns stays apart from it along the face's own normal.
+enum class Carrier { none, first, second };
+
 /// What advance() asks about a pair; the second may be the ground.
 struct Pair {
   virtual ~Pair() = default;
@@ -62,7 +67,47 @@ struct Pair {
   /// No point closes faster than this along n from `time` to the end.
   [[nodiscard]] virtual double closing_bound(const btVector3& normal, double time) const = 0;
   [[nodiscard]] virtual double approach_speed(const btVector3& normal, const btVector3& point, double time) const = 0;
+  /// How far the second is beyond the first along n at this time: they are apart when it is above zero.
+  [[nodiscard]] virtual double gap(const btVector3& normal, double time) const = 0;
+  /// What a normal may turn with, rad/s.
+  [[nodiscard]] virtual btVector3 turn(Carrier carrier) const = 0;
+  /// The second derivative of no point's place along a normal against the other's is larger from `time` to the end,
+  /// m/s2. The normal turns with the carrier.
+  [[nodiscard]] virtual double bend(Carrier carrier, const btVector3& normal, double time) const = 0;
 };
+
+/// How far a part reaches along a unit vector: with its corners rounded by its skin, as distances are measured.
+double support(const SolidPart& part, const btTransform& pose, const btVector3& normal) {
+  const btTransform placed = pose * part.local;
+  const btVector3 farthest = part.shape->localGetSupportVertexWithoutMarginNonVirtual(normal * placed.getBasis());
+  return (placed * farthest).dot(normal) + part.shape->getMarginNonVirtual();
+}
+
+/// Points turn with a constant rate, and fall.
+double turning_bend(const SolidPart& part, const Motion& motion, const btVector3& normal) {
+  return motion.angular_velocity.length() * turning_bound(part, motion, normal);
+}
+
+/// From `time` on the gap along n stays above `least` for so long, s, or for `shortest` where that is not known. The
+/// gap is the least of functions of time that bend by B at most: between g now and h after D it is above (1 - s) g + s
+/// h - s (1 - s) B D^2/2 at any share s of D.
+double stays_apart(const Pair& pair, Carrier carrier, const btVector3& normal, double time, double least,
+                   double shortest, double longest) {
+  const double now = pair.gap(normal, time), bend = pair.bend(carrier, normal, time);
+  const btVector3 turn = pair.turn(carrier);
+  const double rate = turn.length();
+  double length = longest;
+  for (int i = 0; i < kTries && length > shortest; ++i) {
+    const btVector3 turned = rate > 0 ? normal.rotate(turn / rate, rate * length) : normal;
+    const double then = pair.gap(turned, time + length), sag = bend * length * length / 2;
+    const double share = sag > 0 ? std::clamp((sag - (then - now)) / (2 * sag), 0.0, 1.0) : then < now ? 1 : 0;
+    const double lowest = (1 - share) * now + share * then - share * (1 - share) * sag;
+    if (lowest >= least) return length;
+    const double until = then < now ? (now - least) / (now - then) : 1;  // where a straight line would come to it
+    length *= std::clamp(0.9 * until, 0.1, 0.6);
+  }
+  return shortest;
+}
 
 std::optional<Touch> advance(const Pair& pair, double duration) {
   double time = 0;
@@ -81,7 +126,18 @@ std::optional<Touch> advance(const Pair& pair, double duration) {
     }
     const double bound = pair.closing_bound(closest.normal, time);
     if (!(bound > 0)) return std::nullopt;
-    time += std::max({(closest.distance - kTouching / 2) / bound, kLeastClosing / bound, kLeastAdvance * duration});
+    // What touches and does not close yet may come a little nearer.
+    const double least = closest.distance > kTouching ? kTouching / 2 : closest.distance - kLeastClosing;
+    const double shortest =
+        std::max({(closest.distance - kTouching / 2) / bound, kLeastClosing / bound, kLeastAdvance * duration});
+    if (duration - time <= shortest) return std::nullopt;
+    double apart = shortest;
+    for (const Carrier carrier : {Carrier::none, Carrier::first, Carrier::second}) {
+      if (carrier != Carrier::none && pair.turn(carrier).isZero()) continue;
+      apart = std::max(apart, stays_apart(pair, carrier, closest.normal, time, least, apart, duration - time));
+      if (apart >= duration - time) return std::nullopt;
+    }
+    time += apart;
   }
   return std::nullopt;
 }
@@ -102,6 +158,28 @@ struct PartPair : Pair {
   [[nodiscard]] double approach_speed(const btVector3& normal, const btVector3& point, double time) const override {
     return (first_motion.point_velocity(point, time) - second_motion.point_velocity(point, time)).dot(normal);
   }
+  [[nodiscard]] double gap(const btVector3& normal, double time) const override {
+    return -support(second, second_motion.at(time), -normal) - support(first, first_motion.at(time), normal);
+  }
+  [[nodiscard]] btVector3 turn(Carrier carrier) const override {
+    return carrier == Carrier::none    ? btVector3(0, 0, 0)
+           : carrier == Carrier::first ? first_motion.angular_velocity
+                                       : second_motion.angular_velocity;
+  }
+  [[nodiscard]] double bend(Carrier carrier, const btVector3& normal, double time) const override {
+    const double falling = (first_motion.acceleration - second_motion.acceleration).length();
+    if (carrier == Carrier::none)
+      return falling + turning_bend(first, first_motion, normal) + turning_bend(second, second_motion, normal);
+    // Of n (x - o), with o the carrier's origin and x a point of the other: n'' (x - o) + 2 n' (x - o)' + n (x - o)''.
+    const bool with_first = carrier == Carrier::first;
+    const SolidPart& other = with_first ? second : first;
+    const Motion &carries = with_first ? first_motion : second_motion,
+                 &moves = with_first ? second_motion : first_motion;
+    const double rate = carries.angular_velocity.length(), others = moves.angular_velocity.length() * other.reach;
+    const double speed = (carries.velocity - moves.velocity).length() + falling * duration + others;
+    const double away = (carries.origin(time) - moves.origin(time)).length() + other.reach + speed * (duration - time);
+    return rate * rate * away + 2 * rate * speed + falling + moves.angular_velocity.length() * others;
+  }
 };
 
 struct GroundPair : Pair {
@@ -120,6 +198,13 @@ struct GroundPair : Pair {
   [[nodiscard]] double approach_speed(const btVector3& normal, const btVector3& point, double time) const override {
     return motion.point_velocity(point, time).dot(normal);
   }
+  [[nodiscard]] double gap(const btVector3&, double time) const override {
+    return lowest_points(part, motion.at(time), 0).height - height;
+  }
+  [[nodiscard]] btVector3 turn(Carrier) const override { return {0, 0, 0}; }
+  [[nodiscard]] double bend(Carrier, const btVector3& normal, double) const override {
+    return motion.acceleration.length() + turning_bend(part, motion, normal);
+  }
 };
 
 }  // namespace
@@ -129,13 +214,16 @@ btTransform Motion::at(double time) const {
   const btScalar rate = angular_velocity.length();
   if (rate * time > 0)
     pose.setBasis(btMatrix3x3(btQuaternion(angular_velocity / rate, rate * time)) * start.getBasis());
-  pose.setOrigin(start.getOrigin() + velocity * time + acceleration * (time * time / 2));
+  pose.setOrigin(origin(time));
   return pose;
 }
 
+btVector3 Motion::origin(double time) const {
+  return start.getOrigin() + velocity * time + acceleration * (time * time / 2);
+}
+
 btVector3 Motion::point_velocity(const btVector3& point, double time) const {
-  const btVector3 centre = start.getOrigin() + velocity * time + acceleration * (time * time / 2);
-  return velocity_at(time) + angular_velocity.cross(point - centre);
+  return velocity_at(time) + angular_velocity.cross(point - origin(time));
 }
 
 LowestPoints lowest_points(const SolidPart& part, const btTransform& pose, double band) {

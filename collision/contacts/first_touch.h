@@ -13,6 +13,7 @@ struct Motion {
   btVector3 velocity{0, 0, 0}, acceleration{0, 0, 0}, angular_velocity{0, 0, 0};
 
   [[nodiscard]] btTransform at(double time) const;
+  [[nodiscard]] btVector3 origin(double time) const;
   [[nodiscard]] btVector3 velocity_at(double time) const { return velocity + acceleration * time; }
   /// Of the material point that is at `point` (global) at that time.
   [[nodiscard]] btVector3 point_velocity(const btVector3& point, double time) const;
