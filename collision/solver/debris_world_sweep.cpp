@@ -65,6 +65,22 @@ struct DebrisWorld::Mover {
   Bounds whole;
 };
 
+struct DebrisWorld::Met {
+  const Solid& solid;
+  const Motion& motion;
+  struct Part {
+    std::size_t number;
+    Bounds bounds;
+  };
+  std::vector<Part> parts;
+};
+
+DebrisWorld::Met DebrisWorld::met(const Mover& mover) {
+  Met all{*mover.body, mover.motion, {}};
+  for (std::size_t i = 0; i < mover.parts.size(); ++i) all.parts.push_back({i, mover.parts[i]});
+  return all;
+}
+
 Motion DebrisWorld::motion_of(const DebrisBody& body, double dt) const {
   Motion motion;
   motion.start = transform_of(body);
@@ -132,20 +148,23 @@ void put_lower_first(Contact& contact) {
 
 }  // namespace
 
-void DebrisWorld::sweep_pair(const Mover& mover, const Solid& other, const Motion& other_motion,
-                             const SweepRange& range, std::vector<Contact>& found) const {
+void DebrisWorld::sweep_pair(const Mover& mover, const Met& met, const SweepRange& range,
+                             std::vector<Contact>& found) const {
+  const Solid& other = met.solid;
   const bool other_first = other.kind == Touched::Kind::body && other.id < mover.body->id;
   if (other_first ? ignores(other, *mover.body) : ignores(*mover.body, other)) return;
   // Slow meetings are told of what stands: who lies down on it is told from who strikes it by the caller.
   const double least = other.kind == Touched::Kind::body ? range.least_speed : 0;
-  find_touches(mover, other, other_motion, {range.what, range.dt, least}, found);
+  find_touches(mover, met, {range.what, range.dt, least}, found);
 }
 
 /// Of each part of the one with each part of the other. What meets slowly matters beside what meets fast alone: a body
 /// that comes down on several places at once.
-void DebrisWorld::find_touches(const Mover& mover, const Solid& other, const Motion& other_motion,
-                               const SweepRange& range, std::vector<Contact>& found) {
+void DebrisWorld::find_touches(const Mover& mover, const Met& met, const SweepRange& range,
+                               std::vector<Contact>& found) {
   const double dt = range.dt;
+  const Solid& other = met.solid;
+  const Motion& other_motion = met.motion;
   const Placement other_end = placement_of(other_motion.at(dt));
   std::vector<std::pair<std::size_t, std::size_t>> slow;
   bool fast = false;
@@ -156,8 +175,7 @@ void DebrisWorld::find_touches(const Mover& mover, const Solid& other, const Mot
     found.push_back(contact_of(*mover.body, part.tag, other, other_part.tag, *touch));
     fast = fast || touch->approach_speed >= range.least_speed;
   };
-  for (std::size_t j = 0; j < other.parts.size(); ++j) {
-    const Bounds other_bounds = swept_bounds(other.parts[j], other_motion, dt);
+  for (const auto& [j, other_bounds] : met.parts) {
     if (!other_bounds.meets(mover.whole)) continue;
     for (std::size_t i = 0; i < mover.parts.size(); ++i) {
       if (!mover.parts[i].meets(other_bounds)) continue;
@@ -180,9 +198,11 @@ bool DebrisWorld::still_to_pass(const DebrisBody& first, const Solid& other, boo
   other_motion.start = transform_of(other);
   if (other_moves) other_motion = motion_of(static_cast<const DebrisBody&>(other), dt);
   const double resting_speed = 2 * gravity_.norm() * dt;
+  Met second{other, other_motion, {}};
+  for (std::size_t j = 0; j < other.parts.size(); ++j)
+    second.parts.push_back({j, swept_bounds(other.parts[j], other_motion, ahead)});
   std::vector<Contact> found;
-  find_touches(mover_of(first, motion_of(first, dt), ahead), other, other_motion,
-               {Sweep::everything, ahead, resting_speed}, found);
+  find_touches(mover_of(first, motion_of(first, dt), ahead), second, {Sweep::everything, ahead, resting_speed}, found);
   return std::any_of(found.begin(), found.end(),
                      [&](const Contact& contact) { return contact.approach_speed > resting_speed; });
 }
@@ -202,23 +222,27 @@ void DebrisWorld::sweep_ground(const Mover& mover, const SweepRange& range, std:
 void DebrisWorld::sweep_standing(const Mover& mover, const SweepRange& range, std::vector<Contact>& found) const {
   const auto [what, dt, least_speed] = range;
   const Box3 box = box_of(mover.whole);
-  std::set<std::uint64_t> orders;  // of solids, each once, in an order of their own
-  std::vector<std::pair<std::uint64_t, const Solid*>> candidates;
+  std::vector<const Collider*> near;  // in order of solids, and of their parts
   const auto take = [&](std::uint32_t index) {
     const Collider& one = pairs_.collider(index);
-    if (one.fat.meets(box) && orders.insert(one.order >> 20).second) candidates.emplace_back(one.order, one.solid);
+    if (one.fat.meets(box) && !is_awake(*one.solid)) near.push_back(&one);
   };
   pairs_.each_in(box, true, take);
   if (what == Sweep::everything) pairs_.each_in(box, false, take);
-  std::sort(candidates.begin(), candidates.end());
-  for (const auto& [order, other] : candidates) {
-    if (is_awake(*other)) continue;
+  std::sort(near.begin(), near.end(), [](const Collider* a, const Collider* b) { return a->order < b->order; });
+  for (std::size_t begin = 0, end = 0; begin < near.size(); begin = end) {
+    const Solid& other = *near[begin]->solid;
+    while (end < near.size() && near[end]->solid == &other) ++end;
     Motion still;
-    still.start = transform_of(*other);
-    if (other->kind == Touched::Kind::body &&
-        fastest_closing(*mover.body, mover.motion, *other, still, dt) < least_speed)
+    still.start = transform_of(other);
+    if (other.kind == Touched::Kind::body && fastest_closing(*mover.body, mover.motion, other, still, dt) < least_speed)
       continue;
-    sweep_pair(mover, *other, still, range, found);
+    Met met{other, still, {}};
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto part = static_cast<std::size_t>(near[i]->part);
+      met.parts.push_back({part, swept_bounds(other.parts[part], still, dt)});
+    }
+    sweep_pair(mover, met, range, found);
   }
 }
 
@@ -236,7 +260,7 @@ void DebrisWorld::sweep_movers(const std::vector<Mover>& movers, const SweepRang
       const Mover &first = *by_x[forward ? i : j], &second = *by_x[forward ? j : i];
       if (fastest_closing(*first.body, first.motion, *second.body, second.motion, range.dt) < range.least_speed)
         continue;
-      sweep_pair(first, *second.body, second.motion, range, found);
+      sweep_pair(first, met(second), range, found);
     }
   }
 }
