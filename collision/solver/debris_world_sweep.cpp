@@ -228,7 +228,7 @@ void DebrisWorld::sweep_standing(const Mover& mover, const SweepRange& range, st
     if (one.fat.meets(box) && !is_awake(*one.solid)) near.push_back(&one);
   };
   pairs_.each_in(box, true, take);
-  if (what == Sweep::everything) pairs_.each_in(box, false, take);
+  if (what == Sweep::everything && awake_count_ < order_.size()) pairs_.each_in(box, false, take);
   std::sort(near.begin(), near.end(), [](const Collider* a, const Collider* b) { return a->order < b->order; });
   for (std::size_t begin = 0, end = 0; begin < near.size(); begin = end) {
     const Solid& other = *near[begin]->solid;
