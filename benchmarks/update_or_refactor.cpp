@@ -39,12 +39,12 @@ Times break_at_once(const RegularFrame& frame, solver::Factor& whole, std::span<
     std::vector<int> nodes;
     for (const int member : changed) {
       solver::Beam& beam = system.model.beams[static_cast<std::size_t>(member)];
-      standing.remember_beam(member);
+      standing.changes().remember_beam(member);
       beam.end_stiffness[1] = stiffness;
       nodes.insert(nodes.end(), beam.node.begin(), beam.node.end());
     }
     system.reassemble(nodes);
-    standing.touch(nodes);
+    standing.changes().touch(nodes);
   };
   // One more joint, broken and restored beforehand: a structure that stands is warm.
   for (const double stiffness : {0.0, solver::rigid}) {

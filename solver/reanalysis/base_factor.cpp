@@ -12,16 +12,7 @@ constexpr double entry_operations = 10, correction_operations = 4;
 
 }  // namespace
 
-BaseFactor::BaseFactor(const FrameSystem& system) : system_(system) {
-  for (int node = 0; node < static_cast<int>(system.model.nodes.size()); ++node) {
-    if (system.dofs().diaphragm_of_node[static_cast<std::size_t>(node)] >= 0) {
-      diaphragm_node_before_.emplace(node, system.supports_and_inert_motions(node));
-      continue;
-    }
-    const auto own = system.own_stiffness(node);
-    if ((own.array() != 0).any()) node_before_.emplace(node, own);
-  }
-}
+BaseFactor::BaseFactor(const FrameSystem& system) : system_(system), changes_(system) {}
 
 void BaseFactor::serve(const Factor& factor) { serve(TriangularSolver(factor)); }
 
@@ -33,104 +24,53 @@ void BaseFactor::serve(TriangularSolver triangles) {
 BaseFactor::CaughtUp BaseFactor::catch_up(int places) {
   const Plan whole = plan();
   if (!whole.possible) return {};
-  const std::size_t wanted = planned_.size(), taken = std::min(wanted, static_cast<std::size_t>(places));
+  const std::size_t all = planned_.size(), taken = std::min(all, static_cast<std::size_t>(places));
   while (planned_.size() > taken) planned_.erase(std::prev(planned_.end()));
-  for (const auto& [key, modes] : planned_) place_.emplace(key, correction_->add(modes.rows, modes.B));
+  for (const auto& [place, modes] : planned_) number_.emplace(place, correction_->add(modes.rows, modes.B));
   planned_.clear();
   correction_->finish_adding();
-  set_wanted();
+  take_changes();
   correction_->update();
-  const double share = wanted == 0 ? 0.0 : static_cast<double>(taken) / static_cast<double>(wanted);
-  return {taken == wanted, share * (whole.operations - solve_operations())};
+  const double share = all == 0 ? 0.0 : static_cast<double>(taken) / static_cast<double>(all);
+  return {taken == all, share * (whole.operations - solve_operations())};
 }
 
-void BaseFactor::remember_beam(int beam) {
-  if (!beam_before_.contains(beam)) beam_before_.emplace(beam, beam_mode_stiffness(system_, beam));
-  stale_beams_.push_back(beam);
-}
-
-void BaseFactor::remember_shell(int shell) {
-  shell_before_.emplace(shell, system_.shell_stands[static_cast<std::size_t>(shell)]);
-  know_modes(shell);
-}
-
-/// What it strains by does not change: found once, while it stands.
-void BaseFactor::know_modes(int shell) {
-  if (system_.shell_stands[static_cast<std::size_t>(shell)] != 0 && !shell_modes_.contains(shell))
-    shell_modes_.emplace(shell, shell_modes(system_, system_.shell_stiffness(shell), shell));
-}
-
-bool BaseFactor::remember_plate(std::size_t element) {
-  if (element < system_.element_of_patch(0) &&
-      shell_before_.contains(static_cast<int>(element - system_.element_of_shell(0))))
-    return false;
-  if (!plate_before_.contains(element)) plate_before_.emplace(element, system_.plate_stiffness(element));
-  return true;
-}
-
-bool BaseFactor::inside_dropped(std::span<const int> nodes) const {
-  return std::all_of(nodes.begin(), nodes.end(),
-                     [&](int n) { return std::binary_search(dropped_.begin(), dropped_.end(), n); });
-}
-
-ElementModes BaseFactor::modes(Key key) const {
-  if (key.kind == Kind::beam) return beam_modes(system_, key.index);
-  if (key.kind == Kind::shell) return shell_modes_.at(key.index);
-  if (key.kind == Kind::plate) {
-    const auto element = static_cast<std::size_t>(key.index);
-    ElementModes own;
-    for (const int place : equations_of(element))
-      own.rows.push_back(system_.assembly_map().freedoms(element)[static_cast<std::size_t>(place)]);
-    const auto count = static_cast<Eigen::Index>(own.rows.size());
-    own.B = Eigen::MatrixXd::Identity(count, count);
-    return own;
-  }
-  return node_modes(system_, key.index);
-}
-
-/// What was restored is as the factor has it: no need to look at it again until it changes again.
+/// What was restored is as the factor has it.
 void BaseFactor::forget_unchanged(std::optional<Eigen::Index> kept) {
-  const std::vector<int> number = kept ? correction_->forget_unchanged(*kept) : correction_->forget_unchanged();
-  if (number.empty()) return;
-  for (auto place = place_.begin(); place != place_.end();) {
-    place->second = number[static_cast<std::size_t>(place->second)];
+  const std::vector<int> renumbered = kept ? correction_->forget_unchanged(*kept) : correction_->forget_unchanged();
+  if (renumbered.empty()) return;
+  for (auto place = number_.begin(); place != number_.end();) {
+    place->second = renumbered[static_cast<std::size_t>(place->second)];
     if (place->second >= 0) {
       ++place;
       continue;
     }
-    wanted_.erase(place->first);
-    // A beam inside a part that left stays known: it holds the part together.
-    if (place->first.kind == Kind::beam &&
-        !inside_dropped(system_.model.beams[static_cast<std::size_t>(place->first.index)].node))
-      beam_before_.erase(place->first.index);
-    place = place_.erase(place);
+    changes_.forget(place->first);
+    place = number_.erase(place);
   }
 }
 
 /// Takes what changed over, and adds what changed for the first time.
 void BaseFactor::add_planned() {
-  set_wanted();
+  take_changes();
   forget_unchanged();
-  for (const auto& [key, wanted] : wanted_) {
-    if (wanted.set || !wanted.active()) continue;
-    const ElementModes& m = planned_.at(key);
-    place_.emplace(key, correction_->add(m.rows, m.B));
+  for (const auto& [place, change] : changes_.all()) {
+    if (change.taken || !change.active()) continue;
+    const ElementModes& m = planned_.at(place);
+    number_.emplace(place, correction_->add(m.rows, m.B));
   }
   planned_.clear();
 }
 
-void BaseFactor::set_wanted() {
-  for (const auto& [key, place] : place_) {
-    Wanted& wanted = wanted_.at(key);
-    if (!wanted.set) correction_->set(place, wanted.D);
-    wanted.set = true;
-  }
+void BaseFactor::take_changes() {
+  for (const auto& [place, number] : number_)
+    if (const Eigen::MatrixXd* const D = changes_.take(place); D != nullptr) correction_->set(number, *D);
 }
 
 void BaseFactor::update() {
   add_planned();
   correction_->finish_adding();
-  set_wanted();
+  take_changes();
   correction_->update();
 }
 
@@ -139,7 +79,7 @@ void BaseFactor::update(std::span<const int> rows, const Eigen::VectorXd& right_
   solver_->permute(right_hand_side, along_);
   solver_->mark_paths(rows, marked_);
   correction_->finish_adding({}, &along_, &marked_);
-  set_wanted();
+  take_changes();
   correction_->update();
 }
 
@@ -169,14 +109,7 @@ void BaseFactor::finish_solve(Eigen::VectorXd& x) const {
   correction_->correct(eliminated_);
   solver_->backward(eliminated_);
   solver_->restore(eliminated_, x);
-  forget_dropped(x);
-}
-
-void BaseFactor::forget_dropped(Eigen::VectorXd& x) const {
-  for (const int node : dropped_) {
-    const auto n = static_cast<std::size_t>(node);
-    for (int e = system_.dofs().first_equation[n]; e < system_.dofs().first_equation[n + 1]; ++e) x(e) = 0;
-  }
+  changes_.clear_dropped(x);
 }
 
 /// All columns as far as the backward solve, in columns_.
@@ -200,7 +133,7 @@ void BaseFactor::restore(Eigen::MatrixXd& X) const {
   for (Eigen::Index j = 0; j < X.cols(); ++j) {
     eliminated_ = columns_.col(j);
     solver_->restore(eliminated_, column_);
-    forget_dropped(column_);
+    changes_.clear_dropped(column_);
     X.col(j) = column_;
   }
 }
@@ -240,9 +173,7 @@ Eigen::MatrixXd BaseFactor::solve_without(std::span<const Loss> losses) {
     m.B.bottomRows(static_cast<Eigen::Index>(loss.rows.size())).setZero();
     m.rows.insert(m.rows.end(), loss.rows.begin(), loss.rows.end());
     places.push_back(correction_->add(m.rows, m.B));
-    const Key key{Kind::beam, loss.beam};
-    place_.emplace(key, places.back());
-    wanted_.insert_or_assign(key, Wanted{Eigen::MatrixXd::Zero(m.B.cols(), m.B.cols()), true});
+    number_.emplace(changes_.add_unchanged(loss.beam, m.B.cols()), places.back());
     const EliminationPath& path = correction_->path(places.back());
     Eigen::MatrixXd column = Eigen::MatrixXd::Zero(path.rows(), 1);
     for (std::size_t i = 0; i < loss.rows.size(); ++i)

@@ -1,22 +1,17 @@
 #pragma once
-// A factor that is used while the structure changes. It remembers what every changed element was when the factor was
-// made, keeps the low-rank correction from there to now, and predicts what the correction costs.
-//
-// Parts that left (dropped nodes) keep the stiffness they had inside, so that nothing inside them needs correcting;
-// only what joined them to the rest is taken away, and one node of each is held. They bear no load and get no
+// A factor that is used while the structure changes. It keeps the low-rank correction from what the system was when the
+// factor was made to what it is now, and predicts what the correction costs. Parts that left bear no load and get no
 // displacement.
 #include <Eigen/Core>
 #include <map>
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
-#include "assembly/frame_system.h"
-#include "eigen/element_modes.h"
 #include "factor/factor.h"
 #include "factor/triangular.h"
 #include "reanalysis/low_rank.h"
+#include "reanalysis/system_changes.h"
 #include "reanalysis/update_costs.h"
 
 namespace topple::solver {
@@ -38,20 +33,10 @@ class BaseFactor {
   };
   [[nodiscard]] CaughtUp catch_up(int places);
 
-  // To be called before the system changes.
-  void remember_beam(int beam);
-  void remember_shell(int shell);
-  /// An element that is no beam gets another stiffness, not only none or its own: a patch, or a shell whose stiffness
-  /// is given. False: it was remembered as a shell that comes and goes, and only a new factor takes the change.
-  [[nodiscard]] bool remember_plate(std::size_t element);
-  void drop_node(int node) {
-    dropped_.push_back(node);
-    dropped_more_ = true;
-  }
-  /// These nodes' supports or elements change, or have changed.
-  void touch(std::span<const int> nodes) { touched_.insert(touched_.end(), nodes.begin(), nodes.end()); }
+  /// To be told of every change of the system.
+  [[nodiscard]] SystemChanges& changes() { return changes_; }
 
-  /// Compares the system as it is now with what was remembered.
+  /// Compares the system as it is now with what it was.
   struct Plan {
     bool possible = false;  ///< false: the change is of a kind that only a new factor takes
     int rank = 0;           ///< columns of the correction
@@ -94,7 +79,7 @@ class BaseFactor {
   [[nodiscard]] Eigen::VectorXd softest_motion() const;
   [[nodiscard]] double softening() const { return correction_->softening(); }
   /// Whether anything differs from when the factor was made.
-  [[nodiscard]] bool changed() const { return correction_->active_rank() > 0 || !dropped_.empty(); }
+  [[nodiscard]] bool changed() const { return correction_->active_rank() > 0 || changes_.any_dropped(); }
   [[nodiscard]] int rank() const { return correction_->active_rank(); }
   /// Operations of one answer.
   [[nodiscard]] double solve_operations() const;
@@ -103,54 +88,20 @@ class BaseFactor {
   [[nodiscard]] double correction_cost() const;
 
  private:
-  enum class Kind { beam, shell, plate, node, ground };
-  struct Key {
-    Kind kind;
-    int index;
-    auto operator<=>(const Key&) const = default;
-  };
-  void plan_beam(int beam, const BeamModeMatrix& before);
-  void plan_beams();
-  void plan_shells();
-  void plan_plates();
-  [[nodiscard]] std::vector<int> equations_of(std::size_t element) const;
-  bool plan_nodes();
-  void plan_grounds();
-  void want(Key key, const Eigen::Ref<const Eigen::MatrixXd>& D);
   void forget_unchanged(std::optional<Eigen::Index> kept = {});
-  void forget_dropped(Eigen::VectorXd& x) const;
-  [[nodiscard]] bool inside_dropped(std::span<const int> nodes) const;
-  void know_modes(int shell);
-  [[nodiscard]] ElementModes modes(Key key) const;
   void add_planned();
-  void set_wanted();
+  void take_changes();
   void finish_solve(Eigen::VectorXd& x) const;
   void eliminate(const Eigen::MatrixXd& X, const std::vector<int>& rows) const;
   void restore(Eigen::MatrixXd& X) const;
 
   const FrameSystem& system_;
+  SystemChanges changes_;
   std::optional<TriangularSolver> solver_;
   std::optional<LowRankCorrection> correction_;
-  std::map<int, BeamModeMatrix> beam_before_;
-  std::map<int, char> shell_before_;
-  std::map<int, ElementModes> shell_modes_;
-  std::map<std::size_t, Eigen::MatrixXd> plate_before_;
-  std::map<int, Eigen::MatrixXd> node_before_;  ///< own stiffness, of nodes that have any
-  std::map<int, Mat6> diaphragm_node_before_;   ///< the same, of nodes in diaphragms
-  std::vector<int> dropped_;
-  // Since the last plan. When parts left, everything is looked at again.
-  std::vector<int> stale_beams_, touched_;
-  bool dropped_more_ = false;
-  std::map<Key, int> place_;
-  /// D of every place that has or had one, and whether the correction has it yet.
-  struct Wanted {
-    Eigen::MatrixXd D;
-    bool set = false;
-    [[nodiscard]] bool active() const { return (D.array() != 0).any(); }
-  };
-  std::map<Key, Wanted> wanted_;
-  std::map<Key, ElementModes> planned_;  ///< of places that the last plan adds
-  Eigen::VectorXd along_;                ///< in elimination order
+  std::map<SystemChanges::Place, int> number_;            ///< of the correction's places
+  std::map<SystemChanges::Place, ElementModes> planned_;  ///< of places that the last plan adds
+  Eigen::VectorXd along_;                                 ///< in elimination order
   mutable Eigen::VectorXd eliminated_, column_;
   mutable Eigen::MatrixXd columns_;
   mutable std::vector<char> marked_;

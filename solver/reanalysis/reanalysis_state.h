@@ -64,8 +64,8 @@ struct Reanalysis::State {
   void rebuild();
   template <class Tell>
   void tell_factors(const Tell& tell) {
-    if (serving->base() != nullptr) tell(*serving->base());
-    if (refresh.base() != nullptr) tell(*refresh.base());
+    if (serving->base() != nullptr) tell(serving->base()->changes());
+    if (refresh.base() != nullptr) tell(refresh.base()->changes());
   }
 
   // reanalysis_strategy.cpp
