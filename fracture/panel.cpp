@@ -135,7 +135,7 @@ BreakablePanel::Impl::Impl(const PanelShape& given, const PanelSettings& setting
     const int from = border.chain[i], to = border.chain[(i + 1) % border.chain.size()];
     const auto corner = std::find(border.corners.begin(), border.corners.end(), from);
     if (corner != border.corners.end()) edge = static_cast<std::size_t>(corner - border.corners.begin());
-    triangulation.set_tag(triangulation.find_edge(from, to), static_cast<int>(edge));
+    triangulation.fix(triangulation.find_edge(from, to), static_cast<int>(edge));
   }
   Loop loop;
   for (const Polygon& opening : shape.openings)

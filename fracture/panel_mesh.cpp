@@ -13,7 +13,7 @@ int PanelMesh::new_vertices(std::size_t count) {
   return first;
 }
 
-int PanelMesh::corner_pair(const Triangulation& triangulation, int vertex) {
+int PanelMesh::corner_pair(const HalfEdges& triangulation, int vertex) {
   if (pairs_.size() <= index(vertex)) pairs_.resize(index(vertex) + 1, none);
   int& first = pairs_[index(vertex)];
   if (first == none) first = new_vertices(2);
@@ -57,15 +57,15 @@ void PanelMesh::remove(int triangle) {
   }
 }
 
-void PanelMesh::add(const Triangulation& triangulation, int triangle, int intact) {
+void PanelMesh::add(const HalfEdges& triangulation, int triangle, int intact) {
   std::array<int, 3> lower{};
   for (int i = 0; i < 3; ++i)
-    lower[index(i)] = corner_pair(triangulation, triangulation.origin(Triangulation::half(triangle, i)));
+    lower[index(i)] = corner_pair(triangulation, triangulation.origin(HalfEdges::half(triangle, i)));
   add_face(triangle, 0, {lower[0] + 1, lower[1] + 1, lower[2] + 1});
   add_face(triangle, 1, {lower[0], lower[2], lower[1]});
   for (int i = 0; i < 3; ++i) {
-    const int edge = Triangulation::half(triangle, i), twin = triangulation.twin(edge);
-    if (twin != Triangulation::none && triangulation.label(Triangulation::triangle_of(twin)) == intact) continue;
+    const int edge = HalfEdges::half(triangle, i), twin = triangulation.twin(edge);
+    if (twin != HalfEdges::none && triangulation.label(HalfEdges::triangle_of(twin)) == intact) continue;
     const int first = side_vertices();
     sides_[index(triangle)][index(i)] = first;
     const auto two = write_side(mesh_, first, triangulation.point(triangulation.origin(edge)),
@@ -75,7 +75,7 @@ void PanelMesh::add(const Triangulation& triangulation, int triangle, int intact
   }
 }
 
-void PanelMesh::update(const Triangulation& triangulation, const std::vector<int>& triangles, int intact) {
+void PanelMesh::update(const HalfEdges& triangulation, const std::vector<int>& triangles, int intact) {
   std::array<int, kFaces> no_faces{};
   no_faces.fill(none);
   faces_.resize(index(triangulation.triangle_slots()), no_faces);
@@ -85,11 +85,11 @@ void PanelMesh::update(const Triangulation& triangulation, const std::vector<int
   std::vector<char> listed(faces_.size(), 0);
   for (const int triangle : triangles) listed[index(triangle)] = 1;
   for (const int triangle : triangles)
-    for (const int edge : Triangulation::sides(triangle)) {
-      const int twin = triangulation.alive(triangle) ? triangulation.twin(edge) : Triangulation::none;
-      if (twin == Triangulation::none || listed[index(Triangulation::triangle_of(twin))]) continue;
-      listed[index(Triangulation::triangle_of(twin))] = 1;
-      all.push_back(Triangulation::triangle_of(twin));
+    for (const int edge : HalfEdges::sides(triangle)) {
+      const int twin = triangulation.alive(triangle) ? triangulation.twin(edge) : HalfEdges::none;
+      if (twin == HalfEdges::none || listed[index(HalfEdges::triangle_of(twin))]) continue;
+      listed[index(HalfEdges::triangle_of(twin))] = 1;
+      all.push_back(HalfEdges::triangle_of(twin));
     }
   for (const int triangle : all) remove(triangle);
   for (const int triangle : all)

@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
+#include "half_edges.h"
 #include "topple/fracture/mesh.h"
-#include "triangulation.h"
 
 namespace topple::fracture {
 
@@ -12,7 +12,7 @@ class PanelMesh {
  public:
   explicit PanelMesh(double thickness) : thickness_(thickness) {}
   /// Makes the faces of the named triangles anew, and the sides around them. `intact`: the label of what remains.
-  void update(const Triangulation& triangulation, const std::vector<int>& triangles, int intact);
+  void update(const HalfEdges& triangulation, const std::vector<int>& triangles, int intact);
   [[nodiscard]] const Mesh& mesh() const { return mesh_; }
 
  private:
@@ -22,9 +22,9 @@ class PanelMesh {
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
   void remove(int triangle);
-  void add(const Triangulation& triangulation, int triangle, int intact);
+  void add(const HalfEdges& triangulation, int triangle, int intact);
   void add_face(int triangle, std::size_t face, const std::array<int, 3>& corners);
-  int corner_pair(const Triangulation& triangulation, int vertex);
+  int corner_pair(const HalfEdges& triangulation, int vertex);
   int side_vertices();
   int new_vertices(std::size_t count);
 

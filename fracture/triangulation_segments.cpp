@@ -1,6 +1,4 @@
 // Segments of the triangulation: walking from one vertex to another, stopping at what lies in the way.
-#include <algorithm>
-
 #include "predicates.h"
 #include "triangulation.h"
 
@@ -153,45 +151,11 @@ bool Triangulation::remove_vertex(int vertex) {
     if (flippable == none) return false;
     flip(flippable);
   }
-  std::array<int, 3> around{}, corners{};
-  std::array<HalfEdge, 3> sides{};
-  std::size_t count = 0;
-  any_around(vertex, [&](int edge) {
-    around[count] = triangle_of(edge);
-    sides[count] = edges_[index(next(edge))];
-    corners[count] = sides[count].origin;
-    return ++count == 3;
-  });
-  if (!(orientation(point(corners[0]), point(corners[1]), point(corners[2])) > 0)) return false;
-  make(around[0], corners[0], corners[1], corners[2], label(around[0]));
+  const int merged = merge_around(vertex);
+  if (merged == none) return false;
   open_.clear();
-  for (std::size_t i = 0; i < 3; ++i) {
-    const int edge = half(around[0], static_cast<int>(i));
-    attach(edge, sides[i]);
-    open_.push_back(edge);
-  }
-  for (const int gone : {around[1], around[2]}) {
-    labels_[index(gone)] = dead;
-    touch(gone);
-    free_triangles_.push_back(gone);
-  }
-  free_vertices_.push_back(vertex);
+  for (const int edge : sides(merged)) open_.push_back(edge);
   legalise_open();
-  return true;
-}
-
-bool Triangulation::valid() const {
-  for (int triangle = 0; triangle < triangle_slots(); ++triangle) {
-    if (!alive(triangle)) continue;
-    if (!(doubled_area(triangle) > 0)) return false;
-    for (const int edge : sides(triangle)) {
-      const int other = twin(edge);
-      if (other == none) continue;
-      if (twin(other) != edge || origin(other) != target(edge) || !alive(triangle_of(other))) return false;
-      if (fixed(edge) != fixed(other) || tag(edge) != tag(other)) return false;
-      if (label(triangle) != label(triangle_of(other)) && !fixed(edge)) return false;
-    }
-  }
   return true;
 }
 
