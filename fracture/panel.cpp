@@ -10,6 +10,7 @@
 #include "cell_source.h"
 #include "convex_pieces.h"
 #include "grid.h"
+#include "loose_parts.h"
 #include "panel_mesh.h"
 #include "predicates.h"
 #include "topple/fracture/unfit_settings.h"
@@ -106,10 +107,7 @@ class BreakablePanel::Impl {
   [[nodiscard]] bool insert(const Polygon& polygon, Loop& loop);
   bool relabel(const Loop& loop, int from, int to);
   void clip_to_box(Polygon& polygon) const;
-  [[nodiscard]] std::vector<std::vector<int>> islands(const std::vector<int>& removed) const;
-  [[nodiscard]] std::vector<std::vector<int>> loose_parts(const std::vector<int>& starts) const;
   void empty(const std::vector<int>& triangles);
-  [[nodiscard]] bool is_held(int triangle) const;
   std::vector<int> gather_cells(int count, ConvexPieces& pieces, Fracture& fracture) const;
   void tidy();
   [[nodiscard]] Vec2 centroid(int triangle) const;
@@ -207,59 +205,6 @@ void BreakablePanel::Impl::clip_to_box(Polygon& polygon) const {
   polygon = std::move(clipped.vertices);
 }
 
-bool BreakablePanel::Impl::is_held(int triangle) const {
-  for (const int edge : Triangulation::sides(triangle)) {
-    const int tag = triangulation.tag(edge);
-    if (tag >= 0 && shape.held[static_cast<std::size_t>(tag)]) return true;
-  }
-  return false;
-}
-
-/// The parts of what remains beside removed triangles that no held edge holds.
-std::vector<std::vector<int>> BreakablePanel::Impl::islands(const std::vector<int>& removed) const {
-  std::vector<int> beside;
-  for (const int triangle : removed)
-    for (const int edge : Triangulation::sides(triangle)) {
-      const int twin = triangulation.twin(edge);
-      if (twin != Triangulation::none && triangulation.label(Triangulation::triangle_of(twin)) == kIntact)
-        beside.push_back(Triangulation::triangle_of(twin));
-    }
-  return loose_parts(beside);
-}
-
-/// The parts around these intact triangles that no held edge holds.
-std::vector<std::vector<int>> BreakablePanel::Impl::loose_parts(const std::vector<int>& starts) const {
-  std::vector<int> part_of(static_cast<std::size_t>(triangulation.triangle_slots()), -1);
-  std::vector<char> held;
-  std::vector<std::vector<int>> parts;
-  const auto search = [&](int start) {
-    const int part = static_cast<int>(parts.size());
-    parts.push_back({start});
-    held.push_back(0);
-    part_of[static_cast<std::size_t>(start)] = part;
-    for (std::size_t i = 0; i < parts.back().size(); ++i) {
-      const int triangle = parts.back()[i];
-      if (is_held(triangle)) held.back() = 1;
-      for (const int edge : Triangulation::sides(triangle)) {
-        if (held.back()) break;
-        const int twin = triangulation.twin(edge);
-        if (twin == Triangulation::none || triangulation.label(Triangulation::triangle_of(twin)) != kIntact) continue;
-        int& other = part_of[static_cast<std::size_t>(Triangulation::triangle_of(twin))];
-        if (other >= 0 && other != part) held.back() = held[static_cast<std::size_t>(other)];
-        if (other < 0) parts.back().push_back(Triangulation::triangle_of(twin));
-        if (other < 0) other = part;
-      }
-      if (held.back()) return;  // the rest of it need not be seen
-    }
-  };
-  for (const int triangle : starts)
-    if (part_of[static_cast<std::size_t>(triangle)] < 0) search(triangle);
-  std::vector<std::vector<int>> loose;
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    if (!held[i]) loose.push_back(std::move(parts[i]));
-  return loose;
-}
-
 /// Drops vertices that no border needs any more, so that the triangulation stays as small as the damage is.
 void BreakablePanel::Impl::tidy() {
   std::vector<int> vertices;
@@ -291,7 +236,7 @@ Fracture BreakablePanel::Impl::hit(const Vec2& at, std::optional<double> radius)
   ConvexPieces pieces(triangulation);
   std::vector<int> removed = gather_cells(label - kFirstPiece, pieces, fracture);
   if (!removed.empty())
-    for (const std::vector<int>& island : islands(removed)) {
+    for (const std::vector<int>& island : LooseParts(triangulation, shape.held, kIntact).beside(removed)) {
       pieces.append(island, false, fracture.chunks);
       removed.insert(removed.end(), island.begin(), island.end());
     }
@@ -336,7 +281,7 @@ Fracture BreakablePanel::Impl::hold(const std::vector<bool>& held) {
   shape.held = held;
   Fracture fracture;
   ConvexPieces pieces(triangulation);
-  for (const std::vector<int>& island : loose_parts(intact())) {
+  for (const std::vector<int>& island : LooseParts(triangulation, shape.held, kIntact).around(intact())) {
     pieces.append(island, false, fracture.chunks);
     empty(island);
   }
