@@ -65,15 +65,15 @@ Detached::Motion StructuralState::motion_of(const Detached& part) const {
     }
   };
   for (const MemberId member : part.members) {
-    momentum += motion->momentum(member);
+    momentum += motion->momentum().of(member);
     add(loads.mass(member), building[member].nodes);
   }
   for (const PanelId panel : part.panels) {
-    momentum += motion->momentum(panel);
+    momentum += motion->momentum().of(panel);
     add(loads.mass(panel), building[panel].nodes);
   }
   for (const NodeId node : part.nodes) {
-    momentum += motion->momentum(node);
+    momentum += motion->momentum().of(node);
     add(loads.mass(node), {&node, 1});
   }
   Detached::Motion found;

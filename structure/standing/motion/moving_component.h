@@ -1,18 +1,18 @@
 #pragma once
 // A component that moves, as StandingMotion keeps it.
+#include "standing/motion/moving_law.h"
 #include "standing/motion/standing_motion.h"
 
 namespace topple::structure {
 
 struct StandingMotion::Moving {
   std::unique_ptr<solver::FrameDynamics> frame;
-  std::unique_ptr<Law> law;
+  std::unique_ptr<MovingLaw> law;
   double elastic_at_start = 0;
   double between_nodes = 0;  ///< J, at the start: strain of loads between nodes, which no motion of nodes has
   double turned = 0;         ///< rad, its largest turn a step ago
   double left_work = 0;      ///< J, at rest: of loads that have changed since, which the account of rest never sees
   double looked = 0;         ///< s of its motion, when rest was looked for last
-  std::size_t held = 0;      ///< its joints that held then
   std::vector<double> mass;  ///< per beam, as the frame has it
   /// A shell panel that changed since the last substep or impulse.
   struct ChangedShell {

@@ -1,28 +1,15 @@
 #include "standing/motion/standing_motion.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 
 #include "model/index_of.h"
-#include "model/own_mass.h"
 #include "standing/motion/moving_component.h"
 
 namespace topple::structure {
 namespace {
-
-/// Strain energy of a member's axial force and bending between its end forces, linear between them: what it counts by.
-double strain_energy(const solver::Beam& beam, const solver::Vec12& f) {
-  const double E = beam.youngs_modulus, L = beam.length;
-  const auto bending = [&](Eigen::Index axis, double I) {
-    const double a = f(axis), b = -f(6 + axis);
-    return (a * a + a * b + b * b) * L / (6 * E * I);
-  };
-  return f(0) * f(0) * L / (2 * E * beam.area) + bending(4, beam.Iy) + bending(5, beam.Iz);
-}
 
 std::vector<solver::FrameDynamics::Impulse> numbered(const FrameStatics& statics,
                                                      const StandingMotion::NodalForces& forces) {
@@ -33,36 +20,13 @@ std::vector<solver::FrameDynamics::Impulse> numbered(const FrameStatics& statics
 
 }  // namespace
 
-/// Capacities as the building has them; the largest uses are remembered as they come.
-class StandingMotion::Law : public solver::JointLaw {
- public:
-  Law(const StandingMotion& motion, int component)
-      : from_(motion.from_), members_(motion.from_.statics.members(component)) {}
-
-  [[nodiscard]] double beam_use(int beam, const solver::Vec12& forces) const override {
-    return std::max(end_use(beam, 0, forces), end_use(beam, 1, forces));
-  }
-  [[nodiscard]] double end_use(int beam, int end, const solver::Vec12& forces) const override {
-    const JointId joint = from_.building.joint(members_[static_cast<std::size_t>(beam)], end);
-    if (!from_.building[joint].capacity.breakable || !from_.parts.standing(joint)) return 0;
-    const double use = from_.joints.used(joint, member_joint_demand(forces, end)).value;
-    // What is beyond is taken again without the joint that broke.
-    if (use <= 1) from_.joints.remember(joint, use);
-    if (!std::isfinite(use)) throw std::runtime_error("the motion of " + from_.building[joint].name + " is not finite");
-    return use;
-  }
-  [[nodiscard]] std::span<const solver::PlasticHinge> plastic_hinges() const override { return hinges_; }
-  /// As they are in the component now.
-  void set_hinges(std::vector<solver::PlasticHinge> hinges) { hinges_ = std::move(hinges); }
-
- private:
-  const Sources& from_;
-  const std::vector<MemberId>& members_;
-  std::vector<solver::PlasticHinge> hinges_;
-};
-
-StandingMotion::StandingMotion(const Sources& sources, const MotionSettings& settings)
-    : from_(sources), settings_(settings), masses_(sources.building, sources.loads, sources.parts.bearings) {}
+StandingMotion::StandingMotion(const MotionSources& sources, const MotionSettings& settings)
+    : from_(sources),
+      settings_(settings),
+      masses_(sources.building, sources.loads, sources.parts.bearings),
+      model_(sources, masses_),
+      damping_(sources, model_, settings),
+      momentum_(sources, masses_, *this) {}
 StandingMotion::~StandingMotion() {
   for (const auto& [c, moving] : moving_) from_.statics.follow(c, nullptr);
 }
@@ -82,48 +46,16 @@ int StandingMotion::set_step(double dt) {
   return count;
 }
 
-const StandingMotion::Moving* StandingMotion::of(int component) const {
+const solver::FrameDynamics* StandingMotion::frame(int component) const {
   const auto found = moving_.find(component);
-  return found == moving_.end() ? nullptr : found->second.get();
+  return found == moving_.end() ? nullptr : found->second->frame.get();
 }
-
-/// What has left is held, and touches nothing: it has no part in the motion.
-solver::FrameModel StandingMotion::model_of(int c) const {
-  solver::FrameModel model = from_.statics.model(c);
-  const std::vector<MemberId>& members = from_.statics.members(c);
-  for (std::size_t b = 0; b < members.size(); ++b) {
-    solver::Beam& beam = model.beams[b];
-    beam.density = masses_.of(members[b]) / (beam.area * beam.length);
-    if (!from_.parts.stands(members[b])) beam.end_stiffness = {Vec6::Zero(), Vec6::Zero()};
-  }
-  for (solver::Shell& shell : model.shells) shell.density = 0;
-  const std::vector<PanelId>& membranes = from_.statics.membranes(c);
-  for (std::size_t s = 0; s < membranes.size(); ++s)
-    if (!from_.statics.stiff(membranes[s])) model.shell_stiffness[static_cast<int>(s)].setZero();
-  for (const PanelId shell : from_.statics.shells(c))
-    if (from_.statics.stiff(shell))
-      model.patches[static_cast<std::size_t>(from_.statics.number(shell))].mass = mass_of(shell);
-  const std::vector<NodeId>& nodes = from_.statics.nodes(c);
-  for (std::size_t n = 0; n < nodes.size(); ++n)
-    if (from_.node_solved[index_of(nodes[n])] == 0)
-      model.supports.push_back({static_cast<int>(n), Vec6::Constant(solver::rigid)});
-  return model;
-}
-
-/// A membrane that is broken in part has a superelement as well.
-bool StandingMotion::is_shell(PanelId panel) const { return from_.building[panel].model == PanelModel::shell; }
-
-/// By its weight; without any by its material's.
-double StandingMotion::kilograms(PanelId shell) const {
-  const double by_weight = from_.loads.mass(shell);
-  return by_weight > 0 ? by_weight : own_mass(from_.building, shell);
-}
-
-Eigen::MatrixXd StandingMotion::mass_of(PanelId id) const { return from_.shells.of(id)->mass(kilograms(id)); }
 
 void StandingMotion::remember_motion(PanelId id) {
   const auto found = moving_.find(from_.components.of(id));
-  if (found == moving_.end() || !is_shell(id) || found->second->changed_shells.contains(id)) return;
+  if (found == moving_.end() || from_.building[id].model != PanelModel::shell ||
+      found->second->changed_shells.contains(id))
+    return;
   std::vector<Vec6> at_nodes;
   for (const NodeId node : from_.building[id].all_nodes()) at_nodes.push_back(velocity(node));
   found->second->changed_shells[id].motion = from_.shells.of(id)->motion(at_nodes);
@@ -131,7 +63,7 @@ void StandingMotion::remember_motion(PanelId id) {
 
 void StandingMotion::update_mass(PanelId id) {
   const auto found = moving_.find(from_.components.of(id));
-  if (found == moving_.end() || !is_shell(id)) return;
+  if (found == moving_.end() || from_.building[id].model != PanelModel::shell) return;
   solver::FrameDynamics& frame = *found->second->frame;
   const int number = from_.statics.number(id);
   if (!from_.statics.stiff(id)) {  // it takes along what it has
@@ -140,13 +72,13 @@ void StandingMotion::update_mass(PanelId id) {
     found->second->changed_shells.erase(id);
     return;
   }
-  const Eigen::MatrixXd mass = mass_of(id);
+  const Eigen::MatrixXd mass = model_.mass(id);
   if (const auto changed = found->second->changed_shells.find(id); changed != found->second->changed_shells.end()) {
     const std::vector<NodeId> nodes = from_.building[id].all_nodes();
     Eigen::VectorXd now(mass.rows());
     for (std::size_t n = 0; n < nodes.size(); ++n)
       now.segment<6>(static_cast<Eigen::Index>(6 * n)) = velocity(nodes[n]);
-    changed->second.impulses = from_.shells.of(id)->momentum(kilograms(id), changed->second.motion) - mass * now;
+    changed->second.impulses = from_.shells.of(id)->momentum(model_.kilograms(id), changed->second.motion) - mass * now;
   }
   frame.set_patch_mass(number, mass);
 }
@@ -164,86 +96,6 @@ void StandingMotion::pass_on_motion(int c) {
   moving.frame->add_impulses(numbered(from_.statics, impulses));
 }
 
-solver::MassModel StandingMotion::masses_of(int c) const {
-  solver::MassModel masses;
-  const std::vector<NodeId>& nodes = from_.statics.nodes(c);
-  for (std::size_t n = 0; n < nodes.size(); ++n) {
-    const double mass = masses_.of(nodes[n]);
-    if (mass > 0 && from_.node_solved[index_of(nodes[n])] != 0)
-      masses.nodes.push_back({static_cast<int>(n), mass, Vec3::Zero()});
-  }
-  return masses;
-}
-
-double StandingMotion::damping_of(int c) const {
-  double metal = 0, other = 0;
-  for (const MemberId member : from_.statics.members(c)) {
-    if (!from_.parts.stands(member)) continue;
-    const double energy = strain_energy(from_.statics.beam(member), from_.statics.end_forces(member));
-    const bool is_metal = from_.building[from_.building[member].material].youngs_modulus >= settings_.metal_modulus;
-    (is_metal ? metal : other) += energy;
-  }
-  if (!(metal + other > 0)) return settings_.metal_damping;
-  return (settings_.metal_damping * metal + settings_.other_damping * other) / (metal + other);
-}
-
-void StandingMotion::put_loads(int c, solver::FrameDynamics& frame) const {
-  for (const MemberId member : from_.statics.members(c)) {
-    if (!from_.parts.stands(member)) continue;
-    std::vector<solver::BeamLoad> loads = from_.statics.loads(member);
-    for (solver::BeamLoad& load : loads) load.beam = from_.statics.number(member);
-    if (!loads.empty()) frame.set_beam_loads(from_.statics.number(member), std::move(loads));
-    if (const double factor = from_.statics.stiffness(member); factor != 1)
-      frame.set_beam_stiffness_factor(from_.statics.number(member), factor);
-  }
-  for (const NodeId node : from_.statics.nodes(c))
-    if (from_.node_solved[index_of(node)] != 0 && !from_.statics.load(node).isZero(0))
-      frame.set_node_load(from_.statics.number(node), from_.statics.load(node));
-}
-
-std::size_t StandingMotion::holding(int c) const {
-  std::size_t count = 0;
-  for (const JointId joint : from_.components.joints[static_cast<std::size_t>(c)])
-    if (from_.parts.standing(joint)) ++count;
-  return count;
-}
-
-/// As it stands.
-StandingMotion::Known StandingMotion::find(int c, const solver::FrameModel& model, const solver::MassModel& masses,
-                                           const std::vector<Vec6>& rest) const {
-  solver::DynamicOptions still;
-  still.analysis.threads = from_.threads;
-  still.keep_energy = false;
-  Known found;
-  found.holding = holding(c);
-  const std::vector<solver::VibrationMode> modes = solver::natural_modes(model, masses, 1, still.analysis).modes;
-  if (modes.empty()) return found;  // supports hold every node
-  found.first_frequency = modes.front().angular_frequency;
-  const double quotient = solver::FrameDynamics(model, masses, still).rayleigh_quotient(rest);
-  const double shape = quotient > 0 ? std::sqrt(quotient) : found.first_frequency;
-  found.damping = solver::rayleigh_damping(damping_of(c), found.first_frequency, shape);
-  return found;
-}
-
-void StandingMotion::update_damping(int c) {
-  Known& known = known_.at(c);
-  Moving& moving = *moving_.at(c);
-  const std::size_t now = holding(c);
-  if (std::exchange(moving.held, now) != now || known.holding == now) return;
-  const std::vector<Vec6> rest = displacements_at_rest(c);
-  known = find(c, model_of(c), masses_of(c), rest);
-  moving.frame->set_damping(known.damping);
-}
-
-/// As the component's hinges have turned so far.
-void StandingMotion::lay_plastic_rotations(int c, Moving& moving) const {
-  for (const PlasticHinge& hinge : from_.yielding.hinges(c)) {
-    if (hinge.plastic_rotation == 0 || !from_.parts.standing(hinge.joint)) continue;
-    const Joint& own = from_.building[hinge.joint];
-    moving.frame->set_plastic_rotation(from_.statics.number(own.member), own.end, hinge.axis, hinge.plastic_rotation);
-  }
-}
-
 void StandingMotion::take_plastic_rotations(int c, const Moving& moving) const {
   const std::vector<PlasticHinge>& hinges = from_.yielding.hinges(c);
   for (std::size_t h = 0; h < hinges.size(); ++h) {
@@ -257,36 +109,25 @@ void StandingMotion::take_plastic_rotations(int c, const Moving& moving) const {
   }
 }
 
-/// Per node of the component, as solved last; zero where it is no part of it any more.
-std::vector<Vec6> StandingMotion::displacements_at_rest(int c) const {
-  std::vector<Vec6> rest;
-  for (const NodeId node : from_.statics.nodes(c))
-    rest.push_back(from_.node_solved[index_of(node)] != 0 ? from_.statics.displacement(node) : Vec6(Vec6::Zero()));
-  return rest;
-}
-
 void StandingMotion::start(int c) {
   if (moves(c)) return;
-  const solver::FrameModel model = model_of(c);
-  const solver::MassModel masses = masses_of(c);
-  const std::vector<Vec6> rest = displacements_at_rest(c);
+  const solver::FrameModel model = model_.frame(c);
+  const solver::MassModel masses = model_.node_masses(c);
+  const std::vector<Vec6> rest = model_.at_rest(c);
 
   Moving moving;
   solver::DynamicOptions options;
   options.substep = substep_;
   options.spectral_radius = settings_.spectral_radius;
   options.analysis.threads = from_.threads;
-  Known& own = known_[c];
-  if (own.holding == 0 || own.holding != holding(c)) own = find(c, model, masses, rest);
-  options.damping = own.damping;
+  options.damping = damping_.start(c, model, masses, rest);
   options.second_order = from_.second_order;
   moving.frame = std::make_unique<solver::FrameDynamics>(model, masses, options);
-  put_loads(c, *moving.frame);
-  lay_plastic_rotations(c, moving);
+  model_.lay_on(c, *moving.frame);
   moving.frame->set_state(rest, std::vector<Vec6>(rest.size(), Vec6::Zero()));
   moving.elastic_at_start = moving.frame->energy().elastic;
   moving.between_nodes = from_.account.elastic_at_rest(c) - moving.elastic_at_start;
-  moving.law = std::make_unique<Law>(*this, c);
+  moving.law = std::make_unique<MovingLaw>(from_, c);
   for (const MemberId member : from_.statics.members(c)) moving.mass.push_back(masses_.of(member));
   from_.statics.follow(c, moving.frame.get());
   moving_.emplace(c, std::make_unique<Moving>(std::move(moving)));
@@ -316,8 +157,11 @@ void StandingMotion::stop(int c) {
 }
 
 void StandingMotion::update_masses() {
-  for (const MotionMasses::Rehung& panel : masses_.update())
-    if (from_.parts.stands(panel.panel)) bring_along(panel);
+  for (const MotionMasses::Rehung& panel : masses_.update()) {
+    if (!from_.parts.stands(panel.panel)) continue;
+    for (const auto& [member, momentum] : momentum_.brought(panel))
+      moving_.at(from_.statics.component(member))->frame->add_momentum(from_.statics.number(member), momentum);
+  }
   for (auto& [c, one] : moving_) {
     Moving& moving = *one;
     const std::vector<MemberId>& members = from_.statics.members(c);
@@ -360,9 +204,9 @@ const Vec6& StandingMotion::displacement(NodeId node) const {
 }
 
 Vec6 StandingMotion::velocity(NodeId node) const {
-  const Moving* moving = of(from_.statics.component(node));
-  if (moving == nullptr) return Vec6::Zero();
-  return moving->frame->velocities()[static_cast<std::size_t>(from_.statics.number(node))];
+  const solver::FrameDynamics* own = frame(from_.statics.component(node));
+  if (own == nullptr) return Vec6::Zero();
+  return own->velocities()[static_cast<std::size_t>(from_.statics.number(node))];
 }
 
 solver::Vec12 StandingMotion::end_forces(MemberId member) const {
@@ -438,11 +282,15 @@ double StandingMotion::largest_turn(int c) const {
   return largest;
 }
 
+void StandingMotion::update_damping(int c) {
+  if (const solver::RayleighDamping* const anew = damping_.look(c)) moving_.at(c)->frame->set_damping(*anew);
+}
+
 void StandingMotion::damp_by_mass(int c, double turn) {
   Moving& moving = *moving_.at(c);
   const bool falls = turn > settings_.falling_turn && turn > moving.turned;
   moving.turned = turn;
-  moving.frame->set_mass_damping(falls ? 0 : known_.at(c).damping.mass);
+  moving.frame->set_mass_damping(falls ? 0 : damping_.of(c).mass);
 }
 
 }  // namespace topple::structure

@@ -6,14 +6,12 @@
 #include <span>
 #include <vector>
 
-#include "failure/joint_states.h"
-#include "standing/component_parts.h"
-#include "standing/energy/energy_account.h"
+#include "standing/motion/component_damping.h"
 #include "standing/motion/motion_masses.h"
+#include "standing/motion/motion_model.h"
+#include "standing/motion/motion_momentum.h"
 #include "standing/motion/motion_settings.h"
-#include "standing/panel_superelements.h"
-#include "standing/standing_parts.h"
-#include "standing/yielding_way.h"
+#include "standing/motion/motion_sources.h"
 #include "topple/solver/frame_dynamics.h"
 
 namespace topple::structure {
@@ -28,22 +26,7 @@ struct MotionEnergy {
 
 class StandingMotion {
  public:
-  /// All of it must outlive this.
-  struct Sources {
-    const Building& building;
-    const StandingParts& parts;
-    const FrameLoads& loads;
-    FrameStatics& statics;
-    JointStates& joints;
-    YieldingWay& yielding;
-    const ComponentParts& components;
-    const PanelSuperelements& shells;
-    const EnergyAccount& account;
-    const std::vector<char>& node_solved;
-    bool second_order = false;
-    int threads = 1;
-  };
-  StandingMotion(const Sources& sources, const MotionSettings& settings);
+  StandingMotion(const MotionSources& sources, const MotionSettings& settings);
   ~StandingMotion();
 
   [[nodiscard]] bool any() const { return !moving_.empty(); }
@@ -81,18 +64,16 @@ class StandingMotion {
   /// One substep of a component that moves.
   [[nodiscard]] std::vector<Break> advance(int component);
 
-  // Of what moves; a part of a component at rest has no velocity and no momentum.
+  // Of what moves; a part of a component at rest has no velocity.
   [[nodiscard]] const Vec6& displacement(NodeId node) const;
   [[nodiscard]] Vec6 velocity(NodeId node) const;
   [[nodiscard]] solver::Vec12 end_forces(MemberId member) const;
   /// Of a support of the node, by its place among the building's.
   [[nodiscard]] Vec6 reaction(NodeId node, std::size_t support) const;
   [[nodiscard]] std::array<Vec6, 4> corner_forces(PanelId membrane) const;
-  /// Linear momentum, and angular about the origin, of displacements about the unloaded place.
-  [[nodiscard]] Vec6 momentum(MemberId member) const;  ///< panels that lie on it apart
-  [[nodiscard]] Vec6 momentum(PanelId panel) const;
-  [[nodiscard]] Vec6 momentum(NodeId node) const;
-  [[nodiscard]] Vec3 velocity(PanelId panel) const;  ///< of its mass, in the mean
+  [[nodiscard]] const MotionMomentum& momentum() const { return momentum_; }
+  /// Null: the component is at rest.
+  [[nodiscard]] const solver::FrameDynamics* frame(int component) const;
 
   /// Mobility of nodal forces (1/kg for unit forces), and what an impulse of them does.
   using NodalForces = std::vector<std::pair<NodeId, Vec6>>;
@@ -125,37 +106,15 @@ class StandingMotion {
 
  private:
   struct Moving;
-  class Law;
-  /// Of a component as it stood.
-  struct Known {
-    double first_frequency = 1;       ///< rad/s, the lowest; of what cannot move any
-    solver::RayleighDamping damping;  ///< of what does not fall
-    std::size_t holding = 0;          ///< its joints that held
-  };
-  [[nodiscard]] std::size_t holding(int component) const;
-  [[nodiscard]] Known find(int component, const solver::FrameModel& model, const solver::MassModel& masses,
-                           const std::vector<Vec6>& rest) const;
-  [[nodiscard]] const Moving* of(int component) const;
-  [[nodiscard]] solver::FrameModel model_of(int component) const;
-  [[nodiscard]] solver::MassModel masses_of(int component) const;
-  [[nodiscard]] std::vector<Vec6> displacements_at_rest(int component) const;
-  [[nodiscard]] Eigen::MatrixXd mass_of(PanelId shell) const;
-  [[nodiscard]] bool is_shell(PanelId panel) const;
-  [[nodiscard]] double kilograms(PanelId shell) const;
-  [[nodiscard]] double damping_of(int component) const;
-  [[nodiscard]] double freed_between_nodes(int component) const;
-  void lay_plastic_rotations(int component, Moving& moving) const;
   void take_plastic_rotations(int component, const Moving& moving) const;
-  void put_loads(int component, solver::FrameDynamics& frame) const;
-  [[nodiscard]] Vec6 specific_momentum(MemberId member) const;
-  /// What a panel that lies on other members now brings them beyond their own velocity.
-  void bring_along(const MotionMasses::Rehung& panel);
 
-  Sources from_;
+  MotionSources from_;
   MotionSettings settings_;
   MotionMasses masses_;
+  MotionModel model_;
+  ComponentDamping damping_;
+  MotionMomentum momentum_;
   double substep_ = 0;
-  std::map<int, Known> known_;
   std::map<int, std::unique_ptr<Moving>> moving_;
   MotionEnergy past_;  ///< of motions that have ended
   std::uint64_t starts_ = 0;

@@ -8,30 +8,34 @@
 
 namespace topple::structure {
 
+namespace {
+
 /// J, on the way to rest, of what loads do between nodes. The strain of members that left went with them. Where a
 /// member holds otherwise by now, its nodes bear other shares of its loads, and these moved between nodes: by the
 /// shares, at the places of the start, and by twice the strain that is there more.
-double StandingMotion::freed_between_nodes(int c) const {
-  const StateOfRest& start = from_.account.at_rest();
+double freed_between_nodes(const MotionSources& from, int c) {
+  const StateOfRest& start = from.account.at_rest();
   double freed = 0;
-  for (const MemberId member : from_.statics.members(c)) {
+  for (const MemberId member : from.statics.members(c)) {
     if (!start.stands(member)) continue;
     const solver::Beam before = start.beam(member);
-    if (!from_.parts.stands(member)) {
+    if (!from.parts.stands(member)) {
       freed += solver::held_strain_energy(before, start.loads(member));
       continue;
     }
-    const std::vector<solver::BeamLoad>& loads = from_.statics.loads(member);
-    const solver::Beam now = beam_as_it_holds(from_.statics, from_.parts, member);
+    const std::vector<solver::BeamLoad>& loads = from.statics.loads(member);
+    const solver::Beam now = beam_as_it_holds(from.statics, from.parts, member);
     if (loads.empty() || (now.end_stiffness == before.end_stiffness && now.youngs_modulus == before.youngs_modulus))
       continue;
     freed += solver::held_strain_energy(now, loads) - solver::held_strain_energy(before, loads);
     const solver::HeldBeam held = solver::hold_beam(now, loads), was_held = solver::hold_beam(before, loads);
     for (std::size_t end = 0; end < 2; ++end)
-      freed += (held.on_nodes[end] - was_held.on_nodes[end]).dot(start.displacement(from_.building[member].nodes[end]));
+      freed += (held.on_nodes[end] - was_held.on_nodes[end]).dot(start.displacement(from.building[member].nodes[end]));
   }
   return freed;
 }
+
+}  // namespace
 
 /// What it still has beyond its static state is damped now: 1/2 v'Mv + 1/2 d'Kd, d the way to that state.
 void StandingMotion::settle(int c) {
@@ -39,7 +43,7 @@ void StandingMotion::settle(int c) {
   const double of_present = moving.frame->work_of_present_loads();
   moving.left_work = moving.frame->energy().external_work - of_present;
   past_.damped += moving.frame->energy().kinetic;
-  const std::vector<Vec6> rest = displacements_at_rest(c);
+  const std::vector<Vec6> rest = model_.at_rest(c);
   moving.left_work += moving.frame->geometric_work_to(rest);
   std::vector<Vec6> way = moving.frame->displacements();
   for (const NodeId node : from_.statics.nodes(c)) {
@@ -55,7 +59,7 @@ void StandingMotion::settle(int c) {
   moving.frame->set_state(way, std::vector<Vec6>(way.size(), Vec6::Zero()));
   past_.damped += moving.frame->energy().elastic;
   past_.freed += before.freed - moving.frame->energy().freed;  // what setting the state took for a change
-  past_.freed += freed_between_nodes(c);
+  past_.freed += freed_between_nodes(from_, c);
   stop(c);
 }
 
@@ -69,7 +73,7 @@ bool StandingMotion::look_for_rest(int c) const {
 bool StandingMotion::rests(int c) {
   Moving& moving = *moving_.at(c);
   moving.looked = moving.frame->time();
-  const double slowest = known_.at(c).first_frequency;
+  const double slowest = damping_.first_frequency(c);
   const std::vector<Vec6>&u = moving.frame->displacements(), &v = moving.frame->velocities();
   for (const NodeId node : from_.statics.nodes(c)) {
     if (from_.node_solved[index_of(node)] == 0) continue;

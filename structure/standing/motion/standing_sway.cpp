@@ -33,9 +33,9 @@ void StandingFrame::let_move(double dt, const MotionRules& rules) {
     throw InputError(state.building.file + ": what stands cannot move: " + *reason);
   if (state.rules.sudden != 1) throw std::invalid_argument("what moves has no factor of a sudden loss: it must be 1");
   state.motion = std::make_unique<StandingMotion>(
-      StandingMotion::Sources{state.building, state.parts, state.loads, state.statics, state.joints, state.yielding,
-                              state.components, state.shells, state.account, state.in_solver.held_nodes(),
-                              state.rules.second_order, state.threads},
+      MotionSources{state.building, state.parts, state.loads, state.statics, state.joints, state.yielding,
+                    state.components, state.shells, state.account, state.in_solver.held_nodes(),
+                    state.rules.second_order, state.threads},
       settings_of(rules, dt));
   state.statics.before_changes([&state](int c) {
     if (!state.slowly && state.in_solver.nodes_of(c) > 0) state.motion->start(c);
@@ -323,7 +323,7 @@ void StandingFrame::State::look_for_rest(int c) {
 Vec3 StandingFrame::velocity(PanelId panel) const {
   const State& state = *state_;
   if (!state.stands(panel) || !state.moves(state.components.of(panel))) return Vec3::Zero();
-  return state.motion->velocity(panel);
+  return state.motion->momentum().velocity(panel);
 }
 
 }  // namespace topple::structure

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "standing/contact_loads.h"
+#include "standing/motion/component_damping.h"
 #include "standing/yielding_way.h"
 #include "structure/frame_builder.h"
 #include "topple/structure/frame.h"
@@ -247,4 +248,48 @@ TEST_CASE("energies need no frame around them: a sudden load frees Clapeyron's h
   rest.record(c);
   // Nothing but rounding of what was there.
   CHECK(std::abs(rest.elastic(c, {})) < rounding * stored);
+}
+
+TEST_CASE("damping needs no motion: that of the material at the lowest frequency, found anew once breaks have ceased") {
+  constexpr double rounding = 1e-9;  // relative, of an iteration for one mode
+  FrameBuilder f = cantilevers(6);
+  Material concrete = f.building.materials[0];
+  concrete.youngs_modulus = 30e9;
+  f.building.materials.push_back(concrete);
+  f.building.members[2].material = f.building.members[3].material = MaterialId(1u);
+  Parts all(f.building);
+  const std::vector<std::vector<topple::solver::BeamLoad>> applied(4);
+  EnergyAccount account(
+      {f.building, all.parts.segments, all.parts.bearings, all.loads, all.statics, all.node_solved, applied});
+  for (const NodeId tip : {NodeId(2u), NodeId(5u)}) {
+    all.statics.set_load(tip, (Vec6() << 0, 0, -1e4, 0, 0, 0).finished());
+    REQUIRE_FALSE(all.statics.solve(all.statics.component(tip)));
+  }
+  const int generation = 0, steel = all.components.of(JointId(0u)), other = 1 - steel;
+  YieldingWay way({all.parts, all.components, all.loads, applied, all.node_solved, all.statics, all.joints, account, 1,
+                   generation, [] {}});
+  const MotionSources sources{f.building,     all.parts,  all.loads, all.statics,     all.joints, way,
+                              all.components, all.shells, account,   all.node_solved, false,      1};
+  const MotionMasses masses(f.building, all.loads, all.parts.bearings);
+  const MotionModel model(sources, masses);
+  MotionSettings settings;
+  settings.metal_damping = 0.03;
+  settings.other_damping = 0.07;
+  ComponentDamping damping(sources, model, settings);
+  for (const int c : {steel, other}) {
+    const auto found = damping.start(c, model.frame(c), model.node_masses(c), model.at_rest(c));
+    const double frequency = damping.first_frequency(c);
+    CHECK(found.mass / (2 * frequency) + found.stiffness * frequency / 2 ==
+          Approx(c == steel ? 0.03 : 0.07).epsilon(rounding));
+    CHECK(damping.look(c) == nullptr);
+  }
+  // The same beams of another modulus.
+  CHECK(damping.first_frequency(steel) / damping.first_frequency(other) ==
+        Approx(std::sqrt(200.0 / 30)).epsilon(rounding));
+
+  all.parts.segments.break_joint(f.building.joint(MemberId(0u), 1));
+  CHECK(damping.look(steel) == nullptr);  // more may break
+  CHECK(damping.look(other) == nullptr);
+  CHECK(damping.look(steel) == &damping.of(steel));
+  CHECK(damping.look(steel) == nullptr);
 }

@@ -1,24 +1,28 @@
-// Momentum of the parts of what moves, and what becomes of that of a panel that lies otherwise.
+#include "standing/motion/motion_momentum.h"
+
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
+#include <map>
+#include <span>
 
 #include "model/point_inertia.h"
-#include "standing/motion/moving_component.h"
+#include "standing/motion/standing_motion.h"
 
 namespace topple::structure {
 
 /// Per kg that moves with the member: what changes of mass the frame has not taken over yet does not count.
-Vec6 StandingMotion::specific_momentum(MemberId member) const {
-  const Moving* moving = of(from_.statics.component(member));
-  if (moving == nullptr) return Vec6::Zero();
+Vec6 MotionMomentum::per_kilogram(MemberId member) const {
+  const solver::FrameDynamics* frame = motion_.frame(from_.statics.component(member));
+  if (frame == nullptr) return Vec6::Zero();
   const int number = from_.statics.number(member);
-  const solver::Beam& beam = moving->frame->model().beams[static_cast<std::size_t>(number)];
+  const solver::Beam& beam = frame->model().beams[static_cast<std::size_t>(number)];
   const double mass = beam.density * beam.area * beam.length;
-  return mass > 0 ? Vec6(moving->frame->beam_momentum(number) / mass) : Vec6(Vec6::Zero());
+  return mass > 0 ? Vec6(frame->beam_momentum(number) / mass) : Vec6(Vec6::Zero());
 }
 
-Vec6 StandingMotion::momentum(MemberId member) const { return masses_.own(member) * specific_momentum(member); }
+Vec6 MotionMomentum::of(MemberId member) const { return masses_.own(member) * per_kilogram(member); }
 
 namespace {
 
@@ -50,17 +54,15 @@ std::array<Vec3, 4> quarters(const std::array<Vec3, 4>& corner) {
 
 }  // namespace
 
-/// Its mass moved with what bore it. Once it leaves, that mass lies where the panel is, and turns as its corners do:
-/// the linear momentum is kept.
-Vec6 StandingMotion::momentum(PanelId panel) const {
-  if (is_shell(panel)) {
-    const Moving* moving = of(from_.components.of(panel));
-    return moving == nullptr ? Vec6(Vec6::Zero()) : moving->frame->patch_momentum(from_.statics.number(panel));
+Vec6 MotionMomentum::of(PanelId panel) const {
+  if (from_.building[panel].model == PanelModel::shell) {
+    const solver::FrameDynamics* frame = motion_.frame(from_.components.of(panel));
+    return frame == nullptr ? Vec6(Vec6::Zero()) : frame->patch_momentum(from_.statics.number(panel));
   }
   Vec6 sum = Vec6::Zero();
   const MotionMasses::Shares& shares = masses_.shares(panel);
-  for (const auto& [member, mass] : shares.members) sum += mass * specific_momentum(member);
-  for (const auto& [node, mass] : shares.nodes) sum.head<3>() += mass * velocity(node).head<3>();
+  for (const auto& [member, mass] : shares.members) sum += mass * per_kilogram(member);
+  for (const auto& [node, mass] : shares.nodes) sum.head<3>() += mass * motion_.velocity(node).head<3>();
   std::array<Vec3, 4> corner;
   std::vector<Vec3> places, velocities;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -68,7 +70,7 @@ Vec6 StandingMotion::momentum(PanelId panel) const {
     corner[i] = from_.building[node].position;
     if (from_.parts.segments.degree(node) == 0) continue;  // nothing tells how it moves
     places.push_back(corner[i]);
-    velocities.emplace_back(velocity(node).head<3>());
+    velocities.emplace_back(motion_.velocity(node).head<3>());
   }
   const std::array<Vec3, 4> mass_at = quarters(corner);
   const Vec3 centre = mean_of(mass_at), linear = sum.head<3>();
@@ -82,14 +84,14 @@ Vec6 StandingMotion::momentum(PanelId panel) const {
   return sum;
 }
 
-Vec3 StandingMotion::velocity(PanelId panel) const {
-  const Vec3 linear = momentum(panel).head<3>();
+Vec3 MotionMomentum::velocity(PanelId panel) const {
+  const Vec3 linear = of(panel).head<3>();
   double mass = from_.loads.mass(panel);
-  if (is_shell(panel)) {  // as the frame has it
-    const Moving* moving = of(from_.components.of(panel));
-    if (moving == nullptr) return Vec3::Zero();
+  if (from_.building[panel].model == PanelModel::shell) {  // as the frame has it
+    const solver::FrameDynamics* frame = motion_.frame(from_.components.of(panel));
+    if (frame == nullptr) return Vec3::Zero();
     const auto number = static_cast<std::size_t>(from_.statics.number(panel));
-    const Eigen::MatrixXd& own = moving->frame->model().patches[number].mass;
+    const Eigen::MatrixXd& own = frame->model().patches[number].mass;
     mass = 0;
     for (Eigen::Index row = 2; row < own.rows(); row += 6)
       for (Eigen::Index column = 2; column < own.cols(); column += 6) mass += own(row, column);
@@ -97,17 +99,16 @@ Vec3 StandingMotion::velocity(PanelId panel) const {
   return mass > 0 ? Vec3(linear / mass) : Vec3(Vec3::Zero());
 }
 
-Vec6 StandingMotion::momentum(NodeId node) const {
+Vec6 MotionMomentum::of(NodeId node) const {
   Vec6 sum = Vec6::Zero();
-  const Vec3 given = from_.loads.mass(node) * velocity(node).head<3>();
+  const Vec3 given = from_.loads.mass(node) * motion_.velocity(node).head<3>();
   sum.head<3>() = given;
   sum.tail<3>() = from_.building[node].position.cross(given);
   return sum;
 }
 
-/// Its mass has the mean velocity of what bore it, and shares it inelastically with what bears it now: linear and
-/// angular momentum are kept.
-void StandingMotion::bring_along(const MotionMasses::Rehung& panel) {
+std::vector<std::pair<MemberId, Vec6>> MotionMomentum::brought(const MotionMasses::Rehung& panel) const {
+  std::vector<std::pair<MemberId, Vec6>> to_members;
   std::map<MemberId, double> gained;
   for (const auto& [member, mass] : masses_.shares(panel.panel).members) gained[member] += mass;
   for (const auto& [member, mass] : panel.before.members) gained[member] -= mass;
@@ -116,28 +117,29 @@ void StandingMotion::bring_along(const MotionMasses::Rehung& panel) {
   for (const auto& [member, mass] : gained)
     if (mass < 0) {
       lost -= mass;
-      momentum -= mass * specific_momentum(member).head<3>();
+      momentum -= mass * per_kilogram(member).head<3>();
     }
   for (const auto& [node, mass] : panel.before.nodes) {
     lost += mass;
-    momentum += mass * velocity(node).head<3>();
+    momentum += mass * motion_.velocity(node).head<3>();
   }
   for (const auto& [node, mass] : masses_.shares(panel.panel).nodes) {
     lost -= mass;
-    momentum -= mass * velocity(node).head<3>();
+    momentum -= mass * motion_.velocity(node).head<3>();
   }
-  if (!(lost > 0)) return;
+  if (!(lost > 0)) return to_members;
   for (const auto& [id, mass] : gained) {
     const int c = from_.statics.component(id);
-    if (!(mass > 0) || !moves(c) || !from_.parts.stands(id)) continue;
+    if (!(mass > 0) || !motion_.moves(c) || !from_.parts.stands(id)) continue;
     const Member& member = from_.building[id];
     const Vec3 middle = (from_.building[member.nodes[0]].position + from_.building[member.nodes[1]].position) / 2;
-    const Vec6 own = specific_momentum(id);
+    const Vec6 own = per_kilogram(id);
     Vec6 brought = -mass * own;
     brought.head<3>() += mass / lost * momentum;
     brought.tail<3>() += mass / lost * middle.cross(momentum);  // about the origin
-    moving_.at(c)->frame->add_momentum(from_.statics.number(id), brought);
+    to_members.emplace_back(id, brought);
   }
+  return to_members;
 }
 
 }  // namespace topple::structure
