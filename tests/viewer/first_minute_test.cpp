@@ -72,7 +72,7 @@ TEST_CASE("the opening scene stands by itself, and the usual shot, ball and char
     CAPTURE(tool_names[static_cast<std::size_t>(tool)]);
     Person person;
     person.run(0.1);
-    person.controller.tool = tool;
+    person.controller.hand.tool = tool;
     person.click(tool == ToolKind::charge ? "P-4-1-1" : "front-3-2");
     person.run(4);
     CHECK(person.fallen_mass() > visible);

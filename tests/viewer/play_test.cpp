@@ -124,12 +124,12 @@ TEST_CASE("a computed motion reaches its peak, swings as firm soil does, and is 
 TEST_CASE("an earthquake is read from a file, and one that is none is refused") {
   Run run;
   const topple::test::ScratchFolder folder;
-  run.controller.shaking.file = (folder / "ground.csv").string();
-  std::ofstream(run.controller.shaking.file) << "time,ax\n0,0.3\n2,0.3\n";
+  run.controller.hand.shaking.file = (folder / "ground.csv").string();
+  std::ofstream(run.controller.hand.shaking.file) << "time,ax\n0,0.3\n2,0.3\n";
   run.controller.shake();
   run.go(3);
   CHECK(run.reaction().x() / 0.3 == Approx(run.reaction().z() / run.scene.building->gravity).epsilon(1e-6));
-  std::ofstream(run.controller.shaking.file) << "time,dead\n0,1\n2,1\n";
+  std::ofstream(run.controller.hand.shaking.file) << "time,dead\n0,1\n2,1\n";
   CHECK_THROWS_AS(run.controller.shake(), topple::structure::InputError);
 }
 
@@ -217,7 +217,7 @@ TEST_CASE("the eye goes smoothly through its places and stops at the last") {
   CHECK(glm::length(run.controller.camera.eye - last.eye) > 1);
   run.controller.update(2);
   CHECK(glm::length(run.controller.camera.eye - last.eye) < 1e-9);
-  CHECK_FALSE(run.controller.flying());
+  CHECK_FALSE(run.controller.path().flying());
 }
 
 TEST_CASE("everything is reached by keys: the eye, the tools, the pace") {

@@ -100,7 +100,7 @@ TEST_CASE("a charge weakens the joints around it") {
   Person person;
   person.controller.key("k");
   const float before = person.use("P-2-1-1:1");
-  person.controller.charge_radius = 1;
+  person.controller.hand.charge_radius = 1;
   person.click_on("P-2-1-1", 0.12);
   person.go(1);
   CHECK(person.session.simulation().frame().utilisation(person.joint("P-2-1-1:1")).value >
@@ -192,7 +192,7 @@ TEST_CASE("scrubbing pauses, shows the past, and the present comes back") {
   person.click_on("P-1-1-1", 0.5);
   person.go(60);
   const double end = person.now().time;
-  person.controller.look_at(5 * person.scene.scenario.step);
+  person.controller.playback().look_at(5 * person.scene.scenario.step);
   CHECK(person.driver.paused());
   CHECK(person.controller.shown(true).time == Approx(5 * person.scene.scenario.step));
   CHECK(person.controller.shown(true).membership->members_standing ==
@@ -202,8 +202,8 @@ TEST_CASE("scrubbing pauses, shows the past, and the present comes back") {
   CHECK(person.controller.shown(true).time == Approx(5 * person.scene.scenario.step + 0.1).epsilon(0.2));
   person.controller.key("y");
   CHECK(person.controller.shown(true).time == end);
-  person.controller.look_at(5 * person.scene.scenario.step);
-  person.controller.go_on_from_here();
+  person.controller.playback().look_at(5 * person.scene.scenario.step);
+  person.controller.playback().go_on_from_here();
   CHECK(person.session.simulation().steps() == 5);
   CHECK(person.session.actions() == 0);
 }
@@ -275,9 +275,9 @@ TEST_CASE("the wrecking ball swings on its cable into what is clicked on, and th
 TEST_CASE("a fire takes strength and stiffness from what is within its reach, stage by stage") {
   Person person;
   person.controller.key("z");
-  person.controller.burning.reach = 2;
-  person.controller.burning.over = 1;
-  person.controller.burning.strength = 0.5;
+  person.controller.hand.burning.reach = 2;
+  person.controller.hand.burning.over = 1;
+  person.controller.hand.burning.strength = 0.5;
   const float before = person.use("P-1-1-1:1"), far = person.use("P-4-5-1:1");
   person.click_on("P-1-1-1", 0.1);
   person.go(90);
@@ -299,12 +299,12 @@ TEST_CASE("a saved run is taken up where it was, tuning and tools with it, and u
   person.click_on("P-1-1-1", 0.5);
   person.go(20);
   const std::string file = (folder / "run.topple").string();
-  person.controller.save(file);
+  person.controller.files().save(file);
   const auto hash = person.session.simulation().hash();
 
   Person other;
   other.go(3);
-  other.controller.load(file);
+  other.controller.files().load(file);
   CHECK(other.session.simulation().hash() == hash);
   CHECK(other.now().step == person.now().step);
   // The way there can be looked back at.
@@ -320,8 +320,8 @@ TEST_CASE("a saved run is taken up where it was, tuning and tools with it, and u
   CHECK(other.session.simulation().frame().stands(other.member("P-1-1-1")));
 
   std::ofstream(file) << "no run";
-  CHECK_THROWS_AS(other.controller.load(file), topple::structure::InputError);
-  CHECK_THROWS_AS(other.controller.load((folder / "none").string()), topple::structure::InputError);
+  CHECK_THROWS_AS(other.controller.files().load(file), topple::structure::InputError);
+  CHECK_THROWS_AS(other.controller.files().load((folder / "none").string()), topple::structure::InputError);
 }
 
 TEST_CASE(
@@ -370,21 +370,21 @@ TEST_CASE("keys look along the time line: a quarter of a second each, to its end
   Person person;
   person.go(60);
   person.controller.key("bracketleft");
-  REQUIRE(person.controller.looking_at());
-  CHECK(*person.controller.looking_at() == Approx(0.75));
+  REQUIRE(person.controller.playback().looking_at());
+  CHECK(*person.controller.playback().looking_at() == Approx(0.75));
   CHECK(person.driver.paused());
   for (int i = 0; i < 6; ++i) person.controller.key("bracketleft");
-  CHECK(*person.controller.looking_at() == 0);
+  CHECK(*person.controller.playback().looking_at() == 0);
   person.controller.key("bracketright");
   person.controller.key("bracketright");
-  CHECK(*person.controller.looking_at() == Approx(0.5));
+  CHECK(*person.controller.playback().looking_at() == Approx(0.5));
   person.controller.key("backspace");
-  CHECK_FALSE(person.controller.looking_at());
+  CHECK_FALSE(person.controller.playback().looking_at());
   CHECK(person.session.simulation().steps() == 30);
   // Beyond its end is the present; there is nothing to go on from.
   person.controller.key("bracketleft");
   person.controller.key("bracketright");
-  CHECK_FALSE(person.controller.looking_at());
+  CHECK_FALSE(person.controller.playback().looking_at());
   person.controller.key("backspace");
   CHECK(person.session.simulation().steps() == 30);
 }

@@ -44,9 +44,9 @@ TEST_CASE("a click on the wall breaks it where the ray meets it, with each metho
     CAPTURE(name);
     Person person(name);
     person.driver->advance();
-    person.controller->shot.speed = 120;
-    person.controller->shot.mass = 200;
-    person.controller->shot.radius = 0.15;
+    person.controller->hand.shot.speed = 120;
+    person.controller->hand.shot.mass = 200;
+    person.controller->hand.shot.radius = 0.15;
     const glm::dvec2 pixel = size / 2.0 + glm::dvec2(40, -25);
     const Ray ray = person.controller->camera.ray(pixel, size);
     const auto along = [](const glm::dvec3& v) { return Vec3(v.x, v.y, v.z); };
@@ -61,7 +61,7 @@ TEST_CASE("a click on the wall breaks it where the ray meets it, with each metho
     // The ball's centre flies to the point that the ray meets, a little above the ray on its way; its surface touches
     // the face straight in front of the centre, r away from it: so much short of the point along the wall as the centre
     // is then away from the face.
-    const double r = person.controller->shot.radius, cosine = std::abs(ray.direction.y);
+    const double r = person.controller->hand.shot.radius, cosine = std::abs(ray.direction.y);
     const double short_of = r * std::tan(std::acos(cosine));
     CHECK((broke->position - met->point).norm() < short_of + 0.02);
     CHECK(std::abs(broke->position.y() + 0.1) < 1e-3);  // on the face

@@ -9,26 +9,28 @@ namespace {
 
 using Settings = std::map<std::string, double*>;
 
-Settings settings_of(ToolKind kind, Controller& c) {
+Settings settings_of(ToolKind kind, Hand& hand) {
   switch (kind) {
     case ToolKind::fire:
-      return {{"speed", &c.shot.speed}, {"mass", &c.shot.mass}, {"radius", &c.shot.radius}};
+      return {{"speed", &hand.shot.speed}, {"mass", &hand.shot.mass}, {"radius", &hand.shot.radius}};
     case ToolKind::swing:
-      return {
-          {"cable", &c.swing.cable}, {"angle", &c.swing.angle}, {"mass", &c.swing.mass}, {"radius", &c.swing.radius}};
+      return {{"cable", &hand.swing.cable},
+              {"angle", &hand.swing.angle},
+              {"mass", &hand.swing.mass},
+              {"radius", &hand.swing.radius}};
     case ToolKind::charge:
-      return {{"reach", &c.charge_radius}};
+      return {{"reach", &hand.charge_radius}};
     case ToolKind::explosion:
-      return {{"charge", &c.explosive}};
+      return {{"charge", &hand.explosive}};
     case ToolKind::burn:
-      return {{"reach", &c.burning.reach},
-              {"over", &c.burning.over},
-              {"strength", &c.burning.strength},
-              {"stiffness", &c.burning.stiffness}};
+      return {{"reach", &hand.burning.reach},
+              {"over", &hand.burning.over},
+              {"strength", &hand.burning.strength},
+              {"stiffness", &hand.burning.stiffness}};
     case ToolKind::thermite:
-      return {{"over", &c.thermite_over}};
+      return {{"over", &hand.thermite_over}};
     case ToolKind::hook:
-      return {{"force", &c.hauling.force}, {"over", &c.hauling.over}};
+      return {{"force", &hand.hauling.force}, {"over", &hand.hauling.over}};
     default:
       return {};
   }
@@ -36,8 +38,8 @@ Settings settings_of(ToolKind kind, Controller& c) {
 
 }  // namespace
 
-void take(const ToolAction& tool, Controller& controller) {
-  const Settings known = settings_of(tool.kind, controller);
+void take_in_hand(const ToolAction& tool, Hand& hand) {
+  const Settings known = settings_of(tool.kind, hand);
   for (const auto& [name, value] : tool.settings) {
     const auto setting = known.find(name);
     if (setting == known.end()) {
@@ -48,7 +50,7 @@ void take(const ToolAction& tool, Controller& controller) {
     }
     *setting->second = value;
   }
-  controller.tool = tool.kind;
+  hand.tool = tool.kind;
 }
 
 RunRules rules_of(const RestartAction& restart, const Scene& scene) {

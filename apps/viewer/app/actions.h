@@ -8,7 +8,10 @@
 #include <variant>
 #include <vector>
 
-#include "app/controller.h"
+#include "app/open_scene.h"
+#include "app/session.h"
+#include "app/tools/hand.h"
+#include "renderer/camera.h"
 #include "topple/structure/joint_tuning.h"
 
 namespace topple::viewer {
@@ -57,7 +60,7 @@ struct ToolAction {
   ToolKind kind;
   std::vector<std::pair<std::string, double>> settings;
 };
-void take(const ToolAction& tool, Controller& controller);
+void take_in_hand(const ToolAction& tool, Hand& hand);
 struct GravityAction {
   double downwards;
 };

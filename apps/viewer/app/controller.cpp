@@ -1,22 +1,13 @@
 #include "app/controller.h"
 
 #include <algorithm>
-#include <array>
-#include <chrono>
 #include <cmath>
-#include <filesystem>
-#include <functional>
-#include <future>
 #include <glm/gtc/constants.hpp>
-#include <stdexcept>
 
-#include "app/output/gltf_scene.h"
-#include "app/output/html_replay.h"
-#include "app/output/usd_scene.h"
 #include "app/target_building.h"
+#include "app/tools/use_tool.h"
 #include "renderer/instances.h"
 #include "topple/structure/error.h"
-#include "topple/structure/formats/output_files.h"
 
 namespace topple::viewer {
 namespace {
@@ -26,17 +17,6 @@ constexpr double turn_per_height = glm::pi<double>();
 constexpr double zoom_per_click = 0.88;
 /// A drawn mode's largest translation, as a share of the building's radius, and its pace: every mode at the same one.
 constexpr double mode_share = 0.05, swings_per_second = 0.5;
-
-using Export = std::function<void(const structure::Building&, const Recording&, const std::string&)>;
-Export export_for(const std::string& file) {
-  const std::string ending = std::filesystem::path(file).extension().string();
-  if (ending == ".html") return write_html_replay;
-  if (ending == ".usda")
-    return [](const auto& building, const auto& run, const auto& to) { write_usd(building, run, to); };
-  if (ending == ".glb")
-    return [](const auto& building, const auto& run, const auto& to) { write_gltf(building, run, to); };
-  throw structure::InputError("export to '" + file + "': accepted endings: .html, .usda, .glb");
-}
 
 /// What stands on piers is seen down to the ground.
 Bounds bounds_to_ground(const Scene& scene, double ground) {
@@ -60,7 +40,9 @@ Controller::Controller(Driver& driver, const Scene& scene, double ground, glm::d
       names_(*scene.building),
       modes_(scene.building, scene.scenario.combination.value_or(structure::CombinationId(0u))),
       ground_(ground),
-      size_(size) {
+      size_(size),
+      playback_(driver),
+      files_(driver, playback_, message) {
   frame_building();
 }
 
@@ -70,74 +52,43 @@ void Controller::view_from(double azimuth, double elevation) {
   camera = frame(bounds_to_ground(scene_, ground_), size_.x / size_.y, 0.12, azimuth, elevation);
 }
 
-Snapshot Controller::now() const {
-  return looking_at_ ? driver_.recording().at(*looking_at_) : driver_.moment().interpolated();
-}
-
 std::optional<Pick> Controller::pick_at(glm::dvec2 pixel) const {
-  return pick(building_, now(), options, ground_, camera.ray(pixel, size_));
+  return pick(building_, playback_.now(), options, ground_, camera.ray(pixel, size_));
 }
 
 void Controller::glide(const Camera& to, double over) {
-  if (over > 0)
-    flight_ = {{camera, to}, over, 0};
-  else
-    camera = to, flight_.reset();
+  path_.glide(camera, to, over);
+  if (!(over > 0)) camera = to;
 }
 
-void Controller::fly_path() {
-  constexpr double leg = 3;  // s, between two views
-  if (views_.size() < 2) {
-    message = "a path needs two views or more: F5 adds what is seen";
+void Controller::click(glm::dvec2 pixel) {
+  if (hand.tool == ToolKind::fire) return fire(pixel);
+  const auto found = pick_at(pixel);
+  if (!found || !found->joint.valid()) {
+    message = std::string(tool_names[static_cast<std::size_t>(hand.tool)]) + ": nothing of the building is there";
     return;
   }
-  flight_ = {views_, leg, 0};
+  if (hand.tool == ToolKind::select) return select(*found);
+  playback_.go_on_from_here();
+  if (hand.tool == ToolKind::path) options.colouring = Colouring::path;
+  if (const auto said = ToolUse(driver_, building_, hand, camera, ground_).on(*found)) message = said;
 }
 
-void Controller::fly_on(double seconds) {
-  if (!flight_) return;
-  flight_->gone += seconds;
-  camera = along_path(flight_->views, flight_->gone / flight_->leg);
-  if (flight_->gone >= flight_->leg * static_cast<double>(flight_->views.size() - 1)) flight_.reset();
+void Controller::fire(glm::dvec2 pixel) {
+  const auto target = pick_at(pixel);
+  playback_.go_on_from_here();
+  ToolUse(driver_, building_, hand, camera, ground_).fire(camera.ray(pixel, size_), target);
 }
 
-void Controller::save(const std::string& file) {
-  const auto bytes = std::make_shared<std::promise<std::string>>();
-  auto saved = bytes->get_future();
-  driver_.order([bytes](Session& session) { bytes->set_value(session.save()); });
-  // A run that has stopped with an error carries out no orders.
-  if (saved.wait_for(std::chrono::seconds(30)) != std::future_status::ready)
-    throw std::runtime_error("the run does not answer: nothing is saved");
-  structure::write_file(file, saved.get());
-  message = "saved to " + file;
-}
-
-void Controller::load(const std::string& file) {
-  const structure::Snapshot saved = structure::read_snapshot(file);
-  look_at_present();
-  driver_.order_and_show([saved](Session& session) { session.load(saved); });
-  message = "taken up from " + file;
-}
-
-void Controller::export_run(const std::string& file) {
-  const Export write = export_for(file);
-  if (exporting_.valid()) finish_export();
-  const auto written = std::make_shared<std::promise<std::string>>();
-  exporting_ = written->get_future();
-  message = "writing " + file + " ...";
-  // Between two steps: nothing is added to the recording meanwhile.
-  driver_.order([written, write, file](Session& session) {
-    try {
-      write(session.building(), *session.recording(), file);
-      written->set_value(file);
-    } catch (...) {
-      written->set_exception(std::current_exception());
-    }
-  });
-}
-
-void Controller::finish_export() {
-  if (exporting_.valid()) message = "run written to " + exporting_.get();
+void Controller::shake() {
+  auto ground = std::make_shared<structure::TimeHistory>(
+      hand.shaking.file.empty() ? strong_motion(hand.shaking.peak, hand.shaking.over)
+                                : structure::read_time_history(hand.shaking.file, building_));
+  require_ground(*ground);
+  playback_.go_on_from_here();
+  const Earthquake earthquake{std::move(ground)};
+  driver_.order_and_show([earthquake](Session& session) { session.shake(earthquake); });
+  message = "the ground shakes";
 }
 
 void Controller::set_gravity(double downwards) {
@@ -165,7 +116,7 @@ void Controller::restart(const RunRules& rules) {
   scenario.fracture = rules.fracture;
   // Refused here, where a person is told, and not on the simulation's thread.
   const structure::Simulation tried(rules.building ? *rules.building : building_, scenario);
-  look_at_present();
+  playback_.look_at_present();
   driver_.order_and_show([rules](Session& session) { session.restart(rules); });
 }
 
@@ -183,7 +134,7 @@ void Controller::leave_what_came_off(const Snapshot& moment) {
 
 void Controller::hover(glm::dvec2 pixel) {
   hovered_ = pick_at(pixel);
-  hovered_stood_ = hovered_ && stands(*hovered_, *now().membership);
+  hovered_stood_ = hovered_ && stands(*hovered_, *playback_.now().membership);
   options.hovered_member = hovered_ ? hovered_->member : structure::MemberId();
   options.hovered_panel = hovered_ ? hovered_->panel : structure::PanelId();
 }
@@ -222,22 +173,9 @@ std::vector<structure::JointId> Controller::search(const std::string& text, std:
 
 void Controller::update(double seconds) {
   swing_ += seconds;
-  fly_on(seconds);
-  if (exporting_.valid() && exporting_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
-    try {
-      finish_export();
-    } catch (const std::exception& failed) {
-      message = failed.what();
-    }
-  }
-  if (looking_at_ && replaying_) {
-    const auto span = driver_.recording().span();
-    looking_at_ = *looking_at_ + seconds * driver_.speed();
-    if (*looking_at_ >= span[1]) {
-      looking_at_ = span[1];
-      replaying_ = false;
-    }
-  }
+  if (const std::optional<Camera> flown = path_.advance(seconds)) camera = *flown;
+  files_.tell_exported();
+  playback_.advance(seconds);
   const Wanted wanted{options.diagram >= 0, options.loads || options.reactions || options.contacts};
   if (wanted == wanted_) return;
   wanted_ = wanted;
@@ -245,7 +183,7 @@ void Controller::update(double seconds) {
 }
 
 Snapshot Controller::shown(bool wait) {
-  Snapshot moment = now();
+  Snapshot moment = playback_.now();
   leave_what_came_off(moment);
   if (!mode.kind) return moment;
   const auto* known = wait ? &modes_.wait(*mode.kind) : modes_.find(*mode.kind);
@@ -256,30 +194,6 @@ Snapshot Controller::shown(bool wait) {
   const double phase = std::cos(glm::two_pi<double>() * swing_ * swings_per_second);
   moment.shape_scale = static_cast<float>(mode_share * bounds_of(building_).radius() * phase) * mode.scale;
   return moment;
-}
-
-void Controller::look_at(double time) {
-  const auto span = driver_.recording().span();
-  looking_at_ = std::clamp(time, span[0], span[1]);
-  driver_.set_paused(true);
-}
-
-void Controller::look_along(double seconds) {
-  const std::array<double, 2> span = driver_.recording().span();
-  const double time = looking_at_.value_or(span[1]) + seconds;
-  time < span[1] ? look_at(std::max(time, span[0])) : look_at_present();
-}
-
-void Controller::look_at_present() {
-  looking_at_.reset();
-  replaying_ = false;
-}
-
-void Controller::go_on_from_here() {
-  if (!looking_at_) return;
-  const std::int64_t step = driver_.recording().at(*looking_at_).step;
-  look_at_present();
-  driver_.order_and_show([step](Session& session) { session.return_to(step); });
 }
 
 }  // namespace topple::viewer

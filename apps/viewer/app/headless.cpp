@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/actions.h"
+#include "app/controller.h"
 #include "app/interface.h"
 #include "app/output/gltf_scene.h"
 #include "app/output/html_replay.h"
@@ -52,7 +53,7 @@ class Stage {
     instances_.update(moment, controller.options);
     renderer_.draw(instances_, controller.camera, controller.options, glm::ivec2(scene_size()));
     outputs_.after_picture(controller, renderer_);
-    controller.picture_graphics = renderer_.graphics_milliseconds();
+    controller.window.picture_graphics = renderer_.graphics_milliseconds();
     if (interface_) draw_interface(controller, moment);
     Image image = interface_ ? composer_->read() : renderer_.read();
     check_gl_errors();
@@ -77,7 +78,7 @@ class Stage {
     // What the panel was asked for is done when the next action comes.
     do (void)draw(controller);
     while (outputs_.busy());
-    controller.finish_export();
+    controller.files().finish_export();
   }
 
  private:
@@ -103,7 +104,7 @@ class Stage {
   void lay_out(Controller& controller, const Snapshot& moment) {
     interface_->begin_frame(size_, 1.0 / 60);
     panel_.draw(controller, moment, instances_, "");
-    if (!controller.photo) draw_hover_text(controller, moment);
+    if (!controller.window.photo) draw_hover_text(controller, moment);
   }
 
   glm::ivec2 size_;
@@ -126,7 +127,7 @@ class HeadlessRun {
         controller_(driver_, scene, ground_height(*scene.building, scene.scenario), stage_.scene_size()),
         script_(std::move(script)) {
     if (options.load) {
-      controller_.load(*options.load);
+      controller_.files().load(*options.load);
       frames_ = session_.simulation().steps();
       heard_ = std::llround(clock() * sample_rate);
     }
@@ -154,7 +155,7 @@ class HeadlessRun {
     write_png(draw(), file);
     std::printf("%s at %.3f s\n", structure::one_line(file).c_str(), driver_.moment().later->time);
   }
-  void save(const std::string& file) { controller_.save(file); }
+  void save(const std::string& file) { controller_.files().save(file); }
   void write_sound(const std::string& file) const { write_wav(file, sound_); }
   [[nodiscard]] const Recording& recording() const { return driver_.recording(); }
   [[nodiscard]] const Snapshot& present() { return *(now_ = driver_.moment().later); }
@@ -188,45 +189,46 @@ class HeadlessRun {
   }
 
   void perform(const Action& action) {
-    std::visit(
-        Overloaded{[&](const CameraAction& a) { controller_.glide(a.camera, a.over); },
-                   [&](const ClickAction& a) { click(a.pixel); },
-                   [&](const FireAction& a) {
-                     controller_.shot = a.shot;
-                     controller_.fire(a.pixel);
-                   },
-                   [&](const KeyAction& a) {
-                     if (controller_.key(a.key)) return;
-                     std::string accepted;
-                     for (const auto& [name, unused] : controller_.key_meanings())
-                       accepted += (accepted.empty() ? "" : ", ") + name;
-                     throw structure::InputError("no such key: '" + a.key + "'; accepted: " + accepted);
-                   },
-                   [&](const DragAction& a) { drag(a); },
-                   [&](const structure::JointChange& a) { controller_.tune(a); },
-                   [&](const ShowAction& a) { controller_.show(a.what); },
-                   [&](const PanAction& a) { controller_.drag_to_pan(a.from, a.to); },
-                   [&](const ZoomAction& a) { controller_.scroll(a.clicks); },
-                   [&](const FlyAction& a) { controller_.camera.fly(a.way.x, a.way.y, a.way.z); },
-                   [&](const SelectAction& a) { controller_.select(a.name); },
-                   [&](const ToolAction& a) { take(a, controller_); },
-                   [&](const GravityAction& a) { controller_.set_gravity(a.downwards); },
-                   [&](const ShakeAction& a) {
-                     controller_.shaking = a.shake;
-                     controller_.shake();
-                   },
-                   [&](const LookAction& a) { a.time ? controller_.look_at(*a.time) : controller_.look_at_present(); },
-                   [&](const GoOnAction&) { controller_.go_on_from_here(); },
-                   [&](const RestartAction& a) { controller_.restart(rules_of(a, controller_.scene())); },
-                   [&](const SaveAction& a) { controller_.save(a.file); },
-                   [&](const LoadAction& a) { controller_.load(a.file); },
-                   [&](const ExportAction& a) {
-                     controller_.export_run(a.file);
-                     controller_.finish_export();
-                   },
-                   [&](const ScreenshotAction& a) { write(a.file); },
-                   [&](const QuitAction&) { quit_ = true; }},
-        action.what);
+    std::visit(Overloaded{[&](const CameraAction& a) { controller_.glide(a.camera, a.over); },
+                          [&](const ClickAction& a) { click(a.pixel); },
+                          [&](const FireAction& a) {
+                            controller_.hand.shot = a.shot;
+                            controller_.fire(a.pixel);
+                          },
+                          [&](const KeyAction& a) {
+                            if (controller_.key(a.key)) return;
+                            std::string accepted;
+                            for (const std::string& name : Controller::key_names())
+                              accepted += (accepted.empty() ? "" : ", ") + name;
+                            throw structure::InputError("no such key: '" + a.key + "'; accepted: " + accepted);
+                          },
+                          [&](const DragAction& a) { drag(a); },
+                          [&](const structure::JointChange& a) { controller_.tune(a); },
+                          [&](const ShowAction& a) { controller_.show(a.what); },
+                          [&](const PanAction& a) { controller_.drag_to_pan(a.from, a.to); },
+                          [&](const ZoomAction& a) { controller_.scroll(a.clicks); },
+                          [&](const FlyAction& a) { controller_.camera.fly(a.way.x, a.way.y, a.way.z); },
+                          [&](const SelectAction& a) { controller_.select(a.name); },
+                          [&](const ToolAction& a) { take_in_hand(a, controller_.hand); },
+                          [&](const GravityAction& a) { controller_.set_gravity(a.downwards); },
+                          [&](const ShakeAction& a) {
+                            controller_.hand.shaking = a.shake;
+                            controller_.shake();
+                          },
+                          [&](const LookAction& a) {
+                            a.time ? controller_.playback().look_at(*a.time) : controller_.playback().look_at_present();
+                          },
+                          [&](const GoOnAction&) { controller_.playback().go_on_from_here(); },
+                          [&](const RestartAction& a) { controller_.restart(rules_of(a, controller_.scene())); },
+                          [&](const SaveAction& a) { controller_.files().save(a.file); },
+                          [&](const LoadAction& a) { controller_.files().load(a.file); },
+                          [&](const ExportAction& a) {
+                            controller_.files().export_run(a.file);
+                            controller_.files().finish_export();
+                          },
+                          [&](const ScreenshotAction& a) { write(a.file); },
+                          [&](const QuitAction&) { quit_ = true; }},
+               action.what);
     controller_.update(0);
   }
 

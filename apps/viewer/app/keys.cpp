@@ -1,5 +1,6 @@
 // What the keys do.
 #include <algorithm>
+#include <exception>
 #include <glm/gtc/constants.hpp>
 
 #include "app/controller.h"
@@ -31,107 +32,143 @@ const char* Controller::key_help() {
          "H                 this help               Esc           end the program (asks first)";
 }
 
-bool Controller::key(const std::string& name) {
-  const auto meanings = key_meanings();
-  const auto meaning = meanings.find(name);
-  if (meaning == meanings.end()) return false;
-  meaning->second();
-  return true;
+namespace {
+
+struct Key {
+  const char* name;
+  void (*press)(Controller& controller);
+};
+
+template <ToolKind kind>
+void hold(Controller& c) {
+  c.hand.tool = kind;
+}
+template <bool PartSwitches::*part>
+void toggle(Controller& c) {
+  c.options.shown.*part = !(c.options.shown.*part);
+}
+/// By this share of the picture's height.
+void drag_along(Controller& c, double x, double y) { c.drag({0, 0}, {x * c.size().y, y * c.size().y}); }
+constexpr double dragged = 0.04;
+
+const Key of_the_run[] = {
+    {"space",
+     [](Controller& c) {
+       if (c.playback().looking_at())
+         c.playback().replay(!c.playback().replaying());
+       else
+         c.driver().set_paused(!c.driver().paused());
+     }},
+    {"n", [](Controller& c) { c.driver().single_step(); }},
+    {"r",
+     [](Controller& c) {
+       c.playback().look_at_present();
+       c.driver().restart();
+     }},
+    {"u",
+     [](Controller& c) {
+       c.playback().look_at_present();
+       c.driver().undo();
+     }},
+    {"y", [](Controller& c) { c.playback().look_at_present(); }},
+    {"bracketleft", [](Controller& c) { c.playback().look_along(-Playback::key_step); }},
+    {"bracketright", [](Controller& c) { c.playback().look_along(Playback::key_step); }},
+    {"backspace", [](Controller& c) { c.playback().go_on_from_here(); }},
+    {"minus", [](Controller& c) { c.driver().set_speed(std::max(0.02, c.driver().speed() / 2)); }},
+    {"equal", [](Controller& c) { c.driver().set_speed(std::min(1.0, c.driver().speed() * 2)); }},
+};
+
+const Key of_tools[] = {
+    {"g",
+     [](Controller& c) {
+       c.hand.tool = ToolKind::fire;
+       c.hand.shot = Shot();
+     }},
+    {"b", hold<ToolKind::swing>},
+    {"z", hold<ToolKind::burn>},
+    {"j", hold<ToolKind::cut>},
+    {"m", hold<ToolKind::remove>},
+    {"k", hold<ToolKind::charge>},
+    {"l", hold<ToolKind::path>},
+    {"t", hold<ToolKind::support>},
+    {"v", hold<ToolKind::select>},
+    {"6", hold<ToolKind::explosion>},
+    {"period", hold<ToolKind::thermite>},
+    {"comma", hold<ToolKind::hook>},
+    {"enter", [](Controller& c) { c.click(c.size() / 2.0); }},
+    {"f8",
+     [](Controller& c) {
+       try {
+         c.shake();
+       } catch (const std::exception& failed) {
+         c.message = failed.what();
+       }
+     }},
+};
+
+const Key of_what_is_drawn[] = {
+    {"x", [](Controller& c) { c.show(c.options.slab_opacity_now() < 0.5F ? "panels" : "frame"); }},
+    {"c",
+     [](Controller& c) {
+       c.options.colouring = static_cast<Colouring>((static_cast<int>(c.options.colouring) + 1) % 6);
+     }},
+    {"i", [](Controller& c) { c.options.diagram = c.options.diagram == 5 ? -1 : c.options.diagram + 1; }},
+    {"o", [](Controller& c) { c.options.loads = c.options.reactions = c.options.contacts = !c.options.loads; }},
+    {"1", toggle<&PartSwitches::posts>},
+    {"2", toggle<&PartSwitches::beams>},
+    {"3", toggle<&PartSwitches::slabs>},
+    {"4", toggle<&PartSwitches::walls>},
+    {"5", toggle<&PartSwitches::braces>},
+    {"f7", [](Controller& c) { c.window.photo = !c.window.photo; }},
+    {"escape", [](Controller& c) { c.window.asks_to_leave = !c.window.asks_to_leave; }},
+    {"h", [](Controller& c) { c.window.help = !c.window.help; }},
+};
+
+const Key of_the_camera[] = {
+    {"f", [](Controller& c) { c.frame_building(); }},
+    {"7", [](Controller& c) { c.view_from(-glm::half_pi<double>(), 0.05); }},
+    {"8", [](Controller& c) { c.view_from(0, 0.05); }},
+    {"9", [](Controller& c) { c.view_from(-0.95, 0.9); }},
+    {"0", [](Controller& c) { c.view_from(2.2, 0.3); }},
+    {"left", [](Controller& c) { drag_along(c, -dragged, 0); }},
+    {"right", [](Controller& c) { drag_along(c, dragged, 0); }},
+    {"up", [](Controller& c) { drag_along(c, 0, dragged); }},
+    {"down", [](Controller& c) { drag_along(c, 0, -dragged); }},
+    {"f5",
+     [](Controller& c) {
+       c.path().add(c.camera);
+       c.message = std::to_string(c.path().size()) + " views in the camera's path";
+     }},
+    {"f6",
+     [](Controller& c) {
+       if (!c.path().fly()) c.message = "a path needs two views or more: F5 adds what is seen";
+     }},
+};
+
+template <class Visit>
+void each_key(const Visit& visit) {
+  for (const Key& key : of_the_run) visit(key);
+  for (const Key& key : of_tools) visit(key);
+  for (const Key& key : of_what_is_drawn) visit(key);
+  for (const Key& key : of_the_camera) visit(key);
 }
 
-std::map<std::string, std::function<void()>> Controller::key_meanings() {
-  const auto hold = [this](ToolKind kind) { return [this, kind] { tool = kind; }; };
-  return {{"space",
-           [this] {
-             if (looking_at_)
-               replaying_ = !replaying_;
-             else
-               driver_.set_paused(!driver_.paused());
-           }},
-          {"n", [this] { driver_.single_step(); }},
-          {"r",
-           [this] {
-             look_at_present();
-             driver_.restart();
-           }},
-          {"u",
-           [this] {
-             look_at_present();
-             driver_.undo();
-           }},
-          {"f", [this] { frame_building(); }},
-          {"g",
-           [this] {
-             tool = ToolKind::fire;
-             shot = Shot();
-           }},
-          {"b", hold(ToolKind::swing)},
-          {"z", hold(ToolKind::burn)},
-          {"j", hold(ToolKind::cut)},
-          {"m", hold(ToolKind::remove)},
-          {"k", hold(ToolKind::charge)},
-          {"l", hold(ToolKind::path)},
-          {"t", hold(ToolKind::support)},
-          {"v", hold(ToolKind::select)},
-          {"x", [this] { show(options.slab_opacity_now() < 0.5F ? "panels" : "frame"); }},
-          {"c", [this] { options.colouring = static_cast<Colouring>((static_cast<int>(options.colouring) + 1) % 6); }},
-          {"i", [this] { options.diagram = options.diagram == 5 ? -1 : options.diagram + 1; }},
-          {"o", [this] { options.loads = options.reactions = options.contacts = !options.loads; }},
-          {"y", [this] { look_at_present(); }},
-          {"bracketleft", [this] { look_along(-look_step); }},
-          {"bracketright", [this] { look_along(look_step); }},
-          {"backspace",
-           [this] {
-             if (looking_at_) go_on_from_here();
-           }},
-          {"6", hold(ToolKind::explosion)},
-          {"7", [this] { view_from(-glm::half_pi<double>(), 0.05); }},
-          {"8", [this] { view_from(0, 0.05); }},
-          {"9", [this] { view_from(-0.95, 0.9); }},
-          {"0", [this] { view_from(2.2, 0.3); }},
-          {"1", [this] { options.shown.posts = !options.shown.posts; }},
-          {"2", [this] { options.shown.beams = !options.shown.beams; }},
-          {"3", [this] { options.shown.slabs = !options.shown.slabs; }},
-          {"4", [this] { options.shown.walls = !options.shown.walls; }},
-          {"5", [this] { options.shown.braces = !options.shown.braces; }},
-          {"period", hold(ToolKind::thermite)},
-          {"comma", hold(ToolKind::hook)},
-          {"minus", [this] { driver_.set_speed(std::max(0.02, driver_.speed() / 2)); }},
-          {"equal", [this] { driver_.set_speed(std::min(1.0, driver_.speed() * 2)); }},
-          {"left",
-           [this] {
-             drag({0, 0}, {-0.04 * size_.y, 0});
-           }},
-          {"right",
-           [this] {
-             drag({0, 0}, {0.04 * size_.y, 0});
-           }},
-          {"up",
-           [this] {
-             drag({0, 0}, {0, 0.04 * size_.y});
-           }},
-          {"down",
-           [this] {
-             drag({0, 0}, {0, -0.04 * size_.y});
-           }},
-          {"enter", [this] { click(size_ / 2.0); }},
-          {"f5",
-           [this] {
-             add_view();
-             message = std::to_string(views_.size()) + " views in the camera's path";
-           }},
-          {"f6", [this] { fly_path(); }},
-          {"f7", [this] { photo = !photo; }},
-          {"f8",
-           [this] {
-             try {
-               shake();
-             } catch (const std::exception& failed) {
-               message = failed.what();
-             }
-           }},
-          {"escape", [this] { asks_to_leave = !asks_to_leave; }},
-          {"h", [this] { help = !help; }}};
+}  // namespace
+
+bool Controller::key(const std::string& name) {
+  const Key* found = nullptr;
+  each_key([&](const Key& key) {
+    if (name == key.name) found = &key;
+  });
+  if (found != nullptr) found->press(*this);
+  return found != nullptr;
+}
+
+std::vector<std::string> Controller::key_names() {
+  std::vector<std::string> names;
+  each_key([&](const Key& key) { names.emplace_back(key.name); });
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 }  // namespace topple::viewer

@@ -28,38 +28,71 @@ std::array<int, 2> parse_size(const std::string& text) {
   return size;
 }
 
-int run(int argc, char** argv) {
-  using namespace topple::viewer;
-  using namespace topple::app;
+/// What the command line asks for.
+struct Request {
+  std::string scene, size;
+  bool headless = false, silent = false;
+  topple::viewer::HeadlessOptions pictures;
+
+  [[nodiscard]] bool has_output() const {
+    return pictures.screenshot || pictures.record || pictures.actions || pictures.video || pictures.sound ||
+           pictures.replay || pictures.usd || pictures.gltf || pictures.model || pictures.save;
+  }
+};
+
+void add_options(CLI::App& app, Request& request) {
   namespace ranges = topple::structure::ranges;
+  using topple::app::in_range;
+  app.add_option(
+      "scene", request.scene,
+      "model or scenario: a shipped name or a file (in a window by default the start page, else town_house)");
+  app.add_flag("--headless", request.headless, "draw without a window");
+  app.add_option("--screenshot", request.pictures.screenshot, "file of the picture (in the window: what key P writes)");
+  app.add_option("--at", request.pictures.at, "simulated seconds before the picture, and length of a recording")
+      ->check(in_range(ranges::instant));
+  app.add_option("--record", request.pictures.record, "folder for frame-00000.png and so on");
+  app.add_option("--rate", request.pictures.rate, "recorded pictures for each simulated second")
+      ->check(in_range(ranges::rate));
+  app.add_option("--actions", request.pictures.actions, "script of what a person would do");
+  app.add_option("--show", request.pictures.show,
+                 "how to draw it, as the action `show` says; may be given several times");
+  app.add_flag("--panel", request.pictures.panel, "with the panels, without a window");
+  app.add_option("--scale", request.pictures.scale, "of the panels' text")->check(in_range({0.5, 4.0}));
+  app.add_option("--video", request.pictures.video, "file of a video (.mp4, .webm); needs ffmpeg");
+  app.add_option("--sound", request.pictures.sound, "file of what is heard at the eye (.wav)");
+  app.add_flag("--no-sound", request.silent, "the window makes no sound");
+  app.add_option("--replay", request.pictures.replay, "file of a page that shows the run again (.html)");
+  app.add_option("--usd", request.pictures.usd, "file of the run as an animation (.usda)");
+  app.add_option("--gltf", request.pictures.gltf, "file of the run as an animation (.glb)");
+  app.add_option("--model", request.pictures.model, "file of the model as the run's actions have tuned it (.json)");
+  app.add_option("--load", request.pictures.load, "saved run to take up (of this scene)");
+  app.add_option("--save", request.pictures.save, "file that the run is saved to at its end");
+  app.add_option("--size", request.size, "WIDTHxHEIGHT in pixels");
+}
+
+void open_window(const Request& request) {
+  using namespace topple::viewer;
+  std::optional<Scene> scene;
+  if (!request.scene.empty()) {
+    scene = open_scene(request.scene);
+    remember_file(request.scene);
+  }
+  const HeadlessOptions& pictures = request.pictures;
+  WindowOptions window;
+  if (pictures.size) window.width = (*pictures.size)[0], window.height = (*pictures.size)[1];
+  if (pictures.screenshot) window.screenshot = *pictures.screenshot;
+  window.show = pictures.show;
+  window.scale = pictures.scale;
+  window.sound = !request.silent;
+  run_window(std::move(scene), window);
+}
+
+int run(int argc, char** argv) {
+  using namespace topple::app;
   CLI::App app{"Shows a building under its loads and lets you demolish it.", "topple-viewer"};
   app.set_version_flag("--version", version());
-  std::string name, size;
-  bool headless = false, silent = false;
-  HeadlessOptions pictures;
-  app.add_option(
-      "scene", name,
-      "model or scenario: a shipped name or a file (in a window by default the start page, else town_house)");
-  app.add_flag("--headless", headless, "draw without a window");
-  app.add_option("--screenshot", pictures.screenshot, "file of the picture (in the window: what key P writes)");
-  app.add_option("--at", pictures.at, "simulated seconds before the picture, and length of a recording")
-      ->check(in_range(ranges::instant));
-  app.add_option("--record", pictures.record, "folder for frame-00000.png and so on");
-  app.add_option("--rate", pictures.rate, "recorded pictures for each simulated second")->check(in_range(ranges::rate));
-  app.add_option("--actions", pictures.actions, "script of what a person would do");
-  app.add_option("--show", pictures.show, "how to draw it, as the action `show` says; may be given several times");
-  app.add_flag("--panel", pictures.panel, "with the panels, without a window");
-  app.add_option("--scale", pictures.scale, "of the panels' text")->check(in_range({0.5, 4.0}));
-  app.add_option("--video", pictures.video, "file of a video (.mp4, .webm); needs ffmpeg");
-  app.add_option("--sound", pictures.sound, "file of what is heard at the eye (.wav)");
-  app.add_flag("--no-sound", silent, "the window makes no sound");
-  app.add_option("--replay", pictures.replay, "file of a page that shows the run again (.html)");
-  app.add_option("--usd", pictures.usd, "file of the run as an animation (.usda)");
-  app.add_option("--gltf", pictures.gltf, "file of the run as an animation (.glb)");
-  app.add_option("--model", pictures.model, "file of the model as the run's actions have tuned it (.json)");
-  app.add_option("--load", pictures.load, "saved run to take up (of this scene)");
-  app.add_option("--save", pictures.save, "file that the run is saved to at its end");
-  app.add_option("--size", size, "WIDTHxHEIGHT in pixels");
+  Request request;
+  add_options(app, request);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {
@@ -67,29 +100,17 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return tell_error("topple-viewer", error.what(), bad_input);
   }
-  if (!size.empty()) pictures.size = parse_size(size);
-  const bool output = pictures.screenshot || pictures.record || pictures.actions || pictures.video || pictures.sound ||
-                      pictures.replay || pictures.usd || pictures.gltf || pictures.model || pictures.save;
-  if (headless && !output)
+  if (!request.size.empty()) request.pictures.size = parse_size(request.size);
+  if (!request.headless) {
+    open_window(request);
+    return 0;
+  }
+  if (!request.has_output())
     throw topple::structure::InputError(
         "--headless needs --screenshot, --record, --actions, --video, --sound, --replay, --usd, --gltf, --model or "
         "--save");
-  if (headless) {
-    run_headless(open_scene(name.empty() ? opening_scene : name), pictures);
-    return 0;
-  }
-  std::optional<Scene> scene;
-  if (!name.empty()) {
-    scene = open_scene(name);
-    remember_file(name);
-  }
-  WindowOptions window;
-  if (pictures.size) window.width = (*pictures.size)[0], window.height = (*pictures.size)[1];
-  if (pictures.screenshot) window.screenshot = *pictures.screenshot;
-  window.show = pictures.show;
-  window.scale = pictures.scale;
-  window.sound = !silent;
-  run_window(std::move(scene), window);
+  using namespace topple::viewer;
+  run_headless(open_scene(request.scene.empty() ? opening_scene : request.scene), request.pictures);
   return 0;
 }
 

@@ -83,7 +83,7 @@ void draw_joint(Controller& controller, const Snapshot& moment, structure::Joint
               begin, end);
   const auto clicked = plot_line("##history", values, "", 5 * ImGui::GetFontSize(),
                                  static_cast<float>((moment.time - begin) / std::max(end - begin, 1e-9)));
-  if (clicked) controller.look_at(begin + (end - begin) * static_cast<double>(*clicked));
+  if (clicked) controller.playback().look_at(begin + (end - begin) * static_cast<double>(*clicked));
 }
 
 namespace {
@@ -99,7 +99,7 @@ void draw_short(const FrameAnswer::Joint& joint) {
 
 void draw_hover_text(Controller& controller, const Snapshot& moment) {
   const auto& hovered = controller.hovered();
-  if (!hovered || !hovered->joint.valid() || ImGui::GetIO().WantCaptureMouse || controller.asks_to_leave) return;
+  if (!hovered || !hovered->joint.valid() || ImGui::GetIO().WantCaptureMouse || controller.window.asks_to_leave) return;
   const ImVec2 display = ImGui::GetIO().DisplaySize, pointer = ImGui::GetIO().MousePos;
   const glm::dvec2 scene = SidePanel::scene_size({display.x, display.y});
   if (pointer.x > static_cast<float>(scene.x) || pointer.y > static_cast<float>(scene.y)) return;
@@ -111,7 +111,7 @@ void draw_hover_text(Controller& controller, const Snapshot& moment) {
   ImGui::BeginTooltip();
   ImGui::TextUnformatted(part_text(controller.building(), hovered->joint).c_str());
   // Who demolishes is to see what is hit: all numbers are for those who select or look at forces.
-  if (controller.tool == ToolKind::select || controller.options.analysis())
+  if (controller.hand.tool == ToolKind::select || controller.options.analysis())
     draw_joint(controller, moment, hovered->joint, true);
   else
     draw_short(moment.answer->joints[static_cast<std::size_t>(hovered->joint.index)]);

@@ -23,12 +23,12 @@ void help_window(bool& open) {
 void leave_window(Controller& controller, glm::dvec2 scene) {
   ImGui::SetNextWindowPos(ImVec2(static_cast<float>(scene.x / 2), static_cast<float>(scene.y / 2)), ImGuiCond_Always,
                           ImVec2(0.5F, 0.5F));
-  if (ImGui::Begin("Leave?", &controller.asks_to_leave,
+  if (ImGui::Begin("Leave?", &controller.window.asks_to_leave,
                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove)) {
     ImGui::TextUnformatted("End the program? The run is lost unless it was saved.");
-    if (ImGui::Button("End (Enter)")) controller.leaves = true;
+    if (ImGui::Button("End (Enter)")) controller.window.leaves = true;
     ImGui::SameLine();
-    if (ImGui::Button("Stay (Esc)")) controller.asks_to_leave = false;
+    if (ImGui::Button("Stay (Esc)")) controller.window.asks_to_leave = false;
   }
   ImGui::End();
 }
@@ -96,13 +96,13 @@ void SidePanel::joints(Controller& controller, const Snapshot& moment) {
 
 void SidePanel::draw(Controller& controller, const Snapshot& moment, const SceneInstances& scene,
                      const std::string& error) {
-  if (controller.photo) return;
+  if (controller.window.photo) return;
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const glm::dvec2 left = scene_size({display.x, display.y});
   const float width = display.x - static_cast<float>(left.x);
   ImGui::SetNextWindowPos(ImVec2(static_cast<float>(left.x), 0));
   ImGui::SetNextWindowSize(ImVec2(width, display.y));
-  if (controller.panels_wanted) ImGui::SetNextWindowFocus();
+  if (controller.window.panels_wanted) ImGui::SetNextWindowFocus();
   ImGui::Begin(
       "Topple", nullptr,
       ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoTitleBar);
@@ -133,8 +133,8 @@ void SidePanel::draw(Controller& controller, const Snapshot& moment, const Scene
   ImGui::PopItemWidth();
   ImGui::End();
   draw_timeline(controller, moment, left, static_cast<double>(display.y));
-  if (controller.help) help_window(controller.help);
-  if (controller.asks_to_leave) leave_window(controller, left);
+  if (controller.window.help) help_window(controller.window.help);
+  if (controller.window.asks_to_leave) leave_window(controller, left);
 }
 
 }  // namespace topple::viewer

@@ -23,6 +23,7 @@ class SidePanel {
 
  private:
   void run_bar(Controller& controller);
+  void run_files(Controller& controller);
   void view(Controller& controller, const Snapshot& moment, const SceneInstances& scene);
   void part(Controller& controller, const Snapshot& moment);
   void state(const Controller& controller, const Snapshot& moment);

@@ -182,19 +182,19 @@ class Input {
       if (key == GLFW_KEY_ESCAPE) glfwSetWindowShouldClose(window_, GLFW_TRUE);
       return;
     }
-    if (key == GLFW_KEY_ESCAPE && controller_->photo) {
-      controller_->photo = false;
+    if (key == GLFW_KEY_ESCAPE && controller_->window.photo) {
+      controller_->window.photo = false;
       return;
     }
     if (key == GLFW_KEY_ESCAPE && panels_by_keyboard_) return steer_panels(false);
     if (key == GLFW_KEY_ESCAPE) controller_->key("escape");
     const bool enter = key == GLFW_KEY_ENTER || key == GLFW_KEY_KP_ENTER;
-    if (controller_->asks_to_leave && enter) controller_->leaves = true;
+    if (controller_->window.asks_to_leave && enter) controller_->window.leaves = true;
     if (key == GLFW_KEY_TAB) return steer_panels(!panels_by_keyboard_);
     // Arrows, space and letters are the panels' while these are steered by the keyboard.
     if (panels_by_keyboard_) return;
-    if (enter && !controller_->asks_to_leave) controller_->key("enter");
-    if (key == GLFW_KEY_P) controller_->picture_wanted = screenshot_file_;
+    if (enter && !controller_->window.asks_to_leave) controller_->key("enter");
+    if (key == GLFW_KEY_P) controller_->window.picture_wanted = screenshot_file_;
     if (key == GLFW_KEY_SPACE) controller_->key("space");
     const std::pair<int, const char*> named[] = {{GLFW_KEY_PERIOD, "period"},
                                                  {GLFW_KEY_COMMA, "comma"},
@@ -219,7 +219,7 @@ class Input {
     ImGuiIO& io = ImGui::GetIO();
     io.ConfigFlags =
         on ? io.ConfigFlags | ImGuiConfigFlags_NavEnableKeyboard : io.ConfigFlags & ~ImGuiConfigFlags_NavEnableKeyboard;
-    controller_->panels_wanted = on;
+    controller_->window.panels_wanted = on;
     if (!on) ImGui::SetWindowFocus(nullptr);
   }
 
@@ -245,7 +245,7 @@ class Served {
 };
 
 glm::dvec2 scene_size(const Window& window, const Controller& controller) {
-  return controller.photo ? window.size() : SidePanel::scene_size(window.size());
+  return controller.window.photo ? window.size() : SidePanel::scene_size(window.size());
 }
 glm::ivec2 scene_pixels(const Window& window, const Controller& controller) {
   return glm::ivec2(glm::round(scene_size(window, controller) / window.size() * glm::dvec2(window.pixels())));
@@ -293,12 +293,13 @@ bool run_scene(const Window& window, Input& input, WindowInterface& interface, c
   Outputs outputs;
   controller.resize(scene_size(window, controller));
   controller.frame_building();
-  controller.has_sound = speaker != nullptr;
+  controller.window.has_sound = speaker != nullptr;
   for (const std::string& words : options.show) controller.show(words);
   const Served served(input, controller);
   glm::dvec2 hovered_at{-1};
   double before = glfwGetTime();
-  while (glfwWindowShouldClose(window.get()) == GLFW_FALSE && !controller.leaves && !controller.wants_another) {
+  while (glfwWindowShouldClose(window.get()) == GLFW_FALSE && !controller.window.leaves &&
+         !controller.window.wants_another) {
     glfwPollEvents();
     interface.follow_scale();
     driver.require_beginning();
@@ -312,7 +313,7 @@ bool run_scene(const Window& window, Input& input, WindowInterface& interface, c
     outputs.before_picture(controller);
     const Snapshot moment = controller.shown(false);
     if (speaker != nullptr) {
-      speaker->set_volume(controller.volume);
+      speaker->set_volume(controller.window.volume);
       speaker->hear(moment, controller.camera, driver.speed());
     }
     instances.update(moment, controller.options);
@@ -321,15 +322,15 @@ bool run_scene(const Window& window, Input& input, WindowInterface& interface, c
     copy_scene(renderer, 0, window.pixels());
     WindowInterface::begin_frame();
     panel.draw(controller, moment, instances, driver.error());
-    if (!controller.photo) draw_hover_text(controller, moment);
+    if (!controller.window.photo) draw_hover_text(controller, moment);
     Interface::end_frame();
     check_gl_errors();
-    controller.picture_processor = processor_milliseconds() - started;
-    controller.picture_graphics = renderer.graphics_milliseconds();
+    controller.window.picture_processor = processor_milliseconds() - started;
+    controller.window.picture_graphics = renderer.graphics_milliseconds();
     glfwSwapBuffers(window.get());
     first.tell();
   }
-  return controller.wants_another;
+  return controller.window.wants_another;
 }
 
 /// While it lives, arrows, space and Enter reach all that is shown.

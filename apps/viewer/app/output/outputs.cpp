@@ -6,8 +6,8 @@ namespace topple::viewer {
 
 void Outputs::before_picture(Controller& controller) {
   try {
-    picture_ = std::exchange(controller.picture_wanted, {});
-    const std::string target = std::exchange(controller.sequence_wanted, {});
+    picture_ = std::exchange(controller.window.picture_wanted, {});
+    const std::string target = std::exchange(controller.window.sequence_wanted, {});
     if (!target.empty() && !sequence_) {
       sequence_.emplace(target, rate, PictureSequence::kind_of(target));
       begin_ = controller.driver().recording().span()[0];
@@ -15,7 +15,7 @@ void Outputs::before_picture(Controller& controller) {
   } catch (const std::exception& failed) {
     controller.message = failed.what();
   }
-  if (sequence_) controller.look_at(begin_ + sequence_->count() / sequence_->rate());
+  if (sequence_) controller.playback().look_at(begin_ + sequence_->count() / sequence_->rate());
 }
 
 void Outputs::after_picture(Controller& controller, const Renderer& scene) {
@@ -42,7 +42,7 @@ void Outputs::add_to_sequence(Controller& controller, const Image& image) {
   if (next <= controller.driver().recording().span()[1] + rounding) return;
   sequence_->finish();
   sequence_.reset();
-  controller.look_at_present();
+  controller.playback().look_at_present();
 }
 
 }  // namespace topple::viewer

@@ -35,10 +35,10 @@ void PlayPanel::goals(Controller& controller) {
 }
 
 void PlayPanel::earthquake(Controller& controller) {
-  slider("peak", controller.shaking.peak, 0.2, 30, "%.1f m/s2");
-  slider("lasts", controller.shaking.over, 2, 60, "%.0f s");
+  slider("peak", controller.hand.shaking.peak, 0.2, 30, "%.1f m/s2");
+  slider("lasts", controller.hand.shaking.over, 2, 60, "%.0f s");
   if (ImGui::InputTextWithHint("##ground", "or a file: time, ax, ay, az", ground_.data(), ground_.size()))
-    controller.shaking.file = ground_.data();
+    controller.hand.shaking.file = ground_.data();
   ImGui::SameLine();
   if (ImGui::Button("Shake")) controller.key("f8");
 }
@@ -49,17 +49,17 @@ void PlayPanel::draw(Controller& controller) {
   ImGui::TextUnformatted("earthquake");
   earthquake(controller);
   ImGui::Separator();
-  ImGui::Text("camera: %zu views in its path", controller.views());
+  ImGui::Text("camera: %zu views in its path", controller.path().size());
   if (ImGui::Button("Add view")) controller.key("f5");
   ImGui::SameLine();
   if (ImGui::Button("Fly")) controller.key("f6");
   ImGui::SameLine();
-  if (ImGui::Button("Forget")) controller.forget_views();
+  if (ImGui::Button("Forget")) controller.path().forget();
   ImGui::SameLine();
   if (ImGui::Button("Photo (F7)")) controller.key("f7");
   ImGui::Separator();
-  if (controller.has_sound)
-    slider("sound", controller.volume, 0, 1, "%.2f", ImGuiSliderFlags_None);
+  if (controller.window.has_sound)
+    slider("sound", controller.window.volume, 0, 1, "%.2f", ImGuiSliderFlags_None);
   else
     ImGui::TextWrapped("No sound: no device was found (or --no-sound).");
 }

@@ -45,10 +45,10 @@ void SidePanel::performance(const Controller& controller, const Snapshot& moment
     const char* name = i < 6 ? structure::stage_names[i] : "step";
     (void)plot_line(name, values, text, 1.6F * ImGui::GetFontSize());
   }
-  picture_history_.push_back(static_cast<float>(controller.picture_processor));
+  picture_history_.push_back(static_cast<float>(controller.window.picture_processor));
   if (picture_history_.size() > history_length) picture_history_.erase(picture_history_.begin());
   char text[64];
-  std::snprintf(text, sizeof text, "%.2f ms of processor time", controller.picture_processor);
+  std::snprintf(text, sizeof text, "%.2f ms of processor time", controller.window.picture_processor);
   (void)plot_line("picture", picture_history_, text, 1.6F * ImGui::GetFontSize());
   const auto curve = [](const char* name, std::vector<float>& history, double value, const char* format) {
     history.push_back(static_cast<float>(value));
@@ -57,7 +57,7 @@ void SidePanel::performance(const Controller& controller, const Snapshot& moment
     std::snprintf(shown, sizeof shown, format, value);
     (void)plot_line(name, history, shown, 1.6F * ImGui::GetFontSize());
   };
-  curve("graphics", graphics_history_, controller.picture_graphics, "%.2f ms on the graphics card");
+  curve("graphics", graphics_history_, controller.window.picture_graphics, "%.2f ms on the graphics card");
   curve("pace", pace_history_, driver.paused() ? 0 : driver.ratio(), "x %.2f of real time");
   ImGui::Text("a picture each %.1f ms, drawing and waiting included",
               static_cast<double>(1000.0F / ImGui::GetIO().Framerate));

@@ -1,0 +1,46 @@
+#include "app/playback.h"
+
+#include <algorithm>
+#include <array>
+
+namespace topple::viewer {
+
+Snapshot Playback::now() const {
+  return looking_at_ ? driver_.recording().at(*looking_at_) : driver_.moment().interpolated();
+}
+
+void Playback::advance(double seconds) {
+  if (!looking_at_ || !replaying_) return;
+  const auto span = driver_.recording().span();
+  looking_at_ = *looking_at_ + seconds * driver_.speed();
+  if (*looking_at_ >= span[1]) {
+    looking_at_ = span[1];
+    replaying_ = false;
+  }
+}
+
+void Playback::look_at(double time) {
+  const auto span = driver_.recording().span();
+  looking_at_ = std::clamp(time, span[0], span[1]);
+  driver_.set_paused(true);
+}
+
+void Playback::look_along(double seconds) {
+  const std::array<double, 2> span = driver_.recording().span();
+  const double time = looking_at_.value_or(span[1]) + seconds;
+  time < span[1] ? look_at(std::max(time, span[0])) : look_at_present();
+}
+
+void Playback::look_at_present() {
+  looking_at_.reset();
+  replaying_ = false;
+}
+
+void Playback::go_on_from_here() {
+  if (!looking_at_) return;
+  const std::int64_t step = driver_.recording().at(*looking_at_).step;
+  look_at_present();
+  driver_.order_and_show([step](Session& session) { session.return_to(step); });
+}
+
+}  // namespace topple::viewer
