@@ -16,7 +16,7 @@
 #include "app/open_scene.h"
 #include "app/session.h"
 #include "app/start/shipped_scenes.h"
-#include "renderer/instances.h"
+#include "renderer/instances/scene_instances.h"
 #include "support/measure.h"
 #include "support/provenance.h"
 

@@ -17,7 +17,7 @@
 #include "app/output/usd_scene.h"
 #include "app/part_motion.h"
 #include "app/session.h"
-#include "renderer/instances.h"
+#include "renderer/instances/scene_instances.h"
 #include "support/scratch_folder.h"
 #include "topple/structure/bent_part.h"
 

@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "app/open_scene.h"
-#include "renderer/instances.h"
+#include "renderer/instances/scene_instances.h"
 #include "renderer/picture_renderer.h"
 #include "renderer/shapes/looks.h"
 #include "renderer/shapes/palette.h"

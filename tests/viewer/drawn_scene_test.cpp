@@ -4,7 +4,7 @@
 #include "app/open_scene.h"
 #include "app/session.h"
 #include "app/show_words.h"
-#include "renderer/instances.h"
+#include "renderer/instances/scene_instances.h"
 
 namespace {
 

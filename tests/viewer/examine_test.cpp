@@ -7,7 +7,7 @@
 #include "app/open_scene.h"
 #include "app/session.h"
 #include "app/show_words.h"
-#include "renderer/instances.h"
+#include "renderer/instances/scene_instances.h"
 #include "renderer/shapes/arrows.h"
 #include "renderer/shapes/diagram.h"
 #include "support/scratch_folder.h"

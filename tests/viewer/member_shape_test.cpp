@@ -8,7 +8,7 @@
 #include "../structure/unbraced_rules.h"
 #include "app/open_scene.h"
 #include "app/session.h"
-#include "renderer/instances.h"
+#include "renderer/instances/scene_instances.h"
 #include "topple/structure/member_shapes.h"
 #include "topple/structure/standing_frame.h"
 

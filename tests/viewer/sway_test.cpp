@@ -7,7 +7,7 @@
 #include "app/panels/energy_panel.h"
 #include "app/session.h"
 #include "app/show_words.h"
-#include "renderer/instances.h"
+#include "renderer/instances/scene_instances.h"
 
 using namespace topple::viewer;
 using topple::structure::Ledger;

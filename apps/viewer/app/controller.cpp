@@ -6,7 +6,7 @@
 
 #include "app/target_building.h"
 #include "app/tools/use_tool.h"
-#include "renderer/instances.h"
+#include "renderer/instances/scene_instances.h"
 #include "topple/structure/error.h"
 
 namespace topple::viewer {

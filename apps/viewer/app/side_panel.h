@@ -9,7 +9,7 @@
 #include "app/panels/energy_panel.h"
 #include "app/panels/play_panel.h"
 #include "app/panels/tuning_panel.h"
-#include "renderer/instances.h"
+#include "renderer/instances/scene_instances.h"
 
 namespace topple::viewer {
 

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-#include "renderer/instances.h"
+#include "renderer/instances/scene_instances.h"
 
 namespace topple::viewer {
 namespace {

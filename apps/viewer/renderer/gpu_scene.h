@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "renderer/gl_object.h"
-#include "renderer/instances.h"
+#include "renderer/instances/scene_instances.h"
 
 namespace topple::viewer {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "renderer/camera.h"
-#include "renderer/instances.h"
+#include "renderer/instances/scene_instances.h"
 #include "renderer/shapes/overlay.h"
 #include "renderer/view_options.h"
 

@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "app/part_motion.h"
-#include "renderer/instances.h"
+#include "renderer/instances/scene_instances.h"
 #include "topple/structure/formats/output_files.h"
 #include "topple/structure/formats/plain_text.h"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/instances.h"
+#include "renderer/instances/scene_instances.h"
 
 namespace topple::viewer {
 namespace {

@@ -1,6 +1,8 @@
 #pragma once
 // Loads, reactions and contacts as arrows in the scene.
-#include "renderer/instances.h"
+#include "renderer/instances/instance_batch.h"
+#include "renderer/snapshot.h"
+#include "renderer/view_options.h"
 
 namespace topple::viewer {
 

@@ -1,8 +1,9 @@
 #pragma once
 // Internal forces drawn along a member, as an engineer draws them: bending moments on the side that they tense.
 #include <array>
+#include <glm/vec2.hpp>
 
-#include "renderer/instances.h"
+#include "renderer/instances/instance_batch.h"
 #include "renderer/shapes/overlay.h"
 
 namespace topple::viewer {

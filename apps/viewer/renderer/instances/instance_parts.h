@@ -1,5 +1,5 @@
 #pragma once
-// What the files of SceneInstances share: rotations and places as drawings have them, the motion of a body, and how far
+// What the parts of a scene share: rotations and places as drawings have them, the motion of a body, and how far
 // what stands is drawn from where it stood.
 #include <Eigen/Geometry>
 #include <glm/gtc/quaternion.hpp>
@@ -7,7 +7,9 @@
 #include <glm/vec4.hpp>
 #include <type_traits>
 
-#include "renderer/instances.h"
+#include "renderer/instances/instance_batch.h"
+#include "renderer/snapshot.h"
+#include "renderer/view_options.h"
 
 namespace topple::viewer {
 
@@ -77,12 +79,28 @@ struct DrawnShape {
 };
 
 /// Rigid motion of a body as a drawing needs it.
-struct SceneInstances::Motion {
+struct BodyMotion {
   glm::dvec3 position, rest_centre;
   glm::dquat turn;
-  explicit Motion(const BodyPose& body)
+  explicit BodyMotion(const BodyPose& body)
       : position(to_glm(body.position)), rest_centre(to_glm(body.rest_centre)), turn(to_glm(body.orientation)) {}
   [[nodiscard]] glm::dvec3 operator()(const glm::dvec3& point) const { return position + turn * (point - rest_centre); }
 };
+
+/// Whether the switch of its kind is on.
+inline bool is_on(const PartSwitches& switches, const structure::Member& member) {
+  switch (member.kind) {
+    case structure::MemberKind::post:
+      return switches.posts;
+    case structure::MemberKind::beam:
+      return switches.beams;
+    case structure::MemberKind::brace:
+      return switches.braces;
+  }
+  return true;
+}
+inline bool is_on(const PartSwitches& switches, const structure::Panel& panel) {
+  return panel.kind == structure::PanelKind::slab ? switches.slabs : switches.walls;
+}
 
 }  // namespace topple::viewer

@@ -1,9 +1,8 @@
-// What is drawn over the building: diagrams, arrows, marks, cables.
+#include "renderer/instances/overlay_instances.h"
+
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "renderer/instance_parts.h"
 #include "renderer/shapes/arrows.h"
 #include "renderer/shapes/diagram.h"
 
@@ -11,7 +10,17 @@ namespace topple::viewer {
 
 using structure::Member;
 
-void SceneInstances::draw_diagrams(const Snapshot& snapshot, const ViewOptions& options) {
+OverlayInstances::OverlayInstances(const structure::Building& building, const Bounds& bounds)
+    : building_(building), bounds_(bounds) {
+  arrows_.mesh = buried_arrows_.mesh = arrow_mesh(10);
+}
+
+void OverlayInstances::draw_forces(const PartInstances& parts, const Snapshot& snapshot, const ViewOptions& options) {
+  draw_diagrams(parts, snapshot, options);
+  draw_arrows(snapshot, options);
+}
+
+void OverlayInstances::draw_diagrams(const PartInstances& parts, const Snapshot& snapshot, const ViewOptions& options) {
   diagrams_.clear();
   diagram_range_ = {0, 0};
   const auto& forces = snapshot.answer->forces;
@@ -20,8 +29,8 @@ void SceneInstances::draw_diagrams(const Snapshot& snapshot, const ViewOptions& 
   std::vector<std::size_t> drawn;
   for (std::size_t i = 0; i < building_.members.size(); ++i) {
     const Member& member = building_.members[i];
-    if (snapshot.membership->member[i] == part_stands && shown(member, options.shown) &&
-        shown(member, options.coloured))
+    if (snapshot.membership->member[i] == part_stands && is_on(options.shown, member) &&
+        is_on(options.coloured, member))
       drawn.push_back(i);
   }
   const auto value = [&](std::size_t member, std::size_t place) {
@@ -38,18 +47,18 @@ void SceneInstances::draw_diagrams(const Snapshot& snapshot, const ViewOptions& 
   for (const std::size_t i : drawn) {
     std::array<float, places> along{};
     for (std::size_t k = 0; k < places; ++k) along[k] = value(i, k);
-    add_diagram(diagrams_, standing_member(i, snapshot, options), along.data(), FrameForces::intervals, options.diagram,
-                reach);
+    add_diagram(diagrams_, parts.standing_member(i, snapshot, options), along.data(), FrameForces::intervals,
+                options.diagram, reach);
   }
 }
 
-void SceneInstances::draw_arrows(const Snapshot& snapshot, const ViewOptions& options) {
+void OverlayInstances::draw_arrows(const Snapshot& snapshot, const ViewOptions& options) {
   arrows_.instances.clear();
   buried_arrows_.instances.clear();
   if (const auto& forces = snapshot.answer->forces) {
     const auto longest = static_cast<float>(0.12 * bounds_.radius()) * options.arrow_scale;
-    arrows_.instances = arrow_instances(*forces, options, origin_, longest);
-    if (options.reactions) buried_arrows_.instances = reaction_instances(*forces, origin_, longest);
+    arrows_.instances = arrow_instances(*forces, options, bounds_.centre(), longest);
+    if (options.reactions) buried_arrows_.instances = reaction_instances(*forces, bounds_.centre(), longest);
   }
   for (auto* batch : {&arrows_, &buried_arrows_}) {
     batch->standing = batch->instances.size();
@@ -57,10 +66,10 @@ void SceneInstances::draw_arrows(const Snapshot& snapshot, const ViewOptions& op
   }
 }
 
-void SceneInstances::draw_marks(const Snapshot& snapshot, const ViewOptions& options) {
+void OverlayInstances::draw_marks(const PartInstances& parts, const Snapshot& snapshot, const ViewOptions& options) {
   constexpr Rgba hovered = rgba(255, 255, 255), selected = rgba(255, 150, 20);
   marks_.clear();
-  std::vector<Motion> motions;
+  std::vector<BodyMotion> motions;
   for (const BodyPose& body : snapshot.bodies) motions.emplace_back(body);
   const auto mark_member = [&](structure::MemberId id, Rgba colour) {
     if (!id.valid()) return;
@@ -72,8 +81,8 @@ void SceneInstances::draw_marks(const Snapshot& snapshot, const ViewOptions& opt
     const glm::vec2 half(section.width > 0 ? section.width / 2 : side / 2,
                          section.depth > 0 ? section.depth / 2 : side / 2);
     add_mark(marks_,
-             place == part_stands ? standing_member(index, snapshot, options)
-                                  : moved_member(index, motions[static_cast<std::size_t>(place)], snapshot),
+             place == part_stands ? parts.standing_member(index, snapshot, options)
+                                  : parts.moved_member(index, motions[static_cast<std::size_t>(place)], snapshot),
              half, colour);
   };
   const auto mark_panel = [&](structure::PanelId id, Rgba colour) {
@@ -82,26 +91,27 @@ void SceneInstances::draw_marks(const Snapshot& snapshot, const ViewOptions& opt
     const int place = snapshot.membership->panel[index];
     if (place == part_gone) return;
     add_mark(marks_,
-             place == part_stands ? standing_panel(index, snapshot, options)
-                                  : moved_panel(index, motions[static_cast<std::size_t>(place)], snapshot),
+             place == part_stands ? parts.standing_panel(index, snapshot, options)
+                                  : parts.moved_panel(index, motions[static_cast<std::size_t>(place)], snapshot),
              colour);
   };
   mark_member(options.hovered_member, hovered);
   mark_panel(options.hovered_panel, hovered);
   mark_member(options.selected_member, selected);
   mark_panel(options.selected_panel, selected);
+  draw_cables(snapshot);
 }
 
-void SceneInstances::draw_cables(const Snapshot& snapshot) {
+void OverlayInstances::draw_cables(const Snapshot& snapshot) {
   constexpr Rgba steel = rgba(40, 42, 46);
   for (const BodyPose& body : snapshot.bodies) {
     if (!body.cable_anchor) continue;
     for (const Eigen::Vector3d& end : {*body.cable_anchor, body.position})
-      marks_.lines.push_back({glm::vec3(glm::dvec3(end.x(), end.y(), end.z()) - origin_), steel});
+      marks_.lines.push_back({glm::vec3(glm::dvec3(end.x(), end.y(), end.z()) - bounds_.centre()), steel});
   }
   for (const auto& rope : snapshot.ropes)
     for (const Eigen::Vector3d& end : rope)
-      marks_.lines.push_back({glm::vec3(glm::dvec3(end.x(), end.y(), end.z()) - origin_), steel});
+      marks_.lines.push_back({glm::vec3(glm::dvec3(end.x(), end.y(), end.z()) - bounds_.centre()), steel});
 }
 
 }  // namespace topple::viewer
