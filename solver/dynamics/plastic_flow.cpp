@@ -35,6 +35,20 @@ double share_at(double from, double to, double value) {
 
 }  // namespace
 
+std::vector<double> FrameDynamics::State::moments_at_end(std::span<const PlasticHinge> hinges) {
+  know_end();
+  std::vector<double> moments(hinges.size(), 0);
+  int beam_read = -1;
+  Vec12 forces = Vec12::Zero();
+  for (std::size_t h = 0; h < hinges.size(); ++h) {
+    if (!yields(hinges[h])) continue;
+    if (hinges[h].beam != beam_read) forces = end_forces(hinges[h].beam, true);
+    beam_read = hinges[h].beam;
+    moments[h] = forces(6 * hinges[h].end + hinges[h].component);
+  }
+  return moments;
+}
+
 bool FrameDynamics::State::yields(const PlasticHinge& hinge) const {
   const auto i = static_cast<std::size_t>(hinge.beam);
   return system().beam_stands[i] != 0 &&
@@ -74,22 +88,11 @@ void find_turns(const Eigen::MatrixXd& A, std::vector<Turning>& turning) {
 void FrameDynamics::State::yield(std::span<const PlasticHinge> hinges) {
   kinks.hold_nothing();
   if (hinges.empty()) return;
-  std::vector<double> tried(hinges.size(), 0), moments;
+  const std::vector<double> tried = moments_at_end(hinges);
+  std::vector<double> moments = tried;
   std::vector<char> listed(hinges.size(), 0);
   std::vector<Turning> turning;
   Eigen::MatrixXd A;
-  const auto read_moments = [&] {
-    know_end();
-    moments.assign(hinges.size(), 0);
-    int beam_read = -1;
-    Vec12 forces = Vec12::Zero();
-    for (std::size_t h = 0; h < hinges.size(); ++h) {
-      if (!yields(hinges[h])) continue;
-      if (hinges[h].beam != beam_read) forces = end_forces(hinges[h].beam, true);
-      beam_read = hinges[h].beam;
-      moments[h] = forces(6 * hinges[h].end + hinges[h].component);
-    }
-  };
   const auto add = [&](std::size_t h) {
     const std::size_t k =
         kinks.number(system().model, hinges[h].beam, static_cast<std::size_t>(hinges[h].end), hinges[h].component);
@@ -118,8 +121,6 @@ void FrameDynamics::State::yield(std::span<const PlasticHinge> hinges) {
       if (listed[h] == 0 && std::abs(moments[h]) > (1 + beyond) * hinges[h].capacity) add(h);
     return turning.size() > count;
   };
-  read_moments();
-  tried = moments;
   const Eigen::VectorXd as_tried = equation.w();
   while (add_those_beyond()) {
     find_turns(A, turning);
@@ -129,7 +130,7 @@ void FrameDynamics::State::yield(std::span<const PlasticHinge> hinges) {
       if (one.turn != 0) equation.w() += one.turn * kinks[one.kink].response;
     }
     find_end();
-    read_moments();
+    moments = moments_at_end(hinges);
   }
 }
 
