@@ -17,7 +17,7 @@
 #include "analysis/undivided_members.h"
 #include "loads/case_loads.h"
 #include "mesh/frame_mesh.h"
-#include "mesh/semi_rigid_edges.h"
+#include "mesh/semi_rigid_elements.h"
 #include "model/short_number.h"
 #include "parallel/in_order.h"
 #include "topple/solver/case_sums.h"

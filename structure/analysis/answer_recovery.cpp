@@ -11,7 +11,7 @@
 #include "analysis/resultants/shell_results.h"
 #include "analysis/second_order_member.h"
 #include "failure/panel_demand.h"
-#include "mesh/semi_rigid_edges.h"
+#include "mesh/semi_rigid_elements.h"
 #include "parallel/in_order.h"
 #include "topple/solver/beam_diagram.h"
 #include "topple/solver/parallel_for.h"

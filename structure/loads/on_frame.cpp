@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "loads/on_pieces.h"
-#include "mesh/semi_rigid_edges.h"
+#include "mesh/semi_rigid_elements.h"
 #include "model/index_of.h"
 #include "topple/structure/frame.h"
 

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "failure/panel_demand.h"
-#include "mesh/semi_rigid_edges.h"
+#include "mesh/semi_rigid_elements.h"
 #include "mesh/shell_edges.h"
 #include "model/index_of.h"
 #include "topple/solver/shell_resultants.h"
