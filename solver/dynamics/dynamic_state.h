@@ -85,7 +85,6 @@ struct FrameDynamics::State {
   void know_end();
 
   // plastic_flow.cpp
-  [[nodiscard]] bool yields(const PlasticHinge& hinge) const;
   /// At the end of the substep under way; 0 of hinges that do not yield.
   [[nodiscard]] std::vector<double> moments_at_end(std::span<const PlasticHinge> hinges);
   /// Of the substep under way, as it was tried: what yields turns, and the motion at its end follows.

@@ -28,6 +28,13 @@ double beyond_capacity(double moment, double capacity) {
   return 0;
 }
 
+/// Its beam stands, and its joint holds in this component.
+bool yields(const FrameSystem& system, const PlasticHinge& hinge) {
+  const auto i = static_cast<std::size_t>(hinge.beam);
+  return system.beam_stands[i] != 0 &&
+         system.model.beams[i].end_stiffness[static_cast<std::size_t>(hinge.end)](hinge.component) > 0;
+}
+
 /// The share of the way from one value to another at which it is reached.
 double share_at(double from, double to, double value) {
   return to > from ? std::clamp((value - from) / (to - from), 0.0, 1.0) : 1.0;
@@ -41,18 +48,12 @@ std::vector<double> FrameDynamics::State::moments_at_end(std::span<const Plastic
   int beam_read = -1;
   Vec12 forces = Vec12::Zero();
   for (std::size_t h = 0; h < hinges.size(); ++h) {
-    if (!yields(hinges[h])) continue;
+    if (!yields(system(), hinges[h])) continue;
     if (hinges[h].beam != beam_read) forces = end_forces(hinges[h].beam, true);
     beam_read = hinges[h].beam;
     moments[h] = forces(6 * hinges[h].end + hinges[h].component);
   }
   return moments;
-}
-
-bool FrameDynamics::State::yields(const PlasticHinge& hinge) const {
-  const auto i = static_cast<std::size_t>(hinge.beam);
-  return system().beam_stands[i] != 0 &&
-         system().model.beams[i].end_stiffness[static_cast<std::size_t>(hinge.end)](hinge.component) > 0;
 }
 
 namespace {
@@ -135,7 +136,7 @@ void FrameDynamics::State::yield(std::span<const PlasticHinge> hinges) {
 }
 
 std::optional<double> FrameDynamics::State::turned_out_at(const PlasticHinge& hinge) {
-  if (!yields(hinge)) return std::nullopt;
+  if (!yields(system(), hinge)) return std::nullopt;
   const Kink& kink =
       kinks[kinks.number(system().model, hinge.beam, static_cast<std::size_t>(hinge.end), hinge.component)];
   const auto moment = [&](bool at_end) { return std::abs(end_forces(hinge.beam, at_end)(kink.place())); };
