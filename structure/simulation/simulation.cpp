@@ -41,25 +41,7 @@ void Simulation::step() {
 }
 
 Simulation::State::State(Building the_building, Scenario the_scenario, SimulationOptions the_options)
-    : scene(std::move(the_building), std::move(the_scenario), std::move(the_options)),
-      log(scene),
-      debris(scene),
-      hinges(scene, log, sums, debris),
-      panels(scene, debris),
-      tools(scene, log, sums, debris),
-      views(scene, debris),
-      break_up({scene, log, sums, debris, hinges, panels, views}),
-      sweep(scene, debris, break_up),
-      standing_fracture(scene, log, sums, debris, panels),
-      standing_impacts({scene, log, sums, debris, panels, standing_fracture, release_impulses, struck}),
-      body_impacts({scene, log, sums, debris, break_up, standing_impacts, struck}),
-      hosts({scene, sums, debris, standing_impacts, body_impacts, struck}),
-      debris_fracture({scene, log, sums, debris, hinges, panels, views, break_up, release_impulses}),
-      release{scene, log, sums, debris, hinges, panels, break_up, release_impulses, standing_fracture, debris_fracture},
-      bodies(scene, sums, debris),
-      overlaps(scene, debris),
-      progress(scene, log, tools, hosts),
-      actions(scene) {
+    : StageParts(std::move(the_building), std::move(the_scenario), std::move(the_options)) {
   moving_parts = std::make_unique<MovingParts>(debris, sums, [this] { substep(); });
   if (scene.sways()) scene.frame->let_move(scene.scenario.step, scene.scenario.motion);
   panels.open();

@@ -1,18 +1,15 @@
 #pragma once
 // What a Simulation is made of, and how the stages of a step go through its parts. Each part has a file of its own.
-#include "simulation/accounts/body_account.h"
-#include "simulation/accounts/overlap_log.h"
-#include "simulation/accounts/piece_views.h"
-#include "simulation/action_record.h"
-#include "simulation/debris/hinges.h"
+#include <memory>
+#include <vector>
+
 #include "simulation/debris/moving_parts.h"
-#include "simulation/debris/release.h"
-#include "simulation/run_progress.h"
-#include "simulation/sweep.h"
+#include "simulation/stage_parts.h"
+#include "topple/structure/simulation.h"
 
 namespace topple::structure {
 
-struct Simulation::State {
+struct Simulation::State : StageParts {
   State(Building the_building, Scenario the_scenario, SimulationOptions the_options);
   ~State();
 
@@ -30,29 +27,7 @@ struct Simulation::State {
   void account();
   void record(const std::vector<JointBreak>& breaks);
 
-  Scene scene;
-  EventLog log;
-  RunningSums sums;
-  Debris debris;
-  Hinges hinges;
-  BreakablePanels panels;
-  ToolActions tools;
-  PieceViews views;
-  BreakUp break_up;
-  Sweep sweep;
-  ReleaseImpulses release_impulses;
-  StruckClocks struck;
-  StandingFracture standing_fracture;
-  StandingImpacts standing_impacts;
-  BodyImpacts body_impacts;
-  HostContacts hosts;
-  DebrisFracture debris_fracture;
-  Release release;
   std::unique_ptr<MovingParts> moving_parts;
-  BodyAccount bodies;
-  OverlapLog overlaps;
-  RunProgress progress;
-  ActionRecord actions;
 };
 
 }  // namespace topple::structure

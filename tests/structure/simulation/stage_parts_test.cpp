@@ -1,12 +1,8 @@
 // The parts that a step goes through, from what bodies will touch to bodies made of what fell, each by itself.
 #include <catch2/catch.hpp>
 
-#include "simulation/accounts/body_account.h"
-#include "simulation/action_record.h"
 #include "simulation/debris/parting.h"
-#include "simulation/debris/release.h"
-#include "simulation/run_progress.h"
-#include "simulation/sweep.h"
+#include "simulation/stage_parts.h"
 #include "structure/frame_builder.h"
 #include "topple/structure/error.h"
 
@@ -37,27 +33,8 @@ Scenario at_rest() {
   return scenario;
 }
 
-struct Parts {
-  explicit Parts(const FrameBuilder& f, const Scenario& scenario = at_rest())
-      : scene(f.building, scenario, {}),
-        log(scene),
-        debris(scene),
-        hinges(scene, log, sums, debris),
-        panels(scene, debris),
-        tools(scene, log, sums, debris),
-        views(scene, debris),
-        break_up({scene, log, sums, debris, hinges, panels, views}),
-        sweep(scene, debris, break_up),
-        standing_fracture(scene, log, sums, debris, panels),
-        standing_impacts({scene, log, sums, debris, panels, standing_fracture, release_impulses, struck}),
-        body_impacts({scene, log, sums, debris, break_up, standing_impacts, struck}),
-        hosts({scene, sums, debris, standing_impacts, body_impacts, struck}),
-        debris_fracture({scene, log, sums, debris, hinges, panels, views, break_up, release_impulses}),
-        release{scene,          log, sums, debris, hinges, panels, break_up, release_impulses, standing_fracture,
-                debris_fracture},
-        bodies(scene, sums, debris),
-        progress(scene, log, tools, hosts),
-        actions(scene) {}
+struct Parts : StageParts {
+  explicit Parts(const FrameBuilder& f, const Scenario& scenario = at_rest()) : StageParts(f.building, scenario, {}) {}
 
   collision::BodyId ball(const Vec3& at, double mass, const Vec3& velocity) {
     Body one;
@@ -68,28 +45,6 @@ struct Parts {
     one.bounds.add(Vec3::Constant(one.radius));
     return debris.add(std::move(one), velocity, Vec3::Zero(), Vec3::Zero());
   }
-
-  Scene scene;
-  EventLog log;
-  RunningSums sums;
-  Debris debris;
-  Hinges hinges;
-  BreakablePanels panels;
-  ToolActions tools;
-  PieceViews views;
-  BreakUp break_up;
-  Sweep sweep;
-  ReleaseImpulses release_impulses;
-  StruckClocks struck;
-  StandingFracture standing_fracture;
-  StandingImpacts standing_impacts;
-  BodyImpacts body_impacts;
-  HostContacts hosts;
-  DebrisFracture debris_fracture;
-  Release release;
-  BodyAccount bodies;
-  RunProgress progress;
-  ActionRecord actions;
 };
 
 }  // namespace

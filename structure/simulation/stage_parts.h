@@ -1,0 +1,44 @@
+#pragma once
+// The parts that the stages of a step go through, each with what it works on. Tests of single stages have them as a
+// simulation has.
+#include "simulation/accounts/body_account.h"
+#include "simulation/accounts/overlap_log.h"
+#include "simulation/accounts/piece_views.h"
+#include "simulation/action_record.h"
+#include "simulation/debris/hinges.h"
+#include "simulation/debris/release.h"
+#include "simulation/run_progress.h"
+#include "simulation/sweep.h"
+
+namespace topple::structure {
+
+struct StageParts {
+  StageParts(Building building, Scenario scenario, SimulationOptions options);
+  StageParts(const StageParts&) = delete;
+  StageParts& operator=(const StageParts&) = delete;
+
+  Scene scene;
+  EventLog log;
+  RunningSums sums;
+  Debris debris;
+  Hinges hinges;
+  BreakablePanels panels;
+  ToolActions tools;
+  PieceViews views;
+  BreakUp break_up;
+  Sweep sweep;
+  ReleaseImpulses release_impulses;
+  StruckClocks struck;
+  StandingFracture standing_fracture;
+  StandingImpacts standing_impacts;
+  BodyImpacts body_impacts;
+  HostContacts hosts;
+  DebrisFracture debris_fracture;
+  Release release;
+  BodyAccount bodies;
+  OverlapLog overlaps;
+  RunProgress progress;
+  ActionRecord actions;
+};
+
+}  // namespace topple::structure
