@@ -136,8 +136,8 @@ struct DynamicCounters {
   std::uint64_t unsettled = 0;  ///< substeps in which a beam was pressed beyond its critical load
 };
 
-/// The motion of a frame, substep by substep. Functions that take a beam, shell, patch, support or node throw
-/// std::invalid_argument for one that does not exist, as Reanalysis does.
+/// The motion of a frame, substep by substep: a facade, the parts in solver/dynamics/ own the data. Functions that take
+/// a beam, shell, patch, support or node throw std::invalid_argument for one that does not exist, as Reanalysis does.
 class FrameDynamics {
  public:
   /// At rest at its unloaded place, all as the model has it. Consistent mass only; throws std::invalid_argument for

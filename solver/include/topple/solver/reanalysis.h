@@ -2,7 +2,7 @@
 // A standing segment's analysis that takes changes and answers at the cost of the change. Nothing changed: nothing is
 // computed. Loads changed: triangular solves only. Few joints broke: an exact low-rank (Woodbury) update of the base
 // factor. More: a new factor. The choice is by operation counts with constants that ship.
-//
+// The class is a facade: its functions are a line or a check each, the parts in solver/reanalysis/ own the data.
 // Functions that take a beam, shell, patch, support or node throw std::invalid_argument for one that does not exist,
 // and for a stiffness, factor or node load that means nothing (below zero, not a number). solve() throws no
 // Instability: a mechanism is an answer.

@@ -124,8 +124,8 @@ struct FrameEnergy {
   double struck = 0;        ///< work of impulses on it
 };
 
-/// What stands, with its damage. Every function that names a part throws std::out_of_range where the building has none
-/// such.
+/// What stands, with its damage: a facade, the parts in structure/standing/ own the data. Every function that names a
+/// part throws std::out_of_range where the building has none such.
 class StandingFrame {
  public:
   /// Solves the undamaged building under the combination's loads. Throws UnstableModel, and InputError for a
