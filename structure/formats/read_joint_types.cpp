@@ -77,7 +77,7 @@ void read_rules(const JsonValue& value, JointType& type) {
   if (const auto ductility = value.find("ductility")) {
     ductility->only({"moment_y", "moment_z", "torsion"});
     for (const JsonValue rotation : *ductility)
-      type.ductility[static_cast<std::size_t>(sense_of(rotation.key()))] = rotation.positive();
+      type.ductility[static_cast<std::size_t>(sense_of(rotation.key()))] = rotation.in(ranges::plastic_rotation);
   }
   const bool ductile = value.find("ductility").has_value();
   if (type.from_section && !ductile) type.interaction = Interaction::sum;

@@ -112,13 +112,13 @@ void require_id(const Building& building, JointId id, const char* call) {
 void require_tool(const Building& building, const Tool& tool) { std::visit(ToolCheck{building}, tool); }
 
 void require_capacities(const Building& building, std::span<const std::pair<JointId, JointCapacity>> capacities) {
-  constexpr NumberRange rotation{0, 100};  // rad
   for (const auto& [joint, capacity] : capacities) {
     require_id(building, joint, "set_capacities");
     const std::string name = "set_capacities: joint " + building[joint].name;
     for (const double value : capacity.value)
       if (!(value >= 0)) throw InputError(name + ": found a capacity that is no number of 0 or above; accepted: one");
-    for (const double value : capacity.ductility) require_in(rotation, value, name + ": ductility");
+    for (const double value : capacity.ductility)
+      if (value != 0) require_in(ranges::plastic_rotation, value, name + ": ductility, where it is not 0");
   }
 }
 

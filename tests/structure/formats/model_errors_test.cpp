@@ -143,6 +143,8 @@ TEST_CASE("capacities that the section or material cannot give name the missing 
         "materials.S355.thermal_expansion is missing; accepted: that key");
   CHECK(error("\"ductility\": {", "\"interaction\": \"sum\", \"ductility\": {") ==
         "m.json, line 21, joints.ductile.interaction: \"sum\" with `ductility`; accepted: \"max\"");
+  CHECK(error("\"ductility\": {", "\"ductility\": {\"torsion\": 1e-7, ") ==
+        "m.json, line 21, joints.ductile.ductility.torsion: found 1e-07; accepted: a number from 1e-06 to 100");
   CHECK(error("[\"original\", null]", "[\"edge\", null]") ==
         "m.json, line 31, members.PC: its joint \"edge\" has `capacity_per_length`; accepted for a member: `capacity`");
 }

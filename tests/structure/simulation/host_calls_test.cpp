@@ -148,6 +148,12 @@ TEST_CASE("numbers that physics has no use for are told by every tool, and not r
       change.second.value[3] = bad;
       s.set_capacities({&change, 1});
     });
+  for (const double bad : {no_number, -1.0, 1e-145, 1e-7, 101.0, unlimited})
+    leaves_no_trace([&](Simulation& s) {
+      std::pair<JointId, JointCapacity> change{JointId(0u), same_capacity(1e6)};
+      change.second.ductility[5] = bad;
+      s.set_capacities({&change, 1});
+    });
   for (const int stages : {0, -1, std::numeric_limits<int>::max()})
     leaves_no_trace([&](Simulation& s) { s.apply(WeakenTool{{JointId(0u)}, {}, 0.5, 1, 1, stages}); });
 }
