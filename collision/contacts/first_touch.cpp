@@ -88,12 +88,12 @@ double turning_bend(const SolidPart& part, const Motion& motion, const btVector3
   return motion.angular_velocity.length() * turning_bound(part, motion, normal);
 }
 
-/// From `time` on the gap along n stays above `least` for so long, s, or for `shortest` where that is not known. The
-/// gap is the least of functions of time that bend by B at most: between g now and h after D it is above (1 - s) g + s
-/// h - s (1 - s) B D^2/2 at any share s of D.
-double stays_apart(const Pair& pair, Carrier carrier, const btVector3& normal, double time, double least,
+/// From `time` on the gap, which is `now` along n, stays above `least` for so long, s, or for `shortest` where that is
+/// not known. It is the least of functions of time that bend by B at most: between g now and h after D it is above
+/// (1 - s) g + s h - s (1 - s) B D^2/2 at any share s of D.
+double stays_apart(const Pair& pair, Carrier carrier, const btVector3& normal, double now, double time, double least,
                    double shortest, double longest) {
-  const double now = pair.gap(normal, time), bend = pair.bend(carrier, normal, time);
+  const double bend = pair.bend(carrier, normal, time);
   const btVector3 turn = pair.turn(carrier);
   const double rate = turn.length();
   double length = longest;
@@ -131,10 +131,11 @@ std::optional<Touch> advance(const Pair& pair, double duration) {
     const double shortest =
         std::max({(closest.distance - kTouching / 2) / bound, kLeastClosing / bound, kLeastAdvance * duration});
     if (duration - time <= shortest) return std::nullopt;
+    const double now = pair.gap(closest.normal, time);
     double apart = shortest;
     for (const Carrier carrier : {Carrier::none, Carrier::first, Carrier::second}) {
       if (carrier != Carrier::none && pair.turn(carrier).isZero()) continue;
-      apart = std::max(apart, stays_apart(pair, carrier, closest.normal, time, least, apart, duration - time));
+      apart = stays_apart(pair, carrier, closest.normal, now, time, least, apart, duration - time);
       if (apart >= duration - time) return std::nullopt;
     }
     time += apart;

@@ -46,8 +46,10 @@ struct PairEnds {
   bool rests = false;      ///< it has borne something that sleeps
 };
 
-/// Asks for all of its lines in memory, some turns of a loop before they are needed: pairs of neighbours are far from
-/// each other there.
+/// Turns of a loop by which a pair is asked for before it is needed: pairs of neighbours are far from each other in
+/// memory.
+inline constexpr std::size_t kAhead = 4;
+/// Asks for all lines of memory that it lies in.
 template <class T>
 void prefetch_lines(const T& of) {
   constexpr std::size_t line = 64;

@@ -140,20 +140,26 @@ TOPPLE_INLINE void store(const ContactPack& pack, const Both& from, Motion6* to)
 struct Open {
   ContactPack& pack;
   PackPoint* points;
-  std::size_t first_point;
   Both now;
   AlongNormal along;
   Wide over;  ///< by how much a point has changed beyond what counts as settled
 };
 
-TOPPLE_INLINE Open open(ContactPack& pack, PackPoint* points, const Motion6* velocity) {
-  Open one{pack, points + pack.first_point, pack.first_point, {}, {}, all(0)};
+template <class Work>
+TOPPLE_INLINE Open open(ContactPack& pack, PackPoint* points, const Motion6* velocity, Work& work) {
+  Open one{pack, points + pack.first_point, {}, {}, all(0)};
+  work.begin(pack, one.points);
   load(pack, velocity, one.now);
   one.along = look_along_normal(pack, one.now);
   return one;
 }
 
-TOPPLE_INLINE void close(Open& one, Motion6* velocity) { store(one.pack, one.now, velocity); }
+template <class Work>
+TOPPLE_INLINE void close(Open& one, Motion6* velocity, Work& work) {
+  push_centres(one.pack, one.along, one.now);
+  work.end(one);
+  store(one.pack, one.now, velocity);
+}
 
 /// Each point waits for what the one before it did. Two packs that share no body are taken in turns, so that one is
 /// worked on while the other waits: no result depends on it.
@@ -164,12 +170,10 @@ TOPPLE_INLINE void each_pack(ContactPack* packs, PackPoint* points, std::size_t 
                              Motion6* velocity, Work& work) {
   for (std::size_t k = begin; k < end; ++k) {
     if (!work.takes(packs[k])) continue;
-    work.begin(packs[k], points + packs[k].first_point);
-    Open one = open(packs[k], points, velocity);
+    Open one = open(packs[k], points, velocity, work);
     if (packs[k].apart_from_next && k + 1 < end && work.takes(packs[k + 1])) {
       ++k;
-      work.begin(packs[k], points + packs[k].first_point);
-      Open other = open(packs[k], points, velocity);
+      Open other = open(packs[k], points, velocity, work);
       const int fewer = one.pack.point_count < other.pack.point_count ? one.pack.point_count : other.pack.point_count;
       for (int i = 0; i < fewer; ++i) {
         work.point(one, i);
@@ -177,18 +181,12 @@ TOPPLE_INLINE void each_pack(ContactPack* packs, PackPoint* points, std::size_t 
       }
       for (int i = fewer; i < one.pack.point_count; ++i) work.point(one, i);
       for (int i = fewer; i < other.pack.point_count; ++i) work.point(other, i);
-      push_centres(one.pack, one.along, one.now);
-      push_centres(other.pack, other.along, other.now);
-      work.end(one);
-      work.end(other);
-      close(one, velocity);
-      close(other, velocity);
+      close(one, velocity, work);
+      close(other, velocity, work);
       continue;
     }
     for (int i = 0; i < one.pack.point_count; ++i) work.point(one, i);
-    push_centres(one.pack, one.along, one.now);
-    work.end(one);
-    close(one, velocity);
+    close(one, velocity, work);
   }
 }
 
@@ -233,6 +231,16 @@ TOPPLE_INLINE Wide stopping(const PackPoint& point, const AlongNormal& along, co
   return larger(point.impulse - point.mass * (relative(point, along, now) + bias), none);
 }
 
+/// Returns by how much the impulse of a point changes so that it comes no nearer than to touch.
+TOPPLE_INLINE Wide stop(Open& one, int i, const Wide& rate, const Wide& settled) {
+  PackPoint& point = one.points[i];
+  const Wide impulse = stopping(point, one.along, one.now, rate), change = impulse - point.impulse;
+  point.impulse = impulse;
+  one.over = larger(one.over, magnitude(change) - settled * point.mass);
+  push(point, change, one.along, one.now);
+  return change;
+}
+
 struct Solve : WholePack {
   const Motion6* displacement;  ///< null: how far points are apart is known
   Wide rate, settled, over;
@@ -241,19 +249,15 @@ struct Solve : WholePack {
   TOPPLE_INLINE void begin(ContactPack& pack, PackPoint* own) const {
     if (displacement) measure(pack, own, displacement);
   }
-  TOPPLE_INLINE void point(Open& one, int i) {
-    PackPoint& point = one.points[i];
-    const Wide impulse = stopping(point, one.along, one.now, rate), change = impulse - point.impulse;
-    point.impulse = impulse;
-    over = larger(over, magnitude(change) - settled * point.mass);
-    if (changes) {
-      const Wide none = all(0);
-      const std::size_t number = one.first_point + static_cast<std::size_t>(i);
-      changes[number] = change;
-      energies[number] = point.mass > none ? change * change / (point.mass > none ? point.mass : all(1)) : none;
-    }
-    push(point, change, one.along, one.now);
+  TOPPLE_INLINE void point(Open& one, int i) const {
+    const Wide change = stop(one, i, rate, settled);
+    if (!changes) return;
+    const Wide none = all(0), mass = one.points[i].mass;
+    const std::size_t number = one.pack.first_point + static_cast<std::size_t>(i);
+    changes[number] = change;
+    energies[number] = mass > none ? change * change / (mass > none ? mass : all(1)) : none;
   }
+  TOPPLE_INLINE void end(Open& one) { over = larger(over, one.over); }
 };
 
 bool solve(ContactPack* packs, PackPoint* points, std::size_t begin, std::size_t end, Motion6* velocity,
@@ -274,7 +278,7 @@ struct GoOn : WholePack {
   Wide *changes, *ways;
 
   TOPPLE_INLINE void point(Open& one, int i) const {
-    const std::size_t number = one.first_point + static_cast<std::size_t>(i);
+    const std::size_t number = one.pack.first_point + static_cast<std::size_t>(i);
     PackPoint& point = one.points[i];
     Wide& way = ways[number];
     const Wide farther = share * way, impulse = larger(point.impulse + farther, all(0)),
@@ -343,13 +347,7 @@ struct Relax {
 
   TOPPLE_INLINE bool takes(const ContactPack& pack) const { return concerned(pack, moved); }
   TOPPLE_INLINE void begin(ContactPack&, PackPoint*) const {}
-  TOPPLE_INLINE void point(Open& one, int i) {
-    PackPoint& point = one.points[i];
-    const Wide impulse = stopping(point, one.along, one.now, rate), change = impulse - point.impulse;
-    point.impulse = impulse;
-    one.over = larger(one.over, magnitude(change) - settled * point.mass);
-    push(point, change, one.along, one.now);
-  }
+  TOPPLE_INLINE void point(Open& one, int i) const { stop(one, i, rate, settled); }
   /// Friction last, so that it is bounded by the normal impulses that are told.
   TOPPLE_INLINE void end(Open& one) {
     const ContactPack& pack = one.pack;

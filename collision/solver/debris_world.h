@@ -155,9 +155,7 @@ class DebrisWorld final : public World {
     Sweep what;
     double dt, least_speed;
   };
-  /// What a mover may meet: a solid with its motion, and those of its parts that are near, with what they sweep over.
   struct Met;
-  static Met met(const Mover& mover);
   static void find_touches(const Mover& mover, const Met& other, const SweepRange& range, std::vector<Contact>& found);
   void sweep_pair(const Mover& mover, const Met& other, const SweepRange& range, std::vector<Contact>& found) const;
   void sweep_ground(const Mover& mover, const SweepRange& range, std::vector<Contact>& found) const;

@@ -20,8 +20,6 @@ constexpr double kLeastPush = 1e-12;
 
 /// For which a piece of a loop is worth being handed on.
 constexpr std::size_t kContacts = 32;
-/// Turns of a loop by which a pair is asked for before it is needed.
-constexpr std::size_t kAhead = 4;
 
 /// Separation of the nearest point, m.
 double nearest(const Manifold& manifold) {

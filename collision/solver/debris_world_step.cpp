@@ -14,8 +14,6 @@ namespace {
 constexpr std::size_t kContactsShared = 100, kPairsShared = 500;
 /// For which a piece of a loop is worth being handed on.
 constexpr std::size_t kBodies = 32, kPairs = 64, kDuePairs = 8;
-/// Turns of a loop by which a pair is asked for before it is needed.
-constexpr std::size_t kAhead = 4;
 }  // namespace
 
 void DebrisWorld::begin_step(double dt) {

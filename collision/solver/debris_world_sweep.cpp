@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <stdexcept>
 #include <tuple>
 
@@ -30,6 +31,18 @@ Bounds swept_bounds(const SolidPart& part, const Motion& motion, double dt) {
   bounds.low -= btVector3(out, out, out);
   bounds.high += btVector3(out, out, out);
   return bounds;
+}
+
+/// Part of a solid, and what it sweeps over.
+struct SweptPart {
+  std::size_t number;
+  Bounds bounds;
+};
+
+std::vector<SweptPart> swept_parts(const Solid& solid, const Motion& motion, double dt) {
+  std::vector<SweptPart> all;
+  for (std::size_t i = 0; i < solid.parts.size(); ++i) all.push_back({i, swept_bounds(solid.parts[i], motion, dt)});
+  return all;
 }
 
 btTransform transform_of(const Solid& solid) {
@@ -61,25 +74,16 @@ struct DebrisWorld::Mover {
   const DebrisBody* body = nullptr;
   Motion motion;
   Placement end;
-  std::vector<Bounds> parts;
+  std::vector<SweptPart> parts;  ///< all
   Bounds whole;
 };
 
+/// What a mover may meet: a solid with its motion, and those of its parts that are near.
 struct DebrisWorld::Met {
   const Solid& solid;
   const Motion& motion;
-  struct Part {
-    std::size_t number;
-    Bounds bounds;
-  };
-  std::vector<Part> parts;
+  std::span<const SweptPart> parts;
 };
-
-DebrisWorld::Met DebrisWorld::met(const Mover& mover) {
-  Met all{*mover.body, mover.motion, {}};
-  for (std::size_t i = 0; i < mover.parts.size(); ++i) all.parts.push_back({i, mover.parts[i]});
-  return all;
-}
 
 Motion DebrisWorld::motion_of(const DebrisBody& body, double dt) const {
   Motion motion;
@@ -102,11 +106,11 @@ DebrisWorld::Mover DebrisWorld::mover_of(const DebrisBody& body, const Motion& m
   mover.body = &body;
   mover.motion = motion;
   mover.end = placement_of(motion.at(duration));
-  for (const SolidPart& part : body.parts) mover.parts.push_back(swept_bounds(part, motion, duration));
-  mover.whole = mover.parts.front();
-  for (const Bounds& part : mover.parts) {
-    mover.whole.low.setMin(part.low);
-    mover.whole.high.setMax(part.high);
+  mover.parts = swept_parts(body, motion, duration);
+  mover.whole = mover.parts.front().bounds;
+  for (const SweptPart& part : mover.parts) {
+    mover.whole.low.setMin(part.bounds.low);
+    mover.whole.high.setMax(part.bounds.high);
   }
   return mover;
 }
@@ -177,8 +181,8 @@ void DebrisWorld::find_touches(const Mover& mover, const Met& met, const SweepRa
   };
   for (const auto& [j, other_bounds] : met.parts) {
     if (!other_bounds.meets(mover.whole)) continue;
-    for (std::size_t i = 0; i < mover.parts.size(); ++i) {
-      if (!mover.parts[i].meets(other_bounds)) continue;
+    for (const auto& [i, bounds] : mover.parts) {
+      if (!bounds.meets(other_bounds)) continue;
       const Meeting meeting =
           meeting_of({*mover.body, i, mover.motion, mover.end},
                      {static_cast<const TouchingSolid&>(other), j, other_motion, other_end}, dt, range.least_speed);
@@ -198,11 +202,10 @@ bool DebrisWorld::still_to_pass(const DebrisBody& first, const Solid& other, boo
   other_motion.start = transform_of(other);
   if (other_moves) other_motion = motion_of(static_cast<const DebrisBody&>(other), dt);
   const double resting_speed = 2 * gravity_.norm() * dt;
-  Met second{other, other_motion, {}};
-  for (std::size_t j = 0; j < other.parts.size(); ++j)
-    second.parts.push_back({j, swept_bounds(other.parts[j], other_motion, ahead)});
   std::vector<Contact> found;
-  find_touches(mover_of(first, motion_of(first, dt), ahead), second, {Sweep::everything, ahead, resting_speed}, found);
+  find_touches(mover_of(first, motion_of(first, dt), ahead),
+               {other, other_motion, swept_parts(other, other_motion, ahead)},
+               {Sweep::everything, ahead, resting_speed}, found);
   return std::any_of(found.begin(), found.end(),
                      [&](const Contact& contact) { return contact.approach_speed > resting_speed; });
 }
@@ -211,8 +214,8 @@ void DebrisWorld::sweep_ground(const Mover& mover, const SweepRange& range, std:
   if (!has_ground_ || mover.whole.low.z() > ground_height_) return;
   const double dt = range.dt;
   if (fastest_closing(*mover.body, mover.motion, ground_, {}, dt) < range.least_speed) return;
-  for (std::size_t i = 0; i < mover.parts.size(); ++i) {
-    if (mover.parts[i].low.z() > ground_height_) continue;
+  for (const auto& [i, bounds] : mover.parts) {
+    if (bounds.low.z() > ground_height_) continue;
     const SolidPart& part = mover.body->parts[i];
     const std::optional<Touch> touch = first_touch_of_ground(part, mover.motion, ground_height_, dt);
     if (touch) found.push_back(contact_of(*mover.body, part.tag, ground_, -1, *touch));
@@ -237,12 +240,12 @@ void DebrisWorld::sweep_standing(const Mover& mover, const SweepRange& range, st
     still.start = transform_of(other);
     if (other.kind == Touched::Kind::body && fastest_closing(*mover.body, mover.motion, other, still, dt) < least_speed)
       continue;
-    Met met{other, still, {}};
+    std::vector<SweptPart> parts;
     for (std::size_t i = begin; i < end; ++i) {
       const auto part = static_cast<std::size_t>(near[i]->part);
-      met.parts.push_back({part, swept_bounds(other.parts[part], still, dt)});
+      parts.push_back({part, swept_bounds(other.parts[part], still, dt)});
     }
-    sweep_pair(mover, met, range, found);
+    sweep_pair(mover, {other, still, parts}, range, found);
   }
 }
 
@@ -260,7 +263,7 @@ void DebrisWorld::sweep_movers(const std::vector<Mover>& movers, const SweepRang
       const Mover &first = *by_x[forward ? i : j], &second = *by_x[forward ? j : i];
       if (fastest_closing(*first.body, first.motion, *second.body, second.motion, range.dt) < range.least_speed)
         continue;
-      sweep_pair(first, met(second), range, found);
+      sweep_pair(first, {*second.body, second.motion, second.parts}, range, found);
     }
   }
 }
