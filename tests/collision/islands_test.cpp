@@ -2,7 +2,7 @@
 #include <array>
 #include <catch2/catch.hpp>
 
-#include "solver/islands.h"
+#include "debris/islands.h"
 
 using namespace topple::collision;
 

@@ -13,8 +13,8 @@
 #include "contacts/first_touch.h"
 #include "contacts/near_pairs.h"
 #include "contacts/pair_contacts.h"
-#include "solver/debris_parts.h"
-#include "solver/islands.h"
+#include "debris/debris_parts.h"
+#include "debris/islands.h"
 #include "solver/step_solver.h"
 
 namespace topple::collision {

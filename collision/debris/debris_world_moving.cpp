@@ -13,7 +13,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "solver/debris_world.h"
+#include "debris/debris_world.h"
 
 namespace topple::collision {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "solver/debris_parts.h"
+#include "debris/debris_parts.h"
 
 namespace topple::collision {
 

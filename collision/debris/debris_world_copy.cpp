@@ -1,5 +1,5 @@
 // A world once more. Shapes are shared, as nothing changes them; what a step alone needs is not copied.
-#include "solver/debris_world.h"
+#include "debris/debris_world.h"
 
 namespace topple::collision {
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/debris_world.h"
+#include "debris/debris_world.h"
 
 namespace topple::collision {
 

@@ -1,4 +1,4 @@
-#include "solver/debris_world.h"
+#include "debris/debris_world.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 
 #include "contacts/contact_order.h"
 #include "contacts/part_contacts.h"
-#include "solver/debris_world.h"
+#include "debris/debris_world.h"
 
 namespace topple::collision {
 

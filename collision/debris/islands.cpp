@@ -1,4 +1,4 @@
-#include "solver/islands.h"
+#include "debris/islands.h"
 
 #include <algorithm>
 #include <numeric>

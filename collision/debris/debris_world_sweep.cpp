@@ -8,7 +8,7 @@
 
 #include "contacts/apart.h"
 #include "contacts/contact_order.h"
-#include "solver/debris_world.h"
+#include "debris/debris_world.h"
 
 namespace topple::collision {
 

@@ -1,4 +1,4 @@
-#include "solver/debris_parts.h"
+#include "debris/debris_parts.h"
 
 #include "bullet/bullet_types.h"
 

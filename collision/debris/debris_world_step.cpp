@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "solver/debris_world.h"
+#include "debris/debris_world.h"
 #include "solver/free_rotation.h"
 
 namespace topple::collision {

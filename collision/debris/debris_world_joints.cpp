@@ -3,7 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "solver/debris_world.h"
+#include "debris/debris_world.h"
 
 namespace topple::collision {
 
