@@ -5,6 +5,9 @@
 #include <stdexcept>
 
 #include "bullet/library_check.h"
+#include "contacts/contact_order.h"
+#include "debris/body_sweep.h"
+#include "debris/scene_queries.h"
 #include "shapes/principal_inertia.h"
 #include "topple/collision/small_steps.h"
 
@@ -22,17 +25,6 @@ void check_surface(double friction, double restitution, const std::string& owner
   }
 }
 
-[[noreturn]] void not_in_the_world(std::int64_t id, const char* what) {
-  throw std::out_of_range(std::string(what) + " " + std::to_string(id) + " is not in the world");
-}
-
-template <typename Map>
-auto& find(Map& map, std::int64_t id, const char* what) {
-  const auto found = map.find(id);
-  if (found == map.end()) not_in_the_world(id, what);
-  return *found->second;
-}
-
 /// Place of a part in the order of contacts: bodies by id before obstacles by id, parts in order of their description.
 std::uint64_t place_in_order(Touched::Kind kind, std::int64_t id, std::size_t part) {
   constexpr std::uint64_t obstacles = std::uint64_t{1} << 62;
@@ -43,52 +35,66 @@ double ball_radius(const std::vector<ConvexPart>& parts) {
   return parts.size() == 1 && parts[0].kind == ConvexPart::Kind::sphere ? parts[0].half_extents.x() : 0;
 }
 
-}  // namespace
-
-DebrisWorld::DebrisWorld(const SolverSettings& settings) : settings_(settings), solver_(settings_, region_) {}
-DebrisWorld::~DebrisWorld() = default;
-
-DebrisBody& DebrisWorld::body(std::int64_t id) const {
-  if (id < 0 || id >= std::ssize(bodies_) || !bodies_[static_cast<std::size_t>(id)]) not_in_the_world(id, "body");
-  return *bodies_[static_cast<std::size_t>(id)];
-}
-DebrisObstacle& DebrisWorld::obstacle(std::int64_t id) const { return find(obstacles_, id, "obstacle"); }
-DebrisHinge& DebrisWorld::hinge(std::int64_t id) const { return find(hinges_, id, "hinge"); }
-DebrisCable& DebrisWorld::cable(std::int64_t id) const { return find(cables_, id, "cable"); }
-const Solid& DebrisWorld::solid(const SolidPair& pair) const {
-  if (pair.kind == Touched::Kind::body) return body(pair.other);
-  return obstacle(pair.other);
-}
-
-void DebrisWorld::set_gravity(const Vec3& gravity) {
-  gravity_ = gravity;
-  wake_all();
-}
-
-void DebrisWorld::set_ground(double height, double friction, double restitution) {
-  if (!std::isfinite(height)) throw std::invalid_argument("ground: its height is not finite");
-  check_surface(friction, restitution, "ground");
-  has_ground_ = true;
-  ground_height_ = height;
-  ground_friction_ = friction;
-  ground_restitution_ = restitution;
-  pairs_.set_ground(&ground_, height);
-  wake_all();
-}
-
-Box3 DebrisWorld::bounds_of(const PartShape& shape, const Placement& at) {
-  const Vec3 centre = at * shape.centre, half = at.turn.cwiseAbs() * shape.half;
-  return {centre - half, centre + half};
-}
-
-void DebrisWorld::place(DebrisBody& placed, const Pose& pose) {
+void place(DebrisBody& placed, const Pose& pose) {
   placed.turn = pose.orientation.normalized();
   if (placed.turned) placed.turn = placed.turn * from_bullet(placed.frame.getRotation());
   placed.at = {pose.position, placed.turn.toRotationMatrix()};
 }
 
+}  // namespace
+
+DebrisWorld::DebrisWorld(const SolverSettings& settings)
+    : scene_(settings),
+      ignored_(scene_),
+      search_(scene_, ignored_, region_),
+      waking_(scene_, search_),
+      moving_(scene_),
+      solved_(scene_, moving_, region_),
+      told_(scene_, solved_, region_),
+      rest_(scene_, solved_, told_) {}
+
+/// What a step alone needs is not copied.
+DebrisWorld::DebrisWorld(const DebrisWorld& of)
+    : next_obstacle_(of.next_obstacle_),
+      next_hinge_(of.next_hinge_),
+      next_cable_(of.next_cable_),
+      polyhedra_(of.polyhedra_),
+      scene_(of.scene_),
+      ignored_(of.ignored_, scene_),
+      region_(of.region_),
+      search_(scene_, ignored_, region_),
+      waking_(scene_, search_),
+      moving_(scene_),
+      solved_(scene_, moving_, region_),
+      told_(scene_, solved_, region_),
+      rest_(scene_, solved_, told_),
+      parts_(of.parts_) {
+  told_.copy(of.told_);
+  rest_.copy(of.rest_);
+}
+
+DebrisWorld::~DebrisWorld() = default;
+
+std::unique_ptr<World> DebrisWorld::copy() const { return std::unique_ptr<World>(new DebrisWorld(*this)); }
+
+void DebrisWorld::set_gravity(const Vec3& gravity) {
+  scene_.gravity = gravity;
+  scene_.wake_all();
+}
+
+void DebrisWorld::set_ground(double height, double friction, double restitution) {
+  if (!std::isfinite(height)) throw std::invalid_argument("ground: its height is not finite");
+  check_surface(friction, restitution, "ground");
+  scene_.ground.there = true;
+  scene_.ground.height = height;
+  scene_.ground.friction = friction;
+  scene_.ground.restitution = restitution;
+  scene_.pairs.set_ground(&scene_.ground.solid, height);
+  scene_.wake_all();
+}
+
 BodyId DebrisWorld::add_body(const BodyDescription& description) {
-  const BodyId id{std::ssize(bodies_)};
+  const BodyId id{std::ssize(scene_.bodies)};
   const std::string owner = "body " + std::to_string(id.value);
   if (!std::isfinite(description.mass) || !(description.mass > 0)) {
     throw std::invalid_argument(owner + ": mass " + std::to_string(description.mass) + "; it must be above zero");
@@ -111,26 +117,26 @@ BodyId DebrisWorld::add_body(const BodyDescription& description) {
   made->ball_radius = ball_radius(description.parts);
   place(*made, description.pose);
   for (std::size_t i = 0; i < made->parts.size(); ++i)
-    made->colliders.push_back(pairs_.add(made.get(), static_cast<int>(i), place_in_order(made->kind, id.value, i),
-                                         bounds_of(made->shapes[i], made->at)));
-  bodies_.push_back(std::move(made));
-  order_.push_back(id);
-  ++awake_count_;
+    made->colliders.push_back(scene_.pairs.add(made.get(), static_cast<int>(i), place_in_order(made->kind, id.value, i),
+                                               DebrisScene::bounds_of(made->shapes[i], made->at)));
+  scene_.bodies.push_back(std::move(made));
+  scene_.order.push_back(id);
+  ++scene_.awake_count;
   set_state(id, {description.pose, description.velocity, description.angular_velocity, false});
   return id;
 }
 
 void DebrisWorld::remove_body(BodyId id) {
-  DebrisBody& gone = body(id.value);
+  DebrisBody& gone = scene_.body(id.value);
   while (!gone.hinges.empty()) remove_hinge({*gone.hinges.begin()});
   while (!gone.cables.empty()) remove_cable({*gone.cables.begin()});
-  wake_touching(gone);
-  forget_ignored_of(Touched::Kind::body, id.value);
-  forget_contacts_of(Touched::Kind::body, id.value);
-  for (const std::uint32_t collider : gone.colliders) pairs_.remove(collider);
-  if (!gone.asleep) --awake_count_;
-  bodies_[static_cast<std::size_t>(id.value)].reset();
-  order_.erase(std::lower_bound(order_.begin(), order_.end(), id));
+  scene_.wake_touching(gone);
+  ignored_.forget(Touched::Kind::body, id.value);
+  remove_contacts_of(Touched::Kind::body, id.value);
+  for (const std::uint32_t collider : gone.colliders) scene_.pairs.remove(collider);
+  if (!gone.asleep) --scene_.awake_count;
+  scene_.bodies[static_cast<std::size_t>(id.value)].reset();
+  scene_.order.erase(std::lower_bound(scene_.order.begin(), scene_.order.end(), id));
 }
 
 ObstacleId DebrisWorld::add_obstacle(const ObstacleDescription& description) {
@@ -147,103 +153,101 @@ ObstacleId DebrisWorld::add_obstacle(const ObstacleDescription& description) {
   made->friction = description.friction;
   made->restitution = description.restitution;
   for (std::size_t i = 0; i < made->parts.size(); ++i)
-    made->colliders.push_back(pairs_.add(made.get(), static_cast<int>(i), place_in_order(made->kind, made->id, i),
-                                         bounds_of(made->shapes[i], made->at)));
-  obstacles_.emplace(next_obstacle_, std::move(made));
+    made->colliders.push_back(scene_.pairs.add(made.get(), static_cast<int>(i), place_in_order(made->kind, made->id, i),
+                                               DebrisScene::bounds_of(made->shapes[i], made->at)));
+  scene_.obstacles.emplace(next_obstacle_, std::move(made));
   return {next_obstacle_++};
 }
 
 void DebrisWorld::remove_obstacle(ObstacleId id) {
-  DebrisObstacle& gone = obstacle(id.value);
-  wake_touching(gone);
-  forget_ignored_of(Touched::Kind::obstacle, id.value);
-  forget_contacts_of(Touched::Kind::obstacle, id.value);
-  for (const std::uint32_t collider : gone.colliders) pairs_.remove(collider);
-  std::erase(moving_obstacles_, id.value);
-  obstacles_.erase(id.value);
+  DebrisObstacle& gone = scene_.obstacle(id.value);
+  scene_.wake_touching(gone);
+  ignored_.forget(Touched::Kind::obstacle, id.value);
+  remove_contacts_of(Touched::Kind::obstacle, id.value);
+  for (const std::uint32_t collider : gone.colliders) scene_.pairs.remove(collider);
+  std::erase(scene_.moving_obstacles, id.value);
+  scene_.obstacles.erase(id.value);
 }
 
 void DebrisWorld::move_obstacle(ObstacleId id, const Pose& pose) {
-  DebrisObstacle& moved = obstacle(id.value);
-  wake_touching(moved);
+  DebrisObstacle& moved = scene_.obstacle(id.value);
+  scene_.wake_touching(moved);
   moved.pose = pose;
   moved.at = moved.placement();
   moved.look_how_far();
   for (std::size_t i = 0; i < moved.parts.size(); ++i) {
-    pairs_.move(moved.colliders[i], bounds_of(moved.shapes[i], moved.at), 0);
-    pairs_.note_way(moved.colliders[i], moved.gone, 0, false);
+    scene_.pairs.move(moved.colliders[i], DebrisScene::bounds_of(moved.shapes[i], moved.at), 0);
+    scene_.pairs.note_way(moved.colliders[i], moved.gone, 0, false);
   }
 }
 
 BodyState DebrisWorld::state(BodyId id) const {
-  const DebrisBody& seen = body(id.value);
+  const DebrisBody& seen = scene_.body(id.value);
   BodyState state;
   state.pose.position = seen.at.position;
   state.pose.orientation = seen.turned ? seen.turn * from_bullet(seen.frame.getRotation()).conjugate() : seen.turn;
-  state.velocity = stepping_ && !seen.asleep ? Vec3(seen.velocity - reading_) : seen.velocity;
+  state.velocity = stepping_ && !seen.asleep ? Vec3(seen.velocity - scene_.reading) : seen.velocity;
   state.angular_velocity = seen.spin;
   state.asleep = seen.asleep;
   return state;
 }
 
 void DebrisWorld::set_state(BodyId id, const BodyState& state) {
-  DebrisBody& set = body(id.value);
+  DebrisBody& set = scene_.body(id.value);
   if (!state.pose.position.allFinite() || !state.velocity.allFinite() || !state.angular_velocity.allFinite()) {
     throw std::invalid_argument("body " + std::to_string(id.value) + ": its state is not finite");
   }
   place(set, state.pose);
   set.velocity = state.velocity;
-  if (stepping_ && !set.asleep && !state.asleep) set.velocity += reading_;  // else wake_up() does
+  if (stepping_ && !set.asleep && !state.asleep) set.velocity += scene_.reading;  // else scene_.wake_up() does
   set.spin = state.angular_velocity;
-  set.acceleration = gravity_;
+  set.acceleration = scene_.gravity;
   for (std::size_t i = 0; i < set.parts.size(); ++i)
-    pairs_.move(set.colliders[i], bounds_of(set.shapes[i], set.at), settings_.fat);
+    scene_.pairs.move(set.colliders[i], DebrisScene::bounds_of(set.shapes[i], set.at), scene_.settings.fat);
   if (state.asleep)
-    fall_asleep(set);
+    scene_.fall_asleep(set);
   else
-    wake_up(set);
+    scene_.wake_up(set);
 }
 
 void DebrisWorld::apply_impulse(BodyId id, const Vec3& impulse, const Vec3& point) {
-  DebrisBody& pushed = body(id.value);
-  wake_up(pushed);
+  DebrisBody& pushed = scene_.body(id.value);
+  scene_.wake_up(pushed);
   const Mat3& turn = pushed.at.turn;
   pushed.velocity += impulse / pushed.mass;
   pushed.spin += turn * (turn.transpose() * (point - pushed.at.position).cross(impulse)).cwiseQuotient(pushed.moments);
 }
 
-void DebrisWorld::wake(BodyId id) { wake_up(body(id.value)); }
+void DebrisWorld::wake(BodyId id) { scene_.wake_up(scene_.body(id.value)); }
 
-void DebrisWorld::wake_up(DebrisBody& woken) {
-  if (woken.asleep) {
-    ++awake_count_;
-    woken.velocity += reading_;
-    woken.acceleration = gravity_;
-  }
-  woken.asleep = false;
-  woken.slow_for = woken.retry_rest = 0;
-  woken.rest_wait = settings_.rest_again;
-  woken.position_then = woken.at.position;
-  woken.turn_then = woken.turn;
+/// What goes within a step leaves its contacts to the account of that step.
+void DebrisWorld::remove_contacts_of(Touched::Kind kind, std::int64_t id) {
+  if (!stepping_) told_.forget(kind, id);
 }
 
-void DebrisWorld::fall_asleep(DebrisBody& sleeping) {
-  if (!sleeping.asleep) --awake_count_;
-  sleeping.asleep = true;
+void DebrisWorld::ignore_until_separated(BodyId id, const Touched& other) { ignored_.add(id, other); }
+
+std::vector<Contact> DebrisWorld::sweep(double dt, Sweep what, double least_speed) {
+  if (!(dt > 0) || !std::isfinite(dt))
+    throw std::invalid_argument("sweep of " + std::to_string(dt) + " s; it must be above zero");
+  ignored_.release(dt, false);
+  std::vector<Contact> found;
+  if (what == Sweep::obstacles && scene_.obstacles.empty()) return found;
+  found = first_touches(scene_, ignored_, {what, dt, least_speed});
+  told_.mark_persistent(found);
+  std::sort(found.begin(), found.end(), [](const Contact& a, const Contact& b) {
+    if (a.time != b.time) return a.time < b.time;
+    return before_by_parts(a, b);
+  });
+  return found;
 }
 
-void DebrisWorld::wake_all() {
-  for (const BodyId id : order_) wake(id);
+std::optional<RayHit> DebrisWorld::ray_cast(const Vec3& from, const Vec3& to) const {
+  return collision::ray_cast(scene_, from, to);
 }
 
-void DebrisWorld::wake_touching(const Solid& solid) {
-  for (const std::uint32_t index : pairs_.order()) {
-    const NearPair& pair = pairs_.pair(index);
-    Solid *first = pairs_.collider(pair.first).solid, *second = pairs_.collider(pair.second).solid;
-    if (pair.manifold.count == 0 || (first != &solid && second != &solid)) continue;
-    for (Solid* touching : {first, second})
-      if (touching->kind == Touched::Kind::body) wake_up(static_cast<DebrisBody&>(*touching));
-  }
+std::vector<ObstacleId> DebrisWorld::obstacles_in(const Vec3& low, const Vec3& high) const {
+  return collision::obstacles_in(scene_, low, high);
 }
 
 std::unique_ptr<World> make_small_steps_world() {

@@ -47,7 +47,7 @@ struct DebrisSettings {
   double follow = 0.01;
 
   /// Of a part's own mass: what gives way where debris presses on a part that moves otherwise than in the substep
-  /// before. Below 4/3 of it forces between the two settle (collision/debris/debris_world_moving.cpp); a half leaves
+  /// before. Below 4/3 of it forces between the two settle (collision/debris/moving_obstacles.cpp); a half leaves
   /// room for a part whose end moves more easily than its middle. It decides how soon they settle, in substeps, and not
   /// on what.
   double share_of_part = 0.5;

@@ -1,12 +1,11 @@
-// What touched in the step and what that did; pairs that are ignored until separated.
+#include "debris/told_contacts.h"
+
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 
 #include "contacts/contact_order.h"
-#include "contacts/part_contacts.h"
-#include "debris/debris_world.h"
+#include "debris/body_motion.h"
 
 namespace topple::collision {
 
@@ -48,21 +47,8 @@ void merge(const Contact& more, Contact& sum) {
 
 }  // namespace
 
-/// Of a contact that the solver holds; null: no body, or one that sleeps.
-DebrisBody* DebrisWorld::moving(const SolverContact& solved, bool second) const {
-  const auto number = static_cast<std::size_t>(second ? solved.second : solved.first);
-  return number == 0 || number > solving_.size() ? nullptr : solving_[number - 1];
-}
-
-/// Kinetic and of height. Velocities are those of mid-step.
-double DebrisWorld::energy(const DebrisBody& one, double dt) const {
-  const Vec3 velocity = one.velocity + gravity_ * (dt / 2), spin = one.at.turn.transpose() * one.spin;
-  return one.mass * (velocity.squaredNorm() / 2 - gravity_.dot(one.at.position)) +
-         spin.dot(one.moments.cwiseProduct(spin)) / 2;
-}
-
 /// Where its impulse acted, in the mean over the step: the two have moved on since the step began.
-void DebrisWorld::place(const SolverContact& solved, double dt, Contact& contact) const {
+void ToldContacts::place(const SolverContact& solved, double dt, Contact& contact) const {
   contact.point = solved.centre;
   contact.moment = solved.moment + solved.carried;
   const double squared = solved.impulse.squaredNorm();
@@ -70,7 +56,7 @@ void DebrisWorld::place(const SolverContact& solved, double dt, Contact& contact
   Vec3 velocity = Vec3::Zero();
   int count = 0;
   for (const int number : {solved.first, solved.second})
-    if (number != 0) velocity += solver_.body(number).velocity, ++count;
+    if (number != 0) velocity += solved_.solver().body(number).velocity, ++count;
   const double time = std::clamp(solved.late.dot(solved.impulse) / squared, 0.0, dt);
   const Vec3 way = time / count * velocity;
   contact.point += way;
@@ -78,18 +64,18 @@ void DebrisWorld::place(const SolverContact& solved, double dt, Contact& contact
 }
 
 /// Whether it pushed or lay close, as its pair will know from now on.
-bool DebrisWorld::touches(const SolverContact& solved) {
+bool ToldContacts::touches(const SolverContact& solved) const {
   NearPair& pair = *solved.pair;
-  if (pair.told_in != step_number_) pair.persistent = pair.touches;
-  pair.told_in = step_number_;
+  if (pair.told_in != scene_.step_number) pair.persistent = pair.touches;
+  pair.told_in = scene_.step_number;
   pair.touches = !solved.impulse.isZero(0) || nearest(pair.manifold) <= kTouching;
   return pair.touches;
 }
 
-void DebrisWorld::tell(const SolverContact& solved, double dt, Contact& contact) const {
+void ToldContacts::tell(const SolverContact& solved, double dt, Contact& contact) const {
   const NearPair& pair = *solved.pair;
   const Manifold& manifold = pair.manifold;
-  const Collider &a = pairs_.collider(pair.first), &b = pairs_.collider(pair.second);
+  const Collider &a = scene_.pairs.collider(pair.first), &b = scene_.pairs.collider(pair.second);
   const SolidPart& part = a.solid->parts[static_cast<std::size_t>(a.part)];
   const SolidPart* other =
       pair.second == NearPairs::ground ? nullptr : &b.solid->parts[static_cast<std::size_t>(b.part)];
@@ -110,16 +96,14 @@ void DebrisWorld::tell(const SolverContact& solved, double dt, Contact& contact)
   const auto velocity_at = [&](bool second) -> Vec3 {
     const int number = second ? solved.second : solved.first;
     if (number == 0) return Vec3::Zero();
-    const SolverBody& moves = solver_.body(number);
+    const SolverBody& moves = solved_.solver().body(number);
     return moves.velocity + moves.acceleration * (dt / 2) + moves.spin.cross(solved.centre - moves.at.position);
   };
   contact.approach_speed = (velocity_at(false) - velocity_at(true)).dot(contact.normal);
 }
 
-/// But those of bodies that are left out, by their numbers in the solver.
-void DebrisWorld::tell_contacts(double dt, std::span<const char> left_out) {
+void ToldContacts::tell(std::span<SolverContact> solved, double dt, std::span<const char> left_out) {
   const auto is_left_out = [&](int number) { return !left_out.empty() && left_out[static_cast<std::size_t>(number)]; };
-  const std::span<SolverContact> solved = solver_.contacts();
   const auto each = [&](const auto& work) {
     region_.each(solved.size(), kContacts, [&](std::size_t i) {
       if (i + kAhead < solved.size()) prefetch_lines(*solved[i + kAhead].pair);
@@ -141,10 +125,10 @@ void DebrisWorld::tell_contacts(double dt, std::span<const char> left_out) {
 
 /// Impulses times the mean of the velocities before and after them, and what is missing to a body's change of energy in
 /// proportion to their sizes: velocities change within the step.
-void DebrisWorld::account_work(std::span<Island* const> islands, double dt) {
+void ToldContacts::account_work(std::span<Island* const> islands, double dt) {
   for (const Island* island : islands)
     for (DebrisBody* one : island->bodies) one->pushed = one->booked = 0;
-  const Vec3 half_kick = gravity_ * (dt / 2);
+  const Vec3 half_kick = scene_.gravity * (dt / 2);
   const auto work = [&](DebrisBody& on, const Vec3& impulse, const Vec3& moment) {  // taken out
     const double taken =
         -impulse.dot((on.velocity_before + on.velocity) / 2 + half_kick) - moment.dot((on.spin_before + on.spin) / 2);
@@ -152,12 +136,12 @@ void DebrisWorld::account_work(std::span<Island* const> islands, double dt) {
     on.pushed += impulse.norm() + kLeastPush;
     return taken;
   };
-  for (const SolverContact& solved : solver_.contacts()) {
+  for (const SolverContact& solved : solved_.solver().contacts()) {
     if (solved.told < 0) continue;
     for (const bool second : {false, true})
-      if (DebrisBody* on = moving(solved, second)) {
+      if (DebrisBody* on = solved_.body_of(solved, second)) {
         const Vec3 impulse = second ? solved.impulse : Vec3(-solved.impulse);
-        const SolverBody& moves = solver_.body(second ? solved.second : solved.first);
+        const SolverBody& moves = solved_.solver().body(second ? solved.second : solved.first);
         const Vec3 moment =
             (solved.centre - moves.at.position).cross(impulse) + (second ? solved.moment : Vec3(-solved.moment));
         contacts_[static_cast<std::size_t>(solved.told)].work_lost += work(*on, impulse, moment);
@@ -165,35 +149,33 @@ void DebrisWorld::account_work(std::span<Island* const> islands, double dt) {
   }
   for (const Island* island : islands) {
     for (DebrisHinge* hinge : island->hinges) {
-      hinge->work_lost += work(body(hinge->body), hinge->rows.force_total, hinge->rows.body_moment);
+      hinge->work_lost += work(scene_.body(hinge->body), hinge->rows.force_total, hinge->rows.body_moment);
       if (hinge->other >= 0)
-        hinge->work_lost += work(body(hinge->other), -hinge->rows.force_total, hinge->rows.holder_moment);
+        hinge->work_lost += work(scene_.body(hinge->other), -hinge->rows.force_total, hinge->rows.holder_moment);
     }
     for (DebrisCable* cable : island->cables)
-      cable->pull.work_lost += work(body(cable->body), cable->row.impulse, Vec3::Zero());
+      cable->pull.work_lost += work(scene_.body(cable->body), cable->row.impulse, Vec3::Zero());
   }
   const auto share = [&](const DebrisBody& on, double size) {
     if (!(on.pushed > 0)) return 0.0;
-    return size / on.pushed * (on.energy_before - (energy(on, dt) - on.swung) - on.booked);
+    return size / on.pushed * (on.energy_before - (energy(on, scene_.gravity, dt) - on.swung) - on.booked);
   };
-  for (const SolverContact& solved : solver_.contacts())
+  for (const SolverContact& solved : solved_.solver().contacts())
     for (const bool second : {false, true})
-      if (const DebrisBody* on = moving(solved, second); on && solved.told >= 0)
+      if (const DebrisBody* on = solved_.body_of(solved, second); on && solved.told >= 0)
         contacts_[static_cast<std::size_t>(solved.told)].work_lost += share(*on, solved.impulse.norm() + kLeastPush);
   for (const Island* island : islands) {
     for (DebrisHinge* hinge : island->hinges) {
       const double size = hinge->rows.force_total.norm() + kLeastPush;
-      hinge->work_lost += share(body(hinge->body), size);
-      if (hinge->other >= 0) hinge->work_lost += share(body(hinge->other), size);
+      hinge->work_lost += share(scene_.body(hinge->body), size);
+      if (hinge->other >= 0) hinge->work_lost += share(scene_.body(hinge->other), size);
     }
     for (DebrisCable* cable : island->cables)
-      cable->pull.work_lost += share(body(cable->body), cable->row.impulse.norm() + kLeastPush);
+      cable->pull.work_lost += share(scene_.body(cable->body), cable->row.impulse.norm() + kLeastPush);
   }
-  read_joints(islands, dt);
 }
 
-/// In order of ids and tags, one for each pair of parts.
-void DebrisWorld::merge_contacts() {
+void ToldContacts::merge_parts() {
   std::vector<std::uint32_t> order(contacts_.size());
   for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
   std::stable_sort(order.begin(), order.end(),
@@ -209,13 +191,13 @@ void DebrisWorld::merge_contacts() {
   contacts_.swap(merged);
 }
 
-void DebrisWorld::mark_persistent(std::vector<Contact>& found) const {
+void ToldContacts::mark_persistent(std::vector<Contact>& found) const {
   if (found.empty()) return;
   std::vector<decltype(parts_of(found[0]))> known;
-  for (const std::uint32_t index : pairs_.order()) {
-    const NearPair& pair = pairs_.pair(index);
+  for (const std::uint32_t index : scene_.pairs.order()) {
+    const NearPair& pair = scene_.pairs.pair(index);
     if (!pair.touches || pair.manifold.count == 0) continue;
-    const Collider &a = pairs_.collider(pair.first), &b = pairs_.collider(pair.second);
+    const Collider &a = scene_.pairs.collider(pair.first), &b = scene_.pairs.collider(pair.second);
     Contact contact;
     contact.body.value = a.solid->id;
     contact.part_tag = a.solid->parts[static_cast<std::size_t>(a.part)].tag;
@@ -227,86 +209,11 @@ void DebrisWorld::mark_persistent(std::vector<Contact>& found) const {
   for (Contact& contact : found) contact.persistent = std::binary_search(known.begin(), known.end(), parts_of(contact));
 }
 
-/// What goes within a step leaves its contacts to the account of that step.
-void DebrisWorld::forget_contacts_of(Touched::Kind kind, std::int64_t id) {
-  if (stepping_) return;
+void ToldContacts::forget(Touched::Kind kind, std::int64_t id) {
   std::erase_if(contacts_, [&](const Contact& contact) {
     if (kind == Touched::Kind::obstacle) return contact.other.obstacle.value == id;
     return contact.body.value == id || contact.other.body.value == id;
   });
-}
-
-void DebrisWorld::ignore_until_separated(BodyId id, const Touched& other) {
-  if (other.kind == Touched::Kind::ground)
-    throw std::invalid_argument("the ground cannot be ignored; accepted: a body, an obstacle");
-  SolidPair pair{id.value, other.kind, other.kind == Touched::Kind::body ? other.body.value : other.obstacle.value};
-  static_cast<void>(body(pair.body));
-  static_cast<void>(solid(pair));
-  if (pair.kind == Touched::Kind::body) {
-    if (pair.body == pair.other)
-      throw std::invalid_argument("body " + std::to_string(pair.body) + " cannot ignore itself");
-    if (pair.body > pair.other) std::swap(pair.body, pair.other);
-  }
-  // Told in every step (what hangs on a hinge and turns beside what holds it), it is ignored in every step: contacts
-  // push before parts touch.
-  const auto released = released_.find(pair);
-  const bool again = released != released_.end() && released->second + 1 >= step_number_;
-  const auto [entry, made] = ignored_.try_emplace(pair, again);
-  if (made)
-    ignore(pair, true);
-  else
-    entry->second = true;
-}
-
-void DebrisWorld::ignore(const SolidPair& pair, bool ignored) {
-  body(pair.body).ignored += ignored ? 1 : -1;
-  if (pair.kind == Touched::Kind::body) body(pair.other).ignored += ignored ? 1 : -1;
-}
-
-bool DebrisWorld::ignores(const Solid& first, const Solid& second) const {
-  if (static_cast<const DebrisBody&>(first).ignored == 0 || second.kind == Touched::Kind::ground) return false;
-  return ignored_.contains({first.id, second.kind, second.id});
-}
-
-void DebrisWorld::forget_ignored_of(Touched::Kind kind, std::int64_t id) {
-  for (auto pair = ignored_.begin(); pair != ignored_.end();) {
-    const SolidPair& who = pair->first;
-    const bool names = (who.kind == kind && who.other == id) || (kind == Touched::Kind::body && who.body == id);
-    if (names) ignore(who, false);
-    pair = names ? ignored_.erase(pair) : std::next(pair);
-  }
-}
-
-bool DebrisWorld::separated(const Solid& first, const Solid& second) {
-  const auto &a = static_cast<const TouchingSolid&>(first), &b = static_cast<const TouchingSolid&>(second);
-  for (const PartShape& shape : a.shapes)
-    for (const PartShape& other : b.shapes) {
-      if (!bounds_of(shape, a.at).meets(bounds_of(other, b.at))) continue;
-      SeparatingAxis axis;
-      Manifold manifold;
-      collide(shape, a.at, other, b.at, 0, axis, manifold);
-      if (manifold.count > 0) return false;
-    }
-  return true;
-}
-
-/// `about_to_step`: what was told again is ignored in the step that begins now, and after that if it is told once more.
-void DebrisWorld::release_separated(double dt, bool about_to_step) {
-  for (auto pair = ignored_.begin(); pair != ignored_.end();) {
-    const SolidPair& who = pair->first;
-    const DebrisBody& first = body(who.body);
-    const Solid& other = solid(who);
-    const bool other_moves = who.kind == Touched::Kind::body && !static_cast<const DebrisBody&>(other).asleep;
-    const bool moves = !first.asleep || other_moves;
-    const bool kept = pair->second;
-    if (about_to_step) pair->second = false;
-    const bool apart = !kept && moves && separated(first, other) && !still_to_pass(first, other, other_moves, dt);
-    if (apart) {
-      ignore(who, false);
-      released_[who] = step_number_;
-    }
-    pair = apart ? ignored_.erase(pair) : std::next(pair);
-  }
 }
 
 }  // namespace topple::collision

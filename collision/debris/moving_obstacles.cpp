@@ -1,63 +1,39 @@
-// Obstacles that move with a structure. Such an obstacle is a body of the solver for the length of one part of a step,
-// and then the structure says where it is and how fast.
-//
-// Within a part it goes on as it did in the last one, and where what touches it does otherwise it gives way as it would
-// by itself: the structure gives way by less, so that no energy comes of it. The force between a body and the structure
-// then goes to its true value by a factor sqrt(1 - q) for each part, q being the mobility of both over what was taken
-// for it; it grows where q is above 4/3. By how much the structure gives way its last two parts tell, where the force
-// on it changed between them by enough (a secant, as in partitioned schemes for fluids and structures; U. Kuettler, W.
-// A. Wall, Computational Mechanics 43 (2008), 61).
+#include "debris/moving_obstacles.h"
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <utility>
-
-#include "debris/debris_world.h"
 
 namespace topple::collision {
 
-void DebrisWorld::step(double dt, int parts, MovingStructure& structure) {
-  if (parts < 1) throw std::invalid_argument("a step of " + std::to_string(parts) + " parts; it has at least one");
-  advance(dt, parts, &structure);
-}
-
-/// To the structure, what touched it since contact number `told`; it goes on.
-void DebrisWorld::hand_over(double dt, std::size_t told, MovingStructure& structure) {
-  const std::vector<Contact> own(contacts_.begin() + static_cast<std::ptrdiff_t>(told), contacts_.end());
-  stepping_ = true;
-  structure.advance(dt, own);
-  stepping_ = false;
-}
-
 /// Those near bodies are asked for; what moved before and is near none any more is left where it is.
-void DebrisWorld::place_moving(double dt, MovingStructure& structure) {
-  update_bounds(dt);
-  pairs_.find();
+void MovingObstacles::place(double dt, MovingStructure& structure) {
   std::vector<std::int64_t> near;
-  for (const std::uint32_t index : pairs_.order()) {
-    const Solid* second = pairs_.collider(pairs_.pair(index).second).solid;
+  for (const std::uint32_t index : scene_.pairs.order()) {
+    const Solid* second = scene_.pairs.collider(scene_.pairs.pair(index).second).solid;
     if (second->kind == Touched::Kind::obstacle) near.push_back(second->id);
   }
   std::sort(near.begin(), near.end());
   near.erase(std::unique(near.begin(), near.end()), near.end());
-  const std::vector<std::int64_t> before = moving_obstacles_;
+  const std::vector<std::int64_t> before = scene_.moving_obstacles;
   for (const std::int64_t id : near) {
-    DebrisObstacle& one = obstacle(id);
+    DebrisObstacle& one = scene_.obstacle(id);
     if (const std::optional<ObstacleMotion> motion = structure.motion({id}))
       place(one, *motion, dt);
     else if (one.moves)
       stand_still(one);
   }
   for (const std::int64_t id : before)
-    if (!std::binary_search(near.begin(), near.end(), id)) stand_still(obstacle(id));
+    if (!std::binary_search(near.begin(), near.end(), id)) stand_still(scene_.obstacle(id));
 }
 
-void DebrisWorld::place(DebrisObstacle& one, const ObstacleMotion& motion, double dt) {
+void MovingObstacles::place(DebrisObstacle& one, const ObstacleMotion& motion, double dt) {
   const bool first = !one.moves;
   if (first) {
     one.moves = true;
-    moving_obstacles_.insert(std::lower_bound(moving_obstacles_.begin(), moving_obstacles_.end(), one.id), one.id);
+    scene_.moving_obstacles.insert(
+        std::lower_bound(scene_.moving_obstacles.begin(), scene_.moving_obstacles.end(), one.id), one.id);
     one.impulse = one.angular_impulse = one.force = one.moment = Vec3::Zero();
   }
   if (first || motion.held_anew) {
@@ -78,18 +54,19 @@ void DebrisWorld::place(DebrisObstacle& one, const ObstacleMotion& motion, doubl
   const Vec3 straight = motion.velocity * dt;
   const double spin = motion.angular_velocity.norm() * dt;
   for (std::size_t i = 0; i < one.parts.size(); ++i) {
-    Box3 bounds = bounds_of(one.shapes[i], one.at);
+    Box3 bounds = scene_.bounds_of(one.shapes[i], one.at);
     const Vec3 out = Vec3::Constant(spin * one.parts[i].reach);
     bounds.low += straight.cwiseMin(0) - out;
     bounds.high += straight.cwiseMax(0) + out;
-    pairs_.move(one.colliders[i], bounds, settings_.fat);
-    pairs_.note_way(one.colliders[i], one.gone, straight.norm() + spin * one.parts[i].reach, true);
+    scene_.pairs.move(one.colliders[i], bounds, scene_.settings.fat);
+    scene_.pairs.note_way(one.colliders[i], one.gone, straight.norm() + spin * one.parts[i].reach, true);
   }
 }
 
 /// From what it did in the last two parts of a step: the share of its own mobility that its accelerations show, and
 /// how much of the force goes on.
-void DebrisWorld::learn(DebrisObstacle& one, const ObstacleMotion& now, const Vec3& force, const Vec3& moment) const {
+void MovingObstacles::learn(DebrisObstacle& one, const ObstacleMotion& now, const Vec3& force,
+                            const Vec3& moment) const {
   const Mat3 inverse = now.inertia.inverse();
   const auto product = [&](const Vec3& a, const Vec3& turning_a, const Vec3& b, const Vec3& turning_b) {
     return a.dot(b) / now.mass + turning_a.dot(inverse * turning_b);
@@ -101,25 +78,25 @@ void DebrisWorld::learn(DebrisObstacle& one, const ObstacleMotion& now, const Ve
   const double alike = present > own ? 1 - std::sqrt(own / present) : 0;
   one.lasting = std::min(alike, std::exchange(one.alike, alike));  // a blow takes two parts
   if (one.known_for < 3) return;  // by how much its acceleration changed is not known yet
-  if (!(own > settings_.telling_change * std::max(before, present))) return;
+  if (!(own > scene_.settings.telling_change * std::max(before, present))) return;
   const double shown = more.dot(now.acceleration - one.motion.acceleration) +
                        more_moment.dot(now.angular_acceleration - one.motion.angular_acceleration);
-  if (shown > 0) one.gives_way = std::clamp(shown / own, settings_.gives_way_least, 1.0);
+  if (shown > 0) one.gives_way = std::clamp(shown / own, scene_.settings.gives_way_least, 1.0);
 }
 
-void DebrisWorld::stand_still(DebrisObstacle& one) {
+void MovingObstacles::stand_still(DebrisObstacle& one) {
   one.moves = false;
-  std::erase(moving_obstacles_, one.id);
+  std::erase(scene_.moving_obstacles, one.id);
   for (std::size_t i = 0; i < one.parts.size(); ++i) {
-    pairs_.move(one.colliders[i], bounds_of(one.shapes[i], one.at), 0);
-    pairs_.note_way(one.colliders[i], one.gone, 0, false);
+    scene_.pairs.move(one.colliders[i], scene_.bounds_of(one.shapes[i], one.at), 0);
+    scene_.pairs.note_way(one.colliders[i], one.gone, 0, false);
   }
 }
 
 /// Obstacles that the island touches, as bodies of the solver.
-void DebrisWorld::add_moving(const Island& island, double dt, double substep) {
+void MovingObstacles::add_to(StepSolver& solver, const Island& island, double dt, double substep) {
   for (const std::uint32_t index : island.pairs) {
-    Solid* const second = pairs_.collider(pairs_.pair(index).second).solid;
+    Solid* const second = scene_.pairs.collider(scene_.pairs.pair(index).second).solid;
     if (second->kind != Touched::Kind::obstacle) continue;
     auto& one = static_cast<DebrisObstacle&>(*second);
     if (!one.moves || one.solver > 0) continue;
@@ -139,43 +116,43 @@ void DebrisWorld::add_moving(const Island& island, double dt, double substep) {
         one.motion.velocity - moving.acceleration * (dt / 2) - one.lasting * by_force * one.force * (substep / 2);
     moving.spin =
         one.motion.angular_velocity - moving.angular_acceleration * (dt / 2) - one.lasting * by_moment * (substep / 2);
-    one.solver = solver_.add(moving);
+    one.solver = solver.add(moving);
   }
 }
 
 /// After a part of a step: what was done to the obstacles, and how they would go on by themselves.
-void DebrisWorld::press_moving(double dt) {
-  if (moving_obstacles_.empty()) return;
-  for (const SolverContact& solved : solver_.contacts()) {
+void MovingObstacles::take_from(const StepSolver& solver, double dt) {
+  if (scene_.moving_obstacles.empty()) return;
+  for (const SolverContact& solved : solver.contacts()) {
     if (solved.second == 0) continue;
-    Solid* const second = pairs_.collider(solved.pair->second).solid;
+    Solid* const second = scene_.pairs.collider(solved.pair->second).solid;
     if (second->kind != Touched::Kind::obstacle) continue;
     auto& one = static_cast<DebrisObstacle&>(*second);
     one.impulse += solved.impulse;
     one.angular_impulse += (solved.centre - one.pose.position).cross(solved.impulse) + solved.moment;
   }
-  for (const std::int64_t id : moving_obstacles_) {
-    DebrisObstacle& one = obstacle(id);
+  for (const std::int64_t id : scene_.moving_obstacles) {
+    DebrisObstacle& one = scene_.obstacle(id);
     if (one.solver <= 0) continue;
-    const SolverBody& moved = solver_.body(one.solver);
+    const SolverBody& moved = solver.body(one.solver);
     one.motion.velocity = moved.velocity + moved.acceleration * (dt / 2);
     one.motion.angular_velocity = moved.spin + moved.angular_acceleration * (dt / 2);
   }
 }
 
 /// What sleeps on something that moves at a noticeable speed goes along, awake.
-void DebrisWorld::wake_carried() {
-  if (moving_obstacles_.empty()) return;
-  for (const std::uint32_t index : touching_) {
-    const NearPair& pair = pairs_.pair(index);
-    const DebrisObstacle* const carrier = moving_obstacle(pairs_, pairs_.ends(index));
-    auto* const first = static_cast<DebrisBody*>(pairs_.collider(pair.first).solid);
+void MovingObstacles::wake_carried() {
+  if (scene_.moving_obstacles.empty()) return;
+  for (const std::uint32_t index : scene_.touching) {
+    const NearPair& pair = scene_.pairs.pair(index);
+    const DebrisObstacle* const carrier = moving_obstacle(scene_.pairs, scene_.pairs.ends(index));
+    auto* const first = static_cast<DebrisBody*>(scene_.pairs.collider(pair.first).solid);
     if (!carrier || !first->asleep) continue;
     const DebrisObstacle& one = *carrier;
     for (int i = 0; i < pair.manifold.count; ++i) {
       const Vec3 arm = one.at * pair.manifold.points[static_cast<std::size_t>(i)].on_second - one.pose.position;
       const Vec3 velocity = one.motion.velocity + one.motion.angular_velocity.cross(arm);
-      if (velocity.norm() > settings_.carries_from) wake_up(*first);
+      if (velocity.norm() > scene_.settings.carries_from) scene_.wake_up(*first);
     }
   }
 }

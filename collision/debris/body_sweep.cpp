@@ -1,14 +1,13 @@
-// What awake bodies will touch, rays, and queries of space. Nothing here moves anything.
+#include "debris/body_sweep.h"
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
-#include <stdexcept>
 #include <tuple>
 
 #include "contacts/apart.h"
 #include "contacts/contact_order.h"
-#include "debris/debris_world.h"
+#include "contacts/first_touch.h"
 
 namespace topple::collision {
 
@@ -54,10 +53,6 @@ btTransform transform_of(const Solid& solid) {
 
 Placement placement_of(const btTransform& at) { return {from_bullet(at.getOrigin()), from_bullet(at.getBasis())}; }
 
-bool is_awake(const Solid& solid) {
-  return solid.kind == Touched::Kind::body && !static_cast<const DebrisBody&>(solid).asleep;
-}
-
 /// No two points of them close faster than this within dt, m/s.
 double fastest_closing(const Solid& one, const Motion& motion, const Solid& other, const Motion& other_motion,
                        double dt) {
@@ -68,9 +63,7 @@ double fastest_closing(const Solid& one, const Motion& motion, const Solid& othe
 
 Box3 box_of(const Bounds& bounds) { return {from_bullet(bounds.low), from_bullet(bounds.high)}; }
 
-}  // namespace
-
-struct DebrisWorld::Mover {
+struct Mover {
   const DebrisBody* body = nullptr;
   Motion motion;
   Placement end;
@@ -79,29 +72,29 @@ struct DebrisWorld::Mover {
 };
 
 /// What a mover may meet: a solid with its motion, and those of its parts that are near.
-struct DebrisWorld::Met {
+struct Met {
   const Solid& solid;
   const Motion& motion;
   std::span<const SweptPart> parts;
 };
 
-Motion DebrisWorld::motion_of(const DebrisBody& body, double dt) const {
+Motion motion_of(const DebrisBody& body, const Vec3& gravity, double dt) {
   Motion motion;
   motion.start = transform_of(body);
   if (!body.asleep) {
     // What lies is borne in this step as in the last: it does not fall upon what is near. What was struck falls on.
-    const bool struck = body.acceleration.squaredNorm() > gravity_.squaredNorm();
-    const Vec3 acceleration = struck ? gravity_ : body.acceleration;
+    const bool struck = body.acceleration.squaredNorm() > gravity.squaredNorm();
+    const Vec3 acceleration = struck ? gravity : body.acceleration;
     motion.acceleration = to_bullet(acceleration);
     // Stored velocities are those of mid-step; they came from the middle of the last sub-step.
     const double substep = body.substep_rate > 0 ? 1 / body.substep_rate : 0;
-    motion.velocity = to_bullet(body.velocity + gravity_ * (dt / 2) + (acceleration - gravity_) * (substep / 2));
+    motion.velocity = to_bullet(body.velocity + gravity * (dt / 2) + (acceleration - gravity) * (substep / 2));
   }
   motion.angular_velocity = to_bullet(body.spin);
   return motion;
 }
 
-DebrisWorld::Mover DebrisWorld::mover_of(const DebrisBody& body, const Motion& motion, double duration) {
+Mover mover_of(const DebrisBody& body, const Motion& motion, double duration) {
   Mover mover;
   mover.body = &body;
   mover.motion = motion;
@@ -114,17 +107,6 @@ DebrisWorld::Mover DebrisWorld::mover_of(const DebrisBody& body, const Motion& m
   }
   return mover;
 }
-
-std::vector<DebrisWorld::Mover> DebrisWorld::movers(double dt) const {
-  std::vector<Mover> result;
-  for (const BodyId id : order_) {
-    const DebrisBody& one = body(id.value);
-    if (!one.asleep) result.push_back(mover_of(one, motion_of(one, dt), dt));
-  }
-  return result;
-}
-
-namespace {
 
 Contact contact_of(const Solid& body, std::int64_t tag, const Solid& other, std::int64_t other_tag,
                    const Touch& touch) {
@@ -150,22 +132,9 @@ void put_lower_first(Contact& contact) {
   contact.normal = -contact.normal;
 }
 
-}  // namespace
-
-void DebrisWorld::sweep_pair(const Mover& mover, const Met& met, const SweepRange& range,
-                             std::vector<Contact>& found) const {
-  const Solid& other = met.solid;
-  const bool other_first = other.kind == Touched::Kind::body && other.id < mover.body->id;
-  if (other_first ? ignores(other, *mover.body) : ignores(*mover.body, other)) return;
-  // Slow meetings are told of what stands: who lies down on it is told from who strikes it by the caller.
-  const double least = other.kind == Touched::Kind::body ? range.least_speed : 0;
-  find_touches(mover, met, {range.what, range.dt, least}, found);
-}
-
 /// Of each part of the one with each part of the other. What meets slowly matters beside what meets fast alone: a body
 /// that comes down on several places at once.
-void DebrisWorld::find_touches(const Mover& mover, const Met& met, const SweepRange& range,
-                               std::vector<Contact>& found) {
+void find_touches(const Mover& mover, const Met& met, const SweepRange& range, std::vector<Contact>& found) {
   const double dt = range.dt;
   const Solid& other = met.solid;
   const Motion& other_motion = met.motion;
@@ -194,44 +163,63 @@ void DebrisWorld::find_touches(const Mover& mover, const Met& met, const SweepRa
     for (const auto& [i, j] : slow) cast(i, j);
 }
 
-/// Whether they meet within this step or the next, faster than what rests does: one that is about to go through the
-/// other. (This step alone would not do: who is told at the end of a step to pass has yet to arrive.)
-bool DebrisWorld::still_to_pass(const DebrisBody& first, const Solid& other, bool other_moves, double dt) const {
-  const double ahead = 2 * dt;
-  Motion other_motion;
-  other_motion.start = transform_of(other);
-  if (other_moves) other_motion = motion_of(static_cast<const DebrisBody&>(other), dt);
-  const double resting_speed = 2 * gravity_.norm() * dt;
-  std::vector<Contact> found;
-  find_touches(mover_of(first, motion_of(first, dt), ahead),
-               {other, other_motion, swept_parts(other, other_motion, ahead)},
-               {Sweep::everything, ahead, resting_speed}, found);
-  return std::any_of(found.begin(), found.end(),
-                     [&](const Contact& contact) { return contact.approach_speed > resting_speed; });
+/// Awake bodies against what stands, what sleeps, the ground and each other.
+class BodySweep {
+ public:
+  BodySweep(const DebrisScene& scene, const IgnoredPairs& ignored) : scene_(scene), ignored_(ignored) {}
+  [[nodiscard]] std::vector<Mover> movers(double dt) const;
+  void sweep_ground(const Mover& mover, const SweepRange& range, std::vector<Contact>& found) const;
+  void sweep_standing(const Mover& mover, const SweepRange& range, std::vector<Contact>& found) const;
+  void sweep_movers(const std::vector<Mover>& movers, const SweepRange& range, std::vector<Contact>& found) const;
+
+ private:
+  void sweep_pair(const Mover& mover, const Met& other, const SweepRange& range, std::vector<Contact>& found) const;
+
+  const DebrisScene& scene_;
+  const IgnoredPairs& ignored_;
+};
+
+std::vector<Mover> BodySweep::movers(double dt) const {
+  std::vector<Mover> result;
+  for (const BodyId id : scene_.order) {
+    const DebrisBody& one = scene_.body(id.value);
+    if (!one.asleep) result.push_back(mover_of(one, motion_of(one, scene_.gravity, dt), dt));
+  }
+  return result;
 }
 
-void DebrisWorld::sweep_ground(const Mover& mover, const SweepRange& range, std::vector<Contact>& found) const {
-  if (!has_ground_ || mover.whole.low.z() > ground_height_) return;
+void BodySweep::sweep_pair(const Mover& mover, const Met& met, const SweepRange& range,
+                           std::vector<Contact>& found) const {
+  const Solid& other = met.solid;
+  const bool other_first = other.kind == Touched::Kind::body && other.id < mover.body->id;
+  if (other_first ? ignored_.ignores(other, *mover.body) : ignored_.ignores(*mover.body, other)) return;
+  // Slow meetings are told of what stands: who lies down on it is told from who strikes it by the caller.
+  const double least = other.kind == Touched::Kind::body ? range.least_speed : 0;
+  find_touches(mover, met, {range.what, range.dt, least}, found);
+}
+
+void BodySweep::sweep_ground(const Mover& mover, const SweepRange& range, std::vector<Contact>& found) const {
+  if (!scene_.ground.there || mover.whole.low.z() > scene_.ground.height) return;
   const double dt = range.dt;
-  if (fastest_closing(*mover.body, mover.motion, ground_, {}, dt) < range.least_speed) return;
+  if (fastest_closing(*mover.body, mover.motion, scene_.ground.solid, {}, dt) < range.least_speed) return;
   for (const auto& [i, bounds] : mover.parts) {
-    if (bounds.low.z() > ground_height_) continue;
+    if (bounds.low.z() > scene_.ground.height) continue;
     const SolidPart& part = mover.body->parts[i];
-    const std::optional<Touch> touch = first_touch_of_ground(part, mover.motion, ground_height_, dt);
-    if (touch) found.push_back(contact_of(*mover.body, part.tag, ground_, -1, *touch));
+    const std::optional<Touch> touch = first_touch_of_ground(part, mover.motion, scene_.ground.height, dt);
+    if (touch) found.push_back(contact_of(*mover.body, part.tag, scene_.ground.solid, -1, *touch));
   }
 }
 
-void DebrisWorld::sweep_standing(const Mover& mover, const SweepRange& range, std::vector<Contact>& found) const {
+void BodySweep::sweep_standing(const Mover& mover, const SweepRange& range, std::vector<Contact>& found) const {
   const auto [what, dt, least_speed] = range;
   const Box3 box = box_of(mover.whole);
   std::vector<const Collider*> near;  // in order of solids, and of their parts
   const auto take = [&](std::uint32_t index) {
-    const Collider& one = pairs_.collider(index);
-    if (one.fat.meets(box) && !is_awake(*one.solid)) near.push_back(&one);
+    const Collider& one = scene_.pairs.collider(index);
+    if (one.fat.meets(box) && !DebrisScene::awake(*one.solid)) near.push_back(&one);
   };
-  pairs_.each_in(box, true, take);
-  if (what == Sweep::everything && awake_count_ < order_.size()) pairs_.each_in(box, false, take);
+  scene_.pairs.each_in(box, true, take);
+  if (what == Sweep::everything && !scene_.all_awake()) scene_.pairs.each_in(box, false, take);
   std::sort(near.begin(), near.end(), [](const Collider* a, const Collider* b) { return a->order < b->order; });
   for (std::size_t begin = 0, end = 0; begin < near.size(); begin = end) {
     const Solid& other = *near[begin]->solid;
@@ -249,8 +237,8 @@ void DebrisWorld::sweep_standing(const Mover& mover, const SweepRange& range, st
   }
 }
 
-void DebrisWorld::sweep_movers(const std::vector<Mover>& movers, const SweepRange& range,
-                               std::vector<Contact>& found) const {
+void BodySweep::sweep_movers(const std::vector<Mover>& movers, const SweepRange& range,
+                             std::vector<Contact>& found) const {
   std::vector<const Mover*> by_x;
   for (const Mover& mover : movers) by_x.push_back(&mover);
   std::sort(by_x.begin(), by_x.end(), [](const Mover* a, const Mover* b) {
@@ -268,94 +256,33 @@ void DebrisWorld::sweep_movers(const std::vector<Mover>& movers, const SweepRang
   }
 }
 
-std::vector<Contact> DebrisWorld::sweep(double dt, Sweep what, double least_speed) {
-  if (!(dt > 0) || !std::isfinite(dt))
-    throw std::invalid_argument("sweep of " + std::to_string(dt) + " s; it must be above zero");
-  release_separated(dt, false);
-  std::vector<Contact> found;
-  if (what == Sweep::obstacles && obstacles_.empty()) return found;
-  const std::vector<Mover> awake = movers(dt);
-  const SweepRange range{what, dt, least_speed};
-  for (const Mover& mover : awake) sweep_standing(mover, range, found);
-  if (what == Sweep::everything) {
-    for (const Mover& mover : awake) sweep_ground(mover, range, found);
-    sweep_movers(awake, range, found);
-  }
-  for (Contact& contact : found) put_lower_first(contact);
-  mark_persistent(found);
-  std::sort(found.begin(), found.end(), [](const Contact& a, const Contact& b) {
-    if (a.time != b.time) return a.time < b.time;
-    return before_by_parts(a, b);
-  });
-  return found;
-}
-
-namespace {
-
-/// Where the ray enters the part, as a share of its way, and the outward normal there; in the solid's frame.
-std::optional<std::pair<double, Vec3>> enter(const PartShape& part, const Vec3& from, const Vec3& way) {
-  if (!part.polyhedron) {
-    const Vec3 arm = from - part.centre;
-    const double a = way.squaredNorm(), b = arm.dot(way), c = arm.squaredNorm() - part.radius * part.radius;
-    const double root = b * b - a * c;
-    if (root < 0 || c < 0) return std::nullopt;
-    const double share = (-b - std::sqrt(root)) / a;
-    if (share < 0 || share > 1) return std::nullopt;
-    return std::pair(share, Vec3((arm + share * way) / part.radius));
-  }
-  double first = -1, last = 1;
-  Vec3 normal = Vec3::Zero();
-  for (const Polyhedron::Face& face : part.polyhedron->faces) {
-    const double over = face.normal.dot(from) - face.offset, speed = face.normal.dot(way);
-    if (speed == 0 && over > 0) return std::nullopt;
-    if (speed == 0) continue;
-    const double share = -over / speed;
-    if (speed < 0 && share > first) first = share, normal = face.normal;
-    if (speed > 0) last = std::min(last, share);
-  }
-  if (first < 0 || first > last) return std::nullopt;
-  return std::pair(first, normal);
-}
-
 }  // namespace
 
-std::optional<RayHit> DebrisWorld::ray_cast(const Vec3& from, const Vec3& to) const {
-  const Vec3 way = to - from;
-  double nearest = 2;
-  std::uint64_t nearest_order = 0;
-  std::optional<RayHit> hit;
-  const auto take = [&](double share, std::uint64_t order, const Touched& what, const Vec3& normal) {
-    if (share > nearest || (share == nearest && order > nearest_order)) return;
-    nearest = share;
-    nearest_order = order;
-    hit = RayHit{what, from + share * way, normal, share * way.norm()};
-  };
-  const auto look_at = [&](std::uint32_t index) {
-    const Collider& one = pairs_.collider(index);
-    const btTransform at = transform_of(*one.solid);
-    const SolidPart& part = one.solid->parts[static_cast<std::size_t>(one.part)];
-    const Vec3 start = from_bullet(at.invXform(to_bullet(from)));
-    const Mat3 turn = from_bullet(at.getBasis());
-    if (const auto entered =
-            enter(static_cast<const TouchingSolid*>(one.solid)->shapes[static_cast<std::size_t>(one.part)], start,
-                  turn.transpose() * way))
-      take(entered->first, one.order, touched(*one.solid, part.tag), turn * entered->second);
-  };
-  const Box3 box{from.cwiseMin(to), from.cwiseMax(to)};
-  pairs_.each_in(box, true, look_at);
-  pairs_.each_in(box, false, look_at);
-  if (has_ground_ && from.z() > ground_height_ && to.z() <= ground_height_)
-    take((ground_height_ - from.z()) / way.z(), std::numeric_limits<std::uint64_t>::max(), touched(ground_, -1),
-         {0, 0, 1});
-  return hit;
+bool still_to_pass(const DebrisScene& scene, const DebrisBody& first, const Solid& other, bool other_moves, double dt) {
+  const double ahead = 2 * dt;
+  Motion other_motion;
+  other_motion.start = transform_of(other);
+  if (other_moves) other_motion = motion_of(static_cast<const DebrisBody&>(other), scene.gravity, dt);
+  const double resting_speed = 2 * scene.gravity.norm() * dt;
+  std::vector<Contact> found;
+  find_touches(mover_of(first, motion_of(first, scene.gravity, dt), ahead),
+               {other, other_motion, swept_parts(other, other_motion, ahead)},
+               {Sweep::everything, ahead, resting_speed}, found);
+  return std::any_of(found.begin(), found.end(),
+                     [&](const Contact& contact) { return contact.approach_speed > resting_speed; });
 }
 
-std::vector<ObstacleId> DebrisWorld::obstacles_in(const Vec3& low, const Vec3& high) const {
-  std::vector<ObstacleId> result;
-  pairs_.each_in({low, high}, true, [&](std::uint32_t index) { result.push_back({pairs_.collider(index).solid->id}); });
-  std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
-  return result;
+std::vector<Contact> first_touches(const DebrisScene& scene, const IgnoredPairs& ignored, const SweepRange& range) {
+  const BodySweep sweep(scene, ignored);
+  std::vector<Contact> found;
+  const std::vector<Mover> awake = sweep.movers(range.dt);
+  for (const Mover& mover : awake) sweep.sweep_standing(mover, range, found);
+  if (range.what == Sweep::everything) {
+    for (const Mover& mover : awake) sweep.sweep_ground(mover, range, found);
+    sweep.sweep_movers(awake, range, found);
+  }
+  for (Contact& contact : found) put_lower_first(contact);
+  return found;
 }
 
 }  // namespace topple::collision

@@ -1,0 +1,39 @@
+#pragma once
+// Which bodies sleep: those of islands that have been slow for some time and that forces within the friction cones
+// hold.
+#include <span>
+#include <vector>
+
+#include "debris/told_contacts.h"
+
+namespace topple::collision {
+
+class DebrisRest {
+ public:
+  DebrisRest(DebrisScene& scene, SolvedIslands& solved, ToldContacts& told)
+      : scene_(scene), solved_(solved), told_(told) {}
+
+  /// How long each body has stayed where it is: after each part of a step, `dt` long.
+  void watch(std::span<const Island> islands, double dt);
+  /// Before the step is solved: those of the islands whose bodies have been slow for some time stay where they are, if
+  /// there are forces that hold them. True when any fell asleep.
+  bool fall_asleep(std::span<Island> islands, double dt);
+  /// Bodies that fell asleep in this step know it until the next.
+  void begin_step();
+  /// Of the same, in a world that is a copy.
+  void copy(const DebrisRest& of) { slept_now_ = of.slept_now_; }
+
+ private:
+  [[nodiscard]] bool fall_asleep(Island& island, double dt);
+  [[nodiscard]] Island quiet_part(const Island& island) const;
+  [[nodiscard]] Island with_sleeping(const Island& island) const;
+  [[nodiscard]] Island awake_on(const Island& whole) const;
+  [[nodiscard]] bool swings(const DebrisBody& body) const;
+
+  DebrisScene& scene_;
+  SolvedIslands& solved_;
+  ToldContacts& told_;
+  std::vector<std::int64_t> slept_now_;  ///< bodies that fell asleep in this step
+};
+
+}  // namespace topple::collision

@@ -1,0 +1,119 @@
+#include "debris/debris_scene.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace topple::collision {
+
+namespace {
+
+[[noreturn]] void not_in_the_world(std::int64_t id, const char* what) {
+  throw std::out_of_range(std::string(what) + " " + std::to_string(id) + " is not in the world");
+}
+
+template <typename Map>
+auto& find(Map& map, std::int64_t id, const char* what) {
+  const auto found = map.find(id);
+  if (found == map.end()) not_in_the_world(id, what);
+  return *found->second;
+}
+
+template <class Map>
+void copy_each(const Map& from, Map& to) {
+  using Held = typename Map::mapped_type::element_type;
+  for (const auto& [id, held] : from) to.emplace_hint(to.end(), id, std::make_unique<Held>(*held));
+}
+
+}  // namespace
+
+DebrisScene::DebrisScene(const DebrisScene& of)
+    : settings(of.settings),
+      gravity(of.gravity),
+      moving_obstacles(of.moving_obstacles),
+      order(of.order),
+      awake_count(of.awake_count),
+      ground(of.ground),
+      step_number(of.step_number),
+      reading(of.reading) {
+  for (const auto& one : of.bodies) bodies.push_back(one ? std::make_unique<DebrisBody>(*one) : nullptr);
+  copy_each(of.obstacles, obstacles);
+  copy_each(of.hinges, hinges);
+  copy_each(of.cables, cables);
+  pairs.copy(of.pairs, [&](const Solid& solid) -> Solid* {
+    if (solid.kind == Touched::Kind::body) return &body(solid.id);
+    return solid.kind == Touched::Kind::obstacle ? static_cast<Solid*>(&obstacle(solid.id)) : &ground.solid;
+  });
+}
+
+DebrisBody& DebrisScene::body(std::int64_t id) const {
+  if (id < 0 || id >= std::ssize(bodies) || !bodies[static_cast<std::size_t>(id)]) not_in_the_world(id, "body");
+  return *bodies[static_cast<std::size_t>(id)];
+}
+
+DebrisObstacle& DebrisScene::obstacle(std::int64_t id) const { return find(obstacles, id, "obstacle"); }
+
+DebrisHinge& DebrisScene::hinge(std::int64_t id) const { return find(hinges, id, "hinge"); }
+
+DebrisCable& DebrisScene::cable(std::int64_t id) const { return find(cables, id, "cable"); }
+
+Box3 DebrisScene::bounds_of(const PartShape& shape, const Placement& at) {
+  const Vec3 centre = at * shape.centre, half = at.turn.cwiseAbs() * shape.half;
+  return {centre - half, centre + half};
+}
+
+void DebrisScene::wake_up(DebrisBody& woken) {
+  if (woken.asleep) {
+    ++awake_count;
+    woken.velocity += reading;
+    woken.acceleration = gravity;
+  }
+  woken.asleep = false;
+  woken.slow_for = woken.retry_rest = 0;
+  woken.rest_wait = settings.rest_again;
+  woken.position_then = woken.at.position;
+  woken.turn_then = woken.turn;
+}
+
+void DebrisScene::fall_asleep(DebrisBody& sleeping) {
+  if (!sleeping.asleep) --awake_count;
+  sleeping.asleep = true;
+}
+
+void DebrisScene::wake_all() {
+  for (const BodyId id : order) wake_up(body(id.value));
+}
+
+void DebrisScene::wake_touching(const Solid& solid) {
+  for (const std::uint32_t index : pairs.order()) {
+    const NearPair& pair = pairs.pair(index);
+    Solid *first = pairs.collider(pair.first).solid, *second = pairs.collider(pair.second).solid;
+    if (pair.manifold.count == 0 || (first != &solid && second != &solid)) continue;
+    for (Solid* one : {first, second})
+      if (one->kind == Touched::Kind::body) wake_up(static_cast<DebrisBody&>(*one));
+  }
+}
+
+/// What hangs together is awake together.
+void DebrisScene::wake_hinged() {
+  for (bool again = true; again;) {
+    again = false;
+    for (auto& [id, hinge] : hinges) {
+      if (hinge->other < 0) continue;
+      DebrisBody &one = body(hinge->body), &other = body(hinge->other);
+      if (one.asleep == other.asleep) continue;
+      wake_up(one.asleep ? one : other);
+      again = true;
+    }
+  }
+}
+
+bool DebrisScene::awake(const NearPair& pair) const {
+  return awake(*pairs.collider(pair.first).solid) || awake(*pairs.collider(pair.second).solid);
+}
+
+const Placement& DebrisScene::placement(const Solid& solid) {
+  static const Placement unplaced;
+  return solid.kind == Touched::Kind::ground ? unplaced : static_cast<const TouchingSolid&>(solid).at;
+}
+
+}  // namespace topple::collision

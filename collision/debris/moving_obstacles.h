@@ -1,0 +1,38 @@
+#pragma once
+// Obstacles that move with a structure. Such an obstacle is a body of the solver for the length of one part of a step,
+// and then the structure says where it is and how fast.
+//
+// Within a part it goes on as it did in the last one, and where what touches it does otherwise it gives way as it would
+// by itself: the structure gives way by less, so that no energy comes of it. The force between a body and the structure
+// then goes to its true value by a factor sqrt(1 - q) for each part, q being the mobility of both over what was taken
+// for it; it grows where q is above 4/3. By how much the structure gives way its last two parts tell, where the force
+// on it changed between them by enough (a secant, as in partitioned schemes for fluids and structures; U. Kuettler, W.
+// A. Wall, Computational Mechanics 43 (2008), 61).
+#include "debris/debris_scene.h"
+#include "debris/islands.h"
+#include "solver/step_solver.h"
+
+namespace topple::collision {
+
+class MovingObstacles {
+ public:
+  explicit MovingObstacles(DebrisScene& scene) : scene_(scene) {}
+
+  /// As a part of a step begins: those near bodies are asked for; what moved before and is near none any more is left
+  /// where it is. Pairs are those of now.
+  void place(double dt, MovingStructure& structure);
+  void stand_still(DebrisObstacle& obstacle);
+  /// Those that the island touches, as bodies of the solver.
+  void add_to(StepSolver& solver, const Island& island, double dt, double substep);
+  /// After a part of a step.
+  void take_from(const StepSolver& solver, double dt);
+  void wake_carried();
+
+ private:
+  void place(DebrisObstacle& obstacle, const ObstacleMotion& motion, double dt);
+  void learn(DebrisObstacle& obstacle, const ObstacleMotion& now, const Vec3& force, const Vec3& moment) const;
+
+  DebrisScene& scene_;
+};
+
+}  // namespace topple::collision

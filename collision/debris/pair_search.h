@@ -1,0 +1,36 @@
+#pragma once
+// What touches, or may within a step: bounds of what is awake, and contacts of pairs that are near.
+#include <cstdint>
+#include <vector>
+
+#include "debris/ignored_pairs.h"
+#include "solver/parallel_region.h"
+
+namespace topple::collision {
+
+class PairSearch {
+ public:
+  /// Shares its loops in `region`, when that is open.
+  PairSearch(DebrisScene& scene, const IgnoredPairs& ignored, ParallelRegion& region)
+      : scene_(scene), ignored_(ignored), region_(region) {}
+
+  /// Where what is awake may be within `dt`: which pairs are near.
+  void update_bounds(double dt);
+  void note_ways(double dt);
+  /// Contacts of all pairs that may have come together or apart since they were last looked at.
+  void seek_contacts();
+  /// DebrisScene::touching.
+  void find_touching();
+
+ private:
+  [[nodiscard]] double margin_of(const Collider& a, const Collider& b) const;
+  [[nodiscard]] bool is_due(const PairEnds& ends) const;
+  void seek(std::uint32_t index);
+
+  DebrisScene& scene_;
+  const IgnoredPairs& ignored_;
+  ParallelRegion& region_;
+  std::vector<std::uint32_t> due_;  ///< pairs to be looked at, in order
+};
+
+}  // namespace topple::collision

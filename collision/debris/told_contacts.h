@@ -1,0 +1,44 @@
+#pragma once
+// What a step tells of contacts: where they touched, what they pushed with, and what work was lost in them. With those
+// of hinges and cables the account of what the step took out of its bodies is whole.
+#include <span>
+#include <vector>
+
+#include "debris/solved_islands.h"
+
+namespace topple::collision {
+
+class ToldContacts {
+ public:
+  /// Shares its loops in `region`, when that is open.
+  ToldContacts(const DebrisScene& scene, const SolvedIslands& solved, ParallelRegion& region)
+      : scene_(scene), solved_(solved), region_(region) {}
+
+  void clear() { contacts_.clear(); }
+  /// Adds those that the solver holds, where things were when the step began; but those of bodies that are left out, by
+  /// their numbers in the solver.
+  void tell(std::span<SolverContact> solved, double dt, std::span<const char> left_out = {});
+  /// Once the bodies have moved on by `dt`.
+  void account_work(std::span<Island* const> islands, double dt);
+  /// In order of ids and tags, one for each pair of parts.
+  void merge_parts();
+  /// Of what has gone.
+  void forget(Touched::Kind kind, std::int64_t id);
+  /// Contact::persistent, of contacts that are foreseen.
+  void mark_persistent(std::vector<Contact>& found) const;
+  [[nodiscard]] const std::vector<Contact>& all() const { return contacts_; }
+  /// Of the same, in a world that is a copy.
+  void copy(const ToldContacts& of) { contacts_ = of.contacts_; }
+
+ private:
+  [[nodiscard]] bool touches(const SolverContact& solved) const;
+  void tell(const SolverContact& solved, double dt, Contact& contact) const;
+  void place(const SolverContact& solved, double dt, Contact& contact) const;
+
+  const DebrisScene& scene_;
+  const SolvedIslands& solved_;
+  ParallelRegion& region_;
+  std::vector<Contact> contacts_;
+};
+
+}  // namespace topple::collision

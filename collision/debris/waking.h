@@ -1,0 +1,31 @@
+#pragma once
+// What sleeps and is woken: by what comes upon it, and by a change of what presses on it.
+#include <span>
+
+#include "debris/pair_search.h"
+
+namespace topple::collision {
+
+class Waking {
+ public:
+  Waking(DebrisScene& scene, PairSearch& search) : scene_(scene), search_(search) {}
+
+  /// What an awake body comes upon within `dt`, before the step is solved: as a free body it takes the blow. What that
+  /// brings together is sought.
+  void wake_struck(double dt);
+  /// What a pair did in the last part of a step.
+  struct Push {
+    NearPair* pair;
+    Vec3 impulse;  ///< on the second, N s
+  };
+  /// Where what presses on what sleeps has changed.
+  void wake_changed(std::span<const Push> pushes, double dt);
+
+ private:
+  void wake_round(DebrisBody& struck, double momentum);
+
+  DebrisScene& scene_;
+  PairSearch& search_;
+};
+
+}  // namespace topple::collision
