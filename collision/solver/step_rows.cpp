@@ -1,4 +1,4 @@
-// Contacts as rows: in which order they are solved, packed by four, their arms and effective masses.
+// Contacts as rows: their arms and effective masses.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,145 +10,6 @@ namespace topple::collision {
 
 int StepSolver::domains_of(std::size_t contacts) const {
   return std::clamp(static_cast<int>(contacts) / settings_.contacts_of_domain, 1, settings_.most_domains);
-}
-
-ContactDomains StepSolver::find_domains() const {
-  const int most = domains_of(contacts_.size());
-  if (most == 1) return one_domain(contacts_.size());
-  std::vector<ContactEnds> ends;
-  ends.reserve(contacts_.size());
-  for (const SolverContact& contact : contacts_) ends.push_back({contact.first, contact.second});
-  return collision::find_domains(ends, ordered_, most);
-}
-
-/// Set by set of their domains, in each colour by colour: whoever takes a set goes through its packs in this order.
-void StepSolver::pack_contacts() {
-  ContactDomains domains = find_domains();
-  packs_.clear();
-  packed_.clear();
-  points_.clear();
-  colours_.clear();
-  sets_.clear();
-  used_.assign(bodies_.size(), 0);
-  for (const auto& set : domains.sets) {
-    sets_.push_back(packs_.size());
-    colour(set);
-    if (domains.sets.size() > 1) fill_last_packs();
-    for (const auto& list : by_colour_)
-      if (!list.empty()) fill_packs(list);
-  }
-  sets_.push_back(packs_.size());
-  colours_.push_back(packs_.size());
-  stages_ = std::move(domains.stages);
-}
-
-/// No body twice in a colour. In the order of contacts, so that it follows from handles.
-void StepSolver::colour(std::span<const std::uint32_t> set) {
-  for (auto& list : by_colour_) list.clear();
-  const auto word = [&](int body, std::size_t w) -> std::uint64_t {
-    if (w == 0) return used_[static_cast<std::size_t>(body)];
-    const auto beyond = used_beyond_.find(body);
-    return beyond == used_beyond_.end() || w > beyond->second.size() ? 0 : beyond->second[w - 1];
-  };
-  const auto mark = [&](int body, std::size_t chosen) {
-    if (body == 0) return;
-    const std::size_t w = chosen / 64;
-    const std::uint64_t bit = std::uint64_t{1} << (chosen % 64);
-    if (w == 0) {
-      used_[static_cast<std::size_t>(body)] |= bit;
-      return;
-    }
-    auto& beyond = used_beyond_[body];
-    if (beyond.size() < w) beyond.resize(w, 0);
-    beyond[w - 1] |= bit;
-  };
-  for (const std::uint32_t i : set) {
-    const SolverContact& contact = contacts_[i];
-    std::size_t chosen = 0;
-    for (std::size_t w = 0;; ++w) {
-      const std::uint64_t taken = word(contact.first, w) | word(contact.second, w);
-      if (taken == std::numeric_limits<std::uint64_t>::max()) continue;
-      chosen = 64 * w + static_cast<std::size_t>(__builtin_ctzll(~taken));
-      break;
-    }
-    mark(contact.first, chosen);
-    mark(contact.second, chosen);
-    if (by_colour_.size() <= chosen) by_colour_.resize(chosen + 1);
-    by_colour_[chosen].push_back(i);
-  }
-  // Few lanes of a pack stay without a point.
-  const auto points = [&](std::uint32_t i) { return contacts_[i].pair->manifold.count; };
-  for (auto& list : by_colour_)
-    std::stable_sort(list.begin(), list.end(), [&](std::uint32_t a, std::uint32_t b) { return points(a) > points(b); });
-  for (const std::uint32_t i : set)
-    for (const int body : {contacts_[i].first, contacts_[i].second}) used_[static_cast<std::size_t>(body)] = 0;
-  used_beyond_.clear();
-}
-
-/// The colours of a small set are short: lanes that stay free in the last pack of one take contacts of later colours.
-/// They are solved earlier then, which is no matter to one thread.
-void StepSolver::fill_last_packs() {
-  for (std::size_t c = 0; c + 1 < by_colour_.size(); ++c) {
-    auto& list = by_colour_[c];
-    const auto shares_body = [&](std::uint32_t i) {
-      const SolverContact& contact = contacts_[i];
-      return std::any_of(list.end() - static_cast<std::ptrdiff_t>(list.size() % kLanes), list.end(),
-                         [&](std::uint32_t other) {
-                           const SolverContact& of = contacts_[other];
-                           return (contact.first != 0 && (contact.first == of.first || contact.first == of.second)) ||
-                                  (contact.second != 0 && (contact.second == of.first || contact.second == of.second));
-                         });
-    };
-    for (std::size_t later = by_colour_.size() - 1; later > c && list.size() % kLanes != 0; --later) {
-      auto& from = by_colour_[later];
-      for (std::size_t i = 0; i < from.size() && list.size() % kLanes != 0;)
-        if (shares_body(from[i])) {
-          ++i;
-        } else {
-          list.push_back(from[i]);
-          from.erase(from.begin() + static_cast<std::ptrdiff_t>(i));
-        }
-    }
-  }
-}
-
-namespace {
-bool share_no_body(const ContactPack& one, const ContactPack& other) {
-  const auto has = [](const int* bodies, int body) {
-    return body != 0 && (bodies[0] == body || bodies[1] == body || bodies[2] == body || bodies[3] == body);
-  };
-  bool shared = false;
-  for (const int* mine : {one.first_body, one.second_body})
-    for (int lane = 0; lane < kLanes; ++lane)
-      shared = shared || has(other.first_body, mine[lane]) || has(other.second_body, mine[lane]);
-  return !shared;
-}
-}  // namespace
-
-/// Of one colour.
-void StepSolver::fill_packs(std::span<const std::uint32_t> list) {
-  colours_.push_back(packs_.size());
-  const auto points = [&](std::uint32_t i) { return contacts_[i].pair->manifold.count; };
-  for (std::size_t begin = 0; begin < list.size(); begin += kLanes) {
-    ContactPack& pack = packs_.emplace_back();
-    pack.first_point = points_.size();
-    for (std::size_t i = begin; i < std::min(begin + kLanes, list.size()); ++i)
-      pack.point_count = std::max(pack.point_count, points(list[i]));
-    points_.resize(points_.size() + static_cast<std::size_t>(pack.point_count), PackPoint{});
-    packed_.resize(packed_.size() + kLanes, kNone);
-    for (std::size_t lane = 0; lane < kLanes && begin + lane < list.size(); ++lane) {
-      SolverContact& contact = contacts_[list[begin + lane]];
-      packed_[packed_.size() - kLanes + lane] = list[begin + lane];
-      contact.pack = static_cast<int>(packs_.size()) - 1;
-      contact.lane = static_cast<int>(lane);
-      pack.first_body[lane] = contact.first;
-      pack.second_body[lane] = contact.second;
-    }
-    if (packs_.size() > 1) {
-      ContactPack& before = packs_[packs_.size() - 2];
-      before.apart_from_next = share_no_body(before, pack);
-    }
-  }
 }
 
 namespace {
@@ -165,7 +26,7 @@ void SolverContact::find_places() {
 }
 
 void StepSolver::prepare(SolverContact& contact) {
-  ContactPack& pack = packs_[static_cast<std::size_t>(contact.pack)];
+  ContactPack& pack = pack_of(contact);
   const int lane = contact.lane;
   const bool stands = contact.first == 0 || contact.second == 0;
   const double frequency = 1 / (settings_.stiffness * h_) * (stands ? settings_.standing_stiffer : 1);
@@ -200,7 +61,7 @@ void StepSolver::prepare_points(SolverContact& contact, ContactPack& pack, doubl
   const Vec3 first_spin = spin(contact.first), second_spin = spin(contact.second);
   for (int i = 0; i < manifold.count; ++i) {
     const ManifoldPoint& point = manifold.points[static_cast<std::size_t>(i)];
-    PackPoint& row = points_[pack.first_point + static_cast<std::size_t>(i)];
+    PackPoint& row = packing_.points()[pack.first_point + static_cast<std::size_t>(i)];
     const Vec3& place = contact.places[static_cast<std::size_t>(i)];
     const Vec3 a = first.scaled_moment((place - first.at.position).cross(n)),
                b = second.scaled_moment((place - second.at.position).cross(n));

@@ -47,14 +47,16 @@ void StepSolver::each_body(const Work& work) {
 /// Those of a pack by one thread.
 template <class Work>
 void StepSolver::each_contact(const Work& work) {
-  region_.each(packs_.size(), kPacks, [&](std::size_t pack) {
+  constexpr std::uint32_t none = ContactPacking::kNone;
+  const std::vector<std::uint32_t>& packed = packing_.packed();
+  region_.each(packing_.packs().size(), kPacks, [&](std::size_t pack) {
     // Contacts of a pack are far from each other in memory, and so are their pairs.
-    for (std::size_t k = kLanes * (pack + 1); k < std::min(kLanes * (pack + 2), packed_.size()); ++k)
-      if (packed_[k] != kNone) prefetch_lines(*contacts_[packed_[k]].pair);
-    for (std::size_t k = kLanes * (pack + 2); k < std::min(kLanes * (pack + 3), packed_.size()); ++k)
-      if (packed_[k] != kNone) prefetch_lines(contacts_[packed_[k]]);
+    for (std::size_t k = kLanes * (pack + 1); k < std::min(kLanes * (pack + 2), packed.size()); ++k)
+      if (packed[k] != none) prefetch_lines(*contacts_[packed[k]].pair);
+    for (std::size_t k = kLanes * (pack + 2); k < std::min(kLanes * (pack + 3), packed.size()); ++k)
+      if (packed[k] != none) prefetch_lines(contacts_[packed[k]]);
     for (std::size_t k = kLanes * pack; k < kLanes * (pack + 1); ++k)
-      if (packed_[k] != kNone) work(contacts_[packed_[k]]);
+      if (packed[k] != none) work(contacts_[packed[k]]);
   });
 }
 
@@ -88,10 +90,13 @@ void StepSolver::unscale_bodies(double dt) {
 /// True where a point has changed by more than `settled`.
 bool StepSolver::each_pack(ContactKernels::Pass pass, const SubStep& step, std::vector<Motion6>& velocity) {
   std::atomic<bool> unsettled{false};
-  for (std::size_t stage = 0; stage + 1 < stages_.size(); ++stage)
-    region_.loop(stages_[stage + 1] - stages_[stage], 1, [&](std::size_t begin, std::size_t end) {
-      const std::size_t first = sets_[stages_[stage] + begin], past = sets_[stages_[stage] + end];
-      if (pass(packs_.data(), points_.data(), first, past, velocity.data(), displacement_.data(), step))
+  const std::vector<std::size_t>&sets = packing_.sets(), &stages = packing_.stages();
+  ContactPack* const packs = packing_.packs().data();
+  PackPoint* const points = packing_.points().data();
+  for (std::size_t stage = 0; stage + 1 < stages.size(); ++stage)
+    region_.loop(stages[stage + 1] - stages[stage], 1, [&](std::size_t begin, std::size_t end) {
+      const std::size_t first = sets[stages[stage] + begin], past = sets[stages[stage] + end];
+      if (pass(packs, points, first, past, velocity.data(), displacement_.data(), step))
         unsettled.store(true, std::memory_order_relaxed);
     });
   return unsettled;
@@ -110,10 +115,11 @@ void StepSolver::begin_sub_step(int number) {
 
 /// Of the last pass, J: in the order of points, colour by colour.
 double StepSolver::energy_of_changes() {
-  colour_energies_.assign(colours_.size() - 1, 0);
+  const std::vector<std::size_t>& colours = packing_.colours();
+  colour_energies_.assign(colours.size() - 1, 0);
   region_.each(colour_energies_.size(), 1, [&](std::size_t c) {
     Wide sum{};
-    for (std::size_t i = packs_[colours_[c]].first_point; i < end_of_points(colours_[c + 1]); ++i)
+    for (std::size_t i = packing_.packs()[colours[c]].first_point; i < packing_.end_of_points(colours[c + 1]); ++i)
       sum += energies_[i].value;
     colour_energies_[c] = sum[0] + sum[1] + sum[2] + sum[3];
   });
@@ -131,9 +137,10 @@ void StepSolver::stop_closing(SubStep step) {
   bool unsettled = each_pack(kernels.solve, step);
   step.first = false;
   if (!unsettled) return;
-  changes_.assign(points_.size(), PackWide{});
-  ways_.assign(points_.size(), PackWide{});
-  energies_.resize(points_.size());
+  const std::size_t points = packing_.points().size();
+  changes_.assign(points, PackWide{});
+  ways_.assign(points, PackWide{});
+  energies_.resize(points);
   again.change = &changes_.data()->value;
   again.way = &ways_.data()->value;
   again.energy = &energies_.data()->value;
@@ -223,14 +230,14 @@ void StepSolver::move(SubStep step) {
 }
 
 void StepSolver::store_contact(SolverContact& contact, double dt) {
-  const ContactPack& pack = packs_[static_cast<std::size_t>(contact.pack)];
+  const ContactPack& pack = pack_of(contact);
   const int lane = contact.lane;
   Manifold& manifold = contact.pair->manifold;
   double total = 0;
   contact.centre.setZero();
   for (int i = 0; i < manifold.count; ++i) {
     ManifoldPoint& point = manifold.points[static_cast<std::size_t>(i)];
-    const PackPoint& row = points_[pack.first_point + static_cast<std::size_t>(i)];
+    const PackPoint& row = packing_.points()[pack.first_point + static_cast<std::size_t>(i)];
     point.impulse = row.impulse[lane] / h_;
     point.force = row.total[lane] / dt;
     total += row.total[lane];
@@ -260,7 +267,7 @@ void StepSolver::store_contact(SolverContact& contact, double dt) {
 void StepSolver::run(double dt, int substeps) {
   h_ = dt / substeps;
   scale_bodies(dt);
-  pack_contacts();
+  packing_.pack(contacts_, bodies_.size(), ordered_, domains_of(contacts_.size()));
   each_contact([&](SolverContact& contact) { prepare(contact); });
   for (HingeRows* hinge : hinges_) hinge->begin_step(h_);
   for (int i = 0; i < substeps; ++i) sub_step(i);

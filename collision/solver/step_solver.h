@@ -7,45 +7,18 @@
 //
 // Velocities inside are those of the middle of a sub-step, so that free flight is exact. Forces are the sums over
 // sub-steps of what was applied: they balance weight and momentum to rounding.
-#include <array>
 #include <cstdint>
-#include <map>
 #include <span>
 #include <vector>
 
-#include "contacts/near_pairs.h"
 #include "solver/cable_row.h"
-#include "solver/contact_domains.h"
-#include "solver/contact_packs.h"
+#include "solver/contact_packing.h"
 #include "solver/hinge_rows.h"
 #include "solver/parallel_region.h"
 #include "solver/solver_body.h"
 #include "solver/solver_settings.h"
 
 namespace topple::collision {
-
-/// A touching pair, and what the step did to it.
-struct SolverContact {
-  NearPair* pair = nullptr;
-  int first = 0, second = 0;  ///< solver bodies; 0: what stands
-  const Placement *first_at = nullptr, *second_at = nullptr;
-  double friction = 0, restitution = 0;
-  // Where it lies in the packs.
-  int pack = -1, lane = 0;
-  std::array<Vec3, Manifold::most> places;  ///< of its points when the step began, global
-  int told = -1;                            ///< which of the world's contacts tells of it
-  // After the step.
-  Vec3 impulse = Vec3::Zero();  ///< on the second, N s
-  Vec3 centre = Vec3::Zero();   ///< of the normal impulses
-  Vec3 moment = Vec3::Zero();   ///< on the second about the centre, N m s: about the normal
-  Vec3 anchor = Vec3::Zero();   ///< where friction acts
-  double lever = 0;             ///< m: mean distance of its points from there; a twist counts as a force there
-  Vec3 late = Vec3::Zero();     ///< N s2: the impulse times the step, less what of that moved the bodies
-  Vec3 carried = Vec3::Zero();  ///< N m s on the second, about any fixed point: it acted while the two moved on
-  double load = 0;              ///< m/s2: the largest force of a point over its effective mass
-
-  void find_places();
-};
 
 class Equilibrium;
 struct RestContact;
@@ -88,11 +61,6 @@ class StepSolver {
     double bias_rate, mass_scale, impulse_scale;
   };
   [[nodiscard]] static Softness softness(double frequency, double damping, double h);
-  [[nodiscard]] ContactDomains find_domains() const;
-  void pack_contacts();
-  void colour(std::span<const std::uint32_t> set);
-  void fill_last_packs();
-  void fill_packs(std::span<const std::uint32_t> list);
   void prepare(SolverContact& contact);
   void prepare_points(SolverContact& contact, ContactPack& pack, double h);
   void prepare_friction(SolverContact& contact, ContactPack& pack, double h);
@@ -101,16 +69,15 @@ class StepSolver {
   void begin_sub_step(int number);
   bool each_pack(ContactKernels::Pass pass, const SubStep& step) { return each_pack(pass, step, velocity_); }
   bool each_pack(ContactKernels::Pass pass, const SubStep& step, std::vector<Motion6>& velocity);
+  [[nodiscard]] ContactPack& pack_of(const SolverContact& contact) {
+    return packing_.packs()[static_cast<std::size_t>(contact.pack)];
+  }
   /// Calls work(number), and work(contact), side by side.
   template <class Work>
   void each_body(const Work& work);
   template <class Work>
   void each_contact(const Work& work);
   [[nodiscard]] double energy_of_changes();
-  /// One past the last point of the packs before this one.
-  [[nodiscard]] std::size_t end_of_points(std::size_t pack) const {
-    return pack < packs_.size() ? packs_[pack].first_point : points_.size();
-  }
   void stop_closing(SubStep step);
   void relax(SubStep step);
   void move(SubStep step);
@@ -122,8 +89,6 @@ class StepSolver {
   void store_contact(SolverContact& contact, double dt);
   void unscale_bodies(double dt);
   void keep_angular_momentum();
-
-  static constexpr std::uint32_t kNone = 0xffffffff;
 
   const SolverSettings& settings_;
   ParallelRegion& region_;
@@ -137,17 +102,10 @@ class StepSolver {
   // Hot.
   std::vector<Motion6> velocity_, displacement_, kick_, pushed_, begun_;
   std::vector<Motion6> moving_, ignored_;  ///< velocities by which bodies move, and what joints changed of those
-  std::vector<ContactPack> packs_;
-  std::vector<PackPoint> points_;
-  std::vector<std::uint32_t> packed_;                ///< contact of each lane of each pack, or kNone
+  ContactPacking packing_;
   std::vector<PackWide> changes_, ways_, energies_;  ///< of points, where passes are repeated
   std::vector<double> colour_energies_;
   std::vector<unsigned char> moved_, moves_;  ///< of bodies, where passes are repeated
-  std::vector<std::size_t> sets_, stages_;    ///< first pack of each, first set of each, and the ends (ContactDomains)
-  std::vector<std::size_t> colours_;          ///< first pack of each in each set, and the end
-  std::vector<std::vector<std::uint32_t>> by_colour_;
-  std::vector<std::uint64_t> used_;                        ///< of each body: its colours, a bit each, the first 64 ...
-  std::map<int, std::vector<std::uint64_t>> used_beyond_;  ///< ... and those beyond, of the few that have more
 };
 
 }  // namespace topple::collision
