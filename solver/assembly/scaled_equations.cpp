@@ -1,6 +1,7 @@
 #include "assembly/scaled_equations.h"
 
 #include <stdexcept>
+#include <utility>
 
 namespace topple::solver {
 
@@ -19,6 +20,24 @@ Eigen::VectorXd scaled_displacements(const FrameSystem& system, const std::vecto
     }
   }
   return x;
+}
+
+std::vector<NodeLoad> node_loads_of_scaled(const FrameSystem& system, const Eigen::VectorXd& force) {
+  const DofMap& dofs = system.dofs();
+  Eigen::VectorXd left = force.cwiseQuotient(scale_of(system));
+  std::vector<NodeLoad> loads;
+  for (std::size_t k = 0; k < system.model.nodes.size(); ++k) {
+    if (system.node_stands[k] == 0) continue;
+    NodeLoad load;
+    load.node = static_cast<int>(k);
+    for (std::size_t c = 0; c < 6; ++c) {
+      const int e = dofs.number[k][c];
+      if (e < dofs.equations) load.load(static_cast<Eigen::Index>(c)) = std::exchange(left(e), 0);
+    }
+    load.load.tail<3>() -= dofs.diaphragm_arm(load.node).transpose() * load.load.head<3>();
+    if (!load.load.isZero(0)) loads.push_back(load);
+  }
+  return loads;
 }
 
 }  // namespace topple::solver

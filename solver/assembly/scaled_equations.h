@@ -26,5 +26,8 @@ inline void scale_force(const FrameSystem& system, const Eigen::VectorXd& force,
 
 /// The equations' displacements (not forces) from those of nodes; of a diaphragm from its first node that stands.
 [[nodiscard]] Eigen::VectorXd scaled_displacements(const FrameSystem& system, const std::vector<Vec6>& per_node);
+/// Loads on nodes that make this scaled force on the equations, whatever their numbers are by then; that on a
+/// diaphragm acts at its first node that stands.
+[[nodiscard]] std::vector<NodeLoad> node_loads_of_scaled(const FrameSystem& system, const Eigen::VectorXd& force);
 
 }  // namespace topple::solver

@@ -164,7 +164,7 @@ int FrameDynamics::add_holding_force() {
   multiply<1>(state.system().mass(), u, Mu);
   Eigen::VectorXd force = (Au.row(0) - state.method.s * Mu.row(0)).transpose() - state.constant_load;
   state.kinks.subtract(force);
-  return state.patterns.add_holding(std::move(force));
+  return state.patterns.add_holding(state.system(), std::move(force));
 }
 
 void FrameDynamics::set_pattern(int pattern, double value_at_end) { state_->patterns.set(pattern, value_at_end); }

@@ -27,9 +27,10 @@ int LoadPatterns::add_ground(const Vec3& direction) {
   return add(std::move(pattern));
 }
 
-int LoadPatterns::add_holding(Eigen::VectorXd force) {
+int LoadPatterns::add_holding(const FrameSystem& system, Eigen::VectorXd force) {
   Pattern pattern;
   pattern.kind = Pattern::Kind::holding;
+  pattern.loads.nodes = node_loads_of_scaled(system, force);
   pattern.force = std::move(force);
   return add(std::move(pattern));
 }
@@ -51,7 +52,7 @@ void LoadPatterns::accept() {
 }
 
 void LoadPatterns::find(const FrameSystem& system, Pattern& pattern) {
-  if (pattern.kind == Pattern::Kind::loads) {
+  if (pattern.kind != Pattern::Kind::ground) {
     LoadVector load = load_vector(system, pattern.loads);
     system.drop_idle_loads(load);
     pattern.force = scaled_force(system, load.force);
@@ -60,7 +61,6 @@ void LoadPatterns::find(const FrameSystem& system, Pattern& pattern) {
       pattern.fixed_end.insert_or_assign(one.beam, load.beam_fixed_end[static_cast<std::size_t>(one.beam)]);
     return;
   }
-  if (pattern.kind == Pattern::Kind::holding) return;
   const MassMatrix directions(system, MassModel());
   SideBySide<1> along = SideBySide<1>::Zero(1, system.dofs().equations), product;
   for (int c = 0; c < 3; ++c)
@@ -81,12 +81,6 @@ void LoadPatterns::forget() {
 
 void LoadPatterns::forget_equations() {
   for (Pattern& pattern : patterns_) pattern.force.resize(0);
-}
-
-void LoadPatterns::rescale(const Eigen::VectorXd& ratio) {
-  forget();
-  for (Pattern& pattern : patterns_)
-    if (pattern.kind == Pattern::Kind::holding) pattern.force = pattern.force.cwiseProduct(ratio);
 }
 
 void LoadPatterns::add_to(double start, Eigen::VectorXd& load) const {

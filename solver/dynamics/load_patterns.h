@@ -14,8 +14,9 @@ class LoadPatterns {
   [[nodiscard]] int add(const LoadSet& loads);
   /// Inertia of what stands, against a ground that accelerates along this direction.
   [[nodiscard]] int add_ground(const Vec3& direction);
-  /// A force on the scaled equations, as it is.
-  [[nodiscard]] int add_holding(Eigen::VectorXd force);
+  /// A force on the scaled equations, as it is. It stays with the nodes: a freedom that a support holds from then on
+  /// takes none of it, one that a support lets go is given none.
+  [[nodiscard]] int add_holding(const FrameSystem& system, Eigen::VectorXd force);
   /// At the end of the next substep.
   void set(int pattern, double value_at_end) { patterns_.at(static_cast<std::size_t>(pattern)).next = value_at_end; }
   /// At once.
@@ -28,10 +29,8 @@ class LoadPatterns {
   void find(const FrameSystem& system);
   /// The structure is another one.
   void forget();
-  /// So are its equations.
+  /// So are its equations, or their scale.
   void forget_equations();
-  /// The scale of the equations is another one, by these factors.
-  void rescale(const Eigen::VectorXd& ratio);
 
   /// Adds the scaled forces at the share `start` of the start of the substep and the rest of its end.
   void add_to(double start, Eigen::VectorXd& load) const;
@@ -41,7 +40,7 @@ class LoadPatterns {
  private:
   struct Pattern {
     enum class Kind { loads, ground, holding } kind = Kind::loads;
-    LoadSet loads;
+    LoadSet loads;  ///< of a holding force: on nodes
     Vec3 direction = Vec3::Zero();
     std::map<int, Vec12> fixed_end;  ///< per loaded beam, local, for a value of 1
     Eigen::VectorXd force;           ///< scaled; empty: to be found

@@ -96,7 +96,7 @@ void FrameDynamics::State::set_method(const GeneralizedAlpha& other) {
   for (Eigen::VectorXd* motion : {&before.u, &before.v, &before.a}) *motion = motion->cwiseQuotient(ratio);
   now = before;
   substep_load.setZero(equations());
-  patterns.rescale(ratio);
+  patterns.forget_equations();
   forget_motion();
   kinks.find_anew(system());
 }
