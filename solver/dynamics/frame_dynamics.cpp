@@ -164,6 +164,10 @@ int FrameDynamics::add_holding_force() {
   multiply<1>(state.system().mass(), u, Mu);
   Eigen::VectorXd force = (Au.row(0) - state.method.s * Mu.row(0)).transpose() - state.constant_load;
   state.kinks.subtract(force);
+  if (state.options.second_order) {
+    state.know_nodes();
+    force -= state.find_geometric_load(state.nodes.end().u, true);
+  }
   return state.patterns.add_holding(state.system(), std::move(force));
 }
 

@@ -178,20 +178,25 @@ class Analysis {
     return solutions;
   }
 
+  [[nodiscard]] MotionRequest motion_request() const {
+    MotionRequest motion = request_.losses.motion;
+    motion.second_order = motion.second_order || request_.second_order != solver::SecondOrder::none;
+    return motion;
+  }
+
   void find_losses_asked_for(AnalysisResult& result) const {
     if (!request_.losses.any()) return;
     const auto start = std::chrono::steady_clock::now();
-    result.losses = find_losses(building_, combinations_, request_.losses, request_.solver);
+    LossRequest losses = request_.losses;
+    losses.motion = motion_request();
+    result.losses = find_losses(building_, combinations_, losses, request_.solver);
     result.loss_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
 
   void find_motions_asked_for(AnalysisResult& result) const {
     if (!request_.time_history) return;
-    if (request_.second_order != solver::SecondOrder::none)
-      throw InputError(building_.file + ": time histories are found by first order; accepted: no --p-delta");
     const auto start = std::chrono::steady_clock::now();
-    result.motions =
-        find_motions(building_, combinations_, *request_.time_history, request_.losses.motion, request_.solver);
+    result.motions = find_motions(building_, combinations_, *request_.time_history, motion_request(), request_.solver);
     result.loss_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
 

@@ -7,6 +7,8 @@
 #include "mesh/shell_edges.h"
 #include "model/index_of.h"
 #include "model/panel_area.h"
+#include "standing/statics/displaced_rest.h"
+#include "topple/solver/geometric_forces.h"
 #include "topple/structure/error.h"
 
 namespace topple::structure {
@@ -112,10 +114,58 @@ void DamagedFrame::write_loads() {
     for (solver::BeamLoad& load : on) load.beam = member.index;
     analysis_->set_beam_loads(member.index, std::move(on));
   }
-  for (const NodeId node : changed.nodes) {
-    const bool bare = std::find(bare_.begin(), bare_.end(), node) != bare_.end();
-    analysis_->set_node_load(node.index, bare ? Vec6::Zero() : loads_->on(node));
+  for (const NodeId node : changed.nodes) write_load(node);
+}
+
+void DamagedFrame::write_load(NodeId node) {
+  const bool bare = std::find(bare_.begin(), bare_.end(), node) != bare_.end();
+  Vec6 load = bare ? Vec6::Zero() : loads_->on(node);
+  if (!geometric_.empty()) load += geometric_[index_of(node)];
+  analysis_->set_node_load(node.index, load);
+}
+
+/// From the first-order answer each time, so that no answer hangs on the one before it.
+const solver::ReanalysisAnswer& DamagedFrame::solve() {
+  settled_ = true;
+  if (!geometric_.empty()) {
+    geometric_.clear();
+    for (std::size_t n = 0; n < building_.nodes.size(); ++n) write_load(NodeId(n));
   }
+  const solver::ReanalysisAnswer& answer = analysis_->solve();
+  if (!second_order_ || !answer.stable) return answer;
+  settled_ = displace();
+  return analysis_->solve();
+}
+
+/// What the axial force that the member has in the answer does to it at these displacements.
+solver::Vec12 DamagedFrame::geometric_forces(int beam, const std::vector<Vec6>& displacements) const {
+  const solver::Beam& own = analysis_->model().beams[static_cast<std::size_t>(beam)];
+  return solver::geometric_forces(own, analysis_->beam_end_forces(beam),
+                                  displacements[static_cast<std::size_t>(own.node[0])],
+                                  displacements[static_cast<std::size_t>(own.node[1])]);
+}
+
+bool DamagedFrame::displace() {
+  const auto answer = [&](const std::vector<Vec6>& at) -> const std::vector<Vec6>* {
+    geometric_.assign(building_.nodes.size(), Vec6::Zero());
+    for (std::size_t m = 0; m < building_.members.size(); ++m) {
+      if (!stands(MemberId(m))) continue;
+      const solver::Beam& own = analysis_->model().beams[m];
+      const solver::Vec12 push = solver::node_forces(own, geometric_forces(static_cast<int>(m), at));
+      for (std::size_t end = 0; end < 2; ++end)
+        geometric_[static_cast<std::size_t>(own.node[end])] -= push.segment<6>(static_cast<Eigen::Index>(6 * end));
+    }
+    for (std::size_t n = 0; n < building_.nodes.size(); ++n) write_load(NodeId(n));
+    return analysis_->solve().stable ? &analysis_->displacements() : nullptr;
+  };
+  return find_displaced_rest(analysis_->displacements(), answer) != DisplacedRest::none;
+}
+
+solver::Vec12 DamagedFrame::beam_end_forces(int beam) const {
+  solver::Vec12 forces = analysis_->beam_end_forces(beam);
+  if (!geometric_.empty() && stands(MemberId(static_cast<std::size_t>(beam))))
+    forces += geometric_forces(beam, analysis_->displacements());
+  return forces;
 }
 
 /// A node that nothing holds any longer is out of the structure: it is kept in place by springs as stiff as the member
@@ -128,7 +178,7 @@ void DamagedFrame::set_ground(NodeId node, bool held) {
     spring.tail<3>().setConstant(beam.youngs_modulus * std::max(beam.Iy, beam.Iz) / beam.length);
   }
   analysis_->set_support_stiffness(ground_[index_of(node)], spring);
-  analysis_->set_node_load(node.index, held ? Vec6::Zero() : loads_->on(node));
+  write_load(node);
 }
 
 void DamagedFrame::lose(MemberId member) {
@@ -193,21 +243,22 @@ namespace {
 
 class AtRest : public DamagedFrame::Motion {
  public:
-  explicit AtRest(const solver::Reanalysis& analysis) : analysis_(analysis) {}
-  [[nodiscard]] solver::Vec12 beam_end_forces(int beam) const override { return analysis_.beam_end_forces(beam); }
+  explicit AtRest(const DamagedFrame& frame) : frame_(frame), analysis_(frame.analysis()) {}
+  [[nodiscard]] solver::Vec12 beam_end_forces(int beam) const override { return frame_.beam_end_forces(beam); }
   [[nodiscard]] std::array<Vec6, 4> shell_corner_forces(int shell) const override {
     return analysis_.shell_corner_forces(shell);
   }
   [[nodiscard]] const std::vector<Vec6>& displacements() const override { return analysis_.displacements(); }
 
  private:
+  const DamagedFrame& frame_;
   const solver::Reanalysis& analysis_;
 };
 
 }  // namespace
 
 void DamagedFrame::read_demands(std::vector<Vec6>& demand, std::vector<JointId>& holding) const {
-  read_demands(AtRest(*analysis_), demand, holding);
+  read_demands(AtRest(*this), demand, holding);
 }
 
 void DamagedFrame::read_demands(const Motion& motion, std::vector<Vec6>& demand, std::vector<JointId>& holding) const {

@@ -30,9 +30,15 @@ class DamagedFrame {
   void restore();
   /// These are going to be lost next, one after the other: the answers of those in one piece are found together.
   void expect(std::span<const MemberId> members);
-  [[nodiscard]] const solver::ReanalysisAnswer& solve() { return analysis_->solve(); }
+  /// Axial forces act on the members as they lie, from the next solve() on.
+  void use_second_order() { second_order_ = true; }
+  [[nodiscard]] const solver::ReanalysisAnswer& solve();
+  /// False when the last solve() found an elastic answer, but second order does not settle there.
+  [[nodiscard]] bool settled() const { return settled_; }
 
   [[nodiscard]] const solver::Reanalysis& analysis() const { return *analysis_; }
+  /// Local, as Reanalysis has them; with second order those that hold the displaced member in balance.
+  [[nodiscard]] solver::Vec12 beam_end_forces(int beam) const;
   [[nodiscard]] bool stands(MemberId piece) const { return divided_.member(piece) != lost_; }
   /// Demand of each breakable joint that holds, in order; of all others nothing is written.
   void read_demands(std::vector<Vec6>& demand, std::vector<JointId>& holding) const;
@@ -55,6 +61,9 @@ class DamagedFrame {
 
  private:
   void write_loads();
+  void write_load(NodeId node);
+  [[nodiscard]] bool displace();
+  [[nodiscard]] solver::Vec12 geometric_forces(int beam, const std::vector<Vec6>& displacements) const;
   void set_ground(NodeId node, bool held);
   void hang_shells();
   [[nodiscard]] std::vector<NodeId> nodes_left_bare(MemberId member) const;
@@ -73,11 +82,16 @@ class DamagedFrame {
   std::unique_ptr<solver::Reanalysis> analysis_;
   std::vector<int> hold_node_;  ///< per node: ends of members there, and shells
   std::vector<int> ground_;     ///< per node: a support without stiffness that holds it once nothing else does; -1
+  bool second_order_ = false, settled_ = true;
+  std::vector<Vec6> geometric_;  ///< per node: added to the loads by second order; empty: none
   // What was lost last.
   MemberId lost_;
   PanelBearings::Changes changes_;
   std::vector<NodeId> bare_;
 };
+
+/// What is told where DamagedFrame::settled() is false.
+inline constexpr const char* no_displaced_rest = "with second order there is no state of rest (it buckles)";
 
 /// Throw InputError for what such a frame does not go with; `what` is asked for: "losses of members".
 void refuse_what_is_not_built(const Building& building, const std::string& what);

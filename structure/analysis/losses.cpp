@@ -34,6 +34,7 @@ class Losses {
         request_(request),
         members_(all_of(request)),
         frame_(divided_, members_, options) {
+    if (request.motion.asked && request.motion.second_order) frame_.use_second_order();
     for (const MemberId member : members_) {
       const bool named = std::find(request.named.begin(), request.named.end(), member) != request.named.end();
       result_.losses.push_back({member, named, {}});
@@ -96,6 +97,7 @@ class Losses {
     refuse_loads_that_are_not_built(building_, combination, loads, what_is_asked);
     frame_.load(loads);
     if (!frame_.solve().stable) throw UnstableModel(building_.file + ": the model is unstable before anything is lost");
+    if (!frame_.settled()) throw UnstableModel(building_.file + ": " + no_displaced_rest + " before anything is lost");
   }
 
   static std::vector<MemberId> all_of(const LossRequest& request) {
@@ -113,7 +115,7 @@ class Losses {
     reference.displacements = frame_.analysis().displacements();
     reference.end_forces.clear();
     for (std::size_t m = 0; m < building_.members.size(); ++m)
-      reference.end_forces.push_back(frame_.analysis().beam_end_forces(static_cast<int>(m)));
+      reference.end_forces.push_back(frame_.beam_end_forces(static_cast<int>(m)));
   }
 
   [[nodiscard]] LossState state_after(bool in_full) {
@@ -121,6 +123,10 @@ class Losses {
     const solver::ReanalysisAnswer& answer = frame_.solve();
     if (!answer.stable) {
       tell_mechanism(answer.mechanism, state);
+      return state;
+    }
+    if (!frame_.settled()) {
+      state.mechanism = no_displaced_rest;
       return state;
     }
     check_joints(in_full, state);
@@ -183,7 +189,7 @@ class Losses {
       if (!frame_.stands(MemberId(m))) continue;
       const std::vector<MemberId>& pieces = divided_.pieces(MemberId(m));
       const auto of_piece = [&](MemberId piece) {
-        return sudden(reference_->end_forces[index_of(piece)], frame_.analysis().beam_end_forces(piece.index));
+        return sudden(reference_->end_forces[index_of(piece)], frame_.beam_end_forces(piece.index));
       };
       solver::Vec12 forces = of_piece(pieces.front());
       if (pieces.size() > 1) forces.tail<6>() = of_piece(pieces.back()).tail<6>();

@@ -29,8 +29,12 @@ void require_request(const Building& building, const AnalysisRequest& request) {
   require_in({0, 1'000'000}, request.buckling, "buckling");
   require_in({0, 1'000'000}, request.modes, "modes");
   require_in({1, 1000}, request.divide, "divide");
-  if (request.losses.any() && request.second_order != solver::SecondOrder::none)
-    throw InputError(building.file + ": losses of members are found by first order; accepted: no --p-delta");
+  const bool second_order = request.second_order != solver::SecondOrder::none;
+  if (request.losses.any() && second_order && !motion.asked)
+    throw InputError(building.file +
+                     ": losses of members are found by first order; accepted: no --p-delta, or --dynamic beside it");
+  if ((motion.asked || request.time_history) && request.second_order == solver::SecondOrder::frame3dd)
+    throw InputError(building.file + ": Frame3DD's own second order does not move; accepted: --p-delta");
 }
 
 /// The exact functions of a member under axial force take work with its slenderness: a rod of a kilometre and a

@@ -85,17 +85,18 @@ std::vector<JointId> FrameMotion::joints_of_divided() const {
   return joints;
 }
 
-std::unique_ptr<MotionPeaks> FrameMotion::follow(const MotionStart& start, const MotionResult& settings,
+std::unique_ptr<MotionPeaks> FrameMotion::follow(const MotionStart& start, MotionResult& result,
                                                  const solver::RayleighDamping& damping) const {
   solver::DynamicOptions options;
-  options.substep = settings.substep;
+  options.substep = result.substep;
   options.spectral_radius = 1;
   options.damping = damping;
   options.keep_energy = false;
+  options.second_order = request_.second_order;
   solver::FrameDynamics frame(moving_.model, moving_.masses, options);
   load(frame);
   frame.set_state(start.displacements, std::vector<Vec6>(start.displacements.size(), Vec6::Zero()));
-  const double h = settings.substep;
+  const double h = result.substep;
   int holding = -1;
   if (start.held_over > 0) {
     holding = frame.add_holding_force();
@@ -108,7 +109,7 @@ std::unique_ptr<MotionPeaks> FrameMotion::follow(const MotionStart& start, const
       frame.jump_pattern(patterns[k], value_at(*start.history, start.history->series[k].values, 0));
   }
   auto peaks = std::make_unique<MotionPeaks>(divided_, frame_, request_, joints_of_divided(), frame);
-  const auto steps = static_cast<long>(std::ceil(settings.duration / h - 1e-9));
+  const auto steps = static_cast<long>(std::ceil(result.duration / h - 1e-9));
   for (long n = 1; n <= steps; ++n) {
     const double end = static_cast<double>(n) * h;
     if (holding >= 0) frame.set_pattern(holding, std::max(0.0, 1 - end / start.held_over));
@@ -117,18 +118,36 @@ std::unique_ptr<MotionPeaks> FrameMotion::follow(const MotionStart& start, const
     (void)frame.advance();
     peaks->take(frame);
   }
+  result.unsettled = static_cast<long>(frame.counters().unsettled);
   return peaks;
+}
+
+/// Rad/s; with second order under the axial forces of the static state that the frame was solved for last.
+double FrameMotion::lowest_frequency() const {
+  solver::AxialState axial;
+  if (request_.second_order) {
+    axial.mode = solver::SecondOrder::cubic;
+    for (std::size_t b = 0; b < moving_.model.beams.size(); ++b) {
+      const solver::Vec12 forces = frame_.analysis().beam_end_forces(static_cast<int>(b));
+      axial.first_axial.push_back((forces(6) - forces(0)) / 2);
+    }
+    axial.loads.resize(moving_.model.beams.size());
+  }
+  try {
+    return solver::natural_modes(moving_.model, moving_.masses, 1, {}, request_.second_order ? &axial : nullptr)
+        .modes.front()
+        .angular_frequency;
+  } catch (const std::invalid_argument&) {
+    throw InputError(whole_.file + ": nothing that can move has mass; accepted: weight, masses or densities");
+  } catch (const solver::Instability&) {
+    if (!request_.second_order) throw;
+    throw UnstableModel(whole_.file + ": " + no_displaced_rest);
+  }
 }
 
 MotionResult FrameMotion::run(const MotionStart& start) const {
   MotionResult result;
-  solver::ModalAnswer lowest;
-  try {
-    lowest = solver::natural_modes(moving_.model, moving_.masses, 1);
-  } catch (const std::invalid_argument&) {
-    throw InputError(whole_.file + ": nothing that can move has mass; accepted: weight, masses or densities");
-  }
-  const double first = lowest.modes.front().angular_frequency;
+  const double first = lowest_frequency();
   solver::DynamicOptions still;
   still.keep_energy = false;
   const double quotient = solver::FrameDynamics(moving_.model, moving_.masses, still).rayleigh_quotient(start.rest);

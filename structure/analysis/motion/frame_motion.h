@@ -27,8 +27,10 @@ class FrameMotion {
   [[nodiscard]] MotionResult run(const MotionStart& start) const;
 
  private:
-  [[nodiscard]] std::unique_ptr<MotionPeaks> follow(const MotionStart& start, const MotionResult& settings,
+  /// By the substep and the duration of `result`, which is told what did not settle.
+  [[nodiscard]] std::unique_ptr<MotionPeaks> follow(const MotionStart& start, MotionResult& result,
                                                     const solver::RayleighDamping& damping) const;
+  [[nodiscard]] double lowest_frequency() const;
   void load(solver::FrameDynamics& frame) const;
   [[nodiscard]] std::vector<int> add_history(const TimeHistory& history, solver::FrameDynamics& frame) const;
   [[nodiscard]] std::vector<JointId> joints_of_divided() const;

@@ -11,6 +11,7 @@ void ResultsWriter::motion(const MotionResult& motion) {
   w_.key("dynamic").open('{').key("period").value(motion.period).key("shape_frequency").value(motion.shape_frequency);
   w_.key("damping").value(motion.damping).key("duration").value(motion.duration).key("substep").value(motion.substep);
   w_.key("halvings").value(static_cast<std::size_t>(motion.halvings)).key("change").value(motion.change);
+  if (motion.unsettled > 0) w_.key("unsettled").value(static_cast<std::size_t>(motion.unsettled));
   w_.key("joints").open('{');
   for (const JointPeak& joint : motion.joints) {
     w_.newline().key(b_[joint.joint].name).open('{').key("peak").open('{').key("utilisation").value(joint.use.value);

@@ -244,6 +244,9 @@ void motion(Text& text, const std::string& what, const Building& building, const
             result.period, result.damping, 1 / result.period, result.shape_frequency, result.duration, result.substep);
   text.line("  after %d halvings of the substep %s changes by more than %.2g %%%s", result.halvings, "no peak",
             100 * result.change, result.change > settled_peak ? ": NOT settled to 0.5 %" : "");
+  if (result.unsettled > 0)
+    text.line("  in %ld substeps a member was pressed beyond what it bears as it lay: it buckles on its way",
+              result.unsettled);
   std::vector<const JointPeak*> order;
   for (const JointPeak& joint : result.joints) order.push_back(&joint);
   const std::size_t shown = std::min(joints_shown, order.size());

@@ -123,7 +123,7 @@ struct LocalModes {
   Eigen::MatrixXd shape;     ///< columns: modes, by the numbers in `equations`
   Eigen::MatrixXd momentum;  ///< mass times shape
 };
-/// The same motion in the modes of the same nodes after a change: coordinates, or their rates.
+/// The same motion in the modes of the same nodes after a change (not of damping, nor of what supports hold).
 [[nodiscard]] Eigen::VectorXd carried_over(const LocalModes& from, const Eigen::VectorXd& coordinates,
                                            const LocalModes& to);
 
@@ -191,8 +191,8 @@ class FrameDynamics {
   /// The inertia of the frame against a ground that accelerates along `direction`: -M times a rigid translation, of
   /// what stands at the time. The frame's motion is then relative to the ground.
   [[nodiscard]] int add_ground_acceleration(const Vec3& direction);
-  /// The force that keeps the frame where it is now, with the structure and loads that it will have in the next
-  /// substep.
+  /// The force that keeps the frame where it is now, with the structure and loads that it will have in the next substep
+  /// (second order counts). It stays with the nodes: a freedom that a support holds or lets go later takes none of it.
   [[nodiscard]] int add_holding_force();
   void set_pattern(int pattern, double value_at_end);  ///< of the next substep, and from then on
   void jump_pattern(int pattern, double value);        ///< at once

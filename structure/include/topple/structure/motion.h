@@ -34,8 +34,11 @@ struct MotionRequest {
   double over = 0;                 ///< s through which the member is lost: its forces go down evenly; 0: at once
   std::optional<double> duration;  ///< s; else `over` and two of the lowest period, or the time history's length
   double damping = 0.02;           ///< share of the critical damping
-  std::vector<NodeId> nodes;       ///< whose displacements are wanted over time
-  std::vector<JointId> joints;     ///< whose demands are
+  /// Axial forces of the moment act on the members as they lie, by the cubic geometric stiffness, one for each piece
+  /// of a member; the states before and after a loss are found so as well. Membrane forces of panels do not.
+  bool second_order = false;
+  std::vector<NodeId> nodes;    ///< whose displacements are wanted over time
+  std::vector<JointId> joints;  ///< whose demands are
 };
 
 /// A value and the time, in s from the loss, at which it is reached.
@@ -69,14 +72,16 @@ struct MotionSample {
 
 /// One motion, SI.
 struct MotionResult {
-  double period = 0;              ///< lowest, s
-  double damping = 0;             ///< share of the critical damping at the lowest frequency, and at `shape_frequency`
-  double shape_frequency = 0;     ///< Hz: Rayleigh's, of the static shape under the loads
-  double duration = 0;            ///< s that were followed
-  double substep = 0;             ///< s, the last one taken
-  int halvings = 0;               ///< of the first substep
-  double change = 0;              ///< of the peaks by the last halving, at most, as a share
-  std::vector<JointPeak> joints;  ///< per joint with a capacity
+  double period = 0;           ///< lowest, s
+  double damping = 0;          ///< share of the critical damping at the lowest frequency, and at `shape_frequency`
+  double shape_frequency = 0;  ///< Hz: Rayleigh's, of the static shape under the loads
+  double duration = 0;         ///< s that were followed
+  double substep = 0;          ///< s, the last one taken
+  int halvings = 0;            ///< of the first substep
+  /// Second order: substeps (of the last course) in which a member was pressed beyond what it bears as it lay.
+  long unsettled = 0;
+  double change = 0;                  ///< of the peaks by the last halving, at most, as a share
+  std::vector<JointPeak> joints;      ///< per joint with a capacity
   std::vector<MemberMotion> members;  ///< per member that is left
   std::vector<Vec6> displacements;    ///< per node: greatest sizes, component by component
   std::vector<MotionSample> history;  ///< one for each substep
