@@ -238,9 +238,10 @@ void StandingFrame::expect_fracture(PanelId panel) {
   if (state_->parts.bearings.membrane(panel)) state_->shells.know(panel);
 }
 
-void StandingFrame::fracture(PanelId panel, const PanelRemains& remains) {
+void StandingFrame::fracture(PanelId panel, const PanelRemains& remains, const std::optional<Vec3>& taken) {
   State& state = *state_;
   if (!state.stands(panel)) return;
+  if (taken && state.motion) state.motion->give_to_chunks(panel, *taken);
   state.damage.fracture(panel, remains);
   state.pending = true;
 }

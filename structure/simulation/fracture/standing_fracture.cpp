@@ -47,9 +47,15 @@ double StandingFracture::break_out(Strike& hit) {
   std::vector<PanelChunk> chunks = hit.body->radius > 0
                                        ? panels_.breaking(panel).hit_through(hit.place.point, radius, hit.body->radius)
                                        : panels_.breaking(panel).hit(hit.place.point, radius);
-  double plug = 0;
-  for (const PanelChunk& chunk : chunks) plug += chunk.hit ? chunk.rest.mass : 0;
   if (chunks.empty()) return 0;
+  const RigidMotion moves = motion_of(panel);
+  double plug = 0, momentum = 0;
+  for (const PanelChunk& chunk : chunks) {
+    if (!chunk.hit) continue;
+    plug += chunk.rest.mass;
+    momentum += chunk.rest.mass * moves.at(chunk.rest.centre).dot(hit.normal);
+  }
+  if (plug > 0) hit.chunk_speed = momentum / plug;
   log_.record(SimulationEvent::Kind::panel_fractured, scene_.building[panel].name).position = hit.place.point;
   hit.chunks = break_standing(panel, std::move(chunks));
   return plug;
@@ -75,8 +81,13 @@ void StandingFracture::crack() {
   }
 }
 
-/// These chunks of a standing panel become bodies that move as it did, without its turn; everybody hears of what
-/// remains. Returns the bodies of those that a hit broke out.
+StandingFracture::RigidMotion StandingFracture::motion_of(PanelId panel) const {
+  const StandingFrame::PanelMotion motion = scene_.frame->motion(panel);
+  return {debris_.masses.of(panel).centre, motion.velocity, motion.spin};
+}
+
+/// These chunks of a standing panel become bodies that move as their places in it did; everybody hears of what remains.
+/// Returns the bodies of those that a hit broke out.
 std::vector<collision::BodyId> StandingFracture::break_standing(PanelId panel, std::vector<PanelChunk> chunks) {
   const BrokenPanel& left = panels_.breaking(panel);
   const Part part(panel);
@@ -84,8 +95,10 @@ std::vector<collision::BodyId> StandingFracture::break_standing(PanelId panel, s
   for (const NodeId node : scene_.building[panel].nodes) sunk += scene_.frame->displacement(node).head<3>() / 4;
   if (sunk.norm() > debris_settings.largest_start) sunk *= debris_settings.largest_start / sunk.norm();
 
-  const Vec3 velocity = scene_.frame->velocity(panel);
-  scene_.frame->fracture(panel, left.remains());
+  const RigidMotion moves = motion_of(panel);
+  Vec3 taken = Vec3::Zero();
+  for (const PanelChunk& chunk : chunks) taken += chunk.rest.mass * moves.at(chunk.rest.centre);
+  scene_.frame->fracture(panel, left.remains(), taken);
   if (left.hulls().empty()) {
     debris_.stop_standing(part);
     debris_.lose(part);
@@ -105,8 +118,10 @@ std::vector<collision::BodyId> StandingFracture::break_standing(PanelId panel, s
       dust += piece.rest.mass;
       continue;
     }
-    sums_.kinetic_released += piece.rest.mass * velocity.squaredNorm() / 2;
-    const collision::BodyId id = debris_.add(std::move(piece), velocity, Vec3::Zero(), sunk);
+    const Vec3 velocity = moves.at(piece.rest.centre);
+    sums_.kinetic_released +=
+        (piece.rest.mass * velocity.squaredNorm() + moves.spin.dot(piece.rest.inertia * moves.spin)) / 2;
+    const collision::BodyId id = debris_.add(std::move(piece), velocity, moves.spin, sunk);
     if (of_hit) out.push_back(id);
   }
   if (dust > 0) log_.record(SimulationEvent::Kind::limited, scene_.building[panel].name).mass = dust;

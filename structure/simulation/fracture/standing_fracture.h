@@ -33,6 +33,12 @@ class StandingFracture {
   void crack();
 
  private:
+  /// How the material of a panel moves, as a rigid body.
+  struct RigidMotion {
+    Vec3 centre, velocity, spin;
+    [[nodiscard]] Vec3 at(const Vec3& point) const { return velocity + spin.cross(point - centre); }
+  };
+  [[nodiscard]] RigidMotion motion_of(PanelId panel) const;
   std::vector<collision::BodyId> break_standing(PanelId panel, std::vector<PanelChunk> chunks);
 
   Scene& scene_;

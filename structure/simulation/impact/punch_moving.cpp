@@ -50,7 +50,7 @@ bool StandingImpacts::punch_moving(const collision::Contact& contact) {
   hit->peak_force = punching;
   hit->speed = came;
   const double alone = makes_way + left;
-  hit->speed_out = plug > 0 ? (alone * hit->mass + makes_way * plug) / (hit->mass + plug) : alone;
+  hit->speed_out = plug > 0 ? (alone * hit->mass + hit->chunk_speed * plug) / (hit->mass + plug) : alone;
   record_loss(*hit);
   hit->lost -= given;
   send_on(*hit);

@@ -22,6 +22,7 @@ struct Strike {
   bool through = false;  ///< what was hit is gone
   std::vector<JointBreak> breaks;
   std::vector<collision::BodyId> chunks;  ///< that it broke out of a standing panel
+  double chunk_speed = 0;                 ///< with which they left it along the normal, in the mean of their mass
 };
 
 /// N s at a global point, on the body.

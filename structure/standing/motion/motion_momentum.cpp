@@ -64,30 +64,33 @@ Vec6 MotionMomentum::of(PanelId panel) const {
   for (const auto& [member, mass] : shares.members) sum += mass * per_kilogram(member);
   for (const auto& [node, mass] : shares.nodes) sum.head<3>() += mass * motion_.velocity(node).head<3>();
   std::array<Vec3, 4> corner;
-  std::vector<Vec3> places, velocities;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const NodeId node = from_.building[panel].nodes[i];
-    corner[i] = from_.building[node].position;
-    if (from_.parts.segments.degree(node) == 0) continue;  // nothing tells how it moves
-    places.push_back(corner[i]);
-    velocities.emplace_back(motion_.velocity(node).head<3>());
-  }
+  for (std::size_t i = 0; i < 4; ++i) corner[i] = from_.building[from_.building[panel].nodes[i]].position;
   const std::array<Vec3, 4> mass_at = quarters(corner);
   const Vec3 centre = mean_of(mass_at), linear = sum.head<3>();
-  sum.tail<3>() = centre.cross(linear);
-  if (places.size() < 3) return sum;
+  sum.tail<3>() = centre.cross(linear) + inertia_of(mass_at, centre, from_.loads.mass(panel) / 4) * spin(panel);
+  return sum;
+}
+
+Vec3 MotionMomentum::spin(PanelId panel) const {
+  std::vector<Vec3> places, velocities;
+  for (const NodeId node : from_.building[panel].nodes) {
+    if (from_.parts.segments.degree(node) == 0) continue;  // nothing tells how it moves
+    places.push_back(from_.building[node].position);
+    velocities.emplace_back(motion_.velocity(node).head<3>());
+  }
+  if (places.size() < 3) return Vec3::Zero();
   const Vec3 middle = mean_of(places), mean = mean_of(velocities);
   Vec3 turning = Vec3::Zero();
   for (std::size_t i = 0; i < places.size(); ++i) turning += (places[i] - middle).cross(velocities[i] - mean);
-  const Vec3 spin = inertia_of(places, middle, 1).ldlt().solve(turning);
-  sum.tail<3>() += inertia_of(mass_at, centre, from_.loads.mass(panel) / 4) * spin;
-  return sum;
+  return inertia_of(places, middle, 1).ldlt().solve(turning);
 }
 
 Vec3 MotionMomentum::velocity(PanelId panel) const {
   const Vec3 linear = of(panel).head<3>();
-  double mass = from_.loads.mass(panel);
-  if (from_.building[panel].model == PanelModel::shell) {  // as the frame has it
+  double mass = 0;  // as the frame has it, whatever has broken out since its last substep
+  for (const auto& [member, share] : masses_.shares(panel).members) mass += share;
+  for (const auto& [node, share] : masses_.shares(panel).nodes) mass += share;
+  if (from_.building[panel].model == PanelModel::shell) {
     const solver::FrameDynamics* frame = motion_.frame(from_.components.of(panel));
     if (frame == nullptr) return Vec3::Zero();
     const auto number = static_cast<std::size_t>(from_.statics.number(panel));
@@ -129,15 +132,48 @@ std::vector<std::pair<MemberId, Vec6>> MotionMomentum::brought(const MotionMasse
   }
   if (!(lost > 0)) return to_members;
   for (const auto& [id, mass] : gained) {
-    const int c = from_.statics.component(id);
-    if (!(mass > 0) || !motion_.moves(c) || !from_.parts.stands(id)) continue;
-    const Member& member = from_.building[id];
-    const Vec3 middle = (from_.building[member.nodes[0]].position + from_.building[member.nodes[1]].position) / 2;
+    if (!(mass > 0) || !takes(id)) continue;
     const Vec6 own = per_kilogram(id);
     Vec6 brought = -mass * own;
     brought.head<3>() += mass / lost * momentum;
-    brought.tail<3>() += mass / lost * middle.cross(momentum);  // about the origin
+    brought.tail<3>() += mass / lost * middle(id).cross(momentum);  // about the origin
     to_members.emplace_back(id, brought);
+  }
+  return to_members;
+}
+
+bool MotionMomentum::takes(MemberId member) const {
+  return motion_.moves(from_.statics.component(member)) && from_.parts.stands(member);
+}
+
+Vec3 MotionMomentum::middle(MemberId id) const {
+  const Member& member = from_.building[id];
+  return (from_.building[member.nodes[0]].position + from_.building[member.nodes[1]].position) / 2;
+}
+
+Vec3 MotionMomentum::given_up(const MotionMasses::Rehung& panel) const {
+  Vec3 momentum = Vec3::Zero();
+  for (const auto& [member, mass] : panel.before.members) momentum += mass * per_kilogram(member).head<3>();
+  for (const auto& [member, mass] : masses_.shares(panel.panel).members)
+    momentum -= mass * per_kilogram(member).head<3>();
+  return momentum;
+}
+
+std::vector<std::pair<MemberId, Vec6>> MotionMomentum::shared(const MotionMasses::Rehung& panel,
+                                                              const Vec3& momentum) const {
+  std::vector<std::pair<MemberId, Vec6>> to_members;
+  for (const Shares* shares : {&masses_.shares(panel.panel).members, &panel.before.members}) {
+    double whole = 0;
+    for (const auto& [member, mass] : *shares)
+      if (takes(member)) whole += mass;
+    if (!(whole > 0)) continue;
+    for (const auto& [member, mass] : *shares) {
+      if (!takes(member)) continue;
+      const Vec3 own = mass / whole * momentum;
+      Vec6& given = to_members.emplace_back(member, Vec6::Zero()).second;
+      given << own, middle(member).cross(own);
+    }
+    return to_members;
   }
   return to_members;
 }

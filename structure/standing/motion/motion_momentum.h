@@ -26,11 +26,22 @@ class MotionMomentum {
   [[nodiscard]] Vec6 of(NodeId node) const;  ///< of what lies on it
   /// m/s, of the panel's mass, in the mean.
   [[nodiscard]] Vec3 velocity(PanelId panel) const;
+  /// rad/s, as its corners turn about each other; 0 where fewer than three tell.
+  [[nodiscard]] Vec3 spin(PanelId panel) const;
+  /// N s: what members give up as less of a panel lies on them, what it brings other members apart.
+  [[nodiscard]] Vec3 given_up(const MotionMasses::Rehung& panel) const;
+  /// Momentum of a panel for those that bear it now, or bore it until now where nothing of it is left: by their masses
+  /// of it.
+  [[nodiscard]] std::vector<std::pair<MemberId, Vec6>> shared(const MotionMasses::Rehung& panel,
+                                                              const Vec3& momentum) const;
   /// What a panel that lies on other members now brings them beyond their own velocity. Its mass has the mean velocity
   /// of what bore it, and shares it inelastically with what bears it now: linear and angular momentum are kept.
   [[nodiscard]] std::vector<std::pair<MemberId, Vec6>> brought(const MotionMasses::Rehung& panel) const;
 
  private:
+  using Shares = std::vector<std::pair<MemberId, double>>;
+  [[nodiscard]] bool takes(MemberId member) const;
+  [[nodiscard]] Vec3 middle(MemberId member) const;
   [[nodiscard]] Vec6 per_kilogram(MemberId member) const;
 
   MotionSources from_;

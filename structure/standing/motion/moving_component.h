@@ -1,5 +1,7 @@
 #pragma once
 // A component that moves, as StandingMotion keeps it.
+#include <optional>
+
 #include "standing/motion/moving_law.h"
 #include "standing/motion/standing_motion.h"
 
@@ -17,6 +19,8 @@ struct StandingMotion::Moving {
   /// A shell panel that changed since the last substep or impulse.
   struct ChangedShell {
     Eigen::VectorXd motion;    ///< before it changed: PanelSuperelement::motion()
+    Vec3 had = Vec3::Zero();   ///< N s, before it changed
+    std::optional<Vec3> gave;  ///< N s, to chunks since then
     Eigen::VectorXd impulses;  ///< at its nodes: what it lacks of that motion's momentum now; empty: none
   };
   std::map<PanelId, ChangedShell> changed_shells;

@@ -58,7 +58,21 @@ void StandingMotion::remember_motion(PanelId id) {
     return;
   std::vector<Vec6> at_nodes;
   for (const NodeId node : from_.building[id].all_nodes()) at_nodes.push_back(velocity(node));
-  found->second->changed_shells[id].motion = from_.shells.of(id)->motion(at_nodes);
+  Moving::ChangedShell& changed = found->second->changed_shells[id];
+  changed.motion = from_.shells.of(id)->motion(at_nodes);
+  changed.had = momentum_.of(id).head<3>();
+}
+
+void StandingMotion::give_to_chunks(PanelId id, const Vec3& momentum) {
+  const auto found = moving_.find(from_.components.of(id));
+  if (found == moving_.end()) return;
+  if (from_.building[id].model != PanelModel::shell) {
+    to_chunks_.try_emplace(id, Vec3::Zero()).first->second += momentum;
+    return;
+  }
+  remember_motion(id);
+  Moving::ChangedShell& changed = found->second->changed_shells.at(id);
+  changed.gave = changed.gave.value_or(Vec3::Zero()) + momentum;
 }
 
 void StandingMotion::update_mass(PanelId id) {
@@ -78,7 +92,17 @@ void StandingMotion::update_mass(PanelId id) {
     Eigen::VectorXd now(mass.rows());
     for (std::size_t n = 0; n < nodes.size(); ++n)
       now.segment<6>(static_cast<Eigen::Index>(6 * n)) = velocity(nodes[n]);
-    changed->second.impulses = from_.shells.of(id)->momentum(model_.kilograms(id), changed->second.motion) - mass * now;
+    Moving::ChangedShell& own = changed->second;
+    own.impulses = from_.shells.of(id)->momentum(model_.kilograms(id), own.motion);
+    if (own.gave) {  // it moves on by as much more as evens out what chunks took
+      Vec3 more = own.had - *own.gave;
+      for (std::size_t n = 0; n < nodes.size(); ++n) more -= own.impulses.segment<3>(static_cast<Eigen::Index>(6 * n));
+      Eigen::VectorXd even = Eigen::VectorXd::Zero(mass.rows());
+      for (std::size_t n = 0; n < nodes.size(); ++n)
+        even.segment<3>(static_cast<Eigen::Index>(6 * n)) = more / model_.kilograms(id);
+      own.impulses += mass * even;
+    }
+    own.impulses -= mass * now;
   }
   frame.set_patch_mass(number, mass);
 }
@@ -157,11 +181,22 @@ void StandingMotion::stop(int c) {
 }
 
 void StandingMotion::update_masses() {
-  for (const MotionMasses::Rehung& panel : masses_.update()) {
-    if (!from_.parts.stands(panel.panel)) continue;
-    for (const auto& [member, momentum] : momentum_.brought(panel))
+  const auto bring = [&](const std::vector<std::pair<MemberId, Vec6>>& to_members) {
+    Vec3 sum = Vec3::Zero();
+    for (const auto& [member, momentum] : to_members) {
       moving_.at(from_.statics.component(member))->frame->add_momentum(from_.statics.number(member), momentum);
+      sum += momentum.head<3>();
+    }
+    return sum;
+  };
+  for (const MotionMasses::Rehung& panel : masses_.update()) {
+    const bool stands = from_.parts.stands(panel.panel);
+    const Vec3 brought = stands ? bring(momentum_.brought(panel)) : Vec3(Vec3::Zero());
+    const auto gave = to_chunks_.find(panel.panel);
+    if (gave == to_chunks_.end()) continue;
+    (void)bring(momentum_.shared(panel, momentum_.given_up(panel) - brought - gave->second));
   }
+  to_chunks_.clear();
   for (auto& [c, one] : moving_) {
     Moving& moving = *one;
     const std::vector<MemberId>& members = from_.statics.members(c);

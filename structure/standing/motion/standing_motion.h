@@ -51,6 +51,9 @@ class StandingMotion {
   void update_mass(PanelId shell);
   /// Before a shell panel changes.
   void remember_motion(PanelId shell);
+  /// Chunks of a panel that is about to change leave it with this momentum (N s). What the panel gives up beside it, or
+  /// less, goes to what is left of it, and to what bears that: linear momentum is kept.
+  void give_to_chunks(PanelId panel, const Vec3& momentum);
   /// What is left of panels that changed takes over its motion now: no later than with the next substep or impulse.
   void pass_on_motion(int component);
 
@@ -116,7 +119,8 @@ class StandingMotion {
   MotionMomentum momentum_;
   double substep_ = 0;
   std::map<int, std::unique_ptr<Moving>> moving_;
-  MotionEnergy past_;  ///< of motions that have ended
+  std::map<PanelId, Vec3> to_chunks_;  ///< N s, since update_masses(); of panels that are no shells
+  MotionEnergy past_;                  ///< of motions that have ended
   std::uint64_t starts_ = 0;
 };
 

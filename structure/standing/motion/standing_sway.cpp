@@ -320,10 +320,10 @@ void StandingFrame::State::look_for_rest(int c) {
   generations.snap_what_buckles(c);
 }
 
-Vec3 StandingFrame::velocity(PanelId panel) const {
+StandingFrame::PanelMotion StandingFrame::motion(PanelId panel) const {
   const State& state = *state_;
-  if (!state.stands(panel) || !state.moves(state.components.of(panel))) return Vec3::Zero();
-  return state.motion->momentum().velocity(panel);
+  if (!state.stands(panel) || !state.moves(state.components.of(panel))) return {};
+  return {state.motion->momentum().velocity(panel), state.motion->momentum().spin(panel)};
 }
 
 }  // namespace topple::structure

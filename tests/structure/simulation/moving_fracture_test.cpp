@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
+#include <vector>
 
 #include "structure/simulation_run.h"
 #include "support/scratch_folder.h"
@@ -60,22 +61,26 @@ const SimulationEvent* struck(Simulation& simulation) {
 struct Moving {
   double ball = 0;              ///< m/s, along x
   double chunks = 0, mass = 0;  ///< kg m/s along x, and kg, of chunks
+  std::vector<Vec3> spins;      ///< rad/s, of chunks
 };
 /// Over the next step: nothing pulls along x but what they meet.
 Moving along_x(Simulation& simulation) {
-  std::map<std::int64_t, double> before;
-  for (const BodyView& body : simulation.bodies()) before[body.id.value] = body.pose.position.x();
+  std::map<std::int64_t, topple::collision::Pose> before;
+  for (const BodyView& body : simulation.bodies()) before[body.id.value] = body.pose;
   simulation.step();
   Moving sum;
   for (const BodyView& body : simulation.bodies()) {
     if (!before.contains(body.id.value)) continue;
-    const double speed = 60 * (body.pose.position.x() - before[body.id.value]);
+    const topple::collision::Pose& was = before.at(body.id.value);
+    const double speed = 60 * (body.pose.position.x() - was.position.x());
     if (!body.chunk) {
       sum.ball = speed;
       continue;
     }
     sum.chunks += body.mass * speed;
     sum.mass += body.mass;
+    const Eigen::AngleAxisd turn(body.pose.orientation * was.orientation.conjugate());
+    sum.spins.emplace_back(60 * turn.angle() * turn.axis());
   }
   return sum;
 }
@@ -94,6 +99,12 @@ TEST_CASE("A ball that punches a wall of a frame that moves leaves it the moment
   // the step that follows.
   CHECK(300 * now.ball + now.chunks == Approx(300 * left).epsilon(0.03));
   CHECK(now.ball == Approx(hit->speed_out).epsilon(0.05));
+  // Chunks turn as the wall did about its foot, all alike.
+  CHECK(now.spins.size() > 1);
+  for (const Vec3& spin : now.spins) {
+    CHECK(spin.y() > 1e-3);
+    CHECK((spin - now.spins.front()).norm() < 1e-4 * spin.norm());
+  }
   CHECK(simulation.ledger().kinetic_standing > 0);
   CHECK(std::abs(simulation.ledger().residual()) < 1e-6);
   run(simulation);

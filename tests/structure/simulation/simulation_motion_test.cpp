@@ -188,8 +188,8 @@ TEST_CASE("Nothing leaves what it has struck in motion faster than it came") {
       const SimulationEvent& event = simulation.events()[heard];
       if (event.kind != SimulationEvent::Kind::impact) continue;
       ++impacts;
-      // What is struck swings, and may push back by as much more.
-      CHECK(event.speed_out >= -1.25 * event.speed_in);
+      // What is struck swings, and may push back by as much more; or it comes after a body that goes before it.
+      CHECK(event.speed_out >= -1.25 * std::abs(event.speed_in));
     }
   }
   CHECK(impacts > 4);

@@ -180,7 +180,11 @@ TEST_CASE("a slab that is shot stands on with a hole in it; the ball goes on wit
     CHECK(impact.speed_out * (ball_mass + plug) < ball_mass * impact.speed_in);
     const double punch = 2.9e6 * M_PI * 0.2 * 0.8, work = punch * 0.2 / 2;
     const double before = std::sqrt(impact.speed_in * impact.speed_in - 2 * work / ball_mass);
-    CHECK(impact.speed_out == Approx(before * ball_mass / (ball_mass + plug)).epsilon(1e-9));
+    // The plug has what the punch gave the slab: no more than it would get if beams took nothing of it.
+    const double alone = before * ball_mass / (ball_mass + plug),
+                 given = plug / whole * (impact.speed_in - before) * ball_mass / (ball_mass + plug);
+    CHECK(impact.speed_out > alone);
+    CHECK(impact.speed_out < alone + given);
     // The punch: tensile strength over the cone at 45 degrees, 2.9 MPa x pi x 0.2 m x (2 x 0.3 + 0.2) m.
     CHECK(impact.peak_force == Approx(punch).epsilon(1e-12));
     CHECK(std::abs(simulation.ledger().residual()) < 1e-3);  // up to here: nothing but the law of impact

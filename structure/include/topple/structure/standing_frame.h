@@ -331,11 +331,16 @@ class StandingFrame {
   void expect_fracture(PanelId panel);
   /// A standing panel is broken in part, now: it hands on what remains of its weight by where that lies, its edge
   /// joints bear over what remains of their length (told as broken by settle() or move() when nothing does), and it
-  /// is as stiff as what remains. Holes are all since it was whole. What is broken out of a panel that moves leaves
-  /// with velocity().
-  void fracture(PanelId panel, const PanelRemains& remains);
-  /// Mean velocity of a panel's mass where it stands and moves, m/s, global axes; 0 at rest.
-  [[nodiscard]] Vec3 velocity(PanelId panel) const;
+  /// is as stiff as what remains. Holes are all since it was whole. `taken`: linear momentum (N s) that what breaks out
+  /// of a panel that moves leaves with, by its motion(): what the panel gives up beside that goes to what remains.
+  /// None: what goes takes along what the panel gives up.
+  void fracture(PanelId panel, const PanelRemains& remains, const std::optional<Vec3>& taken = {});
+  /// A panel's motion where it stands and moves, global axes; 0 at rest.
+  struct PanelMotion {
+    Vec3 velocity = Vec3::Zero();  ///< of its mass in the mean, m/s
+    Vec3 spin = Vec3::Zero();      ///< as its corners turn about each other, rad/s
+  };
+  [[nodiscard]] PanelMotion motion(PanelId panel) const;
   /// Of a shell panel as it is, or was when it left: in the freedoms of its nodes (Panel::all_nodes()), global.
   [[nodiscard]] Eigen::MatrixXd shell_stiffness(PanelId shell) const;
 
