@@ -222,6 +222,26 @@ TEST_CASE("in a window, a person orbits, fires, sees joints fail, and pauses") {
   CHECK(paused2.changed(paused1) == 0);
 }
 
+TEST_CASE("a picture after the scenario's end is drawn, and one line says that the run went on without it") {
+  if (!can_draw()) return;
+  const Folder folder;
+  std::ofstream(folder.file("short.json")) << R"({"topple": 1, "model": "wall", "duration": 0.2, "events": []})";
+  const auto said_for = [&](const std::string& scene, const std::string& at) {
+    fs::remove(folder.file("picture.png"));
+    const std::string command = "'" TOPPLE_VIEWER_PROGRAM "' '" + scene + "' --headless --size 64x48 --at " + at +
+                                " --screenshot '" + folder.file("picture.png") + "' 2> '" + folder.file("said") + "'";
+    REQUIRE(std::system(command.c_str()) == 0);
+    CHECK(fs::exists(folder.file("picture.png")));
+    std::ifstream said(folder.file("said"));
+    return std::string(std::istreambuf_iterator<char>(said), {});
+  };
+  CHECK(said_for(folder.file("short.json"), "0.3") ==
+        "topple-viewer: --at 0.3: the scenario ends at 0.2 s (its \"duration\"), and the run goes on without it; "
+        "accepted without this line: 0 to 0.2\n");
+  CHECK(said_for(folder.file("short.json"), "0.2").empty());
+  CHECK(said_for("wall", "0.3").empty());  // a model has no end
+}
+
 TEST_CASE("without a display the viewer says in one line why it opens no window") {
   const Folder folder;
   const std::string command =

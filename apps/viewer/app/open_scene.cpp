@@ -71,7 +71,10 @@ Scene open_scene(const std::string& name) {
   if (const auto file = scenario_file(name)) {
     auto [building, scenario] = structure::read_scenario(*file);
     const std::filesystem::path model = structure::find_model(scenario.model, file->parent_path());
-    return scene_of(std::move(building), std::move(scenario), model);
+    const double lasts = scenario.duration;
+    Scene scene = scene_of(std::move(building), std::move(scenario), model);
+    scene.lasts = lasts;
+    return scene;
   }
   const std::filesystem::path model = model_file(name);
   structure::Building building = structure::read_model(model);

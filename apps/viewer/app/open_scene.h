@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "topple/structure/building.h"
@@ -15,6 +16,7 @@ struct Scene {
   structure::Scenario scenario;
   std::filesystem::path model;                                     ///< file or folder that the building was read from
   std::shared_ptr<const std::vector<structure::DrawnMesh>> drawn;  ///< around the building; may be empty
+  std::optional<double> lasts = {};  ///< s: the scenario's `duration`; none for a model, which has no end
 };
 
 /// A shipped scenario's or model's name, or a file of either kind. Throws structure::InputError.
