@@ -53,6 +53,19 @@ std::optional<PanelStress> StandingFrame::stress(PanelId panel) const {
                               in_motion ? state.motion->corner_forces(panel) : state.statics.corner_forces(panel));
 }
 
+std::vector<PlasticRotation> StandingFrame::plastic_rotations() const {
+  std::vector<PlasticRotation> turned;
+  for (int c = 0; c < state_->statics.components(); ++c)
+    for (const PlasticHinge& hinge : state_->yielding.hinges(c))
+      if (hinge.plastic_rotation != 0 && state_->parts.standing(hinge.joint))
+        turned.push_back({hinge.joint, hinge.sense(), hinge.plastic_rotation, hinge.limit});
+  // Components hold their joints in order, and follow each other in the order of their nodes.
+  std::sort(turned.begin(), turned.end(), [](const PlasticRotation& a, const PlasticRotation& b) {
+    return a.joint != b.joint ? a.joint < b.joint : a.sense < b.sense;
+  });
+  return turned;
+}
+
 void StandingFrame::capacity_changed(JointId joint) {
   State& state = *state_;
   const int c = state.components.of(joint);

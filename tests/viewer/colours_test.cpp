@@ -47,9 +47,9 @@ glm::vec3 lab(Rgba colour, const glm::mat3& seen) {
 
 /// The least difference between any two of a palette, seen through a matrix.
 float least_difference(const JointPalette& p, const glm::mat3& seen) {
-  const Rgba all[] = {p.force, p.torque, p.both, p.failed};
+  const Rgba all[] = {p.force, p.torque, p.both, p.failed, p.yielded};
   float least = std::numeric_limits<float>::max();
-  for (int i = 0; i < 4; ++i)
+  for (int i = 0; i < 5; ++i)
     for (int j = 0; j < i; ++j) least = std::min(least, glm::length(lab(all[i], seen) - lab(all[j], seen)));
   return least;
 }

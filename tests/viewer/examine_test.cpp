@@ -131,6 +131,10 @@ TEST_CASE("words choose the view, and wrong ones are refused with those accepted
   show("uncoloured beams", options, mode);
   show("no shadows", options, mode);
   show("wall-opacity 0.3", options, mode);
+  show("no yielded", options, mode);
+  CHECK_FALSE(options.yielded_joints);
+  show("yielded", options, mode);
+  CHECK(options.yielded_joints);
   CHECK_FALSE(options.shown.slabs);
   CHECK(options.shown.walls);
   CHECK_FALSE(options.coloured.beams);

@@ -54,6 +54,18 @@ std::string part_text(const structure::Building& building, structure::JointId id
   return text;
 }
 
+std::vector<std::string> yield_text(const Snapshot& moment, structure::JointId joint) {
+  std::vector<std::string> lines;
+  for (const structure::PlasticRotation& one : moment.answer->plastic_rotations) {
+    if (one.joint != joint) continue;
+    char text[128];
+    std::snprintf(text, sizeof text, "%s turned plastically by %.4f of %.4f rad",
+                  structure::sense_names[static_cast<std::size_t>(one.sense)], std::abs(one.turned), one.limit);
+    lines.emplace_back(text);
+  }
+  return lines;
+}
+
 void draw_joint(Controller& controller, const Snapshot& moment, structure::JointId id, bool with_history) {
   const TableFont columns;
   const auto& joint = moment.answer->joints[static_cast<std::size_t>(id.index)];
@@ -68,6 +80,7 @@ void draw_joint(Controller& controller, const Snapshot& moment, structure::Joint
       ImGui::TextUnformatted("never breaks");
     if (capacity.breakable && joint.strength < 0.9995F)
       ImGui::Text("weakened: %.1f %% of its capacity is left", 100.0 * static_cast<double>(joint.strength));
+    for (const std::string& line : yield_text(moment, id)) ImGui::TextUnformatted(line.c_str());
     const bool edge = controller.building()[id].panel.valid();
     for (int c = 0; c < 6; ++c)
       component_row(c, static_cast<double>(joint.demand[static_cast<std::size_t>(c)]), capacity,

@@ -79,6 +79,8 @@ const std::map<std::string, Plain>& plain_words() {
         {"no grid", flag(&ViewOptions::grid, false)},
         {"failed", flag(&ViewOptions::failed_joints, true)},
         {"no failed", flag(&ViewOptions::failed_joints, false)},
+        {"yielded", flag(&ViewOptions::yielded_joints, true)},
+        {"no yielded", flag(&ViewOptions::yielded_joints, false)},
         {"colour-blind safe", flag(&ViewOptions::colour_blind_safe, true)},
         {"usual colours", flag(&ViewOptions::colour_blind_safe, false)},
         {"no motion-scale", [](ViewOptions& o, ModeView&) { o.motion_scale = ViewOptions::as_deflection; }},

@@ -54,5 +54,7 @@ void draw_joint(Controller& controller, const Snapshot& moment, structure::Joint
 [[nodiscard]] std::string ratio_text(double ratio);
 /// "PA: post, box 300, steel, 3.50 m"
 [[nodiscard]] std::string part_text(const structure::Building& building, structure::JointId joint);
+/// "moment_y turned plastically by 0.0213 of 0.0750 rad": a line for each sense in which the joint has yielded.
+[[nodiscard]] std::vector<std::string> yield_text(const Snapshot& moment, structure::JointId joint);
 
 }  // namespace topple::viewer

@@ -123,7 +123,7 @@ GpuScene::GpuScene(const SceneInstances& scene) {
     walls_.emplace_back(batch.mesh, panel_attributes(), sizeof(PanelInstance));
   projectiles_.emplace_back(scene.projectiles().mesh, rigid_attributes(), sizeof(RigidInstance));
   piers_.emplace_back(scene.piers().mesh, rigid_attributes(), sizeof(RigidInstance));
-  for (const auto* batch : {&scene.arrows(), &scene.buried_arrows()})
+  for (const auto* batch : {&scene.arrows(), &scene.buried_arrows(), &scene.hinges()})
     arrows_.emplace_back(batch->mesh, rigid_attributes(), sizeof(RigidInstance));
 }
 
@@ -135,6 +135,7 @@ void GpuScene::update(const SceneInstances& scene) {
   piers_[0].update(scene.piers());
   arrows_[0].update(scene.arrows());
   arrows_[1].update(scene.buried_arrows());
+  arrows_[2].update(scene.hinges());
   const auto follow = [](std::vector<GpuBatch>& gpu, const std::vector<InstanceBatch<RigidInstance>>& batches) {
     for (std::size_t i = gpu.size(); i < batches.size(); ++i)
       gpu.emplace_back(batches[i].mesh, rigid_attributes(), sizeof(RigidInstance));

@@ -63,7 +63,11 @@ class GpuScene {
     draw(torn_ends_);
     draw(drawn_);
   }
-  void draw_arrows() const { arrows_[0].draw(); }
+  /// And marks of hinges.
+  void draw_arrows() const {
+    arrows_[0].draw();
+    arrows_[2].draw();
+  }
   void draw_buried_arrows() const { arrows_[1].draw(); }
 
  private:

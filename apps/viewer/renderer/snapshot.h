@@ -52,7 +52,8 @@ struct FrameAnswer : structure::StandingShapes {
     structure::Sense sense = structure::Sense::tension;
     bool intact = true, standing = true;
   };
-  std::vector<Joint> joints;                  ///< per Building::joints
+  std::vector<Joint> joints;                                  ///< per Building::joints
+  std::vector<structure::PlasticRotation> plastic_rotations;  ///< in order of joint and sense
   std::vector<structure::JointId> most_used;  ///< standing joints that have a capacity, most used first (at most 20)
   std::shared_ptr<const FrameForces> forces;  ///< null when not wanted
 };

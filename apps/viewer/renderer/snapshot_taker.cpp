@@ -133,6 +133,7 @@ std::shared_ptr<FrameAnswer> read_answer(const Simulation& simulation, Wanted wa
   answer->joints.reserve(building.joints.size());
   for (std::size_t i = 0; i < building.joints.size(); ++i)
     answer->joints.push_back(joint_answer(simulation.frame(), building, JointId(i)));
+  answer->plastic_rotations = simulation.frame().plastic_rotations();
   answer->most_used = most_used(building, answer->joints);
   answer->forces = read_forces(simulation, wanted);
   return answer;

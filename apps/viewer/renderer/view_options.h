@@ -28,6 +28,7 @@ struct ViewOptions {
   int component = 4;             ///< Colouring::component: 0 to 5 (x, y, z, rx, ry, rz in joint axes)
   PartSwitches shown, coloured;  ///< what is drawn at all; whose joints are coloured
   bool failed_joints = true;     ///< show failed joints in their colour
+  bool yielded_joints = true;    ///< where colours have a meaning, mark joints that have turned beyond what is elastic
   bool colour_blind_safe = false;
   static constexpr float as_deflection = -1;
   float deflection_scale = 1;          ///< standing parts are drawn at this multiple of their displacement

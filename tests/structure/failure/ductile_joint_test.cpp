@@ -113,6 +113,18 @@ TEST_CASE("a fixed beam under uniform load yields at its ends at 12 Mp/L2, in th
     // End rotation of the simply supported beam less what the end moments turn back.
     const double turn = q * L * L * L / (24 * EI) - moment * L / (2 * EI);
     CHECK(standing.energy().dissipated == Approx(2 * moment * turn).epsilon(rounding));
+    const auto both_ends_turned = [&] {
+      const auto turned = standing.plastic_rotations();
+      REQUIRE(turned.size() == 2);
+      for (std::size_t end = 0; end < 2; ++end) {
+        CHECK(turned[end].joint == yielded[end].joint);
+        CHECK(turned[end].sense == Sense::moment_y);
+        CHECK(std::abs(turned[end].turned) == Approx(turn).epsilon(rounding));
+        CHECK(turned[end].limit == 0.1);
+      }
+      CHECK(turned[0].turned * turned[1].turned < 0);  // the beam is symmetric
+    };
+    both_ends_turned();
     // Unloading is elastic: with the load gone the ends keep their angle, and with it a residual moment.
     standing.set_gravity(Vec3::Zero());
     CHECK(standing.settle(20).empty());
@@ -121,6 +133,7 @@ TEST_CASE("a fixed beam under uniform load yields at its ends at 12 Mp/L2, in th
     CHECK(std::abs(standing.demand(inner)(4)) == Approx(residual).epsilon(rounding));
     CHECK(-standing.displacement(beam.middle)(2) == Approx(sag - q * std::pow(L, 4) / (384 * EI)).epsilon(rounding));
     CHECK(standing.take_yielded().empty());
+    both_ends_turned();
     check_energy(standing);
   }
 }

@@ -25,7 +25,7 @@ void colour_bar(Rgba (*colour)(double), double low, double high) {
   ImGui::Dummy(ImVec2(width, height));
 }
 
-void legend(const ViewOptions& options, const SceneInstances& scene) {
+void legend(const ViewOptions& options, const Snapshot& moment, const SceneInstances& scene) {
   const JointPalette palette = joint_palette(options.colour_blind_safe);
   const bool capacity = options.scale == Scale::capacity;
   char text[96];
@@ -62,6 +62,8 @@ void legend(const ViewOptions& options, const SceneInstances& scene) {
       break;
   }
   if (options.colouring != Colouring::materials) legend_entry("failed", failed_colour(options));
+  if (options.analysis() && options.yielded_joints && !moment.answer->plastic_rotations.empty())
+    legend_entry("yielded (balls): twice as large at the limit", palette.yielded);
 }
 
 void switches(const char* title, PartSwitches& parts) {
@@ -145,7 +147,7 @@ void SidePanel::view(Controller& controller, const Snapshot& moment, const Scene
   bool largest = options.scale == Scale::largest_in_view;
   if (ImGui::Checkbox("scale by the largest in view", &largest))
     options.scale = largest ? Scale::largest_in_view : Scale::capacity;
-  legend(options, scene);
+  legend(options, moment, scene);
   ImGui::Separator();
   diagrams(options, scene);
   arrows(options, moment);
@@ -162,6 +164,7 @@ void SidePanel::view(Controller& controller, const Snapshot& moment, const Scene
   switches("joints coloured", options.coloured);
   ImGui::Checkbox("failed joints", &options.failed_joints);
   ImGui::SameLine();
+  ImGui::Checkbox("yielded", &options.yielded_joints);
   ImGui::Checkbox("colour-blind safe", &options.colour_blind_safe);
   const auto opacity = [](const char* label, float& value, float now) {
     if (ImGui::SliderFloat(label, &now, 0.05F, 1, "%.2f")) value = now;

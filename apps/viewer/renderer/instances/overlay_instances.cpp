@@ -5,6 +5,7 @@
 
 #include "renderer/shapes/arrows.h"
 #include "renderer/shapes/diagram.h"
+#include "renderer/shapes/hinge_marks.h"
 
 namespace topple::viewer {
 
@@ -13,11 +14,13 @@ using structure::Member;
 OverlayInstances::OverlayInstances(const structure::Building& building, const Bounds& bounds)
     : building_(building), bounds_(bounds) {
   arrows_.mesh = buried_arrows_.mesh = arrow_mesh(10);
+  hinges_.mesh = sphere_mesh(12);
 }
 
 void OverlayInstances::draw_forces(const PartInstances& parts, const Snapshot& snapshot, const ViewOptions& options) {
   draw_diagrams(parts, snapshot, options);
   draw_arrows(snapshot, options);
+  draw_hinges(parts, snapshot, options);
 }
 
 void OverlayInstances::draw_diagrams(const PartInstances& parts, const Snapshot& snapshot, const ViewOptions& options) {
@@ -64,6 +67,28 @@ void OverlayInstances::draw_arrows(const Snapshot& snapshot, const ViewOptions& 
     batch->standing = batch->instances.size();
     ++batch->revision;
   }
+}
+
+void OverlayInstances::draw_hinges(const PartInstances& parts, const Snapshot& snapshot, const ViewOptions& options) {
+  hinges_.instances.clear();
+  // Senses of one joint follow each other: the one that is nearest to its limit is marked.
+  const auto& turned = snapshot.answer->plastic_rotations;
+  for (std::size_t i = 0; i < turned.size() && options.yielded_joints && options.analysis();) {
+    const structure::JointId joint = turned[i].joint;
+    double share = 0;
+    for (; i < turned.size() && turned[i].joint == joint; ++i)
+      share = std::max(share, std::abs(turned[i].turned) / turned[i].limit);
+    const structure::Joint& own = building_[joint];
+    const Member& member = building_[own.member];
+    const auto index = static_cast<std::size_t>(own.member.index);
+    if (snapshot.membership->member[index] != part_stands || !is_on(options.shown, member) ||
+        !is_on(options.coloured, member))
+      continue;
+    hinges_.instances.push_back(hinge_mark(parts.standing_member(index, snapshot, options), building_[member.section],
+                                           own.end, share, joint_palette(options.colour_blind_safe).yielded));
+  }
+  hinges_.standing = hinges_.instances.size();
+  ++hinges_.revision;
 }
 
 void OverlayInstances::draw_marks(const PartInstances& parts, const Snapshot& snapshot, const ViewOptions& options) {

@@ -47,6 +47,8 @@ class SceneInstances {
   /// Loads and contacts; reactions, which come from below the ground.
   [[nodiscard]] const InstanceBatch<RigidInstance>& arrows() const { return overlays_.arrows(); }
   [[nodiscard]] const InstanceBatch<RigidInstance>& buried_arrows() const { return overlays_.buried_arrows(); }
+  /// At joints that have yielded.
+  [[nodiscard]] const InstanceBatch<RigidInstance>& hinges() const { return overlays_.hinges(); }
   [[nodiscard]] const std::vector<DustInstance>& dust() const { return dust_; }
   /// Diagrams along members.
   [[nodiscard]] const Overlay& diagrams() const { return overlays_.diagrams(); }

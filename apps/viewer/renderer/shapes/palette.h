@@ -25,6 +25,7 @@ inline constexpr Rgba projectile_colour = rgba(58, 52, 54), drawn_colour = rgba(
 
 struct JointPalette {
   Rgba force, torque, both, failed;
+  Rgba yielded = rgba(250, 250, 250);  ///< of marks: no other colour stays apart from those of all views for everyone
 };
 [[nodiscard]] JointPalette joint_palette(bool colour_blind_safe);
 

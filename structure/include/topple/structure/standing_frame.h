@@ -36,6 +36,14 @@ struct JointBreak {
   std::optional<double> inside{};
 };
 
+/// A joint that has turned beyond what is elastic, and holds.
+struct PlasticRotation {
+  JointId joint;                  ///< of a member's end that stands
+  Sense sense = Sense::moment_y;  ///< torsion, moment_y or moment_z
+  double turned = 0;              ///< rad, of the rigid end less that of the member's end; keeps its sign
+  double limit = 0;               ///< rad: the joint breaks where it would turn further than that, either way
+};
+
 /// A connected part that lost its hold (or moves as a mechanism): it leaves the frame for good. Joints inside it that
 /// held stay intact(), so that a body made of it can break further along them; the displacements of its nodes stay what
 /// they were when it left. It may be a panel alone, or a node alone: a node whose members all left, with
@@ -284,6 +292,9 @@ class StandingFrame {
   /// Joints whose moment or torsion came to its capacity, and that have turned since, as they did; each sense of a
   /// joint once. Handed out once.
   std::vector<JointBreak> take_yielded();
+  /// What joints that hold and stand have turned by, in order of joint and sense; those that never yielded are left
+  /// out.
+  [[nodiscard]] std::vector<PlasticRotation> plastic_rotations() const;
   /// What has left since the last call, each connected part apart.
   std::vector<Detached> take_detached();
 
