@@ -74,6 +74,23 @@ Vector3d drawn(const MemberInstance& m, const glm::vec3& position, const glm::dv
   return {at.x, at.y, at.z};
 }
 
+/// What a file draws of a part at a moment: triangles, each with its corners' places and normals.
+struct Surface {
+  Places places, normals;  ///< by threes
+};
+/// The largest angle between a triangle and the mean of its corners' normals, rad.
+double largest_slant(const Surface& surface) {
+  double most = 0;
+  for (std::size_t i = 0; i + 2 < surface.places.size(); i += 3) {
+    const Vector3d* p = &surface.places[i];
+    const Vector3d across = (p[1] - p[0]).cross(p[2] - p[0]);
+    if (across.norm() < 1e-6) continue;
+    const Vector3d mean = surface.normals[i] + surface.normals[i + 1] + surface.normals[i + 2];
+    most = std::max(most, std::acos(std::clamp(mean.normalized().dot(across.normalized()), -1.0, 1.0)));
+  }
+  return most;
+}
+
 /// Every vertex of every member that is there, and the corners of panels, as pictures have them.
 struct Picture {
   std::map<std::size_t, Places> members, panels;
@@ -106,6 +123,51 @@ struct Picture {
         });
   }
 };
+
+/// The largest angle between the normals of a panel's faces at its corners and panel_vertex of renderer/shaders.cpp.
+double largest_slant(const Surface& surface, const Places& corners, double half) {
+  double most = 0;
+  int met = 0;
+  for (std::size_t c = 0; c < 4; ++c) {
+    const bool far_along = c == 1 || c == 2, far_up = c == 2 || c == 3;
+    const Vector3d along = far_up ? corners[2] - corners[3] : corners[1] - corners[0];
+    const Vector3d up = far_along ? corners[2] - corners[1] : corners[3] - corners[0];
+    const Vector3d across = along.cross(up).normalized();
+    for (std::size_t i = 0; i < surface.places.size(); ++i) {
+      const double share = std::abs(surface.normals[i].dot(across));
+      if (std::abs((surface.places[i] - corners[c]).norm() - half) > allowed || share < 0.7) continue;
+      most = std::max(most, std::acos(std::min(share, 1.0)));
+      ++met;
+    }
+  }
+  REQUIRE(met >= 8);  // a vertex on either face at each corner
+  return most;
+}
+
+/// Normals lie across what is drawn, whatever it is bent to: members' triangles in the file itself tell; a panel is
+/// drawn by too few of them.
+template <class Export>
+void check_normals(Collapse& collapse, const Export& file) {
+  double unturned = 0, unturned_member = 0;
+  for (const int moment : moments) {
+    const Picture picture(collapse, moment);
+    for (const auto& [m, vertices] : picture.members) {
+      INFO(collapse.building().members[m].name << " at frame " << moment);
+      // Turns of up to 0.15 rad about two axes at once, to first order.
+      CHECK(largest_slant(file.member_surface(m, moment, true)) < 0.03);
+      unturned_member = std::max(unturned_member, largest_slant(file.member_surface(m, moment, false)));
+    }
+    for (const auto& [p, corners] : picture.panels) {
+      INFO(collapse.building().panels[p].name << " at frame " << moment);
+      const double half = collapse.building().panels[p].thickness / 2;
+      CHECK(largest_slant(file.panel_surface(p, moment, true), corners, half) < 0.015);
+      unturned = std::max(unturned, largest_slant(file.panel_surface(p, moment, false), corners, half));
+    }
+  }
+  // What normals would be off by if they did not turn.
+  CHECK(unturned > 0.06);
+  CHECK(unturned_member > 0.06);
+}
 
 /// What an exported file draws of a part at a moment: its vertices, in the order of its mesh.
 template <class Export>
@@ -167,6 +229,12 @@ class Gltf {
   [[nodiscard]] const nlohmann::json& node(const std::string& name) const { return json_["nodes"][nodes_.at(name)]; }
   [[nodiscard]] Places member(std::size_t m, int frame) const { return places(building_.members[m].name, frame); }
   [[nodiscard]] Places panel(std::size_t p, int frame) const { return places(building_.panels[p].name, frame); }
+  [[nodiscard]] Surface member_surface(std::size_t m, int frame, bool turned) const {
+    return surface(building_.members[m].name, frame, turned);
+  }
+  [[nodiscard]] Surface panel_surface(std::size_t p, int frame, bool turned) const {
+    return surface(building_.panels[p].name, frame, turned);
+  }
 
  private:
   [[nodiscard]] std::vector<float> floats(std::size_t accessor) const {
@@ -193,15 +261,33 @@ class Gltf {
     return value;
   }
   [[nodiscard]] Places places(const std::string& name, int frame) const {
+    return values(name, "POSITION", frame, true);
+  }
+  [[nodiscard]] Surface surface(const std::string& name, int frame, bool turned) const {
+    const auto& primitive = json_["meshes"][node(name)["mesh"].get<std::size_t>()]["primitives"][0];
+    const auto& accessor = json_["accessors"][primitive["indices"].get<std::size_t>()];
+    const auto& view = json_["bufferViews"][accessor["bufferView"].get<std::size_t>()];
+    const Places at = places(name, frame), normals = values(name, "NORMAL", frame, turned);
+    Surface surface;
+    for (const auto v : numbers<std::uint32_t>(binary_.substr(view["byteOffset"], view["byteLength"]))) {
+      surface.places.push_back(at[v]);
+      surface.normals.push_back(normals[v].normalized());
+    }
+    return surface;
+  }
+  /// Places, or normals: of each vertex.
+  [[nodiscard]] Places values(const std::string& name, const char* what, int frame, bool turned) const {
     const auto& part = node(name);
     const auto& mesh = json_["meshes"][part["mesh"].get<std::size_t>()];
     const auto& primitive = mesh["primitives"][0];
-    std::vector<float> sum = floats(primitive["attributes"]["POSITION"]);
+    const bool is_place = what == std::string("POSITION");
+    std::vector<float> sum = floats(primitive["attributes"][what]);
     const auto weights =
         at(name, "weights", frame, part.value("weights", mesh.value("weights", std::vector<double>())));
     REQUIRE(weights.size() == primitive.value("targets", nlohmann::json::array()).size());
-    for (std::size_t k = 0; k < weights.size(); ++k) {
-      const auto way = floats(primitive["targets"][k]["POSITION"]);
+    for (std::size_t k = 0; k < weights.size() && turned; ++k) {
+      if (!primitive["targets"][k].contains(what)) continue;
+      const auto way = floats(primitive["targets"][k][what]);
       REQUIRE(way.size() == sum.size());
       for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += static_cast<float>(weights[k]) * way[i];
     }
@@ -210,8 +296,8 @@ class Gltf {
     const Eigen::Quaterniond turn = Eigen::Quaterniond(r[3], r[0], r[1], r[2]).normalized();
     Places list;
     for (std::size_t i = 0; i < sum.size(); i += 3) {
-      const Vector3d p =
-          turn * Eigen::Vector3f(sum[i], sum[i + 1], sum[i + 2]).cast<double>() + Vector3d(t[0], t[1], t[2]);
+      const Vector3d p = turn * Eigen::Vector3f(sum[i], sum[i + 1], sum[i + 2]).cast<double>() +
+                         (is_place ? Vector3d(t[0], t[1], t[2]) : Vector3d(Vector3d::Zero()));
       list.emplace_back(p.x(), -p.z(), p.y());  // y up to z up
     }
     return list;
@@ -252,8 +338,33 @@ class Usd {
     return {};
   }
   [[nodiscard]] Places panel(std::size_t p, int frame) const { return placed(prim(building_.panels[p].name), frame); }
+  [[nodiscard]] Surface member_surface(std::size_t m, int frame, bool turned) const {
+    return surface(prim(building_.members[m].name), frame, turned);
+  }
+  [[nodiscard]] Surface panel_surface(std::size_t p, int frame, bool turned) const {
+    return surface(prim(building_.panels[p].name), frame, turned);
+  }
 
  private:
+  static std::vector<double> still(const std::string& prim, const std::string& attribute) {
+    const std::size_t begin = prim.find(attribute + " = [") + attribute.size() + 4;
+    return values(prim.substr(begin, prim.find(']', begin) - begin));
+  }
+  static Surface surface(const std::string& prim, int frame, bool turned) {
+    const Places at = placed(prim, frame);
+    std::vector<double> normals = turned ? sample(prim, "normal3f[] normals", frame) : std::vector<double>();
+    if (normals.empty()) normals = still(prim, "normal3f[] normals");
+    const auto r = sample(prim, "xformOp:orient", frame);
+    Surface surface;
+    for (const double v : still(prim, "int[] faceVertexIndices")) {
+      const std::size_t n = 3 * surface.normals.size();
+      surface.places.push_back(at[static_cast<std::size_t>(v)]);
+      surface.normals.emplace_back(normals[n], normals[n + 1], normals[n + 2]);
+      if (!r.empty())
+        surface.normals.back() = Eigen::Quaterniond(r[0], r[1], r[2], r[3]).normalized() * surface.normals.back();
+    }
+    return surface;
+  }
   static std::vector<double> values(std::string text) {
     std::replace_if(
         text.begin(), text.end(), [](char c) { return std::strchr("()[],", c) != nullptr; }, ' ');
@@ -273,10 +384,7 @@ class Usd {
   }
   static Places placed(const std::string& prim, int frame) {
     std::vector<double> points = sample(prim, "point3f[] points", frame);
-    if (points.empty()) {
-      const std::size_t begin = prim.find("point3f[] points = [") + 20;
-      points = values(prim.substr(begin, prim.find(']', begin) - begin));
-    }
+    if (points.empty()) points = still(prim, "point3f[] points");
     const auto t = sample(prim, "xformOp:translate", frame), r = sample(prim, "xformOp:orient", frame);
     Places list;
     for (std::size_t i = 0; i + 2 < points.size(); i += 3) {
@@ -324,7 +432,7 @@ class Page {
     const bool bent = member.contains("bent");
     const auto& mesh = bent ? data_["bent"][member["bent"].get<std::size_t>()]
                             : data_["sections"][member["section"].get<std::size_t>()];
-    Places list = bent_points(mesh, m, frame);
+    Places list = this->bent(mesh, "positions", "bends", m, frame);
     for (Vector3d& p : list) {
       const Vector3d x(n[4], n[5], n[6]), y(n[7], n[8], n[9]), z(n[10], n[11], n[12]);
       const double along = bent ? p.x() + n[3] / 2 : p.x() * n[3];
@@ -335,10 +443,35 @@ class Page {
   [[nodiscard]] Places panel(std::size_t p, int moment) const {
     const int frame = recorded(moment);
     const std::size_t part = building_.members.size() + p;
-    return moved(bent_points(data_["panels"][p]["states"][0]["mesh"], part, frame), part, frame);
+    return moved(bent(data_["panels"][p]["states"][0]["mesh"], "positions", "bends", part, frame), part, frame);
+  }
+  [[nodiscard]] Surface member_surface(std::size_t m, int moment, bool turned) const {
+    const auto& member = data_["members"][m];
+    const auto& mesh = member.contains("bent") ? data_["bent"][member["bent"].get<std::size_t>()]
+                                               : data_["sections"][member["section"].get<std::size_t>()];
+    const auto n = floats(member["numbers"]);
+    Eigen::Matrix3d axes;
+    axes << n[4], n[7], n[10], n[5], n[8], n[11], n[6], n[9], n[12];
+    return surface(mesh, this->member(m, moment), axes, m, moment, turned);
+  }
+  [[nodiscard]] Surface panel_surface(std::size_t p, int moment, bool turned) const {
+    return surface(data_["panels"][p]["states"][0]["mesh"], panel(p, moment), Eigen::Matrix3d::Identity(),
+                   building_.members.size() + p, moment, turned);
   }
 
  private:
+  [[nodiscard]] Surface surface(const nlohmann::json& mesh, const Places& at, const Eigen::Matrix3d& axes,
+                                std::size_t part, int moment, bool turned) const {
+    const int frame = recorded(moment);
+    const Places normals = bent(mesh, "normals", turned ? "turns" : "none", part, frame);
+    const Vector3d here = moved({Vector3d::Zero()}, part, frame)[0];
+    Surface surface;
+    for (const auto v : numbers<std::uint32_t>(from_base64(mesh["indices"]))) {
+      surface.places.push_back(at[v]);
+      surface.normals.push_back((moved({axes * normals[v]}, part, frame)[0] - here).normalized());
+    }
+    return surface;
+  }
   /// What rests is recorded at its beginning and its end.
   [[nodiscard]] int recorded(int moment) const {
     const auto& frames = recording_.frames();
@@ -355,11 +488,13 @@ class Page {
     const auto after = std::upper_bound(frames.begin(), frames.end(), frame);
     return after == frames.begin() ? 0 : static_cast<std::size_t>(after - frames.begin()) - 1;
   }
-  [[nodiscard]] Places bent_points(const nlohmann::json& mesh, std::size_t part, int frame) const {
-    auto sum = floats(mesh["positions"]);
-    if (mesh.contains("bends")) {
+  /// Places, or normals, and how they go with its ways of bending.
+  [[nodiscard]] Places bent(const nlohmann::json& mesh, const char* what, const char* by, std::size_t part,
+                            int frame) const {
+    auto sum = floats(mesh[what]);
+    if (mesh.contains(by)) {
       const auto& shape = shapes_.at(part);
-      const auto ways = floats(mesh["bends"]), weights = floats(shape["weights"]);
+      const auto ways = floats(mesh[by]), weights = floats(shape["weights"]);
       const std::size_t k = key(shape, frame);
       for (std::size_t w = 0; w < ways.size() / sum.size(); ++w)
         for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += weights[8 * k + w] * ways[w * sum.size() + i];
@@ -415,6 +550,7 @@ TEST_CASE("plastic hinges, what hangs by them and what falls from them are bent 
   write_gltf(building, collapse.recording(), (folder / "bent.glb").string(), rate);
   const Gltf gltf(building, folder / "bent.glb");
   compare(collapse, gltf);
+  check_normals(collapse, gltf);
   // What is bent shares meshes too: one for each kind, section and length, beside that of the straight ones.
   std::size_t bent = 0, bending = 0;
   for (const auto& member : building.members) bent += gltf.node(member.name).contains("weights") ? 1 : 0;
@@ -426,6 +562,7 @@ TEST_CASE("plastic hinges, what hangs by them and what falls from them are bent 
   write_usd(building, collapse.recording(), (folder / "bent.usda").string(), rate);
   const Usd usd(building, folder / "bent.usda");
   compare(collapse, usd);
+  check_normals(collapse, usd);
   CHECK(usd.prim("BX-1-1-1").find("points.timeSamples") != std::string::npos);
 }
 
@@ -439,5 +576,6 @@ TEST_CASE("the replay page bends members and panels as pictures do") {
   write_html_replay(collapse.building(), collapse.recording(), (folder / "bent.html").string());
   const Page page(collapse, folder / "bent.html");
   compare(collapse, page);
+  check_normals(collapse, page);
   CHECK(page.data()["bent"].size() <= 2);
 }

@@ -18,6 +18,7 @@
 #include "app/output/video.h"
 #include "app/part_motion.h"
 #include "app/session.h"
+#include "renderer/instances/scene_instances.h"
 #include "support/scratch_folder.h"
 
 namespace {
@@ -163,7 +164,7 @@ TEST_CASE("a model drawn around the building is in every export, its pieces from
     (void)session.snapshot();
   }
   const Recording& recording = *session.recording();
-  const std::vector<DrawnTrack> pieces = drawn_tracks(recording);
+  const std::vector<DrawnTrack> pieces = drawn_tracks(*scene.building, recording);
   REQUIRE(pieces.size() > scene.drawn->size());
   std::size_t at_first = 0, at_last = 0;
   int moving = 0;
@@ -199,6 +200,69 @@ TEST_CASE("a model drawn around the building is in every export, its pieces from
   const std::size_t list = html.find("\"drawn\":[");
   REQUIRE(list != std::string::npos);
   CHECK(count(html.substr(list, html.find("\"failed\":", list) - list), "\"mesh\":") == pieces.size());
+}
+
+TEST_CASE("a facade around a frame that hangs is exported as it is drawn, bent with the frame, to a centimetre") {
+  const ScratchFolder folder;
+  Scene scene = open_scene("steel_frame_hinges");
+  const auto& building = *scene.building;
+  // A box around the post that loses its foot, a hand wider: it sinks by half a metre with it.
+  const topple::structure::NameIndex names(building);
+  const topple::structure::Vec3 foot = building[*names.node("N-2-1-1")].position;
+  topple::structure::DrawnMesh box;
+  box.name = "box";
+  const auto corner = [&](int i) -> topple::structure::Vec3 {
+    return foot + topple::structure::Vec3((i & 1) != 0 ? 0.4 : -0.4, (i & 2) != 0 ? 0.4 : -0.4, (i & 4) != 0 ? 3 : 0.3);
+  };
+  for (const auto& face : {std::array{0, 2, 3, 1}, std::array{4, 5, 7, 6}, std::array{0, 1, 5, 4},
+                           std::array{2, 6, 7, 3}, std::array{0, 4, 6, 2}, std::array{1, 3, 7, 5}}) {
+    const auto first = static_cast<int>(box.mesh.positions.size());
+    const auto across = (corner(face[1]) - corner(face[0])).cross(corner(face[2]) - corner(face[0])).normalized();
+    for (const int i : face) {
+      box.mesh.positions.push_back(corner(i));
+      box.mesh.normals.emplace_back(across);
+    }
+    box.mesh.triangles.push_back({first, first + 1, first + 2});
+    box.mesh.triangles.push_back({first, first + 2, first + 3});
+  }
+  scene.drawn = std::make_shared<const std::vector<topple::structure::DrawnMesh>>(std::vector{box});
+  Session session(scene.building, scene.scenario, scene.drawn);
+  (void)session.snapshot();
+  while (session.simulation().time() < 3.5) {
+    session.step();
+    (void)session.snapshot();
+  }
+  const Recording& recording = *session.recording();
+  const std::vector<DrawnTrack> pieces = drawn_tracks(building, recording);
+  // At every moment one of them is there, and lies where pictures draw it.
+  SceneInstances instances(building);
+  double most = 0;
+  for (std::size_t f = 0; f < recording.frames().size(); f += 5) {
+    const Snapshot moment = recording.at(recording.frames()[f].time);
+    instances.update(moment, ViewOptions());
+    const DrawnTrack* there = nullptr;
+    for (const DrawnTrack& piece : pieces) {
+      int track = part_gone;
+      for (const PlaceChange& change : piece.places)
+        if (change.frame <= static_cast<std::int32_t>(f)) track = change.track;
+      if (track == part_gone) continue;
+      CHECK(there == nullptr);
+      there = &piece;
+    }
+    REQUIRE(there != nullptr);
+    REQUIRE(instances.drawn().size() == 1);
+    const Mesh& drawn = instances.drawn()[0].mesh;
+    REQUIRE(drawn.vertices.size() == there->mesh->positions.size());
+    for (std::size_t v = 0; v < drawn.vertices.size(); ++v) {
+      const glm::vec3 p = drawn.vertices[v].position;
+      CHECK((topple::structure::Vec3(p.x, p.y, p.z) - there->mesh->positions[v]).norm() < 0.01 + 1e-5);
+      most = std::max(most, (there->mesh->positions[v] - pieces[0].mesh->positions[v]).norm());
+    }
+  }
+  CHECK(most > 0.4);  // what it would be off by if it were drawn where it stood at first
+  const std::string usd = (folder / "box.usda").string();
+  write_usd(building, recording, usd);
+  CHECK(count(text_of(usd), "def Mesh \"drawn_") > 10);
 }
 
 TEST_CASE("a part in a recording moves with its body") {

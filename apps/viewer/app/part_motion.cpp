@@ -5,6 +5,8 @@
 #include <map>
 #include <tuple>
 
+#include "topple/structure/visual_mesh.h"
+
 namespace topple::viewer {
 
 std::vector<ExportSample> export_samples(const Recording& recording, double rate) {
@@ -55,7 +57,45 @@ std::vector<std::vector<PanelState>> panel_states(const structure::Building& bui
   return states;
 }
 
-std::vector<DrawnTrack> drawn_tracks(const Recording& recording) {
+namespace {
+
+/// A standing piece as pictures bend it: its vertices go with the parts that they hang on, its normals as its faces do.
+std::shared_ptr<const fracture::Mesh> bent_piece(const structure::Building& building, const DrawnPiece& piece,
+                                                 const FrameAnswer& answer) {
+  const structure::BentBuilding bent{
+      [&](structure::NodeId node) -> structure::Vec6 {
+        return answer.displacements[static_cast<std::size_t>(node.index)].cast<double>();
+      },
+      [&](structure::JointId joint) { return answer.joints[static_cast<std::size_t>(joint.index)].intact; }};
+  auto mesh = std::make_shared<fracture::Mesh>(*piece.mesh);
+  const auto across = [&] {
+    std::vector<structure::Vec3> sum(mesh->positions.size(), structure::Vec3::Zero());
+    for (const auto& triangle : mesh->triangles) {
+      const auto at = [&](std::size_t corner) { return mesh->positions[static_cast<std::size_t>(triangle[corner])]; };
+      for (const int v : triangle) sum[static_cast<std::size_t>(v)] += (at(1) - at(0)).cross(at(2) - at(0));
+    }
+    return sum;
+  };
+  const auto straight = across();
+  for (std::size_t v = 0; v < mesh->positions.size(); ++v)
+    mesh->positions[v] += displacement_with(building, (*piece.bones)[v], piece.mesh->positions[v], bent);
+  const auto now = across();
+  for (std::size_t v = 0; v < mesh->normals.size(); ++v)
+    if (!straight[v].isZero(0) && !now[v].isZero(0))
+      mesh->normals[v] = Eigen::Quaterniond::FromTwoVectors(straight[v], now[v]) * mesh->normals[v];
+  return mesh;
+}
+
+/// Somewhere farther from where it was drawn last than is seen.
+bool is_elsewhere(const fracture::Mesh& now, const fracture::Mesh& last) {
+  for (std::size_t v = 0; v < now.positions.size(); ++v)
+    if ((now.positions[v] - last.positions[v]).norm() > structure::drawn_tolerance) return true;
+  return false;
+}
+
+}  // namespace
+
+std::vector<DrawnTrack> drawn_tracks(const structure::Building& building, const Recording& recording) {
   const auto& tracks = recording.tracks();
   const auto track_of = [&](std::int64_t body) {
     const auto found = std::lower_bound(tracks.begin(), tracks.end(), body,
@@ -64,10 +104,13 @@ std::vector<DrawnTrack> drawn_tracks(const Recording& recording) {
   };
   std::vector<DrawnTrack> all;
   std::map<const fracture::Mesh*, std::size_t> number;
+  std::map<const fracture::Mesh*, std::shared_ptr<const fracture::Mesh>> drawn_as;  // of pieces that stand
   std::shared_ptr<const std::vector<DrawnPiece>> seen;
+  std::shared_ptr<const FrameAnswer> answer;
   for (std::size_t f = 0; f < recording.frames().size(); ++f) {
-    if (recording.frames()[f].drawn == seen) continue;
+    if (recording.frames()[f].drawn == seen && recording.frames()[f].answer == answer) continue;
     seen = recording.frames()[f].drawn;
+    answer = recording.frames()[f].answer;
     const auto frame = static_cast<std::int32_t>(f);
     std::vector<char> here(all.size(), 0);
     const auto note = [&](DrawnTrack& one, int track) {
@@ -76,9 +119,15 @@ std::vector<DrawnTrack> drawn_tracks(const Recording& recording) {
     };
     if (seen)
       for (const DrawnPiece& piece : *seen) {
-        const auto [known, made] = number.try_emplace(piece.mesh.get(), all.size());
+        auto mesh = piece.mesh;
+        if (piece.body == part_stands && piece.bones) {
+          auto& last = drawn_as.try_emplace(piece.mesh.get(), piece.mesh).first->second;
+          if (auto now = bent_piece(building, piece, *answer); is_elsewhere(*now, *last)) last = std::move(now);
+          mesh = last;
+        }
+        const auto [known, made] = number.try_emplace(mesh.get(), all.size());
         if (made) {
-          all.push_back({piece.mesh, {}});
+          all.push_back({mesh, {}});
           here.push_back(0);
         }
         here[known->second] = 1;
@@ -136,6 +185,13 @@ std::vector<structure::Vec3> places(const Mesh& mesh) {
   return places;
 }
 
+std::vector<structure::Vec3> normals(const Mesh& mesh) {
+  std::vector<structure::Vec3> normals;
+  for (const Vertex& v : mesh.vertices)
+    normals.push_back(Eigen::Vector3f(v.normal.x, v.normal.y, v.normal.z).cast<double>());
+  return normals;
+}
+
 glm::vec3 vector(const Eigen::Vector3d& v) { return glm::vec3(v.x(), v.y(), v.z()); }
 
 }  // namespace
@@ -146,7 +202,9 @@ PartMesh member_mesh(const structure::Building& building, structure::MemberId id
   part.rest = rest_pose(building, id);
   part.mesh = section_mesh(building[member.section], bent ? structure::bent_segments : 1);
   for (Vertex& v : part.mesh.vertices) v.position.x = (v.position.x - 0.5F) * static_cast<float>(member.length);
-  if (bent) part.bends = structure::member_bends(member.length, places(part.mesh));
+  if (!bent) return part;
+  part.bends = structure::member_bends(member.length, places(part.mesh));
+  part.bend_normals = structure::member_bend_normals(member.length, places(part.mesh), normals(part.mesh));
   return part;
 }
 
@@ -155,20 +213,30 @@ PartMesh panel_part_mesh(const structure::Building& building, structure::PanelId
   PartMesh part;
   part.rest = rest_pose(building, id);
   part.mesh = placed_panel_mesh(building, building[id], state, part.rest.position);
-  if (ways > 0) part.bends = structure::panel_bends(building, id, places(part.mesh));
+  if (ways == 0) return part;
+  part.bends = structure::panel_bends(building, id, places(part.mesh));
+  part.bend_normals = structure::panel_bend_normals(building, id, places(part.mesh), normals(part.mesh));
   part.bends.resize(std::min(ways, part.bends.size()));
+  part.bend_normals.resize(part.bends.size());
   return part;
+}
+
+bool normals_turn(const PartMesh& part, const std::vector<ShapeChange>& shapes) {
+  const auto straight = normals(part.mesh);
+  return std::any_of(shapes.begin(), shapes.end(), [&](const ShapeChange& change) {
+    return structure::normals_turn(straight, part.bend_normals, {}, change.shape.bend);
+  });
 }
 
 Mesh placed(const PartMesh& part, const structure::BendWeights& bend, const Eigen::Vector3d& origin) {
   Mesh mesh = part.mesh;
-  const auto local = places(mesh);
+  const auto local = places(mesh), local_normals = normals(mesh);
   for (std::size_t v = 0; v < local.size(); ++v) {
     Eigen::Vector3d at = local[v];
     for (std::size_t k = 0; k < part.bends.size(); ++k) at += static_cast<double>(bend[k]) * part.bends[k][v];
-    const glm::vec3 n = mesh.vertices[v].normal;
+    const Eigen::Vector3d normal = structure::bent_normal(local_normals[v], part.bend_normals, bend, v);
     mesh.vertices[v].position = vector(part.rest.position + part.rest.orientation * at - origin);
-    mesh.vertices[v].normal = vector(part.rest.orientation * Eigen::Vector3f(n.x, n.y, n.z).cast<double>());
+    mesh.vertices[v].normal = vector(part.rest.orientation * normal);
   }
   return mesh;
 }

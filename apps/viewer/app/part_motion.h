@@ -35,13 +35,14 @@ struct PanelState {
 [[nodiscard]] std::vector<std::vector<PanelState>> panel_states(const structure::Building& building,
                                                                 const Recording& recording);
 
-/// A piece of a model that is drawn around the building, from the cut that made it to the one that ends it.
+/// A piece of a model that is drawn around the building, from the cut that made it to the one that ends it; one that
+/// stands from where it is drawn bent to where it is farther from that than structure::drawn_tolerance.
 struct DrawnTrack {
-  std::shared_ptr<const fracture::Mesh> mesh;  ///< where it was in the undeformed building
+  std::shared_ptr<const fracture::Mesh> mesh;  ///< in the undeformed building's axes: where it was, or bent
   std::vector<PlaceChange> places;             ///< in order of frame; the first is that of frame 0
 };
 /// In the order in which they come, those of one frame as the snapshot has them.
-[[nodiscard]] std::vector<DrawnTrack> drawn_tracks(const Recording& recording);
+[[nodiscard]] std::vector<DrawnTrack> drawn_tracks(const structure::Building& building, const Recording& recording);
 
 /// From a frame on, a part stands like this, or did when it let go: undeformed axes, its body's motion comes on top.
 struct ShapeChange {
@@ -60,14 +61,17 @@ struct ShapeChange {
 /// What is drawn of a part, about the place and axes of its pose, and the ways in which it bends.
 struct PartMesh {
   Mesh mesh;
-  std::vector<std::vector<structure::Vec3>> bends;  ///< SceneMesh::bends; empty: it stays as it is
-  structure::AnimatedPose rest;                     ///< undeformed
+  std::vector<std::vector<structure::Vec3>> bends;         ///< SceneMesh::bends; empty: it stays as it is
+  std::vector<std::vector<structure::Vec3>> bend_normals;  ///< SceneMesh::bend_normals
+  structure::AnimatedPose rest;                            ///< undeformed
 };
 /// Straight in one part, or in as many as bend.
 [[nodiscard]] PartMesh member_mesh(const structure::Building& building, structure::MemberId member, bool bent);
 /// Of a panel, or of what remains of it, with so many ways of bending.
 [[nodiscard]] PartMesh panel_part_mesh(const structure::Building& building, structure::PanelId panel,
                                        const PanelState& state, std::size_t ways);
+/// Some normal of it is seen to turn along the run.
+[[nodiscard]] bool normals_turn(const PartMesh& part, const std::vector<ShapeChange>& shapes);
 /// Where its vertices are at rest but for their bend; positions relative to `origin`.
 [[nodiscard]] Mesh placed(const PartMesh& part, const structure::BendWeights& bend, const Eigen::Vector3d& origin);
 

@@ -9,16 +9,18 @@ function bytes(base64) {
 export const floats = (base64) => new Float32Array(bytes(base64));
 export const integers = (base64) => new Int32Array(bytes(base64));
 
-/** One that bends has its ways of bending as morph targets. */
-export function geometry({ positions, normals, indices, bends }) {
+/** One that bends has its ways of bending as morph targets, of places and of normals. */
+export function geometry({ positions, normals, indices, bends, turns }) {
   const result = new THREE.BufferGeometry();
   result.setAttribute('position', new THREE.BufferAttribute(floats(positions), 3));
   result.setAttribute('normal', new THREE.BufferAttribute(floats(normals), 3));
   result.setIndex(new THREE.BufferAttribute(new Uint32Array(bytes(indices)), 1));
   if (bends) {
-    const ways = floats(bends), size = result.attributes.position.array.length;
+    const size = result.attributes.position.array.length;
+    const targets = (ways) => Array.from({ length: ways.length / size }, (_, k) => new THREE.BufferAttribute(ways.subarray(k * size, (k + 1) * size), 3));
     result.morphTargetsRelative = true;
-    result.morphAttributes.position = Array.from({ length: ways.length / size }, (_, k) => new THREE.BufferAttribute(ways.subarray(k * size, (k + 1) * size), 3));
+    result.morphAttributes.position = targets(floats(bends));
+    if (turns) result.morphAttributes.normal = targets(floats(turns));
   }
   return result;
 }

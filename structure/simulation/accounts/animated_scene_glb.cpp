@@ -5,6 +5,7 @@
 #include <map>
 
 #include "topple/structure/animated_scene.h"
+#include "topple/structure/bent_part.h"
 #include "topple/structure/formats/json_tree.h"
 
 namespace topple::structure {
@@ -102,6 +103,16 @@ class GlbWriter {
       for (const auto& [frame, bend] : node.bends)
         for (std::size_t k = 0; k < bend.size(); ++k)
           if (bend[k] != 0) bends_[static_cast<std::size_t>(node.mesh)] = std::max(bends_of(node), k + 1);
+    // Where no normal is seen to turn, files are smaller without, and no program has to bear more than it must.
+    normals_turn_.assign(scene_.meshes.size(), false);
+    for (const AnimatedNode& node : scene_.nodes) {
+      if (node.mesh < 0) continue;
+      const SceneMesh& mesh = scene_.meshes[static_cast<std::size_t>(node.mesh)];
+      for (const auto& [frame, bend] : node.bends) {
+        if (normals_turn_[static_cast<std::size_t>(node.mesh)]) break;
+        normals_turn_[static_cast<std::size_t>(node.mesh)] = normals_turn(mesh.normals, mesh.bend_normals, {}, bend);
+      }
+    }
   }
   [[nodiscard]] std::size_t bends_of(const AnimatedNode& node) const {
     return bends_[static_cast<std::size_t>(node.mesh)];
@@ -125,21 +136,28 @@ class GlbWriter {
     }
     const int index = add_accessor(indices, index_type, "SCALAR", index_target);
     Json primitive = {{"attributes", std::move(attributes)}, {"indices", index}, {"material", mesh.material}};
-    if (bends > 0) primitive["targets"] = targets(mesh, bends);
+    if (bends > 0) primitive["targets"] = targets(mesh, bends, normals_turn_[root_["meshes"].size()]);
     Json entry = {{"primitives", Json::array({std::move(primitive)})}};
     if (bends > 0) entry["weights"] = std::vector<float>(bends, 0.0F);
     root_["meshes"].push_back(std::move(entry));
   }
 
-  /// Places alone: normals besides would be more than every program has to bear, and turn too little to be seen.
-  Json targets(const SceneMesh& mesh, std::size_t bends) {
+  /// With normals a target is two attributes, and every program bears eight: one that bears no more takes the targets
+  /// that weigh most.
+  Json targets(const SceneMesh& mesh, std::size_t bends, bool with_normals) {
     Json list = Json::array();
     for (std::size_t k = 0; k < bends; ++k) {
       std::vector<std::array<float, 3>> ways;
       for (const Vec3& way : mesh.bends[k]) ways.push_back(y_up(way));
       const int accessor = add_accessor(ways, float_type, "VEC3", vertex_target);
       add_bounds(accessor, ways);
-      list.push_back({{"POSITION", accessor}});
+      Json target = {{"POSITION", accessor}};
+      if (with_normals) {
+        std::vector<std::array<float, 3>> turns;
+        for (const Vec3& turn : mesh.bend_normals[k]) turns.push_back(y_up(turn));
+        target["NORMAL"] = add_accessor(turns, float_type, "VEC3", vertex_target);
+      }
+      list.push_back(std::move(target));
     }
     return list;
   }
@@ -240,6 +258,7 @@ class GlbWriter {
   std::string buffer_;
   std::map<std::vector<int>, int> times_;
   std::vector<std::size_t> bends_;  ///< by mesh: ways in which it bends
+  std::vector<bool> normals_turn_;  ///< by mesh: so that it is seen
 };
 
 }  // namespace

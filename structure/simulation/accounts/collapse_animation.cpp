@@ -98,7 +98,10 @@ struct CollapseAnimation::State {
     if (!made) return known->second;
     const Vec3 half = Vec3(member.length, size.x(), size.y()) / 2;
     scene.meshes.push_back(box_mesh(half, material, bends ? bent_segments : 1));
-    if (bends) scene.meshes.back().bends = member_bends(member.length, scene.meshes.back().positions);
+    if (!bends) return known->second;
+    SceneMesh& mesh = scene.meshes.back();
+    mesh.bends = member_bends(member.length, mesh.positions);
+    mesh.bend_normals = member_bend_normals(member.length, mesh.positions, mesh.normals);
     return known->second;
   }
 
@@ -108,10 +111,13 @@ struct CollapseAnimation::State {
     if (node.bends.empty()) return;
     SceneMesh& mesh = scene.meshes[static_cast<std::size_t>(node.mesh)];
     if (!mesh.bends.empty()) return;
-    if (part.panel.valid())
-      mesh.bends = panel_bends(building, part.panel, mesh.positions);  // each has a mesh of its own
-    else
+    if (!part.panel.valid()) {
       node.mesh = mesh_of(part, true);
+      return;
+    }
+    // Each has a mesh of its own.
+    mesh.bends = panel_bends(building, part.panel, mesh.positions);
+    mesh.bend_normals = panel_bend_normals(building, part.panel, mesh.positions, mesh.normals);
   }
 
   AnimatedNode& node_of(Part part) { return scene.nodes[static_cast<std::size_t>(part_number(building, part))]; }

@@ -183,6 +183,60 @@ std::vector<std::vector<Vec3>> panel_bends(const Building& building, PanelId id,
   return bends;
 }
 
+namespace {
+
+/// `places_moved`: how far places go by each way, for a list of places.
+template <class Bends>
+std::vector<std::vector<Vec3>> bend_normals(const Bends& places_moved, double size, std::span<const Vec3> positions,
+                                            std::span<const Vec3> normals) {
+  // By central differences: places move by polynomials of at most the fourth power, so the error is their third
+  // derivative times this squared, below 1e-6 of the turn.
+  const double step = 1e-4 * size;
+  std::vector<std::vector<Vec3>> added;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<Vec3> before(positions.begin(), positions.end()), after = before;
+    for (Vec3& p : before) p[axis] -= step;
+    for (Vec3& p : after) p[axis] += step;
+    const auto low = places_moved(before), high = places_moved(after);
+    added.resize(low.size(), std::vector<Vec3>(positions.size(), Vec3::Zero()));
+    for (std::size_t k = 0; k < low.size(); ++k)
+      for (std::size_t v = 0; v < positions.size(); ++v)
+        added[k][v][axis] = -(high[k][v] - low[k][v]).dot(normals[v]) / (2 * step);
+  }
+  return added;
+}
+
+}  // namespace
+
+std::vector<std::vector<Vec3>> member_bend_normals(double length, std::span<const Vec3> positions,
+                                                   std::span<const Vec3> normals) {
+  return bend_normals([&](std::span<const Vec3> at) { return member_bends(length, at); }, length, positions, normals);
+}
+
+std::vector<std::vector<Vec3>> panel_bend_normals(const Building& building, PanelId id, std::span<const Vec3> positions,
+                                                  std::span<const Vec3> normals) {
+  const std::array<Vec3, 4> corners = corners_of(building, id);
+  return bend_normals([&](std::span<const Vec3> at) { return panel_bends(building, id, at); },
+                      (corners[2] - corners[0]).norm(), positions, normals);
+}
+
+Vec3 bent_normal(const Vec3& normal, const std::vector<std::vector<Vec3>>& ways, const BendWeights& bend,
+                 std::size_t vertex) {
+  Vec3 sum = normal;
+  for (std::size_t k = 0; k < ways.size(); ++k) sum += static_cast<double>(bend[k]) * ways[k][vertex];
+  return sum.normalized();
+}
+
+bool normals_turn(std::span<const Vec3> normals, const std::vector<std::vector<Vec3>>& ways, const BendWeights& from,
+                  const BendWeights& to) {
+  if (ways.empty() || from == to) return false;
+  for (std::size_t v = 0; v < normals.size(); ++v) {
+    const Vec3 a = bent_normal(normals[v], ways, from, v), b = bent_normal(normals[v], ways, to, v);
+    if ((a - b).norm() > seen_turn) return true;
+  }
+  return false;
+}
+
 SteadyPart::SteadyPart(const BentPart& rest, double size, bool is_member)
     : last_(rest), size_(size), is_member_(is_member) {}
 

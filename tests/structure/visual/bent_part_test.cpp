@@ -115,6 +115,75 @@ TEST_CASE("a panel's pose and bend put its corners where they have moved, and it
   }
 }
 
+TEST_CASE("normals turn with a bend as the surface does") {
+  // Around each place two points of the surface are bent along with it: the normal is their cross product.
+  const auto check = [](const std::vector<Vec3>& around, const std::vector<Vec3>& normals, const auto& bends_of,
+                        const std::vector<std::vector<Vec3>>& ways, const BendWeights& weights) {
+    const auto bends = bends_of(around);
+    const auto now = [&](std::size_t v) {
+      Vec3 sum = around[v];
+      for (std::size_t k = 0; k < bends.size(); ++k) sum += static_cast<double>(weights[k]) * bends[k][v];
+      return sum;
+    };
+    double most = 0;
+    for (std::size_t v = 0; v < normals.size(); ++v) {
+      const Vec3 is = bent_normal(normals[v], ways, weights, v);
+      const Vec3 was = (now(3 * v + 1) - now(3 * v)).cross(now(3 * v + 2) - now(3 * v)).normalized();
+      CHECK((is - was).norm() < 0.01);  // the turns below, squared
+      most = std::max(most, (is - normals[v]).norm());
+    }
+    CHECK(most > 0.03);
+    CHECK(normals_turn(normals, ways, {}, weights));
+    CHECK_FALSE(normals_turn(normals, ways, weights, weights));
+  };
+  const auto tangents = [](const Vec3& normal) {
+    const Vec3 first = normal.unitOrthogonal();
+    return std::array<Vec3, 2>{first, normal.cross(first)};
+  };
+  constexpr double step = 1e-5;
+  const auto surround = [&](const std::vector<Vec3>& at, const std::vector<Vec3>& normals) {
+    std::vector<Vec3> around;
+    for (std::size_t v = 0; v < at.size(); ++v) {
+      around.push_back(at[v]);
+      for (const Vec3& t : tangents(normals[v])) around.push_back(at[v] + step * t);
+    }
+    return around;
+  };
+  std::vector<Vec3> places, normals;
+  for (int i = 0; i <= 8; ++i)
+    for (const Vec3& out : {Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(0, -0.6, 0.8), Vec3(1, 0, 0)}) {
+      places.push_back(Vec3(length * (i / 8.0 - 0.5), 0, 0) + 0.15 * Vec3(0, out.y(), out.z()));
+      normals.push_back(out);
+    }
+  for (std::size_t way = 0; way < BendWeights().size(); ++way) {
+    CAPTURE(way);
+    if (way == 6) continue;  // longer: nothing turns
+    BendWeights weights{};
+    const bool out = way == 2 || way == 5;  // m at the middle; the others are turns
+    weights[way] = out ? 0.1F : 0.08F;
+    check(
+        surround(places, normals), normals, [](const auto& at) { return member_bends(length, at); },
+        member_bend_normals(length, places, normals), weights);
+  }
+  FrameBuilder frame;
+  Panel panel;
+  panel.nodes = {frame.node("A", 0, 0, 3), frame.node("B", 6, 0, 3), frame.node("C", 5, 4, 3),
+                 frame.node("D", 0, 5, 3)};
+  frame.building.panels.push_back(panel);
+  const PanelId id(0U);
+  places.clear(), normals.clear();
+  for (const double x : {-2.0, 0.5, 2.0})
+    for (const double y : {-1.5, 0.0, 1.0}) {
+      places.emplace_back(x, y, 0.1);
+      normals.emplace_back(0, 0, 1);
+    }
+  BendWeights warped{};
+  warped[0] = 0.15F;
+  check(
+      surround(places, normals), normals, [&](const auto& at) { return panel_bends(frame.building, id, at); },
+      panel_bend_normals(frame.building, id, places, normals), warped);
+}
+
 TEST_CASE("a part that sways less than is seen keeps its pose and stays straight, one that does more follows") {
   const Beam beam;
   const Building& building = beam.frame.building;

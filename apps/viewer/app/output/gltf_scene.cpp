@@ -59,9 +59,16 @@ class GltfWriter {
     return known->second;
   }
 
-  int add(const Mesh& mesh, Rgba colour, std::vector<std::vector<structure::Vec3>> bends = {}) {
+  int add(PartMesh part, Rgba colour) {
+    const int number = add(part.mesh, colour);
+    SceneMesh& added = scene_.meshes.back();
+    added.bends = std::move(part.bends);
+    added.bend_normals = std::move(part.bend_normals);
+    return number;
+  }
+
+  int add(const Mesh& mesh, Rgba colour) {
     SceneMesh added;
-    added.bends = std::move(bends);
     added.material = material(colour);
     for (const Vertex& v : mesh.vertices) {
       added.positions.push_back(vec3(v.position));
@@ -105,10 +112,7 @@ class GltfWriter {
     const auto shapes = part_shapes(building_, recording_, static_cast<std::size_t>(id.index));
     const auto [known, made] =
         meshes_.try_emplace({member.section.index, member.kind, member.length, ways_of_bending(shapes) > 0}, 0);
-    if (made) {
-      PartMesh mesh = member_mesh(building_, id, ways_of_bending(shapes) > 0);
-      known->second = add(mesh.mesh, member_colour(member.kind), std::move(mesh.bends));
-    }
+    if (made) known->second = add(member_mesh(building_, id, ways_of_bending(shapes) > 0), member_colour(member.kind));
     part(member.name, known->second, shapes, places);
   }
 
@@ -120,9 +124,8 @@ class GltfWriter {
       // What remains after each break is a node of its own, seen while it lasts.
       const std::string name = k == 0 ? panel.name : panel.name + " rest " + std::to_string(k);
       const std::int32_t end = k + 1 < states.size() ? states[k + 1].frame : never;
-      PartMesh mesh = panel_part_mesh(building_, id, states[k], ways_of_bending(shapes));
-      part(name, add(mesh.mesh, panel_colour(panel.kind), std::move(mesh.bends)), shapes, places,
-           {states[k].frame, end});
+      part(name, add(panel_part_mesh(building_, id, states[k], ways_of_bending(shapes)), panel_colour(panel.kind)),
+           shapes, places, {states[k].frame, end});
     }
   }
 
@@ -148,7 +151,7 @@ class GltfWriter {
   /// Pieces of a model around the building, each while it is one; those that stand as they were drawn.
   void drawn() {
     int number = 0;
-    for (const DrawnTrack& piece : drawn_tracks(recording_))
+    for (const DrawnTrack& piece : drawn_tracks(building_, recording_))
       part("drawn " + std::to_string(++number), add(chunk_mesh(*piece.mesh), drawn_colour), {ShapeChange()},
            piece.places);
   }

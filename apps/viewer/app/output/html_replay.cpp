@@ -103,15 +103,19 @@ class ReplayData {
       shapes_.push_back(part_shapes(building_, recording_, part));
   }
 
-  /// A mesh and the ways in which it bends, one after the other.
-  static Json bending_json(const Mesh& mesh, const std::vector<std::vector<structure::Vec3>>& ways) {
+  /// A mesh, the ways in which it bends, one after the other, and how its normals turn with them.
+  static Json bending_json(const Mesh& mesh, const PartMesh& part) {
     Json json = mesh_json(mesh);
-    if (ways.empty()) return json;
-    std::vector<float> numbers;
-    for (const auto& way : ways)
-      for (const structure::Vec3& of : way)
-        for (const float x : floats(of)) numbers.push_back(x);
-    json["bends"] = base64(numbers);
+    if (part.bends.empty()) return json;
+    const auto text = [](const std::vector<std::vector<structure::Vec3>>& ways) {
+      std::vector<float> numbers;
+      for (const auto& way : ways)
+        for (const structure::Vec3& of : way)
+          for (const float x : floats(of)) numbers.push_back(x);
+      return base64(numbers);
+    };
+    json["bends"] = text(part.bends);
+    if (!part.bend_normals.empty()) json["turns"] = text(part.bend_normals);
     return json;
   }
 
@@ -121,7 +125,7 @@ class ReplayData {
     const auto [known, made] = bent_meshes_.try_emplace({member.section.index, member.length}, bent_.size());
     if (made) {
       const PartMesh part = member_mesh(building_, id, true);
-      bent_.push_back(bending_json(part.mesh, part.bends));
+      bent_.push_back(bending_json(part.mesh, part));
     }
     return static_cast<int>(known->second);
   }
@@ -180,8 +184,9 @@ class ReplayData {
       const std::size_t ways = ways_of_bending(shapes_[building_.members.size() + p]);
       Json states = Json::array();
       for (const PanelState& state : all[p]) {
-        const PartMesh part = panel_part_mesh(building_, structure::PanelId(p), state, ways);
-        states.push_back({{"frame", state.frame}, {"mesh", bending_json(placed(part, {}, origin_), part.bends)}});
+        PartMesh part = panel_part_mesh(building_, structure::PanelId(p), state, ways);
+        if (!normals_turn(part, shapes_[building_.members.size() + p])) part.bend_normals.clear();
+        states.push_back({{"frame", state.frame}, {"mesh", bending_json(placed(part, {}, origin_), part)}});
       }
       list.push_back({{"name", panel.name}, {"kind", static_cast<int>(panel.kind)}, {"states", std::move(states)}});
     }
@@ -227,7 +232,7 @@ class ReplayData {
   /// Pieces of a model around the building: [frame, track] for each change of place.
   [[nodiscard]] Json drawn() const {
     Json list = Json::array();
-    for (const DrawnTrack& piece : drawn_tracks(recording_)) {
+    for (const DrawnTrack& piece : drawn_tracks(building_, recording_)) {
       std::vector<std::int32_t> places;
       for (const PlaceChange& change : piece.places) places.insert(places.end(), {change.frame, change.track});
       list.push_back({{"mesh", mesh_json(placed_mesh(*piece.mesh, origin_))}, {"places", base64(places)}});

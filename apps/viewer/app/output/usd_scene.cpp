@@ -77,8 +77,8 @@ class UsdWriter {
     // Pieces of a model around the building, each while it is one; those that stand as they were drawn.
     out_ << "    }\n    def Scope \"Drawn\"\n    {\n";
     int number = 0;
-    for (const DrawnTrack& piece : drawn_tracks(recording_))
-      part("drawn_" + std::to_string(++number), {placed_mesh(*piece.mesh, origin_), {}, {}}, {ShapeChange()},
+    for (const DrawnTrack& piece : drawn_tracks(building_, recording_))
+      part("drawn_" + std::to_string(++number), {placed_mesh(*piece.mesh, origin_), {}, {}, {}}, {ShapeChange()},
            piece.places, drawn_colour);
     out_ << "    }\n}\n";
   }
@@ -112,18 +112,21 @@ class UsdWriter {
                   static_cast<double>(p.z));
   }
 
+  /// Of each corner of its faces.
+  static std::string normals_text(const Mesh& mesh) {
+    std::string text;
+    for (const std::uint32_t vertex : mesh.indices) add(text, mesh.vertices[vertex].normal);
+    return text;
+  }
+
   void mesh(const std::string& name, const Mesh& mesh, Rgba colour, const std::string& more) {
     const Points points(mesh);
-    std::string normals;
     out_ << "        def Mesh \"" << name << "\"\n        {\n            int[] faceVertexCounts = [";
     for (std::size_t i = 0; i < mesh.indices.size() / 3; ++i) out_ << (i > 0 ? ", 3" : "3");
     out_ << "]\n            int[] faceVertexIndices = [";
-    for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
-      out_ << (i > 0 ? ", " : "") << points.of(mesh.indices[i]);
-      add(normals, mesh.vertices[mesh.indices[i]].normal);
-    }
+    for (std::size_t i = 0; i < mesh.indices.size(); ++i) out_ << (i > 0 ? ", " : "") << points.of(mesh.indices[i]);
     out_ << "]\n            point3f[] points = [" << points.text(mesh) << "]\n            normal3f[] normals = ["
-         << normals << "] (\n                interpolation = \"faceVarying\"\n            )\n"
+         << normals_text(mesh) << "] (\n                interpolation = \"faceVarying\"\n            )\n"
          << "            uniform token subdivisionScheme = \"none\"\n";
     colour_and(colour, more);
   }
@@ -197,9 +200,12 @@ class UsdWriter {
   class Bends {
    public:
     Bends(const PartMesh& part, const Eigen::Vector3d& origin)
-        : part_(part), origin_(origin), points_(placed(part, {}, origin)) {}
+        : part_(part), origin_(origin), points_(placed(part, {}, origin)) {
+      for (const Vertex& v : part.mesh.vertices) normals_.emplace_back(v.normal.x, v.normal.y, v.normal.z);
+    }
     void add(int code, const structure::BendWeights& now) {
       if (part_.bends.empty()) return;
+      turn(code, now);
       if (!samples_.empty() && now == last_) {
         held_ = code;
         return;
@@ -209,7 +215,10 @@ class UsdWriter {
       last_ = now, held_ = -1;
     }
     [[nodiscard]] std::string text() const {
-      return samples_.empty() ? "" : "            point3f[] points.timeSamples = {\n" + samples_ + "            }\n";
+      std::string text;
+      if (!samples_.empty()) text += "            point3f[] points.timeSamples = {\n" + samples_ + "            }\n";
+      if (!turns_.empty()) text += "            normal3f[] normals.timeSamples = {\n" + turns_ + "            }\n";
+      return text;
     }
 
    private:
@@ -217,9 +226,24 @@ class UsdWriter {
       samples_ +=
           "                " + std::to_string(code) + ": [" + points_.text(placed(part_, bend, origin_)) + "],\n";
     }
+    /// Normals, by steps that are not seen, each held until the code before the next: straight until the first.
+    void turn(int code, const structure::BendWeights& now) {
+      if (!structure::normals_turn(normals_, part_.bend_normals, turned_, now)) return;
+      if (code > 0 && turned_at_ < code - 1) put_normals(code - 1);
+      turned_ = now, turned_at_ = code;
+      put_normals(code);
+    }
+    void put_normals(int code) {
+      turns_ +=
+          "                " + std::to_string(code) + ": [" + normals_text(placed(part_, turned_, origin_)) + "],\n";
+    }
     const PartMesh& part_;
     Eigen::Vector3d origin_;
     Points points_;
+    std::vector<structure::Vec3> normals_;
+    std::string turns_;
+    structure::BendWeights turned_{};
+    int turned_at_ = -1;
     std::string samples_;
     structure::BendWeights last_{};
     int held_ = -1;

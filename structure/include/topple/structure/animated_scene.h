@@ -47,6 +47,8 @@ struct SceneMesh {
   std::vector<std::array<int, 3>> triangles;  ///< three vertices each, counter-clockwise from outside
   /// Ways in which it bends, at most as many as BendWeights: how far each vertex goes for a weight of 1. Empty: none.
   std::vector<std::vector<Vec3>> bends;
+  /// How much is added to each normal for a weight of 1, to first order; as many as `bends`, or empty: they stay.
+  std::vector<std::vector<Vec3>> bend_normals;
   int material = 0;  ///< index in AnimatedScene::materials
 };
 

@@ -48,6 +48,23 @@ inline constexpr int bent_segments = 8;
 [[nodiscard]] std::vector<std::vector<Vec3>> panel_bends(const Building& building, PanelId panel,
                                                          std::span<const Vec3> positions);
 
+/// How much member_bends() add to each vertex's normal for a weight of 1, to first order: minus the transpose of the
+/// gradient of how far places go, times the normal.
+[[nodiscard]] std::vector<std::vector<Vec3>> member_bend_normals(double length, std::span<const Vec3> positions,
+                                                                 std::span<const Vec3> normals);
+/// The same of panel_bends().
+[[nodiscard]] std::vector<std::vector<Vec3>> panel_bend_normals(const Building& building, PanelId panel,
+                                                                std::span<const Vec3> positions,
+                                                                std::span<const Vec3> normals);
+/// Normals that turn by less than this, rad, are drawn alike: in light that is a two-hundredth of white at most.
+inline constexpr double seen_turn = 0.01;
+/// A normal with these weights of its ways, unit. `vertex`: index in each way.
+[[nodiscard]] Vec3 bent_normal(const Vec3& normal, const std::vector<std::vector<Vec3>>& ways, const BendWeights& bend,
+                               std::size_t vertex);
+/// Some normal of a mesh is seen to turn between two bends.
+[[nodiscard]] bool normals_turn(std::span<const Vec3> normals, const std::vector<std::vector<Vec3>>& ways,
+                                const BendWeights& from, const BendWeights& to);
+
 /// Follows one part along a run, by steps that are not seen: its pose, and its bend, stay the same to the bit until
 /// they are off by the tolerance. So files hold few of them, and what is nearly straight is straight.
 class SteadyPart {
