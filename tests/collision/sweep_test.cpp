@@ -134,7 +134,7 @@ TEST_CASE("a body of several parts says which of them will touch which part of w
   CHECK(contacts[1].approach_speed < 40);
 }
 
-TEST_CASE("what lies closes on nothing; what is new there is told as new, and what is pressed as persistent") {
+TEST_CASE("what lies closes on nothing, what is new there is told as new, and what is pressed as persistent") {
   const auto world = world_with_ground();
   const BodyId lying = world->add_body(box_body({0.5, 0.5, 0.5}, 100, {0, 0, 0.5}));
   run(*world, 10);

@@ -5,6 +5,7 @@
 - Every folder with sources has a line in docs/architecture.md, and the page which that line links to names it.
 - Code that a page shows as taken from a file (```cpp FILE) stands in that file, comments and white space apart.
 - Classes and functions that begin a row of a table stand in the files that the row names; so do the tests that it quotes.
+- No test has a semicolon in its name: CTest would take what stands before it for the name, find no such test, and pass.
 - Sentences of the map and of the pages are short, and use the field's words.
 - The drawn flows are those that scripts/flow_pictures draws, and the files that they name are there.
 """
@@ -125,6 +126,13 @@ def check_tests(page):
                 say(page, f"names the test \"{name}\", which {', '.join(files)} does not have")
 
 
+def check_test_names():
+    for file in sorted((root / "tests").rglob("*.cpp")):
+        text = re.sub(r'"\s*\n\s*"|(?<=TEST_CASE\()\s+', "", file.read_text())
+        for name in re.findall(r'TEST_CASE\("([^"]*;[^"]*)"', text):
+            say(file, f"has a semicolon in the name of the test \"{name}\", which CTest does not run then")
+
+
 def sentences(document):
     """Sentences as lists of words: of paragraphs and lists; headings, tables, code and pictures are none."""
     text = without_code(document.read_text())
@@ -184,6 +192,7 @@ for page in (map_page, *pages):
     check_sentences(page)
     check_words(page)
 check_names(root / "docs" / "glossary.md")
+check_test_names()
 check_flows()
 if map_page.read_text().count("\n") > 120:
     say(map_page, "is longer than 120 lines: what it tells belongs on a page")

@@ -113,7 +113,7 @@ TEST_CASE("the quadrilateral that was hit is the one that holds the point, at an
   }
 }
 
-TEST_CASE("flags on cells keep the strip between two lost ones; flags on points would lose it") {
+TEST_CASE("flags on cells keep the strip between two lost ones, flags on points would lose it") {
   const std::array<Vec2, 4> corners{Vec2(0, 0), Vec2(5, 0), Vec2(5, 1), Vec2(0, 1)};
   const QuadrilateralGrid grid(corners, {1.0, 0.0, 1});  // one row of five cells
   PanelShape shape = wall(5, 1);

@@ -114,7 +114,7 @@ TEST_CASE("a settlement of one fixed end bends the beam by 6 E I d/L2, shear inc
   CHECK(s.reactions[0](4) == Approx(6 * EI * d / (L * L * (1 + phi))).epsilon(tolerance));
 }
 
-TEST_CASE("temperature pushes on held ends and bends held ones; a free beam grows and curves without force") {
+TEST_CASE("temperature pushes on held ends and bends held ones, a free beam grows and curves without force") {
   const Beam b = single_beam(L, fixed(), fixed()).beams[0];
   BeamLoad heat;
   heat.beam = 0;

@@ -85,7 +85,7 @@ TEST_CASE("what changed of a system, summed over its places, is the difference o
   for (const auto& [place, change] : changes.all()) CHECK_FALSE(change.active());
 }
 
-TEST_CASE("a part that left is held and joined to nothing that stands; what stands is corrected for it alone") {
+TEST_CASE("a part that left is held and joined to nothing that stands, and what stands is corrected for it alone") {
   FrameSystem system(braced_tower());
   system.assemble();
   const Eigen::MatrixXd then = dense(system.matrix());

@@ -31,7 +31,7 @@ struct Fall {
 
 }  // namespace
 
-TEST_CASE("nothing throws up dust while nothing moves; breaks do where they are, landings where they touch") {
+TEST_CASE("nothing throws up dust while nothing moves, breaks do where they are, landings where they touch") {
   Fall fall;
   CHECK_FALSE(fall.last->dust);
   fall.go(30);

@@ -60,7 +60,7 @@ class LostCorner {
 
 }  // namespace
 
-TEST_CASE("a member that lets go keeps its bend, also when it is looked back at; one that stands has none of its own") {
+TEST_CASE("a member that lets go keeps its bend, also when it is looked back at, one that stands has none of its own") {
   LostCorner corner;
   const Scene& scene = corner.scene;
   const std::size_t members = scene.building->members.size();

@@ -134,7 +134,7 @@ TEST_CASE("Storey shears of a shear building under a sudden load peak as all mod
   CHECK(std::log2(at_8 / at_32) / 2 > 1.5);  // peaks of many modes: the order is seen through their phases
 }
 
-TEST_CASE("Energy balances to rounding, damped or not; below a spectral radius of 1 the method takes its share") {
+TEST_CASE("Energy balances to rounding, damped or not, and below a spectral radius of 1 the method takes its share") {
   for (const RayleighDamping damping : {RayleighDamping{}, RayleighDamping{0.8, 0}, RayleighDamping{0.4, 2e-4}}) {
     for (const double spectral_radius : {1.0, 0.8}) {
       DynamicOptions options;

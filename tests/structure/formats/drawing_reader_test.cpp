@@ -110,7 +110,7 @@ TEST_CASE("nodes move what is below them: by a matrix, by parts, mirrored, witho
   CHECK(highest == Approx(2 * (5 + 1)));
 }
 
-TEST_CASE("triangles come without indices, and with indices of each size; flat ones are nothing") {
+TEST_CASE("triangles come without indices, and with indices of each size, and flat ones are nothing") {
   Json loose = document();
   loose["meshes"][0]["primitives"][0].erase("indices");
   loose["meshes"][0]["primitives"][0]["attributes"].erase("TEXCOORD_0");

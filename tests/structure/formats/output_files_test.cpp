@@ -91,7 +91,7 @@ TEST_CASE("on a full disk the old files stay whole, no temporary is left, and th
   }
 }
 
-TEST_CASE("links are replaced and not followed; devices, pipes and folders are refused") {
+TEST_CASE("links are replaced and not followed, devices, pipes and folders are refused") {
   const ScratchFolder folder;
   write_file(folder / "kept", "kept");
   fs::create_symlink("kept", folder / "link");

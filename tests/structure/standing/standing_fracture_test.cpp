@@ -152,7 +152,7 @@ TEST_CASE("chunks and what remains of a panel have together its mass, centre and
     }
 }
 
-TEST_CASE("a slab that is shot stands on with a hole in it; the ball goes on with what momentum is left") {
+TEST_CASE("a slab that is shot stands on with a hole in it, and the ball goes on with what momentum is left") {
   for (const std::string method : {"voronoi", "quadrilateral", "local"}) {
     CAPTURE(method);
     Simulation simulation(building(), scenario(shoot_slab, method));
