@@ -136,19 +136,35 @@ struct BeamDiagram::State {
                     double& slope) const;
 };
 
+namespace {
+/// The thread is ending, or the program: what is destroyed after the spare one has nowhere to leave its own.
+thread_local bool spare_is_gone = false;
+}  // namespace
+
 void BeamDiagram::Free::operator()(State* state) const {
+  if (spare_is_gone) {
+    delete state;
+    return;
+  }
   // The last one is kept for the next on the same thread: diagrams come one after the other by the hundred thousand.
   spare().reset(state);
 }
 
 std::unique_ptr<BeamDiagram::State>& BeamDiagram::spare() {
-  thread_local std::unique_ptr<State> kept;
-  return kept;
+  struct Spare {
+    std::unique_ptr<State> state;
+    Spare() = default;
+    Spare(const Spare&) = delete;
+    Spare& operator=(const Spare&) = delete;
+    ~Spare() { spare_is_gone = true; }
+  };
+  thread_local Spare kept;
+  return kept.state;
 }
 
 BeamDiagram::BeamDiagram(const Beam& beam, const Vec12& end_forces, std::span<const BeamLoad> loads,
                          double stiffness_factor)
-    : state_(spare() ? spare().release() : new State) {
+    : state_(!spare_is_gone && spare() ? spare().release() : new State) {
   state_->beam = beam;
   state_->end_forces = end_forces;
   state_->deformed.clear();

@@ -2,6 +2,8 @@
 #include "topple/solver/beam_diagram.h"
 
 #include <catch2/catch.hpp>
+#include <optional>
+#include <thread>
 
 #include "frames.h"
 
@@ -139,4 +141,22 @@ TEST_CASE("extremes bound every value along the beam and are attained") {
     CHECK(range.least.value >= least - 1e-3 * span);
     CHECK(range.greatest.value <= greatest + 1e-3 * span);
   }
+}
+
+TEST_CASE("a diagram may outlive what its thread keeps for the next, as one of a program's own does at its end") {
+  const FrameModel model = single_beam(L, fixed(), fixed());
+  double at_end = 0;
+  std::thread([&] {
+    struct Late {
+      std::optional<BeamDiagram> diagram;
+      double* told = nullptr;
+      ~Late() { *told = diagram->value(BeamDiagram::axial, 0); }
+    };
+    thread_local Late late;  // made before the thread's first diagram, and so destroyed after all that goes with these
+    late.told = &at_end;
+    const Vec12 pulled = (Vec12() << -70, 0, 0, 0, 0, 0, 70, 0, 0, 0, 0, 0).finished();
+    late.diagram.emplace(model.beams[0], pulled, std::vector<BeamLoad>());
+    const BeamDiagram other(model.beams[0], pulled, std::vector<BeamLoad>());
+  }).join();  // one freed twice would end the program here
+  CHECK(at_end == 70);
 }
