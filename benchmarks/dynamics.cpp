@@ -64,7 +64,7 @@ void measure(int nx, int ny, int storeys) {
   solver::Factor factor(system.matrix(), system.elimination_order(), solver::Factorisation::automatic);
   (void)factor.factorise(system.matrix());
   solver::BaseFactor pair(system);
-  pair.serve(factor);
+  pair.install(factor);
   Eigen::VectorXd x = Eigen::VectorXd::Ones(system.matrix().size);
   solver::FrameDynamics with_energy = swaying(regular, true), without = swaying(regular, false);
   const Strong law;

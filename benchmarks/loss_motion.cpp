@@ -116,7 +116,7 @@ std::vector<double> computed_peaks(const DividedBuilding& divided, const Damaged
   MotionPeaks peaks(divided, frame, nothing_named, {}, motion);
   while (motion.time() < duration - h / 2) {
     (void)motion.advance();
-    peaks.take(motion);
+    peaks.sample(motion);
   }
   return peaks.uses();
 }

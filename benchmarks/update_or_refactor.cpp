@@ -34,7 +34,7 @@ Times break_at_once(const RegularFrame& frame, solver::Factor& whole, std::span<
   solver::Factor anew(system.matrix(), system.elimination_order(), solver::Factorisation::automatic);
   (void)anew.factorise(system.matrix());
   solver::BaseFactor standing(system);
-  standing.serve(whole);
+  standing.install(whole);
   const auto change = [&](std::span<const int> changed, const solver::Vec6& stiffness) {
     std::vector<int> nodes;
     for (const int member : changed) {
@@ -70,7 +70,7 @@ Times break_at_once(const RegularFrame& frame, solver::Factor& whole, std::span<
     const auto solve = [&](Eigen::Ref<Eigen::MatrixXd> b) { anew.solve(b); };
     if (!(solver::estimate_condition(system.matrix(), solve) > 0)) std::exit(1);
     solver::BaseFactor next(system);
-    next.serve(anew);
+    next.install(anew);
     anew.solve(y);
   });
   times.factor_work = {anew.operations(), static_cast<double>(system.matrix().size), times.work.solve};

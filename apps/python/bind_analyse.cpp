@@ -55,7 +55,7 @@ std::vector<CombinationId> combinations_named(const Building& building, const st
   return ids;
 }
 
-void ask_for_losses(const Model& model, const std::vector<std::string>& lose, const std::vector<std::string>& lose_each,
+void request_losses(const Model& model, const std::vector<std::string>& lose, const std::vector<std::string>& lose_each,
                     LossRequest& request) {
   const Building& building = model.building();
   for (const std::string& name : lose) {
@@ -75,7 +75,7 @@ void ask_for_losses(const Model& model, const std::vector<std::string>& lose, co
   }
 }
 
-void ask_for_histories(const Model& model, const std::vector<std::string>& names, MotionRequest& motion) {
+void request_histories(const Model& model, const std::vector<std::string>& names, MotionRequest& motion) {
   for (const std::string& name : names) {
     const std::vector<NodeId> nodes = model.names().nodes_matching(name);
     const std::vector<JointId> joints = model.names().joints_matching(name);
@@ -108,7 +108,7 @@ solver::SecondOrder second_order_of(const OptionalName& given, const Building& b
       {{"none", SecondOrder::none}, {"exact", SecondOrder::exact}, {"cubic", SecondOrder::cubic}});
 }
 
-void ask_for_modes(const Building& building, std::optional<int> modes, const OptionalName& mass,
+void request_modes(const Building& building, std::optional<int> modes, const OptionalName& mass,
                    const OptionalName& torsional_mass, bool rotary_inertia, AnalysisRequest& request) {
   const RequestedAnalyses& own = building.requested;
   const bool frame3dd = own.modes > 0;  // its elements spin with density x J and have rotary inertia
@@ -256,15 +256,15 @@ std::shared_ptr<Analysis> analyse(const py::object& source, const py::object& co
   request.solver.threads = threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   request.second_order = second_order_of(second_order, building);
   request.buckling = buckling;
-  ask_for_modes(building, modes, mass, torsional_mass, rotary_inertia, request);
+  request_modes(building, modes, mass, torsional_mass, rotary_inertia, request);
   request.losses.sudden = sudden;
-  ask_for_losses(*model, names_in(lose, "lose"), names_in(lose_each, "lose_each"), request.losses);
+  request_losses(*model, names_in(lose, "lose"), names_in(lose_each, "lose_each"), request.losses);
   MotionRequest& motion = request.losses.motion;
   motion.asked = dynamic;
   motion.over = over;
   motion.duration = duration;
   motion.damping = damping;
-  ask_for_histories(*model, names_in(history, "history"), motion);
+  request_histories(*model, names_in(history, "history"), motion);
   if (!time_history.is_none()) request.time_history = time_history_of(time_history, building);
   request.cuts = model->cuts();
   if (!cuts.is_none())

@@ -29,7 +29,7 @@ bool wrong_path(const std::error_code& code) {
 
 }  // namespace
 
-int tell_error(const char* program, const std::string& what, Status status) {
+int print_error(const char* program, const std::string& what, Status status) {
   std::fprintf(stderr, "%s: %s\n", program, structure::one_line(what).c_str());
   return status;
 }
@@ -44,18 +44,18 @@ int run_program(const char* program, const std::function<int()>& run) {
     errno = 0;
     if (std::fflush(stdout) == 0 && !std::ferror(stdout) && std::cout.good()) return status;
     const std::string reason = errno != 0 ? std::strerror(errno) : "not all was taken";
-    return tell_error(program, "cannot write to standard output: " + reason, failure);
+    return print_error(program, "cannot write to standard output: " + reason, failure);
   } catch (const structure::InputError& error) {
-    return tell_error(program, error.what(), bad_input);
+    return print_error(program, error.what(), bad_input);
   } catch (const structure::UnstableModel& error) {
-    return tell_error(program, error.what(), unstable);
+    return print_error(program, error.what(), unstable);
   } catch (const std::filesystem::filesystem_error& error) {
-    return tell_error(program, error.path1().string() + ": " + error.code().message(),
-                      wrong_path(error.code()) ? bad_input : failure);
+    return print_error(program, error.path1().string() + ": " + error.code().message(),
+                       wrong_path(error.code()) ? bad_input : failure);
   } catch (const std::bad_alloc&) {
-    return tell_error(program, "there is not enough memory", failure);
+    return print_error(program, "there is not enough memory", failure);
   } catch (const std::exception& error) {
-    return tell_error(program, error.what(), failure);
+    return print_error(program, error.what(), failure);
   }
 }
 

@@ -36,7 +36,7 @@ enum Status { success = 0, failure = 1, bad_input = 2, unstable = 3 };
 }
 
 /// A line on standard error, safe for a terminal: "PROGRAM: what". Returns the status.
-int tell_error(const char* program, const std::string& what, Status status);
+int print_error(const char* program, const std::string& what, Status status);
 
 /// Runs a program to its end: every error becomes one line and a status, and so does what standard output did not take.
 /// Errors of the command line itself are `run`'s to catch, as CLI::ParseError.

@@ -74,7 +74,7 @@ const std::vector<std::string>& result_names() {
 void write_answer(const AnalyseOptions& options, const Building& building, const AnalysisRequest& request,
                   const AnalysisResult& result, const DesignInput& design,
                   const std::map<std::string, double>& seconds) {
-  tell_progress("writing", -1);
+  report_progress("writing", -1);
   std::vector<std::pair<std::string, std::string>> files;
   std::vector<StreamedFile> streamed;
   const bool sample = building.members.size() > most_members_whole;
@@ -106,7 +106,7 @@ AnalysisRequest with_all_that_is_written(const AnalyseOptions& options, const An
                                options.code.empty() ? 0 : design_stations});
   wider.stations = whole_multiple(request.stations, wanted);
   wider.critical_sections = !options.code.empty();
-  wider.progress = tell_progress;
+  wider.progress = report_progress;
   return wider;
 }
 
@@ -126,7 +126,7 @@ int run(const AnalyseOptions& options) {
   const std::filesystem::path file = find_model(options.model);
   std::optional<OutputFolder> folder;
   if (!options.output.empty()) folder.emplace(options.output, model_files(file), result_names());
-  tell_progress("reading", -1);
+  report_progress("reading", -1);
   Building read = read_model(file);
   for (std::string& warning : modelling_warnings(read)) read.warnings.push_back(std::move(warning));
   const bool direct = !options.direct_analysis.empty(), computes_tau_b = options.direct_analysis == "tau-b";
@@ -155,7 +155,7 @@ int run(const AnalyseOptions& options) {
   DesignInput design = design_input(options, building);
   design.yielded = std::move(yielded);
   if (!options.code.empty()) {
-    tell_progress("design checks", -1);
+    report_progress("design checks", -1);
     const DesignCode code = options.code == "en1993" ? DesignCode::en1993 : DesignCode::aisc360;
     check_design(building, code, options.drift_limit ? 1 / *options.drift_limit : usual_drift_limit, result, design);
     clock.stop("design");

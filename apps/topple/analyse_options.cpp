@@ -86,7 +86,7 @@ solver::SecondOrder second_order(const std::string& asked, const Building& build
 int processors() { return static_cast<int>(std::thread::hardware_concurrency()); }
 
 /// Options come before what the file asks for itself.
-void ask_for_modes(const AnalyseOptions& options, const RequestedAnalyses& requested, AnalysisRequest& request) {
+void request_modes(const AnalyseOptions& options, const RequestedAnalyses& requested, AnalysisRequest& request) {
   request.modes = options.modes > 0 ? options.modes : requested.modes;
   request.divide = options.divide;
   for (const auto& [asked, name] : {std::pair{!options.mass.empty(), "--mass"},
@@ -150,9 +150,9 @@ AnalysisRequest analysis_request(const AnalyseOptions& options, const std::files
   request.second_order = second_order(options.p_delta, building);
   request.buckling = options.buckling;
   request.losses = losses(options, building);
-  ask_for_motion(options.motion, building, request);
+  request_motion(options.motion, building, request);
   request.cuts = cuts(options, model, building);
-  ask_for_modes(options, building.requested, request);
+  request_modes(options, building.requested, request);
   return request;
 }
 

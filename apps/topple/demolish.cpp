@@ -41,7 +41,7 @@ class Progress {
       std::fprintf(stderr, "\r%8.2f s  %zu bodies  %zu events ", simulation.time(), simulation.bodies().size(),
                    simulation.events().size());
     else
-      tell_progress("demolishing", simulation.time() / simulation.scenario().duration);
+      report_progress("demolishing", simulation.time() / simulation.scenario().duration);
   }
   ~Progress() {
     if (terminal_) std::fprintf(stderr, "\r\033[K");
@@ -82,7 +82,7 @@ class Saves {
     }
   }
 
-  void tell_missed(const structure::Simulation& simulation) const {
+  void print_missed(const structure::Simulation& simulation) const {
     for (std::size_t i = next_; i < due_.size(); ++i)
       std::fprintf(stderr, "topple: --save %g: the run ended before, at %g s\n", due_[i], simulation.time());
   }
@@ -153,7 +153,7 @@ int demolish(const DemolishOptions& options) {
   if (drawn) structure::write_files(options.folder, {{"meshes.glb", structure::visual_mesh_glb(*drawn, simulation)}});
   if (animation) structure::write_files(options.folder, {{"collapse.glb", animation->glb()}});
   if (images) images->finish(*results);
-  saves.tell_missed(simulation);
+  saves.print_missed(simulation);
   std::fputs(structure::collapse_text(simulation, times).c_str(), stdout);
   if (options.folder.empty()) std::fputs("  files:  none; -o FOLDER writes what happened and what stands\n", stdout);
   return success;

@@ -33,7 +33,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::Success& asked) {  // --help, --version
     return app.exit(asked);
   } catch (const CLI::ParseError& error) {
-    return tell_error("topple", error.what(), bad_input);
+    return print_error("topple", error.what(), bad_input);
   }
   for (auto& [sub, action] : chosen)
     if (sub->parsed()) return action();

@@ -54,7 +54,7 @@ void check_motion_options(const MotionOptions& options, bool anything_lost, bool
     throw InputError("--for: ends before the member is lost; accepted: a time longer than --over");
 }
 
-void ask_for_motion(const MotionOptions& options, const Building& building, AnalysisRequest& request) {
+void request_motion(const MotionOptions& options, const Building& building, AnalysisRequest& request) {
   MotionRequest& motion = request.losses.motion;
   motion.asked = options.dynamic;
   motion.over = options.over.value_or(0);

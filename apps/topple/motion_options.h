@@ -20,7 +20,7 @@ void declare_motion_options(CLI::App& app, MotionOptions& options);
 /// Throws InputError for an option without what it belongs to.
 void check_motion_options(const MotionOptions& options, bool anything_lost, bool folder_named);
 /// Throws InputError for names that the building has not, and for a time history that cannot be read.
-void ask_for_motion(const MotionOptions& options, const structure::Building& building,
+void request_motion(const MotionOptions& options, const structure::Building& building,
                     structure::AnalysisRequest& request);
 
 }  // namespace topple::app

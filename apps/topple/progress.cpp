@@ -25,7 +25,7 @@ class Teller {
  public:
   Teller() : thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
-  void tell(std::string_view stage, double share) {
+  void report(std::string_view stage, double share) {
     const std::scoped_lock guard(lock_);
     if (stage != stage_) since_ = now();
     fresh_ = stage != stage_ || share != share_;
@@ -70,9 +70,9 @@ class Teller {
 
 }  // namespace
 
-void tell_progress(std::string_view stage, double share) {
+void report_progress(std::string_view stage, double share) {
   static Teller teller;
-  teller.tell(stage, share);
+  teller.report(stage, share);
 }
 
 }  // namespace topple::app

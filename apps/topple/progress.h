@@ -6,6 +6,6 @@ namespace topple::app {
 
 /// Says a stage and its share (0 to 1; below 0: not known) once a run has lasted a second, at most once a second, and
 /// every five seconds within a stage; may be called from several threads.
-void tell_progress(std::string_view stage, double share);
+void report_progress(std::string_view stage, double share);
 
 }  // namespace topple::app

@@ -77,7 +77,7 @@ void set_run(const StudyOptions& options, Prepared& all) {
   all.run.threads = options.threads;
   all.run.stopped = [] { return interrupted.load(); };
   all.run.progress = [](std::uint64_t done, std::uint64_t count) {
-    tell_progress("samples", static_cast<double>(done) / static_cast<double>(count));
+    report_progress("samples", static_cast<double>(done) / static_cast<double>(count));
   };
   std::signal(SIGINT, interrupt);
   std::signal(SIGTERM, interrupt);
@@ -192,7 +192,7 @@ int study_on_ranks(const StudyOptions& options) {
     ranks.work(all.task, all.run);
     return success;
   }
-  ranks.serve(all.task, all.run, *journal);
+  ranks.run_workers(all.task, all.run, *journal);
   journal.reset();
   return write_results(options, all);
 }

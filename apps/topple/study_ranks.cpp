@@ -27,7 +27,7 @@ Ranks::Ranks() {
 Ranks::~Ranks() = default;
 bool Ranks::together(const std::function<void()>&) const { return false; }
 bool Ranks::same_on_all(std::uint64_t) const { return false; }
-void Ranks::serve(const structure::StudyTask&, const structure::StudyRun&, structure::StudyJournal&) const {}
+void Ranks::run_workers(const structure::StudyTask&, const structure::StudyRun&, structure::StudyJournal&) const {}
 void Ranks::work(const structure::StudyTask&, const structure::StudyRun&) const {}
 
 }  // namespace topple::app
@@ -254,7 +254,7 @@ bool Ranks::same_on_all(std::uint64_t fingerprint) const {
   return false;
 }
 
-void Ranks::serve(const StudyTask& task, const StudyRun& run, StudyJournal& journal) const {
+void Ranks::run_workers(const StudyTask& task, const StudyRun& run, StudyJournal& journal) const {
   const int threads = std::max(1, run.threads);
   Handout handout(task, run, journal, threads + size_ - 1);
   std::uint64_t done = 0;

@@ -26,7 +26,8 @@ class Ranks {
   [[nodiscard]] bool same_on_all(std::uint64_t fingerprint) const;
   /// Rank 0: hands out what the journal lacks, a few samples at a time, and writes what comes back; computes samples
   /// itself on `run.threads` threads (0: one) beside. Ends the job when the journal cannot be written.
-  void serve(const structure::StudyTask& task, const structure::StudyRun& run, structure::StudyJournal& journal) const;
+  void run_workers(const structure::StudyTask& task, const structure::StudyRun& run,
+                   structure::StudyJournal& journal) const;
   /// The others: computes what rank 0 hands out until there is no more.
   void work(const structure::StudyTask& task, const structure::StudyRun& run) const;
 

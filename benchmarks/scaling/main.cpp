@@ -115,7 +115,7 @@ void segment(const Building& building, Report& report) {
     const JointId joint = building.joint(structure::MemberId(member), 0);
     cut.push_back(seconds([&] {
       segmentation->break_joint(joint);
-      if (!segmentation->take_unanchored().empty()) throw std::runtime_error("a beam fell by one joint");
+      if (!segmentation->extract_unanchored().empty()) throw std::runtime_error("a beam fell by one joint");
     }));
   }
   report.add("segmentation", spread_of(cut));

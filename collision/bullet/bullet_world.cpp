@@ -326,7 +326,7 @@ std::size_t BulletWorld::awake_count() const {
 }
 
 /// After a step, while what moved is at hand. What slept before it and sleeps still has not moved.
-void BulletWorld::look_at_what_moved() {
+void BulletWorld::read_moved() {
   std::size_t awake = 0;
   for (const BodyId id : order_) {
     const Body& one = body(id.value);
@@ -360,10 +360,10 @@ void BulletWorld::step(double dt) {
   keep_swinging();
   let_settled_sleep(dt);
   let_go_unbalanced();
-  look_for_still(dt);
+  find_still(dt);
   for (auto& [id, hinge] : hinges_) read_hinge(*hinge, dt);
   read_cables(dt);
-  look_at_what_moved();
+  read_moved();
 }
 
 void BulletWorld::resist_rolling() {

@@ -1,7 +1,8 @@
 #pragma once
 // collision::World on Bullet. Its parts by file: bodies, obstacles and the step (bullet_world), contacts
 // (bullet_world_contacts), rest (bullet_world_rest), sweeps and rays (bullet_world_sweep), hinges
-// (bullet_world_hinges), cables (bullet_world_cables).
+// (bullet_world_hinges), cables (bullet_world_cables). It has more than forty functions: World has thirty, and the rest
+// is kept as it was when simulations ran on it, so that what is compared with stays the same.
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
 #include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
 #include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
@@ -121,7 +122,7 @@ class BulletWorld final : public World {
                                                                 const btCollisionObject* other = nullptr);
   void set_continuous(Body& body);
   [[nodiscard]] static BodyState read(const Body& body);
-  void look_at_what_moved();
+  void read_moved();
 
   void ignore(const SolidPair& pair, bool ignored);
   void forget_ignored_of(Touched::Kind kind, std::int64_t id);
@@ -136,7 +137,7 @@ class BulletWorld final : public World {
   void let_go(Body& body);
   void let_go_struck(double dt);
   void let_go_unbalanced();
-  void look_for_still(double dt);
+  void find_still(double dt);
   [[nodiscard]] std::vector<char> still_bodies();
   void read_forces(double dt);
   /// A body, and one that holds it up.

@@ -294,7 +294,7 @@ std::vector<BulletWorld::Bearing> BulletWorld::bearings(std::vector<std::int64_t
 
 /// From the ground up: what bears a body must be held, too, or stand. What is slow goes along where it bears what is
 /// still.
-void BulletWorld::look_for_still(double dt) {
+void BulletWorld::find_still(double dt) {
   for (const BodyId id : order_) body(id.value).seen_for += dt;
   looked_for_ += dt;
   if (looked_for_ < kRest.look_time) return;

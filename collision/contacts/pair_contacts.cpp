@@ -26,7 +26,7 @@ void carry(NearPair& pair, const PairMotion& motion) {
 }
 
 /// The sum of the impulses stays: what finds no new point near it is shared by those that found no old one.
-void take_over(const Manifold& old, Manifold& now, double matched) {
+void inherit_impulses(const Manifold& old, Manifold& now, double matched) {
   std::array<bool, Manifold::most> taken{};
   std::array<bool, Manifold::most> found{};
   double left = 0, left_force = 0;
@@ -70,7 +70,7 @@ double update_contacts(NearPair& pair, const PairMotion& motion, double kept, do
   if (motion.second == nullptr) {
     const Manifold old = pair.manifold;
     collide_with_ground(*motion.first, first, motion.ground_height, motion.margin, pair.manifold);
-    take_over(old, pair.manifold, matched);
+    inherit_impulses(old, pair.manifold, matched);
     return 0;
   }
   const Mat3 turn = first.turn.transpose() * second.turn;
@@ -85,7 +85,7 @@ double update_contacts(NearPair& pair, const PairMotion& motion, double kept, do
   }
   const Manifold old = pair.manifold;
   collide(*motion.first, first, *motion.second, second, motion.margin, pair.axis, pair.manifold);
-  take_over(old, pair.manifold, matched);
+  inherit_impulses(old, pair.manifold, matched);
   pair.sought = true;
   pair.turn = turn;
   pair.shift = shift;

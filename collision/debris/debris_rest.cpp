@@ -92,7 +92,7 @@ bool DebrisRest::fall_asleep(Island& island, double dt) {
       one->rest_wait = std::min(2 * one->rest_wait, scene_.settings.rest_again_at_most);
     }
   if (!rests) return false;
-  told_.tell(solved_.solver().contacts(), dt, moves);
+  report_.add(solved_.solver().contacts(), dt, moves);
   for (const SolverContact& solved : solved_.solver().contacts())
     solved.pair->rest_force = solved.pair->pressed = solved.impulse / dt;
   for (const std::uint32_t index : whole.pairs) scene_.pairs.ends(index).rests = true;
@@ -196,7 +196,7 @@ void DebrisRest::watch(std::span<const Island> islands, double dt) {
 /// A ball at the end of its swing is slow and seems to go nowhere, but does not rest.
 bool DebrisRest::swings(const DebrisBody& one) const {
   if (one.cables.empty()) return false;
-  const bool touches = std::any_of(told_.all().begin(), told_.all().end(), [&](const Contact& contact) {
+  const bool touches = std::any_of(report_.all().begin(), report_.all().end(), [&](const Contact& contact) {
     return contact.body.value == one.id || contact.other.body.value == one.id;
   });
   if (touches) return false;

@@ -4,14 +4,14 @@
 #include <span>
 #include <vector>
 
-#include "debris/told_contacts.h"
+#include "debris/contact_report.h"
 
 namespace topple::collision {
 
 class DebrisRest {
  public:
-  DebrisRest(DebrisScene& scene, SolvedIslands& solved, ToldContacts& told)
-      : scene_(scene), solved_(solved), told_(told) {}
+  DebrisRest(DebrisScene& scene, SolvedIslands& solved, ContactReport& told)
+      : scene_(scene), solved_(solved), report_(told) {}
 
   /// How long each body has stayed where it is: after each part of a step, `dt` long.
   void watch(std::span<const Island> islands, double dt);
@@ -32,7 +32,7 @@ class DebrisRest {
 
   DebrisScene& scene_;
   SolvedIslands& solved_;
-  ToldContacts& told_;
+  ContactReport& report_;
   std::vector<std::int64_t> slept_now_;  ///< bodies that fell asleep in this step
 };
 

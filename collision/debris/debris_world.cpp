@@ -50,8 +50,8 @@ DebrisWorld::DebrisWorld(const SolverSettings& settings)
       waking_(scene_, search_),
       moving_(scene_),
       solved_(scene_, moving_, region_),
-      told_(scene_, solved_, region_),
-      rest_(scene_, solved_, told_) {}
+      report_(scene_, solved_, region_),
+      rest_(scene_, solved_, report_) {}
 
 /// What a step alone needs is not copied.
 DebrisWorld::DebrisWorld(const DebrisWorld& of)
@@ -66,10 +66,10 @@ DebrisWorld::DebrisWorld(const DebrisWorld& of)
       waking_(scene_, search_),
       moving_(scene_),
       solved_(scene_, moving_, region_),
-      told_(scene_, solved_, region_),
-      rest_(scene_, solved_, told_),
+      report_(scene_, solved_, region_),
+      rest_(scene_, solved_, report_),
       parts_(of.parts_) {
-  told_.copy(of.told_);
+  report_.copy(of.report_);
   rest_.copy(of.rest_);
 }
 
@@ -174,7 +174,7 @@ void DebrisWorld::move_obstacle(ObstacleId id, const Pose& pose) {
   scene_.wake_touching(moved);
   moved.pose = pose;
   moved.at = moved.placement();
-  moved.look_how_far();
+  moved.add_way();
   for (std::size_t i = 0; i < moved.parts.size(); ++i) {
     scene_.pairs.move(moved.colliders[i], DebrisScene::bounds_of(moved.shapes[i], moved.at), 0);
     scene_.pairs.note_way(moved.colliders[i], moved.gone, 0, false);
@@ -222,7 +222,7 @@ void DebrisWorld::wake(BodyId id) { scene_.wake_up(scene_.body(id.value)); }
 
 /// What goes within a step leaves its contacts to the account of that step.
 void DebrisWorld::remove_contacts_of(Touched::Kind kind, std::int64_t id) {
-  if (!stepping_) told_.forget(kind, id);
+  if (!stepping_) report_.forget(kind, id);
 }
 
 void DebrisWorld::ignore_until_separated(BodyId id, const Touched& other) { ignored_.add(id, other); }
@@ -234,7 +234,7 @@ std::vector<Contact> DebrisWorld::sweep(double dt, Sweep what, double least_spee
   std::vector<Contact> found;
   if (what == Sweep::obstacles && scene_.obstacles.empty()) return found;
   found = first_touches(scene_, ignored_, {what, dt, least_speed});
-  told_.mark_persistent(found);
+  report_.mark_persistent(found);
   std::sort(found.begin(), found.end(), [](const Contact& a, const Contact& b) {
     if (a.time != b.time) return a.time < b.time;
     return before_by_parts(a, b);

@@ -1,7 +1,7 @@
 #pragma once
 // collision::World with a contact solver of its own: a facade over the scene (DebrisScene) and those who work on it, in
 // the order of a step: what stands and moves (MovingObstacles), what touches (PairSearch), what is woken (Waking) or
-// falls asleep (DebrisRest), islands in the solver (SolvedIslands), what is told of contacts (ToldContacts); and over
+// falls asleep (DebrisRest), islands in the solver (SolvedIslands), what is told of contacts (ContactReport); and over
 // first touches to come (body_sweep.h) and rays (scene_queries.h). It has more than forty functions, as World has
 // thirty; each of those is a few lines.
 #include <memory>
@@ -49,7 +49,7 @@ class DebrisWorld final : public World {
   [[nodiscard]] std::vector<Contact> sweep(double dt, Sweep what, double least_speed) override;
   void step(double dt) override;
   void step(double dt, int parts, MovingStructure& structure) override;
-  [[nodiscard]] std::span<const Contact> contacts() const override { return told_.all(); }
+  [[nodiscard]] std::span<const Contact> contacts() const override { return report_.all(); }
   [[nodiscard]] std::optional<RayHit> ray_cast(const Vec3& from, const Vec3& to) const override;
   [[nodiscard]] std::vector<ObstacleId> obstacles_in(const Vec3& low, const Vec3& high) const override;
 
@@ -64,7 +64,7 @@ class DebrisWorld final : public World {
   void gather_islands();
   void move_on(double dt);
   void solve(std::span<Island* const> islands, int substeps, double dt);
-  void place_moving(double dt, MovingStructure& structure);
+  void update_moving(double dt, MovingStructure& structure);
   void hand_over(double dt, std::size_t told, MovingStructure& structure);
   void remove_contacts_of(Touched::Kind kind, std::int64_t id);
   std::int64_t next_obstacle_ = 0, next_hinge_ = 0, next_cable_ = 0;
@@ -77,7 +77,7 @@ class DebrisWorld final : public World {
   Waking waking_;
   MovingObstacles moving_;
   SolvedIslands solved_;
-  ToldContacts told_;
+  ContactReport report_;
   DebrisRest rest_;
   std::vector<Island> islands_;
   std::vector<Waking::Push> pushes_;  ///< of the last part of a step, where any body sleeps

@@ -41,7 +41,7 @@ void DebrisWorld::begin_step(double dt) {
   if (!(dt > 0) || !std::isfinite(dt))
     throw std::invalid_argument("step of " + std::to_string(dt) + " s; it must be above zero");
   ignored_.begin_step(dt);
-  told_.clear();
+  report_.clear();
   rest_.begin_step();
   if (scene_.awake_count == 0) return;
   ++scene_.step_number;
@@ -63,7 +63,7 @@ void DebrisWorld::step(double dt, int parts, MovingStructure& structure) {
 void DebrisWorld::advance(double dt, int parts, MovingStructure* structure) {
   const double part_time = dt / parts;
   if (structure) {
-    place_moving(part_time, *structure);
+    update_moving(part_time, *structure);
     search_.find_touching();
     moving_.wake_carried();
   }
@@ -79,8 +79,8 @@ void DebrisWorld::advance(double dt, int parts, MovingStructure* structure) {
   parts_ = parts * finer;
   read_velocities_by(scene_.gravity * ((1 - 1.0 / parts_) * dt / 2));
   for (int part = 0; part < parts; ++part) {
-    const std::size_t told = told_.all().size();
-    if (part > 0) place_moving(part_time, *structure);
+    const std::size_t told = report_.all().size();
+    if (part > 0) update_moving(part_time, *structure);
     for (int i = 0; i < finer && (scene_.awake_count > 0 || !scene_.moving_obstacles.empty()); ++i) {
       if (part + i > 0) {
         find_contacts(dt / parts_);
@@ -91,18 +91,18 @@ void DebrisWorld::advance(double dt, int parts, MovingStructure* structure) {
     if (structure) hand_over(part_time, told, *structure);
   }
   read_velocities_by(Vec3::Zero());
-  told_.merge_parts();
+  report_.merge_parts();
 }
 
-void DebrisWorld::place_moving(double dt, MovingStructure& structure) {
+void DebrisWorld::update_moving(double dt, MovingStructure& structure) {
   search_.update_bounds(dt);
   scene_.pairs.find();
-  moving_.place(dt, structure);
+  moving_.update(dt, structure);
 }
 
 /// To the structure, what touched it since contact number `told`; it goes on.
 void DebrisWorld::hand_over(double dt, std::size_t told, MovingStructure& structure) {
-  const std::vector<Contact> own(told_.all().begin() + static_cast<std::ptrdiff_t>(told), told_.all().end());
+  const std::vector<Contact> own(report_.all().begin() + static_cast<std::ptrdiff_t>(told), report_.all().end());
   stepping_ = true;
   structure.advance(dt, own);
   stepping_ = false;
@@ -186,10 +186,10 @@ void DebrisWorld::gather_islands() {
 void DebrisWorld::solve(std::span<Island* const> islands, int substeps, double dt) {
   solved_.fill(islands, dt, substeps);
   solved_.run(dt, substeps);
-  told_.tell(solved_.solver().contacts(), dt);
-  moving_.take_from(solved_.solver(), dt);
-  solved_.take_results(dt);
-  told_.account_work(islands, dt);
+  report_.add(solved_.solver().contacts(), dt);
+  moving_.read_motion(solved_.solver(), dt);
+  solved_.update_bodies(dt);
+  report_.account_work(islands, dt);
   solved_.read_joints(islands, dt * parts_);
   if (!scene_.all_awake())
     for (const SolverContact& solved : solved_.solver().contacts()) pushes_.push_back({solved.pair, solved.impulse});

@@ -8,7 +8,7 @@
 namespace topple::collision {
 
 /// Those near bodies are asked for; what moved before and is near none any more is left where it is.
-void MovingObstacles::place(double dt, MovingStructure& structure) {
+void MovingObstacles::update(double dt, MovingStructure& structure) {
   std::vector<std::int64_t> near;
   for (const std::uint32_t index : scene_.pairs.order()) {
     const Solid* second = scene_.pairs.collider(scene_.pairs.pair(index).second).solid;
@@ -20,7 +20,7 @@ void MovingObstacles::place(double dt, MovingStructure& structure) {
   for (const std::int64_t id : near) {
     DebrisObstacle& one = scene_.obstacle(id);
     if (const std::optional<ObstacleMotion> motion = structure.motion({id}))
-      place(one, *motion, dt);
+      update(one, *motion, dt);
     else if (one.moves)
       stand_still(one);
   }
@@ -28,7 +28,7 @@ void MovingObstacles::place(double dt, MovingStructure& structure) {
     if (!std::binary_search(near.begin(), near.end(), id)) stand_still(scene_.obstacle(id));
 }
 
-void MovingObstacles::place(DebrisObstacle& one, const ObstacleMotion& motion, double dt) {
+void MovingObstacles::update(DebrisObstacle& one, const ObstacleMotion& motion, double dt) {
   const bool first = !one.moves;
   if (first) {
     one.moves = true;
@@ -44,13 +44,13 @@ void MovingObstacles::place(DebrisObstacle& one, const ObstacleMotion& motion, d
   const Vec3 force = std::exchange(one.impulse, Vec3::Zero()) / dt,
              moment = std::exchange(one.angular_impulse, Vec3::Zero()) / dt;
   one.known_for = std::min(one.known_for + 1, 3);
-  learn(one, motion, force, moment);
+  estimate_compliance(one, motion, force, moment);
   one.force = force;
   one.moment = moment;
   one.motion = motion;
   one.pose = motion.pose;
   one.at = one.placement();
-  one.look_how_far();
+  one.add_way();
   const Vec3 straight = motion.velocity * dt;
   const double spin = motion.angular_velocity.norm() * dt;
   for (std::size_t i = 0; i < one.parts.size(); ++i) {
@@ -65,8 +65,8 @@ void MovingObstacles::place(DebrisObstacle& one, const ObstacleMotion& motion, d
 
 /// From what it did in the last two parts of a step: the share of its own mobility that its accelerations show, and
 /// how much of the force goes on.
-void MovingObstacles::learn(DebrisObstacle& one, const ObstacleMotion& now, const Vec3& force,
-                            const Vec3& moment) const {
+void MovingObstacles::estimate_compliance(DebrisObstacle& one, const ObstacleMotion& now, const Vec3& force,
+                                          const Vec3& moment) const {
   const Mat3 inverse = now.inertia.inverse();
   const auto product = [&](const Vec3& a, const Vec3& turning_a, const Vec3& b, const Vec3& turning_b) {
     return a.dot(b) / now.mass + turning_a.dot(inverse * turning_b);
@@ -121,7 +121,7 @@ void MovingObstacles::add_to(StepSolver& solver, const Island& island, double dt
 }
 
 /// After a part of a step: what was done to the obstacles, and how they would go on by themselves.
-void MovingObstacles::take_from(const StepSolver& solver, double dt) {
+void MovingObstacles::read_motion(const StepSolver& solver, double dt) {
   if (scene_.moving_obstacles.empty()) return;
   for (const SolverContact& solved : solver.contacts()) {
     if (solved.second == 0) continue;

@@ -20,17 +20,18 @@ class MovingObstacles {
 
   /// As a part of a step begins: those near bodies are asked for; what moved before and is near none any more is left
   /// where it is. Pairs are those of now.
-  void place(double dt, MovingStructure& structure);
+  void update(double dt, MovingStructure& structure);
   void stand_still(DebrisObstacle& obstacle);
   /// Those that the island touches, as bodies of the solver.
   void add_to(StepSolver& solver, const Island& island, double dt, double substep);
   /// After a part of a step.
-  void take_from(const StepSolver& solver, double dt);
+  void read_motion(const StepSolver& solver, double dt);
   void wake_carried();
 
  private:
-  void place(DebrisObstacle& obstacle, const ObstacleMotion& motion, double dt);
-  void learn(DebrisObstacle& obstacle, const ObstacleMotion& now, const Vec3& force, const Vec3& moment) const;
+  void update(DebrisObstacle& obstacle, const ObstacleMotion& motion, double dt);
+  void estimate_compliance(DebrisObstacle& obstacle, const ObstacleMotion& now, const Vec3& force,
+                           const Vec3& moment) const;
 
   DebrisScene& scene_;
 };

@@ -33,7 +33,7 @@ void PairSearch::update_bounds(double dt) {
 void PairSearch::note_ways(double dt) {
   const Vec3 half_kick = scene_.gravity * (dt / 2);
   const auto note = [&](DebrisBody& one) {
-    one.look_how_far();
+    one.add_way();
     const double straight = one.asleep ? 0 : (one.velocity + half_kick).norm() * dt;
     const double spin = one.asleep ? 0 : one.spin.norm() * dt;
     for (std::size_t i = 0; i < one.parts.size(); ++i)

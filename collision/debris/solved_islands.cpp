@@ -101,7 +101,7 @@ void SolvedIslands::add_contacts(const Island& island) {
   }
 }
 
-void SolvedIslands::take_results(double dt) {
+void SolvedIslands::update_bodies(double dt) {
   each_solved([&](DebrisBody& one) {
     const SolverBody& moved = solver_.body(one.solver);
     one.velocity = moved.velocity;

@@ -15,9 +15,9 @@ class SolvedIslands {
 
   /// `substeps` of `dt`: for which obstacles that move go on; with none they stand still as the others.
   void fill(std::span<Island* const> islands, double dt, int substeps);
-  /// Moves on by `dt`; the bodies are where they were until take_results().
+  /// Moves on by `dt`; the bodies are where they were until update_bodies().
   void run(double dt, int substeps);
-  void take_results(double dt);
+  void update_bodies(double dt);
   /// Adds what hinges and cables pulled with to what is told of them, as means over `dt`, s. Of the bodies that moved:
   /// what sleeps pulls as it did.
   void read_joints(std::span<Island* const> islands, double dt) const;

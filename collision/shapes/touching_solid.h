@@ -15,7 +15,7 @@ struct TouchingSolid : Solid {
   double gone = 0;  ///< ... in all, and no point of it farther: m, step by step
 
   /// After it has moved.
-  void look_how_far() {
+  void add_way() {
     gone += (at.position - seen.position).norm() + reach * (at.turn - seen.turn).norm() / std::sqrt(2.0);
     seen = at;
   }

@@ -35,7 +35,7 @@ RestJoint CableRow::at_rest(const SolverBody& of, double dt) const {
   return joint;
 }
 
-void CableRow::take_rest(double tension, double dt) {
+void CableRow::store_rest(double tension, double dt) {
   pulled = tension * dt;
   impulse = -pulled * direction_;
 }

@@ -20,7 +20,7 @@ struct CableRow {
   void hold(const SolverBody& of, double h, const Motion6& displacement, Motion6& velocity, Motion6& changed);
   /// As an equilibrium takes it: of the tension of the last step, which was `dt` long.
   [[nodiscard]] RestJoint at_rest(const SolverBody& of, double dt) const;
-  void take_rest(double tension, double dt);
+  void store_rest(double tension, double dt);
 
  private:
   Vec3 direction_ = Vec3::Zero();  ///< away from the anchor

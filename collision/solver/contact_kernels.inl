@@ -91,7 +91,7 @@ struct AlongNormal {
   Wide pushed;  ///< by all points since
 };
 
-TOPPLE_INLINE AlongNormal look_along_normal(const ContactPack& pack, const Both& of) {
+TOPPLE_INLINE AlongNormal project_on_normal(const ContactPack& pack, const Both& of) {
   Wide across[3];
   for (int i = 0; i < 3; ++i)
     across[i] = of.second.linear[i] * pack.second_root - of.first.linear[i] * pack.first_root;
@@ -150,7 +150,7 @@ TOPPLE_INLINE Open open(ContactPack& pack, PackPoint* points, const Motion6* vel
   Open one{pack, points + pack.first_point, {}, {}, all(0)};
   work.begin(pack, one.points);
   load(pack, velocity, one.now);
-  one.along = look_along_normal(pack, one.now);
+  one.along = project_on_normal(pack, one.now);
   return one;
 }
 
@@ -220,7 +220,7 @@ TOPPLE_INLINE bool any(const Wide& a) { return a[0] > 0 || a[1] > 0 || a[2] > 0 
 TOPPLE_INLINE void measure(const ContactPack& pack, PackPoint* own, const Motion6* displacement) {
   Both moved;
   load(pack, displacement, moved);
-  const AlongNormal along = look_along_normal(pack, moved);
+  const AlongNormal along = project_on_normal(pack, moved);
   for (int i = 0; i < pack.point_count; ++i) own[i].apart = own[i].separation + relative(own[i], along, moved);
 }
 

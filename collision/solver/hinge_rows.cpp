@@ -124,7 +124,7 @@ RestJoint HingeRows::at_rest() const {
   return joint;
 }
 
-void HingeRows::take_rest(const Rows& force, double dt) {
+void HingeRows::store_rest(const Rows& force, double dt) {
   force_total.setZero();
   moment_total.setZero();
   body_moment.setZero();

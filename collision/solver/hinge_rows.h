@@ -36,7 +36,7 @@ struct HingeRows {
   void add_up();
   /// Rows and forces as an equilibrium takes them; after prepare().
   [[nodiscard]] RestJoint at_rest() const;
-  void take_rest(const Rows& force, double dt);
+  void store_rest(const Rows& force, double dt);
 
  private:
   void add_row(const Vec3& along, const Vec3& about, double gap, const SolverBody& body, const SolverBody& holder);

@@ -72,10 +72,10 @@ void ParallelRegion::run(const std::function<void()>& work) {
 void ParallelRegion::help() {
   Wait wait;
   while (!closed_.load(std::memory_order_acquire))
-    if (!take_piece(false)) wait.once();
+    if (!claim_piece(false)) wait.once();
 }
 
-bool ParallelRegion::take_piece(bool from_front) {
+bool ParallelRegion::claim_piece(bool from_front) {
   std::uint64_t state = state_.load(std::memory_order_acquire);
   std::uint64_t pieces, front, back;
   do {
@@ -103,7 +103,7 @@ void ParallelRegion::share(std::size_t count, std::size_t least, const void* wor
   const std::size_t pieces = (count + loop_.piece - 1) / loop_.piece;
   done_.store(0, std::memory_order_relaxed);
   state_.store(++number_ << (3 * bits) | pieces, std::memory_order_release);
-  while (take_piece(true)) {
+  while (claim_piece(true)) {
   }
   Wait wait;
   while (done_.load(std::memory_order_acquire) < pieces) wait.once();

@@ -50,7 +50,7 @@ class ParallelRegion {
   using Call = void (*)(const void* work, std::size_t begin, std::size_t end);
   void share(std::size_t count, std::size_t least, const void* work, Call call);
   /// Takes and does a piece of the loop that is published, from its front or its back. False when none is left.
-  bool take_piece(bool from_front);
+  bool claim_piece(bool from_front);
   void help();
 
   ParallelFor parallel_for_;

@@ -73,7 +73,7 @@ bool StepSolver::rest(double dt, const Vec3& gravity, std::span<const double> si
   equilibrium.contacts.reserve(contacts_.size());
   for (SolverContact& contact : contacts_) {
     contact.find_places();
-    place_friction(contact);
+    find_friction_centre(contact);
     add_to(equilibrium, contact);
   }
   for (HingeRows* hinge : hinges_) {
@@ -87,14 +87,14 @@ bool StepSolver::rest(double dt, const Vec3& gravity, std::span<const double> si
   while (!equilibrium.solve(settings_.equilibrium, settings_.equilibrium_passes))
     if (++searches > settings_.rest_searches || !equilibrium.leave_out_what_gives(settings_.left_out)) return false;
   for (std::size_t i = 1; i < bodies_.size(); ++i) moves[i] = equilibrium.bodies[i].moves ? 1 : 0;
-  for (std::size_t k = 0; k < contacts_.size(); ++k) take_rest(equilibrium.contacts[k], contacts_[k], dt);
+  for (std::size_t k = 0; k < contacts_.size(); ++k) store_rest(equilibrium.contacts[k], contacts_[k], dt);
   std::size_t k = 0;
-  for (HingeRows* hinge : hinges_) hinge->take_rest(equilibrium.joints[k++].force, dt);
-  for (CableRow* cable : cables_) cable->take_rest(equilibrium.joints[k++].force[0], dt);
+  for (HingeRows* hinge : hinges_) hinge->store_rest(equilibrium.joints[k++].force, dt);
+  for (CableRow* cable : cables_) cable->store_rest(equilibrium.joints[k++].force[0], dt);
   return true;
 }
 
-void StepSolver::take_rest(const RestContact& found, SolverContact& contact, double dt) const {
+void StepSolver::store_rest(const RestContact& found, SolverContact& contact, double dt) const {
   Manifold& manifold = contact.pair->manifold;
   const std::array<Vec3, 3> along = directions(manifold.normal);
   double pressed = 0;

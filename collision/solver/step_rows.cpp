@@ -75,7 +75,7 @@ void StepSolver::prepare_points(SolverContact& contact, ContactPack& pack, doubl
 }
 
 /// At the middle of the forces of the last step; where there are none yet, by nearness.
-void StepSolver::place_friction(SolverContact& contact) const {
+void StepSolver::find_friction_centre(SolverContact& contact) const {
   const Manifold& manifold = contact.pair->manifold;
   std::array<double, Manifold::most> weights{};
   double sum = 0;
@@ -103,7 +103,7 @@ void StepSolver::prepare_friction(SolverContact& contact, ContactPack& pack, dou
   const Manifold& manifold = contact.pair->manifold;
   const Vec3& n = manifold.normal;
   const int lane = contact.lane;
-  place_friction(contact);
+  find_friction_centre(contact);
   const Vec3 aside = std::abs(n.z()) < 0.7 ? Vec3(0, 0, 1) : Vec3(1, 0, 0);
   std::array<Vec3, 2> along;
   along[0] = aside.cross(n).normalized();

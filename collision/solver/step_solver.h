@@ -82,10 +82,10 @@ class StepSolver {
   void relax(SubStep step);
   void move(SubStep step);
   void add_to(Equilibrium& equilibrium, const SolverContact& contact) const;
-  void take_rest(const RestContact& found, SolverContact& contact, double dt) const;
+  void store_rest(const RestContact& found, SolverContact& contact, double dt) const;
   /// Only what touches may bear.
   [[nodiscard]] bool bears_at_rest(const ManifoldPoint& point) const { return point.separation <= settings_.touching; }
-  void place_friction(SolverContact& contact) const;
+  void find_friction_centre(SolverContact& contact) const;
   void store_contact(SolverContact& contact, double dt);
   void unscale_bodies(double dt);
   void keep_angular_momentum();

@@ -232,22 +232,22 @@ void FrameSystem::assemble(int threads) {
   set_scale();
 }
 
-void FrameSystem::want_node(int node) {
+void FrameSystem::request_node(int node) {
   char& wanted = wanted_[static_cast<std::size_t>(node)];
   if (wanted == 0) wanted_nodes_.push_back(node);
   wanted = 1;
 }
 
 /// The vertices of these nodes; a diaphragm takes all of its nodes along.
-void FrameSystem::want_vertices_of(std::span<const int> nodes) {
+void FrameSystem::request_vertices_of(std::span<const int> nodes) {
   wanted_.resize(static_cast<std::size_t>(dofs().vertices()), 0);
   wanted_nodes_.clear();
   for (int node : nodes) {
-    want_node(node);
+    request_node(node);
     const int d = dofs().diaphragm_of_node[static_cast<std::size_t>(node)];
     if (d < 0) continue;
     wanted_[model.nodes.size() + static_cast<std::size_t>(d)] = 1;
-    for (int other : model.diaphragms[static_cast<std::size_t>(d)].nodes) want_node(other);
+    for (int other : model.diaphragms[static_cast<std::size_t>(d)].nodes) request_node(other);
   }
   std::sort(wanted_nodes_.begin(), wanted_nodes_.end());
 }
@@ -255,7 +255,7 @@ void FrameSystem::want_vertices_of(std::span<const int> nodes) {
 // Entries are built again from zero, in the same order as in assemble(), and never subtracted from: what is released
 // leaves exact zeros, not rounding that would pass for stiffness.
 void FrameSystem::reassemble(std::span<const int> nodes) {
-  want_vertices_of(nodes);
+  request_vertices_of(nodes);
   wanted_elements_.clear();
   for (const int n : wanted_nodes_) {
     const auto node = static_cast<std::size_t>(n);

@@ -92,8 +92,8 @@ class FrameSystem : public FrameElements {
  private:
   void add_element(std::size_t element, const std::vector<char>& wanted);
   void add_beams(int threads);
-  void want_node(int node);
-  void want_vertices_of(std::span<const int> nodes);
+  void request_node(int node);
+  void request_vertices_of(std::span<const int> nodes);
   void finish_node(int node);
   void finish_diaphragms(const std::vector<char>& wanted);
   /// Springs of the node's supports, and with inertia factor times its own masses.

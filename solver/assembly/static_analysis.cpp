@@ -111,7 +111,7 @@ Eigen::MatrixXd Prepared::right_hand_sides(std::span<const LoadVector> vectors) 
   return b;
 }
 
-/// From the scaled displacements; condition and error bound are left to tell_condition().
+/// From the scaled displacements; condition and error bound are left to write_condition().
 std::vector<StaticSolution> answers(const Prepared& prepared, std::vector<LoadVector> vectors,
                                     RefinedSolution refined) {
   const FrameSystem& system = prepared.system;
@@ -121,7 +121,7 @@ std::vector<StaticSolution> answers(const Prepared& prepared, std::vector<LoadVe
   return solutions;
 }
 
-void tell_condition(const Prepared& prepared, ConditionBeside& condition, std::vector<StaticSolution>& solutions) {
+void write_condition(const Prepared& prepared, ConditionBeside& condition, std::vector<StaticSolution>& solutions) {
   condition.finish();
   for (StaticSolution& solution : solutions) {
     SolveQuality& quality = solution.quality;
@@ -184,7 +184,7 @@ std::vector<StaticSolution> solve_each(Prepared& prepared, std::span<const LoadS
     if (b.rows() > 0) refined = solve_refined(prepared.system.matrix(), prepared.linear_solve(), b);
     solutions = answers(prepared, std::move(vectors), std::move(refined));
   }
-  tell_condition(prepared, condition, solutions);
+  write_condition(prepared, condition, solutions);
   return solutions;
 }
 
@@ -276,7 +276,7 @@ std::optional<std::vector<StaticSolution>> add_up(Prepared& prepared, std::span<
         refine(residual, prepared.linear_solve(), prepared.right_hand_sides(sums), sums_of(of_cases, factors, threads));
     solutions = answers(prepared, std::move(sums), std::move(refined));
   }
-  tell_condition(prepared, condition, solutions);
+  write_condition(prepared, condition, solutions);
   return solutions;
 }
 

@@ -103,7 +103,7 @@ void FrameDynamics::State::record_break(const JointBreak& found, double share, c
 }
 
 bool FrameDynamics::State::break_joints(const JointLaw& law) {
-  know_end();
+  evaluate_end();
   struct Crossing {
     JointBreak joint;
     double share;
@@ -115,7 +115,7 @@ bool FrameDynamics::State::break_joints(const JointLaw& law) {
     if (system().beam_stands[i] == 0) continue;
     const Vec12 forces = end_forces(beam, true);
     if (!(law.beam_use(beam, forces) > 1)) continue;
-    know_nodes();
+    evaluate_nodes();
     const SubstepCourse<Vec12> own = course(beam);
     for (int end = 0; end < 2; ++end) {
       if (system().model.beams[i].end_stiffness[static_cast<std::size_t>(end)].isZero(0)) continue;

@@ -60,7 +60,7 @@ struct FrameDynamics::State {
   // structural_change.cpp
   /// Takes over what changed since the last substep, or within it.
   void apply_changes();
-  void take_changes();
+  void renumber();
   void clear_dropped();
   void set_method(const GeneralizedAlpha& other);
   void find_substep_load();
@@ -75,14 +75,14 @@ struct FrameDynamics::State {
 
   // substep.cpp
   /// To its end, with what yields, joints that break apart.
-  void take_substep(const JointLaw* law);
-  void take_first_order_substep(const JointLaw* law);
+  void advance_substep(const JointLaw* law);
+  void advance_first_order(const JointLaw* law);
   void find_end();
   void accept();
   void book();
   double stored_energy();
-  void know_nodes();
-  void know_end();
+  void evaluate_nodes();
+  void evaluate_end();
 
   // plastic_flow.cpp
   /// At the end of the substep under way; 0 of hinges that do not yield.
@@ -98,7 +98,7 @@ struct FrameDynamics::State {
   [[nodiscard]] Vec12 geometric_end_forces(int beam, const std::vector<Vec6>& displacements,
                                            const Vec12& elastic) const;
   [[nodiscard]] Eigen::VectorXd find_geometric_load(const std::vector<Vec6>& displacements, bool at_end) const;
-  void take_second_order_substep(const JointLaw* law);
+  void advance_second_order(const JointLaw* law);
 
   // break_rule.cpp
   [[nodiscard]] bool break_joints(const JointLaw& law);

@@ -165,7 +165,7 @@ int FrameDynamics::add_holding_force() {
   Eigen::VectorXd force = (Au.row(0) - state.method.s * Mu.row(0)).transpose() - state.constant_load;
   state.kinks.subtract(force);
   if (state.options.second_order) {
-    state.know_nodes();
+    state.evaluate_nodes();
     force -= state.find_geometric_load(state.nodes.end().u, true);
   }
   return state.patterns.add_holding(state.system(), std::move(force));
@@ -180,13 +180,13 @@ const std::vector<JointBreak>& FrameDynamics::advance(const JointLaw* law) {
   state.begin_changed();
   require_none(state.core().renew_factor());
   state.patterns.find(state.system());
-  state.take_substep(law);
+  state.advance_substep(law);
   ++state.counters.substeps;
   while (law != nullptr && state.break_joints(*law)) {
     ++state.counters.retaken;
     state.apply_changes();
     state.patterns.find(state.system());
-    state.take_substep(law);
+    state.advance_substep(law);
   }
   state.accept();
   return state.breaks;
@@ -195,11 +195,11 @@ const std::vector<JointBreak>& FrameDynamics::advance(const JointLaw* law) {
 double FrameDynamics::time() const { return state_->time; }
 double FrameDynamics::substep() const { return state_->method.h; }
 const std::vector<Vec6>& FrameDynamics::displacements() const {
-  state_->know_end();
+  state_->evaluate_end();
   return state_->nodes.end().u;
 }
 const std::vector<Vec6>& FrameDynamics::velocities() const {
-  state_->know_nodes();
+  state_->evaluate_nodes();
   return state_->nodes.end().v;
 }
 std::vector<Vec6> FrameDynamics::accelerations() const {
@@ -209,7 +209,7 @@ std::vector<Vec6> FrameDynamics::accelerations() const {
 }
 
 SubstepCourse<Vec6> FrameDynamics::node_course(int node) const {
-  state_->know_nodes();
+  state_->evaluate_nodes();
   const auto n = static_cast<std::size_t>(node);
   const NodeMotion &start = state_->nodes.start(), &end = state_->nodes.end();
   return {start.u.at(n), start.v.at(n), end.u.at(n), end.v.at(n), state_->method.h};
@@ -217,32 +217,32 @@ SubstepCourse<Vec6> FrameDynamics::node_course(int node) const {
 
 Vec12 FrameDynamics::beam_end_forces(int beam) const {
   (void)checked_beam(model(), beam);
-  state_->know_end();
+  state_->evaluate_end();
   return state_->end_forces(beam, true);
 }
 
 SubstepCourse<Vec12> FrameDynamics::beam_course(int beam) const {
   (void)checked_beam(model(), beam);
-  state_->know_nodes();
+  state_->evaluate_nodes();
   return state_->course(beam);
 }
 
 Vec12 FrameDynamics::beam_end_force_rates(int beam) const {
   (void)checked_beam(model(), beam);
-  state_->know_nodes();
+  state_->evaluate_nodes();
   return state_->end_force_rates(beam, true);
 }
 
 std::array<Vec6, 4> FrameDynamics::shell_corner_forces(int shell, bool rates) const {
   (void)checked_shell(model(), shell);
-  state_->know_nodes();
+  state_->evaluate_nodes();
   return state_->system().corner_forces(shell, rates ? state_->nodes.end().v : state_->nodes.end().u, Vec24::Zero());
 }
 
 Vec6 FrameDynamics::reaction(int support) const {
   State& state = *state_;
   const std::size_t i = checked_support(model(), support);
-  state.know_end();
+  state.evaluate_end();
   if (state.reactions.empty()) {
     const std::vector<Vec6>& u = state.nodes.end().u;
     state.reactions = state.core().reactions_of(

@@ -34,20 +34,20 @@ Eigen::VectorXd FrameDynamics::State::find_geometric_load(const std::vector<Vec6
 }
 
 /// Where the passes do not settle, a beam is pressed beyond what it bears: the loads of the substep's start act on.
-void FrameDynamics::State::take_second_order_substep(const JointLaw* law) {
+void FrameDynamics::State::advance_second_order(const JointLaw* law) {
   accepted = false;  // the nodes at the start are those of `before`
   nodes.set_start(system(), before);
   geometric.begin(find_geometric_load(nodes.start().u, false));
   for (int pass = 0; pass < most_passes; ++pass) {
-    take_first_order_substep(law);
-    know_end();
+    advance_first_order(law);
+    evaluate_end();
     const SettlingLoad::Pass done = geometric.take(find_geometric_load(nodes.end().u, true));
     if (done == SettlingLoad::Pass::settled) return;
     if (done == SettlingLoad::Pass::lost) break;
   }
   ++counters.unsettled;
   geometric.give_up();
-  take_first_order_substep(law);
+  advance_first_order(law);
 }
 
 double FrameDynamics::geometric_work_to(const std::vector<Vec6>& displacements) {
@@ -55,7 +55,7 @@ double FrameDynamics::geometric_work_to(const std::vector<Vec6>& displacements) 
   if (!state.options.second_order) return 0;
   state.begin_substep();
   state.apply_changes();
-  state.know_nodes();
+  state.evaluate_nodes();
   const Eigen::VectorXd way = scaled_displacements(state.system(), displacements) - state.current().u;
   return 0.5 *
          way.dot(state.find_geometric_load(state.nodes.end().u, true) + state.find_geometric_load(displacements, true));

@@ -53,7 +53,7 @@ void FrameDynamics::State::ImpulseFactor::follow(const FrameSystem& now) {
   follow_plates(now);
   follow_nodes(now);
   if (own().pending()) {
-    own().take_changes(nullptr);
+    own().apply_changes(nullptr);
     require_none(own().mechanism);
   }
   if (own().system->dofs().equations != now.dofs().equations)

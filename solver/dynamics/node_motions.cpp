@@ -7,14 +7,14 @@ NodeMotions::NodeMotions(std::size_t nodes) {
   start_.v = end_.u = end_.v = start_.u;
 }
 
-bool NodeMotions::know_end(const FrameSystem& system, const MotionState& end) {
+bool NodeMotions::evaluate_end(const FrameSystem& system, const MotionState& end) {
   if (end_known_) return false;
   end_known_ = true;
   system.node_displacements_of_scaled(end.u, end_.u);
   return true;
 }
 
-void NodeMotions::know(const FrameSystem& system, const MotionState& start, const MotionState& end) {
+void NodeMotions::evaluate(const FrameSystem& system, const MotionState& start, const MotionState& end) {
   if (known_) return;
   known_ = true;
   system.node_displacements_of_scaled(start.u, start_.u);

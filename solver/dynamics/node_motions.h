@@ -11,9 +11,9 @@ class NodeMotions {
   /// The motion is another one.
   void forget() { known_ = end_known_ = false; }
   /// Displacements at the end. False: they were there already.
-  bool know_end(const FrameSystem& system, const MotionState& end);
+  bool evaluate_end(const FrameSystem& system, const MotionState& end);
   /// And all the others.
-  void know(const FrameSystem& system, const MotionState& start, const MotionState& end);
+  void evaluate(const FrameSystem& system, const MotionState& start, const MotionState& end);
   /// Displacements at the start alone.
   void set_start(const FrameSystem& system, const MotionState& start);
 

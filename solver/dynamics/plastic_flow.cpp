@@ -43,7 +43,7 @@ double share_at(double from, double to, double value) {
 }  // namespace
 
 std::vector<double> FrameDynamics::State::moments_at_end(std::span<const PlasticHinge> hinges) {
-  know_end();
+  evaluate_end();
   std::vector<double> moments(hinges.size(), 0);
   int beam_read = -1;
   Vec12 forces = Vec12::Zero();
@@ -143,7 +143,7 @@ std::optional<double> FrameDynamics::State::turned_out_at(const PlasticHinge& hi
   constexpr double rounding = 1e4 * beyond;
   const bool over = moment(true) > (1 + rounding) * hinge.capacity;
   if (!over && !(std::abs(kink.now) > hinge.largest_turn)) return std::nullopt;
-  know_nodes();
+  evaluate_nodes();
   const double start = moment(false);
   if (over) return share_at(start, moment(true), hinge.capacity);
   // It begins to turn when it reaches its capacity, and turns evenly from there.

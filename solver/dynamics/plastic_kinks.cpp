@@ -71,7 +71,7 @@ void PlasticKinks::begin_substep() {
   }
 }
 
-void PlasticKinks::take_back() {
+void PlasticKinks::restore() {
   for (Kink& kink : kinks_) kink.now = kink.before;
 }
 

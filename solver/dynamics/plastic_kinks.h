@@ -50,7 +50,7 @@ class PlasticKinks {
 
   void begin_substep();
   /// What was tried in the substep under way is tried again: nothing has turned.
-  void take_back();
+  void restore();
   void hold_nothing();
   void set_response(std::size_t kink, Eigen::VectorXd response) { kinks_[kink].response = std::move(response); }
   void set_tried(std::size_t kink, double moment) { kinks_[kink].tried = moment; }

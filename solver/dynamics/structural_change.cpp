@@ -32,7 +32,7 @@ void FrameDynamics::State::forget_motion() {
 void FrameDynamics::State::apply_changes() {
   if (prepared && !core().pending()) return;
   if (!prepared) {
-    take_changes();
+    renumber();
     prepared = true;
     before.u.setZero(equations());
     before.v = before.a = before.u;
@@ -44,7 +44,7 @@ void FrameDynamics::State::apply_changes() {
   changed.remember(system(), inertia, core().changes, before.v);
   if (const std::vector<int> bare = bare_nodes(system(), inertia, core().changes); !bare.empty())
     frame.drop_nodes(bare);
-  take_changes();
+  renumber();
   clear_dropped();
   forget_motion();
   kinks.find_anew(system());
@@ -53,7 +53,7 @@ void FrameDynamics::State::apply_changes() {
   patterns.forget();
 }
 
-void FrameDynamics::State::take_changes() {
+void FrameDynamics::State::renumber() {
   Reanalysis::State& own = core();
   const bool supports_change = !own.changes.supports().empty();
   const NodeMotion motion = [&] {
@@ -66,7 +66,7 @@ void FrameDynamics::State::take_changes() {
     return found;
   }();
   const FrameSystem* numbered = own.system.get();
-  own.take_changes(nullptr);
+  own.apply_changes(nullptr);
   jumps->forget_frame();
   require_none(std::exchange(own.mechanism, std::nullopt));
   LoadVector load = own.load.vector();
@@ -91,7 +91,7 @@ void FrameDynamics::State::set_method(const GeneralizedAlpha& other) {
   inertia.factor = method.s;
   core().rebuild();
   core().answered = false;
-  take_changes();
+  renumber();
   const Eigen::VectorXd ratio = scale().cwiseQuotient(scaled_by);
   for (Eigen::VectorXd* motion : {&before.u, &before.v, &before.a}) *motion = motion->cwiseQuotient(ratio);
   now = before;

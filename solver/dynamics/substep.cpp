@@ -5,12 +5,12 @@
 
 namespace topple::solver {
 
-void FrameDynamics::State::take_substep(const JointLaw* law) {
-  options.second_order ? take_second_order_substep(law) : take_first_order_substep(law);
+void FrameDynamics::State::advance_substep(const JointLaw* law) {
+  options.second_order ? advance_second_order(law) : advance_first_order(law);
 }
 
-void FrameDynamics::State::take_first_order_substep(const JointLaw* law) {
-  kinks.take_back();
+void FrameDynamics::State::advance_first_order(const JointLaw* law) {
+  kinks.restore();
   collocated_load = constant_load + substep_load;
   patterns.add_to(method.af, collocated_load);
   kinks.add_start(system(), collocated_load);
@@ -29,13 +29,13 @@ void FrameDynamics::State::find_end() {
 }
 
 /// By nodes, as far as they are asked for.
-void FrameDynamics::State::know_nodes() {
-  know_end();
-  nodes.know(system(), accepted ? now : before, accepted ? before : now);
+void FrameDynamics::State::evaluate_nodes() {
+  evaluate_end();
+  nodes.evaluate(system(), accepted ? now : before, accepted ? before : now);
 }
 
-void FrameDynamics::State::know_end() {
-  if (nodes.know_end(system(), accepted ? before : now)) reactions.clear();
+void FrameDynamics::State::evaluate_end() {
+  if (nodes.evaluate_end(system(), accepted ? before : now)) reactions.clear();
 }
 
 /// At the start of the substep under way.

@@ -81,14 +81,14 @@ TriangularSolver::TriangularSolver(const Factor& factor) {
   size_ = static_cast<int>(view.order.size());
   order_.assign(view.order.begin(), view.order.end());
   if (view.supernodal) {
-    take_supernodal(view);
+    load_supernodal(view);
   } else {
-    take_simplicial(view);
+    load_simplicial(view);
   }
   finish();
 }
 
-void TriangularSolver::take_supernodal(const FactorView& view) {
+void TriangularSolver::load_supernodal(const FactorView& view) {
   first_ = view.first;
   row_start_ = view.row_start;
   value_start_ = view.start;
@@ -97,7 +97,7 @@ void TriangularSolver::take_supernodal(const FactorView& view) {
 }
 
 /// Gathers runs of columns in which each one's pattern is the next one's and the next one itself.
-void TriangularSolver::take_simplicial(const FactorView& view) {
+void TriangularSolver::load_simplicial(const FactorView& view) {
   const auto n = static_cast<std::size_t>(size_);
   const auto begin = [&](std::size_t j) { return static_cast<std::size_t>(view.start[j]); };
   const auto count = [&](std::size_t j) { return static_cast<std::size_t>(view.count[j]); };

@@ -93,8 +93,8 @@ class TriangularSolver {
   void subtract(const EliminationPath& path, const Eigen::MatrixXd& W, const double* c, Eigen::VectorXd& y) const;
 
  private:
-  void take_supernodal(const FactorView& view);
-  void take_simplicial(const FactorView& view);
+  void load_supernodal(const FactorView& view);
+  void load_simplicial(const FactorView& view);
   void finish();
   void find_runs();
   [[nodiscard]] std::span<const RowsInLine> runs(std::size_t block) const;

@@ -14,9 +14,9 @@ constexpr double entry_operations = 10, correction_operations = 4;
 
 BaseFactor::BaseFactor(const FrameSystem& system) : system_(system), changes_(system) {}
 
-void BaseFactor::serve(const Factor& factor) { serve(TriangularSolver(factor)); }
+void BaseFactor::install(const Factor& factor) { install(TriangularSolver(factor)); }
 
-void BaseFactor::serve(TriangularSolver triangles) {
+void BaseFactor::install(TriangularSolver triangles) {
   solver_.emplace(std::move(triangles));
   correction_.emplace(*solver_);
 }
@@ -29,7 +29,7 @@ BaseFactor::CaughtUp BaseFactor::catch_up(int places) {
   for (const auto& [place, modes] : planned_) number_.emplace(place, correction_->add(modes.rows, modes.B));
   planned_.clear();
   correction_->finish_adding();
-  take_changes();
+  apply_changes();
   correction_->update();
   const double share = all == 0 ? 0.0 : static_cast<double>(taken) / static_cast<double>(all);
   return {taken == all, share * (whole.operations - solve_operations())};
@@ -52,7 +52,7 @@ void BaseFactor::forget_unchanged(std::optional<Eigen::Index> kept) {
 
 /// Takes what changed over, and adds what changed for the first time.
 void BaseFactor::add_planned() {
-  take_changes();
+  apply_changes();
   forget_unchanged();
   for (const auto& [place, change] : changes_.all()) {
     if (change.taken || !change.active()) continue;
@@ -62,7 +62,7 @@ void BaseFactor::add_planned() {
   planned_.clear();
 }
 
-void BaseFactor::take_changes() {
+void BaseFactor::apply_changes() {
   for (const auto& [place, number] : number_)
     if (const Eigen::MatrixXd* const D = changes_.take(place); D != nullptr) correction_->set(number, *D);
 }
@@ -70,7 +70,7 @@ void BaseFactor::take_changes() {
 void BaseFactor::update() {
   add_planned();
   correction_->finish_adding();
-  take_changes();
+  apply_changes();
   correction_->update();
 }
 
@@ -79,7 +79,7 @@ void BaseFactor::update(std::span<const int> rows, const Eigen::VectorXd& right_
   solver_->permute(right_hand_side, along_);
   solver_->mark_paths(rows, marked_);
   correction_->finish_adding({}, &along_, &marked_);
-  take_changes();
+  apply_changes();
   correction_->update();
 }
 

@@ -22,9 +22,9 @@ class BaseFactor {
   /// outlive this.
   explicit BaseFactor(const FrameSystem& system);
   /// Takes the factor, which must outlive this. plan() and solve() need it.
-  void serve(const Factor& factor);
+  void install(const Factor& factor);
   /// The same with the triangles over that factor, made elsewhere.
-  void serve(TriangularSolver triangles);
+  void install(TriangularSolver triangles);
   /// Adds at most so many of the changes since the factor was made to its correction: a part of the work, beside each
   /// answer of the older factor.
   struct CaughtUp {
@@ -90,7 +90,7 @@ class BaseFactor {
  private:
   void forget_unchanged(std::optional<Eigen::Index> kept = {});
   void add_planned();
-  void take_changes();
+  void apply_changes();
   void finish_solve(Eigen::VectorXd& x) const;
   void eliminate(const Eigen::MatrixXd& X, const std::vector<int>& rows) const;
   void restore(Eigen::MatrixXd& X) const;

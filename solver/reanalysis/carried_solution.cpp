@@ -54,8 +54,8 @@ void CarriedSolution::find_changed_rows(const FrameSystem& system) {
 }
 
 /// Where the solution does not fit what stands now, and by how much. False: it is better found later.
-bool CarriedSolution::know_residual(ServingFactor& factor, const Eigen::VectorXd& force, SelectiveSolution* selective,
-                                    bool watched) {
+bool CarriedSolution::update_residual(ServingFactor& factor, const Eigen::VectorXd& force, SelectiveSolution* selective,
+                                      bool watched) {
   const FrameSystem& system = factor.system();
   if (!is_of(system) || !expected_.empty()) return false;
   const bool partial = selective != nullptr && selective->partial();
@@ -74,7 +74,7 @@ bool CarriedSolution::know_residual(ServingFactor& factor, const Eigen::VectorXd
 
 void CarriedSolution::update_correction(ServingFactor& factor, bool adds, const Eigen::VectorXd& force,
                                         SelectiveSolution* selective, bool watched) {
-  eliminated_along_ = adds && know_residual(factor, force, selective, watched);
+  eliminated_along_ = adds && update_residual(factor, force, selective, watched);
   if (eliminated_along_) {
     factor.base()->update(rows_to_change_, correction_);
   } else {
@@ -124,7 +124,7 @@ void CarriedSolution::improve(ServingFactor& factor, const Eigen::VectorXd& righ
 
 /// From the last solution on. Returns how often the factor was gone through.
 int CarriedSolution::refine(ServingFactor& factor, SolveQuality& quality) {
-  if (take_expected(factor, quality)) return quality.refinements;
+  if (adopt_expected(factor, quality)) return quality.refinements;
   const FrameSystem& system = factor.system();
   if (!is_of(system)) {
     solution_ = Eigen::VectorXd::Zero(right_hand_side_.size());
@@ -259,7 +259,7 @@ void CarriedSolution::expect(ServingFactor& factor, std::span<const BaseFactor::
 }
 
 /// Starts from the solution that was found beforehand for what stands now. False: there is none.
-bool CarriedSolution::take_expected(ServingFactor& factor, SolveQuality& quality) {
+bool CarriedSolution::adopt_expected(ServingFactor& factor, SolveQuality& quality) {
   if (expected_.empty() || expected_.front().second.size() != right_hand_side_.size()) return false;
   const FrameSystem& system = factor.system();
   std::size_t place = 0;

@@ -75,10 +75,10 @@ class CarriedSolution {
   void find_changed_rows(const FrameSystem& system);
   void add_rows_of(const FrameSystem& system, std::span<const int> nodes);
   void sort_rows();
-  [[nodiscard]] bool know_residual(ServingFactor& factor, const Eigen::VectorXd& force, SelectiveSolution* selective,
-                                   bool watched);
+  [[nodiscard]] bool update_residual(ServingFactor& factor, const Eigen::VectorXd& force, SelectiveSolution* selective,
+                                     bool watched);
   [[nodiscard]] int refine(ServingFactor& factor, SolveQuality& quality);
-  [[nodiscard]] bool take_expected(ServingFactor& factor, SolveQuality& quality);
+  [[nodiscard]] bool adopt_expected(ServingFactor& factor, SolveQuality& quality);
   void improve(ServingFactor& factor, const Eigen::VectorXd& right_hand_side, bool first, SolveQuality& quality);
   void solve_for_rest(ServingFactor& factor, bool first);
   void found();

@@ -30,7 +30,7 @@ bool FactorRefresh::receive(ReanalysisWork& work) {
     allowed_ = false;
     return false;
   }
-  base_->serve(std::move(*made.triangles));
+  base_->install(std::move(*made.triangles));
   factor_ = std::move(made.factor);
   condition_ = made.condition;
   return true;

@@ -84,7 +84,7 @@ void LowRankCorrection::finish_adding(std::span<const PathColumns> also, Eigen::
 }
 
 /// `other` comes before `place`, or is it. Paths to one root share their ends and nothing else.
-void LowRankCorrection::know_gram(Place& place, const Place& other) {
+void LowRankCorrection::compute_gram(Place& place, const Place& other) {
   char& known = place.gram_known[static_cast<std::size_t>(&other - places_.data())];
   if (known != 0) return;
   known = 1;
@@ -202,7 +202,7 @@ void LowRankCorrection::fill_capacitance(int kept) {
     for (const int j : active_) {
       Place& q = places_[static_cast<std::size_t>(j)];
       if (row >= kept || column >= kept) {
-        i < j ? know_gram(q, p) : know_gram(p, q);
+        i < j ? compute_gram(q, p) : compute_gram(p, q);
         auto block = A.block(row, column, rows, q.W.cols());
         block.noalias() = p.D * gram_.block(p.first, q.first, rows, q.W.cols());
         if (i == j) block.diagonal().array() += 1;

@@ -72,7 +72,7 @@ class LowRankCorrection {
   };
   int order_active();
   void fill_capacitance(int kept);
-  void know_gram(Place& place, const Place& other);
+  void compute_gram(Place& place, const Place& other);
   /// c := W' y of the active places, and y -= W c.
   void gather(const Eigen::VectorXd& y, Eigen::Ref<Eigen::VectorXd> c) const;
   void subtract(const Eigen::Ref<const Eigen::VectorXd>& c, Eigen::VectorXd& y) const;

@@ -80,12 +80,12 @@ void Reanalysis::State::apply_dropped_nodes(std::vector<int>& touched) {
       touched.insert(touched.end(), nodes.begin(), nodes.end());
     }
     stands = 0;
-    tell_factors([&](SystemChanges& one) { one.drop_node(node); });
+    report_factors([&](SystemChanges& one) { one.drop_node(node); });
     solution.rest(*system, node);
     touched.push_back(node);
     load.touch(node);
-    for (int beam : system->beams_of_node(node)) changes.look_at_beam(beam);
-    for (int shell : system->shells_of_node(node)) changes.look_at_shell(shell);
+    for (int beam : system->beams_of_node(node)) changes.mark_beam(beam);
+    for (int shell : system->shells_of_node(node)) changes.mark_shell(shell);
   }
 }
 
@@ -107,7 +107,7 @@ void Reanalysis::State::apply_beam(int index, std::vector<int>& touched) {
       (stands != 0 &&
        (beam.end_stiffness[0] != target.end_stiffness[0] || beam.end_stiffness[1] != target.end_stiffness[1] ||
         system->beam_factor[i] != target.factor || beam.density != target.density));
-  if (stiffness_changed) tell_factors([&](SystemChanges& one) { one.remember_beam(index); });
+  if (stiffness_changed) report_factors([&](SystemChanges& one) { one.remember_beam(index); });
   if (stiffness_changed && selective && may_be_stiffer(beam, system->beam_stands[i], system->beam_factor[i], target))
     selective->forget_growths();
   beam.end_stiffness = target.end_stiffness;
@@ -169,7 +169,7 @@ void Reanalysis::State::apply_shells(std::vector<int>& touched) {
     if (system->model.shell_stiffness.contains(index))
       remember_plate(system->element_of_shell(index));
     else
-      tell_factors([&](SystemChanges& one) { one.remember_shell(index); });
+      report_factors([&](SystemChanges& one) { one.remember_shell(index); });
     system->shell_stands[i] = stands;
     if (stands != 0 && selective) selective->forget_growths();
     touched.insert(touched.end(), nodes.begin(), nodes.end());

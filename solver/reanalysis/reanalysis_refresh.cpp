@@ -28,7 +28,7 @@ bool Reanalysis::State::switch_now() {
 void Reanalysis::State::switch_factors() {
   complete(nullptr);
   const FactorRefresh::Made before = serving->replace(refresh.take());
-  if (selective && !selective->serve(serving->base()->triangles())) selective.reset();
+  if (selective && !selective->set_factor(serving->base()->triangles())) selective.reset();
   solution.forget_first();
   ++work.counters.background_factors;
 }

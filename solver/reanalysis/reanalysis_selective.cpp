@@ -22,11 +22,11 @@ void Reanalysis::State::read_all_uses(UseWatch& watch) {
 bool Reanalysis::State::answer_in_part(UseWatch& watch) {
   if (serving->base() == nullptr || !selective || !selective->uses_known()) return false;
   if (!solution.solve_in_part(*serving, load.vector().force, *selective, watch, answer.quality)) return false;
-  tell_effort();
+  report_effort();
   return true;
 }
 
-void Reanalysis::State::tell_effort() {
+void Reanalysis::State::report_effort() {
   const SelectiveSolution::Effort& done = selective->effort();
   const BaseFactor& base = *serving->base();
   effort = {true,        done.entries,  base.triangles().entries(), done.beams, done.shells,

@@ -22,7 +22,7 @@ void Reanalysis::State::give_up(const Defect& defect) {
 const ReanalysisAnswer& Reanalysis::solve() { return state_->solve(nullptr); }
 
 /// From what is to become of the structure to its factor.
-void Reanalysis::State::take_changes(UseWatch* watch) {
+void Reanalysis::State::apply_changes(UseWatch* watch) {
   effort = {};
   whole_known = false;
   // The uses of the present answer are what a selective one starts from.
@@ -51,7 +51,7 @@ const ReanalysisAnswer& Reanalysis::State::solve(UseWatch* watch) {
     return answer;
   }
   const double before = counted_work();
-  take_changes(watch);
+  apply_changes(watch);
   find_answer(watch);
   refresh.pay(counted_work() - before);
   return answer;

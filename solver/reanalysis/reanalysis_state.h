@@ -63,7 +63,7 @@ struct Reanalysis::State {
   void remember_plate(std::size_t element);
   void rebuild();
   template <class Tell>
-  void tell_factors(const Tell& tell) {
+  void report_factors(const Tell& tell) {
     if (serving->base() != nullptr) tell(serving->base()->changes());
     if (refresh.base() != nullptr) tell(refresh.base()->changes());
   }
@@ -96,7 +96,7 @@ struct Reanalysis::State {
 
   // reanalysis_solve.cpp
   [[nodiscard]] const ReanalysisAnswer& solve(UseWatch* watch);
-  void take_changes(UseWatch* watch);
+  void apply_changes(UseWatch* watch);
   void find_answer(UseWatch* watch);
   /// False when refinement does not reach rounding level.
   [[nodiscard]] bool solve_loads();
@@ -110,7 +110,7 @@ struct Reanalysis::State {
   // reanalysis_selective.cpp
   /// Brings displacements up to date where the watch needs it. False: a full answer is needed.
   [[nodiscard]] bool answer_in_part(UseWatch& watch);
-  void tell_effort();
+  void report_effort();
   /// Displacements everywhere, whatever the answer under way has left out.
   [[nodiscard]] const std::vector<Vec6>& whole() const;
   void find_whole() const;

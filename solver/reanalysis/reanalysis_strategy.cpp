@@ -23,7 +23,7 @@ std::optional<Defect> Reanalysis::State::update_structure(const std::vector<int>
   } else {
     defect = system->defect();
   }
-  tell_factors([&](SystemChanges& one) { one.touch(touched); });
+  report_factors([&](SystemChanges& one) { one.touch(touched); });
   solution.touch(touched);
   if (defect) return defect;
   if (system->dofs().equations == 0) {  // everything is held: nothing to factorise, every answer is exact

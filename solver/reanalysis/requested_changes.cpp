@@ -25,7 +25,7 @@ template <class Value>
 void RequestedChanges::set(std::size_t beam, Value& target, const Value& value) {
   if (target == value) return;
   target = value;
-  look_at_beam(static_cast<int>(beam));
+  mark_beam(static_cast<int>(beam));
 }
 
 void RequestedChanges::set_end_stiffness(std::size_t beam, std::size_t end, const Vec6& stiffness) {
@@ -41,13 +41,13 @@ void RequestedChanges::set_beam_loads(std::size_t beam, std::vector<BeamLoad> lo
   for (BeamLoad& load : loads) load.beam = static_cast<int>(beam);
   if (same(targets_[beam].loads, loads)) return;
   targets_[beam].loads = std::move(loads);
-  look_at_beam(static_cast<int>(beam));
+  mark_beam(static_cast<int>(beam));
 }
 
 void RequestedChanges::set_shell_removed(std::size_t shell, bool removed) {
   if (shell_removed(shell) == removed) return;
   shell_removed_[shell] = removed ? 1 : 0;
-  look_at_shell(static_cast<int>(shell));
+  mark_shell(static_cast<int>(shell));
 }
 
 bool RequestedChanges::none() const {

@@ -40,8 +40,8 @@ class RequestedChanges {
   void set_support(int support, const Vec6& stiffness) { supports_.emplace_back(support, stiffness); }
   void drop_node(int node) { dropped_nodes_.push_back(node); }
   /// What becomes of it goes by something else that changes: a node of it leaves.
-  void look_at_beam(int beam) { beams_.push_back(beam); }
-  void look_at_shell(int shell) { shells_.push_back(shell); }
+  void mark_beam(int beam) { beams_.push_back(beam); }
+  void mark_shell(int shell) { shells_.push_back(shell); }
 
   [[nodiscard]] bool none() const;
   /// All were carried out.

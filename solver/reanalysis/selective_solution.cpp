@@ -35,7 +35,7 @@ SelectiveSolution::SelectiveSolution(const FrameSystem& system, const Triangular
   waiting_ = now_.du = now_.past = Eigen::VectorXd::Zero(solver.size());
 }
 
-bool SelectiveSolution::serve(const TriangularSolver& solver) {
+bool SelectiveSolution::set_factor(const TriangularSolver& solver) {
   if (solver.size() != solver_->size() || solver.blocks() != solver_->blocks()) return false;
   for (int k = 0; k < solver.size(); ++k)
     if (solver.row_at(k) != solver_->row_at(k)) return false;

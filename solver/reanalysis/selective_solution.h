@@ -30,7 +30,7 @@ class SelectiveSolution {
 
   /// Replaces the factor by another one of the same pattern. Known uses stay. The answer must be whole. Returns false,
   /// and changes nothing, when its blocks are others.
-  [[nodiscard]] bool serve(const TriangularSolver& solver);
+  [[nodiscard]] bool set_factor(const TriangularSolver& solver);
 
   /// The answer: scaled, in the matrix's order, and what is read from it.
   struct Answer {

@@ -65,7 +65,7 @@ Stability ServingFactor::make(ReanalysisWork& work) {
   verdict.nearly_unstable = verdict.nearly_unstable || 1 / condition_ < options_.warning_limit;
   if (!verdict.nearly_unstable) {
     base_ = std::make_unique<BaseFactor>(system_);
-    base_->serve(*factor_);
+    base_->install(*factor_);
   }
   return verdict;
 }

@@ -115,7 +115,7 @@ class Analysis {
     std::atomic<std::size_t> done = 0;
     const auto one = [&](std::size_t k) {
       result.combinations[k] = analysed(k, std::move(solutions[k]));
-      tell("combinations", static_cast<double>(++done) / static_cast<double>(solutions.size()));
+      report_progress("combinations", static_cast<double>(++done) / static_cast<double>(solutions.size()));
     };
     if (linear_) {
       solver::parallel_for(solutions.size(), workers_for(solutions.size(), request_.workers), one);
@@ -137,7 +137,7 @@ class Analysis {
     }
   }
 
-  void tell(std::string_view stage, double share = -1) const {
+  void report_progress(std::string_view stage, double share = -1) const {
     if (request_.progress) request_.progress(stage, share);
   }
 
@@ -156,7 +156,7 @@ class Analysis {
 
   /// The factor, by far the largest thing there is, goes with the analysis: nothing that follows needs it.
   [[nodiscard]] std::vector<solver::StaticSolution> solve_linear(solver::AnalysisStatistics& statistics) {
-    tell("factorisation");
+    report_progress("factorisation");
     if (of_cases()) {
       solver::CaseSums sums =
           kept_ ? kept_->solve_case_sums(carrying_both(frame_.model), cases_.sets, cases_.factors, request_.solver)
@@ -237,7 +237,7 @@ class Analysis {
       return recovery_.recovered(combinations_[k], answer, loads_.empty() ? loads_of(k) : std::move(loads_[k]));
     }
     const std::string of = " of " + building_[combinations_[k]].name;
-    if (second_order) tell("second order" + of);
+    if (second_order) report_progress("second order" + of);
     // Where no member goes slack, buckling begins with the same linear answer.
     const bool taut = !OneWayMembers(frame_.model).any();
     solver::StaticSolution first_order;
@@ -249,7 +249,7 @@ class Analysis {
     tangent_ = answer.axial;
     tangent_beams_ = model.beams;
     result.second_order_iterations = iterations;
-    if (request_.buckling > 0) tell("buckling" + of);
+    if (request_.buckling > 0) report_progress("buckling" + of);
     if (k + 1 == combinations_.size()) second_order_.reset();  // its factor is as large as the one to come
     if (request_.buckling > 0)
       result.buckling = solver::buckling_modes(model, loads_[k].set, request_.buckling, request_.solver,
@@ -326,7 +326,7 @@ class Analysis {
 
   /// Without load, all one-way members taut; with second order as the last combination has left the structure.
   void find_modes(AnalysisResult& result) const {
-    tell("natural modes");
+    report_progress("natural modes");
     Frame frame = frame_;
     const bool tangent_counts = request_.second_order != solver::SecondOrder::none && !floats_;
     if (tangent_counts) frame.model.beams = tangent_beams_;

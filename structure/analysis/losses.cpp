@@ -122,7 +122,7 @@ class Losses {
     LossState state;
     const solver::ReanalysisAnswer& answer = frame_.solve();
     if (!answer.stable) {
-      tell_mechanism(answer.mechanism, state);
+      report_mechanism(answer.mechanism, state);
       return state;
     }
     if (!frame_.settled()) {
@@ -197,7 +197,7 @@ class Losses {
     }
   }
 
-  void tell_mechanism(const solver::Mechanism& found, LossState& state) const {
+  void report_mechanism(const solver::Mechanism& found, LossState& state) const {
     FrameMechanism named;
     for (const int node : found.nodes) named.nodes.emplace_back(static_cast<std::size_t>(node));
     named.motion = found.motion;

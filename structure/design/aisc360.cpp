@@ -79,7 +79,7 @@ void check_closed_torsion(ClauseList& clauses, const Strengths& r, const Largest
 }
 
 /// C2.3(b): the stiffness of the analysis that the forces come from.
-void tell_stiffness(const SteelSection& s, const DesignMember& member, const Trail& trail) {
+void trace_stiffness(const SteelSection& s, const DesignMember& member, const Trail& trail) {
   if (!member.yielded || !trail.on()) return;
   const char* const clause = "AISC 360 C2.3";
   trail.add(clause, "P_ns", "F_y A_g, or F_y A_e of slender elements (E7)", section_strength(s), of_force);
@@ -89,7 +89,7 @@ void tell_stiffness(const SteelSection& s, const DesignMember& member, const Tra
             plain_number);
 }
 
-void tell_interaction(const Strengths& r, const LargestForces& forces, const Trail& trail) {
+void trace_interaction(const Strengths& r, const LargestForces& forces, const Trail& trail) {
   const char* const clause = "AISC 360 H1-1";
   trail.add(clause, "P_u/P_c", "compression over phi_c P_n", forces.compression / r.compression, plain_number);
   trail.add(clause, "P_u/P_c (tension)", "tension over phi_t P_n", forces.tension / r.tension, plain_number);
@@ -102,11 +102,11 @@ void tell_interaction(const Strengths& r, const LargestForces& forces, const Tra
 DesignResult check_aisc360(const DesignMember& member, std::span<const SectionForces> stations, const Trail& trail) {
   const SteelSection steel = steel_section(*member.section, *member.material);
   const LargestForces forces = largest_forces(stations);
-  tell_section(steel, trail);
-  tell_forces(forces, trail);
-  tell_stiffness(steel, member, trail);
+  trace_section(steel, trail);
+  trace_forces(forces, trail);
+  trace_stiffness(steel, member, trail);
   const Strengths r = strengths(steel, member, stations, trail);
-  tell_interaction(r, forces, trail);
+  trace_interaction(r, forces, trail);
   ClauseList clauses;
   const double moments = r.moment_y_use + forces.moment_z / r.moment_z;
   if (forces.compression > 0) {

@@ -33,7 +33,7 @@ Stresses stresses(const SteelSection& s, const SectionForces& at, const WarpingF
   return found;
 }
 
-void tell(const SteelSection& s, const SectionForces& at, const WarpingForces& w, const Trail& trail) {
+void trace(const SteelSection& s, const SectionForces& at, const WarpingForces& w, const Trail& trail) {
   const Stresses found = stresses(s, at, w);
   trail.add(normal, "T_u", "at the governing section", at[3], of_moment);
   trail.add(normal, "B", "bimoment: G J chi - E C_w chi'' = T, B = -E C_w chi'", w.bimoment, of_bimoment);
@@ -76,7 +76,7 @@ void check_open_torsion(ClauseList& clauses, const SteelSection& s, const Design
     worst = k;
   }
   clauses.add(buckling, without_torsion + largest_warping / (phi_torsion * s.fy));
-  if (trail.on()) tell(s, stations[worst], warping[worst], trail);
+  if (trail.on()) trace(s, stations[worst], warping[worst], trail);
 }
 
 }  // namespace topple::structure::aisc360

@@ -108,7 +108,7 @@ struct LateralUse {
   double use = 0, chi = 1;  ///< M_y,Ed/M_b,Rd of the stretch in which it is largest, and its reduction
 };
 
-void tell_lateral(const CheckedStretch& stretch, double mcr, double slenderness, double chi, const Trail& trail) {
+void trace_lateral(const CheckedStretch& stretch, double mcr, double slenderness, double chi, const Trail& trail) {
   trail.add(lateral, "L_cr,LT", "between lateral restraints", stretch.length, of_length);
   trail.add(lateral, "C_1", "given, or sqrt(35 M_max^2/(M_max^2 + 9 M_2^2 + 16 M_3^2 + 9 M_4^2)) (Serna 2006)",
             stretch.factor, plain_number);
@@ -140,7 +140,7 @@ LateralUse lateral_use(const SteelSection& steel, const DesignMember& member, co
     told_mcr = mcr;
     told_slenderness = slenderness;
   }
-  if (told_mcr > 0) tell_lateral(told, told_mcr, told_slenderness, worst.chi, trail);
+  if (told_mcr > 0) trace_lateral(told, told_mcr, told_slenderness, worst.chi, trail);
   trail.add(lateral, "M_b,Rd", "chi_LT W_y f_y/gamma_M1 (6.55)", worst.chi * resistance * gamma_m0 / gamma_m1,
             of_moment);
   return worst;
@@ -179,7 +179,7 @@ Interaction6_3_3 interaction(const SteelSection& steel, int cls, const MomentFac
   return k;
 }
 
-void tell_interaction(const Interaction6_3_3& k, double ny, double nz, double my, double mz, const Trail& trail) {
+void trace_interaction(const Interaction6_3_3& k, double ny, double nz, double my, double mz, const Trail& trail) {
   const char* const clause = beam_column;
   trail.add(clause, "n_y", "N_Ed/(chi_y N_Rk/gamma_M1)", ny, plain_number);
   trail.add(clause, "n_z", "N_Ed/(min(chi_z, chi_T) N_Rk/gamma_M1)", nz, plain_number);
@@ -243,7 +243,7 @@ void check_buckling(ClauseList& clauses, const SteelSection& steel, const Design
   constexpr double rounding = 1e-9;
   const int worse_class = moment_z > rounding ? std::max(cls.number, cls.about_z) : cls.number;
   const Interaction6_3_3 k = interaction(steel, worse_class, member.factors, r, ny, nz);
-  tell_interaction(k, ny, nz, moment_y, moment_z, trail);
+  trace_interaction(k, ny, nz, moment_y, moment_z, trail);
   clauses.add("EN 1993-1-1 6.3.3 (6.61)", ny + k.yy * moment_y + k.yz * moment_z);
   clauses.add("EN 1993-1-1 6.3.3 (6.62)", nz + k.zy * moment_y + k.zz * moment_z);
 }

@@ -124,7 +124,7 @@ EffectiveSection effective_section(const SteelSection& steel) {
   return {steel.area, steel.elastic_y, steel.elastic_z};
 }
 
-void tell_effective(const EffectiveSection& e, const Trail& trail) {
+void trace_effective(const EffectiveSection& e, const Trail& trail) {
   const char* const clause = "EN 1993-1-5 4.4";
   trail.add(clause, "rho_w", "(lambda_p - 0.22)/lambda_p^2, of the web under compression (4.2)", e.web, plain_number);
   trail.add(clause, "rho_f", "of the flange under compression, (4.2) in boxes, (4.3) in I sections", e.flange,

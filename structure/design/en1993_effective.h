@@ -16,6 +16,6 @@ struct EffectiveSection {
 /// Of I sections and boxes, which are symmetric about both axes: the centroid stays under compression (e_N = 0).
 /// Clear widths are those of the classes: inside the fillets of an I, between the corners of a box.
 [[nodiscard]] EffectiveSection effective_section(const SteelSection& steel);
-void tell_effective(const EffectiveSection& effective, const Trail& trail);
+void trace_effective(const EffectiveSection& effective, const Trail& trail);
 
 }  // namespace topple::structure

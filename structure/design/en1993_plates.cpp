@@ -101,7 +101,7 @@ ShearUse use_at(const SteelSection& s, const DesignMember& member, const Section
   return use;
 }
 
-void tell(const SteelSection& s, const DesignMember& member, const SectionForces& at, double web, const Trail& trail) {
+void trace(const SteelSection& s, const DesignMember& member, const SectionForces& at, double web, const Trail& trail) {
   const char* const clause = "EN 1993-1-5 5.2 (5.10)";
   const Flanges f = flanges_alone(s, at[0]);
   trail.add(clause, "V_Ed", "at the governing section", at[2], of_force);
@@ -141,7 +141,7 @@ void check_strong_axis(ClauseList& clauses, const SteelSection& s, const Section
     most = std::max(use.shear, use.with_moment);
     worst = &at;
   }
-  if (trail.on() && worst != nullptr) tell(s, member, *worst, resistance, trail);
+  if (trail.on() && worst != nullptr) trace(s, member, *worst, resistance, trail);
   if (s.kind == SteelSection::Kind::I) check_flange_induced(clauses, s, cls, trail);
 }
 

@@ -77,7 +77,7 @@ Uses uses_at(const SectionForces& at, const Resistance& r, const ShearParts& par
   return u;
 }
 
-void tell(const Trail& trail, const SectionForces& at, const Resistance& r, const Uses& u) {
+void trace(const Trail& trail, const SectionForces& at, const Resistance& r, const Uses& u) {
   const char* const clause = "EN 1993-1-1 6.2.1 (6.2)";
   trail.add("EN 1993-1-1 6.2.6 (6.17)", "V_pl,y,Rd", "A_v,y f_y/sqrt(3)/gamma_M0", r.shear_y, of_force);
   trail.add("EN 1993-1-1 6.2.6 (6.17)", "V_pl,z,Rd", "A_v,z f_y/sqrt(3)/gamma_M0", r.shear_z, of_force);
@@ -133,7 +133,7 @@ void check_sections(ClauseList& clauses, const SteelSection& steel, const Sectio
     most = u.section;
     worst = &at;
   }
-  if (trail.on() && worst != nullptr) tell(trail, *worst, r, uses_at(*worst, r, parts, cls.fy));
+  if (trail.on() && worst != nullptr) trace(trail, *worst, r, uses_at(*worst, r, parts, cls.fy));
 }
 
 }  // namespace topple::structure::en1993

@@ -34,7 +34,7 @@ double elastic_use(const SteelSection& s, const Stresses& at) {
   return std::max(tip, std::sqrt(3.0) * at.flange_shear) * gamma_m0 / s.fy;
 }
 
-void tell(const SteelSection& s, const SectionForces& at, const WarpingForces& w, const Trail& trail) {
+void trace(const SteelSection& s, const SectionForces& at, const WarpingForces& w, const Trail& trail) {
   const Stresses found = stresses(s, at, w);
   trail.add(elastic, "T_Ed", "at the governing section", at[3], of_moment);
   trail.add(elastic, "B_Ed", "bimoment: G I_t chi - E I_w chi'' = T, B = -E I_w chi'", w.bimoment, of_bimoment);
@@ -63,7 +63,7 @@ void check_warping(ClauseList& clauses, const SteelSection& s, const Resistance&
     most = use;
     worst = k;
   }
-  if (trail.on()) tell(s, stations[worst], warping[worst], trail);
+  if (trail.on()) trace(s, stations[worst], warping[worst], trail);
 }
 
 }  // namespace

@@ -124,7 +124,7 @@ LargestForces largest_forces(std::span<const SectionForces> stations) {
   return largest;
 }
 
-void tell_section(const SteelSection& s, const Trail& trail) {
+void trace_section(const SteelSection& s, const Trail& trail) {
   if (!trail.on()) return;
   trail.add("section", "f_y", "given", s.fy, of_stress);
   trail.add("section", "E", "given", s.E, of_stress);
@@ -146,7 +146,7 @@ void tell_section(const SteelSection& s, const Trail& trail) {
   trail.add("section", "W_pl,z (Z_y)", "given or from the outline", s.plastic_z, of_modulus);
 }
 
-void tell_forces(const LargestForces& f, const Trail& trail) {
+void trace_forces(const LargestForces& f, const Trail& trail) {
   if (!trail.on()) return;
   trail.add("forces", "N_c", "largest compression along the member", f.compression, of_force);
   trail.add("forces", "N_t", "largest tension along the member", f.tension, of_force);

@@ -32,14 +32,14 @@ struct SteelSection {
 /// Throws InputError naming the key that is missing.
 [[nodiscard]] SteelSection steel_section(const Section& section, const Material& material);
 /// The section's properties, as the first steps of an audit.
-void tell_section(const SteelSection& steel, const Trail& trail);
+void trace_section(const SteelSection& steel, const Trail& trail);
 
 /// Largest absolute forces over the stations, axial kept apart by sign.
 struct LargestForces {
   double tension = 0, compression = 0, shear_y = 0, shear_z = 0, torsion = 0, moment_y = 0, moment_z = 0;
 };
 [[nodiscard]] LargestForces largest_forces(std::span<const SectionForces> stations);
-void tell_forces(const LargestForces& forces, const Trail& trail);
+void trace_forces(const LargestForces& forces, const Trail& trail);
 
 /// Keeps each clause at its largest value, in order of first appearance.
 class ClauseList {

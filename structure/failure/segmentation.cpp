@@ -195,7 +195,7 @@ std::vector<int> Segmentation::walk(int from) {
   return queue;
 }
 
-std::vector<Segmentation::Part> Segmentation::take_unanchored() {
+std::vector<Segmentation::Part> Segmentation::extract_unanchored() {
   std::vector<std::vector<int>> lost;
   for (int label : lost_support_) {
     Segment& segment = segments_[static_cast<std::size_t>(label)];

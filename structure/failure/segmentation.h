@@ -35,7 +35,7 @@ class Segmentation {
   void detach(PanelId shell, NodeId node);
 
   /// Parts that have lost their last support since the last call, in order of their least vertex; they leave the graph.
-  [[nodiscard]] std::vector<Part> take_unanchored();
+  [[nodiscard]] std::vector<Part> extract_unanchored();
 
   [[nodiscard]] bool holds(JointId joint) const { return joint_holds_[static_cast<std::size_t>(joint.index)] != 0; }
   /// Label of the segment that holds a vertex, -1 when it left. Labels are small integers, never used again.

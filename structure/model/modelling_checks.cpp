@@ -62,7 +62,7 @@ void find_nodes_on_members(const Building& building, double tolerance, std::vect
     if (!found.empty() && shells && along_a_shell(building, member)) continue;
     for (const std::size_t n : found) on.add("node " + building.nodes[n].name + " lies on member " + member.name);
   }
-  on.tell(
+  on.report(
       warnings,
       "what lies on a member between its ends is not joined to it; divide the member at the node, or say `connect`");
 }
@@ -78,7 +78,7 @@ void find_near_nodes(const Building& building, double tolerance, std::vector<std
       close.add("nodes " + building.nodes[n].name + " and " + building.nodes[other].name + " are " +
                 short_number(apart / building.units.length, 3) + " apart");
     });
-  close.tell(warnings, "they are not joined; use one node where one is meant, or say `connect`");
+  close.report(warnings, "they are not joined; use one node where one is meant, or say `connect`");
 }
 
 /// Members on one line through a node that go the same way from it lie over each other for the shorter's length.
@@ -107,8 +107,8 @@ void find_overlapping_members(const Building& building, std::vector<std::string>
         else if (static_cast<std::size_t>(std::min(a.nodes[0].index, a.nodes[1].index)) == n)
           twice.add("members " + a.name + " and " + b.name + " join the same nodes");
       }
-  twice.tell(warnings, "both carry, side by side");
-  over.tell(warnings, "both carry, and the longer one is not joined where the shorter ends");
+  twice.report(warnings, "both carry, side by side");
+  over.report(warnings, "both carry, and the longer one is not joined where the shorter ends");
 }
 
 void find_odd_materials(const Building& building, std::vector<std::string>& warnings) {
@@ -119,7 +119,7 @@ void find_odd_materials(const Building& building, std::vector<std::string>& warn
     if (E >= softest && E <= stiffest) continue;
     odd.add("material " + material.name + " has a Young's modulus of " + short_number(E) + " Pa");
   }
-  odd.tell(warnings, "materials of buildings lie between 1e9 and 1e12 Pa; look at the model's units");
+  odd.report(warnings, "materials of buildings lie between 1e9 and 1e12 Pa; look at the model's units");
   const auto outside = [&](double value, double least, double most) {
     return value > 0 && (value < least || value > most);
   };
@@ -130,8 +130,8 @@ void find_odd_materials(const Building& building, std::vector<std::string>& warn
     if (outside(material.density, lightest, heaviest))
       light.add("material " + material.name + " has a density of " + short_number(material.density) + " kg/m3");
   }
-  weak.tell(warnings, "metals yield between 1e7 and 2e9 Pa; look at the model's units");
-  light.tell(warnings, "materials of buildings have 10 to 25,000 kg/m3; look at the model's units");
+  weak.report(warnings, "metals yield between 1e7 and 2e9 Pa; look at the model's units");
+  light.report(warnings, "materials of buildings have 10 to 25,000 kg/m3; look at the model's units");
 }
 
 /// Sections given in the units of a catalogue make members far deeper than they are long (spandrels of tubes are 1.3
@@ -146,7 +146,7 @@ void find_thick_members(const Building& building, std::vector<std::string>& warn
     if (section.depth > deepest * member.length)
       thick.add("member " + member.name + " is over five times as deep as it is long");
   }
-  thick.tell(warnings, "look at its section and the model's units");
+  thick.report(warnings, "look at its section and the model's units");
   if (large > 0 && large == building.members.size())
     warnings.emplace_back("all members are thicker than they are long: look at their sections and the model's units");
 }
@@ -161,7 +161,7 @@ void find_idle_cases(const Building& building, std::vector<std::string>& warning
   Several idle;
   for (std::size_t c = 0; c < used.size(); ++c)
     if (!used[c]) idle.add("load case " + building.cases[c].name);
-  idle.tell(warnings, "no combination has it, so that it loads nothing");
+  idle.report(warnings, "no combination has it, so that it loads nothing");
 }
 
 /// Of one case: the largest of its loads, over what a load of its kind has at least in buildings, and their sum, N.
@@ -210,7 +210,7 @@ void find_tiny_loads(const Building& building, std::vector<std::string>& warning
              (one.self_weight.isZero(0) ? "" : " but for its self weight") + ", beside a weight of " +
              short_number(weight) + " N");
   }
-  tiny.tell(warnings, "loads are in N, N/m and Pa; are kilonewtons meant?");
+  tiny.report(warnings, "loads are in N, N/m and Pa; are kilonewtons meant?");
 }
 
 /// A file that floats on purpose gives a shift for its modes.
@@ -301,8 +301,8 @@ void find_weak_bending(const Building& building, std::vector<std::string>& warni
     weak.add("member " + member.name + " (section " + section.name + ") bends by its " + by + ", 1/" +
              short_number(other / I, 3) + " of " + than);
   }
-  weak.tell(warnings,
-            "level members bend vertically by Iy unless `up` turns them; are Iy and Iz, or the axes, exchanged?");
+  weak.report(warnings,
+              "level members bend vertically by Iy unless `up` turns them; are Iy and Iz, or the axes, exchanged?");
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ class Several {
   void add(const std::string& what) {
     if (++count_ <= named_at_most) text_ += (count_ > 1 ? "; " : "") + what;
   }
-  void tell(std::vector<std::string>& warnings, const std::string& meaning) const {
+  void report(std::vector<std::string>& warnings, const std::string& meaning) const {
     if (count_ == 0) return;
     const std::string more = count_ > named_at_most ? " and " + std::to_string(count_ - named_at_most) + " more" : "";
     warnings.push_back(text_ + more + ": " + meaning);

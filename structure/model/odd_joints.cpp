@@ -54,8 +54,8 @@ void find_exchanged_joints(const Building& building, std::vector<std::string>& w
     }
   }
   const char* const meaning = "moments about y bend the member in its x-z plane; are they, or the axes, exchanged?";
-  capacities.tell(warnings, meaning);
-  springs.tell(warnings, meaning);
+  capacities.report(warnings, meaning);
+  springs.report(warnings, meaning);
 }
 
 /// The member goes on in the other's line beyond the node that they share.
@@ -86,9 +86,10 @@ void find_turned_pieces(const Building& building, std::vector<std::string>& warn
         turned.add("members " + a.name + " and " + b.name + " go on in one line, turned by " +
                    short_number(degrees, 3) + " degrees about it");
       }
-  turned.tell(warnings,
-              "the strong axis of the one meets the weak axis of the other; `up` or `roll` turns them (a post that is "
-              "not quite vertical has another `up` than one that is)");
+  turned.report(
+      warnings,
+      "the strong axis of the one meets the weak axis of the other; `up` or `roll` turns them (a post that is "
+      "not quite vertical has another `up` than one that is)");
 }
 
 }  // namespace

@@ -35,8 +35,8 @@ void find_odd_slenderness(const Building& building, std::vector<std::string>& wa
       thick.add("member " + member.name + " (section " + section.name + ") has the bending stiffness of one " +
                 short_number(depth / member.length, 3) + " times as deep as long");
   }
-  slender.tell(warnings, "look at its nodes and section, and at the units of both");
-  thick.tell(warnings, "look at its section and the model's units");
+  slender.report(warnings, "look at its nodes and section, and at the units of both");
+  thick.report(warnings, "look at its section and the model's units");
 }
 
 /// How much hangs on each node: ends of members, corners of panels, supports, diaphragms.
@@ -82,7 +82,7 @@ void find_ends_beside_members(const Building& building, double tolerance, std::v
         beside.add("member " + member.name + " ends at node " + building[member.nodes[end]].name + ", " +
                    short_number(least / building.units.length, 3) + " from member " + nearest->name);
     }
-  beside.tell(warnings, "nothing joins them; use one node where they meet, or an offset");
+  beside.report(warnings, "nothing joins them; use one node where they meet, or an offset");
 }
 
 /// Beams whose axes cross between their ends; braces often do so on purpose.
@@ -137,7 +137,8 @@ void find_crossing_beams(const Building& building, double tolerance, std::vector
     met.erase(std::unique(met.begin(), met.end()), met.end());
     for (const std::size_t other : met) look(building.members[other], member);
   }
-  crossing.tell(warnings, "nothing joins them; divide both at a node where they meet, or say which is above by height");
+  crossing.report(warnings,
+                  "nothing joins them; divide both at a node where they meet, or say which is above by height");
 }
 
 void find_idle_supports(const Building& building, std::vector<std::string>& warnings) {
@@ -145,7 +146,7 @@ void find_idle_supports(const Building& building, std::vector<std::string>& warn
   Several idle;
   for (const NodeSupport& support : building.supports)
     if (count[index_of(support.node)] == 0) idle.add("support at node " + building[support.node].name);
-  idle.tell(warnings, "no member, panel or diaphragm is there, so that it holds nothing");
+  idle.report(warnings, "no member, panel or diaphragm is there, so that it holds nothing");
 }
 
 Vec3 middle(const Building& building, const Panel& panel) {
@@ -185,7 +186,7 @@ void find_panels_over_panels(const Building& building, double tolerance, std::ve
       if (covers(building, a, b, tolerance) || covers(building, b, a, tolerance))
         over.add("panels " + a.name + " and " + b.name + " lie over each other");
     }
-  over.tell(warnings, "both carry");
+  over.report(warnings, "both carry");
 }
 
 void find_odd_panels(const Building& building, std::vector<std::string>& warnings) {
@@ -203,17 +204,17 @@ void find_odd_panels(const Building& building, std::vector<std::string>& warning
     for (const PanelLoad& load : load_case.panels)
       if (const Panel& panel = building[load.panel]; load.pressure > 0 && panel.axes(2, 2) < -level)
         lifted.add("load case " + load_case.name + " presses on panel " + panel.name);
-  thick.tell(warnings, "more than half of its shorter side: look at the model's units");
-  lifted.tell(warnings,
-              "its normal looks down, so that the pressure lifts it: go round its nodes the other way if weight is "
-              "meant");
+  thick.report(warnings, "more than half of its shorter side: look at the model's units");
+  lifted.report(warnings,
+                "its normal looks down, so that the pressure lifts it: go round its nodes the other way if weight is "
+                "meant");
 }
 
 void find_lifting_weight(const Building& building, std::vector<std::string>& warnings) {
   Several lifting;
   for (const LoadCase& load_case : building.cases)
     if (load_case.self_weight.z() > 0) lifting.add("load case " + load_case.name);
-  lifting.tell(warnings, "its self weight acts upwards; accepted as it stands, a positive number acts down");
+  lifting.report(warnings, "its self weight acts upwards; accepted as it stands, a positive number acts down");
 }
 
 }  // namespace

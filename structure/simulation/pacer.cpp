@@ -153,7 +153,7 @@ const PacedFrame& Pacer::frame() {
   std::shared_ptr<const State::Moment> earlier, later;
   State::News news;
   double share = 1;
-  s.thread->look([&](double at) {
+  s.thread->inspect([&](double at) {
     earlier = s.earlier;
     later = s.later;
     std::swap(news, s.news);

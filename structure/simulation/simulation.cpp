@@ -167,7 +167,7 @@ std::int64_t Simulation::steps() const { return state_->scene.step; }
 bool Simulation::at_rest() const { return state_->progress.rests(); }
 void Simulation::apply(const Tool& tool) {
   require_tool(state_->scene.building, tool);
-  state_->tools.ask(tool);
+  state_->tools.request(tool);
   state_->actions.add(tool);
 }
 void Simulation::touch(const HostContact& contact) {

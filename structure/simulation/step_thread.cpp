@@ -155,7 +155,7 @@ void StepThread::order(std::function<void()> what, bool show) {
   state_->woken.notify_all();
 }
 
-void StepThread::look(const std::function<void(double share)>& at) const {
+void StepThread::inspect(const std::function<void(double share)>& at) const {
   const std::lock_guard lock(state_->mutex);
   const double since = between(state_->published, Clock::now());
   at(state_->way > 0 ? std::min(1.0, since / state_->way) : 1);

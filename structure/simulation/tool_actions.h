@@ -16,7 +16,7 @@ class ToolActions {
   ToolActions(Scene& scene, EventLog& log, RunningSums& sums, Debris& debris);
 
   /// A person's tool, for the next step.
-  void ask(const Tool& tool) { asked_.push_back(tool); }
+  void request(const Tool& tool) { asked_.push_back(tool); }
   [[nodiscard]] bool asked() const { return !asked_.empty(); }
   /// When the next event or stage acts, s; unlimited when none is to come.
   [[nodiscard]] double next_instant() const;

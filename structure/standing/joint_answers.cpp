@@ -63,7 +63,7 @@ void JointAnswers::complete(int c) {
   remember(c);
 }
 
-void JointAnswers::know_demands() {
+void JointAnswers::evaluate_demands() {
   for (int c = 0; c < state_.statics.components(); ++c) {
     if (!std::exchange(demands_behind_[static_cast<std::size_t>(c)], 0)) continue;
     read(c, false);

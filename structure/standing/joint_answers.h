@@ -28,7 +28,7 @@ class JointAnswers {
   void complete(int component);
   /// For whoever asks from outside: demands that the answers of a collapse under way have left out. These go on from
   /// where they are, to the same bits.
-  void know_demands();
+  void evaluate_demands();
   /// Of all joints, from the answer solved last. `slow`: no sudden-loss factor acts on what has changed since.
   void read(int component, bool slow);
   /// What edges of panels bear in the motion now.

@@ -106,7 +106,7 @@ PanelSuperelement::PanelSuperelement(const Building& building, const Frame& fram
         patch.supports.push_back({local(node), support.stiffness});
     }
   }
-  take_nodes(building[id]);
+  collect_nodes(building[id]);
   for (std::size_t n = 0; n < node_.size(); ++n)
     if (held_at(n)) patch.kept.push_back(node_[n]);
   begin(std::move(patch));
@@ -161,7 +161,7 @@ PanelSuperelement::PanelSuperelement(const Building& building, PanelId id, std::
     for (std::size_t i = 0; i < 4; ++i) shell.node[i] = number[static_cast<std::size_t>(cell[i])];
     patch.shells.push_back(shell);
   }
-  take_nodes(panel);
+  collect_nodes(panel);
   begin(std::move(patch));
 }
 
@@ -173,7 +173,7 @@ PanelSuperelement::PanelSuperelement(const PanelSuperelement& whole, const Build
 }
 
 /// The edges on which the panel's nodes lie.
-void PanelSuperelement::take_nodes(const Panel& panel) {
+void PanelSuperelement::collect_nodes(const Panel& panel) {
   edge_.assign(4, -1);
   if (panel.model != PanelModel::shell) return;
   for (std::size_t edge = 0; edge < 4; ++edge)

@@ -83,7 +83,7 @@ class PanelSuperelement {
   void keep_shares();
   void begin(solver::Superelement::Patch patch);
   void load_evenly();
-  void take_nodes(const Panel& panel);
+  void collect_nodes(const Panel& panel);
   void find_places();
   [[nodiscard]] bool held_at(std::size_t node) const;
   [[nodiscard]] Vec2 flat(int node) const;

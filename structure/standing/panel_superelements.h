@@ -33,7 +33,7 @@ class PanelSuperelements {
   }
   /// Works out the superelement of a whole membrane of this shape: all that is left to do when one of them breaks is
   /// what its hole changes.
-  void know(PanelId panel) {
+  void add(PanelId panel) {
     if (of(panel)) return;
     auto& whole = whole_[shape(panel)];
     if (!whole) whole = std::make_unique<PanelSuperelement>(building_, panel, operators_);

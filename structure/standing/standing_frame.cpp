@@ -41,11 +41,11 @@ const Vec6& StandingFrame::displacement(NodeId node) const {
   return moves ? state.motion->displacement(node) : state.account.displacement(node);
 }
 Vec6 StandingFrame::demand(JointId joint) const {
-  state_->answers.know_demands();
+  state_->answers.evaluate_demands();
   return state_->answers.demand(joint);
 }
 double StandingFrame::largest_utilisation_so_far(JointId joint) const {
-  state_->answers.know_demands();
+  state_->answers.evaluate_demands();
   return state_->joints.largest(joint);
 }
 double StandingFrame::elastic_energy() const { return energy().elastic; }
@@ -55,7 +55,7 @@ double StandingFrame::node_mass(NodeId node) const { return state_->loads.mass(n
 const Building& StandingFrame::building() const { return state_->building; }
 
 Utilisation StandingFrame::utilisation(JointId joint) const {
-  state_->answers.know_demands();
+  state_->answers.evaluate_demands();
   const bool counts = state_->building[joint].capacity.breakable && state_->parts.standing(joint);
   return counts ? state_->joints.utilisation(joint) : Utilisation{};
 }
@@ -173,7 +173,7 @@ std::vector<JointBreak> StandingFrame::settle(int generations) {
 
 void StandingFrame::State::settle(int most) {
   slow.lay();
-  if (!queue.empty()) answers.know_demands();  // of what a tool breaks
+  if (!queue.empty()) answers.evaluate_demands();  // of what a tool breaks
   queue.act();
   generations.bring_up_to_date();
   pending = generations.run(most);
@@ -202,7 +202,7 @@ StandingFrame::CoupledResponse StandingFrame::respond_near(std::span<const Conta
 }
 
 double StandingFrame::critical_energy(const ContactPlace& place) const {
-  state_->answers.know_demands();
+  state_->answers.evaluate_demands();
   return state_->response.critical_energy(state_->components.of(place));
 }
 
@@ -235,7 +235,7 @@ Eigen::VectorXd StandingFrame::break_in_impact(std::span<const JointBreak> break
 }
 
 void StandingFrame::expect_fracture(PanelId panel) {
-  if (state_->parts.bearings.membrane(panel)) state_->shells.know(panel);
+  if (state_->parts.bearings.membrane(panel)) state_->shells.add(panel);
 }
 
 void StandingFrame::fracture(PanelId panel, const PanelRemains& remains, const std::optional<Vec3>& taken) {

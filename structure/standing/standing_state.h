@@ -25,7 +25,7 @@ struct StandingFrame::State : StructuralState {
   void follow_breaks();
   void leave_small_displacements(int component);
   void read_motion(int component);
-  void look_for_rest(int component);
+  void check_rest(int component);
   [[nodiscard]] std::map<int, std::vector<Eigen::Index>> places_by_component(const HeldResponse& pushed) const;
 
   BreakLog breaks;  ///< of the settle() or impact that runs

@@ -109,7 +109,7 @@ void StructuralState::hand_on_anew(PanelId panel) {
   loads.hand_on_anew(panel);
 }
 
-void StructuralState::take_stiffness(PanelId panel, const Eigen::MatrixXd& before) {
+void StructuralState::update_stiffness(PanelId panel, const Eigen::MatrixXd& before) {
   const Eigen::MatrixXd now = shells.of(panel)->stiffness();
   account.change(panel).soften(panel, before - now);
   statics.set_stiffness(panel, now);

@@ -42,7 +42,7 @@ struct StructuralState {
   /// The panel's load goes another way.
   void hand_on_anew(PanelId panel);
   /// The panel is as stiff as its superelement is now; `before`: what its nodes felt of it until now.
-  void take_stiffness(PanelId panel, const Eigen::MatrixXd& before);
+  void update_stiffness(PanelId panel, const Eigen::MatrixXd& before);
 
   const Building& building;
   CombinationId combination;  ///< of its loads

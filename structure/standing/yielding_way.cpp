@@ -58,7 +58,7 @@ void YieldingWay::turned_in_motion(int c, std::size_t number, double plastic_rot
   PlasticHinge& hinge = ductile_.hinges(c)[number];
   hinge.plastic_rotation = plastic_rotation;
   from_.joints.remember(hinge.joint, 1);
-  tell_yield(hinge, held);
+  report_yield(hinge, held);
 }
 
 void YieldingWay::lay_rotations(int c) {
@@ -87,7 +87,7 @@ double YieldingWay::plastic_rotation_in_answer(const PlasticHinge& hinge) const 
   return shape.rigid_end(own.end)(hinge.axis) - shape.end(own.end)(hinge.axis) - hinge.held / own.stiffness(hinge.axis);
 }
 
-void YieldingWay::tell_yield(PlasticHinge& hinge, double held) {
+void YieldingWay::report_yield(PlasticHinge& hinge, double held) {
   if (hinge.told) return;
   hinge.told = true;
   JointBreak line;
@@ -106,7 +106,7 @@ void YieldingWay::let_yield(PlasticHinge& hinge, double held) {
   hinge.held = held;
   from_.statics.let_yield(own.member, own.end, hinge.axis, held);
   from_.joints.remember(hinge.joint, 1);
-  tell_yield(hinge, held);
+  report_yield(hinge, held);
 }
 
 void YieldingWay::unload(PlasticHinge& hinge) {
@@ -289,7 +289,7 @@ bool YieldingWay::turns_out_alone(PlasticHinge& hinge, double held) {
   const double gain = std::copysign(1.0, held) * from_.joints.demand(hinge.joint)(hinge.axis) - std::abs(held);
   const double left = std::max(0.0, hinge.limit - std::copysign(hinge.plastic_rotation, hinge.plastic_rotation * held));
   const double amount = gain < 0 ? std::min(left, path.surplus / -gain) : left;
-  tell_yield(hinge, held);
+  report_yield(hinge, held);
   from_.joints.remember(hinge.joint, 1);
   hinge.plastic_rotation += std::copysign(amount, held);
   from_.account.change(own.member).dissipate(amount * std::abs(held));

@@ -86,7 +86,7 @@ class YieldingWay {
   void unload(PlasticHinge& hinge);
   void hold_all_again(int component);
   [[nodiscard]] bool turns_out_alone(PlasticHinge& hinge, double held);
-  void tell_yield(PlasticHinge& hinge, double held);
+  void report_yield(PlasticHinge& hinge, double held);
 
   const Building& building_;
   Sources from_;

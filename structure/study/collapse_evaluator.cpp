@@ -17,7 +17,7 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 /// How many members are down at which time.
 class DownHistory {
  public:
-  void look(const Simulation& simulation) {
+  void record(const Simulation& simulation) {
     if (simulation.events().size() == events_) return;
     events_ = simulation.events().size();
     const std::size_t down = collapse_counts(simulation).members_down;
@@ -98,9 +98,9 @@ class CollapseEvaluator : public SampleEvaluator {
       simulation.skip_idle();
       simulation.step();
       times.add(simulation);
-      history.look(simulation);
+      history.record(simulation);
     }
-    history.look(simulation);
+    history.record(simulation);
     std::optional<formats::JsonDocument> summary;
     const DebrisField debris = debris_field(simulation);
     for (const Recorded& recorded : base_->study.record) {

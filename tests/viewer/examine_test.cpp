@@ -72,7 +72,7 @@ TEST_CASE("reactions on the drawing carry the building's weight") {
   const Scene scene = open_scene("seed_building");
   Session session(scene.building, scene.scenario);
   CHECK_FALSE(session.snapshot()->answer->forces);
-  session.want({false, true});
+  session.set_wanted({false, true});
   const auto snapshot = session.snapshot();
   REQUIRE(snapshot->answer->forces);
   double up = 0, down = 0;
@@ -101,15 +101,15 @@ TEST_CASE("modes of vibration and buckling are found, lowest first") {
   const Scene scene = open_scene("seed_building");
   ModeShapes modes(scene.building, *scene.scenario.combination);
   for (const ModeKind kind : {ModeKind::vibration, ModeKind::buckling}) {
-    const auto& found = modes.wait(kind);
+    const auto& found = modes.wait_for(kind);
     REQUIRE(found.size() >= 3);
     CHECK(found[0].value > 0);
     CHECK(found[0].value <= found[1].value);
     CHECK(found[0].shape->size() == scene.building->nodes.size());
   }
   // A steel frame of six storeys sways at about one hertz: 10 / storeys by the rule of thumb, loads included.
-  CHECK(modes.wait(ModeKind::vibration)[0].value > 0.3);
-  CHECK(modes.wait(ModeKind::vibration)[0].value < 3);
+  CHECK(modes.wait_for(ModeKind::vibration)[0].value > 0.3);
+  CHECK(modes.wait_for(ModeKind::vibration)[0].value < 3);
 }
 
 TEST_CASE("words choose the view, and wrong ones are refused with those accepted") {
@@ -176,7 +176,7 @@ TEST_CASE("a post between nodes that rest bulges in its buckling mode") {
     "loads": {"push": {"nodes": {"C": {"z": -1e5}}}}, "combinations": {"service": {"push": 1}}})";
   const Scene scene = open_scene(file);
   ModeShapes modes(scene.building, topple::structure::CombinationId(0u));
-  const auto& found = modes.wait(ModeKind::buckling);
+  const auto& found = modes.wait_for(ModeKind::buckling);
   INFO(modes.error(ModeKind::buckling));
   REQUIRE(found.size() >= 2);
   // Euler, fixed at both ends: 4 pi2 E I / L2, I = (0.1^4 - 0.09^4) / 12; less by what shear gives, about two percent.

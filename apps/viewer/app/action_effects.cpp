@@ -38,7 +38,7 @@ Settings settings_of(ToolKind kind, Hand& hand) {
 
 }  // namespace
 
-void take_in_hand(const ToolAction& tool, Hand& hand) {
+void pick_up(const ToolAction& tool, Hand& hand) {
   const Settings known = settings_of(tool.kind, hand);
   for (const auto& [name, value] : tool.settings) {
     const auto setting = known.find(name);

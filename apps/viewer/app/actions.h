@@ -60,7 +60,7 @@ struct ToolAction {
   ToolKind kind;
   std::vector<std::pair<std::string, double>> settings;
 };
-void take_in_hand(const ToolAction& tool, Hand& hand);
+void pick_up(const ToolAction& tool, Hand& hand);
 struct GravityAction {
   double downwards;
 };

@@ -174,19 +174,19 @@ std::vector<structure::JointId> Controller::search(const std::string& text, std:
 void Controller::update(double seconds) {
   swing_ += seconds;
   if (const std::optional<Camera> flown = path_.advance(seconds)) camera = *flown;
-  files_.tell_exported();
+  files_.print_exported();
   playback_.advance(seconds);
   const Wanted wanted{options.diagram >= 0, options.loads || options.reactions || options.contacts};
   if (wanted == wanted_) return;
   wanted_ = wanted;
-  driver_.order_and_show([wanted](Session& session) { session.want(wanted); });
+  driver_.order_and_show([wanted](Session& session) { session.set_wanted(wanted); });
 }
 
 Snapshot Controller::shown(bool wait) {
   Snapshot moment = playback_.now();
   leave_what_came_off(moment);
   if (!mode.kind) return moment;
-  const auto* known = wait ? &modes_.wait(*mode.kind) : modes_.find(*mode.kind);
+  const auto* known = wait ? &modes_.wait_for(*mode.kind) : modes_.find(*mode.kind);
   if (known == nullptr || known->empty()) return moment;
   const auto number = std::min(static_cast<std::size_t>(mode.number), known->size() - 1);
   moment.shape = (*known)[number].shape;

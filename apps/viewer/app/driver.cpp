@@ -104,12 +104,12 @@ double ThreadDriver::speed() const { return state_->thread->speed(); }
 double ThreadDriver::ratio() const { return state_->thread->ratio(); }
 Moment ThreadDriver::moment() const {
   Moment moment;
-  state_->thread->look([&](double share) { moment = {state_->earlier, state_->later, share}; });
+  state_->thread->inspect([&](double share) { moment = {state_->earlier, state_->later, share}; });
   return moment;
 }
 bool ThreadDriver::begun() const {
   bool begun = false;
-  state_->thread->look([&](double) { begun = state_->begun; });
+  state_->thread->inspect([&](double) { begun = state_->begun; });
   return begun;
 }
 void ThreadDriver::require_beginning() const {

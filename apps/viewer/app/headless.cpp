@@ -209,7 +209,7 @@ class HeadlessRun {
                           [&](const ZoomAction& a) { controller_.scroll(a.clicks); },
                           [&](const FlyAction& a) { controller_.camera.fly(a.way.x, a.way.y, a.way.z); },
                           [&](const SelectAction& a) { controller_.select(a.name); },
-                          [&](const ToolAction& a) { take_in_hand(a, controller_.hand); },
+                          [&](const ToolAction& a) { pick_up(a, controller_.hand); },
                           [&](const GravityAction& a) { controller_.set_gravity(a.downwards); },
                           [&](const ShakeAction& a) {
                             controller_.hand.shaking = a.shake;

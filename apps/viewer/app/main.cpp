@@ -98,7 +98,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::Success& asked) {
     return app.exit(asked);
   } catch (const CLI::ParseError& error) {
-    return tell_error("topple-viewer", error.what(), bad_input);
+    return print_error("topple-viewer", error.what(), bad_input);
   }
   if (!request.size.empty()) request.pictures.size = parse_size(request.size);
   if (!request.headless) {

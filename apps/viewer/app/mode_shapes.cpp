@@ -114,7 +114,7 @@ const std::vector<ModeShape>* ModeShapes::find(ModeKind kind) {
   return &*work.modes;
 }
 
-const std::vector<ModeShape>& ModeShapes::wait(ModeKind kind) {
+const std::vector<ModeShape>& ModeShapes::wait_for(ModeKind kind) {
   Work& work = of(kind);
   if (!work.modes) {
     if (!work.future.valid()) start(kind);

@@ -29,7 +29,7 @@ class ModeShapes {
   /// Lowest first; null while they are being worked out, which the first call starts.
   [[nodiscard]] const std::vector<ModeShape>* find(ModeKind kind);
   /// The same, but waits.
-  [[nodiscard]] const std::vector<ModeShape>& wait(ModeKind kind);
+  [[nodiscard]] const std::vector<ModeShape>& wait_for(ModeKind kind);
   /// Why there are none; empty when there is no such reason.
   [[nodiscard]] const std::string& error(ModeKind kind) const { return of(kind).error; }
 

@@ -39,11 +39,11 @@ void Session::begin() {
     drawn_ = std::make_unique<structure::VisualMesh>(*building_, *drawn_meshes_);
   taker_ = SnapshotTaker();
   taker_.begin(*simulation_);
-  taker_.want(wanted_);
+  taker_.set_wanted(wanted_);
   for (const structure::Event& event : scenario_.events) watch(event.tool, event.at);
   tuning_ = std::make_unique<structure::JointTuning>(*building_);
   tuned_ = nullptr;
-  if (building_ != given_) tell_capacities();
+  if (building_ != given_) report_capacities();
   path_ = nullptr;
   events_recorded_ = 0;
   shaking_.reset();
@@ -173,7 +173,7 @@ void Session::carry_out(const Action& action) {
   for (const structure::JointId joint : tuning_->apply(std::get<structure::JointChange>(action.what)))
     capacities.emplace_back(joint, tuning_->capacity(joint));
   simulation_->set_capacities(capacities);
-  tell_capacities();
+  report_capacities();
   taker_.forget_answer();
 }
 
@@ -190,7 +190,7 @@ void Session::carry_out(const structure::CapacityChange& change) {
             capacity.value[s] / structure::capacity_unit(*building_, joint, static_cast<structure::Sense>(s));
     (void)tuning_->apply(one);
   }
-  tell_capacities();
+  report_capacities();
   taker_.forget_answer();
 }
 
@@ -199,17 +199,17 @@ std::string Session::save() const { return structure::snapshot_bytes(simulation_
 void Session::load(const structure::Snapshot& saved) {
   constexpr std::int64_t longest = 10'000'000;  // steps that are made and kept on the way: 46 hours at 60 a second
   restart();
-  if (saved.step > longest) return tell_begun_anew("is of more than 10000000 steps");
-  if (saved.scene != simulation_->save().scene) return tell_begun_anew("is of another model, scenario or rules");
+  if (saved.step > longest) return report_restart("is of more than 10000000 steps");
+  if (saved.scene != simulation_->save().scene) return report_restart("is of another model, scenario or rules");
   try {
     go_the_way_of(saved);
   } catch (const std::exception& error) {
-    return tell_begun_anew(error.what());
+    return report_restart(error.what());
   }
-  if (simulation_->hash() != saved.hash) tell_begun_anew("does not lead to the state that it was taken in");
+  if (simulation_->hash() != saved.hash) report_restart("does not lead to the state that it was taken in");
 }
 
-void Session::tell_begun_anew(const std::string& why) {
+void Session::report_restart(const std::string& why) {
   restart();
   recording_->add_event(
       {0, structure::SimulationEvent::Kind::tool, "the saved run cannot be taken up: it " + why + "; begun anew"});
@@ -230,7 +230,7 @@ void Session::go_the_way_of(const structure::Snapshot& saved) {
 }
 
 /// What joints bear, for those who know the building only as it was given.
-void Session::tell_capacities() {
+void Session::report_capacities() {
   auto tuned = std::make_shared<TunedJoints>();
   for (std::size_t j = 0; j < building_->joints.size(); ++j) {
     tuned->capacity.push_back(tuning_->capacity(structure::JointId(j)));

@@ -68,7 +68,7 @@ class Session {
   /// All snapshots that were taken; may be read on any thread.
   [[nodiscard]] const std::shared_ptr<Recording>& recording() const { return recording_; }
   /// What the next snapshots hold beside poses and demands.
-  void want(Wanted wanted) { taker_.want(wanted_ = wanted); }
+  void set_wanted(Wanted wanted) { taker_.set_wanted(wanted_ = wanted); }
   [[nodiscard]] std::size_t actions() const { return actions_.size(); }
 
  private:
@@ -95,8 +95,8 @@ class Session {
   [[nodiscard]] structure::Vec3 gravity_at_rest() const;
   [[nodiscard]] bool is_told(const structure::SimulationEvent& event);
   void go_the_way_of(const structure::Snapshot& saved);
-  void tell_begun_anew(const std::string& why);
-  void tell_capacities();
+  void report_restart(const std::string& why);
+  void report_capacities();
   void carry_out(const Action& action);
   void carry_out(const structure::CapacityChange& change);
   /// `record`: what is passed on the way is not in the recording yet.

@@ -133,7 +133,7 @@ class Input {
     });
   }
   /// Whose scene is seen; null: none is, and Esc closes the window.
-  void serve(Controller* controller) {
+  void set_controller(Controller* controller) {
     controller_ = controller;
     held_ = -1;
   }
@@ -235,8 +235,8 @@ class Input {
 /// While it lives, the window's input goes to this controller.
 class Served {
  public:
-  Served(Input& input, Controller& controller) : input_(input) { input_.serve(&controller); }
-  ~Served() { input_.serve(nullptr); }
+  Served(Input& input, Controller& controller) : input_(input) { input_.set_controller(&controller); }
+  ~Served() { input_.set_controller(nullptr); }
   Served(const Served&) = delete;
   Served& operator=(const Served&) = delete;
 
@@ -261,10 +261,10 @@ double processor_milliseconds() {
 class FirstPicture {
  public:
   explicit FirstPicture(std::promise<void>& promise) : promise_(promise) {}
-  ~FirstPicture() { tell(); }
+  ~FirstPicture() { report(); }
   FirstPicture(const FirstPicture&) = delete;
   FirstPicture& operator=(const FirstPicture&) = delete;
-  void tell() {
+  void report() {
     if (!std::exchange(told_, true)) promise_.set_value();
   }
 
@@ -328,7 +328,7 @@ bool run_scene(const Window& window, Input& input, WindowInterface& interface, c
     controller.window.picture_processor = processor_milliseconds() - started;
     controller.window.picture_graphics = renderer.graphics_milliseconds();
     glfwSwapBuffers(window.get());
-    first.tell();
+    first.report();
   }
   return controller.window.wants_another;
 }

@@ -17,7 +17,7 @@ class SnapshotTaker {
   /// `drawn`: cut where its parts have come apart since, and seen.
   [[nodiscard]] Snapshot take(const structure::Simulation& simulation, structure::VisualMesh* drawn = nullptr);
   /// From the next snapshot on.
-  void want(Wanted wanted) { wanted_ = wanted; }
+  void set_wanted(Wanted wanted) { wanted_ = wanted; }
   /// Joints were given other capacities: the next snapshot reads their utilisations anew.
   void forget_answer() { answer_ = nullptr; }
   /// What is seen where a fire is laid (from the time given on) and where a charge goes off. Sparks: as thermite burns.

@@ -116,7 +116,7 @@ std::unique_ptr<MotionPeaks> FrameMotion::follow(const MotionStart& start, Motio
     for (std::size_t k = 0; k < patterns.size(); ++k)
       frame.set_pattern(patterns[k], value_at(*start.history, start.history->series[k].values, end));
     (void)frame.advance();
-    peaks->take(frame);
+    peaks->sample(frame);
   }
   result.unsettled = static_cast<long>(frame.counters().unsettled);
   return peaks;
@@ -179,7 +179,7 @@ MotionResult FrameMotion::run(const MotionStart& start) const {
         std::max(change_of(peaks->uses(), finer->uses()), change_of(peaks->movements(), finer->movements()));
     peaks = std::move(finer);
   }
-  peaks->tell(whole_, result);
+  peaks->write_to(whole_, result);
   return result;
 }
 

@@ -88,7 +88,7 @@ MotionPeaks::MotionPeaks(const DividedBuilding& divided, const DamagedFrame& fra
     members_.push_back(own);
   }
   for (const Vec6& u : now_.displacements) largest_.push_back(u.cwiseAbs());
-  take_sample();
+  sample_now();
 }
 
 void MotionPeaks::read(const solver::FrameDynamics& motion, State& state) const {
@@ -110,18 +110,18 @@ void MotionPeaks::read(const solver::FrameDynamics& motion, State& state) const 
   frame_.read_demands(AtEnd(state.forces, motion, state.displacements, false), state.demand, holding_);
 }
 
-void MotionPeaks::take(const solver::FrameDynamics& motion) {
+void MotionPeaks::sample(const solver::FrameDynamics& motion) {
   std::swap(before_, now_);
   read(motion, now_);
   const double length = motion.substep();
-  take_joints(length);
-  take_members(length);
-  take_nodes(length);
+  sample_joints(length);
+  sample_members(length);
+  sample_nodes(length);
   time_ += length;
-  take_sample();
+  sample_now();
 }
 
-void MotionPeaks::take_joints(double length) {
+void MotionPeaks::sample_joints(double length) {
   for (JointState& own : joints_) {
     const std::size_t j = index_of(own.joint);
     const solver::SubstepCourse<Vec6> course{before_.demand[j], before_.rate[j], now_.demand[j], now_.rate[j], length};
@@ -149,7 +149,7 @@ void MotionPeaks::take_joints(double length) {
   }
 }
 
-void MotionPeaks::take_members(double length) {
+void MotionPeaks::sample_members(double length) {
   for (MemberMotion& own : members_) {
     const std::size_t m = index_of(divided_.pieces(own.member).front());
     const Vec6 start = at_first_end(before_.forces[m]), start_rate = at_first_end(before_.force_rates[m]),
@@ -163,7 +163,7 @@ void MotionPeaks::take_members(double length) {
   }
 }
 
-void MotionPeaks::take_nodes(double length) {
+void MotionPeaks::sample_nodes(double length) {
   for (std::size_t n = 0; n < largest_.size(); ++n)
     for (Eigen::Index c = 0; c < 6; ++c) {
       const Extremes found = extremes_of({before_.displacements[n](c), before_.velocities[n](c),
@@ -172,7 +172,7 @@ void MotionPeaks::take_nodes(double length) {
     }
 }
 
-void MotionPeaks::take_sample() {
+void MotionPeaks::sample_now() {
   if (request_.nodes.empty() && wanted_.empty()) return;
   MotionSample sample;
   sample.time = time_;
@@ -198,7 +198,7 @@ std::vector<double> MotionPeaks::movements() const {
   return values;
 }
 
-void MotionPeaks::tell(const Building& whole, MotionResult& result) const {
+void MotionPeaks::write_to(const Building& whole, MotionResult& result) const {
   for (const JointState& own : joints_)
     if (const JointId joint = divided_.joint(own.joint); joint.valid())
       result.joints.push_back({joint, own.use, own.demand, own.at, std::nullopt});

@@ -14,12 +14,12 @@ class MotionPeaks {
   MotionPeaks(const DividedBuilding& divided, const DamagedFrame& frame, const MotionRequest& request,
               std::vector<JointId> joints, solver::FrameDynamics& motion);
   /// After each substep.
-  void take(const solver::FrameDynamics& motion);
+  void sample(const solver::FrameDynamics& motion);
 
   [[nodiscard]] std::vector<double> uses() const;
   /// Sizes of the nodes' translations, component by component.
   [[nodiscard]] std::vector<double> movements() const;
-  void tell(const Building& whole, MotionResult& result) const;
+  void write_to(const Building& whole, MotionResult& result) const;
 
  private:
   struct JointState {
@@ -34,10 +34,10 @@ class MotionPeaks {
     std::vector<Vec6> displacements, velocities;
   };
   void read(const solver::FrameDynamics& motion, State& state) const;
-  void take_joints(double length);
-  void take_members(double length);
-  void take_nodes(double length);
-  void take_sample();
+  void sample_joints(double length);
+  void sample_members(double length);
+  void sample_nodes(double length);
+  void sample_now();
 
   const DividedBuilding& divided_;
   const DamagedFrame& frame_;

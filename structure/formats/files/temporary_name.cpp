@@ -36,7 +36,7 @@ FreeSlots& free_slots() {
   return *kept;
 }
 
-TemporaryName::Slot* take_slot() {
+TemporaryName::Slot* claim_slot() {
   FreeSlots& free = free_slots();
   const std::lock_guard lock(free.mutex);
   if (!free.all.empty()) {
@@ -70,7 +70,7 @@ void remove_and_end(int signal) {
 
 }  // namespace
 
-TemporaryName::TemporaryName(const std::filesystem::path& path) : slot_(take_slot()) {
+TemporaryName::TemporaryName(const std::filesystem::path& path) : slot_(claim_slot()) {
   const std::string& text = path.native();
   try {
     path_ = new char[text.size() + 1];

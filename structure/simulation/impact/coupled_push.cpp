@@ -42,14 +42,14 @@ CoupledPush::CoupledPush(const PushingBody& body, std::vector<PushedPlace> place
   inverse_mass_root_.topLeftCorner<3, 3>() = Mat3::Identity() / std::sqrt(body.mass);
   inverse_mass_root_.bottomRightCorner<3, 3>() =
       Eigen::SelfAdjointEigenSolver<Mat3>(body.inertia).operatorInverseSqrt();
-  if (structure.size() > 0) take_share(structure);
+  if (structure.size() > 0) add_share(structure);
   rate_at_most_stored_ = rate_;
   shift_ = peak_ = Eigen::VectorXd::Zero(n);
   refresh();
 }
 
 /// In the body's own mass the first touch is q' -> (1 + S)^-1 q' and the mass 1 + S, S = R' J' A J R.
-void CoupledPush::take_share(const Eigen::MatrixXd& structure) {
+void CoupledPush::add_share(const Eigen::MatrixXd& structure) {
   const Eigen::MatrixXd shared = jacobian_ * inverse_mass_root_;
   const Mat6 whole = Mat6::Identity() + Mat6(shared.transpose() * structure * shared);
   const Eigen::SelfAdjointEigenSolver<Mat6> eigen(whole);

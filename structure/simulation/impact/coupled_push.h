@@ -78,7 +78,7 @@ class CoupledPush {
   [[nodiscard]] static Vec6 rates(const Modes& modes, double time);
   [[nodiscard]] Eigen::VectorXd force_at(const Vec6& coordinates) const;
   [[nodiscard]] double stored_at(const Vec6& coordinates) const;
-  void take_share(const Eigen::MatrixXd& structure);
+  void add_share(const Eigen::MatrixXd& structure);
   void note_most_stored(const Modes& modes, double from, double to);
   void note_peaks(const Modes& modes, double from, double to);
   void drop_let_go(const Eigen::VectorXd& force);

@@ -2,7 +2,7 @@
 
 namespace topple::structure {
 
-JointBreak& BreakLog::tell(JointId joint, BreakCause cause) {
+JointBreak& BreakLog::add(JointId joint, BreakCause cause) {
   const Utilisation used = joints_.check(joint);
   JointBreak broken;
   broken.joint = joint;
@@ -11,10 +11,10 @@ JointBreak& BreakLog::tell(JointId joint, BreakCause cause) {
   broken.demand = used.demand;
   broken.capacity = used.capacity;
   broken.position = parts_.position(joint);
-  return tell(broken);
+  return add(broken);
 }
 
-JointBreak& BreakLog::tell(const JointBreak& line) {
+JointBreak& BreakLog::add(const JointBreak& line) {
   lines_.push_back(line);
   lines_.back().generation = generation_;
   return lines_.back();

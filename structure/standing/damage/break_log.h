@@ -14,9 +14,9 @@ class BreakLog {
   BreakLog(const StandingParts& parts, JointStates& joints) : parts_(parts), joints_(joints) {}
 
   /// A line of a joint that is about to break, with what it bears now.
-  JointBreak& tell(JointId joint, BreakCause cause);
+  JointBreak& add(JointId joint, BreakCause cause);
   /// A line of what breaks otherwise, in the generation that runs.
-  JointBreak& tell(const JointBreak& line);
+  JointBreak& add(const JointBreak& line);
 
   [[nodiscard]] std::vector<JointBreak>& lines() { return lines_; }
   [[nodiscard]] std::size_t size() const { return lines_.size(); }

@@ -37,7 +37,7 @@ bool Generations::start() {
 
 void Generations::require_anchored() {
   const Building& building = to_.state.building;
-  const auto floating = to_.state.parts.segments.take_unanchored();
+  const auto floating = to_.state.parts.segments.extract_unanchored();
   if (floating.empty()) return;
   FrameMechanism mechanism;
   mechanism.nodes = floating.front().nodes;
@@ -102,7 +102,7 @@ std::vector<JointId> Generations::next() {
     if (!to_.state.to_check[static_cast<std::size_t>(c)]) continue;
     const YieldingWay::End end = to_.yielding.follow(c, breaking);
     if (end == YieldingWay::End::resting) rest(c);
-    if (end == YieldingWay::End::unyielding) look_for_overload(c, breaking);
+    if (end == YieldingWay::End::unyielding) find_overloads(c, breaking);
   }
   std::sort(breaking.begin(), breaking.end());
   return breaking;
@@ -110,7 +110,7 @@ std::vector<JointId> Generations::next() {
 
 /// In each segment all that are over capacity and within `same_time` of its largest. A segment without any has come to
 /// rest: R becomes R0.
-void Generations::look_for_overload(int c, std::vector<JointId>& breaking) {
+void Generations::find_overloads(int c, std::vector<JointId>& breaking) {
   constexpr double same_time = 1e-6;  // relative; symmetric joints differ by rounding only
   const StandingParts& parts = to_.state.parts;
   JointStates& joints = to_.state.joints;

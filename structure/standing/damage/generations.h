@@ -40,7 +40,7 @@ class Generations {
   [[nodiscard]] bool solve_changed();
   void solved(int component, const std::optional<FrameMechanism>& mechanism);
   [[nodiscard]] std::vector<JointId> next();
-  void look_for_overload(int component, std::vector<JointId>& breaking);
+  void find_overloads(int component, std::vector<JointId>& breaking);
   void accept(int component, const std::vector<double>& largest);
   void rest(int component);
   [[nodiscard]] bool buckles(int component);

@@ -8,7 +8,7 @@ void ShellDamage::fracture(PanelId panel, const PanelRemains& remains) {
   const Eigen::MatrixXd stiffness = state_.shells.of(panel)->stiffness();
   if (state_.motion) state_.motion->remember_motion(panel);
   state_.shells.of(panel)->fracture(remains);
-  state_.take_stiffness(panel, stiffness);
+  state_.update_stiffness(panel, stiffness);
   state_.loads.fracture(panel, remains);
   if (state_.motion) state_.motion->update_mass(panel);
   state_.account.change(panel).lighten(panel, before, state_.loads.handed(panel));
@@ -42,7 +42,7 @@ void ShellDamage::lose_edge(PanelId panel, int edge) {
     const Eigen::MatrixXd before = state_.shells.of(panel)->stiffness();
     if (state_.motion) state_.motion->remember_motion(panel);
     state_.shells.of(panel)->release_edge(edge);
-    state_.take_stiffness(panel, before);
+    state_.update_stiffness(panel, before);
     if (state_.motion) state_.motion->update_mass(panel);
     state_.hand_on_anew(panel);
     state_.contacts.place_again(panel);

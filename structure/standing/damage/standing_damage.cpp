@@ -24,7 +24,7 @@ void StandingDamage::break_joints(std::span<const JointId> together, BreakCause 
   for (JointId joint : together)
     if (to_.state.parts.standing(joint)) broken.push_back(joint);
   const int first = static_cast<int>(to_.breaks.size());
-  for (JointId joint : broken) to_.breaks.tell(joint, cause);
+  for (JointId joint : broken) to_.breaks.add(joint, cause);
   for (std::size_t i = 0; i < broken.size(); ++i) let_go(broken[i], first + static_cast<int>(i));
 }
 
@@ -62,8 +62,8 @@ void StandingDamage::lose_member_joint(JointId joint, int line) {
   if (state.parts.segments.degree(node) == 0) to_.departures.lay_bare(node);
 }
 
-std::vector<MemberId> StandingDamage::take_half_held() { return in_order(std::exchange(half_held_, {})); }
-std::vector<JointId> StandingDamage::take_unbraced() { return in_order(std::exchange(unbraced_, {})); }
+std::vector<MemberId> StandingDamage::extract_half_held() { return in_order(std::exchange(half_held_, {})); }
+std::vector<JointId> StandingDamage::extract_unbraced() { return in_order(std::exchange(unbraced_, {})); }
 
 /// A membrane keeps what stiffness its remains have while all of its edges hold.
 void StandingDamage::fracture(PanelId panel, const PanelRemains& remains) {
@@ -88,7 +88,7 @@ void StandingDamage::condense(PanelId panel, const PanelRemains& remains) {
   const PanelSuperelement* known = state.shells.of(panel);
   const Eigen::MatrixXd before = known ? known->stiffness() : Eigen::MatrixXd(state.statics.membrane_stiffness(panel));
   state.shells.make(panel).fracture(remains);
-  state.take_stiffness(panel, before);
+  state.update_stiffness(panel, before);
   to_.slow.soften();
 }
 

@@ -39,9 +39,9 @@ class StandingDamage {
   // What damage leaves open, for the release; each in order of id, handed out once.
   [[nodiscard]] bool leaves_open() const { return !half_held_.empty() || !unbraced_.empty(); }
   /// Members that have just lost one end.
-  [[nodiscard]] std::vector<MemberId> take_half_held();
+  [[nodiscard]] std::vector<MemberId> extract_half_held();
   /// Joints of posts that have lost the last of what braced them.
-  [[nodiscard]] std::vector<JointId> take_unbraced();
+  [[nodiscard]] std::vector<JointId> extract_unbraced();
 
  private:
   void lose_member_joint(JointId joint, int line);

@@ -11,13 +11,13 @@ namespace topple::structure {
 
 void StandingRelease::release() {
   do {
-    take_unanchored();
+    extract_unanchored();
   } while (release_loose_members() || snap_unbraced());
 }
 
-void StandingRelease::take_unanchored() {
+void StandingRelease::extract_unanchored() {
   StructuralState& state = to_.state;
-  const std::vector<Segmentation::Part> loose = state.parts.segments.take_unanchored();
+  const std::vector<Segmentation::Part> loose = state.parts.segments.extract_unanchored();
   if (loose.empty()) return;
   std::vector<Detached> leaving(loose.size());
   const auto in = [](const auto& list, auto id) { return std::binary_search(list.begin(), list.end(), id); };
@@ -77,7 +77,7 @@ void StandingRelease::leave(const std::vector<Segmentation::Part>& loose, std::v
 bool StandingRelease::release_loose_members() {
   const StructuralState& state = to_.state;
   bool found = false;
-  for (MemberId member : to_.damage.take_half_held()) {
+  for (MemberId member : to_.damage.extract_half_held()) {
     if (!hangs_loose(state.building, state.parts.segments, member)) continue;
     in_mechanism_[index_of(member)] = 1;
     const JointId first = state.building.joint(member, 0), second = state.building.joint(member, 1);
@@ -89,7 +89,7 @@ bool StandingRelease::release_loose_members() {
 
 bool StandingRelease::snap_unbraced() {
   bool found = false;
-  for (JointId joint : to_.damage.take_unbraced()) {
+  for (JointId joint : to_.damage.extract_unbraced()) {
     if (!to_.state.parts.standing(joint)) continue;
     to_.damage.break_joint(joint, BreakCause::bracing);
     found = true;
@@ -160,7 +160,7 @@ void StandingRelease::cut_in_two(MemberId post, double inside) {
   broken.position = on_axis(state.building, post, inside * state.building[post].length);
   broken.inside = inside;
   int line = static_cast<int>(to_.breaks.size());
-  to_.breaks.tell(broken);
+  to_.breaks.add(broken);
   cut_inside_[post] = inside;
   for (int end = 0; end < 2; ++end) {
     const JointId joint = state.building.joint(post, end);

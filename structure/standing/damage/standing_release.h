@@ -30,7 +30,7 @@ class StandingRelease {
   void cut_in_two(MemberId post, double inside);
 
  private:
-  void take_unanchored();
+  void extract_unanchored();
   void leave(const std::vector<Segmentation::Part>& loose, std::vector<Detached>& leaving);
   [[nodiscard]] bool release_loose_members();
   [[nodiscard]] bool snap_unbraced();

@@ -63,7 +63,7 @@ const solver::RayleighDamping& ComponentDamping::start(int c, const solver::Fram
   return own.damping;
 }
 
-const solver::RayleighDamping* ComponentDamping::look(int c) {
+const solver::RayleighDamping* ComponentDamping::update(int c) {
   Known& known = known_.at(c);
   const std::size_t now = holding(c);
   if (std::exchange(known.looked, now) != now || known.holding == now) return nullptr;

@@ -21,7 +21,7 @@ class ComponentDamping {
                                        const std::vector<Vec6>& rest);
   /// It is looked at for rest, and its statics were solved. Where joints have broken since its damping was found, but
   /// none since the last look: its damping, found anew; else null.
-  [[nodiscard]] const solver::RayleighDamping* look(int component);
+  [[nodiscard]] const solver::RayleighDamping* update(int component);
   /// Of what does not fall.
   [[nodiscard]] const solver::RayleighDamping& of(int component) const { return known_.at(component).damping; }
   /// rad/s, the lowest of a component that has begun to move, as its damping was found.

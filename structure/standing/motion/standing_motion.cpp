@@ -120,7 +120,7 @@ void StandingMotion::pass_on_motion(int c) {
   moving.frame->add_impulses(numbered(from_.statics, impulses));
 }
 
-void StandingMotion::take_plastic_rotations(int c, const Moving& moving) const {
+void StandingMotion::store_plastic_rotations(int c, const Moving& moving) const {
   const std::vector<PlasticHinge>& hinges = from_.yielding.hinges(c);
   for (std::size_t h = 0; h < hinges.size(); ++h) {
     const Joint& own = from_.building[hinges[h].joint];
@@ -223,7 +223,7 @@ std::vector<StandingMotion::Break> StandingMotion::advance(int c) {
   }
   moving.law->set_hinges(std::move(hinges));
   const std::vector<solver::JointBreak>& broken = moving.frame->advance(moving.law.get());
-  take_plastic_rotations(c, moving);
+  store_plastic_rotations(c, moving);
   std::vector<Break> breaks;
   for (const solver::JointBreak& one : broken) {
     const MemberId member = from_.statics.members(c)[static_cast<std::size_t>(one.beam)];
@@ -318,7 +318,7 @@ double StandingMotion::largest_turn(int c) const {
 }
 
 void StandingMotion::update_damping(int c) {
-  if (const solver::RayleighDamping* const anew = damping_.look(c)) moving_.at(c)->frame->set_damping(*anew);
+  if (const solver::RayleighDamping* const anew = damping_.update(c)) moving_.at(c)->frame->set_damping(*anew);
 }
 
 void StandingMotion::damp_by_mass(int c, double turn) {

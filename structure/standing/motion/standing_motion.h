@@ -103,13 +103,13 @@ class StandingMotion {
   /// Its statics were solved: whether every joint is at rest there, as the settings have it.
   [[nodiscard]] bool rests(int component);
   /// It is time to look.
-  [[nodiscard]] bool look_for_rest(int component) const;
+  [[nodiscard]] bool check_rest(int component) const;
 
   [[nodiscard]] MotionEnergy energy() const;
 
  private:
   struct Moving;
-  void take_plastic_rotations(int component, const Moving& moving) const;
+  void store_plastic_rotations(int component, const Moving& moving) const;
 
   MotionSources from_;
   MotionSettings settings_;

@@ -63,7 +63,7 @@ void StandingMotion::settle(int c) {
   stop(c);
 }
 
-bool StandingMotion::look_for_rest(int c) const {
+bool StandingMotion::check_rest(int c) const {
   const Moving& moving = *moving_.at(c);
   return moving.frame->time() - moving.looked >= settings_.rest_looks;
 }

@@ -194,7 +194,7 @@ void StandingFrame::State::move_on(const std::function<void()>& after_substep) {
 void StandingFrame::State::end_motion() {
   for (const int c : motion->moving()) leave_small_displacements(c);
   for (const int c : motion->moving()) {
-    look_for_rest(c);
+    check_rest(c);
     if (motion->moves(c)) read_motion(c);
   }
   breaks.start_generations();
@@ -263,7 +263,7 @@ void StandingFrame::State::sway(int c) {
 void StandingFrame::State::break_in_motion(JointId joint, const Vec6& demand, double freed) {
   if (!parts.standing(joint)) return;
   joints.set_demand(joint, demand);
-  breaks.tell(joint, BreakCause::overload).energy = freed;
+  breaks.add(joint, BreakCause::overload).energy = freed;
   damage.let_go(joint);
 }
 
@@ -305,8 +305,8 @@ void StandingFrame::State::read_motion(int c) {
 }
 
 /// It is set to its static state, to the bit, once it is near and that state is borne.
-void StandingFrame::State::look_for_rest(int c) {
-  if (!motion->look_for_rest(c)) return;
+void StandingFrame::State::check_rest(int c) {
+  if (!motion->check_rest(c)) return;
   yielding.lay_rotations(c);
   if (statics.solve(c)) return;
   motion->update_damping(c);

@@ -97,7 +97,7 @@ TEST_CASE("random damage leaves the segments that union-find finds") {
           segments.remove_support(NodeId(n));
         }
       }
-      for (const Segmentation::Part& part : segments.take_unanchored()) {
+      for (const Segmentation::Part& part : segments.extract_unanchored()) {
         REQUIRE(part.nodes.size() + part.members.size() > 0);
         for (MemberId member : part.members) REQUIRE(left.insert(member.index).second);
       }
@@ -128,10 +128,10 @@ TEST_CASE("a beam that lost both joints leaves alone, a post with its top fixed 
   const MemberId beam = *names.member("BX-1-1-1"), post = *names.member("P-1-1-1");
   segments.break_joint(building.joint(beam, 0));
   segments.break_joint(building.joint(post, 0));
-  CHECK(segments.take_unanchored().empty());
+  CHECK(segments.extract_unanchored().empty());
   CHECK(segments.label(post) == segments.label(*names.node("N-1-1-1")));
   segments.break_joint(building.joint(beam, 1));
-  const auto parts = segments.take_unanchored();
+  const auto parts = segments.extract_unanchored();
   REQUIRE(parts.size() == 1);
   CHECK(parts[0].members == std::vector<MemberId>{beam});
   CHECK(parts[0].nodes.empty());
@@ -142,9 +142,9 @@ TEST_CASE("a segment whose last support is taken away leaves as a whole") {
   const Building& building = frame.building;
   Segmentation segments(building);
   segments.remove_support(building.supports[0].node);
-  CHECK(segments.take_unanchored().empty());
+  CHECK(segments.extract_unanchored().empty());
   segments.remove_support(building.supports[1].node);
-  const auto parts = segments.take_unanchored();
+  const auto parts = segments.extract_unanchored();
   REQUIRE(parts.size() == 1);
   CHECK(parts[0].nodes.size() == building.nodes.size());
   CHECK(parts[0].members.size() == building.members.size());
@@ -162,7 +162,7 @@ TEST_CASE("a membrane panel joins nothing, a shell panel does") {
     frame.support(b0);
     Segmentation segments(frame.building);
     segments.break_joint(frame.building.joint(pb, 0));
-    const auto parts = segments.take_unanchored();
+    const auto parts = segments.extract_unanchored();
     if (model == PanelModel::shell) {
       CHECK(parts.empty());
     } else {

@@ -68,7 +68,7 @@ TEST_CASE("the log of breaks tells what a joint bears, in the generation that ru
   REQUIRE_FALSE(all.generations.start());
   const JointId root = f.building.joint(MemberId(0u), 0);
   all.breaks.next_generation();
-  const JointBreak& line = all.breaks.tell(root, BreakCause::tool);
+  const JointBreak& line = all.breaks.add(root, BreakCause::tool);
   CHECK(line.generation == 1);
   CHECK(line.capacity == 1e9);
   CHECK(line.demand == Approx(weight * length * length / 2).epsilon(rounding));

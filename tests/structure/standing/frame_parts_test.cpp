@@ -66,7 +66,7 @@ TEST_CASE("what stands: segments are numbered by their least node, and what brea
   parts.segments.break_joint(JointId(0u));
   parts.forget_numbers();
   CHECK_FALSE(parts.holds(JointId(0u)));
-  const auto left = parts.segments.take_unanchored();
+  const auto left = parts.segments.extract_unanchored();
   REQUIRE(left.size() == 1);
   CHECK(left[0].members == std::vector<MemberId>{MemberId(0u), MemberId(1u)});
   CHECK_FALSE(parts.stands(MemberId(1u)));
@@ -234,7 +234,7 @@ TEST_CASE("energies need no frame around them: a sudden load frees Clapeyron's h
   const JointId joint = f.building.joint(outer, 0);
   broken.lose_joint(joint, -1);
   all.parts.segments.break_joint(joint);
-  REQUIRE(all.parts.segments.take_unanchored().size() == 1);
+  REQUIRE(all.parts.segments.extract_unanchored().size() == 1);
   broken.leave(outer);
   broken.leave(tip);
   all.statics.remove(outer);
@@ -281,15 +281,15 @@ TEST_CASE("damping needs no motion: that of the material at the lowest frequency
     const double frequency = damping.first_frequency(c);
     CHECK(found.mass / (2 * frequency) + found.stiffness * frequency / 2 ==
           Approx(c == steel ? 0.03 : 0.07).epsilon(rounding));
-    CHECK(damping.look(c) == nullptr);
+    CHECK(damping.update(c) == nullptr);
   }
   // The same beams of another modulus.
   CHECK(damping.first_frequency(steel) / damping.first_frequency(other) ==
         Approx(std::sqrt(200.0 / 30)).epsilon(rounding));
 
   all.parts.segments.break_joint(f.building.joint(MemberId(0u), 1));
-  CHECK(damping.look(steel) == nullptr);  // more may break
-  CHECK(damping.look(other) == nullptr);
-  CHECK(damping.look(steel) == &damping.of(steel));
-  CHECK(damping.look(steel) == nullptr);
+  CHECK(damping.update(steel) == nullptr);  // more may break
+  CHECK(damping.update(other) == nullptr);
+  CHECK(damping.update(steel) == &damping.of(steel));
+  CHECK(damping.update(steel) == nullptr);
 }

@@ -66,7 +66,7 @@ void RunFiles::finish_export() {
   if (exporting_.valid()) message_ = "run written to " + exporting_.get();
 }
 
-void RunFiles::tell_exported() {
+void RunFiles::print_exported() {
   if (!exporting_.valid() || exporting_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
   try {
     finish_export();

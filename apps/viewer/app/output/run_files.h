@@ -24,7 +24,7 @@ class RunFiles {
   /// Waits for what is being exported. Throws what went wrong.
   void finish_export();
   /// Tells of what has been exported by now, or what went wrong with it.
-  void tell_exported();
+  void print_exported();
 
  private:
   Driver& driver_;

@@ -170,7 +170,7 @@ void DustWatcher::hear(const structure::Simulation& simulation) {
   }
 }
 
-void DustWatcher::look_for_landings(const structure::Simulation& simulation) {
+void DustWatcher::find_landings(const structure::Simulation& simulation) {
   const double passed = simulation.time() - time_;
   std::map<std::int64_t, Seen> now;
   for (const structure::BodyView& body : simulation.bodies()) {
@@ -263,7 +263,7 @@ std::shared_ptr<const std::vector<DustPuff>> DustWatcher::watch(const structure:
   }
   blasts_.clear();
   burn_on(simulation);
-  look_for_landings(simulation);
+  find_landings(simulation);
   const std::size_t before = puffs_.size();
   std::erase_if(puffs_, [&](const DustPuff& puff) { return puff.time + dust_life < simulation.time(); });
   if (puffs_.size() > most_puffs) puffs_.erase(puffs_.begin(), puffs_.end() - static_cast<std::ptrdiff_t>(most_puffs));

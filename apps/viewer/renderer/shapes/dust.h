@@ -42,7 +42,7 @@ class DustWatcher {
     Eigen::Vector3d position, velocity;
   };
   void hear(const structure::Simulation& simulation);
-  void look_for_landings(const structure::Simulation& simulation);
+  void find_landings(const structure::Simulation& simulation);
   /// Of what it is made: dust of its colour; sparks where it is steel.
   void throw_up(DustPuff puff, Look look);
   void burn_on(const structure::Simulation& simulation);

@@ -33,7 +33,7 @@ class StepThread {
   /// Calls `at` with the share of the way from the state before the last to the last one, from 0 to 1, at which the
   /// clock is now. It never waits for a step; nothing is published meanwhile. A step that took longer than it lasts is
   /// gone through as slowly as it was made.
-  void look(const std::function<void(double share)>& at) const;
+  void inspect(const std::function<void(double share)>& at) const;
 
   /// Stops before the next step, or goes on.
   void set_paused(bool paused);

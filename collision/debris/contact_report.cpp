@@ -1,4 +1,4 @@
-#include "debris/told_contacts.h"
+#include "debris/contact_report.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,7 +48,7 @@ void merge(const Contact& more, Contact& sum) {
 }  // namespace
 
 /// Where its impulse acted, in the mean over the step: the two have moved on since the step began.
-void ToldContacts::place(const SolverContact& solved, double dt, Contact& contact) const {
+void ContactReport::locate(const SolverContact& solved, double dt, Contact& contact) const {
   contact.point = solved.centre;
   contact.moment = solved.moment + solved.carried;
   const double squared = solved.impulse.squaredNorm();
@@ -64,7 +64,7 @@ void ToldContacts::place(const SolverContact& solved, double dt, Contact& contac
 }
 
 /// Whether it pushed or lay close, as its pair will know from now on.
-bool ToldContacts::touches(const SolverContact& solved) const {
+bool ContactReport::touches(const SolverContact& solved) const {
   NearPair& pair = *solved.pair;
   if (pair.told_in != scene_.step_number) pair.persistent = pair.touches;
   pair.told_in = scene_.step_number;
@@ -72,7 +72,7 @@ bool ToldContacts::touches(const SolverContact& solved) const {
   return pair.touches;
 }
 
-void ToldContacts::tell(const SolverContact& solved, double dt, Contact& contact) const {
+void ContactReport::fill(const SolverContact& solved, double dt, Contact& contact) const {
   const NearPair& pair = *solved.pair;
   const Manifold& manifold = pair.manifold;
   const Collider &a = scene_.pairs.collider(pair.first), &b = scene_.pairs.collider(pair.second);
@@ -84,7 +84,7 @@ void ToldContacts::tell(const SolverContact& solved, double dt, Contact& contact
   contact.other = touched(*b.solid, other ? other->tag : -1);
   contact.normal = manifold.normal;
   contact.impulse = solved.impulse;
-  place(solved, dt, contact);
+  locate(solved, dt, contact);
   contact.depth = std::max(0.0, -nearest(manifold));
   contact.thickness = other ? std::min(part.thickness, other->thickness) : part.thickness;
   contact.persistent = pair.persistent;
@@ -102,7 +102,7 @@ void ToldContacts::tell(const SolverContact& solved, double dt, Contact& contact
   contact.approach_speed = (velocity_at(false) - velocity_at(true)).dot(contact.normal);
 }
 
-void ToldContacts::tell(std::span<SolverContact> solved, double dt, std::span<const char> left_out) {
+void ContactReport::add(std::span<SolverContact> solved, double dt, std::span<const char> left_out) {
   const auto is_left_out = [&](int number) { return !left_out.empty() && left_out[static_cast<std::size_t>(number)]; };
   const auto each = [&](const auto& work) {
     region_.each(solved.size(), kContacts, [&](std::size_t i) {
@@ -119,13 +119,13 @@ void ToldContacts::tell(std::span<SolverContact> solved, double dt, std::span<co
     if (one.told == 0) one.told = static_cast<int>(count++);
   contacts_.resize(count);
   each([&](const SolverContact& one) {
-    if (one.told >= 0) tell(one, dt, contacts_[static_cast<std::size_t>(one.told)]);
+    if (one.told >= 0) fill(one, dt, contacts_[static_cast<std::size_t>(one.told)]);
   });
 }
 
 /// Impulses times the mean of the velocities before and after them, and what is missing to a body's change of energy in
 /// proportion to their sizes: velocities change within the step.
-void ToldContacts::account_work(std::span<Island* const> islands, double dt) {
+void ContactReport::account_work(std::span<Island* const> islands, double dt) {
   for (const Island* island : islands)
     for (DebrisBody* one : island->bodies) one->pushed = one->booked = 0;
   const Vec3 half_kick = scene_.gravity * (dt / 2);
@@ -175,7 +175,7 @@ void ToldContacts::account_work(std::span<Island* const> islands, double dt) {
   }
 }
 
-void ToldContacts::merge_parts() {
+void ContactReport::merge_parts() {
   std::vector<std::uint32_t> order(contacts_.size());
   for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
   std::stable_sort(order.begin(), order.end(),
@@ -191,7 +191,7 @@ void ToldContacts::merge_parts() {
   contacts_.swap(merged);
 }
 
-void ToldContacts::mark_persistent(std::vector<Contact>& found) const {
+void ContactReport::mark_persistent(std::vector<Contact>& found) const {
   if (found.empty()) return;
   std::vector<decltype(parts_of(found[0]))> known;
   for (const std::uint32_t index : scene_.pairs.order()) {
@@ -209,7 +209,7 @@ void ToldContacts::mark_persistent(std::vector<Contact>& found) const {
   for (Contact& contact : found) contact.persistent = std::binary_search(known.begin(), known.end(), parts_of(contact));
 }
 
-void ToldContacts::forget(Touched::Kind kind, std::int64_t id) {
+void ContactReport::forget(Touched::Kind kind, std::int64_t id) {
   std::erase_if(contacts_, [&](const Contact& contact) {
     if (kind == Touched::Kind::obstacle) return contact.other.obstacle.value == id;
     return contact.body.value == id || contact.other.body.value == id;

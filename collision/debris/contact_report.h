@@ -8,16 +8,16 @@
 
 namespace topple::collision {
 
-class ToldContacts {
+class ContactReport {
  public:
   /// Shares its loops in `region`, when that is open.
-  ToldContacts(const DebrisScene& scene, const SolvedIslands& solved, ParallelRegion& region)
+  ContactReport(const DebrisScene& scene, const SolvedIslands& solved, ParallelRegion& region)
       : scene_(scene), solved_(solved), region_(region) {}
 
   void clear() { contacts_.clear(); }
   /// Adds those that the solver holds, where things were when the step began; but those of bodies that are left out, by
   /// their numbers in the solver.
-  void tell(std::span<SolverContact> solved, double dt, std::span<const char> left_out = {});
+  void add(std::span<SolverContact> solved, double dt, std::span<const char> left_out = {});
   /// Once the bodies have moved on by `dt`.
   void account_work(std::span<Island* const> islands, double dt);
   /// In order of ids and tags, one for each pair of parts.
@@ -28,12 +28,12 @@ class ToldContacts {
   void mark_persistent(std::vector<Contact>& found) const;
   [[nodiscard]] const std::vector<Contact>& all() const { return contacts_; }
   /// Of the same, in a world that is a copy.
-  void copy(const ToldContacts& of) { contacts_ = of.contacts_; }
+  void copy(const ContactReport& of) { contacts_ = of.contacts_; }
 
  private:
   [[nodiscard]] bool touches(const SolverContact& solved) const;
-  void tell(const SolverContact& solved, double dt, Contact& contact) const;
-  void place(const SolverContact& solved, double dt, Contact& contact) const;
+  void fill(const SolverContact& solved, double dt, Contact& contact) const;
+  void locate(const SolverContact& solved, double dt, Contact& contact) const;
 
   const DebrisScene& scene_;
   const SolvedIslands& solved_;
