@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "bullet/library_check.h"
+#include "shapes/find_by_id.h"
 #include "shapes/principal_inertia.h"
 #include "topple/collision/sequential_impulse.h"
 
@@ -54,17 +55,6 @@ double ball_radius(const std::vector<ConvexPart>& parts) {
   return parts.size() == 1 && parts[0].kind == ConvexPart::Kind::sphere ? parts[0].half_extents.x() : 0;
 }
 
-[[noreturn]] void not_in_the_world(std::int64_t id, const char* what) {
-  throw std::out_of_range(std::string(what) + " " + std::to_string(id) + " is not in the world");
-}
-
-template <typename Map>
-auto& find(Map& map, std::int64_t id, const char* what) {
-  const auto found = map.find(id);
-  if (found == map.end()) not_in_the_world(id, what);
-  return *found->second;
-}
-
 btDefaultCollisionConstructionInfo room_for_own_algorithms() {
   btDefaultCollisionConstructionInfo info;
   info.m_customCollisionAlgorithmMaxElementSize = size_of_polyhedron_contacts();
@@ -107,13 +97,13 @@ BulletWorld::~BulletWorld() {
 }
 
 Body& BulletWorld::body(std::int64_t id) {
-  if (id < 0 || id >= std::ssize(bodies_) || !bodies_[static_cast<std::size_t>(id)]) not_in_the_world(id, "body");
+  if (id < 0 || id >= std::ssize(bodies_) || !bodies_[static_cast<std::size_t>(id)]) throw_not_in_the_world(id, "body");
   return *bodies_[static_cast<std::size_t>(id)];
 }
 const Body& BulletWorld::body(std::int64_t id) const { return const_cast<BulletWorld*>(this)->body(id); }
-Obstacle& BulletWorld::obstacle(std::int64_t id) { return find(obstacles_, id, "obstacle"); }
-Hinge& BulletWorld::hinge(std::int64_t id) { return find(hinges_, id, "hinge"); }
-const Hinge& BulletWorld::hinge(std::int64_t id) const { return find(hinges_, id, "hinge"); }
+Obstacle& BulletWorld::obstacle(std::int64_t id) { return find_by_id(obstacles_, id, "obstacle"); }
+Hinge& BulletWorld::hinge(std::int64_t id) { return find_by_id(hinges_, id, "hinge"); }
+const Hinge& BulletWorld::hinge(std::int64_t id) const { return find_by_id(hinges_, id, "hinge"); }
 
 void BulletWorld::set_gravity(const Vec3& gravity) {
   wake_all();  // Bullet gives a new gravity to active bodies only

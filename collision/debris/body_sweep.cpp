@@ -6,31 +6,12 @@
 #include <tuple>
 
 #include "contacts/apart.h"
-#include "contacts/contact_order.h"
-#include "contacts/first_touch.h"
+#include "contacts/swept_bounds.h"
+#include "contacts/touch_contact.h"
 
 namespace topple::collision {
 
 namespace {
-
-struct Bounds {
-  btVector3 low, high;
-  [[nodiscard]] bool meets(const Bounds& other) const { return TestAabbAgainstAabb2(low, high, other.low, other.high); }
-};
-
-/// Bounds of a part over its whole path: those at both ends, and how far the path can leave the straight line between.
-Bounds swept_bounds(const SolidPart& part, const Motion& motion, double dt) {
-  Bounds bounds, end;
-  part.shape->getAabb(motion.start * part.local, bounds.low, bounds.high);
-  part.shape->getAabb(motion.at(dt) * part.local, end.low, end.high);
-  const double turn = std::min(SIMD_PI, motion.angular_velocity.length() * dt);
-  const double out = part.reach * (1 - std::cos(turn / 2)) + motion.acceleration.length() * dt * dt / 8 + kSkin;
-  bounds.low.setMin(end.low);
-  bounds.high.setMax(end.high);
-  bounds.low -= btVector3(out, out, out);
-  bounds.high += btVector3(out, out, out);
-  return bounds;
-}
 
 /// Part of a solid, and what it sweeps over.
 struct SweptPart {
@@ -106,30 +87,6 @@ Mover mover_of(const DebrisBody& body, const Motion& motion, double duration) {
     mover.whole.high.setMax(part.bounds.high);
   }
   return mover;
-}
-
-Contact contact_of(const Solid& body, std::int64_t tag, const Solid& other, std::int64_t other_tag,
-                   const Touch& touch) {
-  Contact contact;
-  contact.body.value = body.id;
-  contact.part_tag = tag;
-  contact.other = touched(other, other_tag);
-  contact.point = from_bullet(touch.point);
-  contact.normal = from_bullet(touch.normal);
-  contact.approach_speed = touch.approach_speed;
-  contact.time = touch.time;
-  contact.corner_count = touch.corner_count;
-  for (int i = 0; i < touch.corner_count; ++i)
-    contact.corners[static_cast<std::size_t>(i)] = from_bullet(touch.corners[i]);
-  return contact;
-}
-
-/// The body with the lower id comes first: turns the contact round when that is the other one.
-void put_lower_first(Contact& contact) {
-  if (contact.other.kind != Touched::Kind::body || contact.body < contact.other.body) return;
-  std::swap(contact.body, contact.other.body);
-  std::swap(contact.part_tag, contact.other.part_tag);
-  contact.normal = -contact.normal;
 }
 
 /// Of each part of the one with each part of the other. What meets slowly matters beside what meets fast alone: a body

@@ -1,22 +1,10 @@
 #include "debris/debris_scene.h"
 
-#include <algorithm>
-#include <stdexcept>
+#include "shapes/find_by_id.h"
 
 namespace topple::collision {
 
 namespace {
-
-[[noreturn]] void not_in_the_world(std::int64_t id, const char* what) {
-  throw std::out_of_range(std::string(what) + " " + std::to_string(id) + " is not in the world");
-}
-
-template <typename Map>
-auto& find(Map& map, std::int64_t id, const char* what) {
-  const auto found = map.find(id);
-  if (found == map.end()) not_in_the_world(id, what);
-  return *found->second;
-}
 
 template <class Map>
 void copy_each(const Map& from, Map& to) {
@@ -46,15 +34,15 @@ DebrisScene::DebrisScene(const DebrisScene& of)
 }
 
 DebrisBody& DebrisScene::body(std::int64_t id) const {
-  if (id < 0 || id >= std::ssize(bodies) || !bodies[static_cast<std::size_t>(id)]) not_in_the_world(id, "body");
+  if (id < 0 || id >= std::ssize(bodies) || !bodies[static_cast<std::size_t>(id)]) throw_not_in_the_world(id, "body");
   return *bodies[static_cast<std::size_t>(id)];
 }
 
-DebrisObstacle& DebrisScene::obstacle(std::int64_t id) const { return find(obstacles, id, "obstacle"); }
+DebrisObstacle& DebrisScene::obstacle(std::int64_t id) const { return find_by_id(obstacles, id, "obstacle"); }
 
-DebrisHinge& DebrisScene::hinge(std::int64_t id) const { return find(hinges, id, "hinge"); }
+DebrisHinge& DebrisScene::hinge(std::int64_t id) const { return find_by_id(hinges, id, "hinge"); }
 
-DebrisCable& DebrisScene::cable(std::int64_t id) const { return find(cables, id, "cable"); }
+DebrisCable& DebrisScene::cable(std::int64_t id) const { return find_by_id(cables, id, "cable"); }
 
 Box3 DebrisScene::bounds_of(const PartShape& shape, const Placement& at) {
   const Vec3 centre = at * shape.centre, half = at.turn.cwiseAbs() * shape.half;

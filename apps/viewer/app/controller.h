@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "app/camera_path.h"
 #include "app/driver.h"
 #include "app/mode_shapes.h"
 #include "app/open_scene.h"
 #include "app/output/run_files.h"
 #include "app/picking.h"
-#include "app/playback.h"
+#include "app/playback/camera_path.h"
+#include "app/playback/playback.h"
 #include "app/show_words.h"
 #include "app/tools/hand.h"
 #include "app/window_state.h"

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "app/playback.h"
+#include "app/playback/playback.h"
 
 namespace topple::viewer {
 

@@ -1,4 +1,4 @@
-#include "app/camera_path.h"
+#include "app/playback/camera_path.h"
 
 namespace topple::viewer {
 

@@ -1,4 +1,4 @@
-#include "app/playback.h"
+#include "app/playback/playback.h"
 
 #include <algorithm>
 #include <array>
