@@ -8,6 +8,7 @@
 
 namespace topple::collision {
 
+/// Contacts of a step, as World::contacts() gives them at its end.
 class ContactReport {
  public:
   /// Shares its loops in `region`, when that is open.

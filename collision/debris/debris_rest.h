@@ -8,6 +8,7 @@
 
 namespace topple::collision {
 
+/// Seeks for islands that can rest; knows who fell asleep in this step.
 class DebrisRest {
  public:
   DebrisRest(DebrisScene& scene, SolvedIslands& solved, ContactReport& told)

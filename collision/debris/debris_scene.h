@@ -11,12 +11,14 @@
 
 namespace topple::collision {
 
+/// The half space below `height`, m, if it is there.
 struct DebrisGround {
   Solid solid;
   bool there = false;
   double height = 0, friction = 0, restitution = 0;
 };
 
+/// Owned by its world; everyone else holds a reference.
 struct DebrisScene {
   explicit DebrisScene(const SolverSettings& of) : settings(of) {}
   /// All once more, but shapes, which nothing changes.

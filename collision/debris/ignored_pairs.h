@@ -7,6 +7,7 @@
 
 namespace topple::collision {
 
+/// Which pairs are ignored, and since when.
 class IgnoredPairs {
  public:
   explicit IgnoredPairs(const DebrisScene& scene) : scene_(scene) {}

@@ -14,6 +14,7 @@
 
 namespace topple::collision {
 
+/// Obstacles of the scene that move in this step.
 class MovingObstacles {
  public:
   explicit MovingObstacles(DebrisScene& scene) : scene_(scene) {}

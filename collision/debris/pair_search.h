@@ -8,6 +8,7 @@
 
 namespace topple::collision {
 
+/// Seeks them for the scene, pair by pair, where the two may have come together or apart.
 class PairSearch {
  public:
   /// Shares its loops in `region`, when that is open.

@@ -7,6 +7,7 @@
 
 namespace topple::collision {
 
+/// Those that are solved at once, with the same sub-steps.
 class SolvedIslands {
  public:
   /// Shares its loops in `region`, when that is open.

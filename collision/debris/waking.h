@@ -6,6 +6,7 @@
 
 namespace topple::collision {
 
+/// Wakes bodies of the scene.
 class Waking {
  public:
   Waking(DebrisScene& scene, PairSearch& search) : scene_(scene), search_(search) {}

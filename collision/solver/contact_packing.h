@@ -11,6 +11,7 @@
 
 namespace topple::collision {
 
+/// Packs of the contacts of one step, and the order in which they are done.
 class ContactPacking {
  public:
   static constexpr std::uint32_t kNone = 0xffffffff;

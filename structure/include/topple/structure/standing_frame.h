@@ -351,7 +351,7 @@ class StandingFrame {
     Vec3 velocity = Vec3::Zero();  ///< of its mass in the mean, m/s
     Vec3 spin = Vec3::Zero();      ///< as its corners turn about each other, rad/s
   };
-  [[nodiscard]] PanelMotion motion(PanelId panel) const;
+  [[nodiscard]] PanelMotion motion(PanelId panel) const;  ///< At the end of the last step.
   /// Of a shell panel as it is, or was when it left: in the freedoms of its nodes (Panel::all_nodes()), global.
   [[nodiscard]] Eigen::MatrixXd shell_stiffness(PanelId shell) const;
 
