@@ -105,8 +105,7 @@ bool DebrisRest::fall_asleep(Island& island, double dt) {
     slept_now_.push_back(one->id);
     one->velocity.setZero();
     one->spin.setZero();
-    one->asleep = true;
-    --scene_.awake_count;
+    scene_.fall_asleep(*one);
   }
   return true;
 }

@@ -1,8 +1,6 @@
 // Contacts as rows: their arms and effective masses.
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <utility>
 
 #include "solver/step_solver.h"
 
