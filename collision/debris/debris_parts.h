@@ -19,12 +19,12 @@ struct DebrisBody : TouchingSolid {
   Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();  ///< of the principal axes
   Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();         ///< as BodyState tells them
   bool asleep = false;
-  double slow_for = 0;  ///< s that it has stayed near where it was then
+  Vec3 wakes_with = Vec3::Zero(), wakes_spinning = Vec3::Zero();  ///< while it sleeps: velocity and spin when it wakes
+  double slow_for = 0;                                            ///< s that it has stayed near where it was then
   Vec3 position_then = Vec3::Zero();
   Eigen::Quaterniond turn_then = Eigen::Quaterniond::Identity();
   double load = 0;          ///< m/s2: force on a contact over its effective mass, the largest; how hard it is pressed
   double substep_rate = 0;  ///< 1/s: sub-steps in the last step
-  bool slept_now = false;   ///< fell asleep in the last step
   double retry_rest = 0;    ///< s until rest is tried again, where it was not found ...
   double rest_wait = 0;     ///< ... and how long that will be next time
   int ignored = 0;          ///< pairs that it is in and that are ignored until separated

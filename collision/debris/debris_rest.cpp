@@ -13,9 +13,13 @@ namespace {
 constexpr double plumb = 0.02;
 }  // namespace
 
-void DebrisRest::begin_step() {
+/// What is read at mid-step is at rest there with half a step of gravity less than none.
+void DebrisRest::end_step(double dt) {
   for (const std::int64_t id : std::exchange(slept_now_, {}))
-    if (DebrisBody* one = scene_.bodies[static_cast<std::size_t>(id)].get()) one->slept_now = false;
+    if (DebrisBody* one = scene_.bodies[static_cast<std::size_t>(id)].get()) {
+      one->wakes_with = -scene_.gravity * (dt / 2);
+      one->wakes_spinning.setZero();
+    }
 }
 
 bool DebrisRest::fall_asleep(std::span<Island> islands, double dt) {
@@ -101,11 +105,10 @@ bool DebrisRest::fall_asleep(Island& island, double dt) {
   solved_.read_joints({&only, 1}, dt);
   for (DebrisBody* one : island.bodies) {
     if (goes_on(*one)) continue;
-    one->slept_now = true;
     slept_now_.push_back(one->id);
+    scene_.fall_asleep(*one);
     one->velocity.setZero();
     one->spin.setZero();
-    scene_.fall_asleep(*one);
   }
   return true;
 }

@@ -8,7 +8,7 @@
 
 namespace topple::collision {
 
-/// Seeks for islands that can rest; knows who fell asleep in this step.
+/// Seeks for islands that can rest.
 class DebrisRest {
  public:
   DebrisRest(DebrisScene& scene, SolvedIslands& solved, ContactReport& told)
@@ -19,10 +19,8 @@ class DebrisRest {
   /// Before the step is solved: those of the islands whose bodies have been slow for some time stay where they are, if
   /// there are forces that hold them. True when any fell asleep.
   bool fall_asleep(std::span<Island> islands, double dt);
-  /// Bodies that fell asleep in this step know it until the next.
-  void begin_step();
-  /// Of the same, in a world that is a copy.
-  void copy(const DebrisRest& of) { slept_now_ = of.slept_now_; }
+  /// What fell asleep in this step wakes at rest from now on. One that was woken within it went on as it was.
+  void end_step(double dt);
 
  private:
   [[nodiscard]] bool fall_asleep(Island& island, double dt);

@@ -52,7 +52,8 @@ Box3 DebrisScene::bounds_of(const PartShape& shape, const Placement& at) {
 void DebrisScene::wake_up(DebrisBody& woken) {
   if (woken.asleep) {
     ++awake_count;
-    woken.velocity += reading;
+    woken.velocity = woken.wakes_with + reading;
+    woken.spin = woken.wakes_spinning;
     woken.acceleration = gravity;
   }
   woken.asleep = false;
@@ -65,6 +66,8 @@ void DebrisScene::wake_up(DebrisBody& woken) {
 void DebrisScene::fall_asleep(DebrisBody& sleeping) {
   if (!sleeping.asleep) --awake_count;
   sleeping.asleep = true;
+  sleeping.wakes_with = sleeping.velocity;
+  sleeping.wakes_spinning = sleeping.spin;
 }
 
 void DebrisScene::wake_all() {

@@ -70,7 +70,6 @@ DebrisWorld::DebrisWorld(const DebrisWorld& of)
       rest_(scene_, solved_, report_),
       parts_(of.parts_) {
   report_.copy(of.report_);
-  rest_.copy(of.rest_);
 }
 
 DebrisWorld::~DebrisWorld() = default;
@@ -198,16 +197,14 @@ void DebrisWorld::set_state(BodyId id, const BodyState& state) {
     throw std::invalid_argument("body " + std::to_string(id.value) + ": its state is not finite");
   }
   place(set, state.pose);
-  set.velocity = state.velocity;
-  if (stepping_ && !set.asleep && !state.asleep) set.velocity += scene_.reading;  // else scene_.wake_up() does
-  set.spin = state.angular_velocity;
   set.acceleration = scene_.gravity;
   for (std::size_t i = 0; i < set.parts.size(); ++i)
     scene_.pairs.move(set.colliders[i], DebrisScene::bounds_of(set.shapes[i], set.at), scene_.settings.fat);
-  if (state.asleep)
-    scene_.fall_asleep(set);
-  else
-    scene_.wake_up(set);
+  if (!state.asleep) scene_.wake_up(set);
+  set.velocity = state.velocity;
+  if (!state.asleep) set.velocity += scene_.reading;
+  set.spin = state.angular_velocity;
+  if (state.asleep) scene_.fall_asleep(set);
 }
 
 void DebrisWorld::apply_impulse(BodyId id, const Vec3& impulse, const Vec3& point) {

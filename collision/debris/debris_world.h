@@ -42,7 +42,7 @@ class DebrisWorld final : public World {
   void set_state(BodyId body, const BodyState& state) override;
   void apply_impulse(BodyId body, const Vec3& impulse, const Vec3& point) override;
   void wake(BodyId body) override;
-  [[nodiscard]] bool fell_asleep(BodyId body) const override { return scene_.body(body.value).slept_now; }
+  [[nodiscard]] Vec3 velocity_when_woken(BodyId body) const override { return scene_.body(body.value).wakes_with; }
   void ignore_until_separated(BodyId body, const Touched& other) override;
   [[nodiscard]] std::span<const BodyId> bodies() const override { return scene_.order; }
   [[nodiscard]] std::size_t awake_count() const override { return scene_.awake_count; }

@@ -42,7 +42,6 @@ void DebrisWorld::begin_step(double dt) {
     throw std::invalid_argument("step of " + std::to_string(dt) + " s; it must be above zero");
   ignored_.begin_step(dt);
   report_.clear();
-  rest_.begin_step();
   if (scene_.awake_count == 0) return;
   ++scene_.step_number;
   for (auto& [id, hinge] : scene_.hinges)
@@ -91,6 +90,7 @@ void DebrisWorld::advance(double dt, int parts, MovingStructure* structure) {
     if (structure) hand_over(part_time, told, *structure);
   }
   read_velocities_by(Vec3::Zero());
+  rest_.end_step(dt);
   report_.merge_parts();
 }
 

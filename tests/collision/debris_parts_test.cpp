@@ -115,6 +115,19 @@ TEST_CASE("debris: who is struck while it sleeps wakes, and as many behind it as
   }
 }
 
+TEST_CASE("debris: what is woken within the step in which it fell asleep goes on as it was") {
+  Boxes boxes;
+  DebrisBody& one = boxes.add({0, 0, 0}, {0.01, 0.02, 0.07});
+  one.spin = {0.001, 0, 0.002};
+  boxes.scene.fall_asleep(one);
+  one.velocity.setZero();
+  one.spin.setZero();
+  boxes.scene.reading = {0, 0, -0.04};
+  boxes.scene.wake_up(one);
+  CHECK(one.velocity == Vec3(0.01, 0.02, 0.07 - 0.04));
+  CHECK(one.spin == Vec3(0.001, 0, 0.002));
+}
+
 TEST_CASE("debris: what flies falls by the parabola exactly, and tells by what its energy is off") {
   Boxes boxes;
   DebrisBody& one = boxes.add({0, 0, 0});

@@ -33,10 +33,8 @@ void BodyAccount::count(BodyMotion& one) {
   };
   collision::BodyState woken;
   woken.pose = one.before.pose;
-  if (one.asleep != after.asleep)
-    sums_.ledger.lost_in_contacts += (after.asleep ? 1 : -1) * kinetic(one.before);
-  else if (scene_.world->fell_asleep({one.id}))
-    sums_.ledger.lost_in_contacts += kinetic(one.before) - kinetic(woken);
+  woken.velocity = scene_.world->velocity_when_woken({one.id});
+  if (one.asleep != after.asleep) sums_.ledger.lost_in_contacts += after.asleep ? kinetic(one.before) : -kinetic(woken);
   one.asleep = after.asleep;
 }
 

@@ -250,6 +250,7 @@ void write_part(const Body& own, const Vec3& position, SimulationEvent& event) {
 std::vector<collision::BodyId> BreakUp::split(collision::BodyId id, const std::vector<FreeSegmentParts>& parts,
                                               std::vector<Body> chunks) {
   const Body whole = debris_.bodies.at(id.value);
+  scene_.world->wake(id);
   const collision::BodyState state = scene_.world->state(id);
   const Mat3 turn = state.pose.orientation.toRotationMatrix();
   (void)debris_.resting.forget(id, *scene_.frame, false);

@@ -31,6 +31,7 @@ std::vector<collision::BodyId> DebrisFracture::shatter(collision::BodyId id, con
                                                        std::optional<double> radius, std::size_t& out) {
   const Body one = debris_.bodies.at(id.value);
   const PanelId panel = panels_.breakable_of(one);
+  scene_.world->wake(id);
   const collision::BodyState state = scene_.world->state(id);
   const Mat3 turn = state.pose.orientation.toRotationMatrix();
   const Vec3 at = one.rest.centre + turn.transpose() * (point - state.pose.position);

@@ -247,9 +247,9 @@ class World {
   virtual void apply_impulse(BodyId body, const Vec3& impulse, const Vec3& point) = 0;
   /// It takes part in the next step.
   virtual void wake(BodyId body) = 0;
-  /// Within the last step, even if it was woken again before its end: then its motion was lost in between. False in
-  /// worlds whose bodies cannot do both in one step.
-  [[nodiscard]] virtual bool fell_asleep(BodyId) const { return false; }
+  /// m/s: of a body that sleeps, what state() will tell of it when it is woken; of one that is awake, what it told when
+  /// it last was. -g dt/2, which is rest when read at mid-step; zero in worlds that wake bodies without that.
+  [[nodiscard]] virtual Vec3 velocity_when_woken(BodyId) const { return Vec3::Zero(); }
   /// Contacts between this body and that other (body or obstacle) are left out of sweeps and steps until they have come
   /// apart and are not about to meet as an impact: a body that goes through what it broke, or is born inside what it
   /// was joined to.

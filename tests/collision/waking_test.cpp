@@ -1,0 +1,69 @@
+// What has lain asleep and is woken was at rest, and goes on from there.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "topple/collision/small_steps.h"
+#include "world_builder.h"
+
+using namespace collision_test;
+
+namespace {
+
+constexpr double kMass = 300;
+
+/// A box of half a metre that sleeps on a shelf at the height of 10 m.
+struct Sleeper {
+  explicit Sleeper(double step) {
+    world->set_gravity({0, 0, -kGravity});
+    shelf = world->add_obstacle(box_obstacle({1, 1, 0.1}, {0, 0, 9.9}));
+    box = world->add_body(box_body({0.25, 0.25, 0.25}, kMass, {0, 0, 10.25}));
+    for (double time = 0; time < 2; time += step) world->step(step);
+    REQUIRE(world->state(box).asleep);
+  }
+  std::unique_ptr<World> world = make_small_steps_world();
+  ObstacleId shelf;
+  BodyId box;
+};
+
+}  // namespace
+
+TEST_CASE("what loses its support while it sleeps falls from rest, at every length of step") {
+  const double step = GENERATE(1.0 / 30, 1.0 / 60, 1.0 / 240);
+  Sleeper sleeper(step);
+  const double begun = sleeper.world->state(sleeper.box).pose.position.z();
+  sleeper.world->remove_obstacle(sleeper.shelf);
+  for (int i = 1; i <= 20; ++i) {
+    sleeper.world->step(step);
+    const double fallen = begun - sleeper.world->state(sleeper.box).pose.position.z();
+    CHECK(fallen == Approx(kGravity * std::pow(i * step, 2) / 2).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("what is woken where it lies presses with its weight from the first step on, and stays") {
+  const double step = GENERATE(1.0 / 30, 1.0 / 60, 1.0 / 240);
+  Sleeper sleeper(step);
+  const Vec3 begun = sleeper.world->state(sleeper.box).pose.position;
+  sleeper.world->wake(sleeper.box);
+  // It is at rest when it wakes, and at the middle of a sub-step from then on: half of one, of 540 or more a second.
+  const double half_substep = 0.5 / 540, weight = kMass * kGravity * step;
+  double told = 0;
+  for (int i = 1; i <= 10; ++i) {
+    sleeper.world->step(step);
+    double pressed = 0;
+    for (const Contact& contact : sleeper.world->contacts()) pressed -= contact.impulse.z();
+    told += pressed;
+    CHECK(std::abs(pressed - weight) < (i == 1 ? 1.001 * half_substep / step : 1e-4) * weight);
+  }
+  CHECK(std::abs(told - 10 * weight) < 1.001 * half_substep / step * weight);
+  CHECK((sleeper.world->state(sleeper.box).pose.position - begun).norm() < 1e-5);
+}
+
+TEST_CASE("a push on what sleeps gives it the momentum of the push and no other") {
+  Sleeper sleeper(kStep);
+  const Vec3 impulse(600, -150, 900);
+  const BodyState before = sleeper.world->state(sleeper.box);
+  sleeper.world->apply_impulse(sleeper.box, impulse, before.pose.position);
+  const Vec3 half_step(0, 0, -kGravity * kStep / 2);
+  CHECK((sleeper.world->state(sleeper.box).velocity + half_step - impulse / kMass).norm() < 1e-14);
+  CHECK((sleeper.world->velocity_when_woken(sleeper.box) + half_step).norm() < 1e-15);
+}
